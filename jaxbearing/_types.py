@@ -1,0 +1,16 @@
+"""Shape-annotated aliases, defined once.
+
+A law is written for one point: its arguments broadcast against each other, and batches come
+from broadcasting or from `jax.vmap` outside.
+"""
+
+from jaxtyping import Array, ArrayLike, Float
+
+Scalar = Float[ArrayLike, ""]
+"""One number: a Python float, a numpy scalar or a jax scalar."""
+
+Values = Float[ArrayLike, "*#batch"]
+"""A number or an array of numbers that broadcasts against its companions."""
+
+Batch = Float[Array, "*batch"]
+"""What a law returns: the broadcast shape of its arguments."""

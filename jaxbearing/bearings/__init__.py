@@ -1,0 +1,1 @@
+"""Bearing families: geometry, kinematics, unknowns, residual, power."""

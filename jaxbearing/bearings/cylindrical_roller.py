@@ -1,0 +1,226 @@
+"""The cylindrical roller bearing as a scene: geometry, materials, oil, contact laws, cage, flange, drag.
+
+Frames and signs. Plane (X, Y), origin at the bearing centre; azimuths from the load line, counter-clockwise, the
+sense of inner ring rotation. The load on the inner ring and its displacement point along azimuth 0; n is the outward
+unit vector at a roller, t the forward tangential one. Spins are relative to the orbiting frame and positive in normal
+running (a roller between a turning inner and a fixed outer ring spins clockwise: the counter-clockwise spin is minus
+`spin_speed`). Pocket face 1 is in front of the roller, face 2 behind it.
+"""
+
+from typing import Literal
+
+import equinox as eqx
+
+from .._types import Scalar
+from ..gaps import AbstractTurbulence, BlendedTurbulence
+from ..lubricants import Lubricant
+from .parts import (
+    AbstractScene,
+    ContactLaws,
+    Drag,
+    Materials,
+    Operation,
+    check_row_fits,
+    number,
+    optional_number,
+    require,
+)
+
+ASSUMED_CAGE_INNER = 7.0 / 12.0
+"""Cage bore = pitch diameter minus this times the roller diameter, where a scene does not give it."""
+ASSUMED_CAGE_OUTER = 4.0 / 12.0
+"""Cage outside diameter = pitch diameter plus this times the roller diameter, where a scene does not give it."""
+ASSUMED_FLANGE_HEIGHT = 2.5 / 12.0
+"""Flange height over roller diameter, where a scene does not give it."""
+
+
+class RollerGeometry(eqx.Module):
+    """Main dimensions, m. `diametral_clearance` may be negative (preload).
+
+    **Arguments:**
+    - `n_rollers`: number of rollers (structure: another number recompiles).
+    - `pitch_diameter`, `roller_diameter`, `roller_length` (total): > 0.
+    - `contact_length`: cylindrical length that carries load; `roller_length` where not given.
+    - `diametral_clearance`: of the assembled bearing, m.
+    """
+
+    n_rollers: int = eqx.field(static=True)
+    pitch_diameter: Scalar = number()
+    roller_diameter: Scalar = number()
+    roller_length: Scalar = number()
+    diametral_clearance: Scalar = number()
+    contact_length: Scalar | None = optional_number()
+
+    def __check_init__(self):
+        require(
+            "geometry",
+            pitch_diameter=(self.pitch_diameter, "> 0"),
+            roller_diameter=(self.roller_diameter, "> 0"),
+            roller_length=(self.roller_length, "> 0"),
+            diametral_clearance=(self.diametral_clearance, "finite"),
+            contact_length=(self.contact_length, "> 0"),
+        )
+        check_row_fits(self.n_rollers, self.roller_diameter, self.pitch_diameter)
+
+    @property
+    def loaded_length(self) -> Scalar:
+        """Length of the raceway contacts, m."""
+        return self.roller_length if self.contact_length is None else self.contact_length
+
+    @property
+    def pitch_radius(self) -> Scalar:
+        return self.pitch_diameter / 2.0
+
+    @property
+    def roller_radius(self) -> Scalar:
+        return self.roller_diameter / 2.0
+
+    @property
+    def inner_radius(self) -> Scalar:
+        """Inner raceway."""
+        return self.pitch_radius - self.roller_radius
+
+    @property
+    def outer_radius(self) -> Scalar:
+        """Outer raceway."""
+        return self.pitch_radius + self.roller_radius
+
+
+class RollerCage(eqx.Module):
+    """One-piece cage, guided by one ring on `n_lands` lands, with a pocket film in front of and behind each roller.
+
+    **Arguments:**
+    - `guidance`: "inner_ring" or "outer_ring".
+    - `guiding_clearance`: DIAMETRAL clearance of the lands, m.
+    - `pocket_clearance`: total circumferential clearance of a roller in its pocket, m.
+    - `land_width`: of ONE land, m.
+    - `inner_diameter`, `outer_diameter`: of the cage, m; assumed from the roller size where not given.
+    - `pocket_axial_clearance`: total axial clearance of a roller between the cage rails, m; not given: the films
+      between roller ends and rails are not modelled.
+    - `n_lands`: number of lands.
+    - `turbulence`: flow regime of the lands.
+    """
+
+    guidance: Literal["inner_ring", "outer_ring"] = eqx.field(static=True)
+    guiding_clearance: Scalar = number()
+    pocket_clearance: Scalar = number()
+    land_width: Scalar = number()
+    inner_diameter: Scalar | None = optional_number()
+    outer_diameter: Scalar | None = optional_number()
+    pocket_axial_clearance: Scalar | None = optional_number()
+    n_lands: int = eqx.field(static=True, default=2)
+    turbulence: AbstractTurbulence = BlendedTurbulence()
+
+    def __check_init__(self):
+        if self.guidance not in ("inner_ring", "outer_ring"):
+            raise ValueError(f"cage.guidance must be 'inner_ring' or 'outer_ring', got {self.guidance!r}")
+        require(
+            "cage",
+            guiding_clearance=(self.guiding_clearance, "> 0"),
+            pocket_clearance=(self.pocket_clearance, "> 0"),
+            land_width=(self.land_width, "> 0"),
+            inner_diameter=(self.inner_diameter, "> 0"),
+            outer_diameter=(self.outer_diameter, "> 0"),
+            pocket_axial_clearance=(self.pocket_axial_clearance, "> 0"),
+            n_lands=(self.n_lands, "> 0"),
+        )
+
+    def bore(self, geometry: RollerGeometry) -> Scalar:
+        if self.inner_diameter is not None:
+            return self.inner_diameter
+        return geometry.pitch_diameter - ASSUMED_CAGE_INNER * geometry.roller_diameter
+
+    def outside(self, geometry: RollerGeometry) -> Scalar:
+        if self.outer_diameter is not None:
+            return self.outer_diameter
+        return geometry.pitch_diameter + ASSUMED_CAGE_OUTER * geometry.roller_diameter
+
+
+class RollerFlange(eqx.Module):
+    """Flanges that guide the rollers axially, on the inner ring, the outer ring or both.
+
+    **Arguments:**
+    - `ring`: "inner", "outer" or "both".
+    - `axial_clearance`: TOTAL axial clearance of a roller between its two flanges, m.
+    - `angle`: flange opening angle, rad.
+    - `height`: of the flange above the raceway, m; assumed from the roller size where not given.
+    """
+
+    ring: Literal["inner", "outer", "both"] = eqx.field(static=True)
+    axial_clearance: Scalar = number()
+    angle: Scalar = number(0.0)
+    height: Scalar | None = optional_number()
+
+    def __check_init__(self):
+        if self.ring not in ("inner", "outer", "both"):
+            raise ValueError(f"flange.ring must be 'inner', 'outer' or 'both', got {self.ring!r}")
+        require(
+            "flange",
+            axial_clearance=(self.axial_clearance, "> 0"),
+            angle=(self.angle, ">= 0"),
+            height=(self.height, "> 0"),
+        )
+
+    def rim_height(self, geometry: RollerGeometry) -> Scalar:
+        return ASSUMED_FLANGE_HEIGHT * geometry.roller_diameter if self.height is None else self.height
+
+
+class CylindricalRollerBearing(AbstractScene):
+    """A steady cylindrical roller bearing under radial load; every part but geometry, materials and operation may
+    be `None`, and is then not modelled: no unknown, no equation, no run time.
+
+    - `contact=None`: dry and frictionless; only the load distribution is solved, rollers orbit without slip.
+    - `contact.traction=None`: films, but no friction on the raceways; rollers orbit without slip.
+    - with traction a `cage` is needed: without one a roller outside the loaded zone has no steady state.
+
+    **Raises:** `ValueError` for combinations that have no steady state or lack what they need.
+    """
+
+    geometry: RollerGeometry
+    materials: Materials
+    operation: Operation
+    oil: Lubricant | None = None
+    contact: ContactLaws | None = None
+    cage: RollerCage | None = None
+    flange: RollerFlange | None = None
+    drag: Drag | None = None
+    ring_freedom: tuple[str, ...] = eqx.field(static=True, default=("radial",))
+
+    def __check_init__(self):
+        if self.contact is None:
+            return
+        if self.oil is None:
+            raise ValueError("oil: a scene with a [contact] table needs an oil")
+        if self.slips and self.cage is None:
+            raise ValueError(
+                "cage: a lubricated bearing with traction and without a cage has no steady state (a roller outside the "
+                "loaded zone slows down for ever); give it a cage, leave out contact.traction, or use simulate"
+            )
+        if self.slips and (self.oil.density is None):
+            raise ValueError("oil.density: the cage land and the drag need it")
+
+    @property
+    def slips(self) -> bool:
+        """Whether roller and cage speeds are unknowns; without traction they follow from rolling without slip."""
+        return self.contact is not None and self.contact.traction is not None
+
+    def unused_parts(self) -> tuple[str, ...]:
+        """Tables that the scene names but that have no effect without traction on the raceways."""
+        if self.slips:
+            return ()
+        named = {"cage": self.cage, "flange": self.flange, "drag": self.drag}
+        return tuple(name for name, part in named.items() if part is not None)
+
+    def assumptions(self) -> tuple[str, ...]:
+        """Dimensions that the scene does not give and the model assumed, for the user to see."""
+        said = []
+        if self.slips and self.cage is not None:
+            for name, formula in (
+                ("inner_diameter", "pitch diameter - 7/12 roller diameter"),
+                ("outer_diameter", "pitch diameter + 4/12 roller diameter"),
+            ):
+                if getattr(self.cage, name) is None:
+                    said.append(f"cage.{name} is not given: assumed {formula}")
+        if self.slips and self.flange is not None and self.flange.height is None:
+            said.append("flange.height is not given: assumed 2.5/12 of the roller diameter")
+        return tuple(said)

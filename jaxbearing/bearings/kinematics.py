@@ -1,0 +1,53 @@
+"""Kinematics of rollers between two rings."""
+
+import equinox as eqx
+import jax.numpy as jnp
+from jaxtyping import Array, Float
+
+
+class RollerKinematics(eqx.Module):
+    r"""Speeds of rollers of radius $R_R$ on raceways $R_i = R_m - R_R$, $R_o = R_m + R_R$.
+
+    Rolling without slip: $W = (\omega_i R_i + \omega_o R_o)/(2R_m)$, $R_R s = (\omega_i - W) R_i$, where the spin s is
+    relative to the orbiting frame and positive when clockwise (its value in normal running).
+    """
+
+    inner_speed: Float[Array, ""]
+    outer_speed: Float[Array, ""]
+    pitch_radius: Float[Array, ""]
+    roller_radius: Float[Array, ""]
+
+    @property
+    def inner_radius(self) -> Array:
+        return self.pitch_radius - self.roller_radius
+
+    @property
+    def outer_radius(self) -> Array:
+        return self.pitch_radius + self.roller_radius
+
+    @property
+    def free_orbit(self) -> Array:
+        """W of rolling without slip, rad/s."""
+        return (self.inner_speed * self.inner_radius + self.outer_speed * self.outer_radius) / (2.0 * self.pitch_radius)
+
+    @property
+    def orbit_scale(self) -> Array:
+        """Orbital speed relative to the outer ring, rolling without slip, rad/s."""
+        return (self.inner_speed - self.outer_speed) * self.inner_radius / (2.0 * self.pitch_radius)
+
+    @property
+    def free_spin(self) -> Array:
+        """s of rolling without slip, rad/s."""
+        return self.orbit_scale * self.outer_radius / self.roller_radius
+
+    def surface_speeds(self, orbit: Array, spin: Array) -> tuple[Float[Array, "2 ..."], Float[Array, "2 ..."]]:
+        """Mean speeds and sliding speeds (inner race, outer race), m/s, in the frame of the orbiting contact.
+
+        Sliding is race minus roller on the inner race and roller's orbit minus outer race on the outer one, so
+        that a positive value drives the roller forward inside and brakes it outside.
+        """
+        roller = self.roller_radius * spin
+        inner = (self.inner_speed - orbit) * self.inner_radius
+        outer = (orbit - self.outer_speed) * self.outer_radius
+        race = jnp.stack([inner, outer])
+        return 0.5 * (race + roller), race - roller

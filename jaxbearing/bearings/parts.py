@@ -1,0 +1,143 @@
+"""Parts that bearing families share: the operating point, the contact laws, drag; and how a scene is changed."""
+
+import dataclasses
+import math
+from typing import Any, Self
+
+import equinox as eqx
+import jax
+import numpy as np
+
+from .._types import Scalar
+from ..contacts.laws import ContactLaws
+from ..materials import Material
+from ..numerics.precision import as_float
+
+
+__all__ = ["AbstractScene", "ContactLaws", "Drag", "Materials", "Operation"]
+
+
+def number(default: Any = dataclasses.MISSING, **kwargs: Any) -> Any:
+    """Field of a scene that holds one number, converted to a float64 leaf."""
+    if default is not dataclasses.MISSING:
+        kwargs["default"] = default
+    return eqx.field(converter=as_float, **kwargs)
+
+
+def optional_number() -> Any:
+    """Like `number`, `None` where the scene does not say."""
+    return eqx.field(converter=lambda v: None if v is None else as_float(v), default=None)
+
+
+def require(part: str, **checks: tuple[Any, str]) -> None:
+    """Refuse values that are out of range, where they are known (not while JAX traces or transforms them).
+
+    `checks` maps a field name to (value, range), the range one of "> 0", ">= 0", "finite".
+
+    **Raises:** `ValueError` naming part, field, the value and what is allowed.
+    """
+    for name, (value, allowed) in checks.items():
+        if value is None or isinstance(value, jax.core.Tracer) or not isinstance(value, int | float | np.ndarray):
+            continue
+        values = np.asarray(value, dtype=float)
+        good = np.isfinite(values) & (values > 0 if allowed == "> 0" else values >= 0 if allowed == ">= 0" else True)
+        if not np.all(good):
+            raise ValueError(f"{part}.{name} must be {allowed}, got {float(np.ravel(values)[np.argmin(good)]):g}")
+
+
+class Operation(eqx.Module):
+    """Operating point of a roller bearing: the batched part of a sweep.
+
+    **Arguments:**
+    - `inner_speed`, `outer_speed`: absolute speeds of the rings, rad/s, counter-clockwise positive.
+    - `radial_load`: on the inner ring, along azimuth 0, N, > 0.
+    - `oil_temperature`: inlet temperature, K; every interaction uses it unless it computes its own.
+    - `oil_flow`: supplied to the bearing, m^3/s.
+    """
+
+    inner_speed: Scalar = number()
+    radial_load: Scalar = number()
+    oil_temperature: Scalar = number(373.15)
+    oil_flow: Scalar = number(0.0)
+    outer_speed: Scalar = number(0.0)
+
+    def __check_init__(self):
+        require(
+            "operation",
+            inner_speed=(self.inner_speed, "finite"),
+            outer_speed=(self.outer_speed, "finite"),
+            radial_load=(self.radial_load, "> 0"),
+            oil_temperature=(self.oil_temperature, "> 0"),
+            oil_flow=(self.oil_flow, ">= 0"),
+        )
+
+
+class Materials(eqx.Module):
+    """Solids of a roller bearing: `rings` and `rollers`."""
+
+    rings: Material
+    rollers: Material
+
+
+class Drag(eqx.Module):
+    """Oil drag on the orbiting rolling elements (windage and churning).
+
+    **Arguments:**
+    - `coefficient`: drag coefficient Cd of one rolling element in its row, > = 0; the most influential free
+      number of a fast bearing's power loss.
+    - `through_flow_fraction`: part of the oil flow that passes through the bearing; 1 = under-race supply.
+    """
+
+    coefficient: Scalar = number()
+    through_flow_fraction: Scalar = number(1.0)
+
+    def __check_init__(self):
+        require(
+            "drag",
+            coefficient=(self.coefficient, ">= 0"),
+            through_flow_fraction=(self.through_flow_fraction, ">= 0"),
+        )
+
+
+class AbstractScene(eqx.Module):
+    """What every scene can do: give a changed copy of itself, with the attribute names of the scene file."""
+
+    def replace(self, changes: dict[str, Any]) -> Self:
+        """A copy with other values; keys are dotted paths, values SI numbers (or parts).
+
+        **Raises:** `AttributeError` for a path that the scene does not have.
+        """
+        scene = self
+        for path, value in changes.items():
+            scene = _replaced(scene, path.split("."), value, path)
+        return scene
+
+    def at_operation(self, **changes: Scalar) -> Self:
+        """A copy at another operating point: `scene.at_operation(inner_speed=1100.0)`."""
+        return self.replace({f"operation.{name}": value for name, value in changes.items()})
+
+    def replace_geometry(self, **changes: Scalar) -> Self:
+        """A copy with other dimensions: `scene.replace_geometry(diametral_clearance=30e-6)`."""
+        return self.replace({f"geometry.{name}": value for name, value in changes.items()})
+
+
+def _replaced(part: Any, path: list[str], value: Any, whole: str) -> Any:
+    names = [field.name for field in dataclasses.fields(part)] if dataclasses.is_dataclass(part) else []
+    if path[0] not in names:
+        raise AttributeError(f"the scene has no {whole!r}: {type(part).__name__} has {', '.join(names) or 'no fields'}")
+    new = value if len(path) == 1 else _replaced(getattr(part, path[0]), path[1:], value, whole)
+    return dataclasses.replace(part, **{path[0]: new})
+
+
+def check_row_fits(n_rollers: int, diameter: Any, pitch_diameter: Any) -> None:
+    """**Raises:** `ValueError` where the rolling elements do not fit on the pitch circle."""
+    if not all(isinstance(v, int | float | np.ndarray) for v in (diameter, pitch_diameter)):
+        return
+    if n_rollers < 1:
+        raise ValueError(f"geometry.n_rollers must be >= 1, got {n_rollers}")
+    chord = float(np.min(pitch_diameter)) * math.sin(math.pi / max(n_rollers, 2))
+    if float(np.max(diameter)) >= chord:
+        raise ValueError(
+            f"geometry.n_rollers: {n_rollers} rollers of diameter {float(np.max(diameter)):g} m do not fit on a pitch "
+            f"circle of {float(np.min(pitch_diameter)):g} m: their centres are {chord:g} m apart"
+        )

@@ -1,0 +1,419 @@
+r"""Equations of the steady cylindrical roller bearing, as a block-arrow system.
+
+Every roller orbits at the cage speed W; per roller (source eqs. (27)-(29), (38)), with s the spin (see
+`cylindrical_roller` for frames and signs):
+
+- approach: $J_d/2 + \delta_i + \delta_o - h_i - h_o = d\cdot n$, unknown ln Qi, $Q_o = Q_i + m R_m W^2$ (the pocket
+  friction, about 0.1 % of the centrifugal force, is left out of it, so Q does not depend on the pocket);
+- moment: $R_R(F_{C1} + F_{C2} - F_i - F_o) + M_{flange} + M_{rail} = 0$, unknown s;
+- tangential: $Q_{C1} - Q_{C2} = F_i - F_o + F_E + F_{Ec} - F_{OL}$, eliminated: the two pocket films follow from it in
+  closed form (`gaps.Pocket`);
+
+and globally: ring, $\sum Q_i n = F_r$ (source eq. (37)), unknown the ring displacement d; cage moment (source eq. (33)),
+unknown W. The cage offset is eliminated too: the land must carry the sum of the pocket forces, and its eccentricity
+is the root of a monotone scalar equation (`gaps.ShortJournal.static_equilibrium`).
+
+The sign of $F_{C2} - F_{C1}$ in the cage's x balance differs from the source's eq. (31), which contradicts its own
+eq. (32) and action = reaction. Each interaction gives its force and its dissipation from one and the same speed.
+"""
+
+from typing import Literal, NamedTuple
+
+import equinox as eqx
+import jax.numpy as jnp
+from jaxtyping import Array, Float
+
+from ..contacts import LineContact
+from ..contacts.laws import ContactLaws, ContactState
+from ..gaps import (
+    EndForces,
+    FlangeCoefficients,
+    Pocket,
+    PocketEdgeCoefficients,
+    PocketFilm,
+    RollerDrag,
+    ShortJournal,
+)
+from ..lubricants import InletOil, Lubricant
+from ..numerics.arrow import AbstractArrowSystem, ArrowPoint
+from ..numerics.roots import monotone_root
+from ..numerics.safe import positive_power, safe_norm
+from .kinematics import RollerKinematics
+
+LENGTH_UNIT = 1e-5
+"""Scale of displacements and approaches, m."""
+LOG_LOAD_RANGE = (-40.0, 18.0)
+"""ln(load / 1 N) that an iterate may take."""
+
+
+class RollerState(NamedTuple):
+    """Everything that happens at every roller, for given unknowns; arrays over rollers, races first where two."""
+
+    load: Float[Array, "2 roller"]
+    approach: Float[Array, "2 roller"]
+    orbital_speed: Float[Array, " roller"]
+    spin_speed: Float[Array, " roller"]
+    mean_speed: Float[Array, "2 roller"]
+    sliding_speed: Float[Array, "2 roller"]
+    contact: ContactState
+    pocket: PocketFilm | None
+    inner_flange: EndForces | None
+    outer_flange: EndForces | None
+    rails: EndForces | None
+    drag_force: Float[Array, " roller"] | None
+    approach_error: Float[Array, " roller"]
+    moment_error: Float[Array, " roller"] | None
+    cage_moment: Float[Array, " roller"] | None
+    cage_force: Float[Array, "2 roller"] | None
+
+
+class LandState(NamedTuple):
+    """The guiding lands together: torque on the cage and on the guiding ring, dissipation, where the cage sits."""
+
+    eccentricity_ratio: Float[Array, ""]
+    attitude_angle: Float[Array, ""]
+    cage_torque: Float[Array, ""]
+    ring_torque: Float[Array, ""]
+    power: Float[Array, ""]
+    residual: Float[Array, ""]
+
+
+class CageParts(eqx.Module):
+    """What a cage adds to the equations; all prepared, with the oil at its inlet temperature."""
+
+    pocket: Pocket
+    land: ShortJournal
+    guidance: Literal["inner_ring", "outer_ring"] = eqx.field(static=True)
+    rails: PocketEdgeCoefficients | None = None
+    inner_flange: FlangeCoefficients | None = None
+    outer_flange: FlangeCoefficients | None = None
+    drag: RollerDrag | None = None
+    drag_density: Float[Array, ""] | None = None
+
+
+def _per_race(values: Array) -> Float[Array, "2"]:
+    """A contact property, one number or of shape (2, 1), as (inner, outer)."""
+    return jnp.broadcast_to(values, (2, 1))[:, 0]
+
+
+class LubricatedRollerSystem(AbstractArrowSystem):
+    """Lubricated bearing. With `cage`: unknowns (ln Qi, spin) per roller, (ring, cage speed). Without (frictionless
+    raceways): ln Qi per roller and the ring, kinematics of rolling without slip."""
+
+    kinematics: RollerKinematics
+    contact: LineContact
+    laws: ContactLaws
+    oil: Lubricant
+    inlet: InletOil
+    directions: Float[Array, "freedom roller"]
+    azimuth: Float[Array, " roller"]
+    ring_load: Float[Array, " freedom"]
+    radial_clearance: Float[Array, ""]
+    roller_mass: Float[Array, ""]
+    cage: CageParts | None = None
+
+    # -- scales ---------------------------------------------------------------------------------------------------
+
+    def load_scale(self) -> Array:
+        """Scale of the ring balance, N."""
+        return safe_norm(self.ring_load[0], 0.0)
+
+    def friction_scale(self) -> Array:
+        """Scale of friction forces, N: 1 % of a roller's share of the load plus its centrifugal force."""
+        return 0.01 * (self.load_scale() / self.azimuth.shape[0] + self.centrifugal(self.kinematics.free_orbit))
+
+    def centrifugal(self, orbital_speed: Array) -> Array:
+        return self.roller_mass * self.kinematics.pitch_radius * jnp.square(orbital_speed)
+
+    # -- solver contract ------------------------------------------------------------------------------------------
+
+    def equation_names(self) -> tuple[str, ...]:
+        ring = tuple(f"ring balance ({i})" for i in range(self.directions.shape[0]))
+        if self.cage is None:
+            return ("approach of the rings at a roller", *ring)
+        return ("approach of the rings at a roller", "moment balance of a roller", *ring, "moment balance of the cage")
+
+    def step_caps(self) -> ArrowPoint:
+        ring = [5.0] * self.directions.shape[0]
+        if self.cage is None:
+            return ArrowPoint(jnp.asarray([[3.0]]), jnp.asarray(ring))
+        return ArrowPoint(jnp.asarray([[3.0], [0.2]]), jnp.asarray([*ring, 0.2]))
+
+    def bounds(self) -> tuple[ArrowPoint, ArrowPoint]:
+        low, high = LOG_LOAD_RANGE
+        ring = [1e4] * self.directions.shape[0]
+        if self.cage is None:
+            return (
+                ArrowPoint(jnp.asarray([[low]]), -jnp.asarray(ring)),
+                ArrowPoint(jnp.asarray([[high]]), jnp.asarray(ring)),
+            )
+        return (
+            ArrowPoint(jnp.asarray([[low], [-3.0]]), -jnp.asarray([*ring, 0.995])),
+            ArrowPoint(jnp.asarray([[high], [3.0]]), jnp.asarray([*ring, 2.0])),
+        )
+
+    def initial(self) -> ArrowPoint:
+        """Rolling without slip; loads from a dry elastic distribution on rings swollen by the films, plus Martin's
+        film force on the rollers outside the loaded zone, at the ring displacement that carries the load."""
+        motion = self.kinematics
+        kappa = _per_race(self.contact.palmgren_compliance)
+        centrifugal = self.centrifugal(motion.free_orbit)
+        total = self.load_scale()
+        n = self.azimuth.shape[0]
+        mean_speed, _ = motion.surface_speeds(motion.free_orbit, motion.free_spin)
+        typical = total * 4.0 / n + centrifugal + 1.0
+        films = jnp.exp(
+            self.laws.film.log_thickness(
+                self.contact, typical, mean_speed[:, None], self.inlet.viscosity, self.inlet.pressure_viscosity
+            )
+        )
+        film = jnp.sum(films)
+        # Q = 4.9 mu u R l / h: Martin's film of a rigid roller
+        martin = 4.9 * self.inlet.viscosity * jnp.abs(mean_speed[0]) * _per_race(
+            self.contact.reduced_radius * self.contact.length
+        )[0]
+        cosine = self.directions[0]
+        stiff = jnp.sum(kappa)
+
+        def loads(shift, args):
+            film_, martin_, centrifugal_, clearance = args
+            compression = shift * cosine - clearance + film_
+            elastic = positive_power(positive_power(compression / stiff, 10.0 / 9.0) - 0.5 * centrifugal_, 1.0 + 1e-9)
+            return elastic + martin_ / (jnp.maximum(-compression, 0.0) + film_)
+
+        def balance(shift, args):
+            return jnp.sum(loads(shift, args) * cosine) / total - 1.0
+
+        args = (film, martin, centrifugal, self.radial_clearance)
+        high = self.radial_clearance + stiff * (total + centrifugal) ** 0.9
+        low = jnp.minimum(-high, -LENGTH_UNIT)
+        high = jnp.maximum(high, LENGTH_UNIT)
+        shift = monotone_root(balance, args, low, high, high, tolerance=1e-6).value
+        log_load = jnp.clip(jnp.log(loads(shift, args)), *LOG_LOAD_RANGE)
+        ring = jnp.concatenate([shift[None], jnp.zeros(self.directions.shape[0] - 1)]) / LENGTH_UNIT
+        if self.cage is None:
+            return ArrowPoint(log_load[None, :], ring)
+        return ArrowPoint(jnp.stack([log_load, jnp.zeros(n)]), jnp.concatenate([ring, jnp.zeros(1)]))
+
+    def element(self, unknowns, shared):
+        state = self.rollers(unknowns, shared)
+        balance = state.load[0] * self.directions
+        if self.cage is None:
+            return state.approach_error[None, :], balance
+        local = jnp.stack([state.approach_error, state.moment_error])
+        return local, jnp.concatenate([balance, state.cage_moment[None, :], state.cage_force])
+
+    def closure(self, globals_, totals):
+        d = self.directions.shape[0]
+        ring = (totals[:d] - self.ring_load) / self.load_scale()
+        if self.cage is None:
+            return ring
+        land = self.land(self.orbit(globals_[d]), totals[d + 1], totals[d + 2])
+        scale = self.friction_scale() * self.kinematics.pitch_radius * self.azimuth.shape[0]
+        # the moment falls with the cage speed: minus it has the positive diagonal of a stiffness
+        return jnp.concatenate([ring, -(totals[d] + land.cage_torque)[None] / scale])
+
+    def inner_residual(self, point: ArrowPoint) -> Float[Array, ""]:
+        state = self.at(point)
+        worst = state.contact.inner_residual
+        if self.cage is None:
+            return worst
+        return jnp.maximum(worst, self.land_at(point, state).residual)
+
+    # -- physics --------------------------------------------------------------------------------------------------
+
+    def orbit(self, scaled: Array) -> Array:
+        """Orbital speed W from the scaled unknown, which is 0 when rolling without slip and -1 at standstill."""
+        return self.kinematics.free_orbit + self.kinematics.orbit_scale * scaled
+
+    def at(self, point: ArrowPoint) -> RollerState:
+        shape = (point.globals.shape[0], point.elements.shape[1])
+        return self.rollers(point.elements, jnp.broadcast_to(point.globals[:, None], shape))
+
+    def rollers(self, unknowns: Float[Array, "m roller"], shared: Float[Array, "g roller"]) -> RollerState:
+        motion, d = self.kinematics, self.directions.shape[0]
+        log_load = unknowns[0]
+        shift = jnp.sum(shared[:d] * self.directions, axis=0) * LENGTH_UNIT
+        if self.cage is None:
+            orbit = jnp.broadcast_to(motion.free_orbit, log_load.shape)
+            spin = jnp.broadcast_to(motion.free_spin, log_load.shape)
+        else:
+            orbit = self.orbit(shared[d])
+            spin = motion.free_spin * (1.0 + unknowns[1])
+        inner_load = jnp.exp(log_load)
+        load = jnp.stack([inner_load, inner_load + self.centrifugal(orbit)])
+        mean_speed, sliding = motion.surface_speeds(orbit, spin)
+        contact = self.laws.evaluate(self.contact, load, mean_speed, sliding, self.oil, self.inlet)
+        approach = self.contact.palmgren_approach(load)
+        gap = self.radial_clearance + jnp.sum(approach - contact.film, axis=0) - shift
+        state = RollerState(
+            load=load,
+            approach=approach,
+            orbital_speed=orbit,
+            spin_speed=spin,
+            mean_speed=mean_speed,
+            sliding_speed=sliding,
+            contact=contact,
+            pocket=None,
+            inner_flange=None,
+            outer_flange=None,
+            rails=None,
+            drag_force=None,
+            approach_error=gap / LENGTH_UNIT,
+            moment_error=None,
+            cage_moment=None,
+            cage_force=None,
+        )
+        return state if self.cage is None else self._with_cage(state, self.cage)
+
+    def _with_cage(self, state: RollerState, cage: CageParts) -> RollerState:
+        """Tangential and moment balance of the rollers, and what they do to the cage."""
+        motion, orbit, spin = self.kinematics, state.orbital_speed, state.spin_speed
+        ends = lambda part, ring_speed: None if part is None else part.evaluate(-spin, ring_speed - orbit)
+        inner_flange = ends(cage.inner_flange, motion.inner_speed)
+        outer_flange = ends(cage.outer_flange, motion.outer_speed)
+        rails = None if cage.rails is None else cage.rails.evaluate(-spin)
+        drag = None
+        traction = state.contact.traction
+        assert traction is not None
+        tangential = traction[0] - traction[1]
+        moment = jnp.zeros_like(spin)
+        for end in (inner_flange, outer_flange, rails):
+            if end is not None:
+                tangential = tangential + end.tangential_force
+                moment = moment + end.moment
+        if cage.drag is not None:
+            drag = cage.drag.force(motion.pitch_radius * orbit, cage.drag_density)
+            tangential = tangential - drag
+        # tangential balance: the pocket films carry what is left; front minus rear load
+        pocket = cage.pocket.balance(tangential, spin, self.inlet.viscosity)
+        friction = pocket.friction_front + pocket.friction_rear
+        moment = moment + motion.roller_radius * (friction - traction[0] - traction[1])
+
+        on_cage_forward = pocket.load_front - pocket.load_rear
+        cage_moment = on_cage_forward * motion.pitch_radius - friction * motion.roller_radius
+        if rails is not None:
+            on_cage_forward = on_cage_forward - rails.tangential_force
+            cage_moment = cage_moment - rails.moment - rails.tangential_force * motion.pitch_radius
+        outward = pocket.friction_front - pocket.friction_rear
+        cosine, sine = jnp.cos(self.azimuth), jnp.sin(self.azimuth)
+        # t = (-cos, -sin), n = (-sin, cos) in (X, Y), the load along +Y
+        cage_force = jnp.stack(
+            [-on_cage_forward * cosine - outward * sine, -on_cage_forward * sine + outward * cosine]
+        )
+        return state._replace(
+            pocket=pocket,
+            inner_flange=inner_flange,
+            outer_flange=outer_flange,
+            rails=rails,
+            drag_force=drag,
+            moment_error=moment / (self.friction_scale() * motion.roller_radius),
+            cage_moment=cage_moment,
+            cage_force=cage_force,
+        )
+
+    def land(self, orbit: Array, force_x: Array, force_y: Array) -> LandState:
+        """The lands that carry the pocket forces: eccentricity, torques on cage and guiding ring."""
+        cage, motion = self.cage, self.kinematics
+        assert cage is not None
+        inner = cage.guidance == "inner_ring"
+        journal, bush = (motion.inner_speed, orbit) if inner else (orbit, motion.outer_speed)
+        land, viscosity = cage.land, self.inlet.viscosity
+        k_z, c_f = land.film_factors(self.inlet.density, viscosity, journal - bush)
+        film = land.static_equilibrium(safe_norm(force_x, force_y) / land.n_lands, journal, bush, viscosity, k_z)
+        on_journal, on_bush = land.torques(
+            film.eccentricity_ratio, film.tangential_force, journal, bush, viscosity, c_f
+        )
+        on_cage, on_ring = (on_bush, on_journal) if inner else (on_journal, on_bush)
+        return LandState(
+            eccentricity_ratio=film.eccentricity_ratio,
+            attitude_angle=film.attitude_angle,
+            cage_torque=land.n_lands * on_cage,
+            ring_torque=land.n_lands * on_ring,
+            power=land.n_lands * land.dissipation(on_journal, on_bush, journal, bush),
+            residual=film.residual,
+        )
+
+    def land_at(self, point: ArrowPoint, state: RollerState) -> LandState:
+        assert state.cage_force is not None
+        force = jnp.sum(state.cage_force, axis=1)
+        return self.land(self.orbit(point.globals[-1]), force[0], force[1])
+
+
+class DryRollerSystem(AbstractArrowSystem):
+    """Dry frictionless bearing: the loads follow from the ring displacement in closed form but for one well
+    conditioned scalar root per roller, so only the ring displacement is an unknown."""
+
+    kinematics: RollerKinematics
+    contact: LineContact
+    directions: Float[Array, "freedom roller"]
+    azimuth: Float[Array, " roller"]
+    ring_load: Float[Array, " freedom"]
+    radial_clearance: Float[Array, ""]
+    roller_mass: Float[Array, ""]
+
+    def equation_names(self) -> tuple[str, ...]:
+        return tuple(f"ring balance ({i})" for i in range(self.directions.shape[0]))
+
+    def step_caps(self) -> ArrowPoint:
+        # a dry distribution is convex in the displacement: no cap is needed
+        return ArrowPoint(jnp.zeros((0, 1)), jnp.full(self.directions.shape[0], 1e4))
+
+    def bounds(self) -> tuple[ArrowPoint, ArrowPoint]:
+        edge = jnp.full(self.directions.shape[0], 1e5)
+        return ArrowPoint(jnp.zeros((0, 1)), -edge), ArrowPoint(jnp.zeros((0, 1)), edge)
+
+    def centrifugal(self) -> Array:
+        return self.roller_mass * self.kinematics.pitch_radius * jnp.square(self.kinematics.free_orbit)
+
+    def initial(self) -> ArrowPoint:
+        """The whole load on one roller: never outside contact, and the root is approached from above."""
+        stiff = jnp.sum(self.contact.palmgren_compliance)
+        shift = self.radial_clearance + stiff * (self.ring_load[0] + self.centrifugal()) ** 0.9
+        shift = jnp.maximum(shift, 0.1 * LENGTH_UNIT)
+        others = jnp.zeros(self.directions.shape[0] - 1)
+        return ArrowPoint(
+            jnp.zeros((0, self.azimuth.shape[0])), jnp.concatenate([shift[None], others]) / LENGTH_UNIT
+        )
+
+    def loads(self, shift: Array) -> tuple[Float[Array, "2 roller"], Array]:
+        r"""Loads on both races from the inward displacement of the inner ring at each roller, and the root's residual.
+
+        $k_i Q^{0.9} + k_o (Q + F_c)^{0.9} = d\cdot n - J_d/2$ with Q = 0 until the outer approach of the centrifugal
+        force is taken up; solved in $t = Q^{0.9}$, where it is nearly linear: Q is C1 at take-off, with slope 0.
+        """
+        kappa = _per_race(self.contact.palmgren_compliance)
+        fc = self.centrifugal()
+        # Double where: 0^0.9 has no derivative, and a bearing at rest has no centrifugal force.
+        turning = fc > 0
+        outer_rest = jnp.where(turning, kappa[1] * jnp.where(turning, fc, 1.0) ** 0.9, 0.0)
+        excess = (shift - self.radial_clearance - outer_rest) / kappa[0]
+        taken = excess > 0
+        x = jnp.where(taken, excess, 1.0)
+
+        def balance(t, args):
+            x_, fc_, ratio, rest = args
+            return t + ratio * (t ** (10.0 / 9.0) + fc_) ** 0.9 - rest - x_
+
+        args = (x, fc, kappa[1] / kappa[0], outer_rest / kappa[0])
+        root = monotone_root(balance, args, 1e-3 * x, 1.001 * x, 0.5 * x)
+        inner = jnp.where(taken, jnp.where(taken, root.value, 1.0) ** (10.0 / 9.0), 0.0)
+        return jnp.stack([inner, inner + fc]), jnp.max(root.residual / x)
+
+    def load_scale(self) -> Array:
+        """Scale of the ring balance, N."""
+        return safe_norm(self.ring_load[0], 0.0)
+
+    def inward_shift(self, point: ArrowPoint) -> Array:
+        """Displacement of the inner ring towards each roller, m."""
+        return jnp.sum(point.globals[:, None] * self.directions, axis=0) * LENGTH_UNIT
+
+    def element(self, unknowns, shared):
+        shift = jnp.sum(shared * self.directions, axis=0) * LENGTH_UNIT
+        return unknowns, self.loads(shift)[0][0] * self.directions
+
+    def closure(self, globals_, totals):
+        return (totals - self.ring_load) / self.load_scale()
+
+    def inner_residual(self, point: ArrowPoint) -> Float[Array, ""]:
+        return self.loads(self.inward_shift(point))[1]

@@ -1,0 +1,362 @@
+"""Steady state of a cylindrical roller bearing: from the scene to the equations, and from the root to the results."""
+
+from typing import NamedTuple
+
+import jax
+import jax.numpy as jnp
+import numpy as np
+from jaxtyping import Array
+
+from ..contacts import Gupta, LineContact
+from ..gaps import (
+    Flange,
+    Pocket,
+    PocketEdge,
+    RollerDrag,
+    ShortJournal,
+    air_density,
+    mixture_density,
+    saturated_oil_fraction,
+)
+from ..materials import reduced_modulus
+from ..numerics.arrow import linearize, schur_complement
+from ..numerics.newton import NewtonOptions, NewtonResult, newton_solve
+from .cylindrical_roller import CylindricalRollerBearing, RollerCage
+from .kinematics import RollerKinematics
+from .roller_equations import (
+    LENGTH_UNIT,
+    CageParts,
+    DryRollerSystem,
+    LandState,
+    LubricatedRollerSystem,
+    RollerState,
+)
+from .solution import RING_FREEDOMS, CageState, PowerLoss, RingDisplacement, RollerResults, Solution
+
+TRACTION_PRESSURE = 1.8e9
+"""Highest pressure of the traction measurements behind the rheology laws, Pa."""
+OIL_TEMPERATURES = (253.15, 473.15)
+"""Range for which the oil laws were fitted, K."""
+
+
+def build_system(scene: CylindricalRollerBearing) -> DryRollerSystem | LubricatedRollerSystem:
+    """The equations of a scene, with everything prepared that does not depend on the unknowns."""
+    geometry, operation = scene.geometry, scene.operation
+    azimuth = jnp.asarray(2.0 * np.pi * np.arange(geometry.n_rollers) / geometry.n_rollers)
+    # outward unit vector at each roller, along the load line and along azimuth 90 degrees
+    cosines = {"radial": jnp.cos(azimuth), "lateral": jnp.sin(azimuth)}
+    motion = RollerKinematics(
+        jnp.asarray(operation.inner_speed),
+        jnp.asarray(operation.outer_speed),
+        jnp.asarray(geometry.pitch_radius),
+        jnp.asarray(geometry.roller_radius),
+    )
+    radii = jnp.stack(
+        [
+            1.0 / (1.0 / motion.roller_radius + 1.0 / motion.inner_radius),
+            1.0 / (1.0 / motion.roller_radius - 1.0 / motion.outer_radius),
+        ]
+    )
+    contact = LineContact(
+        reduced_radius=radii[:, None],
+        length=jnp.asarray(geometry.loaded_length),
+        reduced_modulus=jnp.asarray(reduced_modulus(scene.materials.rings, scene.materials.rollers)),
+    )
+    load = jnp.asarray([1.0 if name == "radial" else 0.0 for name in scene.ring_freedom]) * operation.radial_load
+    common = {
+        "kinematics": motion,
+        "contact": contact,
+        "directions": jnp.stack([cosines[name] for name in scene.ring_freedom]),
+        "azimuth": azimuth,
+        "ring_load": load,
+        "radial_clearance": jnp.asarray(geometry.diametral_clearance) / 2.0,
+        "roller_mass": scene.materials.rollers.density * jnp.pi * motion.roller_radius**2 * geometry.roller_length,
+    }
+    if scene.contact is None:
+        return DryRollerSystem(**common)
+    assert scene.oil is not None
+    return LubricatedRollerSystem(
+        **common,
+        laws=scene.contact,
+        oil=scene.oil,
+        inlet=scene.oil.at(operation.oil_temperature),
+        cage=_cage_parts(scene, motion) if scene.slips else None,
+    )
+
+
+def _cage_parts(scene: CylindricalRollerBearing, motion: RollerKinematics) -> CageParts:
+    cage, oil, geometry, operation = scene.cage, scene.oil, scene.geometry, scene.operation
+    assert cage is not None
+    assert oil is not None
+    viscosity = oil.viscosity.viscosity(0.0, jnp.asarray(operation.oil_temperature))
+    bore, outside = jnp.asarray(cage.bore(geometry)), jnp.asarray(cage.outside(geometry))
+    land = ShortJournal(
+        radius=(bore if cage.guidance == "inner_ring" else outside) / 2.0,
+        width=jnp.asarray(cage.land_width),
+        clearance=jnp.asarray(cage.guiding_clearance) / 2.0,
+        turbulence=cage.turbulence,
+        n_lands=cage.n_lands,
+    )
+    sizes = {"pitch_radius": motion.pitch_radius, "roller_radius": motion.roller_radius}
+    rails = None
+    if cage.pocket_axial_clearance is not None:
+        edge = PocketEdge(
+            inner_radius=bore / 2.0,
+            outer_radius=outside / 2.0,
+            side_clearance=jnp.asarray(cage.pocket_axial_clearance) / 2.0,
+            **sizes,
+        )
+        rails = edge.coefficients(viscosity)
+
+    def flange(ring: str, race: Array, outward: float):
+        part = scene.flange
+        if part is None or part.ring not in (ring, "both"):
+            return None
+        return Flange(
+            race_radius=race,
+            rim_radius=race + outward * part.rim_height(geometry),
+            side_clearance=jnp.asarray(part.axial_clearance) / 2.0,
+            angle=jnp.asarray(part.angle),
+            **sizes,
+        ).coefficients(viscosity)
+
+    drag, density = None, None
+    if scene.drag is not None:
+        drag = RollerDrag(
+            coefficient=jnp.asarray(scene.drag.coefficient), area=drag_area(geometry.roller_length, motion, cage, scene)
+        )
+        density = _drag_density(scene)
+    return CageParts(
+        pocket=Pocket(
+            clearance=jnp.asarray(cage.pocket_clearance),
+            length=jnp.asarray(geometry.roller_length),
+            roller_radius=motion.roller_radius,
+        ),
+        land=land,
+        guidance=cage.guidance,
+        rails=rails,
+        inner_flange=flange("inner", motion.inner_radius, 1.0),
+        outer_flange=flange("outer", motion.outer_radius, -1.0),
+        drag=drag,
+        drag_density=density,
+    )
+
+
+def drag_area(
+    length: Array, motion: RollerKinematics, cage: RollerCage, scene: CylindricalRollerBearing
+) -> Array:
+    """Frontal area of a roller that the cage leaves free: length times (diameter - cage thickness), m^2.
+
+    The analogue of the source's ball formula; 0 where the cage is thicker than the roller.
+    """
+    thickness = (cage.outside(scene.geometry) - cage.bore(scene.geometry)) / 2.0
+    return jnp.asarray(length) * jnp.maximum(2.0 * motion.roller_radius - thickness, 0.0)
+
+
+def _drag_density(scene: CylindricalRollerBearing) -> Array:
+    operation = scene.operation
+    assert scene.drag is not None
+    assert scene.oil is not None
+    assert scene.oil.density is not None
+    fraction = saturated_oil_fraction(
+        operation.oil_flow,
+        operation.inner_speed - operation.outer_speed,
+        scene.geometry.pitch_diameter,
+        scene.drag.through_flow_fraction,
+    )
+    temperature = jnp.asarray(operation.oil_temperature)
+    return mixture_density(fraction, scene.oil.density.density(temperature), air_density(temperature))
+
+
+def solve_steady(scene: CylindricalRollerBearing, options: NewtonOptions) -> Solution:
+    """Steady state: pure, jit-able, vmap-able, differentiable; never raises for a failed solve."""
+    system, result = newton_solve(build_system(scene), options)
+    results = _dry_results(system, result) if isinstance(system, DryRollerSystem) else _lubricated(system, result)
+    ring = {name: result.point.globals[i] * LENGTH_UNIT for i, name in enumerate(scene.ring_freedom)}
+    displacement = RingDisplacement(**{name: ring.get(name, jnp.zeros(())) for name in RING_FREEDOMS})
+    stiffness = _ring_stiffness(system, result, len(scene.ring_freedom))
+    results, displacement, stiffness = jax.tree.map(
+        lambda leaf: jnp.where(result.converged, leaf, jnp.nan), (results, displacement, stiffness)
+    )
+    notes = scene.assumptions()
+    if scene.unused_parts():
+        names = ", ".join(scene.unused_parts())
+        notes = (*notes, f"without traction on the raceways these tables have no effect: {names}")
+    return Solution(
+        status=result.status,
+        iterations=result.iterations,
+        residual_norm=result.residual_norm,
+        worst_equation=result.worst_equation,
+        worst_element=result.worst_element,
+        operation=scene.operation,
+        ring=displacement,
+        cage=results.cage,
+        elements=results.elements,
+        power_loss=results.power_loss,
+        drive_power=results.drive_power,
+        inner_torque=results.inner_torque,
+        outer_torque=results.outer_torque,
+        stiffness=stiffness,
+        checks={text: result.converged & (value > 0) for text, value in results.range_excess.items()},
+        ring_freedom=scene.ring_freedom,
+        equation_names=system.equation_names(),
+        global_equations=result.point.globals.shape[0],
+        unknowns=result.point.elements.size + result.point.globals.size,
+        notes=notes,
+    )
+
+
+class _Results(NamedTuple):
+    """Results before masking; `range_excess` maps a warning to a number that is positive where it applies."""
+
+    cage: CageState | None
+    elements: RollerResults
+    power_loss: PowerLoss
+    drive_power: Array
+    inner_torque: Array
+    outer_torque: Array
+    range_excess: dict[str, Array]
+
+
+def _ring_stiffness(system: DryRollerSystem | LubricatedRollerSystem, result: NewtonResult, freedoms: int) -> Array:
+    """d load / d displacement of the ring's freedoms with everything else in equilibrium, N/m."""
+    schur = schur_complement(linearize(system, result.point)[1])
+    ring = schur[:freedoms, :freedoms]
+    if schur.shape[0] > freedoms:
+        others = jnp.linalg.solve(schur[freedoms:, freedoms:], schur[freedoms:, :freedoms])
+        ring = ring - schur[:freedoms, freedoms:] @ others
+    return ring * (system.load_scale() / LENGTH_UNIT)
+
+
+def _dry_results(system: DryRollerSystem, result: NewtonResult) -> _Results:
+    load, _ = system.loads(system.inward_shift(result.point))
+    motion, zero, ones = system.kinematics, jnp.zeros(()), jnp.ones_like(system.azimuth)
+    pressure = system.contact.hertz_pressure(load)
+    elements = RollerResults(
+        azimuth=system.azimuth,
+        load_inner=load[0],
+        load_outer=load[1],
+        pressure_inner=jnp.where(load[0] > 0, pressure[0], 0.0),
+        pressure_outer=jnp.where(load[1] > 0, pressure[1], 0.0),
+        orbital_speed=motion.free_orbit * ones,
+        spin_speed=motion.free_spin * ones,
+    )
+    return _Results(None, elements, PowerLoss(total=zero), zero, zero, zero, {})
+
+
+def _lubricated(system: LubricatedRollerSystem, result: NewtonResult) -> _Results:
+    state, motion = system.at(result.point), system.kinematics
+    pressure = system.contact.hertz_pressure(state.load)
+    contact, pocket, rise = state.contact, state.pocket, state.contact.temperature_rise
+    elements = RollerResults(
+        azimuth=system.azimuth,
+        load_inner=state.load[0],
+        load_outer=state.load[1],
+        pressure_inner=pressure[0],
+        pressure_outer=pressure[1],
+        orbital_speed=state.orbital_speed,
+        spin_speed=state.spin_speed,
+        film_inner=contact.film[0],
+        film_outer=contact.film[1],
+        temperature_rise_inner=None if rise is None else rise[0],
+        temperature_rise_outer=None if rise is None else rise[1],
+        sliding_inner=state.sliding_speed[0],
+        sliding_outer=state.sliding_speed[1],
+        traction_inner=None if contact.traction is None else contact.traction[0],
+        traction_outer=None if contact.traction is None else contact.traction[1],
+        pocket_film_front=None if pocket is None else pocket.film_front,
+        pocket_film_rear=None if pocket is None else pocket.film_rear,
+        pocket_load_front=None if pocket is None else pocket.load_front,
+        pocket_load_rear=None if pocket is None else pocket.load_rear,
+    )
+    if system.cage is None:
+        zero = jnp.zeros(())
+        return _Results(None, elements, PowerLoss(total=zero), zero, zero, zero, _range_excess(system, state, None))
+
+    land = system.land_at(result.point, state)
+    losses = _losses(system, state, land)
+    inner, outer = _ring_torques(system, state, land)
+    orbit = system.orbit(result.point.globals[-1])
+    cage = CageState(
+        speed=orbit,
+        slip=1.0 - orbit / motion.free_orbit,
+        eccentricity_ratio=land.eccentricity_ratio,
+        attitude_angle=land.attitude_angle,
+    )
+    drive = motion.inner_speed * inner + motion.outer_speed * outer
+    return _Results(cage, elements, losses, drive, inner, outer, _range_excess(system, state, land))
+
+
+def _losses(system: LubricatedRollerSystem, state: RollerState, land: LandState) -> PowerLoss:
+    """Dissipation by location, each from the force and the speed of its own interaction."""
+    motion, traction, pocket = system.kinematics, state.contact.traction, state.pocket
+    assert traction is not None
+    assert pocket is not None
+    sliding = jnp.sum(traction * state.sliding_speed, axis=1)
+    friction = pocket.friction_front + pocket.friction_rear
+    flanges = [end for end in (state.inner_flange, state.outer_flange) if end is not None]
+    losses = {
+        "inner_raceway": sliding[0],
+        "outer_raceway": sliding[1],
+        "pocket": jnp.sum(friction * motion.roller_radius * state.spin_speed),
+        "element_ends": None if state.rails is None else jnp.sum(state.rails.power),
+        "flange": sum(jnp.sum(end.power) for end in flanges) if flanges else None,
+        "cage_pilot": land.power,
+        "drag": None
+        if state.drag_force is None
+        else jnp.sum(state.drag_force * motion.pitch_radius * state.orbital_speed),
+    }
+    total = sum((value for value in losses.values() if value is not None), jnp.zeros(()))
+    return PowerLoss(total=total, **losses)
+
+
+def _ring_torques(system: LubricatedRollerSystem, state: RollerState, land: LandState) -> tuple[Array, Array]:
+    """Torques that must be applied to the inner and the outer ring to keep them turning, N m.
+
+    Assembled from the forces on the rings; that their power equals the sum of the dissipations is the test of every
+    sign in the model.
+    """
+    motion, traction, cage = system.kinematics, state.contact.traction, system.cage
+    assert traction is not None
+    assert cage is not None
+    inner = jnp.sum(traction[0]) * motion.inner_radius
+    outer = -jnp.sum(traction[1]) * motion.outer_radius
+    if state.inner_flange is not None:
+        inner = inner - jnp.sum(state.inner_flange.ring_moment)
+    if state.outer_flange is not None:
+        outer = outer - jnp.sum(state.outer_flange.ring_moment)
+    if cage.guidance == "inner_ring":
+        return inner - land.ring_torque, outer
+    return inner, outer - land.ring_torque
+
+
+def _range_excess(system: LubricatedRollerSystem, state: RollerState, land: LandState | None) -> dict[str, Array]:
+    """By how much the results leave the ranges for which the laws were made."""
+    loaded = state.load >= 0.01 * jnp.max(state.load)
+    most = lambda values: jnp.max(jnp.where(loaded, values, 0.0))
+    rise = state.contact.temperature_rise
+    hottest = system.inlet.temperature + (jnp.zeros(()) if rise is None else most(rise))
+    low, high = OIL_TEMPERATURES
+    excess = {
+        "oil temperature beyond 200 degC: the oil laws are extrapolated": hottest - high,
+        "oil temperature below -20 degC: the oil laws are extrapolated": low - system.inlet.temperature,
+    }
+    if system.laws.traction is not None:
+        excess["mean contact pressure beyond 1.8 GPa: the traction rheology is extrapolated"] = (
+            most(system.contact.mean_pressure(state.load)) - TRACTION_PRESSURE
+        )
+    thermal = system.laws.thermal
+    if isinstance(thermal, Gupta):
+        loading = most(thermal.thermal_loading(state.mean_speed, system.inlet))
+        slide = most(thermal.slide_ratio(state.mean_speed, state.sliding_speed))
+        excess["thermal loading beyond 20: Gupta's factor is extrapolated"] = loading - 20.0
+        excess["slide ratio of a loaded contact beyond 2: Gupta's factor is extrapolated"] = slide - 2.0
+    if land is not None and system.cage is not None:
+        film = system.cage.land
+        excess["cage eccentricity beyond 0.98: the land nearly touches, its film law saturates"] = (
+            land.eccentricity_ratio - 0.98
+        )
+        excess["land wider than a third of its radius: the short journal film overestimates"] = (
+            film.width - film.radius / 3.0
+        )
+    return excess

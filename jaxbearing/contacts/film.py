@@ -1,0 +1,145 @@
+"""Isothermal film thickness of a lubricated line contact."""
+
+import abc
+
+import equinox as eqx
+import jax.numpy as jnp
+from jaxtyping import Array, Float
+
+from .._types import Scalar, Values
+from ..numerics.safe import smooth_abs
+from .line import LOAD_FLOOR, LineContact, log_entrainment_sum
+
+MARTIN_CONSTANT = 4.894968
+"""h Q/(mu u R l) of a rigid isoviscous cylinder with the Reynolds exit condition, u the mean speed: Martin (1916).
+With the outlet at x = sqrt(2 R h) tan(25.4 deg), its half, 2.447, belongs to the sum speed."""
+MOES_LOAD_FLOOR = 1e-6
+"""Smallest Moes load number M: an unloaded film is limited by geometry (3/M is then 3e6), not by the formula."""
+LOG_2 = 0.6931471805599453
+
+
+class AbstractLineFilm(eqx.Module):
+    """Film thickness of a line contact from load, speed and the oil at the inlet."""
+
+    @abc.abstractmethod
+    def log_thickness(
+        self,
+        contact: LineContact,
+        load: Values,
+        entrainment_speed: Values,
+        viscosity: Values,
+        pressure_viscosity: Values,
+    ) -> Float[Array, "..."]:
+        """Natural logarithm of the film thickness in m.
+
+        **Arguments:**
+        - `contact`: the two cylinders.
+        - `load`: N, >= 0.
+        - `entrainment_speed`: mean surface speed (u1 + u2)/2 relative to the contact, m/s; only its modulus counts.
+        - `viscosity`: at the inlet temperature and ambient pressure, Pa s, > 0.
+        - `pressure_viscosity`: reciprocal isoviscous pressure at the inlet temperature, 1/Pa, > 0.
+        """
+
+
+class Moes(AbstractLineFilm):
+    r"""Central film of a line contact in all four regimes.
+
+    $U = \mu(u_1+u_2)/(E'R)$, $M = \frac{Q}{\ell E'R} U^{-1/2}$, $L = \alpha E' U^{1/4}$, $H = \frac{h}{R} U^{-1/2}$,
+    $H^s = (H_{RI}^{7/3} + H_{EI}^{7/3})^{3s/7} + (H_{RP}^{-7/2} + H_{EP}^{-7/2})^{-2s/7}$,
+    $H_{RI} = 3/M$, $H_{EI} = 2.621 M^{-1/5}$, $H_{RP} = 1.287 L^{2/3}$, $H_{EP} = 1.311 M^{-1/8}L^{3/4}$,
+    $s = [7 + 8\exp(-2 H_{EI}/H_{RI})]/5$.
+
+    **Limits:** Martin's $3/M$ as M and L -> 0, Ertel-Grubin's $H_{EP}$ and Blok's $H_{RP}$ at large L.
+    **Validity:** smooth, fully flooded, isothermal, Newtonian inlet. About 5 % below the source's full numerical
+    solution (table 18). M is floored as $\sqrt{M^2 + 10^{-12}}$, so the film of an unloaded contact is finite and
+    the caller limits it by the clearance; the speed levels off at 1e-6 m/s.
+    **Reference:** Moes (1992), Wear 159, 57. The source names Cheng's line formula without printing it; this one
+    stands in for it.
+    """
+
+    def log_thickness(
+        self,
+        contact: LineContact,
+        load: Values,
+        entrainment_speed: Values,
+        viscosity: Values,
+        pressure_viscosity: Values,
+    ) -> Float[Array, "..."]:
+        stiffness = contact.reduced_modulus * contact.reduced_radius
+        log_u = log_entrainment_sum(entrainment_speed) + jnp.log(viscosity) - jnp.log(stiffness)
+        m = load / (contact.length * stiffness) * jnp.exp(-0.5 * log_u)
+        log_m = jnp.log(smooth_abs(m, MOES_LOAD_FLOOR))
+        log_l = jnp.log(pressure_viscosity * contact.reduced_modulus) + 0.25 * log_u
+
+        rigid_isoviscous = jnp.log(3.0) - log_m
+        elastic_isoviscous = jnp.log(2.621) - 0.2 * log_m
+        rigid_piezoviscous = jnp.log(1.287) + 2.0 / 3.0 * log_l
+        elastic_piezoviscous = jnp.log(1.311) - 0.125 * log_m + 0.75 * log_l
+
+        s = (7.0 + 8.0 * jnp.exp(-2.0 * jnp.exp(elastic_isoviscous - rigid_isoviscous))) / 5.0
+        isoviscous = 3.0 / 7.0 * jnp.logaddexp(7.0 / 3.0 * rigid_isoviscous, 7.0 / 3.0 * elastic_isoviscous)
+        piezoviscous = -2.0 / 7.0 * jnp.logaddexp(-3.5 * rigid_piezoviscous, -3.5 * elastic_piezoviscous)
+        log_h = jnp.logaddexp(s * isoviscous, s * piezoviscous) / s
+        return log_h + 0.5 * log_u + jnp.log(contact.reduced_radius)
+
+
+class DowsonHigginson(AbstractLineFilm):
+    r"""Minimum film of an elastohydrodynamic line contact.
+
+    $h_{min}/R = 2.65\,[\mu u/(E'R)]^{0.70}(\alpha E')^{0.54}[Q/(E'R\ell)]^{-0.13}$, u the *mean* speed.
+
+    **Validity:** the elastic-piezoviscous regime only: at light load it is far too thin (see `MartinBlend`). The
+    load levels off at 1e-9 N, the speed at 0.5e-6 m/s.
+    **Reference:** Dowson and Higginson, *Elastohydrodynamic Lubrication* (1966, revised 1977).
+    """
+
+    def log_thickness(
+        self,
+        contact: LineContact,
+        load: Values,
+        entrainment_speed: Values,
+        viscosity: Values,
+        pressure_viscosity: Values,
+    ) -> Float[Array, "..."]:
+        stiffness = contact.reduced_modulus * contact.reduced_radius
+        log_speed = log_entrainment_sum(entrainment_speed) - LOG_2 + jnp.log(viscosity) - jnp.log(stiffness)
+        log_material = jnp.log(pressure_viscosity * contact.reduced_modulus)
+        log_load = jnp.log(smooth_abs(load, LOAD_FLOOR)) - jnp.log(contact.length * stiffness)
+        log_radius = jnp.log(contact.reduced_radius)
+        return jnp.log(2.65) + log_radius + 0.70 * log_speed + 0.54 * log_material - 0.13 * log_load
+
+
+class MartinBlend(AbstractLineFilm):
+    r"""An elastohydrodynamic film joined to the rigid isoviscous one: $h^n = h_{film}^n + h_M^n$.
+
+    $h_M = 4.894968\,\mu u R\ell/Q$ (Martin, u the mean speed), n = 3 by default.
+
+    **Limits:** the wrapped film at high load, Martin's film as Q -> 0: the film then grows without bound, so a
+    roller in any clearance carries a small positive load and has a place of its own.
+    **Validity:** an interpolation; at equal films the sum is 26 % above either (n = 3). Do not wrap `Moes`, which
+    contains Martin's film already.
+    **Reference:** Martin (1916), Engineering 102, 119, for $h_M$; the blend is ours.
+    """
+
+    film: AbstractLineFilm
+    exponent: Scalar = 3.0
+
+    def log_thickness(
+        self,
+        contact: LineContact,
+        load: Values,
+        entrainment_speed: Values,
+        viscosity: Values,
+        pressure_viscosity: Values,
+    ) -> Float[Array, "..."]:
+        elastic = self.film.log_thickness(contact, load, entrainment_speed, viscosity, pressure_viscosity)
+        log_drag = jnp.log(viscosity) + log_entrainment_sum(entrainment_speed) - LOG_2
+        log_size = jnp.log(contact.reduced_radius * contact.length)
+        martin = jnp.log(MARTIN_CONSTANT) + log_drag + log_size - jnp.log(smooth_abs(load, LOAD_FLOOR))
+        return jnp.logaddexp(self.exponent * elastic, self.exponent * martin) / self.exponent
+
+
+MartinBlend.__init__.__doc__ = """**Arguments:**
+- `film`: the film at high load.
+- `exponent`: n, > 0.
+"""

@@ -1,0 +1,141 @@
+"""Thermal reduction of the film by heating in the inlet, and the inlet temperature that explains it."""
+
+import abc
+from collections.abc import Callable
+
+import equinox as eqx
+import jax.numpy as jnp
+from jaxtyping import Array, Float, PyTree
+
+from .._types import Values
+from ..lubricants import InletOil
+from ..numerics.roots import Root, monotone_root
+from ..numerics.safe import regular_power, smooth_abs, softplus_floor
+from .line import SPEED_FLOOR, LineContact
+
+NUMERATOR_FLOOR = 0.05
+"""Smallest numerator of Gupta's factor: the printed one turns negative at large thermal loading."""
+NUMERATOR_WIDTH = 0.02
+LOADING_WIDTH = 1e-9
+"""Thermal loading below which its powers are linear: the factor changes by < 1e-11 at loading >= 1e-3."""
+SLIDE_WIDTH = 1e-6
+"""Slide ratio below which its power is linear."""
+RISE_BELOW = -5.0
+"""Lower bracket end of the temperature rise, K: below 0, so that a rise of 0 is an ordinary root."""
+
+
+class AbstractThermalFactor(eqx.Module):
+    """Ratio of the film with inlet heating to the isothermal film."""
+
+    @abc.abstractmethod
+    def log_factor(
+        self,
+        contact: LineContact,
+        load: Values,
+        entrainment_speed: Values,
+        sliding_speed: Values,
+        oil: InletOil,
+    ) -> Float[Array, "..."]:
+        """Natural logarithm of the factor, <= 0.
+
+        **Arguments:**
+        - `contact`: the two cylinders.
+        - `load`: N, >= 0.
+        - `entrainment_speed`: (u1 + u2)/2, m/s, of either sign.
+        - `sliding_speed`: u1 - u2, m/s, of either sign.
+        - `oil`: the oil at the inlet temperature.
+        """
+
+
+class NoThermalReduction(AbstractThermalFactor):
+    """Factor 1: the isothermal film."""
+
+    def log_factor(
+        self,
+        contact: LineContact,
+        load: Values,
+        entrainment_speed: Values,
+        sliding_speed: Values,
+        oil: InletOil,
+    ) -> Float[Array, "..."]:
+        size = (contact.reduced_radius, contact.length, contact.reduced_modulus)
+        values = (*size, load, entrainment_speed, sliding_speed, oil.temperature)
+        return jnp.zeros(jnp.broadcast_shapes(*(jnp.shape(value) for value in values)))
+
+
+class Gupta(AbstractThermalFactor):
+    r"""Gupta, Cheng, Zhu, Forster and Schrand's thermal factor.
+
+    $\phi_T = [1 - 13.2\,(p_0/E') L^{0.42}]/[1 + 0.213\,(1 + 2.23\,S^{0.83}) L^{0.64}]$, with the thermal loading
+    $L = -(\partial\mu/\partial T) u^2/k$ (u the mean speed) and $S = 2|u_1 - u_2|/|u_1 + u_2|$.
+
+    **Limits:** 1 as u -> 0 at any sliding.
+    **Validity:** fitted for S up to about 2 and L up to about 20 (`slide_ratio` and `thermal_loading` let a caller
+    check). The numerator, negative at very large L in print, is floored smoothly at 0.05; the powers are linear
+    below L = 1e-9 and S = 1e-6.
+    **Reference:** Gupta et al. (1992), ASME J. Tribology 114, 55; source eqs. (61)-(64). The square in the source's
+    eq. (63) is ambiguous: the mean speed of the literature is taken.
+    """
+
+    def thermal_loading(self, entrainment_speed: Values, oil: InletOil) -> Float[Array, "..."]:
+        """L, dimensionless. **Arguments:** `entrainment_speed`, m/s; `oil` at the inlet, with a conductivity."""
+        if oil.conductivity is None:
+            raise ValueError("Gupta's thermal factor needs the lubricant's conductivity, which is not given.")
+        slope = -oil.viscosity * oil.log_slope
+        return slope / oil.conductivity * jnp.square(entrainment_speed)
+
+    def slide_ratio(self, entrainment_speed: Values, sliding_speed: Values) -> Float[Array, "..."]:
+        """S, dimensionless, >= 0; finite at rest. **Arguments:** both speeds in m/s."""
+        return 2.0 * jnp.abs(sliding_speed) / smooth_abs(2.0 * entrainment_speed, SPEED_FLOOR)
+
+    def log_factor(
+        self,
+        contact: LineContact,
+        load: Values,
+        entrainment_speed: Values,
+        sliding_speed: Values,
+        oil: InletOil,
+    ) -> Float[Array, "..."]:
+        loading = self.thermal_loading(entrainment_speed, oil)
+        slide = self.slide_ratio(entrainment_speed, sliding_speed)
+        severity = contact.hertz_pressure(load) / contact.reduced_modulus
+        numerator = 1.0 - 13.2 * severity * regular_power(loading, 0.42, LOADING_WIDTH)
+        slide_term = 0.213 * (1.0 + 2.23 * regular_power(slide, 0.83, SLIDE_WIDTH))
+        heating = slide_term * regular_power(loading, 0.64, LOADING_WIDTH)
+        return jnp.log(softplus_floor(numerator, NUMERATOR_FLOOR, NUMERATOR_WIDTH)) - jnp.log1p(heating)
+
+
+def inlet_temperature_rise(
+    log_film: Callable[[Array, PyTree], Array],
+    args: PyTree,
+    temperature: Values,
+    log_factor: Values,
+    maximum: float = 500.0,
+) -> Root:
+    r"""The rise $\Delta T$ that thins the isothermal film as much as the thermal factor does.
+
+    $\ln h(T_0 + \Delta T) = \ln\phi_T + \ln h(T_0)$, elementwise.
+
+    **Limits:** factor 1 gives exactly 0, with the derivative $1/(\partial\ln h/\partial T)$.
+    **Validity:** first derivatives only. Where no rise up to `maximum` thins the film enough, the value is `maximum`
+    and `residual`, in units of ln h, says by how much it fails.
+
+    **Arguments:**
+    - `log_film(temperature, args)`: ln of the isothermal film with the oil at that temperature, elementwise,
+      decreasing.
+    - `args`: pytree of arrays; everything that the film depends on (what is closed over loses its derivative).
+    - `temperature`: $T_0$ of the inlet, K.
+    - `log_factor`: $\ln\phi_T$, <= 0.
+    - `maximum`: upper end of the search, K.
+    """
+
+    def excess(rise: Array, everything: PyTree) -> Array:
+        film_args, inlet, log_ratio = everything
+        return log_film(inlet, film_args) + log_ratio - log_film(inlet + rise, film_args)
+
+    temperature = jnp.asarray(temperature, dtype=float)
+    log_factor = jnp.asarray(log_factor, dtype=float)
+    guess = jnp.zeros_like(log_film(temperature, args) + log_factor)
+    root = monotone_root(excess, (args, temperature, log_factor), RISE_BELOW, maximum, guess)
+    # The differentiable Newton step that ends the search may leave the bracket where there is no root.
+    return Root(jnp.clip(root.value, RISE_BELOW, maximum), root.residual)

@@ -1,0 +1,36 @@
+"""Rigid lubricant films: cage land, cage pocket, roller ends and flanges, oil drag."""
+
+from .couette import EndForces as EndForces
+from .couette import Flange as Flange
+from .couette import FlangeCoefficients as FlangeCoefficients
+from .couette import PocketEdge as PocketEdge
+from .couette import PocketEdgeCoefficients as PocketEdgeCoefficients
+from .drag import RollerDrag as RollerDrag
+from .drag import air_density as air_density
+from .drag import cylinder_drag_coefficient as cylinder_drag_coefficient
+from .drag import mixture_density as mixture_density
+from .drag import parker_oil_fraction as parker_oil_fraction
+from .drag import saturated_oil_fraction as saturated_oil_fraction
+from .drag import sphere_drag_coefficient as sphere_drag_coefficient
+from .journal import ShortJournal as ShortJournal
+from .journal import StaticFilm as StaticFilm
+from .journal import saturated_eccentricity as saturated_eccentricity
+from .long_journal import LongJournal as LongJournal
+from .martin import MARTIN_LOAD as MARTIN_LOAD
+from .martin import MARTIN_ROLLING as MARTIN_ROLLING
+from .martin import MARTIN_SHEAR as MARTIN_SHEAR
+from .martin import MartinFactors as MartinFactors
+from .martin import martin_exit as martin_exit
+from .martin import martin_factors as martin_factors
+from .martin import martin_load as martin_load
+from .martin import martin_rolling as martin_rolling
+from .martin import martin_shear as martin_shear
+from .pocket import CompliantPocketFace as CompliantPocketFace
+from .pocket import Pocket as Pocket
+from .pocket import PocketFace as PocketFace
+from .pocket import PocketFilm as PocketFilm
+from .pocket import side_leakage_factor as side_leakage_factor
+from .turbulence import AbstractTurbulence as AbstractTurbulence
+from .turbulence import BlendedTurbulence as BlendedTurbulence
+from .turbulence import FullTurbulence as FullTurbulence
+from .turbulence import Laminar as Laminar

@@ -1,0 +1,163 @@
+"""Rigid isoviscous line contact with normal velocity: Martin's film."""
+
+import math
+from typing import NamedTuple
+
+import jax
+import jax.numpy as jnp
+
+from .._types import Batch, Values
+from ..numerics.safe import smooth_abs
+
+MARTIN_LOAD = 4.894968493913369
+"""Gw at s = 0: W = 4.895 mu u R L/h (Martin's 4.9; 2.45 if written with u1 + u2)."""
+MARTIN_SHEAR = 2.01435066101268
+"""Gs at s = 0."""
+MARTIN_ROLLING = 6.506905317803327
+"""Gr at s = 0."""
+MARTIN_EXIT = 0.47512992009305627
+"""Exit position T at s = 0, in units of sqrt(2 R h)."""
+SQUEEZE_LIMIT = 300.0
+"""|s| beyond which the factors are frozen."""
+SPEED_WIDTH = 1e-9
+"""Smoothing of the entrainment speed at rest, m/s: relative error 5e-13 at 1 mm/s."""
+NEWTON_STEPS = 4
+_SERIES_BELOW = 0.8
+_SERIES = range(1, 14)
+_I2_SERIES = tuple((-1) ** (k + 1) * 4.0**k / (2 * math.factorial(2 * k + 1)) for k in _SERIES)
+_I4_SERIES = tuple((-1) ** k * (16.0**k / 8 - 4.0**k / 2) / math.factorial(2 * k + 1) for k in _SERIES)
+
+
+class MartinFactors(NamedTuple):
+    """Load, Couette shear and rolling factors of a line film (Gw, Gs, Gr)."""
+
+    load: Batch
+    shear: Batch
+    rolling: Batch
+
+
+def _horner(coefficients: tuple[float, ...], x: Values) -> Batch:
+    total = jnp.zeros_like(x)
+    for c in reversed(coefficients):
+        total = total * x + c
+    return total
+
+
+def _moments(exit_position: Values) -> tuple[Batch, Batch, Batch, Batch]:
+    r"""beta, sin(beta), I2, I4 with $\beta = \pi/2 + \arctan T$, $I_n = \int_0^\beta \sin^n$.
+
+    Counting the angle from the inlet end keeps the far-separating case (T -> -inf, beta -> 0)
+    free of cancellation; below beta = 0.8 the integrals are their Taylor series (error < 1e-16).
+    """
+    beta = jnp.arctan2(1.0, -exit_position)
+    sin, cos = jnp.sin(beta), jnp.cos(beta)
+    small = beta < _SERIES_BELOW
+    b = jnp.where(small, beta, 0.0)
+    b2 = b * b
+    i2 = jnp.where(small, b * b2 * _horner(_I2_SERIES, b2), 0.5 * (beta - sin * cos))
+    i4 = jnp.where(small, b * b2 * _horner(_I4_SERIES, b2), 0.75 * i2 - 0.25 * cos * sin**3)
+    return beta, sin, i2, i4
+
+
+def _squeeze_of_exit(exit_position: Values) -> tuple[Batch, Batch]:
+    """s(T) and ds/dT = -I4 (2 T + s)/D < 0, D = T I4 + sin^4/4 (dN/dT = -2 T I4, dD/dT = I4)."""
+    _, sin, i2, i4 = _moments(exit_position)
+    denominator = exit_position * i4 + 0.25 * sin**4
+    s = (i2 - i4 / (sin * sin)) / denominator
+    return s, -i4 * (2.0 * exit_position + s) / denominator
+
+
+@jax.custom_jvp
+def _exit(s):
+    root = jnp.sqrt(1.0 + s * s)
+    t = MARTIN_EXIT - 11.0 / 16.0 * s + 5.0 / 16.0 * (root - 1.0)
+    for _ in range(NEWTON_STEPS):
+        value, slope = _squeeze_of_exit(t)
+        t = t - (value - s) / slope
+    return t
+
+
+@_exit.defjvp
+def _exit_jvp(primals, tangents):
+    t = _exit(primals[0])
+    return t, tangents[0] / _squeeze_of_exit(t)[1]
+
+
+def martin_exit(s: Values) -> Batch:
+    r"""Exit position T (in $\sqrt{2Rh_0}$) of a line film with squeeze number s, p = dp/dx = 0 there.
+
+    Inverse of the explicit, decreasing $s(T) = -(I_2-(1+T^2)I_4)/(J_3-TI_4)$ by Newton, with the
+    derivative 1/s'(T). s is clipped to [-300, 300].
+
+    **Limits:** 0.4751 at s = 0; -s as s -> -inf (pure squeeze); -3s/8 as s -> +inf.
+    **Reference:** Martin (1916), Engineering 102, 119; Dowson, Markho and Jones (1976), ASME J.
+    Lubr. Technol. 98, 509.
+    """
+    return _exit(jnp.clip(jnp.asarray(s), -SQUEEZE_LIMIT, SQUEEZE_LIMIT))
+
+
+def martin_factors(s: Values) -> MartinFactors:
+    r"""Load, shear and rolling factors at the squeeze number $s = (\dot h/u)\sqrt{2R/h_0}$.
+
+    With $\beta = \pi/2+\arctan T$ (see `martin_exit`): $G_s = \beta$, $G_w = 6(\sin^2\beta - sI_2)$,
+    $G_r = 12[\beta - I_2/\sin^2\beta - s(\sin^2\beta/2 + TI_2)]$.
+
+    **Limits:** s = 0: `MARTIN_LOAD`, `MARTIN_SHEAR`, `MARTIN_ROLLING`; s -> -inf: $G_w\to-3\pi s$; s -> +inf:
+    $G_w\to128/(27s^2)$: the film never pulls. Frozen beyond |s| = 300.
+    """
+    s = jnp.clip(jnp.asarray(s), -SQUEEZE_LIMIT, SQUEEZE_LIMIT)
+    t = _exit(s)
+    beta, sin, i2, _ = _moments(t)
+    sin2 = sin * sin
+    return MartinFactors(
+        load=6.0 * (sin2 - s * i2),
+        shear=beta,
+        rolling=12.0 * (beta - i2 / sin2 - s * (0.5 * sin2 + t * i2)),
+    )
+
+
+def squeeze_number(entrainment_speed: Values, radius: Values, film: Values, squeeze_rate: Values) -> Batch:
+    r"""$s = (\dot h/u)\sqrt{2R/h_0}$, u smoothed at rest by 1e-9 m/s; s < 0 when approaching."""
+    u = smooth_abs(entrainment_speed, SPEED_WIDTH)
+    return squeeze_rate / u * jnp.sqrt(2.0 * jnp.asarray(radius) / film)
+
+
+def martin_load(
+    viscosity: Values, entrainment_speed: Values, radius: Values, length: Values, film: Values, squeeze_rate: Values
+) -> Batch:
+    r"""Normal load $W = \mu uRL/h_0\,G_w(s)$, N, >= 0.
+
+    **Arguments:** `viscosity`, Pa s; `entrainment_speed` u = |u1 + u2|/2 relative to the contact,
+    m/s; `radius`, equivalent, m; `length`, m; `film`, minimum film h0, m, > 0; `squeeze_rate`,
+    dh0/dt, m/s, negative when approaching.
+    """
+    u = smooth_abs(entrainment_speed, SPEED_WIDTH)
+    s = squeeze_number(entrainment_speed, radius, film, squeeze_rate)
+    return viscosity * u * radius * length / film * martin_factors(s).load
+
+
+def martin_shear(
+    viscosity: Values,
+    sliding_speed: Values,
+    entrainment_speed: Values,
+    radius: Values,
+    length: Values,
+    film: Values,
+    squeeze_rate: Values,
+) -> Batch:
+    r"""Couette force $F_s = \mu(u_1-u_2)L\sqrt{2R/h_0}\,G_s(s)$, N, signed as u1 - u2."""
+    s = squeeze_number(entrainment_speed, radius, film, squeeze_rate)
+    return viscosity * sliding_speed * length * jnp.sqrt(2.0 * jnp.asarray(radius) / film) * martin_factors(s).shear
+
+
+def martin_rolling(
+    viscosity: Values, entrainment_speed: Values, radius: Values, length: Values, film: Values, squeeze_rate: Values
+) -> Batch:
+    r"""Pressure-flow (rolling) force $P = \mu uL\sqrt{2R/h_0}\,G_r(s)$, N: the integral of h dp/dx.
+
+    With u1 > u2 >= 0, entrainment along body 1: shear on body 1 is -(Fs + P/2), on body 2 Fs - P/2;
+    pressure adds +P R/R_k along the motion on body k of radius R_k.
+    """
+    u = smooth_abs(entrainment_speed, SPEED_WIDTH)
+    s = squeeze_number(entrainment_speed, radius, film, squeeze_rate)
+    return viscosity * u * length * jnp.sqrt(2.0 * jnp.asarray(radius) / film) * martin_factors(s).rolling

@@ -1,0 +1,62 @@
+"""A lubricant, and its state at a contact inlet."""
+
+import equinox as eqx
+import jax.numpy as jnp
+
+from .._types import Values
+from .pressure_viscosity import AbstractPressureViscosity
+from .rheology import ExponentialRheology
+from .thermal import LinearConductivity, LinearDensity
+from .viscosity import AbstractViscosity
+
+
+class InletOil(eqx.Module):
+    """What film formulas need of the oil, evaluated once at inlet temperature and ambient pressure."""
+
+    temperature: Values
+    viscosity: Values
+    pressure_viscosity: Values
+    log_slope: Values
+    density: Values | None = None
+    conductivity: Values | None = None
+
+
+InletOil.__init__.__doc__ = """**Arguments:**
+- `temperature`: K, > 0.
+- `viscosity`: Pa s, > 0.
+- `pressure_viscosity`: reciprocal isoviscous pressure, 1/Pa, > 0.
+- `log_slope`: d ln(viscosity)/dT, 1/K, < 0.
+- `density`: kg/m^3, > 0, or None where the lubricant has none.
+- `conductivity`: W/(m K), > 0, or None where the lubricant has none.
+"""
+
+
+class Lubricant(eqx.Module):
+    """The laws of one lubricant. A law that is not known is None: whoever needs it says so, nobody guesses it."""
+
+    viscosity: AbstractViscosity
+    pressure_viscosity: AbstractPressureViscosity
+    rheology: ExponentialRheology | None = None
+    density: LinearDensity | None = None
+    conductivity: LinearConductivity | None = None
+
+    def at(self, temperature: Values) -> InletOil:
+        """The oil at a contact inlet. **Arguments:** `temperature`, K, > 0."""
+        temperature = jnp.asarray(temperature, dtype=float)
+        return InletOil(
+            temperature=temperature,
+            viscosity=self.viscosity.viscosity(0.0, temperature),
+            pressure_viscosity=self.pressure_viscosity.coefficient(temperature),
+            log_slope=self.viscosity.log_slope(temperature),
+            density=None if self.density is None else self.density.density(temperature),
+            conductivity=None if self.conductivity is None else self.conductivity.conductivity(temperature),
+        )
+
+
+Lubricant.__init__.__doc__ = """**Arguments:**
+- `viscosity`: law of viscosity in pressure and temperature.
+- `pressure_viscosity`: law of the coefficient for film formulas.
+- `rheology`: shear modulus and stress; a traction law needs it.
+- `density`: needed by drag and by flow rates in mass.
+- `conductivity`: needed by thermal film reduction.
+"""

@@ -1,0 +1,55 @@
+"""Shear modulus and characteristic shear stress of a lubricant under contact pressure."""
+
+import equinox as eqx
+import jax.numpy as jnp
+
+from .._types import Batch, Scalar, Values
+
+EXPONENT_CAP = 60.0
+"""Exponents are clipped to +-60 (26 decades): beyond, the law is constant and its gradient 0."""
+
+
+class ExponentialRheology(eqx.Module):
+    r"""Shear modulus and characteristic stress, exponential in pressure and in 1/temperature.
+
+    $G = G_0\exp[\alpha_G p + \beta_G(1/T - 1/T_0)]$, $\tau = \tau_{00}\exp[\alpha_\tau p + \beta_\tau(1/T - 1/T_0)]$.
+
+    Both come as natural logarithms, since only those are needed downstream. Whether the stress is an Eyring
+    stress or a limiting stress is said by the traction law that was fitted.
+
+    **Limits:** $G_0$, $\tau_{00}$ at p = 0, T = T_0.
+    **Validity:** the source's fits are for 0.6 to 1.8 GPa and 273 to 378 K; $G_0$ is an extrapolation to p = 0.
+    $\beta_\tau < 0$ for both oils of the source: the stress *rises* with temperature, a property of the fit.
+    **Reference:** source eqs. (78)-(79), tables 8 and 12.
+    """
+
+    reference_temperature: Scalar
+    shear_modulus: Scalar
+    shear_modulus_pressure: Scalar
+    shear_modulus_temperature: Scalar
+    stress: Scalar
+    stress_pressure: Scalar
+    stress_temperature: Scalar
+
+    def log_shear_modulus(self, pressure: Values, temperature: Values) -> Batch:
+        """ln of the shear modulus in Pa. **Arguments:** `pressure`, Pa; `temperature`, K, > 0."""
+        inverse = 1.0 / temperature - 1.0 / self.reference_temperature
+        exponent = self.shear_modulus_pressure * pressure + self.shear_modulus_temperature * inverse
+        return jnp.log(self.shear_modulus) + jnp.clip(exponent, -EXPONENT_CAP, EXPONENT_CAP)
+
+    def log_stress(self, pressure: Values, temperature: Values) -> Batch:
+        """ln of the characteristic stress in Pa. **Arguments:** `pressure`, Pa; `temperature`, K, > 0."""
+        inverse = 1.0 / temperature - 1.0 / self.reference_temperature
+        exponent = self.stress_pressure * pressure + self.stress_temperature * inverse
+        return jnp.log(self.stress) + jnp.clip(exponent, -EXPONENT_CAP, EXPONENT_CAP)
+
+
+ExponentialRheology.__init__.__doc__ = """**Arguments:**
+- `reference_temperature`: T_0, K, > 0.
+- `shear_modulus`: G_0, Pa, > 0.
+- `shear_modulus_pressure`: alpha_G, 1/Pa.
+- `shear_modulus_temperature`: beta_G, K.
+- `stress`: tau_00, Pa, > 0.
+- `stress_pressure`: alpha_tau, 1/Pa.
+- `stress_temperature`: beta_tau, K.
+"""

@@ -1,0 +1,59 @@
+"""Density and thermal conductivity of a lubricant at ambient pressure."""
+
+import equinox as eqx
+
+from .._types import Batch, Scalar, Values
+from ..numerics.safe import softplus_floor
+
+CONDUCTIVITY_FLOOR = 0.05
+"""Smallest conductivity, W/(m K): a linear fit crosses zero far above its range (1034 K for Mobil Jet II)."""
+CONDUCTIVITY_WIDTH = 2.5e-3
+"""Smoothing width of that floor, W/(m K): at 0.125 W/(m K) (473 K) the value is exact to 1e-15."""
+
+
+class LinearDensity(eqx.Module):
+    r"""$\rho = \rho_r + s (T - T_r)$.
+
+    **Validity:** the range of the fit; compressibility is left out.
+    **Reference:** source eq. (91) for Mobil Jet II (printed in g/ml, a wrong unit: it is kg/m^3).
+    """
+
+    value: Scalar
+    slope: Scalar
+    reference_temperature: Scalar
+
+    def density(self, temperature: Values) -> Batch:
+        """Density, kg/m^3. **Arguments:** `temperature`, K."""
+        return self.value + self.slope * (temperature - self.reference_temperature)
+
+
+LinearDensity.__init__.__doc__ = """**Arguments:**
+- `value`: density at the reference temperature, kg/m^3, > 0.
+- `slope`: kg/(m^3 K), usually negative.
+- `reference_temperature`: K.
+"""
+
+
+class LinearConductivity(eqx.Module):
+    r"""$k = k_r + s (T - T_r)$, never below 0.05 W/(m K).
+
+    **Validity:** the range of the fit. The floor is smooth (width 2.5e-3 W/(m K)) and changes nothing above
+    0.13 W/(m K).
+    **Reference:** source eq. (90) for Mobil Jet II (printed in N/s/K, meaning W/(m K)).
+    """
+
+    value: Scalar
+    slope: Scalar
+    reference_temperature: Scalar
+
+    def conductivity(self, temperature: Values) -> Batch:
+        """Thermal conductivity, W/(m K). **Arguments:** `temperature`, K."""
+        plain = self.value + self.slope * (temperature - self.reference_temperature)
+        return softplus_floor(plain, CONDUCTIVITY_FLOOR, CONDUCTIVITY_WIDTH)
+
+
+LinearConductivity.__init__.__doc__ = """**Arguments:**
+- `value`: conductivity at the reference temperature, W/(m K), > 0.
+- `slope`: W/(m K^2), usually negative.
+- `reference_temperature`: K.
+"""

@@ -1,0 +1,123 @@
+"""Viscosity as a function of pressure and temperature."""
+
+import abc
+import math
+
+import equinox as eqx
+import jax
+import jax.numpy as jnp
+import numpy as np
+
+from .._types import Batch, Scalar, Values
+from ..numerics.safe import nonnegative_pressure, softplus_floor
+
+LN10 = math.log(10.0)
+
+LOG10_VISCOSITY_CAP = 15.0
+"""log10 of the viscosity (Pa s) that the regularised law never exceeds. Traction only sees 1/viscosity: caps of
+1e8 to 1e15 Pa s give the same traction in all printed digits."""
+EXPANSION_FLOOR = 0.02
+"""Smallest free-volume expansion factor F (dimensionless)."""
+EXPANSION_WIDTH = 0.005
+"""Smoothing width of that floor (dimensionless)."""
+POLE_WIDTH = 0.5
+"""Smoothing width of the distance from the pole, K: 9 K away the distance is changed by < 1e-8 K."""
+
+LIMIT_SCAN_END = 1e10
+"""Highest pressure that `pressure_limit` looks at, Pa."""
+LIMIT_SCAN_INTERVALS = 300
+LIMIT_SCAN_DECADES = 18.0
+"""Viscosity ratio to ambient, in decades, at which the scan stops: far beyond what an integral of 1/viscosity sees."""
+
+
+class AbstractViscosity(eqx.Module):
+    """Low-shear viscosity of a lubricant. A law implements `log_viscosity`; everything else follows."""
+
+    @abc.abstractmethod
+    def log_viscosity(self, pressure: Values, temperature: Values) -> Batch:
+        """Natural logarithm of the dynamic viscosity in Pa s.
+
+        **Arguments:** `pressure`, Pa, >= 0 (slightly negative probes must stay finite); `temperature`, K, > 0.
+        """
+
+    def viscosity(self, pressure: Values, temperature: Values) -> Batch:
+        """Dynamic viscosity, Pa s. Under contact pressures stay with `log_viscosity`."""
+        return jnp.exp(self.log_viscosity(pressure, temperature))
+
+    def log_slope(self, temperature: Values) -> Batch:
+        r"""$\partial\ln\mu/\partial T$ at ambient pressure, 1/K (negative for every liquid lubricant)."""
+        temperature = jnp.asarray(temperature, dtype=float)
+        at_ambient = lambda t: self.log_viscosity(0.0, t)
+        return jax.jvp(at_ambient, (temperature,), (jnp.ones_like(temperature),))[1]
+
+
+class ModifiedWLF(AbstractViscosity):
+    r"""The modified Williams-Landel-Ferry law of Yasutomi, Bair and Winer.
+
+    $T_g(p) = T_{g0} + A_1\ln(1 + A_2 p)$, $F(p) = 1 - B_1\ln(1 + B_2 p)$, $y = (T - T_g) F$,
+    $\log_{10}\mu = \log_{10}\mu_g - C_1 y/(C_2 + y)$.
+
+    Coded as $(\log_{10}\mu_g - C_1) + C_1 C_2/(C_2 + y)$: one division, and the pole is in sight.
+
+    **Limits:** $\mu_g$ at $T = T_g(p)$; finite, and with a finite gradient, at every pressure and temperature.
+    **Validity:** the printed law has a pole at $y = -C_2$ (cold, high pressure) and turns back where F = 0 (3.6 to
+    9.4 GPa for four oils). Here F is floored smoothly at 0.02 and the distance from the pole such that
+    $\log_{10}\mu < 15$; the law is changed by < 1e-8 relative wherever $C_2 + y$ is 9 K above the floor. Near
+    the floors the value is a stiff solid, not a measurement. Pressures below 0 level off at -1 MPa.
+    **Reference:** Yasutomi, Bair and Winer (1984), ASME J. Tribology 106, 291; source eq. (76).
+    """
+
+    glass_viscosity: Scalar
+    glass_temperature: Scalar
+    glass_shift: Scalar
+    glass_shift_rate: Scalar
+    expansion_factor: Scalar
+    expansion_rate: Scalar
+    c1: Scalar
+    c2: Scalar
+
+    def log_viscosity(self, pressure: Values, temperature: Values) -> Batch:
+        log10_glass = jnp.log10(self.glass_viscosity)
+        glass, expansion = self._glass_and_expansion(nonnegative_pressure(pressure))
+        expansion = softplus_floor(expansion, EXPANSION_FLOOR, EXPANSION_WIDTH)
+        # The floor at which log10(viscosity) would be the cap exactly.
+        floor = self.c1 * self.c2 / (LOG10_VISCOSITY_CAP - log10_glass + self.c1)
+        distance = softplus_floor(self.c2 + (temperature - glass) * expansion, floor, POLE_WIDTH)
+        return LN10 * (log10_glass - self.c1 + self.c1 * self.c2 / distance)
+
+    def pressure_limit(self, temperature: Values) -> Batch:
+        """Pressure up to which the printed law is meaningful at this temperature, Pa; no gradient.
+
+        The last of 301 points of 0 to 10 GPa before the law without floors stops growing, meets F = 0 or its
+        pole, or has risen by 18 decades; at least the first point, 33 MPa.
+        """
+        temperature = jnp.asarray(temperature, dtype=float)[..., None]
+        grid = np.linspace(0.0, LIMIT_SCAN_END, LIMIT_SCAN_INTERVALS + 1)
+        pressure = jnp.asarray(grid.reshape((1,) * (temperature.ndim - 1) + (-1,)))
+        glass, expansion = self._glass_and_expansion(pressure)
+        distance = self.c2 + (temperature - glass) * expansion
+        log10_rise = self.c1 * self.c2 / jnp.where(distance > 0, distance, 1.0)
+        good = (expansion > 0) & (distance > 0) & (log10_rise - log10_rise[..., :1] <= LIMIT_SCAN_DECADES)
+        good = good[..., 1:] & (jnp.diff(log10_rise, axis=-1) > 0)
+        # good[i] is about point i + 1, so the first False sits at the index of the last good point.
+        last = jnp.where(jnp.all(good, axis=-1), LIMIT_SCAN_INTERVALS, jnp.argmin(good, axis=-1))
+        step = LIMIT_SCAN_END / LIMIT_SCAN_INTERVALS
+        return jax.lax.stop_gradient(step * jnp.maximum(last, 1).astype(float))
+
+    def _glass_and_expansion(self, pressure: Values) -> tuple[Batch, Batch]:
+        """Glass temperature, K, and expansion factor F, as printed."""
+        glass = self.glass_temperature + self.glass_shift * jnp.log1p(self.glass_shift_rate * pressure)
+        expansion = 1.0 - self.expansion_factor * jnp.log1p(self.expansion_rate * pressure)
+        return glass, expansion
+
+
+ModifiedWLF.__init__.__doc__ = """**Arguments:**
+- `glass_viscosity`: viscosity at the glass transition, Pa s, > 0 and below 1e15.
+- `glass_temperature`: Tg0 at ambient pressure, K.
+- `glass_shift`: A1, K, > 0.
+- `glass_shift_rate`: A2, 1/Pa, > 0.
+- `expansion_factor`: B1, > 0.
+- `expansion_rate`: B2, 1/Pa, > 0.
+- `c1`: C1, of the decimal logarithm (2.3 times smaller than that of a law written in ln), > 0.
+- `c2`: C2, K, > 0.
+"""

@@ -1,0 +1,1 @@
+"""Numerics without physics: safe functions, roots, quadrature, the block-arrow Newton, status."""

@@ -1,0 +1,134 @@
+r"""Block-arrow systems: many small elements that meet only through a few global unknowns.
+
+A rolling bearing is such a system: each rolling element has its own few unknowns, and elements
+couple only through the ring and the cage. The Jacobian
+
+$$J = \begin{pmatrix} A_1 & & & B_1 \\ & \ddots & & \vdots \\ & & A_N & B_N \\ C_1 & \cdots & C_N & D \end{pmatrix}$$
+
+is an arrow. Its blocks come from one forward pass over the element function with m + g tangents, each
+element is eliminated, and the g x g Schur complement $D - \sum_j C_j A_j^{-1} B_j$ is solved: O(N).
+"""
+
+import abc
+from typing import NamedTuple
+
+import equinox as eqx
+import jax
+import jax.numpy as jnp
+from jaxtyping import Array, Float
+
+from .small_linear import solve_blocks, solve_dense
+
+
+class ArrowPoint(NamedTuple):
+    """Unknowns or residuals: component axis first, so that every operation is a vector operation."""
+
+    elements: Float[Array, "m element"]
+    globals: Float[Array, " g"]
+
+
+class AbstractArrowSystem(eqx.Module):
+    """Equations of many elements and a few globals. A pytree: its array leaves are the parameters.
+
+    Unknowns and residuals must be scaled to order 1. Subclasses are final and hold every number that the
+    equations depend on as a leaf, because derivatives of the solution are taken with respect to the leaves.
+    """
+
+    @abc.abstractmethod
+    def initial(self) -> ArrowPoint:
+        """First guess."""
+
+    @abc.abstractmethod
+    def element(
+        self, unknowns: Float[Array, "m element"], shared: Float[Array, "g element"]
+    ) -> tuple[Float[Array, "m element"], Float[Array, "k element"]]:
+        """Local residuals and contributions to the totals; column j depends on column j only.
+
+        `shared` holds the globals, copied along the element axis: that copy is what lets one forward
+        pass yield every block of the arrow.
+        """
+
+    @abc.abstractmethod
+    def closure(self, globals_: Float[Array, " g"], totals: Float[Array, " k"]) -> Float[Array, " g"]:
+        """Global residuals from the globals and the contributions summed over the elements."""
+
+    @abc.abstractmethod
+    def step_caps(self) -> ArrowPoint:
+        """Largest step of each unknown in one Newton step: shapes (m, 1) and (g,), in scaled units."""
+
+    @abc.abstractmethod
+    def bounds(self) -> tuple[ArrowPoint, ArrowPoint]:
+        """Lowest and highest value of each unknown that an iterate may take: shapes (m, 1) and (g,)."""
+
+    @abc.abstractmethod
+    def equation_names(self) -> tuple[str, ...]:
+        """Names of the m local and then the g global equations, for messages."""
+
+    def inner_residual(self, point: ArrowPoint) -> Float[Array, ""]:
+        """Largest scaled residual of solves nested inside the equations, 0 where there are none."""
+        del point
+        return jnp.zeros(())
+
+
+class ArrowJacobian(NamedTuple):
+    """Blocks of the arrow, and the factor that chains totals into global equations."""
+
+    local: Float[Array, "m m element"]
+    to_globals: Float[Array, "m g element"]
+    contributions: Float[Array, "k m element"]
+    corner: Float[Array, "g g"]
+    chain: Float[Array, "g k"]
+
+
+def residual(system: AbstractArrowSystem, point: ArrowPoint) -> ArrowPoint:
+    """All equations at a point."""
+    n = point.elements.shape[1]
+    shared = jnp.broadcast_to(point.globals[:, None], (point.globals.shape[0], n))
+    local, contribution = system.element(point.elements, shared)
+    return ArrowPoint(local, system.closure(point.globals, jnp.sum(contribution, axis=1)))
+
+
+def linearize(system: AbstractArrowSystem, point: ArrowPoint) -> tuple[ArrowPoint, ArrowJacobian]:
+    """Residual and Jacobian blocks, by forward autodiff with m + g tangents."""
+    m, n = point.elements.shape
+    g = point.globals.shape[0]
+
+    def columns(v):
+        local, contribution = system.element(v[:m], v[m:])
+        return jnp.concatenate([local, contribution])
+
+    v = jnp.concatenate([point.elements, jnp.broadcast_to(point.globals[:, None], (g, n))])
+    seeds = jnp.broadcast_to(jnp.eye(m + g)[:, :, None], (m + g, m + g, n))
+    values, tangents = jax.vmap(lambda t: jax.jvp(columns, (v,), (t,)), out_axes=(None, 0))(seeds)
+    tangents = jnp.swapaxes(tangents, 0, 1)  # (m + k outputs, m + g inputs, element)
+
+    totals = jnp.sum(values[m:], axis=1)
+    closure, pullback = jax.vjp(system.closure, point.globals, totals)
+    direct, chain = jax.vmap(pullback)(jnp.eye(g))
+    jacobian = ArrowJacobian(
+        local=tangents[:m, :m],
+        to_globals=tangents[:m, m:],
+        contributions=tangents[m:, :m],
+        corner=direct + chain @ jnp.sum(tangents[m:, m:], axis=-1),
+        chain=chain,
+    )
+    return ArrowPoint(values[:m], closure), jacobian
+
+
+def schur_complement(jacobian: ArrowJacobian) -> Float[Array, "g g"]:
+    """D - sum_j C_j A_j^-1 B_j: stiffness of the globals with every element in equilibrium."""
+    eliminated = solve_blocks(jacobian.local, jacobian.to_globals)
+    carried = jnp.sum(jnp.einsum("kmn,mgn->kgn", jacobian.contributions, eliminated), axis=-1)
+    return jacobian.corner - jacobian.chain @ carried
+
+
+def solve_arrow(jacobian: ArrowJacobian, right: ArrowPoint) -> ArrowPoint:
+    """J x = right, by elimination of the elements and the Schur complement of the globals."""
+    g = right.globals.shape[0]
+    stacked = jnp.concatenate([jacobian.to_globals, right.elements[:, None, :]], axis=1)
+    eliminated = solve_blocks(jacobian.local, stacked)
+    carried = jnp.sum(jnp.einsum("kmn,mrn->krn", jacobian.contributions, eliminated), axis=-1)
+    reduced = jacobian.chain @ carried
+    globals_ = solve_dense(jacobian.corner - reduced[:, :g], right.globals - reduced[:, g])
+    elements = eliminated[:, g] - jnp.sum(eliminated[:, :g] * globals_[None, :, None], axis=1)
+    return ArrowPoint(elements, globals_)

@@ -1,0 +1,31 @@
+"""64-bit floats: the converter of every number that enters a scene, and the check before a solve."""
+
+import jax
+import numpy as np
+
+_HINT = "jaxbearing needs 64-bit floats: its tolerances of 1e-10 mean nothing in 32-bit"
+
+
+def as_float(value):
+    """A float64 leaf: converter of the numeric fields of a scene.
+
+    Python and numpy numbers become 0-d numpy arrays, so that they are traced (a new value never recompiles)
+    and cost no dispatch; 64-bit arrays and tracers pass through; what is not a number (the placeholders of
+    tree transformations) passes through for the type checker or the validator to judge.
+
+    **Raises:** `TypeError` for a float narrower than 64 bits.
+    """
+    dtype = getattr(value, "dtype", None)
+    if dtype is None:
+        return np.asarray(value, dtype=np.float64) if isinstance(value, int | float) else value
+    if np.issubdtype(dtype, np.integer):
+        return value.astype(np.float64)
+    if dtype != np.float64:
+        raise TypeError(f"{_HINT}; got {dtype}")
+    return value
+
+
+def require_x64() -> None:
+    """**Raises:** `RuntimeError` where 64-bit floats were switched off after the import."""
+    if not jax.config.read("jax_enable_x64"):
+        raise RuntimeError(f"{_HINT}; jax_enable_x64 is off: remove what switched it off")

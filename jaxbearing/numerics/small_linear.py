@@ -1,0 +1,50 @@
+"""Linear solves for many small dense systems, component axes first, batch axis last."""
+
+import jax.numpy as jnp
+from jaxtyping import Array, Float
+
+UNROLLED_LIMIT = 4
+"""Largest block eliminated by unrolled scalar arithmetic; above it LAPACK is faster (measured)."""
+
+
+def solve_blocks(
+    matrix: Float[Array, "m m element"], right: Float[Array, "m r element"]
+) -> Float[Array, "m r element"]:
+    """Solve `matrix[:, :, j] x[:, :, j] = right[:, :, j]` for every element j.
+
+    Up to 4 unknowns: Gaussian elimination WITHOUT pivoting, unrolled, every operation one
+    contiguous vector operation (8-75x faster than batched LAPACK on a CPU; an unrolled *pivoted*
+    elimination is slower than either). The order of the unknowns must therefore put the natural
+    stiffnesses on the diagonal; Newton corrects the last digits that missing pivoting costs.
+    Above 4: LAPACK, with pivoting.
+
+    A singular block gives inf or NaN in its own column only and never raises.
+    """
+    m = matrix.shape[0]
+    if m == 0:
+        return right
+    if m > UNROLLED_LIMIT:
+        return jnp.moveaxis(jnp.linalg.solve(jnp.moveaxis(matrix, -1, 0), jnp.moveaxis(right, -1, 0)), 0, -1)
+    rows = [[matrix[i, j] for j in range(m)] for i in range(m)]
+    rhs = [right[i] for i in range(m)]
+    for k in range(m):
+        inverse = 1.0 / rows[k][k]
+        for i in range(k + 1, m):
+            factor = rows[i][k] * inverse
+            for j in range(k + 1, m):
+                rows[i][j] = rows[i][j] - factor * rows[k][j]
+            rhs[i] = rhs[i] - factor[None, :] * rhs[k]
+    solution: list = [None] * m
+    for i in reversed(range(m)):
+        total = rhs[i]
+        for j in range(i + 1, m):
+            total = total - rows[i][j][None, :] * solution[j]
+        solution[i] = total / rows[i][i][None, :]
+    return jnp.stack(solution)
+
+
+def solve_dense(matrix: Float[Array, "g g"], right: Float[Array, " g"]) -> Float[Array, " g"]:
+    """One small dense system with pivoting, by LAPACK: the Schur complement of the globals."""
+    if matrix.shape[0] == 1:
+        return right / matrix[0]
+    return jnp.linalg.solve(matrix, right)

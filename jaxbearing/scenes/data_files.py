@@ -1,0 +1,57 @@
+"""The data files that ship inside the package: built-in scenes and oils. Names are file names without ".toml"."""
+
+import functools
+from importlib import resources
+from importlib.resources.abc import Traversable
+
+
+@functools.cache
+def builtin_names() -> tuple[str, ...]:
+    """Names of the built-in scenes."""
+    return _names(_scenes())
+
+
+def builtin_text(name: str) -> str:
+    """Text of a built-in scene, as `jaxbearing scenes --copy` writes it.
+
+    **Raises:** `KeyError` for a name that is not in `builtin_names()`.
+    """
+    return _text(_scenes(), name, builtin_names())
+
+
+def builtin_summary(name: str) -> str:
+    """First comment line of a built-in scene."""
+    return builtin_text(name).splitlines()[0].lstrip("# ").rstrip()
+
+
+@functools.cache
+def oil_names() -> tuple[str, ...]:
+    """Names of the oils of the catalogue."""
+    return _names(_oils())
+
+
+def oil_text(name: str) -> str:
+    """Text of the data file of an oil.
+
+    **Raises:** `KeyError` for a name that is not in `oil_names()`.
+    """
+    return _text(_oils(), name, oil_names())
+
+
+def _scenes() -> Traversable:
+    return resources.files("jaxbearing.scenes") / "builtin"
+
+
+def _oils() -> Traversable:
+    return resources.files("jaxbearing.lubricants") / "oils"
+
+
+def _names(folder: Traversable) -> tuple[str, ...]:
+    files = (entry.name for entry in folder.iterdir())
+    return tuple(sorted(name.removesuffix(".toml") for name in files if name.endswith(".toml")))
+
+
+def _text(folder: Traversable, name: str, names: tuple[str, ...]) -> str:
+    if name not in names:
+        raise KeyError(name)
+    return (folder / f"{name}.toml").read_text(encoding="utf-8")

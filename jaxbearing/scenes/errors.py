@@ -1,0 +1,127 @@
+"""The one error of the edge: what is wrong in which file and field, what was found, what is expected, what is near."""
+
+import difflib
+import re
+from collections.abc import Iterable, Mapping
+from typing import Any
+
+from pydantic import BaseModel, ValidationError
+
+from .fields import names_at, path_of
+from .units import describe
+
+_CLASS_MESSAGE = re.compile(r"([a-z_]+(?:\.[a-z_]+)*)(?::| must)")
+
+
+class SceneError(ValueError):
+    """A scene that cannot be read or does not make sense; the message is one paragraph for a person.
+
+    **Arguments:**
+    - `file`: the file, or the built-in scene.
+    - `path`: dotted path of the field; empty where the file as a whole is meant.
+    - `found`, `expected`: in words.
+    - `suggestion`: nearest valid name.
+    - `others`: how many other problems the file has.
+    """
+
+    def __init__(
+        self, file: str, path: str, found: str, expected: str, suggestion: str = "", others: int = 0, reason: str = ""
+    ):
+        self.file, self.path, self.found, self.expected = file, path, found, expected
+        self.suggestion, self.others, self.reason = suggestion, others, reason
+        super().__init__(self._message())
+
+    def _message(self) -> str:
+        place = f"{self.file}: {self.path}" if self.path else self.file
+        text = f"{place}: found {self.found}; expected {self.expected}"
+        text += f" ({self.reason})." if self.reason else "."
+        if self.suggestion:
+            text += f" Did you mean '{self.suggestion}'?"
+        if self.others:
+            text += f" ({self.others} more problem{'s' if self.others > 1 else ''} in this scene.)"
+        return " ".join(text.split())
+
+
+def nearest(name: str, valid: Iterable[str]) -> str:
+    """The valid name that is spelt most alike, or an empty text."""
+    by_lower = {candidate.lower(): candidate for candidate in valid}
+    close = difflib.get_close_matches(name.lower(), by_lower, n=1, cutoff=0.6)
+    return by_lower[close[0]] if close else ""
+
+
+def from_validation(error: ValidationError, model: type[BaseModel], file: str) -> SceneError:
+    """The most telling problem of a validation.
+
+    An unknown name goes first, since it often is the misspelt name of a field that is then missing; a missing field
+    goes last.
+    """
+    details = sorted(error.errors(include_url=False), key=_rank)
+    first = details[0]
+    path, words = _in_words(first, model)
+    return SceneError(file, path, others=len(details) - 1, **words)
+
+
+def from_class(error: ValueError, raw: Mapping[str, Any], file: str) -> SceneError:
+    """The refusal by a class of the library ("table.field: ..." or "table.field must be ...")."""
+    text = str(error)
+    match = _CLASS_MESSAGE.match(text)
+    if match is None:
+        return SceneError(file, "", "values that do not fit together", "a scene that can be built", reason=text)
+    path = match[1]
+    return SceneError(file, path, describe_at(raw, path), "values that fit together", reason=text)
+
+
+def describe_at(raw: Mapping[str, Any], path: str) -> str:
+    """What the scene has at a dotted path, in words."""
+    value: Any = raw
+    for name in path.split("."):
+        if not isinstance(value, Mapping) or name not in value:
+            return "nothing"
+        value = value[name]
+    return describe(value)
+
+
+def _rank(detail: Any) -> int:
+    return {"extra_forbidden": 0, "missing": 2}.get(detail["type"], 1)
+
+
+def _in_words(detail: Any, model: type[BaseModel]) -> tuple[str, dict[str, str]]:
+    kind, location, context = detail["type"], detail["loc"], detail.get("ctx", {})
+    path = path_of(location)
+    if kind == "extra_forbidden":
+        return path, _unknown_name(location, model)
+    if kind == "missing":
+        return path, {"found": "nothing", "expected": f"a value for '{location[-1]}', which is required"}
+    if kind == "scene":
+        # a check of several fields names the one to look at
+        path = ".".join(part for part in (path, context.get("field", "")) if part)
+        return path, {name: context.get(name, "") for name in ("found", "expected", "suggestion")}
+    if kind == "literal_error":
+        valid = re.findall(r"'([^']*)'", context["expected"])
+        given = detail["input"]
+        near = nearest(given, valid) if isinstance(given, str) else ""
+        return path, {"found": describe(given), "expected": one_of(valid), "suggestion": near}
+    if kind in ("model_type", "model_attributes_type", "dict_type"):
+        return path, {"found": describe(detail["input"]), "expected": "a table"}
+    if kind == "string_type":
+        return path, {"found": describe(detail["input"]), "expected": "a text in quotes"}
+    return path, {"found": describe(detail["input"]), "expected": detail["msg"]}
+
+
+def _unknown_name(location: tuple[int | str, ...], model: type[BaseModel]) -> dict[str, str]:
+    name, parents = str(location[-1]), location[:-1]
+    owner = names_at(model, parents)
+    later = owner.not_yet.get(name)
+    if later:
+        return {"found": f"'{name}', which is not available in this version", "expected": later}
+    return {
+        "found": f"the unknown name '{name}'",
+        "expected": one_of(owner.names),
+        "suggestion": nearest(name, owner.names),
+    }
+
+
+def one_of(names: Iterable[str]) -> str:
+    """A list of valid names in words."""
+    quoted = [f"'{name}'" for name in names]
+    return quoted[0] if len(quoted) == 1 else "one of " + ", ".join(quoted)

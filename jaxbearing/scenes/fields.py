@@ -1,0 +1,57 @@
+"""Which names a scene file may use where: read from the schema's classes, for messages and `--set`."""
+
+import typing
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+from pydantic import BaseModel
+
+
+@dataclass(frozen=True)
+class Names:
+    """Valid names of one table, and names that later versions will know (with what to expect instead)."""
+
+    names: tuple[str, ...] = ()
+    not_yet: Mapping[str, str] = field(default_factory=dict)
+
+
+def is_tag(part: int | str) -> bool:
+    """Alternatives of a field (a name or a table, one of several laws) are tagged "<...>" in pydantic's locations."""
+    return isinstance(part, str) and part.startswith("<")
+
+
+def path_of(location: Sequence[int | str]) -> str:
+    """Dotted path as a person writes it."""
+    return ".".join(str(part) for part in location if not is_tag(part))
+
+
+def names_at(model: type[BaseModel], location: Sequence[int | str]) -> Names:
+    """Valid names of the table at a location of `model`."""
+    models = [model]
+    for part in location:
+        if is_tag(part):
+            models = [candidate for candidate in models if getattr(candidate, "tag", None) == part]
+        else:
+            models = [inner for outer in models for inner in _models_of_field(outer, str(part))]
+    names = dict.fromkeys(name for candidate in models for name in candidate.model_fields)
+    not_yet: dict[str, str] = {}
+    for candidate in models:
+        not_yet.update(getattr(candidate, "not_yet", {}))
+    return Names(tuple(names), not_yet)
+
+
+def is_known(model: type[BaseModel], path: Sequence[str]) -> bool:
+    """Whether the schema has a field at this path."""
+    return path[-1] in names_at(model, path[:-1]).names
+
+
+def _models_of_field(model: type[BaseModel], name: str) -> list[type[BaseModel]]:
+    info = model.model_fields.get(name)
+    return [] if info is None else _models_in(info.annotation)
+
+
+def _models_in(annotation: Any) -> list[type[BaseModel]]:
+    if isinstance(annotation, type) and issubclass(annotation, BaseModel):
+        return [annotation]
+    return [model for inner in typing.get_args(annotation) for model in _models_in(inner)]

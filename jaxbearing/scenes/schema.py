@@ -1,0 +1,160 @@
+"""The scene file of a cylindrical roller bearing. Names are the attribute names of the classes that it builds."""
+
+from collections.abc import Mapping
+from typing import Annotated, Any, ClassVar, Literal, Self
+
+from pydantic import BeforeValidator, Discriminator, Tag, model_validator
+
+from ..materials import CATALOGUE
+from . import units
+from .errors import nearest, one_of
+from .oil_schema import OilTable
+from .table import Table, refusal_at
+
+AVAILABLE_KINDS = ("cylindrical_roller_bearing",)
+KINDS = (*AVAILABLE_KINDS, "ball_bearing", "tapered_roller_bearing", "two_disk", "line_contact")
+
+
+class GeometryTable(Table):
+    n_rollers: units.Count
+    pitch_diameter: units.PositiveLength
+    roller_diameter: units.PositiveLength
+    roller_length: units.PositiveLength
+    diametral_clearance: units.Length
+    contact_length: units.PositiveLength | None = None
+
+    @model_validator(mode="after")
+    def _consistent(self) -> Self:
+        if self.contact_length is not None and self.contact_length > self.roller_length:
+            limit = f"at most the roller length, {_mm(self.roller_length)}"
+            raise refusal_at("contact_length", limit, _mm(self.contact_length))
+        return self
+
+
+class MaterialTable(Table):
+    tag: ClassVar[str] = "<table>"
+    youngs_modulus: units.PositivePressure
+    poisson_ratio: units.PoissonRatio
+    density: units.PositiveDensity
+
+
+def _material_name(value: Any) -> str:
+    # --set materials.rings=52100 arrives as a number
+    name = str(value) if isinstance(value, int) and not isinstance(value, bool) else value
+    if not isinstance(name, str) or name not in CATALOGUE:
+        near = nearest(name, CATALOGUE) if isinstance(name, str) else ""
+        expected = f"a material of the catalogue ({one_of(CATALOGUE)}) or a table with {_names(MaterialTable)}"
+        raise units.refusal(expected, units.describe(value), near)
+    return name
+
+
+def _names(table: type[Table]) -> str:
+    return ", ".join(table.model_fields)
+
+
+MaterialField = Annotated[
+    Annotated[str, BeforeValidator(_material_name), Tag("<name>")] | Annotated[MaterialTable, Tag("<table>")],
+    Discriminator(lambda value: "<table>" if isinstance(value, dict) else "<name>"),
+]
+"""A name of the catalogue, or a table."""
+
+
+class MaterialsTable(Table):
+    rings: MaterialField
+    rollers: MaterialField
+
+
+class ContactTable(Table):
+    """`film = "dowson_higginson"` is that film joined to Martin's rigid one (see `MartinBlend`): at no load it must
+    grow without bound. `ree_eyring` is the flow law inside `maxwell_eyring` and means the same here."""
+
+    film: Literal["moes", "dowson_higginson"]
+    thermal: Literal["gupta"] | None = None
+    traction: Literal["maxwell_eyring", "ree_eyring"] | None = None
+    entrainment_offset: units.NonNegativeSurfaceSpeed = 0.0
+
+
+class CageTable(Table):
+    guidance: Literal["inner_ring", "outer_ring"]
+    guiding_clearance: units.PositiveLength
+    pocket_clearance: units.PositiveLength
+    land_width: units.PositiveLength
+    inner_diameter: units.PositiveLength | None = None
+    outer_diameter: units.PositiveLength | None = None
+    pocket_axial_clearance: units.PositiveLength | None = None
+    n_lands: units.Count = 2
+    turbulence: Literal["laminar", "blend", "pure"] = "blend"
+
+    @model_validator(mode="after")
+    def _consistent(self) -> Self:
+        bore, outside = self.inner_diameter, self.outer_diameter
+        if bore is not None and outside is not None and bore >= outside:
+            raise refusal_at("inner_diameter", f"less than the outer diameter, {_mm(outside)}", _mm(bore))
+        return self
+
+
+class FlangeTable(Table):
+    ring: Literal["inner", "outer", "both"]
+    axial_clearance: units.PositiveLength
+    angle: units.FlangeAngle = 0.0
+    height: units.PositiveLength | None = None
+
+
+class DragTable(Table):
+    coefficient: units.NonNegativeNumber
+    through_flow_fraction: units.Fraction = 1.0
+
+
+class OperationTable(Table):
+    not_yet: ClassVar[Mapping[str, str]] = {
+        "axial_load": "a radial load only",
+        "moment": "a radial load only (the tilt is held at 0)",
+        "misalignment": "aligned rings",
+    }
+    inner_speed: units.Speed
+    radial_load: units.PositiveForce
+    outer_speed: units.Speed = 0.0
+    oil_temperature: units.Temperature | None = None
+    oil_flow: units.NonNegativeFlow | None = None
+
+
+class CylindricalRollerTable(Table):
+    """The whole file. A table that is left out is not modelled."""
+
+    not_yet: ClassVar[Mapping[str, str]] = {
+        "rating": "a scene without a life rating",
+        "kinematics": "a scene without [kinematics], which belongs to ball bearings",
+    }
+    kind: Literal["cylindrical_roller_bearing"]
+    geometry: GeometryTable
+    materials: MaterialsTable
+    operation: OperationTable
+    oil: OilTable | None = None
+    contact: ContactTable | None = None
+    cage: CageTable | None = None
+    flange: FlangeTable | None = None
+    drag: DragTable | None = None
+
+    @model_validator(mode="after")
+    def _complete(self) -> Self:
+        """What one table needs of another. The classes check the rest when they are built."""
+        if self.drag is not None and self.operation.oil_flow is None:
+            raise refusal_at("operation.oil_flow", "a volume flow, which [drag] needs, e.g. '150 l/h'", "nothing")
+        if self.contact is None:
+            return self
+        if self.operation.oil_temperature is None:
+            expected = "a temperature, which [contact] needs, e.g. '100 degC'"
+            raise refusal_at("operation.oil_temperature", expected, "nothing")
+        if self.oil is None:
+            raise refusal_at("oil", "an oil, which [contact] needs: a table [oil] with a 'name'", "nothing")
+        needs = {"conductivity": f"contact.thermal = '{self.contact.thermal}'" if self.contact.thermal else ""}
+        traction = f"contact.traction = '{self.contact.traction}'" if self.contact.traction else ""
+        needs |= {"rheology": traction, "density": traction}
+        for law, user in needs.items():
+            if user and getattr(self.oil, law) is None:
+                raise refusal_at(f"oil.{law}", f"the law of {law}, which {user} needs", "nothing")
+        return self
+
+
+def _mm(length: float) -> str:
+    return f"{1e3 * length:g} mm"

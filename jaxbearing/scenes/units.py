@@ -1,0 +1,218 @@
+"""Numbers with units as a person writes them ("30 um", "60degC", "10.4 1/GPa"), turned into SI floats for pydantic.
+
+All knowledge of units is pint's. Number and unit are parted here first, because pint's own reader of quantities
+takes "1,5 mm" for 15 mm and "1 000 m" for 0 m.
+"""
+
+import functools
+import math
+import re
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Annotated, Any
+
+from pydantic import BeforeValidator
+from pydantic_core import PydanticCustomError
+
+_NUMBER_AND_UNIT = re.compile(r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*(.*?)\s*", re.DOTALL)
+_NON_FINITE = re.compile(r"\s*[+-]?(nan|inf|infinity)\b", re.IGNORECASE)
+_LONGEST = 60
+
+
+@dataclass(frozen=True)
+class Dimension:
+    """What a dimensional field holds: its name in messages, the SI unit, an example, and how units are compared."""
+
+    name: str
+    si: str
+    example: str
+    offset_allowed: bool = False
+
+    def expected(self, bound: str = "") -> str:
+        """What a field of this kind wants, `bound` being "", "> 0" or ">= 0" in SI."""
+        if bound and self.offset_allowed:
+            bound = "above absolute zero"
+        return f"{self.name}{bound and ' '}{bound} with a unit, e.g. '{self.example}'"
+
+
+LENGTH = Dimension("a length", "m", "12 mm")
+ANGLE = Dimension("an angle", "rad", "0.375 deg")
+SPEED = Dimension("a rotational speed", "rad/s", "10500 rpm")
+SURFACE_SPEED = Dimension("a speed", "m/s", "1 mm/s")
+FORCE = Dimension("a force", "N", "25 kN")
+PRESSURE = Dimension("a pressure or modulus", "Pa", "203 GPa")
+INVERSE_PRESSURE = Dimension("a reciprocal pressure", "1/Pa", "10.4 1/GPa")
+TEMPERATURE = Dimension("a temperature", "K", "100 degC", offset_allowed=True)
+TEMPERATURE_DIFFERENCE = Dimension("a temperature difference", "K", "29.406 K")
+FLOW = Dimension("a volume flow", "m^3/s", "150 l/h")
+DENSITY = Dimension("a density", "kg/m^3", "7850 kg/m^3")
+DENSITY_SLOPE = Dimension("a change of density with temperature", "kg/m^3/K", "-0.752 kg/m^3/K")
+VISCOSITY = Dimension("a dynamic viscosity", "Pa*s", "4.7 mPa*s")
+CONDUCTIVITY = Dimension("a thermal conductivity", "W/(m*K)", "0.147 W/(m*K)")
+CONDUCTIVITY_SLOPE = Dimension("a change of conductivity with temperature", "W/(m*K^2)", "-2.2e-4 W/(m*K^2)")
+KELVIN_PER_PRESSURE = Dimension("a temperature over a pressure", "K/Pa", "-2348.8 K/GPa")
+KELVIN2_PER_PRESSURE = Dimension("a squared temperature over a pressure", "K^2/Pa", "403871.5 K^2/GPa")
+
+
+@functools.cache
+def registry() -> Any:
+    """The unit registry, made at the first use (0.2 s that `--help` must not pay)."""
+    import pint
+
+    return pint.UnitRegistry()
+
+
+def describe(value: Any) -> str:
+    """A value of a scene file in words, for "found ..."."""
+    if isinstance(value, bool):
+        return f"the boolean {str(value).lower()}"
+    if isinstance(value, int | float):
+        return f"the number {value!r}" if math.isfinite(value) else f"{value!r}, which is not finite"
+    if isinstance(value, str):
+        shown = value if len(value) <= _LONGEST else value[:_LONGEST] + "..."
+        return f"the text {shown!r}"
+    if isinstance(value, dict):
+        return "a table"
+    if isinstance(value, list):
+        return "an array"
+    return f"{value!s} ({type(value).__name__})"
+
+
+def refusal(expected: str, found: str, suggestion: str = "") -> PydanticCustomError:
+    """The error of a field, in the parts that `SceneError` shows. The texts may hold braces: they travel as context."""
+    return PydanticCustomError(
+        "scene", "found {found}, expected {expected}", {"found": found, "expected": expected, "suggestion": suggestion}
+    )
+
+
+def parse(value: Any, dimension: Dimension) -> float:
+    """SI value of a text with a unit.
+
+    **Raises:** `PydanticCustomError` that says what was found and what is expected, for a bare number, a boolean,
+    an unknown unit, a unit of another dimension, or a number that is not finite.
+    """
+    if isinstance(value, int | float) and not isinstance(value, bool):
+        bare = f"the bare number {value!r}" if math.isfinite(value) else describe(value)
+        raise refusal(dimension.expected(), bare)
+    if not isinstance(value, str):
+        raise refusal(dimension.expected(), describe(value))
+    if _NON_FINITE.match(value):
+        raise refusal(dimension.expected(), f"{describe(value)}, which is not finite")
+    parted = _NUMBER_AND_UNIT.fullmatch(value)
+    if parted is None:
+        raise refusal(dimension.expected(), f"{describe(value)}, which does not begin with a number")
+    number, unit_text = float(parted[1]), parted[2]
+    if not unit_text:
+        raise refusal(dimension.expected(), f"{describe(value)}, a number without a unit")
+    result = _in_si(number, _unit(unit_text, value, dimension), value, dimension)
+    if not math.isfinite(result):
+        raise refusal(dimension.expected(), f"{describe(value)}, which is not finite")
+    return result
+
+
+def _unit(text: str, value: str, dimension: Dimension) -> Any:
+    try:
+        return registry().Unit(text)
+    # pint's reader of units lets many exception types through (tokenizer, arithmetic, attribute errors)
+    except Exception:
+        raise refusal(dimension.expected(), f"{describe(value)}, where {text!r} is not a unit") from None
+
+
+def _in_si(number: float, unit: Any, value: str, dimension: Dimension) -> float:
+    target = registry().Unit(dimension.si)
+    # Root units and not dimensions are compared: an angle has no dimension for pint, which would take "100 Hz" or
+    # "10500 1/min" as a speed in rad/s, a factor 2 pi from what was meant.
+    if _root(unit) != _root(target):
+        hint = "; a rotational speed counts turns: 'rpm', 'rad/s'" if _is_frequency(unit, dimension) else ""
+        raise refusal(dimension.expected() + hint, f"{describe(value)}, whose unit is of another kind")
+    quantity = registry().Quantity(number, unit)
+    if not dimension.offset_allowed and not _is_proportional(unit):
+        raise refusal(dimension.expected(), f"{describe(value)}, a temperature on a scale with its own zero")
+    return float(quantity.to(target).magnitude)
+
+
+def _root(unit: Any) -> Any:
+    return registry().Quantity(1.0, unit).to_root_units().units
+
+
+def _is_frequency(unit: Any, dimension: Dimension) -> bool:
+    return dimension is SPEED and _root(unit) == registry().Unit("1/s")
+
+
+def _is_proportional(unit: Any) -> bool:
+    zero = registry().Quantity(0.0, unit).to_root_units().magnitude
+    return zero == 0.0
+
+
+def _within(value: float, bound: str) -> bool:
+    return {"": True, "> 0": value > 0.0, ">= 0": value >= 0.0}[bound]
+
+
+def _quantity(dimension: Dimension, bound: str = "") -> BeforeValidator:
+    def read(given: Any) -> float:
+        value = parse(given, dimension)
+        if not _within(value, bound):
+            raise refusal(dimension.expected(bound), describe(given))
+        return value
+
+    return BeforeValidator(read)
+
+
+def _number(given: Any, bound: str = "") -> float:
+    good = isinstance(given, int | float) and not isinstance(given, bool) and math.isfinite(given)
+    if not good or not _within(given, bound):
+        raise refusal(f"a number{bound and ' '}{bound} without a unit and without quotes", describe(given))
+    return float(given)
+
+
+def count(value: Any) -> int:
+    """A whole number >= 1."""
+    if isinstance(value, bool) or not isinstance(value, int) or value < 1:
+        raise refusal("a whole number >= 1, without quotes", describe(value))
+    return value
+
+
+def _flange_angle(value: Any) -> float:
+    angle = parse(value, ANGLE)
+    if not 0.0 <= angle < math.pi / 2:
+        raise refusal("an angle from 0 deg to below 90 deg, e.g. '0.375 deg'", describe(value))
+    return angle
+
+
+def _between(low: float, high: float) -> Callable[[Any], float]:
+    def read(given: Any) -> float:
+        value = _number(given)
+        if not low <= value <= high:
+            raise refusal(f"a number from {low:g} to {high:g}", describe(given))
+        return value
+
+    return read
+
+
+Count = Annotated[int, BeforeValidator(count)]
+Number = Annotated[float, BeforeValidator(_number)]
+PositiveNumber = Annotated[float, BeforeValidator(lambda value: _number(value, "> 0"))]
+NonNegativeNumber = Annotated[float, BeforeValidator(lambda value: _number(value, ">= 0"))]
+PoissonRatio = Annotated[float, BeforeValidator(_between(0.0, 0.5))]
+Fraction = Annotated[float, BeforeValidator(_between(0.0, 1.0))]
+
+Length = Annotated[float, _quantity(LENGTH)]
+PositiveLength = Annotated[float, _quantity(LENGTH, "> 0")]
+FlangeAngle = Annotated[float, BeforeValidator(_flange_angle)]
+Speed = Annotated[float, _quantity(SPEED)]
+NonNegativeSurfaceSpeed = Annotated[float, _quantity(SURFACE_SPEED, ">= 0")]
+PositiveForce = Annotated[float, _quantity(FORCE, "> 0")]
+PositivePressure = Annotated[float, _quantity(PRESSURE, "> 0")]
+InversePressure = Annotated[float, _quantity(INVERSE_PRESSURE)]
+PositiveInversePressure = Annotated[float, _quantity(INVERSE_PRESSURE, "> 0")]
+Temperature = Annotated[float, _quantity(TEMPERATURE, "> 0")]
+TemperatureDifference = Annotated[float, _quantity(TEMPERATURE_DIFFERENCE)]
+PositiveTemperatureDifference = Annotated[float, _quantity(TEMPERATURE_DIFFERENCE, "> 0")]
+NonNegativeFlow = Annotated[float, _quantity(FLOW, ">= 0")]
+PositiveDensity = Annotated[float, _quantity(DENSITY, "> 0")]
+DensitySlope = Annotated[float, _quantity(DENSITY_SLOPE)]
+PositiveViscosity = Annotated[float, _quantity(VISCOSITY, "> 0")]
+PositiveConductivity = Annotated[float, _quantity(CONDUCTIVITY, "> 0")]
+ConductivitySlope = Annotated[float, _quantity(CONDUCTIVITY_SLOPE)]
+KelvinPerPressure = Annotated[float, _quantity(KELVIN_PER_PRESSURE)]
+Kelvin2PerPressure = Annotated[float, _quantity(KELVIN2_PER_PRESSURE)]

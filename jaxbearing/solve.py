@@ -1,0 +1,71 @@
+"""The steady verb: a scene in, a solution out."""
+
+from collections.abc import Callable
+from typing import Any
+
+import equinox as eqx
+import jax
+
+from .bearings.cylindrical_roller import CylindricalRollerBearing
+from .bearings.parts import AbstractScene
+from .bearings.roller_steady import solve_steady
+from .bearings.solution import Solution
+from .numerics.newton import NewtonOptions
+from .numerics.precision import as_float, require_x64
+
+_STEADY: dict[type, Callable[..., Solution]] = {CylindricalRollerBearing: solve_steady}
+
+
+def _steady(scene: AbstractScene) -> Callable[..., Solution]:
+    try:
+        return _STEADY[type(scene)]
+    except KeyError:
+        known = ", ".join(kind.__name__ for kind in _STEADY)
+        raise TypeError(f"cannot solve a {type(scene).__name__}; solve takes: {known}") from None
+
+
+@eqx.filter_jit
+def _solve(scene: AbstractScene, options: NewtonOptions) -> Solution:
+    return _steady(scene)(scene, options)
+
+
+def solve(scene: AbstractScene, *, throw: bool = True, options: NewtonOptions | None = None) -> Solution:
+    """Steady state of a scene.
+
+    Compiled once per structure (kind, parts, number of rolling elements); new numbers never recompile. May be called
+    inside `jax.jit`, `jax.vmap`, `jax.grad` and `jax.lax.map`; derivatives, in both modes and with respect to every
+    number of the scene, go through the solution by the implicit function theorem. First derivatives only.
+
+    **Arguments:**
+    - `scene`: from `load_scene`, or built from parts.
+    - `throw`: raise where the solve fails. Inside `jit` or `vmap` nothing can be raised for one lane alone: look at
+      `solution.status`; the results of a failed lane are NaN and those of the others are not touched.
+    - `options`: tolerances of the Newton iteration.
+
+    **Raises:** `SolveError` with status, residual and worst equation; `TypeError` for 32-bit numbers or an unknown
+    kind of scene; `RuntimeError` where 64-bit floats are switched off.
+    """
+    require_x64()
+    _steady(scene)
+    solution = _solve(jax.tree.map(as_float, scene), NewtonOptions() if options is None else options)
+    if throw:
+        solution.raise_if_failed()
+    return solution
+
+
+def jit_solver(scene: AbstractScene, *, options: NewtonOptions | None = None) -> Callable[..., Solution]:
+    """A compiled solver for scenes of this structure.
+
+    Returns a function of `(scene=..., **operation)`: with no scene it uses the one given here, keywords change its
+    operating point, `fast(inner_speed=1100.0)`. It never raises for a failed solve (look at `status`) and never
+    recompiles when only numbers change.
+    """
+    chosen = NewtonOptions() if options is None else options
+    require_x64()
+    _steady(scene)
+
+    def fast(other: AbstractScene | None = None, **operation: Any) -> Solution:
+        base = scene if other is None else other
+        return _solve(jax.tree.map(as_float, base.at_operation(**operation)), chosen)
+
+    return fast

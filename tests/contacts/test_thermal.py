@@ -1,0 +1,187 @@
+"""Thermal film reduction and the inlet temperature rise."""
+
+import tomllib
+from pathlib import Path
+
+import equinox as eqx
+import jax
+import jax.numpy as jnp
+import numpy as np
+import pytest
+from reference_oils import mobil_jet_ii, nye_186a
+
+from jaxbearing.contacts import Gupta, LineContact, Moes, NoThermalReduction, inlet_temperature_rise
+from jaxbearing.lubricants import InletOil, IntegratedPressureViscosity
+
+PUBLISHED = tomllib.loads((Path(__file__).parents[1] / "published" / "line_contact.toml").read_text())
+CONTACT = LineContact(0.006, 0.012, 2.25275e11)
+MOES = Moes()
+
+
+def load_at(hertz_pressure):
+    return 2 * np.pi * 0.006 * 0.012 * hertz_pressure**2 / 2.25275e11
+
+
+def oil_with_loading(loading):
+    """At u = 2 m/s: L = mu beta u^2/k = loading."""
+    return InletOil(300.0, 0.1, 2e-8, -loading * 0.14 / 0.1 / 4.0, conductivity=0.14)
+
+
+def film_at(temperature, args):
+    lubricant, contact, load, speed = args
+    viscosity = lubricant.viscosity.viscosity(0.0, temperature)
+    return MOES.log_thickness(contact, load, speed, viscosity, lubricant.pressure_viscosity.coefficient(temperature))
+
+
+def test_gupta_check_values():
+    row = PUBLISHED["gupta"][0]
+    for p0, loading, slide, value in zip(
+        row["hertz_pressure"], row["loading"], row["slide_ratio"], row["value"], strict=True
+    ):
+        got = Gupta().log_factor(CONTACT, load_at(p0), 2.0, 2.0 * slide, oil_with_loading(loading))
+        np.testing.assert_allclose(jnp.exp(got), value, rtol=row["rtol"])
+
+
+def test_gupta_groups():
+    oil = mobil_jet_ii().at(373.0)
+    np.testing.assert_allclose(Gupta().thermal_loading(40.0, oil), 1.047939, rtol=1e-6)  # seven digits
+    np.testing.assert_allclose(Gupta().slide_ratio(-40.0, 8.0), 0.2, rtol=1e-14)  # 2|u1-u2|/|u1+u2|
+
+
+def test_gupta_against_the_plain_formula():
+    loading = np.logspace(-3, 1.3, 7)[:, None]
+    slide = np.asarray([0.0, 1e-3, 0.1, 1.0, 2.0])[None, :]
+    plain = (1 - 13.2 * 1e9 / 2.25275e11 * loading**0.42) / (1 + 0.213 * (1 + 2.23 * slide**0.83) * loading**0.64)
+    got = Gupta().log_factor(CONTACT, load_at(1e9), 2.0, 2.0 * slide, oil_with_loading(jnp.asarray(loading)))
+    np.testing.assert_allclose(jnp.exp(got), plain, rtol=1e-6)
+
+
+def test_gupta_tends_to_one():
+    oil = mobil_jet_ii().at(373.0)
+    # at 1 mm/s L is 6e-10: 13.2 p0/E' L^0.42 is below 1e-5
+    np.testing.assert_allclose(Gupta().log_factor(CONTACT, load_at(1e9), 1e-3, 0.0, oil), 0.0, atol=1e-5)
+    np.testing.assert_allclose(Gupta().log_factor(CONTACT, load_at(1e9), 0.0, 5.0, oil), 0.0, atol=1e-15)
+
+
+def test_gupta_hard_cases_value_and_gradient():
+    law, lubricant = Gupta(), mobil_jet_ii()
+    load = jnp.asarray([0.0, 1e-3, 1e9])[:, None, None]
+    speed = jnp.asarray([0.0, 1e-9, -1.0, 50.0, 1e4])[:, None]
+    sliding = jnp.asarray([0.0, 1e-12, -5.0, 1e4])
+    inputs = jnp.broadcast_arrays(load, speed, sliding)
+    function = jax.jit(lambda load, u, du, t: law.log_factor(CONTACT, load, u, du, lubricant.at(t)))
+    derivative = jax.jit(jax.grad(lambda *a: jnp.sum(function(*a)), argnums=(0, 1, 2, 3)))
+    for temperature in (243.0, 373.0, 473.0):
+        value = function(*inputs, temperature)
+        assert value.shape == (3, 5, 4)
+        assert jnp.all(jnp.isfinite(value))
+        assert jnp.all(value <= 1e-15)
+        gradient = derivative(*inputs, temperature)
+        assert all(jnp.all(jnp.isfinite(g)) for g in gradient)
+
+
+def test_gupta_gradients():
+    law, oil = Gupta(), mobil_jet_ii().at(373.0)
+    state = (2000.0, 30.0, 2.0)
+    function = jax.jit(lambda *inputs: law.log_factor(CONTACT, *inputs, oil))
+    gradient = jax.grad(function, argnums=(0, 1, 2))(*state)
+    for i, value in enumerate(state):
+        step = 1e-4 * value
+        up, down = ((*state[:i], value + sign * step, *state[i + 1 :]) for sign in (1, -1))
+        central = (function(*up) - function(*down)) / (2 * step)
+        np.testing.assert_allclose(gradient[i], central, rtol=1e-7)
+
+
+def test_gupta_asks_for_the_conductivity():
+    with pytest.raises(ValueError, match="conductivity"):
+        Gupta().log_factor(CONTACT, 1000.0, 20.0, 0.0, nye_186a().at(300.0))
+
+
+def test_no_thermal_reduction_is_zero_of_the_right_shape():
+    oil = mobil_jet_ii().at(373.0)
+    got = NoThermalReduction().log_factor(CONTACT, jnp.ones((2, 3)), jnp.ones((2, 1)), 0.0, oil)
+    np.testing.assert_array_equal(got, np.zeros((2, 3)))
+
+
+def nijenbanning_circular(temperature, args):
+    """Nijenbanning, Venner and Moes (1994), circular contact: ln of the central film."""
+    lubricant, load, mean_speed = args
+    radius, modulus = 0.02, 2.25275e11
+    viscosity = lubricant.viscosity.viscosity(0.0, temperature)
+    alpha = lubricant.pressure_viscosity.coefficient(temperature)
+    speed = viscosity * 2 * mean_speed / (modulus * radius)
+    m = load / (modulus * radius**2) * speed**-0.75
+    l_group = alpha * modulus * speed**0.25
+    ri = 145 * (1 + 0.796) ** (-15 / 7) * m**-2
+    rp = 1.29 * (1 + 0.691) ** (-2 / 3) * l_group ** (2 / 3)
+    c = 1.63
+    ei = 3.18 * c ** (-14 / 25) * m ** (-2 / 15)
+    ep = 1.48 * c ** (-7 / 20) * m ** (-1 / 12) * l_group**0.75
+    s = 1.5 * (1 + jnp.exp(-1.2 * ei / ep))
+    h = (ri**1.5 + (ei**-4 + 1.8**-4) ** (-3 / 8)) ** (2 * s / 3) + (rp**-8 + ep**-8) ** (-s / 8)
+    return jnp.log(radius * jnp.sqrt(speed)) + jnp.log(h) / s
+
+
+def test_inlet_temperature_rise_check_row():
+    oil = mobil_jet_ii()
+    oil = eqx.tree_at(lambda o: o.pressure_viscosity, oil, IntegratedPressureViscosity(oil.viscosity))
+    load = np.pi**3 * 0.02**2 * 1.5e9**3 / (6 * (2.25275e11 / 2) ** 2)  # Hertz, sphere on flat
+    args = (oil, load, 40.0)
+    isothermal = jax.jit(nijenbanning_circular)(373.0, args)
+    np.testing.assert_allclose(jnp.exp(isothermal), 6.017851e-7, rtol=1e-6)
+    log_factor = Gupta().log_factor(CONTACT, load_at(1.5e9), 40.0, 0.0, oil.at(373.0))
+    np.testing.assert_allclose(jnp.exp(log_factor), 0.7465165, rtol=1e-6)
+    rise = jax.jit(lambda a: inlet_temperature_rise(nijenbanning_circular, a, 373.0, log_factor))(args)
+    np.testing.assert_allclose(rise.value, 18.28891, rtol=1e-6)  # seven printed digits
+    assert rise.residual < 1e-13
+
+
+ARGS = (mobil_jet_ii(), CONTACT, 2000.0, 30.0)
+
+
+@jax.jit
+def rise_of(log_factor, temperature, load):
+    lubricant, contact, _, speed = ARGS
+    return inlet_temperature_rise(film_at, (lubricant, contact, load, speed), temperature, log_factor)
+
+
+def test_no_reduction_no_rise():
+    rise = rise_of(0.0, 373.0, 2000.0)
+    assert rise.value == 0.0
+    slope = jax.grad(lambda x: rise_of(x, 373.0, 2000.0).value)(0.0)
+    film_slope = jax.grad(film_at)(373.0, ARGS)
+    np.testing.assert_allclose(slope, 1 / film_slope, rtol=1e-12)  # implicit function, exact
+
+
+def test_rise_meets_the_reduced_film():
+    factor = jnp.log(jnp.asarray([1.0, 0.9, 0.5, 0.2]))
+    rise = rise_of(factor, 373.0, 2000.0)
+    got = film_at(373.0 + rise.value, ARGS) - film_at(jnp.asarray(373.0), ARGS)
+    np.testing.assert_allclose(got, factor, atol=1e-13)
+    assert jnp.all(jnp.diff(rise.value) > 0)
+
+
+def test_rise_gradients_both_modes():
+    state = (-0.3, 373.0, 2000.0)
+    function = lambda *inputs: rise_of(*inputs).value
+    gradient = jax.grad(function, argnums=(0, 1, 2))(*state)
+    for i, step in enumerate((1e-4, 1e-2, 1.0)):
+        up, down = ((*state[:i], state[i] + sign * step, *state[i + 1 :]) for sign in (1, -1))
+        central = (function(*up) - function(*down)) / (2 * step)
+        np.testing.assert_allclose(gradient[i], central, rtol=1e-6)
+        tangent = [float(j == i) for j in range(3)]
+        np.testing.assert_allclose(jax.jvp(function, state, tuple(tangent))[1], gradient[i], rtol=1e-10)
+
+
+def test_rise_without_a_root_says_so():
+    rise = inlet_temperature_rise(film_at, ARGS, 373.0, -50.0)
+    np.testing.assert_allclose(rise.value, 500.0, rtol=1e-6)  # by bisection towards the end of the search
+    assert rise.residual > 1.0
+
+
+def test_rise_in_the_cold_and_the_heat():
+    temperature = jnp.asarray([243.0, 300.0, 473.0])
+    function = lambda t: rise_of(-1.0, t, 2000.0)
+    rise = function(temperature)
+    assert jnp.all(rise.residual < 1e-12)
+    assert jnp.all(jnp.isfinite(jax.grad(lambda t: jnp.sum(function(t).value))(temperature)))
