@@ -199,26 +199,20 @@ class LubricatedRollerSystem(AbstractArrowSystem):
         state = self.rollers(unknowns, shared)
         balance = state.load[0] * self.directions
         if self.cage is None:
-            return state.approach_error[None, :], balance
+            return state.approach_error[None, :], balance, state.contact.inner_residual
         local = jnp.stack([state.approach_error, state.moment_error])
-        return local, jnp.concatenate([balance, state.cage_moment[None, :], state.cage_force])
+        contributions = jnp.concatenate([balance, state.cage_moment[None, :], state.cage_force])
+        return local, contributions, state.contact.inner_residual
 
     def closure(self, globals_, totals):
         d = self.directions.shape[0]
         ring = (totals[:d] - self.ring_load) / self.load_scale()
         if self.cage is None:
-            return ring
+            return ring, jnp.zeros(())
         land = self.land(self.orbit(globals_[d]), totals[d + 1], totals[d + 2])
         scale = self.friction_scale() * self.kinematics.pitch_radius * self.azimuth.shape[0]
         # the moment falls with the cage speed: minus it has the positive diagonal of a stiffness
-        return jnp.concatenate([ring, -(totals[d] + land.cage_torque)[None] / scale])
-
-    def inner_residual(self, point: ArrowPoint) -> Float[Array, ""]:
-        state = self.at(point)
-        worst = state.contact.inner_residual
-        if self.cage is None:
-            return worst
-        return jnp.maximum(worst, self.land_at(point, state).residual)
+        return jnp.concatenate([ring, -(totals[d] + land.cage_torque)[None] / scale]), land.residual
 
     # -- physics --------------------------------------------------------------------------------------------------
 
@@ -410,10 +404,8 @@ class DryRollerSystem(AbstractArrowSystem):
 
     def element(self, unknowns, shared):
         shift = jnp.sum(shared * self.directions, axis=0) * LENGTH_UNIT
-        return unknowns, self.loads(shift)[0][0] * self.directions
+        load, inner = self.loads(shift)
+        return unknowns, load[0] * self.directions, inner
 
     def closure(self, globals_, totals):
-        return (totals - self.ring_load) / self.load_scale()
-
-    def inner_residual(self, point: ArrowPoint) -> Float[Array, ""]:
-        return self.loads(self.inward_shift(point))[1]
+        return (totals - self.ring_load) / self.load_scale(), jnp.zeros(())

@@ -19,7 +19,7 @@ from ..gaps import (
     saturated_oil_fraction,
 )
 from ..materials import reduced_modulus
-from ..numerics.arrow import linearize, schur_complement
+from ..numerics.arrow import schur_complement
 from ..numerics.newton import NewtonOptions, NewtonResult, newton_solve
 from .cylindrical_roller import CylindricalRollerBearing, RollerCage
 from .kinematics import RollerKinematics
@@ -220,7 +220,7 @@ class _Results(NamedTuple):
 
 def _ring_stiffness(system: DryRollerSystem | LubricatedRollerSystem, result: NewtonResult, freedoms: int) -> Array:
     """d load / d displacement of the ring's freedoms with everything else in equilibrium, N/m."""
-    schur = schur_complement(linearize(system, result.point)[1])
+    schur = schur_complement(result.jacobian)
     ring = schur[:freedoms, :freedoms]
     if schur.shape[0] > freedoms:
         others = jnp.linalg.solve(schur[freedoms:, freedoms:], schur[freedoms:, :freedoms])

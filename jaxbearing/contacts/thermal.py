@@ -81,7 +81,7 @@ class Gupta(AbstractThermalFactor):
         """L, dimensionless. **Arguments:** `entrainment_speed`, m/s; `oil` at the inlet, with a conductivity."""
         if oil.conductivity is None:
             raise ValueError("Gupta's thermal factor needs the lubricant's conductivity, which is not given.")
-        slope = -oil.viscosity * oil.log_slope
+        slope = -jnp.multiply(oil.viscosity, oil.log_slope)
         return slope / oil.conductivity * jnp.square(entrainment_speed)
 
     def slide_ratio(self, entrainment_speed: Values, sliding_speed: Values) -> Float[Array, "..."]:

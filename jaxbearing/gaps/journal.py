@@ -27,7 +27,9 @@ DIRECTION_FLOOR = 1e-15
 SPEED_TINY = 1e-12
 """Shift of the tangential velocity, in rad/s times the clearance, that gives a direction at rest."""
 SPEED_WIDTH = 1e-6
-"""Width of |speed|, rad/s: relative error 5e-13 at 1 rad/s."""
+"""Width of |relative speed| in the Reynolds number, rad/s: relative error 5e-13 at 1 rad/s."""
+MEAN_SPEED_WIDTH = 1e-12
+"""Width of |mean speed| in the static law, rad/s: a film of about 1e-12 N remains where none turns."""
 
 
 def saturated_eccentricity(eccentricity_ratio: Values) -> Batch:
@@ -177,14 +179,14 @@ class ShortJournal(eqx.Module):
         `force_on_journal` (and without its `OFFSET_SHIFT`).
 
         **Limits:** load 0: eps = 0, phi = pi/2, with finite derivatives; no mean speed: the land
-        contact carries the load (|mean speed| is smoothed by 1e-6 rad/s, so eps is defined at 0).
+        contact carries the load (|mean speed| is smoothed by 1e-12 rad/s, so eps is defined at 0).
         Implicit derivatives in both modes.
 
         **Arguments:** `load`, this land's share, N, >= 0; others as in `force_on_journal`.
         """
         mean_speed = 0.5 * (journal_speed + bush_speed)
         signed = self.film_constant(viscosity, k_z) * self.clearance * (0.5 * jnp.pi)
-        reference = signed * smooth_abs(mean_speed, SPEED_WIDTH)
+        reference = signed * smooth_abs(mean_speed, MEAN_SPEED_WIDTH)
         contact = LAND_STIFFNESS * self.clearance
         args = jnp.broadcast_arrays(load / reference, contact / reference)
         upper = 1.0 + load / contact + jnp.zeros_like(args[0])

@@ -60,11 +60,16 @@ def _moments(exit_position: Values) -> tuple[Batch, Batch, Batch, Batch]:
 
 
 def _squeeze_of_exit(exit_position: Values) -> tuple[Batch, Batch]:
-    """s(T) and ds/dT = -I4 (2 T + s)/D < 0, D = T I4 + sin^4/4 (dN/dT = -2 T I4, dD/dT = I4)."""
+    r"""s(T) and ds/dT < 0.
+
+    The printed quotient is $s = (I_2-(1+T^2)I_4)/D$, $D = TI_4 + \sin^4\beta/4$; with
+    $I_4 = \tfrac34I_2 - \tfrac14\cos\beta\sin^3\beta$ it is $I_2/(4D) - T$, which does not cancel.
+    With dI2/dT = sin^4, dD/dT = I4 the slope is $-I_4(2T+s)/D$.
+    """
     _, sin, i2, i4 = _moments(exit_position)
     denominator = exit_position * i4 + 0.25 * sin**4
-    s = (i2 - i4 / (sin * sin)) / denominator
-    return s, -i4 * (2.0 * exit_position + s) / denominator
+    excess = 0.25 * i2 / denominator  # T + s
+    return excess - exit_position, -i4 * (exit_position + excess) / denominator
 
 
 @jax.custom_jvp
@@ -107,12 +112,13 @@ def martin_factors(s: Values) -> MartinFactors:
     """
     s = jnp.clip(jnp.asarray(s), -SQUEEZE_LIMIT, SQUEEZE_LIMIT)
     t = _exit(s)
-    beta, sin, i2, _ = _moments(t)
+    beta, sin, i2, i4 = _moments(t)
     sin2 = sin * sin
+    excess = 0.25 * i2 / (t * i4 + 0.25 * sin2 * sin2)  # T + s without cancellation at s << 0
     return MartinFactors(
         load=6.0 * (sin2 - s * i2),
         shear=beta,
-        rolling=12.0 * (beta - i2 / sin2 - s * (0.5 * sin2 + t * i2)),
+        rolling=12.0 * (beta - i2 * (1.0 + t * excess) - 0.5 * s * sin2),
     )
 
 

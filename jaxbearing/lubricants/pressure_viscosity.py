@@ -44,7 +44,7 @@ class ConstantPressureViscosity(AbstractPressureViscosity):
     value: Scalar
 
     def coefficient(self, temperature: Values) -> Batch:
-        return self.value * jnp.ones_like(jnp.asarray(temperature, dtype=float))
+        return jnp.full(jnp.shape(temperature), self.value, dtype=float)
 
 
 ConstantPressureViscosity.__init__.__doc__ = """**Arguments:**
@@ -74,7 +74,7 @@ class FittedPressureViscosity(AbstractPressureViscosity):
         t = softplus_floor(temperature, self.pole_temperature + FIT_MARGIN, FIT_WIDTH)
         above_pole = t - self.pole_temperature
         regular = self.offset + (self.a00 + self.a01 / t) / t
-        return regular + (self.a10 + self.a11 / above_pole) / above_pole
+        return jnp.asarray(regular + (self.a10 + self.a11 / above_pole) / above_pole)
 
 
 FittedPressureViscosity.__init__.__doc__ = """**Arguments:**
@@ -94,7 +94,7 @@ class IntegratedPressureViscosity(AbstractPressureViscosity):
     would add a spurious branch. It is a constant to autodiff; the integrand there is <= 2.5e-7 on -20 to 164 C.
 
     **Validity:** relative error <= 2e-8 on -20 to 150 C; finite at every temperature.
-    **Reference:** source eq. (77); Blok (1963) inverse isoviscous asymptotic pressure.
+    **Reference:** source eq. (77); Blok's inverse isoviscous asymptotic pressure (1963).
     """
 
     viscosity: ModifiedWLF

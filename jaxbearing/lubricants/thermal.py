@@ -1,6 +1,7 @@
 """Density and thermal conductivity of a lubricant at ambient pressure."""
 
 import equinox as eqx
+import jax.numpy as jnp
 
 from .._types import Batch, Scalar, Values
 from ..numerics.safe import softplus_floor
@@ -24,7 +25,7 @@ class LinearDensity(eqx.Module):
 
     def density(self, temperature: Values) -> Batch:
         """Density, kg/m^3. **Arguments:** `temperature`, K."""
-        return self.value + self.slope * (temperature - self.reference_temperature)
+        return jnp.asarray(self.value + self.slope * jnp.subtract(temperature, self.reference_temperature))
 
 
 LinearDensity.__init__.__doc__ = """**Arguments:**
@@ -48,7 +49,7 @@ class LinearConductivity(eqx.Module):
 
     def conductivity(self, temperature: Values) -> Batch:
         """Thermal conductivity, W/(m K). **Arguments:** `temperature`, K."""
-        plain = self.value + self.slope * (temperature - self.reference_temperature)
+        plain = self.value + self.slope * jnp.subtract(temperature, self.reference_temperature)
         return softplus_floor(plain, CONDUCTIVITY_FLOOR, CONDUCTIVITY_WIDTH)
 
 

@@ -108,7 +108,7 @@ class ModifiedWLF(AbstractViscosity):
         """Glass temperature, K, and expansion factor F, as printed."""
         glass = self.glass_temperature + self.glass_shift * jnp.log1p(self.glass_shift_rate * pressure)
         expansion = 1.0 - self.expansion_factor * jnp.log1p(self.expansion_rate * pressure)
-        return glass, expansion
+        return jnp.asarray(glass), jnp.asarray(expansion)
 
 
 ModifiedWLF.__init__.__doc__ = """**Arguments:**

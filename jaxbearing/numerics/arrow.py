@@ -41,16 +41,19 @@ class AbstractArrowSystem(eqx.Module):
     @abc.abstractmethod
     def element(
         self, unknowns: Float[Array, "m element"], shared: Float[Array, "g element"]
-    ) -> tuple[Float[Array, "m element"], Float[Array, "k element"]]:
-        """Local residuals and contributions to the totals; column j depends on column j only.
+    ) -> tuple[Float[Array, "m element"], Float[Array, "k element"], Float[Array, ""]]:
+        """Local residuals, contributions to the totals, and the largest residual of nested solves (0: none).
 
-        `shared` holds the globals, copied along the element axis: that copy is what lets one forward
-        pass yield every block of the arrow.
+        Column j depends on column j only. `shared` holds the globals, copied along the element axis: that copy is
+        what lets one forward pass yield every block of the arrow.
         """
 
     @abc.abstractmethod
-    def closure(self, globals_: Float[Array, " g"], totals: Float[Array, " k"]) -> Float[Array, " g"]:
-        """Global residuals from the globals and the contributions summed over the elements."""
+    def closure(
+        self, globals_: Float[Array, " g"], totals: Float[Array, " k"]
+    ) -> tuple[Float[Array, " g"], Float[Array, ""]]:
+        """Global residuals from the globals and the contributions summed over the elements; and, as in `element`,
+        the largest residual of nested solves."""
 
     @abc.abstractmethod
     def step_caps(self) -> ArrowPoint:
@@ -64,11 +67,6 @@ class AbstractArrowSystem(eqx.Module):
     def equation_names(self) -> tuple[str, ...]:
         """Names of the m local and then the g global equations, for messages."""
 
-    def inner_residual(self, point: ArrowPoint) -> Float[Array, ""]:
-        """Largest scaled residual of solves nested inside the equations, 0 where there are none."""
-        del point
-        return jnp.zeros(())
-
 
 class ArrowJacobian(NamedTuple):
     """Blocks of the arrow, and the factor that chains totals into global equations."""
@@ -80,30 +78,39 @@ class ArrowJacobian(NamedTuple):
     chain: Float[Array, "g k"]
 
 
-def residual(system: AbstractArrowSystem, point: ArrowPoint) -> ArrowPoint:
+class Equations(NamedTuple):
+    """All residuals at a point, and the largest residual of the solves nested inside them."""
+
+    residual: ArrowPoint
+    inner: Float[Array, ""]
+
+
+def evaluate(system: AbstractArrowSystem, point: ArrowPoint) -> Equations:
     """All equations at a point."""
     n = point.elements.shape[1]
     shared = jnp.broadcast_to(point.globals[:, None], (point.globals.shape[0], n))
-    local, contribution = system.element(point.elements, shared)
-    return ArrowPoint(local, system.closure(point.globals, jnp.sum(contribution, axis=1)))
+    local, contribution, inner = system.element(point.elements, shared)
+    closure, closure_inner = system.closure(point.globals, jnp.sum(contribution, axis=1))
+    return Equations(ArrowPoint(local, closure), jnp.maximum(inner, closure_inner))
 
 
-def linearize(system: AbstractArrowSystem, point: ArrowPoint) -> tuple[ArrowPoint, ArrowJacobian]:
-    """Residual and Jacobian blocks, by forward autodiff with m + g tangents."""
+def linearize(system: AbstractArrowSystem, point: ArrowPoint) -> tuple[Equations, ArrowJacobian]:
+    """Equations and Jacobian blocks, by forward autodiff with m + g tangents."""
     m, n = point.elements.shape
     g = point.globals.shape[0]
 
     def columns(v):
-        local, contribution = system.element(v[:m], v[m:])
-        return jnp.concatenate([local, contribution])
+        local, contribution, inner = system.element(v[:m], v[m:])
+        return jnp.concatenate([local, contribution]), inner
 
     v = jnp.concatenate([point.elements, jnp.broadcast_to(point.globals[:, None], (g, n))])
     seeds = jnp.broadcast_to(jnp.eye(m + g)[:, :, None], (m + g, m + g, n))
-    values, tangents = jax.vmap(lambda t: jax.jvp(columns, (v,), (t,)), out_axes=(None, 0))(seeds)
+    push = lambda seed: jax.jvp(columns, (v,), (seed,), has_aux=True)
+    values, tangents, inner = jax.vmap(push, out_axes=(None, 0, None))(seeds)
     tangents = jnp.swapaxes(tangents, 0, 1)  # (m + k outputs, m + g inputs, element)
 
     totals = jnp.sum(values[m:], axis=1)
-    closure, pullback = jax.vjp(system.closure, point.globals, totals)
+    closure, pullback, closure_inner = jax.vjp(system.closure, point.globals, totals, has_aux=True)
     direct, chain = jax.vmap(pullback)(jnp.eye(g))
     jacobian = ArrowJacobian(
         local=tangents[:m, :m],
@@ -112,7 +119,7 @@ def linearize(system: AbstractArrowSystem, point: ArrowPoint) -> tuple[ArrowPoin
         corner=direct + chain @ jnp.sum(tangents[m:, m:], axis=-1),
         chain=chain,
     )
-    return ArrowPoint(values[:m], closure), jacobian
+    return Equations(ArrowPoint(values[:m], closure), jnp.maximum(inner, closure_inner)), jacobian
 
 
 def schur_complement(jacobian: ArrowJacobian) -> Float[Array, "g g"]:

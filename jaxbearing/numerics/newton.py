@@ -7,7 +7,7 @@ import jax
 import jax.numpy as jnp
 from jaxtyping import Array, Bool, Float, Int
 
-from .arrow import AbstractArrowSystem, ArrowJacobian, ArrowPoint, linearize, residual, solve_arrow
+from .arrow import AbstractArrowSystem, ArrowJacobian, ArrowPoint, Equations, evaluate, linearize, solve_arrow
 from .status import Status
 
 System = TypeVar("System", bound=AbstractArrowSystem)
@@ -34,9 +34,14 @@ class NewtonOptions(eqx.Module):
 
 
 class NewtonResult(NamedTuple):
-    """Where the iteration ended. On a lane that failed, `point` is a finite point and not a solution."""
+    """Where the iteration ended. On a lane that failed, `point` is a finite point and not a solution.
+
+    `jacobian` holds the blocks at `point`; residual, worst equation and worst element are those at `point` of a lane
+    that converged and those of the last trial of a lane that failed.
+    """
 
     point: ArrowPoint
+    jacobian: ArrowJacobian
     status: Int[Array, ""]
     iterations: Int[Array, ""]
     residual_norm: Float[Array, ""]
@@ -56,8 +61,9 @@ class _Iterate(NamedTuple):
     attempt: Int[Array, ""]
     iterations: Int[Array, ""]
     status: Int[Array, ""]
+    equations: Equations
     jacobian: ArrowJacobian
-    """At `trial` of the previous pass: of a finished lane, at its final `trial`."""
+    """Equations and Jacobian at `trial` of the previous pass: of a finished lane, at its final `trial`."""
 
 
 def _norm(point: ArrowPoint) -> Float[Array, ""]:
@@ -97,11 +103,14 @@ def _iterate(system: AbstractArrowSystem, options: NewtonOptions) -> _Iterate:
 
     def advance(state: _Iterate) -> _Iterate:
         equations, jacobian = linearize(system, state.trial)
-        step = solve_arrow(jacobian, equations)
-        norm = _norm(equations)
+        step = solve_arrow(jacobian, equations.residual)
+        norm = _norm(equations.residual)
         usable = jnp.isfinite(norm) & jnp.isfinite(_largest(step))
         converged = (
-            usable & (_largest(equations) <= options.residual_tolerance) & (_largest(step) <= options.step_tolerance)
+            usable
+            & (_largest(equations.residual) <= options.residual_tolerance)
+            & (_largest(step) <= options.step_tolerance)
+            & (equations.inner <= options.inner_tolerance)
         )
 
         enough = norm <= (1.0 - 0.1 * fractions[state.attempt]) * state.base_norm
@@ -133,21 +142,23 @@ def _iterate(system: AbstractArrowSystem, options: NewtonOptions) -> _Iterate:
             attempt=attempt,
             iterations=iterations,
             status=status,
+            equations=equations,
             jacobian=jacobian,
         )
 
     start = system.initial()
     zeros = lambda tree: jax.tree.map(lambda leaf: jnp.zeros(leaf.shape, leaf.dtype), tree)
-    zero = zeros(start)
+    equations, jacobian = zeros(jax.eval_shape(linearize, system, start))
     first = _Iterate(
         trial=start,
         base=start,
-        step=zero,
+        step=zeros(start),
         base_norm=jnp.asarray(jnp.inf),
         attempt=jnp.asarray(0),
         iterations=jnp.asarray(0),
         status=jnp.asarray(-1),
-        jacobian=zeros(jax.eval_shape(linearize, system, start)[1]),
+        equations=equations,
+        jacobian=jacobian,
     )
     return jax.lax.while_loop(keep_going, advance, first)
 
@@ -175,20 +186,21 @@ def newton_solve(system: System, options: NewtonOptions | None = None) -> tuple[
     solved = end.status == Status.CONVERGED
 
     guess = jax.tree.map(lambda x: jnp.where(jnp.isfinite(x), x, 0.0), frozen.initial())
-    pick = lambda a, b: ArrowPoint(*(jnp.where(solved, x, y) for x, y in zip(a, b, strict=True)))
+    pick = lambda a, b: jax.tree.map(lambda x, y: jnp.where(solved, x, y), a, b)
     point = pick(end.trial, guess)
-    live = jax.tree.map(lambda x: jnp.where(solved, x, jax.lax.stop_gradient(x)), system)
-    step = solve_arrow(end.jacobian, residual(live, point))
+    live = pick(system, _freeze(system))
+    step = solve_arrow(end.jacobian, evaluate(live, point).residual)
     moved = pick(ArrowPoint(point.elements - step.elements, point.globals - step.globals), point)
 
     # Judged where the user will look: at the point that is returned (a failed lane: where it gave up).
-    judged = pick(_freeze(moved), end.trial)
-    remaining = residual(frozen, judged)
-    sizes = jnp.concatenate([jnp.max(jnp.abs(remaining.elements), axis=1, initial=0.0), jnp.abs(remaining.globals)])
+    equations, jacobian = linearize(live, moved)
+    judged = pick(_freeze(equations), end.equations)
+    elements, globals_ = jnp.abs(judged.residual.elements), jnp.abs(judged.residual.globals)
+    sizes = jnp.concatenate([jnp.max(elements, axis=1, initial=0.0), globals_])
     worst = jnp.argmax(jnp.where(jnp.isnan(sizes), jnp.inf, sizes))
-    m = remaining.elements.shape[0]
-    worst_element = jnp.argmax(jnp.abs(remaining.elements[jnp.minimum(worst, m - 1)])) if m else jnp.asarray(0)
+    m = elements.shape[0]
+    worst_element = jnp.argmax(elements[jnp.minimum(worst, m - 1)]) if m else jnp.asarray(0)
     norm = jnp.max(sizes)
-    good = (norm <= options.residual_tolerance) & (frozen.inner_residual(judged) <= options.inner_tolerance)
+    good = (norm <= options.residual_tolerance) & (judged.inner <= options.inner_tolerance)
     status = jnp.where(solved & ~good, int(Status.NOT_CONVERGED), end.status)
-    return live, NewtonResult(moved, status, end.iterations, norm, worst, worst_element)
+    return live, NewtonResult(moved, jacobian, status, end.iterations, norm, worst, worst_element)

@@ -1,4 +1,7 @@
-"""From a valid scene table to the scene of the library. Only Python floats enter the constructors: nothing runs on JAX."""
+"""From a valid scene table to the scene of the library. Only Python and numpy numbers enter
+the constructors: nothing runs on JAX."""
+
+import numpy as np
 
 from ..bearings.cylindrical_roller import CylindricalRollerBearing, RollerCage, RollerFlange, RollerGeometry
 from ..bearings.parts import ContactLaws, Drag, Materials, Operation
@@ -37,7 +40,9 @@ def _operation(table: OperationTable) -> Operation:
 
 
 def _material(given: str | MaterialTable) -> Material:
-    return CATALOGUE[given] if isinstance(given, str) else Material(**given.model_dump())
+    if isinstance(given, str):
+        return CATALOGUE[given]
+    return Material(**{name: np.float64(value) for name, value in given.model_dump().items()})
 
 
 def _contact(table: ContactTable) -> ContactLaws:

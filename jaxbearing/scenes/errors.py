@@ -3,7 +3,7 @@
 import difflib
 import re
 from collections.abc import Iterable, Mapping
-from typing import Any
+from typing import Any, Self
 
 from pydantic import BaseModel, ValidationError
 
@@ -30,6 +30,12 @@ class SceneError(ValueError):
         self.file, self.path, self.found, self.expected = file, path, found, expected
         self.suggestion, self.others, self.reason = suggestion, others, reason
         super().__init__(self._message())
+
+    def of(self, file: str) -> Self:
+        """The same problem under another name of the file."""
+        return type(self)(
+            file, self.path, self.found, self.expected, self.suggestion, others=self.others, reason=self.reason
+        )
 
     def _message(self) -> str:
         place = f"{self.file}: {self.path}" if self.path else self.file
@@ -68,7 +74,8 @@ def from_class(error: ValueError, raw: Mapping[str, Any], file: str) -> SceneErr
     if match is None:
         return SceneError(file, "", "values that do not fit together", "a scene that can be built", reason=text)
     path = match[1]
-    return SceneError(file, path, describe_at(raw, path), "values that fit together", reason=text)
+    reason = text.removeprefix(f"{path}: ")
+    return SceneError(file, path, describe_at(raw, path), "values that fit together", reason=reason)
 
 
 def describe_at(raw: Mapping[str, Any], path: str) -> str:

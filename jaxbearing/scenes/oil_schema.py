@@ -2,7 +2,7 @@
 
 from typing import Annotated, Any, ClassVar, Literal, Self
 
-from pydantic import BeforeValidator, Discriminator, Tag, model_validator
+from pydantic import BeforeValidator, ConfigDict, Discriminator, Tag, model_validator
 
 from . import units
 from .data_files import oil_names
@@ -57,7 +57,7 @@ class IntegratedPressureViscosityTable(Law):
 class UnknownPressureViscosityTable(Law):
     """Where `law` is absent or unknown: only there to say so."""
 
-    model_config = {"extra": "allow"}
+    model_config = ConfigDict(extra="allow")
     tag: ClassVar[str] = "<unknown>"
     law: Literal["constant", "fitted", "integrated"]
 

@@ -4,6 +4,7 @@ import tomllib
 from collections.abc import Mapping
 from typing import Any
 
+import numpy as np
 from pydantic import ValidationError
 
 from ..lubricants import (
@@ -81,7 +82,7 @@ def missing_sources(data: Mapping[str, Any]) -> list[str]:
 
 
 def lubricant(table: OilTable) -> Lubricant:
-    """The laws of a valid oil table, with Python floats as parameters."""
+    """The laws of a valid oil table, its parameters numpy scalars."""
     assert table.viscosity is not None
     viscosity = ModifiedWLF(**_parameters(table.viscosity))
     return Lubricant(
@@ -96,7 +97,7 @@ def lubricant(table: OilTable) -> Lubricant:
 def _pressure_viscosity(table: OilTable, viscosity: ModifiedWLF) -> AbstractPressureViscosity:
     law = table.pressure_viscosity
     if isinstance(law, float):
-        return ConstantPressureViscosity(law)
+        return ConstantPressureViscosity(np.float64(law))
     if isinstance(law, ConstantPressureViscosityTable):
         return ConstantPressureViscosity(**_parameters(law))
     if isinstance(law, FittedPressureViscosityTable):
@@ -105,5 +106,6 @@ def _pressure_viscosity(table: OilTable, viscosity: ModifiedWLF) -> AbstractPres
     return IntegratedPressureViscosity(viscosity)
 
 
-def _parameters(law: Law) -> dict[str, float]:
-    return law.model_dump(exclude=_DOCUMENTATION)
+def _parameters(law: Law) -> dict[str, np.float64]:
+    # numpy scalars are leaves of the scene; plain Python floats would be compiled in as constants
+    return {name: np.float64(value) for name, value in law.model_dump(exclude=_DOCUMENTATION).items()}

@@ -67,15 +67,26 @@ def describe(value: Any) -> str:
     if isinstance(value, bool):
         return f"the boolean {str(value).lower()}"
     if isinstance(value, int | float):
-        return f"the number {value!r}" if math.isfinite(value) else f"{value!r}, which is not finite"
+        return f"the number {_short(value)}" if _is_finite(value) else f"{_short(value)}, which is not finite"
     if isinstance(value, str):
-        shown = value if len(value) <= _LONGEST else value[:_LONGEST] + "..."
-        return f"the text {shown!r}"
+        return f"the text {_short(value)}"
     if isinstance(value, dict):
         return "a table"
     if isinstance(value, list):
         return "an array"
     return f"{value!s} ({type(value).__name__})"
+
+
+def _short(value: Any) -> str:
+    text = repr(value)
+    return text if len(text) <= _LONGEST else text[:_LONGEST] + "..."
+
+
+def _is_finite(value: int | float) -> bool:
+    try:
+        return math.isfinite(value)
+    except OverflowError:  # TOML has integers beyond the largest float
+        return False
 
 
 def refusal(expected: str, found: str, suggestion: str = "") -> PydanticCustomError:
@@ -92,7 +103,7 @@ def parse(value: Any, dimension: Dimension) -> float:
     an unknown unit, a unit of another dimension, or a number that is not finite.
     """
     if isinstance(value, int | float) and not isinstance(value, bool):
-        bare = f"the bare number {value!r}" if math.isfinite(value) else describe(value)
+        bare = f"the bare number {_short(value)}" if _is_finite(value) else describe(value)
         raise refusal(dimension.expected(), bare)
     if not isinstance(value, str):
         raise refusal(dimension.expected(), describe(value))
@@ -159,7 +170,7 @@ def _quantity(dimension: Dimension, bound: str = "") -> BeforeValidator:
 
 
 def _number(given: Any, bound: str = "") -> float:
-    good = isinstance(given, int | float) and not isinstance(given, bool) and math.isfinite(given)
+    good = isinstance(given, int | float) and not isinstance(given, bool) and _is_finite(given)
     if not good or not _within(given, bound):
         raise refusal(f"a number{bound and ' '}{bound} without a unit and without quotes", describe(given))
     return float(given)

@@ -1,0 +1,44 @@
+"""Compiled programs kept between runs: a solve of a known kind of scene then starts without compiling."""
+
+import os
+from pathlib import Path
+
+VARIABLE = "JAXBEARING_CACHE"
+"""Environment variable: `off`, or the folder."""
+_OFF = ("off", "0", "no", "false")
+
+
+def cache_folder() -> Path | None:
+    """Where compiled programs are kept, or `None`: switched off."""
+    wanted = os.environ.get(VARIABLE, "").strip()
+    if wanted.lower() in _OFF:
+        return None
+    if wanted:
+        return Path(wanted).expanduser()
+    import platformdirs
+
+    return Path(platformdirs.user_cache_dir("jaxbearing", appauthor=False)) / "compilation"
+
+
+def enable_compilation_cache() -> Path | None:
+    """Switch JAX's persistent cache on; returns its folder.
+
+    `None` where it stays off: wanted so, chosen already by JAX's own `JAX_COMPILATION_CACHE_DIR`, or a folder that
+    cannot be written. It never fails: a cache is a convenience.
+    """
+    folder = cache_folder()
+    if folder is None or os.environ.get("JAX_COMPILATION_CACHE_DIR"):
+        return None
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        if not os.access(folder, os.R_OK | os.W_OK | os.X_OK):
+            return None
+    except OSError:
+        return None
+    import jax
+
+    jax.config.update("jax_compilation_cache_dir", str(folder))
+    # the default keeps only programs that compiled for a second
+    jax.config.update("jax_persistent_cache_min_compile_time_secs", 0.0)
+    jax.config.update("jax_persistent_cache_min_entry_size_bytes", -1)
+    return folder

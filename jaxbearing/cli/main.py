@@ -1,0 +1,188 @@
+"""The command `jaxbearing`. What a verb needs is imported when it runs, so that `--help` does not wait for it.
+
+Exit codes: 0 solved; 2 bad input, one message on stderr; 3 not converged; 130 interrupted.
+"""
+
+import json
+import logging
+import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Annotated, NoReturn
+
+import typer
+
+BAD_INPUT, NOT_CONVERGED, INTERRUPTED = 2, 3, 130
+
+app = typer.Typer(
+    name="jaxbearing",
+    help="Lubricated rolling bearings: loads, films, speeds and power loss.",
+    no_args_is_help=True,
+    add_completion=False,
+    pretty_exceptions_enable=False,
+)
+
+SceneArgument = Annotated[
+    str, typer.Argument(metavar="SCENE", help="A scene file (TOML), or the name of a built-in scene.")
+]
+SetOption = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--set",
+        metavar="PATH=VALUE",
+        help="Change a field of the scene, e.g. --set operation.inner_speed='12000 rpm'; the value none takes an "
+        "optional table or field out. May be repeated.",
+    ),
+]
+JsonOption = Annotated[bool, typer.Option("--json", help="Print one JSON object in SI units, and nothing else.")]
+
+
+def main() -> None:
+    """Entry point of the console script."""
+    try:
+        app()
+    except KeyboardInterrupt:
+        sys.exit(INTERRUPTED)
+    except BrokenPipeError:
+        # the reader (head, less) has gone: nothing is left to say, nor to flush at exit
+        sys.stdout = None
+        sys.exit(1)
+
+
+def _version(wanted: bool) -> None:
+    if wanted:
+        from importlib.metadata import PackageNotFoundError, version
+
+        try:
+            typer.echo(f"jaxbearing {version('jaxbearing')}")
+        except PackageNotFoundError:
+            typer.echo("jaxbearing (not installed)")
+        raise typer.Exit
+
+
+@app.callback()
+def _options(
+    version: Annotated[
+        bool, typer.Option("--version", help="Print the version.", is_eager=True, callback=_version)
+    ] = False,
+) -> None:
+    pass
+
+
+@app.command()
+def scenes(
+    copy: Annotated[
+        str | None, typer.Option("--copy", metavar="NAME", help="Write a built-in scene as a file.")
+    ] = None,
+    to: Annotated[
+        Path | None, typer.Option("--to", metavar="FILE", help="File to write; NAME.toml in this folder if not given.")
+    ] = None,
+    force: Annotated[bool, typer.Option("--force", help="Overwrite an existing file.")] = False,
+) -> None:
+    """List the built-in scenes, or write one out as a file to edit."""
+    with _bad_input():
+        if copy is not None:
+            _copy(copy, to, force)
+        elif to is not None or force:
+            _refuse("--to and --force belong to --copy NAME: found no --copy; expected the name of a built-in scene.")
+        else:
+            _list()
+
+
+@app.command()
+def solve(
+    scene: SceneArgument,
+    changes: SetOption = None,
+    as_json: JsonOption = False,
+) -> None:
+    """Steady state: power loss by location, loads, films, pressures, speeds."""
+    with _bad_input():
+        from ..scenes.overrides import split_assignments
+        from ..scenes.reader import load_scene
+
+        model = load_scene(scene, split_assignments(changes or []))
+
+    from ..solve import solve as solve_scene
+    from .cache import enable_compilation_cache
+
+    enable_compilation_cache()
+    _silence_missing_gpu()
+    solution = solve_scene(model, throw=False)
+    if as_json:
+        from ..report.json_report import solution_to_dict
+
+        typer.echo(json.dumps(solution_to_dict(solution), allow_nan=False))
+    else:
+        from rich.console import Console
+
+        from ..report.summary import print_summary
+
+        # a pipe has no width: 100 columns hold every table
+        console = Console(highlight=False, width=None if sys.stdout.isatty() else 100)
+        print_summary(solution, _label(scene, changes), console)
+    if not bool(solution.converged):
+        if as_json:
+            typer.echo(f"not converged: {scene}: {solution.failure()}", err=True)
+        raise typer.Exit(NOT_CONVERGED)
+
+
+def _label(scene: str, changes: list[str] | None) -> str:
+    return " ".join([scene, *(f"--set {change}" for change in changes or [])])
+
+
+def _list() -> None:
+    from rich.console import Console
+    from rich.table import Table
+
+    from ..scenes.data_files import builtin_names, builtin_summary
+
+    table = Table.grid(padding=(0, 2, 0, 0))
+    table.add_column(no_wrap=True, style="bold")
+    table.add_column()
+    for name in builtin_names():
+        table.add_row(name, builtin_summary(name))
+    Console(highlight=False, width=None if sys.stdout.isatty() else 100).print(table)
+
+
+def _copy(name: str, to: Path | None, force: bool) -> None:
+    from ..scenes.data_files import builtin_names, builtin_text
+    from ..scenes.errors import SceneError, nearest, one_of
+
+    if name not in builtin_names():
+        near = nearest(name, builtin_names())
+        raise SceneError("--copy", "", f"'{name}'", f"a built-in scene: {one_of(builtin_names())}", near)
+    target = Path(f"{name}.toml") if to is None else to
+    if target.is_dir():
+        target = target / f"{name}.toml"
+    try:
+        with open(target, "w" if force else "x", encoding="utf-8") as file:
+            file.write(builtin_text(name))
+    except FileExistsError:
+        found, expected = "a file that exists already", "a new file (--to FILE), or --force to overwrite it"
+        raise SceneError(str(target), "", found, expected) from None
+    except OSError as error:
+        found = f"a place that cannot be written: {error.strerror}"
+        raise SceneError(str(target), "", found, "a file in an existing folder") from None
+    typer.echo(f"wrote {target}")
+
+
+@contextmanager
+def _bad_input() -> Iterator[None]:
+    """Turns what is wrong with the input into one message and exit code 2."""
+    from ..scenes.errors import SceneError
+
+    try:
+        yield
+    except SceneError as error:
+        _refuse(str(error))
+
+
+def _refuse(message: str) -> NoReturn:
+    typer.echo(f"error: {message}", err=True)
+    raise typer.Exit(BAD_INPUT)
+
+
+def _silence_missing_gpu() -> None:
+    """JAX says on every start that a GPU is there which its build cannot use; the answer is the same without it."""
+    logging.getLogger("jax._src.xla_bridge").addFilter(lambda record: "Falling back to cpu" not in record.getMessage())

@@ -1,0 +1,1 @@
+"""What a solution looks like: JSON for programs, a summary for people."""

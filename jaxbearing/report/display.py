@@ -1,0 +1,57 @@
+"""How numbers look to a person: engineer's units, significant digits, bars."""
+
+import math
+
+_RPM = 60.0 / (2.0 * math.pi)
+_ENGINEERS: dict[str, tuple[str, float]] = {
+    "rad/s": ("rpm", _RPM),
+    "rad": ("deg", 180.0 / math.pi),
+    "m": ("um", 1e6),
+    "Pa": ("GPa", 1e-9),
+    "N/m": ("N/um", 1e-6),
+    "m^3/s": ("l/h", 3.6e6),
+    "1": ("", 1.0),
+}
+"""SI unit of a result -> the unit on the screen, and the factor. Other units are shown as they are."""
+
+ZERO_CELSIUS = 273.15
+"""K."""
+_BLOCKS = " ▏▎▍▌▋▊▉█"
+
+
+def display_unit(unit: str) -> str:
+    """The unit in which a result of this SI unit is shown."""
+    return _ENGINEERS.get(unit, (unit, 1.0))[0]
+
+
+def displayed(value: float, unit: str) -> float:
+    """A result in the unit in which it is shown."""
+    return value * _ENGINEERS.get(unit, (unit, 1.0))[1]
+
+
+def digits(value: float, significant: int = 4) -> str:
+    """A number with so many significant digits, without an exponent where it has an everyday size."""
+    if not math.isfinite(value):
+        return "-"
+    if value == 0.0:
+        return "0"
+    exponent = math.floor(math.log10(abs(value)))
+    if not -4 <= exponent <= 7:
+        return f"{value:.{significant - 1}e}"
+    return f"{value:.{max(0, significant - 1 - exponent)}f}"
+
+
+def with_unit(value: float, unit: str, significant: int = 4) -> str:
+    """A result in engineer's units, "33.57 um"."""
+    return f"{digits(displayed(value, unit), significant)} {display_unit(unit)}".rstrip()
+
+
+def bar(fraction: float, width: int, ascii_only: bool = False) -> str:
+    """A horizontal bar, to an eighth of a character where the terminal can."""
+    fraction = min(max(fraction, 0.0), 1.0) if math.isfinite(fraction) else 0.0
+    if ascii_only:
+        return "#" * round(fraction * width)
+    eighths = round(8 * fraction * width)
+    if eighths == 0 and fraction > 0.0:
+        eighths = 1
+    return ("█" * (eighths // 8) + _BLOCKS[eighths % 8]).rstrip()
