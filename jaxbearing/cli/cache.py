@@ -1,6 +1,8 @@
 """Compiled programs kept between runs: a solve of a known kind of scene then starts without compiling."""
 
+import hashlib
 import os
+import platform
 from pathlib import Path
 
 VARIABLE = "JAXBEARING_CACHE"
@@ -14,10 +16,22 @@ def cache_folder() -> Path | None:
     if wanted.lower() in _OFF:
         return None
     if wanted:
-        return Path(wanted).expanduser()
+        return Path(wanted).expanduser() / _processor()
     import platformdirs
 
-    return Path(platformdirs.user_cache_dir("jaxbearing", appauthor=False)) / "compilation"
+    return Path(platformdirs.user_cache_dir("jaxbearing", appauthor=False)) / "compilation" / _processor()
+
+
+def _processor() -> str:
+    """A name of the processor's instruction set: on a home folder that machines share, a program compiled for a newer
+    one would crash an older one."""
+    features = f"{platform.machine()} {platform.processor()}"
+    try:
+        with open("/proc/cpuinfo", encoding="utf-8", errors="replace") as file:
+            features += next((line for line in file if line.lower().startswith(("flags", "features"))), "")
+    except OSError:
+        pass
+    return f"{platform.machine() or 'cpu'}-{hashlib.sha256(features.encode()).hexdigest()[:12]}"
 
 
 def enable_compilation_cache() -> Path | None:

@@ -4,12 +4,11 @@ Exit codes: 0 solved; 2 bad input, one message on stderr; 3 not converged; 130 i
 """
 
 import json
-import logging
 import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from typing import Annotated, NoReturn
+from typing import Annotated, Any, NoReturn
 
 import typer
 
@@ -103,11 +102,22 @@ def solve(
 
         model = load_scene(scene, split_assignments(changes or []))
 
-    from ..solve import solve as solve_scene
     from .cache import enable_compilation_cache
+    from .quiet import without_false_alarms
 
     enable_compilation_cache()
-    _silence_missing_gpu()
+    with without_false_alarms():
+        failure = _solve_and_print(model, _label(scene, changes), as_json)
+    if failure:
+        if as_json:
+            typer.echo(f"not converged: {scene}: {failure}", err=True)
+        raise typer.Exit(NOT_CONVERGED)
+
+
+def _solve_and_print(model: Any, label: str, as_json: bool) -> str:
+    """Empty where the solve converged, otherwise what failed."""
+    from ..solve import solve as solve_scene
+
     solution = solve_scene(model, throw=False)
     if as_json:
         from ..report.json_report import solution_to_dict
@@ -119,12 +129,8 @@ def solve(
         from ..report.summary import print_summary
 
         # a pipe has no width: 100 columns hold every table
-        console = Console(highlight=False, width=None if sys.stdout.isatty() else 100)
-        print_summary(solution, _label(scene, changes), console)
-    if not bool(solution.converged):
-        if as_json:
-            typer.echo(f"not converged: {scene}: {solution.failure()}", err=True)
-        raise typer.Exit(NOT_CONVERGED)
+        print_summary(solution, label, Console(highlight=False, width=None if sys.stdout.isatty() else 100))
+    return "" if bool(solution.converged) else solution.failure()
 
 
 def _label(scene: str, changes: list[str] | None) -> str:
@@ -181,8 +187,3 @@ def _bad_input() -> Iterator[None]:
 def _refuse(message: str) -> NoReturn:
     typer.echo(f"error: {message}", err=True)
     raise typer.Exit(BAD_INPUT)
-
-
-def _silence_missing_gpu() -> None:
-    """JAX says on every start that a GPU is there which its build cannot use; the answer is the same without it."""
-    logging.getLogger("jax._src.xla_bridge").addFilter(lambda record: "Falling back to cpu" not in record.getMessage())

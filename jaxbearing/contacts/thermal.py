@@ -22,6 +22,8 @@ SLIDE_WIDTH = 1e-6
 """Slide ratio below which its power is linear."""
 RISE_BELOW = -5.0
 """Lower bracket end of the temperature rise, K: below 0, so that a rise of 0 is an ordinary root."""
+RISE_TOLERANCE = 1e-5
+"""Newton step at which the search for the rise ends, relative to the rise or 1 K; the step that follows squares it."""
 
 
 class AbstractThermalFactor(eqx.Module):
@@ -130,12 +132,12 @@ def inlet_temperature_rise(
     """
 
     def excess(rise: Array, everything: PyTree) -> Array:
-        film_args, inlet, log_ratio = everything
-        return log_film(inlet, film_args) + log_ratio - log_film(inlet + rise, film_args)
+        film_args, inlet, target = everything
+        return target - log_film(inlet + rise, film_args)
 
     temperature = jnp.asarray(temperature, dtype=float)
-    log_factor = jnp.asarray(log_factor, dtype=float)
-    guess = jnp.zeros_like(log_film(temperature, args) + log_factor)
-    root = monotone_root(excess, (args, temperature, log_factor), RISE_BELOW, maximum, guess)
-    # The differentiable Newton step that ends the search may leave the bracket where there is no root.
-    return Root(jnp.clip(root.value, RISE_BELOW, maximum), root.residual)
+    target = log_film(temperature, args) + jnp.asarray(log_factor, dtype=float)
+    guess = jnp.zeros_like(target)
+    return monotone_root(
+        excess, (args, temperature, target), RISE_BELOW, maximum, guess, tolerance=RISE_TOLERANCE
+    )

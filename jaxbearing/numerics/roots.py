@@ -76,7 +76,10 @@ def monotone_root(
 
     value, slope = value_and_slope(x, frozen)
     residual = jnp.abs(value)
-    # A root at a bracket end, or a flat or non-finite spot, gets derivative 0 instead of NaN.
-    usable = jnp.isfinite(slope) & (slope > 0) & (x > lower) & (x < upper)
+    # No root inside: the bracket end that is nearer to one. Flat or not finite: where the search ended. Both with
+    # derivative 0 instead of NaN.
+    polished = x - value / jnp.where(slope > 0, slope, 1.0)
+    usable = jnp.isfinite(slope) & (slope > 0) & (polished > lower) & (polished < upper)
+    stuck = jnp.where(polished <= lower, lower, jnp.where(polished >= upper, upper, x))
     correction = function(x, args) / jnp.where(usable, slope, 1.0)
-    return Root(jnp.where(usable, x - correction, x), residual)
+    return Root(jnp.where(usable, x - correction, stuck), residual)

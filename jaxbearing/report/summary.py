@@ -21,10 +21,10 @@ LOADED = 0.01
 everywhere."""
 _LOSS_BAR, _LOAD_BAR = 40, 18
 _OPERATION = {
-    "inner_speed": ("inner ring", "rad/s"),
-    "outer_speed": ("outer ring", "rad/s"),
-    "radial_load": ("radial load", "N"),
-    "oil_flow": ("oil flow", "m^3/s"),
+    "inner_speed": ("inner ring", "rpm", displayed(1.0, "rad/s")),
+    "outer_speed": ("outer ring", "rpm", displayed(1.0, "rad/s")),
+    "radial_load": ("radial load", "kN", 1e-3),
+    "oil_flow": ("oil flow", "l/h", displayed(1.0, "m^3/s")),
 }
 _COLUMNS = {
     "load_inner": "Q inner",
@@ -46,10 +46,10 @@ def print_summary(solution: Solution, scene_label: str, console: Console) -> Non
     if not bool(solution.converged):
         _print_failure(solution, scene_label, console)
         return
-    steps = f"{int(solution.iterations)} Newton steps"
-    state = f"{steps}, largest scaled residual {float(solution.residual_norm):.1e}, {solution.unknowns} unknowns"
+    counts = f"{_count(int(solution.iterations), 'Newton step')}, {_count(solution.unknowns, 'unknown')}"
+    state = f"{counts}, largest scaled residual {float(solution.residual_norm):.1e}"
     _headline(scene_label, "CONVERGED", "bold green", state, console)
-    _line("Operating point", "   ".join(_operation(solution.operation)), console)
+    _line("Operating point", ", ".join(_operation(solution.operation)), console)
     _print_losses(solution, console)
     _print_loads(solution, console)
     console.print(Rule("Motion and films", align="left", style="dim"))
@@ -59,6 +59,10 @@ def print_summary(solution: Solution, scene_label: str, console: Console) -> Non
         console.print(Rule("Warnings", align="left", style="yellow"))
         for text in solution.warnings:
             console.print(Padding(Text(f"- {text}", style="yellow"), (0, 2)))
+
+
+def _count(number: int, noun: str) -> str:
+    return f"{number} {noun}{'' if number == 1 else 's'}"
 
 
 def _headline(label: str, status: str, style: str, state: str, console: Console) -> None:
@@ -75,7 +79,7 @@ def _print_failure(solution: Solution, label: str, console: Console) -> None:
     _headline(label, "NOT CONVERGED", "bold red", f"status: {status}", console)
     console.print(Padding(Text(solution.failure(), style="red"), (0, 2)))
     console.print(Padding(Text("No results: the point where the iteration stopped is not a solution."), (0, 2)))
-    _line("Operating point", "   ".join(_operation(solution.operation)), console)
+    _line("Operating point", ", ".join(_operation(solution.operation)), console)
 
 
 def _line(name: str, text: str, console: Console) -> None:
@@ -90,23 +94,23 @@ def _operation(operation: Any) -> Iterator[str]:
     for field in dataclasses.fields(operation):
         value = float(getattr(operation, field.name))
         if field.name == "oil_temperature":
-            yield f"oil {digits(value - ZERO_CELSIUS)} degC"
+            yield f"oil {value - ZERO_CELSIUS:.6g} degC"
         elif field.name in _OPERATION:
-            label, unit = _OPERATION[field.name]
+            label, unit, factor = _OPERATION[field.name]
             if value != 0.0 or field.name != "outer_speed":
-                yield f"{label} {with_unit(value, unit, 5)}"
+                yield f"{label} {value * factor:.6g} {unit}"
         else:
-            yield f"{field.name} {digits(value)}"
+            yield f"{field.name} {value:.6g}"
 
 
 def _print_losses(solution: Solution, console: Console) -> None:
     loss = solution.power_loss
     entries = {
-        field.name: (float(getattr(loss, field.name)), field.metadata["description"])
+        field.name: float(np.asarray(getattr(loss, field.name)))
         for field in dataclasses.fields(loss)
         if getattr(loss, field.name) is not None
     }
-    total, _ = entries.pop("total")
+    total = entries.pop("total")
     if not entries:
         return
     table = Table(box=box.SIMPLE_HEAD, pad_edge=False, padding=(0, 1), show_footer=True, header_style="")
@@ -114,20 +118,20 @@ def _print_losses(solution: Solution, console: Console) -> None:
     table.add_column("W", justify="right", footer=_watts(total))
     table.add_column("%", justify="right", footer="100.0")
     table.add_column("", width=_LOSS_BAR)
-    largest = max((abs(watts) for watts, _ in entries.values()), default=0.0) or 1.0
-    for name, (watts, _) in sorted(entries.items(), key=lambda entry: -entry[1][0]):
+    largest = max(abs(watts) for watts in entries.values()) or 1.0
+    for name, watts in sorted(entries.items(), key=lambda entry: -entry[1]):
         share = f"{100.0 * watts / total:.1f}" if total else "-"
         table.add_row(name, _watts(watts), share, _bar(watts / largest, _LOSS_BAR, "red", console))
     console.print(Rule("Power", align="left", style="dim"))
-    console.print(Padding(table, (0, 2)))
+    console.print(Padding(table, (0, 1)))
     torques = [f"{digits(float(solution.inner_torque))} N m on the inner ring"]
-    if float(solution.operation.outer_speed) != 0.0:
+    if float(np.asarray(solution.operation.outer_speed)) != 0.0:
         torques.append(f"{digits(float(solution.outer_torque))} N m on the outer ring")
     _line("Drive power", f"{_watts(float(solution.drive_power))} W   ({', '.join(torques)})", console)
 
 
 def _watts(value: float) -> str:
-    return digits(value, 4) if abs(value) < 1000.0 else f"{value:.0f}"
+    return f"{value:.1f}"
 
 
 def _bar(fraction: float, width: int, style: str, console: Console) -> Text:
@@ -149,17 +153,30 @@ def _print_loads(solution: Solution, console: Console) -> None:
     for name, title in shown.items():
         table.add_column(f"{title}\n{display_unit(units[name])}", justify="right")
     table.add_column("", width=_LOAD_BAR)
-    for j in sorted(np.flatnonzero(loaded), key=lambda j: azimuth[j]):
-        row = [digits(float(displayed(float(np.asarray(getattr(elements, name))[j]), units[name]))) for name in shown]
-        table.add_row(f"{azimuth[j]:.1f}", *row, _bar(load[j] / largest, _LOAD_BAR, "cyan", console))
+    rows = np.array(sorted(np.flatnonzero(loaded), key=lambda j: azimuth[j]), dtype=int)
+    columns = [_column(np.asarray(getattr(elements, name))[rows], units[name]) for name in shown]
+    for i, j in enumerate(rows):
+        bar_of_load = _bar(float(load[j]) / largest, _LOAD_BAR, "cyan", console)
+        table.add_row(f"{azimuth[j]:.1f}", *(column[i] for column in columns), bar_of_load)
     console.print(Rule("Loads round the bearing", align="left", style="dim"))
-    console.print(Padding(table, (0, 2)))
+    console.print(Padding(table, (0, 1)))
     _line("Loaded zone", _loaded_zone(azimuth, loaded), console)
     if not np.all(loaded):
         ranges = [
-            f"{title} {_range(np.asarray(getattr(elements, n))[~loaded], units[n])}" for n, title in shown.items()
+            f"{title} {_range(np.asarray(getattr(elements, name))[~loaded], units[name])}"
+            for name, title in shown.items()
+            if name.startswith("load")
         ]
-        _line("Other rollers", ", ".join(text for text in ranges if text.startswith("Q")), console)
+        _line("Other rollers", ", ".join(ranges), console)
+
+
+def _column(values: np.ndarray, unit: str) -> list[str]:
+    """The numbers of a column, with as many decimals as its largest needs for four digits."""
+    shown = [displayed(float(value), unit) for value in values]
+    if not shown:
+        return []
+    _, _, decimals = digits(max(shown, key=abs), 4).partition(".")
+    return [f"{value:.{len(decimals)}f}" for value in shown]
 
 
 def _loaded_zone(azimuth: np.ndarray, loaded: np.ndarray) -> str:
@@ -177,10 +194,10 @@ def _range(values: np.ndarray, unit: str) -> str:
 def _facts(solution: Solution) -> Iterator[tuple[str, str]]:
     if solution.cage is not None:
         cage = solution.cage
-        place = f"{digits(float(cage.eccentricity_ratio), 3)} of its clearance off centre"
-        angle = with_unit(float(cage.attitude_angle), "rad", 3)
         slip = f"slip {digits(100.0 * float(cage.slip), 3)} %"
-        yield "Cage", f"{with_unit(float(cage.speed), 'rad/s')}, {slip}, {place} (attitude angle {angle})"
+        place = f"eccentricity ratio {digits(float(cage.eccentricity_ratio), 3)}"
+        angle = f"attitude angle {with_unit(float(cage.attitude_angle), 'rad', 3)}"
+        yield "Cage", f"{with_unit(float(cage.speed), 'rad/s')}, {slip}, {place}, {angle}"
     yield "Inner ring", ", ".join(_ring(solution))
     stiffness = np.diagonal(np.asarray(solution.stiffness))
     entries = [

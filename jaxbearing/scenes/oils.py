@@ -62,8 +62,7 @@ def with_catalogue(oil: Mapping[str, Any]) -> dict[str, Any]:
     merged = oil_data(name)
     for key, own in oil.items():
         theirs = merged.get(key)
-        amends = isinstance(own, Mapping) and isinstance(theirs, Mapping)
-        if amends and own.get("law", theirs["law"]) == theirs["law"]:
+        if isinstance(own, Mapping) and isinstance(theirs, Mapping) and own.get("law", theirs["law"]) == theirs["law"]:
             merged[key] = {**theirs, **own}
         else:
             merged[key] = own

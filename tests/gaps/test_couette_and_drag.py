@@ -30,7 +30,8 @@ MU = 4.7e-3
 INNER = Flange(65e-3, 67.5e-3, 71e-3, 6e-3, 15e-6, float(np.deg2rad(0.375)))
 OUTER = Flange(77e-3, 74.5e-3, 71e-3, 6e-3, 15e-6, float(np.deg2rad(0.375)))
 EDGE = PocketEdge(67.5e-3, 73e-3, 71e-3, 6e-3, 175e-6)
-INNER_FILM, OUTER_FILM = (jax.jit(f.coefficients(MU).evaluate) for f in (INNER, OUTER))
+INNER_FILM = jax.jit(lambda spin, ring: INNER.coefficients(MU).evaluate(spin, ring))
+OUTER_FILM = jax.jit(lambda spin, ring: OUTER.coefficients(MU).evaluate(spin, ring))
 FLOW = 150e-3 / 3600.0
 SPEED = 10500.0 * np.pi / 30.0
 

@@ -5,11 +5,11 @@ from pathlib import Path
 
 import jax
 import jax.numpy as jnp
-import mpmath as mp
 import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from scipy.optimize import brentq
 
 from jaxbearing.gaps import (
     MARTIN_LOAD,
@@ -51,30 +51,33 @@ def test_martin_constants():
 
 
 def reference_factors(s):
-    """Reynolds' equation in X = tan g with 40 digits: numerical quadrature, no closed form of ours.
+    """Reynolds' equation by Gauss quadrature and bisection, no closed form of ours.
 
-    dp/dX = 12 [(X^2 - T^2) + s (X - T)/1 ...] is integrated for p(T) = 0 with p(-inf) = 0.
+    Units h0, sqrt(2 R h0), mu u sqrt(2 R h0)/h0^2: (h^3 p'/12)' = h' + s, h = 1 + X^2, p' = 0 and
+    p = 0 at the exit T, p = 0 far ahead: p' = 12 (X - T)(X + T + s)/h^3. With X = -cot(b) the
+    integrands are trigonometric polynomials, which 60 nodes integrate to round-off.
     """
-    mp.mp.dps = 30
-    s = mp.mpf(s)
-    h = lambda x: 1 + x * x
-    # units h0, a = sqrt(2 R h0), pressure mu u a/h0^2: (h^3 p'/12)' = h' + s with p'(T) = 0 at the exit
-    slope = lambda x, t: 12 * ((h(x) - h(t)) + s * (x - t)) / h(x) ** 3
-    total = lambda t: mp.quad(lambda g: slope(mp.tan(g), t) / mp.cos(g) ** 2, [-mp.pi / 2, 0, mp.atan(t)])
-    start = float(martin_exit(float(s)))
-    t = mp.findroot(total, (start, start * (1 + 1e-6) + 1e-9), tol=1e-22)
-    # W/(mu u R L/h0) = int p 2 dX (a^2/h0 = 2 R), by parts -2 int X p'; positive p needs the sign below
-    load = -2 * mp.quad(lambda g: mp.tan(g) * slope(mp.tan(g), t) / mp.cos(g) ** 2, [-mp.pi / 2, 0, mp.atan(t)])
-    rolling = mp.quad(lambda g: h(mp.tan(g)) * slope(mp.tan(g), t) / mp.cos(g) ** 2, [-mp.pi / 2, 0, mp.atan(t)])
-    return float(t), float(load), float(mp.atan(t) + mp.pi / 2), float(rolling)
+    nodes, weights = np.polynomial.legendre.leggauss(60)
+
+    def integrate(t, weight):
+        end = np.arctan2(1.0, -t)
+        b = 0.5 * end * (nodes + 1.0)
+        x = -np.cos(b) / np.sin(b)
+        slope = 12.0 * (x - t) * (x + t + s) * np.sin(b) ** 6
+        return np.sum(weights * weight(x) * slope / np.sin(b) ** 2) * 0.5 * end
+
+    t = brentq(integrate, -200.0, 400.0, args=(np.ones_like,), xtol=1e-13, rtol=1e-14)
+    # W = integral of 2 p dX in units of mu u R L/h0, by parts
+    load = -2.0 * integrate(t, lambda x: x)
+    return t, load, np.arctan(t) + 0.5 * np.pi, integrate(t, lambda x: 1.0 + x * x)
 
 
 @pytest.mark.parametrize("s", [0.0, -0.7, 1.3, -40.0, 25.0, -299.0, 299.0])
 def test_factors_against_quadrature_of_reynolds(s):
     t, load, shear, rolling = reference_factors(s)
-    # round-off: the load at s = 299 is what remains of terms 9 times larger, after a root
+    # round-off of the reference: at s = -299 its rolling integral cancels terms 1e4 times larger
     np.testing.assert_allclose(martin_exit(s), t, rtol=1e-12)
-    np.testing.assert_allclose(martin_factors(s), [load, shear, rolling], rtol=1e-11)
+    np.testing.assert_allclose(martin_factors(s), [load, shear, rolling], rtol=1e-10)
 
 
 def test_martin_limits():
@@ -93,9 +96,9 @@ def test_martin_gradients():
     f = lambda s: jnp.stack([martin_exit(s), *martin_factors(s)])
     forward, reverse = (jax.jit(jax.vmap(mode(f)))(s) for mode in (jax.jacfwd, jax.jacrev))
     np.testing.assert_allclose(reverse, forward, rtol=1e-12)
-    fd = np.asarray((f(s + h) - f(s - h)) / (2 * h)).T
+    fd = np.asarray(f(s + h) - f(s - h)).T / (2 * np.asarray(h)[:, None])
     # h^2 truncation and round-off of T (1e-14 of it) over h
-    noise = 1e-14 * np.abs(np.asarray(f(s))).T / h[:, None]
+    noise = 1e-14 * np.abs(np.asarray(f(s))).T / np.asarray(h)[:, None]
     assert np.all(np.abs(forward - fd) <= 1e-6 * np.abs(fd) + noise)
 
 
@@ -132,7 +135,8 @@ def test_pocket_balance(load, spin):
     assert min(film.film_front, film.film_rear) > 0
     assert (film.friction_front + film.friction_rear) * spin >= 0
     mirror = BALANCE(-load, spin, MU)
-    np.testing.assert_array_equal([mirror.film_front, mirror.load_rear], [film.film_rear, film.load_front])
+    # at P = 0 the tight and the wide film are computed differently: round-off
+    np.testing.assert_allclose([mirror.film_front, mirror.load_rear], [film.film_rear, film.load_front], rtol=1e-13)
 
 
 def test_pocket_meets_martin():

@@ -1,0 +1,43 @@
+"""Keeps false alarms of the compiler off stderr, which belongs to messages for the user."""
+
+import logging
+import os
+import sys
+import tempfile
+from collections.abc import Iterator
+from contextlib import contextmanager
+
+_FALSE_ALARMS = (b"cpu_aot_loader",)
+"""Loading a cached program complains about the tuning flags prefer-no-gather and prefer-no-scatter, which no processor
+lists (jax issue 38445, openxla/xla issue 44565). The program is sound: the cache is kept apart by processor."""
+
+
+@contextmanager
+def without_false_alarms() -> Iterator[None]:
+    """Holds back what anyone writes to stderr, compiled libraries too; passes it on at the end, less the alarms."""
+    logging.getLogger("jax._src.xla_bridge").addFilter(_is_news)
+    try:
+        sys.stderr.flush()
+        real = os.dup(2)
+    except (OSError, ValueError, AttributeError):
+        # no stderr: nothing to keep clean
+        yield
+        return
+    with tempfile.TemporaryFile() as held:
+        os.dup2(held.fileno(), 2)
+        try:
+            yield
+        finally:
+            sys.stderr.flush()
+            os.dup2(real, 2)
+            os.close(real)
+            held.seek(0)
+            for line in held:
+                if not any(alarm in line for alarm in _FALSE_ALARMS):
+                    sys.stderr.write(line.decode(errors="replace"))
+            sys.stderr.flush()
+
+
+def _is_news(record: logging.LogRecord) -> bool:
+    """JAX says on every start that a GPU is there which its build cannot use; the answer is the same without it."""
+    return "Falling back to cpu" not in record.getMessage()

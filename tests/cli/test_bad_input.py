@@ -1,0 +1,262 @@
+"""Every kind of broken scene: exit code 2, one message with file and field, no traceback, nothing written."""
+
+import os
+import subprocess
+import sys
+import tomllib
+
+import pytest
+
+from jaxbearing.scenes.data_files import builtin_text
+
+TEXT = builtin_text("turbine_roller")
+
+
+def without_table(name):
+    """The scene without the table `name`."""
+    parts = ("\n" + TEXT).split(f"\n[{name}]")
+    rest = parts[1].split("\n[", 1)
+    return parts[0] + ("\n[" + rest[1] if len(rest) > 1 else "\n")
+
+
+def line(old, new):
+    """The scene with one line (found by its beginning, comments and spaces aside) replaced."""
+    lines = TEXT.splitlines()
+    places = [i for i, text in enumerate(lines) if text.split("#")[0].split("=")[0].strip() == old]
+    assert len(places) == 1, old
+    lines[places[0]] = new
+    return "\n".join(lines) + "\n"
+
+
+# name: (text of the file, dotted path, words of the message)
+BROKEN = {
+    "unknown_key": (line("guidance", 'guidence = "inner_ring"'), "cage.guidence", ["'guidance'", "Did you mean"]),
+    "unknown_table": (TEXT + "\n[flanges]\n", "flanges", ["Did you mean 'flange'"]),
+    "unknown_key_hides_missing": (
+        line("radial_load", 'radial_laod = "1 N"'),
+        "operation.radial_laod",
+        ["'radial_load'", "1 more problem"],
+    ),
+    "wrong_unit": (
+        line("pitch_diameter", 'pitch_diameter = "142 N"'),
+        "geometry.pitch_diameter",
+        ["142 N", "a length"],
+    ),
+    "unknown_unit": (line("pitch_diameter", 'pitch_diameter = "142 mmm"'), "geometry.pitch_diameter", ["mmm"]),
+    "frequency": (line("inner_speed", 'inner_speed = "175 Hz"'), "operation.inner_speed", ["rpm"]),
+    "bare_number": (
+        line("roller_length", "roller_length = 14"),
+        "geometry.roller_length",
+        ["bare number 14", "'12 mm'"],
+    ),
+    "unit_without_number": (line("roller_length", 'roller_length = "mm"'), "geometry.roller_length", ["a length"]),
+    "decimal_comma": (line("roller_length", 'roller_length = "1,4 mm"'), "geometry.roller_length", ["1,4 mm"]),
+    "negative_diameter": (line("roller_diameter", 'roller_diameter = "-12 mm"'), "geometry.roller_diameter", ["> 0"]),
+    "missing_load": (line("radial_load", ""), "operation.radial_load", ["nothing", "required"]),
+    "missing_speed": (line("inner_speed", ""), "operation.inner_speed", ["nothing", "required"]),
+    "missing_temperature": (line("oil_temperature", ""), "operation.oil_temperature", ["[contact] needs"]),
+    "missing_flow": (line("oil_flow", ""), "operation.oil_flow", ["[drag] needs"]),
+    "missing_film": (line("film", ""), "contact.film", ["nothing", "required"]),
+    "missing_table": (without_table("materials"), "materials", ["nothing", "required"]),
+    "zero_load": (line("radial_load", 'radial_load = "0 N"'), "operation.radial_load", ["'0 N'", "> 0"]),
+    "text_for_a_number": (
+        line("coefficient", 'coefficient = "0.3"'),
+        "drag.coefficient",
+        ["a number", "without quotes"],
+    ),
+    "boolean": (line("coefficient", "coefficient = true"), "drag.coefficient", ["boolean true"]),
+    "array": (line("inner_speed", 'inner_speed = ["1 rpm"]'), "operation.inner_speed", ["an array"]),
+    "date": (line("inner_speed", "inner_speed = 2020-01-01"), "operation.inner_speed", ["2020-01-01"]),
+    "fraction_for_a_count": (line("n_rollers", "n_rollers = 30.5"), "geometry.n_rollers", ["30.5", "whole number"]),
+    "zero_rollers": (line("n_rollers", "n_rollers = 0"), "geometry.n_rollers", [">= 1"]),
+    "huge_number": (line("coefficient", f"coefficient = 1{'0' * 400}"), "drag.coefficient", ["not finite"]),
+    "endless_number": (line("coefficient", f"coefficient = 1{'0' * 5000}"), "", ["syntax"]),
+    "nan": (line("coefficient", "coefficient = nan"), "drag.coefficient", ["nan", "not finite"]),
+    "nan_with_unit": (line("radial_load", 'radial_load = "nan N"'), "operation.radial_load", ["not finite"]),
+    "infinity": (line("radial_load", 'radial_load = "1e999 N"'), "operation.radial_load", ["not finite"]),
+    "oil_unknown": (line("name", 'name = "mobil_jet_2"'), "oil.name", ["mobil_jet_2", "Did you mean 'mobil_jet_ii'"]),
+    "oil_without_laws": (line("name", ""), "oil.viscosity", ["nothing", "'name'"]),
+    "oil_law_unknown": (TEXT + '[oil.density]\nlaw = "linar"\n', "oil.density.law", ["'linear'"]),
+    "oil_law_missing_parameter": (
+        TEXT + '[oil.pressure_viscosity]\nlaw = "constant"\n',
+        "oil.pressure_viscosity.value",
+        ["required"],
+    ),
+    "oil_law_unknown_parameter": (
+        TEXT + '[oil.pressure_viscosity]\na0 = "1 K/Pa"\n',
+        "oil.pressure_viscosity.a0",
+        ["'a00'", "Did you mean"],
+    ),
+    "oil_text": (TEXT.replace("[oil]", "oil = 'mobil_jet_ii'\n[unused]"), "geometry", []),
+    "material_unknown": (line("rings", 'rings = "M51"'), "materials.rings", ["'52100'", "Did you mean 'M50'"]),
+    "material_incomplete": (line("rings", 'rings = {density = "1 kg/m^3"}'), "materials.rings.", ["required"]),
+    "poisson_ratio": (
+        line("rings", 'rings = {density = "7850 kg/m^3", youngs_modulus = "210 GPa", poisson_ratio = 0.6}'),
+        "materials.rings.poisson_ratio",
+        ["0.6", "0.5"],
+    ),
+    "rollers_do_not_fit": (line("n_rollers", "n_rollers = 40"), "geometry.n_rollers", ["40", "do not fit"]),
+    "contact_longer_than_roller": (
+        line("contact_length", 'contact_length = "15 mm"'),
+        "geometry.contact_length",
+        ["14"],
+    ),
+    "cage_inside_out": (line("inner_diameter", 'inner_diameter = "147 mm"'), "cage.inner_diameter", ["146 mm"]),
+    "flange_angle": (line("angle", 'angle = "90 deg"'), "flange.angle", ["below 90 deg"]),
+    "below_absolute_zero": (line("oil_temperature", 'oil_temperature = "-300 degC"'), "operation.oil_temperature", []),
+    "enum": (line("guidance", 'guidance = "inner"'), "cage.guidance", ["'inner_ring'", "Did you mean"]),
+    "film_unknown": (line("film", 'film = "mos"'), "contact.film", ["'dowson_higginson'", "Did you mean 'moes'"]),
+    "table_for_a_number": (TEXT + "[geometry.extra]\na = 1\n", "geometry.extra", ["unknown name"]),
+    "number_for_a_table": (without_table("cage").replace("kind ", "cage = 3\nkind ", 1), "cage", ["a table"]),
+    "lubricated_without_cage": (without_table("cage"), "cage", ["simulate"]),
+    "contact_without_oil": (without_table("oil"), "oil", ["[contact] needs"]),
+    "not_yet": (line("oil_flow", 'axial_load = "1 N"'), "operation.axial_load", ["not available in this version"]),
+    "kind_unknown": (
+        line("kind", 'kind = "cylindrical_roler_bearing"'),
+        "kind",
+        ["Did you mean 'cylindrical_roller_bear"],
+    ),
+    "kind_not_yet": (
+        line("kind", 'kind = "ball_bearing"'),
+        "kind",
+        ["'ball_bearing'", "not available in this version"],
+    ),
+    "kind_missing": (line("kind", ""), "kind", ["nothing", 'kind = "cylindrical_roller_bearing"']),
+    "kind_misspelt": (line("kind", 'knid = "cylindrical_roller_bearing"'), "kind", ["'knid'", "Did you mean 'kind'"]),
+    "kind_number": (line("kind", "kind = 3"), "kind", ["the number 3"]),
+    "syntax": (line("roller_diameter", "roller_diameter = 12 mm"), "geometry.roller_diameter", ["line", "syntax"]),
+    "duplicate_key": (line("roller_length", "n_rollers = 3"), "geometry.n_rollers", ["line", "syntax"]),
+    "empty": ("", "", ["empty", "kind ="]),
+    "blank": (" \n\n", "", ["empty"]),
+    "comment_only": ("# nothing\n", "kind", ["nothing"]),
+    "not_toml": ("<scene/>", "", ["TOML"]),
+}
+
+
+def check(result, folder, file, path, words):
+    assert result.code == 2
+    assert result.out == ""
+    message = result.err
+    assert message.startswith(f"error: {file}: {path}") if path else message.startswith(f"error: {file}: found")
+    assert message.count("\n") == 1
+    assert "found" in message
+    assert "expected" in message
+    assert "Traceback" not in message
+    assert "pydantic" not in message
+    for word in words:
+        assert word in message
+
+
+@pytest.mark.parametrize("name", BROKEN)
+@pytest.mark.parametrize("options", [(), ("--json",)], ids=["screen", "json"])
+def test_broken_scene(name, options, jaxbearing_command, folder):
+    text, path, words = BROKEN[name]
+    if name == "oil_text":
+        # everything below the top level moved into another table
+        text, path, words = "oil = 'mobil_jet_ii'\n" + without_table("oil"), "oil", ["a table"]
+    if name == "endless_number":
+        path = "drag.coefficient" if sys.version_info >= (3, 99) else ""
+    file = f"{name}.toml"
+    (folder / file).write_text(text, encoding="utf-8")
+    result = jaxbearing_command("solve", file, *options)
+    check(result, folder, file, path, words)
+    assert os.listdir(folder) == [file]
+
+
+def test_missing_file(jaxbearing_command, folder):
+    check(jaxbearing_command("solve", "nowhere.toml"), folder, "nowhere.toml", "", ["no such file", "turbine_roller"])
+    assert os.listdir(folder) == []
+
+
+@pytest.mark.parametrize("name", ["turbine_rolller", "turbine-roller", "Turbine_Roller"])
+def test_misspelt_builtin_name(name, jaxbearing_command, folder):
+    check(jaxbearing_command("solve", name), folder, name, "", ["Did you mean 'turbine_roller'"])
+
+
+def test_folder(jaxbearing_command, folder):
+    (folder / "scene.toml").mkdir()
+    check(jaxbearing_command("solve", "scene.toml"), folder, "scene.toml", "", ["a folder", "a scene file"])
+
+
+def test_not_utf8(jaxbearing_command, folder):
+    (folder / "scene.toml").write_bytes("# Größe\n".encode("latin-1"))
+    check(jaxbearing_command("solve", "scene.toml"), folder, "scene.toml", "", ["UTF-8"])
+
+
+def test_binary_file(jaxbearing_command, folder):
+    (folder / "scene.toml").write_bytes(bytes(range(256)))
+    check(jaxbearing_command("solve", "scene.toml"), folder, "scene.toml", "", ["UTF-8"])
+
+
+def test_path_with_null_byte(jaxbearing_command, folder):
+    check(jaxbearing_command("solve", "a\0b"), folder, "a\0b", "", ["cannot be read"])
+
+
+def test_unreadable_file(jaxbearing_command, folder, monkeypatch):
+    # the permission bits do not stop root, so the refusal is made here
+    (folder / "scene.toml").write_text(TEXT, encoding="utf-8")
+
+    def refuse(path):
+        raise PermissionError(13, "Permission denied", str(path))
+
+    monkeypatch.setattr("pathlib.Path.read_bytes", refuse)
+    check(jaxbearing_command("solve", "scene.toml"), folder, "scene.toml", "", ["Permission denied"])
+
+
+@pytest.mark.parametrize(
+    ("change", "path", "words"),
+    [
+        ("operation.inner_speed=12000", "operation.inner_speed", ["bare number 12000"]),
+        ("operation.iner_speed=1 rpm", "operation.iner_speed", ["Did you mean 'inner_speed'"]),
+        ("cage=none", "cage", ["simulate"]),
+        ("cagee=none", "cagee", ["Did you mean 'cage'"]),
+        ("operation.radial_load=none", "operation.radial_load", ["required"]),
+        ("contact.film.order=3", "contact.film.order", ["a table"]),
+        ("kind=ball_bearing", "kind", ["not available in this version"]),
+    ],
+)
+def test_set(change, path, words, jaxbearing_command, folder):
+    result = jaxbearing_command("solve", "turbine_roller", "--set", change)
+    check(result, folder, "turbine_roller with --set", "", []) if False else None
+    assert result.code == 2
+    assert result.out == ""
+    assert result.err.startswith(f"error: turbine_roller with --set {change}: {path}: found")
+    assert all(word in result.err for word in words)
+
+
+@pytest.mark.parametrize("change", ["operation.inner_speed", "=3", "operation..inner_speed=3 rpm"])
+def test_malformed_set(change, jaxbearing_command):
+    result = jaxbearing_command("solve", "turbine_roller", "--set", change)
+    assert result.code == 2
+    assert "path=value" in result.err
+
+
+@pytest.mark.parametrize("arguments", [["solve"], ["slove", "a"], ["solve", "a", "--jsn"], ["solve", "a", "b"]])
+def test_wrong_usage(arguments, jaxbearing_command):
+    result = jaxbearing_command(*arguments)
+    assert result.code == 2
+    assert result.out == ""
+    assert "Traceback" not in result.err
+
+
+def process(*arguments, cwd):
+    environment = {**os.environ, "JAXBEARING_CACHE": "off", "PYTHONPATH": os.pathsep.join(sys.path)}
+    command = [sys.executable, "-m", "jaxbearing", *arguments]
+    return subprocess.run(command, cwd=cwd, env=environment, capture_output=True, text=True, check=False)
+
+
+@pytest.mark.parametrize("name", ["bare_number", "lubricated_without_cage"])
+def test_as_a_process(name, folder):
+    text, path, words = BROKEN[name]
+    (folder / "scene.toml").write_text(text, encoding="utf-8")
+    done = process("solve", "scene.toml", "--json", cwd=folder)
+    assert (done.returncode, done.stdout) == (2, "")
+    assert done.stderr.startswith(f"error: scene.toml: {path}: found")
+    assert done.stderr.count("\n") == 1
+    assert all(word in done.stderr for word in words)
+    assert os.listdir(folder) == ["scene.toml"]
+
+
+def test_the_scenes_are_broken_in_one_place_only():
+    assert tomllib.loads(TEXT)["kind"]
+    assert len(BROKEN) >= 20

@@ -1,0 +1,194 @@
+"""Block-arrow algebra against dense algebra, and the Newton iteration on a small system with a known answer."""
+
+import equinox as eqx
+import jax
+import jax.numpy as jnp
+import numpy as np
+import pytest
+from jaxbearing.numerics.arrow import (
+    AbstractArrowSystem,
+    ArrowPoint,
+    evaluate,
+    linearize,
+    schur_complement,
+    solve_arrow,
+)
+from jaxbearing.numerics.newton import NewtonOptions, newton_solve
+from jaxbearing.numerics.small_linear import solve_blocks
+from jaxbearing.numerics.status import Status
+from jaxtyping import Array, Float
+
+
+class Springs(AbstractArrowSystem):
+    """Cubic springs between a common body (globals) and its supports: m unknowns an element, g globals.
+
+    With `m` = 0 the element has no unknown of its own; `totals` enter the closure nonlinearly.
+    """
+
+    stiffness: Float[Array, " element"]
+    load: Float[Array, " g"]
+    m: int = eqx.field(static=True, default=2)
+    flaw: Float[Array, ""] = eqx.field(default_factory=lambda: jnp.zeros(()))
+
+    def initial(self):
+        return ArrowPoint(jnp.full((self.m, self.stiffness.shape[0]), 0.3), jnp.full(self.load.shape, 0.4))
+
+    def element(self, unknowns, shared):
+        pull = self.stiffness * jnp.sum(shared, axis=0)
+        rows = [
+            unknowns[i] + 0.1 * unknowns[i] ** 3 + 0.2 * unknowns[i - 1] - pull / (i + 1.0) for i in range(self.m)
+        ]
+        local = jnp.stack(rows) if rows else unknowns
+        own = jnp.sum(unknowns, axis=0) if self.m else jnp.zeros_like(pull)
+        return local, jnp.stack([pull + own + pull**3, own * pull]), jnp.zeros(())
+
+    def closure(self, globals_, totals):
+        other = jnp.flip(globals_)
+        weights = jnp.arange(1.0, 1.0 + globals_.shape[0])
+        residual = globals_ * (weights + totals[1] ** 2) + 0.3 * other + totals[0] - self.load
+        return residual + jnp.where(self.flaw > 0, jnp.nan, 0.0), jnp.zeros(())  # a flaw > 0 makes every residual NaN
+
+    def step_caps(self):
+        return ArrowPoint(jnp.full((self.m, 1), 0.5), jnp.full(self.load.shape, 0.5))
+
+    def bounds(self):
+        high = ArrowPoint(jnp.full((self.m, 1), 50.0), jnp.full(self.load.shape, 50.0))
+        return ArrowPoint(-high.elements, -high.globals), high
+
+    def equation_names(self):
+        return tuple(f"e{i}" for i in range(self.m)) + tuple(f"g{i}" for i in range(self.load.shape[0]))
+
+
+def springs(m=2, g=2, n=5, scale=1.0, flaw=0.0):
+    return Springs(
+        stiffness=jnp.linspace(0.5, 1.5, n), load=scale * jnp.arange(1.0, 1.0 + g), m=m, flaw=jnp.asarray(flaw)
+    )
+
+
+def flat(point):
+    return jnp.concatenate([point.elements.ravel(), point.globals])
+
+
+def dense_jacobian(system, point):
+    shape = point.elements.shape
+
+    def function(v):
+        size = shape[0] * shape[1]
+        return flat(evaluate(system, ArrowPoint(v[:size].reshape(shape), v[size:])).residual)
+
+    return jax.jacfwd(function)(flat(point))
+
+
+@pytest.mark.parametrize("m", [0, 1, 2, 3, 4, 6])
+@pytest.mark.parametrize("g", [1, 2, 5])
+def test_arrow_equals_dense(m, g):
+    system = springs(m, g)
+    point = system.initial()
+    equations, jacobian = linearize(system, point)
+    dense = dense_jacobian(system, point)
+    right = evaluate(system, point).residual
+    np.testing.assert_allclose(flat(equations.residual), flat(right), rtol=1e-14)
+    expected = np.linalg.solve(dense, flat(right))
+    np.testing.assert_allclose(flat(solve_arrow(jacobian, right)), expected, rtol=1e-11, atol=1e-13)
+    k = m * 5
+    schur = dense[k:, k:] - dense[k:, :k] @ np.linalg.solve(dense[:k, :k], dense[:k, k:])
+    np.testing.assert_allclose(schur_complement(jacobian), schur, rtol=1e-11, atol=1e-13)
+
+
+@pytest.mark.parametrize("m", [1, 2, 3, 4, 5, 7])
+def test_small_blocks_against_lapack(m):
+    rng = np.random.default_rng(m)
+    matrix = rng.normal(size=(m, m, 40)) + 3.0 * np.eye(m)[:, :, None]  # natural stiffness on the diagonal
+    right = rng.normal(size=(m, 3, 40))
+    expected = np.moveaxis(np.linalg.solve(np.moveaxis(matrix, -1, 0), np.moveaxis(right, -1, 0)), 0, -1)
+    np.testing.assert_allclose(solve_blocks(jnp.asarray(matrix), jnp.asarray(right)), expected, rtol=1e-8, atol=1e-10)
+
+
+@pytest.mark.parametrize("m", [1, 3, 5])
+def test_singular_block_harms_only_its_own_column(m):
+    matrix = jnp.broadcast_to(jnp.eye(m)[:, :, None], (m, m, 3)).at[0, 0, 1].set(0.0)
+    solution = solve_blocks(matrix, jnp.ones((m, 1, 3)))
+    np.testing.assert_array_equal(np.isfinite(solution).all(axis=(0, 1)), [True, False, True])
+
+
+@pytest.mark.parametrize("m", [0, 2, 5])
+def test_newton_finds_the_root(m):
+    system = springs(m)
+    _, result = newton_solve(system)
+    assert result.status == Status.CONVERGED
+    assert result.iterations <= 12
+    assert result.residual_norm < 1e-13
+    # rounding of residuals of order 10
+    np.testing.assert_allclose(flat(evaluate(system, result.point).residual), 0.0, atol=1e-13)
+
+
+def objective(system):
+    live, result = newton_solve(system)
+    return jnp.sum(jnp.sin(result.point.elements)) + result.point.globals[0] ** 2 + live.stiffness[0]
+
+
+def test_implicit_gradient_both_modes_and_differences():
+    def of_load(load):
+        system = springs()
+        return objective(Springs(system.stiffness, load))
+
+    load = jnp.asarray([1.0, 2.0])
+    forward, reverse = jax.jacfwd(of_load)(load), jax.jacrev(of_load)(load)
+    step = 1e-5
+    central = [(of_load(load.at[i].add(step)) - of_load(load.at[i].add(-step))) / (2 * step) for i in range(2)]
+    np.testing.assert_allclose(forward, reverse, rtol=1e-12)
+    np.testing.assert_allclose(forward, central, rtol=1e-8)
+
+
+@pytest.mark.parametrize("mapped", ["vmap", "map"])
+def test_failed_lane_harms_nobody(mapped):
+    """One lane NaN, one far too hard for the step limit: neighbours keep values AND gradients of single solves."""
+    flaws, scales = jnp.asarray([0.0, 1.0, 0.0, 0.0]), jnp.asarray([1.0, 1.0, 1e9, 2.0])
+    options = NewtonOptions(max_steps=25)
+
+    def one(shared, flaw, scale):
+        system = Springs(shared * jnp.linspace(0.5, 1.5, 5), scale * jnp.asarray([1.0, 2.0]), flaw=flaw)
+        live, result = newton_solve(system, options)
+        value = jnp.sum(result.point.elements) * live.stiffness[0]
+        return jnp.where(result.converged, value, jnp.nan), result.status
+
+    def lanes(shared):
+        if mapped == "vmap":
+            return jax.vmap(lambda f, s: one(shared, f, s))(flaws, scales)
+        return jax.lax.map(lambda fs: one(shared, *fs), (flaws, scales))
+
+    values, status = jax.jit(lanes)(1.0)
+    np.testing.assert_array_equal(
+        status, [Status.CONVERGED, Status.DIVERGED, Status.NOT_CONVERGED, Status.CONVERGED]
+    )
+    for lane in (0, 3):
+        single, _ = one(1.0, flaws[lane], scales[lane])
+        np.testing.assert_allclose(values[lane], single, rtol=1e-13)
+    assert np.isnan(values[1])
+    assert np.isnan(values[2])
+
+    def masked_sum(shared):
+        values, status = lanes(shared)
+        return jnp.sum(jnp.where(status == Status.CONVERGED, values, 0.0))
+
+    singles = sum(jax.grad(lambda s, i=i: one(s, flaws[i], scales[i])[0])(1.0) for i in (0, 3))
+    np.testing.assert_allclose(jax.grad(masked_sum)(1.0), singles, rtol=1e-12)
+    np.testing.assert_allclose(jax.jacfwd(masked_sum)(1.0), singles, rtol=1e-12)
+
+
+def test_failure_names_residual_and_worst_equation():
+    _, result = newton_solve(springs(scale=1e9), NewtonOptions(max_steps=5))
+    assert result.status == Status.NOT_CONVERGED
+    assert result.iterations == 5
+    assert result.residual_norm > 1.0
+    assert springs().equation_names()[int(result.worst_equation)].startswith("g")
+    assert jnp.all(jnp.isfinite(flat(result.point)))
+
+
+def test_unconverged_inner_solve_is_not_hidden():
+    class Hiding(Springs):
+        def closure(self, globals_, totals):
+            return super().closure(globals_, totals)[0], jnp.asarray(1e-3)
+
+    _, result = newton_solve(Hiding(jnp.linspace(0.5, 1.5, 5), jnp.asarray([1.0, 2.0])))
+    assert result.status == Status.NOT_CONVERGED

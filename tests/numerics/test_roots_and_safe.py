@@ -1,0 +1,119 @@
+"""Monotone root with its implicit derivative; safe functions against the plain ones and at the singular points."""
+
+import jax
+import jax.numpy as jnp
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from jaxbearing.numerics.precision import as_float
+from jaxbearing.numerics.quadrature import gauss_legendre
+from jaxbearing.numerics.roots import monotone_root
+from jaxbearing.numerics.safe import (
+    nonnegative_pressure,
+    positive_power,
+    regular_power,
+    safe_norm,
+    smooth_abs,
+    smooth_sign,
+    smoothstep,
+    softplus_floor,
+)
+
+
+def cubic(x, args):
+    a, b = args
+    return x**3 + a * x - b
+
+
+@pytest.mark.parametrize("b", [-1e6, -1.0, 0.0, 1e-9, 5.0, 1e9])
+def test_root_against_cardano(b):
+    """x^3 + a x = b has one real root for a > 0."""
+    root = monotone_root(cubic, (2.0, b), -1e4, 1e4, 3.0)
+    real = [r.real for r in np.roots([1.0, 0.0, 2.0, -b]) if abs(r.imag) < 1e-6 * max(1.0, abs(r))]
+    np.testing.assert_allclose(root.value, real[0], rtol=1e-12, atol=1e-15)
+    assert root.residual <= 1e-9 * max(1.0, abs(b))
+
+
+def test_root_derivative_is_implicit_in_both_modes():
+    value = lambda a, b: monotone_root(cubic, (a, b), -10.0, 10.0, 1.0).value
+    x = value(2.0, 5.0)
+    exact = (-x / (3 * x**2 + 2), 1 / (3 * x**2 + 2))
+    np.testing.assert_allclose(jax.jacfwd(value, argnums=(0, 1))(2.0, 5.0), exact, rtol=1e-13)
+    np.testing.assert_allclose(jax.jacrev(value, argnums=(0, 1))(2.0, 5.0), exact, rtol=1e-13)
+
+
+def test_root_elementwise_and_batched():
+    b = jnp.linspace(-3.0, 9.0, 7)
+    together = monotone_root(cubic, (2.0, b), -10.0, 10.0, jnp.zeros(7)).value
+    each = jax.vmap(lambda b_: monotone_root(cubic, (2.0, b_), -10.0, 10.0, 0.0).value)(b)
+    np.testing.assert_allclose(together, each, rtol=1e-14)
+    np.testing.assert_allclose(cubic(together, (2.0, b)), 0.0, atol=1e-13)
+
+
+@pytest.mark.parametrize(("b", "end"), [(1e9, 10.0), (-1e9, -10.0)])
+def test_root_outside_the_bracket_is_its_end_and_says_so(b, end):
+    solve = lambda b_: monotone_root(cubic, (2.0, b_), -10.0, 10.0, 0.0)
+    root = solve(b)
+    assert root.value == end
+    assert root.residual > 1e8
+    assert jax.grad(lambda b_: solve(b_).value)(b) == 0.0
+
+
+def test_root_of_a_flat_start_bisects():
+    """Slope 0 at the guess: Newton alone would divide by zero."""
+    root = monotone_root(lambda x, a: jnp.where(x > 1, (x - 1) ** 2, 0.0) - a, 4.0, -5.0, 50.0, 0.0)
+    np.testing.assert_allclose(root.value, 3.0, rtol=1e-12)
+
+
+def check_gradients(function, points):
+    for x in points:
+        value, forward, reverse = function(x), jax.jacfwd(function)(x), jax.jacrev(function)(x)
+        assert all(jnp.isfinite(v) for v in (value, forward, reverse)), (x, value, forward, reverse)
+        # a slope of order 1 that cancels to nothing far away leaves round-off
+        np.testing.assert_allclose(forward, reverse, rtol=1e-12, atol=1e-15)
+
+
+def test_safe_functions_are_finite_at_their_singular_points():
+    hard = [0.0, -1.0, 1.0, 1e-300, -1e-300, 1e12, -1e12]
+    check_gradients(lambda x: softplus_floor(x, 0.1, 0.02), hard)
+    check_gradients(lambda x: smooth_abs(x, 1e-6), hard)
+    check_gradients(lambda x: smooth_sign(x, 1e-6), hard)
+    check_gradients(lambda x: positive_power(x, 1.1), hard)
+    check_gradients(lambda x: safe_norm(x, 0.0), hard)
+    check_gradients(lambda x: nonnegative_pressure(x), hard)
+    check_gradients(lambda x: regular_power(x, 0.42, 1e-9), [0.0, 1e-300, 1e-9, 1.0, 1e12])
+    check_gradients(smoothstep, hard)
+
+
+def test_stated_errors_against_the_plain_formulas():
+    np.testing.assert_allclose(softplus_floor(1.0, 0.05, 0.02), 1.0, rtol=1e-14)
+    np.testing.assert_allclose(softplus_floor(0.05, 0.05, 0.02) - 0.05, 0.02 * np.log(2), rtol=1e-12)
+    np.testing.assert_allclose(smooth_abs(-3.0, 1e-6) / 3.0 - 1.0, 0.5e-12 / 9.0, atol=1e-15)
+    np.testing.assert_allclose(regular_power(1e-3, 0.42, 1e-9), 1e-3**0.42, rtol=0.29 * 1e-12)
+    np.testing.assert_allclose(jax.grad(lambda x: regular_power(x, 0.42, 1e-9))(0.0), 1e-9**-0.58, rtol=1e-12)
+    np.testing.assert_allclose(nonnegative_pressure(0.0), 0.0)
+    np.testing.assert_allclose(jax.grad(nonnegative_pressure)(-1e-6), 1.0, rtol=1e-11)
+    assert nonnegative_pressure(-1e12) >= -1e6
+
+
+@settings(deadline=None, derandomize=True, max_examples=50)
+@given(st.floats(-2.0, 3.0))
+def test_smoothstep_is_monotone_and_bounded(t):
+    assert 0.0 <= smoothstep(t) <= 1.0
+    assert jax.grad(smoothstep)(t) >= 0.0
+
+
+@pytest.mark.parametrize("n", [1, 8, 40])
+def test_gauss_rule_is_exact_to_degree_2n_minus_1(n):
+    nodes, weights = gauss_legendre(n)
+    for degree in (0, n, 2 * n - 1):
+        np.testing.assert_allclose(np.sum(weights * nodes**degree), 1.0 / (degree + 1), rtol=1e-12)
+
+
+def test_numbers_become_float64_leaves_and_float32_is_refused():
+    for value in (3, 2.5, np.float64(2.5), np.arange(3), jnp.arange(3)):
+        assert as_float(value).dtype == np.float64
+    for narrow in (np.float32(1.0), jnp.ones(3, dtype=jnp.float32)):
+        with pytest.raises(TypeError, match="64-bit"):
+            as_float(narrow)
