@@ -103,10 +103,11 @@ def solve(
         model = load_scene(scene, split_assignments(changes or []))
 
     from .cache import enable_compilation_cache
+    from .interrupt import prompt_interrupt
     from .quiet import without_false_alarms
 
     enable_compilation_cache()
-    with without_false_alarms():
+    with prompt_interrupt(), without_false_alarms():
         failure = _solve_and_print(model, _label(scene, changes), as_json)
     if failure:
         if as_json:

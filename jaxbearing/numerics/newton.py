@@ -36,8 +36,8 @@ class NewtonOptions(eqx.Module):
 class NewtonResult(NamedTuple):
     """Where the iteration ended. On a lane that failed, `point` is a finite point and not a solution.
 
-    `jacobian` holds the blocks at `point`; residual, worst equation and worst element are those at `point` of a lane
-    that converged and those of the last trial of a lane that failed.
+    `jacobian` holds the blocks, residual norm, worst equation and worst element are measured at the last iterate; of a
+    lane that converged, `point` is one Newton step (below the step tolerance) further.
     """
 
     point: ArrowPoint
@@ -163,44 +163,69 @@ def _iterate(system: AbstractArrowSystem, options: NewtonOptions) -> _Iterate:
     return jax.lax.while_loop(keep_going, advance, first)
 
 
-def _freeze(tree):
-    return jax.tree.map(jax.lax.stop_gradient, tree)
+class _Root(NamedTuple):
+    point: ArrowPoint
+    jacobian: ArrowJacobian
+    solved: Bool[Array, ""]
+    end: _Iterate
+
+
+@eqx.filter_custom_jvp
+def _root(system: System, *, options: NewtonOptions) -> _Root:
+    """The root with the Jacobian there; of a lane that failed, a finite point and where the iteration gave up."""
+    end = _iterate(system, options)
+    solved = end.status == Status.CONVERGED
+    # The last Newton step is taken, not only measured: it squares the remaining error.
+    step = solve_arrow(end.jacobian, end.equations.residual)
+    elements = jnp.where(solved, end.trial.elements - step.elements, _finite(end.trial.elements))
+    globals_ = jnp.where(solved, end.trial.globals - step.globals, _finite(end.trial.globals))
+    return _Root(ArrowPoint(elements, globals_), end.jacobian, solved, end)
+
+
+@_root.def_jvp
+def _root_jvp(primals, tangents, *, options: NewtonOptions):
+    (system,), (system_dot,) = primals, tangents
+    root = _root(system, options=options)
+    # Selecting on the tangent that comes in, not only on what goes out, keeps NaN times zero of a failed lane from
+    # parameters that lanes share, in both modes.
+    select = lambda t: jnp.where(root.solved, t, 0.0)
+    system_dot = jax.tree.map(select, system_dot)
+    _, residual_dot = eqx.filter_jvp(lambda s: evaluate(s, root.point).residual, (system,), (system_dot,))
+    step = solve_arrow(root.jacobian, residual_dot)
+    point_dot = jax.tree.map(lambda t: select(-t), step)
+    _, jacobian_dot = eqx.filter_jvp(
+        lambda s, p: linearize(s, p)[1], (system, root.point), (system_dot, point_dot)
+    )
+    rest = jax.tree.map(lambda _: None, (root.solved, root.end))
+    return root, _Root(point_dot, jax.tree.map(select, jacobian_dot), *rest)
+
+
+def _finite(x: Array) -> Array:
+    return jnp.where(jnp.isfinite(x), x, 0.0)
 
 
 def newton_solve(system: System, options: NewtonOptions | None = None) -> tuple[System, NewtonResult]:
     """Solve a block-arrow system from its own first guess.
 
-    Returns the system to evaluate results with, and the result. The derivative of the solution, in both
-    modes, is that of the implicit function: the iteration runs on `stop_gradient` values and one
-    differentiable Newton step follows, which also squares the remaining error. First derivatives only.
+    Returns the system to evaluate results with, and the result. The derivative of the solution (and of the Jacobian
+    at the solution) is that of the implicit function, in both modes and to any order: nothing is differentiated
+    through the iteration, and a solve that is not differentiated does not pay for derivatives.
 
-    A lane that fails never raises and never spoils a neighbour under `vmap`: its point is the (finite) first
-    guess, and the returned system passes no derivative for it, so that NaN times zero cannot reach a
-    parameter that lanes share. Whoever computes results from the point masks them by `converged`.
+    A lane that fails never raises and never spoils a neighbour under `vmap`: its point is finite and not a solution,
+    and the returned system passes no derivative for it, so that NaN times zero cannot reach a parameter that lanes
+    share. Whoever computes results from the point masks them by `converged`.
 
     **Arguments:** `system`: equations and parameters; `options`: tolerances and limits.
     """
-    options = NewtonOptions() if options is None else options
-    frozen = _freeze(system)
-    end = _iterate(frozen, options)
-    solved = end.status == Status.CONVERGED
-
-    guess = jax.tree.map(lambda x: jnp.where(jnp.isfinite(x), x, 0.0), frozen.initial())
-    pick = lambda a, b: jax.tree.map(lambda x, y: jnp.where(solved, x, y), a, b)
-    point = pick(end.trial, guess)
-    live = pick(system, _freeze(system))
-    step = solve_arrow(end.jacobian, evaluate(live, point).residual)
-    moved = pick(ArrowPoint(point.elements - step.elements, point.globals - step.globals), point)
-
-    # Judged where the user will look: at the point that is returned (a failed lane: where it gave up).
-    equations, jacobian = linearize(live, moved)
-    judged = pick(_freeze(equations), end.equations)
-    elements, globals_ = jnp.abs(judged.residual.elements), jnp.abs(judged.residual.globals)
+    root = _root(system, options=NewtonOptions() if options is None else options)
+    live = jax.tree.map(lambda x: jnp.where(root.solved, x, jax.lax.stop_gradient(x)), system)
+    # What is reported was measured one Newton step before the returned point.
+    end = root.end
+    elements, globals_ = jnp.abs(end.equations.residual.elements), jnp.abs(end.equations.residual.globals)
     sizes = jnp.concatenate([jnp.max(elements, axis=1, initial=0.0), globals_])
     worst = jnp.argmax(jnp.where(jnp.isnan(sizes), jnp.inf, sizes))
     m = elements.shape[0]
     worst_element = jnp.argmax(elements[jnp.minimum(worst, m - 1)]) if m else jnp.asarray(0)
-    norm = jnp.max(sizes)
-    good = (norm <= options.residual_tolerance) & (judged.inner <= options.inner_tolerance)
-    status = jnp.where(solved & ~good, int(Status.NOT_CONVERGED), end.status)
-    return live, NewtonResult(moved, jacobian, status, end.iterations, norm, worst, worst_element)
+    return live, NewtonResult(
+        root.point, root.jacobian, end.status, end.iterations, jnp.max(sizes), worst, worst_element
+    )

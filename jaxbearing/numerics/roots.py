@@ -3,9 +3,10 @@
 from collections.abc import Callable
 from typing import NamedTuple
 
+import equinox as eqx
 import jax
 import jax.numpy as jnp
-from jaxtyping import Array, Float, PyTree
+from jaxtyping import Array, Bool, Float, PyTree
 
 from .._types import Values
 
@@ -13,7 +14,7 @@ from .._types import Values
 class Root(NamedTuple):
     """A root and how well it was found.
 
-    `residual` is |f(value)| in the unit of f at the *iterated* root. A nested solve hands it to
+    `residual` is |f(value)| in the unit of f before the last Newton step. A nested solve hands it to
     the outer solve's status, so that an inner failure is never hidden by an outer success.
     """
 
@@ -35,26 +36,42 @@ def monotone_root(
 
     Safeguarded Newton: a Newton step that would leave the bracket (or is not finite) is replaced
     by bisection, and the bracket shrinks at every step. It stops when every element's step is
-    below `tolerance * max(1, |x|)`. A root outside the bracket ends at the nearer bracket end, and
-    its residual says so.
+    below `tolerance * max(1, |x|)`; one more Newton step follows. A root outside the bracket ends at the
+    nearer bracket end, and its residual says so.
 
     The derivative is that of the implicit function, $dx = -(\partial f/\partial a)\,da /
-    (\partial f/\partial x)$, in both modes: the iteration runs on `stop_gradient` values and one
-    differentiable Newton step follows. First derivatives only.
+    (\partial f/\partial x)$, in both modes and to any order; 0 where there is no root or the function is flat.
 
     **Arguments:**
     - `function(x, args)`: elementwise in x, increasing; shape of x in, shape of x out.
-    - `args`: pytree of everything that `function` depends on (never closed over, or its
-      derivative is lost).
-    - `lower`, `upper`, `guess`: broadcast to the shape of the root.
+    - `args`: pytree of everything that `function` depends on (what it closes over must not be differentiated).
+    - `lower`, `upper`, `guess`: broadcast to the shape of the root; not differentiated.
     """
-    frozen = jax.lax.stop_gradient(args)
     lower, upper, guess = jnp.broadcast_arrays(
         *(jax.lax.stop_gradient(jnp.asarray(v, dtype=float)) for v in (lower, upper, guess))
     )
+    value, residual, _ = _root(
+        args, function=function, bracket=(lower, upper), guess=guess, tolerance=tolerance, max_steps=max_steps
+    )
+    return Root(value, residual)
 
-    def value_and_slope(x, a):
-        return jax.jvp(lambda x_: function(x_, a), (x,), (jnp.ones_like(x),))
+
+def _value_and_slope(function: Callable, x: Array, args: PyTree) -> tuple[Array, Array]:
+    return jax.jvp(lambda x_: function(x_, args), (x,), (jnp.ones_like(x),))
+
+
+@eqx.filter_custom_jvp
+def _root(
+    args: PyTree,
+    *,
+    function: Callable[[Array, PyTree], Array],
+    bracket: tuple[Array, Array],
+    guess: Array,
+    tolerance: float,
+    max_steps: int,
+) -> tuple[Float[Array, "*batch"], Float[Array, "*batch"], Bool[Array, "*batch"]]:
+    """Root, residual, and whether it is a proper root (with a derivative)."""
+    lower, upper = bracket
 
     def keep_going(state):
         _, _, _, step_size, count = state
@@ -62,7 +79,7 @@ def monotone_root(
 
     def advance(state):
         x, low, high, _, count = state
-        value, slope = value_and_slope(x, frozen)
+        value, slope = _value_and_slope(function, x, args)
         low = jnp.where(value < 0, x, low)
         high = jnp.where(value > 0, x, high)
         newton = x - value / slope
@@ -74,12 +91,18 @@ def monotone_root(
     start = (guess, lower, upper, jnp.full(guess.shape, jnp.inf), jnp.asarray(0))
     x = jax.lax.while_loop(keep_going, advance, start)[0]
 
-    value, slope = value_and_slope(x, frozen)
-    residual = jnp.abs(value)
-    # No root inside: the bracket end that is nearer to one. Flat or not finite: where the search ended. Both with
-    # derivative 0 instead of NaN.
+    value, slope = _value_and_slope(function, x, args)
     polished = x - value / jnp.where(slope > 0, slope, 1.0)
-    usable = jnp.isfinite(slope) & (slope > 0) & (polished > lower) & (polished < upper)
+    proper = jnp.isfinite(slope) & (slope > 0) & (polished > lower) & (polished < upper)
     stuck = jnp.where(polished <= lower, lower, jnp.where(polished >= upper, upper, x))
-    correction = function(x, args) / jnp.where(usable, slope, 1.0)
-    return Root(jnp.where(usable, x - correction, stuck), residual)
+    return jnp.where(proper, polished, stuck), jnp.abs(value), proper
+
+
+@_root.def_jvp
+def _root_jvp(primals, tangents, *, function, **options):
+    (args,), (args_dot,) = primals, tangents
+    x, residual, proper = _root(args, function=function, **options)
+    slope = _value_and_slope(function, x, args)[1]
+    _, value_dot = eqx.filter_jvp(lambda a: function(x, a), (args,), (args_dot,))
+    x_dot = jnp.where(proper, -value_dot / jnp.where(proper, slope, 1.0), 0.0)
+    return (x, residual, proper), (x_dot, jnp.zeros_like(residual), None)

@@ -16,7 +16,7 @@ from ..bearings.solution import Solution
 from ..numerics.status import Status
 from .display import ZERO_CELSIUS, bar, digits, display_unit, displayed, with_unit
 
-LOADED = 0.01
+LOADED = 0.02
 """A roller whose inner load is above this part of the largest one counts as loaded: films carry a few newtons
 everywhere."""
 _LOSS_BAR, _LOAD_BAR = 40, 18
@@ -49,7 +49,7 @@ def print_summary(solution: Solution, scene_label: str, console: Console) -> Non
     counts = f"{_count(int(solution.iterations), 'Newton step')}, {_count(solution.unknowns, 'unknown')}"
     state = f"{counts}, largest scaled residual {float(solution.residual_norm):.1e}"
     _headline(scene_label, "CONVERGED", "bold green", state, console)
-    _line("Operating point", ", ".join(_operation(solution.operation)), console)
+    _line("Operating point", ", ".join(_operation(solution)), console)
     _print_losses(solution, console)
     _print_loads(solution, console)
     console.print(Rule("Motion and films", align="left", style="dim"))
@@ -79,7 +79,7 @@ def _print_failure(solution: Solution, label: str, console: Console) -> None:
     _headline(label, "NOT CONVERGED", "bold red", f"status: {status}", console)
     console.print(Padding(Text(solution.failure(), style="red"), (0, 2)))
     console.print(Padding(Text("No results: the point where the iteration stopped is not a solution."), (0, 2)))
-    _line("Operating point", ", ".join(_operation(solution.operation)), console)
+    _line("Operating point", ", ".join(_operation(solution)), console)
 
 
 def _line(name: str, text: str, console: Console) -> None:
@@ -90,15 +90,22 @@ def _line(name: str, text: str, console: Console) -> None:
     console.print(grid)
 
 
-def _operation(operation: Any) -> Iterator[str]:
-    for field in dataclasses.fields(operation):
-        value = float(getattr(operation, field.name))
+def _operation(solution: Solution) -> Iterator[str]:
+    """The operating point, without what the scene does not use."""
+    hidden = set()
+    if solution.elements.film_inner is None:
+        hidden.add("oil_temperature")
+    if solution.power_loss.drag is None:
+        hidden.add("oil_flow")
+    for field in dataclasses.fields(solution.operation):
+        value = float(np.asarray(getattr(solution.operation, field.name)))
+        if field.name in hidden or (field.name == "outer_speed" and value == 0.0):
+            continue
         if field.name == "oil_temperature":
             yield f"oil {value - ZERO_CELSIUS:.6g} degC"
         elif field.name in _OPERATION:
             label, unit, factor = _OPERATION[field.name]
-            if value != 0.0 or field.name != "outer_speed":
-                yield f"{label} {value * factor:.6g} {unit}"
+            yield f"{label} {value * factor:.6g} {unit}"
         else:
             yield f"{field.name} {value:.6g}"
 
@@ -180,10 +187,10 @@ def _column(values: np.ndarray, unit: str) -> list[str]:
 
 
 def _loaded_zone(azimuth: np.ndarray, loaded: np.ndarray) -> str:
-    count = f"{int(np.sum(loaded))} of {loaded.size} rollers"
+    count = f"{int(np.sum(loaded))} of {loaded.size} rollers above {100.0 * LOADED:.0f} % of the largest load"
     if np.all(loaded) or not np.any(loaded):
         return count
-    return f"{count}, {np.min(azimuth[loaded]):.0f} to {np.max(azimuth[loaded]):.0f} deg from the load line"
+    return f"{count}, {np.min(azimuth[loaded]):.0f} to {np.max(azimuth[loaded]):.0f} deg"
 
 
 def _range(values: np.ndarray, unit: str) -> str:

@@ -55,7 +55,7 @@ def apply(raw: Mapping[str, Any], overrides: Mapping[str, str], model: type[Base
             if not isinstance(table, dict):
                 inside = ".".join(keys[: depth + 1])
                 found = f"{describe_at(changed, inside)} at {inside}"
-                raise SceneError(f"{file} with --set", path, found, "a table, to set a value in it")
+                raise SceneError(file, path, found, "a table, to set a value in it")
         if text != REMOVE:
             table[keys[-1]] = parse_value(text)
         elif keys[-1] in table:
@@ -64,7 +64,7 @@ def apply(raw: Mapping[str, Any], overrides: Mapping[str, str], model: type[Base
             valid = names_at(model, keys[:-1]).names
             near = difflib.get_close_matches(keys[-1], valid, n=1)
             expected = f"a part of the scene to take out: {', '.join(valid) or 'nothing here'}"
-            raise SceneError(f"{file} with --set", path, f"the unknown name '{keys[-1]}'", expected, "".join(near))
+            raise SceneError(file, path, f"the unknown name '{keys[-1]}'", expected, "".join(near))
     return changed
 
 

@@ -115,7 +115,9 @@ def _parse(text: str, label: str) -> dict[str, Any]:
 def _path_near(text: str, message: str) -> str:
     """Dotted path of the field on the line that a syntax error names, as far as it can be read."""
     match = re.search(r"at line (\d+)", message)
-    lines = text.splitlines()[: int(match[1])] if match else text.splitlines()
+    if match is None and "end of document" not in message:
+        return ""
+    lines = text.splitlines()[: int(match[1]) if match else None]
     headers = [found[1] for line in lines if (found := re.match(r"\s*\[\s*([\w.]+)\s*\]", line))]
     key = re.match(r"\s*([\w.]+)\s*=", lines[-1]) if lines else None
     return ".".join(headers[-1:] + ([key[1]] if key else []))

@@ -1,0 +1,204 @@
+"""JSON and summary of hand-made solutions."""
+
+import dataclasses
+import io
+import json
+
+import jax.numpy as jnp
+import numpy as np
+import pytest
+from rich.console import Console
+
+from jaxbearing.bearings.parts import Operation
+from jaxbearing.bearings.solution import CageState, PowerLoss, RingDisplacement, RollerResults, Solution
+from jaxbearing.numerics.status import Status
+from jaxbearing.report.display import bar, digits, with_unit
+from jaxbearing.report.json_report import solution_to_dict
+from jaxbearing.report.summary import print_summary
+
+N = 8
+
+
+def numbers(kind, value):
+    return {field.name: jnp.asarray(value) for field in dataclasses.fields(kind)}
+
+
+def solution(status=Status.CONVERGED, number=None, **changes):
+    """A solution with every entry filled: load falls round the bearing, all other results are 1 (or `number`)."""
+    one = 1.0 if number is None else number
+    azimuth = 2.0 * np.pi * np.arange(N) / N
+    load = np.maximum(np.cos(azimuth), 0.0) * 1000.0 if number is None else np.full(N, number)
+    elements = {field.name: jnp.full(N, one) for field in dataclasses.fields(RollerResults)}
+    elements |= {"azimuth": jnp.asarray(azimuth), "load_inner": jnp.asarray(load)}
+    loss = {"drag": jnp.asarray(750.0 * one), "pocket": jnp.asarray(250.0 * one), "total": jnp.asarray(1000.0 * one)}
+    fields = {
+        "status": jnp.asarray(int(status)),
+        "iterations": jnp.asarray(7),
+        "residual_norm": jnp.asarray(1e-12),
+        "worst_equation": jnp.asarray(1),
+        "worst_element": jnp.asarray(0),
+        "operation": Operation(inner_speed=1000.0, radial_load=25e3, oil_temperature=373.15, oil_flow=1e-4),
+        "ring": RingDisplacement(**numbers(RingDisplacement, one)),
+        "cage": CageState(**numbers(CageState, one)),
+        "elements": RollerResults(**elements),
+        "power_loss": PowerLoss(**loss),
+        "drive_power": jnp.asarray(1000.0 * one),
+        "inner_torque": jnp.asarray(one),
+        "outer_torque": jnp.asarray(one),
+        "stiffness": jnp.full((1, 1), 2e9 * one),
+        "checks": {"speed out of range": jnp.asarray(True), "load out of range": jnp.asarray(False)},
+        "ring_freedom": ("radial",),
+        "equation_names": ("roller balance", "ring balance"),
+        "global_equations": 1,
+        "unknowns": 12,
+        "notes": ("cage.inner_diameter is not given",),
+    }
+    known = {field.name for field in dataclasses.fields(Solution)}
+    return Solution(**{name: value for name, value in (fields | changes).items() if name in known})
+
+
+def text_of(result, width=100, **options):
+    stream = io.StringIO()
+    print_summary(result, "a scene", Console(file=stream, width=width, highlight=False, **options))
+    return stream.getvalue()
+
+
+FIXED_KEYS = {
+    "converged",
+    "status",
+    "warnings",
+    "iterations",
+    "residual_norm",
+    "unknowns",
+    "operation",
+    "ring",
+    "cage",
+    "elements",
+    "power_loss",
+    "drive_power",
+    "stiffness",
+    "life",
+}
+
+
+def test_keys_of_the_json():
+    result = json.loads(json.dumps(solution_to_dict(solution()), allow_nan=False))
+    assert set(result) >= FIXED_KEYS
+    assert set(result["ring"]) == {"axial", "radial", "lateral", "tilt", "tilt_lateral"}
+    assert set(result["cage"]) == {"speed", "slip", "eccentricity_ratio", "attitude_angle"}
+    assert set(result["operation"]) == {"inner_speed", "outer_speed", "radial_load", "oil_temperature", "oil_flow"}
+    assert result["power_loss"] == {"drag": 750.0, "pocket": 250.0, "total": 1000.0}
+    assert (result["converged"], result["status"], result["iterations"], result["unknowns"]) == (
+        True,
+        "converged",
+        7,
+        12,
+    )
+    assert result["warnings"] == ["speed out of range", "cage.inner_diameter is not given"]
+    assert result["worst_equation"] == "ring balance"
+    assert result["life"] is None
+    assert all(len(array) == N for array in result["elements"].values())
+
+
+def test_stiffness_is_five_by_five():
+    stiffness = solution_to_dict(solution())["stiffness"]
+    assert [len(row) for row in stiffness] == [5] * 5
+    assert stiffness[1][1] == 2e9
+    assert sum(entry is not None for row in stiffness for entry in row) == 1
+    two = solution(ring_freedom=("axial", "tilt"), stiffness=jnp.asarray([[1.0, 2.0], [3.0, 4.0]]))
+    stiffness = solution_to_dict(two)["stiffness"]
+    assert (stiffness[0][0], stiffness[0][3], stiffness[3][0], stiffness[3][3]) == (1.0, 2.0, 3.0, 4.0)
+
+
+def test_what_is_not_modelled():
+    dry = RollerResults(
+        **{
+            field.name: jnp.ones(N) if field.default is dataclasses.MISSING else None
+            for field in dataclasses.fields(RollerResults)
+        }
+    )
+    result = solution_to_dict(solution(cage=None, elements=dry, power_loss=PowerLoss(total=jnp.asarray(0.0))))
+    assert result["cage"] is None
+    assert "film_inner" not in result["elements"]
+    assert result["power_loss"] == {"total": 0.0}
+    text = text_of(solution(cage=None, elements=dry, power_loss=PowerLoss(total=jnp.asarray(0.0))))
+    assert "Cage" not in text
+    assert "film" not in text.replace("Motion and films", "")
+
+
+@pytest.mark.parametrize("number", [np.nan, np.inf])
+def test_numbers_that_are_not_finite_are_null(number):
+    result = solution_to_dict(solution(Status.NOT_CONVERGED, number))
+    text = json.dumps(result, allow_nan=False)
+    assert "NaN" not in text
+    assert (result["converged"], result["status"]) == (False, "not_converged")
+    assert result["drive_power"] is None
+    assert result["ring"]["radial"] is None
+    assert result["elements"]["load_outer"] == [None] * N
+    assert result["stiffness"] == [[None] * 5] * 5
+    assert result["power_loss"]["total"] is None
+
+
+def test_summary():
+    text = text_of(solution())
+    assert "CONVERGED" in text
+    assert "9549.3 rpm" in text
+    assert "25 kN" in text
+    assert "100 degC" in text
+    assert "360 l/h" in text
+    assert "75.0" in text
+    assert "speed out of range" in text
+    assert "3 of 8 rollers above 2 % of the largest load, -45 to 45 deg" in text
+    assert "2000 N/um" in text
+    assert max(len(line) for line in text.splitlines()) <= 100
+
+
+@pytest.mark.parametrize("width", [40, 60, 80, 200])
+def test_summary_at_any_width(width):
+    assert max(len(line) for line in text_of(solution(), width).splitlines()) <= width
+
+
+def test_summary_of_a_failure_prints_no_result():
+    text = text_of(solution(Status.NO_EQUILIBRIUM, np.nan))
+    assert "NOT CONVERGED" in text
+    assert "no_equilibrium" in text
+    assert "ring balance" in text
+    assert "Power" not in text
+    assert "nan" not in text.lower()
+
+
+def test_summary_without_unicode():
+    stream = io.TextIOWrapper(io.BytesIO(), encoding="ascii")
+    print_summary(solution(), "a scene", Console(file=stream, width=100))
+    stream.flush()
+
+
+@pytest.mark.parametrize(
+    ("value", "expected"),
+    [
+        (0.0, "0"),
+        (1384.7, "1385"),
+        (12.3456, "12.35"),
+        (0.000123, "0.0001230"),
+        (-3.0, "-3.000"),
+        (1e-9, "1.000e-09"),
+        (np.nan, "-"),
+        (123456.0, "123456"),
+    ],
+)
+def test_digits(value, expected):
+    assert digits(value) == expected
+
+
+def test_engineers_units():
+    assert with_unit(33.57e-6, "m") == "33.57 um"
+    assert with_unit(np.pi, "rad") == "180.0 deg"
+    assert with_unit(100 * np.pi / 30, "rad/s") == "100.0 rpm"
+    assert with_unit(0.5, "1") == "0.5000"
+
+
+@pytest.mark.parametrize("fraction", [-1.0, 0.0, 1e-9, 0.3, 0.999, 1.0, 2.0, np.nan, np.inf])
+@pytest.mark.parametrize("ascii_only", [True, False])
+def test_bars_fit(fraction, ascii_only):
+    assert len(bar(fraction, 10, ascii_only)) <= 10
+    assert len(bar(1.0, 10, ascii_only)) == 10
