@@ -1,8 +1,54 @@
-"""jaxbearing: lubricated rolling bearings, differentiable, in JAX.
+"""jaxbearing: lubricated rolling bearings in JAX, exact, fast, differentiable.
 
-Importing the package switches JAX to 64-bit floats.
+Importing the package switches JAX to 64-bit floats: the tolerances of its solves mean nothing in 32-bit.
+
+    import jaxbearing as jb
+
+    scene = jb.load_scene("turbine_roller")
+    solution = jb.solve(scene)
+    solution.power_loss.total
 """
+
+import importlib
+from typing import TYPE_CHECKING, Any
 
 import jax
 
 jax.config.update("jax_enable_x64", True)
+
+from .solve import jit_solver as jit_solver  # noqa: E402  (64-bit floats first)
+from .solve import solve as solve  # noqa: E402
+
+if TYPE_CHECKING:
+    from .bearings.cylindrical_roller import CylindricalRollerBearing as CylindricalRollerBearing
+    from .bearings.solution import Solution as Solution
+    from .numerics.newton import NewtonOptions as NewtonOptions
+    from .numerics.status import SolveError as SolveError
+    from .numerics.status import Status as Status
+    from .scenes.errors import SceneError as SceneError
+    from .scenes.reader import builtin_names as builtin_names
+    from .scenes.reader import load_scene as load_scene
+
+__version__ = "0.1.0"
+
+_LAZY = {
+    "CylindricalRollerBearing": ".bearings.cylindrical_roller",
+    "NewtonOptions": ".numerics.newton",
+    "SceneError": ".scenes.errors",
+    "Solution": ".bearings.solution",
+    "SolveError": ".numerics.status",
+    "Status": ".numerics.status",
+    "builtin_names": ".scenes.reader",
+    "load_scene": ".scenes.reader",
+}
+"""Public names that pull in the edge (units, validation) or are only needed by some; imported on first use."""
+
+
+def __getattr__(name: str) -> Any:
+    if name in _LAZY:
+        return getattr(importlib.import_module(_LAZY[name], __name__), name)
+    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+
+
+def __dir__() -> list[str]:
+    return sorted([*globals(), *_LAZY])

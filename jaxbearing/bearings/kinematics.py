@@ -49,5 +49,5 @@ class RollerKinematics(eqx.Module):
         roller = self.roller_radius * spin
         inner = (self.inner_speed - orbit) * self.inner_radius
         outer = (orbit - self.outer_speed) * self.outer_radius
-        race = jnp.stack([inner, outer])
-        return 0.5 * (race + roller), race - roller
+        mean = 0.5 * jnp.stack([inner + roller, outer + roller])
+        return mean, jnp.stack([inner - roller, outer - roller])

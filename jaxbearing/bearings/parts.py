@@ -2,7 +2,7 @@
 
 import dataclasses
 import math
-from typing import Any, Self
+from typing import Any, TypeVar
 
 import equinox as eqx
 import jax
@@ -15,6 +15,8 @@ from ..numerics.precision import as_float
 
 
 __all__ = ["AbstractScene", "ContactLaws", "Drag", "Materials", "Operation"]
+
+Scene = TypeVar("Scene", bound="AbstractScene")
 
 
 def number(default: Any = dataclasses.MISSING, **kwargs: Any) -> Any:
@@ -102,7 +104,7 @@ class Drag(eqx.Module):
 class AbstractScene(eqx.Module):
     """What every scene can do: give a changed copy of itself, with the attribute names of the scene file."""
 
-    def replace(self, changes: dict[str, Any]) -> Self:
+    def replace(self: Scene, changes: dict[str, Any]) -> Scene:
         """A copy with other values; keys are dotted paths, values SI numbers (or parts).
 
         **Raises:** `AttributeError` for a path that the scene does not have.
@@ -112,11 +114,11 @@ class AbstractScene(eqx.Module):
             scene = _replaced(scene, path.split("."), value, path)
         return scene
 
-    def at_operation(self, **changes: Scalar) -> Self:
+    def at_operation(self: Scene, **changes: Scalar) -> Scene:
         """A copy at another operating point: `scene.at_operation(inner_speed=1100.0)`."""
         return self.replace({f"operation.{name}": value for name, value in changes.items()})
 
-    def replace_geometry(self, **changes: Scalar) -> Self:
+    def replace_geometry(self: Scene, **changes: Scalar) -> Scene:
         """A copy with other dimensions: `scene.replace_geometry(diametral_clearance=30e-6)`."""
         return self.replace({f"geometry.{name}": value for name, value in changes.items()})
 

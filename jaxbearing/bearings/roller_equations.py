@@ -197,7 +197,7 @@ class LubricatedRollerSystem(AbstractArrowSystem):
 
     def element(self, unknowns, shared):
         state = self.rollers(unknowns, shared)
-        balance = state.load[0] * self.directions
+        balance = state.load[0][None, :] * self.directions
         if self.cage is None:
             return state.approach_error[None, :], balance, state.contact.inner_residual
         local = jnp.stack([state.approach_error, state.moment_error])
@@ -405,7 +405,7 @@ class DryRollerSystem(AbstractArrowSystem):
     def element(self, unknowns, shared):
         shift = jnp.sum(shared * self.directions, axis=0) * LENGTH_UNIT
         load, inner = self.loads(shift)
-        return unknowns, load[0] * self.directions, inner
+        return unknowns, load[0][None, :] * self.directions, inner
 
     def closure(self, globals_, totals):
         return (totals - self.ring_load) / self.load_scale(), jnp.zeros(())

@@ -7,6 +7,7 @@ import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Array
 
+from .._types import Scalar
 from ..contacts import Gupta, LineContact
 from ..gaps import (
     Flange,
@@ -143,7 +144,7 @@ def _cage_parts(scene: CylindricalRollerBearing, motion: RollerKinematics) -> Ca
 
 
 def drag_area(
-    length: Array, motion: RollerKinematics, cage: RollerCage, scene: CylindricalRollerBearing
+    length: Scalar, motion: RollerKinematics, cage: RollerCage, scene: CylindricalRollerBearing
 ) -> Array:
     """Frontal area of a roller that the cage leaves free: length times (diameter - cage thickness), m^2.
 

@@ -7,7 +7,7 @@ import jax.numpy as jnp
 from jaxtyping import Array, Float
 
 from .._types import Scalar, Values
-from ..numerics.safe import smooth_abs
+from ..numerics.safe import log_add, smooth_abs
 from .line import LOAD_FLOOR, LineContact, log_entrainment_sum
 
 MARTIN_CONSTANT = 4.894968
@@ -77,9 +77,9 @@ class Moes(AbstractLineFilm):
         elastic_piezoviscous = jnp.log(1.311) - 0.125 * log_m + 0.75 * log_l
 
         s = (7.0 + 8.0 * jnp.exp(-2.0 * jnp.exp(elastic_isoviscous - rigid_isoviscous))) / 5.0
-        isoviscous = 3.0 / 7.0 * jnp.logaddexp(7.0 / 3.0 * rigid_isoviscous, 7.0 / 3.0 * elastic_isoviscous)
-        piezoviscous = -2.0 / 7.0 * jnp.logaddexp(-3.5 * rigid_piezoviscous, -3.5 * elastic_piezoviscous)
-        log_h = jnp.logaddexp(s * isoviscous, s * piezoviscous) / s
+        isoviscous = 3.0 / 7.0 * log_add(7.0 / 3.0 * rigid_isoviscous, 7.0 / 3.0 * elastic_isoviscous)
+        piezoviscous = -2.0 / 7.0 * log_add(-3.5 * rigid_piezoviscous, -3.5 * elastic_piezoviscous)
+        log_h = log_add(s * isoviscous, s * piezoviscous) / s
         return log_h + 0.5 * log_u + jnp.log(contact.reduced_radius)
 
 
@@ -136,7 +136,7 @@ class MartinBlend(AbstractLineFilm):
         log_drag = jnp.log(viscosity) + log_entrainment_sum(entrainment_speed) - LOG_2
         log_size = jnp.log(contact.reduced_radius * contact.length)
         martin = jnp.log(MARTIN_CONSTANT) + log_drag + log_size - jnp.log(smooth_abs(load, LOAD_FLOOR))
-        return jnp.logaddexp(self.exponent * elastic, self.exponent * martin) / self.exponent
+        return log_add(self.exponent * elastic, self.exponent * martin) / self.exponent
 
 
 MartinBlend.__init__.__doc__ = """**Arguments:**

@@ -69,7 +69,8 @@ class ContactLaws(eqx.Module):
         rise, inner_residual, base, base_viscosity = None, jnp.zeros(()), inlet.temperature, inlet.viscosity
         if not isinstance(self.thermal, NoThermalReduction):
             log_factor = self.thermal.log_factor(contact, load, speed, sliding_speed, inlet)
-            root = inlet_temperature_rise(_log_film_at, (self, contact, load, speed, lubricant), base, log_factor)
+            args = (self, contact, load, speed, lubricant)
+            root = inlet_temperature_rise(_log_film_at, args, base, log_film, log_factor)
             log_film = log_film + log_factor
             rise, inner_residual = root.value, jnp.max(root.residual)
             base = inlet.temperature + rise

@@ -22,8 +22,8 @@ SLIDE_WIDTH = 1e-6
 """Slide ratio below which its power is linear."""
 RISE_BELOW = -5.0
 """Lower bracket end of the temperature rise, K: below 0, so that a rise of 0 is an ordinary root."""
-RISE_TOLERANCE = 1e-5
-"""Newton step at which the search for the rise ends, relative to the rise or 1 K; the step that follows squares it."""
+RISE_TOLERANCE = 1e-9
+"""Newton step at which the search for the rise ends, relative to the rise or 1 K: ln h is then met to about 1e-11."""
 
 
 class AbstractThermalFactor(eqx.Module):
@@ -111,6 +111,7 @@ def inlet_temperature_rise(
     log_film: Callable[[Array, PyTree], Array],
     args: PyTree,
     temperature: Values,
+    log_isothermal: Values,
     log_factor: Values,
     maximum: float = 500.0,
 ) -> Root:
@@ -119,14 +120,15 @@ def inlet_temperature_rise(
     $\ln h(T_0 + \Delta T) = \ln\phi_T + \ln h(T_0)$, elementwise.
 
     **Limits:** factor 1 gives exactly 0, with the derivative $1/(\partial\ln h/\partial T)$.
-    **Validity:** first derivatives only. Where no rise up to `maximum` thins the film enough, the value is `maximum`
-    and `residual`, in units of ln h, says by how much it fails.
+    **Validity:** where no rise up to `maximum` thins the film enough, the value is `maximum` and `residual`, in units
+    of ln h, says by how much it fails.
 
     **Arguments:**
     - `log_film(temperature, args)`: ln of the isothermal film with the oil at that temperature, elementwise,
       decreasing.
-    - `args`: pytree of arrays; everything that the film depends on (what is closed over loses its derivative).
+    - `args`: pytree of arrays; everything that the film depends on (it must not close over what is differentiated).
     - `temperature`: $T_0$ of the inlet, K.
+    - `log_isothermal`: $\ln h(T_0)$, which the caller has.
     - `log_factor`: $\ln\phi_T$, <= 0.
     - `maximum`: upper end of the search, K.
     """
@@ -136,8 +138,6 @@ def inlet_temperature_rise(
         return target - log_film(inlet + rise, film_args)
 
     temperature = jnp.asarray(temperature, dtype=float)
-    target = log_film(temperature, args) + jnp.asarray(log_factor, dtype=float)
-    guess = jnp.zeros_like(target)
-    return monotone_root(
-        excess, (args, temperature, target), RISE_BELOW, maximum, guess, tolerance=RISE_TOLERANCE
-    )
+    target = jnp.asarray(log_isothermal + log_factor, dtype=float)
+    search = (args, temperature, target)
+    return monotone_root(excess, search, RISE_BELOW, maximum, jnp.zeros_like(target), tolerance=RISE_TOLERANCE)

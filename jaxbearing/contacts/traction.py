@@ -8,6 +8,7 @@ from jaxtyping import Array, Float
 
 from .._types import Values
 from ..lubricants import Lubricant
+from ..numerics.safe import log_add
 from .film import LOG_2
 from .line import LineContact, log_entrainment_sum
 
@@ -84,7 +85,7 @@ class MaxwellEyring(AbstractTraction):
 
         log_mean_speed = log_entrainment_sum(entrainment_speed) - LOG_2
         log_elastic = log_mean_speed - log_modulus - jnp.log(half_width)
-        log_limited = -jnp.logaddexp(-log_viscosity, log_elastic)
+        log_limited = -log_add(-log_viscosity, log_elastic)
         stress_ratio = asinh_of_scaled(log_limited - jnp.log(film) - log_stress, sliding_speed)
         pressed = jnp.exp(log_stress) * stress_ratio * 2.0 * half_width * contact.length
 
@@ -105,5 +106,5 @@ def asinh_of_scaled(log_scale: Values, x: Values) -> Float[Array, "..."]:
     large = (size > 0) & (log_size > 0)
     small_argument = jnp.where(large, 0.0, x) * jnp.exp(jnp.where(large, 0.0, jnp.minimum(log_scale, 600.0)))
     s = jnp.where(large, log_size, 0.0)
-    high = jnp.sign(x) * jnp.logaddexp(s, 0.5 * jnp.logaddexp(0.0, 2.0 * s))
+    high = jnp.sign(x) * log_add(s, 0.5 * log_add(0.0, 2.0 * s))
     return jnp.where(large, high, jnp.arcsinh(small_argument))

@@ -3,13 +3,12 @@
 from typing import NamedTuple
 
 import equinox as eqx
-import jax
 import jax.numpy as jnp
 from jaxtyping import Array
 
 from .._types import Batch, Scalar, Values
 from ..numerics.roots import monotone_root
-from ..numerics.safe import safe_norm, smooth_abs
+from ..numerics.safe import log_add, safe_norm, smooth_abs
 from .turbulence import AbstractTurbulence, BlendedTurbulence
 
 ECCENTRICITY_LIMIT = 0.995
@@ -43,7 +42,7 @@ def saturated_eccentricity(eccentricity_ratio: Values) -> Batch:
 
 def eccentricity_overlap(eccentricity_ratio: Values) -> Batch:
     """Smooth max(eps - 0.995, 0), the complement of `saturated_eccentricity`."""
-    return ECCENTRICITY_WIDTH * jax.nn.softplus((eccentricity_ratio - ECCENTRICITY_LIMIT) / ECCENTRICITY_WIDTH)
+    return ECCENTRICITY_WIDTH * log_add((eccentricity_ratio - ECCENTRICITY_LIMIT) / ECCENTRICITY_WIDTH, 0.0)
 
 
 class StaticFilm(NamedTuple):

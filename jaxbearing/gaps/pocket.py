@@ -8,6 +8,7 @@ from jaxtyping import Array
 
 from .._types import Batch, Scalar, Values
 from ..numerics.roots import monotone_root
+from ..numerics.safe import log_add
 from .martin import MARTIN_LOAD, MARTIN_ROLLING, MARTIN_SHEAR, martin_factors
 
 SPIN_FLOOR = 1.0
@@ -157,7 +158,7 @@ class CompliantPocketFace(eqx.Module):
 
 def _face_film(log_load: Array, log_martin: Array, log_elastic: Array) -> Array:
     """(hM^3 + hE^3)^(1/3) at ln Q."""
-    return jnp.exp(jnp.logaddexp(3.0 * (log_martin - log_load), 3.0 * (log_elastic - 0.13 * log_load)) / 3.0)
+    return jnp.exp(log_add(3.0 * (log_martin - log_load), 3.0 * (log_elastic - 0.13 * log_load)) / 3.0)
 
 
 def _face_balance(log_load: Array, args: tuple[Array, Array, Array, Array]) -> Array:

@@ -122,20 +122,25 @@ def linearize(system: AbstractArrowSystem, point: ArrowPoint) -> tuple[Equations
     return Equations(ArrowPoint(values[:m], closure), jnp.maximum(inner, closure_inner)), jacobian
 
 
+def _eliminated(jacobian: ArrowJacobian) -> tuple[Float[Array, "m g element"], Float[Array, "g g"]]:
+    """A^-1 B of every element, and the Schur complement."""
+    coupled = solve_blocks(jacobian.local, jacobian.to_globals)
+    carried = jnp.sum(jnp.einsum("kmn,mgn->kgn", jacobian.contributions, coupled), axis=-1)
+    return coupled, jacobian.corner - jacobian.chain @ carried
+
+
 def schur_complement(jacobian: ArrowJacobian) -> Float[Array, "g g"]:
     """D - sum_j C_j A_j^-1 B_j: stiffness of the globals with every element in equilibrium."""
-    eliminated = solve_blocks(jacobian.local, jacobian.to_globals)
-    carried = jnp.sum(jnp.einsum("kmn,mgn->kgn", jacobian.contributions, eliminated), axis=-1)
-    return jacobian.corner - jacobian.chain @ carried
+    return _eliminated(jacobian)[1]
 
 
 def solve_arrow(jacobian: ArrowJacobian, right: ArrowPoint) -> ArrowPoint:
-    """J x = right, by elimination of the elements and the Schur complement of the globals."""
-    g = right.globals.shape[0]
-    stacked = jnp.concatenate([jacobian.to_globals, right.elements[:, None, :]], axis=1)
-    eliminated = solve_blocks(jacobian.local, stacked)
-    carried = jnp.sum(jnp.einsum("kmn,mrn->krn", jacobian.contributions, eliminated), axis=-1)
-    reduced = jacobian.chain @ carried
-    globals_ = solve_dense(jacobian.corner - reduced[:, :g], right.globals - reduced[:, g])
-    elements = eliminated[:, g] - jnp.sum(eliminated[:, :g] * globals_[None, :, None], axis=1)
-    return ArrowPoint(elements, globals_)
+    """J x = right, by elimination of the elements and the Schur complement of the globals.
+
+    Matrix and right side are eliminated apart: in one array, autodiff could not see that x is linear in `right`.
+    """
+    coupled, schur = _eliminated(jacobian)
+    own = solve_blocks(jacobian.local, right.elements[:, None, :])[:, 0]
+    carried = jnp.sum(jnp.einsum("kmn,mn->kn", jacobian.contributions, own), axis=-1)
+    globals_ = solve_dense(schur, right.globals - jacobian.chain @ carried)
+    return ArrowPoint(own - jnp.sum(coupled * globals_[None, :, None], axis=1), globals_)

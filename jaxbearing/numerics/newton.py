@@ -1,6 +1,7 @@
 """Damped Newton on a block-arrow system: status per lane, implicit derivatives, no lane harms another."""
 
-from typing import NamedTuple, TypeVar
+from collections.abc import Callable
+from typing import Any, NamedTuple, TypeVar
 
 import equinox as eqx
 import jax
@@ -190,14 +191,20 @@ def _root_jvp(primals, tangents, *, options: NewtonOptions):
     # parameters that lanes share, in both modes.
     select = lambda t: jnp.where(root.solved, t, 0.0)
     system_dot = jax.tree.map(select, system_dot)
-    _, residual_dot = eqx.filter_jvp(lambda s: evaluate(s, root.point).residual, (system,), (system_dot,))
+    residual_dot = _directional(lambda s: evaluate(s, root.point).residual, (system,), (system_dot,))
     step = solve_arrow(root.jacobian, residual_dot)
     point_dot = jax.tree.map(lambda t: select(-t), step)
-    _, jacobian_dot = eqx.filter_jvp(
-        lambda s, p: linearize(s, p)[1], (system, root.point), (system_dot, point_dot)
-    )
+    jacobian_dot = _directional(lambda s, p: linearize(s, p)[1], (system, root.point), (system_dot, point_dot))
     rest = jax.tree.map(lambda _: None, (root.solved, root.end))
     return root, _Root(point_dot, jax.tree.map(select, jacobian_dot), *rest)
+
+
+def _directional(function: Callable, primals: tuple, tangents: tuple) -> Any:
+    """Directional derivative of a function of pytrees, zeros (not None) where nothing depends on the direction."""
+    values, dots = eqx.filter_jvp(function, primals, tangents)
+    return jax.tree.map(
+        lambda dot, value: jnp.zeros_like(value) if dot is None else dot, dots, values, is_leaf=lambda x: x is None
+    )
 
 
 def _finite(x: Array) -> Array:

@@ -36,7 +36,7 @@ def monotone_root(
 
     Safeguarded Newton: a Newton step that would leave the bracket (or is not finite) is replaced
     by bisection, and the bracket shrinks at every step. It stops when every element's step is
-    below `tolerance * max(1, |x|)`; one more Newton step follows. A root outside the bracket ends at the
+    below `tolerance * max(1, |x|)`; that step is taken, so the error is about its square. A root outside the bracket ends at the
     nearer bracket end, and its residual says so.
 
     The derivative is that of the implicit function, $dx = -(\partial f/\partial a)\,da /
@@ -54,6 +54,17 @@ def monotone_root(
         args, function=function, bracket=(lower, upper), guess=guess, tolerance=tolerance, max_steps=max_steps
     )
     return Root(value, residual)
+
+
+class _Search(NamedTuple):
+    x: Array
+    low: Array
+    high: Array
+    step: Array
+    residual: Array
+    proper: Array
+    end: Array
+    count: Array
 
 
 def _value_and_slope(function: Callable, x: Array, args: PyTree) -> tuple[Array, Array]:
@@ -74,28 +85,26 @@ def _root(
     lower, upper = bracket
 
     def keep_going(state):
-        _, _, _, step_size, count = state
-        return (count < max_steps) & jnp.any(step_size > tolerance)
+        return (state.count < max_steps) & jnp.any(state.step > tolerance)
 
     def advance(state):
-        x, low, high, _, count = state
-        value, slope = _value_and_slope(function, x, args)
-        low = jnp.where(value < 0, x, low)
-        high = jnp.where(value > 0, x, high)
-        newton = x - value / slope
+        value, slope = _value_and_slope(function, state.x, args)
+        low = jnp.where(value < 0, state.x, state.low)
+        high = jnp.where(value > 0, state.x, state.high)
+        newton = state.x - value / slope
         inside = (newton >= low) & (newton <= high)  # False for NaN
-        new = jnp.where(inside, newton, 0.5 * (low + high))
-        new = jnp.where(value == 0, x, new)
-        return new, low, high, jnp.abs(new - x) / jnp.maximum(1.0, jnp.abs(new)), count + 1
+        x = jnp.where(value == 0, state.x, jnp.where(inside, newton, 0.5 * (low + high)))
+        step = jnp.abs(x - state.x) / jnp.maximum(1.0, jnp.abs(x))
+        # proper: the Newton step from here stays in the first bracket, so x is a root and not a bracket end
+        proper = (newton > lower) & (newton < upper) & (slope > 0)
+        end = jnp.where(newton >= upper, upper, jnp.where(newton <= lower, lower, state.x))
+        return _Search(x, low, high, step, jnp.abs(value), proper, end, state.count + 1)
 
-    start = (guess, lower, upper, jnp.full(guess.shape, jnp.inf), jnp.asarray(0))
-    x = jax.lax.while_loop(keep_going, advance, start)[0]
-
-    value, slope = _value_and_slope(function, x, args)
-    polished = x - value / jnp.where(slope > 0, slope, 1.0)
-    proper = jnp.isfinite(slope) & (slope > 0) & (polished > lower) & (polished < upper)
-    stuck = jnp.where(polished <= lower, lower, jnp.where(polished >= upper, upper, x))
-    return jnp.where(proper, polished, stuck), jnp.abs(value), proper
+    unknown = jnp.full(guess.shape, jnp.inf)
+    never = jnp.zeros(guess.shape, bool)
+    start = _Search(guess, lower, upper, unknown, unknown, never, guess, jnp.asarray(0))
+    found = jax.lax.while_loop(keep_going, advance, start)
+    return jnp.where(found.proper, found.x, found.end), found.residual, found.proper
 
 
 @_root.def_jvp
@@ -104,5 +113,6 @@ def _root_jvp(primals, tangents, *, function, **options):
     x, residual, proper = _root(args, function=function, **options)
     slope = _value_and_slope(function, x, args)[1]
     _, value_dot = eqx.filter_jvp(lambda a: function(x, a), (args,), (args_dot,))
+    value_dot = jnp.zeros_like(x) if value_dot is None else value_dot
     x_dot = jnp.where(proper, -value_dot / jnp.where(proper, slope, 1.0), 0.0)
     return (x, residual, proper), (x_dot, jnp.zeros_like(residual), None)

@@ -86,17 +86,17 @@ def test_solve_summary(jaxbearing_command):
 
 @pytest.fixture
 def failing_solve(monkeypatch):
-    import jaxbearing.solve
+    import jaxbearing  # the package's `solve` is the verb: the module of that name is reached by `sys.modules`
     from jaxbearing.numerics.status import Status
 
-    real = jaxbearing.solve.solve
+    real = jaxbearing.solve
 
     def solve(scene, throw=True):
         solution = real(scene, throw=False)
         object.__setattr__(solution, "status", jax.numpy.asarray(int(Status.DIVERGED)))
         return solution
 
-    monkeypatch.setattr(jaxbearing.solve, "solve", solve)
+    monkeypatch.setattr(sys.modules["jaxbearing.solve"], "solve", solve)
 
 
 @pytest.mark.usefixtures("failing_solve")
@@ -114,12 +114,12 @@ def test_not_converged(jaxbearing_command):
 
 
 def test_interrupt(jaxbearing_command, monkeypatch):
-    import jaxbearing.solve
+    import jaxbearing  # the package's `solve` is the verb: the module of that name is reached by `sys.modules`
 
     def interrupted(scene, throw=True):
         raise KeyboardInterrupt
 
-    monkeypatch.setattr(jaxbearing.solve, "solve", interrupted)
+    monkeypatch.setattr(sys.modules["jaxbearing.solve"], "solve", interrupted)
     result = jaxbearing_command("solve", *DRY)
     assert result.code == 130
     assert "Traceback" not in result.err

@@ -117,7 +117,7 @@ def test_newton_finds_the_root(m):
     _, result = newton_solve(system)
     assert result.status == Status.CONVERGED
     assert result.iterations <= 12
-    assert result.residual_norm < 1e-13
+    assert result.residual_norm < 1e-10  # before the last step
     # rounding of residuals of order 10
     np.testing.assert_allclose(flat(evaluate(system, result.point).residual), 0.0, atol=1e-13)
 

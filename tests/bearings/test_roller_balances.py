@@ -1,0 +1,137 @@
+"""Balances that must close, whatever the numbers: forces, powers, symmetry, and parts that are left out."""
+
+import jax
+import jax.numpy as jnp
+import numpy as np
+import pytest
+from roller_cases import HARD_CASES, changed, dry_roller, reference_roller, turbine_roller
+
+import jaxbearing as jb
+from jaxbearing.bearings.roller_steady import build_system
+from jaxbearing.contacts import NoThermalReduction
+from jaxbearing.numerics.arrow import evaluate
+
+SCENES = {"reference": reference_roller, "turbine": turbine_roller}
+
+
+def leaves(solution):
+    return [np.asarray(leaf) for leaf in jax.tree.leaves((solution.ring, solution.elements, solution.power_loss))]
+
+
+@pytest.mark.parametrize("scene", SCENES.values(), ids=SCENES.keys())
+@pytest.mark.parametrize("case", HARD_CASES.values(), ids=HARD_CASES.keys())
+def test_power_and_forces_close(scene, case):
+    scene = changed(scene(), case)
+    solution = jb.solve(scene)
+    losses = solution.power_loss
+    # torques and dissipations are assembled apart: only right signs make them agree
+    np.testing.assert_allclose(solution.drive_power, losses.total, rtol=1e-8)
+    parts = [value for name, value in vars(losses).items() if name != "total" and value is not None]
+    np.testing.assert_allclose(sum(parts), losses.total, rtol=1e-13)
+    assert min(parts) >= 0.0
+    elements = solution.elements
+    carried = jnp.sum(elements.load_inner * jnp.cos(elements.azimuth))
+    np.testing.assert_allclose(carried, scene.operation.radial_load, rtol=1e-9)
+    assert solution.residual_norm <= 1e-10
+    assert all(np.isfinite(leaf).all() for leaf in leaves(solution))
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        {"cage.guidance": "outer_ring"},
+        {"flange.ring": "outer"},
+        {"flange.ring": "both"},
+        {"operation.outer_speed": 300.0},
+        {"operation.outer_speed": -400.0},
+        {"operation.inner_speed": 0.0, "operation.outer_speed": 900.0},
+        {"cage.guidance": "outer_ring", "flange.ring": "both", "operation.outer_speed": 250.0},
+    ],
+    ids=str,
+)
+def test_power_closes_with_both_rings_turning(change):
+    solution = jb.solve(turbine_roller().replace(change))
+    np.testing.assert_allclose(solution.drive_power, solution.power_loss.total, rtol=1e-8)
+
+
+def test_dry_has_no_power_and_carries_the_load():
+    solution = jb.solve(dry_roller())
+    assert solution.power_loss.total == 0.0
+    assert solution.drive_power == 0.0
+    elements = solution.elements
+    carried = jnp.sum(elements.load_inner * jnp.cos(elements.azimuth))
+    np.testing.assert_allclose(carried, 25e3, rtol=1e-12)
+    across = jnp.sum(elements.load_inner * jnp.sin(elements.azimuth))
+    np.testing.assert_allclose(across, 0.0, atol=1e-9)
+
+
+def test_dry_at_rest():
+    solution = jb.solve(dry_roller().at_operation(inner_speed=0.0))
+    np.testing.assert_allclose(solution.elements.load_inner, solution.elements.load_outer, rtol=1e-14)
+    gradient = jax.grad(lambda n: jb.solve(dry_roller().at_operation(inner_speed=n)).ring.radial)(0.0)
+    assert np.isfinite(gradient)
+
+
+def test_mirror_symmetry():
+    """The load is on a symmetry line of an even row: loads, but not speeds' partners, mirror exactly."""
+    load = np.asarray(jb.solve(turbine_roller()).elements.load_inner)
+    np.testing.assert_allclose(load[1:], load[1:][::-1], rtol=1e-12)
+
+
+def test_lateral_freedom_is_not_used_by_a_symmetric_bearing():
+    """An active lateral degree of freedom stays at 0 and changes nothing."""
+    one = jb.solve(dry_roller())
+    two = jb.solve(dry_roller().replace({"ring_freedom": ("radial", "lateral")}))
+    np.testing.assert_allclose(two.ring.radial, one.ring.radial, rtol=1e-12)
+    np.testing.assert_allclose(two.ring.lateral, 0.0, atol=1e-18)
+    assert two.unknowns == one.unknowns + 1
+    np.testing.assert_allclose(two.stiffness[0, 0], one.stiffness[0, 0], rtol=1e-9)
+
+
+@pytest.mark.parametrize("scene", [dry_roller, reference_roller])
+def test_stiffness_is_the_derivative_of_the_load(scene):
+    ring = lambda load: jb.solve(scene().at_operation(radial_load=load)).ring.radial
+    flexibility = jax.grad(ring)(25e3)
+    np.testing.assert_allclose(jb.solve(scene()).stiffness[0, 0], 1.0 / flexibility, rtol=1e-7)
+
+
+def test_film_without_traction_rolls_without_slip():
+    scene = turbine_roller().replace({"contact.traction": None})
+    solution = jb.solve(scene)
+    assert solution.unknowns == 31
+    assert solution.cage is None
+    assert solution.power_loss.total == 0.0
+    np.testing.assert_allclose(solution.elements.sliding_inner, 0.0, atol=1e-12)
+    assert any("no effect" in text for text in solution.warnings)
+    # swollen by films of about a micrometre, the ring sits less deep than dry
+    assert solution.ring.radial < jb.solve(dry_roller().replace({"materials": scene.materials})).ring.radial
+
+
+def test_leaving_parts_out_costs_nothing():
+    """Unknowns fall without the cage; equations fall without each other part."""
+
+    def equations(scene):
+        system = build_system(scene)
+        return len(jax.make_jaxpr(lambda p: evaluate(system, p))(system.initial()).eqns)
+
+    full = turbine_roller()
+    assert jb.solve(full).unknowns == 62
+    without_cage = full.replace({"contact.traction": None, "cage": None, "flange": None, "drag": None})
+    assert jb.solve(without_cage).unknowns == 31
+    assert jb.solve(dry_roller()).unknowns == 1
+    count = equations(full)
+    smaller = {
+        "flange": {"flange": None},
+        "drag": {"drag": None},
+        "rails": {"cage.pocket_axial_clearance": None},
+        "thermal": {"contact.thermal": NoThermalReduction()},
+        "traction": {"contact.traction": None},
+        "film": {"contact": None},
+    }
+    for name, change in smaller.items():
+        assert equations(full.replace(change)) < count, name
+
+
+def test_lubricated_without_cage_is_refused():
+    with pytest.raises(ValueError, match="simulate"):
+        turbine_roller().replace({"cage": None})
