@@ -122,6 +122,17 @@ def linearize(system: AbstractArrowSystem, point: ArrowPoint) -> tuple[Equations
     return Equations(ArrowPoint(values[:m], closure), jnp.maximum(inner, closure_inner)), jacobian
 
 
+def empty_jacobian(system: AbstractArrowSystem, point: ArrowPoint) -> ArrowJacobian:
+    """Blocks of zeros of the right shapes, to start a loop with (tracing only the element function, not its Jacobian)."""
+    m, n = point.elements.shape
+    g = point.globals.shape[0]
+    shared = jax.ShapeDtypeStruct((g, n), point.globals.dtype)
+    k = jax.eval_shape(lambda u, z: system.element(u, z)[1], point.elements, shared).shape[0]
+    return ArrowJacobian(
+        jnp.zeros((m, m, n)), jnp.zeros((m, g, n)), jnp.zeros((k, m, n)), jnp.zeros((g, g)), jnp.zeros((g, k))
+    )
+
+
 def _eliminated(jacobian: ArrowJacobian) -> tuple[Float[Array, "m g element"], Float[Array, "g g"]]:
     """A^-1 B of every element, and the Schur complement."""
     coupled = solve_blocks(jacobian.local, jacobian.to_globals)

@@ -8,7 +8,7 @@ import jax
 import jax.numpy as jnp
 from jaxtyping import Array, Bool, Float, Int
 
-from .arrow import AbstractArrowSystem, ArrowJacobian, ArrowPoint, Equations, evaluate, linearize, solve_arrow
+from .arrow import AbstractArrowSystem, ArrowJacobian, ArrowPoint, Equations, empty_jacobian, evaluate, linearize, solve_arrow
 from .status import Status
 
 System = TypeVar("System", bound=AbstractArrowSystem)
@@ -148,18 +148,17 @@ def _iterate(system: AbstractArrowSystem, options: NewtonOptions) -> _Iterate:
         )
 
     start = system.initial()
-    zeros = lambda tree: jax.tree.map(lambda leaf: jnp.zeros(leaf.shape, leaf.dtype), tree)
-    equations, jacobian = zeros(jax.eval_shape(linearize, system, start))
+    zeros = jax.tree.map(jnp.zeros_like, start)
     first = _Iterate(
         trial=start,
         base=start,
-        step=zeros(start),
+        step=zeros,
         base_norm=jnp.asarray(jnp.inf),
         attempt=jnp.asarray(0),
         iterations=jnp.asarray(0),
         status=jnp.asarray(-1),
-        equations=equations,
-        jacobian=jacobian,
+        equations=Equations(zeros, jnp.zeros(())),
+        jacobian=empty_jacobian(system, start),
     )
     return jax.lax.while_loop(keep_going, advance, first)
 
