@@ -114,11 +114,11 @@ class AbstractScene(eqx.Module):
             scene = _replaced(scene, path.split("."), value, path)
         return scene
 
-    def at_operation(self: Scene, **changes: Scalar) -> Scene:
+    def at_operation(self: Scene, **changes: Any) -> Scene:
         """A copy at another operating point: `scene.at_operation(inner_speed=1100.0)`."""
         return self.replace({f"operation.{name}": value for name, value in changes.items()})
 
-    def replace_geometry(self: Scene, **changes: Scalar) -> Scene:
+    def replace_geometry(self: Scene, **changes: Any) -> Scene:
         """A copy with other dimensions: `scene.replace_geometry(diametral_clearance=30e-6)`."""
         return self.replace({f"geometry.{name}": value for name, value in changes.items()})
 

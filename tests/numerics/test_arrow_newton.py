@@ -84,9 +84,9 @@ def dense_jacobian(system, point):
 def test_arrow_equals_dense(m, g):
     system = springs(m, g)
     point = system.initial()
-    equations, jacobian = linearize(system, point)
-    dense = dense_jacobian(system, point)
-    right = evaluate(system, point).residual
+    equations, jacobian = jax.jit(linearize)(system, point)
+    dense = jax.jit(dense_jacobian)(system, point)
+    right = jax.jit(evaluate)(system, point).residual
     np.testing.assert_allclose(flat(equations.residual), flat(right), rtol=1e-14)
     expected = np.linalg.solve(dense, flat(right))
     np.testing.assert_allclose(flat(solve_arrow(jacobian, right)), expected, rtol=1e-11, atol=1e-13)
@@ -122,6 +122,7 @@ def test_newton_finds_the_root(m):
     np.testing.assert_allclose(flat(evaluate(system, result.point).residual), 0.0, atol=1e-13)
 
 
+@jax.jit
 def objective(system):
     live, result = newton_solve(system)
     return jnp.sum(jnp.sin(result.point.elements)) + result.point.globals[0] ** 2 + live.stiffness[0]
@@ -133,11 +134,17 @@ def test_implicit_gradient_both_modes_and_differences():
         return objective(Springs(system.stiffness, load))
 
     load = jnp.asarray([1.0, 2.0])
-    forward, reverse = jax.jacfwd(of_load)(load), jax.jacrev(of_load)(load)
+    forward, reverse = jax.jit(jax.jacfwd(of_load))(load), jax.jit(jax.jacrev(of_load))(load)
     step = 1e-5
     central = [(of_load(load.at[i].add(step)) - of_load(load.at[i].add(-step))) / (2 * step) for i in range(2)]
     np.testing.assert_allclose(forward, reverse, rtol=1e-12)
     np.testing.assert_allclose(forward, central, rtol=1e-8)
+    # to any order: the derivative of the derivative
+    hessian = jax.jit(jax.jacfwd(jax.jacrev(of_load)))(load)
+    gradient = jax.jit(jax.jacrev(of_load))
+    for i in range(2):
+        difference = (gradient(load.at[i].add(step)) - gradient(load.at[i].add(-step))) / (2 * step)
+        np.testing.assert_allclose(hessian[:, i], difference, rtol=1e-7)
 
 
 @pytest.mark.parametrize("mapped", ["vmap", "map"])
@@ -146,6 +153,7 @@ def test_failed_lane_harms_nobody(mapped):
     flaws, scales = jnp.asarray([0.0, 1.0, 0.0, 0.0]), jnp.asarray([1.0, 1.0, 1e9, 2.0])
     options = NewtonOptions(max_steps=25)
 
+    @jax.jit
     def one(shared, flaw, scale):
         system = Springs(shared * jnp.linspace(0.5, 1.5, 5), scale * jnp.asarray([1.0, 2.0]), flaw=flaw)
         live, result = newton_solve(system, options)
@@ -171,9 +179,10 @@ def test_failed_lane_harms_nobody(mapped):
         values, status = lanes(shared)
         return jnp.sum(jnp.where(status == Status.CONVERGED, values, 0.0))
 
-    singles = sum(jax.grad(lambda s, i=i: one(s, flaws[i], scales[i])[0])(1.0) for i in (0, 3))
-    np.testing.assert_allclose(jax.grad(masked_sum)(1.0), singles, rtol=1e-12)
-    np.testing.assert_allclose(jax.jacfwd(masked_sum)(1.0), singles, rtol=1e-12)
+    single = jax.jit(jax.grad(lambda s, flaw, scale: one(s, flaw, scale)[0]))
+    singles = sum(single(1.0, flaws[i], scales[i]) for i in (0, 3))
+    np.testing.assert_allclose(jax.jit(jax.grad(masked_sum))(1.0), singles, rtol=1e-12)
+    np.testing.assert_allclose(jax.jit(jax.jacfwd(masked_sum))(1.0), singles, rtol=1e-12)
 
 
 def test_failure_names_residual_and_worst_equation():
