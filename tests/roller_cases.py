@@ -6,6 +6,8 @@ from pathlib import Path
 
 import equinox as eqx
 import numpy as np
+from reference_oils import mobil_jet_ii
+
 from jaxbearing.bearings.cylindrical_roller import (
     CylindricalRollerBearing,
     RollerCage,
@@ -16,7 +18,6 @@ from jaxbearing.bearings.parts import ContactLaws, Drag, Materials, Operation
 from jaxbearing.contacts import DowsonHigginson, Gupta, MartinBlend, MaxwellEyring, Moes, NoThermalReduction
 from jaxbearing.lubricants import ConstantPressureViscosity
 from jaxbearing.materials import CATALOGUE, Material
-from reference_oils import mobil_jet_ii
 
 RPM = 2.0 * math.pi / 60.0
 LITRE_PER_HOUR = 1e-3 / 3600.0

@@ -5,14 +5,12 @@ import math
 from typing import Any, TypeVar
 
 import equinox as eqx
-import jax
 import numpy as np
 
 from .._types import Scalar
 from ..contacts.laws import ContactLaws
 from ..materials import Material
 from ..numerics.precision import as_float
-
 
 __all__ = ["AbstractScene", "ContactLaws", "Drag", "Materials", "Operation"]
 
@@ -39,7 +37,7 @@ def require(part: str, **checks: tuple[Any, str]) -> None:
     **Raises:** `ValueError` naming part, field, the value and what is allowed.
     """
     for name, (value, allowed) in checks.items():
-        if value is None or isinstance(value, jax.core.Tracer) or not isinstance(value, int | float | np.ndarray):
+        if not isinstance(value, int | float | np.ndarray):  # None, or a tracer
             continue
         values = np.asarray(value, dtype=float)
         good = np.isfinite(values) & (values > 0 if allowed == "> 0" else values >= 0 if allowed == ">= 0" else True)
@@ -85,7 +83,7 @@ class Drag(eqx.Module):
     """Oil drag on the orbiting rolling elements (windage and churning).
 
     **Arguments:**
-    - `coefficient`: drag coefficient Cd of one rolling element in its row, > = 0; the most influential free
+    - `coefficient`: drag coefficient Cd of one rolling element in its row, >= 0; the most influential free
       number of a fast bearing's power loss.
     - `through_flow_fraction`: part of the oil flow that passes through the bearing; 1 = under-race supply.
     """
@@ -124,8 +122,8 @@ class AbstractScene(eqx.Module):
 
 
 def _replaced(part: Any, path: list[str], value: Any, whole: str) -> Any:
-    names = [field.name for field in dataclasses.fields(part)] if dataclasses.is_dataclass(part) else []
-    if path[0] not in names:
+    names = [field.name for field in dataclasses.fields(part)] if isinstance(part, eqx.Module) else []
+    if not isinstance(part, eqx.Module) or path[0] not in names:
         raise AttributeError(f"the scene has no {whole!r}: {type(part).__name__} has {', '.join(names) or 'no fields'}")
     new = value if len(path) == 1 else _replaced(getattr(part, path[0]), path[1:], value, whole)
     return dataclasses.replace(part, **{path[0]: new})

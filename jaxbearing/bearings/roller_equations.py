@@ -6,11 +6,11 @@ Every roller orbits at the cage speed W; per roller (source eqs. (27)-(29), (38)
 - approach: $J_d/2 + \delta_i + \delta_o - h_i - h_o = d\cdot n$, unknown ln Qi, $Q_o = Q_i + m R_m W^2$ (the pocket
   friction, about 0.1 % of the centrifugal force, is left out of it, so Q does not depend on the pocket);
 - moment: $R_R(F_{C1} + F_{C2} - F_i - F_o) + M_{flange} + M_{rail} = 0$, unknown s;
-- tangential: $Q_{C1} - Q_{C2} = F_i - F_o + F_E + F_{Ec} - F_{OL}$, eliminated: the two pocket films follow from it in
-  closed form (`gaps.Pocket`);
+- tangential: $Q_{C1} - Q_{C2} = F_i - F_o + F_E + F_{Ec} - F_{OL}$, eliminated: the two pocket films follow from it
+  in closed form (`gaps.Pocket`);
 
-and globally: ring, $\sum Q_i n = F_r$ (source eq. (37)), unknown the ring displacement d; cage moment (source eq. (33)),
-unknown W. The cage offset is eliminated too: the land must carry the sum of the pocket forces, and its eccentricity
+and globally: ring, $\sum Q_i n = F_r$ (source eq. (37)), unknown the ring displacement d; cage moment (source
+eq. (33)), unknown W. The cage offset is eliminated too: the land must carry the sum of the pocket forces, and its eccentricity
 is the root of a monotone scalar equation (`gaps.ShortJournal.static_equilibrium`).
 
 The sign of $F_{C2} - F_{C1}$ in the cage's x balance differs from the source's eq. (31), which contradicts its own
@@ -169,9 +169,12 @@ class LubricatedRollerSystem(AbstractArrowSystem):
         )
         film = jnp.sum(films)
         # Q = 4.9 mu u R l / h: Martin's film of a rigid roller
-        martin = 4.9 * self.inlet.viscosity * jnp.abs(mean_speed[0]) * _per_race(
-            self.contact.reduced_radius * self.contact.length
-        )[0]
+        martin = (
+            4.9
+            * self.inlet.viscosity
+            * jnp.abs(mean_speed[0])
+            * _per_race(self.contact.reduced_radius * self.contact.length)[0]
+        )
         cosine = self.directions[0]
         stiff = jnp.sum(kappa)
 
@@ -198,7 +201,7 @@ class LubricatedRollerSystem(AbstractArrowSystem):
     def element(self, unknowns, shared):
         state = self.rollers(unknowns, shared)
         balance = state.load[0][None, :] * self.directions
-        if self.cage is None:
+        if state.moment_error is None or state.cage_moment is None or state.cage_force is None:
             return state.approach_error[None, :], balance, state.contact.inner_residual
         local = jnp.stack([state.approach_error, state.moment_error])
         contributions = jnp.concatenate([balance, state.cage_moment[None, :], state.cage_force])
@@ -292,9 +295,7 @@ class LubricatedRollerSystem(AbstractArrowSystem):
         outward = pocket.friction_front - pocket.friction_rear
         cosine, sine = jnp.cos(self.azimuth), jnp.sin(self.azimuth)
         # t = (-cos, -sin), n = (-sin, cos) in (X, Y), the load along +Y
-        cage_force = jnp.stack(
-            [-on_cage_forward * cosine - outward * sine, -on_cage_forward * sine + outward * cosine]
-        )
+        cage_force = jnp.stack([-on_cage_forward * cosine - outward * sine, -on_cage_forward * sine + outward * cosine])
         return state._replace(
             pocket=pocket,
             inner_flange=inner_flange,
@@ -366,9 +367,7 @@ class DryRollerSystem(AbstractArrowSystem):
         shift = self.radial_clearance + stiff * (self.ring_load[0] + self.centrifugal()) ** 0.9
         shift = jnp.maximum(shift, 0.1 * LENGTH_UNIT)
         others = jnp.zeros(self.directions.shape[0] - 1)
-        return ArrowPoint(
-            jnp.zeros((0, self.azimuth.shape[0])), jnp.concatenate([shift[None], others]) / LENGTH_UNIT
-        )
+        return ArrowPoint(jnp.zeros((0, self.azimuth.shape[0])), jnp.concatenate([shift[None], others]) / LENGTH_UNIT)
 
     def loads(self, shift: Array) -> tuple[Float[Array, "2 roller"], Array]:
         r"""Loads on both races from the inward displacement of the inner ring at each roller, and the root's residual.

@@ -98,14 +98,14 @@ def _cage_parts(scene: CylindricalRollerBearing, motion: RollerKinematics) -> Ca
         turbulence=cage.turbulence,
         n_lands=cage.n_lands,
     )
-    sizes = {"pitch_radius": motion.pitch_radius, "roller_radius": motion.roller_radius}
     rails = None
     if cage.pocket_axial_clearance is not None:
         edge = PocketEdge(
             inner_radius=bore / 2.0,
             outer_radius=outside / 2.0,
             side_clearance=jnp.asarray(cage.pocket_axial_clearance) / 2.0,
-            **sizes,
+            pitch_radius=motion.pitch_radius,
+            roller_radius=motion.roller_radius,
         )
         rails = edge.coefficients(viscosity)
 
@@ -118,7 +118,8 @@ def _cage_parts(scene: CylindricalRollerBearing, motion: RollerKinematics) -> Ca
             rim_radius=race + outward * part.rim_height(geometry),
             side_clearance=jnp.asarray(part.axial_clearance) / 2.0,
             angle=jnp.asarray(part.angle),
-            **sizes,
+            pitch_radius=motion.pitch_radius,
+            roller_radius=motion.roller_radius,
         ).coefficients(viscosity)
 
     drag, density = None, None
@@ -143,9 +144,7 @@ def _cage_parts(scene: CylindricalRollerBearing, motion: RollerKinematics) -> Ca
     )
 
 
-def drag_area(
-    length: Scalar, motion: RollerKinematics, cage: RollerCage, scene: CylindricalRollerBearing
-) -> Array:
+def drag_area(length: Scalar, motion: RollerKinematics, cage: RollerCage, scene: CylindricalRollerBearing) -> Array:
     """Frontal area of a roller that the cage leaves free: length times (diameter - cage thickness), m^2.
 
     The analogue of the source's ball formula; 0 where the cage is thicker than the roller.

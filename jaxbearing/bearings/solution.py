@@ -3,8 +3,6 @@
 The command line, JSON, files and pages read this metadata; nothing keeps a second list.
 """
 
-from typing import Any
-
 import equinox as eqx
 import jax
 from jaxtyping import Array, Bool, Float, Int
@@ -13,9 +11,9 @@ from ..numerics.status import SolveError, Status
 from .parts import Operation
 
 
-def quantity(unit: str, description: str, **kwargs: Any) -> Any:
-    """Field that holds a result, with its SI unit and what it is."""
-    return eqx.field(metadata={"unit": unit, "description": description}, **kwargs)
+def label(unit: str, description: str) -> dict[str, str]:
+    """Metadata of a result: its SI unit and what it is."""
+    return {"unit": unit, "description": description}
 
 
 RING_FREEDOMS = ("axial", "radial", "lateral", "tilt", "tilt_lateral")
@@ -25,66 +23,110 @@ RING_FREEDOMS = ("axial", "radial", "lateral", "tilt", "tilt_lateral")
 class RingDisplacement(eqx.Module):
     """Displacement of the inner ring; a degree of freedom that the family does not activate is held at 0."""
 
-    axial: Float[Array, ""] = quantity("m", "axial displacement")
-    radial: Float[Array, ""] = quantity("m", "displacement along the load line")
-    lateral: Float[Array, ""] = quantity("m", "displacement across the load line")
-    tilt: Float[Array, ""] = quantity("rad", "tilt that moves azimuth 0 axially")
-    tilt_lateral: Float[Array, ""] = quantity("rad", "tilt about the load line")
+    axial: Float[Array, ""] = eqx.field(metadata=label("m", "axial displacement"))
+    radial: Float[Array, ""] = eqx.field(metadata=label("m", "displacement along the load line"))
+    lateral: Float[Array, ""] = eqx.field(metadata=label("m", "displacement across the load line"))
+    tilt: Float[Array, ""] = eqx.field(metadata=label("rad", "tilt that moves azimuth 0 axially"))
+    tilt_lateral: Float[Array, ""] = eqx.field(metadata=label("rad", "tilt about the load line"))
 
 
 class CageState(eqx.Module):
     """Where the cage is and how fast it turns."""
 
-    speed: Float[Array, ""] = quantity("rad/s", "cage speed")
-    slip: Float[Array, ""] = quantity("1", "1 - cage speed / speed of rolling without slip")
-    eccentricity_ratio: Float[Array, ""] = quantity("1", "cage offset over radial guiding clearance")
-    attitude_angle: Float[Array, ""] = quantity("rad", "angle between land load and line of centres")
+    speed: Float[Array, ""] = eqx.field(metadata=label("rad/s", "cage speed"))
+    slip: Float[Array, ""] = eqx.field(metadata=label("1", "1 - cage speed / speed of rolling without slip"))
+    eccentricity_ratio: Float[Array, ""] = eqx.field(metadata=label("1", "cage offset over radial guiding clearance"))
+    attitude_angle: Float[Array, ""] = eqx.field(metadata=label("rad", "angle between land load and line of centres"))
 
 
 class RollerResults(eqx.Module):
-    """Arrays over the rolling elements; what a scene does not model is `None`. Speeds are positive in normal running."""
+    """Arrays over the rolling elements; what is not modelled is `None`. Speeds are positive in normal running."""
 
-    azimuth: Float[Array, " element"] = quantity("rad", "azimuth from the load line")
-    load_inner: Float[Array, " element"] = quantity("N", "normal load on the inner raceway")
-    load_outer: Float[Array, " element"] = quantity("N", "normal load on the outer raceway")
-    pressure_inner: Float[Array, " element"] = quantity("Pa", "Hertz (peak) pressure on the inner raceway")
-    pressure_outer: Float[Array, " element"] = quantity("Pa", "Hertz (peak) pressure on the outer raceway")
-    orbital_speed: Float[Array, " element"] = quantity("rad/s", "speed of the roller centre about the bearing axis")
-    spin_speed: Float[Array, " element"] = quantity("rad/s", "spin about the roller's own axis, relative to its orbit")
-    film_inner: Float[Array, " element"] | None = quantity("m", "central film on the inner raceway", default=None)
-    film_outer: Float[Array, " element"] | None = quantity("m", "central film on the outer raceway", default=None)
-    temperature_rise_inner: Float[Array, " element"] | None = quantity("K", "inlet heating, inner", default=None)
-    temperature_rise_outer: Float[Array, " element"] | None = quantity("K", "inlet heating, outer", default=None)
-    sliding_inner: Float[Array, " element"] | None = quantity("m/s", "sliding speed on the inner race", default=None)
-    sliding_outer: Float[Array, " element"] | None = quantity("m/s", "sliding speed on the outer race", default=None)
-    traction_inner: Float[Array, " element"] | None = quantity("N", "forward force by the inner race", default=None)
-    traction_outer: Float[Array, " element"] | None = quantity("N", "backward force by the outer race", default=None)
-    pocket_film_front: Float[Array, " element"] | None = quantity("m", "film in front of the roller", default=None)
-    pocket_film_rear: Float[Array, " element"] | None = quantity("m", "film behind the roller", default=None)
-    pocket_load_front: Float[Array, " element"] | None = quantity("N", "pocket load in front", default=None)
-    pocket_load_rear: Float[Array, " element"] | None = quantity("N", "pocket load behind", default=None)
+    azimuth: Float[Array, " element"] = eqx.field(metadata=label("rad", "azimuth from the load line"))
+    load_inner: Float[Array, " element"] = eqx.field(metadata=label("N", "normal load on the inner raceway"))
+    load_outer: Float[Array, " element"] = eqx.field(metadata=label("N", "normal load on the outer raceway"))
+    pressure_inner: Float[Array, " element"] = eqx.field(
+        metadata=label("Pa", "Hertz (peak) pressure on the inner raceway")
+    )
+    pressure_outer: Float[Array, " element"] = eqx.field(
+        metadata=label("Pa", "Hertz (peak) pressure on the outer raceway")
+    )
+    orbital_speed: Float[Array, " element"] = eqx.field(
+        metadata=label("rad/s", "speed of the roller centre about the bearing axis")
+    )
+    spin_speed: Float[Array, " element"] = eqx.field(
+        metadata=label("rad/s", "spin about the roller's own axis, relative to its orbit")
+    )
+    film_inner: Float[Array, " element"] | None = eqx.field(
+        default=None, metadata=label("m", "central film on the inner raceway")
+    )
+    film_outer: Float[Array, " element"] | None = eqx.field(
+        default=None, metadata=label("m", "central film on the outer raceway")
+    )
+    temperature_rise_inner: Float[Array, " element"] | None = eqx.field(
+        default=None, metadata=label("K", "inlet heating, inner")
+    )
+    temperature_rise_outer: Float[Array, " element"] | None = eqx.field(
+        default=None, metadata=label("K", "inlet heating, outer")
+    )
+    sliding_inner: Float[Array, " element"] | None = eqx.field(
+        default=None, metadata=label("m/s", "sliding speed on the inner race")
+    )
+    sliding_outer: Float[Array, " element"] | None = eqx.field(
+        default=None, metadata=label("m/s", "sliding speed on the outer race")
+    )
+    traction_inner: Float[Array, " element"] | None = eqx.field(
+        default=None, metadata=label("N", "forward force by the inner race")
+    )
+    traction_outer: Float[Array, " element"] | None = eqx.field(
+        default=None, metadata=label("N", "backward force by the outer race")
+    )
+    pocket_film_front: Float[Array, " element"] | None = eqx.field(
+        default=None, metadata=label("m", "film in front of the roller")
+    )
+    pocket_film_rear: Float[Array, " element"] | None = eqx.field(
+        default=None, metadata=label("m", "film behind the roller")
+    )
+    pocket_load_front: Float[Array, " element"] | None = eqx.field(
+        default=None, metadata=label("N", "pocket load in front")
+    )
+    pocket_load_rear: Float[Array, " element"] | None = eqx.field(
+        default=None, metadata=label("N", "pocket load behind")
+    )
 
 
 class PowerLoss(eqx.Module):
     """Dissipated power by location, W; what a scene does not model is `None`. The entries add up to `total`."""
 
-    total: Float[Array, ""] = quantity("W", "total")
-    inner_raceway: Float[Array, ""] | None = quantity("W", "sliding on the inner raceway", default=None)
-    outer_raceway: Float[Array, ""] | None = quantity("W", "sliding on the outer raceway", default=None)
-    rolling_resistance: Float[Array, ""] | None = quantity("W", "rolling resistance of the raceways", default=None)
-    pocket: Float[Array, ""] | None = quantity("W", "rollers sliding in the cage pockets", default=None)
-    element_ends: Float[Array, ""] | None = quantity("W", "roller ends against the cage rails", default=None)
-    flange: Float[Array, ""] | None = quantity("W", "roller ends against the ring flanges", default=None)
-    cage_pilot: Float[Array, ""] | None = quantity("W", "cage lands on the guiding ring", default=None)
-    drag: Float[Array, ""] | None = quantity("W", "oil drag on the orbiting rollers", default=None)
+    total: Float[Array, ""] = eqx.field(metadata=label("W", "total"))
+    inner_raceway: Float[Array, ""] | None = eqx.field(
+        default=None, metadata=label("W", "sliding on the inner raceway")
+    )
+    outer_raceway: Float[Array, ""] | None = eqx.field(
+        default=None, metadata=label("W", "sliding on the outer raceway")
+    )
+    rolling_resistance: Float[Array, ""] | None = eqx.field(
+        default=None, metadata=label("W", "rolling resistance of the raceways")
+    )
+    pocket: Float[Array, ""] | None = eqx.field(
+        default=None, metadata=label("W", "rollers sliding in the cage pockets")
+    )
+    element_ends: Float[Array, ""] | None = eqx.field(
+        default=None, metadata=label("W", "roller ends against the cage rails")
+    )
+    flange: Float[Array, ""] | None = eqx.field(
+        default=None, metadata=label("W", "roller ends against the ring flanges")
+    )
+    cage_pilot: Float[Array, ""] | None = eqx.field(default=None, metadata=label("W", "cage lands on the guiding ring"))
+    drag: Float[Array, ""] | None = eqx.field(default=None, metadata=label("W", "oil drag on the orbiting rollers"))
 
 
 class Solution(eqx.Module):
     """Result of a steady solve. Where `status` is not converged every result is NaN, never the last iterate."""
 
     status: Int[Array, ""]
-    iterations: Int[Array, ""] = quantity("1", "Newton steps")
-    residual_norm: Float[Array, ""] = quantity("1", "largest scaled residual")
+    iterations: Int[Array, ""] = eqx.field(metadata=label("1", "Newton steps"))
+    residual_norm: Float[Array, ""] = eqx.field(metadata=label("1", "largest scaled residual"))
     worst_equation: Int[Array, ""]
     worst_element: Int[Array, ""]
     operation: Operation
@@ -92,10 +134,12 @@ class Solution(eqx.Module):
     cage: CageState | None
     elements: RollerResults
     power_loss: PowerLoss
-    drive_power: Float[Array, ""] = quantity("W", "sum over both rings of torque times speed")
-    inner_torque: Float[Array, ""] = quantity("N m", "torque that drives the inner ring")
-    outer_torque: Float[Array, ""] = quantity("N m", "torque that drives the outer ring")
-    stiffness: Float[Array, "freedom freedom"] = quantity("N/m", "d load / d displacement of the active freedoms")
+    drive_power: Float[Array, ""] = eqx.field(metadata=label("W", "sum over both rings of torque times speed"))
+    inner_torque: Float[Array, ""] = eqx.field(metadata=label("N m", "torque that drives the inner ring"))
+    outer_torque: Float[Array, ""] = eqx.field(metadata=label("N m", "torque that drives the outer ring"))
+    stiffness: Float[Array, "freedom freedom"] = eqx.field(
+        metadata=label("N/m", "d load / d displacement, active freedoms")
+    )
     checks: dict[str, Bool[Array, ""]]
     ring_freedom: tuple[str, ...] = eqx.field(static=True)
     equation_names: tuple[str, ...] = eqx.field(static=True)
@@ -124,7 +168,10 @@ class Solution(eqx.Module):
         )
 
     def raise_if_failed(self) -> None:
-        """**Raises:** `SolveError` for a single failed solve; does nothing while JAX traces (each lane has its status)."""
+        """Does nothing while JAX traces: each lane has its status.
+
+        **Raises:** `SolveError` for a single failed solve.
+        """
         try:
             failed = not bool(self.converged)
         except jax.errors.ConcretizationTypeError:

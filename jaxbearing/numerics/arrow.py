@@ -123,7 +123,7 @@ def linearize(system: AbstractArrowSystem, point: ArrowPoint) -> tuple[Equations
 
 
 def empty_jacobian(system: AbstractArrowSystem, point: ArrowPoint) -> ArrowJacobian:
-    """Blocks of zeros of the right shapes, to start a loop with (tracing only the element function, not its Jacobian)."""
+    """Blocks of zeros of the right shapes, to start a loop with; traces the element function, not its Jacobian."""
     m, n = point.elements.shape
     g = point.globals.shape[0]
     shared = jax.ShapeDtypeStruct((g, n), point.globals.dtype)

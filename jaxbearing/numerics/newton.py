@@ -8,7 +8,16 @@ import jax
 import jax.numpy as jnp
 from jaxtyping import Array, Bool, Float, Int
 
-from .arrow import AbstractArrowSystem, ArrowJacobian, ArrowPoint, Equations, empty_jacobian, evaluate, linearize, solve_arrow
+from .arrow import (
+    AbstractArrowSystem,
+    ArrowJacobian,
+    ArrowPoint,
+    Equations,
+    empty_jacobian,
+    evaluate,
+    linearize,
+    solve_arrow,
+)
 from .status import Status
 
 System = TypeVar("System", bound=AbstractArrowSystem)
@@ -171,7 +180,7 @@ class _Root(NamedTuple):
 
 
 @eqx.filter_custom_jvp
-def _root(system: System, *, options: NewtonOptions) -> _Root:
+def _root(system: AbstractArrowSystem, *, options: NewtonOptions) -> _Root:
     """The root with the Jacobian there; of a lane that failed, a finite point and where the iteration gave up."""
     end = _iterate(system, options)
     solved = end.status == Status.CONVERGED

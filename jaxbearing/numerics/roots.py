@@ -36,8 +36,8 @@ def monotone_root(
 
     Safeguarded Newton: a Newton step that would leave the bracket (or is not finite) is replaced
     by bisection, and the bracket shrinks at every step. It stops when every element's step is
-    below `tolerance * max(1, |x|)`; that step is taken, so the error is about its square. A root outside the bracket ends at the
-    nearer bracket end, and its residual says so.
+    below `tolerance * max(1, |x|)`; that step is taken, so the error is about its square. A root outside
+    the bracket ends at the nearer bracket end, and its residual says so.
 
     The derivative is that of the implicit function, $dx = -(\partial f/\partial a)\,da /
     (\partial f/\partial x)$, in both modes and to any order; 0 where there is no root or the function is flat.
@@ -64,7 +64,7 @@ class _Search(NamedTuple):
     residual: Array
     proper: Array
     end: Array
-    count: Array
+    steps: Array
 
 
 def _value_and_slope(function: Callable, x: Array, args: PyTree) -> tuple[Array, Array]:
@@ -85,7 +85,7 @@ def _root(
     lower, upper = bracket
 
     def keep_going(state):
-        return (state.count < max_steps) & jnp.any(state.step > tolerance)
+        return (state.steps < max_steps) & jnp.any(state.step > tolerance)
 
     def advance(state):
         value, slope = _value_and_slope(function, state.x, args)
@@ -98,7 +98,7 @@ def _root(
         # proper: the Newton step from here stays in the first bracket, so x is a root and not a bracket end
         proper = (newton > lower) & (newton < upper) & (slope > 0)
         end = jnp.where(newton >= upper, upper, jnp.where(newton <= lower, lower, state.x))
-        return _Search(x, low, high, step, jnp.abs(value), proper, end, state.count + 1)
+        return _Search(x, low, high, step, jnp.abs(value), proper, end, state.steps + 1)
 
     unknown = jnp.full(guess.shape, jnp.inf)
     never = jnp.zeros(guess.shape, bool)

@@ -114,7 +114,6 @@ def test_not_converged(jaxbearing_command):
 
 
 def test_interrupt(jaxbearing_command, monkeypatch):
-    import jaxbearing  # the package's `solve` is the verb: the module of that name is reached by `sys.modules`
 
     def interrupted(scene, throw=True):
         raise KeyboardInterrupt

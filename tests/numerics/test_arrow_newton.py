@@ -5,6 +5,8 @@ import jax
 import jax.numpy as jnp
 import numpy as np
 import pytest
+from jaxtyping import Array, Float
+
 from jaxbearing.numerics.arrow import (
     AbstractArrowSystem,
     ArrowPoint,
@@ -16,7 +18,6 @@ from jaxbearing.numerics.arrow import (
 from jaxbearing.numerics.newton import NewtonOptions, newton_solve
 from jaxbearing.numerics.small_linear import solve_blocks
 from jaxbearing.numerics.status import Status
-from jaxtyping import Array, Float
 
 
 class Springs(AbstractArrowSystem):
@@ -35,9 +36,7 @@ class Springs(AbstractArrowSystem):
 
     def element(self, unknowns, shared):
         pull = self.stiffness * jnp.sum(shared, axis=0)
-        rows = [
-            unknowns[i] + 0.1 * unknowns[i] ** 3 + 0.2 * unknowns[i - 1] - pull / (i + 1.0) for i in range(self.m)
-        ]
+        rows = [unknowns[i] + 0.1 * unknowns[i] ** 3 + 0.2 * unknowns[i - 1] - pull / (i + 1.0) for i in range(self.m)]
         local = jnp.stack(rows) if rows else unknowns
         own = jnp.sum(unknowns, axis=0) if self.m else jnp.zeros_like(pull)
         return local, jnp.stack([pull + own + pull**3, own * pull]), jnp.zeros(())
@@ -166,9 +165,7 @@ def test_failed_lane_harms_nobody(mapped):
         return jax.lax.map(lambda fs: one(shared, *fs), (flaws, scales))
 
     values, status = jax.jit(lanes)(1.0)
-    np.testing.assert_array_equal(
-        status, [Status.CONVERGED, Status.DIVERGED, Status.NOT_CONVERGED, Status.CONVERGED]
-    )
+    np.testing.assert_array_equal(status, [Status.CONVERGED, Status.DIVERGED, Status.NOT_CONVERGED, Status.CONVERGED])
     for lane in (0, 3):
         single, _ = one(1.0, flaws[lane], scales[lane])
         np.testing.assert_allclose(values[lane], single, rtol=1e-13)

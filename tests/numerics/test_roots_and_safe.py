@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+
 from jaxbearing.numerics.precision import as_float
 from jaxbearing.numerics.quadrature import gauss_legendre
 from jaxbearing.numerics.roots import monotone_root

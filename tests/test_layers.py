@@ -1,0 +1,90 @@
+"""Imports go down the layers only, and nothing below the edge reads files, units or draws."""
+
+import ast
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parents[1]
+PACKAGE = ROOT / "jaxbearing"
+
+# A module may import from layers of a lower rank, and from its own.
+RANK = {
+    "_types": 0,
+    "numerics": 1,
+    "materials": 2,
+    "lubricants": 2,
+    "contacts": 3,
+    "gaps": 3,
+    "ehl": 4,
+    "machines": 4,
+    "bearings": 5,
+    "life": 6,
+    "solve": 7,
+    "sweep": 7,
+    "simulate": 7,
+    "scenes": 8,
+    "plots": 8,
+    "report": 8,
+    "cli": 9,
+    "exact": 9,
+    "__init__": 9,
+    "__main__": 10,
+}
+SIBLINGS = {("lubricants", "materials"), ("materials", "lubricants"), ("contacts", "gaps"), ("gaps", "contacts")}
+EDGE_ONLY = {"pint", "pydantic", "matplotlib", "xarray", "rich", "typer", "tomllib", "json", "platformdirs", "jinja2"}
+FITTING_MAY_USE = 4
+
+
+def modules(folder):
+    return sorted(folder.rglob("*.py"))
+
+
+def layer(path):
+    return path.relative_to(PACKAGE).parts[0].removesuffix(".py")
+
+
+def imports(path, package):
+    """(first part inside jaxbearing or None, top-level module) of every import statement in a file."""
+    parts = path.relative_to(ROOT).with_suffix("").parts
+    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+        names = []
+        if isinstance(node, ast.Import):
+            names = [alias.name for alias in node.names]
+        elif isinstance(node, ast.ImportFrom) and node.level == 0:
+            names = [node.module or ""]
+        elif isinstance(node, ast.ImportFrom):
+            base = parts[: len(parts) - node.level]
+            names = [".".join([*base, node.module])] if node.module else [".".join([*base, a.name]) for a in node.names]
+        for name in names:
+            pieces = name.split(".")
+            inside = pieces[1] if pieces[0] == package and len(pieces) > 1 else None
+            yield inside, pieces[0]
+
+
+@pytest.mark.parametrize("path", modules(PACKAGE), ids=lambda p: str(p.relative_to(PACKAGE)))
+def test_imports_go_down(path):
+    here = layer(path)
+    assert here in RANK, f"give {here} a rank"
+    for inside, top in imports(path, "jaxbearing"):
+        if RANK[here] < RANK["scenes"]:
+            assert top not in EDGE_ONLY, f"{path.name} imports {top}, which belongs to the edge"
+        assert top != "fitting" or here == "cli", f"{path.name} imports fitting"
+        if inside is None or here == "__init__":
+            continue
+        assert RANK.get(inside, 0) <= RANK[here], f"{path.name} imports {inside}, a layer above {here}"
+        assert (here, inside) not in SIBLINGS, f"{path.name} imports its sibling layer {inside}"
+        assert inside != "exact", f"{path.name} imports exact, which is for tests and notebooks only"
+
+
+@pytest.mark.parametrize("path", modules(ROOT / "fitting"), ids=lambda p: p.name)
+def test_fitting_knows_no_bearing(path):
+    for inside, _ in imports(path, "jaxbearing"):
+        assert inside is None or RANK[inside] <= FITTING_MAY_USE
+
+
+def test_top_level_is_as_agreed():
+    allowed = {"pyproject.toml", "README.md", "jaxbearing", "fitting", "tests", "notebooks", "docs", "mkdocs.yml"}
+    allowed |= {"LICENSE", "CHANGELOG.md"}
+    visible = {p.name for p in ROOT.iterdir() if not p.name.startswith(".") and not p.name.endswith(".egg-info")}
+    assert visible - {"build", "dist", "__pycache__"} <= allowed
