@@ -10,8 +10,8 @@ Every roller orbits at the cage speed W; per roller (source eqs. (27)-(29), (38)
   in closed form (`gaps.Pocket`);
 
 and globally: ring, $\sum Q_i n = F_r$ (source eq. (37)), unknown the ring displacement d; cage moment (source
-eq. (33)), unknown W. The cage offset is eliminated too: the land must carry the sum of the pocket forces, and its eccentricity
-is the root of a monotone scalar equation (`gaps.ShortJournal.static_equilibrium`).
+eq. (33)), unknown W. The cage offset is eliminated too: the land must carry the sum of the pocket forces, and its
+eccentricity is the root of a monotone scalar equation (`gaps.ShortJournal.static_equilibrium`).
 
 The sign of $F_{C2} - F_{C1}$ in the cage's x balance differs from the source's eq. (31), which contradicts its own
 eq. (32) and action = reaction. Each interaction gives its force and its dissipation from one and the same speed.

@@ -1,4 +1,4 @@
-"""The benchmark runs, its errors are what it promises, and scipy finds the same roots; times are printed, not judged."""
+"""The benchmark runs, its errors are what it promises, and scipy finds the same roots; times are printed only."""
 
 import importlib.util
 from pathlib import Path
