@@ -1,1 +1,1 @@
-"""Identification of an oil's rheology from two-disk traction curves: arrives with the traction model, empty until then."""
+"""Rheology of an oil from two-disk traction curves: comes with the full traction model, empty until then."""

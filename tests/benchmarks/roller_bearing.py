@@ -165,6 +165,11 @@ def benchmark(quick):
                 "median_steps": float(np.median(iterations)),
                 "max_steps": int(np.max(iterations)),
             }
+        lanes = operations(100 if quick else 1000)
+        rows["lanes"] = len(lanes["inner_speed"])
+        for method, vectorized in (("map", False), ("vmap", True)):
+            run = batched(scene, vectorized=vectorized).lower(lanes).compile()
+            rows[method] = best_time(lambda run=run: run(lanes), 3) / rows["lanes"]
         rows["scipy"] = scipy_rows(name, make, 4 if quick else 20)
         figures[name] = rows
     return figures
@@ -183,6 +188,7 @@ def print_table(figures):
                 f"  {size:8d} | {1e3 * row['seconds']:10.3f} | {row['error']:.1e} | {row['failed']:6d} | "
                 f"{row['median_steps']:6.0f}, {row['max_steps']:3d}        | {row['compile']:.1f}"
             )
+        print(f"  {rows['lanes']} cases: lax.map {1e3 * rows['map']:.3f}, vmap {1e3 * rows['vmap']:.3f} ms a solve")
         ours = rows["batch"][max(rows["batch"])]["seconds"]
         print("  scipy hybr, 94 unknowns           | ms an attempt | solved | error   | ratio to our largest batch")
         for (method, start), (seconds, solved, attempts, error) in rows["scipy"].items():
