@@ -169,7 +169,7 @@ def benchmark(quick):
         rows["lanes"] = len(lanes["inner_speed"])
         for method, vectorized in (("map", False), ("vmap", True)):
             run = batched(scene, vectorized=vectorized).lower(lanes).compile()
-            rows[method] = best_time(lambda run=run: run(lanes), 3) / rows["lanes"]
+            rows[method] = best_time(lambda run=run, lanes=lanes: run(lanes), 3) / rows["lanes"]
         rows["scipy"] = scipy_rows(name, make, 4 if quick else 20)
         figures[name] = rows
     return figures
