@@ -7,6 +7,7 @@ running (a roller between a turning inner and a fixed outer ring spins clockwise
 `spin_speed`). Pocket face 1 is in front of the roller, face 2 behind it.
 """
 
+import math
 from typing import Literal
 
 import equinox as eqx
@@ -21,6 +22,7 @@ from .parts import (
     Materials,
     Operation,
     check_row_fits,
+    known,
     number,
     optional_number,
     require,
@@ -32,6 +34,10 @@ ASSUMED_CAGE_OUTER = 4.0 / 12.0
 """Cage outside diameter = pitch diameter plus this times the roller diameter, where a scene does not give it."""
 ASSUMED_FLANGE_HEIGHT = 2.5 / 12.0
 """Flange height over roller diameter, where a scene does not give it."""
+
+
+ASSUMED_LANDS = 2
+"""Number of cage lands, where a scene does not give it."""
 
 
 class RollerGeometry(eqx.Module):
@@ -97,7 +103,7 @@ class RollerCage(eqx.Module):
     - `inner_diameter`, `outer_diameter`: of the cage, m; assumed from the roller size where not given.
     - `pocket_axial_clearance`: total axial clearance of a roller between the cage rails, m; not given: the films
       between roller ends and rails are not modelled.
-    - `n_lands`: number of lands.
+    - `n_lands`: number of lands; 2 where not given.
     - `turbulence`: flow regime of the lands.
     """
 
@@ -108,7 +114,7 @@ class RollerCage(eqx.Module):
     inner_diameter: Scalar | None = optional_number()
     outer_diameter: Scalar | None = optional_number()
     pocket_axial_clearance: Scalar | None = optional_number()
-    n_lands: int = eqx.field(static=True, default=2)
+    n_lands: int | None = eqx.field(static=True, default=None)
     turbulence: AbstractTurbulence = BlendedTurbulence()
 
     def __check_init__(self):
@@ -124,6 +130,10 @@ class RollerCage(eqx.Module):
             pocket_axial_clearance=(self.pocket_axial_clearance, "> 0"),
             n_lands=(self.n_lands, "> 0"),
         )
+
+    @property
+    def lands(self) -> int:
+        return ASSUMED_LANDS if self.n_lands is None else self.n_lands
 
     def bore(self, geometry: RollerGeometry) -> Scalar:
         if self.inner_diameter is not None:
@@ -189,6 +199,13 @@ class CylindricalRollerBearing(AbstractScene):
     def __check_init__(self):
         if self.contact is None:
             return
+        _check_dimensions(self)
+        speeds = known(self.operation.inner_speed, self.operation.outer_speed)
+        if speeds is not None and speeds[0] == speeds[1]:
+            raise ValueError(
+                "operation.inner_speed: a lubricated bearing needs rings that turn against each other (100 rpm or "
+                "more); leave out [contact] for a dry one at rest"
+            )
         if self.oil is None:
             raise ValueError("oil: a scene with a [contact] table needs an oil")
         if self.slips and self.cage is None:
@@ -214,13 +231,44 @@ class CylindricalRollerBearing(AbstractScene):
     def assumptions(self) -> tuple[str, ...]:
         """Dimensions that the scene does not give and the model assumed, for the user to see."""
         said = []
+        if self.geometry.contact_length is None:
+            said.append("geometry.contact_length is not given: the whole roller length carries load")
         if self.slips and self.cage is not None:
             for name, formula in (
-                ("inner_diameter", "pitch diameter - 7/12 roller diameter"),
-                ("outer_diameter", "pitch diameter + 4/12 roller diameter"),
+                ("inner_diameter", f"pitch diameter - {ASSUMED_CAGE_INNER:.3f} roller diameters"),
+                ("outer_diameter", f"pitch diameter + {ASSUMED_CAGE_OUTER:.3f} roller diameters"),
+                ("n_lands", f"{ASSUMED_LANDS}"),
             ):
                 if getattr(self.cage, name) is None:
                     said.append(f"cage.{name} is not given: assumed {formula}")
         if self.slips and self.flange is not None and self.flange.height is None:
-            said.append("flange.height is not given: assumed 2.5/12 of the roller diameter")
+            said.append(f"flange.height is not given: assumed {ASSUMED_FLANGE_HEIGHT:.3f} of the roller diameter")
         return tuple(said)
+
+
+def _check_dimensions(scene: CylindricalRollerBearing) -> None:
+    """**Raises:** `ValueError` where cage or flange cannot exist between the rings (where the numbers are known)."""
+    geometry, cage, flange = scene.geometry, scene.cage, scene.flange
+    row = known(geometry.pitch_diameter, geometry.roller_diameter)
+    if row is None:
+        return
+    pitch, roller = row
+    if cage is not None:
+        sizes = known(cage.bore(geometry), cage.outside(geometry), cage.pocket_clearance, cage.guiding_clearance)
+        if sizes is not None:
+            bore, outside, pocket, guiding = sizes
+            gap = pitch * math.sin(math.pi / max(geometry.n_rollers, 2)) - roller
+            _between("cage.inner_diameter", bore, pitch - roller, outside, "inner raceway", "cage outside diameter")
+            _between("cage.outer_diameter", outside, bore, pitch + roller, "cage bore", "outer raceway")
+            _between("cage.pocket_clearance", pocket, 0.0, gap, "nothing", "gap between neighbouring rollers")
+            _between("cage.guiding_clearance", guiding, 0.0, 0.05 * bore, "nothing", "5 % of the land diameter")
+    if flange is not None:
+        height = known(flange.rim_height(geometry))
+        if height is not None:
+            limit = roller / 2.0 if flange.ring == "both" else roller
+            _between("flange.height", height[0], 0.0, limit, "raceway", "what the roller leaves to it")
+
+
+def _between(name: str, value: float, low: float, high: float, below: str, above: str) -> None:
+    if not low < value < high:
+        raise ValueError(f"{name} must lie between {low:.6g} m ({below}) and {high:.6g} m ({above}), got {value:.6g} m")

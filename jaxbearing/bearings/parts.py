@@ -45,6 +45,13 @@ def require(part: str, **checks: tuple[Any, str]) -> None:
             raise ValueError(f"{part}.{name} must be {allowed}, got {float(np.ravel(values)[np.argmin(good)]):g}")
 
 
+def known(*values: Any) -> tuple[float, ...] | None:
+    """The values as floats, or `None` where one of them is traced, batched or missing."""
+    if not all(isinstance(v, int | float | np.generic) or (isinstance(v, np.ndarray) and v.ndim == 0) for v in values):
+        return None
+    return tuple(float(v) for v in values)
+
+
 class Operation(eqx.Module):
     """Operating point of a roller bearing: the batched part of a sweep.
 

@@ -110,6 +110,7 @@ class LubricatedRollerSystem(AbstractArrowSystem):
     ring_load: Float[Array, " freedom"]
     radial_clearance: Float[Array, ""]
     roller_mass: Float[Array, ""]
+    freedoms: tuple[str, ...] = eqx.field(static=True)
     cage: CageParts | None = None
 
     # -- scales ---------------------------------------------------------------------------------------------------
@@ -128,7 +129,7 @@ class LubricatedRollerSystem(AbstractArrowSystem):
     # -- solver contract ------------------------------------------------------------------------------------------
 
     def equation_names(self) -> tuple[str, ...]:
-        ring = tuple(f"ring balance ({i})" for i in range(self.directions.shape[0]))
+        ring = tuple(f"{name} load balance of the ring" for name in self.freedoms)
         if self.cage is None:
             return ("approach of the rings at a roller", *ring)
         return ("approach of the rings at a roller", "moment balance of a roller", *ring, "moment balance of the cage")
@@ -346,9 +347,10 @@ class DryRollerSystem(AbstractArrowSystem):
     ring_load: Float[Array, " freedom"]
     radial_clearance: Float[Array, ""]
     roller_mass: Float[Array, ""]
+    freedoms: tuple[str, ...] = eqx.field(static=True)
 
     def equation_names(self) -> tuple[str, ...]:
-        return tuple(f"ring balance ({i})" for i in range(self.directions.shape[0]))
+        return tuple(f"{name} load balance of the ring" for name in self.freedoms)
 
     def step_caps(self) -> ArrowPoint:
         # a dry distribution is convex in the displacement: no cap is needed

@@ -38,6 +38,8 @@ TRACTION_PRESSURE = 1.8e9
 """Highest pressure of the traction measurements behind the rheology laws, Pa."""
 OIL_TEMPERATURES = (253.15, 473.15)
 """Range for which the oil laws were fitted, K."""
+SLOWEST = 99.9 * 2.0 * np.pi / 60.0
+"""Speed of the rings against each other below which the lubricated model has no meaning, rad/s (100 rpm)."""
 
 
 def build_system(scene: CylindricalRollerBearing) -> DryRollerSystem | LubricatedRollerSystem:
@@ -70,6 +72,7 @@ def build_system(scene: CylindricalRollerBearing) -> DryRollerSystem | Lubricate
         "directions": jnp.stack([cosines[name] for name in scene.ring_freedom]),
         "azimuth": azimuth,
         "ring_load": load,
+        "freedoms": scene.ring_freedom,
         "radial_clearance": jnp.asarray(geometry.diametral_clearance) / 2.0,
         "roller_mass": scene.materials.rollers.density * jnp.pi * motion.roller_radius**2 * geometry.roller_length,
     }
@@ -96,7 +99,7 @@ def _cage_parts(scene: CylindricalRollerBearing, motion: RollerKinematics) -> Ca
         width=jnp.asarray(cage.land_width),
         clearance=jnp.asarray(cage.guiding_clearance) / 2.0,
         turbulence=cage.turbulence,
-        n_lands=cage.n_lands,
+        n_lands=cage.lands,
     )
     rails = None
     if cage.pocket_axial_clearance is not None:
@@ -197,7 +200,8 @@ def solve_steady(scene: CylindricalRollerBearing, options: NewtonOptions) -> Sol
         inner_torque=results.inner_torque,
         outer_torque=results.outer_torque,
         stiffness=stiffness,
-        checks={text: result.converged & (value > 0) for text, value in results.range_excess.items()},
+        checks={text: value > 0 for text, value in _input_excess(system).items()}
+        | {text: result.converged & (value > 0) for text, value in results.range_excess.items()},
         ring_freedom=scene.ring_freedom,
         equation_names=system.equation_names(),
         global_equations=result.point.globals.shape[0],
@@ -330,17 +334,32 @@ def _ring_torques(system: LubricatedRollerSystem, state: RollerState, land: Land
     return inner, outer - land.ring_torque
 
 
+def _input_excess(system: DryRollerSystem | LubricatedRollerSystem) -> dict[str, Array]:
+    """By how much the scene itself leaves the ranges for which the laws were made; said of failed solves too."""
+    if isinstance(system, DryRollerSystem):
+        return {}
+    motion, (low, high) = system.kinematics, OIL_TEMPERATURES
+    excess = {
+        "inlet oil beyond 200 degC: the oil laws are extrapolated": system.inlet.temperature - high,
+        "inlet oil below -20 degC: the oil laws are extrapolated": low - system.inlet.temperature,
+        "rings turn against each other at less than 100 rpm: the films vanish, consider a dry scene": SLOWEST
+        - jnp.abs(motion.inner_speed - motion.outer_speed),
+    }
+    if system.cage is not None:
+        land = system.cage.land
+        excess["land wider than a third of its radius: the short journal film overestimates"] = (
+            land.width - land.radius / 3.0
+        )
+    return excess
+
+
 def _range_excess(system: LubricatedRollerSystem, state: RollerState, land: LandState | None) -> dict[str, Array]:
     """By how much the results leave the ranges for which the laws were made."""
     loaded = state.load >= 0.01 * jnp.max(state.load)
     most = lambda values: jnp.max(jnp.where(loaded, values, 0.0))
     rise = state.contact.temperature_rise
     hottest = system.inlet.temperature + (jnp.zeros(()) if rise is None else most(rise))
-    low, high = OIL_TEMPERATURES
-    excess = {
-        "oil temperature beyond 200 degC: the oil laws are extrapolated": hottest - high,
-        "oil temperature below -20 degC: the oil laws are extrapolated": low - system.inlet.temperature,
-    }
+    excess = {"oil in the contacts beyond 200 degC: the oil laws are extrapolated": hottest - OIL_TEMPERATURES[1]}
     if system.laws.traction is not None:
         excess["mean contact pressure beyond 1.8 GPa: the traction rheology is extrapolated"] = (
             most(system.contact.mean_pressure(state.load)) - TRACTION_PRESSURE
@@ -352,11 +371,7 @@ def _range_excess(system: LubricatedRollerSystem, state: RollerState, land: Land
         excess["thermal loading beyond 20: Gupta's factor is extrapolated"] = loading - 20.0
         excess["slide ratio of a loaded contact beyond 2: Gupta's factor is extrapolated"] = slide - 2.0
     if land is not None and system.cage is not None:
-        film = system.cage.land
         excess["cage eccentricity beyond 0.98: the land nearly touches, its film law saturates"] = (
             land.eccentricity_ratio - 0.98
-        )
-        excess["land wider than a third of its radius: the short journal film overestimates"] = (
-            film.width - film.radius / 3.0
         )
     return excess
