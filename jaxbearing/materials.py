@@ -6,6 +6,7 @@ import numpy as np
 from jaxtyping import Array, Float
 
 from ._types import Scalar
+from .numerics.checks import require
 
 
 class Material(eqx.Module):
@@ -18,6 +19,14 @@ class Material(eqx.Module):
     youngs_modulus: Scalar
     poisson_ratio: Scalar
     density: Scalar
+
+    def __check_init__(self):
+        require(
+            "material",
+            youngs_modulus=(self.youngs_modulus, "> 0"),
+            poisson_ratio=(self.poisson_ratio, "between 0 and 0.5"),
+            density=(self.density, "> 0"),
+        )
 
 
 Material.__init__.__doc__ = """**Arguments:**

@@ -34,7 +34,7 @@ def solve(scene: AbstractScene, *, throw: bool = True, options: NewtonOptions | 
 
     Compiled once per structure (kind, parts, number of rolling elements); new numbers never recompile. May be called
     inside `jax.jit`, `jax.vmap`, `jax.grad` and `jax.lax.map`; derivatives, in both modes and with respect to every
-    number of the scene, go through the solution by the implicit function theorem. First derivatives only.
+    number of the scene, go through the solution by the implicit function theorem.
 
     **Arguments:**
     - `scene`: from `load_scene`, or built from parts.
@@ -56,15 +56,15 @@ def solve(scene: AbstractScene, *, throw: bool = True, options: NewtonOptions | 
 def jit_solver(scene: AbstractScene, *, options: NewtonOptions | None = None) -> Callable[..., Solution]:
     """A compiled solver for scenes of this structure.
 
-    Returns a function of `(scene=..., **operation)`: with no scene it uses the one given here, keywords change its
-    operating point, `fast(inner_speed=1100.0)`. It never raises for a failed solve (look at `status`) and never
-    recompiles when only numbers change.
+    Returns a function of a scene (left out: the one given here) and of keywords that change its operating point,
+    `fast(inner_speed=1100.0)`. It never raises for a failed solve (look at `status`) and never recompiles when only
+    numbers change.
     """
     chosen = NewtonOptions() if options is None else options
     require_x64()
     _steady(scene)
 
-    def fast(other: AbstractScene | None = None, **operation: Any) -> Solution:
+    def fast(other: AbstractScene | None = None, /, **operation: Any) -> Solution:
         base = scene if other is None else other
         return _solve(jax.tree.map(as_float, base.at_operation(**operation)), chosen)
 

@@ -24,13 +24,13 @@ def full_residual(system: LubricatedRollerSystem, y):
     cage, motion = system.cage, system.kinematics
     log_load, spin_offset, net_load, ring, orbit_offset, offset = split(system, y)
     scale = system.friction_scale()
-    orbit = motion.free_orbit + motion.orbit_scale * orbit_offset
-    spin = motion.free_spin * (1.0 + spin_offset)
+    orbit = motion.free_orbit + motion.orbit_unit * orbit_offset
+    spin = motion.free_spin + motion.spin_unit * spin_offset
     orbits = jnp.broadcast_to(orbit, spin.shape)
 
     inner_load = jnp.exp(log_load)
     load = jnp.stack([inner_load, inner_load + system.centrifugal(orbits)])
-    mean_speed, sliding = motion.surface_speeds(orbits, spin)
+    mean_speed, sliding = motion.surface_speeds(orbits - motion.free_orbit, spin - motion.free_spin)
     contact = system.laws.evaluate(system.contact, load, mean_speed, sliding, system.oil, system.inlet)
     inner, outer = contact.traction
     approach = system.contact.palmgren_approach(load)

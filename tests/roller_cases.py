@@ -96,5 +96,9 @@ HARD_CASES = {
     "no oil flow": {"operation.oil_flow": 0.0},
     "no drag": {"drag.coefficient": 0.0},
     "100 rpm": {"rpm": 100.0},
+    "200 kN": {"operation.radial_load": 200e3},
+    "100 rpm, 50 kN, 60 degC": {"rpm": 100.0, "operation.radial_load": 50e3, "operation.oil_temperature": 333.15},
+    "rings nearly turning together": {"operation.outer_speed": 10400 * RPM},
+    "rolling would hold the cage still": {"operation.outer_speed": -10500 * RPM * 65.0 / 77.0},
 }
 """The steady solve must survive these: few loaded rollers, nothing to slip against, thick oil, thin films."""

@@ -15,6 +15,7 @@ import equinox as eqx
 from .._types import Scalar
 from ..gaps import AbstractTurbulence, BlendedTurbulence
 from ..lubricants import Lubricant
+from ..numerics.checks import known, require
 from .parts import (
     AbstractScene,
     ContactLaws,
@@ -22,10 +23,8 @@ from .parts import (
     Materials,
     Operation,
     check_row_fits,
-    known,
     number,
     optional_number,
-    require,
 )
 
 ASSUMED_CAGE_INNER = 7.0 / 12.0
@@ -197,6 +196,8 @@ class CylindricalRollerBearing(AbstractScene):
     ring_freedom: tuple[str, ...] = eqx.field(static=True, default=("radial",))
 
     def __check_init__(self):
+        if not self.ring_freedom or self.ring_freedom[0] != "radial" or set(self.ring_freedom) - {"radial", "lateral"}:
+            raise ValueError(f"ring_freedom must be ('radial',) or ('radial', 'lateral'), got {self.ring_freedom!r}")
         if self.contact is None:
             return
         _check_dimensions(self)

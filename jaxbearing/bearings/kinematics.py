@@ -40,14 +40,29 @@ class RollerKinematics(eqx.Module):
         """s of rolling without slip, rad/s."""
         return self.orbit_scale * self.outer_radius / self.roller_radius
 
-    def surface_speeds(self, orbit: Array, spin: Array) -> tuple[Float[Array, "2 ..."], Float[Array, "2 ..."]]:
+    @property
+    def orbit_unit(self) -> Array:
+        """Scale of orbital speeds, rad/s; not 0 while a ring turns, also where W or the relative speed is 0."""
+        return jnp.sqrt(0.5 * (jnp.square(self.orbit_scale) + jnp.square(self.free_orbit)))
+
+    @property
+    def spin_unit(self) -> Array:
+        """Scale of spins, rad/s."""
+        return self.orbit_unit * self.outer_radius / self.roller_radius
+
+    def surface_speeds(
+        self, orbit_change: Array, spin_change: Array
+    ) -> tuple[Float[Array, "2 ..."], Float[Array, "2 ..."]]:
         """Mean speeds and sliding speeds (inner race, outer race), m/s, in the frame of the orbiting contact.
 
-        Sliding is race minus roller on the inner race and roller's orbit minus outer race on the outer one, so
-        that a positive value drives the roller forward inside and brakes it outside.
+        Arguments are differences from rolling without slip, rad/s: the sliding speeds are then sums of small
+        numbers, exact to round-off, where differences of surface speeds would carry the round-off of 100 m/s into
+        a steep traction law. Sliding is race minus roller on the inner race and roller's orbit minus outer race on
+        the outer one, so that a positive value drives the roller forward inside and brakes it outside.
         """
-        roller = self.roller_radius * spin
-        inner = (self.inner_speed - orbit) * self.inner_radius
-        outer = (orbit - self.outer_speed) * self.outer_radius
-        mean = 0.5 * jnp.stack([inner + roller, outer + roller])
+        free = self.orbit_scale * self.outer_radius
+        roller = self.roller_radius * spin_change
+        inner = -orbit_change * self.inner_radius
+        outer = orbit_change * self.outer_radius
+        mean = free + 0.5 * jnp.stack([inner + roller, outer + roller])
         return mean, jnp.stack([inner - roller, outer - roller])

@@ -5,11 +5,11 @@ import math
 from typing import Any, TypeVar
 
 import equinox as eqx
-import numpy as np
 
 from .._types import Scalar
 from ..contacts.laws import ContactLaws
 from ..materials import Material
+from ..numerics.checks import known, require
 from ..numerics.precision import as_float
 
 __all__ = ["AbstractScene", "ContactLaws", "Drag", "Materials", "Operation"]
@@ -27,29 +27,6 @@ def number(default: Any = dataclasses.MISSING, **kwargs: Any) -> Any:
 def optional_number() -> Any:
     """Like `number`, `None` where the scene does not say."""
     return eqx.field(converter=lambda v: None if v is None else as_float(v), default=None)
-
-
-def require(part: str, **checks: tuple[Any, str]) -> None:
-    """Refuse values that are out of range, where they are known (not while JAX traces or transforms them).
-
-    `checks` maps a field name to (value, range), the range one of "> 0", ">= 0", "finite".
-
-    **Raises:** `ValueError` naming part, field, the value and what is allowed.
-    """
-    for name, (value, allowed) in checks.items():
-        if not isinstance(value, int | float | np.ndarray):  # None, or a tracer
-            continue
-        values = np.asarray(value, dtype=float)
-        good = np.isfinite(values) & (values > 0 if allowed == "> 0" else values >= 0 if allowed == ">= 0" else True)
-        if not np.all(good):
-            raise ValueError(f"{part}.{name} must be {allowed}, got {float(np.ravel(values)[np.argmin(good)]):g}")
-
-
-def known(*values: Any) -> tuple[float, ...] | None:
-    """The values as floats, or `None` where one of them is traced, batched or missing."""
-    if not all(isinstance(v, int | float | np.generic) or (isinstance(v, np.ndarray) and v.ndim == 0) for v in values):
-        return None
-    return tuple(float(v) for v in values)
 
 
 class Operation(eqx.Module):
@@ -102,7 +79,7 @@ class Drag(eqx.Module):
         require(
             "drag",
             coefficient=(self.coefficient, ">= 0"),
-            through_flow_fraction=(self.through_flow_fraction, ">= 0"),
+            through_flow_fraction=(self.through_flow_fraction, "between 0 and 1"),
         )
 
 
@@ -114,10 +91,7 @@ class AbstractScene(eqx.Module):
 
         **Raises:** `AttributeError` for a path that the scene does not have.
         """
-        scene = self
-        for path, value in changes.items():
-            scene = _replaced(scene, path.split("."), value, path)
-        return scene
+        return _replaced(self, {tuple(path.split(".")): value for path, value in changes.items()})
 
     def at_operation(self: Scene, **changes: Any) -> Scene:
         """A copy at another operating point: `scene.at_operation(inner_speed=1100.0)`."""
@@ -128,23 +102,35 @@ class AbstractScene(eqx.Module):
         return self.replace({f"geometry.{name}": value for name, value in changes.items()})
 
 
-def _replaced(part: Any, path: list[str], value: Any, whole: str) -> Any:
+def _replaced(part: Any, changes: dict[tuple[str, ...], Any]) -> Any:
+    """The part rebuilt once with all changes, so that what is validated is the result and no state in between."""
     names = [field.name for field in dataclasses.fields(part)] if isinstance(part, eqx.Module) else []
-    if not isinstance(part, eqx.Module) or path[0] not in names:
-        raise AttributeError(f"the scene has no {whole!r}: {type(part).__name__} has {', '.join(names) or 'no fields'}")
-    new = value if len(path) == 1 else _replaced(getattr(part, path[0]), path[1:], value, whole)
-    return dataclasses.replace(part, **{path[0]: new})
+    new: dict[str, Any] = {}
+    inner: dict[str, dict[tuple[str, ...], Any]] = {}
+    for path, value in changes.items():
+        if not isinstance(part, eqx.Module) or path[0] not in names:
+            raise AttributeError(
+                f"the scene has no {'.'.join(path)!r}: {type(part).__name__} has {', '.join(names) or 'no fields'}"
+            )
+        if len(path) == 1:
+            new[path[0]] = value
+        else:
+            inner.setdefault(path[0], {})[path[1:]] = value
+    for name, deeper in inner.items():
+        new[name] = _replaced(new.get(name, getattr(part, name)), deeper)
+    return dataclasses.replace(part, **new) if isinstance(part, eqx.Module) else part
 
 
 def check_row_fits(n_rollers: int, diameter: Any, pitch_diameter: Any) -> None:
     """**Raises:** `ValueError` where the rolling elements do not fit on the pitch circle."""
-    if not all(isinstance(v, int | float | np.ndarray) for v in (diameter, pitch_diameter)):
-        return
     if n_rollers < 1:
         raise ValueError(f"geometry.n_rollers must be >= 1, got {n_rollers}")
-    chord = float(np.min(pitch_diameter)) * math.sin(math.pi / max(n_rollers, 2))
-    if float(np.max(diameter)) >= chord:
+    sizes = known(diameter, pitch_diameter)
+    if sizes is None:
+        return
+    chord = sizes[1] * math.sin(math.pi / max(n_rollers, 2))
+    if sizes[0] >= chord:
         raise ValueError(
-            f"geometry.n_rollers: {n_rollers} rollers of diameter {float(np.max(diameter)):g} m do not fit on a pitch "
-            f"circle of {float(np.min(pitch_diameter)):g} m: their centres are {chord:g} m apart"
+            f"geometry.n_rollers: {n_rollers} rollers of diameter {sizes[0]:g} m do not fit on a pitch "
+            f"circle of {sizes[1]:g} m: their centres are {chord:g} m apart"
         )

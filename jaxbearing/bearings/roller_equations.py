@@ -149,7 +149,7 @@ class LubricatedRollerSystem(AbstractArrowSystem):
                 ArrowPoint(jnp.asarray([[high]]), jnp.asarray(ring)),
             )
         return (
-            ArrowPoint(jnp.asarray([[low], [-3.0]]), -jnp.asarray([*ring, 0.995])),
+            ArrowPoint(jnp.asarray([[low], [-3.0]]), -jnp.asarray([*ring, 2.0])),
             ArrowPoint(jnp.asarray([[high], [3.0]]), jnp.asarray([*ring, 2.0])),
         )
 
@@ -161,7 +161,7 @@ class LubricatedRollerSystem(AbstractArrowSystem):
         centrifugal = self.centrifugal(motion.free_orbit)
         total = self.load_scale()
         n = self.azimuth.shape[0]
-        mean_speed, _ = motion.surface_speeds(motion.free_orbit, motion.free_spin)
+        mean_speed, _ = motion.surface_speeds(jnp.zeros(()), jnp.zeros(()))
         typical = total * 4.0 / n + centrifugal + 1.0
         films = jnp.exp(
             self.laws.film.log_thickness(
@@ -221,8 +221,8 @@ class LubricatedRollerSystem(AbstractArrowSystem):
     # -- physics --------------------------------------------------------------------------------------------------
 
     def orbit(self, scaled: Array) -> Array:
-        """Orbital speed W from the scaled unknown, which is 0 when rolling without slip and -1 at standstill."""
-        return self.kinematics.free_orbit + self.kinematics.orbit_scale * scaled
+        """Orbital speed W from the scaled unknown, which is 0 when rolling without slip."""
+        return self.kinematics.free_orbit + self.kinematics.orbit_unit * scaled
 
     def at(self, point: ArrowPoint) -> RollerState:
         shape = (point.globals.shape[0], point.elements.shape[1])
@@ -233,14 +233,14 @@ class LubricatedRollerSystem(AbstractArrowSystem):
         log_load = unknowns[0]
         shift = jnp.sum(shared[:d] * self.directions, axis=0) * LENGTH_UNIT
         if self.cage is None:
-            orbit = jnp.broadcast_to(motion.free_orbit, log_load.shape)
-            spin = jnp.broadcast_to(motion.free_spin, log_load.shape)
+            orbit_change = spin_change = jnp.zeros_like(log_load)
         else:
-            orbit = self.orbit(shared[d])
-            spin = motion.free_spin * (1.0 + unknowns[1])
+            orbit_change = motion.orbit_unit * shared[d]
+            spin_change = motion.spin_unit * unknowns[1]
+        orbit, spin = motion.free_orbit + orbit_change, motion.free_spin + spin_change
         inner_load = jnp.exp(log_load)
         load = jnp.stack([inner_load, inner_load + self.centrifugal(orbit)])
-        mean_speed, sliding = motion.surface_speeds(orbit, spin)
+        mean_speed, sliding = motion.surface_speeds(orbit_change, spin_change)
         contact = self.laws.evaluate(self.contact, load, mean_speed, sliding, self.oil, self.inlet)
         approach = self.contact.palmgren_approach(load)
         gap = self.radial_clearance + jnp.sum(approach - contact.film, axis=0) - shift

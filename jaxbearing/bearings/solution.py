@@ -16,6 +16,9 @@ def label(unit: str, description: str) -> dict[str, str]:
     return {"unit": unit, "description": description}
 
 
+INNER_TOLERANCE = 1e-8
+"""Residual of a nested solve above which it is named as the reason of a failure."""
+
 RING_FREEDOMS = ("axial", "radial", "lateral", "tilt", "tilt_lateral")
 """Degrees of freedom of the inner ring, in the order of `ring` and `stiffness`."""
 
@@ -127,6 +130,9 @@ class Solution(eqx.Module):
     status: Int[Array, ""]
     iterations: Int[Array, ""] = eqx.field(metadata=label("1", "Newton steps"))
     residual_norm: Float[Array, ""] = eqx.field(metadata=label("1", "largest scaled residual"))
+    inner_residual: Float[Array, ""] = eqx.field(
+        metadata=label("1", "largest residual of nested solves: inlet temperature, cage land")
+    )
     worst_equation: Int[Array, ""]
     worst_element: Int[Array, ""]
     operation: Operation
@@ -162,6 +168,9 @@ class Solution(eqx.Module):
         worst = int(self.worst_equation)
         name = self.equation_names[worst]
         place = f" of element {int(self.worst_element)}" if worst < local_equations else ""
+        if float(self.inner_residual) > INNER_TOLERANCE:
+            name = "nested solve (inlet temperature rise of a contact, or cage land)"
+            place = f", residual {float(self.inner_residual):.3g}"
         return (
             f"{Status(int(self.status)).text} after {int(self.iterations)} Newton steps: scaled residual "
             f"{float(self.residual_norm):.3g}, worst equation: {name}{place}"

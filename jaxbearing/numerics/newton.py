@@ -55,6 +55,7 @@ class NewtonResult(NamedTuple):
     status: Int[Array, ""]
     iterations: Int[Array, ""]
     residual_norm: Float[Array, ""]
+    inner_residual: Float[Array, ""]
     worst_equation: Int[Array, ""]
     worst_element: Int[Array, ""]
 
@@ -242,5 +243,5 @@ def newton_solve(system: System, options: NewtonOptions | None = None) -> tuple[
     m = elements.shape[0]
     worst_element = jnp.argmax(elements[jnp.minimum(worst, m - 1)]) if m else jnp.asarray(0)
     return live, NewtonResult(
-        root.point, root.jacobian, end.status, end.iterations, jnp.max(sizes), worst, worst_element
+        root.point, root.jacobian, end.status, end.iterations, jnp.max(sizes), end.equations.inner, worst, worst_element
     )

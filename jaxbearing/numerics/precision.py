@@ -19,9 +19,12 @@ def as_float(value):
     if dtype is None:
         return np.asarray(value, dtype=np.float64) if isinstance(value, int | float) else value
     if np.issubdtype(dtype, np.integer):
-        return value.astype(np.float64)
+        value = value.astype(np.float64)
+        dtype = value.dtype
     if dtype != np.float64:
         raise TypeError(f"{_HINT}; got {dtype}")
+    if getattr(value, "weak_type", False):  # as jnp.asarray(1.0) is: another type to jit, a recompilation
+        return jax.lax.convert_element_type(value, np.float64)
     return value
 
 

@@ -40,14 +40,15 @@ def test_residual_eager_equals_jit_of_vmap_on_20000_points(scene):
     rng = np.random.default_rng(7)
     points = ArrowPoint(
         start.elements[None] + 0.1 * jnp.asarray(rng.normal(size=(N_RESIDUALS, *start.elements.shape))),
-        start.globals[None] * (1.0 + 0.1 * jnp.asarray(rng.normal(size=(N_RESIDUALS, *start.globals.shape)))),
+        start.globals[None] + 0.05 * jnp.asarray(rng.normal(size=(N_RESIDUALS, *start.globals.shape))),
     )
     at = lambda point: evaluate(system, point).residual
     eager = jax.vmap(at)(points)
     compiled = jax.jit(jax.vmap(at))(points)
+    # equations are sums of terms far larger than what is left of them: rounding scales with the row
+    row = lambda a: jnp.max(jnp.abs(a), axis=tuple(range(1, a.ndim)), initial=1.0, keepdims=True)
     for a, b in zip(eager, compiled, strict=True):
-        scale = max(1.0, float(jnp.max(jnp.abs(a), initial=0.0)))
-        np.testing.assert_allclose(a, b, rtol=1e-12, atol=1e-12 * scale)
+        assert jnp.all(jnp.abs(a - b) <= 1e-12 * jnp.abs(a) + 1e-12 * row(a))
     # a few rows, also beyond 16 384, one by one and without a batch
     for i in (0, 16_384, 19_999):
         single = at(ArrowPoint(points.elements[i], points.globals[i]))
@@ -110,7 +111,7 @@ def test_numbers_never_recompile():
     assert len(traces) == 1
 
     before = _solve._cached._cache_size()
-    for speed in (700.0, 800.0, 900):
+    for speed in (700.0, 800.0, 900, np.float64(905.0), np.int64(906), jnp.asarray(907.0), jnp.asarray([908.0])[0]):
         jb.solve(turbine_roller().at_operation(inner_speed=speed))
     assert _solve._cached._cache_size() - before <= 1
 

@@ -1,5 +1,6 @@
 """What a scene refuses, assumes and warns of."""
 
+import jax.numpy as jnp
 import numpy as np
 import pytest
 from roller_cases import RPM, reference_roller, turbine_roller
@@ -63,3 +64,25 @@ def test_leaving_the_range_of_a_law_warns_and_stays_a_result():
     assert any("-20 degC" in text for text in cold.warnings)
     hot = jb.solve(turbine_roller().at_operation(oil_temperature=473.0, inner_speed=20000 * RPM))
     assert any("200 degC" in text for text in hot.warnings)
+
+
+def test_changes_are_validated_together():
+    """Neither the pitch circle nor the rollers fit the other's old value; in any order the result is what counts."""
+    change = {"geometry.pitch_diameter": 0.71, "geometry.roller_diameter": 60e-3, "cage.pocket_clearance": 1e-3}
+    change |= {"cage.inner_diameter": 0.68, "cage.outer_diameter": 0.73, "flange.height": 10e-3}
+    one = reference_roller().replace(change)
+    two = reference_roller().replace(dict(reversed(change.items())))
+    assert float(one.geometry.roller_diameter) == float(two.geometry.roller_diameter) == 60e-3
+
+
+def test_concrete_jax_numbers_are_checked_too():
+    with pytest.raises(ValueError, match=r"operation.radial_load must be > 0"):
+        reference_roller().at_operation(radial_load=jnp.asarray(-5.0))
+    with pytest.raises(ValueError, match=r"operation.inner_speed must be one number"):
+        reference_roller().at_operation(inner_speed=np.asarray([900.0, 1000.0]))
+
+
+@pytest.mark.parametrize("freedom", [(), ("lateral",), ("radial", "tilt")])
+def test_ring_freedoms_that_the_family_does_not_have(freedom):
+    with pytest.raises(ValueError, match="ring_freedom"):
+        reference_roller().replace({"ring_freedom": freedom})
