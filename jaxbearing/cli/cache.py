@@ -3,23 +3,33 @@
 import hashlib
 import os
 import platform
+import sys
 from pathlib import Path
 
 VARIABLE = "JAXBEARING_CACHE"
-"""Environment variable: `off`, or the folder."""
+"""Environment variable: `off`, `on` (as without it: the user's cache folder), or a folder."""
 _OFF = ("off", "0", "no", "false")
+_ON = ("", "on", "1", "yes", "true")
 
 
 def cache_folder() -> Path | None:
-    """Where compiled programs are kept, or `None`: switched off."""
+    """Where compiled programs are kept, or `None`: switched off, or there is no home folder to keep them in.
+
+    **Raises:** `ValueError` where the variable names a home folder that does not exist.
+    """
     wanted = os.environ.get(VARIABLE, "").strip()
     if wanted.lower() in _OFF:
         return None
-    if wanted:
-        return Path(wanted).expanduser() / _processor()
+    if wanted.lower() not in _ON:
+        try:
+            return Path(wanted).expanduser() / _processor()
+        except RuntimeError:
+            raise ValueError(f"{VARIABLE}: found '{wanted}', a home folder that is not known") from None
     import platformdirs
 
-    return Path(platformdirs.user_cache_dir("jaxbearing", appauthor=False)) / "compilation" / _processor()
+    folder = Path(platformdirs.user_cache_dir("jaxbearing", appauthor=False))
+    # where the home folder cannot be found out, "~" stays in front
+    return folder / "compilation" / _processor() if folder.is_absolute() else None
 
 
 def _processor() -> str:
@@ -38,16 +48,22 @@ def enable_compilation_cache() -> Path | None:
     """Switch JAX's persistent cache on; returns its folder.
 
     `None` where it stays off: wanted so, chosen already by JAX's own `JAX_COMPILATION_CACHE_DIR`, or a folder that
-    cannot be written. It never fails: a cache is a convenience.
+    cannot be made or used, which is no error: a cache is a convenience. A folder that cannot even be named is said on
+    stderr.
     """
-    folder = cache_folder()
+    try:
+        folder = cache_folder()
+    except ValueError as error:
+        print(f"warning: {error}; compiled programs are not kept.", file=sys.stderr)
+        return None
     if folder is None or os.environ.get("JAX_COMPILATION_CACHE_DIR"):
         return None
     try:
         folder.mkdir(parents=True, exist_ok=True)
         if not os.access(folder, os.R_OK | os.W_OK | os.X_OK):
             return None
-    except OSError:
+    except (OSError, ValueError):
+        # ValueError: a null byte
         return None
     import jax
 

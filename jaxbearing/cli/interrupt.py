@@ -14,7 +14,8 @@ def prompt_interrupt() -> Iterator[None]:
     """Ends the process with code 130 as soon as Ctrl-C is pressed, also while a program is being compiled.
 
     Python's own handler waits until the compiler returns, up to half a minute, and then unwinds through it (seen once:
-    a crash). So the signal wakes a thread that ends the process. For commands that write nothing before their end.
+    a crash). So the signal wakes a thread that ends the process there and then: nothing is flushed or cleaned up, and
+    output that is being printed may stop anywhere. In another thread than the main one it changes nothing.
     """
     if threading.current_thread() is not threading.main_thread():
         yield

@@ -1,8 +1,11 @@
-"""The command `jaxbearing`. What a verb needs is imported when it runs, so that `--help` does not wait for it.
+"""The command `jaxbearing`. What a verb needs is imported when it runs: the usage of a command does not wait for the
+scene reader, nor the list of scenes for the solver.
 
-Exit codes: 0 solved; 2 bad input, one message on stderr; 3 not converged; 130 interrupted.
+Exit codes: 0 solved; 1 the output cannot be written; 2 bad input, one message on stderr; 3 not converged;
+130 interrupted.
 """
 
+import io
 import json
 import sys
 from collections.abc import Iterator
@@ -12,12 +15,23 @@ from typing import Annotated, Any, NoReturn
 
 import typer
 
-BAD_INPUT, NOT_CONVERGED, INTERRUPTED = 2, 3, 130
+NO_OUTPUT, BAD_INPUT, NOT_CONVERGED, INTERRUPTED = 1, 2, 3, 130
+
+_EPILOG = """\b
+Exit codes: 0 solved; 1 the output cannot be written; 2 bad input;
+  3 not converged; 130 interrupted.
+Environment: JAXBEARING_CACHE is the folder where compiled programs are kept
+  between runs, or off; without it they are kept in the user's cache folder."""
+
+_UsageError: Any = typer.BadParameter.__mro__[1]
+"""What the parser raises for a wrong command line; typer exports only this one kind of it."""
 
 app = typer.Typer(
     name="jaxbearing",
     help="Lubricated rolling bearings: loads, films, speeds and power loss.",
+    epilog=_EPILOG,
     no_args_is_help=True,
+    rich_markup_mode=None,
     add_completion=False,
     pretty_exceptions_enable=False,
 )
@@ -39,14 +53,52 @@ JsonOption = Annotated[bool, typer.Option("--json", help="Print one JSON object 
 
 def main() -> None:
     """Entry point of the console script."""
+    sys.exit(_run())
+
+
+def _run() -> int:
+    if sys.stdout is None:
+        return _say("the output cannot be written: standard output is closed", NO_OUTPUT)
+    if isinstance(sys.stdout, io.TextIOWrapper):
+        # a terminal without these characters shows others
+        sys.stdout.reconfigure(errors="replace")
     try:
-        app()
+        code = app(standalone_mode=False)
+        sys.stdout.flush()
+    except _UsageError as error:
+        return _usage(error)
     except KeyboardInterrupt:
-        sys.exit(INTERRUPTED)
-    except BrokenPipeError:
-        # the reader (head, less) has gone: nothing is left to say, nor to flush at exit
+        return INTERRUPTED
+    except SystemExit as ended:
+        # the command line's and rich's way to say that the reader of a pipe has gone
         sys.stdout = None
-        sys.exit(1)
+        return ended.code if isinstance(ended.code, int) else NO_OUTPUT
+    except OSError as error:
+        if error.filename is not None:
+            raise
+        # nor is anything to be flushed at exit
+        sys.stdout = None
+        # the reader (head, less) has gone: nothing is left to say
+        gone = isinstance(error, BrokenPipeError)
+        return NO_OUTPUT if gone else _say(f"the output cannot be written: {error.strerror}", NO_OUTPUT)
+    return code if isinstance(code, int) else 0
+
+
+def _usage(error: Any) -> int:
+    """A wrong command line in one line; no command at all asks for the help."""
+    context = error.ctx
+    if context is not None and error.format_message().strip() in ("", context.get_help().strip()):
+        typer.echo(context.get_help(), err=True)
+        return BAD_INPUT
+    hint = f" See '{context.command_path} --help'." if context is not None else ""
+    return _say(error.format_message() + hint, BAD_INPUT)
+
+
+def _say(message: str, code: int) -> int:
+    from ..scenes.errors import printable
+
+    typer.echo(f"error: {printable(' '.join(message.split()))}", err=True)
+    return code
 
 
 def _version(wanted: bool) -> None:
@@ -95,7 +147,7 @@ def solve(
     changes: SetOption = None,
     as_json: JsonOption = False,
 ) -> None:
-    """Steady state: power loss by location, loads, films, pressures, speeds."""
+    """Steady state: power loss, loads, films, pressures, speeds."""
     with _bad_input():
         from ..scenes.overrides import split_assignments
         from ..scenes.reader import load_scene
@@ -111,7 +163,7 @@ def solve(
         failure = _solve_and_print(model, _label(scene, changes), as_json)
     if failure:
         if as_json:
-            typer.echo(f"not converged: {scene}: {failure}", err=True)
+            typer.echo(f"not converged: {_label(scene, changes)}: {failure}", err=True)
         raise typer.Exit(NOT_CONVERGED)
 
 
@@ -160,16 +212,17 @@ def _copy(name: str, to: Path | None, force: bool) -> None:
         near = nearest(name, builtin_names())
         raise SceneError("--copy", "", f"'{name}'", f"a built-in scene: {one_of(builtin_names())}", near)
     target = Path(f"{name}.toml") if to is None else to
-    if target.is_dir():
-        target = target / f"{name}.toml"
     try:
+        if target.is_dir():
+            target = target / f"{name}.toml"
         with open(target, "w" if force else "x", encoding="utf-8") as file:
             file.write(builtin_text(name))
     except FileExistsError:
         found, expected = "a file that exists already", "a new file (--to FILE), or --force to overwrite it"
         raise SceneError(str(target), "", found, expected) from None
-    except OSError as error:
-        found = f"a place that cannot be written: {error.strerror}"
+    except (OSError, ValueError) as error:
+        # ValueError: a path with a null byte
+        found = f"a place that cannot be written: {getattr(error, 'strerror', None) or error}"
         raise SceneError(str(target), "", found, "a file in an existing folder") from None
     typer.echo(f"wrote {target}")
 

@@ -18,12 +18,13 @@ def without_false_alarms() -> Iterator[None]:
     logging.getLogger("jax._src.xla_bridge").addFilter(_is_news)
     try:
         sys.stderr.flush()
+        held = tempfile.TemporaryFile()  # noqa: SIM115 (closed below, where the body's own errors pass)
         real = os.dup(2)
     except (OSError, ValueError, AttributeError):
-        # no stderr: nothing to keep clean
+        # no stderr, so that nothing is to be kept clean; or no place to hold anything back
         yield
         return
-    with tempfile.TemporaryFile() as held:
+    with held:
         os.dup2(held.fileno(), 2)
         try:
             yield

@@ -20,7 +20,7 @@ def solution_to_dict(solution: Solution) -> dict[str, Any]:
     """All results of one solution, SI units and radians; numbers that are not finite are `None`.
 
     Parts that the scene does not model are left out, except `cage`, which is `None` then. Where the solve failed,
-    `converged` is false and all results are `None`.
+    `converged` is false and all results are `None`. So are the oil's temperature and flow where nothing uses them.
     """
     converged = bool(solution.converged)
     results: dict[str, Any] = {
@@ -31,10 +31,21 @@ def solution_to_dict(solution: Solution) -> dict[str, Any]:
     for name in _field_names(solution):
         if name not in _INSIDE and not name.startswith("global_"):
             results[name] = _plain(getattr(solution, name))
+    results["operation"] |= dict.fromkeys(unused_operation(solution))
     results["stiffness"] = _embedded(np.asarray(solution.stiffness), solution.ring_freedom)
     results["worst_equation"] = solution.equation_names[int(solution.worst_equation)]
     results["life"] = None
     return results
+
+
+def unused_operation(solution: Solution) -> set[str]:
+    """Names in the operating point that no modelled part depends on: a scene need not give them."""
+    unused = set()
+    if solution.elements.film_inner is None:
+        unused.add("oil_temperature")
+    if solution.power_loss.drag is None:
+        unused.add("oil_flow")
+    return unused
 
 
 def _field_names(part: Any) -> list[str]:

@@ -1,6 +1,8 @@
-"""The summary of a steady solve on the screen: what an engineer wants to know first, at 100 columns."""
+"""The summary of a steady solve on the screen: what an engineer wants to know first. Made for 100 columns; narrower
+terminals lose the bars, then get the table of loads in pieces: numbers are never cut."""
 
 import dataclasses
+import math
 from collections.abc import Iterator
 from typing import Any
 
@@ -15,11 +17,14 @@ from rich.text import Text
 from ..bearings.solution import Solution
 from ..numerics.status import Status
 from .display import ZERO_CELSIUS, bar, digits, display_unit, displayed, with_unit
+from .json_report import unused_operation
 
 LOADED = 0.02
 """A roller whose inner load is above this part of the largest one counts as loaded: films carry a few newtons
 everywhere."""
-_LOSS_BAR, _LOAD_BAR = 40, 18
+_LOSS_BAR, _LOAD_BAR, _SHORTEST_BAR = 40, 18, 4
+_GAP = 3
+"""Columns between two columns of a table."""
 _OPERATION = {
     "inner_speed": ("inner ring", "rpm", displayed(1.0, "rad/s")),
     "outer_speed": ("outer ring", "rpm", displayed(1.0, "rad/s")),
@@ -67,8 +72,8 @@ def _count(number: int, noun: str) -> str:
 
 def _headline(label: str, status: str, style: str, state: str, console: Console) -> None:
     grid = Table.grid(expand=True)
-    grid.add_column()
-    grid.add_column(justify="right")
+    grid.add_column(overflow="fold")
+    grid.add_column(justify="right", no_wrap=True)
     grid.add_row(Text(label, style="bold"), Text(status, style=style))
     console.print(grid)
     console.print(Text(f"  {state}", style="dim"))
@@ -85,18 +90,14 @@ def _print_failure(solution: Solution, label: str, console: Console) -> None:
 def _line(name: str, text: str, console: Console) -> None:
     grid = Table.grid(padding=(0, 2, 0, 0))
     grid.add_column(width=18, no_wrap=True)
-    grid.add_column()
+    grid.add_column(overflow="fold")
     grid.add_row(Text(f"  {name}"), Text(text))
     console.print(grid)
 
 
 def _operation(solution: Solution) -> Iterator[str]:
     """The operating point, without what the scene does not use."""
-    hidden = set()
-    if solution.elements.film_inner is None:
-        hidden.add("oil_temperature")
-    if solution.power_loss.drag is None:
-        hidden.add("oil_flow")
+    hidden = unused_operation(solution)
     for field in dataclasses.fields(solution.operation):
         value = float(np.asarray(getattr(solution.operation, field.name)))
         if field.name in hidden or (field.name == "outer_speed" and value == 0.0):
@@ -120,25 +121,59 @@ def _print_losses(solution: Solution, console: Console) -> None:
     total = entries.pop("total")
     if not entries:
         return
-    table = Table(box=box.SIMPLE_HEAD, pad_edge=False, padding=(0, 1), show_footer=True, header_style="")
-    table.add_column("Power loss", footer="total")
-    table.add_column("W", justify="right", footer=_watts(total))
-    table.add_column("%", justify="right", footer="100.0")
-    table.add_column("", width=_LOSS_BAR)
-    largest = max(abs(watts) for watts in entries.values()) or 1.0
-    for name, watts in sorted(entries.items(), key=lambda entry: -entry[1]):
-        share = f"{100.0 * watts / total:.1f}" if total else "-"
-        table.add_row(name, _watts(watts), share, _bar(watts / largest, _LOSS_BAR, "red", console))
+    largest = max(abs(watts) for watts in entries.values())
+    entries = dict(sorted(entries.items(), key=lambda entry: -entry[1]))
+    watts = _watts([*entries.values(), total, float(solution.drive_power)])
+    columns = {
+        "Power loss": [*entries, "total"],
+        "W": watts[:-1],
+        "%": [f"{100.0 * value / total:.1f}" if total else "-" for value in entries.values()] + ["100.0"],
+    }
+    fractions = [value / (largest or 1.0) for value in entries.values()]
     console.print(Rule("Power", align="left", style="dim"))
-    console.print(Padding(table, (0, 1)))
+    _print_table(columns, fractions, _LOSS_BAR, "red", console)
     torques = [f"{digits(float(solution.inner_torque))} N m on the inner ring"]
     if float(np.asarray(solution.operation.outer_speed)) != 0.0:
         torques.append(f"{digits(float(solution.outer_torque))} N m on the outer ring")
-    _line("Drive power", f"{_watts(float(solution.drive_power))} W   ({', '.join(torques)})", console)
+    _line("Drive power", f"{watts[-1]} W   ({', '.join(torques)})", console)
 
 
-def _watts(value: float) -> str:
-    return f"{value:.1f}"
+def _watts(values: list[float]) -> list[str]:
+    """Powers of one column: tenths of a watt, or more decimals where the largest has less than four digits then."""
+    largest = max(abs(value) for value in values)
+    if not 1e-4 <= largest < math.inf:
+        return [digits(value) for value in values]
+    decimals = max(1, 3 - math.floor(math.log10(largest)))
+    return [f"{value:.{decimals}f}" for value in values]
+
+
+def _print_table(
+    columns: dict[str, list[str]], fractions: list[float], longest: int, style: str, console: Console
+) -> None:
+    """Columns of texts, the first row's title above each; bars at the right where there is room.
+
+    A text more than there are fractions is a total, below a line.
+    """
+    width = _width(columns)
+    room = min(longest, console.width - width - _GAP)
+    total = len(next(iter(columns.values()))) > len(fractions)
+    table = Table(box=box.SIMPLE_HEAD, pad_edge=False, padding=(0, 1), show_footer=total, header_style="")
+    for title, texts in columns.items():
+        named = title == "Power loss"
+        footer = texts[-1] if total else ""
+        table.add_column(title, justify="left" if named else "right", footer=footer, no_wrap=True)
+    if room >= _SHORTEST_BAR:
+        table.add_column("", width=room)
+    for i, fraction in enumerate(fractions):
+        bars = [_bar(fraction, room, style, console)] if room >= _SHORTEST_BAR else []
+        table.add_row(*(texts[i] for texts in columns.values()), *bars)
+    console.print(Padding(table, (0, 1)))
+
+
+def _width(columns: dict[str, list[str]]) -> int:
+    """Of the table of these columns, margins included."""
+    widths = [max(map(len, [*title.split("\n"), *texts])) for title, texts in columns.items()]
+    return sum(widths) + _GAP * (len(widths) - 1) + 4
 
 
 def _bar(fraction: float, width: int, style: str, console: Console) -> Text:
@@ -155,18 +190,16 @@ def _print_loads(solution: Solution, console: Console) -> None:
     units = {field.name: field.metadata["unit"] for field in dataclasses.fields(elements)}
     shown = {name: title for name, title in _COLUMNS.items() if getattr(elements, name) is not None}
 
-    table = Table(box=box.SIMPLE_HEAD, pad_edge=False, padding=(0, 1), header_style="")
-    table.add_column("azimuth\ndeg", justify="right")
-    for name, title in shown.items():
-        table.add_column(f"{title}\n{display_unit(units[name])}", justify="right")
-    table.add_column("", width=_LOAD_BAR)
     rows = np.array(sorted(np.flatnonzero(loaded), key=lambda j: azimuth[j]), dtype=int)
-    columns = [_column(np.asarray(getattr(elements, name))[rows], units[name]) for name in shown]
-    for i, j in enumerate(rows):
-        bar_of_load = _bar(float(load[j]) / largest, _LOAD_BAR, "cyan", console)
-        table.add_row(f"{azimuth[j]:.1f}", *(column[i] for column in columns), bar_of_load)
+    first = {"azimuth\ndeg": [f"{azimuth[j]:.1f}" for j in rows]}
+    columns = {
+        f"{title}\n{display_unit(units[name])}": _column(np.asarray(getattr(elements, name))[rows], units[name])
+        for name, title in shown.items()
+    }
+    fractions = [float(load[j]) / largest for j in rows]
     console.print(Rule("Loads round the bearing", align="left", style="dim"))
-    console.print(Padding(table, (0, 1)))
+    for piece in _pieces(first, columns, console.width):
+        _print_table(piece, fractions, _LOAD_BAR, "cyan", console)
     _line("Loaded zone", _loaded_zone(azimuth, loaded), console)
     if not np.all(loaded):
         ranges = [
@@ -175,6 +208,19 @@ def _print_loads(solution: Solution, console: Console) -> None:
             if name.startswith("load")
         ]
         _line("Other rollers", ", ".join(ranges), console)
+
+
+def _pieces(first: dict[str, list[str]], columns: dict[str, list[str]], width: int) -> Iterator[dict[str, list[str]]]:
+    """The columns, inner and outer race together, in tables that fit the width; each begins with the first column."""
+    piece = dict(first)
+    items = list(columns.items())
+    for i in range(0, len(items), 2):
+        pair = items[i : i + 2]
+        if len(piece) > 1 and _width(piece | dict(pair)) > width:
+            yield piece
+            piece = dict(first)
+        piece |= dict(pair)
+    yield piece
 
 
 def _column(values: np.ndarray, unit: str) -> list[str]:

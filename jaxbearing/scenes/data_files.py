@@ -4,11 +4,13 @@ import functools
 from importlib import resources
 from importlib.resources.abc import Traversable
 
+_FIRST = "turbine_roller"
+
 
 @functools.cache
 def builtin_names() -> tuple[str, ...]:
-    """Names of the built-in scenes."""
-    return _names(_scenes())
+    """Names of the built-in scenes, the one to begin with first."""
+    return tuple(sorted(_names(_scenes()), key=lambda name: (name != _FIRST, name)))
 
 
 def builtin_text(name: str) -> str:

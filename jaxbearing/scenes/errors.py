@@ -2,13 +2,13 @@
 
 import difflib
 import re
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from typing import Any, Self
 
 from pydantic import BaseModel, ValidationError
 
-from .fields import names_at, path_of
-from .units import describe
+from .fields import is_optional, names_at, path_of
+from .units import describe, shortened
 
 _CLASS_MESSAGE = re.compile(r"([a-z_]+(?:\.[a-z_]+)*)(?::| must)")
 
@@ -38,14 +38,19 @@ class SceneError(ValueError):
         )
 
     def _message(self) -> str:
-        place = f"{self.file}: {self.path}" if self.path else self.file
+        place = f"{self.file}: {shortened(self.path)}" if self.path else self.file
         text = f"{place}: found {self.found}; expected {self.expected}"
         text += f" ({self.reason})." if self.reason else "."
         if self.suggestion:
             text += f" Did you mean '{self.suggestion}'?"
         if self.others:
             text += f" ({self.others} more problem{'s' if self.others > 1 else ''} in this scene.)"
-        return " ".join(text.split())
+        return printable(" ".join(text.split()))
+
+
+def printable(text: str) -> str:
+    """A text for a terminal: what is not printable (escape sequences, null bytes) as in a Python literal."""
+    return "".join(char if char.isprintable() else repr(char)[1:-1] for char in text)
 
 
 def nearest(name: str, valid: Iterable[str]) -> str:
@@ -61,7 +66,7 @@ def from_validation(error: ValidationError, model: type[BaseModel], file: str) -
     An unknown name goes first, since it often is the misspelt name of a field that is then missing; a missing field
     goes last.
     """
-    details = sorted(error.errors(include_url=False), key=_rank)
+    details = sorted(_causes(error.errors(include_url=False)), key=_rank)
     first = details[0]
     path, words = _in_words(first, model)
     return SceneError(file, path, others=len(details) - 1, **words)
@@ -88,6 +93,12 @@ def describe_at(raw: Mapping[str, Any], path: str) -> str:
     return describe(value)
 
 
+def _causes(details: Sequence[Any]) -> list[Any]:
+    """The problems without those that follow from a wrong `law`: the parameters that another law has or lacks."""
+    wrong = {tuple(one["loc"][:-1]) for one in details if one["type"] == "literal_error" and one["loc"][-1] == "law"}
+    return [one for one in details if one["loc"][-1:] == ("law",) or tuple(one["loc"][:-1]) not in wrong]
+
+
 def _rank(detail: Any) -> int:
     return {"extra_forbidden": 0, "missing": 2}.get(detail["type"], 1)
 
@@ -96,7 +107,7 @@ def _in_words(detail: Any, model: type[BaseModel]) -> tuple[str, dict[str, str]]
     kind, location, context = detail["type"], detail["loc"], detail.get("ctx", {})
     path = path_of(location)
     if kind == "extra_forbidden":
-        return path, _unknown_name(location, model)
+        return path, unknown_name(location, model)
     if kind == "missing":
         return path, {"found": "nothing", "expected": f"a value for '{location[-1]}', which is required"}
     if kind == "scene":
@@ -107,7 +118,10 @@ def _in_words(detail: Any, model: type[BaseModel]) -> tuple[str, dict[str, str]]
         valid = re.findall(r"'([^']*)'", context["expected"])
         given = detail["input"]
         near = nearest(given, valid) if isinstance(given, str) else ""
-        return path, {"found": describe(given), "expected": one_of(valid), "suggestion": near}
+        expected = one_of(valid)
+        if is_optional(model, location):
+            expected += f", or leave it out (--set {path}=none)"
+        return path, {"found": describe(given), "expected": expected, "suggestion": near}
     if kind in ("model_type", "model_attributes_type", "dict_type"):
         return path, {"found": describe(detail["input"]), "expected": "a table"}
     if kind == "string_type":
@@ -115,15 +129,16 @@ def _in_words(detail: Any, model: type[BaseModel]) -> tuple[str, dict[str, str]]
     return path, {"found": describe(detail["input"]), "expected": detail["msg"]}
 
 
-def _unknown_name(location: tuple[int | str, ...], model: type[BaseModel]) -> dict[str, str]:
+def unknown_name(location: Sequence[int | str], model: type[BaseModel]) -> dict[str, str]:
+    """What is found, expected and near where the schema has no such name."""
     name, parents = str(location[-1]), location[:-1]
     owner = names_at(model, parents)
     later = owner.not_yet.get(name)
     if later:
         return {"found": f"'{name}', which is not available in this version", "expected": later}
     return {
-        "found": f"the unknown name '{name}'",
-        "expected": one_of(owner.names),
+        "found": f"the unknown name {shortened(repr(name))}",
+        "expected": one_of(owner.names) if owner.names else "a value, not a table",
         "suggestion": nearest(name, owner.names),
     }
 

@@ -28,12 +28,7 @@ def path_of(location: Sequence[int | str]) -> str:
 
 def names_at(model: type[BaseModel], location: Sequence[int | str]) -> Names:
     """Valid names of the table at a location of `model`."""
-    models = [model]
-    for part in location:
-        if is_tag(part):
-            models = [candidate for candidate in models if getattr(candidate, "tag", None) == part]
-        else:
-            models = [inner for outer in models for inner in _models_of_field(outer, str(part))]
+    models = _models_at(model, location)
     names = dict.fromkeys(name for candidate in models for name in candidate.model_fields)
     not_yet: dict[str, str] = {}
     for candidate in models:
@@ -41,9 +36,26 @@ def names_at(model: type[BaseModel], location: Sequence[int | str]) -> Names:
     return Names(tuple(names), not_yet)
 
 
+def _models_at(model: type[BaseModel], location: Sequence[int | str]) -> list[type[BaseModel]]:
+    models = [model]
+    for part in location:
+        if is_tag(part):
+            models = [candidate for candidate in models if getattr(candidate, "tag", None) == part]
+        else:
+            models = [inner for outer in models for inner in _models_of_field(outer, str(part))]
+    return models
+
+
 def is_known(model: type[BaseModel], path: Sequence[str]) -> bool:
     """Whether the schema has a field at this path."""
     return path[-1] in names_at(model, path[:-1]).names
+
+
+def is_optional(model: type[BaseModel], location: Sequence[int | str]) -> bool:
+    """Whether the field at a location may be left out, the table around it being there."""
+    owners = _models_at(model, location[:-1])
+    fields = [owner.model_fields[str(location[-1])] for owner in owners if str(location[-1]) in owner.model_fields]
+    return bool(fields) and all(not info.is_required() and info.default is None for info in fields)
 
 
 def _models_of_field(model: type[BaseModel], name: str) -> list[type[BaseModel]]:

@@ -1,17 +1,18 @@
 """`--set path=value`: changes to the tables of a scene before it is validated."""
 
-import difflib
+import re
 import tomllib
 from collections.abc import Iterable, Mapping
 from typing import Any
 
 from pydantic import BaseModel
 
-from .errors import SceneError, describe_at
-from .fields import is_known, names_at
+from .errors import SceneError, describe_at, unknown_name
+from .fields import is_known
 
 REMOVE = "none"
 """The value that takes an optional table or field out of the scene."""
+_NOT_QUITE_TOML = re.compile(r"[+-]?(?:\.[0-9]+|[0-9]+\.)(?:[eE][+-]?[0-9]+)?")
 
 
 def split_assignments(assignments: Iterable[str]) -> dict[str, str]:
@@ -31,9 +32,12 @@ def split_assignments(assignments: Iterable[str]) -> dict[str, str]:
 
 
 def parse_value(text: str) -> Any:
-    """A value of a `--set`: TOML where it is TOML (numbers, true, "quoted"), otherwise the text itself."""
+    """A value of a `--set`: TOML where it is TOML (numbers, true, "quoted"), a number also as ".3" or "3.", otherwise
+    the text itself."""
     if "\n" in text:
         return text
+    if _NOT_QUITE_TOML.fullmatch(text):
+        return float(text)
     try:
         return tomllib.loads(f"value = {text}")["value"]
     # ValueError: not TOML, or a number of thousands of digits
@@ -44,28 +48,42 @@ def parse_value(text: str) -> Any:
 def apply(raw: Mapping[str, Any], overrides: Mapping[str, str], model: type[BaseModel], file: str) -> dict[str, Any]:
     """A copy of the tables with the overrides; unknown names too: the validation refuses them with a suggestion.
 
-    **Raises:** `SceneError` where a path goes through something that is not a table.
+    **Raises:** `SceneError` where a path goes through something that is not a table, or where an unknown name is to be
+    taken out.
     """
     changed = _copy(raw)
     for path, text in overrides.items():
         keys = path.split(".")
+        if text == REMOVE:
+            _remove(changed, keys, path, model, file)
+            continue
         table = changed
         for depth, key in enumerate(keys[:-1]):
-            table = table.setdefault(key, {})
-            if not isinstance(table, dict):
-                inside = ".".join(keys[: depth + 1])
-                found = f"{describe_at(changed, inside)} at {inside}"
-                raise SceneError(file, path, found, "a table, to set a value in it")
-        if text != REMOVE:
-            table[keys[-1]] = parse_value(text)
-        elif keys[-1] in table:
-            del table[keys[-1]]
-        elif not is_known(model, keys):
-            valid = names_at(model, keys[:-1]).names
-            near = difflib.get_close_matches(keys[-1], valid, n=1)
-            expected = f"a part of the scene to take out: {', '.join(valid) or 'nothing here'}"
-            raise SceneError(file, path, f"the unknown name '{keys[-1]}'", expected, "".join(near))
+            table = _table(table.setdefault(key, {}), changed, keys[: depth + 1], path, file)
+        table[keys[-1]] = parse_value(text)
     return changed
+
+
+def _remove(changed: dict[str, Any], keys: list[str], path: str, model: type[BaseModel], file: str) -> None:
+    """Takes a field or table out; what is not there must at least be something that could be."""
+    table = changed
+    for depth, key in enumerate(keys):
+        if key not in table:
+            wrong = next((n for n in range(depth + 1, len(keys) + 1) if not is_known(model, keys[:n])), None)
+            if wrong is not None:
+                raise SceneError(file, ".".join(keys[:wrong]), others=0, **unknown_name(keys[:wrong], model))
+            return
+        if depth == len(keys) - 1:
+            del table[key]
+        else:
+            table = _table(table[key], changed, keys[: depth + 1], path, file)
+
+
+def _table(value: Any, changed: dict[str, Any], inside: list[str], path: str, file: str) -> dict[str, Any]:
+    if isinstance(value, dict):
+        return value
+    place = ".".join(inside)
+    raise SceneError(file, path, f"{describe_at(changed, place)} at {place}", "a table, to set a value in it")
 
 
 def _copy(table: Mapping[str, Any]) -> dict[str, Any]:

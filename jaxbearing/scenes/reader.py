@@ -13,9 +13,9 @@ from .build import cylindrical_roller_bearing
 from .data_files import builtin_names, builtin_summary, builtin_text
 from .errors import SceneError, from_class, from_validation, nearest, one_of
 from .oils import with_catalogue
-from .overrides import apply
+from .overrides import REMOVE, apply, parse_value
 from .schema import AVAILABLE_KINDS, KINDS, CylindricalRollerTable
-from .units import describe
+from .units import describe, shortened
 
 __all__ = ["builtin_names", "builtin_summary", "builtin_text", "load_scene", "scene_from_mapping"]
 
@@ -48,14 +48,16 @@ def scene_from_mapping(
     """
     overrides = overrides or {}
     try:
-        kind = overrides.get("kind", mapping.get("kind"))
+        kind = mapping.get("kind")
+        if "kind" in overrides:
+            kind = None if overrides["kind"] == REMOVE else parse_value(overrides["kind"])
         model, build = _SCHEMAS[_known_kind(kind, mapping, origin)]
         return _build(apply(mapping, overrides, model, origin), model, build, origin)
     except SceneError as error:
         culprit = next((path for path in overrides if _related(path, error.path)), None)
         if culprit is None or error.file != origin:
             raise
-        raise error.of(f"{origin} with --set {culprit}={overrides[culprit]}") from None
+        raise error.of(f"{origin} with --set {culprit}={shortened(overrides[culprit])}") from None
 
 
 def _build(
@@ -126,8 +128,8 @@ def _path_near(text: str, message: str) -> str:
 def _known_kind(kind: Any, mapping: Mapping[str, Any], origin: str) -> str:
     if kind is None:
         # an unknown name close to "kind" is a likelier culprit than a forgotten line
-        near = next((key for key in mapping if nearest(key, ("kind",))), "")
-        found = f"the unknown name '{near}'" if near else "nothing"
+        near = next((key for key in mapping if key != "kind" and nearest(key, ("kind",))), "")
+        found = f"the unknown name {near!r}" if near else "nothing"
         raise SceneError(origin, "kind", found, f"the kind of scene, e.g. {_KIND_EXAMPLE}", "kind" if near else "")
     if kind in AVAILABLE_KINDS:
         return kind

@@ -82,7 +82,7 @@ class CageTable(Table):
     inner_diameter: units.PositiveLength | None = None
     outer_diameter: units.PositiveLength | None = None
     pocket_axial_clearance: units.PositiveLength | None = None
-    n_lands: units.Count = 2
+    n_lands: units.Count | None = None
     turbulence: Literal["laminar", "blend", "pure"] = "blend"
 
     @model_validator(mode="after")
@@ -138,7 +138,8 @@ class CylindricalRollerTable(Table):
     @model_validator(mode="after")
     def _complete(self) -> Self:
         """What one table needs of another. The classes check the rest when they are built."""
-        if self.drag is not None and self.operation.oil_flow is None:
+        rolling = self.contact is not None and self.contact.traction is not None and self.cage is not None
+        if rolling and self.drag is not None and self.operation.oil_flow is None:
             raise refusal_at("operation.oil_flow", "a volume flow, which [drag] needs, e.g. '150 l/h'", "nothing")
         if self.contact is None:
             return self

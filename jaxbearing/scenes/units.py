@@ -15,6 +15,15 @@ from pydantic import BeforeValidator
 from pydantic_core import PydanticCustomError
 
 _NUMBER_AND_UNIT = re.compile(r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*(.*?)\s*", re.DOTALL)
+_NAME = r"[A-Za-z°µμΩÅ_][A-Za-z0-9°µμΩÅ_]*"
+_POWER = r"(?: *(?:\*\*|\^) *[+-]?[0-9]{1,2}(?![0-9])|⁻?[⁰¹²³⁴⁵⁶⁷⁸⁹]{1,2})"
+_FACTOR = rf"\(* *(?:{_NAME}{_POWER}?|[0-9]+(?:\.[0-9]+)?) *\)*"
+_UNIT = re.compile(rf"{_FACTOR}(?:(?: *[*/·] *| +){_FACTOR})*")
+"""What a unit may look like. Brackets carry no power, so that none is raised to another: pint evaluates what it reads,
+skips comments and ignores characters that it does not know."""
+_WORDS = re.compile(r"\b(?:square|sq|squared|cubic|cubed|per)\b", re.IGNORECASE)
+"""Words that pint replaces by powers, which the pattern cannot see."""
+_LONGEST_UNIT = 40
 _NON_FINITE = re.compile(r"\s*[+-]?(nan|inf|infinity)\b", re.IGNORECASE)
 _LONGEST = 60
 
@@ -78,7 +87,11 @@ def describe(value: Any) -> str:
 
 
 def _short(value: Any) -> str:
-    text = repr(value)
+    return shortened(repr(value))
+
+
+def shortened(text: str) -> str:
+    """A text that may be long, for a message."""
     return text if len(text) <= _LONGEST else text[:_LONGEST] + "..."
 
 
@@ -122,11 +135,17 @@ def parse(value: Any, dimension: Dimension) -> float:
 
 
 def _unit(text: str, value: str, dimension: Dimension) -> Any:
+    found = f"{describe(value)}, where {shortened(repr(text))} is not a unit"
+    if len(text) > _LONGEST_UNIT or not _UNIT.fullmatch(text) or _WORDS.search(text):
+        raise refusal(dimension.expected(), found)
     try:
-        return registry().Unit(text)
+        unit = registry().Unit(text)
+        # a factor beyond the range of numbers ("Gm^99") shows here
+        _root(unit)
     # pint's reader of units lets many exception types through (tokenizer, arithmetic, attribute errors)
     except Exception:
-        raise refusal(dimension.expected(), f"{describe(value)}, where {text!r} is not a unit") from None
+        raise refusal(dimension.expected(), found) from None
+    return unit
 
 
 def _in_si(number: float, unit: Any, value: str, dimension: Dimension) -> float:
@@ -137,6 +156,8 @@ def _in_si(number: float, unit: Any, value: str, dimension: Dimension) -> float:
         hint = "; a rotational speed counts turns: 'rpm', 'rad/s'" if _is_frequency(unit, dimension) else ""
         raise refusal(dimension.expected() + hint, f"{describe(value)}, whose unit is of another kind")
     quantity = registry().Quantity(number, unit)
+    if dimension.offset_allowed and "delta_" in str(unit):
+        raise refusal(dimension.expected(), f"{describe(value)}, a difference of temperatures")
     if not dimension.offset_allowed and not _is_proportional(unit):
         raise refusal(dimension.expected(), f"{describe(value)}, a temperature on a scale with its own zero")
     return float(quantity.to(target).magnitude)
@@ -201,7 +222,6 @@ def _between(low: float, high: float) -> Callable[[Any], float]:
 
 
 Count = Annotated[int, BeforeValidator(count)]
-Number = Annotated[float, BeforeValidator(_number)]
 PositiveNumber = Annotated[float, BeforeValidator(lambda value: _number(value, "> 0"))]
 NonNegativeNumber = Annotated[float, BeforeValidator(lambda value: _number(value, ">= 0"))]
 PoissonRatio = Annotated[float, BeforeValidator(_between(0.0, 0.5))]

@@ -184,7 +184,7 @@ def test_binary_file(jaxbearing_command, folder):
 
 
 def test_path_with_null_byte(jaxbearing_command, folder):
-    check(jaxbearing_command("solve", "a\0b"), folder, "a\0b", "", ["cannot be read"])
+    check(jaxbearing_command("solve", "a\0b"), folder, r"a\x00b", "", ["cannot be read"])
 
 
 def test_unreadable_file(jaxbearing_command, folder, monkeypatch):
@@ -207,6 +207,11 @@ def test_unreadable_file(jaxbearing_command, folder, monkeypatch):
         ("cagee=none", "cagee", ["Did you mean 'cage'"]),
         ("operation.radial_load=none", "operation.radial_load", ["required"]),
         ("contact.film.order=3", "contact.film.order", ["a table"]),
+        ("cage.guidence=none", "cage.guidence", ["Did you mean 'guidance'"]),
+        ("flang.ring=none", "flang", ["unknown name 'flang'", "Did you mean 'flange'"]),
+        ("operation.axial_load=none", "operation.axial_load", ["not available in this version", "radial load only"]),
+        ("contact.thermal=off", "contact.thermal", ["or leave it out (--set contact.thermal=none)"]),
+        ("kind=none", "kind", ["found nothing", "kind ="]),
         ("kind=ball_bearing", "kind", ["not available in this version"]),
     ],
 )
@@ -230,7 +235,36 @@ def test_wrong_usage(arguments, jaxbearing_command):
     result = jaxbearing_command(*arguments)
     assert result.code == 2
     assert result.out == ""
-    assert "Traceback" not in result.err
+    assert result.err.startswith("error: ")
+    assert result.err.count("\n") == 1
+
+
+def test_set_without_a_value(jaxbearing_command):
+    result = jaxbearing_command("solve", "turbine_roller", "--set")
+    assert (result.code, result.out, result.err.count("\n")) == (2, "", 1)
+
+
+def test_control_characters_and_long_names_are_not_printed(jaxbearing_command, folder):
+    for key in ('"\\u001b[31mred"', '"' + "k" * 3000 + '"'):
+        (folder / "scene.toml").write_text(f"{key} = 1\n" + TEXT, encoding="utf-8")
+        result = jaxbearing_command("solve", "scene.toml")
+        assert result.code == 2
+        assert "unknown name" in result.err
+        assert "\x1b" not in result.err
+        assert len(result.err) < 600
+
+
+def test_a_wrong_law_is_one_problem(jaxbearing_command, folder):
+    (folder / "scene.toml").write_text(TEXT + '[oil.density]\nlaw = "linar"\nslpe = 3\n', encoding="utf-8")
+    result = jaxbearing_command("solve", "scene.toml")
+    assert result.err.startswith("error: scene.toml: oil.density.law: found")
+    assert "more problem" not in result.err
+
+
+def test_name_of_a_file_that_is_too_long(jaxbearing_command, folder):
+    result = jaxbearing_command("scenes", "--copy", "turbine_roller", "--to", "a" * 300)
+    assert (result.code, result.out, result.err.count("\n")) == (2, "", 1)
+    assert os.listdir(folder) == []
 
 
 def process(*arguments, cwd):

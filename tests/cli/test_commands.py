@@ -19,7 +19,7 @@ DRY = ("reference_roller", "--set", "contact=none")
 def test_help_and_version(jaxbearing_command):
     help_ = jaxbearing_command("--help")
     assert help_.code == 0
-    assert all(verb in help_.out for verb in ("solve", "scenes"))
+    assert all(word in help_.out for word in ("solve", "scenes", "Exit codes", "JAXBEARING_CACHE", "--version  Print"))
     version = jaxbearing_command("--version")
     assert version.code == 0
     assert version.out.startswith("jaxbearing")
@@ -30,6 +30,7 @@ def test_scenes_lists_all(jaxbearing_command):
     assert result.code == 0
     assert all(name in result.out for name in builtin_names())
     assert "Table 13" in result.out
+    assert result.out.startswith("turbine_roller")
 
 
 def test_copy(jaxbearing_command, folder):
@@ -149,6 +150,57 @@ def test_cache_folder(monkeypatch, tmp_path):
     assert cache_folder().parent == tmp_path / "mine"
     monkeypatch.delenv("JAXBEARING_CACHE")
     assert "jaxbearing" in cache_folder().parts
+
+
+@pytest.mark.parametrize("word", ["on", "1", "TRUE", "yes", ""])
+def test_cache_switched_on_is_the_default_folder(word, monkeypatch):
+    monkeypatch.delenv("JAXBEARING_CACHE", raising=False)
+    default = cache_folder()
+    monkeypatch.setenv("JAXBEARING_CACHE", word)
+    assert cache_folder() == default
+
+
+def test_cache_without_a_home_folder(monkeypatch, capfd):
+    monkeypatch.delenv("JAXBEARING_CACHE", raising=False)
+    monkeypatch.setattr("platformdirs.user_cache_dir", lambda *_, **__: "~/.cache/jaxbearing")
+    assert enable_compilation_cache() is None
+    assert capfd.readouterr().err == ""
+    monkeypatch.setenv("JAXBEARING_CACHE", "~nosuchuser/x")
+    assert enable_compilation_cache() is None
+    assert capfd.readouterr().err.startswith("warning: JAXBEARING_CACHE: found '~nosuchuser/x'")
+
+
+def test_no_place_to_hold_messages_back(monkeypatch, capfd):
+    def refuse():
+        raise FileNotFoundError(2, "No usable temporary directory")
+
+    monkeypatch.setattr("tempfile.TemporaryFile", refuse)
+    with without_false_alarms():
+        os.write(2, b"news\n")
+    assert capfd.readouterr().err == "news\n"
+
+
+def shell(redirection, folder, *arguments, **variables):
+    environment = {**os.environ, "PYTHONPATH": os.pathsep.join(sys.path), **variables}
+    command = ["/bin/sh", "-c", f'"$0" -m jaxbearing "$@" {redirection}', sys.executable, *arguments]
+    return subprocess.run(command, cwd=folder, env=environment, capture_output=True, text=True, check=False)
+
+
+@pytest.mark.skipif(not os.path.exists("/dev/full"), reason="a device of Linux")
+@pytest.mark.parametrize(
+    ("redirection", "words"), [(">&-", "standard output is closed"), (">/dev/full", "No space left on device")]
+)
+@pytest.mark.parametrize("arguments", [("scenes",), ("solve", *DRY), ("solve", *DRY, "--json")], ids=len)
+def test_output_that_cannot_be_written(redirection, words, arguments, folder):
+    done = shell(redirection, folder, *arguments)
+    assert (done.returncode, done.stdout) == (1, "")
+    assert done.stderr == f"error: the output cannot be written: {words}\n"
+
+
+def test_terminal_without_unicode(folder):
+    done = shell("", folder, "solve", *DRY, PYTHONIOENCODING="ascii")
+    assert (done.returncode, done.stderr) == (0, "")
+    assert done.stdout.isascii()
 
 
 def test_cache_that_cannot_be_written_is_no_failure(monkeypatch, tmp_path):

@@ -35,6 +35,7 @@ def solution(status=Status.CONVERGED, number=None, **changes):
         "status": jnp.asarray(int(status)),
         "iterations": jnp.asarray(7),
         "residual_norm": jnp.asarray(1e-12),
+        "inner_residual": jnp.asarray(1e-12),
         "worst_equation": jnp.asarray(1),
         "worst_element": jnp.asarray(0),
         "operation": Operation(inner_speed=1000.0, radial_load=25e3, oil_temperature=373.15, oil_flow=1e-4),
@@ -121,6 +122,8 @@ def test_what_is_not_modelled():
     assert result["cage"] is None
     assert "film_inner" not in result["elements"]
     assert result["power_loss"] == {"total": 0.0}
+    assert (result["operation"]["oil_temperature"], result["operation"]["oil_flow"]) == (None, None)
+    assert result["operation"]["radial_load"] == 25e3
     text = text_of(solution(cage=None, elements=dry, power_loss=PowerLoss(total=jnp.asarray(0.0))))
     assert "Cage" not in text
     assert "film" not in text.replace("Motion and films", "")
@@ -156,6 +159,42 @@ def test_summary():
 @pytest.mark.parametrize("width", [40, 60, 80, 200])
 def test_summary_at_any_width(width):
     assert max(len(line) for line in text_of(solution(), width).splitlines()) <= width
+
+
+@pytest.mark.parametrize("width", [60, 80, 100])
+def test_no_number_is_cut(width):
+    """Films below a micrometre make the widest columns; below about 75 columns the table comes in two pieces."""
+    films = {name: jnp.full(N, 0.37654e-6) for name in ("film_inner", "film_outer")}
+    pressures = {name: jnp.full(N, 1.4e9) for name in ("pressure_inner", "pressure_outer")}
+    elements = dataclasses.replace(solution().elements, **films, **pressures)
+    text = text_of(solution(elements=elements), width)
+    assert "…" not in text
+    assert text.count("0.3765") >= 6
+    for title in ("Q inner", "Q outer", "p inner", "p outer", "h inner", "h outer", "1000.0", "750.0"):
+        assert title in text
+    assert text.count("azimuth") == (2 if width < 75 else 1)
+    assert max(len(line) for line in text.splitlines()) <= width
+
+
+def test_a_long_label_is_not_cut():
+    stream = io.StringIO()
+    print_summary(solution(), "x" * 150, Console(file=stream, width=60))
+    assert stream.getvalue().count("x") - stream.getvalue().count("max") >= 150
+    assert "…" not in stream.getvalue()
+
+
+@pytest.mark.parametrize(
+    ("scale", "total", "pocket"),
+    [(1.3847, "1384.7", "346.2"), (1.2e-3, "1.200", "0.300"), (1e-6, "0.001000", "0.000250")],
+)
+def test_small_powers_keep_their_digits(scale, total, pocket):
+    loss = PowerLoss(
+        drag=jnp.asarray(750.0 * scale), pocket=jnp.asarray(250.0 * scale), total=jnp.asarray(1000.0 * scale)
+    )
+    text = text_of(solution(power_loss=loss, drive_power=jnp.asarray(1000.0 * scale)))
+    assert f" {total} " in text.split("Drive power")[0]
+    assert f" {pocket} " in text
+    assert f"{total} W" in text
 
 
 def test_summary_of_a_failure_prints_no_result():

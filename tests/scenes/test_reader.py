@@ -107,8 +107,17 @@ def test_set_creates_and_removes():
         "turbine_roller", {"flange": "none", "flange.ring": "outer", "flange.axial_clearance": "20um"}
     )
     assert recreated.flange.height is None
-    # taking out what is not there is no error
+    # taking out what is not there is no error, nor does it make its table
+    assert load_scene("turbine_roller", {"flange": "none", "flange.height": "none"}).flange is None
     assert load_scene("reference_roller", {"contact.thermal": "none"}).contact.traction is not None
+
+
+def test_flow_is_asked_for_only_where_it_is_used():
+    no_flow = {"operation.oil_flow": "none"}
+    assert load_scene("turbine_roller", no_flow | {"contact": "none", "cage": "none"}).drag is not None
+    assert load_scene("turbine_roller", no_flow | {"drag": "none"}).operation.oil_flow == 0.0
+    with pytest.raises(SceneError, match="oil_flow"):
+        load_scene("turbine_roller", no_flow)
 
 
 def test_set_material_by_name_that_is_a_number():
@@ -125,6 +134,9 @@ def test_traction_alias():
     [
         ("1", 1),
         ("1.5", 1.5),
+        (".3", 0.3),
+        ("-1.", -1.0),
+        ("+.5e2", 50.0),
         ("true", True),
         ("12000 rpm", "12000 rpm"),
         ('"a"', "a"),

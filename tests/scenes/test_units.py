@@ -37,6 +37,10 @@ DEFINITIONS = [
     ("-14648.747 K^2/GPa", units.KELVIN2_PER_PRESSURE, -14648.747e-9),
     ("  1e-3   m  ", units.LENGTH, 1e-3),
     ("+.5 m", units.LENGTH, 0.5),
+    ("7850 kg m**-3", units.DENSITY, 7850.0),
+    ("7850 kg/m³", units.DENSITY, 7850.0),
+    ("7850 kg·m⁻³", units.DENSITY, 7850.0),
+    ("0.147 W / (m K)", units.CONDUCTIVITY, 0.147),
 ]
 
 
@@ -80,7 +84,21 @@ def refusal(value, dimension):
         ("5 C", units.TEMPERATURE, "another kind"),  # coulomb
         ("100 Hz", units.SPEED, "another kind"),  # 100/s is not 100 rad/s
         ("10500 1/min", units.SPEED, "another kind"),
-        ("0.1 %", units.ANGLE, "another kind"),
+        ("0.1 %", units.ANGLE, "not a unit"),
+        ("12 m**9**9**9", units.LENGTH, "not a unit"),  # pint alone: hours
+        ("12 (m^9)^9", units.LENGTH, "not a unit"),
+        ("12 m^999", units.LENGTH, "not a unit"),
+        ("12 Gm^99", units.LENGTH, "not a unit"),  # beyond the largest float
+        ("12 m^0.5", units.LENGTH, "not a unit"),
+        ("12 square m", units.LENGTH, "not a unit"),
+        ("142 mm%", units.LENGTH, "not a unit"),
+        ("142 mm;", units.LENGTH, "not a unit"),
+        ("142 {mm}", units.LENGTH, "not a unit"),
+        ("142 [mm]", units.LENGTH, "not a unit"),
+        ("1 rpm # comment", units.SPEED, "not a unit"),
+        ("1 mm" + "*m/m" * 10, units.LENGTH, "not a unit"),
+        ("2 delta_degC", units.TEMPERATURE, "a difference of temperatures"),
+        ("2 Δ°C", units.TEMPERATURE, "not a unit"),
         ("29 degC", units.TEMPERATURE_DIFFERENCE, "its own zero"),
     ],
     ids=lambda value: str(value)[:20],
