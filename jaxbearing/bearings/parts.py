@@ -102,7 +102,7 @@ class AbstractScene(eqx.Module):
         return self.replace({f"geometry.{name}": value for name, value in changes.items()})
 
 
-def _replaced(part: Any, changes: dict[tuple[str, ...], Any]) -> Any:
+def _replaced(part: Any, changes: dict[tuple[str, ...], Any], above: str = "") -> Any:
     """The part rebuilt once with all changes, so that what is validated is the result and no state in between."""
     names = [field.name for field in dataclasses.fields(part)] if isinstance(part, eqx.Module) else []
     new: dict[str, Any] = {}
@@ -110,14 +110,14 @@ def _replaced(part: Any, changes: dict[tuple[str, ...], Any]) -> Any:
     for path, value in changes.items():
         if not isinstance(part, eqx.Module) or path[0] not in names:
             raise AttributeError(
-                f"the scene has no {'.'.join(path)!r}: {type(part).__name__} has {', '.join(names) or 'no fields'}"
+                f"the scene has no {above + '.'.join(path)!r}: {type(part).__name__} has {', '.join(names) or 'no fields'}"
             )
         if len(path) == 1:
             new[path[0]] = value
         else:
             inner.setdefault(path[0], {})[path[1:]] = value
     for name, deeper in inner.items():
-        new[name] = _replaced(new.get(name, getattr(part, name)), deeper)
+        new[name] = _replaced(new.get(name, getattr(part, name)), deeper, f"{above}{name}.")
     return dataclasses.replace(part, **new) if isinstance(part, eqx.Module) else part
 
 

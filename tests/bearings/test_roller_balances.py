@@ -41,9 +41,9 @@ def test_power_and_forces_close(scene, case):
 @pytest.mark.parametrize(
     "change",
     [
-        {"cage.guidance": "outer_ring"},
-        {"flange.ring": "outer"},
-        {"flange.ring": "both"},
+        pytest.param({"cage.guidance": "outer_ring"}, marks=pytest.mark.slow),
+        pytest.param({"flange.ring": "outer"}, marks=pytest.mark.slow),
+        pytest.param({"flange.ring": "both"}, marks=pytest.mark.slow),
         {"operation.outer_speed": 300.0},
         {"operation.outer_speed": -400.0},
         {"operation.inner_speed": 0.0, "operation.outer_speed": 900.0},
@@ -56,7 +56,7 @@ def test_power_closes_with_both_rings_turning(change):
     np.testing.assert_allclose(solution.drive_power, solution.power_loss.total, rtol=1e-8)
 
 
-@pytest.mark.parametrize("n_rollers", [1, 3, 5])
+@pytest.mark.parametrize("n_rollers", [3, *(pytest.param(n, marks=pytest.mark.slow) for n in (1, 5))])
 def test_few_rollers_at_100_rpm(n_rollers):
     """Sliding of 1e-9 m/s under 25 kN on a roller: what a difference of surface speeds cannot resolve."""
     geometry = dataclasses.replace(turbine_roller().geometry, n_rollers=n_rollers)

@@ -26,7 +26,7 @@ def residual_at_solution(scene):
     return full_residual(system, extend(system, result.point))
 
 
-@pytest.mark.parametrize("make", [reference_roller, turbine_roller])
+@pytest.mark.parametrize("make", [reference_roller, pytest.param(turbine_roller, marks=pytest.mark.slow)])
 @pytest.mark.parametrize("case", CASES.values(), ids=CASES.keys())
 def test_reduced_solution_solves_the_full_equations(make, case):
     scene = changed(make(), case)

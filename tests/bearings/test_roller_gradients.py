@@ -8,7 +8,11 @@ from roller_cases import HARD_CASES, RPM, changed, reference_roller, turbine_rol
 
 import jaxbearing as jb
 
-SCENES = {"reference": reference_roller, "turbine": turbine_roller}
+# compiling derivatives takes most of the time: one closure with the fast tests, the other with the slow ones
+BOTH = [
+    pytest.param(reference_roller, id="reference"),
+    pytest.param(turbine_roller, id="turbine", marks=pytest.mark.slow),
+]
 
 # input: (value, relative step of the central difference); the step balances its own truncation and rounding error
 INPUTS = {
@@ -37,7 +41,7 @@ def function_of_inputs(scene):
     return function
 
 
-@pytest.mark.parametrize("scene", SCENES.values(), ids=SCENES.keys())
+@pytest.mark.parametrize("scene", BOTH)
 def test_gradients_against_central_differences(scene):
     function = jax.jit(function_of_inputs(scene()))
     values = jnp.asarray([value for value, _ in INPUTS.values()])
@@ -61,7 +65,7 @@ def central_difference(function, values, index, step):
     return (8.0 * (at(1) - at(-1)) - (at(2) - at(-2))) / (12.0 * step)
 
 
-@pytest.fixture(scope="module", params=SCENES.values(), ids=SCENES.keys())
+@pytest.fixture(scope="module", params=BOTH)
 def reverse_gradient(request):
     def total(scene):
         solution = jb.solve(scene, throw=False)
@@ -86,6 +90,7 @@ def test_gradient_of_every_number_is_finite_at_hard_cases(reverse_gradient, case
         assert np.isfinite(value)
 
 
+@pytest.mark.slow
 def test_python_of_the_manual():
     """The three calls that the interface promises, as a user types them."""
     scene = jb.load_scene("turbine_roller")

@@ -38,6 +38,7 @@ def test_unknown_path_says_what_there_is():
         reference_roller().replace({"cage.colour": 1.0})
 
 
+@pytest.mark.slow
 def test_assumed_dimensions_are_announced():
     scene = reference_roller().replace(
         {
