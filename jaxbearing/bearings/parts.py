@@ -109,9 +109,8 @@ def _replaced(part: Any, changes: dict[tuple[str, ...], Any], above: str = "") -
     inner: dict[str, dict[tuple[str, ...], Any]] = {}
     for path, value in changes.items():
         if not isinstance(part, eqx.Module) or path[0] not in names:
-            raise AttributeError(
-                f"the scene has no {above + '.'.join(path)!r}: {type(part).__name__} has {', '.join(names) or 'no fields'}"
-            )
+            whole, there = above + ".".join(path), ", ".join(names) or "no fields"
+            raise AttributeError(f"the scene has no {whole!r}: {type(part).__name__} has {there}")
         if len(path) == 1:
             new[path[0]] = value
         else:
