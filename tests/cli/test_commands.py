@@ -186,6 +186,7 @@ def shell(redirection, folder, *arguments, **variables):
     return subprocess.run(command, cwd=folder, env=environment, capture_output=True, text=True, check=False)
 
 
+# only Linux has a device that is always full; elsewhere there is no way to make a write fail on purpose
 @pytest.mark.skipif(not os.path.exists("/dev/full"), reason="a device of Linux")
 @pytest.mark.parametrize(
     ("redirection", "words"), [(">&-", "standard output is closed"), (">/dev/full", "No space left on device")]
