@@ -40,32 +40,49 @@ def mobil_jet_ii() -> Lubricant:
             stress=1.56e5,
             stress_pressure=2.41e-9,
             stress_temperature=-786.0,
+            viscous_function="ree_eyring",
         ),
         density=LinearDensity(value=1013.4, slope=-0.752, reference_temperature=273.15),
         conductivity=LinearConductivity(value=0.148676, slope=-2.22753e-4, reference_temperature=366.67),
     )
 
 
+ASSUMED_CONDUCTIVITY = LinearConductivity(value=0.14, slope=0.0, reference_temperature=300.0)
+"""Placeholder of the three oils for which the source gives none."""
+
+
 def pennzane_x2000() -> Lubricant:
-    """Table 10; alpha* by the integral; table 12 (fitted with the Elsharkawy-Hamrock law)."""
+    """Table 10; alpha* by the integral; table 12 (fitted with the Elsharkawy-Hamrock law); density of table 9."""
     viscosity = ModifiedWLF(1e7, 185.691, 69.8093, 1.67903e-9, 0.212452, 11.8028e-9, 11.8362, 60.5908)
     return Lubricant(
         viscosity=viscosity,
         pressure_viscosity=IntegratedPressureViscosity(viscosity),
-        rheology=ExponentialRheology(303.15, 0.565138e6, 3.41106e-9, 1426.14, 16.0444e6, 1.08853e-9, -977.746),
+        rheology=ExponentialRheology(
+            *(303.15, 0.565138e6, 3.41106e-9, 1426.14, 16.0444e6, 1.08853e-9, -977.746),
+            viscous_function="elsharkawy_hamrock",
+            exponent=2.0,
+        ),
+        density=LinearDensity(value=850.0, slope=0.0, reference_temperature=288.75),
+        conductivity=ASSUMED_CONDUCTIVITY,
     )
 
 
 def nye_186a() -> Lubricant:
-    """Table 10; alpha* by the integral; the source gives no rheology."""
+    """Table 10; alpha* by the integral; the source gives neither rheology nor density."""
     viscosity = ModifiedWLF(1e7, 188.04, 53.9262, 2.26829e-9, 0.223438, 12.4888e-9, 11.5171, 53.979)
-    return Lubricant(viscosity=viscosity, pressure_viscosity=IntegratedPressureViscosity(viscosity))
+    coefficient = IntegratedPressureViscosity(viscosity)
+    return Lubricant(viscosity=viscosity, pressure_viscosity=coefficient, conductivity=ASSUMED_CONDUCTIVITY)
 
 
 def fomblin_z25() -> Lubricant:
-    """Table 10; alpha* by the integral; the source gives no rheology."""
+    """Table 10; alpha* by the integral; density of table 9; the source gives no rheology."""
     viscosity = ModifiedWLF(1e7, 152.455, 48.3241, 2.96467e-9, 0.224572, 23.8537e-9, 10.0745, 54.4713)
-    return Lubricant(viscosity=viscosity, pressure_viscosity=IntegratedPressureViscosity(viscosity))
+    return Lubricant(
+        viscosity=viscosity,
+        pressure_viscosity=IntegratedPressureViscosity(viscosity),
+        density=LinearDensity(value=1850.0, slope=0.0, reference_temperature=288.75),
+        conductivity=ASSUMED_CONDUCTIVITY,
+    )
 
 
 FITTED_COEFFICIENTS = {

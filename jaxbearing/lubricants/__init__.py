@@ -6,8 +6,15 @@ from .pressure_viscosity import AbstractPressureViscosity as AbstractPressureVis
 from .pressure_viscosity import ConstantPressureViscosity as ConstantPressureViscosity
 from .pressure_viscosity import FittedPressureViscosity as FittedPressureViscosity
 from .pressure_viscosity import IntegratedPressureViscosity as IntegratedPressureViscosity
+from .pressure_viscosity import NoPressureViscosity as NoPressureViscosity
+from .rheology import VISCOUS_FUNCTIONS as VISCOUS_FUNCTIONS
 from .rheology import ExponentialRheology as ExponentialRheology
+from .simple_viscosity import Barus as Barus
+from .simple_viscosity import ConstantViscosity as ConstantViscosity
+from .simple_viscosity import Roelands as Roelands
 from .thermal import LinearConductivity as LinearConductivity
 from .thermal import LinearDensity as LinearDensity
+from .two_viscosities import WaltherRoelands as WaltherRoelands
+from .two_viscosities import wooster_pressure_viscosity as wooster_pressure_viscosity
 from .viscosity import AbstractViscosity as AbstractViscosity
 from .viscosity import ModifiedWLF as ModifiedWLF

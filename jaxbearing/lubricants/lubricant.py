@@ -24,8 +24,8 @@ class InletOil(eqx.Module):
 InletOil.__init__.__doc__ = """**Arguments:**
 - `temperature`: K, > 0.
 - `viscosity`: Pa s, > 0.
-- `pressure_viscosity`: reciprocal isoviscous pressure, 1/Pa, > 0.
-- `log_slope`: d ln(viscosity)/dT, 1/K, < 0.
+- `pressure_viscosity`: reciprocal isoviscous pressure, 1/Pa, > 0; 0 for an isoviscous fluid.
+- `log_slope`: d ln(viscosity)/dT, 1/K, < 0; 0 for a viscosity that is constant.
 - `density`: kg/m^3, > 0, or None where the lubricant has none.
 - `conductivity`: W/(m K), > 0, or None where the lubricant has none.
 """
@@ -39,6 +39,7 @@ class Lubricant(eqx.Module):
     rheology: ExponentialRheology | None = None
     density: LinearDensity | None = None
     conductivity: LinearConductivity | None = None
+    notes: tuple[str, ...] = eqx.field(static=True, default=())
 
     def at(self, temperature: Values) -> InletOil:
         """The oil at a contact inlet. **Arguments:** `temperature`, K, > 0."""
@@ -59,4 +60,6 @@ Lubricant.__init__.__doc__ = """**Arguments:**
 - `rheology`: shear modulus and stress; a traction law needs it.
 - `density`: needed by drag and by flow rates in mass.
 - `conductivity`: needed by thermal film reduction.
+- `notes`: what whoever uses the oil should know of its data (estimated, assumed), a sentence each; a scene that is
+  solved repeats them among its warnings.
 """

@@ -12,12 +12,14 @@ import jax.numpy as jnp
 from .._types import Batch, Scalar, Values
 from ..numerics.quadrature import gauss_legendre
 from ..numerics.safe import softplus_floor
-from .viscosity import ModifiedWLF
+from .simple_viscosity import ConstantViscosity
+from .viscosity import AbstractViscosity
 
-PRESSURE_SCALE = 1e8
-"""P of the substitution p = P t/(1 - t), Pa."""
+SUBSTITUTION_SCALES = 4.0
+"""P of the substitution p = P t/(1 - t), in pressure scales of the viscosity law."""
 NODES = 32
-"""Gauss-Legendre nodes: relative error <= 2e-8 on -20 to 150 C (16 nodes: 1.5e-5)."""
+"""Gauss-Legendre nodes: relative error <= 1e-8 for the four oils of the source on -20 to 150 C, < 1e-12 for the laws
+of Barus and Roelands."""
 FIT_MARGIN = 50.0
 """The fitted form is trusted down to this many kelvin above its pole."""
 FIT_WIDTH = 1.0
@@ -29,7 +31,7 @@ class AbstractPressureViscosity(eqx.Module):
 
     @abc.abstractmethod
     def coefficient(self, temperature: Values) -> Batch:
-        """Reciprocal isoviscous pressure, 1/Pa, > 0.
+        """Reciprocal isoviscous pressure, 1/Pa, > 0 (0 for an isoviscous fluid only).
 
         **Arguments:** `temperature`, K, > 0, at the contact inlet.
         """
@@ -87,27 +89,44 @@ FittedPressureViscosity.__init__.__doc__ = """**Arguments:**
 """
 
 
+class NoPressureViscosity(AbstractPressureViscosity):
+    """Coefficient 0, exactly: the isoviscous fluid (water, kerosene)."""
+
+    def coefficient(self, temperature: Values) -> Batch:
+        return jnp.zeros(jnp.shape(temperature))
+
+
 class IntegratedPressureViscosity(AbstractPressureViscosity):
     r"""$1/\alpha^* = \int_0^{p_{lim}} \mu(0,T)/\mu(p,T)\,dp$ by 32 Gauss-Legendre nodes in $t = p/(P + p)$.
 
-    The upper limit is `ModifiedWLF.pressure_limit(T)`, not infinity: beyond F = 0 the printed law falls again and
-    would add a spurious branch. It is a constant to autodiff; the integrand there is <= 2.5e-7 on -20 to 164 C.
+    The upper limit is `pressure_limit(T)` of the viscosity law, not infinity: beyond F = 0 the printed modified WLF
+    law falls again and would add a spurious branch. It is a constant to autodiff, like P, four times the law's
+    `pressure_scale(T)`; for the modified WLF law the integrand at the limit is <= 2.5e-7 on -20 to 164 C.
 
-    **Validity:** relative error <= 2e-8 on -20 to 150 C; finite at every temperature.
+    **Limits:** $\alpha$ for Barus' law.
+    **Validity:** relative error <= 1e-8 for the modified WLF law on -20 to 150 C, < 1e-6 for the others; finite at
+    every temperature, but without meaning where the ambient viscosity itself is near the cap.
     **Reference:** source eq. (77); Blok's inverse isoviscous asymptotic pressure (1963).
     """
 
-    viscosity: ModifiedWLF
+    viscosity: AbstractViscosity
+
+    def __check_init__(self):
+        if isinstance(self.viscosity, ConstantViscosity):
+            raise ValueError(
+                "pressure_viscosity: a constant viscosity has no coefficient to integrate, its law is none"
+            )
 
     def coefficient(self, temperature: Values) -> Batch:
         temperature = jnp.asarray(temperature, dtype=float)
         limit = self.viscosity.pressure_limit(temperature)
+        scale = SUBSTITUTION_SCALES * self.viscosity.pressure_scale(temperature)
         nodes, weights = gauss_legendre(NODES)
         trailing = (1,) * temperature.ndim + (NODES,)
-        end = (limit / (PRESSURE_SCALE + limit))[..., None]
+        end, scale = (limit / (scale + limit))[..., None], scale[..., None]
         t = end * jnp.asarray(nodes).reshape(trailing)
-        pressure = PRESSURE_SCALE * t / (1.0 - t)
-        jacobian = PRESSURE_SCALE / jnp.square(1.0 - t)
+        pressure = scale * t / (1.0 - t)
+        jacobian = scale / jnp.square(1.0 - t)
         ambient = self.viscosity.log_viscosity(0.0, temperature)[..., None]
         ratio = jnp.exp(ambient - self.viscosity.log_viscosity(pressure, temperature[..., None]))
         integral = jnp.sum(end * jnp.asarray(weights).reshape(trailing) * ratio * jacobian, axis=-1)
@@ -115,5 +134,5 @@ class IntegratedPressureViscosity(AbstractPressureViscosity):
 
 
 IntegratedPressureViscosity.__init__.__doc__ = """**Arguments:**
-- `viscosity`: the law that is integrated.
+- `viscosity`: the law that is integrated; not `ConstantViscosity`, whose coefficient is `NoPressureViscosity`.
 """

@@ -8,14 +8,18 @@ from .._types import Batch, Scalar, Values
 EXPONENT_CAP = 60.0
 """Exponents are clipped to +-60 (26 decades): beyond, the law is constant and its gradient 0."""
 
+VISCOUS_FUNCTIONS = ("ree_eyring", "bair_winer", "gecim_winer", "elsharkawy_hamrock")
+"""Names of the flow laws with which shear modulus and stress may have been fitted."""
+
 
 class ExponentialRheology(eqx.Module):
     r"""Shear modulus and characteristic stress, exponential in pressure and in 1/temperature.
 
     $G = G_0\exp[\alpha_G p + \beta_G(1/T - 1/T_0)]$, $\tau = \tau_{00}\exp[\alpha_\tau p + \beta_\tau(1/T - 1/T_0)]$.
 
-    Both come as natural logarithms, since only those are needed downstream. Whether the stress is an Eyring
-    stress or a limiting stress is said by the traction law that was fitted.
+    Both come as natural logarithms, since only those are needed downstream. Whether the stress is an Eyring stress or
+    a limiting stress is said by `viscous_function`, the flow law with which the data were fitted; with another one
+    the same numbers give another traction.
 
     **Limits:** $G_0$, $\tau_{00}$ at p = 0, T = T_0.
     **Validity:** the source's fits are for 0.6 to 1.8 GPa and 273 to 378 K; $G_0$ is an extrapolation to p = 0.
@@ -30,6 +34,12 @@ class ExponentialRheology(eqx.Module):
     stress: Scalar
     stress_pressure: Scalar
     stress_temperature: Scalar
+    viscous_function: str | None = eqx.field(static=True, default=None)
+    exponent: float | None = eqx.field(static=True, default=None)
+
+    def __check_init__(self):
+        if self.viscous_function is not None and self.viscous_function not in VISCOUS_FUNCTIONS:
+            raise ValueError(f"viscous_function: found {self.viscous_function!r}, expected one of {VISCOUS_FUNCTIONS}")
 
     def log_shear_modulus(self, pressure: Values, temperature: Values) -> Batch:
         """ln of the shear modulus in Pa. **Arguments:** `pressure`, Pa; `temperature`, K, > 0."""
@@ -52,4 +62,6 @@ ExponentialRheology.__init__.__doc__ = """**Arguments:**
 - `stress`: tau_00, Pa, > 0.
 - `stress_pressure`: alpha_tau, 1/Pa.
 - `stress_temperature`: beta_tau, K.
+- `viscous_function`: name in `VISCOUS_FUNCTIONS` of the flow law that the data were fitted with, or None: not known.
+- `exponent`: that flow law's exponent n, > 0; for "elsharkawy_hamrock" only.
 """

@@ -9,19 +9,29 @@ import jax.numpy as jnp
 import numpy as np
 
 from .._types import Batch, Scalar, Values
-from ..numerics.safe import nonnegative_pressure, softplus_floor
+from ..numerics.safe import log_add, nonnegative_pressure, softplus_floor
 
 LN10 = math.log(10.0)
 
 LOG10_VISCOSITY_CAP = 15.0
-"""log10 of the viscosity (Pa s) that the regularised law never exceeds. Traction only sees 1/viscosity: caps of
+"""log10 of the viscosity (Pa s) that no law exceeds. Traction only sees 1/viscosity: caps of
 1e8 to 1e15 Pa s give the same traction in all printed digits."""
 EXPANSION_FLOOR = 0.02
 """Smallest free-volume expansion factor F (dimensionless)."""
 EXPANSION_WIDTH = 0.005
 """Smoothing width of that floor (dimensionless)."""
+CAP_WIDTH = 0.5
+"""Smoothing width of the cap of the laws without a pole, in ln(viscosity): below 1e9 Pa s ln(viscosity) is exact to
+5e-13, at the cap it is 0.35 too low."""
 POLE_WIDTH = 0.5
 """Smoothing width of the distance from the pole, K: 9 K away the distance is changed by < 1e-8 K."""
+
+LIMIT_FOLDS = 200.0
+"""Pressure limit of a law without a place where it turns back, in units of its pressure scale."""
+SLOPE_STEP = 1e6
+"""Pressure over which the pressure scale is measured, Pa."""
+SMALLEST_SLOPE = 1e-12
+"""Slope d ln(viscosity)/dp that the pressure scale never falls below, 1/Pa: a thousandth of any lubricant's."""
 
 LIMIT_SCAN_END = 1e10
 """Highest pressure that `pressure_limit` looks at, Pa."""
@@ -45,10 +55,36 @@ class AbstractViscosity(eqx.Module):
         return jnp.exp(self.log_viscosity(pressure, temperature))
 
     def log_slope(self, temperature: Values) -> Batch:
-        r"""$\partial\ln\mu/\partial T$ at ambient pressure, 1/K (negative for every liquid lubricant)."""
+        r"""$\partial\ln\mu/\partial T$ at ambient pressure, 1/K: negative for a liquid lubricant, 0 for a constant."""
         temperature = jnp.asarray(temperature, dtype=float)
         at_ambient = lambda t: self.log_viscosity(0.0, t)
         return jax.jvp(at_ambient, (temperature,), (jnp.ones_like(temperature),))[1]
+
+    def pressure_scale(self, temperature: Values) -> Batch:
+        """Pressure over which the viscosity grows by a factor e at first, Pa, at most 1e12; no gradient."""
+        temperature = jnp.asarray(temperature, dtype=float)
+        rise = self.log_viscosity(SLOPE_STEP, temperature) - self.log_viscosity(0.0, temperature)
+        return jax.lax.stop_gradient(1.0 / jnp.maximum(rise / SLOPE_STEP, SMALLEST_SLOPE))
+
+    def pressure_limit(self, temperature: Values) -> Batch:
+        r"""Upper limit of $\int \mu(0)/\mu(p)\,dp$, Pa; no gradient. Here 200 pressure scales (10 GPa for 20 1/GPa).
+
+        What lies beyond is $e^{-200}$ of the integral for Barus' law and < 1e-6 for Roelands' (viscosity above
+        1 mPa s, Z > 0.4); the cap of the viscosity adds $200\,\mu(0)$/1e15 Pa s. A law that turns back at some
+        pressure must say here where it does.
+        """
+        return LIMIT_FOLDS * self.pressure_scale(temperature)
+
+    @property
+    def notes(self) -> tuple[str, ...]:
+        """What a user of the law should know about where its numbers come from, in words."""
+        return ()
+
+
+def capped(log_viscosity: Values) -> Batch:
+    r"""A smooth min(x, ln(1e15)) of x = ln(viscosity in Pa s), $x - w\ln(1 + e^{(x - x_{cap})/w})$ with w = 0.5."""
+    excess = (log_viscosity - LN10 * LOG10_VISCOSITY_CAP) / CAP_WIDTH
+    return jnp.asarray(log_viscosity - CAP_WIDTH * log_add(excess, 0.0))
 
 
 class ModifiedWLF(AbstractViscosity):

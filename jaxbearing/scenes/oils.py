@@ -9,7 +9,10 @@ from pydantic import ValidationError
 
 from ..lubricants import (
     AbstractPressureViscosity,
+    AbstractViscosity,
+    Barus,
     ConstantPressureViscosity,
+    ConstantViscosity,
     ExponentialRheology,
     FittedPressureViscosity,
     IntegratedPressureViscosity,
@@ -17,18 +20,35 @@ from ..lubricants import (
     LinearDensity,
     Lubricant,
     ModifiedWLF,
+    NoPressureViscosity,
+    Roelands,
+    WaltherRoelands,
 )
 from .data_files import oil_names, oil_text
 from .errors import SceneError, from_validation, nearest, one_of
 from .oil_schema import (
+    BarusTable,
     ConstantPressureViscosityTable,
+    ConstantViscosityTable,
+    ExponentialRheologyTable,
     FittedPressureViscosityTable,
     IntegratedPressureViscosityTable,
     Law,
+    ModifiedWLFTable,
     OilTable,
+    RoelandsTable,
+    TwoViscositiesTable,
 )
 
-_DOCUMENTATION = {"law", "sources"}
+VISCOSITIES: dict[type[Law], type[AbstractViscosity]] = {
+    ModifiedWLFTable: ModifiedWLF,
+    BarusTable: Barus,
+    RoelandsTable: Roelands,
+    ConstantViscosityTable: ConstantViscosity,
+}
+ROOM_TEMPERATURE = 293.15
+"""K; reference of a linear law without a slope, where it has no effect."""
+_DOCUMENTATION = {"law", "sources", "note"}
 
 
 def load_oil(name: str) -> Lubricant:
@@ -54,19 +74,28 @@ def with_catalogue(oil: Mapping[str, Any]) -> dict[str, Any]:
     """An oil table together with what its `name` stands for; what the table itself says prevails.
 
     A law table without `law`, or with the law of the catalogue, changes single parameters; with another law it
-    replaces the catalogue's. An unknown name is left for the validation to refuse.
+    replaces the catalogue's. The catalogue's pressure-viscosity coefficient belongs to its viscosity: where that is
+    changed, the coefficient is integrated anew. An unknown name is left for the validation to refuse.
     """
     name = oil.get("name")
     if not isinstance(name, str) or name not in oil_names():
         return dict(oil)
     merged = oil_data(name)
+    if "viscosity" in oil and _changes(oil["viscosity"], merged["viscosity"]):
+        del merged["pressure_viscosity"]
     for key, own in oil.items():
         theirs = merged.get(key)
         if isinstance(own, Mapping) and isinstance(theirs, Mapping) and own.get("law", theirs["law"]) == theirs["law"]:
-            merged[key] = {**theirs, **own}
+            # a note on the catalogue's values does not speak for those that replace them
+            kept = {name: value for name, value in theirs.items() if name != "note" or not _changes(own, theirs)}
+            merged[key] = {**kept, **own}
         else:
             merged[key] = own
     return merged
+
+
+def _changes(own: Any, theirs: Mapping[str, Any]) -> bool:
+    return not isinstance(own, Mapping) or any(theirs.get(key) != value for key, value in own.items())
 
 
 def missing_sources(data: Mapping[str, Any]) -> list[str]:
@@ -82,18 +111,30 @@ def missing_sources(data: Mapping[str, Any]) -> list[str]:
 
 def lubricant(table: OilTable) -> Lubricant:
     """The laws of a valid oil table, its parameters numpy scalars."""
-    assert table.viscosity is not None
-    viscosity = ModifiedWLF(**_parameters(table.viscosity))
+    density = None if table.density is None else LinearDensity(**_linear(table.density))
+    viscosity = _viscosity(table, density)
+    laws = (table.viscosity, table.pressure_viscosity, table.rheology, table.density, table.conductivity)
+    notes = tuple(law.note for law in laws if isinstance(law, Law) and law.note)
     return Lubricant(
         viscosity=viscosity,
         pressure_viscosity=_pressure_viscosity(table, viscosity),
-        rheology=None if table.rheology is None else ExponentialRheology(**_parameters(table.rheology)),
-        density=None if table.density is None else LinearDensity(**_parameters(table.density)),
-        conductivity=None if table.conductivity is None else LinearConductivity(**_parameters(table.conductivity)),
+        rheology=None if table.rheology is None else _rheology(table.rheology),
+        density=density,
+        conductivity=None if table.conductivity is None else LinearConductivity(**_linear(table.conductivity)),
+        notes=(*viscosity.notes, *notes),
     )
 
 
-def _pressure_viscosity(table: OilTable, viscosity: ModifiedWLF) -> AbstractPressureViscosity:
+def _viscosity(table: OilTable, density: LinearDensity | None) -> AbstractViscosity:
+    law = table.viscosity
+    assert law is not None
+    if isinstance(law, TwoViscositiesTable):
+        assert density is not None
+        return WaltherRoelands(density=density, **_parameters(law))
+    return VISCOSITIES[type(law)](**_parameters(law))
+
+
+def _pressure_viscosity(table: OilTable, viscosity: AbstractViscosity) -> AbstractPressureViscosity:
     law = table.pressure_viscosity
     if isinstance(law, float):
         return ConstantPressureViscosity(np.float64(law))
@@ -101,10 +142,23 @@ def _pressure_viscosity(table: OilTable, viscosity: ModifiedWLF) -> AbstractPres
         return ConstantPressureViscosity(**_parameters(law))
     if isinstance(law, FittedPressureViscosityTable):
         return FittedPressureViscosity(**_parameters(law))
-    assert isinstance(law, IntegratedPressureViscosityTable)
-    return IntegratedPressureViscosity(viscosity)
+    assert law is None or isinstance(law, IntegratedPressureViscosityTable)
+    return NoPressureViscosity() if isinstance(viscosity, ConstantViscosity) else IntegratedPressureViscosity(viscosity)
 
 
-def _parameters(law: Law) -> dict[str, np.float64]:
+def _rheology(table: ExponentialRheologyTable) -> ExponentialRheology:
+    # the exponent is static
+    return ExponentialRheology(**{**_parameters(table), "exponent": table.exponent})
+
+
+def _linear(law: float | Law) -> dict[str, Any]:
+    """Parameters of a linear law; a number is the same at every temperature."""
+    if isinstance(law, Law):
+        return _parameters(law)
+    return {"value": np.float64(law), "slope": np.float64(0.0), "reference_temperature": np.float64(ROOM_TEMPERATURE)}
+
+
+def _parameters(law: Law) -> dict[str, Any]:
     # numpy scalars are leaves of the scene; plain Python floats would be compiled in as constants
-    return {name: np.float64(value) for name, value in law.model_dump(exclude=_DOCUMENTATION).items()}
+    given = law.model_dump(exclude=_DOCUMENTATION, exclude_none=True)
+    return {name: np.float64(value) if isinstance(value, float) else value for name, value in given.items()}

@@ -57,6 +57,7 @@ FLOW = Dimension("a volume flow", "m^3/s", "150 l/h")
 DENSITY = Dimension("a density", "kg/m^3", "7850 kg/m^3")
 DENSITY_SLOPE = Dimension("a change of density with temperature", "kg/m^3/K", "-0.752 kg/m^3/K")
 VISCOSITY = Dimension("a dynamic viscosity", "Pa*s", "4.7 mPa*s")
+KINEMATIC_VISCOSITY = Dimension("a kinematic viscosity", "m^2/s", "32 cSt")
 CONDUCTIVITY = Dimension("a thermal conductivity", "W/(m*K)", "0.147 W/(m*K)")
 CONDUCTIVITY_SLOPE = Dimension("a change of conductivity with temperature", "W/(m*K^2)", "-2.2e-4 W/(m*K^2)")
 KELVIN_PER_PRESSURE = Dimension("a temperature over a pressure", "K/Pa", "-2348.8 K/GPa")
@@ -238,11 +239,13 @@ InversePressure = Annotated[float, _quantity(INVERSE_PRESSURE)]
 PositiveInversePressure = Annotated[float, _quantity(INVERSE_PRESSURE, "> 0")]
 Temperature = Annotated[float, _quantity(TEMPERATURE, "> 0")]
 TemperatureDifference = Annotated[float, _quantity(TEMPERATURE_DIFFERENCE)]
+NonNegativeTemperatureDifference = Annotated[float, _quantity(TEMPERATURE_DIFFERENCE, ">= 0")]
 PositiveTemperatureDifference = Annotated[float, _quantity(TEMPERATURE_DIFFERENCE, "> 0")]
 NonNegativeFlow = Annotated[float, _quantity(FLOW, ">= 0")]
 PositiveDensity = Annotated[float, _quantity(DENSITY, "> 0")]
 DensitySlope = Annotated[float, _quantity(DENSITY_SLOPE)]
 PositiveViscosity = Annotated[float, _quantity(VISCOSITY, "> 0")]
+PositiveKinematicViscosity = Annotated[float, _quantity(KINEMATIC_VISCOSITY, "> 0")]
 PositiveConductivity = Annotated[float, _quantity(CONDUCTIVITY, "> 0")]
 ConductivitySlope = Annotated[float, _quantity(CONDUCTIVITY_SLOPE)]
 KelvinPerPressure = Annotated[float, _quantity(KELVIN_PER_PRESSURE)]

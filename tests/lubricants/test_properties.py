@@ -9,7 +9,9 @@ import jax.numpy as jnp
 import numpy as np
 import pint
 import pytest
-from reference_oils import OILS, mobil_jet_ii
+from reference_oils import FITTED_COEFFICIENTS, OILS, mobil_jet_ii
+
+from jaxbearing.lubricants import ExponentialRheology, Lubricant
 
 PUBLISHED = tomllib.loads((Path(__file__).parents[1] / "published" / "lubricants.toml").read_text())
 
@@ -39,7 +41,8 @@ def test_rheology_at_its_reference_and_far_away():
 
 def test_conductivity():
     law = mobil_jet_ii().conductivity
-    np.testing.assert_allclose(law.conductivity(373.15), 0.1472326, rtol=1e-6)  # seven printed digits
+    row = next(row for row in PUBLISHED["row"] if row["quantity"] == "mobil_jet_ii at 100 C")
+    np.testing.assert_allclose(law.conductivity(row["temperature"]), row["conductivity"], rtol=row["rtol"])
     np.testing.assert_allclose(law.conductivity(300.0), 0.1635, rtol=4e-4)  # four printed digits
     t = np.linspace(243.0, 473.0, 24)
     # the floor: < 1e-12 on the range of use
@@ -50,7 +53,8 @@ def test_conductivity():
 
 
 def test_density():
-    np.testing.assert_allclose(mobil_jet_ii().density.density(373.15), 938.2, rtol=1e-12)
+    row = next(row for row in PUBLISHED["row"] if row["quantity"] == "mobil_jet_ii at 100 C")
+    np.testing.assert_allclose(mobil_jet_ii().density.density(row["temperature"]), row["density"], rtol=1e-12)
 
 
 def test_inlet_oil():
@@ -59,23 +63,49 @@ def test_inlet_oil():
     assert oil.viscosity.shape == oil.log_slope.shape == oil.conductivity.shape == (2, 1)
     np.testing.assert_allclose(oil.viscosity[1, 0], 0.004867549, rtol=1e-6)
     assert OILS["nye_186a"].at(300.0).density is None
-    assert OILS["nye_186a"].at(300.0).conductivity is None
+    bare = Lubricant(lubricant.viscosity, lubricant.pressure_viscosity).at(300.0)
+    assert (bare.density, bare.conductivity) == (None, None)
     batched = jax.vmap(lubricant.at)(jnp.asarray([300.0, 373.15]))
     np.testing.assert_allclose(batched.viscosity, oil.viscosity[:, 0], rtol=1e-14)
 
 
+def test_rheology_refuses_an_unknown_viscous_function():
+    with pytest.raises(ValueError, match="viscous_function: found 'eyring'"):
+        ExponentialRheology(300.0, 1e5, 0.0, 0.0, 1e6, 0.0, 0.0, viscous_function="eyring")
+
+
+def reference(name, table):
+    """The law in `reference_oils`; alpha* of the data files is the closed form."""
+    if table == "pressure_viscosity" and name in FITTED_COEFFICIENTS:
+        return FITTED_COEFFICIENTS[name]
+    return getattr(OILS[name], table)
+
+
 @pytest.mark.parametrize("table", ["viscosity", "pressure_viscosity", "rheology", "density", "conductivity"])
-def test_data_file_is_the_reference_oil(table):
-    file = resources.files("jaxbearing.lubricants") / "oils" / "mobil_jet_ii.toml"
+@pytest.mark.parametrize("name", list(OILS))
+def test_data_file_is_the_reference_oil(name, table):
+    file = resources.files("jaxbearing.lubricants") / "oils" / f"{name}.toml"
     data = tomllib.loads(file.read_text())
-    assert data["name"] == "mobil_jet_ii"
-    entries = dict(data[table])
-    sources, _law = entries.pop("sources"), entries.pop("law")
+    assert data["name"] == name
+    law = reference(name, table)
+    assert (table in data) == (law is not None)
+    if law is None:
+        return
+    entries = {key: value for key, value in data[table].items() if key not in ("law", "sources", "note")}
+    sources = data[table]["sources"]
     units = pint.UnitRegistry()
-    law = getattr(mobil_jet_ii(), table)
-    assert set(entries) == set(vars(law))
+    assert set(entries) == {key for key, value in vars(law).items() if value is not None}
     for key, value in entries.items():
         assert sources.get(key) or sources.get("all")
+        if key == "viscous_function":
+            assert value == law.viscous_function
+            continue
         number = units.Quantity(value).to_base_units().magnitude if isinstance(value, str) else value
         # the unit conversion rounds in the last digits
         np.testing.assert_allclose(number, getattr(law, key), rtol=1e-14)
+
+
+@pytest.mark.parametrize("name", ["pennzane_x2000", "fomblin_z25"])
+def test_densities_of_table_9(name):
+    printed = PUBLISHED["space_oils"][name]["density"]
+    np.testing.assert_allclose(OILS[name].density.density(jnp.asarray([288.75, 373.15])), printed, rtol=1e-15)
