@@ -28,6 +28,7 @@ if TYPE_CHECKING:
     from .scenes.errors import SceneError as SceneError
     from .scenes.reader import builtin_names as builtin_names
     from .scenes.reader import load_scene as load_scene
+    from .sensitivity import sensitivities as sensitivities
 
 __version__ = "0.1.0"
 
@@ -40,6 +41,7 @@ _LAZY = {
     "Status": ".numerics.status",
     "builtin_names": ".scenes.reader",
     "load_scene": ".scenes.reader",
+    "sensitivities": ".sensitivity",
 }
 """Public names that pull in the edge (units, validation) or are only needed by some; imported on first use."""
 

@@ -10,13 +10,15 @@ from .bearings.cylindrical_roller import CylindricalRollerBearing
 from .bearings.parts import AbstractScene
 from .bearings.roller_steady import solve_steady
 from .bearings.solution import Solution
+from .numerics.compiling import quickly_compiled
 from .numerics.newton import NewtonOptions
 from .numerics.precision import as_float, require_x64
 
 _STEADY: dict[type, Callable[..., Solution]] = {CylindricalRollerBearing: solve_steady}
 
 
-def _steady(scene: AbstractScene) -> Callable[..., Solution]:
+def steady_function(scene: AbstractScene) -> Callable[..., Solution]:
+    """What solves this kind of scene. **Raises:** `TypeError` for an unknown kind."""
     try:
         return _STEADY[type(scene)]
     except KeyError:
@@ -24,9 +26,12 @@ def _steady(scene: AbstractScene) -> Callable[..., Solution]:
         raise TypeError(f"cannot solve a {type(scene).__name__}; solve takes: {known}") from None
 
 
-@eqx.filter_jit
-def _solve(scene: AbstractScene, options: NewtonOptions) -> Solution:
-    return _steady(scene)(scene, options)
+def _solve_any(scene: AbstractScene, options: NewtonOptions) -> Solution:
+    return steady_function(scene)(scene, options)
+
+
+_solve = eqx.filter_jit(_solve_any)
+_solve_once = quickly_compiled(_solve_any)
 
 
 def solve(scene: AbstractScene, *, throw: bool = True, options: NewtonOptions | None = None) -> Solution:
@@ -46,11 +51,19 @@ def solve(scene: AbstractScene, *, throw: bool = True, options: NewtonOptions | 
     kind of scene; `RuntimeError` where 64-bit floats are switched off.
     """
     require_x64()
-    _steady(scene)
+    steady_function(scene)
     solution = _solve(jax.tree.map(as_float, scene), NewtonOptions() if options is None else options)
     if throw:
         solution.raise_if_failed()
     return solution
+
+
+def solve_once(scene: AbstractScene) -> Solution:
+    """What `solve(scene, throw=False)` returns, for a process that solves one scene and ends (see
+    `numerics.compiling`). Not to be called inside `jax.jit`."""
+    require_x64()
+    steady_function(scene)
+    return _solve_once(jax.tree.map(as_float, scene), NewtonOptions())
 
 
 def jit_solver(scene: AbstractScene, *, options: NewtonOptions | None = None) -> Callable[..., Solution]:
@@ -62,7 +75,7 @@ def jit_solver(scene: AbstractScene, *, options: NewtonOptions | None = None) ->
     """
     chosen = NewtonOptions() if options is None else options
     require_x64()
-    _steady(scene)
+    steady_function(scene)
 
     def fast(other: AbstractScene | None = None, /, **operation: Any) -> Solution:
         base = scene if other is None else other

@@ -23,6 +23,7 @@ RANK = {
     "solve": 7,
     "sweep": 7,
     "simulate": 7,
+    "sensitivity": 7,
     "scenes": 8,
     "plots": 8,
     "report": 8,

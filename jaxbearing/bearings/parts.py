@@ -11,6 +11,7 @@ from ..contacts.laws import ContactLaws
 from ..materials import Material
 from ..numerics.checks import known, require
 from ..numerics.precision import as_float
+from .labels import label
 
 __all__ = ["AbstractScene", "ContactLaws", "Drag", "Materials", "Operation"]
 
@@ -39,11 +40,11 @@ class Operation(eqx.Module):
     - `oil_flow`: supplied to the bearing, m^3/s.
     """
 
-    inner_speed: Scalar = number()
-    radial_load: Scalar = number()
-    oil_temperature: Scalar = number(373.15)
-    oil_flow: Scalar = number(0.0)
-    outer_speed: Scalar = number(0.0)
+    inner_speed: Scalar = number(metadata=label("rad/s", "inner ring speed"))
+    radial_load: Scalar = number(metadata=label("N", "radial load"))
+    oil_temperature: Scalar = number(373.15, metadata=label("K", "oil temperature"))
+    oil_flow: Scalar = number(0.0, metadata=label("m^3/s", "oil flow"))
+    outer_speed: Scalar = number(0.0, metadata=label("rad/s", "outer ring speed"))
 
     def __check_init__(self):
         require(

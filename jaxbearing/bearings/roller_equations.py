@@ -3,15 +3,22 @@ r"""Equations of the steady cylindrical roller bearing, as a block-arrow system.
 Every roller orbits at the cage speed W; per roller (source eqs. (27)-(29), (38)), with s the spin (see
 `cylindrical_roller` for frames and signs):
 
-- approach: $J_d/2 + \delta_i + \delta_o - h_i - h_o = d\cdot n$, unknown ln Qi, $Q_o = Q_i + m R_m W^2$ (the pocket
+- approach: $J_d/2 + \delta_i + \delta_o - h_i - h_o = d\cdot n$ (as the logarithm of the ratio of the positive terms
+  on its two sides), unknown ln Qi, $Q_o = Q_i + m R_m W^2$ (the pocket
   friction, about 0.1 % of the centrifugal force, is left out of it, so Q does not depend on the pocket);
-- moment: $R_R(F_{C1} + F_{C2} - F_i - F_o) + M_{flange} + M_{rail} = 0$, unknown s;
-- tangential: $Q_{C1} - Q_{C2} = F_i - F_o + F_E + F_{Ec} - F_{OL}$, eliminated: the two pocket films follow from it
-  in closed form (`gaps.Pocket`);
+- moment: $R_R(F_{C1} + F_{C2} - F_i - F_o) + M_{flange} + M_{rail} + \frac{R_R}{2}(P_i + P_o) = 0$, unknown s;
+- tangential: $Q_{C1} - Q_{C2} = F_i - F_o + F_E + F_{Ec} - F_{OL} + F_P$, eliminated: the two pocket films follow from
+  it in closed form (`gaps.Pocket`);
 
 and globally: ring, $\sum Q_i n = F_r$ (source eq. (37)), unknown the ring displacement d; cage moment (source
 eq. (33)), unknown W. The cage offset is eliminated too: the land must carry the sum of the pocket forces, and its
 eccentricity is the root of a monotone scalar equation (`gaps.ShortJournal.static_equilibrium`).
+
+Rolling resistance, where the scene models it (the source omits it): in each contact the film's pressure leans against
+the motion by $P = \ell\int h\,dp/dx\,dx$. Its shear, -P/2, brakes both surfaces; its pressure passes through both
+centres and pushes the roller on by $P R/R_R$, R the reduced radius, and the ring by what is left. So
+$F_P = P_i (R_i'/R_R - 1/2) - P_o (R_o'/R_R - 1/2)$, with $R_i', R_o'$ the reduced radii, each ring is braked by P/2 at
+its raceway, and the dissipation is P times the mean speed.
 
 The sign of $F_{C2} - F_{C1}$ in the cage's x balance differs from the source's eq. (31), which contradicts its own
 eq. (32) and action = reaction. Each interaction gives its force and its dissipation from one and the same speed.
@@ -20,6 +27,7 @@ eq. (32) and action = reaction. Each interaction gives its force and its dissipa
 from typing import Literal, NamedTuple
 
 import equinox as eqx
+import jax
 import jax.numpy as jnp
 from jaxtyping import Array, Float
 
@@ -44,6 +52,10 @@ LENGTH_UNIT = 1e-5
 """Scale of displacements and approaches, m."""
 LOG_LOAD_RANGE = (-40.0, 18.0)
 """ln(load / 1 N) that an iterate may take."""
+EASED_ENTRAINMENT = 0.3
+"""Entrainment speed that a solve which failed at once is given first, over that of rolling without slip."""
+EASED_PRESSURE = 1.5e9
+"""Hertz pressure of the most loaded roller, Pa, at which traction surely drives the rollers: given first after that."""
 
 
 class RollerState(NamedTuple):
@@ -199,6 +211,23 @@ class LubricatedRollerSystem(AbstractArrowSystem):
             return ArrowPoint(log_load[None, :], ring)
         return ArrowPoint(jnp.stack([log_load, jnp.zeros(n)]), jnp.concatenate([ring, jnp.zeros(1)]))
 
+    @property
+    def paths(self) -> int:
+        return 0 if self.cage is None else 2
+
+    def eased(self, ease, path):
+        """Path 0, more entrainment in every contact: where a ring and the cage nearly turn together a film collapses,
+        and the friction of a roller falls with its slip; entrainment from outside makes it grow again. Path 1, more
+        load: it pins the rollers to rolling without slip."""
+        extra = EASED_ENTRAINMENT * jnp.abs(self.kinematics.orbit_scale) * self.kinematics.outer_radius
+        offset = self.laws.entrainment_offset + jnp.where(path == 0, ease**3 * extra, 0.0)
+        contact = jax.tree.map(lambda values: _per_race(values)[0], self.contact)
+        per_roller = 2.0 * jnp.pi * EASED_PRESSURE**2 * contact.reduced_radius * contact.length
+        heavy = per_roller / contact.reduced_modulus * self.azimuth.shape[0] / 4.0
+        factor = jnp.where(path == 1, jnp.maximum(heavy / self.load_scale(), 1.0) ** ease, 1.0)
+        where = lambda system: (system.ring_load, system.laws.entrainment_offset)
+        return eqx.tree_at(where, self, (self.ring_load * factor, offset))
+
     def element(self, unknowns, shared):
         state = self.rollers(unknowns, shared)
         balance = state.load[0][None, :] * self.directions
@@ -243,7 +272,11 @@ class LubricatedRollerSystem(AbstractArrowSystem):
         mean_speed, sliding = motion.surface_speeds(orbit_change, spin_change)
         contact = self.laws.evaluate(self.contact, load, mean_speed, sliding, self.oil, self.inlet)
         approach = self.contact.palmgren_approach(load)
-        gap = self.radial_clearance + jnp.sum(approach - contact.film, axis=0) - shift
+        approach_sum, film_sum = jnp.sum(approach, axis=0), jnp.sum(contact.film, axis=0)
+        # both sides positive: their logarithms are nearly linear in ln Q, for a film in a gap and for steel on steel
+        opening = self.radial_clearance - shift
+        apart = approach_sum + jnp.maximum(opening, 0.0)
+        together = film_sum + jnp.maximum(-opening, 0.0)
         state = RollerState(
             load=load,
             approach=approach,
@@ -257,7 +290,7 @@ class LubricatedRollerSystem(AbstractArrowSystem):
             outer_flange=None,
             rails=None,
             drag_force=None,
-            approach_error=gap / LENGTH_UNIT,
+            approach_error=jnp.log(apart / together),
             moment_error=None,
             cage_moment=None,
             cage_force=None,
@@ -280,6 +313,11 @@ class LubricatedRollerSystem(AbstractArrowSystem):
             if end is not None:
                 tangential = tangential + end.tangential_force
                 moment = moment + end.moment
+        rolling = state.contact.rolling_force
+        if rolling is not None:
+            lean = _per_race(self.contact.reduced_radius) / motion.roller_radius - 0.5
+            tangential = tangential + rolling[0] * lean[0] - rolling[1] * lean[1]
+            moment = moment + 0.5 * motion.roller_radius * (rolling[0] + rolling[1])
         if cage.drag is not None:
             drag = cage.drag.force(motion.pitch_radius * orbit, cage.drag_density)
             tangential = tangential - drag

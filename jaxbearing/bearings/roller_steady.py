@@ -304,6 +304,7 @@ def _cage_slip(orbit: Array, motion: RollerKinematics) -> Array:
 def _losses(system: LubricatedRollerSystem, state: RollerState, land: LandState) -> PowerLoss:
     """Dissipation by location, each from the force and the speed of its own interaction."""
     motion, traction, pocket = system.kinematics, state.contact.traction, state.pocket
+    rolling = state.contact.rolling_force
     assert traction is not None
     assert pocket is not None
     sliding = jnp.sum(traction * state.sliding_speed, axis=1)
@@ -312,6 +313,7 @@ def _losses(system: LubricatedRollerSystem, state: RollerState, land: LandState)
     losses = {
         "inner_raceway": sliding[0],
         "outer_raceway": sliding[1],
+        "rolling_resistance": None if rolling is None else jnp.sum(rolling * state.mean_speed),
         "pocket": jnp.sum(friction * motion.roller_radius * state.spin_speed),
         "element_ends": None if state.rails is None else jnp.sum(state.rails.power),
         "flange": sum(jnp.sum(end.power) for end in flanges) if flanges else None,
@@ -335,6 +337,10 @@ def _ring_torques(system: LubricatedRollerSystem, state: RollerState, land: Land
     assert cage is not None
     inner = jnp.sum(traction[0]) * motion.inner_radius
     outer = -jnp.sum(traction[1]) * motion.outer_radius
+    rolling = state.contact.rolling_force
+    if rolling is not None:
+        inner = inner + 0.5 * jnp.sum(rolling[0]) * motion.inner_radius
+        outer = outer - 0.5 * jnp.sum(rolling[1]) * motion.outer_radius
     if state.inner_flange is not None:
         inner = inner - jnp.sum(state.inner_flange.ring_moment)
     if state.outer_flange is not None:

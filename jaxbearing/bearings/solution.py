@@ -8,13 +8,8 @@ import jax
 from jaxtyping import Array, Bool, Float, Int
 
 from ..numerics.status import SolveError, Status
+from .labels import label as label
 from .parts import Operation
-
-
-def label(unit: str, description: str) -> dict[str, str]:
-    """Metadata of a result: its SI unit and what it is."""
-    return {"unit": unit, "description": description}
-
 
 INNER_TOLERANCE = 1e-8
 """Residual of a nested solve above which it is named as the reason of a failure."""
@@ -127,14 +122,14 @@ class PowerLoss(eqx.Module):
 class Solution(eqx.Module):
     """Result of a steady solve. Where `status` is not converged every result is NaN, never the last iterate."""
 
-    status: Int[Array, ""]
+    status: Int[Array, ""] = eqx.field(metadata=label("1", "how the solve ended"))
     iterations: Int[Array, ""] = eqx.field(metadata=label("1", "Newton steps"))
     residual_norm: Float[Array, ""] = eqx.field(metadata=label("1", "largest scaled residual"))
     inner_residual: Float[Array, ""] = eqx.field(
         metadata=label("1", "largest residual of nested solves: inlet temperature, cage land")
     )
-    worst_equation: Int[Array, ""]
-    worst_element: Int[Array, ""]
+    worst_equation: Int[Array, ""] = eqx.field(metadata=label("1", "equation with the largest scaled residual"))
+    worst_element: Int[Array, ""] = eqx.field(metadata=label("1", "rolling element with the largest scaled residual"))
     operation: Operation
     ring: RingDisplacement
     cage: CageState | None
@@ -150,7 +145,7 @@ class Solution(eqx.Module):
     ring_freedom: tuple[str, ...] = eqx.field(static=True)
     equation_names: tuple[str, ...] = eqx.field(static=True)
     global_equations: int = eqx.field(static=True)
-    unknowns: int = eqx.field(static=True)
+    unknowns: int = eqx.field(static=True, metadata=label("1", "unknowns of the equations"))
     notes: tuple[str, ...] = eqx.field(static=True, default=())
 
     @property

@@ -1,13 +1,33 @@
-"""One lubricated line contact: Hertz and Palmgren, film thickness, thermal factors, traction."""
+"""One lubricated contact: Hertz and Palmgren, film thickness, thermal factors, traction, rolling resistance."""
 
 from .film import AbstractLineFilm as AbstractLineFilm
 from .film import DowsonHigginson as DowsonHigginson
+from .film import DowsonToyoda as DowsonToyoda
+from .film import Grubin as Grubin
 from .film import MartinBlend as MartinBlend
 from .film import Moes as Moes
+from .film import PanHamrockCentral as PanHamrockCentral
+from .film import PanHamrockMinimum as PanHamrockMinimum
 from .line import LineContact as LineContact
+from .point import PointContact as PointContact
+from .point_film import AbstractPointFilm as AbstractPointFilm
+from .point_film import HamrockDowsonCentral as HamrockDowsonCentral
+from .point_film import HamrockDowsonMinimum as HamrockDowsonMinimum
+from .point_film import NijenbanningVennerMoes as NijenbanningVennerMoes
+from .rolling import AbstractRollingResistance as AbstractRollingResistance
+from .rolling import ErtelGrubinRollingResistance as ErtelGrubinRollingResistance
+from .rolling import RigidRollingResistance as RigidRollingResistance
+from .rolling import point_rolling_moment as point_rolling_moment
 from .thermal import AbstractThermalFactor as AbstractThermalFactor
 from .thermal import Gupta as Gupta
+from .thermal import HsuLee as HsuLee
 from .thermal import NoThermalReduction as NoThermalReduction
 from .thermal import inlet_temperature_rise as inlet_temperature_rise
 from .traction import AbstractTraction as AbstractTraction
 from .traction import MaxwellEyring as MaxwellEyring
+from .traction import MeanPressureTraction as MeanPressureTraction
+from .viscous import AbstractViscousFunction as AbstractViscousFunction
+from .viscous import BairWiner as BairWiner
+from .viscous import ElsharkawyHamrock as ElsharkawyHamrock
+from .viscous import GecimWiner as GecimWiner
+from .viscous import ReeEyring as ReeEyring

@@ -1,6 +1,7 @@
 """Isothermal film thickness of a lubricated line contact."""
 
 import abc
+from typing import ClassVar
 
 import equinox as eqx
 import jax.numpy as jnp
@@ -8,7 +9,7 @@ from jaxtyping import Array, Float
 
 from .._types import Scalar, Values
 from ..numerics.safe import log_add, smooth_abs
-from .line import LOAD_FLOOR, LineContact, log_entrainment_sum
+from .line import LOAD_FLOOR, LineContact, log_entrainment_sum, log_material_number
 
 MARTIN_CONSTANT = 4.894968
 """h Q/(mu u R l) of a rigid isoviscous cylinder with the Reynolds exit condition, u the mean speed: Martin (1916).
@@ -20,6 +21,9 @@ LOG_2 = 0.6931471805599453
 
 class AbstractLineFilm(eqx.Module):
     """Film thickness of a line contact from load, speed and the oil at the inlet."""
+
+    piezoviscous_only: ClassVar[bool]
+    """Whether the law holds only for an oil whose viscosity rises with pressure: for others its film is about 0."""
 
     @abc.abstractmethod
     def log_thickness(
@@ -37,7 +41,7 @@ class AbstractLineFilm(eqx.Module):
         - `load`: N, >= 0.
         - `entrainment_speed`: mean surface speed (u1 + u2)/2 relative to the contact, m/s; only its modulus counts.
         - `viscosity`: at the inlet temperature and ambient pressure, Pa s, > 0.
-        - `pressure_viscosity`: reciprocal isoviscous pressure at the inlet temperature, 1/Pa, > 0.
+        - `pressure_viscosity`: reciprocal isoviscous pressure at the inlet temperature, 1/Pa, >= 0.
         """
 
 
@@ -49,13 +53,16 @@ class Moes(AbstractLineFilm):
     $H_{RI} = 3/M$, $H_{EI} = 2.621 M^{-1/5}$, $H_{RP} = 1.287 L^{2/3}$, $H_{EP} = 1.311 M^{-1/8}L^{3/4}$,
     $s = [7 + 8\exp(-2 H_{EI}/H_{RI})]/5$.
 
-    **Limits:** Martin's $3/M$ as M and L -> 0, Ertel-Grubin's $H_{EP}$ and Blok's $H_{RP}$ at large L.
+    **Limits:** Martin's $3/M$ as M and L -> 0; the isoviscous film at $\alpha$ = 0, floored at 1e-25 1/Pa, within
+    1e-12; Ertel-Grubin's $H_{EP}$ and Blok's $H_{RP}$ at large L.
     **Validity:** smooth, fully flooded, isothermal, Newtonian inlet. About 5 % below the source's full numerical
     solution (table 18). M is floored as $\sqrt{M^2 + 10^{-12}}$, so the film of an unloaded contact is finite and
     the caller limits it by the clearance; the speed levels off at 1e-6 m/s.
     **Reference:** Moes (1992), Wear 159, 57. The source names Cheng's line formula without printing it; this one
     stands in for it.
     """
+
+    piezoviscous_only: ClassVar[bool] = False
 
     def log_thickness(
         self,
@@ -69,7 +76,7 @@ class Moes(AbstractLineFilm):
         log_u = log_entrainment_sum(entrainment_speed) + jnp.log(viscosity) - jnp.log(stiffness)
         m = load / (contact.length * stiffness) * jnp.exp(-0.5 * log_u)
         log_m = jnp.log(smooth_abs(m, MOES_LOAD_FLOOR))
-        log_l = jnp.log(pressure_viscosity * contact.reduced_modulus) + 0.25 * log_u
+        log_l = log_material_number(pressure_viscosity, contact.reduced_modulus) + 0.25 * log_u
 
         rigid_isoviscous = jnp.log(3.0) - log_m
         elastic_isoviscous = jnp.log(2.621) - 0.2 * log_m
@@ -83,15 +90,44 @@ class Moes(AbstractLineFilm):
         return log_h + 0.5 * log_u + jnp.log(contact.reduced_radius)
 
 
+def _log_groups(
+    contact: LineContact, load: Values, entrainment_speed: Values, viscosity: Values, pressure_viscosity: Values
+) -> tuple[Array, Array, Array]:
+    r"""ln of $U = \mu u/(E'R)$ with the mean speed u, $G = \alpha E'$ and $W = Q/(E'R\ell)$."""
+    stiffness = contact.reduced_modulus * contact.reduced_radius
+    log_speed = log_entrainment_sum(entrainment_speed) - LOG_2 + jnp.log(viscosity) - jnp.log(stiffness)
+    log_material = log_material_number(pressure_viscosity, contact.reduced_modulus)
+    log_load = jnp.log(smooth_abs(load, LOAD_FLOOR)) - jnp.log(contact.length * stiffness)
+    return log_speed, log_material, log_load
+
+
+def _power_law(
+    contact: LineContact,
+    log_groups: tuple[Array, Array, Array],
+    factor: float,
+    speed: float,
+    material: float,
+    load: float,
+) -> Float[Array, "..."]:
+    """ln of R factor U^speed G^material W^load."""
+    log_speed, log_material, log_load = log_groups
+    log_radius = jnp.log(contact.reduced_radius)
+    return jnp.log(factor) + log_radius + speed * log_speed + material * log_material + load * log_load
+
+
 class DowsonHigginson(AbstractLineFilm):
     r"""Minimum film of an elastohydrodynamic line contact.
 
-    $h_{min}/R = 2.65\,[\mu u/(E'R)]^{0.70}(\alpha E')^{0.54}[Q/(E'R\ell)]^{-0.13}$, u the *mean* speed.
+    $h_{min}/R = 2.65\,U^{0.70}G^{0.54}W^{-0.13}$, $U = \mu u/(E'R)$ with u the *mean* speed, $G = \alpha E'$,
+    $W = Q/(E'R\ell)$.
 
     **Validity:** the elastic-piezoviscous regime only: at light load it is far too thin (see `MartinBlend`). The
-    load levels off at 1e-9 N, the speed at 0.5e-6 m/s.
+    load levels off at 1e-9 N, the speed at 0.5e-6 m/s, alpha at 1e-25 1/Pa. About 4 % below the source's full
+    numerical solution (table 18).
     **Reference:** Dowson and Higginson, *Elastohydrodynamic Lubrication* (1966, revised 1977).
     """
+
+    piezoviscous_only: ClassVar[bool] = True
 
     def log_thickness(
         self,
@@ -101,12 +137,104 @@ class DowsonHigginson(AbstractLineFilm):
         viscosity: Values,
         pressure_viscosity: Values,
     ) -> Float[Array, "..."]:
-        stiffness = contact.reduced_modulus * contact.reduced_radius
-        log_speed = log_entrainment_sum(entrainment_speed) - LOG_2 + jnp.log(viscosity) - jnp.log(stiffness)
-        log_material = jnp.log(pressure_viscosity * contact.reduced_modulus)
-        log_load = jnp.log(smooth_abs(load, LOAD_FLOOR)) - jnp.log(contact.length * stiffness)
-        log_radius = jnp.log(contact.reduced_radius)
-        return jnp.log(2.65) + log_radius + 0.70 * log_speed + 0.54 * log_material - 0.13 * log_load
+        log_groups = _log_groups(contact, load, entrainment_speed, viscosity, pressure_viscosity)
+        return _power_law(contact, log_groups, 2.65, 0.70, 0.54, -0.13)
+
+
+class DowsonToyoda(AbstractLineFilm):
+    r"""Central film of an elastohydrodynamic line contact.
+
+    $h_c/R = 3.06\,U^{0.69}G^{0.56}W^{-0.10}$, groups as in `DowsonHigginson`.
+
+    **Validity:** the elastic-piezoviscous regime only, with the floors of `DowsonHigginson`. 4 and 0.1 % below the
+    source's full numerical solution (table 18).
+    **Reference:** Dowson and Toyoda (1979), Proc. 5th Leeds-Lyon Symposium, 60.
+    """
+
+    piezoviscous_only: ClassVar[bool] = True
+
+    def log_thickness(
+        self,
+        contact: LineContact,
+        load: Values,
+        entrainment_speed: Values,
+        viscosity: Values,
+        pressure_viscosity: Values,
+    ) -> Float[Array, "..."]:
+        log_groups = _log_groups(contact, load, entrainment_speed, viscosity, pressure_viscosity)
+        return _power_law(contact, log_groups, 3.06, 0.69, 0.56, -0.10)
+
+
+class PanHamrockCentral(AbstractLineFilm):
+    r"""Central film of an elastohydrodynamic line contact.
+
+    $h_c/R = 2.922\,U^{0.692}G^{0.470}W^{-0.166}$, groups as in `DowsonHigginson`.
+
+    **Validity:** the elastic-piezoviscous regime only, with the floors of `DowsonHigginson`. A quarter below the
+    source's full numerical solution (table 18).
+    **Reference:** Pan and Hamrock (1989), ASME J. Tribology 111, 246.
+    """
+
+    piezoviscous_only: ClassVar[bool] = True
+
+    def log_thickness(
+        self,
+        contact: LineContact,
+        load: Values,
+        entrainment_speed: Values,
+        viscosity: Values,
+        pressure_viscosity: Values,
+    ) -> Float[Array, "..."]:
+        log_groups = _log_groups(contact, load, entrainment_speed, viscosity, pressure_viscosity)
+        return _power_law(contact, log_groups, 2.922, 0.692, 0.470, -0.166)
+
+
+class PanHamrockMinimum(AbstractLineFilm):
+    r"""Minimum film of an elastohydrodynamic line contact.
+
+    $h_{min}/R = 1.714\,U^{0.694}G^{0.568}W^{-0.128}$, groups as in `DowsonHigginson`.
+
+    **Validity:** the elastic-piezoviscous regime only, with the floors of `DowsonHigginson`. 11 and 9 % below the
+    source's full numerical solution (table 18).
+    **Reference:** Pan and Hamrock (1989), ASME J. Tribology 111, 246.
+    """
+
+    piezoviscous_only: ClassVar[bool] = True
+
+    def log_thickness(
+        self,
+        contact: LineContact,
+        load: Values,
+        entrainment_speed: Values,
+        viscosity: Values,
+        pressure_viscosity: Values,
+    ) -> Float[Array, "..."]:
+        log_groups = _log_groups(contact, load, entrainment_speed, viscosity, pressure_viscosity)
+        return _power_law(contact, log_groups, 1.714, 0.694, 0.568, -0.128)
+
+
+class Grubin(AbstractLineFilm):
+    r"""Film at the inlet edge of the Hertz zone: the approximate solution of Ertel and Grubin.
+
+    $h_c/R = 1.95\,(GU)^{8/11}W^{-1/11}$, groups as in `DowsonHigginson`.
+
+    **Validity:** the elastic-piezoviscous regime only, with the floors of `DowsonHigginson`. 11 and 13 % below the
+    source's full numerical solution (table 18).
+    **Reference:** Grubin (1949), TsNIITMASh Book 30 (DSIR translation 337).
+    """
+
+    piezoviscous_only: ClassVar[bool] = True
+
+    def log_thickness(
+        self,
+        contact: LineContact,
+        load: Values,
+        entrainment_speed: Values,
+        viscosity: Values,
+        pressure_viscosity: Values,
+    ) -> Float[Array, "..."]:
+        log_groups = _log_groups(contact, load, entrainment_speed, viscosity, pressure_viscosity)
+        return _power_law(contact, log_groups, 1.95, 8.0 / 11.0, 8.0 / 11.0, -1.0 / 11.0)
 
 
 class MartinBlend(AbstractLineFilm):
@@ -123,6 +251,10 @@ class MartinBlend(AbstractLineFilm):
 
     film: AbstractLineFilm
     exponent: Scalar = 3.0
+
+    @property
+    def piezoviscous_only(self) -> bool:  # pyright: ignore[reportIncompatibleVariableOverride]  (the wrapped film's)
+        return self.film.piezoviscous_only
 
     def log_thickness(
         self,

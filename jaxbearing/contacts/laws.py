@@ -12,6 +12,7 @@ from ..numerics.precision import as_float
 from ..numerics.safe import smooth_abs
 from .film import AbstractLineFilm
 from .line import LineContact
+from .rolling import AbstractRollingResistance
 from .thermal import AbstractThermalFactor, NoThermalReduction, inlet_temperature_rise
 from .traction import AbstractTraction
 
@@ -20,7 +21,8 @@ SPEED_SMOOTHING = 5e-7
 
 
 class ContactState(NamedTuple):
-    """What one contact does: `film` m, `temperature_rise` K above the inlet, `traction` N (None: frictionless).
+    """What one contact does: `film` m, `temperature_rise` K above the inlet, `traction` N (None: frictionless),
+    `rolling_force` N (None: no rolling resistance), of the sign of the mean speed.
 
     `inner_residual` is that of the nested solve for the temperature rise, in units of ln(film).
     """
@@ -28,6 +30,7 @@ class ContactState(NamedTuple):
     film: Float[Array, "*batch"]
     temperature_rise: Float[Array, "*batch"] | None
     traction: Float[Array, "*batch"] | None
+    rolling_force: Float[Array, "*batch"] | None
     inner_residual: Float[Array, ""]
 
 
@@ -40,12 +43,14 @@ class ContactLaws(eqx.Module):
     - `traction`: friction force law, or `None`: frictionless, and then the rolling elements roll without slip.
     - `entrainment_offset`: added to the mean surface speed of every contact, m/s. 0 by default; the
       reference closure of the published check values uses 1 mm/s.
+    - `rolling`: rolling resistance, or `None`: left out.
     """
 
     film: AbstractLineFilm
     thermal: AbstractThermalFactor = NoThermalReduction()
     traction: AbstractTraction | None = None
     entrainment_offset: Scalar = eqx.field(converter=as_float, default=0.0)
+    rolling: AbstractRollingResistance | None = None
 
     def evaluate(
         self,
@@ -56,10 +61,11 @@ class ContactLaws(eqx.Module):
         lubricant: Lubricant,
         inlet: InletOil,
     ) -> ContactState:
-        """Film, temperature rise and traction.
+        """Film, temperature rise, traction and rolling resistance.
 
-        The film is phi_T times the isothermal film at the inlet temperature; the traction sees the oil at the
-        inlet temperature plus the rise that explains phi_T.
+        The film is phi_T times the isothermal film at the inlet temperature; traction and rolling resistance see
+        the oil at the inlet temperature plus the rise that explains phi_T (its pressure-viscosity coefficient at
+        the inlet temperature).
 
         **Arguments:** `load`, N, > 0; `mean_speed` (u1 + u2)/2 and `sliding_speed` u1 - u2, m/s, of either sign;
         `inlet` = `lubricant.at(inlet temperature)`, evaluated once for all contacts.
@@ -79,7 +85,10 @@ class ContactLaws(eqx.Module):
         traction = None
         if self.traction is not None:
             traction = self.traction.force(contact, load, film, speed, sliding_speed, base, lubricant, base_viscosity)
-        return ContactState(film, rise, traction, inner_residual)
+        rolling = None
+        if self.rolling is not None:
+            rolling = self.rolling.force(contact, film, mean_speed, base_viscosity, inlet.pressure_viscosity)
+        return ContactState(film, rise, traction, rolling, inner_residual)
 
 
 def _log_film_at(temperature, args):

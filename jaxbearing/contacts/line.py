@@ -11,6 +11,8 @@ LOAD_FLOOR = 1e-9
 """Smoothing of |load| in size, pressure and film, N: the relative error of |load| is < 1e-12 above 1 mN."""
 SPEED_FLOOR = 1e-6
 """Smoothing of |u1 + u2|, m/s: its relative error is < 1e-6 above 1 mm/s. A film at rest is tiny, not zero."""
+PRESSURE_VISCOSITY_FLOOR = 1e-25
+"""Added to the pressure-viscosity coefficient, 1/Pa: exact to round-off above 1e-9, ln is finite for isoviscous oil."""
 PALMGREN_LOAD_WIDTH = 1e-6
 """Load below which the approach is linear in load instead of Q^0.9, N: relative error 5e-14 at 1 N."""
 
@@ -75,3 +77,8 @@ LineContact.__init__.__doc__ = """**Arguments:**
 def log_entrainment_sum(entrainment_speed: Values) -> Float[Array, "..."]:
     """ln |u1 + u2| from the mean speed, m/s; levels off at 1e-6 m/s, gradient 0 at rest."""
     return jnp.log(smooth_abs(2.0 * entrainment_speed, SPEED_FLOOR))
+
+
+def log_material_number(pressure_viscosity: Values, reduced_modulus: Values) -> Float[Array, "..."]:
+    """ln of G = alpha E', with 1e-25 1/Pa added to alpha: finite for an isoviscous oil."""
+    return jnp.log((pressure_viscosity + PRESSURE_VISCOSITY_FLOOR) * reduced_modulus)

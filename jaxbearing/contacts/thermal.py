@@ -4,6 +4,7 @@ import abc
 from collections.abc import Callable
 
 import equinox as eqx
+import jax
 import jax.numpy as jnp
 from jaxtyping import Array, Float, PyTree
 
@@ -11,7 +12,8 @@ from .._types import Values
 from ..lubricants import InletOil
 from ..numerics.roots import Root, monotone_root
 from ..numerics.safe import regular_power, smooth_abs, softplus_floor
-from .line import SPEED_FLOOR, LineContact
+from .line import LOAD_FLOOR, SPEED_FLOOR, LineContact, log_material_number
+from .point import PointContact
 
 NUMERATOR_FLOOR = 0.05
 """Smallest numerator of Gupta's factor: the printed one turns negative at large thermal loading."""
@@ -20,6 +22,10 @@ LOADING_WIDTH = 1e-9
 """Thermal loading below which its powers are linear: the factor changes by < 1e-11 at loading >= 1e-3."""
 SLIDE_WIDTH = 1e-6
 """Slide ratio below which its power is linear."""
+SLIDE_LIMIT = 10.0
+"""Slide ratio beyond which Hsu and Lee's exponential no longer rises."""
+SLIDE_LIMIT_WIDTH = 0.2
+"""Smoothing of that limit: below 1e-12 at a slide ratio of 4.5."""
 RISE_BELOW = -5.0
 """Lower bracket end of the temperature rise, K: below 0, so that a rise of 0 is an ordinary root."""
 RISE_TOLERANCE = 1e-9
@@ -28,6 +34,17 @@ RISE_TOLERANCE = 1e-9
 
 class AbstractThermalFactor(eqx.Module):
     """Ratio of the film with inlet heating to the isothermal film."""
+
+    def thermal_loading(self, entrainment_speed: Values, oil: InletOil) -> Float[Array, "..."]:
+        r"""$L = -(\partial\mu/\partial T)\,u^2/k$. **Arguments:** u, m/s; `oil` at the inlet, with a conductivity."""
+        if oil.conductivity is None:
+            raise ValueError(f"{type(self).__name__}'s thermal factor needs the lubricant's conductivity: none given.")
+        slope = -jnp.multiply(oil.viscosity, oil.log_slope)
+        return slope / oil.conductivity * jnp.square(entrainment_speed)
+
+    def slide_ratio(self, entrainment_speed: Values, sliding_speed: Values) -> Float[Array, "..."]:
+        """S = 2|u1 - u2|/|u1 + u2|, >= 0; finite at rest. **Arguments:** (u1 + u2)/2 and u1 - u2, m/s."""
+        return 2.0 * jnp.abs(sliding_speed) / smooth_abs(2.0 * entrainment_speed, SPEED_FLOOR)
 
     @abc.abstractmethod
     def log_factor(
@@ -50,23 +67,22 @@ class AbstractThermalFactor(eqx.Module):
 
 
 class NoThermalReduction(AbstractThermalFactor):
-    """Factor 1: the isothermal film."""
+    """Factor 1: the isothermal film of a line or point contact."""
 
     def log_factor(
         self,
-        contact: LineContact,
+        contact: LineContact | PointContact,
         load: Values,
         entrainment_speed: Values,
         sliding_speed: Values,
         oil: InletOil,
     ) -> Float[Array, "..."]:
-        size = (contact.reduced_radius, contact.length, contact.reduced_modulus)
-        values = (*size, load, entrainment_speed, sliding_speed, oil.temperature)
+        values = (*jax.tree.leaves(contact), load, entrainment_speed, sliding_speed, oil.temperature)
         return jnp.zeros(jnp.broadcast_shapes(*(jnp.shape(value) for value in values)))
 
 
 class Gupta(AbstractThermalFactor):
-    r"""Gupta, Cheng, Zhu, Forster and Schrand's thermal factor.
+    r"""Gupta, Cheng, Zhu, Forster and Schrand's thermal factor, for line and point contacts.
 
     $\phi_T = [1 - 13.2\,(p_0/E') L^{0.42}]/[1 + 0.213\,(1 + 2.23\,S^{0.83}) L^{0.64}]$, with the thermal loading
     $L = -(\partial\mu/\partial T) u^2/k$ (u the mean speed) and $S = 2|u_1 - u_2|/|u_1 + u_2|$.
@@ -79,20 +95,9 @@ class Gupta(AbstractThermalFactor):
     eq. (63) is ambiguous: the mean speed of the literature is taken.
     """
 
-    def thermal_loading(self, entrainment_speed: Values, oil: InletOil) -> Float[Array, "..."]:
-        """L, dimensionless. **Arguments:** `entrainment_speed`, m/s; `oil` at the inlet, with a conductivity."""
-        if oil.conductivity is None:
-            raise ValueError("Gupta's thermal factor needs the lubricant's conductivity, which is not given.")
-        slope = -jnp.multiply(oil.viscosity, oil.log_slope)
-        return slope / oil.conductivity * jnp.square(entrainment_speed)
-
-    def slide_ratio(self, entrainment_speed: Values, sliding_speed: Values) -> Float[Array, "..."]:
-        """S, dimensionless, >= 0; finite at rest. **Arguments:** both speeds in m/s."""
-        return 2.0 * jnp.abs(sliding_speed) / smooth_abs(2.0 * entrainment_speed, SPEED_FLOOR)
-
     def log_factor(
         self,
-        contact: LineContact,
+        contact: LineContact | PointContact,
         load: Values,
         entrainment_speed: Values,
         sliding_speed: Values,
@@ -105,6 +110,37 @@ class Gupta(AbstractThermalFactor):
         slide_term = 0.213 * (1.0 + 2.23 * regular_power(slide, 0.83, SLIDE_WIDTH))
         heating = slide_term * regular_power(loading, 0.64, LOADING_WIDTH)
         return jnp.log(softplus_floor(numerator, NUMERATOR_FLOOR, NUMERATOR_WIDTH)) - jnp.log1p(heating)
+
+
+class HsuLee(AbstractThermalFactor):
+    r"""Hsu and Lee's thermal factor of a line contact.
+
+    $\phi_T = 1/[1 + 0.0766\,G^{0.687}W^{0.447}L^{0.527}e^{0.875S}]$, $G = \alpha E'$, $W = Q/(E'R\ell)$; L and S as in
+    `Gupta`.
+
+    **Limits:** 1 as u -> 0, as the load -> 0 and for an isoviscous oil.
+    **Validity:** fitted for S up to about 2 and L up to about 20; S is limited smoothly to 10, the power of L is
+    linear below 1e-9.
+    **Reference:** Hsu and Lee (1994); source eq. (65), whose garbled "1 -" is read as the
+    exponent -1 of a sum 1 + ..., for a reduction is at most 1.
+    """
+
+    def log_factor(
+        self,
+        contact: LineContact,
+        load: Values,
+        entrainment_speed: Values,
+        sliding_speed: Values,
+        oil: InletOil,
+    ) -> Float[Array, "..."]:
+        loading = self.thermal_loading(entrainment_speed, oil)
+        slide = self.slide_ratio(entrainment_speed, sliding_speed)
+        slide = -softplus_floor(-slide, -SLIDE_LIMIT, SLIDE_LIMIT_WIDTH)
+        log_material = log_material_number(oil.pressure_viscosity, contact.reduced_modulus)
+        size = contact.reduced_modulus * contact.reduced_radius * contact.length
+        log_load = jnp.log(smooth_abs(load, LOAD_FLOOR)) - jnp.log(size)
+        strength = jnp.exp(0.687 * log_material + 0.447 * log_load + 0.875 * slide)
+        return -jnp.log1p(0.0766 * strength * regular_power(loading, 0.527, LOADING_WIDTH))
 
 
 def inlet_temperature_rise(

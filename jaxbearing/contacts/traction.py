@@ -11,6 +11,7 @@ from ..lubricants import Lubricant
 from ..numerics.safe import log_add
 from .film import LOG_2
 from .line import LineContact, log_entrainment_sum
+from .viscous import AbstractViscousFunction, ReeEyring
 
 INLET_COUETTE_CONSTANT = 2.01435
 r"""$\int dx/h$ over the inlet up to the Reynolds exit, in units of $\sqrt{2R/h}$: pi/2 + 25.415 degrees, the exit
@@ -46,21 +47,28 @@ class AbstractTraction(eqx.Module):
         """
 
 
-class MaxwellEyring(AbstractTraction):
-    r"""Eyring flow at the mean pressure with a Maxwell correction for the transit time, plus inlet shear.
+class MeanPressureTraction(AbstractTraction):
+    r"""Viscous flow at the mean pressure with a Maxwell correction for the transit time, plus inlet shear.
 
-    $F = \tau_0\,\mathrm{asinh}\!\left(\frac{\mu_l\,\Delta u}{h\tau_0}\right) 2 b\ell
+    $F = \tau_0\,F^{-1}\!\left(\frac{\mu_l\,\Delta u}{h\tau_0}\right) 2 b\ell
     + 2.01435\,\mu_{in}\,\Delta u\,\ell\sqrt{2R/h}$, $\;1/\mu_l = 1/\mu(\bar p, T) + u/(G b)$:
     an element of oil crosses the contact in about b/u and cannot relax its elastic strain in a shorter time, so a
-    glassy oil answers with G b/u and not with its viscosity.
+    glassy oil answers with G b/u and not with its viscosity. $F^{-1}$ is that of the viscous function: asinh for Ree
+    and Eyring's. Without `elastic` it is the viscous limit, $\mu_l = \mu$.
 
     **Limits:** linear at rest with slope $2b\ell\mu_l/h$ plus the inlet term (Newton's law for small
-    $\Delta u$ and large G); $\tau_0\ln(2x)$ at large sliding; 0 at load 0 except for the inlet term.
+    $\Delta u$ and large G); at large sliding $\tau_0\ln(2x)$ (Ree-Eyring) or the limiting stress times the area
+    $2b\ell$ (the others), plus the inlet term; 0 at load 0 except for the inlet term.
     **Validity:** isothermal; one pressure (the mean) for the whole contact; increasing in sliding, so without the
-    thermal fall of traction at high sliding. Rheology fits hold for 0.6 to 1.8 GPa.
+    thermal fall of traction at high sliding. Rheology fits hold for 0.6 to 1.8 GPa, and each for the viscous function
+    it was made with.
     **Reference:** Johnson and Tevaarwerk (1977), Proc. R. Soc. A 356, 215 (Maxwell-Eyring model); Houpert (1985), ASME
-    J. Tribology 107, 241 (one mean pressure per contact); rheology of the source, eqs. (78)-(79).
+    J. Tribology 107, 241 (one mean pressure per contact); rheology of the source, eqs. (78)-(79), viscous limit
+    eqs. (82)-(83).
     """
+
+    viscous: AbstractViscousFunction = ReeEyring()
+    elastic: bool = eqx.field(static=True, default=True)
 
     def force(
         self,
@@ -80,13 +88,15 @@ class MaxwellEyring(AbstractTraction):
         half_width = contact.half_width(load)
         pressure = contact.mean_pressure(load)
         log_viscosity = lubricant.viscosity.log_viscosity(pressure, temperature)
-        log_modulus = lubricant.rheology.log_shear_modulus(pressure, temperature)
         log_stress = lubricant.rheology.log_stress(pressure, temperature)
 
-        log_mean_speed = log_entrainment_sum(entrainment_speed) - LOG_2
-        log_elastic = log_mean_speed - log_modulus - jnp.log(half_width)
-        log_limited = -log_add(-log_viscosity, log_elastic)
-        stress_ratio = asinh_of_scaled(log_limited - jnp.log(film) - log_stress, sliding_speed)
+        if self.elastic:
+            log_modulus = lubricant.rheology.log_shear_modulus(pressure, temperature)
+            log_mean_speed = log_entrainment_sum(entrainment_speed) - LOG_2
+            log_elastic = log_mean_speed - log_modulus - jnp.log(half_width)
+            log_viscosity = -log_add(-log_viscosity, log_elastic)
+        log_scale = log_viscosity - jnp.log(film) - log_stress
+        stress_ratio = self.viscous.stress_ratio_of_scaled(log_scale, sliding_speed)
         pressed = jnp.exp(log_stress) * stress_ratio * 2.0 * half_width * contact.length
 
         inlet_span = contact.length * jnp.sqrt(2.0 * contact.reduced_radius / film)
@@ -94,17 +104,10 @@ class MaxwellEyring(AbstractTraction):
         return pressed + inlet
 
 
-def asinh_of_scaled(log_scale: Values, x: Values) -> Float[Array, "..."]:
-    """asinh(exp(log_scale) x): odd in x, slope exp(log_scale) at x = 0, no overflow for log_scale up to 600.
+MeanPressureTraction.__init__.__doc__ = """**Arguments:**
+- `viscous`: the viscous function that the rheology's stress belongs to.
+- `elastic`: whether the shear modulus limits the answer in transit.
+"""
 
-    Beyond asinh(1) it works on logarithms, ln(e^s + sqrt(1 + e^2s)); double `where` on both branches. A finite
-    x with log_scale > 600 and |x| < e^-600 is the only place where the slope is not exact.
-    """
-    log_scale, x = jnp.broadcast_arrays(jnp.asarray(log_scale, dtype=float), jnp.asarray(x, dtype=float))
-    size = jnp.abs(x)
-    log_size = log_scale + jnp.log(jnp.where(size > 0, size, 1.0))
-    large = (size > 0) & (log_size > 0)
-    small_argument = jnp.where(large, 0.0, x) * jnp.exp(jnp.where(large, 0.0, jnp.minimum(log_scale, 600.0)))
-    s = jnp.where(large, log_size, 0.0)
-    high = jnp.sign(x) * log_add(s, 0.5 * log_add(0.0, 2.0 * s))
-    return jnp.where(large, high, jnp.arcsinh(small_argument))
+MaxwellEyring = MeanPressureTraction
+"""The name of the default: Ree-Eyring flow with the Maxwell correction."""

@@ -5,8 +5,10 @@ from .couette import Flange as Flange
 from .couette import FlangeCoefficients as FlangeCoefficients
 from .couette import PocketEdge as PocketEdge
 from .couette import PocketEdgeCoefficients as PocketEdgeCoefficients
+from .drag import ReynoldsDrag as ReynoldsDrag
 from .drag import RollerDrag as RollerDrag
 from .drag import air_density as air_density
+from .drag import ball_frontal_area as ball_frontal_area
 from .drag import cylinder_drag_coefficient as cylinder_drag_coefficient
 from .drag import mixture_density as mixture_density
 from .drag import parker_oil_fraction as parker_oil_fraction

@@ -10,14 +10,16 @@ element is eliminated, and the g x g Schur complement $D - \sum_j C_j A_j^{-1} B
 """
 
 import abc
-from typing import NamedTuple
+from typing import NamedTuple, TypeVar
 
 import equinox as eqx
 import jax
 import jax.numpy as jnp
-from jaxtyping import Array, Float
+from jaxtyping import Array, Bool, Float, Int
 
-from .small_linear import solve_blocks, solve_dense
+from .small_linear import UNROLLED_LIMIT, solve_blocks, solve_dense, with_positive_pivots
+
+System = TypeVar("System", bound="AbstractArrowSystem")
 
 
 class ArrowPoint(NamedTuple):
@@ -37,6 +39,16 @@ class AbstractArrowSystem(eqx.Module):
     @abc.abstractmethod
     def initial(self) -> ArrowPoint:
         """First guess."""
+
+    def eased(self: System, ease: Float[Array, ""], path: Int[Array, ""]) -> System:
+        """The system at easier parameters, from ease 0 (exactly itself) to 1, along one of `paths` ways (0, 1 ...):
+        those that the solver tries, one after the other, where it fails at once."""
+        raise NotImplementedError
+
+    @property
+    def paths(self) -> int:
+        """Number of ways to ease the system; 0: a solve that fails at once has failed."""
+        return 0
 
     @abc.abstractmethod
     def element(
@@ -145,12 +157,32 @@ def schur_complement(jacobian: ArrowJacobian) -> Float[Array, "g g"]:
     return _eliminated(jacobian)[1]
 
 
+def uphill_step(jacobian: ArrowJacobian, right: ArrowPoint) -> tuple[ArrowPoint, Bool[Array, ""]]:
+    """The solution of J x = right with J changed where a pivot is negative, and whether one was.
+
+    Each equation is meant to grow with its own unknown when those before it are in equilibrium. Where it falls, the
+    Newton step points away from the root behind the hump; with the pivot's sign turned it points across it.
+    """
+    local, local_changed = jacobian.local, jnp.zeros((), dtype=bool)
+    if local.shape[0] <= UNROLLED_LIMIT:
+        local, changed = with_positive_pivots(local)
+        local_changed = jnp.any(changed)
+    jacobian = jacobian._replace(local=local)
+    coupled, schur = _eliminated(jacobian)
+    shifted, schur_changed = with_positive_pivots(schur)
+    return _solved(jacobian, coupled, shifted, right), local_changed | schur_changed
+
+
 def solve_arrow(jacobian: ArrowJacobian, right: ArrowPoint) -> ArrowPoint:
     """J x = right, by elimination of the elements and the Schur complement of the globals.
 
     Matrix and right side are eliminated apart: in one array, autodiff could not see that x is linear in `right`.
     """
     coupled, schur = _eliminated(jacobian)
+    return _solved(jacobian, coupled, schur, right)
+
+
+def _solved(jacobian: ArrowJacobian, coupled: Array, schur: Array, right: ArrowPoint) -> ArrowPoint:
     own = solve_blocks(jacobian.local, right.elements[:, None, :])[:, 0]
     carried = jnp.sum(jnp.einsum("kmn,mn->kn", jacobian.contributions, own), axis=-1)
     globals_ = solve_dense(schur, right.globals - jacobian.chain @ carried)

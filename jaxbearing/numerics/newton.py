@@ -1,7 +1,7 @@
 """Damped Newton on a block-arrow system: status per lane, implicit derivatives, no lane harms another."""
 
 from collections.abc import Callable
-from typing import Any, NamedTuple, TypeVar
+from typing import Any, NamedTuple
 
 import equinox as eqx
 import jax
@@ -13,17 +13,27 @@ from .arrow import (
     ArrowJacobian,
     ArrowPoint,
     Equations,
+    System,
     empty_jacobian,
     evaluate,
     linearize,
     solve_arrow,
+    uphill_step,
 )
 from .status import Status
 
-System = TypeVar("System", bound=AbstractArrowSystem)
-
 BACKTRACK = (1.0, 0.3, 0.05)
 """Fractions of the Newton step that are tried, in this order."""
+LONGEST_STAGE = 0.25
+"""First length of a stage, in ease."""
+SHORTEST_STAGE = 0.02
+"""A try in which stages would have to be shorter than this has failed."""
+NOTHING_SOLVED = 2.0
+"""In the place of the ease of the last stage solved."""
+STAGES_PER_TRY = 3
+"""A stage starts near its end, and gets this part of the Newton steps of a first try."""
+MOST_STEPS = 4
+"""Newton steps of all stages of a further try, in units of `max_steps`."""
 
 
 class NewtonOptions(eqx.Module):
@@ -34,7 +44,7 @@ class NewtonOptions(eqx.Module):
     - `step_tolerance`: largest scaled Newton step of a converged solve. Convergence asks for both: a small
       residual alone says nothing where the Jacobian is nearly singular.
     - `inner_tolerance`: largest scaled residual of solves nested in the equations.
-    - `max_steps`: Newton steps, rejected trials counted.
+    - `max_steps`: Newton steps of the first try, rejected trials counted; any other may take four times as many.
     """
 
     residual_tolerance: float = eqx.field(static=True, default=1e-10)
@@ -64,6 +74,22 @@ class NewtonResult(NamedTuple):
         return self.status == Status.CONVERGED
 
 
+class _Path(NamedTuple):
+    """Where the further tries stand: each walks from ease 1 to ease 0, every stage from where the last one ended."""
+
+    ease: Float[Array, ""]
+    """Of the stage being solved; 0 in the first try."""
+    solved_ease: Float[Array, ""]
+    """Of the last stage solved; above 1: none."""
+    solved: ArrowPoint
+    length: Float[Array, ""]
+    """Of this stage."""
+    steps: Int[Array, ""]
+    """Newton steps of this stage."""
+    tries: Int[Array, ""]
+    """Begun; 1: at the system itself."""
+
+
 class _Iterate(NamedTuple):
     trial: ArrowPoint
     base: ArrowPoint
@@ -72,6 +98,7 @@ class _Iterate(NamedTuple):
     attempt: Int[Array, ""]
     iterations: Int[Array, ""]
     status: Int[Array, ""]
+    path: _Path | None
     equations: Equations
     jacobian: ArrowJacobian
     """Equations and Jacobian at `trial` of the previous pass: of a finished lane, at its final `trial`."""
@@ -105,6 +132,10 @@ def _capped(system: AbstractArrowSystem, step: ArrowPoint) -> ArrowPoint:
     return ArrowPoint(step.elements * scale, step.globals * scale)
 
 
+def _choose(condition: Bool[Array, ""], a: ArrowPoint, b: ArrowPoint) -> ArrowPoint:
+    return ArrowPoint(*(jnp.where(condition, x, y) for x, y in zip(a, b, strict=True)))
+
+
 def _iterate(system: AbstractArrowSystem, options: NewtonOptions) -> _Iterate:
     fractions = jnp.asarray(BACKTRACK)
     last_attempt = len(BACKTRACK) - 1
@@ -113,52 +144,73 @@ def _iterate(system: AbstractArrowSystem, options: NewtonOptions) -> _Iterate:
         return state.status < 0
 
     def advance(state: _Iterate) -> _Iterate:
-        equations, jacobian = linearize(system, state.trial)
-        step = solve_arrow(jacobian, equations.residual)
+        posed = system if state.path is None else system.eased(state.path.ease, jnp.maximum(state.path.tries - 2, 0))
+        equations, jacobian = linearize(posed, state.trial)
+        step, turned = uphill_step(jacobian, equations.residual)
         norm = _norm(equations.residual)
         usable = jnp.isfinite(norm) & jnp.isfinite(_largest(step))
-        converged = (
+        settled = (
             usable
             & (_largest(equations.residual) <= options.residual_tolerance)
             & (_largest(step) <= options.step_tolerance)
-            & (equations.inner <= options.inner_tolerance)
         )
+        converged = settled & (equations.inner <= options.inner_tolerance)
 
         enough = norm <= (1.0 - 0.1 * fractions[state.attempt]) * state.base_norm
         accept = usable & (enough | (state.attempt == last_attempt))
         stuck = ~usable & (state.attempt == last_attempt)
 
-        capped = _capped(system, step)
-        choose = lambda a, b: ArrowPoint(*(jnp.where(accept, x, y) for x, y in zip(a, b, strict=True)))
         attempt = jnp.where(accept, 0, jnp.minimum(state.attempt + 1, last_attempt))
-        base, next_step = choose(state.trial, state.base), choose(capped, state.step)
+        base = _choose(accept, state.trial, state.base)
+        next_step = _choose(accept, _capped(system, step), state.step)
+        # across a hump the residual grows first
+        base_norm = jnp.where(accept, jnp.where(turned, jnp.inf, norm), state.base_norm)
         iterations = state.iterations + 1
-        status = jnp.where(
-            converged,
-            int(Status.CONVERGED),
-            jnp.where(
-                stuck,
-                int(Status.DIVERGED),
-                jnp.where(iterations >= options.max_steps, int(Status.NOT_CONVERGED), -1),
-            ),
-        )
+        steps = iterations if state.path is None else state.path.steps + 1
+        limit = options.max_steps
+        if state.path is not None:
+            limit = jnp.where(state.path.solved_ease <= 1.0, limit // STAGES_PER_TRY, limit)
+        # settled with a nested solve that failed: neither another step nor another path changes that
+        hopeless = settled & ~converged
+        failed = stuck | (steps >= limit) | hopeless
         trial = _move(system, base, next_step, fractions[attempt])
-        keep = lambda new, old: ArrowPoint(*(jnp.where(status == -1, x, y) for x, y in zip(new, old, strict=True)))
+        path, status = state.path, jnp.asarray(-1)
+        if path is None:
+            status = jnp.where(converged, int(Status.CONVERGED), jnp.where(failed, _failure(stuck), status))
+        else:
+            asked = path.ease == 0.0
+            spent = (hopeless & asked) | (iterations >= (1 + MOST_STEPS * system.paths) * options.max_steps)
+            path, restart, guess, ended = _advance_path(
+                path, steps, converged, failed, spent, state.trial, easiest, 1 + system.paths
+            )
+            won = converged & asked
+            status = jnp.where(won, int(Status.CONVERGED), jnp.where(ended, _failure(stuck), status))
+            trial = _choose(restart, guess, trial)
+            base, next_step = _choose(restart, guess, base), _choose(restart, zeros, next_step)
+            base_norm = jnp.where(restart, jnp.inf, base_norm)
+            attempt = jnp.where(restart, 0, attempt)
         return _Iterate(
             # a finished lane keeps the point whose residual was judged
-            trial=keep(trial, state.trial),
+            trial=_choose(status == -1, trial, state.trial),
             base=base,
             step=next_step,
-            base_norm=jnp.where(accept, norm, state.base_norm),
+            base_norm=base_norm,
             attempt=attempt,
             iterations=iterations,
             status=status,
+            path=path,
             equations=equations,
             jacobian=jacobian,
         )
 
-    start = system.initial()
+    start = easiest = system.initial()
+    if system.paths:
+        ease, way = jnp.asarray([0.0] + [1.0] * system.paths), jnp.asarray([0, *range(system.paths)])
+        guesses = jax.vmap(lambda e, w: system.eased(e, w).initial())(ease, way)
+        start, easiest = (jax.tree.map(lambda leaf, i=i: leaf[i], guesses) for i in (0, slice(1, None)))
     zeros = jax.tree.map(jnp.zeros_like, start)
+    zero, none_solved, longest = (jnp.asarray(number) for number in (0.0, NOTHING_SOLVED, LONGEST_STAGE))
+    path = _Path(zero, none_solved, start, longest, jnp.asarray(0), jnp.asarray(1))
     first = _Iterate(
         trial=start,
         base=start,
@@ -167,10 +219,55 @@ def _iterate(system: AbstractArrowSystem, options: NewtonOptions) -> _Iterate:
         attempt=jnp.asarray(0),
         iterations=jnp.asarray(0),
         status=jnp.asarray(-1),
+        path=path if system.paths else None,
         equations=Equations(zeros, jnp.zeros(())),
         jacobian=empty_jacobian(system, start),
     )
     return jax.lax.while_loop(keep_going, advance, first)
+
+
+def _failure(stuck: Bool[Array, ""]) -> Int[Array, ""]:
+    return jnp.where(stuck, int(Status.DIVERGED), int(Status.NOT_CONVERGED))
+
+
+def _advance_path(
+    path: _Path,
+    steps: Int[Array, ""],
+    converged: Bool[Array, ""],
+    failed: Bool[Array, ""],
+    spent: Bool[Array, ""],
+    trial: ArrowPoint,
+    easiest: ArrowPoint,
+    most_tries: int,
+) -> tuple[_Path, Bool[Array, ""], ArrowPoint, Bool[Array, ""]]:
+    """The path after a Newton step, whether a stage begins anew, from which point, and whether all is lost.
+
+    A stage that fails is tried again half as far from the last one that was solved, and so are those after it.
+    `easiest`: first guesses at ease 1, a leading axis over the ways; `spent`: no further stages.
+    """
+    found = converged & (path.ease > 0.0)
+    solved_ease = jnp.where(found, path.ease, path.solved_ease)
+    shorter = 0.5 * path.length
+    broken = failed & ((path.tries == 1) | (solved_ease > 1.0) | (shorter < SHORTEST_STAGE))
+    begin = broken & (path.tries < most_tries) & ~spent
+    again = failed & ~broken
+    ended = spent | (broken & ~begin)
+    restart = begin | again | found
+    tries = jnp.where(begin, path.tries + 1, path.tries)
+    solved_ease = jnp.where(begin, NOTHING_SOLVED, solved_ease)
+    length = jnp.where(begin, LONGEST_STAGE, jnp.where(again, shorter, path.length))
+    next_ease = jnp.where(begin, 1.0, jnp.maximum(solved_ease - length, 0.0))
+    solved = _choose(found, trial, path.solved)
+    first = jax.tree.map(lambda leaf: leaf[jnp.maximum(tries - 2, 0)], easiest)
+    new = _Path(
+        ease=jnp.where(restart, next_ease, path.ease),
+        solved_ease=solved_ease,
+        solved=solved,
+        length=length,
+        steps=jnp.where(restart, 0, steps),
+        tries=tries,
+    )
+    return new, restart, _choose(begin, first, solved), ended
 
 
 class _Root(NamedTuple):
@@ -226,6 +323,9 @@ def newton_solve(system: System, options: NewtonOptions | None = None) -> tuple[
     Returns the system to evaluate results with, and the result. The derivative of the solution (and of the Jacobian
     at the solution) is that of the implicit function, in both modes and to any order: nothing is differentiated
     through the iteration, and a solve that is not differentiated does not pay for derivatives.
+
+    Where the iteration fails, and the system says how it can be eased, further tries solve an easier system first and
+    walk from there to the one asked for, in stages that shorten where one fails. `iterations` counts all steps.
 
     A lane that fails never raises and never spoils a neighbour under `vmap`: its point is finite and not a solution,
     and the returned system passes no derivative for it, so that NaN times zero cannot reach a parameter that lanes

@@ -1,7 +1,7 @@
 """Linear solves for many small dense systems, component axes first, batch axis last."""
 
 import jax.numpy as jnp
-from jaxtyping import Array, Float
+from jaxtyping import Array, Bool, Float
 
 UNROLLED_LIMIT = 4
 """Largest block eliminated by unrolled scalar arithmetic; above it LAPACK is faster (measured)."""
@@ -48,3 +48,25 @@ def solve_dense(matrix: Float[Array, "g g"], right: Float[Array, " g"]) -> Float
     if matrix.shape[0] == 1:
         return right / matrix[0]
     return jnp.linalg.solve(matrix, right)
+
+
+def with_positive_pivots(
+    matrix: Float[Array, "m m *batch"],
+) -> tuple[Float[Array, "m m *batch"], Bool[Array, "*batch"]]:
+    """The matrix with just so much added to its diagonal that every pivot of its elimination without pivoting keeps
+    its modulus and becomes positive; and whether anything was added."""
+    m = matrix.shape[0]
+    rows = [[matrix[i, j] for j in range(m)] for i in range(m)]
+    changed = jnp.zeros(matrix.shape[2:], dtype=bool)
+    added = []
+    for k in range(m):
+        pivot = rows[k][k]
+        changed = changed | (pivot < 0)
+        added.append(jnp.where(pivot < 0, -2.0 * pivot, 0.0))
+        pivot = jnp.abs(pivot)
+        for i in range(k + 1, m):
+            factor = rows[i][k] / pivot
+            for j in range(k + 1, m):
+                rows[i][j] = rows[i][j] - factor * rows[k][j]
+    shifted = [[matrix[i, j] + added[i] if i == j else matrix[i, j] for j in range(m)] for i in range(m)]
+    return jnp.stack([jnp.stack(row) for row in shifted]) if m else matrix, changed

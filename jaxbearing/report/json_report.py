@@ -11,6 +11,8 @@ import numpy as np
 
 from ..bearings.solution import RING_FREEDOMS, Solution
 from ..numerics.status import Status
+from ..sensitivity import Sensitivities, largest
+from .operation import unused_operation
 
 _INSIDE = ("status", "worst_equation", "stiffness", "checks", "ring_freedom", "equation_names", "notes")
 """Fields that are not written as they are, but in words or in another order, or not at all."""
@@ -38,14 +40,13 @@ def solution_to_dict(solution: Solution) -> dict[str, Any]:
     return results
 
 
-def unused_operation(solution: Solution) -> set[str]:
-    """Names in the operating point that no modelled part depends on: a scene need not give them."""
-    unused = set()
-    if solution.elements.film_inner is None:
-        unused.add("oil_temperature")
-    if solution.power_loss.drag is None:
-        unused.add("oil_flow")
-    return unused
+def sensitivities_to_dict(sensitivities: Sensitivities) -> dict[str, Any]:
+    """Sensitivities of the two results, largest modulus first; those that are not finite are `None`."""
+    named = {"power_loss.total": sensitivities.power_loss, "cage.slip": sensitivities.slip}
+    return {
+        result: {path: _plain(values[path]) for path in largest(values, len(values))}
+        for result, values in named.items()
+    }
 
 
 def _field_names(part: Any) -> list[str]:

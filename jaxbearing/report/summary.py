@@ -16,8 +16,8 @@ from rich.text import Text
 
 from ..bearings.solution import Solution
 from ..numerics.status import Status
-from .display import ZERO_CELSIUS, bar, digits, display_unit, displayed, with_unit
-from .json_report import unused_operation
+from .display import bar, digits, display_unit, displayed, with_unit
+from .operation import operating_point
 
 LOADED = 0.02
 """A roller whose inner load is above this part of the largest one counts as loaded: films carry a few newtons
@@ -25,12 +25,6 @@ everywhere."""
 _LOSS_BAR, _LOAD_BAR, _SHORTEST_BAR = 40, 18, 4
 _GAP = 3
 """Columns between two columns of a table."""
-_OPERATION = {
-    "inner_speed": ("inner ring", "rpm", displayed(1.0, "rad/s")),
-    "outer_speed": ("outer ring", "rpm", displayed(1.0, "rad/s")),
-    "radial_load": ("radial load", "kN", 1e-3),
-    "oil_flow": ("oil flow", "l/h", displayed(1.0, "m^3/s")),
-}
 _COLUMNS = {
     "load_inner": "Q inner",
     "load_outer": "Q outer",
@@ -54,7 +48,7 @@ def print_summary(solution: Solution, scene_label: str, console: Console) -> Non
     counts = f"{_count(int(solution.iterations), 'Newton step')}, {_count(solution.unknowns, 'unknown')}"
     state = f"{counts}, largest scaled residual {float(solution.residual_norm):.1e}"
     _headline(scene_label, "CONVERGED", "bold green", state, console)
-    _line("Operating point", ", ".join(_operation(solution)), console)
+    _line("Operating point", operating_point(solution), console)
     _print_losses(solution, console)
     _print_loads(solution, console)
     console.print(Rule("Motion and films", align="left", style="dim"))
@@ -84,7 +78,7 @@ def _print_failure(solution: Solution, label: str, console: Console) -> None:
     _headline(label, "NOT CONVERGED", "bold red", f"status: {status}", console)
     console.print(Padding(Text(solution.failure(), style="red"), (0, 2)))
     console.print(Padding(Text("No results: the point where the iteration stopped is not a solution."), (0, 2)))
-    _line("Operating point", ", ".join(_operation(solution)), console)
+    _line("Operating point", operating_point(solution), console)
 
 
 def _line(name: str, text: str, console: Console) -> None:
@@ -93,22 +87,6 @@ def _line(name: str, text: str, console: Console) -> None:
     grid.add_column(overflow="fold")
     grid.add_row(Text(f"  {name}"), Text(text))
     console.print(grid)
-
-
-def _operation(solution: Solution) -> Iterator[str]:
-    """The operating point, without what the scene does not use."""
-    hidden = unused_operation(solution)
-    for field in dataclasses.fields(solution.operation):
-        value = float(np.asarray(getattr(solution.operation, field.name)))
-        if field.name in hidden or (field.name == "outer_speed" and value == 0.0):
-            continue
-        if field.name == "oil_temperature":
-            yield f"oil {value - ZERO_CELSIUS:.6g} degC"
-        elif field.name in _OPERATION:
-            label, unit, factor = _OPERATION[field.name]
-            yield f"{label} {value * factor:.6g} {unit}"
-        else:
-            yield f"{field.name} {value:.6g}"
 
 
 def _print_losses(solution: Solution, console: Console) -> None:

@@ -10,8 +10,8 @@ import numpy as np
 import pytest
 from reference_oils import mobil_jet_ii
 
-from jaxbearing.contacts import Gupta, LineContact, Moes, NoThermalReduction, inlet_temperature_rise
-from jaxbearing.lubricants import InletOil, IntegratedPressureViscosity
+from jaxbearing.contacts import Gupta, HsuLee, LineContact, Moes, NoThermalReduction, inlet_temperature_rise
+from jaxbearing.lubricants import InletOil
 
 PUBLISHED = tomllib.loads((Path(__file__).parents[1] / "published" / "line_contact.toml").read_text())
 CONTACT = LineContact(0.006, 0.012, 2.25275e11)
@@ -103,37 +103,74 @@ def test_no_thermal_reduction_is_zero_of_the_right_shape():
     np.testing.assert_array_equal(got, np.zeros((2, 3)))
 
 
-def nijenbanning_circular(temperature, args):
-    """Nijenbanning, Venner and Moes (1994), circular contact: ln of the central film."""
-    lubricant, load, mean_speed = args
-    radius, modulus = 0.02, 2.25275e11
-    viscosity = lubricant.viscosity.viscosity(0.0, temperature)
-    alpha = lubricant.pressure_viscosity.coefficient(temperature)
-    speed = viscosity * 2 * mean_speed / (modulus * radius)
-    m = load / (modulus * radius**2) * speed**-0.75
-    l_group = alpha * modulus * speed**0.25
-    ri = 145 * (1 + 0.796) ** (-15 / 7) * m**-2
-    rp = 1.29 * (1 + 0.691) ** (-2 / 3) * l_group ** (2 / 3)
-    c = 1.63
-    ei = 3.18 * c ** (-14 / 25) * m ** (-2 / 15)
-    ep = 1.48 * c ** (-7 / 20) * m ** (-1 / 12) * l_group**0.75
-    s = 1.5 * (1 + jnp.exp(-1.2 * ei / ep))
-    h = (ri**1.5 + (ei**-4 + 1.8**-4) ** (-3 / 8)) ** (2 * s / 3) + (rp**-8 + ep**-8) ** (-s / 8)
-    return jnp.log(radius * jnp.sqrt(speed)) + jnp.log(h) / s
+def hsu_lee_inputs(material, load, loading, slide):
+    """Contact, load, speeds and oil with the given groups G, W, L, S."""
+    oil = eqx.tree_at(lambda o: o.pressure_viscosity, oil_with_loading(loading), material / 2.25275e11)
+    return CONTACT, load * 2.25275e11 * 0.006 * 0.012, 2.0, 2.0 * slide, oil
 
 
-def test_inlet_temperature_rise_check_row():
-    oil = mobil_jet_ii()
-    oil = eqx.tree_at(lambda o: o.pressure_viscosity, oil, IntegratedPressureViscosity(oil.viscosity))
-    load = np.pi**3 * 0.02**2 * 1.5e9**3 / (6 * (2.25275e11 / 2) ** 2)  # Hertz, sphere on flat
-    args = (oil, load, 40.0)
-    isothermal = jax.jit(nijenbanning_circular)(373.0, args)
-    np.testing.assert_allclose(jnp.exp(isothermal), 6.017851e-7, rtol=1e-6)
-    log_factor = Gupta().log_factor(CONTACT, load_at(1.5e9), 40.0, 0.0, oil.at(373.0))
-    np.testing.assert_allclose(jnp.exp(log_factor), 0.7465165, rtol=1e-6)
-    rise = jax.jit(lambda a: inlet_temperature_rise(nijenbanning_circular, a, 373.0, isothermal, log_factor))(args)
-    np.testing.assert_allclose(rise.value, 18.28891, rtol=1e-6)  # seven printed digits
-    assert rise.residual < 1e-13
+HSU_LEE = jax.jit(HsuLee().log_factor)
+
+
+def test_hsu_lee_check_value():
+    row = PUBLISHED["hsu_lee"][0]
+    got = HSU_LEE(*hsu_lee_inputs(row["material"], row["load"], row["loading"], row["slide_ratio"]))
+    np.testing.assert_allclose(jnp.exp(got), row["value"], rtol=row["rtol"])
+
+
+def test_hsu_lee_against_the_plain_formula():
+    for material, load, loading, slide in (
+        (3000.0, 1e-5, 0.1, 0.5),
+        (6000.0, 3e-4, 20.0, 2.0),
+        (4000.0, 1e-4, 3.0, 0.0),
+    ):
+        plain = 1 / (1 + 0.0766 * material**0.687 * load**0.447 * loading**0.527 * np.exp(0.875 * slide))
+        # the linear power of L, 0.24 (1e-9/L)^2, and the limit of S, exp(-40)
+        got = jnp.exp(HSU_LEE(*hsu_lee_inputs(material, load, loading, slide)))
+        np.testing.assert_allclose(got, plain, rtol=1e-12)
+
+
+def test_hsu_lee_limits():
+    at = lambda *groups: HSU_LEE(*hsu_lee_inputs(*groups))
+    np.testing.assert_allclose(at(5000.0, 1e-4, 0.0, 1.0), 0.0, atol=1e-15)
+    np.testing.assert_allclose(at(0.0, 1e-4, 10.0, 2.0), 0.0, atol=1e-10)  # (1e-25 E')^0.687: an isoviscous oil
+    np.testing.assert_allclose(at(5000.0, 0.0, 10.0, 2.0), 0.0, atol=1e-4)  # at 1e-9 N
+    # S beyond 10 counts as 10
+    ratio = 1 / (1 + 0.0766 * 5000**0.687 * 1e-4**0.447 * np.exp(8.75))
+    np.testing.assert_allclose(jnp.exp(at(5000.0, 1e-4, 1.0, 1e4)), ratio, rtol=1e-9)
+
+
+def test_hsu_lee_hard_cases_and_gradients():
+    lubricant = mobil_jet_ii()
+
+    @jax.jit
+    def function(load, u, du, t, alpha):
+        oil = eqx.tree_at(lambda o: o.pressure_viscosity, lubricant.at(t), alpha)
+        return HsuLee().log_factor(CONTACT, load, u, du, oil)
+
+    derivative = jax.jit(jax.vmap(jax.grad(function, argnums=(0, 1, 2, 3, 4))))
+    load, speed, sliding = (
+        a.ravel() for a in jnp.meshgrid(*(jnp.asarray(v) for v in ([0.0, 1e9], [0.0, -1e-9, 1e4], [0.0, 1e-12, -1e5])))
+    )
+    for temperature in (243.0, 473.0):
+        for alpha in (0.0, 1e-8):
+            state = (load, speed, sliding, *(jnp.full(load.shape, v) for v in (temperature, alpha)))
+            value = function(*state)
+            assert jnp.all(jnp.isfinite(value))
+            assert jnp.all(value <= 0)
+            assert all(jnp.all(jnp.isfinite(g)) for g in derivative(*state))
+    state = (2000.0, 30.0, 2.0, 373.0, 1e-8)
+    gradient = derivative(*(jnp.full(1, v) for v in state))
+    for i, value in enumerate(state):
+        step = 1e-5 * value
+        up, down = (function(*state[:i], value + s * step, *state[i + 1 :]) for s in (1, -1))
+        # round-off 1e-16/1e-5; the temperature enters by exponentials of width 10 K
+        np.testing.assert_allclose(gradient[i][0], (up - down) / (2 * step), rtol=1e-6)
+
+
+def test_hsu_lee_asks_for_the_conductivity():
+    with pytest.raises(ValueError, match="HsuLee's thermal factor needs the lubricant's conductivity"):
+        HsuLee().log_factor(CONTACT, 1000.0, 20.0, 0.0, InletOil(300.0, 0.1, 2e-8, -0.04))
 
 
 ARGS = (mobil_jet_ii(), CONTACT, 2000.0, 30.0)

@@ -14,8 +14,10 @@ from scipy.integrate import quad
 from jaxbearing.gaps import (
     Flange,
     PocketEdge,
+    ReynoldsDrag,
     RollerDrag,
     air_density,
+    ball_frontal_area,
     cylinder_drag_coefficient,
     mixture_density,
     parker_oil_fraction,
@@ -247,3 +249,50 @@ def test_roller_drag():
     assert float(jax.grad(drag.force)(0.0, 30.0)) == 0.0
     np.testing.assert_allclose(air_density(293.15), 1.2056, rtol=1e-4)  # hand calculation, 5 digits
     np.testing.assert_allclose(air_density(293.15, 2 * 101325.0), 2 * air_density(293.15), rtol=1e-14)
+
+
+def test_cylinder_drag_below_its_range_follows_lamb():
+    """Cd Re = 8 pi/ln(7.406/Re) of a slow cylinder, 7.406 = 8 exp(1/2 - Euler's constant)."""
+    re = np.logspace(-5.5, -4, 4)
+    lamb = 8 * np.pi / np.log(8 * np.exp(0.5 - np.euler_gamma) / re)
+    np.testing.assert_allclose(cylinder_drag_coefficient(re) * re, lamb, rtol=0.12)
+
+
+def test_reynolds_drag_is_the_printed_formula():
+    """F = 1/2 rho Cd S V|V|, on both sides of the frozen Reynolds numbers."""
+    v = jnp.asarray([-90.0, -3.0, 1e-3, 1.0, 50.0, 1e4])
+    for shape, law in (("sphere", sphere_drag_coefficient), ("cylinder", cylinder_drag_coefficient)):
+        drag = ReynoldsDrag(12e-3, 91e-6, shape)
+        force = drag.force(v, 36.3, MU)
+        plain = 0.5 * 36.3 * law(36.3 * np.abs(v) * 12e-3 / MU) * 91e-6 * v * np.abs(v)
+        # |Re| is smoothed by 1e-6: 1e-8 at the smallest, Re = 0.09
+        np.testing.assert_allclose(force, plain, rtol=1e-9)
+        np.testing.assert_allclose(drag.power(v, 36.3, MU), force * v, rtol=1e-14)
+
+
+def test_reynolds_drag_at_rest_is_stokes():
+    area = 0.25 * np.pi * 36e-6
+    drag = ReynoldsDrag(6e-3, area)
+    # 3 pi mu D = 12 S mu/D; next term 0.15 Re^0.687 with Re = 1e-6 at rest
+    np.testing.assert_allclose(jax.grad(drag.force)(0.0, 30.0, MU), 3 * np.pi * MU * 6e-3, rtol=2e-5)
+    assert drag.force(0.0, 30.0, MU) == 0
+
+
+def test_reynolds_drag_hard_cases_and_gradients():
+    v = jnp.asarray([0.0, 1e-12, -1e-6, 1.0, -1e3, 1e6])
+    density, viscosity = jnp.full(6, 30.0), jnp.full(6, MU)
+    for shape in ("sphere", "cylinder"):
+        force = ReynoldsDrag(12e-3, 91e-6, shape).force
+        slopes = jax.jit(jax.vmap(jax.grad(force, argnums=(0, 1, 2))))
+        assert all_finite([force(v, density, viscosity), slopes(v, density, viscosity)])
+        state = np.array([2.0, 30.0, MU])
+        got = slopes(*(jnp.full(6, x) for x in state))
+        for i in range(3):
+            step = 1e-5 * state[i] * np.eye(3)[i]
+            central = (force(*(state + step)) - force(*(state - step))) / (2e-5 * state[i])
+            np.testing.assert_allclose(got[i][0], central, rtol=1e-8)
+
+
+def test_ball_frontal_area():
+    np.testing.assert_allclose(ball_frontal_area(0.02, 0.005), np.pi * 1e-4 - 1e-4, rtol=1e-14)
+    assert ball_frontal_area(0.02, 0.03) == 0  # a cage thicker than the ball covers it

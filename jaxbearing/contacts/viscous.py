@@ -1,0 +1,161 @@
+"""Viscous functions: how the shear rate of an oil grows with its shear stress, beyond Newton's law."""
+
+import abc
+from typing import ClassVar
+
+import equinox as eqx
+import jax.numpy as jnp
+from jaxtyping import Array, Float
+
+from .._types import Scalar, Values
+from ..numerics.safe import log_add
+
+LOG_SATURATED = 230.0
+"""ln|q| beyond which q is frozen at 1e100: every limiting stress is reached long before."""
+LOG_SCALE_CAP = 600.0
+
+
+class AbstractViscousFunction(eqx.Module):
+    r"""$q = F(s)$, odd and increasing with F'(0) = 1: s the stress in units of the oil's characteristic stress, q the
+    shear rate in units of that stress over the viscosity."""
+
+    name: ClassVar[str]
+
+    @abc.abstractmethod
+    def rate_ratio(self, s: Values) -> Float[Array, "..."]:
+        """q = F(s). **Arguments:** `s`, dimensionless, |s| < 1 where there is a limiting stress."""
+
+    @abc.abstractmethod
+    def stress_ratio(self, q: Values) -> Float[Array, "..."]:
+        """s, the inverse of F: odd, slope 1 at 0, finite with its gradient at every finite q."""
+
+    @abc.abstractmethod
+    def stress_ratio_of_scaled(self, log_scale: Values, x: Values) -> Float[Array, "..."]:
+        """s at q = exp(log_scale) x without overflow, for log_scale up to 600 and any finite x."""
+
+
+class ReeEyring(AbstractViscousFunction):
+    r"""$F(s) = \sinh s$; the characteristic stress is the Eyring stress.
+
+    **Limits:** $s\approx\ln 2q$ at large q: no limiting stress.
+    **Reference:** Ree and Eyring (1955), J. Appl. Phys. 26, 793; source eqs. (66)-(67).
+    """
+
+    name: ClassVar[str] = "ree_eyring"
+
+    def rate_ratio(self, s: Values) -> Float[Array, "..."]:
+        return jnp.sinh(s)
+
+    def stress_ratio(self, q: Values) -> Float[Array, "..."]:
+        return jnp.arcsinh(q)
+
+    def stress_ratio_of_scaled(self, log_scale: Values, x: Values) -> Float[Array, "..."]:
+        return asinh_of_scaled(log_scale, x)
+
+
+class BairWiner(AbstractViscousFunction):
+    r"""$F(s) = -\ln(1 - s)$ for s >= 0, odd; the characteristic stress is the limiting stress.
+
+    **Limits:** s < 1; only C1 at 0.
+    **Reference:** Bair and Winer (1979), ASME J. Lubr. Technol. 101, 258; the source prints a garbled factor.
+    """
+
+    name: ClassVar[str] = "bair_winer"
+
+    def rate_ratio(self, s: Values) -> Float[Array, "..."]:
+        sign, size = _sign_and_size(s)
+        return -sign * jnp.log1p(-size)
+
+    def stress_ratio(self, q: Values) -> Float[Array, "..."]:
+        sign, size = _sign_and_size(q)
+        return -sign * jnp.expm1(-size)
+
+    def stress_ratio_of_scaled(self, log_scale: Values, x: Values) -> Float[Array, "..."]:
+        return self.stress_ratio(_saturated_product(log_scale, x))
+
+
+class GecimWiner(AbstractViscousFunction):
+    r"""$F(s) = \mathrm{artanh}\,s$; the characteristic stress is the limiting stress.
+
+    **Limits:** s < 1.
+    **Reference:** Gecim and Winer (1980), ASME J. Lubr. Technol. 102, 213.
+    """
+
+    name: ClassVar[str] = "gecim_winer"
+
+    def rate_ratio(self, s: Values) -> Float[Array, "..."]:
+        return jnp.arctanh(s)
+
+    def stress_ratio(self, q: Values) -> Float[Array, "..."]:
+        return jnp.tanh(q)
+
+    def stress_ratio_of_scaled(self, log_scale: Values, x: Values) -> Float[Array, "..."]:
+        return self.stress_ratio(_saturated_product(log_scale, x))
+
+
+class ElsharkawyHamrock(AbstractViscousFunction):
+    r"""$F(s) = s(1 - s^n)^{-1/n}$ for s >= 0, odd; the characteristic stress is the limiting stress.
+
+    **Limits:** s < 1; $n\to\infty$ is Newton's law up to the limiting stress.
+    **Reference:** Elsharkawy and Hamrock (1991), ASME J. Tribology 113, 645; the source prints the exponent 1/n
+    without its sign.
+    """
+
+    exponent: Scalar = 2.0
+    name: ClassVar[str] = "elsharkawy_hamrock"
+
+    def rate_ratio(self, s: Values) -> Float[Array, "..."]:
+        _, size = _sign_and_size(s)
+        return s * (1.0 - _power(size, self.exponent)) ** (-1.0 / self.exponent)
+
+    def stress_ratio(self, q: Values) -> Float[Array, "..."]:
+        sign, size = _sign_and_size(q)
+        large = size > 1.0
+        # q (1 + q^n)^(-1/n) = (1 + q^-n)^(-1/n): the base never overflows
+        small_of = jnp.where(large, 1.0 / jnp.where(large, size, 1.0), size)
+        return sign * jnp.where(large, 1.0, size) * (1.0 + _power(small_of, self.exponent)) ** (-1.0 / self.exponent)
+
+    def stress_ratio_of_scaled(self, log_scale: Values, x: Values) -> Float[Array, "..."]:
+        return self.stress_ratio(_saturated_product(log_scale, x))
+
+
+ElsharkawyHamrock.__init__.__doc__ = """**Arguments:**
+- `exponent`: n, > 0.
+"""
+
+
+def _sign_and_size(x: Values) -> tuple[Array, Array]:
+    """sign(x) and |x| with the derivative of x >= 0 at 0, where the jnp functions give slope 0 and not 1."""
+    x = jnp.asarray(x, dtype=float)
+    return jnp.where(x >= 0, 1.0, -1.0), jnp.where(x >= 0, x, -x)
+
+
+def _power(base: Array, exponent: Values) -> Array:
+    """base**exponent for base >= 0, exponent > 0; all derivatives 0 at base 0."""
+    positive = base > 0
+    return jnp.where(positive, jnp.where(positive, base, 1.0) ** exponent, 0.0)
+
+
+def _saturated_product(log_scale: Values, x: Values) -> Array:
+    """exp(log_scale) x, frozen beyond +-1e100."""
+    log_scale, x = jnp.broadcast_arrays(jnp.asarray(log_scale, dtype=float), jnp.asarray(x, dtype=float))
+    size = jnp.abs(x)
+    far = log_scale + jnp.log(jnp.where(size > 0, size, 1.0)) > jnp.where(size > 0, LOG_SATURATED, jnp.inf)
+    product = jnp.where(far, 0.0, x) * jnp.exp(jnp.where(far, 0.0, jnp.minimum(log_scale, LOG_SCALE_CAP)))
+    return jnp.where(far, jnp.sign(x) * 1e100, product)
+
+
+def asinh_of_scaled(log_scale: Values, x: Values) -> Float[Array, "..."]:
+    """asinh(exp(log_scale) x): odd in x, slope exp(log_scale) at x = 0, no overflow for log_scale up to 600.
+
+    Beyond asinh(1) it works on logarithms, ln(e^s + sqrt(1 + e^2s)); double `where` on both branches. A finite
+    x with log_scale > 600 and |x| < e^-600 is the only place where the slope is not exact.
+    """
+    log_scale, x = jnp.broadcast_arrays(jnp.asarray(log_scale, dtype=float), jnp.asarray(x, dtype=float))
+    size = jnp.abs(x)
+    log_size = log_scale + jnp.log(jnp.where(size > 0, size, 1.0))
+    large = (size > 0) & (log_size > 0)
+    small_argument = jnp.where(large, 0.0, x) * jnp.exp(jnp.where(large, 0.0, jnp.minimum(log_scale, LOG_SCALE_CAP)))
+    s = jnp.where(large, log_size, 0.0)
+    high = jnp.sign(x) * log_add(s, 0.5 * log_add(0.0, 2.0 * s))
+    return jnp.where(large, high, jnp.arcsinh(small_argument))

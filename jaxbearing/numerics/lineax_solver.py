@@ -1,0 +1,70 @@
+"""Block-arrow systems through lineax and optimistix: their root finders on our equations, in O(N).
+
+    import optimistix as optx
+
+    solver = optx.Newton(rtol=1e-10, atol=1e-10, linear_solver=BlockArrow())
+    solution = optx.root_find(
+        arrow_residual, solver, system.initial(), args=system, adjoint=optx.ImplicitAdjoint(linear_solver=BlockArrow())
+    )
+
+`newton_solve` is what the library uses: it adds caps, bounds, backtracking, a second try and a status a lane.
+"""
+
+from typing import Any
+
+import jax
+import jax.numpy as jnp
+import lineax as lx
+
+from .arrow import AbstractArrowSystem, ArrowJacobian, ArrowPoint, evaluate, solve_arrow
+
+
+def arrow_residual(point: ArrowPoint, system: AbstractArrowSystem) -> ArrowPoint:
+    """Residuals of a system at a point, as optimistix wants its functions: `fn(y, args)`."""
+    return evaluate(system, point).residual
+
+
+class BlockArrow(lx.AbstractLinearSolver):
+    """Direct solve with a linear operator from `ArrowPoint` to `ArrowPoint` whose matrix is a block arrow.
+
+    The blocks are read off the operator with m + 2g products, whatever the number of elements; that rows of element j
+    depend on element j and the globals only is taken for granted, not checked.
+    """
+
+    def init(self, operator: lx.AbstractLinearOperator, options: dict[str, Any]) -> ArrowJacobian:
+        del options
+        shape = operator.in_structure()
+        m, n = shape.elements.shape
+        (g,) = shape.globals.shape
+        own = ArrowPoint(jnp.broadcast_to(jnp.eye(m)[:, :, None], (m, m, n)), jnp.zeros((m, g)))
+        common = ArrowPoint(jnp.zeros((g, m, n)), jnp.eye(g))
+        # products come with the seed first; blocks have it second
+        local = jnp.swapaxes(jax.vmap(operator.mv)(own).elements, 0, 1)
+        columns = jax.vmap(operator.mv)(common)
+        rows = jax.vmap(operator.transpose().mv)(common)
+        return ArrowJacobian(
+            local=local,
+            to_globals=jnp.swapaxes(columns.elements, 0, 1),
+            contributions=rows.elements,
+            corner=columns.globals.T,
+            chain=jnp.eye(g),
+        )
+
+    def compute(
+        self, state: ArrowJacobian, vector: ArrowPoint, options: dict[str, Any]
+    ) -> tuple[ArrowPoint, lx.RESULTS, dict[str, Any]]:
+        del options
+        return solve_arrow(state, vector), lx.RESULTS.successful, {}
+
+    def transpose(self, state: ArrowJacobian, options: dict[str, Any]) -> tuple[ArrowJacobian, dict[str, Any]]:
+        swap = lambda block: jnp.swapaxes(block, 0, 1)
+        transposed = ArrowJacobian(
+            swap(state.local), swap(state.contributions), swap(state.to_globals), state.corner.T, state.chain
+        )
+        return transposed, options
+
+    def conj(self, state: ArrowJacobian, options: dict[str, Any]) -> tuple[ArrowJacobian, dict[str, Any]]:
+        return jax.tree.map(jnp.conj, state), options
+
+    def assume_full_rank(self) -> bool:
+        return True

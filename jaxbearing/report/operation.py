@@ -1,0 +1,39 @@
+"""The operating point of a solution in words, without what the scene does not use."""
+
+import dataclasses
+
+import numpy as np
+
+from ..bearings.solution import Solution
+from .display import ZERO_CELSIUS, display_unit, displayed
+
+
+def unused_operation(solution: Solution) -> set[str]:
+    """Names in the operating point that no modelled part depends on: a scene need not give them."""
+    unused = set()
+    if solution.elements.film_inner is None:
+        unused.add("oil_temperature")
+    if solution.power_loss.drag is None:
+        unused.add("oil_flow")
+    return unused
+
+
+def operating_point(solution: Solution) -> str:
+    """As in "inner ring speed 10500 rpm, radial load 25 kN"; an outer ring at rest is not mentioned."""
+    hidden = unused_operation(solution)
+    said = []
+    for field in dataclasses.fields(solution.operation):
+        value = float(np.asarray(getattr(solution.operation, field.name)))
+        if field.name in hidden or (field.name == "outer_speed" and value == 0.0):
+            continue
+        said.append(f"{field.metadata['description']} {_with_unit(value, field.metadata['unit'])}")
+    return ", ".join(said)
+
+
+def _with_unit(value: float, unit: str) -> str:
+    """Applied loads are shown in kN, and the temperatures of an operating point are not differences."""
+    if unit == "K":
+        return f"{value - ZERO_CELSIUS:.6g} degC"
+    if unit == "N":
+        return f"{value * 1e-3:.6g} kN"
+    return f"{displayed(value, unit):.6g} {display_unit(unit)}"

@@ -1,0 +1,51 @@
+"""Sensitivities on the screen: the inputs that decide power loss and slip."""
+
+from collections.abc import Mapping
+
+from jaxtyping import Array
+from rich import box
+from rich.console import Console
+from rich.padding import Padding
+from rich.rule import Rule
+from rich.table import Table
+from rich.text import Text
+
+from ..sensitivity import Sensitivities, largest
+from .display import digits
+
+SHOWN = 5
+"""Inputs a result."""
+UNCERTAIN = ("drag.coefficient",)
+"""Inputs that nobody knows well: shown wherever they rank."""
+LAW_CONSTANTS = ("oil.", "contact.")
+"""Constants of laws: an engineer does not choose them one by one; the oil's temperature stands for them here."""
+
+
+def print_sensitivities(sensitivities: Sensitivities, console: Console) -> None:
+    """The five largest of each result, and always the inputs that nobody knows well."""
+    console.print(Rule("Sensitivities", align="left", style="dim"))
+    table = Table(box=box.SIMPLE_HEAD, pad_edge=False, padding=(0, 1), header_style="")
+    rows = [_rows(sensitivities.power_loss), _rows(sensitivities.slip)]
+    for title in ("d ln(power) / d ln(input)", "d(slip) / d ln(input)"):
+        table.add_column(title, no_wrap=True)
+        table.add_column("", justify="right", no_wrap=True)
+    for i in range(max(map(len, rows))):
+        cells = (row[i] if i < len(row) else ("", "") for row in rows)
+        table.add_row(*(text for cell in cells for text in cell))
+    console.print(Padding(table, (0, 1)))
+    text = "Power: per cent for one per cent of the input. Slip: absolute. Temperatures in K. Oil: see --json."
+    console.print(Padding(Text(text, style="dim"), (0, 2)))
+
+
+def _rows(values: Mapping[str, Array]) -> list[tuple[str, str]]:
+    paths = largest(values, SHOWN, LAW_CONSTANTS)
+    paths += [path for path in UNCERTAIN if path in values and path not in paths]
+    return [
+        (path, f"{float(values[path]):+.3f}" if abs(float(values[path])) >= 1e-3 else _small(values[path]))
+        for path in paths
+    ]
+
+
+def _small(value: Array) -> str:
+    sign = "+" if float(value) > 0.0 else ""
+    return sign + digits(float(value), 3)

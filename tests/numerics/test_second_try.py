@@ -1,0 +1,117 @@
+"""The walk from an easier system where Newton's iteration fails at once."""
+
+import equinox as eqx
+import jax
+import jax.numpy as jnp
+import numpy as np
+import pytest
+from jaxtyping import Array, Float
+
+from jaxbearing.numerics.arrow import AbstractArrowSystem, ArrowPoint
+from jaxbearing.numerics.newton import LONGEST_STAGE, MOST_STEPS, NewtonOptions, newton_solve
+from jaxbearing.numerics.status import Status
+
+
+class Plateau(AbstractArrowSystem):
+    """tanh(k (x - a)) = 0 for every element and the global: far from the root it is flat, and Newton overshoots to
+    where it is flatter still."""
+
+    root: Float[Array, ""]
+    steepness: Float[Array, ""]
+    reachable: bool = eqx.field(static=True, default=True)
+    lost: bool = eqx.field(static=True, default=False)
+
+    def plateau(self, x):
+        return jnp.tanh(self.steepness * (x - self.root))
+
+    def initial(self):
+        return ArrowPoint(jnp.zeros((1, 2)), jnp.zeros(1))
+
+    def element(self, unknowns, shared):
+        return self.plateau(unknowns), 0.0 * shared, jnp.zeros(())
+
+    def closure(self, globals_, totals):
+        return self.plateau(globals_) + totals, jnp.zeros(())
+
+    def step_caps(self):
+        return ArrowPoint(jnp.full((1, 1), 1e9), jnp.full(1, 1e9))
+
+    def bounds(self):
+        return ArrowPoint(jnp.full((1, 1), -1e12), jnp.full(1, -1e12)), ArrowPoint(
+            jnp.full((1, 1), 1e12), jnp.full(1, 1e12)
+        )
+
+    def equation_names(self):
+        return ("local", "global")
+
+
+class Eased(Plateau):
+    """At ease 1 the root is the first guess."""
+
+    paths = 2
+
+    def eased(self, ease, path):
+        """Way 0 breaks off half way where the root is not `reachable`; way 1 breaks off where `lost`."""
+        breaks = (path == 0) & (not self.reachable) | self.lost
+        target = self.root + jnp.where(breaks & (ease < 0.5), 1e6, 0.0)
+        return eqx.tree_at(lambda system: system.root, self, (1.0 - ease) * target)
+
+
+def parameters(root, steepness=1.0):
+    return jnp.asarray(root), jnp.asarray(steepness)
+
+
+def test_without_a_path_newton_fails_and_says_so():
+    _, result = newton_solve(Plateau(*parameters(6.0)))
+    assert int(result.status) != Status.CONVERGED
+
+
+@pytest.mark.parametrize("root", [0.5, 1.5, 6.0, 7.5, 40.0])
+def test_second_try_finds_the_root(root):
+    _, result = newton_solve(Eased(*parameters(root)))
+    assert int(result.status) == Status.CONVERGED
+    np.testing.assert_allclose(result.point.elements, root, rtol=1e-14)
+    np.testing.assert_allclose(result.point.globals, root, rtol=1e-14)
+
+
+def test_stages_shorten_where_one_fails():
+    """A quarter of the way is more than Newton can take from where it stands."""
+    root = 40.0
+    _, quarter = newton_solve(Plateau(*parameters(LONGEST_STAGE * root)))
+    assert int(quarter.status) != Status.CONVERGED
+    _, whole = newton_solve(Eased(*parameters(root)))
+    assert int(whole.status) == Status.CONVERGED
+
+
+@pytest.mark.parametrize("root", [0.5, 6.0])
+def test_derivative_of_a_second_try_is_that_of_the_root(root):
+    """x = a: dx/da = 1, dx/dk = 0, in both modes."""
+    place = lambda a, k: newton_solve(Eased(a, k))[1].point.globals[0]
+    for jacobian in (jax.jacfwd, jax.jacrev):
+        slopes = jacobian(place, argnums=(0, 1))(*parameters(root))
+        np.testing.assert_allclose(slopes, (1.0, 0.0), atol=1e-13)
+
+
+def test_a_path_that_breaks_ends_with_a_status_and_not_in_a_loop():
+    options = NewtonOptions(max_steps=20)
+    _, result = newton_solve(Eased(*parameters(6.0), lost=True), options)
+    assert int(result.status) in (Status.NOT_CONVERGED, Status.DIVERGED)
+    assert options.max_steps < int(result.iterations) <= (1 + 2 * MOST_STEPS) * options.max_steps
+
+
+def test_where_one_way_breaks_off_the_next_is_taken():
+    _, result = newton_solve(Eased(*parameters(6.0), reachable=False))
+    assert int(result.status) == Status.CONVERGED
+    np.testing.assert_allclose(result.point.globals, 6.0, rtol=1e-14)
+
+
+def test_lanes_take_the_second_try_apart():
+    """In one batch: a lane that needs no second try keeps its result and its count of steps."""
+    roots = jnp.asarray([0.3, 6.0, 0.5, 40.0])
+    solve = lambda root: newton_solve(Eased(root, jnp.asarray(1.0)))[1]
+    batch = jax.vmap(solve)(roots)
+    assert np.all(np.asarray(batch.status) == Status.CONVERGED)
+    for i, root in enumerate(roots):
+        alone = solve(root)
+        assert int(alone.iterations) == int(batch.iterations[i])
+        np.testing.assert_allclose(batch.point.globals[i], alone.point.globals, rtol=1e-14)
