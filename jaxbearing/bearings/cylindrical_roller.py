@@ -13,8 +13,9 @@ from typing import Literal
 import equinox as eqx
 
 from .._types import Scalar
+from ..contacts import MeanPressureTraction
 from ..gaps import AbstractTurbulence, BlendedTurbulence
-from ..lubricants import Lubricant
+from ..lubricants import Lubricant, NoPressureViscosity
 from ..numerics.checks import known, require
 from .parts import (
     AbstractScene,
@@ -216,6 +217,14 @@ class CylindricalRollerBearing(AbstractScene):
             )
         if self.slips and (self.oil.density is None):
             raise ValueError("oil.density: the cage land and the drag need it")
+        if isinstance(self.oil.pressure_viscosity, NoPressureViscosity):
+            laws = {"film": self.contact.film, "rolling_resistance": self.contact.rolling}
+            for name, law in laws.items():
+                if law is not None and law.piezoviscous_only:
+                    raise ValueError(
+                        f"contact.{name}: {type(law).__name__} holds for oils whose viscosity rises with pressure, not "
+                        "for an isoviscous one; film = 'moes' and rolling_resistance = 'rigid_isoviscous' do"
+                    )
 
     @property
     def slips(self) -> bool:
@@ -226,12 +235,16 @@ class CylindricalRollerBearing(AbstractScene):
         """Tables that the scene names but that have no effect without traction on the raceways."""
         if self.slips:
             return ()
-        named = {"cage": self.cage, "flange": self.flange, "drag": self.drag}
+        rolling = None if self.contact is None else self.contact.rolling
+        named = {"cage": self.cage, "flange": self.flange, "drag": self.drag, "contact.rolling_resistance": rolling}
         return tuple(name for name, part in named.items() if part is not None)
 
     def assumptions(self) -> tuple[str, ...]:
-        """Dimensions that the scene does not give and the model assumed, for the user to see."""
+        """What the scene does not give and the model assumed, and what its data were not made for; for the user."""
         said = []
+        if self.contact is not None and self.oil is not None:
+            said += [f"oil: {note}" for note in self.oil.notes]
+            said += _misfit(self.contact, self.oil)
         if self.geometry.contact_length is None:
             said.append("geometry.contact_length is not given: the whole roller length carries load")
         if self.slips and self.cage is not None:
@@ -245,6 +258,16 @@ class CylindricalRollerBearing(AbstractScene):
         if self.slips and self.flange is not None and self.flange.height is None:
             said.append(f"flange.height is not given: assumed {ASSUMED_FLANGE_HEIGHT:.3f} of the roller diameter")
         return tuple(said)
+
+
+def _misfit(contact: ContactLaws, oil: Lubricant) -> list[str]:
+    """A rheology fitted with one viscous function says little in another: a limiting stress is no Eyring stress."""
+    if not isinstance(contact.traction, MeanPressureTraction) or oil.rheology is None:
+        return []
+    fitted, used = oil.rheology.viscous_function, contact.traction.viscous.name
+    if fitted is None or fitted == used:
+        return []
+    return [f"contact.traction is {used}, the oil's rheology was fitted with {fitted}"]
 
 
 def _check_dimensions(scene: CylindricalRollerBearing) -> None:

@@ -16,6 +16,7 @@ from .point_film import HamrockDowsonMinimum as HamrockDowsonMinimum
 from .point_film import NijenbanningVennerMoes as NijenbanningVennerMoes
 from .rolling import AbstractRollingResistance as AbstractRollingResistance
 from .rolling import ErtelGrubinRollingResistance as ErtelGrubinRollingResistance
+from .rolling import JoinedRollingResistance as JoinedRollingResistance
 from .rolling import RigidRollingResistance as RigidRollingResistance
 from .rolling import point_rolling_moment as point_rolling_moment
 from .thermal import AbstractThermalFactor as AbstractThermalFactor

@@ -87,7 +87,7 @@ class ContactLaws(eqx.Module):
             traction = self.traction.force(contact, load, film, speed, sliding_speed, base, lubricant, base_viscosity)
         rolling = None
         if self.rolling is not None:
-            rolling = self.rolling.force(contact, film, mean_speed, base_viscosity, inlet.pressure_viscosity)
+            rolling = self.rolling.force(contact, load, film, mean_speed, base_viscosity, inlet.pressure_viscosity)
         return ContactState(film, rise, traction, rolling, inner_residual)
 
 

@@ -16,7 +16,7 @@ def quickly_compiled(function: Callable[..., Any]) -> Callable[..., Any]:
 
     Not to be called inside another `jax.jit`, which allows compiler options on the outside only.
     """
-    quick = eqx.filter_jit(function, compiler_options=_QUICK)
+    quick = eqx.filter_jit(function, compiler_options=_QUICK)  # pyright: ignore[reportCallIssue]
     ordinary = eqx.filter_jit(function)
 
     def call(*args: Any, **kwargs: Any) -> Any:

@@ -65,12 +65,12 @@ class MaterialsTable(Table):
 
 
 class ContactTable(Table):
-    """`film = "dowson_higginson"` is that film joined to Martin's rigid one (see `MartinBlend`): at no load it must
-    grow without bound. `ree_eyring` is the flow law inside `maxwell_eyring` and means the same here."""
+    """Laws of the raceway contacts, by the names in `scenes.contact_laws`, which says what each stands for."""
 
-    film: Literal["moes", "dowson_higginson"]
-    thermal: Literal["gupta"] | None = None
-    traction: Literal["maxwell_eyring", "ree_eyring"] | None = None
+    film: Literal["moes", "dowson_higginson", "dowson_toyoda", "pan_hamrock", "grubin"]
+    thermal: Literal["gupta", "hsu_lee"] | None = None
+    traction: Literal["maxwell_eyring", "ree_eyring", "bair_winer", "gecim_winer", "elsharkawy_hamrock"] | None = None
+    rolling_resistance: Literal["rigid_isoviscous", "ertel_grubin"] | None = None
     entrainment_offset: units.NonNegativeSurfaceSpeed = 0.0
 
 

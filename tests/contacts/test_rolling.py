@@ -1,5 +1,6 @@
 """Rolling resistance: its constants derived anew, full solutions, signs, hard cases, gradients; the contact laws."""
 
+import itertools
 import tomllib
 from pathlib import Path
 
@@ -15,6 +16,7 @@ from jaxbearing.contacts import (
     DowsonHigginson,
     ErtelGrubinRollingResistance,
     Gupta,
+    JoinedRollingResistance,
     LineContact,
     MartinBlend,
     Moes,
@@ -24,11 +26,15 @@ from jaxbearing.contacts.laws import ContactLaws
 from jaxbearing.contacts.rolling import INLET_CONSTANT, RIGID_CONSTANT
 
 PUBLISHED = tomllib.loads((Path(__file__).parents[1] / "published" / "line_contact.toml").read_text())["rolling"]
-LAWS = [RigidRollingResistance(), ErtelGrubinRollingResistance()]  # new law: add a line, get the general tests
+LAWS = [
+    RigidRollingResistance(),
+    ErtelGrubinRollingResistance(),
+    JoinedRollingResistance(),
+]  # new law: add a line, get the general tests
 NAMES = lambda law: type(law).__name__
 CONTACT = LineContact(0.0055, 0.0124, 2.3e11)
-NOMINAL = (4e-7, 32.0, 4.87e-3, 1.04e-8)
-"""film, entrainment speed, viscosity, pressure viscosity"""
+NOMINAL = (2500.0, 4e-7, 32.0, 4.87e-3, 1.04e-8)
+"""load, film, entrainment speed, viscosity, pressure viscosity"""
 JITTED = {law: jax.jit(law.force) for law in LAWS}
 
 
@@ -65,52 +71,67 @@ def test_inlet_constant():
 def test_full_solutions(case):
     """Ertel and Grubin for the oil, rigid cylinders for the isoviscous oil; and the rigid law is no upper bound."""
     alpha, u, exact = (PUBLISHED[name][case] for name in ("pressure_viscosity", "speed", "force"))
+    load = PUBLISHED["load"][case]
     central, minimum = PUBLISHED["central_film"][case], PUBLISHED["minimum_film"][case]
-    rigid = RigidRollingResistance().force(CONTACT, minimum, u, 4.87e-3, alpha) / exact
-    inlet = ErtelGrubinRollingResistance().force(CONTACT, central, u, 4.87e-3, alpha) / exact
+    rigid = RigidRollingResistance().force(CONTACT, load, minimum, u, 4.87e-3, alpha) / exact
+    inlet = ErtelGrubinRollingResistance().force(CONTACT, load, central, u, 4.87e-3, alpha) / exact
     if alpha > 1e-10:
         assert 0.99 < inlet < 1.26
         assert 0.6 < rigid < 0.8
-        martin = 4.894968 * 4.87e-3 * u * 0.0055 * 0.0124 / PUBLISHED["load"][case]
-        bound = RigidRollingResistance().force(CONTACT, martin, u, 4.87e-3, alpha)
+        joined = JoinedRollingResistance().force(CONTACT, load, central, u, 4.87e-3, alpha) / exact
+        assert 0.97 < joined < 1.22
+        martin = 4.894968 * 4.87e-3 * u * 0.0055 * 0.0124 / load
+        bound = RigidRollingResistance().force(CONTACT, load, martin, u, 4.87e-3, alpha)
         assert bound > 1.5 * exact  # with the rigid film under the same load it is one
     else:
         np.testing.assert_allclose(rigid, 1.0, rtol=0.05)
 
 
 def test_plain_formulas():
-    film, u, mu, alpha = NOMINAL
+    load, film, u, mu, alpha = NOMINAL
     rigid = 6.506905 * mu * u * 0.0124 * np.sqrt(2 * 0.0055 / film)
-    np.testing.assert_allclose(JITTED[LAWS[0]](CONTACT, film, -u, mu, alpha), -rigid, rtol=1e-13)
-    np.testing.assert_allclose(JITTED[LAWS[1]](CONTACT, film, -u, mu, alpha), -6.532471 * 0.0124 * film / alpha)
+    loaded = 6.532471 * 0.0124 * film / alpha
+    np.testing.assert_allclose(JITTED[LAWS[0]](CONTACT, load, film, -u, mu, alpha), -rigid, rtol=1e-13)
+    np.testing.assert_allclose(JITTED[LAWS[1]](CONTACT, load, film, -u, mu, alpha), -loaded)
+    number = load / (0.0124 * 2.3e11 * 0.0055) / np.sqrt(mu * 2 * u / (2.3e11 * 0.0055))
+    weight = (number / 1.2) ** 2
+    joined = (rigid + weight * loaded) / (1 + weight)
+    np.testing.assert_allclose(JITTED[LAWS[2]](CONTACT, load, film, -u, mu, alpha), -joined, rtol=1e-12)
+
+
+def test_joined_law_is_the_rigid_one_without_load():
+    _, film, u, mu, alpha = NOMINAL
+    rigid, _, joined = (JITTED[law](CONTACT, 0.0, film, u, mu, alpha) for law in LAWS)
+    np.testing.assert_allclose(joined, rigid, rtol=1e-13)
 
 
 @pytest.mark.parametrize("law", LAWS, ids=NAMES)
 def test_odd_and_smooth_in_speed(law):
-    film, _, mu, alpha = NOMINAL
+    load, film, _, mu, alpha = NOMINAL
     u = jnp.concatenate([jnp.zeros(1), jnp.logspace(-9, 2, 45)])
-    forward = JITTED[law](CONTACT, film, u, mu, alpha)
-    np.testing.assert_array_equal(JITTED[law](CONTACT, film, -u, mu, alpha), -forward)
+    forward = JITTED[law](CONTACT, load, film, u, mu, alpha)
+    np.testing.assert_array_equal(JITTED[law](CONTACT, load, film, -u, mu, alpha), -forward)
     assert forward[0] == 0
-    assert jnp.all(jnp.diff(forward) >= 0)
-    assert jax.grad(JITTED[law], argnums=2)(CONTACT, film, 0.0, mu, alpha) > 0
+    if not isinstance(law, JoinedRollingResistance):  # whose load number falls with the speed, at a given film
+        assert jnp.all(jnp.diff(forward) >= 0)
+    assert jax.grad(JITTED[law], argnums=3)(CONTACT, load, film, 0.0, mu, alpha) > 0
 
 
 @pytest.mark.parametrize("law", LAWS, ids=NAMES)
 def test_hard_cases_value_and_gradient(law):
-    derivative = jax.jit(jax.grad(lambda *a: jnp.sum(law.force(*a)), argnums=(0, 1, 2, 3, 4)))
+    derivative = jax.jit(jax.grad(lambda *a: jnp.sum(law.force(*a)), argnums=(0, 1, 2, 3, 4, 5)))
     film = jnp.asarray([1e-15, 1e-7, 1e-2])[:, None]
     speed = jnp.asarray([0.0, 1e-12, -1e-6, 1e3])[None, :]
-    for alpha in (0.0, 1e-8):
-        assert jnp.all(jnp.isfinite(JITTED[law](CONTACT, film, speed, 1e-3, alpha)))
-        gradient = derivative(CONTACT, film, speed, 1e-3, alpha)
+    for alpha, load in itertools.product((0.0, 1e-8), (0.0, 1e5)):
+        assert jnp.all(jnp.isfinite(JITTED[law](CONTACT, load, film, speed, 1e-3, alpha)))
+        gradient = derivative(CONTACT, load, film, speed, 1e-3, alpha)
         assert all(jnp.all(jnp.isfinite(leaf)) for leaf in jax.tree.leaves(gradient))
 
 
 @pytest.mark.parametrize("law", LAWS, ids=NAMES)
 def test_gradients(law):
     function = lambda *inputs: JITTED[law](CONTACT, *inputs)
-    gradient = jax.jit(jax.grad(function, argnums=(0, 1, 2, 3)))(*NOMINAL)
+    gradient = jax.jit(jax.grad(function, argnums=(0, 1, 2, 3, 4)))(*NOMINAL)
     for i, value in enumerate(NOMINAL):
         step = 1e-4 * value
         up, down = (function(*NOMINAL[:i], value + s * step, *NOMINAL[i + 1 :]) for s in (1, -1))
