@@ -6,6 +6,7 @@ from pathlib import Path
 import pytest
 
 import jaxbearing as jb
+from jaxbearing.scenes.data_files import builtin_text
 
 README = (Path(__file__).parents[1] / "README.md").read_text(encoding="utf-8")
 
@@ -28,6 +29,26 @@ def test_power_loss_table_is_ours():
         assert float(getattr(losses, name)) == pytest.approx(value, abs=0.051)  # printed to 0.1 W
     high = jb.solve(jb.load_scene("turbine_roller", {"drag.coefficient": "1.2"})).power_loss.total
     assert f"{float(high):.0f} W" in README
+
+
+@pytest.mark.slow
+def test_rolling_resistance_adds_what_is_said():
+    rolling = jb.load_scene("turbine_roller", {"contact.rolling_resistance": "ertel_grubin"})
+    assert f"{float(jb.solve(rolling).power_loss.total):.0f} W" in README
+
+
+def test_oil_table_is_a_scene(tmp_path):
+    """The oil of the README in a scene without traction, which would need a rheology."""
+    (block,) = re.findall(r"```toml\n(.*?)```", README, flags=re.DOTALL)
+    text = builtin_text("turbine_roller").replace("[oil]", "[unused]")
+    head = text[: text.index("[unused]")]
+    rest = text[text.index("[contact]") :].replace("traction =", "# traction =")
+    file = tmp_path / "scene.toml"
+    file.write_text(head + block + rest, encoding="utf-8")
+    scene = jb.load_scene(str(file))
+    assert any("estimated" in note for note in scene.assumptions())
+    nu = float(scene.oil.viscosity.viscosity(0.0, 313.15)) / 870.0
+    assert nu == pytest.approx(68e-6, rel=1e-12)
 
 
 def test_commands_are_one_line_each():

@@ -1,12 +1,16 @@
 """`jaxbearing solve`: one steady state on the screen, as JSON, as a picture, as a file."""
 
 import json
+import os
+import tempfile
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Annotated, Any
 
 import typer
 
-from .messages import NOT_CONVERGED, bad_input, refuse
+from .messages import NO_OUTPUT, NOT_CONVERGED, bad_input, refuse, say
 from .terminal import console
 
 SceneArgument = Annotated[
@@ -99,17 +103,38 @@ def _check_files(plot: Path | None, out: Path | None) -> None:
             refuse(f"{option}: found '{path}'; expected a file name that ends in {one_of(suffixes)}")
         if not path.parent.is_dir() or path.is_dir():
             refuse(f"{option}: found '{path}'; expected a file in an existing folder")
+        with _writing(path):
+            _try_to_write(path)
+
+
+def _try_to_write(path: Path) -> None:
+    """**Raises:** `OSError` where no file can be made, or one that is there is write-protected."""
+    if path.exists() and not os.access(path, os.W_OK):
+        raise PermissionError(13, "Permission denied")
+    tempfile.TemporaryFile(dir=path.parent).close()
+
+
+@contextmanager
+def _writing(path: Path) -> Iterator[None]:
+    """Turns what keeps a file from being written into one message and exit code 1."""
+    try:
+        yield
+    except OSError as error:
+        message = f"the output cannot be written: {path}: {error.strerror or error}"
+        raise typer.Exit(say(message, NO_OUTPUT)) from None
 
 
 def _write_files(solution: Any, label: str, plot: Path | None, out: Path | None) -> None:
     if out is not None:
         from ..report.dataset import solution_to_dataset, write_netcdf
 
-        write_netcdf(solution_to_dataset(solution), out)
+        with _writing(out):
+            write_netcdf(solution_to_dataset(solution), out)
     if plot is not None:
         from ..report.plots import plot_solution, save_plot
 
-        save_plot(plot_solution(solution, label), plot)
+        with _writing(plot):
+            save_plot(plot_solution(solution, label), plot)
 
 
 def _print_json(solution: Any, slopes: Any) -> None:

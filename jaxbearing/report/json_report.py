@@ -41,10 +41,10 @@ def solution_to_dict(solution: Solution) -> dict[str, Any]:
 
 
 def sensitivities_to_dict(sensitivities: Sensitivities) -> dict[str, Any]:
-    """Sensitivities of the two results, largest modulus first; those that are not finite are `None`."""
+    """Sensitivities of the two results to every input, largest modulus first; those that are not finite are `None`."""
     named = {"power_loss.total": sensitivities.power_loss, "cage.slip": sensitivities.slip}
     return {
-        result: {path: _plain(values[path]) for path in largest(values, len(values))}
+        result: {path: _plain(values[path]) for path in dict.fromkeys([*largest(values, len(values)), *values])}
         for result, values in named.items()
     }
 

@@ -33,7 +33,7 @@ def print_sensitivities(sensitivities: Sensitivities, console: Console) -> None:
         cells = (row[i] if i < len(row) else ("", "") for row in rows)
         table.add_row(*(text for cell in cells for text in cell))
     console.print(Padding(table, (0, 1)))
-    text = "Power: per cent for one per cent of the input. Slip: absolute. Temperatures in K. Oil: see --json."
+    text = "Power: per cent for one per cent of the input. Slip: absolute. Temperatures in K. More: --json."
     console.print(Padding(Text(text, style="dim"), (0, 2)))
 
 

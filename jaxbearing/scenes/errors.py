@@ -5,9 +5,9 @@ import re
 from collections.abc import Iterable, Mapping, Sequence
 from typing import Any, Self
 
-from pydantic import BaseModel, ValidationError
+from pydantic import BaseModel, TypeAdapter, ValidationError
 
-from .fields import is_optional, names_at, path_of
+from .fields import is_optional, names_at, path_of, required_names, type_at
 from .units import describe, shortened
 
 _CLASS_MESSAGE = re.compile(r"([a-z_]+(?:\.[a-z_]+)*)(?::| must)")
@@ -109,7 +109,8 @@ def _in_words(detail: Any, model: type[BaseModel]) -> tuple[str, dict[str, str]]
     if kind == "extra_forbidden":
         return path, unknown_name(location, model)
     if kind == "missing":
-        return path, {"found": "nothing", "expected": f"a value for '{location[-1]}', which is required"}
+        wanted = _expected_at(model, location)
+        return path, {"found": "nothing", "expected": f"a value for '{location[-1]}', which is required{wanted}"}
     if kind == "scene":
         # a check of several fields names the one to look at
         path = ".".join(part for part in (path, context.get("field", "")) if part)
@@ -127,6 +128,22 @@ def _in_words(detail: Any, model: type[BaseModel]) -> tuple[str, dict[str, str]]
     if kind == "string_type":
         return path, {"found": describe(detail["input"]), "expected": "a text in quotes"}
     return path, {"found": describe(detail["input"]), "expected": detail["msg"]}
+
+
+def _expected_at(model: type[BaseModel], location: Sequence[int | str]) -> str:
+    """What the field at a location takes, in the words with which it refuses what it does not take."""
+    wanted = type_at(model, location)
+    if wanted is None:
+        return ""
+    if isinstance(wanted, type) and issubclass(wanted, BaseModel):
+        return f": a table with {', '.join(repr(name) for name in required_names(wanted))}"
+    try:
+        TypeAdapter(wanted).validate_python(object())
+    except ValidationError as error:
+        refused = error.errors(include_url=False)[0]
+        _, words = _in_words({**refused, "loc": tuple(location)}, model)
+        return f": {words['expected']}"
+    return ""
 
 
 def unknown_name(location: Sequence[int | str], model: type[BaseModel]) -> dict[str, str]:

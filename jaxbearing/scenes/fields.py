@@ -58,6 +58,20 @@ def is_optional(model: type[BaseModel], location: Sequence[int | str]) -> bool:
     return bool(fields) and all(not info.is_required() and info.default is None for info in fields)
 
 
+def type_at(model: type[BaseModel], location: Sequence[int | str]) -> Any:
+    """The type of the field at a location with all that validates it; `None` where there is no such field."""
+    for owner in _models_at(model, location[:-1]):
+        info = owner.model_fields.get(str(location[-1]))
+        if info is not None:
+            return typing.Annotated[info.annotation, *info.metadata] if info.metadata else info.annotation
+    return None
+
+
+def required_names(model: type[BaseModel]) -> tuple[str, ...]:
+    """Names of the fields of a table that may not be left out."""
+    return tuple(name for name, info in model.model_fields.items() if info.is_required())
+
+
 def _models_of_field(model: type[BaseModel], name: str) -> list[type[BaseModel]]:
     info = model.model_fields.get(name)
     return [] if info is None else _models_in(info.annotation)

@@ -8,7 +8,7 @@ from pydantic import BeforeValidator, Discriminator, Tag, model_validator
 from ..materials import CATALOGUE
 from . import units
 from .errors import nearest, one_of
-from .oil_schema import OilTable
+from .oil_schema import ConstantViscosityTable, OilTable
 from .table import Table, refusal_at
 
 AVAILABLE_KINDS = ("cylindrical_roller_bearing",)
@@ -42,7 +42,8 @@ def _material_name(value: Any) -> str:
     # --set materials.rings=52100 arrives as a number
     name = str(value) if isinstance(value, int) and not isinstance(value, bool) else value
     if not isinstance(name, str) or name not in CATALOGUE:
-        near = nearest(name, CATALOGUE) if isinstance(name, str) else ""
+        # "AISI M-50": the standard's name in front hides the material's
+        near = (nearest(name, CATALOGUE) or nearest(name.split(" ")[-1], CATALOGUE)) if isinstance(name, str) else ""
         expected = f"a material of the catalogue ({one_of(CATALOGUE)}) or a table with {_names(MaterialTable)}"
         raise units.refusal(expected, units.describe(value), near)
     return name
@@ -72,6 +73,10 @@ class ContactTable(Table):
     traction: Literal["maxwell_eyring", "ree_eyring", "bair_winer", "gecim_winer", "elsharkawy_hamrock"] | None = None
     rolling_resistance: Literal["rigid_isoviscous", "ertel_grubin"] | None = None
     entrainment_offset: units.NonNegativeSurfaceSpeed = 0.0
+
+
+ISOVISCOUS = {"film": ("moes",), "rolling_resistance": ("rigid_isoviscous",)}
+"""The laws of `ContactTable` that hold for an oil of the same viscosity at every pressure."""
 
 
 class CageTable(Table):
@@ -143,6 +148,13 @@ class CylindricalRollerTable(Table):
             raise refusal_at("operation.oil_flow", "a volume flow, which [drag] needs, e.g. '150 l/h'", "nothing")
         if self.contact is None:
             return self
+        if self.contact.traction is not None and self.cage is None:
+            expected = (
+                "a table [cage], which contact.traction needs: without one a roller outside the loaded zone slows "
+            )
+            raise refusal_at(
+                "cage", expected + "down for ever (leave out contact.traction, or use simulate)", "nothing"
+            )
         if self.operation.oil_temperature is None:
             expected = "a temperature, which [contact] needs, e.g. '100 degC'"
             raise refusal_at("operation.oil_temperature", expected, "nothing")
@@ -154,6 +166,12 @@ class CylindricalRollerTable(Table):
         for law, user in needs.items():
             if user and getattr(self.oil, law) is None:
                 raise refusal_at(f"oil.{law}", f"the law of {law}, which {user} needs", "nothing")
+        if isinstance(self.oil.viscosity, ConstantViscosityTable) and self.oil.pressure_viscosity is None:
+            for name, holds in ISOVISCOUS.items():
+                given = getattr(self.contact, name)
+                if given is not None and given not in holds:
+                    expected = f"{one_of(holds)}: the other laws are for oils whose viscosity rises with pressure"
+                    raise refusal_at(f"contact.{name}", expected, f"'{given}'")
         return self
 
 

@@ -85,21 +85,6 @@ def test_solve_summary(jaxbearing_command):
     assert "\x1b" not in result.out
 
 
-@pytest.fixture
-def failing_solve(monkeypatch):
-    import jaxbearing  # the package's `solve` is the verb: the module of that name is reached by `sys.modules`
-    from jaxbearing.numerics.status import Status
-
-    real = jaxbearing.solve
-
-    def solve(scene, throw=True):
-        solution = real(scene, throw=False)
-        object.__setattr__(solution, "status", jax.numpy.asarray(int(Status.DIVERGED)))
-        return solution
-
-    monkeypatch.setattr(sys.modules["jaxbearing.solve"], "solve", solve)
-
-
 @pytest.mark.usefixtures("failing_solve")
 def test_not_converged(jaxbearing_command):
     screen = jaxbearing_command("solve", *DRY)
@@ -115,11 +100,10 @@ def test_not_converged(jaxbearing_command):
 
 
 def test_interrupt(jaxbearing_command, monkeypatch):
-
-    def interrupted(scene, throw=True):
+    def interrupted(scene):
         raise KeyboardInterrupt
 
-    monkeypatch.setattr(sys.modules["jaxbearing.solve"], "solve", interrupted)
+    monkeypatch.setattr(sys.modules["jaxbearing.solve"], "solve_once", interrupted)
     result = jaxbearing_command("solve", *DRY)
     assert result.code == 130
     assert "Traceback" not in result.err

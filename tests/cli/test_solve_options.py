@@ -1,0 +1,304 @@
+"""`solve` with --plot, --out and --sensitivities: files, refusals, exit codes, what is printed."""
+
+import io
+import json
+import math
+import os
+import re
+import sys
+from contextlib import redirect_stdout
+
+import jax.numpy as jnp
+import numpy as np
+import pytest
+import xarray as xr
+
+import jaxbearing
+from jaxbearing.cli.main import main
+from jaxbearing.sensitivity import Sensitivities
+
+DRY = ("solve", "reference_roller", "--set", "contact=none")
+BEGINNINGS = {"png": b"\x89PNG", "svg": b"<?xml", "pdf": b"%PDF"}
+
+
+@pytest.fixture
+def no_solve(monkeypatch):
+    """Fails where a solve is begun: a refusal must not make the user wait for one."""
+
+    def solve_once(scene):
+        raise AssertionError("solved before the refusal")
+
+    monkeypatch.setattr(sys.modules["jaxbearing.solve"], "solve_once", solve_once)
+
+
+@pytest.mark.parametrize("suffix", [*BEGINNINGS, "PNG"])
+def test_plot(suffix, jaxbearing_command, folder):
+    plain = jaxbearing_command(*DRY, "--json")
+    drawn = jaxbearing_command(*DRY, "--json", "--plot", f"picture.{suffix}")
+    assert drawn == plain
+    assert os.listdir(folder) == [f"picture.{suffix}"]
+    assert (folder / f"picture.{suffix}").read_bytes().startswith(BEGINNINGS[suffix.lower()])
+
+
+def test_out(jaxbearing_command, folder):
+    plain = jaxbearing_command(*DRY)
+    (folder / "sub").mkdir()
+    written = jaxbearing_command(*DRY, "--out", "sub/results.nc")
+    assert written == plain
+    assert os.listdir(folder / "sub") == ["results.nc"]
+    check_netcdf(folder / "sub" / "results.nc", json.loads(jaxbearing_command(*DRY, "--json").out))
+
+
+def check_netcdf(path, solution):
+    """Labelled throughout, and the same numbers as the JSON."""
+    with xr.open_dataset(path) as dataset:
+        assert all(variable.attrs["units"] for variable in dataset.variables.values())
+        np.testing.assert_allclose(dataset["load_inner"], solution["elements"]["load_inner"], rtol=1e-15)
+        np.testing.assert_allclose(dataset["ring_radial"], solution["ring"]["radial"], rtol=1e-15)
+        if "power_loss" in solution:
+            np.testing.assert_allclose(dataset["power_loss_total"], solution["power_loss"]["total"], rtol=1e-15)
+
+
+def test_files_are_overwritten_and_both_can_be_wanted(jaxbearing_command, folder):
+    (folder / "a.nc").write_text("old", encoding="utf-8")
+    (folder / "a.png").write_text("old", encoding="utf-8")
+    result = jaxbearing_command(*DRY, "--plot", "a.png", "--out", "a.nc", "--json")
+    assert (result.code, result.err) == (0, "")
+    assert sorted(os.listdir(folder)) == ["a.nc", "a.png"]
+    check_netcdf(folder / "a.nc", json.loads(result.out))
+
+
+@pytest.mark.usefixtures("no_solve")
+@pytest.mark.parametrize(
+    ("options", "words"),
+    [
+        (("--plot", "a.jpg"), ["--plot", "'a.jpg'", "'.png', '.svg', '.pdf'"]),
+        (("--plot", "png"), ["--plot", "'png'", "ends in"]),
+        (("--plot", ""), ["--plot", "ends in"]),
+        (("--out", "a.csv"), ["--out", "'a.csv'", "'.nc'"]),
+        (("--out", "."), ["--out", "'.nc'"]),
+        (("--out", "no/a.nc"), ["--out", "'no/a.nc'", "existing folder"]),
+        (("--plot", "no/a.png"), ["--plot", "'no/a.png'", "existing folder"]),
+        (("--out", "folder.nc"), ["--out", "'folder.nc'", "a file in"]),
+        (("--out", "scene.toml/a.nc"), ["--out", "existing folder"]),
+        (("--plot", "a.png", "--out", "a.png"), ["--out", "'.nc'"]),
+        (("--plot", "\x1b[31m.jpg"), ["--plot", "ends in"]),
+        (("--sensitivities",), ["--sensitivities", "without power loss", "contact.traction", "a cage"]),
+        (("--sensitivities", "--set", "contact.film=moes", "--json"), ["--sensitivities", "contact.traction"]),
+        (("--sensitivities", "--out", "a.nc"), ["--sensitivities"]),
+    ],
+    ids=lambda value: " ".join(value).replace("\x1b", "ESC"),
+)
+def test_refused_before_the_solve(options, words, jaxbearing_command, folder):
+    (folder / "folder.nc").mkdir()
+    (folder / "scene.toml").write_text("", encoding="utf-8")
+    result = jaxbearing_command(*DRY, *options)
+    assert (result.code, result.out) == (2, "")
+    assert result.err.startswith("error: ")
+    assert result.err.count("\n") == 1
+    assert "\x1b" not in result.err
+    for word in ("found", "expected", *words):
+        assert word in result.err
+    assert sorted(os.listdir(folder)) == ["folder.nc", "scene.toml"]
+
+
+def test_a_broken_scene_is_said_before_a_wrong_file_name(jaxbearing_command, folder):
+    result = jaxbearing_command("solve", "nowhere.toml", "--out", "a.csv")
+    assert (result.code, result.err.count("\n")) == (2, 1)
+    assert "nowhere.toml" in result.err
+
+
+@pytest.mark.usefixtures("no_solve")
+@pytest.mark.parametrize("options", [("--out", "a.nc"), ("--plot", "a.svg"), ("--json", "--out", "a.nc")], ids=str)
+def test_a_place_that_cannot_be_written(options, jaxbearing_command, folder, monkeypatch):
+    # the permission bits do not stop root, so the refusal is made here
+    def refuse(*_, **__):
+        raise PermissionError(13, "Permission denied")
+
+    monkeypatch.setattr("jaxbearing.cli.solve_verb.tempfile.TemporaryFile", refuse)
+    result = jaxbearing_command(*DRY, *options)
+    assert (result.code, result.out) == (1, "")
+    assert result.err == f"error: the output cannot be written: {options[-1]}: Permission denied\n"
+    assert os.listdir(folder) == []
+
+
+@pytest.mark.usefixtures("no_solve")
+def test_a_write_protected_file(jaxbearing_command, folder, monkeypatch):
+    (folder / "a.nc").write_text("mine", encoding="utf-8")
+    monkeypatch.setattr("os.access", lambda _, mode, **__: mode != os.W_OK)
+    result = jaxbearing_command(*DRY, "--out", "a.nc")
+    assert (result.code, result.out) == (1, "")
+    assert result.err == "error: the output cannot be written: a.nc: Permission denied\n"
+    assert (folder / "a.nc").read_text(encoding="utf-8") == "mine"
+
+
+@pytest.mark.parametrize("option", [("--out", "a.nc"), ("--plot", "a.pdf")], ids=str)
+def test_a_disk_that_fills_up(option, jaxbearing_command, folder, monkeypatch):
+    def full(*_):
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr("jaxbearing.report.files.os.replace", full)
+    result = jaxbearing_command(*DRY, *option)
+    assert (result.code, result.out) == (1, "")
+    assert result.err == f"error: the output cannot be written: {option[1]}: No space left on device\n"
+    assert os.listdir(folder) == []
+
+
+@pytest.mark.usefixtures("failing_solve")
+@pytest.mark.parametrize("screen", [(), ("--json",)], ids=["screen", "json"])
+def test_not_converged_leaves_no_file(screen, jaxbearing_command, folder):
+    (folder / "old.png").write_text("old", encoding="utf-8")
+    result = jaxbearing_command(*DRY, *screen, "--out", "a.nc", "--plot", "old.png")
+    assert result.code == 3
+    assert "not written: old.png, a.nc\n" in result.err
+    assert os.listdir(folder) == ["old.png"]
+    assert (folder / "old.png").read_text(encoding="utf-8") == "old"
+    if screen:
+        assert json.loads(result.out)["converged"] is False
+    else:
+        assert "NOT CONVERGED" in result.out
+
+
+SLOPES = {
+    "operation.inner_speed": -1.5,
+    "operation.outer_speed": 0.0,
+    "geometry.roller_length": 1.25,
+    "geometry.pitch_diameter": 0.75,
+    "oil.viscosity.c1": 9.0,
+    "contact.entrainment_offset": 8.0,
+    "cage.land_width": 0.5,
+    "cage.guiding_clearance": -0.25,
+    "flange.angle": -2e-5,
+    "drag.coefficient": 1e-7,
+    "drag.through_flow_fraction": math.nan,
+}
+
+
+@pytest.fixture
+def known_slopes(monkeypatch):
+    """Sensitivities without the compilation of a lubricated scene: a dry solution and these numbers."""
+    dry = jaxbearing.solve(jaxbearing.load_scene("reference_roller", {"contact": "none"}))
+    slopes = Sensitivities(
+        {path: jnp.asarray(value) for path, value in SLOPES.items()},
+        {"drag.coefficient": jnp.asarray(0.0), "operation.inner_speed": jnp.asarray(-0.125)},
+    )
+    monkeypatch.setattr("jaxbearing.sensitivity.sensitivities_once", lambda scene: (dry, slopes))
+
+
+@pytest.mark.usefixtures("known_slopes")
+def test_sensitivities(jaxbearing_command, folder):
+    arguments = ("solve", "reference_roller", "--sensitivities")
+    as_json = jaxbearing_command(*arguments, "--json", "--out", "a.nc", "--plot", "a.png")
+    assert (as_json.code, as_json.err) == (0, "")
+    assert sorted(os.listdir(folder)) == ["a.nc", "a.png"]
+    slopes = json.loads(as_json.out)["sensitivities"]
+    # every input, the largest first, what is not finite at the end
+    ranked = sorted(SLOPES, key=lambda path: -abs(SLOPES[path]) if SLOPES[path] == SLOPES[path] else 1.0)
+    assert list(slopes["power_loss.total"]) == ranked
+    assert slopes["power_loss.total"] == {**SLOPES, "drag.through_flow_fraction": None}
+    assert list(slopes["cage.slip"].values()) == [-0.125, 0.0]
+
+    screen = jaxbearing_command(*arguments)
+    assert (screen.code, screen.err) == (0, "")
+    power, slip = shown(screen.out)
+    # constants of laws are not shown; the five largest, then what nobody knows well
+    assert list(power) == [*(path for path in ranked if not path.startswith(("oil.", "contact.")))][:5] + [
+        "drag.coefficient"
+    ]
+    assert power["drag.coefficient"] == 1e-7
+    assert slip == {"operation.inner_speed": -0.125, "drag.coefficient": 0.0}
+
+
+def shown(screen):
+    """The numbers of both columns of the table of sensitivities."""
+    table = screen.split("Sensitivities")[1]
+    lines = table.splitlines()
+    middle = next(line.index("d(slip)") for line in lines if "d(slip)" in line)
+    number = re.compile(r"([a-z_.]+) +([+-]?[0-9][0-9.e+-]*)")
+    columns = []
+    for part in (slice(None, middle), slice(middle, None)):
+        found = [number.search(line[part]) for line in lines]
+        columns.append({match[1]: float(match[2]) for match in found if match})
+    return columns
+
+
+@pytest.fixture(scope="module")
+def lubricated(tmp_path_factory):
+    """A lubricated scene, compiled once: everything wanted at once, then its screen."""
+    folder = tmp_path_factory.mktemp("lubricated")
+    file = lambda name: str(folder / name)
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setenv("JAXBEARING_CACHE", "off")
+        everything = ("--json", "--sensitivities", "--plot", file("a.svg"), "--out", file("a.nc"))
+        as_json = printed(patch, "reference_roller", *everything)
+        screen = printed(patch, "reference_roller", "--sensitivities")
+    return folder, json.loads(as_json), screen
+
+
+def printed(patch, *arguments):
+    patch.setattr("sys.argv", ["jaxbearing", "solve", *arguments])
+    with redirect_stdout(io.StringIO()) as out, pytest.raises(SystemExit) as ended:
+        main()
+    assert not ended.value.code
+    return out.getvalue()
+
+
+@pytest.mark.slow
+def test_everything_at_once(lubricated):
+    folder, solution, _ = lubricated
+    assert solution["status"] == "converged"
+    assert sorted(os.listdir(folder)) == ["a.nc", "a.svg"]
+    check_netcdf(folder / "a.nc", solution)
+
+
+@pytest.mark.slow
+def test_sensitivities_to_every_number(lubricated):
+    _, solution, _ = lubricated
+    slopes = solution["sensitivities"]
+    assert list(slopes) == ["power_loss.total", "cage.slip"]
+    for values in slopes.values():
+        assert all(isinstance(value, float) and math.isfinite(value) for value in values.values())
+        sizes = [abs(value) for value in values.values()]
+        assert sizes == sorted(sizes, reverse=True)
+        for path in (
+            "geometry.diametral_clearance",
+            "materials.rings.youngs_modulus",
+            "oil.viscosity.c1",
+            "oil.pressure_viscosity.value",
+            "contact.entrainment_offset",
+            "cage.guiding_clearance",
+            "flange.axial_clearance",
+            "drag.coefficient",
+        ):
+            assert path in values
+    # the paths are those of --set and of the results; an input without effect is there too
+    operation = {path.removeprefix("operation.") for path in slopes["cage.slip"] if path.startswith("operation.")}
+    assert operation == set(solution["operation"])
+    assert slopes["power_loss.total"]["operation.outer_speed"] == 0.0
+
+
+@pytest.mark.slow
+def test_sensitivities_on_the_screen(lubricated):
+    _, solution, screen = lubricated
+    assert max(len(line) for line in screen.splitlines()) <= 100
+    for result, column in zip(("power_loss.total", "cage.slip"), shown(screen), strict=True):
+        values = solution["sensitivities"][result]
+        assert list(column)[:5] == [path for path in values if not path.startswith(("oil.", "contact."))][:5]
+        assert "drag.coefficient" in column
+        for path, value in column.items():
+            np.testing.assert_allclose(value, values[path], atol=5.1e-4)
+
+
+@pytest.mark.slow
+def test_sensitivities_of_a_solve_that_fails(jaxbearing_command, monkeypatch):
+    # a load that overflows: no solve survives it
+    arguments = ("solve", "reference_roller", "--sensitivities", "--set", "operation.radial_load=1e200 N")
+    as_json = jaxbearing_command(*arguments, "--json", "--out", "a.nc")
+    assert as_json.code == 3
+    assert "not written: a.nc" in as_json.err
+    for values in json.loads(as_json.out)["sensitivities"].values():
+        assert "drag.coefficient" in values
+        assert set(values.values()) == {None}
+    screen = jaxbearing_command(*arguments)
+    assert screen.code == 3
+    assert "Sensitivities" not in screen.out

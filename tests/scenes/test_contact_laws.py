@@ -1,0 +1,200 @@
+"""Names of a [contact] table: each builds the law that it says; what does not fit the oil is refused or said."""
+
+import tomllib
+from typing import get_args
+
+import numpy as np
+import pytest
+
+import jaxbearing as jb
+from jaxbearing.contacts import (
+    BairWiner,
+    DowsonHigginson,
+    DowsonToyoda,
+    ElsharkawyHamrock,
+    GecimWiner,
+    Grubin,
+    Gupta,
+    HsuLee,
+    JoinedRollingResistance,
+    MartinBlend,
+    MeanPressureTraction,
+    Moes,
+    NoThermalReduction,
+    PanHamrockCentral,
+    ReeEyring,
+    RigidRollingResistance,
+)
+from jaxbearing.lubricants import NoPressureViscosity, WaltherRoelands
+from jaxbearing.scenes.contact_laws import FILMS, ROLLING, THERMAL
+from jaxbearing.scenes.errors import SceneError
+from jaxbearing.scenes.reader import builtin_text, load_scene, scene_from_mapping
+from jaxbearing.scenes.schema import ISOVISCOUS, ContactTable
+
+FILM = {
+    "moes": Moes,
+    "dowson_higginson": DowsonHigginson,
+    "dowson_toyoda": DowsonToyoda,
+    "pan_hamrock": PanHamrockCentral,
+    "grubin": Grubin,
+}
+TRACTION = {
+    "maxwell_eyring": ReeEyring,
+    "ree_eyring": ReeEyring,
+    "bair_winer": BairWiner,
+    "gecim_winer": GecimWiner,
+    "elsharkawy_hamrock": ElsharkawyHamrock,
+}
+WATER = {"oil.viscosity": "{law = 'constant', value = '4.8 mPa*s'}"}
+DATA_SHEET = {
+    "density": "870 kg/m^3",
+    "viscosity": {
+        "law": "two_viscosities",
+        "viscosity_1": "32 cSt",
+        "temperature_1": "40 degC",
+        "viscosity_2": "5.4 cSt",
+        "temperature_2": "100 degC",
+    },
+}
+
+
+def names(field):
+    """Valid names of a field of the schema."""
+    annotation = ContactTable.model_fields[field].annotation
+    return {name for part in (annotation, *get_args(annotation)) for name in get_args(part) if isinstance(name, str)}
+
+
+def contact(**changes):
+    return load_scene("turbine_roller", {f"contact.{name}": value for name, value in changes.items()}).contact
+
+
+@pytest.mark.parametrize("name", FILM)
+def test_film(name):
+    film = contact(film=name).film
+    if name == "moes":
+        assert isinstance(film, Moes)
+    else:
+        # joined to Martin's rigid film, which an unloaded roller needs
+        assert isinstance(film, MartinBlend)
+        assert isinstance(film.film, FILM[name])
+
+
+@pytest.mark.parametrize(("name", "law"), [("gupta", Gupta), ("hsu_lee", HsuLee), ("none", NoThermalReduction)])
+def test_thermal(name, law):
+    assert isinstance(contact(thermal=name).thermal, law)
+
+
+@pytest.mark.parametrize("name", TRACTION)
+def test_traction(name):
+    traction = contact(traction=name).traction
+    assert isinstance(traction, MeanPressureTraction)
+    assert isinstance(traction.viscous, TRACTION[name])
+
+
+@pytest.mark.parametrize(
+    ("name", "law"), [("rigid_isoviscous", RigidRollingResistance), ("ertel_grubin", JoinedRollingResistance)]
+)
+def test_rolling_resistance(name, law):
+    assert isinstance(contact(rolling_resistance=name).rolling, law)
+
+
+def test_left_out():
+    laws = contact(thermal="none", traction="none", rolling_resistance="none")
+    assert isinstance(laws.thermal, NoThermalReduction)
+    assert (laws.traction, laws.rolling) == (None, None)
+
+
+def test_every_name_is_tested_here():
+    assert names("film") == set(FILM) == set(FILMS)
+    assert names("thermal") == {"gupta", "hsu_lee"} == set(THERMAL)
+    assert names("traction") == set(TRACTION)
+    assert names("rolling_resistance") == {"rigid_isoviscous", "ertel_grubin"} == set(ROLLING)
+
+
+def test_exponent_is_that_of_the_oils_data():
+    """Elsharkawy and Hamrock's function has an exponent, fitted with the oil's limiting stress."""
+    law = load_scene("turbine_roller", {"oil.name": "pennzane_x2000", "contact.traction": "elsharkawy_hamrock"})
+    assert law.contact.traction.viscous.exponent == law.oil.rheology.exponent == 2.0
+
+
+@pytest.mark.parametrize("name", sorted(set(FILM) - {"moes"}))
+def test_film_of_an_isoviscous_oil(name):
+    with pytest.raises(SceneError) as caught:
+        load_scene("turbine_roller", {**WATER, "contact.film": name})
+    message = str(caught.value)
+    assert message.startswith(f"turbine_roller with --set contact.film={name}: contact.film: found '{name}'; ")
+    assert "expected 'moes': the other laws are for oils whose viscosity rises with pressure." in message
+    assert "more problem" not in message
+
+
+def test_rolling_resistance_of_an_isoviscous_oil():
+    with pytest.raises(SceneError, match=r"contact\.rolling_resistance: found 'ertel_grubin'; expected 'rigid_isov"):
+        load_scene("turbine_roller", {**WATER, "contact.rolling_resistance": "ertel_grubin"})
+    scene = load_scene("turbine_roller", {**WATER, "contact.rolling_resistance": "rigid_isoviscous"})
+    assert isinstance(scene.oil.pressure_viscosity, NoPressureViscosity)
+    # a coefficient that the scene gives is not refused
+    given = {**WATER, "oil.pressure_viscosity": "10 1/GPa", "contact.film": "grubin"}
+    assert isinstance(load_scene("turbine_roller", given).contact.film, MartinBlend)
+
+
+def test_schema_and_laws_agree_on_isoviscous_oils():
+    assert ISOVISCOUS["film"] == tuple(name for name, law in FILMS.items() if not law().piezoviscous_only)
+    assert ISOVISCOUS["rolling_resistance"] == tuple(n for n, law in ROLLING.items() if not law().piezoviscous_only)
+
+
+def mentioned(scene, words):
+    return [text for text in scene.assumptions() if words in text]
+
+
+def test_misfit_of_traction_law_and_data_is_said():
+    assert mentioned(contact_scene("ree_eyring"), "was fitted with") == []
+    assert mentioned(contact_scene("maxwell_eyring"), "was fitted with") == []
+    assert mentioned(contact_scene("bair_winer"), "was fitted with") == [
+        "contact.traction is bair_winer, the oil's rheology was fitted with ree_eyring"
+    ]
+
+
+def contact_scene(traction):
+    return load_scene("turbine_roller", {"contact.traction": traction})
+
+
+def test_notes_of_an_oil_are_said():
+    assert mentioned(load_scene("turbine_roller"), "oil: ") == []
+    pennzane = load_scene("turbine_roller", {"oil.name": "pennzane_x2000"})
+    assert mentioned(pennzane, "oil: ") == [f"oil: {pennzane.oil.notes[0]}"]
+
+
+def data_sheet_scene(**changes):
+    """The oil of a data sheet, as an engineer writes it; without traction, of which a data sheet says nothing."""
+    raw = tomllib.loads(builtin_text("turbine_roller"))
+    raw["oil"] = {**DATA_SHEET, **changes}
+    raw["contact"] = {"film": "moes"}
+    del raw["cage"], raw["flange"], raw["drag"]
+    return scene_from_mapping(raw)
+
+
+def test_oil_of_a_data_sheet():
+    scene = data_sheet_scene()
+    assert isinstance(scene.oil.viscosity, WaltherRoelands)
+    assert len(mentioned(scene, "is estimated from its viscosity")) == 1
+    given = {"viscosity": {**DATA_SHEET["viscosity"], "pressure_viscosity": "20 1/GPa"}}
+    assert mentioned(data_sheet_scene(**given), "estimated") == []
+    raw = tomllib.loads(builtin_text("turbine_roller"))
+    raw["oil"] = {**DATA_SHEET, "conductivity": "0.14 W/(m*K)"}
+    with pytest.raises(SceneError, match=r"oil\.rheology: found nothing; expected the law of rheology, which contact"):
+        scene_from_mapping(raw)
+
+
+@pytest.mark.slow
+def test_oil_of_a_data_sheet_solves():
+    solution = jb.solve(data_sheet_scene())
+    assert len([text for text in solution.warnings if "is estimated from its viscosity" in text]) == 1
+    film = np.asarray(solution.elements.film_inner)
+    assert np.all(np.isfinite(film))
+    assert 0.1e-6 < film[0] < 2e-6
+
+
+@pytest.mark.slow
+def test_misfit_is_among_the_warnings_of_a_solution():
+    solution = jb.solve(contact_scene("gecim_winer"))
+    assert "contact.traction is gecim_winer, the oil's rheology was fitted with ree_eyring" in solution.warnings
