@@ -83,6 +83,6 @@ def _by_path(tree: Any) -> dict[str, Float[Array, ""]]:
 
 
 def largest(values: Mapping[str, Array], count: int, leave_out: tuple[str, ...] = ()) -> list[str]:
-    """Paths of the largest entries by modulus, the largest first; zeros, NaN and paths below `leave_out` do not count."""
+    """Paths of the largest entries by modulus, the largest first, without zeros, NaN and paths below `leave_out`."""
     sizes = {path: abs(float(value)) for path, value in values.items() if not path.startswith(leave_out)}
     return sorted((path for path in sizes if sizes[path] > 0.0), key=lambda path: sizes[path], reverse=True)[:count]

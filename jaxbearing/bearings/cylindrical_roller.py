@@ -237,6 +237,8 @@ class CylindricalRollerBearing(AbstractScene):
             return ()
         rolling = None if self.contact is None else self.contact.rolling
         named = {"cage": self.cage, "flange": self.flange, "drag": self.drag, "contact.rolling_resistance": rolling}
+        if self.contact is None:
+            named["oil"] = self.oil
         return tuple(name for name, part in named.items() if part is not None)
 
     def assumptions(self) -> tuple[str, ...]:
@@ -261,13 +263,20 @@ class CylindricalRollerBearing(AbstractScene):
 
 
 def _misfit(contact: ContactLaws, oil: Lubricant) -> list[str]:
-    """A rheology fitted with one viscous function says little in another: a limiting stress is no Eyring stress."""
-    if not isinstance(contact.traction, MeanPressureTraction) or oil.rheology is None:
-        return []
-    fitted, used = oil.rheology.viscous_function, contact.traction.viscous.name
-    if fitted is None or fitted == used:
-        return []
-    return [f"contact.traction is {used}, the oil's rheology was fitted with {fitted}"]
+    """Laws that were not made for this oil."""
+    said = []
+    if isinstance(contact.traction, MeanPressureTraction) and oil.rheology is not None:
+        # a limiting stress is no Eyring stress
+        fitted, used = oil.rheology.viscous_function, contact.traction.viscous.name
+        if fitted not in (None, used):
+            said.append(f"contact.traction is {used}, the oil's rheology was fitted with {fitted}")
+    isoviscous = isinstance(oil.pressure_viscosity, NoPressureViscosity)
+    if contact.rolling is not None and not contact.rolling.piezoviscous_only and not isoviscous:
+        said.append(
+            "contact.rolling_resistance leaves out the rise of viscosity with pressure: about half the resistance of a "
+            "loaded contact (ertel_grubin has it)"
+        )
+    return said
 
 
 def _check_dimensions(scene: CylindricalRollerBearing) -> None:

@@ -21,6 +21,7 @@ from ..gaps import (
 from ..materials import reduced_modulus
 from ..numerics.arrow import schur_complement
 from ..numerics.newton import NewtonOptions, NewtonResult, newton_solve
+from ..numerics.safe import safe_norm
 from .cylindrical_roller import CylindricalRollerBearing, RollerCage, RollerGeometry
 from .kinematics import RollerKinematics
 from .roller_equations import (
@@ -163,7 +164,7 @@ def _drag_density(scene: CylindricalRollerBearing) -> Array:
     fraction = saturated_oil_fraction(
         operation.oil_flow,
         # one ring at rest: the speed of the other, as in Parker's tests; both turning: either stirs the oil
-        jnp.sqrt(jnp.square(operation.inner_speed) + jnp.square(operation.outer_speed)),
+        safe_norm(operation.inner_speed, operation.outer_speed),
         scene.geometry.pitch_diameter,
         scene.drag.through_flow_fraction,
     )

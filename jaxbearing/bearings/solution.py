@@ -149,7 +149,7 @@ class Solution(eqx.Module):
     notes: tuple[str, ...] = eqx.field(static=True, default=())
 
     @property
-    def converged(self) -> Bool[Array, ""]:
+    def converged(self) -> Bool[Array, "*batch"]:
         return self.status == Status.CONVERGED
 
     @property

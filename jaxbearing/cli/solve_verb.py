@@ -37,7 +37,8 @@ SensitivitiesOption = Annotated[
     bool,
     typer.Option(
         "--sensitivities",
-        help="Also by how much each input moves power loss and cage slip (compiles about twice as long).",
+        help="Also by how much each input moves power loss and cage slip (the first time, this compiles for about a "
+        "minute).",
     ),
 ]
 

@@ -56,7 +56,7 @@ class AbstractRollingResistance(eqx.Module):
         **Arguments:**
         - `contact`: the two cylinders.
         - `load`: N, >= 0.
-        - `film`: film thickness, m, > 0.
+        - `film`: film thickness, m, > 0 (`ContactLaws` passes that of its film law; each law says which it means).
         - `entrainment_speed`: mean surface speed (u1 + u2)/2 relative to the contact, m/s, signed.
         - `viscosity`: of the oil in the inlet, at ambient pressure, Pa s.
         - `pressure_viscosity`: reciprocal isoviscous pressure in the inlet, 1/Pa, >= 0.

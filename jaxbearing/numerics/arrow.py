@@ -32,8 +32,10 @@ class ArrowPoint(NamedTuple):
 class AbstractArrowSystem(eqx.Module):
     """Equations of many elements and a few globals. A pytree: its array leaves are the parameters.
 
-    Unknowns and residuals must be scaled to order 1. Subclasses are final and hold every number that the
-    equations depend on as a leaf, because derivatives of the solution are taken with respect to the leaves.
+    Unknowns and residuals must be scaled to order 1, and each equation must grow with its own unknown at the root,
+    those before it in equilibrium (elements first, then globals, each in its order): the sign of a row is yours to
+    choose. Subclasses are final and hold every number that the equations depend on as a leaf, because derivatives of
+    the solution are taken with respect to the leaves.
     """
 
     @abc.abstractmethod
@@ -161,7 +163,8 @@ def uphill_step(jacobian: ArrowJacobian, right: ArrowPoint) -> tuple[ArrowPoint,
     """The solution of J x = right with J changed where a pivot is negative, and whether one was.
 
     Each equation is meant to grow with its own unknown when those before it are in equilibrium. Where it falls, the
-    Newton step points away from the root behind the hump; with the pivot's sign turned it points across it.
+    Newton step points away from the root behind the hump; with the pivot's sign turned it points across it. Elements
+    of more than 4 unknowns, which LAPACK eliminates, are left as they are.
     """
     local, local_changed = jacobian.local, jnp.zeros((), dtype=bool)
     if local.shape[0] <= UNROLLED_LIMIT:

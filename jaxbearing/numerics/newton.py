@@ -33,7 +33,7 @@ NOTHING_SOLVED = 2.0
 STAGES_PER_TRY = 3
 """A stage starts near its end, and gets this part of the Newton steps of a first try."""
 MOST_STEPS = 4
-"""Newton steps of all stages of a further try, in units of `max_steps`."""
+"""Newton steps of all further tries together, in units of `max_steps` a path."""
 
 
 class NewtonOptions(eqx.Module):
@@ -44,7 +44,8 @@ class NewtonOptions(eqx.Module):
     - `step_tolerance`: largest scaled Newton step of a converged solve. Convergence asks for both: a small
       residual alone says nothing where the Jacobian is nearly singular.
     - `inner_tolerance`: largest scaled residual of solves nested in the equations.
-    - `max_steps`: Newton steps of the first try, rejected trials counted; any other may take four times as many.
+    - `max_steps`: Newton steps of the first try, rejected trials counted; the others together may take four times as
+      many for each path of the system.
     """
 
     residual_tolerance: float = eqx.field(static=True, default=1e-10)
@@ -56,8 +57,9 @@ class NewtonOptions(eqx.Module):
 class NewtonResult(NamedTuple):
     """Where the iteration ended. On a lane that failed, `point` is a finite point and not a solution.
 
-    `jacobian` holds the blocks, residual norm, worst equation and worst element are measured at the last iterate; of a
-    lane that converged, `point` is one Newton step (below the step tolerance) further.
+    `jacobian` holds the blocks, residual norm, worst equation and worst element are measured at the last iterate on the
+    system asked for (not an eased one); of a lane that converged, `point` is one Newton step (below the step tolerance)
+    further.
     """
 
     point: ArrowPoint
@@ -101,7 +103,8 @@ class _Iterate(NamedTuple):
     path: _Path | None
     equations: Equations
     jacobian: ArrowJacobian
-    """Equations and Jacobian at `trial` of the previous pass: of a finished lane, at its final `trial`."""
+    """Equations and Jacobian of the system asked for, where it was last looked at: of a lane that converged, at its
+    final `trial`."""
 
 
 def _norm(point: ArrowPoint) -> Float[Array, ""]:
@@ -169,10 +172,10 @@ def _iterate(system: AbstractArrowSystem, options: NewtonOptions) -> _Iterate:
         steps = iterations if state.path is None else state.path.steps + 1
         limit = options.max_steps
         if state.path is not None:
-            limit = jnp.where(state.path.solved_ease <= 1.0, limit // STAGES_PER_TRY, limit)
+            limit = jnp.where(state.path.solved_ease <= 1.0, max(limit // STAGES_PER_TRY, 1), limit)
         # settled with a nested solve that failed: neither another step nor another path changes that
         hopeless = settled & ~converged
-        failed = stuck | (steps >= limit) | hopeless
+        failed = (stuck | (steps >= limit) | hopeless) & ~converged
         trial = _move(system, base, next_step, fractions[attempt])
         path, status = state.path, jnp.asarray(-1)
         if path is None:
@@ -189,6 +192,11 @@ def _iterate(system: AbstractArrowSystem, options: NewtonOptions) -> _Iterate:
             base, next_step = _choose(restart, guess, base), _choose(restart, zeros, next_step)
             base_norm = jnp.where(restart, jnp.inf, base_norm)
             attempt = jnp.where(restart, 0, attempt)
+        # what is reported is about the system asked for, not about an eased one
+        if state.path is not None:
+            own = state.path.ease == 0.0
+            last = (state.equations, state.jacobian)
+            equations, jacobian = jax.tree.map(lambda new, old: jnp.where(own, new, old), (equations, jacobian), last)
         return _Iterate(
             # a finished lane keeps the point whose residual was judged
             trial=_choose(status == -1, trial, state.trial),
@@ -324,7 +332,9 @@ def newton_solve(system: System, options: NewtonOptions | None = None) -> tuple[
     at the solution) is that of the implicit function, in both modes and to any order: nothing is differentiated
     through the iteration, and a solve that is not differentiated does not pay for derivatives.
 
-    Where the iteration fails, and the system says how it can be eased, further tries solve an easier system first and
+    Newton's step is changed where a pivot of the Jacobian is negative (`arrow.uphill_step`): an equation must grow with
+    its own unknown at the root. Where the iteration fails, and the system says how it can be eased, further tries
+    solve an easier system first and
     walk from there to the one asked for, in stages that shorten where one fails. `iterations` counts all steps.
 
     A lane that fails never raises and never spoils a neighbour under `vmap`: its point is finite and not a solution,

@@ -88,6 +88,9 @@ def with_catalogue(oil: Mapping[str, Any]) -> dict[str, Any]:
         if isinstance(own, Mapping) and isinstance(theirs, Mapping) and own.get("law", theirs["law"]) == theirs["law"]:
             # a note on the catalogue's values does not speak for those that replace them
             kept = {name: value for name, value in theirs.items() if name != "note" or not _changes(own, theirs)}
+            if own.get("viscous_function", kept.get("viscous_function")) != kept.get("viscous_function"):
+                # it belongs to the viscous function that is replaced
+                kept.pop("exponent", None)
             merged[key] = {**kept, **own}
         else:
             merged[key] = own

@@ -7,6 +7,7 @@ from typing import Any
 
 from pydantic import BaseModel
 
+from .data_files import oil_names, oil_text
 from .errors import SceneError, describe_at, unknown_name
 from .fields import is_known
 
@@ -66,6 +67,7 @@ def apply(raw: Mapping[str, Any], overrides: Mapping[str, str], model: type[Base
 
 def _remove(changed: dict[str, Any], keys: list[str], path: str, model: type[BaseModel], file: str) -> None:
     """Takes a field or table out; what is not there must at least be something that could be."""
+    _keep_catalogue(changed, keys, path, file)
     table = changed
     for depth, key in enumerate(keys):
         if key not in table:
@@ -77,6 +79,20 @@ def _remove(changed: dict[str, Any], keys: list[str], path: str, model: type[Bas
             del table[key]
         else:
             table = _table(table[key], changed, keys[: depth + 1], path, file)
+
+
+def _keep_catalogue(changed: dict[str, Any], keys: list[str], path: str, file: str) -> None:
+    """**Raises:** `SceneError` where the name of the oil would bring back what is taken out."""
+    oil = changed.get("oil")
+    name = oil.get("name") if keys[0] == "oil" and isinstance(oil, dict) else None
+    if len(keys) < 2 or keys[1] == "name" or name not in oil_names():
+        return
+    found: Any = tomllib.loads(oil_text(name))
+    for key in keys[1:]:
+        found = found.get(key) if isinstance(found, dict) else None
+    if found is not None:
+        expected = f"another value: the catalogue's {name} has one, and comes back without yours"
+        raise SceneError(file, path, f"'{REMOVE}'", expected)
 
 
 def _table(value: Any, changed: dict[str, Any], inside: list[str], path: str, file: str) -> dict[str, Any]:

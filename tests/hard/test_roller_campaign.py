@@ -5,7 +5,7 @@ import jax
 import jax.numpy as jnp
 import numpy as np
 import pytest
-from roller_cases import LITRE_PER_HOUR, RPM, turbine_roller
+from roller_cases import LITRE_PER_HOUR, RPM, reference_roller, turbine_roller
 
 import jaxbearing as jb
 from jaxbearing.numerics.status import Status
@@ -52,11 +52,12 @@ def test_random_bearings_converge_with_finite_results_and_derivatives(guidance, 
 
     solution, slopes = eqx.filter_jit(lambda all_points: jax.lax.map(solved, all_points))(points)
     steps = np.asarray(solution.iterations)
+    failed = int(np.sum(np.asarray(solution.status) != Status.CONVERGED))
     print(
-        f"{guidance}, flanges {ring}: failed {int(np.sum(np.asarray(solution.status) != Status.CONVERGED))} of {N}; steps "
+        f"{guidance}, flanges {ring}: failed {failed} of {N}; steps "
         f"median {np.median(steps):g}, max {np.max(steps[~both])} (outer ring at rest), {np.max(steps)} (all)"
     )
-    assert np.all(np.asarray(solution.status) == Status.CONVERGED)
+    assert failed == 0
     assert np.max(solution.residual_norm) <= 1e-10
     numbers = jax.tree.leaves(eqx.filter((solution, slopes), eqx.is_inexact_array))
     assert all(np.all(np.isfinite(leaf)) for leaf in numbers)
@@ -64,3 +65,17 @@ def test_random_bearings_converge_with_finite_results_and_derivatives(guidance, 
     assert np.median(steps) <= OFTEN
     assert np.max(steps[~both]) <= RARELY
     assert np.mean(steps <= RARELY) >= 0.98  # the rest found their way in a further try
+
+
+def test_a_failed_solve_reports_the_residual_of_the_system_asked_for():
+    """Rings that turn nearly together under a light load: whether it is solved or not, what is said is about it and not
+    about the easier systems of the further tries, which are solved to 1e-7 here."""
+    operation = {
+        "inner_speed": 1190.4 * RPM,
+        "outer_speed": 1267.2 * RPM,
+        "radial_load": 200.9,
+        "oil_temperature": 438.4,
+        "oil_flow": 4.55e-5,
+    }
+    solution = jb.solve(reference_roller().at_operation(**operation), throw=False)
+    assert bool(solution.converged) or float(solution.residual_norm) > 1e-3

@@ -136,5 +136,8 @@ def test_solves_with_losses(left_out):
     np.testing.assert_allclose(math.fsum(power.values()), total, rtol=1e-12)
     # assembled from torques: the two agree as far as the solve has converged
     np.testing.assert_allclose(float(solution.drive_power), total, rtol=1e-7)
-    assert 0.0 < float(solution.cage.slip) < 0.05
+    slip = float(solution.cage.slip)
+    assert abs(slip) < 0.05
+    # drag and rolling resistance hold the rollers back; without both, the land on the inner ring hurries the cage
+    assert (slip > 0.0) == bool({"drag", "rolling_resistance"} & set(power))
     assert any("contact_length is not given" in text for text in solution.warnings)

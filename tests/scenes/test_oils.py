@@ -220,3 +220,15 @@ def test_refusals_are_one_message(name):
     assert all(word in message for word in words), message
     assert "pydantic" not in message
     assert "more problem" not in message
+
+
+@pytest.mark.parametrize("field", ["pressure_viscosity", "conductivity", "viscosity", "rheology.viscous_function"])
+def test_taking_out_what_the_catalogue_brings_back_is_refused(field):
+    with pytest.raises(SceneError, match="catalogue's mobil_jet_ii"):
+        load_scene("turbine_roller", {f"oil.{field}": "none"})
+
+
+def test_another_viscous_function_leaves_the_exponent_of_the_catalogue_out():
+    changes = {"oil.name": "pennzane_x2000", "oil.rheology.viscous_function": "ree_eyring"}
+    rheology = load_scene("turbine_roller", changes).oil.rheology
+    assert (rheology.viscous_function, rheology.exponent) == ("ree_eyring", None)
