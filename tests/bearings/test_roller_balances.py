@@ -10,7 +10,7 @@ from roller_cases import HARD_CASES, changed, dry_roller, reference_roller, turb
 
 import jaxbearing as jb
 from jaxbearing.bearings.roller_steady import build_system
-from jaxbearing.contacts import NoThermalReduction
+from jaxbearing.contacts import JoinedRollingResistance, NoThermalReduction, RigidRollingResistance
 from jaxbearing.numerics.arrow import evaluate
 
 SCENES = {"reference": reference_roller, "turbine": turbine_roller}
@@ -47,7 +47,10 @@ def test_power_and_forces_close(scene, case):
         {"operation.outer_speed": 300.0},
         {"operation.outer_speed": -400.0},
         {"operation.inner_speed": 0.0, "operation.outer_speed": 900.0},
-        {"cage.guidance": "outer_ring", "flange.ring": "both", "operation.outer_speed": 250.0},
+        pytest.param(
+            {"cage.guidance": "outer_ring", "flange.ring": "both", "operation.outer_speed": 250.0},
+            marks=pytest.mark.slow,
+        ),
     ],
     ids=str,
 )
@@ -56,7 +59,25 @@ def test_power_closes_with_both_rings_turning(change):
     np.testing.assert_allclose(solution.drive_power, solution.power_loss.total, rtol=1e-8)
 
 
-@pytest.mark.parametrize("n_rollers", [3, *(pytest.param(n, marks=pytest.mark.slow) for n in (1, 5))])
+@pytest.mark.slow
+@pytest.mark.parametrize("outer_speed", [0.0, -400.0, 700.0])
+@pytest.mark.parametrize("law", [RigidRollingResistance(), JoinedRollingResistance()], ids=["rigid", "joined"])
+def test_power_closes_with_rolling_resistance(law, outer_speed):
+    scene = reference_roller().replace({"contact.rolling": law, "operation.outer_speed": outer_speed})
+    solution = jb.solve(scene)
+    assert float(solution.power_loss.rolling_resistance) > 100.0
+    np.testing.assert_allclose(solution.drive_power, solution.power_loss.total, rtol=1e-12)
+
+
+@pytest.mark.slow
+def test_rolling_resistance_doubles_the_loss_of_the_reference():
+    """The figure of an independent implementation: it adds 3.25 kW at the nominal point."""
+    solution = jb.solve(reference_roller().replace({"contact.rolling": RigidRollingResistance()}))
+    np.testing.assert_allclose(solution.power_loss.rolling_resistance, 3250.0, rtol=2e-3)  # three digits are given
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("n_rollers", [1, 3, 5])
 def test_few_rollers_at_100_rpm(n_rollers):
     """Sliding of 1e-9 m/s under 25 kN on a roller: what a difference of surface speeds cannot resolve."""
     geometry = dataclasses.replace(turbine_roller().geometry, n_rollers=n_rollers)
@@ -98,7 +119,7 @@ def test_lateral_freedom_is_not_used_by_a_symmetric_bearing():
     np.testing.assert_allclose(two.stiffness[0, 0], one.stiffness[0, 0], rtol=1e-9)
 
 
-@pytest.mark.parametrize("scene", [dry_roller, reference_roller])
+@pytest.mark.parametrize("scene", [dry_roller, pytest.param(reference_roller, marks=pytest.mark.slow)])
 def test_stiffness_is_the_derivative_of_the_load(scene):
     ring = lambda load: jb.solve(scene().at_operation(radial_load=load)).ring.radial
     flexibility = jax.grad(ring)(25e3)

@@ -41,6 +41,7 @@ def function_of_inputs(scene):
     return function
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("scene", BOTH)
 def test_gradients_against_central_differences(scene):
     function = jax.jit(function_of_inputs(scene()))
