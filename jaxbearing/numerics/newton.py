@@ -46,12 +46,15 @@ class NewtonOptions(eqx.Module):
     - `inner_tolerance`: largest scaled residual of solves nested in the equations.
     - `max_steps`: Newton steps of the first try, rejected trials counted; the others together may take four times as
       many for each path of the system.
+    - `further_tries`: whether a solve that fails at once is tried again. A batch under `vmap` waits for its slowest
+      lane; without further tries it waits for `max_steps` at most.
     """
 
     residual_tolerance: float = eqx.field(static=True, default=1e-10)
     step_tolerance: float = eqx.field(static=True, default=1e-7)
     inner_tolerance: float = eqx.field(static=True, default=1e-8)
     max_steps: int = eqx.field(static=True, default=60)
+    further_tries: bool = eqx.field(static=True, default=True)
 
 
 class NewtonResult(NamedTuple):
@@ -142,6 +145,7 @@ def _choose(condition: Bool[Array, ""], a: ArrowPoint, b: ArrowPoint) -> ArrowPo
 def _iterate(system: AbstractArrowSystem, options: NewtonOptions) -> _Iterate:
     fractions = jnp.asarray(BACKTRACK)
     last_attempt = len(BACKTRACK) - 1
+    paths = system.paths if options.further_tries else 0
 
     def keep_going(state: _Iterate):
         return state.status < 0
@@ -182,9 +186,9 @@ def _iterate(system: AbstractArrowSystem, options: NewtonOptions) -> _Iterate:
             status = jnp.where(converged, int(Status.CONVERGED), jnp.where(failed, _failure(stuck), status))
         else:
             asked = path.ease == 0.0
-            spent = (hopeless & asked) | (iterations >= (1 + MOST_STEPS * system.paths) * options.max_steps)
+            spent = (hopeless & asked) | (iterations >= (1 + MOST_STEPS * paths) * options.max_steps)
             path, restart, guess, ended = _advance_path(
-                path, steps, converged, failed, spent, state.trial, easiest, 1 + system.paths
+                path, steps, converged, failed, spent, state.trial, easiest, 1 + paths
             )
             won = converged & asked
             status = jnp.where(won, int(Status.CONVERGED), jnp.where(ended, _failure(stuck), status))
@@ -212,8 +216,8 @@ def _iterate(system: AbstractArrowSystem, options: NewtonOptions) -> _Iterate:
         )
 
     start = easiest = system.initial()
-    if system.paths:
-        ease, way = jnp.asarray([0.0] + [1.0] * system.paths), jnp.asarray([0, *range(system.paths)])
+    if paths:
+        ease, way = jnp.asarray([0.0] + [1.0] * paths), jnp.asarray([0, *range(paths)])
         guesses = jax.vmap(lambda e, w: system.eased(e, w).initial())(ease, way)
         start, easiest = (jax.tree.map(lambda leaf, i=i: leaf[i], guesses) for i in (0, slice(1, None)))
     zeros = jax.tree.map(jnp.zeros_like, start)
@@ -227,7 +231,7 @@ def _iterate(system: AbstractArrowSystem, options: NewtonOptions) -> _Iterate:
         attempt=jnp.asarray(0),
         iterations=jnp.asarray(0),
         status=jnp.asarray(-1),
-        path=path if system.paths else None,
+        path=path if paths else None,
         equations=Equations(zeros, jnp.zeros(())),
         jacobian=empty_jacobian(system, start),
     )

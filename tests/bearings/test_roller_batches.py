@@ -63,7 +63,8 @@ def operations():
     return operations | {"radial_load": operations["radial_load"].at[5].set(-1000.0).at[11].set(jnp.nan)}
 
 
-@pytest.mark.parametrize("mapped", ["map", pytest.param("vmap", marks=pytest.mark.slow)])
+@pytest.mark.slow
+@pytest.mark.parametrize("mapped", ["map", "vmap"])
 def test_2000_solves_with_lanes_that_fail(operations, mapped):
     """Values and gradients of the good lanes equal single solves; a shared parameter keeps a finite gradient."""
     scene = reference_roller()

@@ -31,7 +31,7 @@ LUBRICATED = {
 WITHOUT_LOSSES = {
     "contact.traction": "cage, flange, drag, contact.rolling_resistance",
     "contact.traction cage flange drag contact.rolling_resistance": "",
-    "contact": "cage, flange, drag",
+    "contact": "cage, flange, drag, oil",
     "contact oil": "cage, flange, drag",
     "contact oil cage flange drag operation.oil_temperature operation.oil_flow": "",
 }
