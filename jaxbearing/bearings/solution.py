@@ -8,7 +8,7 @@ import jax
 from jaxtyping import Array, Bool, Float, Int
 
 from ..numerics.status import SolveError, Status
-from .labels import label as label
+from .._scene import label as label
 from .parts import Operation
 
 INNER_TOLERANCE = 1e-8

@@ -1,5 +1,10 @@
 """One lubricated contact: Hertz and Palmgren, film thickness, thermal factors, traction, rolling resistance."""
 
+from .compliance import AbstractTangentialCompliance as AbstractTangentialCompliance
+from .compliance import GivenCompliance as GivenCompliance
+from .compliance import HalfSpaceCompliance as HalfSpaceCompliance
+from .distributed import DistributedTraction as DistributedTraction
+from .distributed import Traction as Traction
 from .film import AbstractLineFilm as AbstractLineFilm
 from .film import DowsonHigginson as DowsonHigginson
 from .film import DowsonToyoda as DowsonToyoda
@@ -8,17 +13,25 @@ from .film import MartinBlend as MartinBlend
 from .film import Moes as Moes
 from .film import PanHamrockCentral as PanHamrockCentral
 from .film import PanHamrockMinimum as PanHamrockMinimum
+from .heating import FilmHeating as FilmHeating
+from .limits import deborah_number as deborah_number
+from .limits import elastic_slope as elastic_slope
 from .line import LineContact as LineContact
+from .patch import ContactPatch as ContactPatch
+from .patch import contact_patch as contact_patch
 from .point import PointContact as PointContact
 from .point_film import AbstractPointFilm as AbstractPointFilm
 from .point_film import HamrockDowsonCentral as HamrockDowsonCentral
 from .point_film import HamrockDowsonMinimum as HamrockDowsonMinimum
 from .point_film import NijenbanningVennerMoes as NijenbanningVennerMoes
+from .resolution import PRESETS as PRESETS
+from .resolution import Resolution as Resolution
 from .rolling import AbstractRollingResistance as AbstractRollingResistance
 from .rolling import ErtelGrubinRollingResistance as ErtelGrubinRollingResistance
 from .rolling import JoinedRollingResistance as JoinedRollingResistance
 from .rolling import RigidRollingResistance as RigidRollingResistance
 from .rolling import point_rolling_moment as point_rolling_moment
+from .shear import Sliding as Sliding
 from .thermal import AbstractThermalFactor as AbstractThermalFactor
 from .thermal import Gupta as Gupta
 from .thermal import HsuLee as HsuLee

@@ -51,6 +51,10 @@ class LineContact(eqx.Module):
         """Mean pressure Q/(2 b l), Pa. **Arguments:** `load`, N, >= 0."""
         return 0.25 * jnp.pi * self.hertz_pressure(load)
 
+    def load_at_pressure(self, pressure: Values) -> Float[Array, "..."]:
+        """Load that gives a Hertz (peak) pressure, N. **Arguments:** `pressure`, Pa, > 0."""
+        return 2.0 * jnp.pi * self.reduced_radius * self.length / self.reduced_modulus * jnp.square(pressure)
+
     @property
     def palmgren_compliance(self) -> Float[Array, "..."]:
         """k of delta = k Q^0.9, m/N^0.9."""

@@ -57,17 +57,24 @@ class PointContact(eqx.Module):
         """Mean pressure Q/(pi a c), Pa. **Arguments:** `load`, N, >= 0."""
         return 2.0 / 3.0 * self.hertz_pressure(load)
 
+    def load_at_pressure(self, pressure: Values) -> Float[Array, "..."]:
+        """Load that gives a Hertz (peak) pressure, N. **Arguments:** `pressure`, Pa, > 0."""
+        return jnp.square(self._compliance(self._log_ellipticity())) * (jnp.pi / 1.5 * jnp.asarray(pressure)) ** 3
+
     def _log_ellipticity(self) -> Array:
         return log_ellipticity(jnp.log(self.reduced_radius_transverse) - jnp.log(self.reduced_radius_rolling))
 
     def _mean_axis(self, log_k: Array, load: Values) -> Array:
         """sqrt(a c), m."""
+        return jnp.cbrt(self._compliance(log_k) * smooth_abs(load, LOAD_WIDTH))
+
+    def _compliance(self, log_k: Array) -> Array:
+        """sqrt(a c)^3 over the load, m^3/N."""
         log_k = jnp.abs(log_k)
         integrals = _elliptic(log_k)
         second_kind = integrals.b + integrals.d * jnp.exp(-2.0 * log_k)
         curvature = 1.0 / self.reduced_radius_rolling + 1.0 / self.reduced_radius_transverse
-        compliance = 6.0 / jnp.pi * jnp.exp(0.5 * log_k) * second_kind / (curvature * self.reduced_modulus)
-        return jnp.cbrt(compliance * smooth_abs(load, LOAD_WIDTH))
+        return 6.0 / jnp.pi * jnp.exp(0.5 * log_k) * second_kind / (curvature * self.reduced_modulus)
 
 
 PointContact.__init__.__doc__ = """**Arguments:**

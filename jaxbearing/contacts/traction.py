@@ -99,9 +99,7 @@ class MeanPressureTraction(AbstractTraction):
         stress_ratio = self.viscous.stress_ratio_of_scaled(log_scale, sliding_speed)
         pressed = jnp.exp(log_stress) * stress_ratio * 2.0 * half_width * contact.length
 
-        inlet_span = contact.length * jnp.sqrt(2.0 * contact.reduced_radius / film)
-        inlet = INLET_COUETTE_CONSTANT * viscosity_inlet * sliding_speed * inlet_span
-        return pressed + inlet
+        return pressed + inlet_shear(contact, film, sliding_speed, viscosity_inlet)
 
 
 MeanPressureTraction.__init__.__doc__ = """**Arguments:**
@@ -111,3 +109,14 @@ MeanPressureTraction.__init__.__doc__ = """**Arguments:**
 
 MaxwellEyring = MeanPressureTraction
 """The name of the default: Ree-Eyring flow with the Maxwell correction."""
+
+
+def inlet_shear(
+    contact: LineContact, film: Values, sliding_speed: Values, viscosity: Values
+) -> Float[Array, "..."]:
+    r"""Shear force of the converging film before a line contact, N: $2.01435\,\mu\,\Delta u\,\ell\sqrt{2R/h}$.
+
+    **Arguments:** `film`, m, > 0; `sliding_speed`, m/s; `viscosity`, Pa s, at the inlet temperature.
+    """
+    span = contact.length * jnp.sqrt(2.0 * contact.reduced_radius / film)
+    return INLET_COUETTE_CONSTANT * viscosity * sliding_speed * span

@@ -9,6 +9,7 @@ from jaxtyping import Array, Float
 
 from .._types import Scalar, Values
 from ..numerics.safe import log_add
+from .relaxation import limiting_root, sinh_root
 
 LOG_SATURATED = 230.0
 """ln|q| beyond which q is frozen at 1e100: every limiting stress is reached long before."""
@@ -33,6 +34,18 @@ class AbstractViscousFunction(eqx.Module):
     def stress_ratio_of_scaled(self, log_scale: Values, x: Values) -> Float[Array, "..."]:
         """s at q = exp(log_scale) x without overflow, for log_scale up to 600 and any finite x."""
 
+    def relaxed_stress_ratio(self, trial: Values, relaxation: Values) -> Float[Array, "..."]:
+        r"""s >= 0 of $s + \kappa F(s) = \rho$: the stress that is left of an elastic trial stress after an implicit step.
+
+        **Arguments:** `trial` $\rho$ >= 0, in units of the characteristic stress; `relaxation` $\kappa$ >= 0, the step
+        in units of viscosity over shear modulus. Both elementwise; the value is $\rho$ at $\kappa$ = 0.
+        """
+        trial, relaxation = jnp.broadcast_arrays(
+            jnp.asarray(trial, dtype=float), jnp.asarray(relaxation, dtype=float)
+        )
+        functions = (lambda q, law: law.stress_ratio(q), lambda s, law: law.rate_ratio(s))
+        return self.stress_ratio(limiting_root(self, trial, relaxation, functions=functions))
+
 
 class ReeEyring(AbstractViscousFunction):
     r"""$F(s) = \sinh s$; the characteristic stress is the Eyring stress.
@@ -51,6 +64,12 @@ class ReeEyring(AbstractViscousFunction):
 
     def stress_ratio_of_scaled(self, log_scale: Values, x: Values) -> Float[Array, "..."]:
         return asinh_of_scaled(log_scale, x)
+
+    def relaxed_stress_ratio(self, trial: Values, relaxation: Values) -> Float[Array, "..."]:
+        trial, relaxation = jnp.broadcast_arrays(
+            jnp.asarray(trial, dtype=float), jnp.asarray(relaxation, dtype=float)
+        )
+        return sinh_root(trial, relaxation)
 
 
 class BairWiner(AbstractViscousFunction):

@@ -1,0 +1,97 @@
+"""The steps of a PCS Instruments export: where each begins, of what kind it is, which lines are its table."""
+
+import re
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+from .text import Line, numbered_lines
+
+_TITLE = re.compile(r"\s*(?:MTM|ETM|EHD|EHS)\w* Test Data File\b")
+_STEP = re.compile(r"Step (\d+)\b[^\t]*\bstarted at\b")
+_WITH_UNIT = re.compile(r"(?P<name>[^()]*\S)\s*\((?P<unit>[^()]*)\)")
+_HAS_NUMBER = re.compile(r"[+-]?[.,]?\d")
+
+
+@dataclass(frozen=True)
+class Heading:
+    """The header cell of a table: its text, the name in lower case, the unit, and its place in the rows."""
+
+    text: str
+    name: str
+    unit: str
+    index: int
+
+
+@dataclass(frozen=True)
+class Step:
+    """One step of a test.
+
+    **Arguments:**
+    - `number`: as the file counts, from 1.
+    - `kind`: as the file writes it, e.g. `Traction` or `BOD_TIMED`; empty where the file says none.
+    - `line`: number of its first line, or of the header of its table where it has one.
+    - `headings`: of its table, by name; for a name that occurs twice, the first. Empty where it has no table.
+    - `rows`: the lines of its table.
+    """
+
+    number: int
+    kind: str
+    line: int
+    headings: dict[str, Heading]
+    rows: tuple[Line, ...]
+
+    @property
+    def is_traction(self) -> bool:
+        """Whether it is a sweep of the slide-to-roll ratio in one direction."""
+        return self.kind.lower() == "traction"
+
+
+def is_pcs_export(text: str) -> bool:
+    """Whether a text is an export of such a machine: it has the title or the first line of a step."""
+    return any(_TITLE.match(line.text) or _STEP.match(line.text) for line in numbered_lines(text))
+
+
+def steps_of(text: str) -> list[Step]:
+    """All steps of an export, in order."""
+    return [_step(first, lines) for first, lines in _parted(numbered_lines(text))]
+
+
+def _parted(lines: Sequence[Line]) -> Iterator[tuple[Line, Sequence[Line]]]:
+    starts = [place for place, line in enumerate(lines) if _STEP.match(line.text)]
+    for start, end in zip(starts, [*starts[1:], len(lines)], strict=True):
+        yield lines[start], lines[start + 1 : end]
+
+
+def _step(first: Line, lines: Sequence[Line]) -> Step:
+    match = _STEP.match(first.text)
+    number = int(match[1][:9]) if match else 0
+    kinds = [
+        cells[1].strip() for line in lines if (cells := line.text.split("\t"))[0] == "Step type" and len(cells) > 1
+    ]
+    header = next((place for place, line in enumerate(lines) if _is_header(line)), None)
+    if header is None:
+        return Step(number, "".join(kinds[:1]), first.number, {}, ())
+    rows = tuple(line for line in lines[header + 1 :] if not _is_remark(line))
+    return Step(number, "".join(kinds[:1]), lines[header].number, _headings(lines[header]), rows)
+
+
+def _is_header(line: Line) -> bool:
+    """Two names with units or more, and no number: the lines above a table have one name and its value."""
+    cells = [cell.strip() for cell in line.text.split("\t") if cell.strip()]
+    return sum(map(bool, map(_WITH_UNIT.fullmatch, cells))) > 1 and not any(map(_HAS_NUMBER.match, cells))
+
+
+def _is_remark(line: Line) -> bool:
+    """Blank lines and sentences, such as that all steps are completed, are no rows."""
+    text = line.text.strip()
+    return not text or ("\t" not in line.text.rstrip() and text[0].isalpha())
+
+
+def _headings(line: Line) -> dict[str, Heading]:
+    found: dict[str, Heading] = {}
+    for index, cell in enumerate(line.text.split("\t")):
+        match = _WITH_UNIT.fullmatch(cell.strip())
+        if match:
+            heading = Heading(cell.strip(), match["name"].lower(), match["unit"].strip(), index)
+            found.setdefault(heading.name, heading)
+    return found

@@ -1,0 +1,212 @@
+"""Tidy CSV files: one row a point, one column a quantity, units in the header."""
+
+import csv
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from jaxtyping import Int64
+
+from jaxbearing.scenes.errors import nearest
+from jaxbearing.scenes.units import shortened
+
+from .checks import check_count, check_sliding, remarks
+from .columns import CURVE, DIMENSIONS, EXAMPLES, KNOWN, REQUIRED, Column, check_unit, to_si
+from .errors import CurveError
+from .grouping import group
+from .numbers import NumberReader
+from .table import CurveTable
+from .text import Line, numbered_lines
+from .units_file import side_units, units_path
+
+_SEPARATORS = {",": "','", ";": "';'", "\t": "a tab"}
+_HEADER = re.compile(r"(?P<name>[^\[\]]*?)\s*(?:\[\s*(?P<unit>.*?)\s*\])?")
+
+
+@dataclass(frozen=True)
+class _Layout:
+    """How the lines of one file part into cells, and which cells are used."""
+
+    path: Path
+    separator: str
+    header: Line
+    width: int
+    columns: dict[str, Column]
+    ignored: tuple[str, ...]
+
+    @property
+    def file(self) -> str:
+        return str(self.path)
+
+
+def parse_tidy_csv(text: str, path: Path) -> CurveTable:
+    """Points of a tidy CSV file.
+
+    Columns, in any order: `slide_to_roll` (a ratio; `slide_to_roll [%]` in percent) and `traction_coefficient`, which
+    are required; `pressure [GPa]` or `load [N]`, `entrainment_speed [m/s]`, `temperature [degC]` with any unit of the
+    dimension in the brackets; `curve`, any text. Other columns are ignored with a note. Units may stand in a side
+    file instead, see `units_file`. Without `curve` the points are grouped by conditions, see `grouping`.
+
+    Columns are separated by commas, semicolons or tabs; decimal commas need one of the latter two. Blank lines and
+    lines that begin with `#` are skipped.
+
+    **Arguments:**
+    - `text`: the content of the file.
+    - `path`: its place, for messages and for the side file.
+
+    **Returns:** a `CurveTable`, in SI.
+
+    **Raises:** `CurveError`.
+    """
+    lines = [line for line in numbered_lines(text) if line.text.strip() and not line.text.lstrip().startswith("#")]
+    if not lines:
+        raise CurveError(str(path), None, "", "an empty file", f"a header such as '{','.join(_examples(REQUIRED))}'")
+    layout = _layout(lines[0], path)
+    rows = _rows(lines[1:], layout)
+    numbers = [number for number, _ in rows]
+    check_count(layout.file, len(rows), numbers[-1] if rows else layout.header.number)
+    values = _values(rows, numbers, layout)
+    check_sliding(layout.file, "slide_to_roll", values["slide_to_roll"])
+    curve, names, notes = _curves(rows, values, layout)
+    notes = (*_ignored_notes(layout), *notes, *remarks(values["slide_to_roll"], values["traction_coefficient"]))
+    return CurveTable(**values, curve=curve, curve_names=names, notes=notes, origin=path.name)
+
+
+def _layout(header: Line, path: Path) -> _Layout:
+    separator = _separator(header)
+    cells = _cells(header, separator, path)
+    parsed = [_HEADER.fullmatch(cell) for cell in cells]
+    names = [match["name"] if match else cell for match, cell in zip(parsed, cells, strict=True)]
+    units = [match["unit"] if match else None for match in parsed]
+    _check_mixed(cells, separator, header, path)
+    _check_names(names, header, path)
+    side = side_units(path, [name for name in names if name])
+    columns = {}
+    for index, (name, unit) in enumerate(zip(names, units, strict=True)):
+        if name in KNOWN:
+            columns[name] = _column(name, unit, side.get(name), index, header.number, path)
+    ignored = tuple(name for name in names if name and name not in KNOWN)
+    return _Layout(path, separator, header, len(cells), columns, ignored)
+
+
+def _separator(header: Line) -> str:
+    """The separator that yields most known columns; among equals, the one that is there most often."""
+
+    def score(separator: str) -> tuple[int, int]:
+        names = [re.sub(r"\[.*", "", cell).strip(' "') for cell in header.text.split(separator)]
+        return sum(name in KNOWN for name in names), len(names)
+
+    return max(_SEPARATORS, key=score)
+
+
+def _cells(line: Line, separator: str, path: Path) -> list[str]:
+    try:
+        # one line at a time: a quotation mark left open must not swallow the rest of the file
+        cells = next(csv.reader([line.text], delimiter=separator, strict=True, skipinitialspace=True), [])
+    except csv.Error as error:
+        found = f"a line that cannot be parted into cells ({error})"
+        expected = f"cells separated by {_SEPARATORS[separator]}, quotation marks in pairs"
+        raise CurveError(str(path), line.number, "", found, expected) from None
+    return [cell.strip() for cell in cells]
+
+
+def _check_mixed(cells: list[str], separator: str, header: Line, path: Path) -> None:
+    for other in _SEPARATORS:
+        for cell in cells:
+            parts = [part.split("[")[0].strip() for part in cell.split(other)]
+            if other != separator and len(parts) > 1 and any(part in KNOWN for part in parts):
+                found = f"{_SEPARATORS[separator]} and {_SEPARATORS[other]} between columns"
+                raise CurveError(str(path), header.number, "", found, "one separator throughout the file")
+
+
+def _check_names(names: list[str], header: Line, path: Path) -> None:
+    file, line = str(path), header.number
+    for name in KNOWN:
+        if names.count(name) > 1:
+            raise CurveError(file, line, name, f"{names.count(name)} columns of this name", "one")
+    for name in REQUIRED:
+        if name not in names:
+            others = [other for other in names if other and other not in KNOWN]
+            misspelt = nearest(name, others)
+            listed = ", ".join(repr(other) for other in names if other)
+            found = f"the column {shortened(repr(misspelt))}" if misspelt else f"the columns {shortened(listed)}"
+            expected = f"a column '{EXAMPLES[name]}', which is required, and ',', ';' or tabs between the columns"
+            raise CurveError(file, line, name, found, expected, name if misspelt else "")
+    if "pressure" in names and "load" in names:
+        raise CurveError(file, line, "load", "a column 'pressure' and a column 'load'", "one of the two")
+
+
+def _column(name: str, unit: str | None, side: str | None, index: int, line: int, path: Path) -> Column:
+    if name == CURVE:
+        if unit or side:
+            raise CurveError(str(path), line, name, f"the unit '{unit or side}'", "names of curves, without a unit")
+        return Column(name, "", name, line, index)
+    if unit and side is not None and unit != side:
+        found = f"the unit '{unit}' in the header and '{side}' in '{units_path(path).name}'"
+        raise CurveError(str(path), line, name, found, "a unit in one of the two")
+    column = Column(name, unit or side or "", name, line, index)
+    hint = f", or {name} = \"...\" under [units] in a file '{units_path(path).name}'" if not column.unit else ""
+    if side is not None:
+        file, column_there = str(units_path(path)), Column(name, side, name, None, index)
+        check_unit(column_there, file)
+    check_unit(column, str(path), hint)
+    return column
+
+
+def _rows(lines: Sequence[Line], layout: _Layout) -> list[tuple[int, list[str]]]:
+    rows = []
+    header = _cells(layout.header, layout.separator, layout.path)
+    for line in lines:
+        cells = _cells(line, layout.separator, layout.path)
+        if not any(cells):
+            continue  # spreadsheets write their empty rows as ";;;"
+        if len(cells) != layout.width:
+            others = [shown for mark, shown in _SEPARATORS.items() if mark != layout.separator and mark in line.text]
+            found = f"{len(cells)} cell{'s' if len(cells) > 1 else ''}" + "".join(f" and {other}" for other in others)
+            there = f"in the header (line {layout.header.number})"
+            expected = f"{layout.width} cells separated by {_SEPARATORS[layout.separator]}, as {there}"
+            raise CurveError(layout.file, line.number, "", found, expected)
+        if cells == header:
+            raise CurveError(layout.file, line.number, "", "the header once more", "a row of numbers")
+        rows.append((line.number, cells))
+    return rows
+
+
+def _values(rows: list[tuple[int, list[str]]], numbers: list[int], layout: _Layout) -> dict[str, np.ndarray]:
+    reader = NumberReader(layout.file, comma_allowed=layout.separator != ",")
+    used = [column for name, column in layout.columns.items() if name != CURVE]
+    # row by row, so that the first line that is wrong is the one reported
+    raw = np.array(
+        [[reader.number(cells[column.index], line, column.label) for column in used] for line, cells in rows]
+    )
+    return {column.name: to_si(raw[:, place], column, numbers, layout.file) for place, column in enumerate(used)}
+
+
+def _curves(
+    rows: list[tuple[int, list[str]]], values: dict[str, np.ndarray], layout: _Layout
+) -> tuple[Int64[np.ndarray, " point"], tuple[str, ...], tuple[str, ...]]:
+    if CURVE not in layout.columns:
+        return group({name: values[name] for name in DIMENSIONS if name in values}, len(rows))
+    index: dict[str, int] = {}
+    place = layout.columns[CURVE].index
+    for line, cells in rows:
+        if not cells[place]:
+            raise CurveError(layout.file, line, CURVE, "an empty cell", "the name of a curve")
+        index.setdefault(cells[place], len(index))
+    return np.array([index[cells[place]] for _, cells in rows], dtype=np.int64), tuple(index), ()
+
+
+def _ignored_notes(layout: _Layout) -> list[str]:
+    absent = [name for name in KNOWN if name not in layout.columns]
+    notes = []
+    for name in layout.ignored:
+        near = nearest(name, absent)
+        question = f" (did you mean '{EXAMPLES.get(near, near)}'?)" if near else ""
+        notes.append(f"Column {shortened(repr(name))} is ignored{question}.")
+    return notes
+
+
+def _examples(names: Sequence[str]) -> list[str]:
+    return [EXAMPLES[name] for name in names]

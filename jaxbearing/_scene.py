@@ -1,0 +1,64 @@
+"""What all scenes share: fields that hold numbers with a label, and copies with other values."""
+
+import dataclasses
+from typing import Any, TypeVar
+
+import equinox as eqx
+
+from .numerics.precision import as_float
+
+Scene = TypeVar("Scene", bound="AbstractScene")
+
+
+def label(unit: str, description: str) -> dict[str, str]:
+    """Metadata of a field: its SI unit and what it is."""
+    return {"unit": unit, "description": description}
+
+
+def number(default: Any = dataclasses.MISSING, **kwargs: Any) -> Any:
+    """Field of a scene that holds one number, converted to a float64 leaf."""
+    if default is not dataclasses.MISSING:
+        kwargs["default"] = default
+    return eqx.field(converter=as_float, **kwargs)
+
+
+def optional_number() -> Any:
+    """Like `number`, `None` where the scene does not say."""
+    return eqx.field(converter=lambda v: None if v is None else as_float(v), default=None)
+
+
+class AbstractScene(eqx.Module):
+    """What every scene can do: give a changed copy of itself, with the attribute names of the scene file."""
+
+    def replace(self: Scene, changes: dict[str, Any]) -> Scene:
+        """A copy with other values; keys are dotted paths, values SI numbers (or parts).
+
+        **Raises:** `AttributeError` for a path that the scene does not have.
+        """
+        return _replaced(self, {tuple(path.split(".")): value for path, value in changes.items()})
+
+    def at_operation(self: Scene, **changes: Any) -> Scene:
+        """A copy at another operating point: `scene.at_operation(inner_speed=1100.0)`."""
+        return self.replace({f"operation.{name}": value for name, value in changes.items()})
+
+    def replace_geometry(self: Scene, **changes: Any) -> Scene:
+        """A copy with other dimensions: `scene.replace_geometry(diametral_clearance=30e-6)`."""
+        return self.replace({f"geometry.{name}": value for name, value in changes.items()})
+
+
+def _replaced(part: Any, changes: dict[tuple[str, ...], Any], above: str = "") -> Any:
+    """The part rebuilt once with all changes, so that what is validated is the result and no state in between."""
+    names = [field.name for field in dataclasses.fields(part)] if isinstance(part, eqx.Module) else []
+    new: dict[str, Any] = {}
+    inner: dict[str, dict[tuple[str, ...], Any]] = {}
+    for path, value in changes.items():
+        if not isinstance(part, eqx.Module) or path[0] not in names:
+            whole, there = above + ".".join(path), ", ".join(names) or "no fields"
+            raise AttributeError(f"the scene has no {whole!r}: {type(part).__name__} has {there}")
+        if len(path) == 1:
+            new[path[0]] = value
+        else:
+            inner.setdefault(path[0], {})[path[1:]] = value
+    for name, deeper in inner.items():
+        new[name] = _replaced(new.get(name, getattr(part, name)), deeper, f"{above}{name}.")
+    return dataclasses.replace(part, **new) if isinstance(part, eqx.Module) else part

@@ -1,0 +1,69 @@
+"""Tangential compliance of the bodies in series with the film."""
+
+import abc
+
+import equinox as eqx
+import jax.numpy as jnp
+from jaxtyping import Array, Float
+
+from .._types import Scalar, Values
+from ..numerics.precision import as_float
+from .patch import ContactPatch
+
+
+class AbstractTangentialCompliance(eqx.Module):
+    """Elastic surface displacement per shear stress, as if each point were on a spring of its own."""
+
+    @abc.abstractmethod
+    def compliance(self, patch: ContactPatch) -> Float[Array, "..."]:
+        """L1, m/Pa, of both bodies together."""
+
+
+class GivenCompliance(AbstractTangentialCompliance):
+    """One number. **Arguments:** `value`: L1, m/Pa, >= 0."""
+
+    value: Scalar = eqx.field(converter=as_float)
+
+    def compliance(self, patch: ContactPatch) -> Float[Array, "..."]:
+        return jnp.asarray(self.value) * jnp.ones_like(jnp.asarray(patch.half_width, dtype=float))
+
+
+class HalfSpaceCompliance(AbstractTangentialCompliance):
+    r"""The spring whose creep force equals that of elastic half-spaces at small sliding.
+
+    Line contact: $L_1 = 8a/(\pi E')$. Ellipse: $L_1 = 8a/(3G_sC_{11})$ with Kalker's $C_{11}(a/c, \nu)$, equal bodies.
+
+    **Limits:** 0 for rigid bodies.
+    **Validity:** 0.1 <= a/c <= 1, beyond that the nearer end; interpolated quadratically in nu and linearly in ln(a/c)
+    between a/c = 0.1, 0.5 and 1.
+    **Reference:** Carter (1926); Kalker (1967), thesis, TU Delft, and simplified theory (1982), Vehicle System Dynamics
+    11, 1; the coefficients as recalled, not verified against print.
+
+    **Arguments:**
+    - `reduced_modulus`: E', Pa.
+    - `poisson_ratio`: of both bodies; an ellipse needs it.
+    """
+
+    reduced_modulus: Values
+    poisson_ratio: Scalar = eqx.field(converter=as_float, default=0.3)
+
+    def compliance(self, patch: ContactPatch) -> Float[Array, "..."]:
+        if patch.line:
+            return jnp.asarray(8.0 * patch.half_width / (jnp.pi * self.reduced_modulus))
+        shear_modulus = 0.5 * self.reduced_modulus * (1.0 - self.poisson_ratio)
+        creep = creep_coefficient(patch.half_width / patch.half_length, self.poisson_ratio)
+        return jnp.asarray(8.0 * patch.half_width / (3.0 * shear_modulus * creep))
+
+
+_RATIOS = (0.1, 0.5, 1.0)
+_POISSON = (0.0, 0.25, 0.5)
+_C11 = ((2.51, 3.31, 4.85), (2.88, 3.62, 4.83), (3.40, 4.12, 5.20))
+
+
+def creep_coefficient(ratio: Values, poisson_ratio: Values) -> Float[Array, "..."]:
+    """Kalker's C11. **Arguments:** `ratio`: a/c, semi-axis along over across rolling; `poisson_ratio`."""
+    quadratic = [
+        jnp.prod(jnp.stack([(poisson_ratio - n) / (m - n) for n in _POISSON if n != m]), axis=0) for m in _POISSON
+    ]
+    rows = jnp.stack([sum(c * w for c, w in zip(row, quadratic, strict=True)) for row in _C11])
+    return jnp.interp(jnp.log(ratio), jnp.log(jnp.asarray(_RATIOS)), rows)

@@ -1,0 +1,46 @@
+"""Which limit of the traction law a contact is near, and the closed forms there."""
+
+import jax.numpy as jnp
+from jaxtyping import Array, Float
+
+from .._types import Values
+from ..lubricants import ExponentialRheology, Lubricant
+from .patch import ContactPatch
+
+
+def deborah_number(
+    patch: ContactPatch, entrainment_speed: Values, temperature: Values, lubricant: Lubricant
+) -> Float[Array, "..."]:
+    r"""$D = \mu u/(Ga)$ at the mean pressure: relaxation time of the oil over its time of transit a/u.
+
+    Below about 0.1 the oil flows as a viscous fluid and its shear modulus cannot be seen in the traction; above about 3
+    the slope of the traction curve at small sliding is elastic.
+
+    **Reference:** source eqs. (80)-(81).
+
+    **Arguments:** `entrainment_speed`, m/s; `temperature`, K. **Raises:** `ValueError` without a rheology.
+    """
+    if lubricant.rheology is None:
+        raise ValueError("The Deborah number needs the lubricant's rheology (shear modulus): none is given.")
+    pressure = patch.mean_pressure
+    log_viscosity = lubricant.viscosity.log_viscosity(pressure, temperature)
+    log_time = log_viscosity - lubricant.rheology.log_shear_modulus(pressure, temperature)
+    return jnp.exp(log_time) * jnp.abs(entrainment_speed) / patch.half_width
+
+
+def elastic_slope(
+    patch: ContactPatch, film: Values, temperature: Values, rheology: ExponentialRheology
+) -> Float[Array, "..."]:
+    r"""Slope of the traction coefficient over the slide-to-roll ratio for an oil that only strains elastically.
+
+    $\partial c_f/\partial(\Delta u/u) = \frac{4}{\pi}\frac{G a}{h p_0}$, for point and line contacts, with a constant
+    G: integral of the stress $G\Delta u(x + a)/(uh)$ over the patch.
+
+    **Validity:** D >> 1 and small sliding; G at the mean pressure.
+    **Reference:** derived; the source's eq. (84) prints area times exit stress, twice the mean, and factors that
+    contradict each other.
+
+    **Arguments:** `film`, m; `temperature`, K.
+    """
+    modulus = jnp.exp(rheology.log_shear_modulus(patch.mean_pressure, temperature))
+    return 4.0 / jnp.pi * modulus * patch.half_width / (film * patch.pressure)

@@ -1,0 +1,88 @@
+"""The loaded area of a contact, cut into strips along the rolling direction."""
+
+from typing import NamedTuple
+
+import equinox as eqx
+import jax.numpy as jnp
+import numpy as np
+from jaxtyping import Array, Float
+
+from .._types import Values
+from ..numerics.quadrature import gauss_legendre
+from .line import LineContact
+from .point import PointContact
+
+
+class Strips(NamedTuple):
+    """Quadrature strips. The pressure of strip y is that of a line contact, $p_s\\sqrt{1 - x^2/a_s^2}$; the last axis is
+    the strip.
+
+    `scale` is $p_s/p_0 = a_s/a$, `offset` is y, m, `width` the weight dy, m.
+    """
+
+    scale: Float[Array, " strip"]
+    offset: Float[Array, "*batch strip"]
+    width: Float[Array, "*batch strip"]
+
+
+class ContactPatch(eqx.Module):
+    """Where two bodies touch: Hertz pressure over an ellipse or a rectangle. Fields broadcast against each other.
+
+    **Arguments:**
+    - `pressure`: Hertz (peak) pressure, Pa, > 0.
+    - `half_width`: semi-axis a along rolling, m, > 0.
+    - `half_length`: transverse semi-axis c of the ellipse, or half the length of the line contact, m, > 0.
+    - `line`: whether it is a line contact.
+    """
+
+    pressure: Values
+    half_width: Values
+    half_length: Values
+    line: bool = eqx.field(static=True, default=False)
+
+    @property
+    def load(self) -> Float[Array, "..."]:
+        """Integral of the pressure, N."""
+        share = jnp.pi if self.line else 2.0 / 3.0 * jnp.pi
+        return jnp.asarray(share * self.pressure * self.half_width * self.half_length)
+
+    @property
+    def mean_pressure(self) -> Float[Array, "..."]:
+        """Load over area, Pa."""
+        return jnp.asarray((0.25 * jnp.pi if self.line else 2.0 / 3.0) * self.pressure)
+
+    @property
+    def area(self) -> Float[Array, "..."]:
+        """m^2."""
+        return jnp.asarray((4.0 if self.line else jnp.pi) * self.half_width * self.half_length)
+
+    def strips(self, count: int, symmetric: bool) -> Strips:
+        """Gauss-Legendre strips in the angle phi of y = c sin(phi), in which pressure and half-width are smooth; in y
+        for a line contact.
+
+        **Arguments:**
+        - `count`: strips over the whole width.
+        - `symmetric`: what is integrated is even in y: only one half is looked at (of a line contact: one strip).
+        """
+        half_length = jnp.asarray(self.half_length, dtype=float)[..., None]
+        if self.line and symmetric:
+            return Strips(jnp.ones(1), jnp.zeros_like(half_length), 2.0 * half_length)
+        nodes, weights = gauss_legendre(count)
+        nodes, weights = 2.0 * nodes - 1.0, 2.0 * weights
+        if symmetric:
+            half = nodes > -1e-12
+            weights = np.where(np.abs(nodes) < 1e-12, 1.0, 2.0)[half] * weights[half]
+            nodes = nodes[half]
+        if self.line:
+            return Strips(jnp.ones(nodes.size), half_length * nodes, half_length * weights)
+        cosine, sine = np.cos(0.5 * np.pi * nodes), np.sin(0.5 * np.pi * nodes)
+        return Strips(jnp.asarray(cosine), half_length * sine, half_length * (0.5 * np.pi * weights * cosine))
+
+
+def contact_patch(contact: LineContact | PointContact, load: Values) -> ContactPatch:
+    """The Hertz patch of a contact. **Arguments:** `load`, N, >= 0."""
+    if isinstance(contact, LineContact):
+        return ContactPatch(contact.hertz_pressure(load), contact.half_width(load), 0.5 * contact.length, line=True)
+    return ContactPatch(
+        contact.hertz_pressure(load), contact.semi_axis_rolling(load), contact.semi_axis_transverse(load)
+    )

@@ -1,0 +1,91 @@
+"""Shear stress of a Maxwell fluid on its way through a contact: the march along the strips."""
+
+from typing import NamedTuple
+
+import jax
+import jax.numpy as jnp
+import numpy as np
+from jaxtyping import Array, Float
+
+from .._types import Values
+from ..numerics.safe import smooth_abs
+from .viscous import AbstractViscousFunction
+
+TRIAL_FLOOR = 1e-12
+"""Stress, in units of the characteristic stress, below which its modulus is smooth: no force changes."""
+
+
+class Sliding(NamedTuple):
+    """Speed of body 1 relative to body 2: `rolling`, m/s, along rolling; `transverse`, m/s; `spin`, rad/s, about the
+    normal, right-handed. None: not there, and not computed."""
+
+    rolling: Values
+    transverse: Values | None = None
+    spin: Values | None = None
+
+    @property
+    def plane(self) -> bool:
+        """Whether all of it is along rolling."""
+        return self.transverse is None and self.spin is None
+
+
+class Oil(NamedTuple):
+    """ln of shear modulus, viscosity and characteristic stress (Pa, Pa s, Pa)."""
+
+    log_modulus: Float[Array, "..."]
+    log_viscosity: Float[Array, "..."]
+    log_stress: Float[Array, "..."]
+
+
+class Mesh(NamedTuple):
+    """Midpoints of equal steps in theta, x = -a cos(theta) from inlet to exit."""
+
+    step: float
+    sine: np.ndarray
+    position: np.ndarray
+    """x/a."""
+
+    @classmethod
+    def of(cls, steps: int) -> "Mesh":
+        theta = (np.arange(steps) + 0.5) * np.pi / steps
+        return cls(np.pi / steps, np.sin(theta), -np.cos(theta))
+
+
+def relaxed_stress(
+    viscous: AbstractViscousFunction,
+    oil: Oil,
+    half_step: Float[Array, "..."],
+    stress: Float[Array, "component ..."],
+    rate: Float[Array, "component ..."],
+) -> Float[Array, "component ..."]:
+    r"""Stress at the midpoint of a step of $dt/d\theta = K[\gamma - (\tau_r/\mu)F(|t|/\tau_r)\,t/|t|]$.
+
+    The implicit half step, $t + \kappa\tau_rF(|t|/\tau_r)\,t/|t| = r$ with $r = \tau + k\gamma$, is isotropic: t is
+    parallel to r, and its modulus is a scalar root. Value and derivative are finite from k = 0 (t = r) to
+    $\kappa\to\infty$ (the viscous law), and at r = 0.
+
+    **Arguments:**
+    - `viscous`: F.
+    - `oil`: at the pressure and temperature of the midpoint.
+    - `half_step`: $k/G$, half the step in time, s.
+    - `stress`, `rate`: at the beginning of the step, Pa, and in it, 1/s; the first axis holds one or two components.
+    """
+    strain = half_step * rate
+    modulus = jnp.exp(oil.log_modulus)
+    trial = stress + modulus * strain
+    relaxation = half_step * jnp.exp(oil.log_modulus - oil.log_viscosity)
+    unit = trial * jnp.exp(-oil.log_stress)
+    size = jnp.sqrt(jnp.sum(jnp.square(unit), axis=0) + TRIAL_FLOOR**2)
+    return trial * (viscous.relaxed_stress_ratio(size, relaxation) / size)
+
+
+def viscous_stress(
+    viscous: AbstractViscousFunction, oil: Oil, rate: Float[Array, "component ..."]
+) -> Float[Array, "component ..."]:
+    """Stress of steady flow, the limit without elasticity. **Arguments:** as `relaxed_stress`."""
+    if rate.shape[0] == 1:
+        scale = oil.log_viscosity - oil.log_stress
+        return jnp.exp(oil.log_stress) * viscous.stress_ratio_of_scaled(scale, rate)
+    size = jnp.sqrt(jnp.sum(jnp.square(rate), axis=0) + jnp.finfo(float).tiny)
+    ratio = viscous.stress_ratio_of_scaled(oil.log_viscosity - oil.log_stress, size)
+    return rate * (jnp.exp(oil.log_stress) * ratio / size)
