@@ -41,7 +41,7 @@ def remarks(
             f"The largest slide-to-roll ratio is {largest:g}, surfaces that move against each other; "
             "if the file means percent, its column is 'slide_to_roll [%]'."
         )
-    opposite = np.count_nonzero(slide_to_roll * traction_coefficient < 0.0)
+    opposite = np.count_nonzero(np.sign(slide_to_roll) * np.sign(traction_coefficient) < 0.0)
     if opposite:
         points = "1 point has" if opposite == 1 else f"{opposite} points have"
         found.append(f"{points} a traction coefficient of another sign than the slide-to-roll ratio: kept as measured.")

@@ -23,8 +23,9 @@ def group(
     Equal numbers cannot be asked for: a set load or speed scatters by a percent, an oil temperature drifts by degrees.
     So each quantity is sorted, and a step between neighbours of more than 2 % (2 K for temperatures) parts two
     conditions. Scatter and drift, however wide, have no such steps where there are many points. Where there are few,
-    steps leave most points alone; a quantity of which fewer than half of the points share their condition with another
-    point is scatter as well and parts nothing. A curve is a combination of the conditions of all quantities.
+    steps leave most points alone: a quantity parts nothing unless at least half of the points have their value in
+    common with another one, or their condition with two others. A curve is a combination of the conditions of all
+    quantities. Conditions closer than the limits are merged, also where they were set.
 
     **Arguments:**
     - `conditions`: name and SI values of each quantity that the file has.
@@ -34,7 +35,7 @@ def group(
     parting, notes = [], []
     for name, values in conditions.items():
         level = _levels(values, _steps(name, values))
-        if level.any() and _mostly_alone(level):
+        if level.any() and _mostly_alone(values, level):
             low, high = (_as_shown(name, value) for value in (values.min(), values.max()))
             notes.append(f"Column '{name}' scatters from {low} to {high}: taken as one condition.")
         elif level.any():
@@ -63,9 +64,10 @@ def _levels(values: Float64[np.ndarray, " point"], steps: Bool[np.ndarray, " gap
     return level
 
 
-def _mostly_alone(level: Int64[np.ndarray, " point"]) -> bool:
-    shared = np.bincount(level)[level] > 1
-    return int(np.count_nonzero(shared)) < level.size / 2
+def _mostly_alone(values: Float64[np.ndarray, " point"], level: Int64[np.ndarray, " point"]) -> bool:
+    _, inverse, count = np.unique(values, return_inverse=True, return_counts=True)
+    in_company = (count[inverse] > 1) | (np.bincount(level)[level] > 2)
+    return int(np.count_nonzero(in_company)) < values.size / 2
 
 
 def _by_first_appearance(key: Int64[np.ndarray, " point"]) -> Int64[np.ndarray, " point"]:
@@ -76,7 +78,8 @@ def _by_first_appearance(key: Int64[np.ndarray, " point"]) -> Int64[np.ndarray, 
 
 
 def _name(conditions: Mapping[str, np.ndarray]) -> str:
-    return ", ".join(_as_shown(name, float(np.median(values))) for name, values in conditions.items())
+    middle = {name: np.sort(values)[values.size // 2] for name, values in conditions.items()}
+    return ", ".join(_as_shown(name, value) for name, value in middle.items())
 
 
 def _as_shown(name: str, value: float) -> str:

@@ -41,7 +41,7 @@ def parse_pcs(text: str, path: Path) -> CurveTable:
 
     Load, speed and temperature are read where every traction step has them; the temperature is the lubricant's, else
     the pot's. The machine prints the traction coefficient without sign: it takes that of the traction force, where the
-    export has it, the force counting as positive in the sense in which it brakes over the step as a whole.
+    export has it; that force counts as positive in the sense in which it brakes at most points of the step.
 
     **Arguments:**
     - `text`: the content of the file.
@@ -110,8 +110,8 @@ class _Reader:
         for step in self._sweeps:
             part = slice(start, start + len(step.rows))
             force = self._raw(step, _FORCE)
-            work = np.sum(force * values["slide_to_roll"][part])
-            sense[part] = np.where(force < 0.0, -1.0, 1.0) * (-1.0 if work < 0.0 else 1.0)
+            braking = np.sum(np.sign(force) * np.sign(values["slide_to_roll"][part]))
+            sense[part] = np.where(force < 0.0, -1.0, 1.0) * (-1.0 if braking < 0.0 else 1.0)
             start = part.stop
         return np.abs(coefficient) * sense, "Traction coefficients have the sign of the traction force."
 
@@ -160,7 +160,7 @@ def _step_notes(steps: Sequence[Step]) -> list[str]:
         notes.append(f"Steps of other types are ignored: {kinds}.")
     empty = [str(step.number) for step in steps if step.is_traction and not step.rows]
     if empty:
-        notes.append(f"Traction steps without points are ignored: {', '.join(empty[:10])}.")
+        notes.append(f"Traction steps without a table of points are ignored: {', '.join(empty[:10])}.")
     return notes
 
 

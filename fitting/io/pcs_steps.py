@@ -1,5 +1,6 @@
 """The steps of a PCS Instruments export: where each begins, of what kind it is, which lines are its table."""
 
+import itertools
 import re
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
@@ -30,6 +31,7 @@ class Step:
     - `number`: as the file counts, from 1.
     - `kind`: as the file writes it, e.g. `Traction` or `BOD_TIMED`; empty where the file says none.
     - `line`: number of its first line, or of the header of its table where it has one.
+    - `width`: how many cells that header has.
     - `headings`: of its table, by name; for a name that occurs twice, the first. Empty where it has no table.
     - `rows`: the lines of its table.
     """
@@ -37,6 +39,7 @@ class Step:
     number: int
     kind: str
     line: int
+    width: int
     headings: dict[str, Heading]
     rows: tuple[Line, ...]
 
@@ -58,21 +61,20 @@ def steps_of(text: str) -> list[Step]:
 
 def _parted(lines: Sequence[Line]) -> Iterator[tuple[Line, Sequence[Line]]]:
     starts = [place for place, line in enumerate(lines) if _STEP.match(line.text)]
-    for start, end in zip(starts, [*starts[1:], len(lines)], strict=True):
+    for start, end in itertools.pairwise([*starts, len(lines)]):
         yield lines[start], lines[start + 1 : end]
 
 
 def _step(first: Line, lines: Sequence[Line]) -> Step:
     match = _STEP.match(first.text)
     number = int(match[1][:9]) if match else 0
-    kinds = [
-        cells[1].strip() for line in lines if (cells := line.text.split("\t"))[0] == "Step type" and len(cells) > 1
-    ]
+    kind = next((line.text.split("\t")[1].strip() for line in lines if line.text.startswith("Step type\t")), "")
     header = next((place for place, line in enumerate(lines) if _is_header(line)), None)
     if header is None:
-        return Step(number, "".join(kinds[:1]), first.number, {}, ())
+        return Step(number, kind, first.number, 0, {}, ())
     rows = tuple(line for line in lines[header + 1 :] if not _is_remark(line))
-    return Step(number, "".join(kinds[:1]), lines[header].number, _headings(lines[header]), rows)
+    width = len(lines[header].text.split("\t"))
+    return Step(number, kind, lines[header].number, width, _headings(lines[header]), rows)
 
 
 def _is_header(line: Line) -> bool:

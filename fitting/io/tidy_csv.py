@@ -22,7 +22,7 @@ from .text import Line, numbered_lines
 from .units_file import side_units, units_path
 
 _SEPARATORS = {",": "','", ";": "';'", "\t": "a tab"}
-_HEADER = re.compile(r"(?P<name>[^\[\]]*?)\s*(?:\[\s*(?P<unit>.*?)\s*\])?")
+_HEADER = re.compile(r"(?P<name>[^\[\]]*?)\s*(?:\[\s*(?P<unit>[^\[\]]*?)\s*\])?")
 
 
 @dataclass(frozen=True)
@@ -178,9 +178,7 @@ def _values(rows: list[tuple[int, list[str]]], numbers: list[int], layout: _Layo
     reader = NumberReader(layout.file, comma_allowed=layout.separator != ",")
     used = [column for name, column in layout.columns.items() if name != CURVE]
     # row by row, so that the first line that is wrong is the one reported
-    raw = np.array(
-        [[reader.number(cells[column.index], line, column.label) for column in used] for line, cells in rows]
-    )
+    raw = np.array([[reader.number(cells[one.index], line, one.label) for one in used] for line, cells in rows])
     return {column.name: to_si(raw[:, place], column, numbers, layout.file) for place, column in enumerate(used)}
 
 

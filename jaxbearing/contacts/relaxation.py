@@ -1,33 +1,38 @@
 """Stress at the end of an implicit step of Maxwell's equation: one increasing scalar equation, solved elementwise."""
 
-from collections.abc import Callable
+from typing import NamedTuple, Protocol
 
 import equinox as eqx
 import jax
 import jax.numpy as jnp
-from jaxtyping import Array, PyTree
+from jaxtyping import Array, Float
 
-EYRING_STEPS = 7
-"""Newton steps of `sinh_root`: round-off for every relaxation number from 1e-30 to 1e30 and trial stress up to 100."""
-LIMITING_STEPS = 7
-"""Newton steps of `limiting_root`; over the same range six reach round-off."""
-STARTS = (0.5, 1e-1, 1e-2, 1e-4)
-"""Distances, relative, of the starting stresses from the trial stress or the limiting stress."""
+EYRING_STEPS = 4
+"""Halley steps of `sinh_root`: round-off for relaxation numbers from 1e-30 to 1e30 and trial stresses up to 1000."""
 LARGEST_EYRING_STRESS = 600.0
-"""Stress in units of the Eyring stress beyond which sinh would overflow."""
+"""Stress in units of the Eyring stress that is never exceeded: sinh would overflow."""
+LIMITING_STEPS = 3
+"""Halley steps of `limiting_root`: round-off over the same range; for an exponent n < 1, 2e-10 in the fourth
+decade of q (see the tests)."""
+RELAXATION_FLOOR = 1e-100
+"""Relaxation number below which `limiting_root` does not go: far below, the stress is the trial or the limiting one."""
 
 
 @jax.custom_jvp
 def sinh_root(trial: Array, relaxation: Array) -> Array:
-    """s >= 0 with s + relaxation sinh(s) = trial, for trial and relaxation >= 0, elementwise.
+    """s >= 0 with s + relaxation sinh(s) = trial, for trial and relaxation >= 0, elementwise; s at most 600.
 
-    Newton from above: the left side is convex and increasing, so the iteration falls monotonically on the root.
+    Halley's method from above: the left side is convex and increasing, the iteration falls monotonically on the root.
     """
-    bound = jnp.arcsinh(trial / jnp.where(relaxation > 0, relaxation, 1.0))
-    s = jnp.minimum(jnp.where(relaxation > 0, jnp.minimum(trial, bound), trial), LARGEST_EYRING_STRESS)
+    flow = trial / jnp.where(relaxation > 0, relaxation, 1.0)
+    # asinh(flow), which bounds s; of no use where it is not accurate, at small flow
+    bound = jnp.where(relaxation > 0, jnp.log(flow + jnp.sqrt(jnp.square(flow) + 1.0)), jnp.inf)
+    s = jnp.minimum(jnp.minimum(trial / (1.0 + relaxation), bound), LARGEST_EYRING_STRESS)
     for _ in range(EYRING_STEPS):
         sinh, cosh = _sinh_and_cosh(s)
-        s = jnp.maximum(s - (s + relaxation * sinh - trial) / (1.0 + relaxation * cosh), 0.0)
+        value, slope = s + relaxation * sinh - trial, 1.0 + relaxation * cosh
+        step = value * slope / (jnp.square(slope) - 0.5 * value * (relaxation * sinh))
+        s = jnp.clip(s - step, 0.0, LARGEST_EYRING_STRESS)
     return s
 
 
@@ -46,44 +51,68 @@ def _sinh_and_cosh(s: Array) -> tuple[Array, Array]:
     return 0.5 * (grown + shrunk), 1.0 + 0.5 * (grown - shrunk)
 
 
+class Slopes(NamedTuple):
+    """Stress s at the rate q, ds/dq and d2s/dq2."""
+
+    stress: Float[Array, "..."]
+    first: Float[Array, "..."]
+    second: Float[Array, "..."]
+
+
+class Limiting(Protocol):
+    """A flow law s(q), concave and increasing from 0 with slope 1 to the limit 1. All for q >= 0, 0 <= s < 1."""
+
+    def rate_ratio(self, s: Array) -> Array:
+        """q(s); it may overflow to infinity at s = 1."""
+        ...
+
+    def stress_slopes(self, q: Array) -> Slopes:
+        """s and its derivatives."""
+        ...
+
+    def stress_ratio(self, q: Array) -> Array:
+        """s(q), to be differentiated in the numbers of the law."""
+        ...
+
+    def corner(self, slope: Array) -> tuple[Array, Array]:
+        """q and s where ds/dq has a value, in (0, 1]."""
+        ...
+
+
 @eqx.filter_custom_jvp
-def limiting_root(law: PyTree, trial: Array, relaxation: Array, *, functions: tuple[Callable, Callable]) -> Array:
-    """q >= 0 with f(q, law) + relaxation q = trial, for trial and relaxation >= 0, elementwise.
+def limiting_root(law: Limiting, trial: Array, relaxation: Array) -> Array:
+    r"""q >= 0 with s(q) + relaxation q = trial, for trial and relaxation >= 0, elementwise.
 
-    **Arguments:**
-    - `law`: pytree of the numbers that f depends on.
-    - `functions`: f, concave and increasing from 0 with slope 1 to 1, and its inverse on [0, 1).
-
-    The left side is concave: Newton rises monotonically to the root from any q below it. Every stress s below the
-    trial stress and the limit gives such a q, the smaller one of `inverse(s)` and (trial - s)/relaxation.
+    The left side is concave, with a corner where the slope of s falls below the relaxation number. Beyond it the slope
+    of the left side changes by a factor of 2 only, so that the corner itself is a good start; before it, the same
+    holds over s instead of q, and a stress below the root comes from the chord between 0 and the corner. Both starts
+    are below the root, from where Halley's method rises.
     """
-    function, inverse = functions
-    divisor = jnp.where(relaxation > 0, relaxation, 1.0)
-    q = jnp.maximum(trial / (1.0 + relaxation), jnp.where(relaxation > 0, (trial - 1.0) / divisor, 0.0))
-    for distance in STARTS:
-        s = (1.0 - distance) * jnp.minimum(trial, 1.0)
-        flow = inverse(s, law)
-        q = jnp.maximum(q, jnp.where(relaxation > 0, jnp.minimum(flow, (trial - s) / divisor), flow))
+    relaxation = jnp.maximum(relaxation, RELAXATION_FLOOR)
+    corner_rate, corner_stress = law.corner(jnp.minimum(relaxation, 1.0))
+    elastic = jnp.minimum(relaxation, 1.0) * corner_rate
+    chord = corner_stress / jnp.where(relaxation < 1.0, corner_stress + elastic, 1.0)
+    low = jnp.minimum(jnp.maximum(trial * chord, trial - elastic), corner_stress)
+    before = jnp.minimum(law.rate_ratio(low), corner_rate)
+    beyond = jnp.maximum(corner_rate, (trial - 1.0) / relaxation)
+    q = jnp.maximum(jnp.where(trial < corner_stress + elastic, before, beyond), trial / (1.0 + relaxation))
     for _ in range(LIMITING_STEPS):
-        value, slope = jax.jvp(lambda x: function(x, law), (q,), (jnp.ones_like(q),))
-        total = slope + relaxation
-        q = q + jnp.where(total > 0, trial - value - relaxation * q, 0.0) / jnp.where(total > 0, total, 1.0)
+        stress, first, second = law.stress_slopes(q)
+        value, slope = stress + relaxation * q - trial, first + relaxation
+        q = jnp.maximum(q - value * slope / (jnp.square(slope) - 0.5 * value * second), 0.0)
     return q
 
 
 @limiting_root.def_jvp
-def _limiting_root_jvp(primals, tangents, *, functions):
+def _limiting_root_jvp(primals, tangents):
     law, trial, relaxation = primals
     law_dot, trial_dot, relaxation_dot = tangents
-    q = limiting_root(law, trial, relaxation, functions=functions)
-    function, _ = functions
-    slope = jax.jvp(lambda x: function(x, law), (q,), (jnp.ones_like(q),))[1]
-    value_dot = None
-    if jax.tree.leaves(law_dot):
-        _, value_dot = eqx.filter_jvp(lambda numbers: function(q, numbers), (law,), (law_dot,))
+    q = limiting_root(law, trial, relaxation)
+    slope = law.stress_slopes(q).first + jnp.maximum(relaxation, RELAXATION_FLOOR)
     change = jnp.zeros_like(q)
-    for dot, factor in ((trial_dot, 1.0), (relaxation_dot, -q), (value_dot, -1.0)):
+    for dot, factor in ((trial_dot, 1.0), (relaxation_dot, -q)):
         if dot is not None:
             change = change + factor * dot
-    total = slope + relaxation
-    return q, jnp.where(total > 0, change, 0.0) / jnp.where(total > 0, total, 1.0)
+    if jax.tree.leaves(law_dot):
+        change = change - eqx.filter_jvp(lambda numbers: numbers.stress_ratio(q), (law,), (law_dot,))[1]
+    return q, change / slope

@@ -9,11 +9,13 @@ from jaxtyping import Array, Float
 
 from .._types import Scalar, Values
 from ..numerics.safe import log_add
-from .relaxation import limiting_root, sinh_root
+from .relaxation import Slopes, limiting_root, sinh_root
 
 LOG_SATURATED = 230.0
 """ln|q| beyond which q is frozen at 1e100: every limiting stress is reached long before."""
 LOG_SCALE_CAP = 600.0
+SMALLEST_RATE = 1e-100
+"""q below which slopes are those at 1e-100."""
 
 
 class AbstractViscousFunction(eqx.Module):
@@ -34,17 +36,29 @@ class AbstractViscousFunction(eqx.Module):
     def stress_ratio_of_scaled(self, log_scale: Values, x: Values) -> Float[Array, "..."]:
         """s at q = exp(log_scale) x without overflow, for log_scale up to 600 and any finite x."""
 
+    @abc.abstractmethod
     def relaxed_stress_ratio(self, trial: Values, relaxation: Values) -> Float[Array, "..."]:
         r"""s >= 0 of $s + \kappa F(s) = \rho$: the stress that is left of an elastic trial stress after an implicit step.
 
         **Arguments:** `trial` $\rho$ >= 0, in units of the characteristic stress; `relaxation` $\kappa$ >= 0, the step
-        in units of viscosity over shear modulus. Both elementwise; the value is $\rho$ at $\kappa$ = 0.
+        in units of viscosity over shear modulus. Both elementwise; the value is $\rho$ at $\kappa$ = 0, or the limiting
+        stress.
         """
-        trial, relaxation = jnp.broadcast_arrays(
-            jnp.asarray(trial, dtype=float), jnp.asarray(relaxation, dtype=float)
-        )
-        functions = (lambda q, law: law.stress_ratio(q), lambda s, law: law.rate_ratio(s))
-        return self.stress_ratio(limiting_root(self, trial, relaxation, functions=functions))
+
+
+class AbstractLimitingFunction(AbstractViscousFunction):
+    """A viscous function with a limiting stress, |s| < 1: what its root needs to be found safely."""
+
+    @abc.abstractmethod
+    def stress_slopes(self, q: Array) -> Slopes:
+        """s, ds/dq > 0 and d2s/dq2 <= 0 at q >= 0, to round-off up to q = 1e100."""
+
+    @abc.abstractmethod
+    def corner(self, slope: Array) -> tuple[Array, Array]:
+        """q and s where ds/dq = `slope`, in (0, 1]."""
+
+    def relaxed_stress_ratio(self, trial: Values, relaxation: Values) -> Float[Array, "..."]:
+        return self.stress_ratio(limiting_root(self, *_same_shape(trial, relaxation)))
 
 
 class ReeEyring(AbstractViscousFunction):
@@ -66,13 +80,10 @@ class ReeEyring(AbstractViscousFunction):
         return asinh_of_scaled(log_scale, x)
 
     def relaxed_stress_ratio(self, trial: Values, relaxation: Values) -> Float[Array, "..."]:
-        trial, relaxation = jnp.broadcast_arrays(
-            jnp.asarray(trial, dtype=float), jnp.asarray(relaxation, dtype=float)
-        )
-        return sinh_root(trial, relaxation)
+        return sinh_root(*_same_shape(trial, relaxation))
 
 
-class BairWiner(AbstractViscousFunction):
+class BairWiner(AbstractLimitingFunction):
     r"""$F(s) = -\ln(1 - s)$ for s >= 0, odd; the characteristic stress is the limiting stress.
 
     **Limits:** s < 1; only C1 at 0.
@@ -92,8 +103,15 @@ class BairWiner(AbstractViscousFunction):
     def stress_ratio_of_scaled(self, log_scale: Values, x: Values) -> Float[Array, "..."]:
         return self.stress_ratio(_saturated_product(log_scale, x))
 
+    def stress_slopes(self, q: Array) -> Slopes:
+        left = jnp.exp(-q)
+        return Slopes(-jnp.expm1(-q), left, -left)
 
-class GecimWiner(AbstractViscousFunction):
+    def corner(self, slope: Array) -> tuple[Array, Array]:
+        return -jnp.log(slope), 1.0 - slope
+
+
+class GecimWiner(AbstractLimitingFunction):
     r"""$F(s) = \mathrm{artanh}\,s$; the characteristic stress is the limiting stress.
 
     **Limits:** s < 1.
@@ -111,8 +129,18 @@ class GecimWiner(AbstractViscousFunction):
     def stress_ratio_of_scaled(self, log_scale: Values, x: Values) -> Float[Array, "..."]:
         return self.stress_ratio(_saturated_product(log_scale, x))
 
+    def stress_slopes(self, q: Array) -> Slopes:
+        left = jnp.exp(-2.0 * q)
+        share = 1.0 / (1.0 + left)
+        stress, slope = -jnp.expm1(-2.0 * q) * share, 4.0 * left * jnp.square(share)
+        return Slopes(stress, slope, -2.0 * stress * slope)
 
-class ElsharkawyHamrock(AbstractViscousFunction):
+    def corner(self, slope: Array) -> tuple[Array, Array]:
+        stress = jnp.sqrt(1.0 - slope)
+        return jnp.log1p(stress) - 0.5 * jnp.log(slope), stress
+
+
+class ElsharkawyHamrock(AbstractLimitingFunction):
     r"""$F(s) = s(1 - s^n)^{-1/n}$ for s >= 0, odd; the characteristic stress is the limiting stress.
 
     **Limits:** s < 1; $n\to\infty$ is Newton's law up to the limiting stress.
@@ -137,10 +165,30 @@ class ElsharkawyHamrock(AbstractViscousFunction):
     def stress_ratio_of_scaled(self, log_scale: Values, x: Values) -> Float[Array, "..."]:
         return self.stress_ratio(_saturated_product(log_scale, x))
 
+    def stress_slopes(self, q: Array) -> Slopes:
+        q = jnp.maximum(q, SMALLEST_RATE)
+        large = q > 1.0
+        power = jnp.exp(self.exponent * jnp.where(large, -1.0, 1.0) * jnp.log(q))  # q^n or q^-n, never above 1
+        share = 1.0 / (1.0 + power)
+        stress = jnp.where(large, 1.0, q) * jnp.exp(-jnp.log1p(power) / self.exponent)
+        # q^n/(1 + q^n) and 1/(1 + q^n)
+        flowing, solid = jnp.where(large, share, power * share), jnp.where(large, power * share, share)
+        slope = solid * stress / q
+        return Slopes(stress, slope, -(self.exponent + 1.0) * slope * flowing / q)
+
+    def corner(self, slope: Array) -> tuple[Array, Array]:
+        log_slope, more = jnp.log(slope), self.exponent + 1.0
+        stress = jnp.exp(jnp.log1p(-jnp.exp(self.exponent / more * log_slope)) / self.exponent)
+        return stress * jnp.exp(-log_slope / more), stress
+
 
 ElsharkawyHamrock.__init__.__doc__ = """**Arguments:**
 - `exponent`: n, > 0.
 """
+
+
+def _same_shape(trial: Values, relaxation: Values) -> list[Array]:
+    return jnp.broadcast_arrays(jnp.asarray(trial, dtype=float), jnp.asarray(relaxation, dtype=float))
 
 
 def _sign_and_size(x: Values) -> tuple[Array, Array]:

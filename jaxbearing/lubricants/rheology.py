@@ -41,6 +41,13 @@ class ExponentialRheology(eqx.Module):
         if self.viscous_function is not None and self.viscous_function not in VISCOUS_FUNCTIONS:
             raise ValueError(f"viscous_function: found {self.viscous_function!r}, expected one of {VISCOUS_FUNCTIONS}")
 
+    def misfit(self, viscous_function: str) -> tuple[str, ...]:
+        """What a user should know of a traction law with this viscous function: nothing, or that the data were fitted
+        with another one (a limiting stress is no Eyring stress)."""
+        if self.viscous_function in (None, viscous_function):
+            return ()
+        return (f"contact.traction is {viscous_function}, the oil's rheology was fitted with {self.viscous_function}",)
+
     def log_shear_modulus(self, pressure: Values, temperature: Values) -> Batch:
         """ln of the shear modulus in Pa. **Arguments:** `pressure`, Pa; `temperature`, K, > 0."""
         inverse = 1.0 / temperature - 1.0 / self.reference_temperature

@@ -1,6 +1,7 @@
 """Test machines as scenes: contacts without a bearing."""
 
 from .two_disk import DiskGeometry as DiskGeometry
+from .two_disk import DiskMaterials as DiskMaterials
 from .two_disk import DiskOperation as DiskOperation
 from .two_disk import DiskState as DiskState
 from .two_disk import TwoDisk as TwoDisk

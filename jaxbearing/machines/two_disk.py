@@ -1,6 +1,6 @@
 """The two-disk machine: two bodies that roll and slide on each other under load, and the traction between them."""
 
-from collections.abc import Mapping
+import dataclasses
 from typing import Any, NamedTuple
 
 import equinox as eqx
@@ -17,6 +17,8 @@ from ..contacts import (
     AbstractThermalFactor,
     ContactPatch,
     DistributedTraction,
+    Gupta,
+    HalfSpaceCompliance,
     LineContact,
     NoThermalReduction,
     PointContact,
@@ -26,14 +28,17 @@ from ..contacts import (
     deborah_number,
     inlet_temperature_rise,
 )
-from ..lubricants import Lubricant
+from ..lubricants import Lubricant, NoPressureViscosity
+from ..lubricants.ranges import FITTED_PRESSURE, FITTED_TEMPERATURES
 from ..materials import Material, reduced_modulus
-from ..numerics.checks import require
+from ..numerics.checks import RANGES, require
 from ..numerics.precision import as_float
 from ..numerics.status import SolveError, Status
 
 INNER_TOLERANCE = 1e-6
 """Largest residual of a nested solve: ln(film) of the inlet's rise, K of the film's."""
+BATCH = 512
+"""Points that are computed side by side; more of them are taken one batch after the other."""
 
 
 class DiskGeometry(eqx.Module):
@@ -68,49 +73,89 @@ class DiskGeometry(eqx.Module):
         return PointContact(along, across, modulus)
 
 
+class DiskMaterials(eqx.Module):
+    """Solids of the two bodies."""
+
+    body_1: Material
+    body_2: Material
+
+
 class TwoDiskLaws(eqx.Module):
     """Laws of the contact.
 
     **Arguments:**
     - `film`: film thickness law, of a point or a line contact as the geometry says.
-    - `thermal`: thermal reduction of the film; its inlet rise also warms the oil in the contact.
     - `traction`: the sheared film.
+    - `thermal`: thermal reduction of the film; its inlet rise also warms the oil in the contact.
     - `warm_inlet`: whether the oil enters the contact, and the surfaces are, warmer by the inlet rise; else at the
       oil's temperature, and the thermal factor thins the film only.
+    - `half_space_compliance`: whether the bodies give way tangentially as elastic half-spaces of the scene's materials;
+      `traction` has no compliance of its own then.
     """
 
     film: AbstractPointFilm | AbstractLineFilm
     traction: DistributedTraction
     thermal: AbstractThermalFactor = NoThermalReduction()
     warm_inlet: bool = eqx.field(static=True, default=True)
+    half_space_compliance: bool = eqx.field(static=True, default=False)
+
+    def __check_init__(self):
+        if self.half_space_compliance and self.traction.compliance is not None:
+            raise ValueError("contact.compliance: found one in contact.traction, expected none beside the half-spaces'")
 
 
-def _axis(unit: str, description: str) -> Any:
-    """A list of numbers, one dimension of the family of curves; None where it is not given."""
-    convert = lambda v: None if v is None else as_float(np.atleast_1d(v) if isinstance(v, list | tuple | float | int) else v)
-    return eqx.field(converter=convert, default=None, metadata=label(unit, description))
+def _values(given: Any) -> Any:
+    """A one-dimensional array of float64; what is not a number passes through for the type checker to judge."""
+    if isinstance(given, list | tuple):
+        traced = any(isinstance(value, jax.Array) for value in given)
+        given = jnp.stack(given) if traced else np.asarray(given, dtype=np.float64)
+    given = as_float(given)
+    return given.reshape(1) if getattr(given, "ndim", None) == 0 else given
+
+
+def _axis(unit: str, description: str, **kwargs: Any) -> Any:
+    """Field with one dimension of the family of curves: a number or a list of them."""
+    return eqx.field(
+        converter=lambda v: None if v is None else _values(v), metadata=label(unit, description), **kwargs
+    )
 
 
 class DiskOperation(eqx.Module):
     """The family of traction curves: each curve over all slide-to-roll ratios, one for each combination of the others.
 
-    **Arguments:** one-dimensional arrays;
+    **Arguments:** each a number or a one-dimensional array;
     - `slide_to_roll`: (u1 - u2)/entrainment speed, signed.
-    - `pressure`: Hertz (peak) pressures, Pa, or `load`: N; one of the two.
     - `entrainment_speed`: (u1 + u2)/2, m/s, > 0.
     - `temperature`: of the oil that is fed, K.
+    - `pressure`: Hertz (peak) pressures, Pa, or `load`: N; one of the two.
     """
 
-    slide_to_roll: Float[Array, " slide"] = _axis("1", "slide-to-roll ratio, difference over mean speed")
-    entrainment_speed: Float[Array, " speed"] = _axis("m/s", "mean surface speed")
-    temperature: Float[Array, " temperature"] = _axis("K", "oil temperature")
-    pressure: Float[Array, " load"] | None = _axis("Pa", "Hertz (peak) pressure")
-    load: Float[Array, " load"] | None = _axis("N", "normal load")
+    slide_to_roll: Float[Array | np.ndarray, " slide"] = _axis("1", "slide-to-roll ratio, difference over mean speed")
+    entrainment_speed: Float[Array | np.ndarray, " speed"] = _axis("m/s", "mean surface speed")
+    temperature: Float[Array | np.ndarray, " temperature"] = _axis("K", "oil temperature")
+    pressure: Float[Array | np.ndarray, " load"] | None = _axis("Pa", "Hertz (peak) pressure", default=None)
+    load: Float[Array | np.ndarray, " load"] | None = _axis("N", "normal load", default=None)
 
     def __check_init__(self):
+        _require_each("slide_to_roll", self.slide_to_roll, "finite")
+        for name in ("entrainment_speed", "temperature", "pressure", "load"):
+            _require_each(name, getattr(self, name), "> 0")
         if (self.pressure is None) == (self.load is None):
             found = "neither" if self.pressure is None else "both"
             raise ValueError(f"operation.pressure: found {found} of pressure and load, expected one of the two")
+
+
+def _require_each(name: str, values: Any, allowed: str) -> None:
+    """**Raises:** `ValueError` for an empty list or a number out of range, where the numbers are known."""
+    if values is None:
+        return
+    if np.ndim(values) != 1 or np.size(values) == 0:
+        raise ValueError(f"operation.{name} must be a number or a list of them, got the shape {np.shape(values)}")
+    if isinstance(values, jax.core.Tracer):
+        return
+    wrong = [float(value) for value in np.asarray(values) if not (np.isfinite(value) and RANGES[allowed](value))]
+    if wrong:
+        raise ValueError(f"operation.{name} must be {allowed}, got {wrong[0]:g}")
 
 
 class DiskState(NamedTuple):
@@ -153,20 +198,38 @@ class TwoDiskSolution(eqx.Module):
     surface_rise: Float[Array, "temperature speed load slide"] | None = eqx.field(
         default=None, metadata=label("K", "largest rise of the surface temperature in the contact")
     )
+    checks: dict[str, Bool[Array, ""]] = eqx.field(default_factory=dict)
     notes: tuple[str, ...] = eqx.field(static=True, default=())
 
     @property
     def converged(self) -> Bool[Array, ""]:
+        """Whether all points are."""
         return jnp.all(self.status == Status.CONVERGED)
+
+    @property
+    def warnings(self) -> list[str]:
+        """What left the range of a law, and what the model assumed or left out, in words (one solution only)."""
+        return [text for text, broken in self.checks.items() if bool(broken)] + list(self.notes)
 
     def failure(self) -> str:
         """One sentence on the points that failed."""
-        failed = int(jnp.sum(self.status != Status.CONVERGED))
-        worst = float(jnp.max(jnp.where(jnp.isfinite(self.inner_residual), self.inner_residual, jnp.inf)))
-        return (
-            f"{Status.NOT_CONVERGED.text}: {failed} of {self.status.size} points; nested solve (temperature of inlet "
-            f"or film), residual {worst:.3g}"
-        )
+        status, residual = np.asarray(self.status), np.asarray(self.inner_residual)
+        failed = status != Status.CONVERGED
+        residual = np.where(np.isfinite(residual), residual, np.inf)
+        worst = np.unravel_index(np.argmax(np.where(failed, residual, -1.0)), residual.shape)
+        reason = f"nested solve (temperature of inlet or film), residual {residual[worst]:.3g}"
+        if residual[worst] <= INNER_TOLERANCE:
+            reason = "no finite number"
+        text = f"{Status(int(status.max())).text}: {int(failed.sum())} of {status.size} points"
+        return f"{text}, worst{self._place(worst)}: {reason}"
+
+    def _place(self, point: tuple[Any, ...]) -> str:
+        if len(point) != 4:
+            return ""
+        operation = self.operation
+        axes = (operation.temperature, operation.entrainment_speed, self.pressure, operation.slide_to_roll)
+        t, u, p, s = (float(np.asarray(axis)[i]) for axis, i in zip(axes, point, strict=True))
+        return f" at temperature {t:g} K, entrainment_speed {u:g} m/s, pressure {p:g} Pa, slide_to_roll {s:g}"
 
     def raise_if_failed(self) -> None:
         """Does nothing while JAX traces. **Raises:** `SolveError`."""
@@ -182,25 +245,59 @@ class TwoDisk(AbstractScene):
     """A two-disk machine (or a ball on a disc) as a scene.
 
     **Arguments:** `geometry`; `materials`: of the two bodies; `oil`, with a rheology; `contact`: its laws;
-    `operation`: the family of curves.
+    `operation`: the family of curves. At other loads than those of a scene with `pressure`:
+    `scene.at_operation(pressure=None, load=1647.0)`.
+
+    **Raises:** `ValueError` for laws that do not fit the geometry or the oil.
     """
 
     geometry: DiskGeometry
-    materials: tuple[Material, Material]
+    materials: DiskMaterials
     oil: Lubricant
     contact: TwoDiskLaws
     operation: DiskOperation
 
     def __check_init__(self):
+        laws, oil = self.contact, self.oil
         line = self.geometry.contact_length is not None
-        if line != isinstance(self.contact.film, AbstractLineFilm):
+        if line != isinstance(laws.film, AbstractLineFilm):
             kind = "line" if line else "point"
-            raise ValueError(f"contact.film: found {type(self.contact.film).__name__}, expected a film of a {kind} contact")
+            raise ValueError(f"contact.film: found {type(laws.film).__name__}, expected a film of a {kind} contact")
+        if isinstance(oil.pressure_viscosity, NoPressureViscosity) and laws.film.piezoviscous_only:
+            raise ValueError(
+                f"contact.film: {type(laws.film).__name__} holds for oils whose viscosity rises with pressure, not for an "
+                "isoviscous one"
+            )
+        if oil.rheology is None:
+            raise ValueError("oil.rheology: the traction needs it")
+        heating = laws.traction.heating
+        warms = not isinstance(laws.thermal, NoThermalReduction) or (heating is not None and heating.conductivity is None)
+        if warms and oil.conductivity is None:
+            raise ValueError("oil.conductivity: the thermal reduction of the film, and its heating, need it")
 
     @property
     def hertz(self) -> LineContact | PointContact:
         """The dry contact."""
-        return self.geometry.contact(reduced_modulus(*self.materials))
+        return self.geometry.contact(self._reduced_modulus)
+
+    @property
+    def traction_law(self) -> DistributedTraction:
+        """The law of the sheared film together with what it needs of the bodies."""
+        law, bodies = self.contact.traction, self.materials
+        if not self.contact.half_space_compliance:
+            return law
+        poisson_ratio = 0.5 * (bodies.body_1.poisson_ratio + bodies.body_2.poisson_ratio)
+        return dataclasses.replace(law, compliance=HalfSpaceCompliance(self._reduced_modulus, poisson_ratio))
+
+    @property
+    def _reduced_modulus(self) -> Array:
+        return reduced_modulus(self.materials.body_1, self.materials.body_2)
+
+    def assumptions(self) -> tuple[str, ...]:
+        """What the scene's data were not made for or leave open; for the user."""
+        rheology = self.oil.rheology
+        misfit = () if rheology is None else rheology.misfit(self.contact.traction.viscous.name)
+        return (*(f"oil: {note}" for note in self.oil.notes), *misfit)
 
     def state(
         self,
@@ -234,7 +331,7 @@ class TwoDisk(AbstractScene):
 
     def traction(self, state: DiskState, oil: Lubricant | None = None) -> Traction:
         """Forces, power and temperatures. **Arguments:** `oil`: one with another rheology than the scene's."""
-        law, oil = self.contact.traction, self.oil if oil is None else oil
+        law, oil = self.traction_law, self.oil if oil is None else oil
         sliding = Sliding(state.sliding_speed)
         return law.traction(state.patch, state.film, state.entrainment_speed, sliding, state.temperature, oil)
 
@@ -253,37 +350,75 @@ def solve_two_disk(scene: TwoDisk, options: Any = None) -> TwoDiskSolution:
     load = operation.load
     if load is None:
         load = contact.load_at_pressure(operation.pressure)
-    grid = jnp.meshgrid(
-        operation.temperature, operation.entrainment_speed, load, operation.slide_to_roll, indexing="ij"
-    )
-    flat = [axis.reshape(-1) for axis in grid]
+    axes = (operation.temperature, operation.entrainment_speed, load, operation.slide_to_roll)
+    grid = jnp.meshgrid(*axes, indexing="ij")
 
-    def point(values):
-        temperature, speed, load, slide = values
+    def points(temperature, speed, load, slide):
         state = scene.state(slide, speed, temperature, load=load)
-        return state, scene.traction(state), deborah_number(state.patch, speed, state.temperature, scene.oil)
+        deborah = deborah_number(state.patch, speed, state.temperature, scene.oil)
+        return state.film, state.temperature, state.inner_residual, scene.traction(state), deborah
 
-    state, traction, deborah = jax.tree.map(
-        lambda leaf: leaf.reshape(grid[0].shape), jax.lax.map(point, flat, batch_size=256)
-    )
-    residual = state.inner_residual
+    film, temperature, residual, traction, deborah = _in_batches(points, grid)
     if traction.inner_residual is not None:
         residual = jnp.maximum(residual, traction.inner_residual)
-    coefficient = traction.rolling / state.load
+    coefficient = traction.rolling / grid[2]
     good = (residual <= INNER_TOLERANCE) & jnp.isfinite(coefficient)
     shown = lambda field: None if field is None else jnp.where(good, field, jnp.nan)
+    excess = _range_excess(scene, contact, load)
+    excess |= {"oil in the contacts beyond 200 degC: the oil laws are extrapolated": _hottest_excess(temperature, traction, good)}
     return TwoDiskSolution(
         status=jnp.where(good, int(Status.CONVERGED), int(Status.NOT_CONVERGED)),
         operation=operation,
         pressure=contact.hertz_pressure(load),
-        load=load,
+        load=jnp.asarray(load),
         traction_coefficient=shown(coefficient),
-        film=shown(state.film),
+        film=shown(film),
         deborah_number=shown(deborah),
-        inlet_temperature=shown(state.temperature),
+        inlet_temperature=shown(temperature),
         power=shown(traction.power),
         inner_residual=residual,
         film_rise=shown(traction.film_rise),
         surface_rise=shown(traction.surface_rise),
-        notes=scene.oil.notes,
+        checks={text: value > 0 for text, value in excess.items()},
+        notes=scene.assumptions(),
     )
+
+
+def _in_batches(function: Any, grid: list[Array]) -> Any:
+    """`function` of the points of a grid, elementwise; the last batch is filled up, so that one program does them all."""
+    shape, size = grid[0].shape, grid[0].size
+    count = -(-size // BATCH)
+    flat = [axis.reshape(-1) for axis in grid]
+    if count == 1:
+        return jax.tree.map(lambda leaf: leaf.reshape(shape), function(*flat))
+    width = -(-size // count)
+    rows = [jnp.pad(axis, (0, count * width - size), mode="edge").reshape(count, width) for axis in flat]
+    results = jax.lax.map(lambda row: function(*row), rows)
+    return jax.tree.map(lambda leaf: leaf.reshape(-1)[:size].reshape(shape), results)
+
+
+def _range_excess(scene: TwoDisk, contact: LineContact | PointContact, load: Any) -> dict[str, Array]:
+    """By how much the operation leaves the ranges for which the laws were made: positive where it does."""
+    operation, (low, high) = scene.operation, FITTED_TEMPERATURES
+    temperature, slide = jnp.asarray(operation.temperature), jnp.max(jnp.abs(operation.slide_to_roll))
+    excess = {
+        "inlet oil beyond 200 degC: the oil laws are extrapolated": jnp.max(temperature) - high,
+        "inlet oil below -20 degC: the oil laws are extrapolated": low - jnp.min(temperature),
+        "mean contact pressure beyond 1.8 GPa: the traction rheology is extrapolated": jnp.max(
+            contact.mean_pressure(load)
+        )
+        - FITTED_PRESSURE,
+        "slide_to_roll beyond 2: the surfaces move in opposite directions (1 is 100 %)": slide - 2.0,
+    }
+    thermal = scene.contact.thermal
+    if isinstance(thermal, Gupta):
+        speed = jnp.asarray(operation.entrainment_speed)
+        loading = thermal.thermal_loading(speed[:, None], scene.oil.at(temperature[None, :]))
+        excess["thermal loading beyond 20: Gupta's factor is extrapolated"] = jnp.max(loading) - 20.0
+    return excess
+
+
+def _hottest_excess(temperature: Array, traction: Traction, good: Array) -> Array:
+    """By how much the hottest oil in a contact is beyond the range of the oil laws, K."""
+    hottest = temperature if traction.film_rise is None else temperature + traction.film_rise
+    return jnp.max(jnp.where(good, hottest, 0.0)) - FITTED_TEMPERATURES[1]

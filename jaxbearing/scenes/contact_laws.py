@@ -1,4 +1,4 @@
-"""What the names of laws in a [contact] table stand for."""
+"""What the [contact] table of a roller bearing stands for."""
 
 from collections.abc import Callable
 
@@ -6,42 +6,34 @@ from ..bearings.parts import ContactLaws
 from ..contacts import (
     AbstractLineFilm,
     AbstractRollingResistance,
-    AbstractThermalFactor,
-    BairWiner,
-    DowsonHigginson,
-    DowsonToyoda,
-    ElsharkawyHamrock,
-    GecimWiner,
-    Grubin,
-    Gupta,
-    HsuLee,
+    AbstractTraction,
+    DistributedTraction,
     JoinedRollingResistance,
     MartinBlend,
     MeanPressureTraction,
-    Moes,
-    NoThermalReduction,
-    PanHamrockCentral,
-    ReeEyring,
+    Resolution,
     RigidRollingResistance,
 )
 from ..lubricants import Lubricant
-from .schema import ContactTable
+from .laws import LINE_FILMS, thermal_factor, viscous_function
+from .roller_schema import ContactTable
+
+
+def _with_martin(film: type[AbstractLineFilm]) -> Callable[[], AbstractLineFilm]:
+    """An elastohydrodynamic formula alone has a finite film at no load, where an unloaded roller needs Martin's."""
+    return lambda: MartinBlend(film())
+
 
 FILMS: dict[str, Callable[[], AbstractLineFilm]] = {
-    "moes": Moes,
-    "dowson_higginson": lambda: MartinBlend(DowsonHigginson()),
-    "dowson_toyoda": lambda: MartinBlend(DowsonToyoda()),
-    "pan_hamrock": lambda: MartinBlend(PanHamrockCentral()),
-    "grubin": lambda: MartinBlend(Grubin()),
+    name: film if name == "moes" else _with_martin(film) for name, film in LINE_FILMS.items()
 }
-"""An elastohydrodynamic formula alone has a finite film at no load, where an unloaded roller needs Martin's."""
-THERMAL: dict[str, type[AbstractThermalFactor]] = {"gupta": Gupta, "hsu_lee": HsuLee}
-VISCOUS = {"ree_eyring": ReeEyring, "bair_winer": BairWiner, "gecim_winer": GecimWiner}
 ROLLING: dict[str, type[AbstractRollingResistance]] = {
     "rigid_isoviscous": RigidRollingResistance,
     # under load; a roller outside the loaded zone has the rigid law's
     "ertel_grubin": JoinedRollingResistance,
 }
+DISTRIBUTED_ACCURACY = 1e-3
+"""Of the distributed traction where a scene does not say."""
 
 
 def contact_laws(table: ContactTable, oil: Lubricant | None) -> ContactLaws:
@@ -49,16 +41,18 @@ def contact_laws(table: ContactTable, oil: Lubricant | None) -> ContactLaws:
     rolling = None if table.rolling_resistance is None else ROLLING[table.rolling_resistance]()
     return ContactLaws(
         film=FILMS[table.film](),
-        thermal=NoThermalReduction() if table.thermal is None else THERMAL[table.thermal](),
-        traction=None if table.traction is None else _traction(table.traction, oil),
+        thermal=thermal_factor(table.thermal),
+        traction=_traction(table, oil),
         rolling=rolling,
         entrainment_offset=table.entrainment_offset,
     )
 
 
-def _traction(name: str, oil: Lubricant | None) -> MeanPressureTraction:
-    if name == "elsharkawy_hamrock":
-        fitted = None if oil is None or oil.rheology is None else oil.rheology.exponent
-        return MeanPressureTraction(ElsharkawyHamrock() if fitted is None else ElsharkawyHamrock(fitted))
-    # the Maxwell-Eyring law is Ree and Eyring's flow with the Maxwell element that every law here has
-    return MeanPressureTraction(VISCOUS["ree_eyring" if name == "maxwell_eyring" else name]())
+def _traction(table: ContactTable, oil: Lubricant | None) -> AbstractTraction | None:
+    if table.traction is None:
+        return None
+    viscous = viscous_function(table.traction, oil)
+    if table.traction_model == "mean_pressure":
+        return MeanPressureTraction(viscous)
+    accuracy = DISTRIBUTED_ACCURACY if table.traction_accuracy is None else table.traction_accuracy
+    return DistributedTraction(viscous, Resolution.for_accuracy(accuracy))

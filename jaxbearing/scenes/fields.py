@@ -10,10 +10,12 @@ from pydantic import BaseModel
 
 @dataclass(frozen=True)
 class Names:
-    """Valid names of one table, and names that later versions will know (with what to expect instead)."""
+    """Valid names of one table, names that later versions will know (with what to expect instead), and names that
+    exclude each other."""
 
     names: tuple[str, ...] = ()
     not_yet: Mapping[str, str] = field(default_factory=dict)
+    instead: Mapping[str, str] = field(default_factory=dict)
 
 
 def is_tag(part: int | str) -> bool:
@@ -31,9 +33,11 @@ def names_at(model: type[BaseModel], location: Sequence[int | str]) -> Names:
     models = _models_at(model, location)
     names = dict.fromkeys(name for candidate in models for name in candidate.model_fields)
     not_yet: dict[str, str] = {}
+    instead: dict[str, str] = {}
     for candidate in models:
         not_yet.update(getattr(candidate, "not_yet", {}))
-    return Names(tuple(names), not_yet)
+        instead.update(getattr(candidate, "instead", {}))
+    return Names(tuple(names), not_yet, instead)
 
 
 def _models_at(model: type[BaseModel], location: Sequence[int | str]) -> list[type[BaseModel]]:

@@ -9,7 +9,7 @@ from pydantic import BaseModel
 
 from .data_files import oil_names, oil_text
 from .errors import SceneError, describe_at, unknown_name
-from .fields import is_known
+from .fields import is_known, names_at
 
 REMOVE = "none"
 """The value that takes an optional table or field out of the scene."""
@@ -62,6 +62,9 @@ def apply(raw: Mapping[str, Any], overrides: Mapping[str, str], model: type[Base
         for depth, key in enumerate(keys[:-1]):
             table = _table(table.setdefault(key, {}), changed, keys[: depth + 1], path, file)
         table[keys[-1]] = parse_value(text)
+        other = names_at(model, keys[:-1]).instead.get(keys[-1])
+        if other is not None and ".".join([*keys[:-1], other]) not in overrides:
+            table.pop(other, None)
     return changed
 
 

@@ -8,13 +8,15 @@ from typing import Any
 
 from pydantic import BaseModel, ValidationError
 
-from ..bearings.parts import AbstractScene
-from .build import cylindrical_roller_bearing
+from .._scene import AbstractScene
 from .data_files import builtin_names, builtin_summary, builtin_text
 from .errors import SceneError, from_class, from_validation, nearest, one_of
 from .oils import with_catalogue
 from .overrides import REMOVE, apply, parse_value
-from .schema import AVAILABLE_KINDS, KINDS, CylindricalRollerTable
+from .roller_build import cylindrical_roller_bearing
+from .roller_schema import CylindricalRollerTable
+from .two_disk_build import two_disk
+from .two_disk_schema import TwoDiskTable
 from .units import describe, shortened
 
 __all__ = ["builtin_names", "builtin_summary", "builtin_text", "load_scene", "scene_from_mapping"]
@@ -22,7 +24,10 @@ __all__ = ["builtin_names", "builtin_summary", "builtin_text", "load_scene", "sc
 _KIND_EXAMPLE = 'kind = "cylindrical_roller_bearing"'
 _SCHEMAS: dict[str, tuple[type[BaseModel], Callable[[Any], AbstractScene]]] = {
     "cylindrical_roller_bearing": (CylindricalRollerTable, cylindrical_roller_bearing),
+    "two_disk": (TwoDiskTable, two_disk),
 }
+AVAILABLE_KINDS = tuple(_SCHEMAS)
+KINDS = (*AVAILABLE_KINDS, "ball_bearing", "tapered_roller_bearing", "line_contact")
 
 
 def load_scene(source: str | Path, overrides: Mapping[str, str] | None = None) -> AbstractScene:

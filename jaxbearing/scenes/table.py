@@ -11,12 +11,13 @@ class Table(BaseModel):
     """A table: unknown names are refused, and nothing is converted silently.
 
     `tag` names a table that is one of several alternatives of a field; `not_yet` are names of later versions with what
-    to expect instead.
+    to expect instead; `instead` are fields of which a scene has one or the other: a `--set` of one takes the other out.
     """
 
     model_config = ConfigDict(extra="forbid", strict=True, frozen=True)
     tag: ClassVar[str] = ""
     not_yet: ClassVar[Mapping[str, str]] = {}
+    instead: ClassVar[Mapping[str, str]] = {}
 
 
 def refusal_at(field: str, expected: str, found: str) -> PydanticCustomError:

@@ -62,6 +62,7 @@ CONDUCTIVITY = Dimension("a thermal conductivity", "W/(m*K)", "0.147 W/(m*K)")
 CONDUCTIVITY_SLOPE = Dimension("a change of conductivity with temperature", "W/(m*K^2)", "-2.2e-4 W/(m*K^2)")
 KELVIN_PER_PRESSURE = Dimension("a temperature over a pressure", "K/Pa", "-2348.8 K/GPa")
 KELVIN2_PER_PRESSURE = Dimension("a squared temperature over a pressure", "K^2/Pa", "403871.5 K^2/GPa")
+TANGENTIAL_COMPLIANCE = Dimension("a tangential compliance", "m/Pa", "1e-15 m/Pa")
 
 
 @functools.cache
@@ -181,17 +182,48 @@ def _within(value: float, bound: str) -> bool:
     return {"": True, "> 0": value > 0.0, ">= 0": value >= 0.0}[bound]
 
 
+def quantity(given: Any, dimension: Dimension, bound: str = "") -> float:
+    """SI value of a text with a unit that is within a bound, "> 0" or ">= 0"; refuses as `parse` does."""
+    value = parse(given, dimension)
+    if not _within(value, bound):
+        raise refusal(dimension.expected(bound), describe(given))
+    return value
+
+
 def _quantity(dimension: Dimension, bound: str = "") -> BeforeValidator:
-    def read(given: Any) -> float:
-        value = parse(given, dimension)
-        if not _within(value, bound):
-            raise refusal(dimension.expected(bound), describe(given))
-        return value
-
-    return BeforeValidator(read)
+    return BeforeValidator(lambda given: quantity(given, dimension, bound))
 
 
-def _number(given: Any, bound: str = "") -> float:
+def several(given: Any, read: Callable[[Any], float], expected: str) -> tuple[float, ...]:
+    """One value or a list of them, each read by `read`; `expected` is said of an empty list, and of what is no list."""
+    values = given if isinstance(given, list) else [given]
+    if not values:
+        raise refusal(expected, "an empty list")
+    return tuple(_item(value, i, len(values), read, expected) for i, value in enumerate(values))
+
+
+def _item(value: Any, index: int, count: int, read: Callable[[Any], float], expected: str) -> float:
+    try:
+        return read(value)
+    except PydanticCustomError as error:
+        context = error.context or {}
+        place = f" (value {index + 1} of {count})" if count > 1 else ""
+        raise refusal(expected, f"{context['found']}{place}", context["suggestion"]) from None
+
+
+def _several(dimension: Dimension, bound: str = "") -> BeforeValidator:
+    expected = f"{dimension.expected(bound)}, or a list of such texts"
+    return BeforeValidator(lambda given: several(given, lambda one: quantity(one, dimension, bound), expected))
+
+
+def _switch(value: Any) -> bool:
+    if not isinstance(value, bool):
+        raise refusal("true or false, without quotes", describe(value))
+    return value
+
+
+def number(given: Any, bound: str = "") -> float:
+    """A finite number without a unit, within a bound, "> 0" or ">= 0"."""
     good = isinstance(given, int | float) and not isinstance(given, bool) and _is_finite(given)
     if not good or not _within(given, bound):
         raise refusal(f"a number{bound and ' '}{bound} without a unit and without quotes", describe(given))
@@ -214,7 +246,7 @@ def _flange_angle(value: Any) -> float:
 
 def _between(low: float, high: float) -> Callable[[Any], float]:
     def read(given: Any) -> float:
-        value = _number(given)
+        value = number(given)
         if not low <= value <= high:
             raise refusal(f"a number from {low:g} to {high:g}", describe(given))
         return value
@@ -223,8 +255,9 @@ def _between(low: float, high: float) -> Callable[[Any], float]:
 
 
 Count = Annotated[int, BeforeValidator(count)]
-PositiveNumber = Annotated[float, BeforeValidator(lambda value: _number(value, "> 0"))]
-NonNegativeNumber = Annotated[float, BeforeValidator(lambda value: _number(value, ">= 0"))]
+Switch = Annotated[bool, BeforeValidator(_switch)]
+PositiveNumber = Annotated[float, BeforeValidator(lambda value: number(value, "> 0"))]
+NonNegativeNumber = Annotated[float, BeforeValidator(lambda value: number(value, ">= 0"))]
 PoissonRatio = Annotated[float, BeforeValidator(_between(0.0, 0.5))]
 Fraction = Annotated[float, BeforeValidator(_between(0.0, 1.0))]
 
@@ -250,3 +283,9 @@ PositiveConductivity = Annotated[float, _quantity(CONDUCTIVITY, "> 0")]
 ConductivitySlope = Annotated[float, _quantity(CONDUCTIVITY_SLOPE)]
 KelvinPerPressure = Annotated[float, _quantity(KELVIN_PER_PRESSURE)]
 Kelvin2PerPressure = Annotated[float, _quantity(KELVIN2_PER_PRESSURE)]
+
+PositiveSurfaceSpeeds = Annotated[tuple[float, ...], _several(SURFACE_SPEED, "> 0")]
+PositiveForces = Annotated[tuple[float, ...], _several(FORCE, "> 0")]
+PositivePressures = Annotated[tuple[float, ...], _several(PRESSURE, "> 0")]
+Temperatures = Annotated[tuple[float, ...], _several(TEMPERATURE, "> 0")]
+"""A text with a unit, or a list of them."""

@@ -1,18 +1,16 @@
 """The scene file of a cylindrical roller bearing. Names are the attribute names of the classes that it builds."""
 
 from collections.abc import Mapping
-from typing import Annotated, Any, ClassVar, Literal, Self
+from typing import ClassVar, Literal, Self
 
-from pydantic import BeforeValidator, Discriminator, Tag, model_validator
+from pydantic import model_validator
 
-from ..materials import CATALOGUE
 from . import units
-from .errors import nearest, one_of
-from .oil_schema import ConstantViscosityTable, OilTable
+from .laws import TractionAccuracy
+from .materials import MaterialField
+from .oil_needs import require_laws, require_piezoviscous
+from .oil_schema import OilTable
 from .table import Table, refusal_at
-
-AVAILABLE_KINDS = ("cylindrical_roller_bearing",)
-KINDS = (*AVAILABLE_KINDS, "ball_bearing", "tapered_roller_bearing", "two_disk", "line_contact")
 
 
 class GeometryTable(Table):
@@ -31,35 +29,6 @@ class GeometryTable(Table):
         return self
 
 
-class MaterialTable(Table):
-    tag: ClassVar[str] = "<table>"
-    youngs_modulus: units.PositivePressure
-    poisson_ratio: units.PoissonRatio
-    density: units.PositiveDensity
-
-
-def _material_name(value: Any) -> str:
-    # --set materials.rings=52100 arrives as a number
-    name = str(value) if isinstance(value, int) and not isinstance(value, bool) else value
-    if not isinstance(name, str) or name not in CATALOGUE:
-        # "AISI M-50": the standard's name in front hides the material's
-        near = (nearest(name, CATALOGUE) or nearest(name.split(" ")[-1], CATALOGUE)) if isinstance(name, str) else ""
-        expected = f"a material of the catalogue ({one_of(CATALOGUE)}) or a table with {_names(MaterialTable)}"
-        raise units.refusal(expected, units.describe(value), near)
-    return name
-
-
-def _names(table: type[Table]) -> str:
-    return ", ".join(table.model_fields)
-
-
-MaterialField = Annotated[
-    Annotated[str, BeforeValidator(_material_name), Tag("<name>")] | Annotated[MaterialTable, Tag("<table>")],
-    Discriminator(lambda value: "<table>" if isinstance(value, dict) else "<name>"),
-]
-"""A name of the catalogue, or a table."""
-
-
 class MaterialsTable(Table):
     rings: MaterialField
     rollers: MaterialField
@@ -71,8 +40,20 @@ class ContactTable(Table):
     film: Literal["moes", "dowson_higginson", "dowson_toyoda", "pan_hamrock", "grubin"]
     thermal: Literal["gupta", "hsu_lee"] | None = None
     traction: Literal["maxwell_eyring", "ree_eyring", "bair_winer", "gecim_winer", "elsharkawy_hamrock"] | None = None
+    traction_model: Literal["mean_pressure", "distributed"] = "mean_pressure"
+    traction_accuracy: TractionAccuracy | None = None
     rolling_resistance: Literal["rigid_isoviscous", "ertel_grubin"] | None = None
     entrainment_offset: units.NonNegativeSurfaceSpeed = 0.0
+
+    @model_validator(mode="after")
+    def _consistent(self) -> Self:
+        distributed = self.traction_model == "distributed"
+        if distributed and self.traction is None:
+            raise refusal_at("traction", "the law that traction_model = 'distributed' is about", "nothing")
+        if self.traction_accuracy is not None and not distributed:
+            expected = "none: only traction_model = 'distributed' is computed to an accuracy"
+            raise refusal_at("traction_accuracy", expected, f"the number {self.traction_accuracy:g}")
+        return self
 
 
 ISOVISCOUS = {"film": ("moes",), "rolling_resistance": ("rigid_isoviscous",)}
@@ -160,18 +141,10 @@ class CylindricalRollerTable(Table):
             raise refusal_at("operation.oil_temperature", expected, "nothing")
         if self.oil is None:
             raise refusal_at("oil", "an oil, which [contact] needs: a table [oil] with a 'name'", "nothing")
-        needs = {"conductivity": f"contact.thermal = '{self.contact.thermal}'" if self.contact.thermal else ""}
+        thermal = f"contact.thermal = '{self.contact.thermal}'" if self.contact.thermal else ""
         traction = f"contact.traction = '{self.contact.traction}'" if self.contact.traction else ""
-        needs |= {"rheology": traction, "density": traction}
-        for law, user in needs.items():
-            if user and getattr(self.oil, law) is None:
-                raise refusal_at(f"oil.{law}", f"the law of {law}, which {user} needs", "nothing")
-        if isinstance(self.oil.viscosity, ConstantViscosityTable) and self.oil.pressure_viscosity is None:
-            for name, holds in ISOVISCOUS.items():
-                given = getattr(self.contact, name)
-                if given is not None and given not in holds:
-                    expected = f"{one_of(holds)}: the other laws are for oils whose viscosity rises with pressure"
-                    raise refusal_at(f"contact.{name}", expected, f"'{given}'")
+        require_laws(self.oil, {"conductivity": thermal, "rheology": traction, "density": traction})
+        require_piezoviscous(self.oil, self.contact, ISOVISCOUS)
         return self
 
 

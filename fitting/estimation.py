@@ -1,0 +1,161 @@
+"""Least squares on the traction model: Levenberg-Marquardt, BFGS, gradient descent, from several starts at once."""
+
+from collections.abc import Callable
+from typing import Any, NamedTuple
+
+import equinox as eqx
+import jax
+import jax.numpy as jnp
+import optimistix as optx
+from jaxtyping import Array, Bool, Float, Int
+
+from jaxbearing.lubricants import ExponentialRheology
+from jaxbearing.machines import DiskState, TwoDisk
+
+from .loss import robust
+from .parameters import with_natural
+
+METHODS = ("levenberg_marquardt", "bfgs", "gradient_descent")
+MAX_STEPS = {"levenberg_marquardt": 200, "bfgs": 500, "gradient_descent": 20_000}
+TOLERANCE = {"levenberg_marquardt": 1e-10, "bfgs": 1e-9, "gradient_descent": 1e-9}
+"""Change of parameters (in column-scaled units) and relative change of the loss at which a method ends."""
+
+
+class Problem(eqx.Module):
+    """What the optimiser sees: `natural = base + directions @ (u / scales)`.
+
+    **Arguments:**
+    - `scene`, `state`: the machine; patch, film and temperature of the points.
+    - `rheology`: its reference temperature and what is not a parameter.
+    - `coefficient`, `deviation`: measured, and its standard deviation times the bend of the loss.
+    - `weight`: 1, or 0 for points that are left out.
+    - `base`, `directions`, `scales`: natural coordinates at u = 0, matrix, scale of each u.
+    """
+
+    scene: TwoDisk
+    state: DiskState
+    rheology: ExponentialRheology
+    coefficient: Float[Array, " point"]
+    deviation: Float[Array, " point"]
+    weight: Float[Array, " point"]
+    base: Float[Array, " parameter"]
+    directions: Float[Array, "parameter parameter"]
+    scales: Float[Array, " parameter"]
+    loss: str = eqx.field(static=True)
+
+    def natural(self, u: Float[Array, " parameter"]) -> Float[Array, " parameter"]:
+        return self.base + self.directions @ (u / self.scales)
+
+    def predicted(self, u: Float[Array, " parameter"]) -> Float[Array, " point"]:
+        """Traction coefficients."""
+        rheology = with_natural(self.rheology, self.natural(u))
+        oil = eqx.tree_at(lambda o: o.rheology, self.scene.oil, rheology)
+        return self.scene.traction(self.state, oil).rolling / self.state.load
+
+    def plain_residual(self, u: Float[Array, " parameter"]) -> Float[Array, " point"]:
+        """Model minus measurement over its deviation."""
+        return self.weight * (self.predicted(u) - self.coefficient) / self.deviation
+
+    def residual(self, u: Float[Array, " parameter"]) -> Float[Array, " point"]:
+        """Whose sum of squares is minimised."""
+        return robust(self.plain_residual(u), self.loss)
+
+
+class Estimate(NamedTuple):
+    """End of an optimisation: `u`, half the sum of squares, whether it converged, steps."""
+
+    u: Float[Array, "*start parameter"]
+    loss: Float[Array, "*start"]
+    converged: Bool[Array, "*start"]
+    steps: Int[Array, "*start"]
+
+
+class _Descent(optx.AbstractGradientDescent):
+    """Steepest descent whose step is halved until the loss falls enough, and no more than that."""
+
+    rtol: float
+    atol: float
+    norm: Callable[[Any], Any]
+    descent: optx.SteepestDescent
+    search: Any
+
+    def __init__(self, learning_rate: Any, tolerance: float):
+        self.rtol, self.atol, self.norm = tolerance, tolerance, optx.max_norm
+        self.descent = optx.SteepestDescent()
+        self.search = optx.BacktrackingArmijo(step_init=learning_rate)
+
+
+def jacobian(problem: Problem, u: Float[Array, " parameter"]) -> Float[Array, "point parameter"]:
+    """d residual / d u by forward mode."""
+    return jax.jacfwd(problem.residual)(u)
+
+
+def column_scales(problem: Problem, u: Float[Array, " parameter"]) -> Float[Array, " parameter"]:
+    """Norms of the Jacobian's columns where they are not 0, else 1; of the problem as it is scaled now."""
+    norms = jnp.linalg.norm(jacobian(problem, u), axis=0)
+    return jnp.where((norms > 0) & jnp.isfinite(norms), norms, 1.0) * problem.scales
+
+
+def estimate(problem: Problem, u: Float[Array, " parameter"], method: str) -> Estimate:
+    """One optimisation. **Arguments:** `u`: start; `method`: one of `METHODS`."""
+    half_square = lambda v, p: 0.5 * jnp.sum(jnp.square(p.residual(v)))
+    tolerance = TOLERANCE[method]
+    if method == "levenberg_marquardt":
+        solver: Any = optx.LevenbergMarquardt(rtol=tolerance, atol=tolerance)
+        found = optx.least_squares(
+            lambda v, p: p.residual(v),
+            solver,
+            u,
+            problem,
+            max_steps=MAX_STEPS[method],
+            throw=False,
+        )
+    else:
+        if method == "bfgs":
+            solver = optx.BFGS(rtol=tolerance, atol=tolerance)
+        else:
+            columns = jacobian(problem, u)
+            steepest = jnp.linalg.eigvalsh(columns.T @ columns)[-1]
+            solver = _Descent(1.0 / jnp.where(steepest > 0, steepest, 1.0), tolerance)
+        found = optx.minimise(half_square, solver, u, problem, max_steps=MAX_STEPS[method], throw=False)
+    value = half_square(found.value, problem)
+    converged = (found.result == optx.RESULTS.successful) & jnp.isfinite(value)
+    return Estimate(found.value, value, converged, jnp.asarray(found.stats["num_steps"]))
+
+
+@eqx.filter_jit
+def estimate_from(problem: Problem, starts: Float[Array, "start parameter"], method: str) -> Estimate:
+    """Optimisations from several starts, batched; each is scaled by the columns of its own first Jacobian."""
+
+    def one(u):
+        scales = column_scales(problem, u)
+        scaled = eqx.tree_at(lambda p: p.scales, problem, scales)
+        found = estimate(scaled, u * scales / problem.scales, method)
+        return found._replace(u=found.u * problem.scales / scales)
+
+    return jax.vmap(one)(starts)
+
+
+@eqx.filter_jit
+def linearized(problem: Problem, u: Float[Array, " parameter"]) -> tuple[Array, Array, Array]:
+    """Predicted coefficients, plain residuals and their Jacobian with respect to the natural coordinates."""
+    unit = eqx.tree_at(
+        lambda p: (p.base, p.directions, p.scales),
+        problem,
+        (problem.natural(u), jnp.eye(len(problem.base)), jnp.ones_like(problem.scales)),
+    )
+    zero = jnp.zeros_like(u)
+    return unit.predicted(zero), unit.plain_residual(zero), jax.jacfwd(unit.plain_residual)(zero)
+
+
+@eqx.filter_jit
+def slope_over_slide(problem: Problem, u: Float[Array, " parameter"]) -> Float[Array, " point"]:
+    """d coefficient / d slide-to-roll ratio of the model at each point."""
+
+    def predicted(sliding):
+        moved = eqx.tree_at(lambda p: p.state, problem, problem.state._replace(sliding_speed=sliding))
+        return moved.predicted(u)
+
+    sliding = problem.state.sliding_speed
+    speed = problem.state.entrainment_speed
+    return jax.jvp(predicted, (sliding,), (speed,))[1]

@@ -1,0 +1,81 @@
+"""How far a model is from the measurements: errors of each point, and what an outlier may count."""
+
+import math
+from typing import NamedTuple
+
+import jax.numpy as jnp
+import numpy as np
+from jaxtyping import Array, Float
+
+LOSSES = ("linear", "soft_l1", "cauchy")
+MAD_TO_SIGMA = 1.4826
+"""Standard deviation of normal errors over their median modulus."""
+
+
+class Errors(NamedTuple):
+    """Standard deviation of a measured coefficient: relative part, floor, and what an error of the slide ratio makes
+    of the curve's slope. Only their ratios matter: the size is estimated from the residuals.
+
+    `relative`: of the coefficient; `floor`: of the coefficient, None: `FLOOR` of the largest one measured times
+    `relative`; `slide_to_roll`: standard deviation of the slide-to-roll ratio, 0: exact.
+    """
+
+    relative: float = 0.01
+    floor: float | None = None
+    slide_to_roll: float = 0.0
+
+    def deviation(self, coefficient: np.ndarray, slope: np.ndarray | float = 0.0) -> np.ndarray:
+        """Standard deviation of each point. **Arguments:** `slope`: of the curve, over the slide-to-roll ratio."""
+        size = np.abs(coefficient)
+        floor = self.relative * FLOOR * float(np.max(size)) if self.floor is None else self.floor
+        total = np.square(self.relative * size) + floor**2 + np.square(np.asarray(slope) * self.slide_to_roll)
+        return np.sqrt(total)
+
+
+FLOOR = 0.05
+"""Part of the largest coefficient below which errors no longer shrink with the coefficient."""
+
+
+def robust(residual: Float[Array, "..."], kind: str) -> Float[Array, "..."]:
+    r"""The residual whose square is the loss: $r^2$ (linear), $2(\sqrt{1+r^2}-1)$ (soft_l1), $\ln(1+r^2)$ (cauchy).
+
+    Smooth, odd, slope 1 at 0. **Arguments:** `residual` in units of the error beyond which a point counts less.
+
+    **Raises:** `ValueError` for an unknown kind.
+    """
+    if kind == "linear":
+        return residual
+    square = jnp.square(residual)
+    if kind == "soft_l1":
+        return residual * jnp.sqrt(2.0 / (1.0 + jnp.sqrt(1.0 + square)))
+    if kind == "cauchy":
+        small = square < 1e-8
+        ratio = jnp.log1p(square) / jnp.where(small, 1.0, square)
+        return residual * jnp.sqrt(jnp.where(small, 1.0 - 0.5 * square, ratio))
+    raise ValueError(f"loss: found {kind!r}, expected one of {', '.join(LOSSES)}")
+
+
+TUNING = {"linear": math.inf, "soft_l1": 1.345, "cauchy": 2.385}
+"""Residual, in standard deviations, at which the loss bends: 95 % efficient for normal errors (soft_l1: as Huber's)."""
+
+
+def variance_factor(residual: np.ndarray, kind: str, parameters: int) -> float:
+    r"""Variance that the covariance of an M-estimate takes, $\frac{\sum\psi^2/(n-k)}{(\overline{\psi'})^2}$.
+
+    For the linear loss the residual variance. **Arguments:** `residual` in units of the bend; `parameters`: k.
+    **Reference:** Huber (1981), *Robust Statistics*, sec. 7.6.
+    """
+    square = np.square(residual)
+    if kind == "linear":
+        influence, slope = residual, np.ones_like(residual)
+    elif kind == "soft_l1":
+        influence, slope = residual / np.sqrt(1.0 + square), (1.0 + square) ** -1.5
+    else:
+        influence, slope = residual / (1.0 + square), (1.0 - square) / np.square(1.0 + square)
+    degrees = max(len(residual) - parameters, 1)
+    return float(np.sum(np.square(influence)) / degrees / np.mean(slope) ** 2)
+
+
+def scale_of(residual: np.ndarray) -> float:
+    """Robust standard deviation of residuals, never 0."""
+    return max(MAD_TO_SIGMA * float(np.median(np.abs(residual))), float(np.finfo(float).tiny) ** 0.5)

@@ -1,0 +1,80 @@
+"""Measured traction curves in a form that the model takes."""
+
+from typing import Any
+
+import equinox as eqx
+import jax.numpy as jnp
+import numpy as np
+from jaxtyping import Array, Float
+
+from jaxbearing.machines import DiskState, TwoDisk
+
+
+class MeasurementError(ValueError):
+    """Curves and scene do not fit together; the message says what is missing."""
+
+
+class Measurements(eqx.Module):
+    """Points of traction curves, SI.
+
+    **Arguments:**
+    - `slide_to_roll`: difference over mean speed, signed.
+    - `traction_coefficient`: measured.
+    - `load`, N; `entrainment_speed`, m/s; `temperature` of the oil, K: of each point.
+    - `curve`: number of the curve that each point belongs to; `curve_names`.
+    """
+
+    slide_to_roll: Float[Array, " point"]
+    traction_coefficient: Float[Array, " point"]
+    load: Float[Array, " point"]
+    entrainment_speed: Float[Array, " point"]
+    temperature: Float[Array, " point"]
+    curve: tuple[int, ...] = eqx.field(static=True)
+    curve_names: tuple[str, ...] = eqx.field(static=True)
+
+    @classmethod
+    def of(cls, table: Any, scene: TwoDisk) -> "Measurements":
+        """The points of a `fitting.io.CurveTable`; what the file does not hold comes from the scene's operation.
+
+        **Raises:** `MeasurementError` where neither says it, or the scene gives several values.
+        """
+        count = len(table.slide_to_roll)
+        load = table.load
+        if load is None and table.pressure is not None:
+            load = np.asarray(scene.hertz.load_at_pressure(jnp.asarray(table.pressure)))
+        if load is None:
+            name = "load" if scene.operation.pressure is None else "pressure"
+            value = np.asarray(_only(scene, name, "load or pressure"))
+            load = value if name == "load" else np.asarray(scene.hertz.load_at_pressure(value))
+        columns = {
+            name: getattr(table, name) if getattr(table, name) is not None else _only(scene, name, name)
+            for name in ("entrainment_speed", "temperature")
+        }
+        full = lambda value: jnp.asarray(np.broadcast_to(value, (count,)), dtype=float)
+        return cls(
+            slide_to_roll=full(table.slide_to_roll),
+            traction_coefficient=full(table.traction_coefficient),
+            load=full(load),
+            entrainment_speed=full(columns["entrainment_speed"]),
+            temperature=full(columns["temperature"]),
+            curve=tuple(int(i) for i in table.curve),
+            curve_names=tuple(table.curve_names),
+        )
+
+    def state(self, scene: TwoDisk) -> DiskState:
+        """Patch, film and temperature of every point."""
+        return scene.state(self.slide_to_roll, self.entrainment_speed, self.temperature, load=self.load)
+
+    def in_curve(self, number: int) -> np.ndarray:
+        """Mask of the points of one curve."""
+        return np.asarray(self.curve) == number
+
+
+def _only(scene: TwoDisk, name: str, column: str) -> float:
+    values = np.atleast_1d(np.asarray(getattr(scene.operation, name)))
+    if values.size != 1:
+        raise MeasurementError(
+            f"operation.{name}: the curves have no column of {column} and the scene gives {values.size} values; "
+            "expected one value in the scene, or a column"
+        )
+    return float(values[0])

@@ -1,0 +1,79 @@
+"""What is left after a fit: by curve, its information content, and whether it is random."""
+
+from typing import Any
+
+import numpy as np
+
+from jaxbearing.contacts import deborah_number
+from jaxbearing.lubricants import Lubricant
+from jaxbearing.machines import DiskState, TwoDisk
+
+from .measurements import Measurements
+from .result import CurveFit
+
+SYSTEMATIC = 3.0
+"""Standard deviations of the lag-one correlation beyond which neighbouring residuals are not independent."""
+FEWEST = 8
+"""Points of all curves below which nothing is said."""
+
+
+def curve_fits(
+    measurements: Measurements, state: DiskState, scene: TwoDisk, oil: Lubricant, difference: np.ndarray
+) -> tuple[CurveFit, ...]:
+    """Mean conditions and misfit of every curve."""
+    deborah = np.asarray(deborah_number(state.patch, measurements.entrainment_speed, state.temperature, oil))
+    found = []
+    for number, name in enumerate(measurements.curve_names):
+        points = measurements.in_curve(number)
+        mean = lambda values, points=points: float(np.mean(np.asarray(values)[points]))
+        found.append(
+            CurveFit(
+                name=name,
+                points=int(np.sum(points)),
+                pressure=mean(state.patch.pressure),
+                entrainment_speed=mean(measurements.entrainment_speed),
+                temperature=mean(measurements.temperature),
+                deborah_number=mean(deborah),
+                rms=float(np.sqrt(mean(np.square(difference)))),
+            )
+        )
+    return tuple(found)
+
+
+def information(standard: np.ndarray, parameters: int) -> tuple[float, float]:
+    """Akaike's and Schwarz's criteria for normal errors of unknown size.
+
+    **Arguments:** `standard`: weighted residuals; `parameters`: how many were fitted.
+    """
+    count = len(standard)
+    mean_square = max(float(np.mean(np.square(standard))), np.finfo(float).tiny)
+    fitness = count * np.log(mean_square)
+    return fitness + 2.0 * (parameters + 1), fitness + np.log(count) * (parameters + 1)
+
+
+def neighbour_correlation(measurements: Measurements, standard: np.ndarray) -> tuple[float, int]:
+    """Correlation of residuals of neighbours in slide-to-roll ratio, within curves; and of how many pairs."""
+    slide = np.asarray(measurements.slide_to_roll)
+    pairs: list[Any] = []
+    for number in range(len(measurements.curve_names)):
+        points = np.flatnonzero(measurements.in_curve(number))
+        ordered = standard[points[np.argsort(slide[points], kind="stable")]]
+        pairs.append(np.stack([ordered[:-1], ordered[1:]]))
+    left, right = np.concatenate(pairs, axis=1)
+    size = float(np.sum(np.square(standard)))
+    return (float(np.sum(left * right)) / size if size > 0 else 0.0), left.size
+
+
+def lack_of_fit(measurements: Measurements, standard: np.ndarray, difference: np.ndarray) -> list[str]:
+    """A sentence where the residuals are not random."""
+    correlation, pairs = neighbour_correlation(measurements, standard)
+    if pairs < FEWEST or correlation * np.sqrt(pairs) < SYSTEMATIC:
+        return []
+    worst = int(np.argmax(np.abs(difference)))
+    slide = float(np.asarray(measurements.slide_to_roll)[worst])
+    curve = measurements.curve_names[measurements.curve[worst]]
+    return [
+        f"Lack of fit: neighbouring residuals are alike (correlation {correlation:.2f} of {pairs} pairs), so the model "
+        f"misses something and the intervals are too narrow; largest difference {difference[worst]:+.2g} at a slide-to-"
+        f"roll ratio of {100 * slide:.3g} % in curve '{curve}'."
+    ]

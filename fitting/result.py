@@ -1,0 +1,79 @@
+"""What a fit gives."""
+
+from typing import NamedTuple
+
+import equinox as eqx
+import numpy as np
+
+from jaxbearing.lubricants import Lubricant
+
+from .measurements import Measurements
+
+
+class Parameter(NamedTuple):
+    """One parameter of the rheology, SI. `standard_error`, `lower`, `upper` are None where the data do not determine
+    it or it was not fitted; `fixed`: whether it was held; `reason`: why it was held, or why it has no interval."""
+
+    value: float
+    standard_error: float | None
+    lower: float | None
+    upper: float | None
+    fixed: bool
+    reason: str = ""
+
+
+class CurveFit(NamedTuple):
+    """One curve: mean conditions, SI, Deborah number, and the root mean square of the differences."""
+
+    name: str
+    points: int
+    pressure: float
+    entrainment_speed: float
+    temperature: float
+    deborah_number: float
+    rms: float
+
+
+class FitResult(eqx.Module):
+    """Result of a fit.
+
+    - `parameters`: by name, in the order of the law.
+    - `unidentifiable`: names of parameters that the data cannot tell.
+    - `rms`: root mean square of model minus measurement, in traction coefficient.
+    - `correlation`: of the fitted parameters `fitted`.
+    - `condition`: of the column-scaled Jacobian.
+    - `loss`: half the sum of squares that was minimised; `steps` of the optimiser in its last run; `starts`: how many
+      of the starts ended within 1e-6 of the best loss, of how many.
+    - `aic`, `bic`: information criteria of the weighted residuals.
+    - `oil`: the scene's oil with the fitted rheology; `predicted`: of each point; `outlier`: mask, beyond 4 robust
+      standard deviations.
+    - `notes`: what the user must know, a sentence each: identifiability, lack of fit, bounds.
+    """
+
+    converged: bool
+    model: str
+    method: str
+    rms: float
+    parameters: dict[str, Parameter]
+    unidentifiable: tuple[str, ...]
+    fitted: tuple[str, ...]
+    correlation: np.ndarray
+    covariance: np.ndarray
+    condition: float
+    curves: tuple[CurveFit, ...]
+    loss: float
+    steps: int
+    starts: tuple[int, int]
+    aic: float
+    bic: float
+    oil: Lubricant
+    measurements: Measurements
+    predicted: np.ndarray
+    deviation: np.ndarray
+    outlier: np.ndarray
+    level: float
+    notes: tuple[str, ...]
+
+    def failure(self) -> str:
+        """One sentence on a fit that did not converge."""
+        return f"not converged: {self.method} stopped after {self.steps} steps at a loss of {self.loss:.4g}"

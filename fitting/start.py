@@ -1,0 +1,74 @@
+"""First values of stress and shear modulus from the shape of the curves, without an optimisation."""
+
+import dataclasses
+
+import numpy as np
+
+from jaxbearing.contacts import elastic_slope
+from jaxbearing.lubricants import ExponentialRheology, Lubricant
+from jaxbearing.machines import DiskState
+
+ELASTIC = 3.0
+"""Deborah number above which the first slope of a curve is taken for elastic."""
+SMALL_SLIDE = 0.25
+"""Part of the largest coefficient of a curve below which its points are near the first slope."""
+NEWTON_STEPS = 60
+MIN_STRESS, MAX_STRESS = 1e3, 1e9
+"""Range of the characteristic stress, Pa."""
+
+
+def mean_stress_estimate(stress: np.ndarray, newtonian: np.ndarray) -> np.ndarray:
+    r"""Eyring stress from $\tau_m = \tau_0\,\mathrm{asinh}(\mu\gamma/\tau_0)$; NaN where there is none
+    ($\tau_m\ge\mu\gamma$).
+
+    **Arguments:** mean stress of a contact and the stress of Newtonian flow, Pa, both > 0. Bisection in ln tau_0: the
+    right side grows from 0 to mu gamma. **Reference:** source eq. (85).
+    """
+    low, high = np.full(stress.shape, np.log(MIN_STRESS)), np.full(stress.shape, np.log(MAX_STRESS))
+    for _ in range(NEWTON_STEPS):
+        middle = 0.5 * (low + high)
+        value = np.exp(middle) * np.arcsinh(newtonian / np.exp(middle))
+        low, high = np.where(value < stress, middle, low), np.where(value < stress, high, middle)
+    return np.where(stress < newtonian, np.exp(0.5 * (low + high)), np.nan)
+
+
+def estimated_start(
+    rheology: ExponentialRheology,
+    oil: Lubricant,
+    state: DiskState,
+    coefficient: np.ndarray,
+    deborah: np.ndarray,
+    curve: np.ndarray,
+) -> ExponentialRheology:
+    """The rheology with stress and modulus shifted so that they agree with the curves in the mean.
+
+    Stress: from the largest coefficient of every curve, by `mean_stress_estimate` for an Eyring stress and as the mean
+    stress itself for a limiting one. Modulus: from the first slope of curves with D > 3, by `elastic_slope`. Pressure
+    and temperature coefficients stay.
+    """
+    area, load = np.asarray(state.patch.area), np.asarray(state.load)
+    pressure, temperature = np.asarray(state.patch.mean_pressure), np.asarray(state.temperature)
+    sliding = np.abs(np.asarray(state.sliding_speed))
+    stress = np.abs(coefficient) * load / area
+    viscosity = np.exp(np.asarray(oil.viscosity.log_viscosity(pressure, temperature)))
+    newtonian = viscosity * sliding / np.asarray(state.film)
+    limiting = rheology.viscous_function not in (None, "ree_eyring")
+    shifts, stiffer = [], []
+    for number in np.unique(curve):
+        points = np.flatnonzero(curve == number)
+        top = points[np.argmax(np.abs(coefficient[points]))]
+        estimate = stress[top] if limiting else mean_stress_estimate(stress[top : top + 1], newtonian[top : top + 1])[0]
+        if np.isfinite(estimate) and estimate > 0:
+            shifts.append(np.log(estimate) - float(rheology.log_stress(pressure[top], temperature[top])))
+        first = points[(np.abs(coefficient[points]) < SMALL_SLIDE * np.abs(coefficient[top])) & (sliding[points] > 0)]
+        if len(first) and np.median(deborah[points]) > ELASTIC:
+            slope = elastic_slope(state.patch, state.film, state.temperature, rheology)
+            ratio = np.asarray(state.sliding_speed) / np.asarray(state.entrainment_speed)
+            seen = coefficient[first] / ratio[first] / np.asarray(slope)[first]
+            stiffer += [float(np.log(s)) for s in seen if s > 0]
+    change = lambda value, logs: float(value) * float(np.exp(np.median(logs))) if logs else float(value)
+    return _with(rheology, change(rheology.stress, shifts), change(rheology.shear_modulus, stiffer))
+
+
+def _with(rheology: ExponentialRheology, stress: float, modulus: float) -> ExponentialRheology:
+    return dataclasses.replace(rheology, stress=np.float64(stress), shear_modulus=np.float64(modulus))

@@ -1,0 +1,74 @@
+"""What the names of contact laws in scene files stand for, whatever the kind of scene."""
+
+from typing import Annotated, Any
+
+from pydantic import BeforeValidator
+
+from ..contacts import (
+    PRESETS,
+    AbstractLineFilm,
+    AbstractPointFilm,
+    AbstractThermalFactor,
+    AbstractViscousFunction,
+    BairWiner,
+    DowsonHigginson,
+    DowsonToyoda,
+    ElsharkawyHamrock,
+    GecimWiner,
+    Grubin,
+    Gupta,
+    HamrockDowsonCentral,
+    HsuLee,
+    Moes,
+    NijenbanningVennerMoes,
+    NoThermalReduction,
+    PanHamrockCentral,
+    ReeEyring,
+)
+from ..lubricants import Lubricant
+from . import units
+
+LINE_FILMS: dict[str, type[AbstractLineFilm]] = {
+    "moes": Moes,
+    "dowson_higginson": DowsonHigginson,
+    "dowson_toyoda": DowsonToyoda,
+    "pan_hamrock": PanHamrockCentral,
+    "grubin": Grubin,
+}
+POINT_FILMS: dict[str, type[AbstractPointFilm]] = {
+    "nijenbanning": NijenbanningVennerMoes,
+    "hamrock_dowson": HamrockDowsonCentral,
+}
+THERMAL: dict[str, type[AbstractThermalFactor]] = {"gupta": Gupta, "hsu_lee": HsuLee}
+VISCOUS: dict[str, type[AbstractViscousFunction]] = {
+    "ree_eyring": ReeEyring,
+    "bair_winer": BairWiner,
+    "gecim_winer": GecimWiner,
+    # the Maxwell-Eyring law is Ree and Eyring's flow with the Maxwell element that every law here has
+    "maxwell_eyring": ReeEyring,
+}
+"""Besides Elsharkawy and Hamrock's, which has an exponent."""
+
+
+def thermal_factor(name: str | None) -> AbstractThermalFactor:
+    return NoThermalReduction() if name is None else THERMAL[name]()
+
+
+def viscous_function(name: str, oil: Lubricant | None) -> AbstractViscousFunction:
+    """The flow law of this name, with the exponent with which the oil's data were fitted."""
+    if name != "elsharkawy_hamrock":
+        return VISCOUS[name]()
+    fitted = None if oil is None or oil.rheology is None else oil.rheology.exponent
+    return ElsharkawyHamrock() if fitted is None else ElsharkawyHamrock(fitted)
+
+
+def _accuracy(value: Any) -> float:
+    number = isinstance(value, int | float) and not isinstance(value, bool)
+    if not number or float(value) not in PRESETS:
+        known = ", ".join(f"{key:g}" for key in PRESETS)
+        raise units.refusal(f"one of {known}, without quotes", units.describe(value))
+    return float(value)
+
+
+TractionAccuracy = Annotated[float, BeforeValidator(_accuracy)]
+"""Relative error of the forces for which there is a measured resolution."""

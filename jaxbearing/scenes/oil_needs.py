@@ -1,0 +1,32 @@
+"""What a scene needs of its oil: refused by name of the law that is missing or does not fit."""
+
+from collections.abc import Mapping
+
+from .errors import one_of
+from .oil_schema import ConstantViscosityTable, OilTable
+from .table import Table, refusal_at
+
+
+def require_laws(oil: OilTable, needs: Mapping[str, str]) -> None:
+    """**Arguments:** `needs`: name of a law of the oil -> the field that needs it, in words; "" where none does.
+
+    **Raises:** the refusal of a scene whose oil lacks one.
+    """
+    for law, user in needs.items():
+        if user and getattr(oil, law) is None:
+            raise refusal_at(f"oil.{law}", f"the law of {law}, which {user} needs", "nothing")
+
+
+def require_piezoviscous(oil: OilTable, contact: Table, isoviscous: Mapping[str, tuple[str, ...]]) -> None:
+    """**Arguments:** `isoviscous`: fields of `contact` -> the laws that hold for an oil of the same viscosity at every
+    pressure.
+
+    **Raises:** the refusal of a scene that names another law for such an oil.
+    """
+    if not isinstance(oil.viscosity, ConstantViscosityTable) or oil.pressure_viscosity is not None:
+        return
+    for name, holds in isoviscous.items():
+        given = getattr(contact, name)
+        if given is not None and given not in holds:
+            expected = f"{one_of(holds)}: the other laws are for oils whose viscosity rises with pressure"
+            raise refusal_at(f"contact.{name}", expected, f"'{given}'")

@@ -1,0 +1,49 @@
+"""From a valid table of a two-disk machine to the scene of the library. Only Python and numpy numbers enter the
+constructors: nothing runs on JAX."""
+
+from ..contacts import DistributedTraction, FilmHeating, GivenCompliance, Resolution
+from ..lubricants import Lubricant
+from ..machines import DiskGeometry, DiskMaterials, DiskOperation, TwoDisk, TwoDiskLaws
+from .laws import LINE_FILMS, POINT_FILMS, thermal_factor, viscous_function
+from .materials import material
+from .oils import lubricant
+from .two_disk_schema import HALF_SPACE, DiskOperationTable, SlideRange, TwoDiskContactTable, TwoDiskTable
+
+
+def two_disk(table: TwoDiskTable) -> TwoDisk:
+    """The scene that a table describes.
+
+    **Raises:** `ValueError` for combinations that the classes refuse.
+    """
+    oil = lubricant(table.oil)
+    return TwoDisk(
+        geometry=DiskGeometry(**table.geometry.model_dump()),
+        materials=DiskMaterials(material(table.materials.body_1), material(table.materials.body_2)),
+        oil=oil,
+        contact=_laws(table.contact, oil),
+        operation=_operation(table.operation),
+    )
+
+
+def _laws(table: TwoDiskContactTable, oil: Lubricant) -> TwoDiskLaws:
+    given = table.compliance
+    traction = DistributedTraction(
+        viscous=viscous_function(table.traction, oil),
+        resolution=Resolution.for_accuracy(table.traction_accuracy),
+        compliance=GivenCompliance(given) if isinstance(given, float) else None,
+        heating=FilmHeating() if table.film_heating else None,
+        elastic=table.elastic,
+    )
+    return TwoDiskLaws(
+        film=(LINE_FILMS | POINT_FILMS)[table.film](),
+        traction=traction,
+        thermal=thermal_factor(table.thermal),
+        warm_inlet=table.inlet == "warm",
+        half_space_compliance=given == HALF_SPACE,
+    )
+
+
+def _operation(table: DiskOperationTable) -> DiskOperation:
+    slide = table.slide_to_roll
+    values = {name: given for name, given in table if name != "slide_to_roll"}
+    return DiskOperation(slide_to_roll=slide.values() if isinstance(slide, SlideRange) else slide, **values)

@@ -1,0 +1,162 @@
+"""The scene file of a two-disk machine. Names are the attribute names of the classes that it builds, except for how
+[contact] puts its laws together (see `two_disk_build`)."""
+
+from collections.abc import Mapping
+from typing import Annotated, Any, ClassVar, Literal, Self
+
+import numpy as np
+from pydantic import BeforeValidator, Discriminator, Tag, model_validator
+from pydantic_core import PydanticCustomError
+
+from . import units
+from .errors import nearest, one_of
+from .laws import LINE_FILMS, POINT_FILMS, TractionAccuracy
+from .materials import MaterialField
+from .oil_needs import require_laws, require_piezoviscous
+from .oil_schema import OilTable
+from .table import Table, refusal_at
+
+HALF_SPACE = "half_space"
+_SLIDE = "a number (a ratio, 0.05) or a text in per cent ('5 %')"
+
+
+def _slide(value: Any) -> float:
+    """A ratio: a number, or a text in per cent."""
+    if not isinstance(value, str):
+        try:
+            return units.number(value)
+        except PydanticCustomError:
+            raise units.refusal(_SLIDE, units.describe(value)) from None
+    given, sign, rest = value.partition("%")
+    try:
+        ratio = float(given) / 100.0
+    except ValueError:
+        ratio = np.nan
+    if not sign or rest.strip() or not np.isfinite(ratio):
+        raise units.refusal(_SLIDE, units.describe(value))
+    return ratio
+
+
+def _slides(value: Any) -> tuple[float, ...]:
+    return units.several(value, _slide, f"{_SLIDE}, a list of them, or a table with start, stop and count")
+
+
+class SlideRange(Table):
+    """Evenly spaced slide-to-roll ratios, both ends included."""
+
+    tag: ClassVar[str] = "<table>"
+    start: Annotated[float, BeforeValidator(_slide)]
+    stop: Annotated[float, BeforeValidator(_slide)]
+    count: units.Count
+    spacing: Literal["linear", "log"] = "linear"
+
+    @model_validator(mode="after")
+    def _logarithms_exist(self) -> Self:
+        if self.spacing == "log" and self.start * self.stop <= 0.0:
+            expected = "ends other than 0 and of one sign, which spacing = 'log' needs"
+            raise refusal_at("start", expected, f"{self.start:g} to {self.stop:g}")
+        return self
+
+    def values(self) -> np.ndarray:
+        space = np.geomspace if self.spacing == "log" else np.linspace
+        return space(self.start, self.stop, self.count)
+
+
+SlideField = Annotated[
+    Annotated[tuple[float, ...], BeforeValidator(_slides), Tag("<list>")] | Annotated[SlideRange, Tag("<table>")],
+    Discriminator(lambda value: "<table>" if isinstance(value, dict) else "<list>"),
+]
+"""A number, a list of them, or a range."""
+
+
+def _compliance(value: Any) -> float | str:
+    """L1, m/Pa, or the word for that of the scene's own bodies."""
+    if value == HALF_SPACE:
+        return HALF_SPACE
+    try:
+        return units.quantity(value, units.TANGENTIAL_COMPLIANCE, ">= 0")
+    except PydanticCustomError as error:
+        expected = f"'{HALF_SPACE}' or {units.TANGENTIAL_COMPLIANCE.expected('>= 0')}"
+        near = nearest(value, (HALF_SPACE,)) if isinstance(value, str) else ""
+        raise units.refusal(expected, (error.context or {})["found"], near) from None
+
+
+class DiskGeometryTable(Table):
+    reduced_radius_rolling: units.PositiveLength
+    reduced_radius_transverse: units.PositiveLength | None = None
+    contact_length: units.PositiveLength | None = None
+
+    @model_validator(mode="after")
+    def _point_or_line(self) -> Self:
+        if self.contact_length is not None and self.reduced_radius_transverse is not None:
+            expected = "none beside contact_length: a line contact is straight across"
+            raise refusal_at("reduced_radius_transverse", expected, f"{1e3 * self.reduced_radius_transverse:g} mm")
+        return self
+
+
+class DiskMaterialsTable(Table):
+    body_1: MaterialField
+    body_2: MaterialField
+
+
+class TwoDiskContactTable(Table):
+    """Laws of the contact, by the names in `scenes.laws`, which says what each stands for."""
+
+    film: Literal[
+        "nijenbanning", "hamrock_dowson", "moes", "dowson_higginson", "dowson_toyoda", "pan_hamrock", "grubin"
+    ]
+    traction: Literal["ree_eyring", "bair_winer", "gecim_winer", "elsharkawy_hamrock"]
+    thermal: Literal["gupta", "hsu_lee"] | None = None
+    traction_accuracy: TractionAccuracy = 1e-4
+    compliance: Annotated[float | str, BeforeValidator(_compliance)] | None = None
+    film_heating: units.Switch = False
+    inlet: Literal["warm", "cold"] = "warm"
+    elastic: units.Switch = True
+
+
+ISOVISCOUS = {"film": ("moes", "nijenbanning")}
+"""The laws of `TwoDiskContactTable` that hold for an oil of the same viscosity at every pressure."""
+
+
+class DiskOperationTable(Table):
+    instead: ClassVar[Mapping[str, str]] = {"pressure": "load", "load": "pressure"}
+    slide_to_roll: SlideField
+    entrainment_speed: units.PositiveSurfaceSpeeds
+    temperature: units.Temperatures
+    pressure: units.PositivePressures | None = None
+    load: units.PositiveForces | None = None
+
+    @model_validator(mode="after")
+    def _one_of_both(self) -> Self:
+        if (self.pressure is None) == (self.load is None):
+            found = "neither of 'pressure' and 'load'" if self.pressure is None else "both 'pressure' and 'load'"
+            raise refusal_at("pressure", "one of the two: a Hertz (peak) pressure or a normal load", found)
+        return self
+
+
+class TwoDiskTable(Table):
+    """The whole file."""
+
+    kind: Literal["two_disk"]
+    geometry: DiskGeometryTable
+    materials: DiskMaterialsTable
+    oil: OilTable
+    contact: TwoDiskContactTable
+    operation: DiskOperationTable
+
+    @model_validator(mode="after")
+    def _fits_together(self) -> Self:
+        contact = self.contact
+        line = self.geometry.contact_length is not None
+        shape = "line contact (geometry has a contact_length)" if line else "point contact (geometry has no contact_length)"
+        films = LINE_FILMS if line else POINT_FILMS
+        if contact.film not in films:
+            raise refusal_at("contact.film", f"a film of a {shape}: {one_of(films)}", f"'{contact.film}'")
+        if contact.thermal == "hsu_lee" and not line:
+            expected = f"'gupta', or leave it out: Hsu and Lee's factor is not for a {shape}"
+            raise refusal_at("contact.thermal", expected, "'hsu_lee'")
+        thermal = "contact.film_heating" if contact.film_heating else ""
+        thermal = f"contact.thermal = '{contact.thermal}'" if contact.thermal else thermal
+        require_laws(self.oil, {"rheology": f"contact.traction = '{contact.traction}'", "conductivity": thermal})
+        require_piezoviscous(self.oil, contact, ISOVISCOUS)
+        return self
