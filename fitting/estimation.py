@@ -48,9 +48,7 @@ class Problem(eqx.Module):
 
     def predicted(self, u: Float[Array, " parameter"]) -> Float[Array, " point"]:
         """Traction coefficients."""
-        rheology = with_natural(self.rheology, self.natural(u))
-        oil = eqx.tree_at(lambda o: o.rheology, self.scene.oil, rheology)
-        return self.scene.traction(self.state, oil).rolling / self.state.load
+        return predicted_coefficients(self.scene, self.state, self.rheology, self.natural(u))
 
     def plain_residual(self, u: Float[Array, " parameter"]) -> Float[Array, " point"]:
         """Model minus measurement over its deviation."""
@@ -59,6 +57,18 @@ class Problem(eqx.Module):
     def residual(self, u: Float[Array, " parameter"]) -> Float[Array, " point"]:
         """Whose sum of squares is minimised."""
         return robust(self.plain_residual(u), self.loss)
+
+
+def predicted_coefficients(
+    scene: TwoDisk, state: DiskState, rheology: ExponentialRheology, natural: Float[Array, " parameter"]
+) -> Float[Array, " point"]:
+    """Traction coefficients of the points with the rheology that has these natural coordinates."""
+    oil = eqx.tree_at(lambda o: o.rheology, scene.oil, with_natural(rheology, natural))
+    return scene.traction(state, oil).rolling / state.load
+
+
+coefficients = eqx.filter_jit(predicted_coefficients)
+"""The same, compiled."""
 
 
 class Estimate(NamedTuple):
@@ -76,7 +86,7 @@ class _Descent(optx.AbstractGradientDescent):
     rtol: float
     atol: float
     norm: Callable[[Any], Any]
-    descent: optx.SteepestDescent
+    descent: Any
     search: Any
 
     def __init__(self, learning_rate: Any, tolerance: float):

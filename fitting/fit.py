@@ -12,7 +12,7 @@ from jaxbearing.contacts import BairWiner, ElsharkawyHamrock, GecimWiner, ReeEyr
 from jaxbearing.lubricants import ExponentialRheology
 from jaxbearing.machines import TwoDisk
 
-from .estimation import METHODS, Problem, estimate_from, linearized, slope_over_slide
+from .estimation import METHODS, Problem, coefficients, estimate_from, linearized, slope_over_slide
 from .identifiability import frozen_by_rule, in_words, not_determined
 from .loss import LOSSES, TUNING, Errors, scale_of, variance_factor
 from .measurements import Measurements
@@ -28,6 +28,11 @@ VISCOUS = {
     "gecim_winer": GecimWiner,
     "elsharkawy_hamrock": ElsharkawyHamrock,
 }
+MODULUS, STRESS = NAMES.index("shear_modulus"), NAMES.index("stress")
+MODULUS_SHIFTS = (0.0, 1.5, 3.0, -1.5, -3.0, -5.0, -7.0, -9.0, -12.0, -15.0)
+"""Changes of ln(shear modulus) that are looked at before the first start."""
+STRESS_SHIFTS, LARGEST_SHIFT = 4, 2.0
+"""Rounds in which the first stress is brought to the tops of the curves, and the largest change of its logarithm."""
 OUTLIER = 4.0
 """Robust standard deviations beyond which a point is named an outlier."""
 REWEIGHTINGS = 4
@@ -63,7 +68,7 @@ class FitOptions(NamedTuple):
     fixed: tuple[str, ...] = ()
     free: tuple[str, ...] = ()
     bounds: Mapping[str, tuple[float | None, float | None]] = {}
-    starts: int = 4
+    starts: int = 3
     level: float = 0.95
     seed: int = 0
 
@@ -88,9 +93,9 @@ def fit(measurements: Measurements, scene: TwoDisk, options: FitOptions | None =
     """Shear modulus and characteristic stress of the scene's oil from measured traction curves.
 
     The model is that of `jaxbearing.solve(scene)`. Start: stress and modulus from the shape of the curves
-    (`start.estimated_start`), the scene's own values, and random ones about them. Parameters that the data cannot tell
-    are held at the scene's values and said so: by rule before (one pressure, one temperature, viscous only), by their
-    uncertainty after. Several starts run at once; everything is compiled once for a number of points.
+    (`start.estimated_start`), the best of a scan over the modulus, and random ones about them. Parameters that the data
+    cannot tell are held at the scene's values and said so: by rule before (one pressure, one temperature, viscous
+    only), by their uncertainty after. Several starts run at once; everything is compiled once for a number of points.
 
     **Raises:** `ValueError` for options that make no sense, and where the scene's oil has no rheology.
     """
@@ -130,7 +135,8 @@ class _Search:
         self.centre = Centre.of(self.pressure, self.temperature)
         self.coefficient = np.asarray(measurements.traction_coefficient)
         self.bend = TUNING[options.loss] if options.loss != "linear" else 1.0
-        self.deviation = options.errors.deviation(self.coefficient)
+        self.curve = np.asarray(measurements.curve)
+        self.deviation = options.errors.deviation(self.coefficient, self.curve)
         self.scale = 1.0
 
     def free_by_rule(self) -> tuple[np.ndarray, dict[int, str]]:
@@ -147,7 +153,7 @@ class _Search:
             self.state,
             self.coefficient,
             self.deborah,
-            np.asarray(self.measurements.curve),
+            self.curve,
         )
         own, estimated = natural(self.rheology), natural(start)
         coordinates = np.where(free, estimated, own) if base is None else np.where(free, base, own)
@@ -168,17 +174,49 @@ class _Search:
         )
 
     def starts(self, problem: Problem, free: np.ndarray) -> np.ndarray:
-        """The estimate, the scene's own values, and random ones: a factor of 3 in ln, 1 1/GPa, 0.5 kK."""
+        """The most promising of a scan over the shear modulus, at each of which the stress is brought to the tops of
+        the curves; then random ones about the first: a factor of 3 in ln, 1 1/GPa, 0.5 kK.
+
+        Far from the solution the modulus may not show at all, and no optimiser finds its way from there.
+        """
+        base, directions = np.asarray(problem.base), np.asarray(problem.directions)
+        axes = np.eye(len(NAMES))
+        scanned = []
+        for shift in MODULUS_SHIFTS if free[MODULUS] else (0.0,):
+            moved = base + shift * axes[MODULUS]
+            if free[STRESS]:
+                moved = moved + self.stress_shift(moved) * axes[STRESS]
+            residual = (self.predicted(moved) - self.coefficient) / self.deviation
+            scanned.append((float(np.sum(np.square(residual))), shift, moved - base))
+        scanned.sort(key=lambda entry: (not np.isfinite(entry[0]), entry[0], abs(entry[1])))
+        natural_starts = [move for *_, move in scanned[: max(self.options.starts - 1, 1)]]
         rng = np.random.default_rng(self.options.seed)
-        first = np.zeros(len(NAMES))
-        directions = np.asarray(problem.directions)
-        own = np.zeros(len(NAMES))
-        own[free] = np.linalg.solve(
-            directions[np.ix_(free, free)], (natural(self.rheology) - np.asarray(problem.base))[free]
-        )
         spreads = np.array([np.log(3.0), 1.0, 0.5] * 2)
-        others = rng.normal(size=(max(self.options.starts - 2, 0), len(NAMES))) * spreads
-        return (np.vstack([first, own, others])[: self.options.starts]) * free
+        while len(natural_starts) < self.options.starts:
+            natural_starts.append(natural_starts[0] + rng.normal(size=len(NAMES)) * spreads)
+        block = np.ix_(free, free)
+        found = np.zeros((self.options.starts, len(NAMES)))
+        for row, move in zip(found, natural_starts, strict=True):
+            row[free] = np.linalg.solve(directions[block], move[free])
+        return found
+
+    def stress_shift(self, coordinates: np.ndarray) -> float:
+        """Change of ln(stress) that brings the model to the measured tops of the curves, in the mean."""
+        curve, size = self.curve, np.abs(self.coefficient)
+        tops = [points[np.argmax(size[points])] for points in (np.flatnonzero(curve == n) for n in np.unique(curve))]
+        shift = 0.0
+        for _ in range(STRESS_SHIFTS):
+            predicted = np.abs(self.predicted(coordinates + shift * np.eye(len(NAMES))[STRESS]))
+            usable = [top for top in tops if predicted[top] > 0 and size[top] > 0]
+            if not usable:
+                break
+            change = float(np.median(np.log(size[usable] / predicted[usable])))
+            shift += float(np.clip(change, -LARGEST_SHIFT, LARGEST_SHIFT))
+        return shift
+
+    def predicted(self, coordinates: np.ndarray) -> np.ndarray:
+        """Coefficients at natural coordinates."""
+        return np.asarray(coefficients(self.scene, self.state, self.rheology, jnp.asarray(coordinates)))
 
     def optimised(self, problem: Problem, starts: np.ndarray) -> tuple[Problem, Any, Any]:
         """The best of the starts; with a robust loss or errors of the slide ratio the deviations are renewed."""
@@ -190,7 +228,7 @@ class _Search:
             u = found.u[best]
             if turn + 1 < rounds:
                 slope = np.asarray(slope_over_slide(problem, u)) if self.options.errors.slide_to_roll else 0.0
-                self.deviation = self.options.errors.deviation(self.coefficient, slope)
+                self.deviation = self.options.errors.deviation(self.coefficient, self.curve, slope)
                 if self.options.loss != "linear":
                     predicted = np.asarray(linearized(problem, u)[0])
                     self.scale = scale_of((predicted - self.coefficient) / self.deviation)

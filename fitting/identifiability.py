@@ -9,7 +9,7 @@ VISCOUS = 0.3
 """Deborah number below which the shear modulus cannot be seen."""
 SAME_PRESSURE = 0.02
 """Relative span of the pressures below which they count as one."""
-SAME_TEMPERATURE = 2.0
+SAME_TEMPERATURE = 5.0
 """Span of the temperatures, K, below which they count as one."""
 
 

@@ -12,28 +12,32 @@ MAD_TO_SIGMA = 1.4826
 """Standard deviation of normal errors over their median modulus."""
 
 
+FLOOR = 0.2
+"""Part of a curve's largest coefficient below which errors no longer shrink with the coefficient."""
+
+
 class Errors(NamedTuple):
     """Standard deviation of a measured coefficient: relative part, floor, and what an error of the slide ratio makes
     of the curve's slope. Only their ratios matter: the size is estimated from the residuals.
 
-    `relative`: of the coefficient; `floor`: of the coefficient, None: `FLOOR` of the largest one measured times
-    `relative`; `slide_to_roll`: standard deviation of the slide-to-roll ratio, 0: exact.
+    `relative`: of the coefficient; `floor`: of the coefficient, None: `relative` times `FLOOR` of the largest one of
+    the curve; `slide_to_roll`: standard deviation of the slide-to-roll ratio, 0: exact.
     """
 
-    relative: float = 0.01
+    relative: float = 0.02
     floor: float | None = None
     slide_to_roll: float = 0.0
 
-    def deviation(self, coefficient: np.ndarray, slope: np.ndarray | float = 0.0) -> np.ndarray:
-        """Standard deviation of each point. **Arguments:** `slope`: of the curve, over the slide-to-roll ratio."""
+    def deviation(self, coefficient: np.ndarray, curve: np.ndarray, slope: np.ndarray | float = 0.0) -> np.ndarray:
+        """Standard deviation of each point. **Arguments:** `curve`: number of each point's curve; `slope`: of the
+        curve, over the slide-to-roll ratio."""
         size = np.abs(coefficient)
-        floor = self.relative * FLOOR * float(np.max(size)) if self.floor is None else self.floor
-        total = np.square(self.relative * size) + floor**2 + np.square(np.asarray(slope) * self.slide_to_roll)
-        return np.sqrt(total)
-
-
-FLOOR = 0.05
-"""Part of the largest coefficient below which errors no longer shrink with the coefficient."""
+        floor = np.full(size.shape, 0.0 if self.floor is None else self.floor)
+        if self.floor is None:
+            for number in np.unique(curve):
+                floor[curve == number] = self.relative * FLOOR * np.max(size[curve == number])
+        total = np.square(self.relative * size) + np.square(floor) + np.square(np.asarray(slope) * self.slide_to_roll)
+        return np.sqrt(np.where(total > 0, total, 1.0))
 
 
 def robust(residual: Float[Array, "..."], kind: str) -> Float[Array, "..."]:

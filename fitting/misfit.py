@@ -8,11 +8,14 @@ from jaxbearing.contacts import deborah_number
 from jaxbearing.lubricants import Lubricant
 from jaxbearing.machines import DiskState, TwoDisk
 
+from .loss import scale_of
 from .measurements import Measurements
 from .result import CurveFit
 
-SYSTEMATIC = 3.0
-"""Standard deviations of the lag-one correlation beyond which neighbouring residuals are not independent."""
+SYSTEMATIC = 2.6
+"""Standard deviations of the lag-one correlation beyond which neighbouring residuals are not independent (1 %)."""
+LARGEST = 2.5
+"""Robust standard deviations to which a residual is cut there: one outlier must not hide what the others show."""
 FEWEST = 8
 """Points of all curves below which nothing is said."""
 
@@ -54,6 +57,8 @@ def information(standard: np.ndarray, parameters: int) -> tuple[float, float]:
 def neighbour_correlation(measurements: Measurements, standard: np.ndarray) -> tuple[float, int]:
     """Correlation of residuals of neighbours in slide-to-roll ratio, within curves; and of how many pairs."""
     slide = np.asarray(measurements.slide_to_roll)
+    limit = LARGEST * scale_of(standard)
+    standard = np.clip(standard, -limit, limit)
     pairs: list[Any] = []
     for number in range(len(measurements.curve_names)):
         points = np.flatnonzero(measurements.in_curve(number))

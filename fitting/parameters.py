@@ -24,6 +24,8 @@ POSITIVE = (True, False, False, True, False, False)
 """Fitted as its logarithm."""
 SCALES = np.array([1.0, 1e-9, 1e3, 1.0, 1e-9, 1e3])
 """Unit of each natural coordinate in SI: ln, 1/GPa, kK."""
+LARGEST_LOG = 80.0
+"""Of G0 and tau in Pa: 35 decades."""
 GROUPS = ((0, 1, 2), (3, 4, 5))
 """Indices of value, pressure and temperature coefficient of shear modulus and stress."""
 
@@ -55,7 +57,9 @@ def natural(rheology: ExponentialRheology) -> np.ndarray:
 
 
 def with_natural(rheology: ExponentialRheology, coordinates: Float[Array, " parameter"]) -> ExponentialRheology:
-    """The rheology with these natural coordinates; differentiable."""
+    """The rheology with these natural coordinates; differentiable. ln G0 and ln tau end at +-80: an optimiser may try
+    anything, and its trial must stay finite."""
+    coordinates = jnp.where(jnp.asarray(POSITIVE), jnp.clip(coordinates, -LARGEST_LOG, LARGEST_LOG), coordinates)
     values = [jnp.exp(coordinates[i]) if POSITIVE[i] else coordinates[i] * SCALES[i] for i in range(len(NAMES))]
     where = lambda r: [getattr(r, name) for name in NAMES]
     return eqx.tree_at(where, rheology, values)

@@ -35,8 +35,8 @@ def spread(jacobian: np.ndarray, free: np.ndarray, variance: float, level: float
         return Spread(covariance, quantile, 1.0, degrees)
     columns = jacobian[:, indices]
     norms = np.linalg.norm(columns, axis=0)
-    seen = norms > 0
-    scaled = columns / np.where(seen, norms, 1.0)
+    seen = (norms > 0) & np.isfinite(norms)
+    scaled = np.where(seen, columns, 0.0) / np.where(seen, norms, 1.0)
     _, singular, right = np.linalg.svd(scaled, full_matrices=False)
     if len(singular) < len(indices):
         inverse = np.full((len(indices),) * 2, np.inf)

@@ -1,23 +1,24 @@
 """The steady verb: a scene in, a solution out."""
 
 from collections.abc import Callable
-from typing import Any
+from typing import Any, overload
 
 import equinox as eqx
 import jax
 
+from ._scene import AbstractScene
 from .bearings.cylindrical_roller import CylindricalRollerBearing
-from .bearings.parts import AbstractScene
 from .bearings.roller_steady import solve_steady
 from .bearings.solution import Solution
+from .machines import TwoDisk, TwoDiskSolution, solve_two_disk
 from .numerics.compiling import quickly_compiled
 from .numerics.newton import NewtonOptions
 from .numerics.precision import as_float, require_x64
 
-_STEADY: dict[type, Callable[..., Solution]] = {CylindricalRollerBearing: solve_steady}
+_STEADY: dict[type, Callable[..., Any]] = {CylindricalRollerBearing: solve_steady, TwoDisk: solve_two_disk}
 
 
-def steady_function(scene: AbstractScene) -> Callable[..., Solution]:
+def steady_function(scene: AbstractScene) -> Callable[..., Any]:
     """What solves this kind of scene. **Raises:** `TypeError` for an unknown kind."""
     try:
         return _STEADY[type(scene)]
@@ -26,7 +27,7 @@ def steady_function(scene: AbstractScene) -> Callable[..., Solution]:
         raise TypeError(f"cannot solve a {type(scene).__name__}; solve takes: {known}") from None
 
 
-def _solve_any(scene: AbstractScene, options: NewtonOptions) -> Solution:
+def _solve_any(scene: AbstractScene, options: NewtonOptions) -> Any:
     return steady_function(scene)(scene, options)
 
 
@@ -34,8 +35,14 @@ _solve = eqx.filter_jit(_solve_any)
 _solve_once = quickly_compiled(_solve_any)
 
 
-def solve(scene: AbstractScene, *, throw: bool = True, options: NewtonOptions | None = None) -> Solution:
-    """Steady state of a scene.
+@overload
+def solve(scene: TwoDisk, *, throw: bool = True, options: NewtonOptions | None = None) -> TwoDiskSolution: ...
+@overload
+def solve(scene: CylindricalRollerBearing, *, throw: bool = True, options: NewtonOptions | None = None) -> Solution: ...
+@overload
+def solve(scene: AbstractScene, *, throw: bool = True, options: NewtonOptions | None = None) -> Any: ...
+def solve(scene: AbstractScene, *, throw: bool = True, options: NewtonOptions | None = None) -> Any:
+    """Steady state of a scene: of a bearing, or the traction curves of a two-disk machine.
 
     Compiled once per structure (kind, parts, number of rolling elements); new numbers never recompile. May be called
     inside `jax.jit`, `jax.vmap`, `jax.grad` and `jax.lax.map`; derivatives, in both modes and with respect to every
@@ -45,7 +52,7 @@ def solve(scene: AbstractScene, *, throw: bool = True, options: NewtonOptions | 
     - `scene`: from `load_scene`, or built from parts.
     - `throw`: raise where the solve fails. Inside `jit` or `vmap` nothing can be raised for one lane alone: look at
       `solution.status`; the results of a failed lane are NaN and those of the others are not touched.
-    - `options`: tolerances of the Newton iteration.
+    - `options`: tolerances of the Newton iteration; a two-disk machine has none.
 
     **Raises:** `SolveError` with status, residual and worst equation; `TypeError` for 32-bit numbers or an unknown
     kind of scene; `RuntimeError` where 64-bit floats are switched off.
@@ -58,7 +65,7 @@ def solve(scene: AbstractScene, *, throw: bool = True, options: NewtonOptions | 
     return solution
 
 
-def solve_once(scene: AbstractScene) -> Solution:
+def solve_once(scene: AbstractScene) -> Any:
     """What `solve(scene, throw=False)` returns, for a process that solves one scene and ends (see
     `numerics.compiling`). Not to be called inside `jax.jit`."""
     require_x64()
@@ -66,7 +73,7 @@ def solve_once(scene: AbstractScene) -> Solution:
     return _solve_once(jax.tree.map(as_float, scene), NewtonOptions())
 
 
-def jit_solver(scene: AbstractScene, *, options: NewtonOptions | None = None) -> Callable[..., Solution]:
+def jit_solver(scene: AbstractScene, *, options: NewtonOptions | None = None) -> Callable[..., Any]:
     """A compiled solver for scenes of this structure.
 
     Returns a function of a scene (left out: the one given here) and of keywords that change its operating point,
@@ -77,7 +84,7 @@ def jit_solver(scene: AbstractScene, *, options: NewtonOptions | None = None) ->
     require_x64()
     steady_function(scene)
 
-    def fast(other: AbstractScene | None = None, /, **operation: Any) -> Solution:
+    def fast(other: AbstractScene | None = None, /, **operation: Any) -> Any:
         base = scene if other is None else other
         return _solve(jax.tree.map(as_float, base.at_operation(**operation)), chosen)
 

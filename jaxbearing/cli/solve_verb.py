@@ -31,7 +31,9 @@ OutOption = Annotated[
 ]
 PlotOption = Annotated[
     Path | None,
-    typer.Option("--plot", metavar="FILE", help="Draw power loss, loads and films; .png, .svg or .pdf."),
+    typer.Option(
+        "--plot", metavar="FILE", help="Draw power loss, loads and films, or traction curves; .png, .svg or .pdf."
+    ),
 ]
 SensitivitiesOption = Annotated[
     bool,
@@ -51,7 +53,7 @@ def solve(
     plot: PlotOption = None,
     out: OutOption = None,
 ) -> None:
-    """Steady state: power loss, loads, films, pressures, speeds."""
+    """Steady state: power loss, loads, films, pressures, speeds; of a two-disk machine, its traction curves."""
     with bad_input():
         from ..scenes.overrides import split_assignments
         from ..scenes.reader import load_scene
@@ -59,7 +61,9 @@ def solve(
         model = load_scene(scene, split_assignments(changes or []))
         _check_files(plot, out)
         if sensitivities and not getattr(model, "slips", False):
-            refuse("--sensitivities: found a scene without power loss; expected one with contact.traction and a cage")
+            refuse(
+                "--sensitivities: found a scene without power loss; expected a bearing with contact.traction and a cage"
+            )
 
     from .cache import enable_compilation_cache
     from .interrupt import prompt_interrupt

@@ -15,6 +15,7 @@ LARGEST_RISE = 500.0
 """Rise of the film above the base temperature that is never exceeded, K."""
 COLDEST = -200.0
 """Lower end of the search for the rise, K: elastic energy given back may cool the film a little."""
+LARGEST_FOLDS = 700.0
 RISE_WIDTH = 15.0
 """Smoothing width of that limit, K: a rise of 100 K is changed by 4e-11 K."""
 
@@ -88,8 +89,11 @@ class HeatFlow:
             self.length = heating.peclet_number(half_width, film, speed, conductivity)
 
     def step(self, own: Array, width: Array, surface: Array, entering: Array) -> HeatStep:
-        """Rise of the film in a cell. **Arguments:** `own`, `width`: of the cell; `surface`: rise of the surface there by
-        the cells before; `entering`: rise of the film that enters."""
+        """Rise of the film in a cell.
+
+        **Arguments:** `own`, `width`: of the cell; `surface`: rise of the surface there by the cells before;
+        `entering`: rise of the film that enters.
+        """
         decay = self._decay(width)
         ratio = self.conductance * self.surface_rise * own
         divisor = 1.0 + decay * ratio
@@ -108,14 +112,19 @@ class HeatFlow:
             return film_rise
         decay = self._decay(width)
         settled = (film_rise - decay * entering) / (1.0 - decay)
-        return settled + (entering - settled) * jnp.exp(-width / self.length)
+        return settled + (entering - settled) * jnp.exp(-self._folds(width))
+
+    def _folds(self, width: Array) -> Array:
+        """width/length, at most 700: there the film has long taken its temperature."""
+        assert self.length is not None
+        short = self.length < width / LARGEST_FOLDS
+        return jnp.where(short, LARGEST_FOLDS, width / jnp.where(short, width, self.length))
 
     def _decay(self, width: Array) -> Array:
         """Mean over the cell of exp(-x/length)."""
         if self.length is None:
             return jnp.zeros(())
-        ratio = width / self.length
-        return -jnp.expm1(-ratio) / ratio
+        return -jnp.expm1(-self._folds(width)) * self.length / width
 
 
 def limited_rise(rise: Values) -> Float[Array, "..."]:

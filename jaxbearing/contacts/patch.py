@@ -14,8 +14,8 @@ from .point import PointContact
 
 
 class Strips(NamedTuple):
-    """Quadrature strips. The pressure of strip y is that of a line contact, $p_s\\sqrt{1 - x^2/a_s^2}$; the last axis is
-    the strip.
+    """Quadrature strips. The pressure of strip y is that of a line contact, $p_s\\sqrt{1 - x^2/a_s^2}$; the last axis
+    is the strip.
 
     `scale` is $p_s/p_0 = a_s/a$, `offset` is y, m, `width` the weight dy, m.
     """

@@ -2,13 +2,11 @@
 
 from typing import NamedTuple
 
-import jax
 import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Array, Float
 
 from .._types import Values
-from ..numerics.safe import smooth_abs
 from .viscous import AbstractViscousFunction
 
 TRIAL_FLOOR = 1e-12
@@ -38,22 +36,55 @@ class Oil(NamedTuple):
 
 
 class Mesh(NamedTuple):
-    """Midpoints of equal steps in theta, x = -a cos(theta) from inlet to exit."""
+    """Midpoints of equal steps in theta, x = -a cos(theta) from inlet to exit: one march, or two one after the other.
 
-    step: float
+    One entry a step, in the order of the march: `step`, its width; `weight`, its share in the integrals over theta;
+    `sine` = sin(theta) = p/p_s; `position` = x/a; `going`, 0 where a march begins, else 1; `place`, the index of its
+    sine in `sines`: what depends on pressure only is computed once for inlet and exit side.
+    """
+
+    step: np.ndarray
+    weight: np.ndarray
     sine: np.ndarray
     position: np.ndarray
-    """x/a."""
+    going: np.ndarray
+    place: np.ndarray
+    sines: np.ndarray
 
     @classmethod
     def of(cls, steps: int) -> "Mesh":
         theta = (np.arange(steps) + 0.5) * np.pi / steps
-        return cls(np.pi / steps, np.sin(theta), -np.cos(theta))
+        place = np.minimum(np.arange(steps), np.arange(steps)[::-1])
+        sine = np.sin(theta[place])  # to the last bit the same on both sides
+        width = np.full(steps, np.pi / steps)
+        going = (np.arange(steps) > 0).astype(float)
+        return cls(width, width, sine, -np.cos(theta), going, place, sine[: (steps + 1) // 2])
+
+    @classmethod
+    def extrapolated(cls, steps: int) -> "Mesh":
+        """The march repeated with half the steps; the weights take the error of second order out of the integrals."""
+        fine, coarse = cls.of(steps), cls.of(steps // 2)
+        coarse = coarse._replace(weight=-coarse.weight / 3.0, place=coarse.place + fine.sines.size)
+        fine = fine._replace(weight=fine.weight * 4.0 / 3.0)
+        return cls(*(np.concatenate(pair) for pair in zip(fine, coarse, strict=True)))
+
+
+class Maxwell(NamedTuple):
+    """Shear modulus, Pa, its ratio to the viscosity, 1/s, and characteristic stress, Pa."""
+
+    modulus: Float[Array, "..."]
+    frequency: Float[Array, "..."]
+    stress: Float[Array, "..."]
+
+    @classmethod
+    def of(cls, oil: Oil) -> "Maxwell":
+        frequency = jnp.exp(oil.log_modulus - oil.log_viscosity)
+        return cls(jnp.exp(oil.log_modulus), frequency, jnp.exp(oil.log_stress))
 
 
 def relaxed_stress(
     viscous: AbstractViscousFunction,
-    oil: Oil,
+    oil: Maxwell,
     half_step: Float[Array, "..."],
     stress: Float[Array, "component ..."],
     rate: Float[Array, "component ..."],
@@ -70,13 +101,10 @@ def relaxed_stress(
     - `half_step`: $k/G$, half the step in time, s.
     - `stress`, `rate`: at the beginning of the step, Pa, and in it, 1/s; the first axis holds one or two components.
     """
-    strain = half_step * rate
-    modulus = jnp.exp(oil.log_modulus)
-    trial = stress + modulus * strain
-    relaxation = half_step * jnp.exp(oil.log_modulus - oil.log_viscosity)
-    unit = trial * jnp.exp(-oil.log_stress)
+    trial = stress + (half_step * oil.modulus) * rate
+    unit = trial / oil.stress
     size = jnp.sqrt(jnp.sum(jnp.square(unit), axis=0) + TRIAL_FLOOR**2)
-    return trial * (viscous.relaxed_stress_ratio(size, relaxation) / size)
+    return trial * (viscous.relaxed_stress_ratio(size, half_step * oil.frequency) / size)
 
 
 def viscous_stress(
@@ -85,7 +113,7 @@ def viscous_stress(
     """Stress of steady flow, the limit without elasticity. **Arguments:** as `relaxed_stress`."""
     if rate.shape[0] == 1:
         scale = oil.log_viscosity - oil.log_stress
-        return jnp.exp(oil.log_stress) * viscous.stress_ratio_of_scaled(scale, rate)
+        return jnp.exp(oil.log_stress) * viscous.stress_ratio_of_scaled(scale, rate[0])[None]
     size = jnp.sqrt(jnp.sum(jnp.square(rate), axis=0) + jnp.finfo(float).tiny)
     ratio = viscous.stress_ratio_of_scaled(oil.log_viscosity - oil.log_stress, size)
     return rate * (jnp.exp(oil.log_stress) * ratio / size)

@@ -111,9 +111,7 @@ MaxwellEyring = MeanPressureTraction
 """The name of the default: Ree-Eyring flow with the Maxwell correction."""
 
 
-def inlet_shear(
-    contact: LineContact, film: Values, sliding_speed: Values, viscosity: Values
-) -> Float[Array, "..."]:
+def inlet_shear(contact: LineContact, film: Values, sliding_speed: Values, viscosity: Values) -> Float[Array, "..."]:
     r"""Shear force of the converging film before a line contact, N: $2.01435\,\mu\,\Delta u\,\ell\sqrt{2R/h}$.
 
     **Arguments:** `film`, m, > 0; `sliding_speed`, m/s; `viscosity`, Pa s, at the inlet temperature.

@@ -38,7 +38,7 @@ class AbstractViscousFunction(eqx.Module):
 
     @abc.abstractmethod
     def relaxed_stress_ratio(self, trial: Values, relaxation: Values) -> Float[Array, "..."]:
-        r"""s >= 0 of $s + \kappa F(s) = \rho$: the stress that is left of an elastic trial stress after an implicit step.
+        r"""s >= 0 of $s + \kappa F(s) = \rho$: what an implicit step leaves of an elastic trial stress.
 
         **Arguments:** `trial` $\rho$ >= 0, in units of the characteristic stress; `relaxation` $\kappa$ >= 0, the step
         in units of viscosity over shear modulus. Both elementwise; the value is $\rho$ at $\kappa$ = 0, or the limiting
@@ -170,7 +170,7 @@ class ElsharkawyHamrock(AbstractLimitingFunction):
         large = q > 1.0
         power = jnp.exp(self.exponent * jnp.where(large, -1.0, 1.0) * jnp.log(q))  # q^n or q^-n, never above 1
         share = 1.0 / (1.0 + power)
-        stress = jnp.where(large, 1.0, q) * jnp.exp(-jnp.log1p(power) / self.exponent)
+        stress = jnp.where(large, 1.0, q) * jnp.exp(-jnp.log(1.0 + power) / self.exponent)
         # q^n/(1 + q^n) and 1/(1 + q^n)
         flowing, solid = jnp.where(large, share, power * share), jnp.where(large, power * share, share)
         slope = solid * stress / q

@@ -115,9 +115,7 @@ def _values(given: Any) -> Any:
 
 def _axis(unit: str, description: str, **kwargs: Any) -> Any:
     """Field with one dimension of the family of curves: a number or a list of them."""
-    return eqx.field(
-        converter=lambda v: None if v is None else _values(v), metadata=label(unit, description), **kwargs
-    )
+    return eqx.field(converter=lambda v: None if v is None else _values(v), metadata=label(unit, description), **kwargs)
 
 
 class DiskOperation(eqx.Module):
@@ -174,7 +172,7 @@ class DiskState(NamedTuple):
 class TwoDiskSolution(eqx.Module):
     """Traction curves. Axes: temperature, speed, load, slide. What a failed point gives is NaN."""
 
-    status: Int[Array, "temperature speed load slide"]
+    status: Int[Array, "temperature speed load slide"] = eqx.field(metadata=label("1", "how each point ended"))
     operation: DiskOperation
     pressure: Float[Array, " load"] = eqx.field(metadata=label("Pa", "Hertz (peak) pressure"))
     load: Float[Array, " load"] = eqx.field(metadata=label("N", "normal load"))
@@ -265,13 +263,15 @@ class TwoDisk(AbstractScene):
             raise ValueError(f"contact.film: found {type(laws.film).__name__}, expected a film of a {kind} contact")
         if isinstance(oil.pressure_viscosity, NoPressureViscosity) and laws.film.piezoviscous_only:
             raise ValueError(
-                f"contact.film: {type(laws.film).__name__} holds for oils whose viscosity rises with pressure, not for an "
-                "isoviscous one"
+                f"contact.film: {type(laws.film).__name__} holds for oils whose viscosity rises with pressure, not for "
+                "an isoviscous one"
             )
         if oil.rheology is None:
             raise ValueError("oil.rheology: the traction needs it")
         heating = laws.traction.heating
-        warms = not isinstance(laws.thermal, NoThermalReduction) or (heating is not None and heating.conductivity is None)
+        warms = not isinstance(laws.thermal, NoThermalReduction) or (
+            heating is not None and heating.conductivity is None
+        )
         if warms and oil.conductivity is None:
             raise ValueError("oil.conductivity: the thermal reduction of the film, and its heating, need it")
 
@@ -365,7 +365,11 @@ def solve_two_disk(scene: TwoDisk, options: Any = None) -> TwoDiskSolution:
     good = (residual <= INNER_TOLERANCE) & jnp.isfinite(coefficient)
     shown = lambda field: None if field is None else jnp.where(good, field, jnp.nan)
     excess = _range_excess(scene, contact, load)
-    excess |= {"oil in the contacts beyond 200 degC: the oil laws are extrapolated": _hottest_excess(temperature, traction, good)}
+    excess |= {
+        "oil in the contacts beyond 200 degC: the oil laws are extrapolated": _hottest_excess(
+            temperature, traction, good
+        )
+    }
     return TwoDiskSolution(
         status=jnp.where(good, int(Status.CONVERGED), int(Status.NOT_CONVERGED)),
         operation=operation,
@@ -385,7 +389,7 @@ def solve_two_disk(scene: TwoDisk, options: Any = None) -> TwoDiskSolution:
 
 
 def _in_batches(function: Any, grid: list[Array]) -> Any:
-    """`function` of the points of a grid, elementwise; the last batch is filled up, so that one program does them all."""
+    """`function`, elementwise, of the points of a grid; the last batch is filled up: one program does them all."""
     shape, size = grid[0].shape, grid[0].size
     count = -(-size // BATCH)
     flat = [axis.reshape(-1) for axis in grid]

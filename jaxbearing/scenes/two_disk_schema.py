@@ -148,7 +148,9 @@ class TwoDiskTable(Table):
     def _fits_together(self) -> Self:
         contact = self.contact
         line = self.geometry.contact_length is not None
-        shape = "line contact (geometry has a contact_length)" if line else "point contact (geometry has no contact_length)"
+        shape = (
+            "line contact (geometry has a contact_length)" if line else "point contact (geometry has no contact_length)"
+        )
         films = LINE_FILMS if line else POINT_FILMS
         if contact.film not in films:
             raise refusal_at("contact.film", f"a film of a {shape}: {one_of(films)}", f"'{contact.film}'")

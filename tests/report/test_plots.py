@@ -12,8 +12,10 @@ from roller_cases import HARD_CASES, changed, dry_roller, reference_roller, turb
 import jaxbearing as jb
 from jaxbearing.bearings.solution import PowerLoss
 from jaxbearing.numerics.status import Status
+from jaxbearing.report.bearing.plots import power_losses
 from jaxbearing.report.drawing import draw_bearing
-from jaxbearing.report.plots import axis_unit, plot_solution, power_losses, save_plot
+from jaxbearing.report.plots import plot_solution, save_plot
+from jaxbearing.report.sheet import axis_unit
 
 FIRST_BYTES = {"png": b"\x89PNG", "svg": b"<?xml", "pdf": b"%PDF"}
 

@@ -26,10 +26,11 @@ from jaxbearing.contacts import (
     RigidRollingResistance,
 )
 from jaxbearing.lubricants import NoPressureViscosity, WaltherRoelands
-from jaxbearing.scenes.contact_laws import FILMS, ROLLING, THERMAL
+from jaxbearing.scenes.contact_laws import FILMS, ROLLING
 from jaxbearing.scenes.errors import SceneError
+from jaxbearing.scenes.laws import THERMAL
 from jaxbearing.scenes.reader import builtin_text, load_scene, scene_from_mapping
-from jaxbearing.scenes.schema import ISOVISCOUS, ContactTable
+from jaxbearing.scenes.roller_schema import ISOVISCOUS, ContactTable
 
 FILM = {
     "moes": Moes,

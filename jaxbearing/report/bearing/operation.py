@@ -4,8 +4,8 @@ import dataclasses
 
 import numpy as np
 
-from ..bearings.solution import Solution
-from .display import ZERO_CELSIUS, display_unit, displayed
+from ...bearings.solution import Solution
+from ..display import ZERO_CELSIUS, display_unit, displayed
 
 
 def unused_operation(solution: Solution) -> set[str]:

@@ -1,0 +1,1 @@
+"""How a bearing's solution is shown."""

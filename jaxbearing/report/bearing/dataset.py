@@ -1,0 +1,90 @@
+"""A bearing's solution as a labelled xarray data set.
+
+Every field that carries a label in the result classes becomes one variable: a new result appears here without a
+change. Names are the paths of the Python result with `_` for the dot (`power_loss_total`, `ring_radial`), also kept in
+the attribute `path`; arrays over the rolling elements have their own name (`load_inner`) and the dimension `element`.
+"""
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+import xarray as xr
+
+from ...bearings.solution import Solution
+from ...numerics.status import Status
+from ..labelled import CHECK, attributes, checks, described, flags, labelled, without_fill
+from .operation import unused_operation
+
+_ELEMENT = "element"
+_FREEDOMS = ("freedom", "freedom_displaced")
+"""Rows and columns of the stiffness: the load along the first by a displacement along the second."""
+_OWN = {"elements": (_ELEMENT,), "stiffness": _FREEDOMS}
+"""Dimensions of a field of the solution, or of all that is in it, besides those of a batch."""
+
+
+def bearing_to_dataset(solution: Solution, dims: Sequence[str] = ()) -> xr.Dataset:
+    """See `report.dataset.solution_to_dataset`.
+
+    The operating point and the azimuths are coordinates. `status` has its meanings in the attributes `flag_values`
+    and `flag_meanings`; `out_of_range` says which checks of the laws' ranges were left. The attributes of the data
+    set hold the same warnings and notes in words, and the version. What the scene does not model, or does not use,
+    is left out.
+
+    **Arguments:**
+    - `solution`: one solution, or a batch of them from `jax.vmap` or `jax.lax.map`; the failed lanes of a batch are
+      NaN and say why in `status`.
+    - `dims`: names of the batch's leading dimensions, `("case",)`. To have the load of a sweep as its axis:
+      `solution_to_dataset(batch, ("case",)).swap_dims(case="operation_radial_load")`.
+
+    **Raises:** `ValueError` for a single solution that did not converge, and where `dims` does not fit the batch.
+    """
+    dims = tuple(dims)
+    batch = np.shape(solution.status)
+    if len(dims) != len(batch):
+        found = f"{len(batch)} leading dimensions {batch}"
+        raise ValueError(f"dims: got {len(dims)} names {dims}; the solution has {found}")
+    if not dims and not bool(solution.converged):
+        raise ValueError(f"a solve that failed has no results: {solution.failure()}")
+    dataset = xr.Dataset(attrs=attributes(solution, "Steady state of a rolling bearing"))
+    unused = {f"operation.{name}" for name in unused_operation(solution)}
+    for path, value, metadata in labelled(solution):
+        if path not in unused:
+            name, variable = _variable(path, np.asarray(value), metadata, dims)
+            dataset[name] = variable
+    dataset["status"].attrs |= flags(dataset["status"].dtype, [status.text for status in Status])
+    dataset["worst_equation"].attrs |= flags(dataset["worst_equation"].dtype, solution.equation_names)
+    if solution.checks:
+        dataset["out_of_range"] = checks(solution, dims)
+    return _with_coordinates(dataset, solution, dims)
+
+
+def _variable(path: str, value: np.ndarray, metadata: Any, dims: tuple[str, ...]) -> tuple[str, xr.Variable]:
+    top, _, rest = path.partition(".")
+    own = _OWN.get(top, ())
+    # one number for the whole batch, such as the number of unknowns
+    leading = dims if value.ndim > len(own) else ()
+    name = rest if own and rest else path.replace(".", "_")
+    return name, xr.Variable((*leading, *own), value, described(metadata, path))
+
+
+def _with_coordinates(dataset: xr.Dataset, solution: Solution, dims: tuple[str, ...]) -> xr.Dataset:
+    """Operating point, azimuths and names as coordinates."""
+    azimuth = dataset["azimuth"]
+    if dims:
+        # the same in all lanes; fmax passes over the NaN of those that failed
+        values = np.fmax.reduce(azimuth.values.reshape(-1, azimuth.shape[-1]), axis=0)
+        azimuth = xr.DataArray(values, dims=(_ELEMENT,), attrs=azimuth.attrs)
+    names = {
+        _ELEMENT: (np.arange(azimuth.size), "number of the rolling element, 0 on the load line"),
+        _FREEDOMS[0]: (list(solution.ring_freedom), "freedom of the inner ring along which the load acts"),
+        _FREEDOMS[1]: (list(solution.ring_freedom), "freedom of the inner ring that is displaced"),
+    }
+    if solution.checks:
+        names[CHECK] = (list(solution.checks), "what is checked")
+    coordinates = {
+        name: xr.Variable((name,), values, {"units": "1", "long_name": long_name})
+        for name, (values, long_name) in names.items()
+    }
+    dataset = dataset.drop_vars("azimuth").assign_coords(coordinates | {"azimuth": azimuth})
+    return without_fill(dataset.set_coords([n for n in dataset.data_vars if str(n).startswith("operation_")]))

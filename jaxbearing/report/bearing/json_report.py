@@ -1,0 +1,46 @@
+"""A bearing's solution as plain numbers and texts. The keys are the field names of the result classes: a new result
+appears here without a change."""
+
+from typing import Any
+
+import numpy as np
+
+from ...bearings.solution import RING_FREEDOMS, Solution
+from ...numerics.status import Status
+from ..plain import field_names, finite, plain
+from .operation import unused_operation
+
+_INSIDE = ("status", "worst_equation", "stiffness", "checks", "ring_freedom", "equation_names", "notes")
+"""Fields that are not written as they are, but in words or in another order, or not at all."""
+
+
+def bearing_to_dict(solution: Solution) -> dict[str, Any]:
+    """See `report.json_report.solution_to_dict`.
+
+    Parts that the scene does not model are left out, except `cage`, which is `None` then. Where the solve failed,
+    `converged` is false and all results are `None`. So are the oil's temperature and flow where nothing uses them.
+    """
+    converged = bool(solution.converged)
+    results: dict[str, Any] = {
+        "converged": converged,
+        "status": Status(int(solution.status)).text,
+        "warnings": list(solution.warnings),
+    }
+    for name in field_names(solution):
+        if name not in _INSIDE and not name.startswith("global_"):
+            results[name] = plain(getattr(solution, name))
+    results["operation"] |= dict.fromkeys(unused_operation(solution))
+    results["stiffness"] = _embedded(np.asarray(solution.stiffness), solution.ring_freedom)
+    results["worst_equation"] = solution.equation_names[int(solution.worst_equation)]
+    results["life"] = None
+    return results
+
+
+def _embedded(stiffness: np.ndarray, freedoms: tuple[str, ...]) -> list[list[float | None]]:
+    """The stiffness of the active freedoms inside that of all five, `None` where the model has none."""
+    full: list[list[float | None]] = [[None] * len(RING_FREEDOMS) for _ in RING_FREEDOMS]
+    places = [RING_FREEDOMS.index(name) for name in freedoms]
+    for row, i in zip(stiffness.tolist(), places, strict=True):
+        for entry, j in zip(row, places, strict=True):
+            full[i][j] = finite(entry)
+    return full

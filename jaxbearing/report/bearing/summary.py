@@ -1,0 +1,174 @@
+"""The summary of a bearing's steady solve on the screen: what an engineer wants to know first. Made for 100 columns;
+narrower terminals lose the bars, then get the table of loads in pieces."""
+
+import dataclasses
+import math
+from collections.abc import Iterator
+from typing import Any
+
+import numpy as np
+from rich.console import Console
+
+from ...bearings.solution import Solution
+from ...numerics.status import Status
+from ..display import digits, display_unit, displayed, with_unit
+from ..screen import (
+    column,
+    counted,
+    headline,
+    pieces,
+    print_failure,
+    print_line,
+    print_rule,
+    print_table,
+    print_warnings,
+)
+from .operation import operating_point
+
+LOADED = 0.02
+"""A roller whose inner load is above this part of the largest one counts as loaded: films carry a few newtons
+everywhere."""
+_LOSS_BAR, _LOAD_BAR = 40, 18
+_COLUMNS = {
+    "load_inner": "Q inner",
+    "load_outer": "Q outer",
+    "pressure_inner": "p inner",
+    "pressure_outer": "p outer",
+    "film_inner": "h inner",
+    "film_outer": "h outer",
+}
+
+
+def print_bearing(solution: Solution, scene_label: str, console: Console) -> None:
+    """See `report.summary.print_summary`."""
+    if not bool(solution.converged):
+        print_failure(scene_label, Status(int(solution.status)).text, solution.failure(), console)
+        print_line("Operating point", operating_point(solution), console)
+        return
+    counts = f"{counted(int(solution.iterations), 'Newton step')}, {counted(solution.unknowns, 'unknown')}"
+    state = f"{counts}, largest scaled residual {float(solution.residual_norm):.1e}"
+    headline(scene_label, "CONVERGED", "bold green", state, console)
+    print_line("Operating point", operating_point(solution), console)
+    _print_losses(solution, console)
+    _print_loads(solution, console)
+    print_rule("Motion and films", console)
+    for name, text in _facts(solution):
+        print_line(name, text, console)
+    print_warnings(solution.warnings, console)
+
+
+def _print_losses(solution: Solution, console: Console) -> None:
+    loss = solution.power_loss
+    entries = {
+        field.name: float(np.asarray(getattr(loss, field.name)))
+        for field in dataclasses.fields(loss)
+        if getattr(loss, field.name) is not None
+    }
+    total = entries.pop("total")
+    if not entries:
+        return
+    largest = max(abs(watts) for watts in entries.values())
+    entries = dict(sorted(entries.items(), key=lambda entry: -entry[1]))
+    watts = _watts([*entries.values(), total, float(solution.drive_power)])
+    columns = {
+        "Power loss": [*entries, "total"],
+        "W": watts[:-1],
+        "%": [f"{100.0 * value / total:.1f}" if total else "-" for value in entries.values()] + ["100.0"],
+    }
+    fractions = [value / (largest or 1.0) for value in entries.values()]
+    print_rule("Power", console)
+    print_table(columns, fractions, _LOSS_BAR, "red", console)
+    torques = [f"{digits(float(solution.inner_torque))} N m on the inner ring"]
+    if float(np.asarray(solution.operation.outer_speed)) != 0.0:
+        torques.append(f"{digits(float(solution.outer_torque))} N m on the outer ring")
+    print_line("Drive power", f"{watts[-1]} W   ({', '.join(torques)})", console)
+
+
+def _watts(values: list[float]) -> list[str]:
+    """Powers of one column: tenths of a watt, or more decimals where the largest has less than four digits then."""
+    largest = max(abs(value) for value in values)
+    if not 1e-4 <= largest < math.inf:
+        return [digits(value) for value in values]
+    decimals = max(1, 3 - math.floor(math.log10(largest)))
+    return [f"{value:.{decimals}f}" for value in values]
+
+
+def _print_loads(solution: Solution, console: Console) -> None:
+    elements = solution.elements
+    load = np.asarray(elements.load_inner)
+    largest = float(np.max(load))
+    loaded = load > LOADED * largest if largest > 0.0 else np.zeros(load.shape, dtype=bool)
+    azimuth = np.degrees(np.asarray(elements.azimuth))
+    azimuth = np.where(azimuth > 180.0 + 1e-9, azimuth - 360.0, azimuth)
+    units = {field.name: field.metadata["unit"] for field in dataclasses.fields(elements)}
+    shown = {name: title for name, title in _COLUMNS.items() if getattr(elements, name) is not None}
+
+    rows = np.array(sorted(np.flatnonzero(loaded), key=lambda j: azimuth[j]), dtype=int)
+    first = {"azimuth\ndeg": [f"{azimuth[j]:.1f}" for j in rows]}
+    columns = {
+        f"{title}\n{display_unit(units[name])}": column(np.asarray(getattr(elements, name))[rows], units[name])
+        for name, title in shown.items()
+    }
+    fractions = [float(load[j]) / largest for j in rows]
+    print_rule("Loads round the bearing", console)
+    for piece in pieces(first, columns, console.width, together=2):
+        print_table(piece, fractions, _LOAD_BAR, "cyan", console)
+    print_line("Loaded zone", _loaded_zone(azimuth, loaded), console)
+    if not np.all(loaded):
+        ranges = [
+            f"{title} {_range(np.asarray(getattr(elements, name))[~loaded], units[name])}"
+            for name, title in shown.items()
+            if name.startswith("load")
+        ]
+        print_line("Other rollers", ", ".join(ranges), console)
+
+
+def _loaded_zone(azimuth: np.ndarray, loaded: np.ndarray) -> str:
+    count = f"{int(np.sum(loaded))} of {loaded.size} rollers above {100.0 * LOADED:.0f} % of the largest load"
+    if np.all(loaded) or not np.any(loaded):
+        return count
+    return f"{count}, {np.min(azimuth[loaded]):.0f} to {np.max(azimuth[loaded]):.0f} deg"
+
+
+def _range(values: np.ndarray, unit: str) -> str:
+    low, high = (digits(displayed(float(value), unit), 3) for value in (np.min(values), np.max(values)))
+    return f"{low if low == high else f'{low} to {high}'} {display_unit(unit)}"
+
+
+def _facts(solution: Solution) -> Iterator[tuple[str, str]]:
+    if solution.cage is not None:
+        cage = solution.cage
+        slip = f"slip {digits(100.0 * float(cage.slip), 3)} %"
+        place = f"eccentricity ratio {digits(float(cage.eccentricity_ratio), 3)}"
+        angle = f"attitude angle {with_unit(float(cage.attitude_angle), 'rad', 3)}"
+        yield "Cage", f"{with_unit(float(cage.speed), 'rad/s')}, {slip}, {place}, {angle}"
+    yield "Inner ring", ", ".join(_ring(solution))
+    stiffness = np.diagonal(np.asarray(solution.stiffness))
+    entries = [
+        f"{freedom} {with_unit(float(value), 'N/m')}"
+        for freedom, value in zip(solution.ring_freedom, stiffness, strict=True)
+        if not freedom.startswith("tilt")
+    ]
+    if entries:
+        yield "Stiffness", ", ".join(entries)
+    for title, name, pick in (("Thinnest film", "film", np.argmin), ("Highest pressure", "pressure", np.argmax)):
+        text = ", ".join(_extremes(solution.elements, name, pick))
+        if text:
+            yield title, text
+
+
+def _ring(solution: Solution) -> Iterator[str]:
+    for field in dataclasses.fields(solution.ring):
+        if field.name in solution.ring_freedom:
+            value = float(getattr(solution.ring, field.name))
+            yield f"{field.metadata['description']} {with_unit(value, field.metadata['unit'])}"
+
+
+def _extremes(elements: Any, name: str, pick: Any) -> Iterator[str]:
+    for field in dataclasses.fields(elements):
+        values = getattr(elements, field.name)
+        if values is not None and field.name in (f"{name}_inner", f"{name}_outer"):
+            j = int(pick(np.asarray(values)))
+            side = field.name.removeprefix(f"{name}_")
+            at = f"{np.degrees(float(np.asarray(elements.azimuth)[j])):.0f} deg"
+            yield f"{side} race {with_unit(float(np.asarray(values)[j]), field.metadata['unit'])} (at {at})"

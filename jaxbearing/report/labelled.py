@@ -1,0 +1,85 @@
+"""From fields with labels to variables of a data set: units, meanings, names, attributes."""
+
+import dataclasses
+import re
+from collections.abc import Iterator, Mapping, Sequence
+from typing import Any
+
+import numpy as np
+import xarray as xr
+
+from .. import __version__
+
+CHECK = "check"
+"""Dimension of the checks of the laws' ranges."""
+_FACTOR = re.compile(r"([A-Za-z]+)(?:\^([2-9]))?")
+
+
+def udunits(unit: str) -> str:
+    """A unit of the labels as UDUNITS and the CF conventions write it: "m^3/s" is "m3 s-1".
+
+    **Raises:** `ValueError` for what is not a product of powers over further units.
+    """
+    over, *under = unit.split("/")
+    factors = [(factor, "") for factor in over.split(" ") if over != "1"] + [(factor, "-") for factor in under]
+    powers = []
+    for factor, sign in factors:
+        parted = _FACTOR.fullmatch(factor)
+        if parted is None:
+            raise ValueError(f"unit {unit!r}: {factor!r} is not a unit with a power, as in 'm^3'")
+        powers.append(f"{parted[1]}{sign}{parted[2] or ('1' if sign else '')}")
+    return " ".join(powers) or "1"
+
+
+def labelled(part: Any, above: str = "") -> Iterator[tuple[str, Any, Any]]:
+    """Path, value and label of every field that has a label, at any depth."""
+    for field in dataclasses.fields(part):
+        value = getattr(part, field.name)
+        if dataclasses.is_dataclass(value):
+            yield from labelled(value, f"{above}{field.name}.")
+        elif value is not None and "unit" in field.metadata:
+            yield above + field.name, value, field.metadata
+
+
+def described(metadata: Mapping[str, str], path: str) -> dict[str, str]:
+    """Attributes of a variable from the label of its field."""
+    return {"units": udunits(metadata["unit"]), "long_name": metadata["description"], "path": path}
+
+
+def flags(dtype: np.dtype, meanings: Sequence[str]) -> dict[str, Any]:
+    """Attributes of an enumeration: its values and what they mean."""
+    words = " ".join(re.sub(r"[^\w-]+", "_", meaning) for meaning in meanings)
+    return {"flag_values": np.arange(len(meanings), dtype=dtype), "flag_meanings": words}
+
+
+def checks(solution: Any, dims: tuple[str, ...]) -> xr.Variable:
+    """Which checks of the laws' ranges were left."""
+    broken = np.stack([np.asarray(value) for value in solution.checks.values()], axis=-1).astype(np.int8)
+    attributes = {"units": "1", "long_name": "whether a law is used beyond its range", "path": "checks"}
+    return xr.Variable((*dims, CHECK), broken, attributes | flags(broken.dtype, ("within", "beyond")))
+
+
+def without_fill(dataset: xr.Dataset) -> xr.Dataset:
+    """Nothing is missing in a coordinate, and the conventions allow no mark for it."""
+    for coordinate in dataset.coords.values():
+        coordinate.encoding["_FillValue"] = None
+    return dataset
+
+
+def attributes(solution: Any, title: str) -> dict[str, str]:
+    """Of the data set: title, version, warnings and notes in words."""
+    return {
+        "Conventions": "CF-1.11",
+        "title": title,
+        "source": f"jaxbearing {__version__}",
+        "jaxbearing_version": __version__,
+        "warnings": "\n".join(_broken_checks(solution)),
+        "notes": "\n".join(solution.notes),
+    }
+
+
+def _broken_checks(solution: Any) -> Iterator[str]:
+    for text, broken in solution.checks.items():
+        lanes = np.asarray(broken)
+        if lanes.any():
+            yield text if lanes.ndim == 0 else f"{text} ({int(lanes.sum())} of {lanes.size} cases)"

@@ -1,0 +1,1 @@
+"""How traction curves are shown."""

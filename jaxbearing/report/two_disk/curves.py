@@ -1,0 +1,38 @@
+"""The curves of a family, one after the other."""
+
+import itertools
+from collections.abc import Iterator
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from ...machines import TwoDiskSolution
+
+
+class Curve(NamedTuple):
+    """Where one curve is in the arrays of a solution, and its operating point, SI."""
+
+    index: tuple[int, int, int]
+    temperature: float
+    entrainment_speed: float
+    pressure: float
+    load: float
+    slowest: int
+    """Index of the smallest slide-to-roll ratio, by modulus."""
+
+    def of(self, values: Any) -> np.ndarray:
+        """This curve's part of a result, over the slide-to-roll ratio."""
+        return np.asarray(values)[self.index]
+
+
+def curves_of(solution: TwoDiskSolution) -> Iterator[Curve]:
+    """**Raises:** `ValueError` for a batch of families."""
+    if np.ndim(solution.traction_coefficient) != 4:
+        raise ValueError("expected one family of traction curves, got a batch of them: take one lane of it")
+    operation = solution.operation
+    axes = [np.asarray(axis) for axis in (operation.temperature, operation.entrainment_speed, solution.pressure)]
+    load = np.asarray(solution.load)
+    slowest = int(np.argmin(np.abs(np.asarray(operation.slide_to_roll))))
+    for index in itertools.product(*(range(axis.size) for axis in axes)):
+        temperature, speed, pressure = (float(axis[i]) for axis, i in zip(axes, index, strict=True))
+        yield Curve(index, temperature, speed, pressure, float(load[index[2]]), slowest)

@@ -1,0 +1,126 @@
+"""The summary of traction curves on the screen: a row a curve, its friction at some slide-to-roll ratios. Narrower
+terminals show fewer of these, then get the table in pieces."""
+
+import numpy as np
+from rich.console import Console
+from rich.padding import Padding
+from rich.text import Text
+
+from ...machines import TwoDiskSolution
+from ...numerics.status import Status
+from ..display import ZERO_CELSIUS, digits
+from ..screen import (
+    column,
+    counted,
+    headline,
+    pieces,
+    print_failure,
+    print_line,
+    print_rule,
+    print_table,
+    print_warnings,
+    width,
+)
+from ..sheet import axis_unit
+from .curves import Curve, curves_of
+
+ROWS = 60
+"""Curves that are shown; more are counted."""
+_SLIDES = 6
+"""Slide-to-roll ratios that are shown at most."""
+_FEWEST = 2
+_SMALLEST_SHOWN = 1e-3
+"""Slide-to-roll ratio from which on curves differ visibly."""
+
+
+def print_two_disk(solution: TwoDiskSolution, scene_label: str, console: Console) -> None:
+    """See `report.summary.print_summary`."""
+    if not bool(solution.converged):
+        status = Status(int(np.max(np.asarray(solution.status)))).text
+        print_failure(scene_label, status, solution.failure(), console)
+        return
+    curves = list(curves_of(solution))
+    slide = np.asarray(solution.operation.slide_to_roll)
+    state = f"{counted(len(curves), 'curve')} of {counted(slide.size, 'point')}, largest residual of nested solves "
+    residual = float(np.max(np.asarray(solution.inner_residual)))
+    headline(scene_label, "CONVERGED", "bold green", f"{state}{residual:.1e}", console)
+    print_line("Slide-to-roll", f"{_percent(slide.min())} to {_percent(slide.max())} of the mean speed", console)
+    name, values, unit = ("Load", solution.load, "N")
+    if solution.operation.pressure is None:
+        name, values, unit = ("Hertz pressure", solution.pressure, "Pa")
+    print_line(name, _listed(np.asarray(values), unit), console)
+    print_rule("Traction curves", console)
+    _print_curves(solution, curves[:ROWS], console)
+    if len(curves) > ROWS:
+        print_line("", f"and {counted(len(curves) - ROWS, 'curve')} more: see --json or --out", console)
+    print_warnings(solution.warnings, console)
+
+
+def _print_curves(solution: TwoDiskSolution, curves: list[Curve], console: Console) -> None:
+    speeds = [curve.entrainment_speed for curve in curves]
+    speed_unit, factor = axis_unit("m/s", max(speeds))
+    first = {
+        "T\ndegC": [f"{curve.temperature - ZERO_CELSIUS:.6g}" for curve in curves],
+        f"u\n{speed_unit}": [f"{factor * speed:.5g}" for speed in speeds],
+        "p0\nGPa": column(np.asarray([curve.pressure for curve in curves]), "Pa"),
+    }
+    state = _state(solution, curves)
+    slides = _slides(np.asarray(solution.operation.slide_to_roll), _SLIDES)
+    while len(slides) > _FEWEST and width(first | state | _friction(solution, curves, slides)) > console.width:
+        slides = _slides(np.asarray(solution.operation.slide_to_roll), len(slides) - 1)
+    columns = state | _friction(solution, curves, slides)
+    for piece in pieces(first, columns, console.width):
+        print_table(piece, [0.0] * len(curves), 0, "", console)
+    smallest = _percent(float(np.asarray(solution.operation.slide_to_roll)[curves[0].slowest]))
+    text = (
+        f"Film h, Deborah number D and inlet rise at {smallest}; film rise: the largest. The other columns: traction "
+    )
+    text += "coefficient at the slide-to-roll ratio above them."
+    console.print(Padding(Text(text, style="dim"), (0, 2)))
+
+
+def _state(solution: TwoDiskSolution, curves: list[Curve]) -> dict[str, list[str]]:
+    at_rest = lambda values: [float(curve.of(values)[curve.slowest]) for curve in curves]
+    columns = {
+        "h\num": column(np.asarray(at_rest(solution.film)), "m"),
+        "D\n": [digits(value, 3) for value in at_rest(solution.deborah_number)],
+    }
+    fed = np.asarray([curve.temperature for curve in curves])
+    rise = np.asarray(at_rest(solution.inlet_temperature)) - fed
+    if np.any(rise != 0.0):
+        columns["inlet\nrise K"] = [f"{value:.1f}" for value in rise]
+    if solution.film_rise is not None:
+        columns["film\nrise K"] = [f"{np.max(curve.of(solution.film_rise)):.1f}" for curve in curves]
+    return columns
+
+
+def _friction(solution: TwoDiskSolution, curves: list[Curve], slides: list[int]) -> dict[str, list[str]]:
+    slide = np.asarray(solution.operation.slide_to_roll)
+    return {
+        f"at\n{_percent(slide[i])}": [f"{curve.of(solution.traction_coefficient)[i]:.4f}" for curve in curves]
+        for i in slides
+    }
+
+
+def _slides(slide: np.ndarray, count: int) -> list[int]:
+    """Indices of so many slide-to-roll ratios or fewer, from 0.1 % to the largest in even steps of the logarithm; of
+    those to both sides the positive ones."""
+    candidates = np.flatnonzero(slide > 0.0)
+    if candidates.size == 0:
+        candidates = np.flatnonzero(slide < 0.0)
+    if candidates.size == 0:
+        return [0]
+    size = np.log(np.abs(slide[candidates]))
+    lowest = min(max(size.min(), np.log(_SMALLEST_SHOWN)), size.max())
+    wanted = np.linspace(lowest, size.max(), count) if count > 1 else [size.max()]
+    nearest = {int(candidates[np.argmin(np.abs(size - one))]) for one in wanted}
+    return sorted(nearest, key=lambda i: abs(slide[i]))
+
+
+def _percent(slide: float) -> str:
+    return f"{100.0 * slide:.3g} %"
+
+
+def _listed(values: np.ndarray, unit: str) -> str:
+    name, factor = axis_unit(unit, float(values.max()))
+    return f"{', '.join(digits(factor * float(value)) for value in values)} {name}"
