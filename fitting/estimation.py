@@ -147,6 +147,22 @@ def estimate_from(problem: Problem, starts: Float[Array, "start parameter"], met
 
 
 @eqx.filter_jit
+def held_out(
+    problem: Problem, weights: Float[Array, "case point"], method: str
+) -> tuple[Float[Array, "case point"], Bool[Array, " case"]]:
+    """Predictions for all points after optimisations with other weights, from u = 0; and which converged."""
+
+    def one(weight):
+        weighted = eqx.tree_at(lambda p: p.weight, problem, weight)
+        u = jnp.zeros_like(problem.base)
+        scaled = eqx.tree_at(lambda p: p.scales, weighted, column_scales(weighted, u))
+        found = estimate(scaled, u, method)
+        return scaled.predicted(found.u), found.converged
+
+    return jax.vmap(one)(weights)
+
+
+@eqx.filter_jit
 def linearized(problem: Problem, u: Float[Array, " parameter"]) -> tuple[Array, Array, Array]:
     """Predicted coefficients, plain residuals and their Jacobian with respect to the natural coordinates."""
     unit = eqx.tree_at(

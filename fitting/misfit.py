@@ -50,8 +50,8 @@ def information(standard: np.ndarray, parameters: int) -> tuple[float, float]:
     """
     count = len(standard)
     mean_square = max(float(np.mean(np.square(standard))), np.finfo(float).tiny)
-    fitness = count * np.log(mean_square)
-    return fitness + 2.0 * (parameters + 1), fitness + np.log(count) * (parameters + 1)
+    fitness = float(count * np.log(mean_square))
+    return fitness + 2.0 * (parameters + 1), fitness + float(np.log(count)) * (parameters + 1)
 
 
 def neighbour_correlation(measurements: Measurements, standard: np.ndarray) -> tuple[float, int]:

@@ -6,8 +6,10 @@ import equinox as eqx
 import numpy as np
 
 from jaxbearing.lubricants import Lubricant
+from jaxbearing.machines import TwoDisk
 
 from .measurements import Measurements
+from .options import FitOptions
 
 
 class Parameter(NamedTuple):
@@ -47,6 +49,7 @@ class FitResult(eqx.Module):
     - `aic`, `bic`: information criteria of the weighted residuals.
     - `oil`: the scene's oil with the fitted rheology; `predicted`: of each point; `outlier`: mask, beyond 4 robust
       standard deviations.
+    - `scene`: the machine with this oil and viscous function; `options`: with which it was fitted.
     - `notes`: what the user must know, a sentence each: identifiability, lack of fit, bounds.
     """
 
@@ -73,6 +76,8 @@ class FitResult(eqx.Module):
     outlier: np.ndarray
     level: float
     notes: tuple[str, ...]
+    scene: TwoDisk
+    options: FitOptions
 
     def failure(self) -> str:
         """One sentence on a fit that did not converge."""

@@ -137,9 +137,7 @@ class DistributedTraction(AbstractTraction):
         finer = dataclasses.replace(self, resolution=Resolution(2 * steps, 2 * -(-3 * strips // 4), extrapolate))
         found, better = self.traction(*arguments), finer.traction(*arguments)
         share = 16.0 / 15.0 if extrapolate else 4.0 / 3.0
-        shares = (share, share, share, share, 4.0 / 3.0, 4.0 / 3.0, 0.0)
-        scaled = lambda a, b, factor: None if a is None else factor * jnp.abs(a - b)
-        errors = Traction(*(scaled(a, b, factor) for a, b, factor in zip(found, better, shares, strict=True)))
+        errors = jax.tree.map(lambda a, b: share * jnp.abs(a - b), found, better)
         if found.inner_residual is None or better.inner_residual is None:
             return errors
         return errors._replace(inner_residual=jnp.maximum(found.inner_residual, better.inner_residual))

@@ -1,6 +1,6 @@
 """Stress at the end of an implicit step of Maxwell's equation: one increasing scalar equation, solved elementwise."""
 
-from typing import NamedTuple, Protocol
+from typing import NamedTuple, Protocol, runtime_checkable
 
 import equinox as eqx
 import jax
@@ -59,6 +59,7 @@ class Slopes(NamedTuple):
     second: Float[Array, "..."]
 
 
+@runtime_checkable
 class Limiting(Protocol):
     """A flow law s(q), concave and increasing from 0 with slope 1 to the limit 1. All for q >= 0, 0 <= s < 1."""
 

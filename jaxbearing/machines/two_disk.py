@@ -353,12 +353,12 @@ def solve_two_disk(scene: TwoDisk, options: Any = None) -> TwoDiskSolution:
     axes = (operation.temperature, operation.entrainment_speed, load, operation.slide_to_roll)
     grid = jnp.meshgrid(*axes, indexing="ij")
 
-    def points(temperature, speed, load, slide):
+    def point(temperature, speed, load, slide):
         state = scene.state(slide, speed, temperature, load=load)
         deborah = deborah_number(state.patch, speed, state.temperature, scene.oil)
         return state.film, state.temperature, state.inner_residual, scene.traction(state), deborah
 
-    film, temperature, residual, traction, deborah = _in_batches(points, grid)
+    film, temperature, residual, traction, deborah = _in_batches(point, grid)
     if traction.inner_residual is not None:
         residual = jnp.maximum(residual, traction.inner_residual)
     coefficient = traction.rolling / grid[2]
@@ -389,15 +389,15 @@ def solve_two_disk(scene: TwoDisk, options: Any = None) -> TwoDiskSolution:
 
 
 def _in_batches(function: Any, grid: list[Array]) -> Any:
-    """`function`, elementwise, of the points of a grid; the last batch is filled up: one program does them all."""
+    """`function` of each point of a grid; the last batch is filled up: one program does them all."""
     shape, size = grid[0].shape, grid[0].size
     count = -(-size // BATCH)
     flat = [axis.reshape(-1) for axis in grid]
     if count == 1:
-        return jax.tree.map(lambda leaf: leaf.reshape(shape), function(*flat))
+        return jax.tree.map(lambda leaf: leaf.reshape(shape), jax.vmap(function)(*flat))
     width = -(-size // count)
     rows = [jnp.pad(axis, (0, count * width - size), mode="edge").reshape(count, width) for axis in flat]
-    results = jax.lax.map(lambda row: function(*row), rows)
+    results = jax.lax.map(lambda row: jax.vmap(function)(*row), rows)
     return jax.tree.map(lambda leaf: leaf.reshape(-1)[:size].reshape(shape), results)
 
 

@@ -9,6 +9,7 @@ import pytest
 import jaxbearing as jb
 from jaxbearing.contacts import (
     BairWiner,
+    DistributedTraction,
     DowsonHigginson,
     DowsonToyoda,
     ElsharkawyHamrock,
@@ -23,6 +24,7 @@ from jaxbearing.contacts import (
     NoThermalReduction,
     PanHamrockCentral,
     ReeEyring,
+    Resolution,
     RigidRollingResistance,
 )
 from jaxbearing.lubricants import NoPressureViscosity, WaltherRoelands
@@ -90,6 +92,37 @@ def test_traction(name):
     traction = contact(traction=name).traction
     assert isinstance(traction, MeanPressureTraction)
     assert isinstance(traction.viscous, TRACTION[name])
+
+
+def test_distributed_traction():
+    law = contact(traction_model="distributed").traction
+    assert isinstance(law, DistributedTraction)
+    assert isinstance(law.viscous, ReeEyring)
+    assert law.resolution == Resolution.for_accuracy(1e-3)
+    finer = contact(traction="bair_winer", traction_model="distributed", traction_accuracy="1e-4").traction
+    assert isinstance(finer.viscous, BairWiner)
+    assert finer.resolution == Resolution.for_accuracy(1e-4)
+    assert isinstance(contact(traction_model="mean_pressure").traction, MeanPressureTraction)
+
+
+@pytest.mark.parametrize(
+    ("changes", "words"),
+    [
+        ({"traction_model": "hertz"}, ["contact.traction_model", "'mean_pressure', 'distributed'"]),
+        ({"traction_model": "distributed", "traction_accuracy": "0.1"}, ["contact.traction_accuracy", "0.01, 0.001"]),
+        ({"traction_model": "distributed", "traction_accuracy": "fine"}, ["contact.traction_accuracy", "'fine'"]),
+        (
+            {"traction_model": "mean_pressure", "traction_accuracy": "1e-3"},
+            ["traction_accuracy", "only traction_model"],
+        ),
+        ({"traction_model": "distributed", "traction": "none"}, ["contact.traction", "is about"]),
+    ],
+    ids=str,
+)
+def test_distributed_traction_refusals(changes, words):
+    with pytest.raises(SceneError) as caught:
+        contact(**changes)
+    assert all(word in str(caught.value) for word in words), str(caught.value)
 
 
 @pytest.mark.parametrize(

@@ -34,7 +34,9 @@ def plot_two_disk(solution: TwoDiskSolution, title: str) -> "matplotlib.figure.F
     places = places[:PANELS]
     rows, columns = _layout(places)
     figure = Page()
-    head(figure, title, "Traction coefficient over slide-to-roll ratio (difference over mean speed)")
+    varied = "normal load" if solution.operation.pressure is None else "Hertz (peak) pressure"
+    text = f"Traction coefficient over slide-to-roll ratio (difference over mean speed), one curve for each {varied}"
+    head(figure, title, text)
     bottom = 0.085 + 0.019 * foot(figure, [*left_out, *solution.warnings])
     grid = figure.add_gridspec(
         rows, columns, left=0.065, right=0.985, top=0.815, bottom=bottom, wspace=0.14, hspace=0.42 if rows > 2 else 0.3
@@ -76,6 +78,8 @@ def _plot_panel(axes: Any, solution: TwoDiskSolution, curves: list[Curve]) -> No
     axes.axhline(0.0, color=INK, linewidth=0.6)
     if slide.min() < 0.0 < slide.max():
         axes.axvline(0.0, color=INK, linewidth=0.6)
+    elif slide.min() != slide.max():
+        axes.set_xlim(100.0 * min(0.0, slide.min() * 1.02), 100.0 * max(0.0, slide.max() * 1.02))
     for number, curve in enumerate(curves):
         axes.plot(
             100.0 * slide[order],

@@ -1,0 +1,65 @@
+"""Which viscous function describes the curves best: misfit, information criteria, prediction of curves left out."""
+
+from collections.abc import Mapping
+from typing import NamedTuple
+
+import jax.numpy as jnp
+import numpy as np
+
+from .estimation import held_out
+from .parameters import NAMES, natural
+from .result import FitResult
+from .search import Search
+
+
+class ModelRow(NamedTuple):
+    """One model: `rms` of the fit, `parameters` fitted, `aic`, `bic` (the lowest is best; a difference of 10 is
+    strong), `cross_validated_rms`: of each curve predicted from the others, None with one curve only."""
+
+    model: str
+    converged: bool
+    rms: float
+    parameters: int
+    aic: float
+    bic: float
+    cross_validated_rms: float | None
+
+
+def compare(results: Mapping[str, FitResult]) -> list[ModelRow]:
+    """A row for every fit of the same measurements, the lowest BIC first. **Arguments:** `results`: by model."""
+    rows = [
+        ModelRow(
+            model=model,
+            converged=result.converged,
+            rms=result.rms,
+            parameters=len(result.fitted),
+            aic=result.aic,
+            bic=result.bic,
+            cross_validated_rms=cross_validated_rms(result),
+        )
+        for model, result in results.items()
+    ]
+    return sorted(rows, key=lambda row: (not row.converged, row.bic))
+
+
+def cross_validated_rms(result: FitResult) -> float | None:
+    """Root mean square of model minus measurement when every curve is predicted from a fit of the others.
+
+    The same parameters are fitted as in the result, from its values; None where there is one curve only. Infinite
+    where a fit without one of the curves does not converge.
+    """
+    curve = np.asarray(result.measurements.curve)
+    if len(result.measurements.curve_names) < 2 or not result.fitted:
+        return None
+    search = Search(result.measurements, result.scene, result.options)
+    search.deviation = result.deviation
+    free = np.array([name in result.fitted for name in NAMES])
+    rheology = result.oil.rheology
+    assert rheology is not None
+    problem = search.problem(free, {}, natural(rheology))
+    without = jnp.asarray(curve[None, :] != np.arange(len(result.measurements.curve_names))[:, None], dtype=float)
+    predicted, converged = held_out(problem, without, result.options.method)
+    if not bool(jnp.all(converged)):
+        return float("inf")
+    own = np.asarray(predicted)[curve, np.arange(len(curve))]
+    return float(np.sqrt(np.mean(np.square(own - search.coefficient))))

@@ -1,0 +1,53 @@
+"""How to fit."""
+
+from collections.abc import Mapping
+from typing import NamedTuple
+
+from .estimation import METHODS
+from .loss import LOSSES, Errors
+from .parameters import NAMES
+from .viscous import VISCOUS
+
+
+class FitOptions(NamedTuple):
+    """How to fit.
+
+    **Arguments:**
+    - `model`: viscous function; None: the scene's.
+    - `method`: one of `METHODS`.
+    - `loss`: one of `LOSSES`; what is not linear lets outliers count less.
+    - `errors`: of the measured points.
+    - `fixed`: names of parameters to hold at the scene's values.
+    - `free`: names of parameters to fit even where a rule says that the data cannot tell them.
+    - `bounds`: name -> (lower, upper), SI; either may be None.
+    - `starts`: number of starting points, tried at once.
+    - `level`: of the confidence intervals.
+    - `seed`: of the random starting points.
+    """
+
+    model: str | None = None
+    method: str = "levenberg_marquardt"
+    loss: str = "linear"
+    errors: Errors = Errors()
+    fixed: tuple[str, ...] = ()
+    free: tuple[str, ...] = ()
+    bounds: Mapping[str, tuple[float | None, float | None]] = {}
+    starts: int = 3
+    level: float = 0.95
+    seed: int = 0
+
+    def check(self) -> None:
+        """**Raises:** `ValueError` naming the option."""
+        for name, value, known in (("method", self.method, METHODS), ("loss", self.loss, LOSSES)):
+            if value not in known:
+                raise ValueError(f"{name}: found {value!r}, expected one of {', '.join(known)}")
+        if self.model is not None and self.model not in VISCOUS:
+            raise ValueError(f"model: found {self.model!r}, expected one of {', '.join(VISCOUS)}")
+        for option, names in (("fixed", self.fixed), ("free", self.free), ("bounds", self.bounds)):
+            for name in names:
+                if name not in NAMES:
+                    raise ValueError(f"{option}: found {name!r}, expected one of {', '.join(NAMES)}")
+        if not 0.0 < self.level < 1.0:
+            raise ValueError(f"level: found {self.level}, expected a number between 0 and 1")
+        if self.starts < 1:
+            raise ValueError(f"starts: found {self.starts}, expected at least 1")

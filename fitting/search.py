@@ -1,0 +1,159 @@
+"""The search for the best parameters: where it begins, and the optimisations."""
+
+from collections.abc import Mapping
+from typing import Any
+
+import equinox as eqx
+import jax.numpy as jnp
+import numpy as np
+
+from jaxbearing.contacts import deborah_number
+from jaxbearing.machines import DiskState, TwoDisk
+
+from .estimation import Problem, coefficients, estimate_from, linearized, slope_over_slide
+from .identifiability import frozen_by_rule
+from .loss import TUNING, scale_of, variance_factor
+from .measurements import Measurements
+from .options import FitOptions
+from .parameters import NAMES, Centre, centred_directions, natural
+from .start import estimated_start
+from .uncertainty import Spread, spread
+
+MODULUS, STRESS = NAMES.index("shear_modulus"), NAMES.index("stress")
+MODULUS_SHIFTS = (0.0, 1.5, 3.0, -1.5, -3.0, -5.0, -7.0, -9.0, -12.0, -15.0)
+"""Changes of ln(shear modulus) that are looked at before the first start."""
+STRESS_SHIFTS, LARGEST_SHIFT = 4, 2.0
+"""Rounds in which the first stress is brought to the tops of the curves, and the largest change of its logarithm."""
+REWEIGHTINGS = 4
+"""Times that scale and slopes are renewed with a robust loss or errors in the slide ratio."""
+
+
+@eqx.filter_jit
+def _state(measurements: Measurements, scene: TwoDisk) -> DiskState:
+    return measurements.state(scene)
+
+
+class Search:
+    """One fit at work: what stays the same from run to run.
+
+    **Arguments:** as `fit.fit`; the scene has the viscous function that is fitted, and its oil a rheology.
+    """
+
+    def __init__(self, measurements: Measurements, scene: TwoDisk, options: FitOptions):
+        self.measurements, self.scene, self.options = measurements, scene, options
+        self.state = _state(measurements, scene)
+        assert scene.oil.rheology is not None
+        self.rheology = scene.oil.rheology
+        self.pressure = np.asarray(self.state.patch.mean_pressure)
+        self.temperature = np.asarray(self.state.temperature)
+        speed = measurements.entrainment_speed
+        self.deborah = np.asarray(deborah_number(self.state.patch, speed, self.state.temperature, scene.oil))
+        self.centre = Centre.of(self.pressure, self.temperature)
+        self.coefficient = np.asarray(measurements.traction_coefficient)
+        self.bend = TUNING[options.loss] if options.loss != "linear" else 1.0
+        self.curve = np.asarray(measurements.curve)
+        self.deviation = options.errors.deviation(self.coefficient, self.curve)
+        self.scale = 1.0
+
+    def free_by_rule(self) -> tuple[np.ndarray, dict[int, str]]:
+        reasons = frozen_by_rule(self.pressure, self.temperature, self.deborah)
+        fixed = [NAMES.index(name) for name in self.options.fixed]
+        insisted = [NAMES.index(name) for name in self.options.free]
+        free = np.array([i not in fixed and (i not in reasons or i in insisted) for i in range(len(NAMES))])
+        return free, reasons
+
+    def problem(self, free: np.ndarray, pinned: Mapping[int, float], base: np.ndarray | None = None) -> Problem:
+        start = estimated_start(
+            self.rheology,
+            self.scene.oil,
+            self.state,
+            self.coefficient,
+            self.deborah,
+            self.curve,
+        )
+        own, estimated = natural(self.rheology), natural(start)
+        coordinates = np.where(free, estimated, own) if base is None else np.where(free, base, own)
+        for index, value in pinned.items():
+            coordinates[index] = value
+        directions = centred_directions(self.centre, float(self.rheology.reference_temperature), free)
+        return Problem(
+            scene=self.scene,
+            state=self.state,
+            rheology=self.rheology,
+            coefficient=jnp.asarray(self.coefficient),
+            deviation=jnp.asarray(self.deviation * self.scale * self.bend),
+            weight=jnp.ones(len(self.coefficient)),
+            base=jnp.asarray(coordinates),
+            directions=jnp.asarray(directions),
+            scales=jnp.ones(len(NAMES)),
+            loss=self.options.loss,
+        )
+
+    def starts(self, problem: Problem, free: np.ndarray) -> np.ndarray:
+        """The most promising of a scan over the shear modulus, at each of which the stress is brought to the tops of
+        the curves; then random ones about the first: a factor of 3 in ln, 1 1/GPa, 0.5 kK.
+
+        Far from the solution the modulus may not show at all, and no optimiser finds its way from there.
+        """
+        base, directions = np.asarray(problem.base), np.asarray(problem.directions)
+        axes = np.eye(len(NAMES))
+        scanned = []
+        for shift in MODULUS_SHIFTS if free[MODULUS] else (0.0,):
+            moved = base + shift * axes[MODULUS]
+            if free[STRESS]:
+                moved = moved + self.stress_shift(moved) * axes[STRESS]
+            residual = (self.predicted(moved) - self.coefficient) / self.deviation
+            scanned.append((float(np.sum(np.square(residual))), shift, moved - base))
+        scanned.sort(key=lambda entry: (not np.isfinite(entry[0]), entry[0], abs(entry[1])))
+        natural_starts = [move for *_, move in scanned[: max(self.options.starts - 1, 1)]]
+        rng = np.random.default_rng(self.options.seed)
+        spreads = np.array([np.log(3.0), 1.0, 0.5] * 2)
+        while len(natural_starts) < self.options.starts:
+            natural_starts.append(natural_starts[0] + rng.normal(size=len(NAMES)) * spreads)
+        block = np.ix_(free, free)
+        found = np.zeros((self.options.starts, len(NAMES)))
+        for row, move in zip(found, natural_starts, strict=True):
+            row[free] = np.linalg.solve(directions[block], move[free])
+        return found
+
+    def stress_shift(self, coordinates: np.ndarray) -> float:
+        """Change of ln(stress) that brings the model to the measured tops of the curves, in the mean."""
+        curve, size = self.curve, np.abs(self.coefficient)
+        tops = [points[np.argmax(size[points])] for points in (np.flatnonzero(curve == n) for n in np.unique(curve))]
+        shift = 0.0
+        for _ in range(STRESS_SHIFTS):
+            predicted = np.abs(self.predicted(coordinates + shift * np.eye(len(NAMES))[STRESS]))
+            usable = [top for top in tops if predicted[top] > 0 and size[top] > 0]
+            if not usable:
+                break
+            change = float(np.median(np.log(size[usable] / predicted[usable])))
+            shift += float(np.clip(change, -LARGEST_SHIFT, LARGEST_SHIFT))
+        return shift
+
+    def predicted(self, coordinates: np.ndarray) -> np.ndarray:
+        """Coefficients at natural coordinates."""
+        return np.asarray(coefficients(self.scene, self.state, self.rheology, jnp.asarray(coordinates)))
+
+    def optimised(self, problem: Problem, starts: np.ndarray) -> tuple[Problem, Any, Any]:
+        """The best of the starts; with a robust loss or errors of the slide ratio the deviations are renewed."""
+        rounds = 1 if self.options.loss == "linear" and not self.options.errors.slide_to_roll else REWEIGHTINGS
+        found, u = None, jnp.asarray(starts[0])
+        for turn in range(rounds):
+            found = estimate_from(problem, jnp.asarray(starts), self.options.method)
+            best = int(jnp.argmin(jnp.where(jnp.isfinite(found.loss), found.loss, jnp.inf)))
+            u = found.u[best]
+            if turn + 1 < rounds:
+                slope = np.asarray(slope_over_slide(problem, u)) if self.options.errors.slide_to_roll else 0.0
+                self.deviation = self.options.errors.deviation(self.coefficient, self.curve, slope)
+                if self.options.loss != "linear":
+                    predicted = np.asarray(linearized(problem, u)[0])
+                    self.scale = scale_of((predicted - self.coefficient) / self.deviation)
+                deviation = jnp.asarray(self.deviation * self.scale * self.bend)
+                problem = eqx.tree_at(lambda p: p.deviation, problem, deviation)
+                starts = np.tile(np.asarray(u), (len(starts), 1))
+        return problem, found, u
+
+    def spread(self, problem: Problem, u: Any, free: np.ndarray) -> Spread:
+        _, residual, jacobian = (np.asarray(part) for part in linearized(problem, u))
+        variance = variance_factor(residual, self.options.loss, int(np.sum(free)))
+        return spread(jacobian, free, variance, self.options.level)

@@ -1,0 +1,312 @@
+"""The two-disk machine: published values, symmetry, gradients, failures, refusals."""
+
+import dataclasses
+
+import equinox as eqx
+import jax
+import jax.numpy as jnp
+import numpy as np
+import pytest
+from two_disk_cases import COARSE, STEEL, mobil_jet_ii, small
+
+import jaxbearing as jb
+from jaxbearing.contacts import (
+    DistributedTraction,
+    ElsharkawyHamrock,
+    FilmHeating,
+    GivenCompliance,
+    Gupta,
+    HamrockDowsonCentral,
+    LineContact,
+    Moes,
+)
+from jaxbearing.lubricants import ConstantViscosity, Lubricant, NoPressureViscosity
+from jaxbearing.machines import DiskGeometry, DiskOperation, two_disk
+from jaxbearing.numerics.status import SolveError, Status
+
+# (Hertz pressure, slide over the sum of speeds) -> traction coefficient at 373 K, U1 + U2 = 42.35 m/s:
+# model description, table of check values, rows "MJ2 point isothermal"
+CHECKS = {
+    (1.05e9, 0.001): 0.0003907784,
+    (1.05e9, 0.005): 0.001702131,
+    (1.05e9, 0.02): 0.004128502,
+    (1.05e9, 0.1): 0.007704395,
+    (1.5e9, 0.001): 0.003228964,
+    (1.5e9, 0.005): 0.008101256,
+    (1.5e9, 0.02): 0.0132144,
+    (1.5e9, 0.1): 0.01944868,
+}
+
+
+@pytest.fixture(scope="module")
+def checked():
+    """The built-in scene at the points of the check values, and mirrored."""
+    slide = 2.0 * np.asarray([0.001, 0.005, 0.02, 0.1])
+    scene = jb.load_scene("two_disk_mobil_jet_ii").at_operation(
+        slide_to_roll=np.concatenate([-slide[::-1], [0.0], slide]), entrainment_speed=21.175, temperature=373.0
+    )
+    return scene, jb.solve(scene)
+
+
+def test_check_values(checked):
+    """rtol: that of the preset for 1e-4 and of the check values, 1e-5."""
+    scene, solution = checked
+    slide, pressure = np.asarray(scene.operation.slide_to_roll), np.asarray(scene.operation.pressure)
+    for (p, s), expected in CHECKS.items():
+        place = (0, 0, int(np.argmin(abs(pressure - p))), int(np.argmin(abs(slide - 2.0 * s))))
+        np.testing.assert_allclose(solution.traction_coefficient[place], expected, rtol=1.1e-4)
+    # the film and the Deborah number of the same table
+    np.testing.assert_allclose(solution.film[0, 0, :, 0], [4.06495709e-07, 3.86886906e-07], rtol=1e-8)
+    np.testing.assert_allclose(solution.deborah_number[0, 0, :, 0], [0.115, 0.089], rtol=6e-3)
+
+
+def test_odd_in_the_sliding(checked):
+    _, solution = checked
+    friction = np.asarray(solution.traction_coefficient)
+    np.testing.assert_array_equal(friction, -friction[..., ::-1])
+    assert np.all(friction[..., 4] == 0.0)
+    assert np.all(np.asarray(solution.power)[..., 4] == 0.0)
+    np.testing.assert_array_equal(solution.power, np.asarray(solution.power)[..., ::-1])
+
+
+def test_power_is_force_times_sliding(checked):
+    scene, solution = checked
+    sliding = np.asarray(scene.operation.slide_to_roll) * 21.175
+    force = np.asarray(solution.traction_coefficient) * np.asarray(solution.load)[:, None]
+    np.testing.assert_allclose(solution.power, force * sliding, rtol=1e-12)
+
+
+def test_pressure_or_load(checked):
+    scene, solution = checked
+    np.testing.assert_allclose(solution.pressure, scene.operation.pressure, rtol=1e-9)
+    loaded = jb.solve(scene.at_operation(pressure=None, load=solution.load))
+    np.testing.assert_allclose(loaded.pressure, scene.operation.pressure, rtol=1e-9)
+    np.testing.assert_allclose(loaded.traction_coefficient, solution.traction_coefficient, rtol=1e-9)
+
+
+def test_hertz_pressure_of_the_measured_curve():
+    """3.60 GPa as the note on the data says."""
+    scene = jb.load_scene("two_disk_etm")
+    np.testing.assert_allclose(scene.hertz.hertz_pressure(scene.operation.load), [3.60e9], rtol=1.5e-3)
+
+
+def test_gradient_against_differences():
+    scene = small()
+    paths = {
+        "oil.rheology.stress": 1.0,
+        "oil.rheology.shear_modulus": 1.0,
+        "geometry.reduced_radius_rolling": 1.0,
+        "materials.body_1.youngs_modulus": 1.0,
+    }
+
+    def friction(factors):
+        values = {path: 1.0 * getattr_path(scene, path) * factor for path, factor in factors.items()}
+        return jnp.sum(jb.solve(scene.replace(values)).traction_coefficient[..., 2:])
+
+    slopes = jax.grad(friction)(paths)
+    step = 1e-5
+    for path in paths:
+        up, down = (float(friction(paths | {path: 1.0 + side * step})) for side in (1, -1))
+        # a central difference of a sum of order 1e-2 with steps of 1e-5
+        np.testing.assert_allclose(slopes[path], (up - down) / (2 * step), rtol=1e-6, atol=1e-10)
+        assert slopes[path] != 0.0
+
+
+def getattr_path(part, path):
+    for name in path.split("."):
+        part = getattr(part, name)
+    return part
+
+
+def test_gradient_with_respect_to_the_operation():
+    scene = small()
+
+    def friction(pressure, speed):
+        changed = scene.at_operation(pressure=pressure, entrainment_speed=speed)
+        return jb.solve(changed).traction_coefficient[0, 0, 0, 3]
+
+    slopes = jax.grad(friction, argnums=(0, 1))(1.2e9, 20.0)
+    by_pressure = (friction(1.2e9 + 1e4, 20.0) - friction(1.2e9 - 1e4, 20.0)) / 2e4
+    by_speed = (friction(1.2e9, 20.0002) - friction(1.2e9, 19.9998)) / 4e-4
+    np.testing.assert_allclose(slopes, [by_pressure, by_speed], rtol=1e-6)
+
+
+def test_jit_and_vmap_and_the_compiled_solver():
+    scene = small()
+    friction = np.asarray(jb.solve(scene).traction_coefficient)
+    jitted = eqx.filter_jit(jb.solve)(scene)
+    np.testing.assert_allclose(jitted.traction_coefficient, friction, rtol=1e-12)
+    batch = jax.vmap(lambda p: jb.solve(scene.at_operation(pressure=p), throw=False))(jnp.asarray([1.2e9, 1.4e9]))
+    assert batch.traction_coefficient.shape == (2, 1, 1, 1, 4)
+    np.testing.assert_allclose(batch.traction_coefficient[0], friction, rtol=1e-12)
+    fast = jb.jit_solver(scene)
+    np.testing.assert_allclose(fast(pressure=1.4e9).traction_coefficient, batch.traction_coefficient[1], rtol=1e-12)
+    other = mobil_jet_ii(slide_to_roll=[0.1]).replace({"contact.traction.resolution": COARSE})
+    assert fast(other).traction_coefficient.shape == (2, 2, 2, 1)
+
+
+def test_batches_are_the_same_points(monkeypatch):
+    scene = small(pressure=[1.0e9, 1.2e9, 1.4e9])
+    whole = eqx.filter_jit(two_disk.solve_two_disk)(scene)
+    # 12 points in 3 batches of 4 and, filled up, in 2 of 6 and 4 of 3
+    for size in (5, 7, 3):
+        monkeypatch.setattr(two_disk, "BATCH", size)
+        parted = eqx.filter_jit(lambda s: two_disk.solve_two_disk(s))(scene)
+        np.testing.assert_allclose(parted.traction_coefficient, whole.traction_coefficient, rtol=1e-12, atol=1e-18)
+
+
+def test_inlet_heating():
+    """A cold inlet has the thinner film too, but the oil's own temperature."""
+    fast = small(entrainment_speed=60.0, temperature=300.0)
+    warm = fast.replace({"contact.thermal": Gupta()})
+    isothermal, heated, cold = (jb.solve(s) for s in (fast, warm, warm.replace({"contact.warm_inlet": False})))
+    assert np.all(np.asarray(isothermal.inlet_temperature) == 300.0)
+    assert np.all(np.asarray(cold.inlet_temperature) == 300.0)
+    assert np.all(np.asarray(heated.inlet_temperature) > 301.0)
+    np.testing.assert_array_equal(cold.film, heated.film)
+    assert np.all(np.asarray(heated.film) < np.asarray(isothermal.film))
+    assert float(heated.traction_coefficient[0, 0, 0, 2]) < float(cold.traction_coefficient[0, 0, 0, 2])
+
+
+def test_film_heating_is_labelled_and_lowers_the_traction():
+    scene = small(entrainment_speed=5.0)
+    heated = jb.solve(scene.replace({"contact.traction.heating": FilmHeating()}))
+    rise = np.asarray(heated.film_rise)[0, 0, 0]
+    assert rise[1] == 0.0
+    assert rise[3] > rise[2] > 0.0
+    np.testing.assert_allclose(rise[0], rise[3], rtol=1e-12)
+    assert jb.solve(scene).film_rise is None
+
+
+def test_half_spaces_of_the_scenes_own_bodies():
+    scene = small()
+    compliant = scene.replace({"contact.half_space_compliance": True})
+    law = compliant.traction_law
+    patch = scene.state(0.01, 20.0, 340.0, 1.2e9).patch
+    given = GivenCompliance(float(law.compliance.compliance(patch)))
+    expected = jb.solve(scene.replace({"contact.traction.compliance": given})).traction_coefficient
+    np.testing.assert_allclose(jb.solve(compliant).traction_coefficient, expected, rtol=1e-12)
+    # stiffer bodies give way less
+    stiff = dataclasses.replace(STEEL, youngs_modulus=np.float64(500e9))
+    moved = compliant.replace({"materials.body_1": stiff}).traction_law.compliance.compliance(patch)
+    assert float(moved) < given.value
+
+
+def test_line_contact():
+    scene = small().replace(
+        {"geometry": DiskGeometry(0.02, contact_length=0.01), "contact.film": Moes(), "contact.thermal": Gupta()}
+    )
+    assert isinstance(scene.hertz, LineContact)
+    solution = jb.solve(scene)
+    np.testing.assert_allclose(solution.pressure, [1.2e9], rtol=1e-9)
+    assert np.all(np.diff(np.asarray(solution.traction_coefficient)[0, 0, 0]) > 0.0)
+
+
+@pytest.mark.parametrize(
+    ("scene", "words"),
+    [
+        (small(pressure=3.0e9), "mean contact pressure beyond 1.8 GPa"),
+        (small(slide_to_roll=[5.0]), "slide_to_roll beyond 2"),
+        (small(temperature=240.0), "inlet oil below -20 degC"),
+        (small(temperature=500.0), "inlet oil beyond 200 degC"),
+        (small().replace({"contact.traction.viscous": ElsharkawyHamrock(2.0)}), "fitted with ree_eyring"),
+        (small(entrainment_speed=300.0, temperature=270.0).replace({"contact.thermal": Gupta()}), "thermal loading"),
+    ],
+    ids=["pressure", "slide", "cold", "hot", "misfit", "loading"],
+)
+def test_warnings(scene, words):
+    solution = jb.solve(scene, throw=False)
+    assert [text for text in solution.warnings if words in text]
+    assert jb.solve(small()).warnings == []
+
+
+def test_a_failed_point_is_named_and_has_no_result():
+    scene = small(pressure=[1.2e9, 1e60])
+    solution = jb.solve(scene, throw=False)
+    assert not bool(solution.converged)
+    status = np.asarray(solution.status)[0, 0]
+    assert (status[0] == Status.CONVERGED).all()
+    assert (status[1] == Status.NOT_CONVERGED).all()
+    assert np.isnan(np.asarray(solution.traction_coefficient)[0, 0, 1]).all()
+    np.testing.assert_allclose(
+        solution.traction_coefficient[0, 0, 0], jb.solve(small()).traction_coefficient[0, 0, 0], rtol=1e-12
+    )
+    with pytest.raises(
+        SolveError, match=r"not_converged: 4 of 8 points, worst at temperature 340 K, .* pressure 1e\+60"
+    ):
+        jb.solve(scene)
+
+
+@pytest.mark.parametrize(
+    ("values", "words"),
+    [
+        ({"load": [100.0]}, "found both of pressure and load"),
+        ({"pressure": None}, "found neither of pressure and load"),
+        ({"pressure": [1e9, -1e9]}, r"operation\.pressure must be > 0, got -1e\+09"),
+        ({"slide_to_roll": []}, r"operation\.slide_to_roll must be a number or a list"),
+        ({"slide_to_roll": [[0.1]]}, r"operation\.slide_to_roll must be a number or a list"),
+        ({"slide_to_roll": [np.nan]}, r"operation\.slide_to_roll must be finite"),
+        ({"temperature": 0.0}, r"operation\.temperature must be > 0"),
+        ({"entrainment_speed": 0.0}, r"operation\.entrainment_speed must be > 0"),
+    ],
+    ids=str,
+)
+def test_operations_that_make_no_sense(values, words):
+    with pytest.raises(ValueError, match=words):
+        mobil_jet_ii(**values)
+
+
+def test_numbers_and_lists_are_axes():
+    operation = DiskOperation(0.1, (1, 2), jnp.asarray(300.0), [jnp.asarray(1e9), jnp.asarray(2e9)])
+    assert [np.shape(axis) for axis in jax.tree.leaves(operation)] == [(1,), (2,), (1,), (2,)]
+
+
+def without(oil, **laws):
+    return dataclasses.replace(oil, **laws)
+
+
+@pytest.mark.parametrize(
+    ("changes", "words"),
+    [
+        ({"contact.film": Moes()}, "expected a film of a point contact"),
+        ({"geometry": DiskGeometry(0.02, contact_length=0.01)}, "expected a film of a line contact"),
+        ({"oil": without(small().oil, rheology=None)}, r"oil\.rheology"),
+        ({"oil": without(small().oil, conductivity=None), "contact.thermal": Gupta()}, r"oil\.conductivity"),
+        (
+            {
+                "oil": without(small().oil, conductivity=None),
+                "contact.traction": DistributedTraction(heating=FilmHeating()),
+            },
+            r"oil\.conductivity",
+        ),
+        (
+            {
+                "oil": Lubricant(ConstantViscosity(np.float64(0.01)), NoPressureViscosity(), small().oil.rheology),
+                "contact.film": HamrockDowsonCentral(),
+            },
+            "isoviscous",
+        ),
+        (
+            {
+                "contact.half_space_compliance": True,
+                "contact.traction": DistributedTraction(compliance=GivenCompliance(1e-15)),
+            },
+            r"contact\.compliance",
+        ),
+    ],
+)
+def test_laws_that_do_not_fit(changes, words):
+    with pytest.raises(ValueError, match=words):
+        small().replace(changes)
+
+
+def test_film_heating_with_its_own_conductivity_needs_none_of_the_oil():
+    law = DistributedTraction(heating=FilmHeating(conductivity=0.14), resolution=COARSE)
+    scene = small().replace({"oil": without(small().oil, conductivity=None), "contact.traction": law})
+    assert bool(jb.solve(scene).converged)
+
+
+def test_a_line_contact_has_no_transverse_radius():
+    with pytest.raises(ValueError, match=r"geometry\.contact_length"):
+        DiskGeometry(0.02, 0.02, 0.01)
+    assert DiskGeometry(0.02, contact_length=0.01).contact(2e11).length == 0.01
