@@ -57,7 +57,8 @@ def cross_validated_rms(result: FitResult) -> float | None:
     rheology = result.oil.rheology
     assert rheology is not None
     problem = search.problem(free, {}, natural(rheology))
-    without = jnp.asarray(curve[None, :] != np.arange(len(result.measurements.curve_names))[:, None], dtype=float)
+    others = curve[None, :] != np.arange(len(result.measurements.curve_names))[:, None]
+    without = search.weight(others.astype(float))
     predicted, converged = held_out(problem, without, result.options.method)
     if not bool(jnp.all(converged)):
         return float("inf")

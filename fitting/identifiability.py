@@ -55,7 +55,7 @@ def not_determined(spread: Spread, directions: np.ndarray, free: np.ndarray, cen
             if not free[index]:
                 continue
             variance = _quadratic(spread.covariance, row)
-            half = spread.quantile * np.sqrt(variance) * length if variance > 0 else 0.0
+            half = spread.quantile * np.sqrt(variance) * length if np.isfinite(variance) else np.inf
             if not half <= UNKNOWN:
                 factor = np.exp(min(half, 50.0))
                 reasons[index] = f"its effect on the data is uncertain by a factor of {factor:.3g} to either side"

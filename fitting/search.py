@@ -4,8 +4,10 @@ from collections.abc import Mapping
 from typing import Any
 
 import equinox as eqx
+import jax
 import jax.numpy as jnp
 import numpy as np
+from jaxtyping import Array, Float
 
 from jaxbearing.contacts import deborah_number
 from jaxbearing.machines import DiskState, TwoDisk
@@ -28,9 +30,22 @@ REWEIGHTINGS = 4
 """Times that scale and slopes are renewed with a robust loss or errors in the slide ratio."""
 
 
+SMALLEST_BATCH, LARGEST_STEP = 32, 512
+"""Points are filled up with copies of weight 0 to a power of two, from 512 on to a multiple of it: a program that was
+compiled for other curves serves these too."""
+
+
+def filled(count: int) -> int:
+    """Number of points that the program for `count` points takes."""
+    if count > LARGEST_STEP:
+        return -(-count // LARGEST_STEP) * LARGEST_STEP
+    return max(SMALLEST_BATCH, 1 << (count - 1).bit_length())
+
+
 @eqx.filter_jit
-def _state(measurements: Measurements, scene: TwoDisk) -> DiskState:
-    return measurements.state(scene)
+def _state(scene: TwoDisk, slide_to_roll: Any, entrainment_speed: Any, temperature: Any, load: Any) -> DiskState:
+    state = scene.state(slide_to_roll, entrainment_speed, temperature, load=load)
+    return jax.tree.map(lambda leaf: jnp.broadcast_to(leaf, state.film.shape), state)
 
 
 class Search:
@@ -41,7 +56,15 @@ class Search:
 
     def __init__(self, measurements: Measurements, scene: TwoDisk, options: FitOptions):
         self.measurements, self.scene, self.options = measurements, scene, options
-        self.state = _state(measurements, scene)
+        self.count = len(measurements.slide_to_roll)
+        columns = (
+            measurements.slide_to_roll,
+            measurements.entrainment_speed,
+            measurements.temperature,
+            measurements.load,
+        )
+        self.batch = _state(scene, *(self.fill(column) for column in columns))
+        self.state = jax.tree.map(lambda leaf: leaf[: self.count], self.batch)
         assert scene.oil.rheology is not None
         self.rheology = scene.oil.rheology
         self.pressure = np.asarray(self.state.patch.mean_pressure)
@@ -54,6 +77,14 @@ class Search:
         self.curve = np.asarray(measurements.curve)
         self.deviation = options.errors.deviation(self.coefficient, self.curve)
         self.scale = 1.0
+
+    def fill(self, values: Any) -> Float[Array, " batch"]:
+        """A value a point, filled up with copies of the last."""
+        return jnp.asarray(np.pad(np.asarray(values, dtype=float), (0, filled(self.count) - self.count), mode="edge"))
+
+    def weight(self, values: np.ndarray) -> Float[Array, "... batch"]:
+        """Weights of the points, filled up with 0; the last axis is the point."""
+        return jnp.asarray(np.pad(values, [(0, 0)] * (values.ndim - 1) + [(0, filled(self.count) - self.count)]))
 
     def free_by_rule(self) -> tuple[np.ndarray, dict[int, str]]:
         reasons = frozen_by_rule(self.pressure, self.temperature, self.deborah)
@@ -78,11 +109,11 @@ class Search:
         directions = centred_directions(self.centre, float(self.rheology.reference_temperature), free)
         return Problem(
             scene=self.scene,
-            state=self.state,
+            state=self.batch,
             rheology=self.rheology,
-            coefficient=jnp.asarray(self.coefficient),
-            deviation=jnp.asarray(self.deviation * self.scale * self.bend),
-            weight=jnp.ones(len(self.coefficient)),
+            coefficient=self.fill(self.coefficient),
+            deviation=self.fill(self.deviation * self.scale * self.bend),
+            weight=self.weight(np.ones(self.count)),
             base=jnp.asarray(coordinates),
             directions=jnp.asarray(directions),
             scales=jnp.ones(len(NAMES)),
@@ -132,7 +163,8 @@ class Search:
 
     def predicted(self, coordinates: np.ndarray) -> np.ndarray:
         """Coefficients at natural coordinates."""
-        return np.asarray(coefficients(self.scene, self.state, self.rheology, jnp.asarray(coordinates)))
+        every = coefficients(self.scene, self.batch, self.rheology, jnp.asarray(coordinates))
+        return np.asarray(every)[: self.count]
 
     def optimised(self, problem: Problem, starts: np.ndarray) -> tuple[Problem, Any, Any]:
         """The best of the starts; with a robust loss or errors of the slide ratio the deviations are renewed."""
@@ -143,17 +175,19 @@ class Search:
             best = int(jnp.argmin(jnp.where(jnp.isfinite(found.loss), found.loss, jnp.inf)))
             u = found.u[best]
             if turn + 1 < rounds:
-                slope = np.asarray(slope_over_slide(problem, u)) if self.options.errors.slide_to_roll else 0.0
+                slope = (
+                    np.asarray(slope_over_slide(problem, u))[: self.count] if self.options.errors.slide_to_roll else 0.0
+                )
                 self.deviation = self.options.errors.deviation(self.coefficient, self.curve, slope)
                 if self.options.loss != "linear":
-                    predicted = np.asarray(linearized(problem, u)[0])
+                    predicted = np.asarray(linearized(problem, u)[0])[: self.count]
                     self.scale = scale_of((predicted - self.coefficient) / self.deviation)
-                deviation = jnp.asarray(self.deviation * self.scale * self.bend)
+                deviation = self.fill(self.deviation * self.scale * self.bend)
                 problem = eqx.tree_at(lambda p: p.deviation, problem, deviation)
                 starts = np.tile(np.asarray(u), (len(starts), 1))
         return problem, found, u
 
     def spread(self, problem: Problem, u: Any, free: np.ndarray) -> Spread:
-        _, residual, jacobian = (np.asarray(part) for part in linearized(problem, u))
+        _, residual, jacobian = (np.asarray(part)[: self.count] for part in linearized(problem, u))
         variance = variance_factor(residual, self.options.loss, int(np.sum(free)))
         return spread(jacobian, free, variance, self.options.level)
