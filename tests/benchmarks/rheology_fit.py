@@ -3,8 +3,8 @@
     python tests/benchmarks/rheology_fit.py [--repetitions 200]
 
 Two experiments with known rheology: Mobil Jet II, isothermal, Ree-Eyring (3 temperatures, 2 pressures, 10 slides), and
-Pennzane SHF X2000, thermal, Elsharkawy-Hamrock. (1) Noise-free curves from a start that is 3 times wrong: relative error
-of every parameter. (2) Noise of 2 %, many repetitions: how often the 95 % interval holds the true value, parameter by
+Pennzane SHF X2000, thermal, Elsharkawy-Hamrock. (1) Noise-free curves from a start that is 3 times wrong: relative
+error of every parameter. (2) Noise of 2 %, many repetitions: how often the 95 % interval holds the true value, parameter by
 parameter (seed 20261122, fixed before the first run). (3) Time of one fit by each method, warm, and its loss.
 """
 
@@ -142,26 +142,18 @@ def main() -> None:
     parser.add_argument("--repetitions", type=int, default=200)
     arguments = parser.parse_args()
     print(f"jax {jax.__version__}, {jax.devices()[0].device_kind}, float64")
+    by_name = lambda values: ", ".join(f"{name} {value}" for name, value in zip(NAMES, values, strict=True))
     for name in ("mobil_jet_ii", "pennzane"):
         print(f"\n{name}")
-        print(
-            "  noise-free, relative error:",
-            " ".join(f"{n} {e:.1e}" for n, e in zip(NAMES, recovery(name), strict=True)),
-        )
+        print("  noise-free, relative error:", by_name(f"{error:.1e}" for error in recovery(name)))
         began = time.perf_counter()
         inside, failed = coverage(name, arguments.repetitions)
         took = time.perf_counter() - began
-        print(
-            f"  {arguments.repetitions} repetitions with {100 * NOISE:g} % noise ({took:.0f} s, {failed} not converged):"
-        )
-        print(
-            "  true value in the 95 % interval:",
-            " ".join(f"{n} {100 * v:.1f} %" for n, v in zip(NAMES, inside, strict=True)),
-        )
+        print(f"  {arguments.repetitions} repetitions, {100 * NOISE:g} % noise, {took:.0f} s, {failed} not converged;")
+        print("  true value in the 95 % interval:", by_name(f"{100 * part:.1f} %" for part in inside))
         for method, (cold, warm, steps, loss, converged) in methods(name).items():
-            print(
-                f"  {method:20s} first {cold:5.1f} s, again {warm:6.2f} s, {steps} steps, loss {loss:.10g}, {converged}"
-            )
+            end = "" if converged else ", not converged"
+            print(f"  {method:20s} first {cold:5.1f} s, again {warm:6.2f} s, {steps} steps, loss {loss:.10g}{end}")
 
 
 if __name__ == "__main__":
