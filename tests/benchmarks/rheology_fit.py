@@ -4,8 +4,9 @@
 
 Two experiments with known rheology: Mobil Jet II, isothermal, Ree-Eyring (3 temperatures, 2 pressures, 10 slides), and
 Pennzane SHF X2000, thermal, Elsharkawy-Hamrock. (1) Noise-free curves from a start that is 3 times wrong: relative
-error of every parameter. (2) Noise of 2 %, many repetitions: how often the 95 % interval holds the true value, parameter by
-parameter (seed 20261122, fixed before the first run). (3) Time of one fit by each method, warm, and its loss.
+error of every parameter. (2) Noise of 2 %, many repetitions: how often the 95 % interval holds the true value,
+parameter by parameter (seed 20261122, fixed before the first run). (3) Time of one fit by each method, warm, and its
+loss.
 """
 
 import argparse
@@ -47,10 +48,10 @@ class Table:
     load: None = None
 
 
-def experiment(name: str) -> tuple[TwoDisk, Table]:
-    """Scene with the true oil, and the points of the curves without noise."""
+def experiment(name: str, accuracy: float = 1e-3) -> tuple[TwoDisk, Table]:
+    """Scene with the true oil, and the points of the curves without noise (made and fitted with the same steps)."""
     scene = jb.load_scene(f"two_disk_{name}")
-    traction = dataclasses.replace(scene.contact.traction, resolution=Resolution.for_accuracy(1e-3))
+    traction = dataclasses.replace(scene.contact.traction, resolution=Resolution.for_accuracy(accuracy))
     scene = eqx.tree_at(lambda s: s.contact.traction, scene, traction)
     if name == "mobil_jet_ii":
         temperatures, pressures, speed = (297.0, 340.0, 378.0), (1.05e9, 1.5e9), 21.175
@@ -76,9 +77,9 @@ def three_times_wrong(scene: TwoDisk) -> TwoDisk:
     return eqx.tree_at(lambda s: s.oil.rheology, scene, dataclasses.replace(rheology, **wrong))
 
 
-def recovery(name: str) -> np.ndarray:
+def recovery(name: str, accuracy: float = 1e-3) -> np.ndarray:
     """Relative error of each parameter from noise-free curves."""
-    scene, table = experiment(name)
+    scene, table = experiment(name, accuracy)
     start = three_times_wrong(scene)
     result = fitting.fit(fitting.Measurements.of(table, start), start, fitting.FitOptions(errors=ERRORS))
     assert result.converged, result.failure()
@@ -86,9 +87,9 @@ def recovery(name: str) -> np.ndarray:
     return np.array([result.parameters[n].value for n in NAMES]) / true - 1.0
 
 
-def coverage(name: str, repetitions: int) -> tuple[np.ndarray, int]:
+def coverage(name: str, repetitions: int, accuracy: float = 1e-3) -> tuple[np.ndarray, int]:
     """Part of the repetitions whose interval holds the true value, by parameter; and how many did not converge."""
-    scene, table = experiment(name)
+    scene, table = experiment(name, accuracy)
     rng = np.random.default_rng(SEED)
     noise = rng.normal(size=(repetitions, len(table.slide_to_roll)))
     clean = table.traction_coefficient
