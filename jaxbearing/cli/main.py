@@ -11,6 +11,7 @@ from typing import Annotated, Any
 
 import typer
 
+from .fit_verb import fit
 from .messages import BAD_INPUT, INTERRUPTED, NO_OUTPUT, say
 from .scenes_verb import scenes
 from .solve_verb import solve
@@ -98,5 +99,5 @@ def _options(
     pass
 
 
-for _verb in (scenes, solve):
+for _verb in (scenes, solve, fit):
     app.command()(_verb)

@@ -88,7 +88,7 @@ class HeatFlow:
         if heating.film_heat_capacity is not None:
             self.length = heating.peclet_number(half_width, film, speed, conductivity)
 
-    def step(self, own: Array, width: Array, surface: Array, entering: Array) -> HeatStep:
+    def step(self, own: Values, width: Values, surface: Values, entering: Values) -> HeatStep:
         """Rise of the film in a cell.
 
         **Arguments:** `own`, `width`: of the cell; `surface`: rise of the surface there by the cells before;
@@ -100,27 +100,27 @@ class HeatFlow:
         base = ((1.0 - decay) * surface + (1.0 + ratio) * decay * entering) / divisor
         return HeatStep(base, (1.0 + ratio) * (1.0 - decay) * self.film_resistance / divisor)
 
-    def surface(self, own: Array, before: Array, film_rise: Array) -> tuple[Array, Array]:
+    def surface(self, own: Values, before: Values, film_rise: Values) -> tuple[Array, Array]:
         """Rise of the surface in the cell and flux into it, W/m^2."""
         ratio = self.conductance * self.surface_rise * own
         rise = (before + ratio * film_rise) / (1.0 + ratio)
         return rise, self.conductance * (film_rise - rise)
 
-    def leaving(self, width: Array, entering: Array, film_rise: Array) -> Array:
+    def leaving(self, width: Values, entering: Values, film_rise: Values) -> Array:
         """Rise of the film at the end of the cell, from that at its beginning and its mean."""
         if self.length is None:
-            return film_rise
+            return jnp.asarray(film_rise)
         decay = self._decay(width)
         settled = (film_rise - decay * entering) / (1.0 - decay)
         return settled + (entering - settled) * jnp.exp(-self._folds(width))
 
-    def _folds(self, width: Array) -> Array:
+    def _folds(self, width: Values) -> Array:
         """width/length, at most 700: there the film has long taken its temperature."""
         assert self.length is not None
         short = self.length < width / LARGEST_FOLDS
         return jnp.where(short, LARGEST_FOLDS, width / jnp.where(short, width, self.length))
 
-    def _decay(self, width: Array) -> Array:
+    def _decay(self, width: Values) -> Array:
         """Mean over the cell of exp(-x/length)."""
         if self.length is None:
             return jnp.zeros(())

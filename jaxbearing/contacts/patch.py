@@ -20,7 +20,7 @@ class Strips(NamedTuple):
     `scale` is $p_s/p_0 = a_s/a$, `offset` is y, m, `width` the weight dy, m.
     """
 
-    scale: Float[Array, " strip"]
+    scale: Float[Array, "*#batch strip"]
     offset: Float[Array, "*batch strip"]
     width: Float[Array, "*batch strip"]
 
@@ -66,17 +66,21 @@ class ContactPatch(eqx.Module):
         """
         half_length = jnp.asarray(self.half_length, dtype=float)[..., None]
         if self.line and symmetric:
-            return Strips(jnp.ones(1), jnp.zeros_like(half_length), 2.0 * half_length)
+            one = jnp.ones_like(half_length)
+            return Strips(one, 0.0 * one, 2.0 * half_length)
         nodes, weights = gauss_legendre(count)
         nodes, weights = 2.0 * nodes - 1.0, 2.0 * weights
         if symmetric:
             half = nodes > -1e-12
             weights = np.where(np.abs(nodes) < 1e-12, 1.0, 2.0)[half] * weights[half]
             nodes = nodes[half]
-        if self.line:
-            return Strips(jnp.ones(nodes.size), half_length * nodes, half_length * weights)
-        cosine, sine = np.cos(0.5 * np.pi * nodes), np.sin(0.5 * np.pi * nodes)
-        return Strips(jnp.asarray(cosine), half_length * sine, half_length * (0.5 * np.pi * weights * cosine))
+        scale, offset, width = np.ones_like(nodes), nodes, weights
+        if not self.line:
+            scale, offset = np.cos(0.5 * np.pi * nodes), np.sin(0.5 * np.pi * nodes)
+            width = 0.5 * np.pi * weights * scale
+        rows = (jnp.asarray(row.reshape((1,) * (half_length.ndim - 1) + (-1,))) for row in (scale, offset, width))
+        scale, offset, width = rows
+        return Strips(scale, half_length * offset, half_length * width)
 
 
 def contact_patch(contact: LineContact | PointContact, load: Values) -> ContactPatch:

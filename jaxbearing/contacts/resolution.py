@@ -35,8 +35,8 @@ class Resolution(NamedTuple):
 
 PRESETS = {
     1e-2: Resolution(16, 8),
-    1e-3: Resolution(48, 12),
-    1e-4: Resolution(64, 16, extrapolate=True),
+    1e-3: Resolution(40, 16),
+    1e-4: Resolution(128, 24),
     1e-6: Resolution(256, 24, extrapolate=True),
 }
 """Relative error of the forces -> resolution."""

@@ -101,10 +101,10 @@ def relaxed_stress(
     - `half_step`: $k/G$, half the step in time, s.
     - `stress`, `rate`: at the beginning of the step, Pa, and in it, 1/s; the first axis holds one or two components.
     """
-    trial = stress + (half_step * oil.modulus) * rate
-    unit = trial / oil.stress
+    trial = stress + (half_step * oil.modulus)[None] * rate
+    unit = trial / oil.stress[None]
     size = jnp.sqrt(jnp.sum(jnp.square(unit), axis=0) + TRIAL_FLOOR**2)
-    return trial * (viscous.relaxed_stress_ratio(size, half_step * oil.frequency) / size)
+    return trial * (viscous.relaxed_stress_ratio(size, half_step * oil.frequency) / size)[None]
 
 
 def viscous_stress(
@@ -113,7 +113,7 @@ def viscous_stress(
     """Stress of steady flow, the limit without elasticity. **Arguments:** as `relaxed_stress`."""
     if rate.shape[0] == 1:
         scale = oil.log_viscosity - oil.log_stress
-        return jnp.exp(oil.log_stress) * viscous.stress_ratio_of_scaled(scale, rate[0])[None]
+        return (jnp.exp(oil.log_stress) * viscous.stress_ratio_of_scaled(scale, rate[0]))[None]
     size = jnp.sqrt(jnp.sum(jnp.square(rate), axis=0) + jnp.finfo(float).tiny)
     ratio = viscous.stress_ratio_of_scaled(oil.log_viscosity - oil.log_stress, size)
-    return rate * (jnp.exp(oil.log_stress) * ratio / size)
+    return rate * (jnp.exp(oil.log_stress) * ratio / size)[None]

@@ -7,6 +7,7 @@ import equinox as eqx
 import jax
 import jax.numpy as jnp
 import numpy as np
+from jax.core import Tracer
 from jaxtyping import Array, Bool, Float, Int
 
 from .._scene import AbstractScene, label, number, optional_number
@@ -149,7 +150,7 @@ def _require_each(name: str, values: Any, allowed: str) -> None:
         return
     if np.ndim(values) != 1 or np.size(values) == 0:
         raise ValueError(f"operation.{name} must be a number or a list of them, got the shape {np.shape(values)}")
-    if isinstance(values, jax.core.Tracer):
+    if isinstance(values, Tracer):
         return
     wrong = [float(value) for value in np.asarray(values) if not (np.isfinite(value) and RANGES[allowed](value))]
     if wrong:
@@ -225,9 +226,10 @@ class TwoDiskSolution(eqx.Module):
         if len(point) != 4:
             return ""
         operation = self.operation
-        axes = (operation.temperature, operation.entrainment_speed, self.pressure, operation.slide_to_roll)
-        t, u, p, s = (float(np.asarray(axis)[i]) for axis, i in zip(axes, point, strict=True))
-        return f" at temperature {t:g} K, entrainment_speed {u:g} m/s, pressure {p:g} Pa, slide_to_roll {s:g}"
+        name, unit = ("load", "N") if operation.pressure is None else ("pressure", "Pa")
+        axes = (operation.temperature, operation.entrainment_speed, getattr(operation, name), operation.slide_to_roll)
+        t, u, q, s = (float(np.asarray(axis)[i]) for axis, i in zip(axes, point, strict=True))
+        return f" at temperature {t:g} K, entrainment_speed {u:g} m/s, {name} {q:g} {unit}, slide_to_roll {s:g}"
 
     def raise_if_failed(self) -> None:
         """Does nothing while JAX traces. **Raises:** `SolveError`."""
@@ -309,7 +311,8 @@ class TwoDisk(AbstractScene):
     ) -> DiskState:
         """Patch, film and temperatures at points, which broadcast against each other: all that does not depend on the
         oil's rheology. **Arguments:** as in `DiskOperation`."""
-        contact = self.hertz
+        # film and thermal factor fit the kind of contact: checked when the scene is made
+        contact: Any = self.hertz
         load = contact.load_at_pressure(pressure) if load is None else load
         slide_to_roll, speed, temperature, load = jnp.broadcast_arrays(
             *(jnp.asarray(v, dtype=float) for v in (slide_to_roll, entrainment_speed, temperature, load))
@@ -363,7 +366,8 @@ def solve_two_disk(scene: TwoDisk, options: Any = None) -> TwoDiskSolution:
         residual = jnp.maximum(residual, traction.inner_residual)
     coefficient = traction.rolling / grid[2]
     good = (residual <= INNER_TOLERANCE) & jnp.isfinite(coefficient)
-    shown = lambda field: None if field is None else jnp.where(good, field, jnp.nan)
+    shown = lambda field: jnp.where(good, field, jnp.nan)
+    modelled = lambda field: None if field is None else shown(field)
     excess = _range_excess(scene, contact, load)
     excess |= {
         "oil in the contacts beyond 200 degC: the oil laws are extrapolated": _hottest_excess(
@@ -371,7 +375,7 @@ def solve_two_disk(scene: TwoDisk, options: Any = None) -> TwoDiskSolution:
         )
     }
     return TwoDiskSolution(
-        status=jnp.where(good, int(Status.CONVERGED), int(Status.NOT_CONVERGED)),
+        status=jnp.where(good, np.int64(Status.CONVERGED), np.int64(Status.NOT_CONVERGED)),
         operation=operation,
         pressure=contact.hertz_pressure(load),
         load=jnp.asarray(load),
@@ -381,8 +385,8 @@ def solve_two_disk(scene: TwoDisk, options: Any = None) -> TwoDiskSolution:
         inlet_temperature=shown(temperature),
         power=shown(traction.power),
         inner_residual=residual,
-        film_rise=shown(traction.film_rise),
-        surface_rise=shown(traction.surface_rise),
+        film_rise=modelled(traction.film_rise),
+        surface_rise=modelled(traction.surface_rise),
         checks={text: value > 0 for text, value in excess.items()},
         notes=scene.assumptions(),
     )

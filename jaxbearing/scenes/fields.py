@@ -15,7 +15,7 @@ class Names:
 
     names: tuple[str, ...] = ()
     not_yet: Mapping[str, str] = field(default_factory=dict)
-    instead: Mapping[str, str] = field(default_factory=dict)
+    instead: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
 
 
 def is_tag(part: int | str) -> bool:
@@ -33,7 +33,7 @@ def names_at(model: type[BaseModel], location: Sequence[int | str]) -> Names:
     models = _models_at(model, location)
     names = dict.fromkeys(name for candidate in models for name in candidate.model_fields)
     not_yet: dict[str, str] = {}
-    instead: dict[str, str] = {}
+    instead: dict[str, tuple[str, ...]] = {}
     for candidate in models:
         not_yet.update(getattr(candidate, "not_yet", {}))
         instead.update(getattr(candidate, "instead", {}))

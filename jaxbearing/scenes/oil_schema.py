@@ -1,6 +1,6 @@
 """The oil of a scene file: one table a law, each with `law = "..."`; the parameters are those of the classes."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Annotated, Any, ClassVar, Literal, Self
 
 from pydantic import BeforeValidator, ConfigDict, Discriminator, Tag, model_validator
@@ -14,10 +14,15 @@ VISCOSITY_LAWS = ("modified_wlf", "barus", "roelands", "constant", "two_viscosit
 PRESSURE_VISCOSITY_LAWS = ("constant", "fitted", "integrated")
 SMALLEST_ROELANDS_VISCOSITY = 6.32e-5
 """exp(-9.67) Pa s, rounded up."""
+DOCUMENTATION = ("name", "file", "description", "law", "sources", "note")
+"""Names in an oil table and in the tables of its laws that are no parameters."""
 ROELANDS_POLE = 138.0
 """K."""
 SMALLEST_WALTHER_VISCOSITY = 0.3e-6
 """m^2/s."""
+
+
+_LAWS = ("viscosity", "pressure_viscosity", "rheology", "density", "conductivity")
 
 
 class Law(Table):
@@ -250,9 +255,12 @@ def _oil_name(value: Any) -> str:
 
 
 class OilTable(Table):
-    """`name` takes the laws of an oil of the catalogue; further tables replace or amend them."""
+    """`name` takes the laws of an oil of the catalogue, `file` those of an oil file; further tables replace or amend
+    them. A `--set` of the file is of the whole oil."""
 
+    instead: ClassVar[Mapping[str, tuple[str, ...]]] = {"name": ("file",), "file": ("name", "description", *_LAWS)}
     name: Annotated[str, BeforeValidator(_oil_name)] | None = None
+    file: str | None = None
     description: str | None = None
     viscosity: Viscosity | None = None
     pressure_viscosity: PressureViscosity | None = None
@@ -262,8 +270,11 @@ class OilTable(Table):
 
     @model_validator(mode="after")
     def _complete(self) -> Self:
+        if self.name is not None and self.file is not None:
+            raise refusal_at("file", "none beside 'name': one of the two", units.describe(self.file))
         if self.viscosity is None:
-            raise refusal_at("viscosity", "the law of viscosity, or the 'name' of an oil of the catalogue", "nothing")
+            expected = "the law of viscosity, the 'name' of an oil of the catalogue, or the 'file' of an oil"
+            raise refusal_at("viscosity", expected, "nothing")
         if isinstance(self.viscosity, TwoViscositiesTable) and self.density is None:
             expected = "a density, which makes the kinematic viscosities of 'two_viscosities' dynamic ones, e.g. "
             raise refusal_at("density", expected + "density = '870 kg/m^3'", "nothing")

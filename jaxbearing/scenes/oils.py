@@ -26,7 +26,9 @@ from ..lubricants import (
 )
 from .data_files import oil_names, oil_text
 from .errors import SceneError, from_validation, nearest, one_of
+from .oil_files import base_of
 from .oil_schema import (
+    DOCUMENTATION,
     BarusTable,
     ConstantPressureViscosityTable,
     ConstantViscosityTable,
@@ -48,7 +50,6 @@ VISCOSITIES: dict[type[Law], type[AbstractViscosity]] = {
 }
 ROOM_TEMPERATURE = 293.15
 """K; reference of a linear law without a slope, where it has no effect."""
-_DOCUMENTATION = {"law", "sources", "note"}
 
 
 def load_oil(name: str) -> Lubricant:
@@ -71,18 +72,20 @@ def oil_data(name: str) -> dict[str, Any]:
 
 
 def with_catalogue(oil: Mapping[str, Any]) -> dict[str, Any]:
-    """An oil table together with what its `name` stands for; what the table itself says prevails.
+    """An oil table together with what its `name` or its `file` stands for; what the table itself says prevails.
 
     A law table without `law`, or with the law of the catalogue, changes single parameters; with another law it
     replaces the catalogue's. The catalogue's pressure-viscosity coefficient belongs to its viscosity: where that is
-    changed, the coefficient is integrated anew. An unknown name is left for the validation to refuse.
+    changed, the coefficient is integrated anew. The same goes for the laws of a file. An unknown name is left for the
+    validation to refuse.
+
+    **Raises:** `SceneError` for a file that cannot be read or is not an oil.
     """
-    name = oil.get("name")
-    if not isinstance(name, str) or name not in oil_names():
+    merged = base_of(oil)
+    if merged is None:
         return dict(oil)
-    merged = oil_data(name)
     if "viscosity" in oil and _changes(oil["viscosity"], merged["viscosity"]):
-        del merged["pressure_viscosity"]
+        merged.pop("pressure_viscosity", None)
     for key, own in oil.items():
         theirs = merged.get(key)
         if isinstance(own, Mapping) and isinstance(theirs, Mapping) and own.get("law", theirs["law"]) == theirs["law"]:
@@ -107,7 +110,7 @@ def missing_sources(data: Mapping[str, Any]) -> list[str]:
     for law, table in data.items():
         if isinstance(table, Mapping):
             sources = table.get("sources", {})
-            named = set(table) - _DOCUMENTATION
+            named = set(table) - set(DOCUMENTATION)
             missing += [f"{law}.{key}" for key in sorted(named) if not sources.get("all", sources.get(key))]
     return missing
 
@@ -163,5 +166,5 @@ def _linear(law: float | Law) -> dict[str, Any]:
 
 def _parameters(law: Law) -> dict[str, Any]:
     # numpy scalars are leaves of the scene; plain Python floats would be compiled in as constants
-    given = law.model_dump(exclude=_DOCUMENTATION, exclude_none=True)
+    given = law.model_dump(exclude=set(DOCUMENTATION), exclude_none=True)
     return {name: np.float64(value) if isinstance(value, float) else value for name, value in given.items()}

@@ -7,9 +7,9 @@ from typing import Any
 
 from pydantic import BaseModel
 
-from .data_files import oil_names, oil_text
 from .errors import SceneError, describe_at, unknown_name
 from .fields import is_known, names_at
+from .oil_files import base_of
 
 REMOVE = "none"
 """The value that takes an optional table or field out of the scene."""
@@ -54,6 +54,9 @@ def apply(raw: Mapping[str, Any], overrides: Mapping[str, str], model: type[Base
     """
     changed = _copy(raw)
     for path, text in overrides.items():
+        if text != REMOVE:
+            _take_others_out(changed, path.split("."), model)
+    for path, text in overrides.items():
         keys = path.split(".")
         if text == REMOVE:
             _remove(changed, keys, path, model, file)
@@ -62,10 +65,17 @@ def apply(raw: Mapping[str, Any], overrides: Mapping[str, str], model: type[Base
         for depth, key in enumerate(keys[:-1]):
             table = _table(table.setdefault(key, {}), changed, keys[: depth + 1], path, file)
         table[keys[-1]] = parse_value(text)
-        other = names_at(model, keys[:-1]).instead.get(keys[-1])
-        if other is not None and ".".join([*keys[:-1], other]) not in overrides:
-            table.pop(other, None)
     return changed
+
+
+def _take_others_out(changed: dict[str, Any], keys: list[str], model: type[BaseModel]) -> None:
+    """What the file has of the fields that a field replaces; an override may put them in again."""
+    table: Any = changed
+    for key in keys[:-1]:
+        table = table.get(key) if isinstance(table, dict) else None
+    for other in names_at(model, keys[:-1]).instead.get(keys[-1], ()):
+        if isinstance(table, dict):
+            table.pop(other, None)
 
 
 def _remove(changed: dict[str, Any], keys: list[str], path: str, model: type[BaseModel], file: str) -> None:
@@ -85,16 +95,16 @@ def _remove(changed: dict[str, Any], keys: list[str], path: str, model: type[Bas
 
 
 def _keep_catalogue(changed: dict[str, Any], keys: list[str], path: str, file: str) -> None:
-    """**Raises:** `SceneError` where the name of the oil would bring back what is taken out."""
+    """**Raises:** `SceneError` where the name or the file of the oil would bring back what is taken out."""
     oil = changed.get("oil")
-    name = oil.get("name") if keys[0] == "oil" and isinstance(oil, dict) else None
-    if len(keys) < 2 or keys[1] == "name" or name not in oil_names():
+    if len(keys) < 2 or keys[0] != "oil" or keys[1] in ("name", "file") or not isinstance(oil, dict):
         return
-    found: Any = tomllib.loads(oil_text(name))
+    found: Any = base_of(oil)
     for key in keys[1:]:
         found = found.get(key) if isinstance(found, dict) else None
     if found is not None:
-        expected = f"another value: the catalogue's {name} has one, and comes back without yours"
+        whose = f"the catalogue's {oil['name']}" if "name" in oil else f"the oil file {oil['file']}"
+        expected = f"another value: {whose} has one, and comes back without yours"
         raise SceneError(file, path, f"'{REMOVE}'", expected)
 
 

@@ -1,7 +1,5 @@
 """From a scene file, or the name of a built-in scene, to a scene."""
 
-import re
-import tomllib
 from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any
@@ -11,10 +9,12 @@ from pydantic import BaseModel, ValidationError
 from .._scene import AbstractScene
 from .data_files import builtin_names, builtin_summary, builtin_text
 from .errors import SceneError, from_class, from_validation, nearest, one_of
+from .oil_files import Origin, origins
 from .oils import with_catalogue
 from .overrides import REMOVE, apply, parse_value
 from .roller_build import cylindrical_roller_bearing
 from .roller_schema import CylindricalRollerTable
+from .toml_files import parse_toml, read_text
 from .two_disk_build import two_disk
 from .two_disk_schema import TwoDiskTable
 from .units import describe, shortened
@@ -36,12 +36,21 @@ def load_scene(source: str | Path, overrides: Mapping[str, str] | None = None) -
     **Arguments:**
     - `source`: path of a TOML file, or one of `builtin_names()`.
     - `overrides`: dotted path of a field -> value as it would be typed, {"operation.inner_speed": "12000 rpm"}; the
-      value "none" takes an optional table or field out.
+      value "none" takes an optional table or field out. `oil.file` is relative to the working folder here, and to the
+      file's own folder in a scene file.
 
     **Raises:** `SceneError` with file, field, what was found and what is expected.
     """
-    label, text = _read(source)
-    return scene_from_mapping(_parse(text, label), label, overrides)
+    label, mapping = _read(source)
+    return scene_from_mapping(mapping, label, overrides)
+
+
+def oil_origins(source: str | Path, overrides: Mapping[str, str] | None = None) -> dict[str, Origin]:
+    """Where the laws of the oil come from, for a scene that `load_scene` takes with the same arguments."""
+    label, mapping = _read(source)
+    overrides = overrides or {}
+    model, _ = _schema(mapping, overrides, label)
+    return origins(apply(mapping, overrides, model, label).get("oil", {}), label)
 
 
 def scene_from_mapping(
@@ -53,16 +62,22 @@ def scene_from_mapping(
     """
     overrides = overrides or {}
     try:
-        kind = mapping.get("kind")
-        if "kind" in overrides:
-            kind = None if overrides["kind"] == REMOVE else parse_value(overrides["kind"])
-        model, build = _SCHEMAS[_known_kind(kind, mapping, origin)]
+        model, build = _schema(mapping, overrides, origin)
         return _build(apply(mapping, overrides, model, origin), model, build, origin)
     except SceneError as error:
         culprit = next((path for path in overrides if _related(path, error.path)), None)
         if culprit is None or error.file != origin:
             raise
         raise error.of(f"{origin} with --set {culprit}={shortened(overrides[culprit])}") from None
+
+
+def _schema(
+    mapping: Mapping[str, Any], overrides: Mapping[str, str], origin: str
+) -> tuple[type[BaseModel], Callable[[Any], AbstractScene]]:
+    kind = mapping.get("kind")
+    if "kind" in overrides:
+        kind = None if overrides["kind"] == REMOVE else parse_value(overrides["kind"])
+    return _SCHEMAS[_known_kind(kind, mapping, origin)]
 
 
 def _build(
@@ -84,50 +99,22 @@ def _related(a: str, b: str) -> bool:
     return f"{a}.".startswith(f"{b}.") or f"{b}.".startswith(f"{a}.")
 
 
-def _read(source: str | Path) -> tuple[str, str]:
-    """Name for messages, and text."""
+def _read(source: str | Path) -> tuple[str, dict[str, Any]]:
+    """Name for messages, and tables."""
+    label = str(source)
     if isinstance(source, str) and source in builtin_names():
-        return source, builtin_text(source)
-    path, label = Path(source), str(source)
-    expected = f"a scene file, or a built-in scene ({', '.join(builtin_names())})"
-    try:
-        return label, path.read_bytes().decode("utf-8-sig")
-    except FileNotFoundError:
-        near = nearest(path.name.removesuffix(".toml"), builtin_names())
-        raise SceneError(label, "", "no such file", expected, near) from None
-    except IsADirectoryError:
-        raise SceneError(label, "", "a folder", expected) from None
-    except UnicodeDecodeError as error:
-        found = f"bytes that are not UTF-8 text (at byte {error.start})"
-        raise SceneError(label, "", found, "a TOML file in UTF-8") from None
-    except (OSError, ValueError) as error:
-        # ValueError: a path with a null byte
-        reason = getattr(error, "strerror", None) or str(error)
-        raise SceneError(label, "", f"a file that cannot be read: {reason}", expected) from None
+        text = builtin_text(source)
+    else:
+        text = read_text(source, f"a scene file, or a built-in scene ({', '.join(builtin_names())})", builtin_names())
+    return label, _beside(parse_toml(text, label, f"a scene that begins with {_KIND_EXAMPLE}"), Path(source).parent)
 
 
-def _parse(text: str, label: str) -> dict[str, Any]:
-    if not text.strip():
-        raise SceneError(label, "", "an empty file", f"a scene that begins with {_KIND_EXAMPLE}")
-    try:
-        return tomllib.loads(text)
-    # ValueError: also a number of thousands of digits
-    except ValueError as error:
-        path = _path_near(text, str(error))
-        raise SceneError(label, path, f"a TOML syntax error, {error}", "a valid TOML file") from None
-    except RecursionError:
-        raise SceneError(label, "", "tables nested too deeply", "a valid TOML file") from None
-
-
-def _path_near(text: str, message: str) -> str:
-    """Dotted path of the field on the line that a syntax error names, as far as it can be read."""
-    match = re.search(r"at line (\d+)", message)
-    if match is None and "end of document" not in message:
-        return ""
-    lines = text.splitlines()[: int(match[1]) if match else None]
-    headers = [found[1] for line in lines if (found := re.match(r"\s*\[\s*([\w.]+)\s*\]", line))]
-    key = re.match(r"\s*([\w.]+)\s*=", lines[-1]) if lines else None
-    return ".".join(headers[-1:] + ([key[1]] if key else []))
+def _beside(mapping: dict[str, Any], folder: Path) -> dict[str, Any]:
+    """The tables of a file in this folder, with the path of the oil's file as it is seen from here."""
+    oil = mapping.get("oil")
+    if not (isinstance(oil, dict) and isinstance(oil.get("file"), str)):
+        return mapping
+    return {**mapping, "oil": {**oil, "file": str(folder / oil["file"])}}
 
 
 def _known_kind(kind: Any, mapping: Mapping[str, Any], origin: str) -> str:

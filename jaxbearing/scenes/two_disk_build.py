@@ -1,6 +1,8 @@
 """From a valid table of a two-disk machine to the scene of the library. Only Python and numpy numbers enter the
 constructors: nothing runs on JAX."""
 
+from typing import Any
+
 from ..contacts import DistributedTraction, FilmHeating, GivenCompliance, Resolution
 from ..lubricants import Lubricant
 from ..machines import DiskGeometry, DiskMaterials, DiskOperation, TwoDisk, TwoDiskLaws
@@ -45,5 +47,6 @@ def _laws(table: TwoDiskContactTable, oil: Lubricant) -> TwoDiskLaws:
 
 def _operation(table: DiskOperationTable) -> DiskOperation:
     slide = table.slide_to_roll
-    values = {name: given for name, given in table if name != "slide_to_roll"}
-    return DiskOperation(slide_to_roll=slide.values() if isinstance(slide, SlideRange) else slide, **values)
+    values: dict[str, Any] = dict(table)
+    values["slide_to_roll"] = slide.values() if isinstance(slide, SlideRange) else slide
+    return DiskOperation(**values)

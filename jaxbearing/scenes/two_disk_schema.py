@@ -119,7 +119,7 @@ ISOVISCOUS = {"film": ("moes", "nijenbanning")}
 
 
 class DiskOperationTable(Table):
-    instead: ClassVar[Mapping[str, str]] = {"pressure": "load", "load": "pressure"}
+    instead: ClassVar[Mapping[str, tuple[str, ...]]] = {"pressure": ("load",), "load": ("pressure",)}
     slide_to_roll: SlideField
     entrainment_speed: units.PositiveSurfaceSpeeds
     temperature: units.Temperatures

@@ -190,8 +190,15 @@ def quantity(given: Any, dimension: Dimension, bound: str = "") -> float:
     return value
 
 
-def _quantity(dimension: Dimension, bound: str = "") -> BeforeValidator:
-    return BeforeValidator(lambda given: quantity(given, dimension, bound))
+@dataclass(frozen=True, slots=True)
+class QuantityValidator(BeforeValidator):
+    """Validator of a dimensional field; whoever writes files reads the dimension from it."""
+
+    dimension: Dimension | None = None
+
+
+def _quantity(dimension: Dimension, bound: str = "") -> QuantityValidator:
+    return QuantityValidator(lambda given: quantity(given, dimension, bound), dimension=dimension)
 
 
 def several(given: Any, read: Callable[[Any], float], expected: str) -> tuple[float, ...]:

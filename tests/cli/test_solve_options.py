@@ -115,7 +115,7 @@ def test_a_place_that_cannot_be_written(options, jaxbearing_command, folder, mon
     def refuse(*_, **__):
         raise PermissionError(13, "Permission denied")
 
-    monkeypatch.setattr("jaxbearing.cli.solve_verb.tempfile.TemporaryFile", refuse)
+    monkeypatch.setattr("jaxbearing.cli.output_files.tempfile.TemporaryFile", refuse)
     result = jaxbearing_command(*DRY, *options)
     assert (result.code, result.out) == (1, "")
     assert result.err == f"error: the output cannot be written: {options[-1]}: Permission denied\n"

@@ -8,7 +8,9 @@ import pytest
 
 from jaxbearing.contacts import BairWiner, ElsharkawyHamrock, GecimWiner, ReeEyring
 
-LAWS = [ReeEyring(), BairWiner(), GecimWiner()] + [ElsharkawyHamrock(jnp.asarray(n)) for n in (0.5, 1.0, 2.0, 3.0, 20.0)]
+LAWS = [ReeEyring(), BairWiner(), GecimWiner()] + [
+    ElsharkawyHamrock(jnp.asarray(n)) for n in (0.5, 1.0, 2.0, 3.0, 20.0)
+]
 IDS = lambda law: law.name + str(getattr(law, "exponent", ""))  # new law: add a line above, get every test
 SIZE = 4096
 # the law is an argument and all arrays have the same length, so that tests and exponents share a compilation
@@ -89,7 +91,9 @@ def test_against_mpmath(law):
     found = slopes(law, trial, relaxation)
     # the slope over trial falls from 1 to 0 near trial = 1, and trial - 1 = 1e-6 is known to 1e-10
     np.testing.assert_allclose(found[0], by_trial, rtol=1e-9, atol=1e-9)
-    np.testing.assert_allclose(found[1] * relaxation / stress, by_relaxation * relaxation / stress, rtol=1e-9, atol=1e-9)
+    np.testing.assert_allclose(
+        found[1] * relaxation / stress, by_relaxation * relaxation / stress, rtol=1e-9, atol=1e-9
+    )
 
 
 @pytest.mark.parametrize("law", LAWS, ids=IDS)

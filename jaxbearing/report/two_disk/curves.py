@@ -12,7 +12,8 @@ from ...machines import TwoDiskSolution
 class Curve(NamedTuple):
     """Where one curve is in the arrays of a solution, and its operating point, SI."""
 
-    index: tuple[int, int, int]
+    place: tuple[int, ...]
+    """Indices of temperature, speed and load."""
     temperature: float
     entrainment_speed: float
     pressure: float
@@ -22,7 +23,7 @@ class Curve(NamedTuple):
 
     def of(self, values: Any) -> np.ndarray:
         """This curve's part of a result, over the slide-to-roll ratio."""
-        return np.asarray(values)[self.index]
+        return np.asarray(values)[self.place]
 
 
 def curves_of(solution: TwoDiskSolution) -> Iterator[Curve]:
@@ -33,6 +34,6 @@ def curves_of(solution: TwoDiskSolution) -> Iterator[Curve]:
     axes = [np.asarray(axis) for axis in (operation.temperature, operation.entrainment_speed, solution.pressure)]
     load = np.asarray(solution.load)
     slowest = int(np.argmin(np.abs(np.asarray(operation.slide_to_roll))))
-    for index in itertools.product(*(range(axis.size) for axis in axes)):
-        temperature, speed, pressure = (float(axis[i]) for axis, i in zip(axes, index, strict=True))
-        yield Curve(index, temperature, speed, pressure, float(load[index[2]]), slowest)
+    for place in itertools.product(*(range(axis.size) for axis in axes)):
+        temperature, speed, pressure = (float(axis[i]) for axis, i in zip(axes, place, strict=True))
+        yield Curve(place, temperature, speed, pressure, float(load[place[2]]), slowest)

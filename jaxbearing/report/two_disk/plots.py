@@ -29,7 +29,7 @@ def plot_two_disk(solution: TwoDiskSolution, title: str) -> "matplotlib.figure.F
         raise ValueError(f"a solve that failed has no results: {solution.failure()}")
     from ..page import Page
 
-    places = list(dict.fromkeys(curve.index[:2] for curve in curves))
+    places = list(dict.fromkeys(curve.place[:2] for curve in curves))
     left_out = [] if len(places) <= PANELS else [f"{PANELS} of {len(places)} pairs of temperature and speed are shown"]
     places = places[:PANELS]
     rows, columns = _layout(places)
@@ -45,7 +45,7 @@ def plot_two_disk(solution: TwoDiskSolution, title: str) -> "matplotlib.figure.F
     for number, place in enumerate(places):
         axes = figure.add_subplot(grid[divmod(number, columns)], sharex=first, sharey=first)
         first = axes if first is None else first
-        _plot_panel(axes, solution, [curve for curve in curves if curve.index[:2] == place])
+        _plot_panel(axes, solution, [curve for curve in curves if curve.place[:2] == place])
         if number % columns == 0:
             axes.set_ylabel("traction coefficient", fontsize=9)
         if number >= len(places) - columns:

@@ -72,10 +72,9 @@ def _print_curves(solution: TwoDiskSolution, curves: list[Curve], console: Conso
     for piece in pieces(first, columns, console.width):
         print_table(piece, [0.0] * len(curves), 0, "", console)
     smallest = _percent(float(np.asarray(solution.operation.slide_to_roll)[curves[0].slowest]))
-    text = (
-        f"Film h, Deborah number D and inlet rise at {smallest}; film rise: the largest. The other columns: traction "
-    )
-    text += "coefficient at the slide-to-roll ratio above them."
+    shown = ["film h", "Deborah number D", *(["inlet rise"] if "inlet\nrise K" in state else [])]
+    largest = "; film rise: the largest" if "film\nrise K" in state else ""
+    text = f"Traction coefficient at the slide-to-roll ratios above; {', '.join(shown)} at {smallest}{largest}."
     console.print(Padding(Text(text, style="dim"), (0, 2)))
 
 

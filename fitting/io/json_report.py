@@ -1,0 +1,72 @@
+"""A fit as plain numbers and texts in SI units, ready for `json.dumps`."""
+
+from collections.abc import Iterable
+from typing import Any
+
+import numpy as np
+
+from jaxbearing.report.plain import plain
+
+from ..comparison import ModelRow
+from ..result import FitResult
+
+
+def fit_to_dict(
+    result: FitResult,
+    data: str = "",
+    scene: str = "",
+    notes: Iterable[str] = (),
+    oil: str | None = None,
+    comparison: Iterable[ModelRow] = (),
+) -> dict[str, Any]:
+    """All results of a fit, SI units; numbers that are not finite are `None`.
+
+    **Arguments:**
+    - `data`, `scene`: names of the file and the scene.
+    - `notes`: of the file and the scene, said after those of the fit.
+    - `oil`: file that the oil was written to.
+    - `comparison`: of several models, of which this is the best.
+
+    Where the fit did not converge its numbers are `None`: where an iteration stopped is not a result.
+    """
+    good = result.converged
+    shown = lambda value: plain(value) if good else None
+    parameters = {
+        name: {
+            "value": plain(found.value) if good or found.fixed else None,
+            "standard_error": shown(found.standard_error),
+            "lower": shown(found.lower),
+            "upper": shown(found.upper),
+            "fixed": found.fixed,
+            "reason": found.reason,
+        }
+        for name, found in result.parameters.items()
+    }
+    curves = [curve._asdict() | {"rms": curve.rms if good else None} for curve in result.curves]
+    results = {
+        "converged": good,
+        "status": "converged" if good else "not_converged",
+        "rms": shown(result.rms),
+        "parameters": parameters,
+        "unidentifiable": list(result.unidentifiable),
+        "data": data,
+        "scene": scene,
+        "points": len(result.predicted),
+        "outliers": int(np.sum(result.outlier)) if good else None,
+        "model": result.model,
+        "method": result.method,
+        "loss": result.options.loss,
+        "steps": result.steps,
+        "starts": {"agreeing": result.starts[0], "total": result.starts[1]},
+        "level": result.level,
+        "condition": shown(result.condition),
+        "aic": shown(result.aic),
+        "bic": shown(result.bic),
+        "fitted": list(result.fitted),
+        "correlation": shown(result.correlation),
+        "curves": plain(curves),
+        "notes": [*(result.notes if good else [result.failure()]), *notes],
+        "oil": oil,
+    }
+    rows = [row._asdict() for row in comparison]
+    return results | ({"comparison": plain(rows)} if rows else {})

@@ -1,0 +1,80 @@
+"""Options of a fit as a person types them: names, numbers with units, per cent."""
+
+import math
+from collections.abc import Iterable, Sequence
+
+from pydantic_core import PydanticCustomError
+
+from jaxbearing.scenes.errors import SceneError, nearest, one_of
+from jaxbearing.scenes.units import INVERSE_PRESSURE, PRESSURE, TEMPERATURE_DIFFERENCE, Dimension, describe, quantity
+
+from ..parameters import NAMES, POSITIVE, SYMBOLS, UNITS
+
+_BY_SYMBOL: dict[str, str] = dict(zip(SYMBOLS, NAMES, strict=True))
+_DIMENSIONS: dict[str, Dimension] = {"Pa": PRESSURE, "1/Pa": INVERSE_PRESSURE, "K": TEMPERATURE_DIFFERENCE}
+
+
+def choice(option: str, given: str, known: Sequence[str]) -> str:
+    """**Raises:** `SceneError` for what is not one of the known words."""
+    if given not in known:
+        raise SceneError(option, "", describe(given), one_of(known), nearest(given, known))
+    return given
+
+
+def parameter_name(option: str, given: str) -> str:
+    """Name of a parameter, given by its name or its symbol.
+
+    **Raises:** `SceneError`.
+    """
+    return _BY_SYMBOL.get(given) or choice(option, given, (*NAMES, *SYMBOLS))
+
+
+def parameter_names(option: str, given: Iterable[str]) -> tuple[str, ...]:
+    """**Raises:** `SceneError`."""
+    return tuple(dict.fromkeys(parameter_name(option, name) for name in given))
+
+
+def bounds(option: str, given: Iterable[str]) -> dict[str, tuple[float | None, float | None]]:
+    """ "NAME=LOW:HIGH" texts with units, either end empty, as name -> bounds in SI.
+
+    **Raises:** `SceneError`.
+    """
+    found = {}
+    for text in given:
+        name, equals, ends = text.partition("=")
+        low, colon, high = ends.partition(":")
+        if not (equals and colon and (low.strip() or high.strip())):
+            raise SceneError(option, "", describe(text), "NAME=LOW:HIGH, e.g. stress='1 MPa:20 MPa'")
+        name = parameter_name(option, name.strip())
+        pair = (_end(option, name, low), _end(option, name, high))
+        if pair[0] is not None and pair[1] is not None and pair[0] >= pair[1]:
+            raise SceneError(option, name, describe(ends), "a lower bound below the upper one")
+        found[name] = pair
+    return found
+
+
+def _end(option: str, name: str, text: str) -> float | None:
+    if not text.strip():
+        return None
+    index = NAMES.index(name)
+    try:
+        return quantity(text.strip(), _DIMENSIONS[UNITS[index]], "> 0" if POSITIVE[index] else "")
+    except PydanticCustomError as error:
+        context = error.context or {}
+        raise SceneError(option, name, context["found"], context["expected"]) from None
+
+
+def ratio(option: str, given: str, example: str, largest: float = math.inf) -> float:
+    """A number from 0 on, also in per cent, and below `largest`.
+
+    **Raises:** `SceneError`.
+    """
+    number, sign, rest = given.partition("%")
+    try:
+        value = float(number) / (100.0 if sign else 1.0)
+    except ValueError:
+        value = math.nan
+    if rest.strip() or not 0.0 <= value < largest:
+        limit = "" if largest == math.inf else f" and < {largest:g}"
+        raise SceneError(option, "", describe(given), f"a number >= 0{limit}, e.g. {example}")
+    return value

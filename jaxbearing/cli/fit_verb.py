@@ -1,0 +1,273 @@
+"""`jaxbearing fit`: the rheology of an oil from measured traction curves."""
+
+import json
+import sys
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from typing import Annotated, Any
+
+import typer
+
+from .messages import BAD_INPUT, NOT_CONVERGED, bad_input, refuse, say
+from .options import SCENE_HELP, JsonOption, SetOption, labelled
+from .output_files import PICTURES, check_files, writing
+from .terminal import console
+
+ALL = "all"
+Data = Annotated[
+    Path,
+    typer.Argument(
+        metavar="DATA.csv",
+        help="Traction curves: CSV with the columns 'slide_to_roll [%]' and 'traction_coefficient', and 'pressure "
+        "[GPa]' or 'load [N]', 'entrainment_speed [m/s]', 'temperature [degC]', 'curve' where they vary; or a text "
+        "export of a PCS machine.",
+    ),
+]
+Scene = Annotated[
+    str,
+    typer.Option("--scene", metavar="SCENE", help=f"The two-disk machine, its oil and its contact laws. {SCENE_HELP}"),
+]
+Model = Annotated[
+    str | None,
+    typer.Option(
+        "--model",
+        help="Viscous function: ree_eyring, bair_winer, gecim_winer, elsharkawy_hamrock, or all to compare them; the "
+        "scene's if not given.",
+    ),
+]
+Fixed = Annotated[
+    list[str] | None,
+    typer.Option("--fix", metavar="NAME", help="Hold a parameter at the scene's value. May be repeated."),
+]
+Free = Annotated[
+    list[str] | None,
+    typer.Option("--free", metavar="NAME", help="Fit a parameter although the data cannot tell it. May be repeated."),
+]
+Bounds = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--bound", metavar="NAME=LOW:HIGH", help="Bounds, e.g. --bound stress='1 MPa:20 MPa'. May be repeated."
+    ),
+]
+Loss = Annotated[str, typer.Option("--loss", help="linear (least squares), or soft_l1 or cauchy: outliers count less.")]
+Method = Annotated[str, typer.Option("--method", help="levenberg_marquardt, bfgs or gradient_descent.")]
+Starts = Annotated[int, typer.Option("--starts", help="Number of starting points.")]
+RelativeError = Annotated[
+    str, typer.Option("--relative-error", metavar="X", help="Of the traction coefficient, e.g. '2 %'.")
+]
+Floor = Annotated[
+    str | None,
+    typer.Option(
+        "--floor",
+        metavar="X",
+        help="Smallest error of the traction coefficient; a fifth of the relative error of the largest one of a curve "
+        "if not given.",
+    ),
+]
+SlideError = Annotated[
+    str, typer.Option("--slide-error", metavar="X", help="Error of the slide-to-roll ratio, e.g. '1 %'.")
+]
+Level = Annotated[str, typer.Option("--level", help="Confidence of the intervals, e.g. 0.95.")]
+Plot = Annotated[
+    Path | None,
+    typer.Option("--plot", metavar="FILE", help="Draw points, curves and differences; .png, .svg or .pdf."),
+]
+Out = Annotated[
+    Path | None,
+    typer.Option(
+        "--out", metavar="FILE.toml", help="Write the fitted oil, for a scene: [oil] file = ..., --set oil.file=..."
+    ),
+]
+
+
+def fit(
+    data: Data,
+    scene: Scene,
+    changes: SetOption = None,
+    model: Model = None,
+    fixed: Fixed = None,
+    free: Free = None,
+    bounds: Bounds = None,
+    loss: Loss = "linear",
+    method: Method = "levenberg_marquardt",
+    starts: Starts = 3,
+    relative_error: RelativeError = "0.02",
+    floor: Floor = None,
+    slide_error: SlideError = "0",
+    level: Level = "0.95",
+    as_json: JsonOption = False,
+    plot: Plot = None,
+    out: Out = None,
+) -> None:
+    """Shear modulus and stress of an oil from traction curves, with intervals and with what the curves cannot tell.
+
+    Names: shear_modulus (G0), shear_modulus_pressure (alpha_G), shear_modulus_temperature (beta_G), stress (tau0),
+    stress_pressure (alpha_tau), stress_temperature (beta_tau).
+    """
+    with bad_input():
+        from fitting.estimation import METHODS
+        from fitting.io import typed
+        from fitting.loss import LOSSES, Errors
+        from fitting.options import FitOptions
+        from fitting.viscous import VISCOUS
+
+        models = _models(model, list(VISCOUS))
+        options = FitOptions(
+            model=None if model == ALL else model,
+            method=typed.choice("--method", method, METHODS),
+            loss=typed.choice("--loss", loss, LOSSES),
+            errors=Errors(
+                relative=typed.ratio("--relative-error", relative_error, "'2 %'"),
+                floor=None if floor is None else typed.ratio("--floor", floor, "0.0005"),
+                slide_to_roll=typed.ratio("--slide-error", slide_error, "'1 %'"),
+            ),
+            fixed=typed.parameter_names("--fix", fixed or []),
+            free=typed.parameter_names("--free", free or []),
+            bounds=typed.bounds("--bound", bounds or []),
+            starts=starts,
+            level=typed.ratio("--level", level, "0.95", largest=1.0),
+        )
+        _check_options(options)
+        machine, measurements, notes = _loaded(data, scene, changes)
+        check_files((("--plot", plot, PICTURES), ("--out", out, (".toml",))))
+
+    from .cache import enable_compilation_cache
+    from .interrupt import prompt_interrupt
+    from .quiet import without_false_alarms
+
+    label = labelled(scene, changes)
+    enable_compilation_cache()
+    with prompt_interrupt(), without_false_alarms():
+        result, rows = _fitted(measurements, machine, models, options, _silent if as_json else _tell)
+        if result.converged:
+            # files first: what cannot be written is said before results scroll by
+            if out is not None:
+                _write_oil(result, out, data, scene, changes)
+            if plot is not None:
+                _write_plot(result, plot, data, label, notes)
+        _print(result, rows, data, label, notes, out, as_json)
+    if not result.converged:
+        left_out = [str(path) for path in (plot, out) if path is not None]
+        if left_out:
+            typer.echo(f"not written: {', '.join(left_out)}", err=True)
+        if as_json:
+            typer.echo(f"not converged: {data}: {result.failure()}", err=True)
+        raise typer.Exit(NOT_CONVERGED)
+
+
+def _models(given: str | None, known: list[str]) -> list[str | None]:
+    """Viscous functions to fit; `None` for the scene's."""
+    from fitting.io.typed import choice
+
+    if given == ALL:
+        return [*known]
+    return [None if given is None else choice("--model", given, [*known, ALL])]
+
+
+def _check_options(options: Any) -> None:
+    """What is wrong with the options together."""
+    both = [name for name in options.fixed if name in options.free]
+    if both:
+        refuse(f"--free: found '{both[0]}', which --fix holds; expected one of the two")
+    if options.starts < 1:
+        refuse(f"--starts: found {options.starts}; expected a whole number >= 1")
+    if options.level == 0.0:
+        refuse("--level: found 0; expected a number between 0 and 1, e.g. 0.95")
+    if options.errors.relative == 0.0 and not options.errors.floor:
+        refuse("--relative-error: found 0 without a --floor; expected an error > 0, or a --floor > 0")
+
+
+def _loaded(data: Path, scene: str, changes: list[str] | None) -> tuple[Any, Any, list[str]]:
+    """The machine, the measurements, and what is to be said of both."""
+    from fitting.io import CurveError, read_curves
+    from fitting.measurements import MeasurementError, Measurements
+
+    from ..machines import TwoDisk
+    from ..scenes.overrides import split_assignments
+    from ..scenes.reader import load_scene
+
+    machine = load_scene(scene, split_assignments(changes or []))
+    if not isinstance(machine, TwoDisk):
+        refuse(
+            f"--scene: found '{scene}', a {type(machine).__name__}; expected a scene of the kind two_disk, e.g. "
+            "two_disk_mobil_jet_ii"
+        )
+    try:
+        table = read_curves(data)
+        measurements = Measurements.of(table, machine)
+    except CurveError as error:
+        refuse(str(error))
+    except MeasurementError as error:
+        raise typer.Exit(say(f"{data} with the scene {scene}: {error}", BAD_INPUT)) from None
+    return machine, measurements, [*table.notes, *(f"Oil: {note}." for note in machine.oil.notes)]
+
+
+def _fitted(
+    measurements: Any, machine: Any, models: Sequence[str | None], options: Any, tell: Callable[[str], None]
+) -> tuple[Any, Sequence[Any]]:
+    """The fit, or the best of several with their comparison. **Arguments:** `tell`: shows how far it is."""
+    from fitting.fit import fit as fit_one
+
+    if len(models) == 1:
+        return fit_one(measurements, machine, options), ()
+    from fitting.comparison import compare
+
+    results = {}
+    for model in models:
+        # minutes, all together
+        tell(f"fitting {model}")
+        results[str(model)] = fit_one(measurements, machine, options._replace(model=model))
+    tell("comparing")
+    rows = compare(results)
+    return results[rows[0].model], rows
+
+
+def _tell(text: str) -> None:
+    """On a terminal only."""
+    if sys.stdout.isatty():
+        typer.echo(f"{text} ...")
+
+
+def _silent(text: str) -> None:
+    pass
+
+
+def _write_oil(result: Any, out: Path, data: Path, scene: str, changes: list[str] | None) -> None:
+    from fitting.io.oil_file import write_oil
+
+    from ..scenes.overrides import split_assignments
+    from ..scenes.reader import oil_origins
+
+    label = labelled(Path(scene).name, changes)
+    origins = oil_origins(scene, split_assignments(changes or []))
+    with writing(out):
+        write_oil(result, out, data.name, label, origins)
+
+
+def _write_plot(result: Any, plot: Path, data: Path, label: str, notes: list[str]) -> None:
+    from fitting.io.plots import plot_fit
+
+    from ..report.plots import save_plot
+
+    with writing(plot):
+        save_plot(plot_fit(result, data.name, label, notes), plot)
+
+
+def _print(
+    result: Any, rows: Sequence[Any], data: Path, label: str, notes: list[str], out: Path | None, as_json: bool
+) -> None:
+    if as_json:
+        from fitting.io.json_report import fit_to_dict
+
+        oil = str(out) if out is not None and result.converged else None
+        found = fit_to_dict(result, str(data), label, notes, oil, rows)
+        typer.echo(json.dumps(found, allow_nan=False))
+        return
+    from fitting.io.summary import print_comparison, print_fit
+
+    screen = console()
+    print_fit(result, str(data), label, notes, screen)
+    if rows:
+        print_comparison(rows, screen)
+    if out is not None and result.converged:
+        typer.echo(f"wrote {out}: use it with [oil] file = ... or --set oil.file={out}")

@@ -1,0 +1,23 @@
+"""Options that several verbs have."""
+
+from typing import Annotated
+
+import typer
+
+SCENE_HELP = "A scene file (TOML), or the name of a built-in scene."
+SceneArgument = Annotated[str, typer.Argument(metavar="SCENE", help=SCENE_HELP)]
+SetOption = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--set",
+        metavar="PATH=VALUE",
+        help="Change a field of the scene, e.g. --set operation.inner_speed='12000 rpm'; the value none takes an "
+        "optional table or field out. May be repeated.",
+    ),
+]
+JsonOption = Annotated[bool, typer.Option("--json", help="Print one JSON object in SI units, and nothing else.")]
+
+
+def labelled(scene: str, changes: list[str] | None) -> str:
+    """Name of a scene with its changes, as it was typed."""
+    return " ".join([scene, *(f"--set {change}" for change in changes or [])])

@@ -1,0 +1,61 @@
+"""TOML files that a user names: whatever is wrong with one is a single `SceneError`."""
+
+import re
+import tomllib
+from collections.abc import Iterable
+from pathlib import Path
+from typing import Any
+
+from .errors import SceneError, nearest
+
+
+def read_text(path: str | Path, expected: str, near: Iterable[str] = ()) -> str:
+    """Text of a file in UTF-8.
+
+    **Arguments:** `expected`: what should be there, for messages; `near`: names that may be meant by that of a file
+    that does not exist.
+
+    **Raises:** `SceneError`.
+    """
+    path, label = Path(path), str(path)
+    try:
+        return path.read_bytes().decode("utf-8-sig")
+    except FileNotFoundError:
+        raise SceneError(label, "", "no such file", expected, nearest(path.name.removesuffix(".toml"), near)) from None
+    except IsADirectoryError:
+        raise SceneError(label, "", "a folder", expected) from None
+    except UnicodeDecodeError as error:
+        found = f"bytes that are not UTF-8 text (at byte {error.start})"
+        raise SceneError(label, "", found, "a TOML file in UTF-8") from None
+    except (OSError, ValueError) as error:
+        # ValueError: a path with a null byte
+        reason = getattr(error, "strerror", None) or str(error)
+        raise SceneError(label, "", f"a file that cannot be read: {reason}", expected) from None
+
+
+def parse_toml(text: str, label: str, expected: str) -> dict[str, Any]:
+    """The tables of a text. **Arguments:** `label`: of the file; `expected`: what an empty one should hold.
+
+    **Raises:** `SceneError`.
+    """
+    if not text.strip():
+        raise SceneError(label, "", "an empty file", expected)
+    try:
+        return tomllib.loads(text)
+    # ValueError: also a number of thousands of digits
+    except ValueError as error:
+        path = _path_near(text, str(error))
+        raise SceneError(label, path, f"a TOML syntax error, {error}", "a valid TOML file") from None
+    except RecursionError:
+        raise SceneError(label, "", "tables nested too deeply", "a valid TOML file") from None
+
+
+def _path_near(text: str, message: str) -> str:
+    """Dotted path of the field on the line that a syntax error names, as far as it can be read."""
+    match = re.search(r"at line (\d+)", message)
+    if match is None and "end of document" not in message:
+        return ""
+    lines = text.splitlines()[: int(match[1]) if match else None]
+    headers = [found[1] for line in lines if (found := re.match(r"\s*\[\s*([\w.]+)\s*\]", line))]
+    key = re.match(r"\s*([\w.]+)\s*=", lines[-1]) if lines else None
+    return ".".join(headers[-1:] + ([key[1]] if key else []))
