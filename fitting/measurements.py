@@ -74,7 +74,7 @@ def _only(scene: TwoDisk, name: str, column: str) -> float:
     values = np.atleast_1d(np.asarray(getattr(scene.operation, name)))
     if values.size != 1:
         raise MeasurementError(
-            f"operation.{name}: the curves have no column of {column} and the scene gives {values.size} values; "
-            "expected one value in the scene, or a column"
+            f"operation.{name}: found no column of {column} in the curves, and {values.size} values in the scene; "
+            "expected a column, or one value in the scene"
         )
     return float(values[0])

@@ -1,11 +1,15 @@
 """What all scenes share: fields that hold numbers with a label, and copies with other values."""
 
+import abc
 import dataclasses
 from typing import Any, TypeVar
 
 import equinox as eqx
+import jax
+from jaxtyping import Array, Bool
 
 from .numerics.precision import as_float
+from .numerics.status import SolveError
 
 Scene = TypeVar("Scene", bound="AbstractScene")
 
@@ -44,6 +48,40 @@ class AbstractScene(eqx.Module):
     def replace_geometry(self: Scene, **changes: Any) -> Scene:
         """A copy with other dimensions: `scene.replace_geometry(diametral_clearance=30e-6)`."""
         return self.replace({f"geometry.{name}": value for name, value in changes.items()})
+
+
+class AbstractSolution(eqx.Module):
+    """What every result of a steady solve can say about itself: `checks`, text -> whether a law is used beyond its
+    range, and `notes`, what the model assumed or left out."""
+
+    checks: eqx.AbstractVar[dict[str, Bool[Array, ""]]]
+    notes: eqx.AbstractVar[tuple[str, ...]]
+
+    @property
+    @abc.abstractmethod
+    def converged(self) -> Bool[Array, "*batch"]:
+        """Whether there is a result."""
+
+    @abc.abstractmethod
+    def failure(self) -> str:
+        """One sentence on a solve that failed."""
+
+    @property
+    def warnings(self) -> list[str]:
+        """What left the range of a law, and what the model assumed or left out, in words (one solution only)."""
+        return [text for text, broken in self.checks.items() if bool(broken)] + list(self.notes)
+
+    def raise_if_failed(self) -> None:
+        """Does nothing while JAX traces: each lane has its status.
+
+        **Raises:** `SolveError` for a single failed solve.
+        """
+        try:
+            failed = not bool(self.converged)
+        except jax.errors.ConcretizationTypeError:
+            return
+        if failed:
+            raise SolveError(self.failure())
 
 
 def _replaced(part: Any, changes: dict[tuple[str, ...], Any], above: str = "") -> Any:

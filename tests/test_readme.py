@@ -6,6 +6,7 @@ from pathlib import Path
 import pytest
 
 import jaxbearing as jb
+from fitting import Measurements, read_curves
 from jaxbearing.scenes.data_files import builtin_text
 
 README = (Path(__file__).parents[1] / "README.md").read_text(encoding="utf-8")
@@ -49,6 +50,16 @@ def test_oil_table_is_a_scene(tmp_path):
     assert any("estimated" in note for note in scene.assumptions())
     nu = float(scene.oil.viscosity.viscosity(0.0, 313.15)) / 870.0
     assert nu == pytest.approx(68e-6, rel=1e-12)
+
+
+def test_curve_file_is_read(tmp_path):
+    (block,) = re.findall(r"```csv\n(.*?)```", README, flags=re.DOTALL)
+    file = tmp_path / "curves.csv"
+    file.write_text(block, encoding="utf-8")
+    changes = re.findall(r"jaxbearing fit .*? --scene (\w+) --set ([\w.]+)=\"(.*?)\"", README)
+    ((scene, path, value),) = changes
+    measured = Measurements.of(read_curves(file), jb.load_scene(scene, {path: value}))
+    assert measured.slide_to_roll.tolist() == [0.002, 0.01, 0.05]
 
 
 def test_commands_are_one_line_each():

@@ -13,7 +13,7 @@ from typing import Literal
 import equinox as eqx
 
 from .._types import Scalar
-from ..contacts import MeanPressureTraction
+from ..contacts import DistributedTraction, MeanPressureTraction
 from ..gaps import AbstractTurbulence, BlendedTurbulence
 from ..lubricants import Lubricant, NoPressureViscosity
 from ..numerics.checks import known, require
@@ -265,11 +265,8 @@ class CylindricalRollerBearing(AbstractScene):
 def _misfit(contact: ContactLaws, oil: Lubricant) -> list[str]:
     """Laws that were not made for this oil."""
     said = []
-    if isinstance(contact.traction, MeanPressureTraction) and oil.rheology is not None:
-        # a limiting stress is no Eyring stress
-        fitted, used = oil.rheology.viscous_function, contact.traction.viscous.name
-        if fitted not in (None, used):
-            said.append(f"contact.traction is {used}, the oil's rheology was fitted with {fitted}")
+    if isinstance(contact.traction, MeanPressureTraction | DistributedTraction) and oil.rheology is not None:
+        said += oil.rheology.misfit(contact.traction.viscous.name)
     isoviscous = isinstance(oil.pressure_viscosity, NoPressureViscosity)
     if contact.rolling is not None and not contact.rolling.piezoviscous_only and not isoviscous:
         said.append(

@@ -18,6 +18,7 @@ from ..gaps import (
     mixture_density,
     saturated_oil_fraction,
 )
+from ..lubricants.ranges import FITTED_PRESSURE, FITTED_TEMPERATURES
 from ..materials import reduced_modulus
 from ..numerics.arrow import schur_complement
 from ..numerics.newton import NewtonOptions, NewtonResult, newton_solve
@@ -34,10 +35,6 @@ from .roller_equations import (
 )
 from .solution import RING_FREEDOMS, CageState, PowerLoss, RingDisplacement, RollerResults, Solution
 
-TRACTION_PRESSURE = 1.8e9
-"""Highest pressure of the traction measurements behind the rheology laws, Pa."""
-OIL_TEMPERATURES = (253.15, 473.15)
-"""Range for which the oil laws were fitted, K."""
 SLOWEST = 99.9 * 2.0 * np.pi / 60.0
 """Speed of the rings against each other below which the lubricated model has no meaning, rad/s (100 rpm)."""
 
@@ -355,7 +352,7 @@ def _input_excess(system: DryRollerSystem | LubricatedRollerSystem) -> dict[str,
     """By how much the scene itself leaves the ranges for which the laws were made; said of failed solves too."""
     if isinstance(system, DryRollerSystem):
         return {}
-    motion, (low, high) = system.kinematics, OIL_TEMPERATURES
+    motion, (low, high) = system.kinematics, FITTED_TEMPERATURES
     excess = {
         "inlet oil beyond 200 degC: the oil laws are extrapolated": system.inlet.temperature - high,
         "inlet oil below -20 degC: the oil laws are extrapolated": low - system.inlet.temperature,
@@ -378,10 +375,10 @@ def _range_excess(system: LubricatedRollerSystem, state: RollerState, land: Land
     most = lambda values: jnp.max(jnp.where(loaded, values, 0.0))
     rise = state.contact.temperature_rise
     hottest = system.inlet.temperature + (jnp.zeros(()) if rise is None else most(rise))
-    excess = {"oil in the contacts beyond 200 degC: the oil laws are extrapolated": hottest - OIL_TEMPERATURES[1]}
+    excess = {"oil in the contacts beyond 200 degC: the oil laws are extrapolated": hottest - FITTED_TEMPERATURES[1]}
     if system.laws.traction is not None:
         excess["mean contact pressure beyond 1.8 GPa: the traction rheology is extrapolated"] = (
-            most(system.contact.mean_pressure(state.load)) - TRACTION_PRESSURE
+            most(system.contact.mean_pressure(state.load)) - FITTED_PRESSURE
         )
     thermal = system.laws.thermal
     if isinstance(thermal, Gupta):

@@ -4,11 +4,11 @@ The command line, JSON, files and pages read this metadata; nothing keeps a seco
 """
 
 import equinox as eqx
-import jax
 from jaxtyping import Array, Bool, Float, Int
 
-from ..numerics.status import SolveError, Status
+from .._scene import AbstractSolution
 from .._scene import label as label
+from ..numerics.status import Status
 from .parts import Operation
 
 INNER_TOLERANCE = 1e-8
@@ -119,7 +119,7 @@ class PowerLoss(eqx.Module):
     drag: Float[Array, ""] | None = eqx.field(default=None, metadata=label("W", "oil drag on the orbiting rollers"))
 
 
-class Solution(eqx.Module):
+class Solution(AbstractSolution):
     """Result of a steady solve. Where `status` is not converged every result is NaN, never the last iterate."""
 
     status: Int[Array, ""] = eqx.field(metadata=label("1", "how the solve ended"))
@@ -152,11 +152,6 @@ class Solution(eqx.Module):
     def converged(self) -> Bool[Array, "*batch"]:
         return self.status == Status.CONVERGED
 
-    @property
-    def warnings(self) -> list[str]:
-        """What left the range of a law, and what the model assumed or left out, in words (one solution only)."""
-        return [text for text, broken in self.checks.items() if bool(broken)] + list(self.notes)
-
     def failure(self) -> str:
         """One sentence on a solve that failed: status, residual, worst equation."""
         local_equations = len(self.equation_names) - self.global_equations
@@ -170,15 +165,3 @@ class Solution(eqx.Module):
             f"{Status(int(self.status)).text} after {int(self.iterations)} Newton steps: scaled residual "
             f"{float(self.residual_norm):.3g}, worst equation: {name}{place}"
         )
-
-    def raise_if_failed(self) -> None:
-        """Does nothing while JAX traces: each lane has its status.
-
-        **Raises:** `SolveError` for a single failed solve.
-        """
-        try:
-            failed = not bool(self.converged)
-        except jax.errors.ConcretizationTypeError:
-            return
-        if failed:
-            raise SolveError(self.failure())

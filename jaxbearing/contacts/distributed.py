@@ -176,14 +176,20 @@ class _Problem(eqx.Module):
     """Its change over one half-width, of spin."""
 
     def solved(self, steps: int, extrapolate: bool) -> Traction:
-        if self.law.heating is not None:
-            fine = self._thermal(Mesh.of(steps))
-            if not extrapolate:
-                return fine
-            coarse = self._thermal(Mesh.of(steps // 2))
-            better = [a + (a - b) / 3.0 for a, b in zip(fine[:4], coarse[:4], strict=True)]
-            return Traction(*better, *fine[4:])
-        return self._isothermal(Mesh.extrapolated(steps) if extrapolate else Mesh.of(steps))
+        heating = self.law.heating
+        if heating is None:
+            return self._isothermal(Mesh.extrapolated(steps) if extrapolate else Mesh.of(steps))
+        fine = self._thermal(Mesh.of(steps), heating)
+        if not extrapolate:
+            return fine
+        coarse = self._thermal(Mesh.of(steps // 2), heating)
+        better = lambda a, b: a + (a - b) / 3.0
+        return fine._replace(
+            rolling=better(fine.rolling, coarse.rolling),
+            transverse=better(fine.transverse, coarse.transverse),
+            moment=better(fine.moment, coarse.moment),
+            power=better(fine.power, coarse.power),
+        )
 
     def oil(self, sine: Array, rise: Values) -> Oil:
         """At the relative pressure `sine` of each strip, `rise` K above the base."""
@@ -235,8 +241,8 @@ class _Problem(eqx.Module):
         """Shear rate, 1/s, at x/a."""
         return self.rate if self.rate_slope is None else self.rate + self.rate_slope * position
 
-    def _thermal(self, mesh: Mesh) -> Traction:
-        heating, conductivity = self.law.heating, self.conductivity()
+    def _thermal(self, mesh: Mesh, heating: FilmHeating) -> Traction:
+        conductivity = self.conductivity(heating)
         flow = HeatFlow(heating, len(mesh.sine), self.half_width, self.film, self.speed, conductivity)
         half_step = self.half_step(mesh.step[0])
 
@@ -275,10 +281,9 @@ class _Problem(eqx.Module):
             film_rise=largest(film), surface_rise=largest(surface), inner_residual=largest(residual)
         )
 
-    def conductivity(self) -> Array:
+    def conductivity(self, heating: FilmHeating) -> Array:
         """Of the oil, W/(m K)."""
-        heating = self.law.heating
-        if heating is not None and heating.conductivity is not None:
+        if heating.conductivity is not None:
             return jnp.asarray(heating.conductivity)
         if self.lubricant.conductivity is None:
             raise ValueError("The film's heating needs the lubricant's conductivity: none is given.")
@@ -290,7 +295,7 @@ class _Problem(eqx.Module):
         sign = self.direction[..., 0]
         rolling, power = total(sums.rolling), total(sums.power * self.film)
         transverse = moment = jnp.zeros_like(rolling)
-        if sums.transverse is not None:
+        if sums.transverse is not None and sums.moment is not None:
             transverse = total(sums.transverse)
             moment = total(sums.moment * self.half_width - sums.rolling * self.strips.offset)
         return Traction(sign * rolling, sign * transverse, moment, power)
@@ -313,7 +318,7 @@ class _Sums(NamedTuple):
     def plus(self, stress: Array, rate: Array, weight: Array, position: Array) -> "_Sums":
         power = self.power + weight * jnp.sum(stress * rate, axis=0)
         rolling = self.rolling + weight * stress[0]
-        if self.transverse is None:
+        if self.transverse is None or self.moment is None:
             return _Sums(rolling, power, None, None)
         transverse = weight * stress[1]
         return _Sums(rolling, power, self.transverse + transverse, self.moment + position * transverse)

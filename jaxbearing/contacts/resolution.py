@@ -34,9 +34,9 @@ class Resolution(NamedTuple):
 
 
 PRESETS = {
-    1e-2: Resolution(16, 8),
+    1e-2: Resolution(14, 16),
     1e-3: Resolution(40, 16),
     1e-4: Resolution(128, 24),
-    1e-6: Resolution(256, 24, extrapolate=True),
+    1e-6: Resolution(1200, 80),
 }
 """Relative error of the forces -> resolution."""

@@ -10,7 +10,7 @@ import numpy as np
 from jax.core import Tracer
 from jaxtyping import Array, Bool, Float, Int
 
-from .._scene import AbstractScene, label, number, optional_number
+from .._scene import AbstractScene, AbstractSolution, label, number, optional_number
 from .._types import Scalar, Values
 from ..contacts import (
     AbstractLineFilm,
@@ -34,7 +34,7 @@ from ..lubricants.ranges import FITTED_PRESSURE, FITTED_TEMPERATURES
 from ..materials import Material, reduced_modulus
 from ..numerics.checks import RANGES, require
 from ..numerics.precision import as_float
-from ..numerics.status import SolveError, Status
+from ..numerics.status import Status
 
 INNER_TOLERANCE = 1e-6
 """Largest residual of a nested solve: ln(film) of the inlet's rise, K of the film's."""
@@ -170,7 +170,7 @@ class DiskState(NamedTuple):
     inner_residual: Float[Array, "*batch"]
 
 
-class TwoDiskSolution(eqx.Module):
+class TwoDiskSolution(AbstractSolution):
     """Traction curves. Axes: temperature, speed, load, slide. What a failed point gives is NaN."""
 
     status: Int[Array, "temperature speed load slide"] = eqx.field(metadata=label("1", "how each point ended"))
@@ -205,11 +205,6 @@ class TwoDiskSolution(eqx.Module):
         """Whether all points are."""
         return jnp.all(self.status == Status.CONVERGED)
 
-    @property
-    def warnings(self) -> list[str]:
-        """What left the range of a law, and what the model assumed or left out, in words (one solution only)."""
-        return [text for text, broken in self.checks.items() if bool(broken)] + list(self.notes)
-
     def failure(self) -> str:
         """One sentence on the points that failed."""
         status, residual = np.asarray(self.status), np.asarray(self.inner_residual)
@@ -230,15 +225,6 @@ class TwoDiskSolution(eqx.Module):
         axes = (operation.temperature, operation.entrainment_speed, getattr(operation, name), operation.slide_to_roll)
         t, u, q, s = (float(np.asarray(axis)[i]) for axis, i in zip(axes, point, strict=True))
         return f" at temperature {t:g} K, entrainment_speed {u:g} m/s, {name} {q:g} {unit}, slide_to_roll {s:g}"
-
-    def raise_if_failed(self) -> None:
-        """Does nothing while JAX traces. **Raises:** `SolveError`."""
-        try:
-            failed = not bool(self.converged)
-        except jax.errors.ConcretizationTypeError:
-            return
-        if failed:
-            raise SolveError(self.failure())
 
 
 class TwoDisk(AbstractScene):

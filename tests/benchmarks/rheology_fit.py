@@ -99,7 +99,8 @@ def coverage(name: str, repetitions: int, accuracy: float = 1e-3) -> tuple[np.nd
     search = Search(fitting.Measurements.of(table, start), start, options)
     free, _ = search.free_by_rule()
     problem = search.problem(free, {})
-    deviation = np.stack([ERRORS.deviation(row, table.curve) for row in noisy])
+    filled = lambda rows: jnp.stack([search.fill(row) for row in rows])
+    data = filled(noisy), filled([ERRORS.deviation(row, table.curve) for row in noisy])
 
     def one(data):
         own = eqx.tree_at(lambda p: (p.coefficient, p.deviation), problem, data)
@@ -109,13 +110,12 @@ def coverage(name: str, repetitions: int, accuracy: float = 1e-3) -> tuple[np.nd
         return own.natural(found.u), found.converged, *linearized(own, found.u)[1:]
 
     run = eqx.filter_jit(lambda data: jax.lax.map(one, data, batch_size=10))
-    coordinates, converged, residual, jacobian = (
-        np.asarray(part) for part in run((jnp.asarray(noisy), jnp.asarray(deviation)))
-    )
+    coordinates, converged, residual, jacobian = (np.asarray(part) for part in run(data))
     true, inside = natural(scene.oil.rheology), []
     for at, left, slopes in zip(coordinates, residual, jacobian, strict=True):
-        variance = float(np.sum(np.square(left))) / (len(left) - np.sum(free))
-        known = spread(slopes, free, variance, LEVEL)
+        # the points with which the batch is filled up have no weight
+        variance = float(np.sum(np.square(left))) / (search.count - np.sum(free))
+        known = spread(slopes[: search.count], free, variance, LEVEL)
         inside.append(np.abs(at - true) <= known.quantile * np.sqrt(np.diag(known.covariance)))
     return np.mean(np.array(inside)[converged], axis=0), int(np.sum(~converged))
 

@@ -11,6 +11,7 @@ fastest. Full run: also the accuracy of the presets over random contacts, all fo
 """
 
 import argparse
+import itertools
 import os
 import platform
 import sys
@@ -92,7 +93,9 @@ def best_time(function, repeats):
 
 def oil_of(pressure, temperature):
     """Viscosity, shear modulus, Eyring stress of Mobil Jet II, line by line from the source's tables 5 and 8."""
-    y = (temperature - 165.75 - 171.96 * np.log(1 + 0.4294e-9 * pressure)) * (1 - 0.1961 * np.log(1 + 17.434e-9 * pressure))
+    y = (temperature - 165.75 - 171.96 * np.log(1 + 0.4294e-9 * pressure)) * (
+        1 - 0.1961 * np.log(1 + 17.434e-9 * pressure)
+    )
     inverse = 1 / temperature - 1 / 300
     modulus = 4.82e4 * np.exp(6.11e-9 * pressure + 2450 * inverse)
     return 10 ** (12 - 16.342 * y / (29.406 + y)), modulus, 1.56e5 * np.exp(2.41e-9 * pressure - 786 * inverse)
@@ -183,7 +186,10 @@ def random_contacts(oil, line, n, seed):
     patch = ContactPatch(*(jnp.asarray(rows[:, i]) for i in range(3)), line=line)
     deborah = np.asarray(deborah_number(patch, jnp.asarray(rows[:, 4]), jnp.asarray(rows[:, 5]), oil))
     edges = np.geomspace(1e-2, 3e2, 11)
-    bins = [np.flatnonzero((deborah >= low) & (deborah < high))[: n // 10] for low, high in zip(edges, edges[1:], strict=False)]
+    bins = [
+        np.flatnonzero((deborah >= low) & (deborah < high))[: n // 10]
+        for low, high in zip(edges, edges[1:], strict=False)
+    ]
     return jnp.asarray(rows[np.concatenate(bins)])
 
 
@@ -248,7 +254,9 @@ def print_table(figures):
     print("\nRadau: strips tolerance | error   | us an evaluation")
     for (strips, tolerance), (error, seconds) in figures["radau"].items():
         print(f"{strips:13d} {tolerance:9.0e} | {error:.1e} | {1e6 * seconds:.0f}")
-    print("\nat an error of | ours (steps, strips, extrapolate) | us, largest batch | Radau us | ratio | ratio, batch of 1")
+    print(
+        "\nat an error of | ours (steps, strips, extrapolate) | us, largest batch | Radau us | ratio | ratio, batch of 1"
+    )
     for target in TARGETS:
         mine = cheapest(figures["ours"], target, lambda row: row["error"], lambda row: row["seconds"][sizes[-1]])
         single = cheapest(figures["ours"], target, lambda row: row["error"], lambda row: row["seconds"][1])
@@ -263,7 +271,9 @@ def print_table(figures):
     if figures["presets"]:
         print("\npreset | resolution          | contact | viscous function   | 95 % of errors below | largest")
     for (accuracy, kind, viscous), (usual, largest) in sorted(figures["presets"].items(), reverse=True):
-        print(f"{accuracy:6.0e} | {tuple(PRESETS[accuracy])!s:19s} | {kind:7s} | {viscous:18s} | {usual:20.1e} | {largest:.1e}")
+        print(
+            f"{accuracy:6.0e} | {tuple(PRESETS[accuracy])!s:19s} | {kind:7s} | {viscous:18s} | {usual:20.1e} | {largest:.1e}"
+        )
 
 
 if __name__ == "__main__":

@@ -92,7 +92,8 @@ def test_no_heat_capacity():
         return heat.base + heat.slope * 1e13
 
     slope = jax.grad(film)(0.0)
-    np.testing.assert_allclose(slope, (film(1e2) - film(0.0)) / 1e2, rtol=1e-6)
+    # linear but for 1e2/1.7e6 of the Peclet number
+    np.testing.assert_allclose(slope, (film(1e2) - film(0.0)) / 1e2, rtol=1e-5)
     np.testing.assert_allclose(slope, jax.grad(film)(1e-3), rtol=1e-6)
 
 
@@ -120,11 +121,11 @@ def run(heating, sliding, steps=64, film=FILM, oil=PENNZANE):
 
 def test_little_heat_changes_little():
     """A film that leads heat away at once and surfaces that never warm: the isothermal force."""
-    cold = FilmHeating(jnp.asarray(1e9), jnp.asarray(1e12))
+    cold = FilmHeating(jnp.asarray(1e9), jnp.asarray(1e18))
     sliding = jnp.asarray([0.0, 1e-9, 0.06, 0.6])
     heated, isothermal = run(cold, sliding), run(None, sliding)
-    np.testing.assert_allclose(heated.rolling, isothermal.rolling, rtol=1e-6)
-    assert jnp.max(heated.film_rise) < 1e-3
+    assert jnp.max(heated.film_rise) < 1e-6
+    np.testing.assert_allclose(heated.rolling, isothermal.rolling, rtol=1e-7)  # 1 % a kelvin
     assert heated.rolling[0] == heated.film_rise[0] == 0
     # with the oil's own heat conductivity: warming grows with the square of a small sliding
     heated = run(FilmHeating(), sliding)

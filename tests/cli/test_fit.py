@@ -1,0 +1,292 @@
+"""`fit`: measured curves to parameters, intervals, oil file and picture; refusals, exit codes, what is printed."""
+
+import json
+import os
+import sys
+from contextlib import redirect_stderr, redirect_stdout
+from io import StringIO
+
+import numpy as np
+import pytest
+from fit_results import MEDIAN, SWEEPS, made_up
+
+import jaxbearing as jb
+from fitting.parameters import NAMES
+from jaxbearing.cli.main import main
+
+SLOPES = ["shear_modulus_pressure", "shear_modulus_temperature", "stress_pressure", "stress_temperature"]
+ETM = ("fit", str(MEDIAN), "--scene", "two_disk_etm")
+
+
+def command(arguments):
+    """Exit code, stdout and stderr of the command in-process, in the working folder."""
+    out, err = StringIO(), StringIO()
+    with pytest.MonkeyPatch.context() as patch, redirect_stdout(out), redirect_stderr(err):
+        patch.setattr("sys.argv", ["jaxbearing", *arguments])
+        patch.setenv("JAXBEARING_CACHE", "off")
+        with pytest.raises(SystemExit) as ended:
+            main()
+    return ended.value.code or 0, out.getvalue(), err.getvalue()
+
+
+@pytest.fixture(scope="module")
+def etm(tmp_path_factory):
+    """The measured median curve, fitted with all that can be written; folder and JSON."""
+    folder = tmp_path_factory.mktemp("etm")
+    place = os.getcwd()
+    os.chdir(folder)
+    try:
+        code, out, err = command((*ETM, "--starts", "1", "--json", "--out", "oil.toml", "--plot", "fit.png"))
+    finally:
+        os.chdir(place)
+    assert (code, err) == (0, "")
+    return folder, json.loads(out)
+
+
+def test_measured_curve_and_what_it_cannot_tell(etm):
+    _, found = etm
+    assert found["converged"] is True
+    assert found["rms"] <= 0.007
+    assert found["unidentifiable"] == SLOPES
+    for name in NAMES:
+        parameter = found["parameters"][name]
+        assert parameter["fixed"] == (name in SLOPES)
+        for key in ("standard_error", "lower", "upper"):
+            assert (parameter[key] is None) == (name in SLOPES)
+        if name not in SLOPES:
+            assert 0.0 < parameter["lower"] < parameter["value"] < parameter["upper"]
+    assert any(note.startswith("Lack of fit") for note in found["notes"])
+    assert any("Column 'count' is ignored" in note for note in found["notes"])
+    (curve,) = found["curves"]
+    assert curve["pressure"] == pytest.approx(3.6e9, rel=0.01)
+    assert curve["points"] == 18
+
+
+def test_files_of_a_fit(etm):
+    folder, found = etm
+    assert sorted(os.listdir(folder)) == ["fit.png", "oil.toml"]
+    assert (folder / "fit.png").read_bytes().startswith(b"\x89PNG")
+    assert found["oil"] == "oil.toml"
+    rheology = jb.load_scene("two_disk_etm", {"oil.file": str(folder / "oil.toml")}).oil.rheology
+    for name in NAMES:
+        assert float(getattr(rheology, name)) == found["parameters"][name]["value"]
+
+
+def test_the_oil_file_in_a_scene(etm):
+    """The scene with the fitted oil gives the curve whose misfit was printed."""
+    folder, found = etm
+    scene = jb.load_scene("two_disk_etm", {"oil.file": str(folder / "oil.toml")})
+    measured = made_up().measurements
+    solution = jb.solve(scene.at_operation(slide_to_roll=np.asarray(measured.slide_to_roll)))
+    difference = solution.traction_coefficient.ravel() - np.asarray(measured.traction_coefficient)
+    assert float(np.sqrt(np.mean(difference**2))) == pytest.approx(found["rms"], rel=1e-9)
+
+
+def test_raw_sweeps_and_a_robust_loss(jaxbearing_command):
+    """Sweeps with outliers as they were measured, on the screen."""
+    options = ("--loss", "soft_l1", "--starts", "1", "--set", "contact.traction_accuracy=1e-2")
+    result = jaxbearing_command("fit", str(SWEEPS), "--scene", "two_disk_etm", *options)
+    assert (result.code, result.err) == (0, "")
+    assert "205 points in 5 curves" in result.out
+    assert "outliers" in result.out
+    assert "Lack of fit" in result.out
+    assert result.out.count("held: ") == 4
+
+
+# without a fit
+
+
+@pytest.fixture
+def no_fit(monkeypatch):
+    """Fails where a fit is begun: a refusal must not make the user wait for one."""
+
+    def fit(*_):
+        raise AssertionError("fitted before the refusal")
+
+    monkeypatch.setattr(sys.modules["fitting.fit"], "fit", fit)
+
+
+@pytest.fixture
+def given_fit(monkeypatch):
+    """A result made up in place of the fit; keeps the options that it was called with."""
+    calls = []
+
+    def fit(measurements, scene, options):
+        calls.append(options)
+        model = options.model or "ree_eyring"
+        converged = fit.converged if isinstance(fit.converged, bool) else model in fit.converged
+        return made_up(scene, model=model, converged=converged, bic={"bair_winer": 60.0}.get(model, 70.0))
+
+    fit.converged = True
+    fit.calls = calls
+    monkeypatch.setattr(sys.modules["fitting.fit"], "fit", fit)
+    monkeypatch.setattr("fitting.io.plots.smooth_curves", lambda *_: [(np.zeros(2),) * 2])
+    monkeypatch.setattr("fitting.io.plots._draw_curves", lambda *_: None)
+    monkeypatch.setattr("fitting.io.plots._draw_legend", lambda *_: None)
+    return fit
+
+
+def test_options_reach_the_fit(jaxbearing_command, given_fit):
+    options = ("--model", "bair_winer", "--fix", "G0", "--fix", "beta_G", "--free", "stress_pressure", "--starts", "5")
+    options += ("--bound", "stress=1 MPa:20 MPa", "--loss", "cauchy", "--method", "bfgs", "--level", "99 %")
+    options += ("--relative-error", "3 %", "--floor", "0.001", "--slide-error", "1 %")
+    assert jaxbearing_command(*ETM, *options).code == 0
+    (used,) = given_fit.calls
+    assert (used.model, used.method, used.loss, used.starts, used.level) == ("bair_winer", "bfgs", "cauchy", 5, 0.99)
+    assert used.fixed == ("shear_modulus", "shear_modulus_temperature")
+    assert used.free == ("stress_pressure",)
+    assert used.bounds == {"stress": (1e6, 2e7)}
+    assert used.errors == (0.03, 0.001, 0.01)
+    used.check()
+
+
+def test_defaults_are_those_of_the_library(jaxbearing_command, given_fit):
+    from fitting import FitOptions
+
+    assert jaxbearing_command(*ETM).code == 0
+    assert given_fit.calls == [FitOptions()]
+
+
+def test_screen(jaxbearing_command, given_fit, folder):
+    result = jaxbearing_command(*ETM, "--out", "oil.toml", "--plot", "fit.svg")
+    assert (result.code, result.err) == (0, "")
+    for words in ("CONVERGED", "26.7 to 41.7", "held: one pressure only", "wrote oil.toml", "--set oil.file=oil.toml"):
+        assert words in result.out
+    assert sorted(os.listdir(folder)) == ["fit.svg", "oil.toml"]
+    assert jb.load_scene("turbine_roller", {"oil.file": "oil.toml"}).oil.rheology is not None
+
+
+def test_all_models(jaxbearing_command, given_fit, folder):
+    result = jaxbearing_command(*ETM, "--model", "all", "--out", "oil.toml")
+    assert (result.code, result.err) == (0, "")
+    assert [options.model for options in given_fit.calls] == [
+        "ree_eyring",
+        "bair_winer",
+        "gecim_winer",
+        "elsharkawy_hamrock",
+    ]
+    assert "Models, the lowest BIC first" in result.out
+    # the best one is the one that is written
+    assert 'viscous_function = "bair_winer"' in (folder / "oil.toml").read_text(encoding="utf-8")
+    found = json.loads(jaxbearing_command(*ETM, "--model", "all", "--json").out)
+    assert (found["model"], found["comparison"][0]["model"]) == ("bair_winer", "bair_winer")
+    assert len(found["comparison"]) == 4
+
+
+def test_the_best_model_is_one_that_converged(jaxbearing_command, given_fit):
+    given_fit.converged = ("gecim_winer",)
+    result = jaxbearing_command(*ETM, "--model", "all", "--json")
+    assert result.code == 0
+    assert json.loads(result.out)["model"] == "gecim_winer"
+    given_fit.converged = False
+    assert jaxbearing_command(*ETM, "--model", "all", "--json").code == 3
+
+
+@pytest.mark.parametrize("screen", [(), ("--json",)], ids=["screen", "json"])
+def test_not_converged_leaves_no_file(screen, jaxbearing_command, given_fit, folder):
+    given_fit.converged = False
+    (folder / "old.png").write_text("old", encoding="utf-8")
+    result = jaxbearing_command(*ETM, *screen, "--out", "oil.toml", "--plot", "old.png")
+    assert result.code == 3
+    assert "not written: old.png, oil.toml\n" in result.err
+    assert os.listdir(folder) == ["old.png"]
+    assert (folder / "old.png").read_text(encoding="utf-8") == "old"
+    if screen:
+        found = json.loads(result.out)
+        assert (found["converged"], found["rms"], found["oil"]) == (False, None, None)
+        assert found["parameters"]["stress"]["value"] is None
+    else:
+        assert "NOT CONVERGED" in result.out
+        assert "kPa" not in result.out
+
+
+@pytest.mark.parametrize("option", [("--out", "a.toml"), ("--plot", "a.pdf")], ids=str)
+def test_a_disk_that_fills_up(option, jaxbearing_command, given_fit, folder, monkeypatch):
+    def full(*_):
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr("jaxbearing.report.files.os.replace", full)
+    result = jaxbearing_command(*ETM, *option)
+    assert (result.code, result.out) == (1, "")
+    assert result.err == f"error: the output cannot be written: {option[1]}: No space left on device\n"
+    assert os.listdir(folder) == []
+
+
+HEADER = "slide_to_roll [%],traction_coefficient"
+POINTS = "1,0.01\n2,0.02\n5,0.03\n"
+BROKEN_CURVES = {
+    "missing_column": ("slide_to_roll [%],load [N]\n1,2\n2,3\n", ["traction_coefficient"]),
+    "mixed_separators": (f"{HEADER}\n1;0.01\n2,0.02\n", ["line 2"]),
+    "nan": (f"{HEADER}\n1,nan\n2,0.02\n", ["line 2", "traction_coefficient", "not finite"]),
+    "text": (f"{HEADER}\n1,high\n2,0.02\n", ["line 2", "high"]),
+    "one_row": (f"{HEADER}\n1,0.01\n", ["single point"]),
+    "duplicated_header": (f"{HEADER},traction_coefficient\n1,2,3\n2,3,4\n", ["traction_coefficient"]),
+    "header_again": (f"{HEADER}\n1,0.01\n{HEADER}\n2,0.02\n", ["line 3"]),
+    "wrong_unit": (f"{HEADER},load [m]\n1,0.01,3\n2,0.02,3\n", ["load", "force"]),
+    "no_unit": (f"{HEADER},load\n1,0.01,3\n2,0.02,3\n", ["load", "no unit"]),
+    "empty": ("", ["empty"]),
+    "only_a_header": (f"{HEADER}\n", ["without points"]),
+    "missing_file": (None, ["curves.csv"]),
+}
+
+
+def check_refused(result, words):
+    assert (result.code, result.out) == (2, "")
+    assert result.err.startswith("error: ")
+    assert result.err.count("\n") == 1
+    assert "Traceback" not in result.err
+    for word in ("found", "expected", *words):
+        assert word in result.err
+
+
+@pytest.mark.usefixtures("no_fit")
+@pytest.mark.parametrize("name", BROKEN_CURVES)
+def test_broken_curves(name, jaxbearing_command, folder):
+    text, words = BROKEN_CURVES[name]
+    if text is not None:
+        (folder / "curves.csv").write_text(text, encoding="utf-8")
+    before = os.listdir(folder)
+    result = jaxbearing_command("fit", "curves.csv", "--scene", "two_disk_etm", "--out", "o.toml", "--plot", "p.png")
+    check_refused(result, ["curves.csv", *words])
+    assert os.listdir(folder) == before
+
+
+REFUSED = {
+    "no_such_scene": (("--scene", "two_disk_et"), ["two_disk_et", "Did you mean 'two_disk_etm'"]),
+    "a_bearing": (("--scene", "turbine_roller"), ["--scene", "turbine_roller", "two_disk"]),
+    "override": (("--set", "operation.lod=3 N"), ["operation.lod"]),
+    "pressures": (("--scene", "two_disk_mobil_jet_ii"), ["operation.", "2 values", "a column", "curves.csv"]),
+    "model": (("--model", "ree_eyrng"), ["--model", "Did you mean 'ree_eyring'", "'all'"]),
+    "loss": (("--loss", "l1"), ["--loss", "soft_l1"]),
+    "method": (("--method", "newton"), ["--method", "levenberg_marquardt"]),
+    "fix": (("--fix", "strss"), ["--fix", "Did you mean 'stress'"]),
+    "free": (("--free", "alpha"), ["--free"]),
+    "fix_and_free": (("--fix", "tau0", "--free", "stress"), ["--free", "stress", "--fix"]),
+    "bound": (("--bound", "stress=1:2"), ["--bound", "stress", "without a unit"]),
+    "starts": (("--starts", "0"), ["--starts", ">= 1"]),
+    "level": (("--level", "1"), ["--level"]),
+    "level_0": (("--level", "0"), ["--level"]),
+    "relative_error": (("--relative-error", "-1 %"), ["--relative-error"]),
+    "no_error": (("--relative-error", "0"), ["--relative-error", "--floor"]),
+    "slide_error": (("--slide-error", "1 m"), ["--slide-error"]),
+    "out": (("--out", "oil.json"), ["--out", "'.toml'"]),
+    "plot": (("--plot", "fit.jpg"), ["--plot", "'.png'"]),
+    "folder": (("--out", "no/oil.toml"), ["--out", "existing folder"]),
+    "null_byte": (("--fix", "a\0\x1b"), ["--fix"]),
+}
+
+
+@pytest.mark.usefixtures("no_fit")
+@pytest.mark.parametrize("name", REFUSED)
+def test_refused_before_the_fit(name, jaxbearing_command, folder):
+    options, words = REFUSED[name]
+    (folder / "curves.csv").write_text(f"{HEADER}\n{POINTS}", encoding="utf-8")
+    scene = () if "--scene" in options else ("--scene", "two_disk_etm")
+    check_refused(jaxbearing_command("fit", "curves.csv", *scene, *options), words)
+    assert os.listdir(folder) == ["curves.csv"]
+
+
+def test_the_scene_is_asked_for(jaxbearing_command):
+    result = jaxbearing_command("fit", "curves.csv")
+    assert (result.code, result.out) == (2, "")
+    assert "--scene" in result.err
