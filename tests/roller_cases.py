@@ -15,7 +15,15 @@ from jaxbearing.bearings.cylindrical_roller import (
     RollerGeometry,
 )
 from jaxbearing.bearings.parts import ContactLaws, Drag, Materials, Operation
-from jaxbearing.contacts import DowsonHigginson, Gupta, MartinBlend, MaxwellEyring, Moes, NoThermalReduction
+from jaxbearing.contacts import (
+    DistributedTraction,
+    DowsonHigginson,
+    Gupta,
+    MartinBlend,
+    MaxwellEyring,
+    Moes,
+    NoThermalReduction,
+)
 from jaxbearing.lubricants import ConstantPressureViscosity
 from jaxbearing.materials import CATALOGUE, Material
 
@@ -30,7 +38,7 @@ REFERENCE_LAWS = ContactLaws(
     traction=MaxwellEyring(),
     entrainment_offset=1e-3,
 )
-BEST_LAWS = ContactLaws(film=Moes(), thermal=Gupta(), traction=MaxwellEyring())
+BEST_LAWS = ContactLaws(film=Moes(), thermal=Gupta(), traction=DistributedTraction())
 
 
 def reference_roller() -> CylindricalRollerBearing:

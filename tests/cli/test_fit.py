@@ -254,7 +254,7 @@ def test_broken_curves(name, jaxbearing_command, folder):
 REFUSED = {
     "no_such_scene": (("--scene", "two_disk_et"), ["two_disk_et", "Did you mean 'two_disk_etm'"]),
     "a_bearing": (("--scene", "turbine_roller"), ["--scene", "turbine_roller", "two_disk"]),
-    "override": (("--set", "operation.lod=3 N"), ["operation.lod"]),
+    "override": (("--set", "operation.weight=3 N"), ["operation.weight"]),
     "pressures": (("--scene", "two_disk_mobil_jet_ii"), ["operation.", "2 values", "a column", "curves.csv"]),
     "model": (("--model", "ree_eyrng"), ["--model", "Did you mean 'ree_eyring'", "'all'"]),
     "loss": (("--loss", "l1"), ["--loss", "soft_l1"]),

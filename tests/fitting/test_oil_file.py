@@ -156,10 +156,13 @@ def test_names_of_files_are_not_code(tmp_path):
     assert tomllib.loads(text)["name"] == 'n"\\'
 
 
-def test_notes_of_other_laws_are_kept():
+def test_notes_of_other_laws_are_kept(tmp_path):
     """Of an oil with sources, in the law that they belong to; of another one with the viscosity."""
     assumed = "the thermal conductivity of this oil is not known"
-    result = made_up(scene="two_disk_pennzane", file=made_up_file("1.2 GPa"))
+    columns = "slide_to_roll,traction_coefficient,pressure [GPa],entrainment_speed [m/s],temperature [degC]\n"
+    rows = "".join(f"{slide},{0.5 * slide},1.2,3,40\n" for slide in (0.01, 0.02, 0.05))
+    (tmp_path / "curves.csv").write_text(columns + rows, encoding="utf-8")
+    result = made_up(scene="two_disk_pennzane", file=tmp_path / "curves.csv")
     text = fitted_oil_text(result, "oil", "a.csv", "two_disk_pennzane", oil_origins("two_disk_pennzane"))
     assert assumed in tomllib.loads(text)["conductivity"]["note"]
     assert "note" not in tomllib.loads(text)["viscosity"]
@@ -252,21 +255,6 @@ def test_origins_follow_the_scene(file):
     assert again["density"].sources["value"] == "as in two_disk_etm"
     assert again["rheology"].sources["stress"].startswith("fitted to curves.csv")
     assert "does not determine" in again["rheology"].note
-
-
-def made_up_file(pressure):
-    """A curve file for scenes with several pressures."""
-    import tempfile
-    from pathlib import Path
-
-    path = Path(tempfile.mkdtemp()) / "curves.csv"
-    value = pressure.split()[0]
-    path.write_text(
-        "slide_to_roll,traction_coefficient,pressure [GPa],entrainment_speed [m/s],temperature [degC]\n"
-        + "".join(f"{s},{0.5 * s},{value},3,40\n" for s in (0.01, 0.02, 0.05)),
-        encoding="utf-8",
-    )
-    return path
 
 
 def test_numpy_and_jax_numbers_are_written():
