@@ -10,12 +10,13 @@ from pydantic import BaseModel
 
 @dataclass(frozen=True)
 class Names:
-    """Valid names of one table, names that later versions will know (with what to expect instead), and names that
-    exclude each other."""
+    """Valid names of one table, names that later versions will know (with what to expect instead), names that
+    exclude each other, and names that say more about another."""
 
     names: tuple[str, ...] = ()
     not_yet: Mapping[str, str] = field(default_factory=dict)
     instead: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
+    about: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
 
 
 def is_tag(part: int | str) -> bool:
@@ -34,10 +35,12 @@ def names_at(model: type[BaseModel], location: Sequence[int | str]) -> Names:
     names = dict.fromkeys(name for candidate in models for name in candidate.model_fields)
     not_yet: dict[str, str] = {}
     instead: dict[str, tuple[str, ...]] = {}
+    about: dict[str, tuple[str, ...]] = {}
     for candidate in models:
         not_yet.update(getattr(candidate, "not_yet", {}))
         instead.update(getattr(candidate, "instead", {}))
-    return Names(tuple(names), not_yet, instead)
+        about.update(getattr(candidate, "about", {}))
+    return Names(tuple(names), not_yet, instead, about)
 
 
 def _models_at(model: type[BaseModel], location: Sequence[int | str]) -> list[type[BaseModel]]:

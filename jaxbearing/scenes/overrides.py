@@ -54,8 +54,10 @@ def apply(raw: Mapping[str, Any], overrides: Mapping[str, str], model: type[Base
     """
     changed = _copy(raw)
     for path, text in overrides.items():
-        if text != REMOVE:
-            _take_others_out(changed, path.split("."), model)
+        keys = path.split(".")
+        names = names_at(model, keys[:-1])
+        others = names.about if text == REMOVE else names.instead
+        _take_out(changed, keys[:-1], others.get(keys[-1], ()))
     for path, text in overrides.items():
         keys = path.split(".")
         if text == REMOVE:
@@ -68,14 +70,14 @@ def apply(raw: Mapping[str, Any], overrides: Mapping[str, str], model: type[Base
     return changed
 
 
-def _take_others_out(changed: dict[str, Any], keys: list[str], model: type[BaseModel]) -> None:
-    """What the file has of the fields that a field replaces; an override may put them in again."""
+def _take_out(changed: dict[str, Any], inside: list[str], names: Iterable[str]) -> None:
+    """What the file has of these fields of a table; an override may put them in again."""
     table: Any = changed
-    for key in keys[:-1]:
+    for key in inside:
         table = table.get(key) if isinstance(table, dict) else None
-    for other in names_at(model, keys[:-1]).instead.get(keys[-1], ()):
+    for name in names:
         if isinstance(table, dict):
-            table.pop(other, None)
+            table.pop(name, None)
 
 
 def _remove(changed: dict[str, Any], keys: list[str], path: str, model: type[BaseModel], file: str) -> None:

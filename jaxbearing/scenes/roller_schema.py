@@ -37,6 +37,11 @@ class MaterialsTable(Table):
 class ContactTable(Table):
     """Laws of the raceway contacts, by the names in `scenes.contact_laws`, which says what each stands for."""
 
+    instead: ClassVar[Mapping[str, tuple[str, ...]]] = {"traction_model": ("traction_accuracy",)}
+    about: ClassVar[Mapping[str, tuple[str, ...]]] = {
+        "traction": ("traction_model", "traction_accuracy"),
+        "traction_model": ("traction_accuracy",),
+    }
     film: Literal["moes", "dowson_higginson", "dowson_toyoda", "pan_hamrock", "grubin"]
     thermal: Literal["gupta", "hsu_lee"] | None = None
     traction: Literal["maxwell_eyring", "ree_eyring", "bair_winer", "gecim_winer", "elsharkawy_hamrock"] | None = None

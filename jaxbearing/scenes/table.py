@@ -11,13 +11,15 @@ class Table(BaseModel):
     """A table: unknown names are refused, and nothing is converted silently.
 
     `tag` names a table that is one of several alternatives of a field; `not_yet` are names of later versions with what
-    to expect instead; `instead`: field -> those that it stands for: a `--set` of it takes them out.
+    to expect instead; `instead`: field -> those that it stands for: a `--set` of it takes them out; `about`: field ->
+    those that say more about it: they go when a `--set` takes it out.
     """
 
     model_config = ConfigDict(extra="forbid", strict=True, frozen=True)
     tag: ClassVar[str] = ""
     not_yet: ClassVar[Mapping[str, str]] = {}
     instead: ClassVar[Mapping[str, tuple[str, ...]]] = {}
+    about: ClassVar[Mapping[str, tuple[str, ...]]] = {}
 
 
 def refusal_at(field: str, expected: str, found: str) -> PydanticCustomError:

@@ -89,9 +89,12 @@ def test_thermal(name, law):
 
 @pytest.mark.parametrize("name", TRACTION)
 def test_traction(name):
-    traction = contact(traction=name).traction
+    traction = contact(traction=name, traction_model="mean_pressure").traction
     assert isinstance(traction, MeanPressureTraction)
     assert isinstance(traction.viscous, TRACTION[name])
+    followed = contact(traction=name).traction
+    assert isinstance(followed, DistributedTraction)
+    assert isinstance(followed.viscous, TRACTION[name])
 
 
 def test_distributed_traction():
@@ -133,6 +136,7 @@ def test_rolling_resistance(name, law):
 
 
 def test_left_out():
+    """What is said about the traction goes with it."""
     laws = contact(thermal="none", traction="none", rolling_resistance="none")
     assert isinstance(laws.thermal, NoThermalReduction)
     assert (laws.traction, laws.rolling) == (None, None)
