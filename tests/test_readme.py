@@ -43,7 +43,7 @@ def test_oil_table_is_a_scene(tmp_path):
     (block,) = re.findall(r"```toml\n(.*?)```", README, flags=re.DOTALL)
     text = builtin_text("turbine_roller").replace("[oil]", "[unused]")
     head = text[: text.index("[unused]")]
-    rest = text[text.index("[contact]") :].replace("traction =", "# traction =")
+    rest = re.sub(r"(?m)^traction", "# traction", text[text.index("[contact]") :])
     file = tmp_path / "scene.toml"
     file.write_text(head + block + rest, encoding="utf-8")
     scene = jb.load_scene(str(file))

@@ -1,4 +1,4 @@
-"""The benchmark runs, its errors are what it promises, and scipy finds the same roots; times are printed only."""
+"""The benchmarks run, their errors are what they promise, and scipy finds the same; times are printed only."""
 
 import importlib.util
 import sys
@@ -6,6 +6,8 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+
+from jaxbearing.contacts import PRESETS
 
 
 def script(name):
@@ -46,3 +48,17 @@ def test_roller_bearing(capsys):
             # where scipy solves the full equations it finds our cage speed, but for the 1e-7 shift of the land law
             assert error < 1e-6
             assert solved == attempts or start == "first guess"
+
+
+@pytest.mark.slow
+def test_traction(capsys):
+    module = script("traction")
+    figures = module.benchmark(quick=True)
+    with capsys.disabled():
+        print()
+        module.print_table(figures)
+    assert figures["radau_tight"] < 1e-7  # our finest march and Radau: the same equations
+    for accuracy, resolution in PRESETS.items():
+        assert figures["ours"][resolution]["error"] < accuracy
+    for (strips, tolerance), (error, _) in figures["radau"].items():
+        assert error < 10 * tolerance + 10.0 ** (-strips / 4)
