@@ -17,7 +17,7 @@ def test_python_blocks_run(capsys):
     assert blocks
     for block in blocks:
         exec(compile(block, "README.md", "exec"), {})
-    assert "1384" in capsys.readouterr().out
+    assert "1389" in capsys.readouterr().out
 
 
 def test_power_loss_table_is_ours():

@@ -153,7 +153,7 @@ def radau_rows(settings, exact, repeats):
 
 
 def our_rows(resolutions, exact, sizes, budget):
-    """Batches that would take longer than ten times the budget, seconds, are left out."""
+    """Batches that would take longer than three times the budget, seconds, are left out."""
     rows = {}
     for resolution in resolutions:
         one = jax.jit(lambda row, r=resolution: coefficient(r, row))
@@ -164,7 +164,7 @@ def our_rows(resolutions, exact, sizes, budget):
         row["error"] = float(np.max(np.abs(found / exact - 1)))
         for size in sizes:
             inputs = contacts(size)
-            if row["seconds"] and size * min(row["seconds"].values()) > 10 * budget:
+            if row["seconds"] and size * min(row["seconds"].values()) > 3 * budget:
                 continue
             for name, function in (("seconds", coefficient), ("slope", with_slope)):
                 run = batched(function, resolution, min(BATCH, size)).lower(inputs).compile()
