@@ -172,6 +172,7 @@ def test_fixed_and_bounded_parameters(curves):
     assert bounded.loss > fitted(noisy(curves), scene).loss
 
 
+@pytest.mark.slow
 def test_robust_loss_shrugs_off_outliers(curves):
     true = mobil_scene().oil.rheology
     spoilt = noisy(curves)
@@ -187,6 +188,7 @@ def test_robust_loss_shrugs_off_outliers(curves):
     assert inside.lower < float(true.stress) < inside.upper
 
 
+@pytest.mark.slow
 def test_errors_of_the_slide_ratio_lower_the_weight_of_steep_points(curves):
     scene = mobil_scene()
     errors = fitting.Errors(relative=0.02, floor=2e-5, slide_to_roll=1e-3)
@@ -198,6 +200,7 @@ def test_errors_of_the_slide_ratio_lower_the_weight_of_steep_points(curves):
     assert result.converged
 
 
+@pytest.mark.slow
 def test_lack_of_fit_is_said(curves):
     """Curves of an Eyring oil fitted with a limiting stress."""
     scene = mobil_scene()
@@ -206,6 +209,7 @@ def test_lack_of_fit_is_said(curves):
     assert not any(note.startswith("Lack of fit") for note in fitted(noisy(curves), scene).notes)
 
 
+@pytest.mark.slow
 def test_comparison_finds_the_model_that_made_the_curves(curves):
     scene = mobil_scene()
     data = fitting.Measurements.of(noisy(curves), scene)

@@ -1,4 +1,4 @@
-"""Five hundred random bearings: operating point, clearance, guidance, flanges, one or both rings turning."""
+"""Three hundred random bearings: operating point, clearance, guidance, flanges, one or both rings turning."""
 
 import equinox as eqx
 import jax
@@ -10,7 +10,7 @@ from roller_cases import LITRE_PER_HOUR, RPM, reference_roller, turbine_roller
 import jaxbearing as jb
 from jaxbearing.numerics.status import Status
 
-N = 250
+N = 150
 """Points a structure."""
 STRUCTURES = [("inner_ring", "inner"), ("outer_ring", "outer")]
 """Guidance of the cage, ring with flanges."""
