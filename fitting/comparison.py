@@ -7,9 +7,13 @@ import jax.numpy as jnp
 import numpy as np
 
 from .estimation import held_out
+from .identifiability import frozen_by_rule
 from .parameters import NAMES, natural
 from .result import FitResult
 from .search import Search
+
+DISPLACED = np.array([0.7, -1.0, -0.5, -0.7, 0.5, 0.2])
+"""From where the fits without a curve start, in natural coordinates from the fit of all."""
 
 
 class ModelRow(NamedTuple):
@@ -45,8 +49,9 @@ def compare(results: Mapping[str, FitResult]) -> list[ModelRow]:
 def cross_validated_rms(result: FitResult) -> float | None:
     """Root mean square of model minus measurement when every curve is predicted from a fit of the others.
 
-    The same parameters are fitted as in the result, from its values; None where there is one curve only. Infinite
-    where a fit without one of the curves does not converge.
+    The same parameters are fitted as in the result, from displaced values: what the others do not tell must not be
+    known from the curve left out. None where there is one curve only, or where the other curves have one pressure or
+    one temperature less than the fit needs. Infinite where a fit without one of the curves does not converge.
     """
     curve = np.asarray(result.measurements.curve)
     if len(result.measurements.curve_names) < 2 or not result.fitted:
@@ -56,8 +61,12 @@ def cross_validated_rms(result: FitResult) -> float | None:
     free = np.array([name in result.fitted for name in NAMES])
     rheology = result.oil.rheology
     assert rheology is not None
-    problem = search.problem(free, {}, natural(rheology))
     others = curve[None, :] != np.arange(len(result.measurements.curve_names))[:, None]
+    given = (not free[0], not free[3])
+    for kept in others:
+        if any(free[i] for i in frozen_by_rule(search.pressure[kept], search.temperature[kept], given)):
+            return None
+    problem = search.problem(free, {}, np.where(free, natural(rheology) + DISPLACED, natural(rheology)))
     without = search.weight(others.astype(float))
     predicted, converged = held_out(problem, without, result.options.method)
     if not bool(jnp.all(converged)):

@@ -1,8 +1,8 @@
 """The fit: from measured curves and a scene to the oil's rheology with its uncertainty."""
 
 import dataclasses
-from collections.abc import Iterable, Mapping
-from typing import Any
+from collections.abc import Iterable
+from typing import Any, NamedTuple
 
 import equinox as eqx
 import jax.numpy as jnp
@@ -10,20 +10,26 @@ import numpy as np
 
 from jaxbearing.machines import TwoDisk
 
-from .estimation import Problem
-from .identifiability import in_words, not_determined
-from .loss import scale_of
+from .estimation import Estimate, Problem, linearized
+from .identifiability import confounded, in_words, not_determined, viscous_only
+from .loss import influence, scale_of
 from .measurements import Measurements
 from .misfit import curve_fits, information, lack_of_fit
 from .options import FitOptions
-from .parameters import NAMES, POSITIVE, SCALES, SYMBOLS, values_of, with_natural
+from .parameters import GROUPS, NAMES, POSITIVE, SCALES, SYMBOLS, values_of, with_natural
 from .result import FitResult, Parameter
 from .search import Search
-from .uncertainty import correlation
+from .uncertainty import Spread, correlation
 from .viscous import plain_rheology, with_viscous_function
 
 OUTLIER = 4.0
 """Robust standard deviations beyond which a point is named an outlier."""
+FEWEST_DEGREES = 10
+"""Degrees of freedom below which no point is called an outlier."""
+MOST_TURNS = 24
+"""Times that parameters may be held or released."""
+SLACK = 1e-6
+"""Correlation of residual and a column of the Jacobian below which a bound does not bind."""
 SAME_LOSS = 1e-6
 """Relative difference of losses that count as the same minimum."""
 EXACT = 1e-6
@@ -47,16 +53,26 @@ def fit(measurements: Measurements, scene: TwoDisk, options: FitOptions | None =
     scene, model = with_viscous_function(scene, options.model)
     search = Search(measurements, scene, options)
     free, reasons = search.free_by_rule()
-    pinned: dict[int, float] = {}
-    problem = search.problem(free, pinned)
-    starts = search.starts(problem, free)
+    viscous = viscous_only(search.deborah)
+    modulus = [i for i in GROUPS[0] if free[i] and i not in search.insisted]
+    if viscous and modulus and not search.elastic_part_shows(free):
+        free[modulus] = False
+        reasons |= dict.fromkeys(GROUPS[0], viscous)
+    held = _Held(free, reasons, {})
+    problem = search.problem(held.free, held.pinned)
+    starts = search.starts(problem, held.free)
+    turns = 0
     while True:
-        problem, estimate, u_best = search.optimised(problem, starts)
-        # each turn holds one more parameter
-        free, reasons, changed = _revised(search, problem, u_best, free, reasons, pinned)
-        if not changed:
-            return _result(search, problem, u_best, estimate, free, reasons, pinned, model)
-        problem = search.problem(free, pinned, np.asarray(problem.natural(u_best)))
+        problem, estimate, u = search.optimised(problem, starts)
+        # each turn holds one more parameter, or lets one go from a bound that does not bind
+        revised, turns = _revised(search, problem, u, held), turns + 1
+        if revised is None:
+            return _result(search, problem, u, estimate, held, model)
+        if turns >= MOST_TURNS:
+            lost = estimate._replace(converged=jnp.zeros_like(estimate.converged))
+            return _result(search, problem, u, lost, held, model)
+        held = revised
+        problem = search.problem(held.free, held.pinned, search.within_bounds(np.asarray(problem.natural(u))))
         starts = np.zeros((len(starts), len(NAMES)))
 
 
@@ -68,77 +84,108 @@ def fit_models(
     return {model: fit(measurements, scene, options._replace(model=model)) for model in models}
 
 
-def _revised(
-    search: Search, problem: Problem, u: Any, free: np.ndarray, reasons: dict[int, str], pinned: dict[int, float]
-) -> tuple[np.ndarray, dict[int, str], bool]:
-    """Freezes what is outside its bounds, or else what the data do not determine."""
+class _Held(NamedTuple):
+    """Which parameters are fitted; why others cannot be told; natural coordinates of those at a bound."""
+
+    free: np.ndarray
+    reasons: dict[int, str]
+    pinned: dict[int, float]
+
+    def without(self, index: int, reason: str, at: float | None = None) -> "_Held":
+        free = self.free.copy()
+        free[index] = False
+        pinned = self.pinned if at is None else {**self.pinned, index: at}
+        return _Held(free, {**self.reasons, index: reason}, pinned)
+
+    def released(self, index: int) -> "_Held":
+        free = self.free.copy()
+        free[index] = True
+        drop = lambda mapping: {i: value for i, value in mapping.items() if i != index}
+        return _Held(free, drop(self.reasons), drop(self.pinned))
+
+
+def _revised(search: Search, problem: Problem, u: Any, held: _Held) -> _Held | None:
+    """What to hold or release next: bounds first (an active set), then what the data do not determine; None: nothing
+    any more."""
     coordinates = np.asarray(problem.natural(u))
-    values = values_of(coordinates)
-    for name, (low, high) in search.options.bounds.items():
-        index = NAMES.index(name)
-        below = low is not None and values[index] < low
-        above = high is not None and values[index] > high
-        if free[index] and (below or above):
-            limit = float(low if below else high)  # pyright: ignore[reportArgumentType]
-            free = free.copy()
-            free[index] = False
-            pinned[index] = float(np.log(limit)) if POSITIVE[index] else limit / float(SCALES[index])
-            return free, {**reasons, index: f"at its bound {limit:g}"}, True
-    found = not_determined(search.spread(problem, u, free), np.asarray(problem.directions), free, search.centre)
-    insisted = {NAMES.index(name) for name in search.options.free}
-    worst = {index: reason for index, reason in found.items() if index not in insisted}
-    reasons = {**reasons, **{i: r for i, r in found.items() if i in insisted}}
-    if not worst:
-        return free, reasons, False
+    low, high = search.limits
+    beyond = np.where(held.free, np.maximum(low - coordinates, coordinates - high), -np.inf)
+    index = int(np.argmax(beyond))
+    if beyond[index] > 0.0:
+        limit = float(low[index] if coordinates[index] < low[index] else high[index])
+        return held.without(index, f"at its bound {values_of(np.full(len(NAMES), limit))[index]:g}", limit)
+    _, residual, slopes = (np.asarray(part)[: search.count] for part in linearized(problem, u))
+    downhill = -slopes.T @ influence(residual, search.options.loss)
+    for index, at in held.pinned.items():
+        inward = 1.0 if at == low[index] else -1.0
+        if inward * downhill[index] > SLACK * np.linalg.norm(slopes[:, index]) * np.linalg.norm(residual):
+            return held.released(index)
+    judged = held.free & ~_insisted_blindly(search, held)
+    spread = search.spread(problem, u, judged)
+    if spread.degrees <= 0:
+        return None
+    found = not_determined(spread, np.asarray(problem.directions), judged, search.centre)
+    found = {index: reason for index, reason in found.items() if index not in search.insisted}
+    if not found:
+        return None
     # coefficients first: with beta or alpha held the rest may well be determined
-    index = max(worst, key=lambda i: i % 3)
-    free = free.copy()
-    free[index] = False
-    return free, {**reasons, index: worst[index]}, True
+    index = max(found, key=lambda i: i % 3)
+    return held.without(index, found[index])
 
 
-def _result(
-    search: Search,
-    problem: Problem,
-    u: Any,
-    estimate: Any,
-    free: np.ndarray,
-    reasons: Mapping[int, str],
-    pinned: Mapping[int, float],
-    model: str,
-) -> FitResult:
+def _insisted_blindly(search: Search, held: _Held) -> np.ndarray:
+    """Mask of the parameters that are fitted only because the user insists: nothing is known of them, and the others'
+    intervals hold for the values that they took."""
+    return np.array([i in search.insisted and i in held.reasons and held.free[i] for i in range(len(NAMES))])
+
+
+def _result(search: Search, problem: Problem, u: Any, estimate: Estimate, held: _Held, model: str) -> FitResult:
+    free, reasons, pinned = held
     coordinates = np.asarray(problem.natural(u))
-    spread = search.spread(problem, u, free)
+    blind = _insisted_blindly(search, held)
+    spread = search.spread(problem, u, free & ~blind)
     predicted = search.predicted(coordinates)
     difference = predicted - search.coefficient
     standard = difference / search.deviation
     rheology = plain_rheology(with_natural(search.rheology, jnp.asarray(coordinates)), model, search.scene)
     oil = dataclasses.replace(search.scene.oil, rheology=rheology)
-    best = float(jnp.min(estimate.loss))
-    index = int(jnp.argmin(jnp.where(jnp.isfinite(estimate.loss), estimate.loss, jnp.inf)))
-    exact = EXACT**2 * len(search.coefficient)
-    agree = int(jnp.sum(estimate.loss <= best * (1.0 + SAME_LOSS) + exact))
+    losses = np.asarray(estimate.loss)
+    best, index = float(np.nanmin(losses)), int(np.nanargmin(losses))
+    exact = EXACT**2 * search.count
+    agree = int(np.sum(losses <= best * (1.0 + SAME_LOSS) + exact))
     fitted = [i for i in range(len(NAMES)) if free[i]]
     judged = {i: r for i, r in reasons.items() if i not in pinned}
-    outlier = np.abs(standard) > OUTLIER * scale_of(standard)
-    aic, bic = information(standard, len(fitted))
+    aic, bic = information(difference, search.deviation, len(fitted))
+    outlier = np.zeros(search.count, dtype=bool)
+    if best > exact and spread.degrees >= FEWEST_DEGREES:
+        size = scale_of(standard) * np.sqrt(search.count / spread.degrees)
+        outlier = np.abs(standard) > OUTLIER * size
+
+    why_none = ""
+    if spread.degrees <= 0:
+        why_none = "as many parameters as points that tell something"
+    elif best <= exact:
+        why_none = "the curves are met to rounding, and nothing tells their errors"
     notes = [in_words(i, reason) for i, reason in sorted(judged.items()) if NAMES[i] not in search.options.fixed]
     notes += [f"{SYMBOLS[i]} is at its bound and has no interval." for i in pinned]
-    held = [SYMBOLS[i] for i in sorted(judged) if not free[i]]
-    if held and fitted:
-        notes.append(f"All intervals hold for the held values of {', '.join(held)}.")
+    if why_none and fitted and best > exact:
+        notes.append(f"No intervals: {why_none}.")
+    conditions = [SYMBOLS[i] for i in sorted(judged) if not free[i] or blind[i]]
+    if conditions and np.any(free & ~blind):
+        notes.append(f"All intervals hold for these values of {', '.join(conditions)}.")
+    notes += [confounded(search.pressure, search.temperature)]
     if best > exact:
         notes += lack_of_fit(search.measurements, standard, difference)
-    if best > exact and np.any(outlier):
+    if np.any(outlier):
         notes.append(f"{int(np.sum(outlier))} of {len(outlier)} points are outliers (beyond {OUTLIER:g} sigma).")
-    if agree < len(estimate.loss):
-        notes.append(f"{agree} of {len(estimate.loss)} starts ended at the best fit.")
+    if agree < len(losses):
+        notes.append(f"{agree} of {len(losses)} starts ended at the best fit.")
     return FitResult(
-        converged=bool(estimate.converged[index]),
+        converged=bool(estimate.converged[index]) and bool(fitted) and bool(np.all(np.isfinite(predicted))),
         model=model,
         method=search.options.method,
         rms=float(np.sqrt(np.mean(np.square(difference)))),
-        parameters=_parameters(search, coordinates, spread, free, reasons),
+        parameters=_parameters(search, coordinates, spread, held, blind, why_none),
         unidentifiable=tuple(NAMES[i] for i in sorted(judged)),
         fitted=tuple(NAMES[i] for i in fitted),
         correlation=correlation(spread.covariance)[np.ix_(fitted, fitted)],
@@ -147,7 +194,7 @@ def _result(
         curves=curve_fits(search.measurements, search.state, search.scene, oil, difference),
         loss=best,
         steps=int(estimate.steps[index]),
-        starts=(agree, len(estimate.loss)),
+        starts=(agree, len(losses)),
         aic=aic,
         bic=bic,
         oil=oil,
@@ -156,22 +203,22 @@ def _result(
         deviation=search.deviation,
         outlier=outlier,
         level=search.options.level,
-        notes=tuple(notes),
+        notes=tuple(note for note in notes if note),
         scene=eqx.tree_at(lambda s: s.oil, search.scene, oil),
         options=search.options,
     )
 
 
 def _parameters(
-    search: Search, coordinates: np.ndarray, spread: Any, free: np.ndarray, reasons: Mapping[int, str]
+    search: Search, coordinates: np.ndarray, spread: Spread, held: _Held, blind: np.ndarray, why_none: str
 ) -> dict[str, Parameter]:
     values, found = values_of(coordinates), {}
     for index, name in enumerate(NAMES):
         deviation = np.sqrt(spread.covariance[index, index])
         half = spread.quantile * deviation
-        if not free[index] or index in reasons or not np.isfinite(half):
-            reason = reasons.get(index, "held at the scene's value")
-            found[name] = Parameter(float(values[index]), None, None, None, not bool(free[index]), reason)
+        if not held.free[index] or blind[index] or index in held.reasons or why_none or not np.isfinite(half):
+            reason = held.reasons.get(index, why_none if held.free[index] else "held at the scene's value")
+            found[name] = Parameter(float(values[index]), None, None, None, not bool(held.free[index]), reason)
             continue
         low, high = values_of(coordinates - half)[index], values_of(coordinates + half)[index]
         error = deviation * (values[index] if POSITIVE[index] else SCALES[index])

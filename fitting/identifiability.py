@@ -5,33 +5,55 @@ import numpy as np
 from .parameters import GROUPS, SCALES, SYMBOLS, Centre
 from .uncertainty import UNKNOWN, Spread
 
+HUGE = 20.0
+"""Half-width of an interval of ln G or ln tau beyond which its number says nothing."""
 VISCOUS = 0.3
 """Deborah number below which the shear modulus cannot be seen."""
 SAME_PRESSURE = 0.02
 """Relative span of the pressures below which they count as one."""
+TOGETHER = 0.9
+"""Correlation of pressure and 1/temperature beyond which their effects are not told apart."""
 SAME_TEMPERATURE = 5.0
 """Span of the temperatures, K, below which they count as one."""
 
 
-def frozen_by_rule(pressure: np.ndarray, temperature: np.ndarray, deborah: np.ndarray) -> dict[int, str]:
+def viscous_only(deborah: np.ndarray) -> str:
+    """Why the shear modulus may not show, or an empty text. **Arguments:** Deborah numbers of the points."""
+    if np.max(deborah) >= VISCOUS:
+        return ""
+    largest = f"{np.max(deborah):.2g}, below {VISCOUS:g}"
+    return f"the data are viscous only (largest Deborah number {largest}): the shear modulus does not show"
+
+
+def frozen_by_rule(pressure: np.ndarray, temperature: np.ndarray, given: tuple[bool, bool]) -> dict[int, str]:
     """Index of a parameter -> why the data cannot tell it, before any fit.
 
-    **Arguments:** mean pressure, Pa, temperature, K, and Deborah number of the points.
+    **Arguments:** mean pressure, Pa, and temperature, K, of the points; `given`: whether G0, and tau0, are held by the
+    user: then one pressure or one temperature (not both) tells the coefficient.
     """
     reasons: dict[int, str] = {}
-    modulus, stress = GROUPS
-    if np.max(deborah) < VISCOUS:
-        for index in modulus:
-            reasons[index] = (
-                f"the data are viscous only (largest Deborah number {np.max(deborah):.2g}, below {VISCOUS:g}): the "
-                "shear modulus does not show"
-            )
-    for group in (modulus, stress):
-        if np.ptp(pressure) < SAME_PRESSURE * np.mean(pressure):
-            reasons.setdefault(group[1], "one pressure only")
-        if np.ptp(temperature) < SAME_TEMPERATURE:
-            reasons.setdefault(group[2], "one temperature only")
+    one_pressure = np.ptp(pressure) < SAME_PRESSURE * np.mean(pressure)
+    one_temperature = np.ptp(temperature) < SAME_TEMPERATURE
+    for group, value_given in zip(GROUPS, given, strict=True):
+        if one_pressure and not (value_given and not one_temperature):
+            reasons[group[1]] = "one pressure only"
+        if one_temperature and not (value_given and not one_pressure):
+            reasons[group[2]] = "one temperature only"
     return reasons
+
+
+def confounded(pressure: np.ndarray, temperature: np.ndarray) -> str:
+    """A sentence where pressure and temperature change together, or an empty text."""
+    inverse = 1.0 / temperature
+    if np.ptp(pressure) < SAME_PRESSURE * np.mean(pressure) or np.ptp(temperature) < SAME_TEMPERATURE:
+        return ""
+    together = float(np.corrcoef(pressure, inverse)[0, 1])
+    if abs(together) < TOGETHER:
+        return ""
+    return (
+        f"Pressure and temperature change together (correlation of p and 1/T {together:.2f}): the curves hardly tell "
+        "their effects apart, and the intervals lean on the shape of the law."
+    )
 
 
 def not_determined(spread: Spread, directions: np.ndarray, free: np.ndarray, centre: Centre) -> dict[int, str]:
@@ -57,8 +79,10 @@ def not_determined(spread: Spread, directions: np.ndarray, free: np.ndarray, cen
             variance = _quadratic(spread.covariance, row)
             half = spread.quantile * np.sqrt(variance) * length if np.isfinite(variance) else np.inf
             if not half <= UNKNOWN:
-                factor = np.exp(min(half, 50.0))
-                reasons[index] = f"its effect on the data is uncertain by a factor of {factor:.3g} to either side"
+                reasons[index] = "the data do not show it"
+                if half < HUGE:
+                    factor = np.exp(half)
+                    reasons[index] = f"its effect on the data is uncertain by a factor of {factor:.3g} to either side"
     return reasons
 
 

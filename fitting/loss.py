@@ -63,6 +63,14 @@ TUNING = {"linear": math.inf, "soft_l1": 1.345, "cauchy": 2.385}
 """Residual, in standard deviations, at which the loss bends: 95 % efficient for normal errors (soft_l1: as Huber's)."""
 
 
+def influence(residual: np.ndarray, kind: str) -> np.ndarray:
+    r"""$\psi = \rho'/2$, what a residual counts in the normal equations. **Arguments:** in units of the bend."""
+    square = np.square(residual)
+    if kind == "linear":
+        return residual
+    return residual / (np.sqrt(1.0 + square) if kind == "soft_l1" else 1.0 + square)
+
+
 def variance_factor(residual: np.ndarray, kind: str, parameters: int) -> float:
     r"""Variance that the covariance of an M-estimate takes, $\frac{\sum\psi^2/(n-k)}{(\overline{\psi'})^2}$.
 
@@ -71,13 +79,13 @@ def variance_factor(residual: np.ndarray, kind: str, parameters: int) -> float:
     """
     square = np.square(residual)
     if kind == "linear":
-        influence, slope = residual, np.ones_like(residual)
+        slope = np.ones_like(residual)
     elif kind == "soft_l1":
-        influence, slope = residual / np.sqrt(1.0 + square), (1.0 + square) ** -1.5
+        slope = (1.0 + square) ** -1.5
     else:
-        influence, slope = residual / (1.0 + square), (1.0 - square) / np.square(1.0 + square)
+        slope = (1.0 - square) / np.square(1.0 + square)
     degrees = max(len(residual) - parameters, 1)
-    return float(np.sum(np.square(influence)) / degrees / np.mean(slope) ** 2)
+    return float(np.sum(np.square(influence(residual, kind))) / degrees / np.mean(slope) ** 2)
 
 
 def scale_of(residual: np.ndarray) -> float:

@@ -39,6 +39,7 @@ class Measurements(eqx.Module):
         **Raises:** `MeasurementError` where neither says it, or the scene gives several values.
         """
         count = len(table.slide_to_roll)
+        _check_signs(np.asarray(table.slide_to_roll), np.asarray(table.traction_coefficient))
         load = table.load
         if load is None and table.pressure is not None:
             load = np.asarray(scene.hertz.load_at_pressure(jnp.asarray(table.pressure)))
@@ -68,6 +69,17 @@ class Measurements(eqx.Module):
     def in_curve(self, number: int) -> np.ndarray:
         """Mask of the points of one curve."""
         return np.asarray(self.curve) == number
+
+
+def _check_signs(slide: np.ndarray, coefficient: np.ndarray) -> None:
+    if not np.any(coefficient):
+        raise MeasurementError("traction_coefficient: found 0 at every point; expected a traction that can be fitted")
+    opposed = int(np.sum(coefficient * slide < 0))
+    if opposed > int(np.sum(coefficient * slide > 0)):
+        raise MeasurementError(
+            f"traction_coefficient: found the sign opposite to that of slide_to_roll at {opposed} of {len(slide)} "
+            "points; expected the same sign (body 1, the faster one at a positive slide, drags body 2 along)"
+        )
 
 
 def _only(scene: TwoDisk, name: str, column: str) -> float:

@@ -16,6 +16,8 @@ SYSTEMATIC = 2.6
 """Standard deviations of the lag-one correlation beyond which neighbouring residuals are not independent (1 %)."""
 LARGEST = 2.5
 """Robust standard deviations to which a residual is cut there: one outlier must not hide what the others show."""
+MISSED = 0.3
+"""Root mean square of the differences over that of the coefficients, beyond which a model misses the curves."""
 FEWEST = 8
 """Points of all curves below which nothing is said."""
 
@@ -43,14 +45,15 @@ def curve_fits(
     return tuple(found)
 
 
-def information(standard: np.ndarray, parameters: int) -> tuple[float, float]:
-    """Akaike's and Schwarz's criteria for normal errors of unknown size.
+def information(difference: np.ndarray, deviation: np.ndarray, parameters: int) -> tuple[float, float]:
+    """Akaike's and Schwarz's criteria for normal errors of known ratios and unknown size.
 
-    **Arguments:** `standard`: weighted residuals; `parameters`: how many were fitted.
+    **Arguments:** `difference`: model minus measurement; `deviation`: its assumed standard deviation (it may depend on
+    the model); `parameters`: how many were fitted.
     """
-    count = len(standard)
-    mean_square = max(float(np.mean(np.square(standard))), np.finfo(float).tiny)
-    fitness = float(count * np.log(mean_square))
+    count = len(difference)
+    mean_square = max(float(np.mean(np.square(difference / deviation))), np.finfo(float).tiny)
+    fitness = float(count * np.log(mean_square) + 2.0 * np.sum(np.log(deviation)))
     return fitness + 2.0 * (parameters + 1), fitness + float(np.log(count)) * (parameters + 1)
 
 
@@ -71,6 +74,9 @@ def neighbour_correlation(measurements: Measurements, standard: np.ndarray) -> t
 
 def lack_of_fit(measurements: Measurements, standard: np.ndarray, difference: np.ndarray) -> list[str]:
     """A sentence where the residuals are not random."""
+    rms, size = (float(np.sqrt(np.mean(np.square(x)))) for x in (difference, measurements.traction_coefficient))
+    if rms > MISSED * size:
+        return [f"Lack of fit: the model misses the curves by {100 * rms / size:.0f} % of their size (rms)."]
     correlation, pairs = neighbour_correlation(measurements, standard)
     if pairs < FEWEST or correlation * np.sqrt(pairs) < SYSTEMATIC:
         return []

@@ -8,6 +8,8 @@ from .loss import LOSSES, Errors
 from .parameters import NAMES
 from .viscous import VISCOUS
 
+MOST_STARTS = 1000
+
 
 class FitOptions(NamedTuple):
     """How to fit.
@@ -49,5 +51,10 @@ class FitOptions(NamedTuple):
                     raise ValueError(f"{option}: found {name!r}, expected one of {', '.join(NAMES)}")
         if not 0.0 < self.level < 1.0:
             raise ValueError(f"level: found {self.level}, expected a number between 0 and 1")
-        if self.starts < 1:
-            raise ValueError(f"starts: found {self.starts}, expected at least 1")
+        for name, (low, high) in self.bounds.items():
+            if low is not None and high is not None and not low < high:
+                raise ValueError(f"bounds: found {low:g} to {high:g} for {name}, expected the lower one first")
+            if name in ("shear_modulus", "stress") and any(limit is not None and limit <= 0 for limit in (low, high)):
+                raise ValueError(f"bounds: found {low} to {high} for {name}, expected bounds > 0")
+        if not 1 <= self.starts <= MOST_STARTS:
+            raise ValueError(f"starts: found {self.starts}, expected 1 to {MOST_STARTS}")

@@ -8,16 +8,18 @@ import jax
 import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Array, Float
+from scipy import stats
 
 from jaxbearing.contacts import deborah_number
 from jaxbearing.machines import DiskState, TwoDisk
+from jaxbearing.machines.two_disk import INNER_TOLERANCE
 
 from .estimation import Problem, coefficients, estimate_from, linearized, slope_over_slide
 from .identifiability import frozen_by_rule
 from .loss import TUNING, scale_of, variance_factor
-from .measurements import Measurements
+from .measurements import MeasurementError, Measurements
 from .options import FitOptions
-from .parameters import NAMES, Centre, centred_directions, natural
+from .parameters import GROUPS, NAMES, POSITIVE, SCALES, Centre, centred_directions, natural
 from .start import estimated_start
 from .uncertainty import Spread, spread
 
@@ -26,6 +28,8 @@ MODULUS_SHIFTS = (0.0, 1.5, 3.0, -1.5, -3.0, -5.0, -7.0, -9.0, -12.0, -15.0)
 """Changes of ln(shear modulus) that are looked at before the first start."""
 STRESS_SHIFTS, LARGEST_SHIFT = 4, 2.0
 """Rounds in which the first stress is brought to the tops of the curves, and the largest change of its logarithm."""
+SIGNIFICANT = 1e-3
+"""Probability of chance below which a better fit is taken for an effect."""
 REWEIGHTINGS = 4
 """Times that scale and slopes are renewed with a robust loss or errors in the slide ratio."""
 
@@ -65,6 +69,13 @@ class Search:
         )
         self.batch = _state(scene, *(self.fill(column) for column in columns))
         self.state = jax.tree.map(lambda leaf: leaf[: self.count], self.batch)
+        lost = np.flatnonzero(~(np.asarray(self.state.inner_residual) <= INNER_TOLERANCE))
+        if len(lost):
+            raise MeasurementError(
+                f"inlet temperature: found no solution at {len(lost)} of {self.count} points, the first at a slide-to-"
+                f"roll ratio of {100 * float(measurements.slide_to_roll[lost[0]]):.3g} %; expected conditions that the "
+                "scene's thermal law holds for"
+            )
         assert scene.oil.rheology is not None
         self.rheology = scene.oil.rheology
         self.pressure = np.asarray(self.state.patch.mean_pressure)
@@ -87,11 +98,32 @@ class Search:
         return jnp.asarray(np.pad(values, [(0, 0)] * (values.ndim - 1) + [(0, filled(self.count) - self.count)]))
 
     def free_by_rule(self) -> tuple[np.ndarray, dict[int, str]]:
-        reasons = frozen_by_rule(self.pressure, self.temperature, self.deborah)
+        """Parameters to fit, and why the others are held: one pressure, one temperature."""
+        given = ("shear_modulus" in self.options.fixed, "stress" in self.options.fixed)
+        reasons = frozen_by_rule(self.pressure, self.temperature, given)
         fixed = [NAMES.index(name) for name in self.options.fixed]
-        insisted = [NAMES.index(name) for name in self.options.free]
-        free = np.array([i not in fixed and (i not in reasons or i in insisted) for i in range(len(NAMES))])
+        free = np.array([i not in fixed and (i not in reasons or i in self.insisted) for i in range(len(NAMES))])
         return free, reasons
+
+    @property
+    def insisted(self) -> set[int]:
+        """Parameters that the user wants to be fitted in any case."""
+        return {NAMES.index(name) for name in self.options.free}
+
+    def elastic_part_shows(self, free: np.ndarray) -> bool:
+        """Whether a fit of the shear modulus is significantly better than the scene's value (F test): the Deborah
+        number by which the data look viscous is that of the scene's modulus, which may be far off."""
+        without = free.copy()
+        without[list(GROUPS[0])] = False
+        losses = []
+        for tried in (without, free):
+            problem = self.problem(tried, {})
+            losses.append(float(np.nanmin(np.asarray(self.optimised(problem, self.starts(problem, tried))[1].loss))))
+        degrees = self.count - int(np.sum(free))
+        if degrees <= 0 or not losses[1] > 0.0:
+            return False
+        gain = (losses[0] - losses[1]) / int(np.sum(free & ~without)) / (losses[1] / degrees)
+        return bool(stats.f.sf(gain, int(np.sum(free & ~without)), degrees) < SIGNIFICANT)
 
     def problem(self, free: np.ndarray, pinned: Mapping[int, float], base: np.ndarray | None = None) -> Problem:
         start = estimated_start(
@@ -102,7 +134,7 @@ class Search:
             self.deborah,
             self.curve,
         )
-        own, estimated = natural(self.rheology), natural(start)
+        own, estimated = self.within_bounds(natural(self.rheology)), natural(start)
         coordinates = np.where(free, estimated, own) if base is None else np.where(free, base, own)
         for index, value in pinned.items():
             coordinates[index] = value
@@ -119,6 +151,22 @@ class Search:
             scales=jnp.ones(len(NAMES)),
             loss=self.options.loss,
         )
+
+    def within_bounds(self, coordinates: np.ndarray) -> np.ndarray:
+        """Natural coordinates moved to the nearest bound where they are beyond it."""
+        low, high = self.limits
+        return np.clip(coordinates, low, high)
+
+    @property
+    def limits(self) -> tuple[np.ndarray, np.ndarray]:
+        """Bounds in natural coordinates, infinite where there is none."""
+        limits = np.full(len(NAMES), -np.inf), np.full(len(NAMES), np.inf)
+        for name, pair in self.options.bounds.items():
+            index = NAMES.index(name)
+            for limit, value in zip(limits, pair, strict=True):
+                if value is not None:
+                    limit[index] = np.log(value) if POSITIVE[index] else value / SCALES[index]
+        return limits
 
     def starts(self, problem: Problem, free: np.ndarray) -> np.ndarray:
         """The most promising of a scan over the shear modulus, at each of which the stress is brought to the tops of

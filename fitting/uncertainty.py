@@ -29,8 +29,8 @@ def spread(jacobian: np.ndarray, free: np.ndarray, variance: float, level: float
     """
     indices = np.flatnonzero(free)
     covariance = np.zeros((len(free), len(free)))
-    degrees = max(jacobian.shape[0] - len(indices), 1)
-    quantile = float(stats.t.ppf(0.5 + 0.5 * level, degrees))
+    degrees = informative(jacobian, free) - len(indices)
+    quantile = float(stats.t.ppf(0.5 + 0.5 * level, degrees)) if degrees > 0 else np.nan
     if len(indices) == 0:
         return Spread(covariance, quantile, 1.0, degrees)
     columns = jacobian[:, indices]
@@ -52,6 +52,12 @@ def spread(jacobian: np.ndarray, free: np.ndarray, variance: float, level: float
     scale = np.outer(np.where(seen, norms, 1.0), np.where(seen, norms, 1.0))
     covariance[np.ix_(indices, indices)] = variance * inverse / scale
     return Spread(covariance, quantile, condition, degrees)
+
+
+def informative(jacobian: np.ndarray, free: np.ndarray) -> int:
+    """Number of points that the free parameters move at all: a point at no sliding, met by any law, tells nothing."""
+    size = np.linalg.norm(jacobian[:, free], axis=1)
+    return int(np.sum(size > SINGULAR * np.max(size, initial=0.0)))
 
 
 def correlation(covariance: np.ndarray) -> np.ndarray:

@@ -8,6 +8,7 @@ import pytest
 from traction_curves import mobil_curves, mobil_scene, wrong_start
 
 import fitting
+import fitting.comparison
 from fitting.parameters import NAMES
 
 ERRORS = fitting.Errors(relative=0.02, floor=2e-5)
@@ -38,6 +39,7 @@ def test_noise_free_curves_give_all_parameters_back(curves):
     for name in NAMES:
         np.testing.assert_allclose(result.parameters[name].value, float(getattr(true, name)), rtol=1e-8)
         np.testing.assert_allclose(float(getattr(result.oil.rheology, name)), result.parameters[name].value, rtol=1e-15)
+        assert result.parameters[name].standard_error is None  # nothing tells the errors of exact curves
     assert result.notes == ()
 
 
@@ -252,3 +254,55 @@ def test_scene_fills_what_the_file_does_not_hold(curves):
     data = fitting.Measurements.of(dataclasses.replace(curves, temperature=None, pressure=None), one)
     assert np.all(np.asarray(data.temperature) == 297.0)
     np.testing.assert_allclose(scene.hertz.hertz_pressure(data.load), 1.5e9, rtol=1e-9)
+
+
+@pytest.mark.slow
+def test_a_bound_that_does_not_bind_lets_go(curves):
+    """The upper bound of alpha_G drives G0 up, far inside its own lower bound, below which the free fit lies."""
+    scene, upper = mobil_scene(), {"shear_modulus_pressure": (None, 5.5e-9)}
+    both = fitted(noisy(curves), scene, bounds={"shear_modulus": (5.5e4, None), **upper})
+    one = fitted(noisy(curves), scene, bounds=upper)
+    assert "at its bound" in both.parameters["shear_modulus_pressure"].reason
+    np.testing.assert_allclose(both.loss, one.loss, rtol=1e-9)
+    np.testing.assert_allclose(both.parameters["shear_modulus"].value, one.parameters["shear_modulus"].value, rtol=1e-5)
+    assert both.parameters["shear_modulus"].lower > 5.5e4
+
+
+def test_held_parameters_keep_within_their_bounds(curves):
+    one = part(noisy(curves), (curves.temperature == 297.0) & (curves.pressure == 1.5e9))
+    result = fitted(one, mobil_scene(), bounds={"shear_modulus_pressure": (7e-9, 9e-9)})
+    assert result.parameters["shear_modulus_pressure"].value == pytest.approx(7e-9, rel=1e-12)
+
+
+def test_as_many_points_as_parameters_give_no_interval(curves):
+    few = np.flatnonzero((curves.temperature == 297.0) & (curves.pressure == 1.5e9))[[1, 8]]
+    result = fitted(part(noisy(curves), np.isin(np.arange(60), few)), mobil_scene())
+    assert result.fitted == ("shear_modulus", "stress")
+    assert all(p.standard_error is p.lower is p.upper is None for p in result.parameters.values())
+    assert not np.any(result.outlier)
+
+
+def test_modulus_of_the_scene_far_off(curves):
+    """With a modulus 100 times too high the data look viscous; they are not."""
+    scene = mobil_scene()
+    stiff = eqx.tree_at(lambda s: s.oil.rheology.shear_modulus, scene, 100.0 * scene.oil.rheology.shear_modulus)
+    one = part(noisy(curves), (curves.temperature == 340.0) & (curves.pressure == 1.5e9))
+    result = fitted(one, stiff)
+    assert not result.parameters["shear_modulus"].fixed
+    inside = result.parameters["stress"]
+    assert inside.lower < float(scene.oil.rheology.stress) < inside.upper
+
+
+def test_nothing_to_fit(curves):
+    scene = mobil_scene()
+    with pytest.raises(fitting.MeasurementError, match="found 0 at every point"):
+        fitted(dataclasses.replace(curves, traction_coefficient=0.0 * curves.traction_coefficient), scene)
+    with pytest.raises(fitting.MeasurementError, match="sign opposite"):
+        fitted(dataclasses.replace(curves, traction_coefficient=-curves.traction_coefficient), scene)
+    assert not fitted(noisy(curves), scene, fixed=NAMES).converged
+
+
+def test_what_the_others_cannot_predict_is_not_cross_validated(curves):
+    """Two curves at two temperatures: without one of them the temperature coefficients are unknown."""
+    two = part(noisy(curves), (curves.pressure == 1.5e9) & (curves.temperature < 350.0))
+    assert fitting.comparison.cross_validated_rms(fitted(two, mobil_scene())) is None
