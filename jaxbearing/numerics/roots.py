@@ -92,7 +92,8 @@ def _root(
         low = jnp.where(value < 0, state.x, state.low)
         high = jnp.where(value > 0, state.x, state.high)
         newton = state.x - value / slope
-        inside = (newton >= low) & (newton <= high)  # False for NaN
+        # False for NaN; where a function that should rise falls, halving the bracket still finds a root
+        inside = (newton >= low) & (newton <= high) & (slope > 0)
         x = jnp.where(value == 0, state.x, jnp.where(inside, newton, 0.5 * (low + high)))
         step = jnp.abs(x - state.x) / jnp.maximum(1.0, jnp.abs(x))
         # proper: the Newton step from here stays in the first bracket, so x is a root and not a bracket end
