@@ -25,8 +25,9 @@ from .status import Status
 BACKTRACK = (1.0, 0.3, 0.05)
 """Fractions of the Newton step that are tried, in this order; the last is taken in any case."""
 GROWTH = 1.5
-"""A trial may let the residual grow by this factor: to ask for a decrease breaks steps that lead over a shallow rise
-(measured on random roller bearings: half as many slow solves as with a demanded decrease)."""
+"""A trial of the first try may let the residual grow by this factor: to ask for a decrease breaks steps that lead over
+a shallow rise (measured on random roller bearings: half as many slow solves as with a demanded decrease). The further
+tries, begun nearer to their root, ask for a decrease: a residual that saturates never grows by that factor."""
 LONGEST_STAGE = 0.25
 """First length of a stage, in ease."""
 SHORTEST_STAGE = 0.02
@@ -166,7 +167,10 @@ def _iterate(system: AbstractArrowSystem, options: NewtonOptions) -> _Iterate:
         )
         converged = settled & (equations.inner <= options.inner_tolerance)
 
-        enough = norm <= GROWTH * state.base_norm
+        growth = jnp.asarray(GROWTH)
+        if state.path is not None:
+            growth = jnp.where(state.path.tries <= 1, growth, 1.0 - 0.1 * fractions[state.attempt])
+        enough = norm <= growth * state.base_norm
         accept = usable & (enough | (state.attempt == last_attempt))
         stuck = ~usable & (state.attempt == last_attempt)
 
