@@ -11,6 +11,7 @@ with install_import_hook(["jaxbearing", "fitting"], "beartype.beartype"):
     import jaxbearing  # noqa: F401  (switches float64 on)
 
 import jax
+import jaxlib
 
 jax.config.update("jax_numpy_rank_promotion", "raise")
 jax.config.update("jax_numpy_dtype_promotion", "strict")
@@ -20,3 +21,11 @@ _CACHE = Path(__file__).parent.parent / ".pytest_cache" / "compiled"
 _CACHE.mkdir(parents=True, exist_ok=True)
 jax.config.update("jax_compilation_cache_dir", str(_CACHE))
 jax.config.update("jax_persistent_cache_min_compile_time_secs", 0.5)
+
+
+def pytest_configure(config):
+    """The fast tests compile quickly: most of their time is spent in XLA. The slow ones run what users run."""
+    if config.getoption("markexpr") == "not slow":
+        jax.config.update("jax_disable_most_optimizations", True)
+        if jaxlib.__version__.startswith("0.10."):  # a flag that is not known ends the process
+            os.environ.setdefault("XLA_FLAGS", "--xla_cpu_use_fusion_emitters=false")
