@@ -11,8 +11,8 @@ _QUICK = {
     "xla_backend_optimization_level": 0,
     "xla_llvm_disable_expensive_passes": True,
 }
-"""On a CPU, XLA's older way to emit loops and LLVM without its optimizations: a bearing compiles in 0.65 of the time and
-0.4 of the processor time; its programs run 2 to 3 times slower, milliseconds for one solve."""
+"""On a CPU, XLA's older way to emit loops and LLVM without its optimizations: a bearing compiles in 0.65 of the time
+and 0.4 of the processor time; its programs run 2 to 3 times slower, milliseconds for one solve."""
 
 
 def quickly_compiled(function: Callable[..., Any]) -> Callable[..., Any]:
