@@ -26,9 +26,9 @@ def number(default: Any = dataclasses.MISSING, **kwargs: Any) -> Any:
     return eqx.field(converter=as_float, **kwargs)
 
 
-def optional_number() -> Any:
+def optional_number(**kwargs: Any) -> Any:
     """Like `number`, `None` where the scene does not say."""
-    return eqx.field(converter=lambda v: None if v is None else as_float(v), default=None)
+    return eqx.field(converter=lambda v: None if v is None else as_float(v), default=None, **kwargs)
 
 
 class AbstractScene(eqx.Module):

@@ -68,16 +68,17 @@ class Drag(eqx.Module):
         )
 
 
-def check_row_fits(n_rollers: int, diameter: Any, pitch_diameter: Any) -> None:
+def check_row_fits(count: int, diameter: Any, pitch_diameter: Any, element: str = "roller") -> None:
     """**Raises:** `ValueError` where the rolling elements do not fit on the pitch circle."""
-    if n_rollers < 1:
-        raise ValueError(f"geometry.n_rollers must be >= 1, got {n_rollers}")
+    name = f"geometry.n_{element}s"
+    if count < 1:
+        raise ValueError(f"{name} must be >= 1, got {count}")
     sizes = known(diameter, pitch_diameter)
     if sizes is None:
         return
-    chord = sizes[1] * math.sin(math.pi / max(n_rollers, 2))
+    chord = sizes[1] * math.sin(math.pi / max(count, 2))
     if sizes[0] >= chord:
         raise ValueError(
-            f"geometry.n_rollers: {n_rollers} rollers of diameter {sizes[0]:g} m do not fit on a pitch "
+            f"{name}: {count} {element}s of diameter {sizes[0]:g} m do not fit on a pitch "
             f"circle of {sizes[1]:g} m: their centres are {chord:g} m apart"
         )

@@ -47,6 +47,7 @@ from ..numerics.arrow import AbstractArrowSystem, ArrowPoint
 from ..numerics.roots import monotone_root
 from ..numerics.safe import positive_power, safe_norm
 from .kinematics import RollerKinematics
+from .land import LandState, guided_land
 
 LENGTH_UNIT = 1e-5
 """Scale of displacements and approaches, m."""
@@ -77,17 +78,6 @@ class RollerState(NamedTuple):
     moment_error: Float[Array, " roller"] | None
     cage_moment: Float[Array, " roller"] | None
     cage_force: Float[Array, "2 roller"] | None
-
-
-class LandState(NamedTuple):
-    """The guiding lands together: torque on the cage and on the guiding ring, dissipation, where the cage sits."""
-
-    eccentricity_ratio: Float[Array, ""]
-    attitude_angle: Float[Array, ""]
-    cage_torque: Float[Array, ""]
-    ring_torque: Float[Array, ""]
-    power: Float[Array, ""]
-    residual: Float[Array, ""]
 
 
 class CageParts(eqx.Module):
@@ -350,22 +340,8 @@ class LubricatedRollerSystem(AbstractArrowSystem):
         """The lands that carry the pocket forces: eccentricity, torques on cage and guiding ring."""
         cage, motion = self.cage, self.kinematics
         assert cage is not None
-        inner = cage.guidance == "inner_ring"
-        journal, bush = (motion.inner_speed, orbit) if inner else (orbit, motion.outer_speed)
-        land, viscosity = cage.land, self.inlet.viscosity
-        k_z, c_f = land.film_factors(self.inlet.density, viscosity, journal - bush)
-        film = land.static_equilibrium(safe_norm(force_x, force_y) / land.n_lands, journal, bush, viscosity, k_z)
-        on_journal, on_bush = land.torques(
-            film.eccentricity_ratio, film.tangential_force, journal, bush, viscosity, c_f
-        )
-        on_cage, on_ring = (on_bush, on_journal) if inner else (on_journal, on_bush)
-        return LandState(
-            eccentricity_ratio=film.eccentricity_ratio,
-            attitude_angle=film.attitude_angle,
-            cage_torque=land.n_lands * on_cage,
-            ring_torque=land.n_lands * on_ring,
-            power=land.n_lands * land.dissipation(on_journal, on_bush, journal, bush),
-            residual=film.residual,
+        return guided_land(
+            cage.land, cage.guidance, motion.inner_speed, motion.outer_speed, orbit, force_x, force_y, self.inlet
         )
 
     def land_at(self, point: ArrowPoint, state: RollerState) -> LandState:

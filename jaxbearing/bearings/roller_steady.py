@@ -25,11 +25,11 @@ from ..numerics.newton import NewtonOptions, NewtonResult, newton_solve
 from ..numerics.safe import safe_norm
 from .cylindrical_roller import CylindricalRollerBearing, RollerCage, RollerGeometry
 from .kinematics import RollerKinematics
+from .land import LandState
 from .roller_equations import (
     LENGTH_UNIT,
     CageParts,
     DryRollerSystem,
-    LandState,
     LubricatedRollerSystem,
     RollerState,
 )

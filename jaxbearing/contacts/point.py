@@ -61,6 +61,15 @@ class PointContact(eqx.Module):
         """Load that gives a Hertz (peak) pressure, N. **Arguments:** `pressure`, Pa, > 0."""
         return jnp.square(self._compliance(self._log_ellipticity())) * (jnp.pi / 1.5 * jnp.asarray(pressure)) ** 3
 
+    def stiffness_constant(self) -> Float[Array, "..."]:
+        r"""$K = Q/\delta^{3/2}$, N/m^(3/2), $\pi kE'\sqrt{2ER/(9K_1^3)}$ with the complete integrals E and $K_1$."""
+        log_k = jnp.abs(self._log_ellipticity())
+        integrals = _elliptic(log_k)
+        second_kind = integrals.b + integrals.d * jnp.exp(-2.0 * log_k)
+        curvature = 1.0 / self.reduced_radius_rolling + 1.0 / self.reduced_radius_transverse
+        root = jnp.sqrt(2.0 / 9.0 * second_kind / (curvature * integrals.k))
+        return jnp.pi * jnp.exp(log_k) * self.reduced_modulus * root / integrals.k
+
     def _log_ellipticity(self) -> Array:
         return log_ellipticity(jnp.log(self.reduced_radius_transverse) - jnp.log(self.reduced_radius_rolling))
 

@@ -1,0 +1,284 @@
+"""The ball bearing as a scene: geometry, materials, oil, contact laws, cage, drag, attitude of the balls' spin.
+
+Frames and signs. $e_x$ along the bearing axis; azimuths from the load line, counter-clockwise, the sense of inner ring
+rotation. Axial load and displacement push the inner ring along $+e_x$, radial ones along azimuth 0; a positive moment
+or tilt moves azimuth 0 of the inner ring along $+e_x$. Contact angles are positive where the inner race pushes the ball
+along $+e_x$. The groove is taken as a full circle: `geometry.shoulder_angle_*` says where it ends.
+"""
+
+import math
+from typing import Literal
+
+import equinox as eqx
+
+from .._scene import AbstractScene, label, number, optional_number
+from .._types import Scalar
+from ..contacts.point_laws import PointLaws
+from ..gaps import AbstractTurbulence, BlendedTurbulence
+from ..lubricants import Lubricant, NoPressureViscosity
+from ..materials import Material
+from ..numerics.checks import known, require
+from .ball_geometry import BallGeometry
+from .gyroscopic import AbstractGyroscopic, ResolvedCouple
+
+ASSUMED_CAGE_THICKNESS = 0.4
+"""Radial thickness of the cage over the ball diameter, where a scene does not give its diameters."""
+ASSUMED_LANDS = 2
+"""Number of cage lands, where a scene does not give it."""
+
+
+class BallOperation(eqx.Module):
+    """Operating point of a ball bearing: the batched part of a sweep.
+
+    A load that is not given (`None`) is 0, and where neither `radial_load` nor `moment` nor `misalignment` is given all
+    balls are alike, and one of them is solved for. A `moment` (also 0) frees the tilt of the inner ring; without it the
+    ring is held at `misalignment`.
+
+    **Arguments:**
+    - `inner_speed`, `outer_speed`: absolute speeds of the rings, rad/s.
+    - `axial_load`, `radial_load`: on the inner ring, N.
+    - `moment`: on the inner ring, N m; `misalignment`: tilt of the inner ring, rad.
+    - `oil_temperature`: inlet temperature, K; `oil_flow`: supplied to the bearing, m^3/s.
+    """
+
+    inner_speed: Scalar = number(metadata=label("rad/s", "inner ring speed"))
+    axial_load: Scalar | None = optional_number(metadata=label("N", "axial load"))
+    radial_load: Scalar | None = optional_number(metadata=label("N", "radial load"))
+    moment: Scalar | None = optional_number(metadata=label("N m", "moment"))
+    misalignment: Scalar | None = optional_number(metadata=label("rad", "misalignment"))
+    oil_temperature: Scalar = number(373.15, metadata=label("K", "oil temperature"))
+    oil_flow: Scalar = number(0.0, metadata=label("m^3/s", "oil flow"))
+    outer_speed: Scalar = number(0.0, metadata=label("rad/s", "outer ring speed"))
+
+    def __check_init__(self):
+        loads = {name: (getattr(self, name), "finite") for name in ("axial_load", "radial_load", "moment")}
+        require(
+            "operation",
+            inner_speed=(self.inner_speed, "finite"),
+            outer_speed=(self.outer_speed, "finite"),
+            misalignment=(self.misalignment, "finite"),
+            oil_temperature=(self.oil_temperature, "> 0"),
+            oil_flow=(self.oil_flow, ">= 0"),
+            **loads,
+        )
+        if all(value is None for value, _ in loads.values()):
+            raise ValueError("operation.axial_load: a ball bearing needs an axial_load, a radial_load or a moment")
+        sizes = known(*(value for value, _ in loads.values() if value is not None))
+        if sizes is not None and not any(sizes):
+            raise ValueError("operation.axial_load: all loads are 0, and nothing holds the inner ring in its place")
+
+    @property
+    def symmetric(self) -> bool:
+        """Whether all balls are alike."""
+        return self.radial_load is None and self.moment is None and self.misalignment is None
+
+
+class BallMaterials(eqx.Module):
+    """Solids of a ball bearing: `rings` and `balls`."""
+
+    rings: Material
+    balls: Material
+
+
+class BallAttitude(eqx.Module):
+    """How the balls turn.
+
+    **Arguments:**
+    - `attitude`: closure for the direction of a ball's spin: "outer" or "inner" race control (no spin there),
+      "min_power" (least spin power), "equilibrium" (moment balance of the ball under its traction).
+    - `gyroscopic`: what carries the gyroscopic couple: `None` (off), an `AbstractGyroscopic`, or `ResolvedCouple()`.
+    """
+
+    attitude: Literal["outer", "inner", "min_power", "equilibrium"] = eqx.field(static=True, default="equilibrium")
+    gyroscopic: AbstractGyroscopic | ResolvedCouple | None = None
+
+    def __check_init__(self):
+        known_names = ("outer", "inner", "min_power", "equilibrium")
+        if self.attitude not in known_names:
+            raise ValueError(f"kinematics.attitude must be one of {', '.join(known_names)}, got {self.attitude!r}")
+        if isinstance(self.gyroscopic, ResolvedCouple) and self.attitude != "equilibrium":
+            raise ValueError("kinematics.gyroscopic: 'resolved' needs kinematics.attitude = 'equilibrium'")
+
+
+class BallCage(eqx.Module):
+    """One-piece cage with cylindrical pockets, guided by one ring on `n_lands` lands.
+
+    **Arguments:**
+    - `guidance`: "inner_ring" or "outer_ring".
+    - `guiding_clearance`: DIAMETRAL clearance of the lands, m.
+    - `pocket_clearance`: pocket diameter minus ball diameter, m.
+    - `land_width`: of ONE land, m.
+    - `inner_diameter`, `outer_diameter`: of the cage, m; assumed from the ball size where not given.
+    - `n_lands`: number of lands; 2 where not given.
+    - `turbulence`: flow regime of the lands.
+    """
+
+    guidance: Literal["inner_ring", "outer_ring"] = eqx.field(static=True)
+    guiding_clearance: Scalar = number()
+    pocket_clearance: Scalar = number()
+    land_width: Scalar = number()
+    inner_diameter: Scalar | None = optional_number()
+    outer_diameter: Scalar | None = optional_number()
+    n_lands: int | None = eqx.field(static=True, default=None)
+    turbulence: AbstractTurbulence = BlendedTurbulence()
+
+    def __check_init__(self):
+        if self.guidance not in ("inner_ring", "outer_ring"):
+            raise ValueError(f"cage.guidance must be 'inner_ring' or 'outer_ring', got {self.guidance!r}")
+        require(
+            "cage",
+            guiding_clearance=(self.guiding_clearance, "> 0"),
+            pocket_clearance=(self.pocket_clearance, "> 0"),
+            land_width=(self.land_width, "> 0"),
+            inner_diameter=(self.inner_diameter, "> 0"),
+            outer_diameter=(self.outer_diameter, "> 0"),
+            n_lands=(self.n_lands, "> 0"),
+        )
+
+    @property
+    def lands(self) -> int:
+        return ASSUMED_LANDS if self.n_lands is None else self.n_lands
+
+    def bore(self, geometry: BallGeometry) -> Scalar:
+        if self.inner_diameter is not None:
+            return self.inner_diameter
+        return geometry.pitch_diameter - ASSUMED_CAGE_THICKNESS * geometry.ball_diameter
+
+    def outside(self, geometry: BallGeometry) -> Scalar:
+        if self.outer_diameter is not None:
+            return self.outer_diameter
+        return geometry.pitch_diameter + ASSUMED_CAGE_THICKNESS * geometry.ball_diameter
+
+
+class BallDragSettings(eqx.Module):
+    """Oil drag on the orbiting balls.
+
+    **Arguments:**
+    - `coefficient`: drag coefficient of one ball in its row; not given: that of an isolated sphere at its Reynolds
+      number.
+    - `through_flow_fraction`: part of the oil flow that passes through the bearing; 1 = under-race supply.
+    """
+
+    coefficient: Scalar | None = optional_number()
+    through_flow_fraction: Scalar = number(1.0)
+
+    def __check_init__(self):
+        require(
+            "drag",
+            coefficient=(self.coefficient, ">= 0"),
+            through_flow_fraction=(self.through_flow_fraction, "between 0 and 1"),
+        )
+
+
+class BallBearing(AbstractScene):
+    """A steady single-row ball bearing under any combination of axial load, radial load and moment.
+
+    - `contact=None`: dry and frictionless: loads, contact angles and motion without sliding, with `kinematics.attitude`
+      "outer" or "inner".
+    - `contact.traction=None`: films too, still without friction.
+    - with traction the balls slide and spin; without a `cage` every ball has its own orbital speed.
+
+    **Raises:** `ValueError` for combinations that have no steady state or lack what they need.
+    """
+
+    geometry: BallGeometry
+    materials: BallMaterials
+    operation: BallOperation
+    kinematics: BallAttitude = BallAttitude()
+    oil: Lubricant | None = None
+    contact: PointLaws | None = None
+    cage: BallCage | None = None
+    drag: BallDragSettings | None = None
+
+    def __check_init__(self):
+        if not self.slips and self.kinematics.attitude not in ("outer", "inner"):
+            raise ValueError(
+                f"kinematics.attitude: '{self.kinematics.attitude}' needs traction (contact.traction); without "
+                "friction the attitude is that of 'outer' or 'inner' race control"
+            )
+        if self.contact is None:
+            return
+        if self.oil is None:
+            raise ValueError("oil: a scene with a [contact] table needs an oil")
+        speeds = known(self.operation.inner_speed, self.operation.outer_speed)
+        if speeds is not None and speeds[0] == speeds[1]:
+            raise ValueError(
+                "operation.inner_speed: a lubricated bearing needs rings that turn against each other (100 rpm or "
+                "more); leave out [contact] for a dry one at rest"
+            )
+        if self.slips and self.cage is not None and self.oil.density is None:
+            raise ValueError("oil.density: the cage land and the drag need it")
+        if isinstance(self.oil.pressure_viscosity, NoPressureViscosity) and self.contact.film.piezoviscous_only:
+            raise ValueError(
+                f"contact.film: {type(self.contact.film).__name__} holds for oils whose viscosity rises with pressure, "
+                "not for an isoviscous one"
+            )
+        _check_cage(self)
+
+    @property
+    def slips(self) -> bool:
+        """Whether the balls' speeds are unknowns; without traction they follow from rolling without sliding."""
+        return self.contact is not None and self.contact.traction is not None
+
+    @property
+    def ring_freedom(self) -> tuple[str, ...]:
+        """Active freedoms of the inner ring, in the order of the unknowns."""
+        if self.operation.symmetric:
+            return ("axial",)
+        return ("axial", "radial") if self.operation.moment is None else ("axial", "radial", "tilt")
+
+    def unused_parts(self) -> tuple[str, ...]:
+        """Tables that the scene names but that have no effect without traction on the raceways."""
+        if self.slips:
+            return ()
+        named = {"cage": self.cage, "drag": self.drag}
+        if self.contact is None:
+            named["oil"] = self.oil
+        return tuple(name for name, part in named.items() if part is not None)
+
+    def assumptions(self) -> tuple[str, ...]:
+        """What the scene does not give and the model assumed, and what its data were not made for; for the user."""
+        said = []
+        if self.contact is not None and self.oil is not None:
+            said += [f"oil: {note}" for note in self.oil.notes]
+            if self.contact.traction is not None and self.oil.rheology is not None:
+                said += self.oil.rheology.misfit(self.contact.traction.viscous.name)
+        if self.slips and self.cage is not None:
+            for name, formula in (
+                ("inner_diameter", f"pitch diameter - {ASSUMED_CAGE_THICKNESS:g} ball diameters"),
+                ("outer_diameter", f"pitch diameter + {ASSUMED_CAGE_THICKNESS:g} ball diameters"),
+                ("n_lands", f"{ASSUMED_LANDS}"),
+            ):
+                if getattr(self.cage, name) is None:
+                    said.append(f"cage.{name} is not given: assumed {formula}")
+        if self.slips and self.kinematics.attitude != "equilibrium":
+            said.append(
+                f"kinematics.attitude = '{self.kinematics.attitude}' is a hypothesis: the moments about the radius do "
+                "not balance, and the losses do not add up to the drive power"
+            )
+        return tuple(said)
+
+
+def _check_cage(scene: BallBearing) -> None:
+    """**Raises:** `ValueError` where the cage cannot exist between the rings (where the numbers are known)."""
+    geometry, cage = scene.geometry, scene.cage
+    if cage is None:
+        return
+    sizes = known(
+        geometry.pitch_diameter,
+        geometry.ball_diameter,
+        cage.bore(geometry),
+        cage.outside(geometry),
+        cage.pocket_clearance,
+    )
+    if sizes is None:
+        return
+    pitch, ball, bore, outside, pocket = sizes
+    gap = pitch * math.sin(math.pi / max(geometry.n_balls, 2)) - ball
+    for name, value, low, high in (
+        ("inner_diameter", bore, pitch - ball, outside),
+        ("outer_diameter", outside, bore, pitch + ball),
+        ("pocket_clearance", pocket, 0.0, gap),
+    ):
+        if not low < value < high:
+            raise ValueError(f"cage.{name} must lie between {low:.6g} m and {high:.6g} m, got {value:.6g} m")

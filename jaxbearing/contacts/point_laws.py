@@ -1,0 +1,85 @@
+"""The lubricated contacts of balls put together: film, inlet heating, traction with spin, rolling resistance."""
+
+from typing import NamedTuple
+
+import equinox as eqx
+import jax.numpy as jnp
+from jaxtyping import Array, Float
+
+from .._types import Values
+from ..lubricants import InletOil, Lubricant
+from ..numerics.safe import smooth_abs
+from .distributed import DistributedTraction, Traction
+from .laws import SPEED_SMOOTHING
+from .patch import contact_patch
+from .point import PointContact
+from .point_film import AbstractPointFilm
+from .rolling import point_rolling_moment
+from .shear import Sliding
+from .thermal import AbstractThermalFactor, NoThermalReduction
+from .warm_film import warm_film
+
+
+class PointFilm(NamedTuple):
+    """Film, m, temperature of the oil that enters the contact and of the surfaces, K, rise above the bearing's inlet, K
+    (None: isothermal), viscosity there, Pa s, residual of the nested solve."""
+
+    film: Float[Array, "*batch"]
+    temperature: Float[Array, "*batch"]
+    rise: Float[Array, "*batch"] | None
+    viscosity: Float[Array, "*batch"]
+    residual: Float[Array, "*batch"]
+
+
+class PointLaws(eqx.Module):
+    """Laws of the lubricated contacts between balls and races.
+
+    **Arguments:**
+    - `film`: film thickness law.
+    - `thermal`: thermal reduction of the film; its rise also warms the oil in the contact.
+    - `traction`: the sheared film, or `None`: frictionless, and then the balls roll without sliding.
+    - `rolling_resistance`: whether the film's pressure resists rolling (`rolling.point_rolling_moment`).
+    """
+
+    film: AbstractPointFilm
+    thermal: AbstractThermalFactor = NoThermalReduction()
+    traction: DistributedTraction | None = None
+    rolling_resistance: bool = eqx.field(static=True, default=False)
+
+    def film_state(
+        self,
+        contact: PointContact,
+        load: Values,
+        mean_speed: Values,
+        sliding_speed: Values,
+        lubricant: Lubricant,
+        inlet: InletOil,
+    ) -> PointFilm:
+        """**Arguments:** `load`, N, > 0; `mean_speed` and `sliding_speed` along rolling, m/s, of either sign."""
+        speed = smooth_abs(mean_speed, SPEED_SMOOTHING)
+        found = warm_film(self.film, self.thermal, contact, load, speed, sliding_speed, lubricant, inlet)
+        temperature = inlet.temperature + (jnp.zeros_like(found.log_thickness) if found.rise is None else found.rise)
+        viscosity = lubricant.viscosity.viscosity(0.0, temperature)
+        return PointFilm(jnp.exp(found.log_thickness), temperature, found.rise, viscosity, found.residual)
+
+    def shear(
+        self,
+        contact: PointContact,
+        load: Values,
+        film: PointFilm,
+        mean_speed: Values,
+        sliding: Sliding,
+        lubricant: Lubricant,
+    ) -> Traction:
+        """Forces of the ball on the race and what they dissipate."""
+        assert self.traction is not None
+        patch = contact_patch(contact, load)
+        return self.traction.traction(patch, film.film, mean_speed, sliding, film.temperature, lubricant)
+
+    def rolling_moment(
+        self, contact: PointContact, load: Values, film: PointFilm, mean_speed: Values, inlet: InletOil
+    ) -> Float[Array, "..."] | None:
+        """N m, of the sign of the mean speed (None: not modelled)."""
+        if not self.rolling_resistance:
+            return None
+        return point_rolling_moment(contact, load, mean_speed, film.viscosity, inlet.pressure_viscosity)

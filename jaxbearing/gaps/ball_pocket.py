@@ -1,0 +1,107 @@
+"""Ball between the walls of its round cage pocket: rigid balance of two films."""
+
+from typing import NamedTuple
+
+import equinox as eqx
+import jax.numpy as jnp
+
+from .._types import Batch, Scalar, Values
+from ..numerics.safe import smooth_abs
+
+SPIN_FLOOR = 1.0
+"""Spin that keeps a film on a ball at rest, rad/s: raises the load by 1.4e-8 at 6000 rad/s."""
+CUT_FILMS = 20.0
+"""The friction integral reaches to this many central films, or to the clearance where that is more."""
+
+
+class BallPocketFilm(NamedTuple):
+    """Films (m), loads (N) and friction forces (N) on the front and the rear side of the pocket.
+
+    `friction` opposes the component of the spin about the bearing axis (positive for a positive spin there): on the
+    ball it acts inward in front and outward behind. `transverse` opposes the component about the radial axis.
+    """
+
+    film_front: Batch
+    film_rear: Batch
+    load_front: Batch
+    load_rear: Batch
+    friction_front: Batch
+    friction_rear: Batch
+    transverse_front: Batch
+    transverse_rear: Batch
+
+    @property
+    def friction(self) -> Batch:
+        return self.friction_front + self.friction_rear
+
+    @property
+    def transverse(self) -> Batch:
+        return self.transverse_front + self.transverse_rear
+
+
+class BallPocket(eqx.Module):
+    r"""A ball floating in a cylindrical pocket whose axis is radial, two elliptical rigid isoviscous films.
+
+    On each side $W(h) = 6\sqrt2\,\pi\mu uR_1\sqrt{R_2/h}/(3 + 2R_1/R_2)$ for the entrainment along the pocket's axis
+    ($R_1 = R_b$, $R_2 = R_c$) plus the same across it ($R_1 = R_c$, $R_2 = R_b$), $R_c = R_bR_p/(R_p - R_b)$; friction
+    $\mu uA$ with $A = 2\pi\sqrt{R_bR_c}\ln(h_{cut}/h)$, $h_{cut} = \max(20h, J_p)$; $H_1 + H_2 = J_p$.
+
+    **Limits:** a film remains on a ball at rest (`SPIN_FLOOR`); its friction vanishes with the spin.
+    **Validity:** rigid, isoviscous, half Sommerfeld films; light loads. The source superposes a long and a short
+    bearing of lengths it does not give; these are the classical forms in their place.
+    **Reference:** Kapitza (1955), Zh. Tekh. Fiz. 25, 747; source, Table 1.
+
+    **Arguments:** `clearance`: pocket diameter minus ball diameter, m; `ball_radius`, m.
+    """
+
+    clearance: Scalar
+    ball_radius: Scalar
+
+    def balance(self, net_load: Values, axial_spin: Values, radial_spin: Values, viscosity: Values) -> BallPocketFilm:
+        r"""Films that carry a given net load, in closed form: both loads go as $h^{-1/2}$.
+
+        With $H_1 = J_p\sin^2\theta$, $H_2 = J_p\cos^2\theta$, $k = P\sqrt{J_p}/B$, $W = B/\sqrt h$:
+        $\cos\theta - \sin\theta = d = k/(1 + \sqrt{1 + k^2})$.
+
+        **Arguments:**
+        - `net_load`: P = front load minus rear load, N, any sign.
+        - `axial_spin`, `radial_spin`: components of the spin relative to the orbit, rad/s: against the orbit's sense
+          about the bearing axis, and outward.
+        - `viscosity`, Pa s.
+        """
+        shape = 2.0 * self.ball_radius + self.clearance
+        conforming = self.ball_radius * shape / self.clearance
+        along = self.ball_radius * smooth_abs(axial_spin, SPIN_FLOOR)
+        across = self.ball_radius * smooth_abs(radial_spin, SPIN_FLOOR)
+        ratio = self.ball_radius / conforming
+        factor = 6.0 * jnp.sqrt(2.0) * jnp.pi * viscosity
+        strength = along * self.ball_radius * jnp.sqrt(conforming) / (3.0 + 2.0 * ratio)
+        strength = factor * (strength + across * conforming * jnp.sqrt(self.ball_radius) / (3.0 + 2.0 / ratio))
+        k = net_load * jnp.sqrt(self.clearance) / strength
+        root = jnp.sqrt(1.0 + jnp.square(k))
+        d = k / (1.0 + root)
+        rest = 2.0 / (1.0 + root)  # 1 - d^2
+        # cos + sin = sqrt(1 + rest): the smaller of the two from their product, so that nothing cancels; where, not
+        # abs: at k = 0 the films do depend on k
+        both, forward = jnp.sqrt(1.0 + rest), k >= 0
+        signed = jnp.where(forward, d, -d)
+        wide, tight = 0.5 * (both + signed), rest / (both + signed)
+        front = self.clearance * jnp.square(jnp.where(forward, tight, wide))
+        rear = self.clearance * jnp.square(jnp.where(forward, wide, tight))
+        area = lambda film: (
+            2.0
+            * jnp.pi
+            * jnp.sqrt(self.ball_radius * conforming)
+            * jnp.log(jnp.maximum(CUT_FILMS, self.clearance / film))
+        )
+        rolling, crossing = viscosity * self.ball_radius * axial_spin, viscosity * self.ball_radius * radial_spin
+        return BallPocketFilm(
+            film_front=front,
+            film_rear=rear,
+            load_front=strength / jnp.sqrt(front),
+            load_rear=strength / jnp.sqrt(rear),
+            friction_front=rolling * area(front),
+            friction_rear=rolling * area(rear),
+            transverse_front=crossing * area(front),
+            transverse_rear=crossing * area(rear),
+        )
