@@ -21,6 +21,10 @@ TOLERANCE = {"levenberg_marquardt": 1e-10, "bfgs": 1e-9, "gradient_descent": 1e-
 """Change of parameters (in column-scaled units) and relative change of the loss at which a method ends."""
 
 
+STATIONARY = 1e-7
+"""Cosine between residual and a column of the Jacobian at which the loss has no slope left."""
+
+
 class Problem(eqx.Module):
     """What the optimiser sees: `natural = base + directions @ (u / scales)`.
 
@@ -129,8 +133,17 @@ def estimate(problem: Problem, u: Float[Array, " parameter"], method: str) -> Es
             solver = _Descent(1.0 / jnp.where(steepest > 0, steepest, 1.0), tolerance)
         found = optx.minimise(half_square, solver, u, problem, max_steps=MAX_STEPS[method], throw=False)
     value = half_square(found.value, problem)
-    converged = (found.result == optx.RESULTS.successful) & jnp.isfinite(value)
+    # at the minimum to round-off no step is accepted any more, and the search for one goes on to its last step
+    converged = (found.result == optx.RESULTS.successful) | _stationary(problem, found.value)
+    converged = converged & jnp.isfinite(value)
     return Estimate(found.value, value, converged, jnp.asarray(found.stats["num_steps"]))
+
+
+def _stationary(problem: Problem, u: Float[Array, " parameter"]) -> Bool[Array, ""]:
+    """Whether the residual is at right angles to every column of its Jacobian, to `STATIONARY`."""
+    residual, columns = problem.residual(u), jacobian(problem, u)
+    size = jnp.linalg.norm(residual) * jnp.linalg.norm(columns, axis=0)
+    return jnp.all(jnp.abs(columns.T @ residual) <= STATIONARY * size)
 
 
 @eqx.filter_jit

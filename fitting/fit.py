@@ -8,13 +8,14 @@ import equinox as eqx
 import jax.numpy as jnp
 import numpy as np
 
+from jaxbearing.lubricants.ranges import FITTED_PRESSURE
 from jaxbearing.machines import TwoDisk
 
 from .estimation import Estimate, Problem, linearized
-from .identifiability import confounded, in_words, not_determined, viscous_only
+from .identifiability import confounded, elastic_conditions, implausible, in_words, not_determined, viscous_only
 from .loss import influence, scale_of
 from .measurements import Measurements
-from .misfit import curve_fits, information, lack_of_fit
+from .misfit import NOTHING, curve_fits, information, lack_of_fit, missed_share
 from .options import FitOptions
 from .parameters import GROUPS, NAMES, POSITIVE, SCALES, SYMBOLS, values_of, with_natural
 from .result import FitResult, Parameter
@@ -24,9 +25,11 @@ from .viscous import plain_rheology, with_viscous_function
 
 OUTLIER = 4.0
 """Robust standard deviations beyond which a point is named an outlier."""
+FEW_DEGREES = 3
+"""Degrees of freedom below which the intervals are said to lean on little."""
 FEWEST_DEGREES = 10
 """Degrees of freedom below which no point is called an outlier."""
-MOST_TURNS = 24
+MOST_TURNS = 12
 """Times that parameters may be held or released."""
 SLACK = 1e-6
 """Correlation of residual and a column of the Jacobian below which a bound does not bind."""
@@ -71,9 +74,13 @@ def fit(measurements: Measurements, scene: TwoDisk, options: FitOptions | None =
         if turns >= MOST_TURNS:
             lost = estimate._replace(converged=jnp.zeros_like(estimate.converged))
             return _result(search, problem, u, lost, held, model)
+        moved = revised.pinned != held.pinned
         held = revised
         problem = search.problem(held.free, held.pinned, search.within_bounds(np.asarray(problem.natural(u))))
-        starts = np.zeros((len(starts), len(NAMES)))
+        # a parameter moved to its bound may lie far off, and the others must find their way anew
+        starts = search.starts(problem, held.free) if moved else np.zeros((len(starts), len(NAMES)))
+        if len(starts) > 1:
+            starts[-1] = 0.0
 
 
 def fit_models(
@@ -121,6 +128,11 @@ def _revised(search: Search, problem: Problem, u: Any, held: _Held) -> _Held | N
         if inward * downhill[index] > SLACK * np.linalg.norm(slopes[:, index]) * np.linalg.norm(residual):
             return held.released(index)
     judged = held.free & ~_insisted_blindly(search, held)
+    elastic = elastic_conditions(search.pressure, search.temperature, search.deborah_at(coordinates))
+    elastic = {i: reason for i, reason in elastic.items() if judged[i] and i not in search.insisted}
+    if elastic and GROUPS[0][0] in np.flatnonzero(held.free):
+        index = min(elastic)
+        return held.without(index, elastic[index])
     spread = search.spread(problem, u, judged)
     if spread.degrees <= 0:
         return None
@@ -175,13 +187,29 @@ def _result(search: Search, problem: Problem, u: Any, estimate: Estimate, held: 
         notes.append(f"All intervals hold for these values of {', '.join(conditions)}.")
     notes += [confounded(search.pressure, search.temperature)]
     if best > exact:
-        notes += lack_of_fit(search.measurements, standard, difference)
+        notes += lack_of_fit(search.measurements, standard, difference, outlier)
+    if 0 < spread.degrees < FEW_DEGREES and not why_none:
+        notes.append(f"Only {spread.degrees} points more than parameters: the intervals lean on very little.")
+    centre = with_natural(search.rheology, jnp.asarray(coordinates))
+    place = (search.centre.pressure, 1.0 / search.centre.inverse_temperature)
+    notes += implausible(*(float(np.exp(law(*place))) for law in (centre.log_shear_modulus, centre.log_stress)))
+    if np.max(search.pressure) > FITTED_PRESSURE:
+        notes.append("mean contact pressure beyond 1.8 GPa: the traction rheology is extrapolated")
     if np.any(outlier):
         notes.append(f"{int(np.sum(outlier))} of {len(outlier)} points are outliers (beyond {OUTLIER:g} sigma).")
     if agree < len(losses):
         notes.append(f"{agree} of {len(losses)} starts ended at the best fit.")
+    reason = ""
+    if not fitted:
+        said = "; ".join(in_words(i, why).rstrip(".") for i, why in sorted(judged.items()))
+        reason = f"the {search.count} points cannot tell any parameter ({said})"
+    elif not np.all(np.isfinite(predicted)):
+        reason = "the model has no finite value at the end of the search"
+    elif missed_share(search.measurements, difference, outlier) > NOTHING:
+        reason = "no parameters found with which the model follows the curves"
     return FitResult(
-        converged=bool(estimate.converged[index]) and bool(fitted) and bool(np.all(np.isfinite(predicted))),
+        converged=bool(estimate.converged[index]) and not reason,
+        reason=reason,
         model=model,
         method=search.options.method,
         rms=float(np.sqrt(np.mean(np.square(difference)))),

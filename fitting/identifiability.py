@@ -9,6 +9,10 @@ HUGE = 20.0
 """Half-width of an interval of ln G or ln tau beyond which its number says nothing."""
 VISCOUS = 0.3
 """Deborah number below which the shear modulus cannot be seen."""
+OIL_MODULUS = (3e6, 3e10)
+"""Shear moduli, Pa, beyond which an oil under contact pressure is not believed to lie."""
+OIL_STRESS = (1e5, 1e9)
+"""The same for the characteristic stress."""
 SAME_PRESSURE = 0.02
 """Relative span of the pressures below which they count as one."""
 TOGETHER = 0.9
@@ -23,6 +27,40 @@ def viscous_only(deborah: np.ndarray) -> str:
         return ""
     largest = f"{np.max(deborah):.2g}, below {VISCOUS:g}"
     return f"the data are viscous only (largest Deborah number {largest}): the shear modulus does not show"
+
+
+def elastic_conditions(pressure: np.ndarray, temperature: np.ndarray, deborah: np.ndarray) -> dict[int, str]:
+    """Index of alpha_G or beta_G -> why the data cannot tell it: the shear modulus shows only where the Deborah number
+    is not small, and there at one pressure or one temperature only. **Arguments:** of the points, for the fitted oil.
+    """
+    elastic = deborah >= VISCOUS
+    if np.all(elastic) or not np.any(elastic):
+        return {}
+    where = f"where the shear modulus shows (Deborah number from {VISCOUS:g})"
+    reasons: dict[int, str] = {}
+    if np.ptp(pressure[elastic]) < SAME_PRESSURE * np.mean(pressure):
+        reasons[GROUPS[0][1]] = f"one pressure only {where}"
+    if np.ptp(temperature[elastic]) < SAME_TEMPERATURE:
+        reasons[GROUPS[0][2]] = f"one temperature only {where}"
+    return reasons
+
+
+def implausible(modulus: float, stress: float) -> list[str]:
+    """Sentences where shear modulus or stress at the centre of the data, Pa, are not those of an oil under pressure."""
+    said = []
+    low, high = OIL_MODULUS
+    if not low <= modulus <= high:
+        said.append(
+            f"The shear modulus at the middle of the data, {modulus:.3g} Pa, is not that of an oil under pressure (0.1 "
+            "to 1 GPa): it stands for something else, as the compliance of bodies or machine, or contact of asperities."
+        )
+    low, high = OIL_STRESS
+    if not low <= stress <= high:
+        said.append(
+            f"The characteristic stress at the middle of the data, {stress:.3g} Pa, is not that of an oil under "
+            "pressure (1 to 100 MPa)."
+        )
+    return said
 
 
 def frozen_by_rule(pressure: np.ndarray, temperature: np.ndarray, given: tuple[bool, bool]) -> dict[int, str]:

@@ -9,6 +9,9 @@ from jaxtyping import Array, Float
 
 from jaxbearing.machines import DiskState, TwoDisk
 
+LARGEST_COEFFICIENT = 1.0
+"""No lubricated contact has a larger traction coefficient."""
+
 
 class MeasurementError(ValueError):
     """Curves and scene do not fit together; the message says what is missing."""
@@ -74,6 +77,11 @@ class Measurements(eqx.Module):
 def _check_signs(slide: np.ndarray, coefficient: np.ndarray) -> None:
     if not np.any(coefficient):
         raise MeasurementError("traction_coefficient: found 0 at every point; expected a traction that can be fitted")
+    if np.max(np.abs(coefficient)) > LARGEST_COEFFICIENT:
+        raise MeasurementError(
+            f"traction_coefficient: found {np.max(np.abs(coefficient)):g}, expected at most {LARGEST_COEFFICIENT:g} "
+            "(if the file means percent, its column is 'traction_coefficient [%]')"
+        )
     opposed = int(np.sum(coefficient * slide < 0))
     if opposed > int(np.sum(coefficient * slide > 0)):
         raise MeasurementError(

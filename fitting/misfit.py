@@ -18,6 +18,8 @@ LARGEST = 2.5
 """Robust standard deviations to which a residual is cut there: one outlier must not hide what the others show."""
 MISSED = 0.3
 """Root mean square of the differences over that of the coefficients, beyond which a model misses the curves."""
+NOTHING = 0.9
+"""The same, beyond which a model follows no curve at all: the optimiser ended on a plateau, and the fit has failed."""
 FEWEST = 8
 """Points of all curves below which nothing is said."""
 
@@ -72,11 +74,20 @@ def neighbour_correlation(measurements: Measurements, standard: np.ndarray) -> t
     return (float(np.sum(left * right)) / size if size > 0 else 0.0), left.size
 
 
-def lack_of_fit(measurements: Measurements, standard: np.ndarray, difference: np.ndarray) -> list[str]:
-    """A sentence where the residuals are not random."""
-    rms, size = (float(np.sqrt(np.mean(np.square(x)))) for x in (difference, measurements.traction_coefficient))
-    if rms > MISSED * size:
-        return [f"Lack of fit: the model misses the curves by {100 * rms / size:.0f} % of their size (rms)."]
+def missed_share(measurements: Measurements, difference: np.ndarray, outlier: np.ndarray) -> float:
+    """Root mean square of the differences over that of the coefficients, outliers left out."""
+    coefficient = np.asarray(measurements.traction_coefficient)
+    rms, size = (float(np.sqrt(np.mean(np.square(x[~outlier])))) for x in (difference, coefficient))
+    return rms / max(size, float(np.finfo(float).tiny))
+
+
+def lack_of_fit(
+    measurements: Measurements, standard: np.ndarray, difference: np.ndarray, outlier: np.ndarray
+) -> list[str]:
+    """A sentence where the residuals are not random. **Arguments:** `outlier`: mask of points that do not count."""
+    share = missed_share(measurements, difference, outlier)
+    if share > MISSED:
+        return [f"Lack of fit: the model misses the curves by {100 * share:.0f} % of their size (rms)."]
     correlation, pairs = neighbour_correlation(measurements, standard)
     if pairs < FEWEST or correlation * np.sqrt(pairs) < SYSTEMATIC:
         return []

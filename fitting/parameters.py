@@ -66,9 +66,10 @@ def with_natural(rheology: ExponentialRheology, coordinates: Float[Array, " para
 
 
 def values_of(coordinates: np.ndarray) -> np.ndarray:
-    """SI values of natural coordinates."""
+    """SI values of natural coordinates, with the same ends as `with_natural`."""
     coordinates = np.asarray(coordinates)
-    return np.where(POSITIVE, np.exp(np.where(POSITIVE, coordinates, 0.0)), coordinates * SCALES)
+    logarithms = np.clip(np.where(POSITIVE, coordinates, 0.0), -LARGEST_LOG, LARGEST_LOG)
+    return np.where(POSITIVE, np.exp(logarithms), coordinates * SCALES)
 
 
 def centred_directions(centre: Centre, reference_temperature: float, free: np.ndarray) -> np.ndarray:

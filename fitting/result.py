@@ -50,6 +50,7 @@ class FitResult(eqx.Module):
     - `oil`: the scene's oil with the fitted rheology; `predicted`: of each point; `outlier`: mask, beyond 4 robust
       standard deviations.
     - `scene`: the machine with this oil and viscous function; `options`: with which it was fitted.
+    - `reason`: why there is no result, where there is none and it is not the optimiser's.
     - `notes`: what the user must know, a sentence each: identifiability, lack of fit, bounds.
     """
 
@@ -78,7 +79,9 @@ class FitResult(eqx.Module):
     notes: tuple[str, ...]
     scene: TwoDisk
     options: FitOptions
+    reason: str = ""
 
     def failure(self) -> str:
         """One sentence on a fit that did not converge."""
-        return f"not converged: {self.method} stopped after {self.steps} steps at a loss of {self.loss:.4g}"
+        stopped = f"{self.method} stopped after {self.steps} steps at a loss of {self.loss:.4g}"
+        return f"not converged: {self.reason or stopped}"

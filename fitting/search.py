@@ -1,5 +1,6 @@
 """The search for the best parameters: where it begins, and the optimisations."""
 
+import dataclasses
 from collections.abc import Mapping
 from typing import Any
 
@@ -19,7 +20,7 @@ from .identifiability import frozen_by_rule
 from .loss import TUNING, scale_of, variance_factor
 from .measurements import MeasurementError, Measurements
 from .options import FitOptions
-from .parameters import GROUPS, NAMES, POSITIVE, SCALES, Centre, centred_directions, natural
+from .parameters import GROUPS, NAMES, POSITIVE, SCALES, Centre, centred_directions, natural, with_natural
 from .start import estimated_start
 from .uncertainty import Spread, spread
 
@@ -208,6 +209,12 @@ class Search:
             change = float(np.median(np.log(size[usable] / predicted[usable])))
             shift += float(np.clip(change, -LARGEST_SHIFT, LARGEST_SHIFT))
         return shift
+
+    def deborah_at(self, coordinates: np.ndarray) -> np.ndarray:
+        """Deborah numbers of the points with the rheology that has these natural coordinates."""
+        oil = dataclasses.replace(self.scene.oil, rheology=with_natural(self.rheology, jnp.asarray(coordinates)))
+        speed = self.measurements.entrainment_speed
+        return np.asarray(deborah_number(self.state.patch, speed, self.state.temperature, oil))
 
     def predicted(self, coordinates: np.ndarray) -> np.ndarray:
         """Coefficients at natural coordinates."""

@@ -12,6 +12,7 @@ with install_import_hook(["jaxbearing", "fitting"], "beartype.beartype"):
 
 import jax
 import jaxlib
+import pytest
 
 jax.config.update("jax_numpy_rank_promotion", "raise")
 jax.config.update("jax_numpy_dtype_promotion", "strict")
@@ -24,8 +25,16 @@ jax.config.update("jax_persistent_cache_min_compile_time_secs", 0.5)
 
 
 def pytest_configure(config):
-    """The fast tests compile quickly: most of their time is spent in XLA. The slow ones run what users run."""
-    if config.getoption("markexpr") == "not slow":
-        jax.config.update("jax_disable_most_optimizations", True)
-        if jaxlib.__version__.startswith("0.10."):  # a flag that is not known ends the process
-            os.environ.setdefault("XLA_FLAGS", "--xla_cpu_use_fusion_emitters=false")
+    """Most of the time of the tests is spent in XLA: they compile quickly, but for those that ask for `optimized`."""
+    jax.config.update("jax_disable_most_optimizations", True)
+    # a flag that is not known ends the process
+    if config.getoption("markexpr") == "not slow" and jaxlib.__version__.startswith("0.10."):
+        os.environ.setdefault("XLA_FLAGS", "--xla_cpu_use_fusion_emitters=false")
+
+
+@pytest.fixture
+def optimized():
+    """Programs as users run them."""
+    jax.config.update("jax_disable_most_optimizations", False)
+    yield
+    jax.config.update("jax_disable_most_optimizations", True)

@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 import jaxbearing as jb
-from fitting import Measurements, read_curves
+from fitting import Measurements, fit, read_curves
 from jaxbearing.scenes.data_files import builtin_text
 
 README = (Path(__file__).parents[1] / "README.md").read_text(encoding="utf-8")
@@ -59,7 +59,10 @@ def test_curve_file_is_read(tmp_path):
     changes = re.findall(r"jaxbearing fit .*? --scene (\w+) --set ([\w.]+)=\"(.*?)\"", README)
     ((scene, path, value),) = changes
     measured = Measurements.of(read_curves(file), jb.load_scene(scene, {path: value}))
-    assert measured.slide_to_roll.tolist() == [0.002, 0.01, 0.05]
+    assert measured.slide_to_roll.tolist() == [0.001, 0.002, 0.005, 0.01, 0.02, 0.05]
+    result = fit(measured, jb.load_scene(scene, {path: value}))
+    assert result.converged
+    assert result.fitted == ("shear_modulus", "stress")
 
 
 def test_commands_are_one_line_each():

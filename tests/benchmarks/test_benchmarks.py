@@ -9,6 +9,8 @@ import pytest
 
 from jaxbearing.contacts import PRESETS
 
+pytestmark = [pytest.mark.slow, pytest.mark.usefixtures("optimized")]
+
 
 def script(name):
     path = Path(__file__).parent / f"{name}.py"
@@ -19,7 +21,6 @@ def script(name):
     return module
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize(("name", "repetitions"), [("mobil_jet_ii", 40), ("pennzane", 10)])
 def test_rheology_comes_back_and_its_intervals_are_honest(name, repetitions):
     """Of 40 intervals that hold the true value with 95 %, fewer than 33 do so with 0.07 %; of 10, fewer than 6 with
@@ -31,7 +32,6 @@ def test_rheology_comes_back_and_its_intervals_are_honest(name, repetitions):
     assert np.all(inside * repetitions >= (33 if repetitions == 40 else 6))
 
 
-@pytest.mark.slow
 @pytest.mark.filterwarnings("ignore:The iteration is not making good progress")  # scipy says so of its failures
 def test_roller_bearing(capsys):
     module = script("roller_bearing")
@@ -50,7 +50,6 @@ def test_roller_bearing(capsys):
             assert solved == attempts or start == "first guess"
 
 
-@pytest.mark.slow
 def test_traction(capsys):
     module = script("traction")
     figures = module.benchmark(quick=True)

@@ -188,6 +188,8 @@ def test_robust_loss_shrugs_off_outliers(curves):
     assert error(plain) > 2.0 * error(robust)
     inside = robust.parameters["stress"]
     assert inside.lower < float(true.stress) < inside.upper
+    # what is left out by the loss is no lack of fit either
+    assert not any(note.startswith("Lack of fit") for note in robust.notes)
 
 
 @pytest.mark.slow
@@ -299,7 +301,32 @@ def test_nothing_to_fit(curves):
         fitted(dataclasses.replace(curves, traction_coefficient=0.0 * curves.traction_coefficient), scene)
     with pytest.raises(fitting.MeasurementError, match="sign opposite"):
         fitted(dataclasses.replace(curves, traction_coefficient=-curves.traction_coefficient), scene)
-    assert not fitted(noisy(curves), scene, fixed=NAMES).converged
+    with pytest.raises(fitting.MeasurementError, match=r"traction_coefficient \[%\]"):
+        fitted(dataclasses.replace(curves, traction_coefficient=100.0 * curves.traction_coefficient), scene)
+    nothing = fitted(noisy(curves), scene, fixed=NAMES)
+    assert not nothing.converged
+    assert "cannot tell any parameter" in nothing.failure()
+
+
+def test_modulus_shows_at_one_temperature_only(curves):
+    """At 378 K the curves are viscous: they say nothing of the modulus, and 297 K alone says nothing of beta_G."""
+    two = (curves.pressure == 1.5e9) & (curves.temperature != 340.0)
+    result = fitted(part(noisy(curves), two), mobil_scene())
+    assert {"shear_modulus_pressure", "shear_modulus_temperature", "stress_pressure"} == set(result.unidentifiable)
+    assert "where the shear modulus shows" in result.parameters["shear_modulus_temperature"].reason
+    assert result.parameters["stress_temperature"].standard_error > 0
+
+
+@pytest.mark.slow
+def test_a_bound_far_from_the_curves_gives_no_result_or_a_good_one(curves):
+    """A stress of at least 6 times the true one: the search must not end on the plateau where nothing is sheared."""
+    result = fitted(noisy(curves), mobil_scene(), bounds={"stress": (1e6, 2e7)})
+    if result.converged:
+        assert result.rms < 0.3 * np.sqrt(np.mean(np.square(curves.traction_coefficient)))
+    scene = eqx.tree_at(lambda s: s.oil.rheology.stress, mobil_scene(), np.float64(1e6))
+    held = fitted(noisy(curves), scene, fixed=("stress", "stress_temperature"))
+    assert held.converged
+    assert any("is not that of an oil" in note for note in held.notes)
 
 
 def test_what_the_others_cannot_predict_is_not_cross_validated(curves):
