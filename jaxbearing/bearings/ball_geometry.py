@@ -81,6 +81,7 @@ class BallGeometry(eqx.Module):
         """Cosine of the contact angle of the unloaded bearing."""
         if self.contact_angle is not None:
             return jnp.cos(jnp.asarray(self.contact_angle))
+        assert self.diametral_clearance is not None
         return 1.0 - self.diametral_clearance / (2.0 * self.centre_distance)
 
     @property
@@ -88,6 +89,7 @@ class BallGeometry(eqx.Module):
         """Sine of that angle; for a clearance of 0 it is 0 with derivative 0."""
         if self.contact_angle is not None:
             return jnp.sin(jnp.asarray(self.contact_angle))
+        assert self.diametral_clearance is not None
         lift = self.diametral_clearance / (2.0 * self.centre_distance)
         open_ = lift > 0
         return jnp.where(open_, jnp.sqrt(jnp.where(open_, lift * (2.0 - lift), 1.0)), 0.0)

@@ -182,7 +182,7 @@ def start(problem: CentrifugalProblem) -> Start:
         # stiffness of a ball in equilibrium: the two springs in series
         series = forces.stiffness_outer + forces.stiffness_inner + 1e-3 * SOFTEST * jnp.eye(2)[:, :, None]
         reduced = forces.stiffness_inner - jnp.einsum(
-            "abn,bcn->acn", forces.stiffness_inner, solve_blocks(series, forces.stiffness_inner)
+            "ijn,jkn->ikn", forces.stiffness_inner, solve_blocks(series, forces.stiffness_inner)
         )
         balance = problem.multiplicity * jnp.einsum("fcn,cn->f", problem.directions, forces.inner) - problem.ring_load
         matrix = problem.multiplicity * jnp.einsum("fan,abn,gbn->fg", problem.directions, reduced, problem.directions)

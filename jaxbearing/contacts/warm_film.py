@@ -38,11 +38,13 @@ def warm_film(
     **Arguments:** laws that fit the kind of contact; `load`, N, > 0; `speed`, mean of the surfaces, and
     `sliding_speed`, m/s; `inlet` = `lubricant.at(inlet temperature)`, evaluated once for all contacts.
     """
-    law: Any = film  # of the contact's kind
+    # laws of the contact's kind: seen to when the scene is made
+    law: Any = film
+    factor: Any = thermal
     log_film = law.log_thickness(contact, load, speed, inlet.viscosity, inlet.pressure_viscosity)
     if isinstance(thermal, NoThermalReduction):
         return WarmFilm(log_film, None, jnp.zeros_like(log_film))
-    log_factor = thermal.log_factor(contact, load, speed, sliding_speed, inlet)
+    log_factor = factor.log_factor(contact, load, speed, sliding_speed, inlet)
     args = (law, contact, load, speed, lubricant)
     root = inlet_temperature_rise(_log_film_at, args, inlet.temperature, log_film, log_factor)
     return WarmFilm(log_film + log_factor, root.value, root.residual)
