@@ -20,6 +20,7 @@ from .solve import jit_solver as jit_solver  # noqa: E402  (64-bit floats first)
 from .solve import solve as solve  # noqa: E402
 
 if TYPE_CHECKING:
+    from .bearings.ball_bearing import BallBearing as BallBearing
     from .bearings.cylindrical_roller import CylindricalRollerBearing as CylindricalRollerBearing
     from .bearings.solution import Solution as Solution
     from .numerics.newton import NewtonOptions as NewtonOptions
@@ -33,6 +34,7 @@ if TYPE_CHECKING:
 __version__ = "0.1.0"
 
 _LAZY = {
+    "BallBearing": ".bearings.ball_bearing",
     "CylindricalRollerBearing": ".bearings.cylindrical_roller",
     "NewtonOptions": ".numerics.newton",
     "SceneError": ".scenes.errors",

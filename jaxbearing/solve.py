@@ -7,6 +7,8 @@ import equinox as eqx
 import jax
 
 from ._scene import AbstractScene
+from .bearings.ball_bearing import BallBearing
+from .bearings.ball_steady import solve_ball
 from .bearings.cylindrical_roller import CylindricalRollerBearing
 from .bearings.roller_steady import solve_steady
 from .bearings.solution import Solution
@@ -15,7 +17,11 @@ from .numerics.compiling import quickly_compiled
 from .numerics.newton import NewtonOptions
 from .numerics.precision import as_float, require_x64
 
-_STEADY: dict[type, Callable[..., Any]] = {CylindricalRollerBearing: solve_steady, TwoDisk: solve_two_disk}
+_STEADY: dict[type, Callable[..., Any]] = {
+    CylindricalRollerBearing: solve_steady,
+    BallBearing: solve_ball,
+    TwoDisk: solve_two_disk,
+}
 
 
 def steady_function(scene: AbstractScene) -> Callable[..., Any]:
@@ -38,7 +44,9 @@ _solve_once = quickly_compiled(_solve_any)
 @overload
 def solve(scene: TwoDisk, *, throw: bool = True, options: NewtonOptions | None = None) -> TwoDiskSolution: ...
 @overload
-def solve(scene: CylindricalRollerBearing, *, throw: bool = True, options: NewtonOptions | None = None) -> Solution: ...
+def solve(
+    scene: CylindricalRollerBearing | BallBearing, *, throw: bool = True, options: NewtonOptions | None = None
+) -> Solution: ...
 @overload
 def solve(scene: AbstractScene, *, throw: bool = True, options: NewtonOptions | None = None) -> Any: ...
 def solve(scene: AbstractScene, *, throw: bool = True, options: NewtonOptions | None = None) -> Any:

@@ -30,6 +30,7 @@ import jax
 import jax.numpy as jnp
 from jaxtyping import Array, Float
 
+from ..contacts import PointContact
 from ..contacts.distributed import Traction
 from ..contacts.point_laws import PointFilm, PointLaws
 from ..contacts.shear import Sliding
@@ -297,6 +298,13 @@ class LubricatedBallSystem(AbstractArrowSystem):
         return self.land(self.orbit(point.globals[-1]), force[0], force[1])
 
     def balls(self, unknowns: Float[Array, "m ball"], shared: Float[Array, "g ball"]) -> BallsState:
+        state, contact = self.frictionless(unknowns, shared)
+        return self._with_traction(state, contact) if self.slips else state
+
+    def frictionless(
+        self, unknowns: Float[Array, "m ball"], shared: Float[Array, "g ball"]
+    ) -> tuple[BallsState, PointContact]:
+        """All but what traction does."""
         d, grooves = len(self.freedoms), self.grooves
         own = dict(zip(self.own_unknowns, unknowns[2:], strict=True))
         log_load, inner = unknowns[0], unknowns[1]
@@ -339,7 +347,7 @@ class LubricatedBallSystem(AbstractArrowSystem):
             cage_moment=None,
             cage_force=None,
         )
-        return self._with_traction(state, contact) if self.slips else state
+        return state, contact
 
     def _outer_contact(
         self, log_load: Array, inner: Array, orbit: Array, friction: Array | None
@@ -412,7 +420,7 @@ class LubricatedBallSystem(AbstractArrowSystem):
         reach = grooves.offset[1] + compression[1] - film[1]
         return jnp.stack([jnp.log(apart / together), (reach * sine - across) / grooves.centre_distance])
 
-    def _with_traction(self, state: BallsState, contact) -> BallsState:
+    def _with_traction(self, state: BallsState, contact: PointContact) -> BallsState:
         motion, races, angle = state.motion, state.races, state.angle
         side = jnp.asarray([[1.0], [-1.0]])
         transverse = side * races.transverse if self.resolved else None
@@ -472,7 +480,7 @@ class LubricatedBallSystem(AbstractArrowSystem):
             cage_force=cage_force,
         )
 
-    def _power_slope(self, state: BallsState, contact) -> Array:
+    def _power_slope(self, state: BallsState, contact: PointContact) -> Array:
         """d(spin power)/d(attitude) of rolling without sliding at frozen loads, angles and films, held between the
         attitudes of outer and inner control; scaled."""
         inner, outer = state.angle

@@ -78,10 +78,11 @@ def _spring(arm: Float[Array, "2 ball"], offset: Array, constant: Array) -> tupl
     approach = jnp.maximum(length - offset, 0.0)
     root = jnp.sqrt(approach)
     load = constant * approach * root
-    normal = arm / length
+    normal = arm / length[None]
     along = normal[:, None] * normal[None, :]
-    stiffness = 1.5 * constant * root * along + load / length * (jnp.eye(2)[:, :, None] - along)
-    return 0.4 * load * approach, load * normal, stiffness
+    across = jnp.eye(2)[:, :, None] - along
+    stiffness = (1.5 * constant * root)[None, None] * along + (load / length)[None, None] * across
+    return 0.4 * load * approach, load[None] * normal, stiffness
 
 
 def _forces(problem: CentrifugalProblem, centre: Array, groove: Array) -> _Forces:
@@ -101,11 +102,11 @@ def _free_centres(problem: CentrifugalProblem, groove: Array) -> tuple[Array, Bo
     axial, radial = load * groove[0] / length, load * groove[1] / length + problem.centrifugal
     outer = safe_norm(axial, radial, 1e-30)
     reach = problem.offset[1] + compliance[1] * outer ** (2.0 / 3.0)
-    centre = reach * jnp.stack([axial, radial]) / outer
+    centre = (reach / outer)[None] * jnp.stack([axial, radial])
     alone = problem.offset[1] + compliance[1] * problem.centrifugal ** (2.0 / 3.0)
     lost = safe_norm(groove[0], groove[1] - alone) <= problem.offset[0]
     resting = jnp.stack([jnp.zeros_like(length), jnp.broadcast_to(alone, length.shape)])
-    return jnp.where(lost, resting, centre), lost
+    return jnp.where(lost[None], resting, centre), lost
 
 
 class _Balls(NamedTuple):
@@ -125,21 +126,21 @@ def _equilibrium(problem: CentrifugalProblem, groove: Array, scale: Array, cap: 
     def propose(centre: Array, forces: _Forces):
         matrix = forces.stiffness_outer + forces.stiffness_inner + SOFTEST * jnp.eye(2)[:, :, None]
         step = -solve_blocks(matrix, forces.balance[:, None, :])[:, 0]
-        step = step * jnp.minimum(1.0, cap / safe_norm(step[0], step[1], 1e-30))
+        step = step * jnp.minimum(1.0, cap / safe_norm(step[0], step[1], 1e-30))[None]
         small = jnp.max(jnp.abs(forces.balance), axis=0) <= BALL_TOLERANCE * scale
         return step, jnp.sum(step * forces.balance, axis=0), small | (jnp.max(jnp.abs(step), axis=0) < 1e-15)
 
     def advance(state: _Balls) -> _Balls:
-        trial = state.centre + state.fraction * state.step
+        trial = state.centre + state.fraction[None] * state.step
         forces = _forces(problem, trial, groove)
         enough = forces.energy <= state.energy + ARMIJO * state.fraction * state.slope
         # near the minimum the decrease is lost in the round-off of the energy
-        near = jnp.abs(state.slope) <= 1e-12 * jnp.abs(state.energy) + 1e-18
+        near = jnp.abs(state.slope) <= 1e-12 * jnp.abs(forces.energy) + 1e-18
         accept = (enough | near | (state.fraction < SHORTEST)) & ~state.done
         step, slope, small = propose(trial, forces)
         return _Balls(
-            centre=jnp.where(accept, trial, state.centre),
-            step=jnp.where(accept, step, state.step),
+            centre=jnp.where(accept[None], trial, state.centre),
+            step=jnp.where(accept[None], step, state.step),
             energy=jnp.where(accept, forces.energy, state.energy),
             slope=jnp.where(accept, slope, state.slope),
             fraction=jnp.where(accept, 1.0, jnp.where(state.done, state.fraction, 0.3 * state.fraction)),
@@ -147,10 +148,9 @@ def _equilibrium(problem: CentrifugalProblem, groove: Array, scale: Array, cap: 
             trials=state.trials + 1,
         )
 
-    forces = _forces(problem, first, groove)
-    step, slope, small = propose(first, forces)
-    ones = jnp.ones_like(forces.energy)
-    begin = _Balls(first, step, forces.energy, slope, ones, small | lost, jnp.asarray(0))
+    # the first trial is the start itself, taken in any case
+    zeros = jnp.zeros_like(first[0])
+    begin = _Balls(first, jnp.zeros_like(first), zeros + jnp.inf, zeros, zeros + 1.0, lost, jnp.asarray(0))
     going = lambda state: (state.trials < BALL_STEPS) & ~jnp.all(state.done)
     return jax.lax.while_loop(going, advance, begin).centre
 
@@ -196,7 +196,7 @@ def start(problem: CentrifugalProblem) -> Start:
         trial = state.ring + state.fraction * state.step
         centre, step, energy, slope, small = evaluate(trial)
         enough = energy <= state.energy + ARMIJO * state.fraction * state.slope
-        near = jnp.abs(state.slope) <= 1e-12 * jnp.abs(state.energy) + 1e-18
+        near = jnp.abs(state.slope) <= 1e-12 * jnp.abs(energy) + 1e-18
         accept = enough | near | (state.fraction < SHORTEST)
         pick = lambda new, old: jnp.where(accept, new, old)
         return _Ring(
@@ -208,12 +208,14 @@ def start(problem: CentrifugalProblem) -> Start:
             fraction=pick(1.0, 0.3 * state.fraction),
             done=accept & small,
             trials=state.trials + 1,
-            steps=state.steps + accept,
+            steps=state.steps + accept.astype(int),
         )
 
     ring = _estimate(problem, total, count)
-    centre, step, energy, slope, small = evaluate(ring)
-    begin = _Ring(ring, centre, step, energy, slope, jnp.ones(()), small, jnp.asarray(0), jnp.asarray(1))
+    none, one = jnp.asarray(0), jnp.ones(())
+    begin = _Ring(
+        ring, jnp.zeros_like(problem.groove), jnp.zeros_like(ring), one * jnp.inf, 0.0 * one, one, none > 0, none, none
+    )
     going = lambda state: (state.trials < RING_STEPS) & ~state.done
     end = jax.lax.while_loop(going, advance, begin)
     return Start(end.centre, end.ring, end.steps)

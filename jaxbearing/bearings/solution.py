@@ -3,13 +3,14 @@
 The command line, JSON, files and pages read this metadata; nothing keeps a second list.
 """
 
+from typing import Any
+
 import equinox as eqx
 from jaxtyping import Array, Bool, Float, Int
 
 from .._scene import AbstractSolution
 from .._scene import label as label
 from ..numerics.status import Status
-from .parts import Operation
 
 INNER_TOLERANCE = 1e-8
 """Residual of a nested solve above which it is named as the reason of a failure."""
@@ -120,7 +121,11 @@ class PowerLoss(eqx.Module):
 
 
 class Solution(AbstractSolution):
-    """Result of a steady solve. Where `status` is not converged every result is NaN, never the last iterate."""
+    """Result of a steady solve. Where `status` is not converged every result is NaN, never the last iterate.
+
+    `operation`, `elements` and `power_loss` are those of the kind of bearing: `Operation`, `RollerResults`,
+    `PowerLoss`, or `BallOperation`, `BallResults`, `BallPowerLoss` and `RacewayPower`.
+    """
 
     status: Int[Array, ""] = eqx.field(metadata=label("1", "how the solve ended"))
     iterations: Int[Array, ""] = eqx.field(metadata=label("1", "Newton steps"))
@@ -130,11 +135,11 @@ class Solution(AbstractSolution):
     )
     worst_equation: Int[Array, ""] = eqx.field(metadata=label("1", "equation with the largest scaled residual"))
     worst_element: Int[Array, ""] = eqx.field(metadata=label("1", "rolling element with the largest scaled residual"))
-    operation: Operation
+    operation: Any
     ring: RingDisplacement
     cage: CageState | None
-    elements: RollerResults
-    power_loss: PowerLoss
+    elements: Any
+    power_loss: Any
     drive_power: Float[Array, ""] = eqx.field(metadata=label("W", "sum over both rings of torque times speed"))
     inner_torque: Float[Array, ""] = eqx.field(metadata=label("N m", "torque that drives the inner ring"))
     outer_torque: Float[Array, ""] = eqx.field(metadata=label("N m", "torque that drives the outer ring"))
@@ -147,6 +152,15 @@ class Solution(AbstractSolution):
     global_equations: int = eqx.field(static=True)
     unknowns: int = eqx.field(static=True, metadata=label("1", "unknowns of the equations"))
     notes: tuple[str, ...] = eqx.field(static=True, default=())
+    stiffness_freedom: tuple[str, ...] | None = eqx.field(static=True, default=None)
+    """Rows and columns of `stiffness`; `None`: those of `ring_freedom`."""
+    element_name: str = eqx.field(static=True, default="roller")
+    raceway_power: Any = None
+
+    @property
+    def freedoms_of_stiffness(self) -> tuple[str, ...]:
+        """Names of the rows and columns of `stiffness`."""
+        return self.ring_freedom if self.stiffness_freedom is None else self.stiffness_freedom
 
     @property
     def converged(self) -> Bool[Array, "*batch"]:

@@ -24,6 +24,7 @@ from .point_film import AbstractPointFilm as AbstractPointFilm
 from .point_film import HamrockDowsonCentral as HamrockDowsonCentral
 from .point_film import HamrockDowsonMinimum as HamrockDowsonMinimum
 from .point_film import NijenbanningVennerMoes as NijenbanningVennerMoes
+from .point_laws import PointLaws as PointLaws
 from .resolution import PRESETS as PRESETS
 from .resolution import Resolution as Resolution
 from .rolling import AbstractRollingResistance as AbstractRollingResistance
@@ -45,3 +46,4 @@ from .viscous import BairWiner as BairWiner
 from .viscous import ElsharkawyHamrock as ElsharkawyHamrock
 from .viscous import GecimWiner as GecimWiner
 from .viscous import ReeEyring as ReeEyring
+from .warm_film import warm_film as warm_film

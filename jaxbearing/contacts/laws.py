@@ -13,8 +13,9 @@ from ..numerics.safe import smooth_abs
 from .film import AbstractLineFilm
 from .line import LineContact
 from .rolling import AbstractRollingResistance
-from .thermal import AbstractThermalFactor, NoThermalReduction, inlet_temperature_rise
+from .thermal import AbstractThermalFactor, NoThermalReduction
 from .traction import AbstractTraction
+from .warm_film import warm_film
 
 SPEED_SMOOTHING = 5e-7
 """Smoothing of the mean surface speed's modulus, m/s: relative error < 1e-12 above 0.5 m/s."""
@@ -71,30 +72,16 @@ class ContactLaws(eqx.Module):
         `inlet` = `lubricant.at(inlet temperature)`, evaluated once for all contacts.
         """
         speed = smooth_abs(mean_speed, SPEED_SMOOTHING) + self.entrainment_offset
-        log_film = self.film.log_thickness(contact, load, speed, inlet.viscosity, inlet.pressure_viscosity)
-        rise, inner_residual, base, base_viscosity = None, jnp.zeros(()), inlet.temperature, inlet.viscosity
-        if not isinstance(self.thermal, NoThermalReduction):
-            log_factor = self.thermal.log_factor(contact, load, speed, sliding_speed, inlet)
-            args = (self, contact, load, speed, lubricant)
-            root = inlet_temperature_rise(_log_film_at, args, base, log_film, log_factor)
-            log_film = log_film + log_factor
-            rise, inner_residual = root.value, jnp.max(root.residual)
-            base = inlet.temperature + rise
+        found = warm_film(self.film, self.thermal, contact, load, speed, sliding_speed, lubricant, inlet)
+        base, base_viscosity = inlet.temperature, inlet.viscosity
+        if found.rise is not None:
+            base = inlet.temperature + found.rise
             base_viscosity = lubricant.viscosity.viscosity(0.0, base)
-        film = jnp.exp(log_film)
+        film = jnp.exp(found.log_thickness)
         traction = None
         if self.traction is not None:
             traction = self.traction.force(contact, load, film, speed, sliding_speed, base, lubricant, base_viscosity)
         rolling = None
         if self.rolling is not None:
             rolling = self.rolling.force(contact, load, film, mean_speed, base_viscosity, inlet.pressure_viscosity)
-        return ContactState(film, rise, traction, rolling, inner_residual)
-
-
-def _log_film_at(temperature, args):
-    """ln of the isothermal film with the oil at another inlet temperature."""
-    laws, contact, load, speed, lubricant = args
-    viscosity = lubricant.viscosity.viscosity(0.0, temperature)
-    return laws.film.log_thickness(
-        contact, load, speed, viscosity, lubricant.pressure_viscosity.coefficient(temperature)
-    )
+        return ContactState(film, found.rise, traction, rolling, jnp.max(found.residual))

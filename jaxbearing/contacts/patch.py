@@ -87,6 +87,5 @@ def contact_patch(contact: LineContact | PointContact, load: Values) -> ContactP
     """The Hertz patch of a contact. **Arguments:** `load`, N, >= 0."""
     if isinstance(contact, LineContact):
         return ContactPatch(contact.hertz_pressure(load), contact.half_width(load), 0.5 * contact.length, line=True)
-    return ContactPatch(
-        contact.hertz_pressure(load), contact.semi_axis_rolling(load), contact.semi_axis_transverse(load)
-    )
+    ellipse = contact.ellipse(load)
+    return ContactPatch(ellipse.pressure, ellipse.rolling, ellipse.transverse)

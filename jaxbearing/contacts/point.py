@@ -53,6 +53,13 @@ class PointContact(eqx.Module):
         mean_axis = self._mean_axis(self._log_ellipticity(), load)
         return 1.5 / jnp.pi * smooth_abs(load, LOAD_WIDTH) / jnp.square(mean_axis)
 
+    def ellipse(self, load: Values) -> "Ellipse":
+        """Both semi-axes and the peak pressure at once. **Arguments:** `load`, N, >= 0."""
+        log_k = self._log_ellipticity()
+        mean_axis, stretch = self._mean_axis(log_k, load), jnp.exp(0.5 * log_k)
+        pressure = 1.5 / jnp.pi * smooth_abs(load, LOAD_WIDTH) / jnp.square(mean_axis)
+        return Ellipse(mean_axis / stretch, mean_axis * stretch, pressure)
+
     def mean_pressure(self, load: Values) -> Float[Array, "..."]:
         """Mean pressure Q/(pi a c), Pa. **Arguments:** `load`, N, >= 0."""
         return 2.0 / 3.0 * self.hertz_pressure(load)
@@ -84,6 +91,14 @@ class PointContact(eqx.Module):
         second_kind = integrals.b + integrals.d * jnp.exp(-2.0 * log_k)
         curvature = 1.0 / self.reduced_radius_rolling + 1.0 / self.reduced_radius_transverse
         return 6.0 / jnp.pi * jnp.exp(0.5 * log_k) * second_kind / (curvature * self.reduced_modulus)
+
+
+class Ellipse(NamedTuple):
+    """Loaded ellipse: semi-axes along and across rolling, m, and peak pressure, Pa."""
+
+    rolling: Float[Array, "..."]
+    transverse: Float[Array, "..."]
+    pressure: Float[Array, "..."]
 
 
 PointContact.__init__.__doc__ = """**Arguments:**
@@ -134,10 +149,13 @@ def log_ellipticity(log_ratio: Array) -> Array:
     """
     size = jnp.abs(log_ratio)
     log_k = -jnp.expm1(-size) * jnp.log(1.0339) + 0.636 * size
-    for _ in range(NEWTON_STEPS):
+
+    def newton(_, log_k: Array) -> Array:
         value, slope = _log_ratio_and_slope(log_k)
-        log_k = log_k - (value - size) / slope
-    return jnp.sign(log_ratio) * log_k
+        return log_k - (value - size) / slope
+
+    # a loop, not four copies: they would be half of what a ball bearing takes to compile
+    return jnp.sign(log_ratio) * jax.lax.fori_loop(0, NEWTON_STEPS, newton, log_k)
 
 
 @log_ellipticity.defjvp

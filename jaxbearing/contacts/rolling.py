@@ -171,6 +171,7 @@ def point_rolling_moment(
     log_load = jnp.log(pressing) - jnp.log(stiffness * contact.reduced_radius_rolling)
     log_viscous = log_material + 3.0 * log_load - 2.0 * log_speed
     log_elastic = 8.0 / 3.0 * log_load - 2.0 * log_speed
-    log_shape = jnp.log(contact.semi_axis_rolling(pressing)) + 0.91 * jnp.log(contact.ellipticity())
+    ellipse = contact.ellipse(pressing)
+    log_shape = 0.09 * jnp.log(ellipse.rolling) + 0.91 * jnp.log(ellipse.transverse)
     arm = 4.25 * jnp.exp(log_shape + 0.022 * log_viscous - 0.35 * log_elastic)
     return load * arm * smooth_sign(entrainment_speed, SPEED_FLOOR)

@@ -1,5 +1,7 @@
 """Rigid lubricant films: cage land, cage pocket, roller ends and flanges, oil drag."""
 
+from .ball_pocket import BallPocket as BallPocket
+from .ball_pocket import BallPocketFilm as BallPocketFilm
 from .couette import EndForces as EndForces
 from .couette import Flange as Flange
 from .couette import FlangeCoefficients as FlangeCoefficients

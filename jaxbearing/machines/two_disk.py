@@ -27,8 +27,8 @@ from ..contacts import (
     Traction,
     contact_patch,
     deborah_number,
-    inlet_temperature_rise,
 )
+from ..contacts.warm_film import warm_film
 from ..lubricants import Lubricant, NoPressureViscosity
 from ..lubricants.ranges import FITTED_PRESSURE, FITTED_TEMPERATURES
 from ..materials import Material, reduced_modulus
@@ -306,29 +306,18 @@ class TwoDisk(AbstractScene):
         sliding = slide_to_roll * speed
         inlet = self.oil.at(temperature)
         laws = self.contact
-        log_film = laws.film.log_thickness(contact, load, speed, inlet.viscosity, inlet.pressure_viscosity)
-        residual = jnp.zeros_like(log_film)
-        if not isinstance(laws.thermal, NoThermalReduction):
-            log_factor = laws.thermal.log_factor(contact, load, speed, sliding, inlet)
-            if laws.warm_inlet:
-                args = (laws.film, contact, load, speed, self.oil)
-                root = inlet_temperature_rise(_log_film_at, args, temperature, log_film, log_factor)
-                temperature, residual = temperature + root.value, root.residual
-            log_film = log_film + log_factor
+        found = warm_film(laws.film, laws.thermal, contact, load, speed, sliding, self.oil, inlet)
+        residual = jnp.zeros_like(found.log_thickness)
+        if found.rise is not None and laws.warm_inlet:
+            temperature, residual = temperature + found.rise, found.residual
         patch = contact_patch(contact, load)
-        return DiskState(patch, load, jnp.exp(log_film), speed, sliding, temperature, residual)
+        return DiskState(patch, load, jnp.exp(found.log_thickness), speed, sliding, temperature, residual)
 
     def traction(self, state: DiskState, oil: Lubricant | None = None) -> Traction:
         """Forces, power and temperatures. **Arguments:** `oil`: one with another rheology than the scene's."""
         law, oil = self.traction_law, self.oil if oil is None else oil
         sliding = Sliding(state.sliding_speed)
         return law.traction(state.patch, state.film, state.entrainment_speed, sliding, state.temperature, oil)
-
-
-def _log_film_at(temperature: Array, args: Any) -> Array:
-    film, contact, load, speed, oil = args
-    viscosity = oil.viscosity.viscosity(0.0, temperature)
-    return film.log_thickness(contact, load, speed, viscosity, oil.pressure_viscosity.coefficient(temperature))
 
 
 def solve_two_disk(scene: TwoDisk, options: Any = None) -> TwoDiskSolution:

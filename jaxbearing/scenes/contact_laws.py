@@ -15,7 +15,7 @@ from ..contacts import (
     RigidRollingResistance,
 )
 from ..lubricants import Lubricant
-from .laws import LINE_FILMS, thermal_factor, viscous_function
+from .laws import DISTRIBUTED_ACCURACY, LINE_FILMS, thermal_factor, viscous_function
 from .roller_schema import ContactTable
 
 
@@ -32,8 +32,6 @@ ROLLING: dict[str, type[AbstractRollingResistance]] = {
     # under load; a roller outside the loaded zone has the rigid law's
     "ertel_grubin": JoinedRollingResistance,
 }
-DISTRIBUTED_ACCURACY = 1e-3
-"""Of the distributed traction where a scene does not say."""
 
 
 def contact_laws(table: ContactTable, oil: Lubricant | None) -> ContactLaws:

@@ -49,6 +49,9 @@ VISCOUS: dict[str, type[AbstractViscousFunction]] = {
 }
 """Besides Elsharkawy and Hamrock's, which has an exponent."""
 
+DISTRIBUTED_ACCURACY = 1e-3
+"""Of the distributed traction where a scene does not say."""
+
 
 def thermal_factor(name: str | None) -> AbstractThermalFactor:
     return NoThermalReduction() if name is None else THERMAL[name]()

@@ -7,6 +7,8 @@ from typing import Any
 from pydantic import BaseModel, ValidationError
 
 from .._scene import AbstractScene
+from .ball_build import ball_bearing
+from .ball_schema import BallBearingTable
 from .data_files import builtin_names, builtin_summary, builtin_text
 from .errors import SceneError, from_class, from_validation, nearest, one_of
 from .oil_files import Origin, origins
@@ -23,11 +25,12 @@ __all__ = ["builtin_names", "builtin_summary", "builtin_text", "load_scene", "sc
 
 _KIND_EXAMPLE = 'kind = "cylindrical_roller_bearing"'
 _SCHEMAS: dict[str, tuple[type[BaseModel], Callable[[Any], AbstractScene]]] = {
+    "ball_bearing": (BallBearingTable, ball_bearing),
     "cylindrical_roller_bearing": (CylindricalRollerTable, cylindrical_roller_bearing),
     "two_disk": (TwoDiskTable, two_disk),
 }
 AVAILABLE_KINDS = tuple(_SCHEMAS)
-KINDS = (*AVAILABLE_KINDS, "ball_bearing", "tapered_roller_bearing", "line_contact")
+KINDS = (*AVAILABLE_KINDS, "tapered_roller_bearing", "line_contact")
 
 
 def load_scene(source: str | Path, overrides: Mapping[str, str] | None = None) -> AbstractScene:

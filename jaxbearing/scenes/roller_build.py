@@ -3,17 +3,11 @@ the constructors: nothing runs on JAX."""
 
 from ..bearings.cylindrical_roller import CylindricalRollerBearing, RollerCage, RollerFlange, RollerGeometry
 from ..bearings.parts import Drag, Materials, Operation
-from ..gaps import AbstractTurbulence, BlendedTurbulence, FullTurbulence, Laminar
 from .contact_laws import contact_laws
 from .materials import material
 from .oils import lubricant
 from .roller_schema import CageTable, CylindricalRollerTable, OperationTable
-
-TURBULENCE: dict[str, type[AbstractTurbulence]] = {
-    "laminar": Laminar,
-    "blend": BlendedTurbulence,
-    "pure": FullTurbulence,
-}
+from .turbulence import TURBULENCE
 
 
 def cylindrical_roller_bearing(table: CylindricalRollerTable) -> CylindricalRollerBearing:

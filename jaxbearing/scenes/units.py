@@ -49,6 +49,7 @@ ANGLE = Dimension("an angle", "rad", "0.375 deg")
 SPEED = Dimension("a rotational speed", "rad/s", "10500 rpm")
 SURFACE_SPEED = Dimension("a speed", "m/s", "1 mm/s")
 FORCE = Dimension("a force", "N", "25 kN")
+MOMENT = Dimension("a moment", "N*m", "50 N*m")
 PRESSURE = Dimension("a pressure or modulus", "Pa", "203 GPa")
 INVERSE_PRESSURE = Dimension("a reciprocal pressure", "1/Pa", "10.4 1/GPa")
 TEMPERATURE = Dimension("a temperature", "K", "100 degC", offset_allowed=True)
@@ -271,8 +272,13 @@ Fraction = Annotated[float, BeforeValidator(_between(0.0, 1.0))]
 Length = Annotated[float, _quantity(LENGTH)]
 PositiveLength = Annotated[float, _quantity(LENGTH, "> 0")]
 FlangeAngle = Annotated[float, BeforeValidator(_flange_angle)]
+"""From 0 to below 90 degrees."""
+NonNegativeLength = Annotated[float, _quantity(LENGTH, ">= 0")]
 Speed = Annotated[float, _quantity(SPEED)]
 NonNegativeSurfaceSpeed = Annotated[float, _quantity(SURFACE_SPEED, ">= 0")]
+Angle = Annotated[float, _quantity(ANGLE)]
+Moment = Annotated[float, _quantity(MOMENT)]
+Force = Annotated[float, _quantity(FORCE)]
 PositiveForce = Annotated[float, _quantity(FORCE, "> 0")]
 PositivePressure = Annotated[float, _quantity(PRESSURE, "> 0")]
 InversePressure = Annotated[float, _quantity(INVERSE_PRESSURE)]

@@ -77,8 +77,8 @@ def _with_coordinates(dataset: xr.Dataset, solution: Solution, dims: tuple[str, 
         azimuth = xr.DataArray(values, dims=(_ELEMENT,), attrs=azimuth.attrs)
     names = {
         _ELEMENT: (np.arange(azimuth.size), "number of the rolling element, 0 on the load line"),
-        _FREEDOMS[0]: (list(solution.ring_freedom), "freedom of the inner ring along which the load acts"),
-        _FREEDOMS[1]: (list(solution.ring_freedom), "freedom of the inner ring that is displaced"),
+        _FREEDOMS[0]: (list(solution.freedoms_of_stiffness), "freedom of the inner ring along which the load acts"),
+        _FREEDOMS[1]: (list(solution.freedoms_of_stiffness), "freedom of the inner ring that is displaced"),
     }
     if solution.checks:
         names[CHECK] = (list(solution.checks), "what is checked")

@@ -11,6 +11,7 @@ from ..plain import field_names, finite, plain
 from .operation import unused_operation
 
 _INSIDE = ("status", "worst_equation", "stiffness", "checks", "ring_freedom", "equation_names", "notes")
+_NAMES = ("stiffness_freedom", "element_name")
 """Fields that are not written as they are, but in words or in another order, or not at all."""
 
 
@@ -27,10 +28,10 @@ def bearing_to_dict(solution: Solution) -> dict[str, Any]:
         "warnings": list(solution.warnings),
     }
     for name in field_names(solution):
-        if name not in _INSIDE and not name.startswith("global_"):
+        if name not in (*_INSIDE, *_NAMES) and not name.startswith("global_"):
             results[name] = plain(getattr(solution, name))
     results["operation"] |= dict.fromkeys(unused_operation(solution))
-    results["stiffness"] = _embedded(np.asarray(solution.stiffness), solution.ring_freedom)
+    results["stiffness"] = _embedded(np.asarray(solution.stiffness), solution.freedoms_of_stiffness)
     results["worst_equation"] = solution.equation_names[int(solution.worst_equation)]
     results["life"] = None
     return results

@@ -23,7 +23,10 @@ def operating_point(solution: Solution) -> str:
     hidden = unused_operation(solution)
     said = []
     for field in dataclasses.fields(solution.operation):
-        value = float(np.asarray(getattr(solution.operation, field.name)))
+        given = getattr(solution.operation, field.name)
+        if given is None:
+            continue
+        value = float(np.asarray(given))
         if field.name in hidden or (field.name == "outer_speed" and value == 0.0):
             continue
         said.append(f"{field.metadata['description']} {_with_unit(value, field.metadata['unit'])}")

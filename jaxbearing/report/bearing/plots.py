@@ -121,10 +121,15 @@ def _plot_loads(axes: Any, solution: Solution) -> None:
     axes.tick_params(axis="x", pad=2)
     axes.grid(color="#D8D8D8", linewidth=0.7)
     axes.spines["polar"].set_color(FAINT)
+    if getattr(solution.operation, "radial_load", None) is not None:
+        _load_arrow(axes)
+    title_of(axes, f"Load on each rolling element, {unit}", pad=16)
+
+
+def _load_arrow(axes: Any) -> None:
     arrow = {"arrowstyle": "-|>,head_width=0.35,head_length=0.7", "linewidth": 2.2, "color": INK}
     axes.annotate("", xy=(1.05, 0.0), xytext=(1.05, 0.14), xycoords="axes fraction", arrowprops=arrow)
     axes.text(1.05, 0.165, "load", transform=axes.transAxes, fontsize=9, color=INK, ha="center")
-    title_of(axes, f"Load on each rolling element, {unit}", pad=16)
 
 
 def _plot_round(axes: Any, solution: Solution, name: str) -> None:

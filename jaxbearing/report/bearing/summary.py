@@ -105,6 +105,8 @@ def _print_loads(solution: Solution, console: Console) -> None:
 
     rows = np.array(sorted(np.flatnonzero(loaded), key=lambda j: azimuth[j]), dtype=int)
     first = {"azimuth\ndeg": [f"{azimuth[j]:.1f}" for j in rows]}
+    if load.size > 1 and np.all(load == load[0]):  # one element was solved for all
+        rows, first = np.array([0]), {"azimuth\ndeg": ["all"]}
     columns = {
         f"{title}\n{display_unit(units[name])}": column(np.asarray(getattr(elements, name))[rows], units[name])
         for name, title in shown.items()
@@ -113,18 +115,18 @@ def _print_loads(solution: Solution, console: Console) -> None:
     print_rule("Loads round the bearing", console)
     for piece in pieces(first, columns, console.width, together=2):
         print_table(piece, fractions, _LOAD_BAR, "cyan", console)
-    print_line("Loaded zone", _loaded_zone(azimuth, loaded), console)
+    print_line("Loaded zone", _loaded_zone(azimuth, loaded, solution.element_name), console)
     if not np.all(loaded):
         ranges = [
             f"{title} {_range(np.asarray(getattr(elements, name))[~loaded], units[name])}"
             for name, title in shown.items()
             if name.startswith("load")
         ]
-        print_line("Other rollers", ", ".join(ranges), console)
+        print_line(f"Other {solution.element_name}s", ", ".join(ranges), console)
 
 
-def _loaded_zone(azimuth: np.ndarray, loaded: np.ndarray) -> str:
-    count = f"{int(np.sum(loaded))} of {loaded.size} rollers above {100.0 * LOADED:.0f} % of the largest load"
+def _loaded_zone(azimuth: np.ndarray, loaded: np.ndarray, element: str) -> str:
+    count = f"{int(np.sum(loaded))} of {loaded.size} {element}s above {100.0 * LOADED:.0f} % of the largest load"
     if np.all(loaded) or not np.any(loaded):
         return count
     return f"{count}, {np.min(azimuth[loaded]):.0f} to {np.max(azimuth[loaded]):.0f} deg"
@@ -143,10 +145,11 @@ def _facts(solution: Solution) -> Iterator[tuple[str, str]]:
         angle = f"attitude angle {with_unit(float(cage.attitude_angle), 'rad', 3)}"
         yield "Cage", f"{with_unit(float(cage.speed), 'rad/s')}, {slip}, {place}, {angle}"
     yield "Inner ring", ", ".join(_ring(solution))
+    yield from _ball_facts(solution)
     stiffness = np.diagonal(np.asarray(solution.stiffness))
     entries = [
         f"{freedom} {with_unit(float(value), 'N/m')}"
-        for freedom, value in zip(solution.ring_freedom, stiffness, strict=True)
+        for freedom, value in zip(solution.freedoms_of_stiffness, stiffness, strict=True)
         if not freedom.startswith("tilt")
     ]
     if entries:
@@ -155,6 +158,31 @@ def _facts(solution: Solution) -> Iterator[tuple[str, str]]:
         text = ", ".join(_extremes(solution.elements, name, pick))
         if text:
             yield title, text
+
+
+def _ball_facts(solution: Solution) -> Iterator[tuple[str, str]]:
+    """Contact angles, attitude and spin of the most loaded ball."""
+    elements = solution.elements
+    if getattr(elements, "attitude_angle", None) is None:
+        return
+    j = int(np.argmax(np.asarray(elements.load_inner)))
+    of = lambda name: float(np.asarray(getattr(elements, name))[j])
+    degrees = lambda name: f"{np.degrees(of(name)):.2f} deg"
+    yield "Contact angles", f"inner {degrees('contact_angle_inner')}, outer {degrees('contact_angle_outer')}"
+    control = f"raceway control {of('raceway_control'):.1f} % (100: outer, 0: inner)"
+    yield "Ball's spin", f"{with_unit(of('spin_speed'), 'rad/s')} at {degrees('attitude_angle')}, {control}"
+    ratios = f"inner {digits(of('spin_to_roll_inner'), 3)}, outer {digits(of('spin_to_roll_outer'), 3)}"
+    yield "Spin to roll", ratios
+    power = solution.raceway_power
+    if power is not None:
+        parts = {
+            kind: sum(float(getattr(power, f"{side}_{kind}")) for side in ("inner", "outer"))
+            for kind in ("spin", "rolling", "transverse")
+        }
+        yield "Raceways", ", ".join(f"{digits(watts)} W {_KINDS[kind]}" for kind, watts in parts.items())
+
+
+_KINDS = {"spin": "of spin", "rolling": "of sliding along rolling", "transverse": "of sliding across"}
 
 
 def _ring(solution: Solution) -> Iterator[str]:

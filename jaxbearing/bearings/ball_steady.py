@@ -1,0 +1,357 @@
+"""Steady state of a ball bearing: from the scene to the equations, and from the roots to the results."""
+
+import dataclasses
+from typing import Any, NamedTuple
+
+import jax
+import jax.numpy as jnp
+import numpy as np
+from jaxtyping import Array, Float
+
+from ..contacts import PointContact
+from ..lubricants.ranges import FITTED_PRESSURE, FITTED_TEMPERATURES
+from ..materials import reduced_modulus
+from ..numerics.arrow import ArrowJacobian, ArrowPoint, linearize, schur_complement
+from ..numerics.newton import NewtonOptions, NewtonResult, newton_solve
+from .ball_bearing import BallBearing
+from .ball_build import ball_row, build_core, build_lubricated, ring_directions
+from .ball_core import LENGTH_UNIT, BallCore
+from .ball_equations import BallsState, LubricatedBallSystem
+from .ball_kinematics import BallMotion
+from .ball_solution import BallPowerLoss, BallResults, RacewayPower
+from .land import LandState
+from .solution import RING_FREEDOMS, CageState, RingDisplacement, Solution
+
+SIDES = np.array([[1.0], [-1.0]])
+"""Inner, outer: the sense of the contact's x axis along the orbit."""
+LOADED = 0.01
+"""Part of the largest load from which on a contact counts in what is said about ranges."""
+
+
+def solve_ball(scene: BallBearing, options: NewtonOptions) -> Solution:
+    """Steady state: pure, jit-able, vmap-able, differentiable; never raises for a failed solve."""
+    core, first = newton_solve(build_core(scene), options)
+    if scene.contact is None:
+        system, result, steps = core, first, first.iterations
+        results = _dry_results(scene, core, first)
+    else:
+        system, result = newton_solve(build_lubricated(scene, core, first), options)
+        steps = first.iterations + result.iterations
+        results = _lubricated(scene, system, result)
+    good = result.converged
+    lever = system.grooves.lever
+    ring = {name: result.point.globals[i] * LENGTH_UNIT for i, name in enumerate(system.freedoms)}
+    if scene.operation.moment is None and scene.operation.misalignment is not None:
+        ring["tilt"] = jnp.asarray(scene.operation.misalignment) * lever
+    scale = {"tilt": lever, "tilt_lateral": lever}
+    displacement = RingDisplacement(
+        **{name: ring.get(name, jnp.zeros(())) / scale.get(name, 1.0) for name in RING_FREEDOMS}
+    )
+    stiffness = _stiffness(scene, system, result)
+    masked = (results._replace(range_excess={}), displacement, stiffness)
+    masked = jax.tree.map(lambda leaf: jnp.where(good, leaf, jnp.nan), masked)
+    shown, displacement, stiffness = masked
+    notes = scene.assumptions()
+    if scene.unused_parts():
+        names = ", ".join(scene.unused_parts())
+        notes = (*notes, f"without traction on the raceways these tables have no effect: {names}")
+    return Solution(
+        status=result.status,
+        iterations=steps,
+        residual_norm=result.residual_norm,
+        inner_residual=result.inner_residual,
+        worst_equation=result.worst_equation,
+        worst_element=result.worst_element,
+        operation=scene.operation,
+        ring=displacement,
+        cage=shown.cage,
+        elements=shown.elements,
+        power_loss=shown.power_loss,
+        raceway_power=shown.raceway_power,
+        drive_power=shown.drive_power,
+        inner_torque=shown.inner_torque,
+        outer_torque=shown.outer_torque,
+        stiffness=stiffness,
+        checks={text: good & (value > 0) for text, value in results.range_excess.items()},
+        ring_freedom=_ring_names(scene),
+        stiffness_freedom=RING_FREEDOMS,
+        equation_names=system.equation_names(),
+        global_equations=result.point.globals.shape[0],
+        unknowns=result.point.elements.size + result.point.globals.size,
+        element_name="ball",
+        notes=notes,
+    )
+
+
+def _ring_names(scene: BallBearing) -> tuple[str, ...]:
+    """Freedoms whose displacement is shown."""
+    tilted = scene.operation.misalignment is not None and scene.operation.moment is None
+    return (*scene.ring_freedom, "tilt") if tilted else scene.ring_freedom
+
+
+class _Results(NamedTuple):
+    """Results before masking; `range_excess` maps a warning to a number that is positive where it applies."""
+
+    cage: CageState | None
+    elements: BallResults
+    power_loss: BallPowerLoss
+    raceway_power: RacewayPower | None
+    drive_power: Array
+    inner_torque: Array
+    outer_torque: Array
+    range_excess: dict[str, Array]
+
+
+def _every(scene: BallBearing, values: Array) -> Float[Array, " ball"]:
+    """One value a ball, also where one ball was solved for all."""
+    return jnp.broadcast_to(values, (scene.geometry.n_balls,))
+
+
+def _ball_results(
+    scene: BallBearing,
+    system: BallCore | LubricatedBallSystem,
+    load: Array,
+    angle: Array,
+    motion: BallMotion,
+    **more: Array | None,
+) -> tuple[BallResults, dict[str, Array]]:
+    """Loads, angles and motion; and what leaves the geometry."""
+    geometry, kinematics = scene.geometry, system.kinematics
+    cosine = jnp.cos(angle)
+    ellipse = _contact(scene, cosine).ellipse(load)
+    pressure = jnp.where(load > 0, ellipse.pressure, 0.0)
+    races = (kinematics.inner_race(motion, angle[0]), kinematics.outer_race(motion, angle[1]))
+    rolling = jnp.abs(kinematics.inner_speed - kinematics.outer_speed) / kinematics.ratio
+    ratios = [race.spin / jnp.sqrt(jnp.square(race.roll) + jnp.square(1e-12 * rolling) + 1e-24) for race in races]
+    every = lambda values: None if values is None else _every(scene, values)
+    count = geometry.n_balls
+    elements = BallResults(
+        azimuth=jnp.asarray(2.0 * np.pi * np.arange(count) / count),
+        load_inner=_every(scene, load[0]),
+        load_outer=_every(scene, load[1]),
+        contact_angle_inner=_every(scene, angle[0]),
+        contact_angle_outer=_every(scene, angle[1]),
+        pressure_inner=_every(scene, pressure[0]),
+        pressure_outer=_every(scene, pressure[1]),
+        orbital_speed=_every(scene, motion.orbital_speed),
+        spin_speed=_every(scene, motion.spin_speed),
+        attitude_angle=_every(scene, motion.attitude),
+        raceway_control=_every(scene, kinematics.raceway_control(angle[0], angle[1], motion.attitude)),
+        spin_to_roll_inner=_every(scene, jnp.abs(ratios[0])),
+        spin_to_roll_outer=_every(scene, jnp.abs(ratios[1])),
+        **{name: every(values) for name, values in more.items()},
+    )
+    loaded = load >= LOADED * jnp.max(load)
+    most = lambda values: jnp.max(jnp.where(loaded, values, -jnp.inf))
+    excess = {
+        "a loaded ball leans on the other shoulder: an angular-contact bearing has none there": most(-angle) - 1e-9
+    }
+    if geometry.contact_angle is None:
+        excess = {}
+    radius = jnp.stack([jnp.asarray(f * geometry.ball_diameter) for f in _conformities(scene)])[:, None]
+    reach = jnp.abs(angle) + ellipse.transverse / radius
+    shoulders = {"inner": geometry.shoulder_angle_inner, "outer": geometry.shoulder_angle_outer}
+    for side, (name, limit) in enumerate(shoulders.items()):
+        if limit is not None:
+            beyond = jnp.max(jnp.where(loaded[side], reach[side], -jnp.inf)) - limit
+            excess[f"contact ellipse cut off at the {name} ring's shoulder: pressure and losses are too low"] = beyond
+    return elements, excess
+
+
+def _conformities(scene: BallBearing) -> tuple[Any, Any]:
+    return scene.geometry.conformity_inner, scene.geometry.conformity_outer
+
+
+def _contact(scene: BallBearing, cosine: Array) -> PointContact:
+    modulus = reduced_modulus(scene.materials.rings, scene.materials.balls)
+    return scene.geometry.contacts(cosine[0], cosine[1], modulus)
+
+
+def _dry_results(scene: BallBearing, system: BallCore, result: NewtonResult) -> _Results:
+    shared = jnp.broadcast_to(result.point.globals[:, None], (len(system.freedoms), result.point.elements.shape[1]))
+    state = system.balls(result.point.elements, shared)
+    elements, excess = _ball_results(scene, system, state.load, state.angle, state.motion)
+    zero = jnp.zeros(())
+    return _Results(None, elements, BallPowerLoss(total=zero), None, zero, zero, zero, excess)
+
+
+def _lubricated(scene: BallBearing, system: LubricatedBallSystem, result: NewtonResult) -> _Results:
+    state, motion = system.at(result.point), system.kinematics
+    film, shear, pocket = state.film, state.traction, state.pocket
+    more: dict[str, Array | None] = {"film_inner": film.film[0], "film_outer": film.film[1]}
+    if film.rise is not None:
+        more |= {"temperature_rise_inner": film.rise[0], "temperature_rise_outer": film.rise[1]}
+    if shear is not None:
+        forward = -SIDES * shear.rolling
+        more |= {"sliding_inner": state.races.rolling[0], "sliding_outer": state.races.rolling[1]}
+        more |= {"traction_inner": forward[0], "traction_outer": forward[1]}
+        more |= {"spin_moment_inner": shear.moment[0], "spin_moment_outer": shear.moment[1]}
+    if system.resolved:
+        more["transverse_spin"] = state.motion.transverse
+    if pocket is not None:
+        more |= {"pocket_film_front": pocket.film_front, "pocket_film_rear": pocket.film_rear}
+        more |= {"pocket_load_front": pocket.load_front, "pocket_load_rear": pocket.load_rear}
+    elements, excess = _ball_results(scene, system, state.load, state.angle, state.motion, **more)
+    land = None if system.cage is None else system.land_at(result.point, state)
+    pressure = jnp.stack([elements.pressure_inner, elements.pressure_outer])[:, : state.load.shape[1]]
+    excess |= _law_excess(scene, system, state, pressure, land)
+    zero = jnp.zeros(())
+    if shear is None:
+        return _Results(None, elements, BallPowerLoss(total=zero), None, zero, zero, zero, excess)
+    cage = None
+    if land is not None:
+        orbit = system.orbit(result.point.globals[-1])
+        free = motion.rolling(state.angle[0], state.angle[1], state.motion.attitude).orbital_speed
+        weight = state.load[0] / jnp.sum(state.load[0])
+        mean = jnp.sum(weight * free)
+        unit = system.orbit_unit()
+        slip = (mean - orbit) * mean / (jnp.square(mean) + jnp.square(1e-8 * unit))
+        alone = system.multiplicity > 1  # all balls alike: the cage is concentric
+        eccentricity = jnp.zeros(()) if alone else land.eccentricity_ratio
+        cage = CageState(orbit, slip, eccentricity, land.attitude_angle)
+    parts = _raceway_power(system, state)
+    losses = _losses(system, state, land)
+    inner, outer = _ring_torques(system, state, land)
+    drive = motion.inner_speed * inner + motion.outer_speed * outer
+    return _Results(cage, elements, losses, parts, drive, inner, outer, excess)
+
+
+def _raceway_power(system: LubricatedBallSystem, state: BallsState) -> RacewayPower:
+    shear, races = state.traction, state.races
+    assert shear is not None
+    total = lambda power: system.multiplicity * jnp.sum(power, axis=-1)
+    spin, rolling = total(shear.moment * races.spin), total(shear.rolling * (SIDES * races.rolling))
+    transverse = total(shear.transverse * (SIDES * races.transverse))
+    return RacewayPower(spin[0], rolling[0], transverse[0], spin[1], rolling[1], transverse[1])
+
+
+def _losses(system: LubricatedBallSystem, state: BallsState, land: LandState | None) -> BallPowerLoss:
+    """Dissipation by location, each from the force and the speed of its own interaction."""
+    shear, pocket, motion = state.traction, state.pocket, state.motion
+    assert shear is not None
+    total = lambda power: system.multiplicity * jnp.sum(power)
+    losses: dict[str, Array | None] = {"inner_raceway": total(shear.power[0]), "outer_raceway": total(shear.power[1])}
+    if state.rolling is not None:
+        losses["rolling_resistance"] = total(SIDES * state.rolling * state.races.roll)
+    if pocket is not None:
+        along, across = motion.spin_speed * jnp.cos(motion.attitude), motion.spin_speed * jnp.sin(motion.attitude)
+        radius = 0.5 * system.kinematics.ball_diameter
+        losses["pocket"] = total(radius * (pocket.friction * along + pocket.transverse * across))
+    if land is not None:
+        losses["cage_pilot"] = land.power
+    if state.drag_force is not None:
+        losses["drag"] = total(state.drag_force * 0.5 * system.kinematics.pitch_diameter * motion.orbital_speed)
+    everything = sum((value for value in losses.values() if value is not None), jnp.zeros(()))
+    return BallPowerLoss(total=everything, **losses)
+
+
+def _ring_torques(system: LubricatedBallSystem, state: BallsState, land: LandState | None) -> tuple[Array, Array]:
+    """Torques that must be applied to the inner and the outer ring to keep them turning, N m, from the forces and
+    couples of the balls on the rings: independent of the dissipations."""
+    shear, motion = state.traction, system.kinematics
+    assert shear is not None
+    forward, about = -SIDES * shear.rolling, -shear.moment
+    sine, cosine = jnp.sin(state.angle), jnp.cos(state.angle)
+    radius = 0.5 * motion.pitch_diameter * (1.0 - SIDES * motion.ratio * cosine)
+    # n_i . e_x = -sin, n_o . e_x = sin; b_i . e_x = -cos, b_o . e_x = cos
+    torque = forward * radius - SIDES * about * sine
+    if state.rolling is not None:
+        torque = torque + SIDES * (SIDES * state.rolling) * cosine
+    inner, outer = system.multiplicity * jnp.sum(torque, axis=1)
+    if land is not None and system.cage is not None:
+        if system.cage.guidance == "inner_ring":
+            inner = inner - land.ring_torque
+        else:
+            outer = outer - land.ring_torque
+    return inner, outer
+
+
+def _law_excess(
+    scene: BallBearing, system: LubricatedBallSystem, state: BallsState, pressure: Array, land: LandState | None
+) -> dict[str, Array]:
+    """By how much the results leave the ranges for which the laws were made."""
+    loaded = state.load >= LOADED * jnp.max(state.load)
+    most = lambda values: jnp.max(jnp.where(loaded, values, -jnp.inf))
+    low, high = FITTED_TEMPERATURES
+    excess = {
+        "inlet oil below -20 degC: the oil laws are extrapolated": low - system.inlet.temperature,
+        "oil in the contacts beyond 200 degC: the oil laws are extrapolated": most(state.film.temperature) - high,
+    }
+    if scene.slips:
+        excess["mean contact pressure beyond 1.8 GPa: the traction rheology is extrapolated"] = (
+            2.0 / 3.0 * most(pressure) - FITTED_PRESSURE
+        )
+    if land is not None:
+        excess["cage eccentricity beyond 0.98: the land nearly touches, its film law saturates"] = (
+            land.eccentricity_ratio - 0.98
+        )
+    return excess
+
+
+def _stiffness(
+    scene: BallBearing, system: BallCore | LubricatedBallSystem, result: NewtonResult
+) -> Float[Array, "5 5"]:
+    """d load / d displacement of all five freedoms of the ring with everything else in equilibrium; N/m, and N or
+    N m for a rad; of all balls, also where one was solved for all."""
+    count, lever = scene.geometry.n_balls, system.grooves.lever
+    azimuth = jnp.asarray(2.0 * np.pi * np.arange(count) / count)
+    directions = ring_directions(azimuth)
+    place = {name: result.point.globals[i] for i, name in enumerate(system.freedoms)}
+    wide = lambda values: jnp.broadcast_to(values, (*values.shape[:-1], count))
+    full = dataclasses.replace(
+        system,
+        directions=jnp.stack([directions[name] for name in RING_FREEDOMS]),
+        held=wide(ball_row(scene).held),
+        ring_load=jnp.full(5, 1.0 / jnp.sqrt(5.0)) * system.load_scale(),
+        freedoms=RING_FREEDOMS,
+        multiplicity=1,
+        **({"azimuth": azimuth} if isinstance(system, LubricatedBallSystem) else {}),
+    )
+    ring = jnp.stack([place.get(name, jnp.zeros(())) for name in RING_FREEDOMS])
+    point = ArrowPoint(
+        wide(result.point.elements), jnp.concatenate([ring, result.point.globals[len(system.freedoms) :]])
+    )
+    if isinstance(full, LubricatedBallSystem):
+        jacobian = _all_freedoms(full, point, result.jacobian, len(system.freedoms), system.multiplicity)
+    else:
+        jacobian = linearize(full, point)[1]
+    schur = schur_complement(jacobian)
+    stiffness = schur[:5, :5]
+    if schur.shape[0] > 5:
+        stiffness = stiffness - schur[:5, 5:] @ schur[5:, :5] / schur[5, 5]
+    arm = jnp.stack([*[jnp.ones(())] * 3, lever, lever])
+    return stiffness * (full.load_scale() / LENGTH_UNIT) * arm[:, None] * arm[None, :]
+
+
+def _all_freedoms(
+    full: LubricatedBallSystem, point: ArrowPoint, solved: ArrowJacobian, freedoms: int, multiplicity: int
+) -> ArrowJacobian:
+    """The Jacobian with all five freedoms of the ring, from that of the solve: the ring moves the grooves only, and
+    friction, whose derivatives are the dear ones, does not see it.
+
+    **Arguments:** `full`: the equations of all balls with five freedoms; `solved`: of the solve, with this many
+    `freedoms`, every ball of it standing for `multiplicity`.
+    """
+    m, count = point.elements.shape
+    g = point.globals.shape[0]
+    shared = jnp.broadcast_to(point.globals[:, None], (g, count))
+
+    def light(v):
+        state = full.frictionless(v[:m], v[m:])[0]
+        return jnp.concatenate([state.fit, full.contributions(state)])
+
+    v = jnp.concatenate([point.elements, shared])
+    seeds = jnp.broadcast_to(jnp.eye(m + g)[:, :, None], (m + g, m + g, count))
+    tangents = jnp.swapaxes(jax.vmap(lambda seed: jax.jvp(light, (v,), (seed,))[1])(seeds), 0, 1)
+    wide = lambda values: jnp.broadcast_to(values, (*values.shape[:-1], count))
+    by_ring = jnp.zeros((m, 5, count)).at[:2].set(tangents[:2, m : m + 5])
+    cage = solved.chain[freedoms:, freedoms:]
+    chain = jnp.zeros((g, 5 + cage.shape[1])).at[:5, :5].set(jnp.eye(5) / full.load_scale())
+    corner = jnp.zeros((g, g)).at[:5].set(jnp.sum(tangents[2:, m:], axis=-1) / full.load_scale())
+    return ArrowJacobian(
+        local=wide(solved.local),
+        to_globals=jnp.concatenate([by_ring, wide(solved.to_globals[:, freedoms:])], axis=1),
+        contributions=jnp.concatenate([tangents[2:, :m], wide(solved.contributions[freedoms:]) / multiplicity]),
+        corner=corner.at[5:, 5:].set(solved.corner[freedoms:, freedoms:]),
+        chain=chain.at[5:, 5:].set(cage),
+    )

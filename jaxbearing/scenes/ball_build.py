@@ -1,0 +1,73 @@
+"""From a valid table of a ball bearing to the scene of the library. Only Python and numpy numbers enter the
+constructors: nothing runs on JAX."""
+
+from collections.abc import Callable
+from typing import Any
+
+from ..bearings.ball_bearing import (
+    BallAttitude,
+    BallBearing,
+    BallCage,
+    BallDragSettings,
+    BallMaterials,
+    BallOperation,
+)
+from ..bearings.ball_geometry import BallGeometry
+from ..bearings.gyroscopic import CappedCouple, ResolvedCouple, SharedCouple
+from ..contacts import DistributedTraction, PointLaws, Resolution
+from ..lubricants import Lubricant
+from .ball_schema import BallBearingTable, BallContactTable, KinematicsTable
+from .laws import DISTRIBUTED_ACCURACY, POINT_FILMS, thermal_factor, viscous_function
+from .materials import material
+from .oils import lubricant
+from .turbulence import TURBULENCE
+
+GYROSCOPIC: dict[str, Callable[[], Any]] = {
+    "off": lambda: None,
+    "shared": SharedCouple,
+    "capped": CappedCouple,
+    "resolved": ResolvedCouple,
+}
+
+
+def ball_bearing(table: BallBearingTable) -> BallBearing:
+    """The scene that a table describes.
+
+    **Raises:** `ValueError` for combinations that the classes refuse.
+    """
+    oil = None if table.oil is None else lubricant(table.oil)
+    contact = None if table.contact is None else _laws(table.contact, oil)
+    slips = contact is not None and contact.traction is not None
+    return BallBearing(
+        geometry=BallGeometry(**table.geometry.model_dump()),
+        materials=BallMaterials(rings=material(table.materials.rings), balls=material(table.materials.balls)),
+        operation=BallOperation(**table.operation.model_dump(exclude_none=True)),
+        kinematics=_kinematics(table.kinematics, slips),
+        oil=oil,
+        contact=contact,
+        cage=None
+        if table.cage is None
+        else BallCage(**{**table.cage.model_dump(), "turbulence": TURBULENCE[table.cage.turbulence]()}),
+        drag=None if table.drag is None else BallDragSettings(**table.drag.model_dump()),
+    )
+
+
+def _kinematics(table: KinematicsTable | None, slips: bool) -> BallAttitude:
+    """Left out: in equilibrium with traction, without it outer race control."""
+    attitude = None if table is None else table.attitude
+    if attitude is None:
+        attitude = "equilibrium" if slips else "outer"
+    return BallAttitude(attitude, None if table is None else GYROSCOPIC[table.gyroscopic]())
+
+
+def _laws(table: BallContactTable, oil: Lubricant | None) -> PointLaws:
+    traction = None
+    if table.traction is not None:
+        accuracy = DISTRIBUTED_ACCURACY if table.traction_accuracy is None else table.traction_accuracy
+        traction = DistributedTraction(viscous_function(table.traction, oil), Resolution.for_accuracy(accuracy))
+    return PointLaws(
+        film=POINT_FILMS[table.film](),
+        thermal=thermal_factor(table.thermal),
+        traction=traction,
+        rolling_resistance=table.rolling_resistance is not None,
+    )

@@ -1,0 +1,246 @@
+"""Ball bearing without friction: check values, static load sharing, convergence, hard cases, stiffness, gradients."""
+
+import jax
+import jax.numpy as jnp
+import numpy as np
+import pytest
+
+import jaxbearing as jb
+from jaxbearing.bearings.ball_bearing import BallAttitude, BallBearing, BallMaterials, BallOperation
+from jaxbearing.bearings.ball_geometry import BallGeometry
+from jaxbearing.bearings.gyroscopic import CappedCouple, SharedCouple
+from jaxbearing.materials import Material
+from jaxbearing.solve import jit_solver
+
+RPM = 2.0 * np.pi / 60.0
+STEEL = Material(np.float64(207e9), np.float64(0.3), np.float64(7850.0))
+T15 = BallGeometry(20, 153e-3, 20.638e-3, 0.5225, 0.51125, contact_angle=np.radians(30.0))
+B218 = BallGeometry(16, 125.26e-3, 22.225e-3, 0.5232, 0.5232, contact_angle=np.radians(40.0))
+
+
+def bearing(geometry, rpm, axial=None, radial=None, attitude="outer", couple=None, material=STEEL, **operation):
+    return BallBearing(
+        geometry=geometry,
+        materials=BallMaterials(material, material),
+        operation=BallOperation(rpm * RPM, axial_load=axial, radial_load=radial, **operation),
+        kinematics=BallAttitude(attitude, couple),
+    )
+
+
+# Q_i, Q_o, alpha_i, alpha_o, beta_i, beta_o, omega_m, omega_R, F_C, delta_a
+CHECKS = {
+    "T15": (
+        (T15, 12500, 40e3),
+        {},
+        (3302.154, 4101.234, 0.6506016, 0.5094053, 0.7418681, 0.4506237, 587.1704, 4874.031, 952.9305, 6.658603e-5),
+    ),
+    "shared": (
+        (T15, 12500, 40e3),
+        {"attitude": "inner", "couple": SharedCouple()},
+        (3127.349, 3871.345, 0.648054, 0.5061536, 0.7390375, 0.4477248, 573.5876, 4885.86, 909.353, 6.415236e-5),
+    ),
+    "printed sign": (
+        (T15, 12500, 40e3),
+        {"attitude": "inner", "couple": SharedCouple(sign=-1.0)},
+        (3491.863, 4273.26, 0.6496924, 0.5197811, 0.7408581, 0.4598765, 574.7803, 4878.747, 913.1389, 6.918508e-5),
+    ),
+    "outer share": (
+        (T15, 12500, 40e3),
+        {"couple": SharedCouple(0.0, 2.0)},
+        (3245.621, 4044.11, 0.6639275, 0.4733742, 0.7566613, 0.4185259, 590.3099, 4909.046, 963.1482, 6.35191e-5),
+    ),
+    "capped": (
+        (T15, 12500, 40e3),
+        {"couple": CappedCouple()},
+        (3198.611, 3988.179, 0.6517322, 0.501625, 0.7431241, 0.4436884, 587.613, 4879.683, 954.368, 6.491233e-5),
+    ),
+    "light": (
+        (T15, 5000, 5e3),
+        {},
+        (447.6086, 579.0598, 0.5926049, 0.4464147, 0.6772325, 0.3945421, 233.7537, 1946.399, 151.0262, 1.625734e-5),
+    ),
+    "fast": (
+        (T15, 20000, 50e3),
+        {},
+        (3868.933, 6028.874, 0.7025592, 0.4275814, 0.7994194, 0.3778031, 957.3765, 7978.588, 2533.368, 7.146788e-5),
+    ),
+    "218 static": (
+        (B218, 0, 17.8e3),
+        {},
+        (1679.016, 1679.017, 0.7242719, 0.7242715, None, None, 0.0, 0.0, 0.0, 3.598691e-5),
+    ),
+    "218": (
+        (B218, 5000, 17.8e3),
+        {},
+        (1627.266, 1737.475, 0.7527689, 0.6948849, 0.891224, 0.5952341, 228.0903, 1468.001, 147.0255, 3.535287e-5),
+    ),
+    "218 fast": (
+        (B218, 12000, 17.8e3),
+        {},
+        (1445.834, 2160.553, 0.8779825, 0.540908, 1.030757, 0.4617734, 573.243, 3733.888, 928.654, 1.472622e-5),
+    ),
+}
+
+
+@pytest.mark.parametrize("name", CHECKS)
+def test_check_values(name):
+    arguments, options, (q_i, q_o, a_i, a_o, b_i, b_o, orbit, spin, force, shift) = CHECKS[name]
+    scene = bearing(*arguments, **options)
+    solution = jb.solve(scene)
+    elements, geometry = solution.elements, scene.geometry
+    close = lambda found, printed: np.testing.assert_allclose(found, printed, rtol=1.5e-6, atol=1e-9)
+    close(elements.load_inner, q_i)
+    close(elements.load_outer, q_o)
+    close(elements.contact_angle_inner, a_i)
+    close(elements.contact_angle_outer, a_o)
+    close(elements.orbital_speed, orbit)
+    close(elements.spin_speed, spin)
+    close(solution.ring.axial, shift)
+    if b_i is not None:
+        close(elements.attitude_angle, b_i if options.get("attitude") == "inner" else b_o)
+    found = 0.5 * geometry.mass(7850.0) * geometry.pitch_diameter * elements.orbital_speed**2
+    np.testing.assert_allclose(found, force, rtol=2e-6, atol=1.1e-3)  # the printed ones hold 1 mN more
+    assert elements.load_inner.shape == (geometry.n_balls,)
+
+
+def test_combined_load():
+    solution = jb.solve(bearing(T15, 10000, 20e3, 8e3))
+    np.testing.assert_allclose(solution.ring.axial, 4.0573248e-5, rtol=1e-6)
+    np.testing.assert_allclose(solution.ring.radial, 1.2507175e-5, rtol=1e-6)
+    np.testing.assert_allclose(
+        solution.elements.load_inner[jnp.array([0, 5, 10])], [2764.9817, 1601.4255, 882.49571], rtol=1e-7
+    )
+    np.testing.assert_allclose(
+        solution.elements.load_outer[jnp.array([0, 5, 10])], [3279.4878, 2125.2229, 1430.2197], rtol=1e-7
+    )
+
+
+ISO = BallGeometry(7, 43.5e-3, 11.5e-3, 0.52, 0.53, diametral_clearance=0.0)
+
+
+def test_iso_16281_load_sharing():
+    """Without inertia, 7 balls: radial 1000 N and axial 1000 N; asked: 0.1 %."""
+    steel = Material(np.float64(2.10e11), np.float64(0.3), np.float64(7850.0))
+    radial = jb.solve(bearing(ISO, 0.0, radial=1000.0, material=steel))
+    np.testing.assert_allclose(radial.ring.radial, 15.110e-6, rtol=1e-3)
+    axial = jb.solve(bearing(ISO, 0.0, axial=1000.0, material=steel))
+    np.testing.assert_allclose(axial.ring.axial, 133.54e-6, rtol=1e-3)
+
+
+def test_one_ball_for_all_is_all():
+    one, all_ = jb.solve(bearing(T15, 12500, 40e3)), jb.solve(bearing(T15, 12500, 40e3, 0.0))
+    np.testing.assert_allclose(one.elements.load_inner, all_.elements.load_inner, rtol=1e-9)
+    np.testing.assert_allclose(one.stiffness, all_.stiffness, rtol=1e-7, atol=1e-9 * float(one.stiffness[0, 0]))
+    assert (one.unknowns, all_.unknowns) == (3, 42)
+
+
+def test_stiffness_is_symmetric_and_that_of_the_solve():
+    """Of the static bearing, whose load is conservative, and against differences of the load-displacement solve."""
+    scene = bearing(T15, 0.0, 20e3, 8e3, moment=0.0)
+    stiffness = np.asarray(jb.solve(scene).stiffness)
+    size = np.sqrt(np.outer(np.diag(stiffness), np.diag(stiffness)))
+    assert np.max(np.abs(stiffness - stiffness.T) / size) < 1e-8
+    turning = bearing(T15, 10000, 20e3, 8e3, moment=0.0)
+    stiffness = np.asarray(jb.solve(turning).stiffness)[np.ix_([0, 1, 3], [0, 1, 3])]
+    fast = jit_solver(turning)
+    names, steps = ("axial_load", "radial_load", "moment"), (2.0, 2.0, 0.1)
+    base = {"axial_load": 20e3, "radial_load": 8e3, "moment": 0.0}
+    compliance = []
+    for name, step in zip(names, steps, strict=True):
+        ends = [fast(**(base | {name: base[name] + sign * step})).ring for sign in (1.0, -1.0)]
+        difference = [(getattr(ends[0], f) - getattr(ends[1], f)) / (2.0 * step) for f in ("axial", "radial", "tilt")]
+        compliance.append([float(d) for d in difference])
+    np.testing.assert_allclose(np.linalg.inv(np.array(compliance).T), stiffness, rtol=1e-5, atol=1e-6 * stiffness[0, 0])
+
+
+HARD = {
+    "at rest": bearing(T15, 0.0, 1000.0, 500.0),
+    "radial with clearance": bearing(
+        BallGeometry(9, 38.5e-3, 7.938e-3, 0.515, 0.525, diametral_clearance=2e-5), 6000, radial=1500.0
+    ),
+    "overspeed": bearing(T15, 40000, 100.0),
+    "contact angle 0": bearing(ISO, 3000, radial=1000.0),
+    "one ball loaded": bearing(
+        BallGeometry(9, 38.5e-3, 7.938e-3, 0.515, 0.525, diametral_clearance=1e-4), 0.0, radial=20.0
+    ),
+    "three balls": bearing(BallGeometry(3, 153e-3, 20.638e-3, 0.5225, 0.51125, contact_angle=0.5), 5000, 2e3, 300.0),
+    "hundred balls": bearing(BallGeometry(100, 700e-3, 20.638e-3, 0.5225, 0.51125, contact_angle=0.5), 2000, 2e4, 5e3),
+    "backwards": bearing(T15, -12500, -40e3),
+    "both rings": bearing(T15, 12500, 40e3, outer_speed=-3000 * RPM),
+    "light and fast": bearing(
+        BallGeometry(20, 167.54e-3, 22.225e-3, 0.52, 0.515, contact_angle=np.radians(27.0)), 20000, 200.0
+    ),
+}
+
+
+@pytest.mark.parametrize("name", HARD)
+def test_hard_cases_have_finite_results_and_derivatives(name):
+    scene = HARD[name]
+    assert bool(jb.solve(scene).converged)
+
+    def results(numbers):
+        solution = jb.solve(numbers, throw=False)
+        return solution.elements.load_outer.sum() + solution.elements.contact_angle_inner.sum() + solution.ring.axial
+
+    value, slopes = jax.jit(jax.value_and_grad(results))(scene)
+    assert np.isfinite(value)
+    for leaf in jax.tree.leaves(slopes):
+        assert np.all(np.isfinite(leaf))
+
+
+def test_balances():
+    """Loads of the ring from the balls' loads, to round-off."""
+    solution = jb.solve(bearing(T15, 10000, 20e3, 8e3, moment=50.0))
+    e = solution.elements
+    axial, radial = e.load_inner * jnp.sin(e.contact_angle_inner), e.load_inner * jnp.cos(e.contact_angle_inner)
+    np.testing.assert_allclose(jnp.sum(axial), 20e3, rtol=1e-9)
+    np.testing.assert_allclose(jnp.sum(radial * jnp.cos(e.azimuth)), 8e3, rtol=1e-9)
+    np.testing.assert_allclose(T15.groove_circle_radius * jnp.sum(axial * jnp.cos(e.azimuth)), 50.0, rtol=1e-7)
+
+
+@pytest.mark.slow
+@pytest.mark.usefixtures("optimized")
+@pytest.mark.parametrize(
+    "couple", [None, CappedCouple(), CappedCouple(sign=-1.0)], ids=["off", "capped", "printed sign"]
+)
+@pytest.mark.parametrize("kind", ["axial", "combined", "moment", "deep groove"])
+def test_random_bearings_converge(kind, couple):
+    rng = np.random.default_rng(5)
+    n = 300
+    logs = lambda a, b: jnp.asarray(np.exp(rng.uniform(np.log(a), np.log(b), n)))
+    axial = logs(500.0, 5e4)
+    numbers = {"inner_speed": jnp.asarray(rng.uniform(0.0, 20000.0, n)) * RPM, "axial_load": axial}
+    groove = BallGeometry(9, 38.5e-3, 7.938e-3, 0.515, 0.525, diametral_clearance=2e-5)
+    if kind == "axial":
+        scene = bearing(T15, 1.0, 1.0, couple=couple)
+        numbers = {"inner_speed": jnp.asarray(rng.uniform(0.0, 40000.0, n)) * RPM, "axial_load": logs(1.0, 1e5)}
+    elif kind == "deep groove":
+        scene = bearing(groove, 1.0, 1.0, 1.0, couple=couple)
+        numbers = {"inner_speed": jnp.asarray(rng.uniform(0.0, 30000.0, n)) * RPM}
+        numbers |= {"axial_load": logs(1.0, 5e3) * (rng.uniform(size=n) > 0.3), "radial_load": logs(10.0, 7e3)}
+    else:
+        extra = {"moment": 0.0} if kind == "moment" else {"misalignment": 0.0}
+        scene = bearing(T15, 1.0, 1.0, 1.0, couple=couple, **extra)
+        numbers["radial_load"] = axial * rng.uniform(0.0, 1.5, n)
+        if kind == "moment":
+            numbers["moment"] = 0.03 * axial * rng.uniform(-1.0, 1.0, n)
+        else:
+            numbers["misalignment"] = jnp.asarray(rng.uniform(-1e-3, 1e-3, n))
+    solve = jax.jit(lambda x: jax.lax.map(lambda o: jb.solve(scene.at_operation(**o), throw=False), x))
+    solution = solve(numbers)
+    assert np.all(np.asarray(solution.converged))
+    assert np.median(np.asarray(solution.iterations)) <= 8
+    assert np.all(np.isfinite(np.asarray(solution.stiffness)))
+
+
+def test_bad_bearings_are_refused():
+    with pytest.raises(ValueError, match="one of the two"):
+        BallGeometry(20, 153e-3, 20.638e-3, 0.5225, 0.51125)
+    with pytest.raises(ValueError, match=r"between 0\.5 and 1"):
+        BallGeometry(20, 153e-3, 20.638e-3, 0.5, 0.51125, contact_angle=0.5)
+    with pytest.raises(ValueError, match="do not fit"):
+        BallGeometry(30, 153e-3, 20.638e-3, 0.5225, 0.51125, contact_angle=0.5)
+    with pytest.raises(ValueError, match="needs an axial_load"):
+        BallOperation(100.0)
+    with pytest.raises(ValueError, match="needs traction"):
+        bearing(T15, 1000, 1e3, attitude="equilibrium")
