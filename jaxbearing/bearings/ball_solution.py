@@ -31,7 +31,7 @@ class BallResults(eqx.Module):
     orbital_speed: _Values = _result("rad/s", "speed of the ball centre about the bearing axis")
     spin_speed: _Values = _result("rad/s", "spin of the ball, relative to its orbit")
     attitude_angle: _Values = _result("rad", "attitude of the spin, beta")
-    raceway_control: _Values = _result("%", "100: outer race control, 0: inner race control")
+    raceway_control: _Values = _result("percent", "100: outer race control, 0: inner race control")
     spin_to_roll_inner: _Values = _result("1", "spin about the contact normal over roll, inner")
     spin_to_roll_outer: _Values = _result("1", "spin about the contact normal over roll, outer")
     transverse_spin: _Values | None = _optional(

@@ -6,6 +6,7 @@ import tomllib
 import numpy as np
 import pytest
 
+from jaxbearing.bearings.ball_bearing import BallBearing
 from jaxbearing.bearings.cylindrical_roller import CylindricalRollerBearing
 from jaxbearing.contacts import (
     DistributedTraction,
@@ -27,7 +28,7 @@ from jaxbearing.scenes.oils import load_oil, missing_sources, oil_data
 from jaxbearing.scenes.overrides import parse_value, split_assignments
 from jaxbearing.scenes.reader import builtin_names, builtin_summary, builtin_text, load_scene, scene_from_mapping
 
-KINDS = {"cylindrical_roller_bearing": CylindricalRollerBearing, "two_disk": TwoDisk}
+KINDS = {"ball_bearing": BallBearing, "cylindrical_roller_bearing": CylindricalRollerBearing, "two_disk": TwoDisk}
 
 
 @pytest.mark.parametrize("name", builtin_names())
