@@ -6,28 +6,27 @@ or tilt moves azimuth 0 of the inner ring along $+e_x$. Contact angles are posit
 along $+e_x$. The groove is taken as a full circle: `geometry.shoulder_angle_*` says where it ends.
 """
 
-import math
-from typing import Literal
+from typing import ClassVar, Literal
 
 import equinox as eqx
 
 from .._scene import AbstractScene, label, number, optional_number
 from .._types import Scalar
 from ..contacts.point_laws import PointLaws
-from ..gaps import AbstractTurbulence, BlendedTurbulence
 from ..lubricants import Lubricant, NoPressureViscosity
 from ..materials import Material
 from ..numerics.checks import known, require
 from .ball_geometry import BallGeometry
+from .cage import ASSUMED_LANDS as ASSUMED_LANDS
+from .cage import AbstractCage
 from .gyroscopic import AbstractGyroscopic, ResolvedCouple
+from .parts import AbstractOperation, DragSettings
 
 ASSUMED_CAGE_THICKNESS = 0.4
 """Radial thickness of the cage over the ball diameter, where a scene does not give its diameters."""
-ASSUMED_LANDS = 2
-"""Number of cage lands, where a scene does not give it."""
 
 
-class BallOperation(eqx.Module):
+class BallOperation(AbstractOperation):
     """Operating point of a ball bearing: the batched part of a sweep.
 
     A load that is not given (`None`) is 0, and where neither `radial_load` nor `moment` nor `misalignment` is given all
@@ -52,15 +51,7 @@ class BallOperation(eqx.Module):
 
     def __check_init__(self):
         loads = {name: (getattr(self, name), "finite") for name in ("axial_load", "radial_load", "moment")}
-        require(
-            "operation",
-            inner_speed=(self.inner_speed, "finite"),
-            outer_speed=(self.outer_speed, "finite"),
-            misalignment=(self.misalignment, "finite"),
-            oil_temperature=(self.oil_temperature, "> 0"),
-            oil_flow=(self.oil_flow, ">= 0"),
-            **loads,
-        )
+        require("operation", misalignment=(self.misalignment, "finite"), **loads)
         if all(value is None for value, _ in loads.values()):
             raise ValueError("operation.axial_load: a ball bearing needs an axial_load, a radial_load or a moment")
         sizes = known(*(value for value, _ in loads.values() if value is not None))
@@ -100,74 +91,23 @@ class BallAttitude(eqx.Module):
             raise ValueError("kinematics.gyroscopic: 'resolved' needs kinematics.attitude = 'equilibrium'")
 
 
-class BallCage(eqx.Module):
+class BallCage(AbstractCage):
     """One-piece cage with cylindrical pockets, guided by one ring on `n_lands` lands.
 
-    **Arguments:**
-    - `guidance`: "inner_ring" or "outer_ring".
-    - `guiding_clearance`: DIAMETRAL clearance of the lands, m.
+    **Arguments:** those of `AbstractCage`, and
     - `pocket_clearance`: pocket diameter minus ball diameter, m.
-    - `land_width`: of ONE land, m.
-    - `inner_diameter`, `outer_diameter`: of the cage, m; assumed from the ball size where not given.
-    - `n_lands`: number of lands; 2 where not given.
-    - `turbulence`: flow regime of the lands.
     """
 
-    guidance: Literal["inner_ring", "outer_ring"] = eqx.field(static=True)
-    guiding_clearance: Scalar = number()
-    pocket_clearance: Scalar = number()
-    land_width: Scalar = number()
-    inner_diameter: Scalar | None = optional_number()
-    outer_diameter: Scalar | None = optional_number()
-    n_lands: int | None = eqx.field(static=True, default=None)
-    turbulence: AbstractTurbulence = BlendedTurbulence()
+    element: ClassVar[str] = "ball"
+    assumed_inner: ClassVar[float] = ASSUMED_CAGE_THICKNESS
+    assumed_outer: ClassVar[float] = ASSUMED_CAGE_THICKNESS
 
-    def __check_init__(self):
-        if self.guidance not in ("inner_ring", "outer_ring"):
-            raise ValueError(f"cage.guidance must be 'inner_ring' or 'outer_ring', got {self.guidance!r}")
-        require(
-            "cage",
-            guiding_clearance=(self.guiding_clearance, "> 0"),
-            pocket_clearance=(self.pocket_clearance, "> 0"),
-            land_width=(self.land_width, "> 0"),
-            inner_diameter=(self.inner_diameter, "> 0"),
-            outer_diameter=(self.outer_diameter, "> 0"),
-            n_lands=(self.n_lands, "> 0"),
-        )
-
-    @property
-    def lands(self) -> int:
-        return ASSUMED_LANDS if self.n_lands is None else self.n_lands
-
-    def bore(self, geometry: BallGeometry) -> Scalar:
-        if self.inner_diameter is not None:
-            return self.inner_diameter
-        return geometry.pitch_diameter - ASSUMED_CAGE_THICKNESS * geometry.ball_diameter
-
-    def outside(self, geometry: BallGeometry) -> Scalar:
-        if self.outer_diameter is not None:
-            return self.outer_diameter
-        return geometry.pitch_diameter + ASSUMED_CAGE_THICKNESS * geometry.ball_diameter
+    def row(self, geometry: BallGeometry) -> tuple[int, Scalar]:
+        return geometry.n_balls, geometry.ball_diameter
 
 
-class BallDragSettings(eqx.Module):
-    """Oil drag on the orbiting balls.
-
-    **Arguments:**
-    - `coefficient`: drag coefficient of one ball in its row; not given: that of an isolated sphere at its Reynolds
-      number.
-    - `through_flow_fraction`: part of the oil flow that passes through the bearing; 1 = under-race supply.
-    """
-
-    coefficient: Scalar | None = optional_number()
-    through_flow_fraction: Scalar = number(1.0)
-
-    def __check_init__(self):
-        require(
-            "drag",
-            coefficient=(self.coefficient, ">= 0"),
-            through_flow_fraction=(self.through_flow_fraction, "between 0 and 1"),
-        )
+class BallDragSettings(DragSettings):
+    """Oil drag on the orbiting balls; where the coefficient is not given it is that of an isolated sphere."""
 
 
 class BallBearing(AbstractScene):
@@ -213,7 +153,8 @@ class BallBearing(AbstractScene):
                 f"contact.film: {type(self.contact.film).__name__} holds for oils whose viscosity rises with pressure, "
                 "not for an isoviscous one"
             )
-        _check_cage(self)
+        if self.cage is not None:
+            self.cage.check_fits(self.geometry)
 
     @property
     def slips(self) -> bool:
@@ -244,41 +185,10 @@ class BallBearing(AbstractScene):
             if self.contact.traction is not None and self.oil.rheology is not None:
                 said += self.oil.rheology.misfit(self.contact.traction.viscous.name)
         if self.slips and self.cage is not None:
-            for name, formula in (
-                ("inner_diameter", f"pitch diameter - {ASSUMED_CAGE_THICKNESS:g} ball diameters"),
-                ("outer_diameter", f"pitch diameter + {ASSUMED_CAGE_THICKNESS:g} ball diameters"),
-                ("n_lands", f"{ASSUMED_LANDS}"),
-            ):
-                if getattr(self.cage, name) is None:
-                    said.append(f"cage.{name} is not given: assumed {formula}")
+            said += self.cage.assumptions()
         if self.slips and self.kinematics.attitude != "equilibrium":
             said.append(
                 f"kinematics.attitude = '{self.kinematics.attitude}' is a hypothesis: the moments about the radius do "
                 "not balance, and the losses do not add up to the drive power"
             )
         return tuple(said)
-
-
-def _check_cage(scene: BallBearing) -> None:
-    """**Raises:** `ValueError` where the cage cannot exist between the rings (where the numbers are known)."""
-    geometry, cage = scene.geometry, scene.cage
-    if cage is None:
-        return
-    sizes = known(
-        geometry.pitch_diameter,
-        geometry.ball_diameter,
-        cage.bore(geometry),
-        cage.outside(geometry),
-        cage.pocket_clearance,
-    )
-    if sizes is None:
-        return
-    pitch, ball, bore, outside, pocket = sizes
-    gap = pitch * math.sin(math.pi / max(geometry.n_balls, 2)) - ball
-    for name, value, low, high in (
-        ("inner_diameter", bore, pitch - ball, outside),
-        ("outer_diameter", outside, bore, pitch + ball),
-        ("pocket_clearance", pocket, 0.0, gap),
-    ):
-        if not low < value < high:
-            raise ValueError(f"cage.{name} must lie between {low:.6g} m and {high:.6g} m, got {value:.6g} m")

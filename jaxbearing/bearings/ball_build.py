@@ -1,30 +1,22 @@
 """From a ball bearing scene to its equations, with everything prepared that does not depend on the unknowns."""
 
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import jax
 import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Array, Float
 
-from ..gaps import (
-    ReynoldsDrag,
-    RollerDrag,
-    ShortJournal,
-    air_density,
-    ball_frontal_area,
-    mixture_density,
-    saturated_oil_fraction,
-)
+from ..gaps import ReynoldsDrag, RollerDrag, ball_frontal_area
 from ..gaps.ball_pocket import BallPocket
 from ..materials import reduced_modulus
-from ..numerics.newton import NewtonResult
-from ..numerics.safe import safe_norm
 from .ball_bearing import BallBearing
-from .ball_core import LENGTH_UNIT, BallCore, Grooves
+from .ball_core import BallCore
 from .ball_equations import BallCageParts, BallDrag, BallGuess, LubricatedBallSystem
 from .ball_kinematics import BallKinematics
+from .ball_system import LENGTH_UNIT, Grooves
 from .gyroscopic import AbstractGyroscopic, ResolvedCouple
+from .parts import drag_density
 
 SMALLEST_GUESS = 1e-3
 """Load of an inner contact that the frictionless bearing has lost, over a ball's load scale, where the films start."""
@@ -90,102 +82,75 @@ def ball_grooves(scene: BallBearing) -> Grooves:
     )
 
 
-def _common(scene: BallBearing) -> dict[str, Any]:
+def build_core(scene: BallBearing) -> BallCore:
+    """The bearing without friction on the raceways and without films."""
     geometry, operation, row = scene.geometry, scene.operation, ball_row(scene)
     density = jnp.asarray(scene.materials.balls.density)
-    return {
-        "kinematics": BallKinematics(
+    attitude, gyroscopic = scene.kinematics.attitude, scene.kinematics.gyroscopic
+    return BallCore(
+        kinematics=BallKinematics(
             jnp.asarray(operation.inner_speed),
             jnp.asarray(operation.outer_speed),
             jnp.asarray(geometry.pitch_diameter),
             jnp.asarray(geometry.ball_diameter),
         ),
-        "grooves": ball_grooves(scene),
-        "directions": row.directions,
-        "held": row.held,
-        "ring_load": row.load,
-        "mass": geometry.mass(density),
-        "inertia": geometry.inertia(density),
-        "freedoms": row.freedoms,
-        "multiplicity": row.multiplicity,
-    }
-
-
-def build_core(scene: BallBearing) -> BallCore:
-    """The bearing without friction on the raceways and without films."""
-    attitude, gyroscopic = scene.kinematics.attitude, scene.kinematics.gyroscopic
-    return BallCore(
-        **_common(scene),
-        attitude="inner" if attitude == "inner" else "outer",
+        grooves=ball_grooves(scene),
+        directions=row.directions,
+        held=row.held,
+        ring_load=row.load,
+        mass=geometry.mass(density),
+        inertia=geometry.inertia(density),
         gyroscopic=gyroscopic if isinstance(gyroscopic, AbstractGyroscopic) else None,
+        couple_share=jnp.ones(()),
+        freedoms=row.freedoms,
+        multiplicity=row.multiplicity,
+        attitude="inner" if attitude == "inner" else "outer",
     )
 
 
-def build_lubricated(scene: BallBearing, core: BallCore, found: NewtonResult) -> LubricatedBallSystem:
-    """The lubricated bearing, to start from what was found without friction."""
+def build_lubricated(scene: BallBearing, core: BallCore) -> LubricatedBallSystem:
+    """The lubricated bearing of the same balls as `core`, to start from the first guess of that."""
     assert scene.contact is not None
     assert scene.oil is not None
-    gyroscopic = scene.kinematics.gyroscopic
     return LubricatedBallSystem(
-        **_common(scene),
+        **{**core.shared_fields(), "attitude": scene.kinematics.attitude},
         geometry=scene.geometry,
         reduced_modulus=reduced_modulus(scene.materials.rings, scene.materials.balls),
         laws=scene.contact,
         oil=scene.oil,
         inlet=scene.oil.at(scene.operation.oil_temperature),
         azimuth=ball_row(scene).azimuth,
-        guess=_guess(core, found),
-        couple_share=jnp.ones(()),
-        attitude=scene.kinematics.attitude,
-        resolved=isinstance(gyroscopic, ResolvedCouple),
-        gyroscopic=gyroscopic if isinstance(gyroscopic, AbstractGyroscopic) else None,
+        guess=_guess(core),
+        resolved=isinstance(scene.kinematics.gyroscopic, ResolvedCouple),
         cage=_cage_parts(scene) if scene.slips and scene.cage is not None else None,
         drag=_drag(scene) if scene.slips and scene.drag is not None else None,
     )
 
 
-def _guess(core: BallCore, found: NewtonResult) -> BallGuess:
-    count = core.held.shape[1]
-    shared = jnp.broadcast_to(found.point.globals[:, None], (len(core.freedoms), count))
-    state = core.balls(found.point.elements, shared)
+def _guess(core: BallCore) -> BallGuess:
+    point = core.initial()
+    shared = jnp.broadcast_to(point.globals[:, None], (len(core.freedoms), core.held.shape[1]))
+    state = core.balls(point.elements, shared)
     inner, outer = state.angle
     least = SMALLEST_GUESS * core.ball_scale()
     between = 0.5 * (core.kinematics.inner_control(inner) + core.kinematics.outer_control(outer))
-    guess = BallGuess(jnp.log(jnp.maximum(state.load[0], least)), inner, between, found.point.globals * LENGTH_UNIT)
+    guess = BallGuess(jnp.log(jnp.maximum(state.load[0], least)), inner, between, point.globals * LENGTH_UNIT)
     return jax.lax.stop_gradient(jax.tree.map(lambda leaf: jnp.where(jnp.isfinite(leaf), leaf, 0.0), guess))
 
 
 def _cage_parts(scene: BallBearing) -> BallCageParts:
     cage, geometry = scene.cage, scene.geometry
     assert cage is not None
-    diameter = cage.bore(geometry) if cage.guidance == "inner_ring" else cage.outside(geometry)
-    return BallCageParts(
-        pocket=BallPocket(
-            clearance=jnp.asarray(cage.pocket_clearance), ball_radius=0.5 * jnp.asarray(geometry.ball_diameter)
-        ),
-        land=ShortJournal(
-            radius=0.5 * jnp.asarray(diameter),
-            width=jnp.asarray(cage.land_width),
-            clearance=jnp.asarray(cage.guiding_clearance) / 2.0,
-            turbulence=cage.turbulence,
-            n_lands=cage.lands,
-        ),
-        guidance=cage.guidance,
+    pocket = BallPocket(
+        clearance=jnp.asarray(cage.pocket_clearance), ball_radius=0.5 * jnp.asarray(geometry.ball_diameter)
     )
+    return BallCageParts(pocket=pocket, land=cage.land(geometry), guidance=cage.guidance)
 
 
 def _drag(scene: BallBearing) -> BallDrag:
-    operation, geometry, drag, oil = scene.operation, scene.geometry, scene.drag, scene.oil
+    geometry, drag, oil = scene.geometry, scene.drag, scene.oil
     assert drag is not None
     assert oil is not None
-    assert oil.density is not None
-    fraction = saturated_oil_fraction(
-        operation.oil_flow,
-        safe_norm(operation.inner_speed, operation.outer_speed),
-        geometry.pitch_diameter,
-        drag.through_flow_fraction,
-    )
-    temperature = jnp.asarray(operation.oil_temperature)
     thickness = 0.0
     if scene.cage is not None:
         thickness = (scene.cage.outside(geometry) - scene.cage.bore(geometry)) / 2.0
@@ -194,4 +159,4 @@ def _drag(scene: BallBearing) -> BallDrag:
     law: ReynoldsDrag | RollerDrag = ReynoldsDrag(diameter=diameter, area=area, shape="sphere")
     if drag.coefficient is not None:
         law = RollerDrag(coefficient=jnp.asarray(drag.coefficient), area=area)
-    return BallDrag(law, mixture_density(fraction, oil.density.density(temperature), air_density(temperature)))
+    return BallDrag(law, drag_density(oil, scene.operation, geometry.pitch_diameter, drag.through_flow_fraction))

@@ -15,36 +15,23 @@ Written as forces that grow with their displacement. For T = 0 and frozen $F_C$ 
 potential (`ball_start` descends it).
 """
 
-from typing import Literal, NamedTuple
+import dataclasses
+from typing import NamedTuple
 
-import equinox as eqx
 import jax.numpy as jnp
-from jaxtyping import Array, Float
+from jaxtyping import Array, Float, Int
 
-from ..numerics.arrow import AbstractArrowSystem, ArrowPoint
+from ..numerics.arrow import ArrowPoint
 from ..numerics.safe import safe_norm
-from .ball_kinematics import BallKinematics, BallMotion
-from .ball_start import CentrifugalProblem, start
-from .gyroscopic import AbstractGyroscopic
+from .ball_kinematics import BallMotion
+from .ball_start import CentrifugalProblem, Start, estimate, start
+from .ball_system import LENGTH_UNIT, AbstractBallSystem
 
-LENGTH_UNIT = 1e-5
-"""Scale of displacements, m."""
 FORCE_FLOOR = 1e-3
 """Added to the centrifugal force, N: a ball that nothing loads stays in its outer groove (load error 1e-3 N)."""
 
-
-class Grooves(NamedTuple):
-    """What the normal loads of a ball need; `offset` and `stiffness` of (inner, outer), m and N/m^(3/2)."""
-
-    offset: Float[Array, "2"]
-    stiffness: Float[Array, "2"]
-    centre_distance: Float[Array, ""]
-    free_cosine: Float[Array, ""]
-    free_sine: Float[Array, ""]
-    lever: Float[Array, ""]
-    """Radius of the circle of inner groove centres, R_i."""
-    groove_arm: Float[Array, ""]
-    """f_i D: of the friction at the inner race about that circle."""
+ESTIMATES = 2
+"""Passes from the contact angles to the centrifugal forces that the first guess is made with."""
 
 
 class BallState(NamedTuple):
@@ -53,8 +40,6 @@ class BallState(NamedTuple):
     load: Float[Array, "2 ball"]
     angle: Float[Array, "2 ball"]
     motion: BallMotion
-    centrifugal: Float[Array, " ball"]
-    friction: Float[Array, "2 ball"] | None
     balance: Float[Array, "2 ball"]
     """Left side minus right side of the ball's two force balances, N."""
     ring_force: Float[Array, "2 ball"]
@@ -63,25 +48,13 @@ class BallState(NamedTuple):
     """Of a ball on the inner ring about the tangent of the circle of groove centres, N m."""
 
 
-class BallCore(AbstractArrowSystem):
+class BallCore(AbstractBallSystem):
     """Balls that roll without sliding, with the attitude of outer or inner race control.
 
-    `directions[f]` are the changes of (A1, A2) at every ball for a unit of freedom f; tilts are multiplied by R_i, so
-    that every unknown of the ring is a length. `held` displaces the inner groove centres beside that (misalignment).
+    Its iteration begins at `guess` (`started`), or where that is `None` at the estimate by formulas.
     """
 
-    kinematics: BallKinematics
-    grooves: Grooves
-    directions: Float[Array, "freedom 2 ball"]
-    held: Float[Array, "2 ball"]
-    ring_load: Float[Array, " freedom"]
-    mass: Float[Array, ""]
-    inertia: Float[Array, ""]
-    freedoms: tuple[str, ...] = eqx.field(static=True)
-    multiplicity: int = eqx.field(static=True)
-    """Balls that each ball stands for."""
-    attitude: Literal["outer", "inner"] = eqx.field(static=True, default="outer")
-    gyroscopic: AbstractGyroscopic | None = None
+    guess: ArrowPoint | None = None
 
     # -- scales ---------------------------------------------------------------------------------------------------
 
@@ -91,19 +64,14 @@ class BallCore(AbstractArrowSystem):
 
     def ball_scale(self) -> Array:
         """Scale of a ball's balances, N."""
-        angle = jnp.arctan2(self.grooves.free_sine, self.grooves.free_cosine)
+        angle = self.grooves.free_angle
         free = self.kinematics.rolling(angle, angle, angle)
-        return self.load_scale() / self.ball_count + self.centrifugal(free)
-
-    @property
-    def ball_count(self) -> int:
-        return self.multiplicity * self.held.shape[1]
+        return self.load_scale() / self.ball_count + self.outward_force(free)
 
     # -- solver contract ------------------------------------------------------------------------------------------
 
     def equation_names(self) -> tuple[str, ...]:
-        ring = tuple(f"{name} load balance of the ring" for name in self.freedoms)
-        return ("axial balance of a ball", "radial balance of a ball", *ring)
+        return ("axial balance of a ball", "radial balance of a ball", *self.ring_equation_names())
 
     def step_caps(self) -> ArrowPoint:
         half = 0.5 * self.grooves.centre_distance / LENGTH_UNIT
@@ -115,49 +83,63 @@ class BallCore(AbstractArrowSystem):
         return ArrowPoint(-elements, -ring), ArrowPoint(elements, ring)
 
     def initial(self) -> ArrowPoint:
-        """From the convex problem at the centrifugal force of the free contact angle."""
-        angle = jnp.arctan2(self.grooves.free_sine, self.grooves.free_cosine)
-        free = self.kinematics.rolling(angle, angle, self._attitude(angle, angle))
-        problem = CentrifugalProblem(
+        return self._point(estimate(self._frozen())) if self.guess is None else self.guess
+
+    def started(self) -> tuple["BallCore", Int[Array, ""]]:
+        """These equations with the minimum of the convex problem as first guess, and the Newton steps to that."""
+        found = start(self._frozen())
+        return dataclasses.replace(self, guess=self._point(found)), found.steps
+
+    def _point(self, found: Start) -> ArrowPoint:
+        return ArrowPoint((found.centre - self.free_centre()) / LENGTH_UNIT, found.ring / LENGTH_UNIT)
+
+    def _frozen(self) -> CentrifugalProblem:
+        """The convex problem at the centrifugal forces of the estimated contact angles."""
+        angle = jnp.broadcast_to(self.grooves.free_angle, (2, self.held.shape[1]))
+        problem = self._frozen_at(angle)
+        for _ in range(ESTIMATES):
+            first = estimate(problem)
+            outer, inner = first.centre, problem.groove_at(first.ring) - first.centre
+            angle = jnp.stack([jnp.arctan2(inner[0], inner[1]), jnp.arctan2(outer[0], outer[1])])
+            problem = self._frozen_at(angle)
+        return problem
+
+    def _frozen_at(self, angle: Float[Array, "2 ball"]) -> CentrifugalProblem:
+        return CentrifugalProblem(
             offset=self.grooves.offset,
             stiffness=self.grooves.stiffness,
-            groove=self.free_groove() + self.held,
+            groove=self.groove_centres(jnp.zeros((len(self.freedoms), self.held.shape[1]))),
             directions=self.directions,
             ring_load=self.ring_load,
-            centrifugal=self.centrifugal(free),
+            centrifugal=self.outward_force(self.motion(angle)),
             multiplicity=self.multiplicity,
             centre_distance=self.grooves.centre_distance,
             free_cosine=self.grooves.free_cosine,
             freedoms=self.freedoms,
         )
-        found = start(problem)
-        return ArrowPoint((found.centre - self.free_centre()) / LENGTH_UNIT, found.ring / LENGTH_UNIT)
 
     @property
     def paths(self) -> int:
-        return 1
+        return 1 if self.gyroscopic is None else 2
 
     def eased(self, ease, path):
-        """More load: the inner contacts of a fast, lightly loaded bearing are nearly lost."""
+        """More load: the inner contacts of a fast, lightly loaded bearing are nearly lost; or less of the couple."""
         free = self.ball_count * (self.ball_scale() - self.load_scale() / self.ball_count)
-        return eqx.tree_at(
-            lambda system: system.ring_load, self, self.ring_load * (1.0 + free / self.load_scale()) ** ease
-        )
+        heavier = self.ring_load * (1.0 + free / self.load_scale()) ** ease
+        share = self.couple_share
+        if self.gyroscopic is not None:
+            heavier = jnp.where(path == 0, heavier, self.ring_load)
+            share = share * jnp.where(path == 0, 1.0, 1.0 - ease)
+        easier = dataclasses.replace(self, ring_load=heavier, couple_share=share, guess=None)
+        first = easier.initial()
+        if self.guess is not None:
+            first = ArrowPoint(*(jnp.where(ease == 0.0, x, y) for x, y in zip(self.guess, first, strict=True)))
+        return dataclasses.replace(easier, guess=first)
 
     def element(self, unknowns, shared):
         state = self.balls(unknowns, shared)
-        return state.balance / self.ball_scale(), self.contributions(state), jnp.zeros(())
-
-    def contributions(self, state: BallState) -> Float[Array, "freedom ball"]:
-        """Of every ball to the forces on the ring's freedoms, N."""
-        rows = []
-        for direction, name in zip(self.directions, self.freedoms, strict=True):
-            force = jnp.sum(state.ring_force * direction, axis=0)
-            if name.startswith("tilt"):
-                # the tilt turns the axial direction of (A1, A2); the moment is in units of R_i
-                force = force + state.ring_moment * direction[0] / self.grooves.lever
-            rows.append(self.multiplicity * force)
-        return jnp.stack(rows)
+        totals = self.contributions(state.ring_force, state.ring_moment)
+        return state.balance / self.ball_scale(), totals, jnp.zeros(())
 
     def closure(self, globals_, totals):
         return (totals - self.ring_load) / self.load_scale(), jnp.zeros(())
@@ -166,45 +148,29 @@ class BallCore(AbstractArrowSystem):
 
     def free_centre(self) -> Float[Array, "2 1"]:
         """Centre of an unloaded ball at the free contact angle, m."""
-        grooves = self.grooves
-        return grooves.offset[1] * jnp.stack([grooves.free_sine, grooves.free_cosine])[:, None]
+        return self.grooves.offset[1] * self.grooves.free_normal
 
-    def free_groove(self) -> Float[Array, "2 1"]:
-        """Centre of the inner groove of the bearing at rest, m."""
-        grooves = self.grooves
-        return grooves.centre_distance * jnp.stack([grooves.free_sine, grooves.free_cosine])[:, None]
-
-    def centrifugal(self, motion: BallMotion) -> Array:
-        """N, with `FORCE_FLOOR`."""
-        return 0.5 * self.mass * self.kinematics.pitch_diameter * jnp.square(motion.orbital_speed) + FORCE_FLOOR
+    def outward_force(self, motion: BallMotion) -> Array:
+        """Centrifugal force with `FORCE_FLOOR`, N."""
+        return self.centrifugal(motion.orbital_speed) + FORCE_FLOOR
 
     def balls(self, unknowns: Float[Array, "2 ball"], shared: Float[Array, "g ball"]) -> BallState:
-        freedoms = len(self.freedoms)
         centre = self.free_centre() + LENGTH_UNIT * unknowns[:2]
-        shift = LENGTH_UNIT * jnp.einsum("fn,fcn->cn", shared[:freedoms], self.directions)
-        inner = self.free_groove() + self.held + shift - centre
+        inner = self.groove_centres(shared[: len(self.freedoms)]) - centre
         apart = jnp.stack([safe_norm(inner[0], inner[1]), safe_norm(centre[0], centre[1])])
         angle = jnp.stack([jnp.arctan2(inner[0], inner[1]), jnp.arctan2(centre[0], centre[1])])
         load = self.loads(apart)
         motion = self.motion(angle)
-        centrifugal = self.centrifugal(motion)
-        sine, cosine = jnp.sin(angle), jnp.cos(angle)
-        axial, radial = load * sine, load * cosine
-        friction, moment = None, jnp.zeros_like(centrifugal)
+        friction = None
         if self.gyroscopic is not None:
-            couple = self.inertia * motion.spin_speed * motion.orbital_speed * jnp.sin(motion.attitude)
-            carried = self.gyroscopic.friction(couple, self.kinematics.ball_diameter, load[0], load[1])
-            friction = self.gyroscopic.sign * jnp.stack(carried)
-            axial, radial = axial + friction * cosine, radial - friction * sine
-            moment = -friction[0] * self.grooves.groove_arm
-        balance = jnp.stack([axial[1] - axial[0], radial[1] - radial[0] - centrifugal])
+            parts = self.gyroscopic.friction(self.couple(motion), self.kinematics.ball_diameter, load[0], load[1])
+            friction = self.gyroscopic.sign * jnp.stack(parts)
+        axial, radial, moment = self.with_friction(load, angle, friction)
         return BallState(
             load=load,
             angle=angle,
             motion=motion,
-            centrifugal=centrifugal,
-            friction=friction,
-            balance=balance,
+            balance=jnp.stack([axial[1] - axial[0], radial[1] - radial[0] - self.outward_force(motion)]),
             ring_force=jnp.stack([axial[0], radial[0]]),
             ring_moment=moment,
         )

@@ -37,12 +37,12 @@ from ..contacts.shear import Sliding
 from ..gaps import ReynoldsDrag, RollerDrag, ShortJournal
 from ..gaps.ball_pocket import BallPocket, BallPocketFilm
 from ..lubricants import InletOil, Lubricant
-from ..numerics.arrow import AbstractArrowSystem, ArrowPoint
+from ..numerics.arrow import ArrowPoint
+from ..numerics.roots import monotone_root
 from ..numerics.safe import safe_norm
-from .ball_core import LENGTH_UNIT, Grooves
 from .ball_geometry import BallGeometry
-from .ball_kinematics import BallKinematics, BallMotion, RaceMotion
-from .gyroscopic import AbstractGyroscopic
+from .ball_kinematics import BallMotion, RaceMotion
+from .ball_system import LENGTH_UNIT, AbstractBallSystem
 from .land import LandState, guided_land
 
 LOG_LOAD_RANGE = (-60.0, 18.0)
@@ -51,7 +51,8 @@ ROLLING_PASSES = 6
 """Orbital speed and outer contact angle of a ball that rolls without sliding: the error falls by 0.02 a pass."""
 FRICTION_PASSES = 3
 """Load and angle of the outer contact under the friction that carries the couple: the error falls as fast."""
-Attitude = Literal["outer", "inner", "min_power", "equilibrium"]
+PART_TOLERANCE = 1e-12
+"""Of the part of the way from outer to inner control at which the spin power is least."""
 
 
 class BallCageParts(eqx.Module):
@@ -106,30 +107,17 @@ class BallsState(NamedTuple):
     cage_force: Float[Array, "2 ball"] | None
 
 
-class LubricatedBallSystem(AbstractArrowSystem):
-    """Lubricated ball bearing; see the module. `directions`, `held`, `multiplicity` as in `ball_core.BallCore`."""
+class LubricatedBallSystem(AbstractBallSystem):
+    """Lubricated ball bearing; see the module."""
 
     geometry: BallGeometry
-    kinematics: BallKinematics
-    grooves: Grooves
     reduced_modulus: Float[Array, ""]
     laws: PointLaws
     oil: Lubricant
     inlet: InletOil
-    directions: Float[Array, "freedom 2 ball"]
-    held: Float[Array, "2 ball"]
     azimuth: Float[Array, " ball"]
-    ring_load: Float[Array, " freedom"]
-    mass: Float[Array, ""]
-    inertia: Float[Array, ""]
     guess: BallGuess
-    couple_share: Float[Array, ""]
-    """Part of the gyroscopic couple that acts (resolved couple)."""
-    freedoms: tuple[str, ...] = eqx.field(static=True)
-    multiplicity: int = eqx.field(static=True)
-    attitude: Attitude = eqx.field(static=True)
     resolved: bool = eqx.field(static=True, default=False)
-    gyroscopic: AbstractGyroscopic | None = None
     cage: BallCageParts | None = None
     drag: BallDrag | None = None
 
@@ -154,10 +142,6 @@ class LubricatedBallSystem(AbstractArrowSystem):
         return tuple(names)
 
     @property
-    def ball_count(self) -> int:
-        return self.multiplicity * self.held.shape[1]
-
-    @property
     def global_orbit(self) -> bool:
         return self.slips and self.cage is not None
 
@@ -165,7 +149,7 @@ class LubricatedBallSystem(AbstractArrowSystem):
 
     def reference(self) -> BallMotion:
         """Rolling at the free contact angle, half way between outer and inner control."""
-        angle = jnp.arctan2(self.grooves.free_sine, self.grooves.free_cosine)
+        angle = self.grooves.free_angle
         between = 0.5 * (self.kinematics.outer_control(angle) + self.kinematics.inner_control(angle))
         return self.kinematics.rolling(angle, angle, between)
 
@@ -182,7 +166,7 @@ class LubricatedBallSystem(AbstractArrowSystem):
 
     def friction_scale(self) -> Array:
         """Scale of a ball's friction forces, N: 1 % of its share of the load and of its centrifugal force."""
-        force = 0.5 * self.mass * self.kinematics.pitch_diameter * jnp.square(self.reference().orbital_speed)
+        force = self.centrifugal(self.reference().orbital_speed)
         return 0.01 * (self.load_scale() / self.ball_count + force)
 
     # -- solver contract ------------------------------------------------------------------------------------------
@@ -195,10 +179,15 @@ class LubricatedBallSystem(AbstractArrowSystem):
             "transverse": "moment about the tangent on a ball",
             "carried": "transverse friction at the inner race of a ball",
         }
-        ring = tuple(f"{name} load balance of the ring" for name in self.freedoms)
         own = tuple(text[name] for name in self.own_unknowns)
         cage = ("moment balance of the cage",) if self.global_orbit else ()
-        return ("approach of the rings at a ball", "direction of the contacts of a ball", *own, *ring, *cage)
+        return (
+            "approach of the rings at a ball",
+            "direction of the contacts of a ball",
+            *own,
+            *self.ring_equation_names(),
+            *cage,
+        )
 
     def step_caps(self) -> ArrowPoint:
         caps = {"spin": 0.05, "attitude": 0.1, "orbit": 0.05, "transverse": 0.02, "carried": 1.0}
@@ -249,21 +238,11 @@ class LubricatedBallSystem(AbstractArrowSystem):
 
     def element(self, unknowns, shared):
         state = self.balls(unknowns, shared)
-        totals = [self.contributions(state)]
+        totals = [self.contributions(state.ring_force, state.ring_moment)]
         if state.cage_moment is not None and state.cage_force is not None:
             totals += [self.multiplicity * state.cage_moment[None, :], state.cage_force]
         local = jnp.concatenate([state.fit, *(row[None, :] for row in state.rows)])
         return local, jnp.concatenate(totals), jnp.max(state.film.residual)
-
-    def contributions(self, state: BallsState) -> Float[Array, "freedom ball"]:
-        """Of every ball to the forces on the ring's freedoms, N."""
-        rows = []
-        for direction, name in zip(self.directions, self.freedoms, strict=True):
-            force = jnp.sum(state.ring_force * direction, axis=0)
-            if name.startswith("tilt"):
-                force = force + state.ring_moment * direction[0] / self.grooves.lever
-            rows.append(self.multiplicity * force)
-        return jnp.stack(rows)
 
     def closure(self, globals_, totals):
         d = len(self.freedoms)
@@ -305,7 +284,7 @@ class LubricatedBallSystem(AbstractArrowSystem):
         self, unknowns: Float[Array, "m ball"], shared: Float[Array, "g ball"]
     ) -> tuple[BallsState, PointContact]:
         """All but what traction does."""
-        d, grooves = len(self.freedoms), self.grooves
+        d = len(self.freedoms)
         own = dict(zip(self.own_unknowns, unknowns[2:], strict=True))
         log_load, inner = unknowns[0], unknowns[1]
         reference = self.reference()
@@ -324,11 +303,7 @@ class LubricatedBallSystem(AbstractArrowSystem):
         contact = self.geometry.contacts(cosine[0], cosine[1], self.reduced_modulus)
         film = self.laws.film_state(contact, load, races.mean_speed, races.rolling, self.oil, self.inlet)
         fit = self._fit(load, angle, film.film, shared[:d])
-        axial, radial = load * jnp.sin(angle), load * cosine
-        moment = jnp.zeros_like(inner)
-        if friction is not None:
-            axial, radial = axial + friction * cosine, radial - friction * jnp.sin(angle)
-            moment = -friction[0] * grooves.groove_arm
+        axial, radial, moment = self.with_friction(load, angle, friction)
         state = BallsState(
             load=load,
             angle=angle,
@@ -354,8 +329,7 @@ class LubricatedBallSystem(AbstractArrowSystem):
     ) -> tuple[Array, Array]:
         """Load and angle of the outer contact from the forces on the ball; `friction` T_i, T_o with its sign."""
         load = jnp.exp(log_load)
-        force = 0.5 * self.mass * self.kinematics.pitch_diameter * jnp.square(orbit)
-        axial, radial = load * jnp.sin(inner), load * jnp.cos(inner) + force
+        axial, radial = load * jnp.sin(inner), load * jnp.cos(inner) + self.centrifugal(orbit)
         if friction is None:
             return safe_norm(axial, radial), jnp.arctan2(axial, radial)
         axial, radial = axial + friction[0] * jnp.cos(inner), radial - friction[0] * jnp.sin(inner)
@@ -378,9 +352,9 @@ class LubricatedBallSystem(AbstractArrowSystem):
         load, outer = self._outer_contact(log_load, inner, orbit, None)
         motion = motion_at(outer, orbit)
         for _ in range(0 if self.gyroscopic is None and not self.resolved else FRICTION_PASSES):
-            couple = self.inertia * motion.spin_speed * motion.orbital_speed * jnp.sin(motion.attitude)
+            couple = self.couple(motion)
             if self.gyroscopic is None:
-                taken = 2.0 * self.couple_share * couple / self.kinematics.ball_diameter
+                taken = 2.0 * couple / self.kinematics.ball_diameter
                 carried = self.friction_scale() * own["carried"]
                 friction = jnp.stack([carried, taken - carried])
             else:
@@ -407,8 +381,7 @@ class LubricatedBallSystem(AbstractArrowSystem):
     def _fit(self, load: Array, angle: Array, film: Array, shift: Array) -> Float[Array, "2 ball"]:
         """Whether the centres fit: along the inner contact's normal, as a logarithm, and across it."""
         grooves = self.grooves
-        free = grooves.centre_distance * jnp.stack([grooves.free_sine, grooves.free_cosine])[:, None]
-        groove = free + self.held + LENGTH_UNIT * jnp.einsum("fn,fcn->cn", shift, self.directions)
+        groove = self.groove_centres(shift)
         compression = jnp.cbrt(jnp.square(load / grooves.stiffness[:, None]))
         turned = angle[1] - angle[0]
         cosine, sine = jnp.cos(turned), jnp.sin(turned)
@@ -469,7 +442,7 @@ class LubricatedBallSystem(AbstractArrowSystem):
             sideways = state.friction - side * shear.transverse
             rows["transverse"], rows["carried"] = (sideways[0] + sideways[1]) / scale, sideways[0] / scale
         if self.attitude == "min_power":
-            rows["attitude"] = self._power_slope(state, contact)
+            rows["attitude"] = state.motion.attitude - self._least_power(state, contact)
         return state._replace(
             traction=shear,
             rolling=rolling,
@@ -480,24 +453,33 @@ class LubricatedBallSystem(AbstractArrowSystem):
             cage_force=cage_force,
         )
 
-    def _power_slope(self, state: BallsState, contact: PointContact) -> Array:
-        """d(spin power)/d(attitude) of rolling without sliding at frozen loads, angles and films, held between the
-        attitudes of outer and inner control; scaled."""
+    def _least_power(self, state: BallsState, contact: PointContact) -> Array:
+        """Attitude of the least spin power between those of outer and inner control, rad.
+
+        The power is that of rolling without sliding at frozen loads, angles and films. Where it rises from one end on,
+        the attitude is that end's, and follows it.
+        """
         inner, outer = state.angle
 
-        def power(attitude: Array) -> Array:
-            rolling = self.kinematics.rolling(inner, outer, attitude)
-            races = [self.kinematics.inner_race(rolling, inner), self.kinematics.outer_race(rolling, outer)]
-            spin = jnp.stack([race.spin for race in races])
-            speed = jnp.stack([race.mean_speed for race in races])
-            shear = self.laws.shear(
-                contact, state.load, state.film, speed, Sliding(jnp.zeros_like(spin), None, spin), self.oil
-            )
-            return jnp.sum(shear.moment * spin, axis=0)
+        def slope(part: Array, args):
+            system, angle, load, film, contact = args
+            motion = system.kinematics
+            low, high = motion.outer_control(angle[1]), motion.inner_control(angle[0])
 
-        attitude = state.motion.attitude
-        slope = jax.jvp(power, (attitude,), (jnp.ones_like(attitude),))[1]
-        slope = slope / (self.friction_scale() * self.spin_unit() * self.kinematics.ball_diameter)
+            def power(part: Array) -> Array:
+                rolling = motion.rolling(angle[0], angle[1], low + part * (high - low))
+                races = [motion.inner_race(rolling, angle[0]), motion.outer_race(rolling, angle[1])]
+                spin = jnp.stack([race.spin for race in races])
+                speed = jnp.stack([race.mean_speed for race in races])
+                sliding = Sliding(jnp.zeros_like(spin), None, spin)
+                shear = system.laws.shear(contact, load, film, speed, sliding, system.oil)
+                return jnp.sum(shear.moment * spin, axis=0)
+
+            rise = jax.jvp(power, (part,), (jnp.ones_like(part),))[1]
+            return rise / (system.friction_scale() * system.spin_unit() * motion.ball_diameter)
+
+        args = (self, state.angle, state.load, state.film, contact)
+        half = jnp.full_like(inner, 0.5)
+        part = monotone_root(slope, args, 0.0, 1.0, half, tolerance=PART_TOLERANCE).value
         low, high = self.kinematics.outer_control(outer), self.kinematics.inner_control(inner)
-        low, high = jnp.minimum(low, high), jnp.maximum(low, high)
-        return jnp.maximum(attitude - high, jnp.minimum(slope, attitude - low))
+        return low + part * (high - low)

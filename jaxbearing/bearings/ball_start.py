@@ -16,7 +16,7 @@ from jaxtyping import Array, Bool, Float, Int
 from ..numerics.safe import safe_norm
 from ..numerics.small_linear import solve_blocks, solve_dense
 
-RING_TOLERANCE = 1e-3
+RING_TOLERANCE = 1e-2
 """Of the ring's balance, relative to the load: what the full equations need of their start."""
 BALL_TOLERANCE = 1e-9
 """Of a ball's balance, relative to its load scale."""
@@ -42,7 +42,7 @@ class CentrifugalProblem(eqx.Module):
     groove: Float[Array, "2 ball"]
     directions: Float[Array, "freedom 2 ball"]
     ring_load: Float[Array, " freedom"]
-    centrifugal: Float[Array, ""]
+    centrifugal: Float[Array, " ball"]
     centre_distance: Float[Array, ""]
     free_cosine: Float[Array, ""]
     multiplicity: int = eqx.field(static=True)
@@ -88,7 +88,7 @@ def _spring(arm: Float[Array, "2 ball"], offset: Array, constant: Array) -> tupl
 def _forces(problem: CentrifugalProblem, centre: Array, groove: Array) -> _Forces:
     inner_energy, inner, inner_stiffness = _spring(groove - centre, problem.offset[0], problem.stiffness[0])
     outer_energy, outer, outer_stiffness = _spring(centre, problem.offset[1], problem.stiffness[1])
-    push = jnp.stack([jnp.zeros(()), problem.centrifugal])[:, None]
+    push = jnp.stack([jnp.zeros_like(problem.centrifugal), problem.centrifugal])
     energy = inner_energy + outer_energy - problem.centrifugal * centre[1]
     return _Forces(energy, outer - inner - push, inner, outer_stiffness, inner_stiffness)
 
@@ -105,7 +105,7 @@ def _free_centres(problem: CentrifugalProblem, groove: Array) -> tuple[Array, Bo
     centre = (reach / outer)[None] * jnp.stack([axial, radial])
     alone = problem.offset[1] + compliance[1] * problem.centrifugal ** (2.0 / 3.0)
     lost = safe_norm(groove[0], groove[1] - alone) <= problem.offset[0]
-    resting = jnp.stack([jnp.zeros_like(length), jnp.broadcast_to(alone, length.shape)])
+    resting = jnp.stack([jnp.zeros_like(length), alone])
     return jnp.where(lost[None], resting, centre), lost
 
 
@@ -170,8 +170,7 @@ class _Ring(NamedTuple):
 def start(problem: CentrifugalProblem) -> Start:
     """The minimum of the potential to `RING_TOLERANCE`, from an estimate of the ring's displacement."""
     problem = jax.lax.stop_gradient(problem)
-    count = problem.groove.shape[1] * problem.multiplicity
-    total = jnp.sqrt(jnp.sum(jnp.square(problem.ring_load))) + 1e-3 * count
+    total, count = _scale(problem)
     scale = total / count + problem.centrifugal
     cap = 0.5 * problem.centre_distance
 
@@ -208,10 +207,10 @@ def start(problem: CentrifugalProblem) -> Start:
             fraction=pick(1.0, 0.3 * state.fraction),
             done=accept & small,
             trials=state.trials + 1,
-            steps=state.steps + accept.astype(int),
+            steps=state.steps + (accept & ~small).astype(int),
         )
 
-    ring = _estimate(problem, total, count)
+    ring = _ring_estimate(problem, total, count)
     none, one = jnp.asarray(0), jnp.ones(())
     begin = _Ring(
         ring, jnp.zeros_like(problem.groove), jnp.zeros_like(ring), one * jnp.inf, 0.0 * one, one, none > 0, none, none
@@ -221,7 +220,20 @@ def start(problem: CentrifugalProblem) -> Start:
     return Start(end.centre, end.ring, end.steps)
 
 
-def _estimate(problem: CentrifugalProblem, total: Array, count: int) -> Float[Array, " freedom"]:
+def estimate(problem: CentrifugalProblem) -> Start:
+    """Where `start` begins: the ring pressed in by formulas, and the balls between its groove and the outer one."""
+    problem = jax.lax.stop_gradient(problem)
+    ring = _ring_estimate(problem, *_scale(problem))
+    return Start(_free_centres(problem, problem.groove_at(ring))[0], ring, jnp.asarray(0))
+
+
+def _scale(problem: CentrifugalProblem) -> tuple[Array, int]:
+    """Size of the load on the ring, N, and the number of balls that carry it."""
+    count = problem.groove.shape[1] * problem.multiplicity
+    return jnp.sqrt(jnp.sum(jnp.square(problem.ring_load))) + 1e-3 * count, count
+
+
+def _ring_estimate(problem: CentrifugalProblem, total: Array, count: int) -> Float[Array, " freedom"]:
     """Ring displacements, pressed in rather too deep: Newton on a power 3/2 contracts from there, and a ring that
     touches no ball has no stiffness.
 

@@ -15,12 +15,14 @@ from ..numerics.arrow import ArrowJacobian, ArrowPoint, linearize, schur_complem
 from ..numerics.newton import NewtonOptions, NewtonResult, newton_solve
 from .ball_bearing import BallBearing
 from .ball_build import ball_row, build_core, build_lubricated, ring_directions
-from .ball_core import LENGTH_UNIT, BallCore
+from .ball_core import BallCore
 from .ball_equations import BallsState, LubricatedBallSystem
 from .ball_kinematics import BallMotion
 from .ball_solution import BallPowerLoss, BallResults, RacewayPower
+from .ball_system import LENGTH_UNIT
 from .land import LandState
 from .solution import RING_FREEDOMS, CageState, RingDisplacement, Solution
+from .steady import assemble
 
 SIDES = np.array([[1.0], [-1.0]])
 """Inner, outer: the sense of the contact's x axis along the orbit."""
@@ -30,15 +32,14 @@ LOADED = 0.01
 
 def solve_ball(scene: BallBearing, options: NewtonOptions) -> Solution:
     """Steady state: pure, jit-able, vmap-able, differentiable; never raises for a failed solve."""
-    core, first = newton_solve(build_core(scene), options)
+    core, steps = build_core(scene).started()
     if scene.contact is None:
-        system, result, steps = core, first, first.iterations
-        results = _dry_results(scene, core, first)
+        system, result = newton_solve(core, options)
+        results = _dry_results(scene, system, result)
     else:
-        system, result = newton_solve(build_lubricated(scene, core, first), options)
-        steps = first.iterations + result.iterations
+        system, result = newton_solve(build_lubricated(scene, core), options)
         results = _lubricated(scene, system, result)
-    good = result.converged
+    steps = steps + result.iterations
     lever = system.grooves.lever
     ring = {name: result.point.globals[i] * LENGTH_UNIT for i, name in enumerate(system.freedoms)}
     if scene.operation.moment is None and scene.operation.misalignment is not None:
@@ -48,38 +49,17 @@ def solve_ball(scene: BallBearing, options: NewtonOptions) -> Solution:
         **{name: ring.get(name, jnp.zeros(())) / scale.get(name, 1.0) for name in RING_FREEDOMS}
     )
     stiffness = _stiffness(scene, system, result)
-    masked = (results._replace(range_excess={}), displacement, stiffness)
-    masked = jax.tree.map(lambda leaf: jnp.where(good, leaf, jnp.nan), masked)
-    shown, displacement, stiffness = masked
-    notes = scene.assumptions()
-    if scene.unused_parts():
-        names = ", ".join(scene.unused_parts())
-        notes = (*notes, f"without traction on the raceways these tables have no effect: {names}")
-    return Solution(
-        status=result.status,
+    return assemble(
+        scene,
+        result,
+        results,
+        displacement,
+        stiffness,
         iterations=steps,
-        residual_norm=result.residual_norm,
-        inner_residual=result.inner_residual,
-        worst_equation=result.worst_equation,
-        worst_element=result.worst_element,
-        operation=scene.operation,
-        ring=displacement,
-        cage=shown.cage,
-        elements=shown.elements,
-        power_loss=shown.power_loss,
-        raceway_power=shown.raceway_power,
-        drive_power=shown.drive_power,
-        inner_torque=shown.inner_torque,
-        outer_torque=shown.outer_torque,
-        stiffness=stiffness,
-        checks={text: good & (value > 0) for text, value in results.range_excess.items()},
         ring_freedom=_ring_names(scene),
         stiffness_freedom=RING_FREEDOMS,
         equation_names=system.equation_names(),
-        global_equations=result.point.globals.shape[0],
-        unknowns=result.point.elements.size + result.point.globals.size,
         element_name="ball",
-        notes=notes,
     )
 
 
@@ -338,7 +318,7 @@ def _all_freedoms(
 
     def light(v):
         state = full.frictionless(v[:m], v[m:])[0]
-        return jnp.concatenate([state.fit, full.contributions(state)])
+        return jnp.concatenate([state.fit, full.contributions(state.ring_force, state.ring_moment)])
 
     v = jnp.concatenate([point.elements, shared])
     seeds = jnp.broadcast_to(jnp.eye(m + g)[:, :, None], (m + g, m + g, count))

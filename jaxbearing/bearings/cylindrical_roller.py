@@ -7,22 +7,23 @@ running (a roller between a turning inner and a fixed outer ring spins clockwise
 `spin_speed`). Pocket face 1 is in front of the roller, face 2 behind it.
 """
 
-import math
-from typing import Literal
+from typing import ClassVar, Literal
 
 import equinox as eqx
 
 from .._types import Scalar
 from ..contacts import DistributedTraction, MeanPressureTraction
-from ..gaps import AbstractTurbulence, BlendedTurbulence
 from ..lubricants import Lubricant, NoPressureViscosity
 from ..numerics.checks import known, require
+from .cage import ASSUMED_LANDS as ASSUMED_LANDS
+from .cage import AbstractCage
 from .parts import (
     AbstractScene,
     ContactLaws,
     Drag,
     Materials,
     Operation,
+    check_between,
     check_row_fits,
     number,
     optional_number,
@@ -34,10 +35,6 @@ ASSUMED_CAGE_OUTER = 4.0 / 12.0
 """Cage outside diameter = pitch diameter plus this times the roller diameter, where a scene does not give it."""
 ASSUMED_FLANGE_HEIGHT = 2.5 / 12.0
 """Flange height over roller diameter, where a scene does not give it."""
-
-
-ASSUMED_LANDS = 2
-"""Number of cage lands, where a scene does not give it."""
 
 
 class RollerGeometry(eqx.Module):
@@ -92,58 +89,26 @@ class RollerGeometry(eqx.Module):
         return self.pitch_radius + self.roller_radius
 
 
-class RollerCage(eqx.Module):
+class RollerCage(AbstractCage):
     """One-piece cage, guided by one ring on `n_lands` lands, with a pocket film in front of and behind each roller.
 
-    **Arguments:**
-    - `guidance`: "inner_ring" or "outer_ring".
-    - `guiding_clearance`: DIAMETRAL clearance of the lands, m.
+    **Arguments:** those of `AbstractCage`, and
     - `pocket_clearance`: total circumferential clearance of a roller in its pocket, m.
-    - `land_width`: of ONE land, m.
-    - `inner_diameter`, `outer_diameter`: of the cage, m; assumed from the roller size where not given.
     - `pocket_axial_clearance`: total axial clearance of a roller between the cage rails, m; not given: the films
       between roller ends and rails are not modelled.
-    - `n_lands`: number of lands; 2 where not given.
-    - `turbulence`: flow regime of the lands.
     """
 
-    guidance: Literal["inner_ring", "outer_ring"] = eqx.field(static=True)
-    guiding_clearance: Scalar = number()
-    pocket_clearance: Scalar = number()
-    land_width: Scalar = number()
-    inner_diameter: Scalar | None = optional_number()
-    outer_diameter: Scalar | None = optional_number()
+    element: ClassVar[str] = "roller"
+    assumed_inner: ClassVar[float] = ASSUMED_CAGE_INNER
+    assumed_outer: ClassVar[float] = ASSUMED_CAGE_OUTER
+
     pocket_axial_clearance: Scalar | None = optional_number()
-    n_lands: int | None = eqx.field(static=True, default=None)
-    turbulence: AbstractTurbulence = BlendedTurbulence()
 
     def __check_init__(self):
-        if self.guidance not in ("inner_ring", "outer_ring"):
-            raise ValueError(f"cage.guidance must be 'inner_ring' or 'outer_ring', got {self.guidance!r}")
-        require(
-            "cage",
-            guiding_clearance=(self.guiding_clearance, "> 0"),
-            pocket_clearance=(self.pocket_clearance, "> 0"),
-            land_width=(self.land_width, "> 0"),
-            inner_diameter=(self.inner_diameter, "> 0"),
-            outer_diameter=(self.outer_diameter, "> 0"),
-            pocket_axial_clearance=(self.pocket_axial_clearance, "> 0"),
-            n_lands=(self.n_lands, "> 0"),
-        )
+        require("cage", pocket_axial_clearance=(self.pocket_axial_clearance, "> 0"))
 
-    @property
-    def lands(self) -> int:
-        return ASSUMED_LANDS if self.n_lands is None else self.n_lands
-
-    def bore(self, geometry: RollerGeometry) -> Scalar:
-        if self.inner_diameter is not None:
-            return self.inner_diameter
-        return geometry.pitch_diameter - ASSUMED_CAGE_INNER * geometry.roller_diameter
-
-    def outside(self, geometry: RollerGeometry) -> Scalar:
-        if self.outer_diameter is not None:
-            return self.outer_diameter
-        return geometry.pitch_diameter + ASSUMED_CAGE_OUTER * geometry.roller_diameter
+    def row(self, geometry: RollerGeometry) -> tuple[int, Scalar]:
+        return geometry.n_rollers, geometry.roller_diameter
 
 
 class RollerFlange(eqx.Module):
@@ -201,7 +166,10 @@ class CylindricalRollerBearing(AbstractScene):
             raise ValueError(f"ring_freedom must be ('radial',) or ('radial', 'lateral'), got {self.ring_freedom!r}")
         if self.contact is None:
             return
-        _check_dimensions(self)
+        if self.cage is not None:
+            self.cage.check_fits(self.geometry)
+        if self.flange is not None:
+            _check_height(self.flange, self.geometry)
         speeds = known(self.operation.inner_speed, self.operation.outer_speed)
         if speeds is not None and speeds[0] == speeds[1]:
             raise ValueError(
@@ -250,13 +218,7 @@ class CylindricalRollerBearing(AbstractScene):
         if self.geometry.contact_length is None:
             said.append("geometry.contact_length is not given: the whole roller length carries load")
         if self.slips and self.cage is not None:
-            for name, formula in (
-                ("inner_diameter", f"pitch diameter - {ASSUMED_CAGE_INNER:.3f} roller diameters"),
-                ("outer_diameter", f"pitch diameter + {ASSUMED_CAGE_OUTER:.3f} roller diameters"),
-                ("n_lands", f"{ASSUMED_LANDS}"),
-            ):
-                if getattr(self.cage, name) is None:
-                    said.append(f"cage.{name} is not given: assumed {formula}")
+            said += self.cage.assumptions()
         if self.slips and self.flange is not None and self.flange.height is None:
             said.append(f"flange.height is not given: assumed {ASSUMED_FLANGE_HEIGHT:.3f} of the roller diameter")
         return tuple(said)
@@ -276,29 +238,10 @@ def _misfit(contact: ContactLaws, oil: Lubricant) -> list[str]:
     return said
 
 
-def _check_dimensions(scene: CylindricalRollerBearing) -> None:
-    """**Raises:** `ValueError` where cage or flange cannot exist between the rings (where the numbers are known)."""
-    geometry, cage, flange = scene.geometry, scene.cage, scene.flange
-    row = known(geometry.pitch_diameter, geometry.roller_diameter)
-    if row is None:
-        return
-    pitch, roller = row
-    if cage is not None:
-        sizes = known(cage.bore(geometry), cage.outside(geometry), cage.pocket_clearance, cage.guiding_clearance)
-        if sizes is not None:
-            bore, outside, pocket, guiding = sizes
-            gap = pitch * math.sin(math.pi / max(geometry.n_rollers, 2)) - roller
-            _between("cage.inner_diameter", bore, pitch - roller, outside, "inner raceway", "cage outside diameter")
-            _between("cage.outer_diameter", outside, bore, pitch + roller, "cage bore", "outer raceway")
-            _between("cage.pocket_clearance", pocket, 0.0, gap, "nothing", "gap between neighbouring rollers")
-            _between("cage.guiding_clearance", guiding, 0.0, 0.05 * bore, "nothing", "5 % of the land diameter")
-    if flange is not None:
-        height = known(flange.rim_height(geometry))
-        if height is not None:
-            limit = roller / 2.0 if flange.ring == "both" else roller
-            _between("flange.height", height[0], 0.0, limit, "raceway", "what the roller leaves to it")
-
-
-def _between(name: str, value: float, low: float, high: float, below: str, above: str) -> None:
-    if not low < value < high:
-        raise ValueError(f"{name} must lie between {low:.6g} m ({below}) and {high:.6g} m ({above}), got {value:.6g} m")
+def _check_height(flange: RollerFlange, geometry: RollerGeometry) -> None:
+    """**Raises:** `ValueError` where the flange cannot exist between the rings (where the numbers are known)."""
+    sizes = known(flange.rim_height(geometry), geometry.roller_diameter)
+    if sizes is not None:
+        height, roller = sizes
+        limit = roller / 2.0 if flange.ring == "both" else roller
+        check_between("flange.height", height, 0.0, limit, "raceway", "what the roller leaves to it")

@@ -1,20 +1,43 @@
-"""Parts that bearing families share: the operating point, the contact laws, drag."""
+"""Parts that bearing families share: the operating point, the contact laws, drag, checks of their sizes."""
 
 import math
 from typing import Any
 
 import equinox as eqx
+import jax.numpy as jnp
+from jaxtyping import Array, Float
 
 from .._scene import AbstractScene, label, number, optional_number
 from .._types import Scalar
 from ..contacts.laws import ContactLaws
+from ..gaps import air_density, mixture_density, saturated_oil_fraction
+from ..lubricants import Lubricant
 from ..materials import Material
 from ..numerics.checks import known, require
+from ..numerics.safe import safe_norm
 
 __all__ = ["AbstractScene", "ContactLaws", "Drag", "Materials", "Operation", "number", "optional_number"]
 
 
-class Operation(eqx.Module):
+class AbstractOperation(eqx.Module):
+    """What the operating points of all bearings have besides their loads."""
+
+    inner_speed: eqx.AbstractVar[Scalar]
+    outer_speed: eqx.AbstractVar[Scalar]
+    oil_temperature: eqx.AbstractVar[Scalar]
+    oil_flow: eqx.AbstractVar[Scalar]
+
+    def __check_init__(self):
+        require(
+            "operation",
+            inner_speed=(self.inner_speed, "finite"),
+            outer_speed=(self.outer_speed, "finite"),
+            oil_temperature=(self.oil_temperature, "> 0"),
+            oil_flow=(self.oil_flow, ">= 0"),
+        )
+
+
+class Operation(AbstractOperation):
     """Operating point of a roller bearing: the batched part of a sweep.
 
     **Arguments:**
@@ -31,14 +54,7 @@ class Operation(eqx.Module):
     outer_speed: Scalar = number(0.0, metadata=label("rad/s", "outer ring speed"))
 
     def __check_init__(self):
-        require(
-            "operation",
-            inner_speed=(self.inner_speed, "finite"),
-            outer_speed=(self.outer_speed, "finite"),
-            radial_load=(self.radial_load, "> 0"),
-            oil_temperature=(self.oil_temperature, "> 0"),
-            oil_flow=(self.oil_flow, ">= 0"),
-        )
+        require("operation", radial_load=(self.radial_load, "> 0"))
 
 
 class Materials(eqx.Module):
@@ -48,16 +64,16 @@ class Materials(eqx.Module):
     rollers: Material
 
 
-class Drag(eqx.Module):
+class DragSettings(eqx.Module):
     """Oil drag on the orbiting rolling elements (windage and churning).
 
     **Arguments:**
-    - `coefficient`: drag coefficient Cd of one rolling element in its row, >= 0; the most influential free
-      number of a fast bearing's power loss.
+    - `coefficient`: drag coefficient of one rolling element in its row, >= 0; not given: that of an isolated element at
+      its Reynolds number.
     - `through_flow_fraction`: part of the oil flow that passes through the bearing; 1 = under-race supply.
     """
 
-    coefficient: Scalar = number()
+    coefficient: Scalar | None = optional_number()
     through_flow_fraction: Scalar = number(1.0)
 
     def __check_init__(self):
@@ -66,6 +82,43 @@ class Drag(eqx.Module):
             coefficient=(self.coefficient, ">= 0"),
             through_flow_fraction=(self.through_flow_fraction, "between 0 and 1"),
         )
+
+
+class Drag(DragSettings):
+    """Oil drag on orbiting rollers, whose coefficient must be given.
+
+    **Arguments:**
+    - `coefficient`: drag coefficient Cd of one rolling element in its row, >= 0; the most influential free
+      number of a fast bearing's power loss.
+    - `through_flow_fraction`: part of the oil flow that passes through the bearing; 1 = under-race supply.
+    """
+
+    coefficient: Scalar = number()
+
+
+def drag_density(
+    oil: Lubricant, operation: AbstractOperation, pitch_diameter: Scalar, through_flow_fraction: Scalar
+) -> Float[Array, ""]:
+    """Density of the mixture of oil and air between the rings, which drags on the rolling elements, kg/m^3."""
+    assert oil.density is not None
+    fraction = saturated_oil_fraction(
+        operation.oil_flow,
+        # one ring at rest: the speed of the other, as in Parker's tests; both turning: either stirs the oil
+        safe_norm(operation.inner_speed, operation.outer_speed),
+        pitch_diameter,
+        through_flow_fraction,
+    )
+    temperature = jnp.asarray(operation.oil_temperature)
+    return mixture_density(fraction, oil.density.density(temperature), air_density(temperature))
+
+
+def check_between(name: str, value: float, low: float, high: float, below: str, above: str) -> None:
+    """**Arguments:** `below`, `above`: what the limits are, in words.
+
+    **Raises:** `ValueError` where a dimension, m, lies on a limit or beyond.
+    """
+    if not low < value < high:
+        raise ValueError(f"{name} must lie between {low:.6g} m ({below}) and {high:.6g} m ({above}), got {value:.6g} m")
 
 
 def check_row_fits(count: int, diameter: Any, pitch_diameter: Any, element: str = "roller") -> None:

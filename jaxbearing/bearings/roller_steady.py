@@ -2,30 +2,20 @@
 
 from typing import NamedTuple
 
-import jax
 import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Array
 
 from ..contacts import Gupta, LineContact
-from ..gaps import (
-    Flange,
-    Pocket,
-    PocketEdge,
-    RollerDrag,
-    ShortJournal,
-    air_density,
-    mixture_density,
-    saturated_oil_fraction,
-)
+from ..gaps import Flange, Pocket, PocketEdge, RollerDrag
 from ..lubricants.ranges import FITTED_PRESSURE, FITTED_TEMPERATURES
 from ..materials import reduced_modulus
 from ..numerics.arrow import schur_complement
 from ..numerics.newton import NewtonOptions, NewtonResult, newton_solve
-from ..numerics.safe import safe_norm
 from .cylindrical_roller import CylindricalRollerBearing, RollerCage, RollerGeometry
 from .kinematics import RollerKinematics
 from .land import LandState
+from .parts import drag_density
 from .roller_equations import (
     LENGTH_UNIT,
     CageParts,
@@ -34,6 +24,7 @@ from .roller_equations import (
     RollerState,
 )
 from .solution import RING_FREEDOMS, CageState, PowerLoss, RingDisplacement, RollerResults, Solution
+from .steady import assemble
 
 SLOWEST = 99.9 * 2.0 * np.pi / 60.0
 """Speed of the rings against each other below which the lubricated model has no meaning, rad/s (100 rpm)."""
@@ -92,19 +83,11 @@ def _cage_parts(scene: CylindricalRollerBearing, motion: RollerKinematics) -> Ca
     assert cage is not None
     assert oil is not None
     viscosity = oil.viscosity.viscosity(0.0, jnp.asarray(operation.oil_temperature))
-    bore, outside = jnp.asarray(cage.bore(geometry)), jnp.asarray(cage.outside(geometry))
-    land = ShortJournal(
-        radius=(bore if cage.guidance == "inner_ring" else outside) / 2.0,
-        width=jnp.asarray(cage.land_width),
-        clearance=jnp.asarray(cage.guiding_clearance) / 2.0,
-        turbulence=cage.turbulence,
-        n_lands=cage.lands,
-    )
     rails = None
     if cage.pocket_axial_clearance is not None:
         edge = PocketEdge(
-            inner_radius=bore / 2.0,
-            outer_radius=outside / 2.0,
+            inner_radius=jnp.asarray(cage.bore(geometry)) / 2.0,
+            outer_radius=jnp.asarray(cage.outside(geometry)) / 2.0,
             side_clearance=jnp.asarray(cage.pocket_axial_clearance) / 2.0,
             pitch_radius=motion.pitch_radius,
             roller_radius=motion.roller_radius,
@@ -127,14 +110,14 @@ def _cage_parts(scene: CylindricalRollerBearing, motion: RollerKinematics) -> Ca
     drag, density = None, None
     if scene.drag is not None:
         drag = RollerDrag(coefficient=jnp.asarray(scene.drag.coefficient), area=drag_area(geometry, cage))
-        density = _drag_density(scene)
+        density = drag_density(oil, operation, geometry.pitch_diameter, scene.drag.through_flow_fraction)
     return CageParts(
         pocket=Pocket(
             clearance=jnp.asarray(cage.pocket_clearance),
             length=jnp.asarray(geometry.roller_length),
             roller_radius=motion.roller_radius,
         ),
-        land=land,
+        land=cage.land(geometry),
         guidance=cage.guidance,
         rails=rails,
         inner_flange=flange("inner", motion.inner_radius, 1.0),
@@ -153,22 +136,6 @@ def drag_area(geometry: RollerGeometry, cage: RollerCage) -> Array:
     return jnp.asarray(geometry.roller_length) * jnp.maximum(geometry.roller_diameter - thickness, 0.0)
 
 
-def _drag_density(scene: CylindricalRollerBearing) -> Array:
-    operation = scene.operation
-    assert scene.drag is not None
-    assert scene.oil is not None
-    assert scene.oil.density is not None
-    fraction = saturated_oil_fraction(
-        operation.oil_flow,
-        # one ring at rest: the speed of the other, as in Parker's tests; both turning: either stirs the oil
-        safe_norm(operation.inner_speed, operation.outer_speed),
-        scene.geometry.pitch_diameter,
-        scene.drag.through_flow_fraction,
-    )
-    temperature = jnp.asarray(operation.oil_temperature)
-    return mixture_density(fraction, scene.oil.density.density(temperature), air_density(temperature))
-
-
 def solve_steady(scene: CylindricalRollerBearing, options: NewtonOptions) -> Solution:
     """Steady state: pure, jit-able, vmap-able, differentiable; never raises for a failed solve."""
     system, result = newton_solve(build_system(scene), options)
@@ -176,36 +143,15 @@ def solve_steady(scene: CylindricalRollerBearing, options: NewtonOptions) -> Sol
     ring = {name: result.point.globals[i] * LENGTH_UNIT for i, name in enumerate(scene.ring_freedom)}
     displacement = RingDisplacement(**{name: ring.get(name, jnp.zeros(())) for name in RING_FREEDOMS})
     stiffness = _ring_stiffness(system, result, len(scene.ring_freedom))
-    results, displacement, stiffness = jax.tree.map(
-        lambda leaf: jnp.where(result.converged, leaf, jnp.nan), (results, displacement, stiffness)
-    )
-    notes = scene.assumptions()
-    if scene.unused_parts():
-        names = ", ".join(scene.unused_parts())
-        notes = (*notes, f"without traction on the raceways these tables have no effect: {names}")
-    return Solution(
-        status=result.status,
-        iterations=result.iterations,
-        residual_norm=result.residual_norm,
-        inner_residual=result.inner_residual,
-        worst_equation=result.worst_equation,
-        worst_element=result.worst_element,
-        operation=scene.operation,
-        ring=displacement,
-        cage=results.cage,
-        elements=results.elements,
-        power_loss=results.power_loss,
-        drive_power=results.drive_power,
-        inner_torque=results.inner_torque,
-        outer_torque=results.outer_torque,
-        stiffness=stiffness,
-        checks={text: value > 0 for text, value in _input_excess(system).items()}
-        | {text: result.converged & (value > 0) for text, value in results.range_excess.items()},
+    return assemble(
+        scene,
+        result,
+        results,
+        displacement,
+        stiffness,
+        input_excess=_input_excess(system),
         ring_freedom=scene.ring_freedom,
         equation_names=system.equation_names(),
-        global_equations=result.point.globals.shape[0],
-        unknowns=result.point.elements.size + result.point.globals.size,
-        notes=notes,
     )
 
 

@@ -14,13 +14,13 @@ from ..bearings.ball_bearing import (
 )
 from ..bearings.ball_geometry import BallGeometry
 from ..bearings.gyroscopic import CappedCouple, ResolvedCouple, SharedCouple
-from ..contacts import DistributedTraction, PointLaws, Resolution
+from ..contacts import PointLaws
 from ..lubricants import Lubricant
 from .ball_schema import BallBearingTable, BallContactTable, KinematicsTable
-from .laws import DISTRIBUTED_ACCURACY, POINT_FILMS, thermal_factor, viscous_function
+from .bearing_build import cage, part
+from .laws import POINT_FILMS, distributed_traction, thermal_factor
 from .materials import material
 from .oils import lubricant
-from .turbulence import TURBULENCE
 
 GYROSCOPIC: dict[str, Callable[[], Any]] = {
     "off": lambda: None,
@@ -45,10 +45,8 @@ def ball_bearing(table: BallBearingTable) -> BallBearing:
         kinematics=_kinematics(table.kinematics, slips),
         oil=oil,
         contact=contact,
-        cage=None
-        if table.cage is None
-        else BallCage(**{**table.cage.model_dump(), "turbulence": TURBULENCE[table.cage.turbulence]()}),
-        drag=None if table.drag is None else BallDragSettings(**table.drag.model_dump()),
+        cage=cage(BallCage, table.cage),
+        drag=part(BallDragSettings, table.drag),
     )
 
 
@@ -63,8 +61,7 @@ def _kinematics(table: KinematicsTable | None, slips: bool) -> BallAttitude:
 def _laws(table: BallContactTable, oil: Lubricant | None) -> PointLaws:
     traction = None
     if table.traction is not None:
-        accuracy = DISTRIBUTED_ACCURACY if table.traction_accuracy is None else table.traction_accuracy
-        traction = DistributedTraction(viscous_function(table.traction, oil), Resolution.for_accuracy(accuracy))
+        traction = distributed_traction(table.traction, table.traction_accuracy, oil)
     return PointLaws(
         film=POINT_FILMS[table.film](),
         thermal=thermal_factor(table.thermal),

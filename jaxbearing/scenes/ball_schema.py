@@ -6,9 +6,10 @@ from typing import ClassVar, Literal, Self
 from pydantic import model_validator
 
 from . import units
+from .bearing_schema import BearingCageTable as BallCageTable
+from .bearing_schema import BearingOperationTable, require_oil, require_oil_flow
 from .laws import TractionAccuracy
 from .materials import MaterialField
-from .oil_needs import require_laws, require_piezoviscous
 from .oil_schema import OilTable
 from .table import Table, refusal_at
 
@@ -70,31 +71,16 @@ class KinematicsTable(Table):
     gyroscopic: Literal["off", "shared", "capped", "resolved"] = "off"
 
 
-class BallCageTable(Table):
-    guidance: Literal["inner_ring", "outer_ring"]
-    guiding_clearance: units.PositiveLength
-    pocket_clearance: units.PositiveLength
-    land_width: units.PositiveLength
-    inner_diameter: units.PositiveLength | None = None
-    outer_diameter: units.PositiveLength | None = None
-    n_lands: units.Count | None = None
-    turbulence: Literal["laminar", "blend", "pure"] = "blend"
-
-
 class BallDragTable(Table):
     coefficient: units.NonNegativeNumber | None = None
     through_flow_fraction: units.Fraction = 1.0
 
 
-class BallOperationTable(Table):
-    inner_speed: units.Speed
+class BallOperationTable(BearingOperationTable):
     axial_load: units.Force | None = None
     radial_load: units.Force | None = None
     moment: units.Moment | None = None
     misalignment: units.Angle | None = None
-    outer_speed: units.Speed = 0.0
-    oil_temperature: units.Temperature | None = None
-    oil_flow: units.NonNegativeFlow | None = None
 
     @model_validator(mode="after")
     def _tilt(self) -> Self:
@@ -122,18 +108,10 @@ class BallBearingTable(Table):
     def _complete(self) -> Self:
         """What one table needs of another. The classes check the rest when they are built."""
         slips = self.contact is not None and self.contact.traction is not None
-        if slips and self.drag is not None and self.operation.oil_flow is None:
-            raise refusal_at("operation.oil_flow", "a volume flow, which [drag] needs, e.g. '150 l/h'", "nothing")
+        if slips:
+            require_oil_flow(self.drag, self.operation)
         if self.contact is None:
             return self
-        if self.operation.oil_temperature is None:
-            expected = "a temperature, which [contact] needs, e.g. '100 degC'"
-            raise refusal_at("operation.oil_temperature", expected, "nothing")
-        if self.oil is None:
-            raise refusal_at("oil", "an oil, which [contact] needs: a table [oil] with a 'name'", "nothing")
-        thermal = f"contact.thermal = '{self.contact.thermal}'" if self.contact.thermal else ""
-        traction = f"contact.traction = '{self.contact.traction}'" if self.contact.traction else ""
         density = "the cage or the drag" if slips and (self.cage is not None or self.drag is not None) else ""
-        require_laws(self.oil, {"conductivity": thermal, "rheology": traction, "density": density})
-        require_piezoviscous(self.oil, self.contact, ISOVISCOUS)
+        require_oil(self.oil, self.operation, self.contact, density, ISOVISCOUS)
         return self

@@ -7,15 +7,13 @@ from ..contacts import (
     AbstractLineFilm,
     AbstractRollingResistance,
     AbstractTraction,
-    DistributedTraction,
     JoinedRollingResistance,
     MartinBlend,
     MeanPressureTraction,
-    Resolution,
     RigidRollingResistance,
 )
 from ..lubricants import Lubricant
-from .laws import DISTRIBUTED_ACCURACY, LINE_FILMS, thermal_factor, viscous_function
+from .laws import LINE_FILMS, distributed_traction, thermal_factor, viscous_function
 from .roller_schema import ContactTable
 
 
@@ -49,8 +47,6 @@ def contact_laws(table: ContactTable, oil: Lubricant | None) -> ContactLaws:
 def _traction(table: ContactTable, oil: Lubricant | None) -> AbstractTraction | None:
     if table.traction is None:
         return None
-    viscous = viscous_function(table.traction, oil)
     if table.traction_model == "mean_pressure":
-        return MeanPressureTraction(viscous)
-    accuracy = DISTRIBUTED_ACCURACY if table.traction_accuracy is None else table.traction_accuracy
-    return DistributedTraction(viscous, Resolution.for_accuracy(accuracy))
+        return MeanPressureTraction(viscous_function(table.traction, oil))
+    return distributed_traction(table.traction, table.traction_accuracy, oil)

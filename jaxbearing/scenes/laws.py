@@ -11,6 +11,7 @@ from ..contacts import (
     AbstractThermalFactor,
     AbstractViscousFunction,
     BairWiner,
+    DistributedTraction,
     DowsonHigginson,
     DowsonToyoda,
     ElsharkawyHamrock,
@@ -24,6 +25,7 @@ from ..contacts import (
     NoThermalReduction,
     PanHamrockCentral,
     ReeEyring,
+    Resolution,
 )
 from ..lubricants import Lubricant
 from . import units
@@ -63,6 +65,12 @@ def viscous_function(name: str, oil: Lubricant | None) -> AbstractViscousFunctio
         return VISCOUS[name]()
     fitted = None if oil is None or oil.rheology is None else oil.rheology.exponent
     return ElsharkawyHamrock() if fitted is None else ElsharkawyHamrock(fitted)
+
+
+def distributed_traction(name: str, accuracy: float | None, oil: Lubricant | None) -> DistributedTraction:
+    """The traction of a bearing's contact with the flow law of this name, to this or the assumed accuracy."""
+    resolution = Resolution.for_accuracy(DISTRIBUTED_ACCURACY if accuracy is None else accuracy)
+    return DistributedTraction(viscous_function(name, oil), resolution)
 
 
 def _accuracy(value: Any) -> float:

@@ -3,11 +3,11 @@ the constructors: nothing runs on JAX."""
 
 from ..bearings.cylindrical_roller import CylindricalRollerBearing, RollerCage, RollerFlange, RollerGeometry
 from ..bearings.parts import Drag, Materials, Operation
+from .bearing_build import cage, part
 from .contact_laws import contact_laws
 from .materials import material
 from .oils import lubricant
-from .roller_schema import CageTable, CylindricalRollerTable, OperationTable
-from .turbulence import TURBULENCE
+from .roller_schema import CylindricalRollerTable
 
 
 def cylindrical_roller_bearing(table: CylindricalRollerTable) -> CylindricalRollerBearing:
@@ -19,18 +19,10 @@ def cylindrical_roller_bearing(table: CylindricalRollerTable) -> CylindricalRoll
     return CylindricalRollerBearing(
         geometry=RollerGeometry(**table.geometry.model_dump()),
         materials=Materials(rings=material(table.materials.rings), rollers=material(table.materials.rollers)),
-        operation=_operation(table.operation),
+        operation=Operation(**table.operation.model_dump(exclude_none=True)),
         oil=oil,
         contact=None if table.contact is None else contact_laws(table.contact, oil),
-        cage=None if table.cage is None else _cage(table.cage),
-        flange=None if table.flange is None else RollerFlange(**table.flange.model_dump()),
-        drag=None if table.drag is None else Drag(**table.drag.model_dump()),
+        cage=cage(RollerCage, table.cage),
+        flange=part(RollerFlange, table.flange),
+        drag=part(Drag, table.drag),
     )
-
-
-def _operation(table: OperationTable) -> Operation:
-    return Operation(**table.model_dump(exclude_none=True))
-
-
-def _cage(table: CageTable) -> RollerCage:
-    return RollerCage(**{**table.model_dump(), "turbulence": TURBULENCE[table.turbulence]()})

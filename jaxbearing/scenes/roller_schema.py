@@ -6,9 +6,16 @@ from typing import ClassVar, Literal, Self
 from pydantic import model_validator
 
 from . import units
+from .bearing_schema import (
+    BearingCageTable,
+    BearingOperationTable,
+    in_mm,
+    law_in_words,
+    require_oil,
+    require_oil_flow,
+)
 from .laws import TractionAccuracy
 from .materials import MaterialField
-from .oil_needs import require_laws, require_piezoviscous
 from .oil_schema import OilTable
 from .table import Table, refusal_at
 
@@ -24,8 +31,8 @@ class GeometryTable(Table):
     @model_validator(mode="after")
     def _consistent(self) -> Self:
         if self.contact_length is not None and self.contact_length > self.roller_length:
-            limit = f"at most the roller length, {_mm(self.roller_length)}"
-            raise refusal_at("contact_length", limit, _mm(self.contact_length))
+            limit = f"at most the roller length, {in_mm(self.roller_length)}"
+            raise refusal_at("contact_length", limit, in_mm(self.contact_length))
         return self
 
 
@@ -65,23 +72,8 @@ ISOVISCOUS = {"film": ("moes",), "rolling_resistance": ("rigid_isoviscous",)}
 """The laws of `ContactTable` that hold for an oil of the same viscosity at every pressure."""
 
 
-class CageTable(Table):
-    guidance: Literal["inner_ring", "outer_ring"]
-    guiding_clearance: units.PositiveLength
-    pocket_clearance: units.PositiveLength
-    land_width: units.PositiveLength
-    inner_diameter: units.PositiveLength | None = None
-    outer_diameter: units.PositiveLength | None = None
+class CageTable(BearingCageTable):
     pocket_axial_clearance: units.PositiveLength | None = None
-    n_lands: units.Count | None = None
-    turbulence: Literal["laminar", "blend", "pure"] = "blend"
-
-    @model_validator(mode="after")
-    def _consistent(self) -> Self:
-        bore, outside = self.inner_diameter, self.outer_diameter
-        if bore is not None and outside is not None and bore >= outside:
-            raise refusal_at("inner_diameter", f"less than the outer diameter, {_mm(outside)}", _mm(bore))
-        return self
 
 
 class FlangeTable(Table):
@@ -96,17 +88,13 @@ class DragTable(Table):
     through_flow_fraction: units.Fraction = 1.0
 
 
-class OperationTable(Table):
+class OperationTable(BearingOperationTable):
     not_yet: ClassVar[Mapping[str, str]] = {
         "axial_load": "a radial load only",
         "moment": "a radial load only (the tilt is held at 0)",
         "misalignment": "aligned rings",
     }
-    inner_speed: units.Speed
     radial_load: units.PositiveForce
-    outer_speed: units.Speed = 0.0
-    oil_temperature: units.Temperature | None = None
-    oil_flow: units.NonNegativeFlow | None = None
 
 
 class CylindricalRollerTable(Table):
@@ -129,29 +117,18 @@ class CylindricalRollerTable(Table):
     @model_validator(mode="after")
     def _complete(self) -> Self:
         """What one table needs of another. The classes check the rest when they are built."""
-        rolling = self.contact is not None and self.contact.traction is not None and self.cage is not None
-        if rolling and self.drag is not None and self.operation.oil_flow is None:
-            raise refusal_at("operation.oil_flow", "a volume flow, which [drag] needs, e.g. '150 l/h'", "nothing")
+        slips = self.contact is not None and self.contact.traction is not None
+        if slips and self.cage is not None:
+            require_oil_flow(self.drag, self.operation)
         if self.contact is None:
             return self
-        if self.contact.traction is not None and self.cage is None:
+        if slips and self.cage is None:
             expected = (
                 "a table [cage], which contact.traction needs: without one a roller outside the loaded zone slows "
             )
             raise refusal_at(
                 "cage", expected + "down for ever (leave out contact.traction, or use simulate)", "nothing"
             )
-        if self.operation.oil_temperature is None:
-            expected = "a temperature, which [contact] needs, e.g. '100 degC'"
-            raise refusal_at("operation.oil_temperature", expected, "nothing")
-        if self.oil is None:
-            raise refusal_at("oil", "an oil, which [contact] needs: a table [oil] with a 'name'", "nothing")
-        thermal = f"contact.thermal = '{self.contact.thermal}'" if self.contact.thermal else ""
-        traction = f"contact.traction = '{self.contact.traction}'" if self.contact.traction else ""
-        require_laws(self.oil, {"conductivity": thermal, "rheology": traction, "density": traction})
-        require_piezoviscous(self.oil, self.contact, ISOVISCOUS)
+        density = law_in_words(self.contact, "traction")
+        require_oil(self.oil, self.operation, self.contact, density, ISOVISCOUS)
         return self
-
-
-def _mm(length: float) -> str:
-    return f"{1e3 * length:g} mm"

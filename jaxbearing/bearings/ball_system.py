@@ -1,0 +1,114 @@
+"""What the equations of ball bearings with and without films have in common: grooves, ring, centrifugal force."""
+
+from typing import Any, Literal, NamedTuple
+
+import equinox as eqx
+import jax.numpy as jnp
+from jaxtyping import Array, Float
+
+from ..numerics.arrow import AbstractArrowSystem
+from .ball_kinematics import BallKinematics, BallMotion
+from .gyroscopic import AbstractGyroscopic
+
+LENGTH_UNIT = 1e-5
+"""Scale of displacements, m."""
+Attitude = Literal["outer", "inner", "min_power", "equilibrium"]
+
+
+class Grooves(NamedTuple):
+    """What the normal loads of a ball need; `offset` and `stiffness` of (inner, outer), m and N/m^(3/2)."""
+
+    offset: Float[Array, "2"]
+    stiffness: Float[Array, "2"]
+    centre_distance: Float[Array, ""]
+    free_cosine: Float[Array, ""]
+    free_sine: Float[Array, ""]
+    lever: Float[Array, ""]
+    """Radius of the circle of inner groove centres, R_i."""
+    groove_arm: Float[Array, ""]
+    """f_i D: of the friction at the inner race about that circle."""
+
+    @property
+    def free_angle(self) -> Float[Array, ""]:
+        """Contact angle of the unloaded bearing, rad."""
+        return jnp.arctan2(self.free_sine, self.free_cosine)
+
+    @property
+    def free_normal(self) -> Float[Array, "2 1"]:
+        """Direction (axial, radial) from the outer to the inner groove centre of the unloaded bearing."""
+        return jnp.stack([self.free_sine, self.free_cosine])[:, None]
+
+
+class AbstractBallSystem(AbstractArrowSystem):
+    """Balls between two grooved rings; globals: first the displacements of the inner ring.
+
+    `directions[f]` are the changes of the inner groove centre (axial, radial) at every ball for a unit of freedom f;
+    tilts are multiplied by R_i, so that every unknown of the ring is a length. `held` displaces these centres beside
+    that (misalignment).
+    """
+
+    kinematics: BallKinematics
+    grooves: Grooves
+    directions: Float[Array, "freedom 2 ball"]
+    held: Float[Array, "2 ball"]
+    ring_load: Float[Array, " freedom"]
+    mass: Float[Array, ""]
+    inertia: Float[Array, ""]
+    gyroscopic: AbstractGyroscopic | None
+    couple_share: Float[Array, ""]
+    """Part of the gyroscopic couple that acts: 1, less in an eased system."""
+    freedoms: tuple[str, ...] = eqx.field(static=True)
+    multiplicity: int = eqx.field(static=True)
+    """Balls that each ball stands for."""
+    attitude: Attitude = eqx.field(static=True)
+
+    @property
+    def ball_count(self) -> int:
+        return self.multiplicity * self.held.shape[1]
+
+    def ring_equation_names(self) -> tuple[str, ...]:
+        return tuple(f"{name} load balance of the ring" for name in self.freedoms)
+
+    def groove_centres(self, shift: Float[Array, "freedom ball"]) -> Float[Array, "2 ball"]:
+        """Of the inner groove at every ball, (axial, radial) from those of the outer one, m, for displacements of the
+        ring in units of `LENGTH_UNIT`."""
+        moved = LENGTH_UNIT * jnp.einsum("fn,fcn->cn", shift, self.directions)
+        return self.grooves.centre_distance * self.grooves.free_normal + self.held + moved
+
+    def centrifugal(self, orbital_speed: Array) -> Array:
+        """N, of balls on the pitch circle."""
+        return 0.5 * self.mass * self.kinematics.pitch_diameter * jnp.square(orbital_speed)
+
+    def couple(self, motion: BallMotion) -> Array:
+        """The gyroscopic couple that acts, N m (source eq. (13))."""
+        spin = motion.spin_speed * motion.orbital_speed * jnp.sin(motion.attitude)
+        return self.couple_share * self.inertia * spin
+
+    def with_friction(
+        self, load: Float[Array, "2 ball"], angle: Float[Array, "2 ball"], friction: Float[Array, "2 ball"] | None
+    ) -> tuple[Array, Array, Array]:
+        """Axial and radial force (both contacts) and moment (of the inner one, about the circle of groove centres) that
+        normal loads and the friction that carries the couple make on the ring, N and N m."""
+        sine, cosine = jnp.sin(angle), jnp.cos(angle)
+        axial, radial = load * sine, load * cosine
+        if friction is None:
+            return axial, radial, jnp.zeros_like(load[0])
+        moment = -friction[0] * self.grooves.groove_arm
+        return axial + friction * cosine, radial - friction * sine, moment
+
+    def contributions(
+        self, ring_force: Float[Array, "2 ball"], ring_moment: Float[Array, " ball"]
+    ) -> Float[Array, "freedom ball"]:
+        """Of every ball to the forces on the ring's freedoms, N; the moments in units of R_i."""
+        rows = []
+        for direction, name in zip(self.directions, self.freedoms, strict=True):
+            force = jnp.sum(ring_force * direction, axis=0)
+            if name.startswith("tilt"):
+                # the tilt turns the axial direction of the groove's centre
+                force = force + ring_moment * direction[0] / self.grooves.lever
+            rows.append(self.multiplicity * force)
+        return jnp.stack(rows)
+
+    def shared_fields(self) -> dict[str, Any]:
+        """What another system of the same balls is built with."""
+        return {name: getattr(self, name) for name in AbstractBallSystem.__dataclass_fields__}

@@ -1,0 +1,126 @@
+"""What the one-piece cages of all bearings have in common: size, guiding lands, pocket clearance."""
+
+import abc
+import math
+from typing import Any, ClassVar, Literal
+
+import equinox as eqx
+import jax.numpy as jnp
+
+from .._scene import number, optional_number
+from .._types import Scalar
+from ..gaps import AbstractTurbulence, BlendedTurbulence, ShortJournal
+from ..numerics.checks import known, require
+from .parts import check_between
+
+ASSUMED_LANDS = 2
+"""Number of cage lands, where a scene does not give it."""
+
+
+class AbstractCage(eqx.Module):
+    """One-piece cage, guided by one ring on `n_lands` lands. It has the fields too, against the habit of this
+    package: they are the same in every cage, and so are their checks.
+
+    **Arguments:**
+    - `guidance`: "inner_ring" or "outer_ring".
+    - `guiding_clearance`: DIAMETRAL clearance of the lands, m.
+    - `pocket_clearance`: of a rolling element in its pocket, m; the cage of each kind of bearing says which.
+    - `land_width`: of ONE land, m.
+    - `inner_diameter`, `outer_diameter`: of the cage, m; assumed from the size of the elements where not given.
+    - `n_lands`: number of lands; 2 where not given.
+    - `turbulence`: flow regime of the lands.
+    """
+
+    element: ClassVar[str]
+    """What the pockets hold."""
+    assumed_inner: ClassVar[float]
+    """Bore = pitch diameter minus this times the element's diameter, where a scene does not give it."""
+    assumed_outer: ClassVar[float]
+    """Outside diameter = pitch diameter plus this times the element's diameter, where a scene does not give it."""
+
+    guidance: Literal["inner_ring", "outer_ring"] = eqx.field(static=True)
+    guiding_clearance: Scalar = number()
+    pocket_clearance: Scalar = number()
+    land_width: Scalar = number()
+    inner_diameter: Scalar | None = optional_number()
+    outer_diameter: Scalar | None = optional_number()
+    n_lands: int | None = eqx.field(static=True, default=None)
+    turbulence: AbstractTurbulence = BlendedTurbulence()
+
+    def __check_init__(self):
+        if self.guidance not in ("inner_ring", "outer_ring"):
+            raise ValueError(f"cage.guidance must be 'inner_ring' or 'outer_ring', got {self.guidance!r}")
+        require(
+            "cage",
+            guiding_clearance=(self.guiding_clearance, "> 0"),
+            pocket_clearance=(self.pocket_clearance, "> 0"),
+            land_width=(self.land_width, "> 0"),
+            inner_diameter=(self.inner_diameter, "> 0"),
+            outer_diameter=(self.outer_diameter, "> 0"),
+            n_lands=(self.n_lands, "> 0"),
+        )
+
+    @abc.abstractmethod
+    def row(self, geometry: Any) -> tuple[int, Scalar]:
+        """Number and diameter, m, of the rolling elements in a bearing of this kind."""
+
+    @property
+    def lands(self) -> int:
+        return ASSUMED_LANDS if self.n_lands is None else self.n_lands
+
+    def bore(self, geometry: Any) -> Scalar:
+        """Inner diameter, m."""
+        if self.inner_diameter is not None:
+            return self.inner_diameter
+        return geometry.pitch_diameter - self.assumed_inner * self.row(geometry)[1]
+
+    def outside(self, geometry: Any) -> Scalar:
+        """Outer diameter, m."""
+        if self.outer_diameter is not None:
+            return self.outer_diameter
+        return geometry.pitch_diameter + self.assumed_outer * self.row(geometry)[1]
+
+    def land(self, geometry: Any) -> ShortJournal:
+        """The film of the guiding lands in a bearing of this geometry."""
+        diameter = self.bore(geometry) if self.guidance == "inner_ring" else self.outside(geometry)
+        return ShortJournal(
+            radius=jnp.asarray(diameter) / 2.0,
+            width=jnp.asarray(self.land_width),
+            clearance=jnp.asarray(self.guiding_clearance) / 2.0,
+            turbulence=self.turbulence,
+            n_lands=self.lands,
+        )
+
+    def assumptions(self) -> list[str]:
+        """What the scene does not give of the cage and the model assumed; for the user."""
+        assumed = {
+            "inner_diameter": f"pitch diameter - {self.assumed_inner:.3g} {self.element} diameters",
+            "outer_diameter": f"pitch diameter + {self.assumed_outer:.3g} {self.element} diameters",
+            "n_lands": f"{ASSUMED_LANDS}",
+        }
+        return [
+            f"cage.{name} is not given: assumed {value}"
+            for name, value in assumed.items()
+            if getattr(self, name) is None
+        ]
+
+    def check_fits(self, geometry: Any) -> None:
+        """**Raises:** `ValueError` where the cage cannot exist between the rings (where the numbers are known)."""
+        count, diameter = self.row(geometry)
+        sizes = known(
+            geometry.pitch_diameter,
+            diameter,
+            self.bore(geometry),
+            self.outside(geometry),
+            self.pocket_clearance,
+            self.guiding_clearance,
+        )
+        if sizes is None:
+            return
+        pitch, element, bore, outside, pocket, guiding = sizes
+        gap = pitch * math.sin(math.pi / max(count, 2)) - element
+        neighbours = f"gap between neighbouring {self.element}s"
+        check_between("cage.inner_diameter", bore, pitch - element, outside, "inner raceway", "cage outside diameter")
+        check_between("cage.outer_diameter", outside, bore, pitch + element, "cage bore", "outer raceway")
+        check_between("cage.pocket_clearance", pocket, 0.0, gap, "nothing", neighbours)
+        check_between("cage.guiding_clearance", guiding, 0.0, 0.05 * bore, "nothing", "5 % of the land diameter")

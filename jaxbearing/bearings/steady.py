@@ -1,0 +1,57 @@
+"""From the root of a bearing's equations to its `Solution`, for every kind of bearing."""
+
+from typing import Any
+
+import jax
+import jax.numpy as jnp
+from jaxtyping import Array, Float, Int
+
+from ..numerics.newton import NewtonResult
+from .ball_bearing import BallBearing
+from .cylindrical_roller import CylindricalRollerBearing
+from .solution import RingDisplacement, Solution
+
+
+def assemble(
+    scene: CylindricalRollerBearing | BallBearing,
+    result: NewtonResult,
+    results: Any,
+    ring: RingDisplacement,
+    stiffness: Float[Array, "freedom freedom"],
+    iterations: Int[Array, ""] | None = None,
+    input_excess: dict[str, Array] | None = None,
+    **names: Any,
+) -> Solution:
+    """The `Solution` of a solve: how it ended, and NaN for every result where it failed.
+
+    **Arguments:**
+    - `results`: a named tuple of further fields of the `Solution`, and `range_excess`: text of a warning -> a number
+      that is positive where it applies.
+    - `iterations`: of all solves together; those of `result` where not given.
+    - `input_excess`: like `range_excess`, but about the scene: said of failed solves too.
+    - `names`: static fields of the `Solution`.
+    """
+    good = result.converged
+    shown = {**results._asdict(), "ring": ring, "stiffness": stiffness}
+    range_excess = shown.pop("range_excess")
+    checks = {text: value > 0 for text, value in (input_excess or {}).items()}
+    checks |= {text: good & (value > 0) for text, value in range_excess.items()}
+    notes = scene.assumptions()
+    if scene.unused_parts():
+        unused = ", ".join(scene.unused_parts())
+        notes = (*notes, f"without traction on the raceways these tables have no effect: {unused}")
+    return Solution(
+        status=result.status,
+        iterations=result.iterations if iterations is None else iterations,
+        residual_norm=result.residual_norm,
+        inner_residual=result.inner_residual,
+        worst_equation=result.worst_equation,
+        worst_element=result.worst_element,
+        operation=scene.operation,
+        checks=checks,
+        global_equations=result.point.globals.shape[0],
+        unknowns=result.point.elements.size + result.point.globals.size,
+        notes=notes,
+        **jax.tree.map(lambda leaf: jnp.where(good, leaf, jnp.nan), shown),
+        **names,
+    )

@@ -1,0 +1,80 @@
+"""What the scene files of all bearings have in common: cage, operating point, and what these need of the oil."""
+
+from collections.abc import Mapping
+from typing import Literal, Self
+
+from pydantic import model_validator
+
+from . import units
+from .oil_needs import require_laws, require_piezoviscous
+from .oil_schema import OilTable
+from .table import Table, refusal_at
+
+
+class BearingCageTable(Table):
+    guidance: Literal["inner_ring", "outer_ring"]
+    guiding_clearance: units.PositiveLength
+    pocket_clearance: units.PositiveLength
+    land_width: units.PositiveLength
+    inner_diameter: units.PositiveLength | None = None
+    outer_diameter: units.PositiveLength | None = None
+    n_lands: units.Count | None = None
+    turbulence: Literal["laminar", "blend", "pure"] = "blend"
+
+    @model_validator(mode="after")
+    def _consistent(self) -> Self:
+        bore, outside = self.inner_diameter, self.outer_diameter
+        if bore is not None and outside is not None and bore >= outside:
+            raise refusal_at("inner_diameter", f"less than the outer diameter, {in_mm(outside)}", in_mm(bore))
+        return self
+
+
+class BearingOperationTable(Table):
+    """The operating point without its loads."""
+
+    inner_speed: units.Speed
+    outer_speed: units.Speed = 0.0
+    oil_temperature: units.Temperature | None = None
+    oil_flow: units.NonNegativeFlow | None = None
+
+
+def require_oil_flow(drag: Table | None, operation: BearingOperationTable) -> None:
+    """**Raises:** the refusal of a scene with drag that does not say how much oil flows."""
+    if drag is not None and operation.oil_flow is None:
+        raise refusal_at("operation.oil_flow", "a volume flow, which [drag] needs, e.g. '150 l/h'", "nothing")
+
+
+def require_oil(
+    oil: OilTable | None,
+    operation: BearingOperationTable,
+    contact: Table,
+    density: str,
+    isoviscous: Mapping[str, tuple[str, ...]],
+) -> None:
+    """What the laws of the raceway contacts need.
+
+    **Arguments:**
+    - `contact`: with the fields `thermal` and `traction`.
+    - `density`: what needs the density of the oil, in words; "" where nothing does.
+    - `isoviscous`: fields of `contact` -> the laws that hold for an oil of the same viscosity at every pressure.
+
+    **Raises:** the refusal of a scene that lacks it.
+    """
+    if operation.oil_temperature is None:
+        expected = "a temperature, which [contact] needs, e.g. '100 degC'"
+        raise refusal_at("operation.oil_temperature", expected, "nothing")
+    if oil is None:
+        raise refusal_at("oil", "an oil, which [contact] needs: a table [oil] with a 'name'", "nothing")
+    thermal, traction = law_in_words(contact, "thermal"), law_in_words(contact, "traction")
+    require_laws(oil, {"conductivity": thermal, "rheology": traction, "density": density})
+    require_piezoviscous(oil, contact, isoviscous)
+
+
+def law_in_words(contact: Table, name: str) -> str:
+    """A law of the table as it stands in the file; "" where it names none."""
+    law = getattr(contact, name)
+    return f"contact.{name} = '{law}'" if law else ""
+
+
+def in_mm(length: float) -> str:
+    return f"{1e3 * length:g} mm"
