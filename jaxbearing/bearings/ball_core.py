@@ -51,10 +51,12 @@ class BallState(NamedTuple):
 class BallCore(AbstractBallSystem):
     """Balls that roll without sliding, with the attitude of outer or inner race control.
 
-    Its iteration begins at `guess` (`started`), or where that is `None` at the estimate by formulas.
+    Its iteration begins at `guess` (`started`); where that is `None`, and in an eased system (`ease` > 0), at the
+    estimate by formulas.
     """
 
     guess: ArrowPoint | None = None
+    ease: Float[Array, ""] | None = None
 
     # -- scales ---------------------------------------------------------------------------------------------------
 
@@ -83,7 +85,12 @@ class BallCore(AbstractBallSystem):
         return ArrowPoint(-elements, -ring), ArrowPoint(elements, ring)
 
     def initial(self) -> ArrowPoint:
-        return self._point(estimate(self._frozen())) if self.guess is None else self.guess
+        if self.guess is not None and self.ease is None:
+            return self.guess
+        first = self._point(estimate(self._frozen()))
+        if self.guess is None:
+            return first
+        return ArrowPoint(*(jnp.where(self.ease == 0.0, x, y) for x, y in zip(self.guess, first, strict=True)))
 
     def started(self) -> tuple["BallCore", Int[Array, ""]]:
         """These equations with the minimum of the convex problem as first guess, and the Newton steps to that."""
@@ -130,11 +137,7 @@ class BallCore(AbstractBallSystem):
         if self.gyroscopic is not None:
             heavier = jnp.where(path == 0, heavier, self.ring_load)
             share = share * jnp.where(path == 0, 1.0, 1.0 - ease)
-        easier = dataclasses.replace(self, ring_load=heavier, couple_share=share, guess=None)
-        first = easier.initial()
-        if self.guess is not None:
-            first = ArrowPoint(*(jnp.where(ease == 0.0, x, y) for x, y in zip(self.guess, first, strict=True)))
-        return dataclasses.replace(easier, guess=first)
+        return dataclasses.replace(self, ring_load=heavier, couple_share=share, ease=ease)
 
     def element(self, unknowns, shared):
         state = self.balls(unknowns, shared)

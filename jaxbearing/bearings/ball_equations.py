@@ -190,9 +190,9 @@ class LubricatedBallSystem(AbstractBallSystem):
         )
 
     def step_caps(self) -> ArrowPoint:
-        caps = {"spin": 0.05, "attitude": 0.1, "orbit": 0.05, "transverse": 0.02, "carried": 1.0}
+        caps = {"spin": 0.15, "attitude": 0.3, "orbit": 0.15, "transverse": 0.02, "carried": 1.0}
         elements = [3.0, 0.2, *(caps[name] for name in self.own_unknowns)]
-        ring = [5.0] * len(self.freedoms) + [0.05] * self.global_orbit
+        ring = [5.0] * len(self.freedoms) + [0.15] * self.global_orbit
         return ArrowPoint(jnp.asarray(elements)[:, None], jnp.asarray(ring))
 
     def bounds(self) -> tuple[ArrowPoint, ArrowPoint]:

@@ -16,7 +16,7 @@ from jaxtyping import Array, Bool, Float, Int
 from ..numerics.safe import safe_norm
 from ..numerics.small_linear import solve_blocks, solve_dense
 
-RING_TOLERANCE = 1e-2
+RING_TOLERANCE = 2e-2
 """Of the ring's balance, relative to the load: what the full equations need of their start."""
 BALL_TOLERANCE = 1e-9
 """Of a ball's balance, relative to its load scale."""

@@ -6,7 +6,9 @@ Every roller orbits at the cage speed W; per roller (source eqs. (27)-(29), (38)
 - approach: $J_d/2 + \delta_i + \delta_o - h_i - h_o = d\cdot n$ (as the logarithm of the ratio of the positive terms
   on its two sides), unknown ln Qi, $Q_o = Q_i + m R_m W^2$ (the pocket
   friction, about 0.1 % of the centrifugal force, is left out of it, so Q does not depend on the pocket);
-- moment: $R_R(F_{C1} + F_{C2} - F_i - F_o) + M_{flange} + M_{rail} + \frac{R_R}{2}(P_i + P_o) = 0$, unknown s;
+- moment: $R_R(F_{C1} + F_{C2} - F_i - F_o) + M_{flange} + M_{rail} + \frac{R_R}{2}(P_i + P_o) = 0$, unknown the mean
+  speed of the surfaces at the outer race, as a change of s at this W (near a cage speed at which that mean speed is 0
+  the film collapses and the moment has a cusp; the unknown keeps its distance from the cusp when W changes);
 - tangential: $Q_{C1} - Q_{C2} = F_i - F_o + F_E + F_{Ec} - F_{OL} + F_P$, eliminated: the two pocket films follow from
   it in closed form (`gaps.Pocket`);
 
@@ -99,8 +101,8 @@ def _per_race(values: Array) -> Float[Array, "2"]:
 
 
 class LubricatedRollerSystem(AbstractArrowSystem):
-    """Lubricated bearing. With `cage`: unknowns (ln Qi, spin) per roller, (ring, cage speed). Without (frictionless
-    raceways): ln Qi per roller and the ring, kinematics of rolling without slip."""
+    """Lubricated bearing. With `cage`: unknowns (ln Qi, speed at the outer race) per roller, (ring, cage speed).
+    Without (frictionless raceways): ln Qi per roller and the ring, kinematics of rolling without slip."""
 
     kinematics: RollerKinematics
     contact: LineContact
@@ -255,7 +257,8 @@ class LubricatedRollerSystem(AbstractArrowSystem):
             orbit_change = spin_change = jnp.zeros_like(log_load)
         else:
             orbit_change = motion.orbit_unit * shared[d]
-            spin_change = motion.spin_unit * unknowns[1]
+            # twice the change of the outer race's mean speed is R_R spin_change + R_o orbit_change
+            spin_change = motion.spin_unit * (unknowns[1] - shared[d])
         orbit, spin = motion.free_orbit + orbit_change, motion.free_spin + spin_change
         inner_load = jnp.exp(log_load)
         load = jnp.stack([inner_load, inner_load + self.centrifugal(orbit)])

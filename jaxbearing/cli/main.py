@@ -15,6 +15,7 @@ from .fit_verb import fit
 from .messages import BAD_INPUT, INTERRUPTED, NO_OUTPUT, say
 from .scenes_verb import scenes
 from .solve_verb import solve
+from .stiffness_verb import stiffness
 
 _EPILOG = """\b
 Exit codes: 0 solved; 1 the output cannot be written; 2 bad input;
@@ -99,5 +100,5 @@ def _options(
     pass
 
 
-for _verb in (scenes, solve, fit):
+for _verb in (scenes, solve, stiffness, fit):
     app.command()(_verb)

@@ -159,21 +159,23 @@ def schur_complement(jacobian: ArrowJacobian) -> Float[Array, "g g"]:
     return _eliminated(jacobian)[1]
 
 
-def uphill_step(jacobian: ArrowJacobian, right: ArrowPoint) -> tuple[ArrowPoint, Bool[Array, ""]]:
-    """The solution of J x = right with J changed where a pivot is negative, and whether one was.
+def uphill_step(
+    jacobian: ArrowJacobian, right: ArrowPoint
+) -> tuple[ArrowPoint, Bool[Array, " element"], Bool[Array, ""]]:
+    """The solution of J x = right with J changed where a pivot is negative, in which elements one was, and whether one
+    of the globals was.
 
     Each equation is meant to grow with its own unknown when those before it are in equilibrium. Where it falls, the
     Newton step points away from the root behind the hump; with the pivot's sign turned it points across it. Elements
     of more than 4 unknowns, which LAPACK eliminates, are left as they are.
     """
-    local, local_changed = jacobian.local, jnp.zeros((), dtype=bool)
+    local, changed = jacobian.local, jnp.zeros(jacobian.local.shape[2:], dtype=bool)
     if local.shape[0] <= UNROLLED_LIMIT:
         local, changed = with_positive_pivots(local)
-        local_changed = jnp.any(changed)
     jacobian = jacobian._replace(local=local)
     coupled, schur = _eliminated(jacobian)
     shifted, schur_changed = with_positive_pivots(schur)
-    return _solved(jacobian, coupled, shifted, right), local_changed | schur_changed
+    return _solved(jacobian, coupled, shifted, right), changed, schur_changed
 
 
 def solve_arrow(jacobian: ArrowJacobian, right: ArrowPoint) -> ArrowPoint:

@@ -98,17 +98,34 @@ class Frozen:
         pair = (self.motion.inner_race(motion, self.angle[0]), self.motion.outer_race(motion, self.angle[1]))
         return jax.tree.map(lambda a, b: jnp.stack([a, b]), *pair)
 
-    def shear(self, races):
+    def shear(self, races, transverse=False):
         cosine = jnp.cos(self.angle)
         operating = T15.contacts(cosine[0], cosine[1], self.modulus)
         film = jnp.exp(HamrockDowsonCentral().log_thickness(operating, self.load, races.mean_speed, 4.7e-3, 1.04e-8))
         patch = contact_patch(T15.free_contacts(self.modulus), self.load)
-        sliding = Sliding(SIDES * races.rolling, None, races.spin)
+        sliding = Sliding(SIDES * races.rolling, SIDES * races.transverse if transverse else None, races.spin)
         return self.law.traction(patch, film, races.mean_speed, sliding, 373.15, self.oil)
 
     def spin_power(self, attitude):
         races = self.races(self.motion.rolling(self.angle[0], self.angle[1], attitude))
         return jnp.sum(self.shear(races).moment * races.spin)
+
+    def balance(self, motion, couple=None):
+        """Tangential force, moments about axis and radius, and with a part `couple` of the gyroscopic couple that about
+        the tangent, N; and the contacts' power, W."""
+        races = self.races(motion)
+        shear = self.shear(races, transverse=couple is not None)
+        forward, about, arm = -SIDES * shear.rolling, -shear.moment, 2.0 / T15.ball_diameter
+        sine, cosine = jnp.sin(self.angle), jnp.cos(self.angle)
+        axis = forward[1] * cosine[1] - forward[0] * cosine[0] + arm * (about[1] * sine[1] - about[0] * sine[0])
+        radius = forward[0] * sine[0] - forward[1] * sine[1] + arm * (about[1] * cosine[1] - about[0] * cosine[0])
+        if couple is None:
+            return jnp.stack([forward[0] + forward[1], axis, radius]), shear.power
+        turning = arm * T15.inertia(7850.0) * motion.orbital_speed
+        radius = radius + turning * motion.transverse
+        spin = motion.spin_speed * jnp.sin(motion.attitude)
+        tangent = jnp.sum(-SIDES * shear.transverse) + couple * turning * spin
+        return jnp.stack([forward[0] + forward[1], axis, radius, tangent]), shear.power
 
     def control(self, attitude):
         return float(self.motion.raceway_control(self.angle[0], self.angle[1], attitude))
@@ -129,13 +146,7 @@ def test_mixed_control_of_the_check_rows():
     np.testing.assert_allclose([power(low), power(frozen.high), power(frozen.low)], [105.8, 121.5, 132.9], atol=0.06)
 
     def balance(x):
-        motion = BallMotion(580.0 * x[0], 4830.0 * x[1], x[2], jnp.zeros(()))
-        shear = frozen.shear(frozen.races(motion))
-        forward, about, arm = -SIDES * shear.rolling, -shear.moment, 2.0 / T15.ball_diameter
-        sine, cosine = jnp.sin(frozen.angle), jnp.cos(frozen.angle)
-        axis = forward[1] * cosine[1] - forward[0] * cosine[0] + arm * (about[1] * sine[1] - about[0] * sine[0])
-        radius = forward[0] * sine[0] - forward[1] * sine[1] + arm * (about[1] * cosine[1] - about[0] * cosine[0])
-        return jnp.stack([forward[0] + forward[1], axis, radius])
+        return frozen.balance(BallMotion(580.0 * x[0], 4830.0 * x[1], x[2], jnp.zeros(())))[0]
 
     rolling = frozen.motion.rolling(frozen.angle[0], frozen.angle[1], 0.62)
     x = jnp.stack([rolling.orbital_speed / 580.0, rolling.spin_speed / 4830.0, jnp.asarray(0.62)])
@@ -146,6 +157,33 @@ def test_mixed_control_of_the_check_rows():
     np.testing.assert_allclose(580.0 * x[0] / (12500 * RPM), 0.442318, atol=1e-6)
     np.testing.assert_allclose(4830.0 * x[1], 4831.80, atol=0.02)
     np.testing.assert_allclose(frozen.control(x[2]), 38.54, atol=0.02)
+
+
+@pytest.mark.slow
+def test_resolved_couple_of_the_check_rows():
+    """The whole gyroscopic couple by traction, at the same frozen loads, in stages: omega_t = -114.3 rad/s, attitude
+    .428, u_b = 1.18 m/s, 237.5 + 88.9 W."""
+    frozen = Frozen(Resolution(48, 32, True))
+
+    def balance(x, couple):
+        return frozen.balance(BallMotion(580.0 * x[0], 4830.0 * x[1], x[2], 4830.0 * x[3]), couple)
+
+    value = jax.jit(balance)
+    jacobian = jax.jit(jax.jacfwd(lambda x, couple: balance(x, couple)[0]))
+    rolling = frozen.motion.rolling(frozen.angle[0], frozen.angle[1], 0.62)
+    x = jnp.stack([rolling.orbital_speed / 580.0, rolling.spin_speed / 4830.0, jnp.asarray(0.62), jnp.zeros(())])
+    attitude = [1.0]
+    for couple in (0.1, 0.25, 0.45, 0.7, 1.0):
+        for _ in range(8):
+            x = x - jnp.linalg.solve(jacobian(x, couple), value(x, couple)[0])
+        attitude.append(float(x[2]))
+    residual, power = value(x, 1.0)
+    np.testing.assert_allclose(residual, 0.0, atol=1e-10)
+    assert np.all(np.diff(attitude) < 0.0)  # the couple lowers the attitude (Aramaki and Kawamura)
+    np.testing.assert_allclose(4830.0 * x[3], -114.3, atol=0.06)
+    np.testing.assert_allclose(x[2], 0.428, atol=6e-4)
+    np.testing.assert_allclose(-0.5 * 4830.0 * x[3] * T15.ball_diameter, 1.18, atol=6e-3)
+    np.testing.assert_allclose(power, [237.5, 88.9], atol=0.06)
 
 
 def test_kinematics_check_values():
@@ -196,18 +234,18 @@ def test_pocket():
 
 @pytest.mark.slow
 def test_figure_43():
-    """More load: towards inner control; more speed: towards outer control. (At 5 kN and 20 000 rpm, where the least
-    power lies on outer control itself, `min_power` does not converge and says so.)"""
+    """More load: towards inner control; more speed: towards outer control; also at 5 kN and 20 000 rpm, where the least
+    power lies nearly on outer control itself."""
     scene = turbine(**{"cage": None, "drag": None, "kinematics.attitude": "min_power"})
-    loads, speeds = jnp.array([1e4, 2e4, 3.5e4, 5e4]), jnp.array([5e3, 1e4, 1.5e4, 2e4]) * RPM
+    loads, speeds = jnp.array([5e3, 1e4, 2e4, 5e4]), jnp.array([5e3, 1e4, 1.5e4, 2e4]) * RPM
     fast = jb.jit_solver(scene)
     control = lambda pair: fast(axial_load=pair[0], inner_speed=pair[1]).elements.raceway_control[0]
     grid = jnp.stack([jnp.repeat(loads, 4), jnp.tile(speeds, 4)], axis=1)
     found = np.asarray(jax.lax.map(control, grid)).reshape(4, 4)
     assert np.all(np.diff(found, axis=0) < 1e-6)
     assert np.all(np.diff(found, axis=1) > -1e-6)
-    assert found[0, -1] > 90.0
-    assert found[-1, 0] < 30.0
+    assert found[0, -1] > 99.0
+    assert found[-1, 0] < 20.0
 
 
 INPUTS = (

@@ -200,7 +200,9 @@ def test_balances():
 
 @pytest.mark.slow
 @pytest.mark.usefixtures("optimized")
-@pytest.mark.parametrize("couple", [None, CappedCouple()], ids=["off", "capped"])
+@pytest.mark.parametrize(
+    "couple", [None, CappedCouple(), CappedCouple(sign=-1.0)], ids=["off", "capped", "printed sign"]
+)
 @pytest.mark.parametrize("kind", ["axial", "combined", "moment", "deep groove"])
 def test_random_bearings_converge(kind, couple):
     rng = np.random.default_rng(5)
@@ -211,8 +213,7 @@ def test_random_bearings_converge(kind, couple):
     groove = BallGeometry(9, 38.5e-3, 7.938e-3, 0.515, 0.525, diametral_clearance=2e-5)
     if kind == "axial":
         scene = bearing(T15, 1.0, 1.0, couple=couple)
-        lightest = 1.0 if couple is None else 10.0  # below, 1 of 300 with a capped couple does not converge
-        numbers = {"inner_speed": jnp.asarray(rng.uniform(0.0, 40000.0, n)) * RPM, "axial_load": logs(lightest, 1e5)}
+        numbers = {"inner_speed": jnp.asarray(rng.uniform(0.0, 40000.0, n)) * RPM, "axial_load": logs(1.0, 1e5)}
     elif kind == "deep groove":
         scene = bearing(groove, 1.0, 1.0, 1.0, couple=couple)
         numbers = {"inner_speed": jnp.asarray(rng.uniform(0.0, 30000.0, n)) * RPM}
@@ -231,7 +232,8 @@ def test_random_bearings_converge(kind, couple):
     solve = jax.jit(lambda x: jax.lax.map(lambda o: jb.solve(scene.at_operation(**o), throw=False), x))
     solution = solve(numbers)
     assert np.all(np.asarray(solution.converged))
-    assert np.median(np.asarray(solution.iterations)) <= 8
+    # of both phases; asked: 8 without the couple
+    assert np.median(np.asarray(solution.iterations)) <= (8 if couple is None else 9)
     assert np.all(np.isfinite(np.asarray(solution.stiffness)))
 
 

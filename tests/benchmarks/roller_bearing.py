@@ -32,8 +32,8 @@ import jax  # noqa: E402
 import jax.numpy as jnp  # noqa: E402
 import numpy as np  # noqa: E402
 import scipy.optimize  # noqa: E402
+from benchmark_tools import best_time, error_of, sharded  # noqa: E402
 from full_roller_system import extend, scipy_functions  # noqa: E402
-from jax.sharding import PartitionSpec  # noqa: E402
 from roller_cases import reference_roller, turbine_roller  # noqa: E402
 
 import jaxbearing as jb  # noqa: E402
@@ -70,30 +70,7 @@ def batched(scene, options=None, vectorized=False):
         solution = jb.solve(scene.at_operation(**operation), throw=False, options=options)
         return results(solution), solution.status, solution.iterations
 
-    run = jax.vmap(one) if vectorized else (lambda batch: jax.lax.map(one, batch))
-    devices = len(jax.devices())
-
-    def sharded(batch):
-        if devices == 1 or len(batch["inner_speed"]) % devices:
-            return run(batch)
-        mesh = jax.make_mesh((devices,), ("case",), axis_types=(jax.sharding.AxisType.Auto,))
-        spec = PartitionSpec("case")
-        return jax.shard_map(run, mesh=mesh, in_specs=spec, out_specs=spec, check_vma=False)(batch)
-
-    return jax.jit(sharded)
-
-
-def best_time(function, repeats):
-    times = []
-    for _ in range(repeats):
-        start = time.perf_counter()
-        jax.block_until_ready(function())
-        times.append(time.perf_counter() - start)
-    return min(times)
-
-
-def error_of(found, exact):
-    return float(np.max(np.abs(np.asarray(found) / np.asarray(exact) - 1.0)))
+    return sharded(jax.vmap(one) if vectorized else (lambda batch: jax.lax.map(one, batch)))
 
 
 def scipy_rows(name, make, n):

@@ -1,0 +1,161 @@
+"""`jaxbearing stiffness`: the stiffness of a bearing over shaft speed, also as a bearing of a rotor model."""
+
+import json
+import re
+from pathlib import Path
+from typing import Annotated, Any
+
+import typer
+
+from .messages import NOT_CONVERGED, bad_input, refuse
+from .options import JsonOption, SceneArgument, SetOption, labelled
+from .output_files import check_files, writing
+from .terminal import console
+
+MOST_SPEEDS = 10_000
+_EXAMPLE = "'2000 rpm:20000 rpm:10'"
+Speeds = Annotated[
+    str,
+    typer.Option(
+        "--speeds",
+        metavar="FIRST:LAST:NUMBER",
+        help=f"Shaft (inner ring) speeds at equal distances, e.g. {_EXAMPLE}.",
+    ),
+]
+Ross = Annotated[
+    Path | None,
+    typer.Option(
+        "--ross",
+        metavar="FILE.toml",
+        help="Write the bearing for the rotordynamics package ROSS: rs.BearingElement.load(FILE). Damping is 0: the "
+        "model has none.",
+    ),
+]
+LoadDirection = Annotated[
+    str,
+    typer.Option(
+        "--load-direction", metavar="ANGLE", help="Of the load line, from ROSS's x axis towards its y axis; z is axial."
+    ),
+]
+
+
+def stiffness(
+    scene: SceneArgument,
+    speeds: Speeds,
+    changes: SetOption = None,
+    as_json: JsonOption = False,
+    ross: Ross = None,
+    load_direction: LoadDirection = "-90 deg",
+) -> None:
+    """Stiffness against shaft speed, at the loads of the scene; on request as a bearing for ROSS."""
+    with bad_input():
+        from ..scenes.overrides import split_assignments
+        from ..scenes.reader import load_scene
+        from ..scenes.units import ANGLE
+
+        values = _speeds(speeds)
+        angle = _quantity("--load-direction", load_direction, ANGLE)
+        model = load_scene(scene, split_assignments(changes or []))
+        _check(scene, model, values)
+        check_files((("--ross", ross, (".toml",)),))
+
+    from .cache import enable_compilation_cache
+    from .interrupt import prompt_interrupt
+    from .quiet import without_false_alarms
+
+    label = labelled(scene, changes)
+    enable_compilation_cache()
+    failure = ""
+    with prompt_interrupt(), without_false_alarms():
+        from ..numerics.status import SolveError
+        from ..report.stiffness import stiffness_over_speed
+        from ..solve import solve_once
+
+        try:
+            table = stiffness_over_speed(model, values, solver=solve_once)
+        except SolveError as error:
+            failure = str(error)
+        else:
+            # the file first: what cannot be written is said before results scroll by
+            if ross is not None:
+                _write(table, ross, scene, changes, angle)
+            _print(table, label, ross, as_json)
+    if failure:
+        _print_failure(failure, label, ross, as_json)
+        raise typer.Exit(NOT_CONVERGED)
+
+
+def _speeds(text: str) -> list[float]:
+    """FIRST:LAST:NUMBER as speeds in rad/s. **Raises:** `SceneError`."""
+    from ..scenes.errors import SceneError
+    from ..scenes.units import SPEED, describe
+
+    parts = [part.strip() for part in text.split(":")]
+    if len(parts) != 3:
+        raise SceneError("--speeds", "", describe(text), f"FIRST:LAST:NUMBER, e.g. {_EXAMPLE}")
+    first, last = (_quantity("--speeds", part, SPEED, ">= 0") for part in parts[:2])
+    if not re.fullmatch(r"[0-9]{1,9}", parts[2]) or not 2 <= int(parts[2]) <= MOST_SPEEDS:
+        raise SceneError("--speeds", "", describe(parts[2]), f"a whole number of speeds from 2 to {MOST_SPEEDS}")
+    if not first < last:
+        raise SceneError("--speeds", "", describe(text), "a first speed below the last one")
+    number = int(parts[2])
+    steps = [i / (number - 1) for i in range(number)]
+    return [first * (1.0 - step) + last * step for step in steps]
+
+
+def _quantity(option: str, text: str, dimension: Any, bound: str = "") -> float:
+    """A value with a unit in SI. **Raises:** `SceneError`."""
+    from pydantic_core import PydanticCustomError
+
+    from ..scenes.errors import SceneError
+    from ..scenes.units import quantity
+
+    try:
+        return quantity(text.strip(), dimension, bound)
+    except PydanticCustomError as error:
+        context = error.context or {}
+        raise SceneError(option, "", context["found"], context["expected"]) from None
+
+
+def _check(scene: str, model: Any, values: list[float]) -> None:
+    from ..report.stiffness import at_speeds
+
+    try:
+        at_speeds(model, values)
+    except TypeError:
+        refuse(f"SCENE: found '{scene}', a {type(model).__name__}, which has no stiffness; expected a bearing")
+    except ValueError as error:
+        refuse(f"--speeds: {error}")
+
+
+def _write(table: Any, file: Path, scene: str, changes: list[str] | None, angle: float) -> None:
+    from ..report.ross import write_ross
+
+    name = Path(scene).stem
+    tag = re.sub(r"[^A-Za-z0-9_-]+", "_", name) or "bearing"
+    with writing(file):
+        write_ross(table, file, labelled(Path(scene).name, changes), load_direction=angle, tag=tag)
+
+
+def _print(table: Any, label: str, ross: Path | None, as_json: bool) -> None:
+    from ..report.stiffness import print_stiffness, stiffness_to_dict
+
+    if as_json:
+        found = {"converged": True, "failure": None, **stiffness_to_dict(table)}
+        typer.echo(json.dumps(found, allow_nan=False))
+        return
+    print_stiffness(table, label, console())
+    if ross is not None:
+        typer.echo(f"wrote {ross}: read it with ross.BearingElement.load")
+
+
+def _print_failure(failure: str, label: str, ross: Path | None, as_json: bool) -> None:
+    if as_json:
+        typer.echo(json.dumps({"converged": False, "failure": failure}))
+        typer.echo(f"not converged: {label}: {failure}", err=True)
+    else:
+        from ..report.screen import print_failure
+
+        print_failure(label, "one speed failed", failure, console())
+    if ross is not None:
+        typer.echo(f"not written: {ross}", err=True)

@@ -1,0 +1,121 @@
+"""Stiffness over shaft speed as a file of the rotordynamics package ROSS: `ross.BearingElement.load(file)`.
+
+**Axes.** ROSS has z along the shaft, x and y across it, right-handed. Here: (radial, lateral, axial) is right-handed
+too, radial along the load line. So z is the axial direction, and one angle, `load_direction` from x to the load line,
+turns radial and lateral into x and y. ROSS usually has the weight along -y: the default.
+
+**What the coefficients are.** Tangent stiffness of the inner ring at the shaft speeds of the table, each with all other
+freedoms of the ring held; the element of ROSS has no tilt and no coupling of z with x and y, so these are left out. The
+damping is 0 because the model is quasi-static: rolling bearings damp little, but not nothing, so add what you know.
+The coefficients belong to a shaft speed, while ROSS looks them up at the frequency that it analyses: in a synchronous
+analysis (unbalance, a Campbell diagram's forward line) the two are the same.
+
+**Between the speeds** ROSS 2.3 lays a line (2 speeds), a parabola (3) or a cubic smoothing spline (4 and more), which
+meets the values of the table to a few N/m, and goes on beyond the first and the last speed without a word.
+"""
+
+import math
+import os
+import re
+from typing import Any
+
+import numpy as np
+import tomli_w
+
+from .. import __version__
+from .files import appearing_whole
+from .stiffness import StiffnessTable
+
+WEIGHT_DIRECTION = -math.pi / 2
+"""Angle of the load line from x, rad: along -y."""
+FEWEST_SPEEDS = 2
+_ZERO = ("cxx", "cxy", "cyx", "cyy", "czz")
+_TAG = re.compile(r"[A-Za-z0-9_-]+")
+
+
+def ross_bearing(
+    table: StiffnessTable, *, load_direction: float = WEIGHT_DIRECTION, node: int = 0, tag: str = "bearing"
+) -> dict[str, Any]:
+    """Arguments of `ross.BearingElement`, as plain numbers and lists.
+
+    **Arguments:**
+    - `load_direction`: angle of the load line from ROSS's x axis towards its y axis, rad.
+    - `node`: of the rotor; `tag`: name of the element, of letters, digits, _ and -.
+
+    **Raises:** `ValueError` for fewer than 2 speeds (of one, ROSS makes a constant), a stiffness that is not finite, or
+    a table without the radial and the lateral freedom.
+    """
+    if len(table.speed) < FEWEST_SPEEDS:
+        raise ValueError(f"a table over speed needs at least {FEWEST_SPEEDS} speeds, got {len(table.speed)}")
+    if not np.all(np.isfinite(table.stiffness)):
+        raise ValueError("the stiffness is not finite: a solve failed, or the ring is free")
+    if not {"radial", "lateral"} <= set(table.freedom):
+        raise ValueError(f"ROSS needs the radial and the lateral stiffness, got {', '.join(table.freedom)}")
+    if not _TAG.fullmatch(tag):
+        raise ValueError(f"tag must be of letters, digits, _ and -, got {tag!r}")
+    place = {name: table.freedom.index(name) for name in table.freedom}
+    across = [place["radial"], place["lateral"]]
+    cosine, sine = math.cos(load_direction), math.sin(load_direction)
+    # its columns: the radial and the lateral direction in x and y
+    turn = np.array([[cosine, -sine], [sine, cosine]])
+    plane = turn @ table.stiffness[:, across][:, :, across] @ turn.T
+    zero = np.zeros(len(table.speed))
+    # rollers between cylinders carry nothing along the axis
+    axial = table.stiffness[:, place["axial"], place["axial"]] if "axial" in place else zero
+    coefficients = {f"k{a}{b}": plane[:, i, j] for i, a in enumerate("xy") for j, b in enumerate("xy")}
+    coefficients |= {"kzz": axial} | dict.fromkeys(_ZERO, zero)
+    lists = {name: values.tolist() for name, values in coefficients.items()}
+    return {"n": node, "tag": tag, "frequency": table.speed.tolist(), **lists}
+
+
+def ross_text(
+    table: StiffnessTable,
+    scene_label: str = "",
+    *,
+    load_direction: float = WEIGHT_DIRECTION,
+    node: int = 0,
+    tag: str = "bearing",
+) -> str:
+    """The TOML file that `ross.BearingElement.load` reads. See `ross_bearing`.
+
+    **Arguments:** `scene_label`: which bearing this is, for whoever reads the file.
+    """
+    element = ross_bearing(table, load_direction=load_direction, node=node, tag=tag)
+    said = [
+        f"Stiffness over shaft speed for ROSS: rs.BearingElement.load(file). Written by jaxbearing {__version__}.",
+        *([f"Scene: {_line(scene_label)}"] if scene_label else []),
+        "frequency: speed of the shaft, which carries the inner ring, rad/s. k..: N/m, tangent stiffness under the",
+        "scene's loads, other freedoms of the ring held.",
+        "n: node of the rotor, and tag: change them to yours; no two elements of a rotor may have one tag.",
+        "c.. = 0: the model is quasi-static and has no damping; put in what you know.",
+        f"Load line of the bearing: {math.degrees(load_direction):.6g} deg from x towards y; z along the shaft.",
+        "ROSS goes on beyond the first and the last speed without a word.",
+    ]
+    comments = "".join(f"# {line}\n" for line in said)
+    return f"{comments}\n{tomli_w.dumps({f'BearingElement_{tag}': element})}"
+
+
+def write_ross(
+    table: StiffnessTable,
+    file: str | os.PathLike[str],
+    scene_label: str = "",
+    *,
+    load_direction: float = WEIGHT_DIRECTION,
+    node: int = 0,
+    tag: str = "bearing",
+) -> None:
+    """Write the file of `ross_text`, whole or not at all; one that is there is replaced.
+
+    **Raises:** `ValueError` for a name that does not end in .toml, by which ROSS knows the format, and as
+    `ross_bearing`; `OSError` where it cannot be written.
+    """
+    if not os.fspath(file).lower().endswith(".toml"):
+        raise ValueError(f"the file must end in .toml, got {os.fspath(file)!r}")
+    text = ross_text(table, scene_label, load_direction=load_direction, node=node, tag=tag)
+    with appearing_whole(file) as temporary:
+        temporary.write_text(text, encoding="utf-8")
+
+
+def _line(text: str) -> str:
+    """One line of a comment: TOML allows no control characters in it."""
+    return "".join(char if char.isprintable() else repr(char)[1:-1] for char in " ".join(text.split()))

@@ -1,0 +1,110 @@
+"""Stiffness of a bearing over the speed of its shaft: solved speed by speed, on the screen, as JSON."""
+
+from collections.abc import Callable, Iterable
+from typing import Any, NamedTuple
+
+import numpy as np
+from rich.console import Console
+
+from .._scene import AbstractScene
+from ..bearings.ball_bearing import BallBearing
+from ..bearings.cylindrical_roller import CylindricalRollerBearing
+from ..bearings.solution import Solution
+from ..numerics.status import SolveError
+from ..solve import jit_solver
+from .display import display_unit, with_unit
+from .plain import plain
+from .screen import column, counted, headline, pieces, print_line, print_table, print_warnings
+
+Bearing = BallBearing | CylindricalRollerBearing
+
+
+class StiffnessTable(NamedTuple):
+    """Tangent stiffness of the inner ring at each shaft speed, everything inside the bearing in equilibrium.
+
+    - `speed`: of the inner ring, rad/s.
+    - `stiffness`: d load / d displacement, N/m (of tilts N m/rad); axes: speed, row, column.
+    - `freedom`: names of its rows and columns.
+    - `warnings`: what left the range of a law at some speed, and what the model assumed.
+    """
+
+    speed: np.ndarray
+    stiffness: np.ndarray
+    freedom: tuple[str, ...]
+    warnings: tuple[str, ...]
+
+
+def at_speeds(scene: AbstractScene, speeds: Any) -> list[Bearing]:
+    """The scene at each speed of the inner ring, rad/s, with the freedoms of the ring that its stiffness needs: where
+    the ring of a roller bearing moves along the load line only, it is given the lateral freedom too.
+
+    **Raises:** `TypeError` for a scene of something else than a bearing; `ValueError` for speeds that are not finite,
+    >= 0 and increasing, or that the scene refuses.
+    """
+    if not isinstance(scene, Bearing):
+        raise TypeError(f"a {type(scene).__name__} has no stiffness; expected a bearing")
+    values = np.asarray(speeds, dtype=np.float64)
+    if values.ndim != 1 or not np.all(np.isfinite(values)) or np.any(values < 0.0) or np.any(np.diff(values) <= 0.0):
+        raise ValueError("speeds must be a list of finite numbers >= 0, each larger than the one before")
+    if isinstance(scene, CylindricalRollerBearing):
+        scene = scene.replace({"ring_freedom": ("radial", "lateral")})
+    return [scene.at_operation(inner_speed=float(value)) for value in values]
+
+
+def stiffness_over_speed(
+    scene: AbstractScene, speeds: Any, *, solver: Callable[[Bearing], Solution] | None = None
+) -> StiffnessTable:
+    """Solves at each speed; the loads on the bearing are the scene's at all of them.
+
+    **Arguments:**
+    - `speeds`: of the shaft, which carries the inner ring; rad/s, increasing.
+    - `solver`: from a scene to a solution, without raising; that of `jit_solver` if not given.
+
+    **Raises:** as `at_speeds`; `SolveError` for the first speed that fails: there is no table with a gap.
+    """
+    scenes = at_speeds(scene, speeds)
+    if not scenes:
+        raise ValueError("speeds must hold at least one speed")
+    solve = jit_solver(scenes[0]) if solver is None else solver
+    solutions = []
+    for one in scenes:
+        solution = solve(one)
+        if not bool(solution.converged):
+            speed = float(one.operation.inner_speed)
+            raise SolveError(f"at {speed:.6g} rad/s ({with_unit(speed, 'rad/s', 5)}): {solution.failure()}")
+        solutions.append(solution)
+    return StiffnessTable(
+        speed=np.asarray(speeds, dtype=np.float64),
+        stiffness=np.stack([np.asarray(solution.stiffness) for solution in solutions]),
+        freedom=solutions[0].freedoms_of_stiffness,
+        warnings=tuple(dict.fromkeys(text for solution in solutions for text in solution.warnings)),
+    )
+
+
+def stiffness_to_dict(table: StiffnessTable) -> dict[str, Any]:
+    """The table as JSON has it: SI units and radians; numbers that are not finite are `None`."""
+    return {name: plain(value) for name, value in table._asdict().items()}
+
+
+def print_stiffness(table: StiffnessTable, scene_label: str, console: Console) -> None:
+    """The diagonal of the stiffness against speed."""
+    state = f"{counted(len(table.speed), 'speed')} solved; entries off the diagonal: --json"
+    headline(scene_label, "CONVERGED", "bold green", state, console)
+    units = ["N m/rad" if name.startswith("tilt") else "N/m" for name in table.freedom]
+    columns = {
+        f"{name}\n{display_unit(unit)}": column(table.stiffness[:, i, i], unit)
+        for i, (name, unit) in enumerate(zip(table.freedom, units, strict=True))
+    }
+    first = {f"speed\n{display_unit('rad/s')}": column(table.speed, "rad/s")}
+    for piece in pieces(first, columns, console.width):
+        print_table(piece, [0.0] * len(table.speed), 0, "", console)
+    for name, text in _meanings(table.freedom):
+        print_line(name, text, console)
+    print_warnings(table.warnings, console)
+
+
+def _meanings(freedom: tuple[str, ...]) -> Iterable[tuple[str, str]]:
+    yield "Stiffness", "d load / d displacement of the inner ring, its other freedoms held"
+    yield "Radial, lateral", "along the load line (azimuth 0), and 90 deg on in the sense of rotation"
+    if "tilt" in freedom:
+        yield "Tilt", "moves azimuth 0 along the axis; tilt_lateral turns about the load line"
