@@ -91,9 +91,23 @@ def jit_solver(scene: AbstractScene, *, options: NewtonOptions | None = None) ->
     chosen = NewtonOptions() if options is None else options
     require_x64()
     steady_function(scene)
+    numbers, structure = jax.tree.flatten(jax.tree.map(as_float, scene))
+    # on the device once, and flat: less to do at each call
+    numbers = [value if isinstance(value, jax.core.Tracer) else jax.device_put(value) for value in numbers]
+
+    @jax.jit
+    def compiled(numbers: list[Any], operation: dict[str, Any]) -> Any:
+        return _solve_any(jax.tree.unflatten(structure, numbers).at_operation(**operation), chosen)
 
     def fast(other: AbstractScene | None = None, /, **operation: Any) -> Any:
-        base = scene if other is None else other
-        return _solve(jax.tree.map(as_float, base.at_operation(**operation)), chosen)
+        if operation:
+            (scene if other is None else other).at_operation(**operation)  # refuses what is no operating point
+        changes = {name: None if value is None else as_float(value) for name, value in operation.items()}
+        if other is None:
+            return compiled(numbers, changes)
+        others, kind = jax.tree.flatten(jax.tree.map(as_float, other))
+        if kind == structure:
+            return compiled(others, changes)
+        return _solve(jax.tree.map(as_float, other.at_operation(**operation)), chosen)
 
     return fast

@@ -50,6 +50,21 @@ def test_roller_bearing(capsys):
             assert solved == attempts or start == "first guess"
 
 
+def test_ball_bearing(capsys):
+    module = script("ball_bearing")
+    figures = module.benchmark(quick=True)
+    with capsys.disabled():
+        print()
+        module.print_table(figures)
+    for rows in figures.values():
+        assert rows["error"] < 1e-9
+        for row in rows["batch"].values():
+            assert row["failed"] == 0
+            assert row["error"] < 1e-9
+        for _, _, _, error in rows["scipy"].values():
+            assert error < 1e-6  # where scipy solves the equations it finds our displacement
+
+
 def test_traction(capsys):
     module = script("traction")
     figures = module.benchmark(quick=True)
