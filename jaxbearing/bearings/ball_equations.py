@@ -45,7 +45,7 @@ from .ball_kinematics import BallMotion, RaceMotion
 from .ball_system import LENGTH_UNIT, AbstractBallSystem
 from .land import LandState, guided_land
 
-LOG_LOAD_RANGE = (-60.0, 18.0)
+LOG_LOAD_RANGE = (-200.0, 18.0)
 """ln(load / 1 N) that an iterate may take."""
 ROLLING_PASSES = 6
 """Orbital speed and outer contact angle of a ball that rolls without sliding: the error falls by 0.02 a pass."""
@@ -191,7 +191,7 @@ class LubricatedBallSystem(AbstractBallSystem):
 
     def step_caps(self) -> ArrowPoint:
         caps = {"spin": 0.15, "attitude": 0.3, "orbit": 0.15, "transverse": 0.02, "carried": 1.0}
-        elements = [3.0, 0.2, *(caps[name] for name in self.own_unknowns)]
+        elements = [12.0, 0.2, *(caps[name] for name in self.own_unknowns)]
         ring = [5.0] * len(self.freedoms) + [0.15] * self.global_orbit
         return ArrowPoint(jnp.asarray(elements)[:, None], jnp.asarray(ring))
 
@@ -222,6 +222,11 @@ class LubricatedBallSystem(AbstractBallSystem):
             common = jnp.sum(weights * start["orbit"]) / jnp.sum(weights)
             ring = jnp.concatenate([ring, common[None]])
         return ArrowPoint(elements, ring)
+
+    @property
+    def rising(self) -> bool:
+        """Not where a ball has nearly lost its inner race."""
+        return False
 
     @property
     def paths(self) -> int:

@@ -32,9 +32,9 @@ class ArrowPoint(NamedTuple):
 class AbstractArrowSystem(eqx.Module):
     """Equations of many elements and a few globals. A pytree: its array leaves are the parameters.
 
-    Unknowns and residuals must be scaled to order 1, and each equation must grow with its own unknown at the root,
-    those before it in equilibrium (elements first, then globals, each in its order): the sign of a row is yours to
-    choose. Subclasses are final and hold every number that the equations depend on as a leaf, because derivatives of
+    Unknowns and residuals must be scaled to order 1. Where each equation grows with its own unknown at the root, those
+    before it in equilibrium (elements first, then globals, each in its order; the sign of a row is yours to choose), say
+    so by `rising`. Subclasses are final and hold every number that the equations depend on as a leaf, because derivatives of
     the solution are taken with respect to the leaves.
     """
 
@@ -46,6 +46,12 @@ class AbstractArrowSystem(eqx.Module):
         """The system at easier parameters, from ease 0 (exactly itself) to 1, along one of `paths` ways (0, 1 ...):
         those that the solver tries, one after the other, where it fails at once."""
         raise NotImplementedError
+
+    @property
+    def rising(self) -> bool:
+        """Whether each equation grows with its own unknown at every root: Newton's steps are then turned uphill where
+        one falls."""
+        return True
 
     @property
     def paths(self) -> int:

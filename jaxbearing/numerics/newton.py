@@ -32,6 +32,11 @@ that factor."""
 TURNING_BACK = 0.5
 """A step that takes back the one before it goes at most this part of its length: as in bisection, what two steps that
 oppose each other enclose is halved. Newton's iteration in a kink goes back and forth for ever."""
+ROUNDED_STEP = 1e-12
+"""A root that Newton's step locates to this (scaled) is found although rounding keeps the residual above its tolerance:
+stiff traction turns the last bit of a speed into a force."""
+ROUNDED_RESIDUAL = 100.0
+"""But not more than by this factor."""
 LONGEST_STAGE = 0.25
 """First length of a stage, in ease."""
 SHORTEST_STAGE = 0.02
@@ -48,7 +53,8 @@ class NewtonOptions(eqx.Module):
     """Tolerances and limits of the Newton iteration; plain numbers, none of them differentiated.
 
     **Arguments:**
-    - `residual_tolerance`: largest scaled residual of a converged solve.
+    - `residual_tolerance`: largest scaled residual of a converged solve; 100 times as much where the Newton step is
+      below 1e-12, so that only rounding is left of it.
     - `step_tolerance`: largest scaled Newton step of a converged solve. Convergence asks for both: a small
       residual alone says nothing where the Jacobian is nearly singular.
     - `inner_tolerance`: largest scaled residual of solves nested in the equations.
@@ -186,15 +192,18 @@ def _iterate(system: AbstractArrowSystem, options: NewtonOptions) -> _Iterate:
     def advance(state: _Iterate) -> _Iterate:
         posed = system if state.path is None else system.eased(state.path.ease, jnp.maximum(state.path.tries - 2, 0))
         equations, jacobian = linearize(posed, state.trial)
-        step, falling, globals_turned = uphill_step(jacobian, equations.residual)
-        turned = jnp.any(falling) | globals_turned
+        if system.rising:
+            step, falling, globals_turned = uphill_step(jacobian, equations.residual)
+            turned = jnp.any(falling) | globals_turned
+        else:
+            step = solve_arrow(jacobian, equations.residual)
+            falling, turned = jnp.zeros(step.elements.shape[1], dtype=bool), jnp.asarray(False)
         norm = _norm(equations.residual)
         usable = jnp.isfinite(norm) & jnp.isfinite(_largest(step))
-        settled = (
-            usable
-            & (_largest(equations.residual) <= options.residual_tolerance)
-            & (_largest(step) <= options.step_tolerance)
-        )
+        size, ahead = _largest(equations.residual), _largest(step)
+        met = (size <= options.residual_tolerance) & (ahead <= options.step_tolerance)
+        rounded = (size <= ROUNDED_RESIDUAL * options.residual_tolerance) & (ahead <= ROUNDED_STEP)
+        settled = usable & (met | rounded)
         converged = settled & (equations.inner <= options.inner_tolerance)
 
         growth = jnp.asarray(GROWTH)
@@ -375,8 +384,8 @@ def newton_solve(system: System, options: NewtonOptions | None = None) -> tuple[
     at the solution) is that of the implicit function, in both modes and to any order: nothing is differentiated
     through the iteration, and a solve that is not differentiated does not pay for derivatives.
 
-    Newton's step is changed where a pivot of the Jacobian is negative (`arrow.uphill_step`): an equation must grow with
-    its own unknown at the root. Where the iteration fails, and the system says how it can be eased, further tries
+    Newton's step is changed where a pivot of the Jacobian is negative (`arrow.uphill_step`) if the system says that an
+    equation must grow with its own unknown at the root (`rising`). Where the iteration fails, and the system says how it can be eased, further tries
     solve an easier system first and
     walk from there to the one asked for, in stages that shorten where one fails. `iterations` counts all steps.
 
