@@ -34,8 +34,8 @@ class AbstractArrowSystem(eqx.Module):
 
     Unknowns and residuals must be scaled to order 1. Where each equation grows with its own unknown at the root, those
     before it in equilibrium (elements first, then globals, each in its order; the sign of a row is yours to choose), say
-    so by `rising`. Subclasses are final and hold every number that the equations depend on as a leaf, because derivatives of
-    the solution are taken with respect to the leaves.
+    so by `rising`. Subclasses are final and hold every number that the equations depend on as a leaf, because
+    derivatives of the solution are taken with respect to the leaves.
     """
 
     @abc.abstractmethod

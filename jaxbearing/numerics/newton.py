@@ -385,9 +385,9 @@ def newton_solve(system: System, options: NewtonOptions | None = None) -> tuple[
     through the iteration, and a solve that is not differentiated does not pay for derivatives.
 
     Newton's step is changed where a pivot of the Jacobian is negative (`arrow.uphill_step`) if the system says that an
-    equation must grow with its own unknown at the root (`rising`). Where the iteration fails, and the system says how it can be eased, further tries
-    solve an easier system first and
-    walk from there to the one asked for, in stages that shorten where one fails. `iterations` counts all steps.
+    equation must grow with its own unknown at the root (`rising`). Where the iteration fails, and the system says how
+    it can be eased, further tries solve an easier system first and walk from there to the one asked for, in stages
+    that shorten where one fails. `iterations` counts all steps.
 
     A lane that fails never raises and never spoils a neighbour under `vmap`: its point is finite and not a solution,
     and the returned system passes no derivative for it, so that NaN times zero cannot reach a parameter that lanes
