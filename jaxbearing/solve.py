@@ -5,6 +5,7 @@ from typing import Any, overload
 
 import equinox as eqx
 import jax
+from jax.core import Tracer
 
 from ._scene import AbstractScene
 from .bearings.ball_bearing import BallBearing
@@ -93,7 +94,7 @@ def jit_solver(scene: AbstractScene, *, options: NewtonOptions | None = None) ->
     steady_function(scene)
     numbers, structure = jax.tree.flatten(jax.tree.map(as_float, scene))
     # on the device once, and flat: less to do at each call
-    numbers = [value if isinstance(value, jax.core.Tracer) else jax.device_put(value) for value in numbers]
+    numbers = [value if isinstance(value, Tracer) else jax.device_put(value) for value in numbers]
 
     @jax.jit
     def compiled(numbers: list[Any], operation: dict[str, Any]) -> Any:

@@ -19,7 +19,7 @@ import dataclasses
 from typing import NamedTuple
 
 import jax.numpy as jnp
-from jaxtyping import Array, Float, Int
+from jaxtyping import Array, Bool, Float, Int
 
 from ..numerics.arrow import ArrowPoint
 from ..numerics.safe import safe_norm
@@ -32,6 +32,10 @@ FORCE_FLOOR = 1e-3
 
 ESTIMATES = 2
 """Passes from the contact angles to the centrifugal forces that the first guess is made with."""
+
+STEEPEST = 1.4
+"""Contact angle, rad, up to which the direction of the inner groove gives the speed of a ball that does not touch it:
+the rolling that it stands for has a pole near 90 degrees."""
 
 
 class BallState(NamedTuple):
@@ -163,7 +167,7 @@ class BallCore(AbstractBallSystem):
         apart = jnp.stack([safe_norm(inner[0], inner[1]), safe_norm(centre[0], centre[1])])
         angle = jnp.stack([jnp.arctan2(inner[0], inner[1]), jnp.arctan2(centre[0], centre[1])])
         load = self.loads(apart)
-        motion = self.motion(angle)
+        motion = self.motion(angle, load[0] > 0)
         friction = None
         if self.gyroscopic is not None:
             parts = self.gyroscopic.friction(self.couple(motion), self.kinematics.ball_diameter, load[0], load[1])
@@ -185,9 +189,16 @@ class BallCore(AbstractBallSystem):
         power = jnp.where(closed, approach, 0.0) * jnp.sqrt(jnp.where(closed, approach, 1.0))
         return self.grooves.stiffness[:, None] * power
 
-    def motion(self, angle: Float[Array, "2 ball"]) -> BallMotion:
-        """Rolling without sliding, with the attitude of the controlling race."""
-        return self.kinematics.rolling(angle[0], angle[1], self._attitude(angle[0], angle[1]))
+    def motion(self, angle: Float[Array, "2 ball"], touching: Bool[Array, " ball"] | None = None) -> BallMotion:
+        """Rolling without sliding, with the attitude of the controlling race.
+
+        Of a ball that does not touch the inner race (not `touching`) the direction of the inner groove's centre stands
+        for the contact angle, up to `STEEPEST`.
+        """
+        inner, outer = angle
+        steep = jnp.clip(inner, -STEEPEST, STEEPEST)
+        inner = steep if touching is None else jnp.where(touching, inner, steep)
+        return self.kinematics.rolling(inner, outer, self._attitude(inner, outer))
 
     def _attitude(self, inner: Array, outer: Array) -> Array:
         if self.attitude == "outer":

@@ -47,7 +47,8 @@ def solve(
         check_files((("--plot", plot, PICTURES), ("--out", out, (".nc",))))
         if sensitivities and not getattr(model, "slips", False):
             refuse(
-                "--sensitivities: found a scene without power loss; expected a bearing with contact.traction and a cage"
+                "--sensitivities: found a scene without power loss; expected a bearing with contact.traction (and a "
+                "cage, if it is of rollers)"
             )
 
     from .cache import enable_compilation_cache

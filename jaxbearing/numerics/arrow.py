@@ -33,8 +33,8 @@ class AbstractArrowSystem(eqx.Module):
     """Equations of many elements and a few globals. A pytree: its array leaves are the parameters.
 
     Unknowns and residuals must be scaled to order 1. Where each equation grows with its own unknown at the root, those
-    before it in equilibrium (elements first, then globals, each in its order; the sign of a row is yours to choose), say
-    so by `rising`. Subclasses are final and hold every number that the equations depend on as a leaf, because
+    before it in equilibrium (elements first, then globals, each in its order; the sign of a row is yours to choose),
+    say so by `rising`. Subclasses are final and hold every number that the equations depend on as a leaf, because
     derivatives of the solution are taken with respect to the leaves.
     """
 

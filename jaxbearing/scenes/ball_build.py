@@ -22,12 +22,14 @@ from .laws import POINT_FILMS, distributed_traction, thermal_factor
 from .materials import material
 from .oils import lubricant
 
-GYROSCOPIC: dict[str, Callable[[], Any]] = {
-    "off": lambda: None,
-    "shared": SharedCouple,
-    "capped": CappedCouple,
-    "resolved": ResolvedCouple,
+GYROSCOPIC: dict[str, Callable[[str], Any]] = {
+    "off": lambda attitude: None,
+    # all of it at the outer race where that controls the ball (source eqs. (14)-(15))
+    "shared": lambda attitude: SharedCouple(0.0, 2.0) if attitude == "outer" else SharedCouple(),
+    "capped": lambda attitude: CappedCouple(),
+    "resolved": lambda attitude: ResolvedCouple(),
 }
+"""Name -> the law, for an attitude of the balls."""
 
 
 def ball_bearing(table: BallBearingTable) -> BallBearing:
@@ -55,7 +57,7 @@ def _kinematics(table: KinematicsTable | None, slips: bool) -> BallAttitude:
     attitude = None if table is None else table.attitude
     if attitude is None:
         attitude = "equilibrium" if slips else "outer"
-    return BallAttitude(attitude, None if table is None else GYROSCOPIC[table.gyroscopic]())
+    return BallAttitude(attitude, None if table is None else GYROSCOPIC[table.gyroscopic](attitude))
 
 
 def _laws(table: BallContactTable, oil: Lubricant | None) -> PointLaws:

@@ -30,12 +30,14 @@ ENERGY = {
     "no cage": {"cage": None, "drag": None},
     "both rings": {"operation.outer_speed": -400.0},
     "outer ring only": {"operation.inner_speed": 0.0, "operation.outer_speed": -800.0},
+    "outer ring faster": {"operation.inner_speed": 500.0, "operation.outer_speed": 850.0},
     "outer guidance": {"cage.guidance": "outer_ring"},
     "combined": {"operation.radial_load": 8e3, "operation.axial_load": 20e3},
     "combined with moment": {"operation.radial_load": 4e3, "operation.moment": 20.0, "operation.axial_load": 20e3},
     "light load": {"operation.axial_load": 500.0},
     "capped": {"kinematics.gyroscopic": CappedCouple()},
     "resolved": {"kinematics.gyroscopic": ResolvedCouple(), "cage": None, "drag": None},
+    "resolved with cage": {"kinematics.gyroscopic": ResolvedCouple()},
 }
 QUICK = ("turbine", "no cage")
 
@@ -56,6 +58,18 @@ def test_energy_closes(name):
     if name == "turbine":
         assert solution.unknowns == 6
         assert float(solution.cage.eccentricity_ratio) == 0.0
+
+
+@pytest.mark.slow
+def test_backwards_and_pulled_are_mirror_images():
+    fast = jb.jit_solver(turbine())
+    forward = fast()
+    speed, load = float(turbine().operation.inner_speed), float(turbine().operation.axial_load)
+    for mirrored in (fast(inner_speed=-speed), fast(axial_load=-load), fast(inner_speed=-speed, axial_load=-load)):
+        assert bool(mirrored.converged)
+        np.testing.assert_allclose(mirrored.power_loss.total, forward.power_loss.total, rtol=1e-10)
+        np.testing.assert_allclose(mirrored.drive_power, mirrored.power_loss.total, rtol=1e-10)
+        np.testing.assert_allclose(mirrored.elements.raceway_control, forward.elements.raceway_control, rtol=1e-9)
 
 
 @pytest.mark.slow

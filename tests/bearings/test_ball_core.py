@@ -167,6 +167,8 @@ HARD = {
     "hundred balls": bearing(BallGeometry(100, 700e-3, 20.638e-3, 0.5225, 0.51125, contact_angle=0.5), 2000, 2e4, 5e3),
     "backwards": bearing(T15, -12500, -40e3),
     "both rings": bearing(T15, 12500, 40e3, outer_speed=-3000 * RPM),
+    "steep, radial": bearing(B218, 5000, 0.0, 5000.0),
+    "steep, radial, nearly no thrust": bearing(B218, 5000, 1.0, -20000.0),
     "light and fast": bearing(
         BallGeometry(20, 167.54e-3, 22.225e-3, 0.52, 0.515, contact_angle=np.radians(27.0)), 20000, 200.0
     ),

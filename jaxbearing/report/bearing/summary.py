@@ -28,6 +28,8 @@ from .operation import operating_point
 LOADED = 0.02
 """A roller whose inner load is above this part of the largest one counts as loaded: films carry a few newtons
 everywhere."""
+OPEN_BALANCE = 1e-6
+"""Relative difference of drive power and losses from which on it is said."""
 _LOSS_BAR, _LOAD_BAR = 40, 18
 _COLUMNS = {
     "load_inner": "Q inner",
@@ -82,6 +84,10 @@ def _print_losses(solution: Solution, console: Console) -> None:
     if float(np.asarray(solution.operation.outer_speed)) != 0.0:
         torques.append(f"{digits(float(solution.outer_torque))} N m on the outer ring")
     print_line("Drive power", f"{watts[-1]} W   ({', '.join(torques)})", console)
+    total, drive = float(solution.power_loss.total), float(solution.drive_power)
+    if abs(drive - total) > OPEN_BALANCE * abs(total):
+        says = f"the drive power is {100.0 * (drive / total - 1.0):+.3g} % off the sum of the losses"
+        print_line("Not balanced", f"{says}: the attitude of the balls is a hypothesis", console)
 
 
 def _watts(values: list[float]) -> list[str]:
