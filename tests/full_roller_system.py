@@ -91,7 +91,9 @@ def extend(system: LubricatedRollerSystem, point: ArrowPoint):
     angle = load_angle + land.attitude_angle
     offset = land.eccentricity_ratio * jnp.stack([jnp.cos(angle), jnp.sin(angle)])
     offset = offset - jnp.asarray([OFFSET_SHIFT, 0.0])  # the moving film shifts the journal by this much
-    return jnp.concatenate([point.elements[0], point.elements[1], net, point.globals, offset])
+    # the library's unknown is the change of the speed at the outer race, at this cage speed
+    spin = point.elements[1] - point.globals[-1]
+    return jnp.concatenate([point.elements[0], spin, net, point.globals, offset])
 
 
 def scipy_functions(system: LubricatedRollerSystem):

@@ -229,6 +229,11 @@ class LubricatedBallSystem(AbstractBallSystem):
         return False
 
     @property
+    def rounding(self) -> float:
+        """Slow, heavily loaded contacts make a force of the last bit of a speed: 1e-8 of 1 % of a ball's load."""
+        return 100.0
+
+    @property
     def paths(self) -> int:
         return 1
 

@@ -54,6 +54,11 @@ class AbstractArrowSystem(eqx.Module):
         return True
 
     @property
+    def rounding(self) -> float:
+        """Factor by which rounding may keep the scaled residual above its tolerance at a root."""
+        return 1.0
+
+    @property
     def paths(self) -> int:
         """Number of ways to ease the system; 0: a solve that fails at once has failed."""
         return 0

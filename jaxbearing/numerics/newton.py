@@ -33,10 +33,8 @@ TURNING_BACK = 0.5
 """A step that takes back the one before it goes at most this part of its length: as in bisection, what two steps that
 oppose each other enclose is halved. Newton's iteration in a kink goes back and forth for ever."""
 ROUNDED_STEP = 1e-12
-"""A root that Newton's step locates to this (scaled) is found although rounding keeps the residual above its tolerance:
-stiff traction turns the last bit of a speed into a force."""
-ROUNDED_RESIDUAL = 100.0
-"""But not more than by this factor."""
+"""A root that Newton's step locates to this (scaled) is found although rounding keeps the residual above its tolerance,
+by no more than the system's `rounding`."""
 LONGEST_STAGE = 0.25
 """First length of a stage, in ease."""
 SHORTEST_STAGE = 0.02
@@ -53,8 +51,8 @@ class NewtonOptions(eqx.Module):
     """Tolerances and limits of the Newton iteration; plain numbers, none of them differentiated.
 
     **Arguments:**
-    - `residual_tolerance`: largest scaled residual of a converged solve; 100 times as much where the Newton step is
-      below 1e-12, so that only rounding is left of it.
+    - `residual_tolerance`: largest scaled residual of a converged solve; times the system's `rounding` where the Newton
+      step is below 1e-12, so that only rounding is left of it.
     - `step_tolerance`: largest scaled Newton step of a converged solve. Convergence asks for both: a small
       residual alone says nothing where the Jacobian is nearly singular.
     - `inner_tolerance`: largest scaled residual of solves nested in the equations.
@@ -202,7 +200,7 @@ def _iterate(system: AbstractArrowSystem, options: NewtonOptions) -> _Iterate:
         usable = jnp.isfinite(norm) & jnp.isfinite(_largest(step))
         size, ahead = _largest(equations.residual), _largest(step)
         met = (size <= options.residual_tolerance) & (ahead <= options.step_tolerance)
-        rounded = (size <= ROUNDED_RESIDUAL * options.residual_tolerance) & (ahead <= ROUNDED_STEP)
+        rounded = (size <= system.rounding * options.residual_tolerance) & (ahead <= ROUNDED_STEP)
         settled = usable & (met | rounded)
         converged = settled & (equations.inner <= options.inner_tolerance)
 

@@ -312,3 +312,53 @@ def test_gradients_against_central_differences():
         difference = (8.0 * (at(1) - at(-1)) - (at(2) - at(-2))) / (12.0 * step) / size
         slope = np.asarray(along(jnp.eye(len(INPUTS))[i])) / size
         np.testing.assert_allclose(slope, difference, rtol=1e-6, atol=1e-6, err_msg=path)
+
+
+COARSE = {"contact.traction.resolution": Resolution(12, 8, True)}
+
+
+@pytest.mark.slow
+def test_stiffness_with_films_and_cage_is_that_of_the_solve():
+    """Combined load, everything modelled: against differences of the load-displacement solve."""
+    scene = turbine(**COARSE, **{"geometry.n_balls": 8, "operation.radial_load": 3e3, "operation.moment": 5.0})
+    scene = scene.at_operation(axial_load=1.6e4)
+    fast = jb.jit_solver(scene)
+    stiffness = np.asarray(fast().stiffness)[np.ix_([0, 1, 3], [0, 1, 3])]
+    base, steps = {"axial_load": 1.6e4, "radial_load": 3e3, "moment": 5.0}, (20.0, 10.0, 0.5)
+    compliance = []
+    for name, step in zip(base, steps, strict=True):
+        ends = [fast(**(base | {name: base[name] + sign * step})).ring for sign in (1.0, -1.0)]
+        difference = [(getattr(ends[0], f) - getattr(ends[1], f)) / (2.0 * step) for f in ("axial", "radial", "tilt")]
+        compliance.append([float(d) for d in difference])
+    size = np.sqrt(np.outer(np.diag(stiffness), np.diag(stiffness)))
+    np.testing.assert_allclose(np.linalg.inv(np.array(compliance).T) / size, stiffness / size, atol=1e-5)
+
+
+HARD = {
+    "three balls": {"geometry.n_balls": 3, "operation.radial_load": 300.0, "operation.axial_load": 5e3},
+    "light and fast": {"operation.axial_load": 200.0, "operation.inner_speed": 20000 * RPM},
+    "radial with clearance": {
+        "geometry.n_balls": 9,
+        "geometry.contact_angle": None,
+        "geometry.diametral_clearance": 4e-5,
+        "operation.axial_load": 0.0,
+        "operation.radial_load": 2e3,
+    },
+}
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", HARD)
+def test_hard_cases_have_finite_results_and_derivatives(name):
+    scene = turbine(**COARSE, **HARD[name])
+
+    def results(numbers):
+        solution = jb.solve(numbers, throw=False)
+        return solution.power_loss.total, (solution.status, solution.drive_power)
+
+    (loss, (status, drive)), slopes = jax.jit(jax.value_and_grad(results, has_aux=True))(scene)
+    assert int(status) == 0
+    np.testing.assert_allclose(drive, loss, rtol=1e-8)
+    for leaf in jax.tree.leaves(slopes):
+        assert np.all(np.isfinite(leaf))
+    assert any(float(jnp.abs(leaf)) > 0.0 for leaf in jax.tree.leaves(slopes))
