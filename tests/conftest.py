@@ -32,6 +32,18 @@ def pytest_configure(config):
         os.environ.setdefault("XLA_FLAGS", "--xla_cpu_use_fusion_emitters=false")
 
 
+# Each compiled program takes memory maps, of which Linux grants a process 65 530: a worker that runs out of them crashes.
+_MAPS, _MANY_MAPS = Path("/proc/self/maps"), 15_000
+
+
+def pytest_runtest_teardown(item, nextitem):
+    """Compiled programs are let go of between modules and slow tests, where there are many."""
+    if nextitem is not None and nextitem.path == item.path and "slow" not in item.keywords:
+        return
+    if _MAPS.exists() and _MAPS.read_bytes().count(b"\n") > _MANY_MAPS:
+        jax.clear_caches()
+
+
 @pytest.fixture
 def optimized():
     """Programs as users run them."""
