@@ -24,11 +24,11 @@ jax.config.update("jax_compilation_cache_dir", str(_CACHE))
 jax.config.update("jax_persistent_cache_min_compile_time_secs", 0.5)
 
 
-def pytest_configure(config):
+def pytest_configure():
     """Most of the time of the tests is spent in XLA: they compile quickly, but for those that ask for `optimized`."""
     jax.config.update("jax_disable_most_optimizations", True)
     # a flag that is not known ends the process
-    if config.getoption("markexpr") == "not slow" and jaxlib.__version__.startswith("0.10."):
+    if jaxlib.__version__.startswith("0.10."):
         os.environ.setdefault("XLA_FLAGS", "--xla_cpu_use_fusion_emitters=false")
 
 

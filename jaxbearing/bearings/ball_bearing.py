@@ -78,10 +78,13 @@ class BallAttitude(eqx.Module):
     - `attitude`: closure for the direction of a ball's spin: "outer" or "inner" race control (no spin there),
       "min_power" (least spin power), "equilibrium" (moment balance of the ball under its traction).
     - `gyroscopic`: what carries the gyroscopic couple: `None` (off), an `AbstractGyroscopic`, or `ResolvedCouple()`.
+    - `orbit`: speed about the bearing axis of balls that roll without sliding: "own", of each ball from its contact
+      angles, or "common", the mean of these weighted by the inner loads.
     """
 
     attitude: Literal["outer", "inner", "min_power", "equilibrium"] = eqx.field(static=True, default="equilibrium")
     gyroscopic: AbstractGyroscopic | ResolvedCouple | None = None
+    orbit: Literal["own", "common"] = eqx.field(static=True, default="own")
 
     def __check_init__(self):
         known_names = ("outer", "inner", "min_power", "equilibrium")
@@ -89,6 +92,8 @@ class BallAttitude(eqx.Module):
             raise ValueError(f"kinematics.attitude must be one of {', '.join(known_names)}, got {self.attitude!r}")
         if isinstance(self.gyroscopic, ResolvedCouple) and self.attitude != "equilibrium":
             raise ValueError("kinematics.gyroscopic: 'resolved' needs kinematics.attitude = 'equilibrium'")
+        if self.orbit not in ("own", "common"):
+            raise ValueError(f"kinematics.orbit must be own or common, got {self.orbit!r}")
 
 
 class BallCage(AbstractCage):
@@ -135,6 +140,11 @@ class BallBearing(AbstractScene):
             raise ValueError(
                 f"kinematics.attitude: '{self.kinematics.attitude}' needs traction (contact.traction); without "
                 "friction the attitude is that of 'outer' or 'inner' race control"
+            )
+        if self.slips and self.kinematics.orbit == "common":
+            raise ValueError(
+                "kinematics.orbit: 'common' is for balls that roll without sliding; with contact.traction they orbit "
+                "with the cage, or without one each by its own balance of forces"
             )
         if self.contact is None:
             return
@@ -184,8 +194,18 @@ class BallBearing(AbstractScene):
             said += [f"oil: {note}" for note in self.oil.notes]
             if self.contact.traction is not None and self.oil.rheology is not None:
                 said += self.oil.rheology.misfit(self.contact.traction.viscous.name)
+            if self.contact.heathcote:
+                said.append(
+                    "contact.heathcote: ball and race slide also because their contact is curved (Heathcote slip), "
+                    "which the source leaves out"
+                )
         if self.slips and self.cage is not None:
             said += self.cage.assumptions()
+        if self.kinematics.orbit == "common":
+            said.append(
+                "kinematics.orbit = 'common': all balls orbit at the mean of their own speeds, weighted by their inner "
+                "loads"
+            )
         if self.slips and self.kinematics.attitude != "equilibrium":
             said.append(
                 f"kinematics.attitude = '{self.kinematics.attitude}' is a hypothesis: the moments about the radius do "

@@ -108,6 +108,7 @@ def build_core(scene: BallBearing) -> BallCore:
         freedoms=row.freedoms,
         multiplicity=row.multiplicity,
         attitude="inner" if attitude == "inner" else "outer",
+        common_orbit=scene.kinematics.orbit == "common",
     )
 
 
@@ -127,19 +128,20 @@ def build_lubricated(scene: BallBearing, core: BallCore) -> LubricatedBallSystem
         resolved=isinstance(scene.kinematics.gyroscopic, ResolvedCouple),
         cage=_cage_parts(scene) if scene.slips and scene.cage is not None else None,
         drag=_drag(scene) if scene.slips and scene.drag is not None else None,
+        common_orbit=core.common_orbit,
     )
 
 
 def _guess(core: BallCore) -> BallGuess:
     point = core.initial()
-    shared = jnp.broadcast_to(point.globals[:, None], (len(core.freedoms), core.held.shape[1]))
-    state = core.balls(point.elements, shared)
+    state = core.at(point)
     inner, outer = state.angle
     least = SMALLEST_GUESS * core.ball_scale()
     log_load = jnp.log(jnp.maximum(state.load, least))
     control = jax.nn.sigmoid(CONTROL_AT_EQUAL_LOADS + CONTROL_BY_LOAD * (log_load[1] - log_load[0]))
     low, high = core.kinematics.outer_control(outer), core.kinematics.inner_control(inner)
-    guess = BallGuess(log_load[0], inner, high + control * (low - high), point.globals * LENGTH_UNIT)
+    ring = point.globals[: len(core.freedoms)] * LENGTH_UNIT
+    guess = BallGuess(log_load[0], inner, high + control * (low - high), ring)
     return jax.lax.stop_gradient(jax.tree.map(lambda leaf: jnp.where(jnp.isfinite(leaf), leaf, 0.0), guess))
 
 

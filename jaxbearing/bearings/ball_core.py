@@ -10,7 +10,9 @@ inner ring. With $A = (A_1, A_2)$ the centre of the inner groove at the ball's a
 - ring: $\sum p_x = F_a$, $\sum p_r\cos\psi = F_r$, $\sum(R_ip_x - \sigma T_if_iD)\cos\psi = M$ (eqs. (21)-(22)), with
   $p_x = Q_i\sin\alpha_i + \sigma T_i\cos\alpha_i$ and $p_r = Q_i\cos\alpha_i - \sigma T_i\sin\alpha_i$.
 
-$F_C = \frac12md_m\omega_m^2$, with the orbital speed of rolling without sliding at the ball's own angles and attitude.
+$F_C = \frac12md_m\omega_m^2$, with the orbital speed of rolling without sliding at the ball's own angles and attitude;
+or, with `common_orbit`, with one $\omega_m$ for all balls (the source's, of its cage), one more unknown: the mean of
+their own, weighted by the inner loads, $\sum Q_{ij}(\omega_{mj} - \omega_m) = 0$. Each ball keeps the spin of its own.
 Written as forces that grow with their displacement. For T = 0 and frozen $F_C$ they are the gradient of one convex
 potential (`ball_start` descends it).
 """
@@ -18,6 +20,7 @@ potential (`ball_start` descends it).
 import dataclasses
 from typing import NamedTuple
 
+import equinox as eqx
 import jax.numpy as jnp
 from jaxtyping import Array, Bool, Float, Int
 
@@ -38,12 +41,30 @@ STEEPEST = 1.4
 the rolling that it stands for has a pole near 90 degrees."""
 
 
+ORBIT_FLOOR = 1.0
+"""Added to the scale of orbital speeds, rad/s, in squares: a bearing at rest has none."""
+
+
+def orbit_totals(load: Array, own: Array, common: Array) -> Float[Array, "2 ball"]:
+    """What each ball adds to the two sums of `orbit_row`; inner `load`, N, its `own` and the `common` orbital speed,
+    rad/s. `FORCE_FLOOR` is added to the weights: their sum is not 0."""
+    weight = load + FORCE_FLOOR
+    return jnp.stack([weight * (common - own), weight])
+
+
+def orbit_row(totals: Float[Array, "2"], unit: Array) -> Array:
+    """Common orbital speed minus the weighted mean of the balls' own, scaled."""
+    return totals[0] / (totals[1] * unit)
+
+
 class BallState(NamedTuple):
     """Everything that happens at the balls for given unknowns; loads and angles (inner, outer) first."""
 
     load: Float[Array, "2 ball"]
     angle: Float[Array, "2 ball"]
     motion: BallMotion
+    own_orbit: Float[Array, " ball"]
+    """Orbital speed of rolling without sliding at the ball's own angles, rad/s; `motion` may have the common one."""
     balance: Float[Array, "2 ball"]
     """Left side minus right side of the ball's two force balances, N."""
     ring_force: Float[Array, "2 ball"]
@@ -61,6 +82,7 @@ class BallCore(AbstractBallSystem):
 
     guess: ArrowPoint | None = None
     ease: Float[Array, ""] | None = None
+    common_orbit: bool = eqx.field(static=True, default=False)
 
     # -- scales ---------------------------------------------------------------------------------------------------
 
@@ -74,18 +96,33 @@ class BallCore(AbstractBallSystem):
         free = self.kinematics.rolling(angle, angle, angle)
         return self.load_scale() / self.ball_count + self.outward_force(free)
 
+    def free_orbit(self) -> Array:
+        """Orbital speed at the free contact angle, rad/s."""
+        angle = self.grooves.free_angle
+        return self.kinematics.rolling(angle, angle, angle).orbital_speed
+
+    def orbit_unit(self) -> Array:
+        """Scale of orbital speeds, rad/s."""
+        free = self.free_orbit()
+        both = 0.5 * (jnp.square(free) + jnp.square(free - self.kinematics.outer_speed))
+        return jnp.sqrt(both + ORBIT_FLOOR**2)
+
     # -- solver contract ------------------------------------------------------------------------------------------
 
     def equation_names(self) -> tuple[str, ...]:
-        return ("axial balance of a ball", "radial balance of a ball", *self.ring_equation_names())
+        orbit = ("common orbital speed",) if self.common_orbit else ()
+        return ("axial balance of a ball", "radial balance of a ball", *self.ring_equation_names(), *orbit)
 
     def step_caps(self) -> ArrowPoint:
         half = 0.5 * self.grooves.centre_distance / LENGTH_UNIT
-        return ArrowPoint(jnp.stack([half, half])[:, None], jnp.full(len(self.freedoms), half))
+        ring = jnp.full(len(self.freedoms), half)
+        if self.common_orbit:
+            ring = jnp.append(ring, 0.5)
+        return ArrowPoint(jnp.stack([half, half])[:, None], ring)
 
     def bounds(self) -> tuple[ArrowPoint, ArrowPoint]:
         far = 1e6
-        elements, ring = jnp.full((2, 1), far), jnp.full(len(self.freedoms), far)
+        elements, ring = jnp.full((2, 1), far), jnp.full(len(self.freedoms) + self.common_orbit, far)
         return ArrowPoint(-elements, -ring), ArrowPoint(elements, ring)
 
     def initial(self) -> ArrowPoint:
@@ -102,7 +139,13 @@ class BallCore(AbstractBallSystem):
         return dataclasses.replace(self, guess=self._point(found)), found.steps
 
     def _point(self, found: Start) -> ArrowPoint:
-        return ArrowPoint((found.centre - self.free_centre()) / LENGTH_UNIT, found.ring / LENGTH_UNIT)
+        elements, ring = (found.centre - self.free_centre()) / LENGTH_UNIT, found.ring / LENGTH_UNIT
+        if not self.common_orbit:
+            return ArrowPoint(elements, ring)
+        at_rest = jnp.append(ring, 0.0)
+        state = self.balls(elements, jnp.broadcast_to(at_rest[:, None], (at_rest.size, elements.shape[1])))
+        away = orbit_totals(state.load[0], state.own_orbit, state.motion.orbital_speed)
+        return ArrowPoint(elements, at_rest.at[-1].set(-orbit_row(jnp.sum(away, axis=1), self.orbit_unit())))
 
     def _frozen(self) -> CentrifugalProblem:
         """The convex problem at the centrifugal forces of the estimated contact angles."""
@@ -146,10 +189,17 @@ class BallCore(AbstractBallSystem):
     def element(self, unknowns, shared):
         state = self.balls(unknowns, shared)
         totals = self.contributions(state.ring_force, state.ring_moment)
+        if self.common_orbit:
+            speeds = orbit_totals(state.load[0], state.own_orbit, state.motion.orbital_speed)
+            totals = jnp.concatenate([totals, self.multiplicity * speeds])
         return state.balance / self.ball_scale(), totals, jnp.zeros(())
 
     def closure(self, globals_, totals):
-        return (totals - self.ring_load) / self.load_scale(), jnp.zeros(())
+        d = len(self.freedoms)
+        rows = (totals[:d] - self.ring_load) / self.load_scale()
+        if self.common_orbit:
+            rows = jnp.append(rows, orbit_row(totals[d:], self.orbit_unit()))
+        return rows, jnp.zeros(())
 
     # -- physics --------------------------------------------------------------------------------------------------
 
@@ -161,6 +211,10 @@ class BallCore(AbstractBallSystem):
         """Centrifugal force with `FORCE_FLOOR`, N."""
         return self.centrifugal(motion.orbital_speed) + FORCE_FLOOR
 
+    def at(self, point: ArrowPoint) -> BallState:
+        shape = (point.globals.shape[0], point.elements.shape[1])
+        return self.balls(point.elements, jnp.broadcast_to(point.globals[:, None], shape))
+
     def balls(self, unknowns: Float[Array, "2 ball"], shared: Float[Array, "g ball"]) -> BallState:
         centre = self.free_centre() + LENGTH_UNIT * unknowns[:2]
         inner = self.groove_centres(shared[: len(self.freedoms)]) - centre
@@ -168,6 +222,9 @@ class BallCore(AbstractBallSystem):
         angle = jnp.stack([jnp.arctan2(inner[0], inner[1]), jnp.arctan2(centre[0], centre[1])])
         load = self.loads(apart)
         motion = self.motion(angle, load[0] > 0)
+        own_orbit = motion.orbital_speed
+        if self.common_orbit:
+            motion = motion._replace(orbital_speed=self.free_orbit() + self.orbit_unit() * shared[len(self.freedoms)])
         friction = None
         if self.gyroscopic is not None:
             parts = self.gyroscopic.friction(self.couple(motion), self.kinematics.ball_diameter, load[0], load[1])
@@ -177,6 +234,7 @@ class BallCore(AbstractBallSystem):
             load=load,
             angle=angle,
             motion=motion,
+            own_orbit=own_orbit,
             balance=jnp.stack([axial[1] - axial[0], radial[1] - radial[0] - self.outward_force(motion)]),
             ring_force=jnp.stack([axial[0], radial[0]]),
             ring_moment=moment,

@@ -2,13 +2,14 @@ r"""Equations of the steady lubricated ball bearing, as a block-arrow system.
 
 Unknowns per ball: ln Qi and the inner contact angle; with traction the spin; with `attitude="equilibrium"` or
 `"min_power"` the attitude beta; with a resolved gyroscopic couple the spin about the orbit's tangent; without a cage
-the orbital speed. Globally: ring displacements, and with a cage its speed (all balls orbit with it).
+the orbital speed, with one the radial friction of the pocket. Globally: ring displacements, with a cage its speed (all
+balls orbit with it), and without traction, on request, one orbital speed for all.
 
-The force of the inner race and the centrifugal force give load and angle of the outer contact, so that both force
-balances of a ball hold identically, and what is solved is that the centres fit (source eqs. (23)-(26)): with
-$n = (\sin\alpha, \cos\alpha)$, $t = (\cos\alpha, -\sin\alpha)$ and $l_k = g_k + (Q_k/K_k)^{2/3} - h_k$,
-$l_in_i + l_on_o = A$, its component along $n_i$ as the logarithm of the ratio of the positive terms on its two sides.
-The pocket friction along the radius (newtons beside the centrifugal force) is left out of the balance of forces.
+The force of the inner race, the centrifugal force and the pocket's friction along the radius, $F_{C2} - F_{C1}$, give
+load and angle of the outer contact, so that both force balances of a ball hold identically (source eqs. (14)-(15)), and
+what is solved is that the centres fit (source eqs. (23)-(26)): with $n = (\sin\alpha, \cos\alpha)$,
+$t = (\cos\alpha, -\sin\alpha)$ and $l_k = g_k + (Q_k/K_k)^{2/3} - h_k$, $l_in_i + l_on_o = A$, its component along
+$n_i$ as the logarithm of the ratio of the positive terms on its two sides.
 
 Forces on the ball, $F_{tk}$ along $e_t$, moments $M_{sk}$ about $n_k$, $M_{rk}$ against the relative roll; in terms
 of the traction law $F_{tk} = -sF_x(s\,u_t, s\,u_b, \omega_s)$, s = 1 inside, -1 outside. Equations (source eqs.
@@ -21,6 +22,24 @@ of the traction law $F_{tk} = -sF_x(s\,u_t, s\,u_b, \omega_s)$, s = 1 inside, -1
 - about the tangent (resolved couple): $F_{bo} + F_{bi} + \frac2DsJ\omega_m\omega_R\sin\beta = 0$;
 - along the tangent: $F_{to} + F_{ti} - F_{ol} = Q_{C1} - Q_{C2}$, solved by the pocket films in closed form, or,
   without a cage, an equation for the orbital speed.
+
+The massless cage hands the pocket forces on to its lands, and where the inner ring guides it they stand in that ring's
+balance, $F_r = \sum p_r\cos\psi + W_{FCi}\cos\chi$, $W_{FCi}\cos\chi = \sum(F_{C2} - F_{C1})\cos\psi$ (source eqs.
+(18)-(19), (22)): to the radial force of each ball on the ring comes the radial friction of its pocket. Tangential
+forces, those of the pockets through the lands and $F_{ti}$ of the balls, have no sum along the load line, since balls
+on both sides of it run alike; the balances of the ring, and its stiffness, leave out both.
+
+Heathcote slip (`PointLaws.heathcote`). Ball and race meet in a surface that bends around the ball across rolling, by
+$z = -y^2/(2R_k)$ along $n_k$, $1/R_k$ the mean of the curvatures $2/D$ and $1/(f_kD)$. The relative roll
+$\omega_{rk}$ about $b_k$ adds $\omega_{rk}z\,b_k\times n_k = \omega_{rk}z\,e_t$ to the sliding: along $e_t$ it is
+$u_t - \omega_sy - \omega_ry^2/(2R_k)$. The traction law's x is $s\,e_t$ and its y is $s\,b_k$: its sliding along x is s
+times that, and lacks $c\,y^2$ with $c = s\,\omega_{rk}/(2R_k)$ at both races; c > 0 in normal running, where
+$s\,\omega_{rk} > 0$. The stress $\tau_x$ on the race acts on the ball as $-s\tau_xe_t$ at $z\,n_k$ from the contact's
+centre: the moment $z(-s\tau_x)\,n_k\times e_t = s\tau_xy^2/(2R_k)\,b_k$ on the ball. A rolling resistance $M_{rk}$ is
+$-sM_{rk}b_k$ on the ball, hence slip by curvature is one more, $M_{ck} = -\int\tau_xy^2dA/(2R_k)$, in the same places:
+the moments about axis and radius, the torques on the rings, and the power, $sM_{ck}\omega_{rk} = -c\int\tau_xy^2dA$,
+which is what $\int\tau\cdot\Delta u\,dA$ has beside sliding of the centre and spin. The least spin power of
+`"min_power"` stays that of flat patches, as the source has it.
 """
 
 from typing import Literal, NamedTuple
@@ -40,6 +59,7 @@ from ..lubricants import InletOil, Lubricant
 from ..numerics.arrow import ArrowPoint
 from ..numerics.roots import monotone_root
 from ..numerics.safe import safe_norm
+from .ball_core import orbit_row, orbit_totals
 from .ball_geometry import BallGeometry
 from .ball_kinematics import BallMotion, RaceMotion
 from .ball_system import LENGTH_UNIT, AbstractBallSystem
@@ -96,6 +116,11 @@ class BallsState(NamedTuple):
     film: PointFilm
     traction: Traction | None
     rolling: Float[Array, "2 ball"] | None
+    """Moment of the film's pressure against the roll, N m."""
+    curvature: Float[Array, "2 ball"] | None
+    """Moment of Heathcote slip against the roll, N m."""
+    pocket_force: Float[Array, " ball"] | None
+    """Of the pocket's friction on the ball, outward, as the balance of forces has it, N."""
     pocket: BallPocketFilm | None
     drag_force: Float[Array, " ball"] | None
     fit: Float[Array, "2 ball"]
@@ -120,6 +145,8 @@ class LubricatedBallSystem(AbstractBallSystem):
     resolved: bool = eqx.field(static=True, default=False)
     cage: BallCageParts | None = None
     drag: BallDrag | None = None
+    common_orbit: bool = eqx.field(static=True, default=False)
+    """Whether balls that roll without sliding have one orbital speed."""
 
     # -- structure ------------------------------------------------------------------------------------------------
 
@@ -135,15 +162,14 @@ class LubricatedBallSystem(AbstractBallSystem):
         names = ["spin"]
         if self.attitude in ("min_power", "equilibrium"):
             names.append("attitude")
-        if self.cage is None:
-            names.append("orbit")
+        names.append("orbit" if self.cage is None else "outward")
         if self.resolved:
             names += ["transverse", "carried"]
         return tuple(names)
 
     @property
     def global_orbit(self) -> bool:
-        return self.slips and self.cage is not None
+        return self.cage is not None or self.common_orbit
 
     # -- scales ---------------------------------------------------------------------------------------------------
 
@@ -176,21 +202,22 @@ class LubricatedBallSystem(AbstractBallSystem):
             "spin": "moment about the bearing axis on a ball",
             "attitude": "moment about the radius on a ball",
             "orbit": "tangential force on a ball",
+            "outward": "radial pocket friction on a ball",
             "transverse": "moment about the tangent on a ball",
             "carried": "transverse friction at the inner race of a ball",
         }
         own = tuple(text[name] for name in self.own_unknowns)
-        cage = ("moment balance of the cage",) if self.global_orbit else ()
+        orbit = "common orbital speed" if self.cage is None else "moment balance of the cage"
         return (
             "approach of the rings at a ball",
             "direction of the contacts of a ball",
             *own,
             *self.ring_equation_names(),
-            *cage,
+            *((orbit,) if self.global_orbit else ()),
         )
 
     def step_caps(self) -> ArrowPoint:
-        caps = {"spin": 0.15, "attitude": 0.3, "orbit": 0.15, "transverse": 0.02, "carried": 1.0}
+        caps = {"spin": 0.15, "attitude": 0.3, "orbit": 0.15, "outward": 1.0, "transverse": 0.02, "carried": 1.0}
         elements = [12.0, 0.2, *(caps[name] for name in self.own_unknowns)]
         ring = [5.0] * len(self.freedoms) + [0.15] * self.global_orbit
         return ArrowPoint(jnp.asarray(elements)[:, None], jnp.asarray(ring))
@@ -206,12 +233,13 @@ class LubricatedBallSystem(AbstractBallSystem):
         guess, reference = self.guess, self.reference()
         zeros = jnp.zeros_like(guess.log_load)
         inner = guess.angle
-        outer = self._outer_contact(guess.log_load, inner, reference.orbital_speed, None)[1]
+        outer = self._outer_contact(guess.log_load, inner, self.centrifugal(reference.orbital_speed), None)[1]
         rolling = self.kinematics.rolling(inner, outer, guess.attitude)
         start = {
             "spin": (rolling.spin_speed - reference.spin_speed) / self.spin_unit(),
             "attitude": guess.attitude,
             "orbit": (rolling.orbital_speed - reference.orbital_speed) / self.orbit_unit(),
+            "outward": zeros,
             "transverse": zeros,
             "carried": zeros,
         }
@@ -251,13 +279,18 @@ class LubricatedBallSystem(AbstractBallSystem):
         totals = [self.contributions(state.ring_force, state.ring_moment)]
         if state.cage_moment is not None and state.cage_force is not None:
             totals += [self.multiplicity * state.cage_moment[None, :], state.cage_force]
+        if self.common_orbit:
+            own = self.kinematics.rolling(state.angle[0], state.angle[1], state.motion.attitude).orbital_speed
+            totals.append(self.multiplicity * orbit_totals(state.load[0], own, state.motion.orbital_speed))
         local = jnp.concatenate([state.fit, *(row[None, :] for row in state.rows)])
         return local, jnp.concatenate(totals), jnp.max(state.film.residual)
 
     def closure(self, globals_, totals):
         d = len(self.freedoms)
         ring = (totals[:d] - self.ring_load) / self.load_scale()
-        if not self.global_orbit:
+        if self.common_orbit:
+            return jnp.append(ring, orbit_row(totals[d:], self.orbit_unit())), jnp.zeros(())
+        if self.cage is None:
             return ring, jnp.zeros(())
         land = self.land(self.orbit(globals_[d]), totals[d + 1], totals[d + 2])
         scale = self.friction_scale() * 0.5 * self.kinematics.pitch_diameter * self.ball_count
@@ -297,12 +330,11 @@ class LubricatedBallSystem(AbstractBallSystem):
         d = len(self.freedoms)
         own = dict(zip(self.own_unknowns, unknowns[2:], strict=True))
         log_load, inner = unknowns[0], unknowns[1]
-        reference = self.reference()
         orbit = None
-        if self.slips:
-            scaled = own["orbit"] if self.cage is None else shared[d]
-            orbit = reference.orbital_speed + self.orbit_unit() * scaled
-        load, outer, motion, friction = self._contacts(log_load, inner, orbit, own)
+        if self.slips or self.common_orbit:
+            orbit = self.orbit(shared[d] if self.global_orbit else own["orbit"])
+        pocket = self.friction_scale() * own["outward"] if "outward" in own else None
+        load, outer, motion, friction = self._contacts(log_load, inner, orbit, own, pocket)
         angle = jnp.stack([inner, outer])
         races = jax.tree.map(
             lambda a, b: jnp.stack([a, b]),
@@ -314,6 +346,9 @@ class LubricatedBallSystem(AbstractBallSystem):
         film = self.laws.film_state(contact, load, races.mean_speed, races.rolling, self.oil, self.inlet)
         fit = self._fit(load, angle, film.film, shared[:d])
         axial, radial, moment = self.with_friction(load, angle, friction)
+        from_ring = radial[0]
+        if pocket is not None and self.cage is not None and self.cage.guidance == "inner_ring":
+            from_ring = from_ring + pocket  # through cage and land
         state = BallsState(
             load=load,
             angle=angle,
@@ -323,11 +358,13 @@ class LubricatedBallSystem(AbstractBallSystem):
             film=film,
             traction=None,
             rolling=None,
+            curvature=None,
+            pocket_force=pocket,
             pocket=None,
             drag_force=None,
             fit=fit,
             rows=(),
-            ring_force=jnp.stack([axial[0], radial[0]]),
+            ring_force=jnp.stack([axial[0], from_ring]),
             ring_moment=moment,
             cage_moment=None,
             cage_force=None,
@@ -335,11 +372,12 @@ class LubricatedBallSystem(AbstractBallSystem):
         return state, contact
 
     def _outer_contact(
-        self, log_load: Array, inner: Array, orbit: Array, friction: Array | None
+        self, log_load: Array, inner: Array, outward: Array, friction: Array | None
     ) -> tuple[Array, Array]:
-        """Load and angle of the outer contact from the forces on the ball; `friction` T_i, T_o with its sign."""
+        """Load and angle of the outer contact from the forces on the ball; `outward`, N, those along the radius;
+        `friction` T_i, T_o with its sign."""
         load = jnp.exp(log_load)
-        axial, radial = load * jnp.sin(inner), load * jnp.cos(inner) + self.centrifugal(orbit)
+        axial, radial = load * jnp.sin(inner), load * jnp.cos(inner) + outward
         if friction is None:
             return safe_norm(axial, radial), jnp.arctan2(axial, radial)
         axial, radial = axial + friction[0] * jnp.cos(inner), radial - friction[0] * jnp.sin(inner)
@@ -348,18 +386,19 @@ class LubricatedBallSystem(AbstractBallSystem):
         outer = jnp.sqrt(jnp.maximum(total - jnp.square(friction[1]), 1e-6 * total))
         return outer, jnp.arctan2(axial, radial) - jnp.arctan2(friction[1], outer)
 
-    def _contacts(self, log_load, inner, orbit, own):
-        """Loads, outer angle, motion of the ball and friction that carries the couple."""
+    def _contacts(self, log_load, inner, orbit, own, pocket):
+        """Loads, outer angle, motion of the ball and friction that carries the couple; `pocket`: its force outward."""
         motion_at = lambda angle, orbital: self._motion(inner, angle, orbital, own)
         if orbit is None:
             # rolling without sliding: the orbital speed needs the outer angle, which needs the centrifugal force
             outer = inner
             orbit = self.reference().orbital_speed
             for _ in range(ROLLING_PASSES):
-                outer = self._outer_contact(log_load, inner, orbit, None)[1]
+                outer = self._outer_contact(log_load, inner, self.centrifugal(orbit), None)[1]
                 orbit = motion_at(outer, None).orbital_speed
         friction = None
-        load, outer = self._outer_contact(log_load, inner, orbit, None)
+        outward = self.centrifugal(orbit) if pocket is None else self.centrifugal(orbit) + pocket
+        load, outer = self._outer_contact(log_load, inner, outward, None)
         motion = motion_at(outer, orbit)
         for _ in range(0 if self.gyroscopic is None and not self.resolved else FRICTION_PASSES):
             couple = self.couple(motion)
@@ -370,7 +409,7 @@ class LubricatedBallSystem(AbstractBallSystem):
             else:
                 parts = self.gyroscopic.friction(couple, self.kinematics.ball_diameter, jnp.exp(log_load), load)
                 friction = self.gyroscopic.sign * jnp.stack(parts)
-            load, outer = self._outer_contact(log_load, inner, orbit, friction)
+            load, outer = self._outer_contact(log_load, inner, outward, friction)
             motion = motion_at(outer, orbit)
         return jnp.stack([jnp.exp(log_load), load]), outer, motion, friction
 
@@ -381,8 +420,10 @@ class LubricatedBallSystem(AbstractBallSystem):
             attitude = self.kinematics.inner_control(inner)
         else:
             attitude = own["attitude"]
-        if orbit is None or not self.slips:
-            return self.kinematics.rolling(inner, outer, attitude)
+        if not self.slips:
+            rolling = self.kinematics.rolling(inner, outer, attitude)
+            return rolling._replace(orbital_speed=orbit) if self.common_orbit and orbit is not None else rolling
+        assert orbit is not None
         reference = self.reference()
         spin = reference.spin_speed + self.spin_unit() * own["spin"]
         transverse = self.spin_unit() * own["transverse"] if self.resolved else jnp.zeros_like(spin)
@@ -407,7 +448,9 @@ class LubricatedBallSystem(AbstractBallSystem):
         motion, races, angle = state.motion, state.races, state.angle
         side = jnp.asarray([[1.0], [-1.0]])
         transverse = side * races.transverse if self.resolved else None
-        sliding = Sliding(side * races.rolling, transverse, races.spin)
+        bend = 0.5 / self._patch_radius() if self.laws.heathcote else None
+        curved = None if bend is None else bend * side * races.roll
+        sliding = Sliding(side * races.rolling, transverse, races.spin, curved)
         shear = self.laws.shear(contact, state.load, state.film, races.mean_speed, sliding, self.oil)
         forward, about = -side * shear.rolling, -shear.moment
         sine, cosine = jnp.sin(angle), jnp.cos(angle)
@@ -415,21 +458,24 @@ class LubricatedBallSystem(AbstractBallSystem):
         axis = forward[1] * cosine[1] - forward[0] * cosine[0] + arm * (about[1] * sine[1] - about[0] * sine[0])
         radius = forward[0] * sine[0] - forward[1] * sine[1] + arm * (about[1] * cosine[1] - about[0] * cosine[0])
         rolling = self.laws.rolling_moment(contact, state.load, state.film, races.mean_speed, self.inlet)
-        if rolling is not None:
-            axis = axis + arm * (rolling[1] * cosine[1] + rolling[0] * cosine[0])
-            radius = radius - arm * (rolling[1] * sine[1] + rolling[0] * sine[0])
+        curvature = None if bend is None or shear.curvature is None else -bend * shear.curvature
+        for resistance in (rolling, curvature):
+            if resistance is not None:
+                axis = axis + arm * (resistance[1] * cosine[1] + resistance[0] * cosine[0])
+                radius = radius - arm * (resistance[1] * sine[1] + resistance[0] * sine[0])
         tangential = forward[0] + forward[1]
         drag_force = None
         if self.drag is not None:
             speed = 0.5 * self.kinematics.pitch_diameter * motion.orbital_speed
             drag_force = self.drag.force(speed, self.inlet.viscosity)
             tangential = tangential - drag_force
-        pocket = cage_moment = cage_force = None
+        pocket = cage_moment = cage_force = outward = None
         if self.cage is not None:
             axial_spin = motion.spin_speed * jnp.cos(motion.attitude)
             radial_spin = motion.spin_speed * jnp.sin(motion.attitude)
             pocket = self.cage.pocket.balance(tangential, axial_spin, radial_spin, self.inlet.viscosity)
             axis, radius = axis + pocket.friction, radius - pocket.transverse
+            # of the ball on the cage
             forward_cage, outward = pocket.load_front - pocket.load_rear, pocket.friction_front - pocket.friction_rear
             half = 0.5 * self.kinematics.pitch_diameter
             cage_moment = forward_cage * half - pocket.friction / arm
@@ -447,6 +493,8 @@ class LubricatedBallSystem(AbstractBallSystem):
             "attitude": -radius / scale,
             "orbit": -tangential / scale,
         }
+        if state.pocket_force is not None and outward is not None:
+            rows["outward"] = (state.pocket_force + outward) / scale
         if self.resolved:
             assert state.friction is not None
             sideways = state.friction - side * shear.transverse
@@ -456,12 +504,18 @@ class LubricatedBallSystem(AbstractBallSystem):
         return state._replace(
             traction=shear,
             rolling=rolling,
+            curvature=curvature,
             pocket=pocket,
             drag_force=drag_force,
             rows=tuple(rows[name] for name in self.own_unknowns),
             cage_moment=cage_moment,
             cage_force=cage_force,
         )
+
+    def _patch_radius(self) -> Float[Array, "2 1"]:
+        """R_k = 2 f_k D/(2 f_k + 1): of the surface in which ball and race meet, across rolling, (inner, outer), m."""
+        conformities = jnp.stack([jnp.asarray(self.geometry.conformity_inner), self.geometry.conformity_outer])
+        return (2.0 * conformities * self.geometry.ball_diameter / (2.0 * conformities + 1.0))[:, None]
 
     def _least_power(self, state: BallsState, contact: PointContact) -> Array:
         """Attitude of the least spin power between those of outer and inner control, rad.

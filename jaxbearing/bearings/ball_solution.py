@@ -70,7 +70,7 @@ class BallPowerLoss(eqx.Module):
 
 class RacewayPower(eqx.Module):
     """What the losses on the raceways consist of, W: spin about the contact normal, sliding along and across the
-    rolling direction."""
+    rolling direction, sliding that comes of the curvature of the contact (`None`: taken as flat)."""
 
     inner_spin: _Power = _result("W", "spin, inner raceway")
     inner_rolling: _Power = _result("W", "sliding along rolling, inner raceway")
@@ -78,3 +78,5 @@ class RacewayPower(eqx.Module):
     outer_spin: _Power = _result("W", "spin, outer raceway")
     outer_rolling: _Power = _result("W", "sliding along rolling, outer raceway")
     outer_transverse: _Power = _result("W", "sliding across rolling, outer raceway")
+    inner_curvature: _Power | None = _optional("W", "Heathcote slip, inner raceway")
+    outer_curvature: _Power | None = _optional("W", "Heathcote slip, outer raceway")

@@ -148,8 +148,7 @@ def _contact(scene: BallBearing, cosine: Array) -> PointContact:
 
 
 def _dry_results(scene: BallBearing, system: BallCore, result: NewtonResult) -> _Results:
-    shared = jnp.broadcast_to(result.point.globals[:, None], (len(system.freedoms), result.point.elements.shape[1]))
-    state = system.balls(result.point.elements, shared)
+    state = system.at(result.point)
     elements, excess = _ball_results(scene, system, state.load, state.angle, state.motion)
     zero = jnp.zeros(())
     return _Results(None, elements, BallPowerLoss(total=zero), None, zero, zero, zero, excess)
@@ -202,7 +201,11 @@ def _raceway_power(system: LubricatedBallSystem, state: BallsState) -> RacewayPo
     total = lambda power: system.multiplicity * jnp.sum(power, axis=-1)
     spin, rolling = total(shear.moment * races.spin), total(shear.rolling * (SIDES * races.rolling))
     transverse = total(shear.transverse * (SIDES * races.transverse))
-    return RacewayPower(spin[0], rolling[0], transverse[0], spin[1], rolling[1], transverse[1])
+    parts = RacewayPower(spin[0], rolling[0], transverse[0], spin[1], rolling[1], transverse[1])
+    if state.curvature is None:
+        return parts
+    curved = total(SIDES * state.curvature * races.roll)
+    return dataclasses.replace(parts, inner_curvature=curved[0], outer_curvature=curved[1])
 
 
 def _losses(system: LubricatedBallSystem, state: BallsState, land: LandState | None) -> BallPowerLoss:
@@ -235,8 +238,9 @@ def _ring_torques(system: LubricatedBallSystem, state: BallsState, land: LandSta
     radius = 0.5 * motion.pitch_diameter * (1.0 - SIDES * motion.ratio * cosine)
     # n_i . e_x = -sin, n_o . e_x = sin; b_i . e_x = -cos, b_o . e_x = cos
     torque = forward * radius - SIDES * about * sine
-    if state.rolling is not None:
-        torque = torque + SIDES * (SIDES * state.rolling) * cosine
+    for resistance in (state.rolling, state.curvature):
+        if resistance is not None:
+            torque = torque + SIDES * (SIDES * resistance) * cosine
     inner, outer = system.multiplicity * jnp.sum(torque, axis=1)
     if land is not None and system.cage is not None:
         if system.cage.guidance == "inner_ring":

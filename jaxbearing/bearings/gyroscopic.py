@@ -7,6 +7,7 @@ import jax.numpy as jnp
 from jaxtyping import Array, Float
 
 from .._types import Scalar, Values
+from ..numerics.checks import known, require
 from ..numerics.precision import as_float
 
 NO_LOAD = 1e-9
@@ -22,6 +23,11 @@ class AbstractGyroscopic(eqx.Module):
     """
 
     sign: eqx.AbstractVar[Scalar]
+
+    def __check_init__(self):
+        sign = known(self.sign)
+        if sign is not None and abs(sign[0]) != 1.0:
+            raise ValueError(f"kinematics.gyroscopic_sign must be 1 or -1, got {sign[0]:g}")
 
     @abc.abstractmethod
     def friction(
@@ -40,6 +46,9 @@ class SharedCouple(AbstractGyroscopic):
     outer_share: Scalar = eqx.field(converter=as_float, default=1.0)
     sign: Scalar = eqx.field(converter=as_float, default=1.0)
 
+    def __check_init__(self):
+        require("kinematics", inner_share=(self.inner_share, "finite"), outer_share=(self.outer_share, "finite"))
+
     def friction(self, couple, diameter, inner_load, outer_load):
         return self.inner_share * couple / diameter, self.outer_share * couple / diameter
 
@@ -53,6 +62,9 @@ class CappedCouple(AbstractGyroscopic):
 
     friction_coefficient: Scalar = eqx.field(converter=as_float, default=0.05)
     sign: Scalar = eqx.field(converter=as_float, default=1.0)
+
+    def __check_init__(self):
+        require("kinematics", gyroscopic_friction=(self.friction_coefficient, "> 0"))
 
     def friction(self, couple, diameter, inner_load, outer_load):
         limit = self.friction_coefficient * (inner_load + outer_load + NO_LOAD)

@@ -34,7 +34,8 @@ RISE_TOLERANCE = 1e-10
 class Traction(NamedTuple):
     """What a sheared film does. Forces are those of body 1 on body 2, along the sliding of body 1 over body 2.
 
-    `rolling`, `transverse`, N; `moment`, N m, about the normal through the centre; `power`, W, dissipated.
+    `rolling`, `transverse`, N; `moment`, N m, about the normal through the centre; `power`, W, dissipated;
+    `curvature`, N m^2: integral of the stress along rolling times y^2 (None: no sliding of that kind).
     `film_rise`, `surface_rise`, K: largest rises of the mean film and surface temperature above the base (None:
     isothermal); `inner_residual`, K, of the nested solves for it.
     """
@@ -46,15 +47,17 @@ class Traction(NamedTuple):
     film_rise: Float[Array, "*batch"] | None = None
     surface_rise: Float[Array, "*batch"] | None = None
     inner_residual: Float[Array, "*batch"] | None = None
+    curvature: Float[Array, "*batch"] | None = None
 
 
 class DistributedTraction(AbstractTraction):
     r"""Maxwell fluid under the local Hertz pressure, followed along strips in the rolling direction.
 
     $\frac{u}{G'}\frac{\partial\tau}{\partial x} + \frac{\tau_r}{\mu}F(|\tau|/\tau_r)\frac{\tau}{|\tau|} = \gamma$,
-    $\tau(-a) = 0$, $\gamma_x = (\Delta U - \Delta\Omega\,y)/h$, $\gamma_y = (\Delta V + \Delta\Omega\,x)/h$; G', $\mu$,
-    $\tau_r$ at the local pressure and temperature, $h/G' = h/G + L_1$. With $x = -a\cos\theta$ the pressure is
-    smooth in $\theta$, and the implicit midpoint rule is of second order; each step is one scalar root.
+    $\tau(-a) = 0$, $\gamma_x = (\Delta U - \Delta\Omega\,y - c\,y^2)/h$, $\gamma_y = (\Delta V + \Delta\Omega\,x)/h$
+    with c of a curved contact (`Sliding.curvature`); G', $\mu$, $\tau_r$ at the local pressure and temperature,
+    $h/G' = h/G + L_1$. With $x = -a\cos\theta$ the pressure is smooth in $\theta$, and the implicit midpoint rule is of
+    second order; each step is one scalar root.
 
     **Limits:** viscous flow at every point where the Deborah number $\mu u/(Ga)$ is small (`elastic=False` is that
     limit, without a march); for a large one and small sliding the slope of `elastic_slope`; odd in the
@@ -141,7 +144,7 @@ class DistributedTraction(AbstractTraction):
         run = lambda *resolution: dataclasses.replace(self, resolution=Resolution(*resolution)).traction(*arguments)
         found = self.traction(*arguments)
         finer, shares = [run(2 * steps, strips, extrapolate)], [16.0 / 15.0 if extrapolate else 4.0 / 3.0]
-        if not (patch.line and sliding.spin is None):
+        if not (patch.line and sliding.alike):
             finer.append(run(steps, 2 * strips, extrapolate))
             shares.append(1.0)
 
@@ -174,6 +177,8 @@ class _Problem(eqx.Module):
     """Shear rate where x = 0, 1/s; the first axis holds the components."""
     rate_slope: Array | None
     """Its change over one half-width, of spin."""
+    curved: bool = eqx.field(static=True)
+    """Whether the sliding changes with the square of the distance from the middle."""
 
     def solved(self, steps: int, extrapolate: bool) -> Traction:
         heating = self.law.heating
@@ -189,6 +194,7 @@ class _Problem(eqx.Module):
             transverse=better(fine.transverse, coarse.transverse),
             moment=better(fine.moment, coarse.moment),
             power=better(fine.power, coarse.power),
+            curvature=None if fine.curvature is None else better(fine.curvature, coarse.curvature),
         )
 
     def oil(self, sine: Array, rise: Values) -> Oil:
@@ -298,7 +304,8 @@ class _Problem(eqx.Module):
         if sums.transverse is not None and sums.moment is not None:
             transverse = total(sums.transverse)
             moment = total(sums.moment * self.half_width - sums.rolling * self.strips.offset)
-        return Traction(sign * rolling, sign * transverse, moment, power)
+        curvature = sign * total(sums.rolling * jnp.square(self.strips.offset)) if self.curved else None
+        return Traction(sign * rolling, sign * transverse, moment, power, curvature=curvature)
 
 
 class _Sums(NamedTuple):
@@ -339,7 +346,8 @@ def _problem(
     patch = jax.tree.map(lambda field: column(field)[..., 0], patch)
     if lubricant.rheology is None:
         raise ValueError("The traction law needs the lubricant's rheology (shear modulus and stress): none is given.")
-    strips = patch.strips(law.resolution.strips, symmetric=sliding.spin is None)
+    # a line contact has one strip only where all of them are alike
+    strips = patch.strips(law.resolution.strips, symmetric=sliding.alike if patch.line else sliding.spin is None)
     film, speed = column(film), column(entrainment_speed)
     half_width = column(patch.half_width) * strips.scale
     direction = jnp.where(speed >= 0, 1.0, -1.0)
@@ -347,7 +355,10 @@ def _problem(
 
     in_strips = lambda value: jnp.broadcast_to(value, half_width.shape)
     spin = 0.0 if sliding.spin is None else column(sliding.spin)
-    rate = [in_strips((direction * column(sliding.rolling) - spin * strips.offset) / film)]
+    along = direction * column(sliding.rolling) - spin * strips.offset
+    if sliding.curvature is not None:
+        along = along - direction * column(sliding.curvature) * jnp.square(strips.offset)
+    rate = [in_strips(along / film)]
     if not sliding.plane:
         transverse = 0.0 if sliding.transverse is None else direction * column(sliding.transverse)
         rate.append(in_strips(transverse / film))
@@ -367,4 +378,5 @@ def _problem(
         direction=direction,
         rate=jnp.stack(rate),
         rate_slope=slope,
+        curved=sliding.curvature is not None,
     )

@@ -39,12 +39,19 @@ class PointLaws(eqx.Module):
     - `thermal`: thermal reduction of the film; its rise also warms the oil in the contact.
     - `traction`: the sheared film, or `None`: frictionless, and then the balls roll without sliding.
     - `rolling_resistance`: whether the film's pressure resists rolling (`rolling.point_rolling_moment`).
+    - `heathcote`: whether the race's curvature across rolling counts in the sliding (`Sliding.curvature`); the source's
+      patch is flat.
     """
 
     film: AbstractPointFilm
     thermal: AbstractThermalFactor = NoThermalReduction()
     traction: DistributedTraction | None = None
     rolling_resistance: bool = eqx.field(static=True, default=False)
+    heathcote: bool = eqx.field(static=True, default=False)
+
+    def __check_init__(self):
+        if self.heathcote and self.traction is None:
+            raise ValueError("contact.heathcote: Heathcote slip is sliding under traction, and needs contact.traction")
 
     def film_state(
         self,

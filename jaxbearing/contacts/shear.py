@@ -15,16 +15,23 @@ TRIAL_FLOOR = 1e-12
 
 class Sliding(NamedTuple):
     """Speed of body 1 relative to body 2: `rolling`, m/s, along rolling; `transverse`, m/s; `spin`, rad/s, about the
-    normal, right-handed. None: not there, and not computed."""
+    normal, right-handed; `curvature`, 1/(m s): that times y^2 is missing from the sliding along rolling at a distance y
+    from the middle (Heathcote slip of a curved contact). None: not there, and not computed."""
 
     rolling: Values
     transverse: Values | None = None
     spin: Values | None = None
+    curvature: Values | None = None
 
     @property
     def plane(self) -> bool:
         """Whether all of it is along rolling."""
         return self.transverse is None and self.spin is None
+
+    @property
+    def alike(self) -> bool:
+        """Whether it is the same across the contact."""
+        return self.spin is None and self.curvature is None
 
 
 class Oil(NamedTuple):

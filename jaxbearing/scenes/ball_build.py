@@ -1,9 +1,6 @@
 """From a valid table of a ball bearing to the scene of the library. Only Python and numpy numbers enter the
 constructors: nothing runs on JAX."""
 
-from collections.abc import Callable
-from typing import Any
-
 from ..bearings.ball_bearing import (
     BallAttitude,
     BallBearing,
@@ -13,7 +10,7 @@ from ..bearings.ball_bearing import (
     BallOperation,
 )
 from ..bearings.ball_geometry import BallGeometry
-from ..bearings.gyroscopic import CappedCouple, ResolvedCouple, SharedCouple
+from ..bearings.gyroscopic import AbstractGyroscopic, CappedCouple, ResolvedCouple, SharedCouple
 from ..contacts import PointLaws
 from ..lubricants import Lubricant
 from .ball_schema import BallBearingTable, BallContactTable, KinematicsTable
@@ -21,15 +18,6 @@ from .bearing_build import cage, part
 from .laws import POINT_FILMS, distributed_traction, thermal_factor
 from .materials import material
 from .oils import lubricant
-
-GYROSCOPIC: dict[str, Callable[[str], Any]] = {
-    "off": lambda attitude: None,
-    # all of it at the outer race where that controls the ball (source eqs. (14)-(15))
-    "shared": lambda attitude: SharedCouple(0.0, 2.0) if attitude == "outer" else SharedCouple(),
-    "capped": lambda attitude: CappedCouple(),
-    "resolved": lambda attitude: ResolvedCouple(),
-}
-"""Name -> the law, for an attitude of the balls."""
 
 
 def ball_bearing(table: BallBearingTable) -> BallBearing:
@@ -57,7 +45,30 @@ def _kinematics(table: KinematicsTable | None, slips: bool) -> BallAttitude:
     attitude = None if table is None else table.attitude
     if attitude is None:
         attitude = "equilibrium" if slips else "outer"
-    return BallAttitude(attitude, None if table is None else GYROSCOPIC[table.gyroscopic](attitude))
+    if table is None:
+        return BallAttitude(attitude)
+    return BallAttitude(attitude, _gyroscopic(table, attitude), table.orbit)
+
+
+def _gyroscopic(table: KinematicsTable, attitude: str) -> AbstractGyroscopic | ResolvedCouple | None:
+    """What carries the couple, for an attitude of the balls."""
+    sign = 1.0 if table.gyroscopic_sign is None else table.gyroscopic_sign
+    match table.gyroscopic:
+        case "shared":
+            # all of it at the outer race where that controls the ball (source eqs. (14)-(15))
+            inner = 0.0 if attitude == "outer" else 1.0
+            if table.inner_share is not None:
+                inner = table.inner_share
+            elif table.outer_share is not None:
+                inner = 2.0 - table.outer_share
+            return SharedCouple(inner, 2.0 - inner if table.outer_share is None else table.outer_share, sign)
+        case "capped" if table.gyroscopic_friction is None:
+            return CappedCouple(sign=sign)
+        case "capped":
+            return CappedCouple(table.gyroscopic_friction, sign)
+        case "resolved":
+            return ResolvedCouple()
+    return None
 
 
 def _laws(table: BallContactTable, oil: Lubricant | None) -> PointLaws:
@@ -69,4 +80,5 @@ def _laws(table: BallContactTable, oil: Lubricant | None) -> PointLaws:
         thermal=thermal_factor(table.thermal),
         traction=traction,
         rolling_resistance=table.rolling_resistance is not None,
+        heathcote=table.heathcote,
     )

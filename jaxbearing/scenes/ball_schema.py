@@ -1,9 +1,10 @@
 """The scene file of a ball bearing. Names are the attribute names of the classes that it builds."""
 
+import math
 from collections.abc import Mapping
-from typing import ClassVar, Literal, Self
+from typing import Annotated, Any, ClassVar, Literal, Self
 
-from pydantic import model_validator
+from pydantic import BeforeValidator, model_validator
 
 from . import units
 from .bearing_schema import BearingCageTable as BallCageTable
@@ -46,18 +47,18 @@ class BallMaterialsTable(Table):
 class BallContactTable(Table):
     """Laws of the raceway contacts, by the names in `scenes.laws`, which says what each stands for."""
 
-    about: ClassVar[Mapping[str, tuple[str, ...]]] = {"traction": ("traction_accuracy",)}
+    about: ClassVar[Mapping[str, tuple[str, ...]]] = {"traction": ("traction_accuracy", "heathcote")}
     film: Literal["nijenbanning", "hamrock_dowson"]
     thermal: Literal["gupta"] | None = None
     traction: Literal["maxwell_eyring", "ree_eyring", "bair_winer", "gecim_winer", "elsharkawy_hamrock"] | None = None
     traction_accuracy: TractionAccuracy | None = None
     rolling_resistance: Literal["houpert"] | None = None
+    heathcote: units.Switch = False
 
     @model_validator(mode="after")
     def _consistent(self) -> Self:
-        for name in ("traction_accuracy", "rolling_resistance"):
-            given = getattr(self, name)
-            if given is not None and self.traction is None:
+        for name in ("traction_accuracy", "rolling_resistance", "heathcote"):
+            if getattr(self, name) and self.traction is None:
                 raise refusal_at("traction", f"a law, without which {name} has no meaning", "nothing")
         return self
 
@@ -66,9 +67,56 @@ ISOVISCOUS = {"film": ("nijenbanning",)}
 """The laws of `BallContactTable` that hold for an oil of the same viscosity at every pressure."""
 
 
+def _sign(value: Any) -> float:
+    if isinstance(value, bool) or not isinstance(value, int | float) or abs(value) != 1:
+        raise units.refusal(
+            "1 (Euler's equation) or -1 (as the source prints it), without quotes", units.describe(value)
+        )
+    return float(value)
+
+
+def _share(value: Any) -> float:
+    share = units.number(value)
+    if not 0.0 <= share <= 2.0:
+        raise units.refusal("a number from 0 to 2", units.describe(value))
+    return share
+
+
+OF_COUPLE = {
+    "gyroscopic_sign": ("shared", "capped"),
+    "gyroscopic_friction": ("capped",),
+    "inner_share": ("shared",),
+    "outer_share": ("shared",),
+}
+"""Field -> the laws of the gyroscopic couple that it is about."""
+
+
 class KinematicsTable(Table):
+    """`inner_share` and `outer_share`: parts of the couple that the friction of each race carries, in units of half of
+    it; one of them is enough, since they add up to 2."""
+
+    about: ClassVar[Mapping[str, tuple[str, ...]]] = {"gyroscopic": tuple(OF_COUPLE)}
     attitude: Literal["outer", "inner", "min_power", "equilibrium"] | None = None
     gyroscopic: Literal["off", "shared", "capped", "resolved"] = "off"
+    gyroscopic_sign: Annotated[float, BeforeValidator(_sign)] | None = None
+    gyroscopic_friction: units.PositiveNumber | None = None
+    inner_share: Annotated[float, BeforeValidator(_share)] | None = None
+    outer_share: Annotated[float, BeforeValidator(_share)] | None = None
+    orbit: Literal["own", "common"] = "own"
+
+    @model_validator(mode="after")
+    def _of_the_law(self) -> Self:
+        for name, laws in OF_COUPLE.items():
+            given = getattr(self, name)
+            if given is not None and self.gyroscopic not in laws:
+                wanted = " or ".join(f"'{law}'" for law in laws)
+                expected = f"none with gyroscopic = '{self.gyroscopic}': it is about {wanted}"
+                raise refusal_at(name, expected, f"the number {given:g}")
+        inner, outer = self.inner_share, self.outer_share
+        if inner is not None and outer is not None and not math.isclose(inner + outer, 2.0, rel_tol=1e-9):
+            expected = f"{2.0 - inner:g}, or leave it out: the shares add up to 2"
+            raise refusal_at("outer_share", expected, f"the number {outer:g}")
+        return self
 
 
 class BallDragTable(Table):

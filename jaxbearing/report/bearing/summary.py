@@ -183,12 +183,18 @@ def _ball_facts(solution: Solution) -> Iterator[tuple[str, str]]:
     if power is not None:
         parts = {
             kind: sum(float(getattr(power, f"{side}_{kind}")) for side in ("inner", "outer"))
-            for kind in ("spin", "rolling", "transverse")
+            for kind in _KINDS
+            if getattr(power, f"inner_{kind}") is not None
         }
         yield "Raceways", ", ".join(f"{digits(watts)} W {_KINDS[kind]}" for kind, watts in parts.items())
 
 
-_KINDS = {"spin": "of spin", "rolling": "of sliding along rolling", "transverse": "of sliding across"}
+_KINDS = {
+    "spin": "of spin",
+    "rolling": "of sliding along rolling",
+    "transverse": "of sliding across",
+    "curvature": "of Heathcote slip",
+}
 
 
 def _ring(solution: Solution) -> Iterator[str]:
