@@ -32,7 +32,7 @@ def pytest_configure():
         os.environ.setdefault("XLA_FLAGS", "--xla_cpu_use_fusion_emitters=false")
 
 
-# Each compiled program takes memory maps, of which Linux grants a process 65 530: a worker that runs out of them crashes.
+# Each compiled program takes memory maps, of which Linux grants a process 65 530: a worker that has no more crashes.
 _MAPS, _MANY_MAPS = Path("/proc/self/maps"), 15_000
 
 

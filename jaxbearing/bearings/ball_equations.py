@@ -1,9 +1,10 @@
 r"""Equations of the steady lubricated ball bearing, as a block-arrow system.
 
-Unknowns per ball: ln Qi and the inner contact angle; with traction the spin; with `attitude="equilibrium"` or
-`"min_power"` the attitude beta; with a resolved gyroscopic couple the spin about the orbit's tangent; without a cage
-the orbital speed, with one the radial friction of the pocket. Globally: ring displacements, with a cage its speed (all
-balls orbit with it), and without traction, on request, one orbital speed for all.
+Unknowns per ball: ln Qi and the inner contact angle; with traction the spin and, with `attitude="min_power"`, the
+attitude beta, or, with `"equilibrium"`, the axial and the radial part of the spin (polar coordinates are singular where
+the spin of a skidding ball turns round through 0); with a resolved gyroscopic couple the spin about the orbit's
+tangent; without a cage the orbital speed, with one the radial friction of the pocket. Globally: ring displacements,
+with a cage its speed (all balls orbit with it), and without traction, on request, one orbital speed for all.
 
 The force of the inner race, the centrifugal force and the pocket's friction along the radius, $F_{C2} - F_{C1}$, give
 load and angle of the outer contact, so that both force balances of a ball hold identically (source eqs. (14)-(15)), and
@@ -42,6 +43,7 @@ which is what $\int\tau\cdot\Delta u\,dA$ has beside sliding of the centre and s
 `"min_power"` stays that of flat patches, as the source has it.
 """
 
+import dataclasses
 from typing import Literal, NamedTuple
 
 import equinox as eqx
@@ -57,6 +59,7 @@ from ..gaps import ReynoldsDrag, RollerDrag, ShortJournal
 from ..gaps.ball_pocket import BallPocket, BallPocketFilm
 from ..lubricants import InletOil, Lubricant
 from ..numerics.arrow import ArrowPoint
+from ..numerics.precision import as_float
 from ..numerics.roots import monotone_root
 from ..numerics.safe import safe_norm
 from .ball_core import orbit_row, orbit_totals
@@ -71,6 +74,8 @@ ROLLING_PASSES = 6
 """Orbital speed and outer contact angle of a ball that rolls without sliding: the error falls by 0.02 a pass."""
 FRICTION_PASSES = 3
 """Load and angle of the outer contact under the friction that carries the couple: the error falls as fast."""
+EASIEST_SLIDE = 0.1
+"""Part of the sliding that the traction law of the easiest system sees."""
 PART_TOLERANCE = 1e-12
 """Of the part of the way from outer to inner control at which the spin power is least."""
 
@@ -147,6 +152,8 @@ class LubricatedBallSystem(AbstractBallSystem):
     drag: BallDrag | None = None
     common_orbit: bool = eqx.field(static=True, default=False)
     """Whether balls that roll without sliding have one orbital speed."""
+    slide_share: Float[Array, ""] = eqx.field(converter=as_float, default=1.0)
+    """Part of the sliding that the traction law sees: 1, less in an eased system."""
 
     # -- structure ------------------------------------------------------------------------------------------------
 
@@ -160,7 +167,9 @@ class LubricatedBallSystem(AbstractBallSystem):
         if not self.slips:
             return ()
         names = ["spin"]
-        if self.attitude in ("min_power", "equilibrium"):
+        if self.attitude == "equilibrium":
+            names = ["axial spin", "radial spin"]
+        elif self.attitude == "min_power":
             names.append("attitude")
         names.append("orbit" if self.cage is None else "outward")
         if self.resolved:
@@ -200,7 +209,9 @@ class LubricatedBallSystem(AbstractBallSystem):
     def equation_names(self) -> tuple[str, ...]:
         text = {
             "spin": "moment about the bearing axis on a ball",
-            "attitude": "moment about the radius on a ball",
+            "axial spin": "moment about the bearing axis on a ball",
+            "radial spin": "moment about the radius on a ball",
+            "attitude": "least spin power of a ball",
             "orbit": "tangential force on a ball",
             "outward": "radial pocket friction on a ball",
             "transverse": "moment about the tangent on a ball",
@@ -217,7 +228,8 @@ class LubricatedBallSystem(AbstractBallSystem):
         )
 
     def step_caps(self) -> ArrowPoint:
-        caps = {"spin": 0.15, "attitude": 0.3, "orbit": 0.15, "outward": 1.0, "transverse": 0.02, "carried": 1.0}
+        caps = dict.fromkeys(("spin", "axial spin", "radial spin", "orbit"), 0.15)
+        caps |= {"attitude": 0.3, "outward": 1.0, "transverse": 0.02, "carried": 1.0}
         elements = [12.0, 0.2, *(caps[name] for name in self.own_unknowns)]
         ring = [5.0] * len(self.freedoms) + [0.15] * self.global_orbit
         return ArrowPoint(jnp.asarray(elements)[:, None], jnp.asarray(ring))
@@ -235,20 +247,25 @@ class LubricatedBallSystem(AbstractBallSystem):
         inner = guess.angle
         outer = self._outer_contact(guess.log_load, inner, self.centrifugal(reference.orbital_speed), None)[1]
         rolling = self.kinematics.rolling(inner, outer, guess.attitude)
+        orbit = common = (rolling.orbital_speed - reference.orbital_speed) / self.orbit_unit()
+        if self.global_orbit:
+            weights = jnp.exp(guess.log_load)
+            common = jnp.sum(weights * orbit) / jnp.sum(weights)
+            rolling = self.kinematics.held(self.orbit(common), inner, outer, guess.attitude)
         start = {
             "spin": (rolling.spin_speed - reference.spin_speed) / self.spin_unit(),
             "attitude": guess.attitude,
-            "orbit": (rolling.orbital_speed - reference.orbital_speed) / self.orbit_unit(),
+            "orbit": orbit,
             "outward": zeros,
             "transverse": zeros,
             "carried": zeros,
         }
+        parts = zip(self._spin_parts(rolling), self._spin_parts(reference), strict=True)
+        start |= {name: (value - ref) / self.spin_unit() for (name, value), (_, ref) in parts}
         elements = jnp.stack([guess.log_load, inner, *(start[name] for name in self.own_unknowns)])
         ring = guess.ring / LENGTH_UNIT
         if self.global_orbit:
-            weights = jnp.exp(guess.log_load)
-            common = jnp.sum(weights * start["orbit"]) / jnp.sum(weights)
-            ring = jnp.concatenate([ring, common[None]])
+            ring = jnp.append(ring, common)
         return ArrowPoint(elements, ring)
 
     @property
@@ -263,16 +280,19 @@ class LubricatedBallSystem(AbstractBallSystem):
 
     @property
     def paths(self) -> int:
-        return 1
+        return 2 if self.resolved else 1
 
     def eased(self, ease, path):
-        """A part of the gyroscopic couple, where traction has to carry it; else more load, which pins the balls to
-        rolling."""
-        if self.resolved:
-            return eqx.tree_at(lambda system: system.couple_share, self, self.couple_share * (1.0 - ease))
-        force = 100.0 * self.friction_scale() * self.ball_count
-        factor = (1.0 + force / self.load_scale()) ** ease
-        return eqx.tree_at(lambda system: system.ring_load, self, self.ring_load * factor)
+        """Slower sliding in the traction law, which then saturates less; first, where traction has to carry the
+        gyroscopic couple, a part of that. Without traction more load."""
+        if not self.slips:
+            force = 100.0 * self.friction_scale() * self.ball_count
+            return dataclasses.replace(self, ring_load=self.ring_load * (1.0 + force / self.load_scale()) ** ease)
+        slide = EASIEST_SLIDE**ease
+        if not self.resolved:
+            return dataclasses.replace(self, slide_share=slide)
+        couple = self.couple_share * jnp.where(path == 0, 1.0 - ease, 1.0)
+        return dataclasses.replace(self, couple_share=couple, slide_share=jnp.where(path == 0, 1.0, slide))
 
     def element(self, unknowns, shared):
         state = self.balls(unknowns, shared)
@@ -414,20 +434,34 @@ class LubricatedBallSystem(AbstractBallSystem):
         return jnp.stack([jnp.exp(log_load), load]), outer, motion, friction
 
     def _motion(self, inner: Array, outer: Array, orbit: Array | None, own: dict[str, Array]) -> BallMotion:
-        if self.attitude == "outer":
-            attitude = self.kinematics.outer_control(outer)
-        elif self.attitude == "inner":
-            attitude = self.kinematics.inner_control(inner)
+        reference, unit = self.reference(), self.spin_unit()
+        if self.attitude == "equilibrium":
+            axial, radial = (ref + unit * own[name] for name, ref in self._spin_parts(reference))
+            sense = jnp.where(reference.spin_speed < 0, -1.0, 1.0)
+            spin = sense * safe_norm(axial, radial)
+            still = (axial == 0) & (radial == 0)
+            attitude = jnp.arctan2(sense * jnp.where(still, 0.0, radial), sense * jnp.where(still, sense, axial))
         else:
-            attitude = own["attitude"]
-        if not self.slips:
-            rolling = self.kinematics.rolling(inner, outer, attitude)
-            return rolling._replace(orbital_speed=orbit) if self.common_orbit and orbit is not None else rolling
+            attitude = self._assumed_attitude(inner, outer, own)
+            if not self.slips:
+                rolling = self.kinematics.rolling(inner, outer, attitude)
+                return rolling._replace(orbital_speed=orbit) if self.common_orbit and orbit is not None else rolling
+            spin = reference.spin_speed + unit * own["spin"]
         assert orbit is not None
-        reference = self.reference()
-        spin = reference.spin_speed + self.spin_unit() * own["spin"]
-        transverse = self.spin_unit() * own["transverse"] if self.resolved else jnp.zeros_like(spin)
+        transverse = unit * own["transverse"] if self.resolved else jnp.zeros_like(spin)
         return BallMotion(orbit, spin, attitude, transverse)
+
+    @staticmethod
+    def _spin_parts(motion: BallMotion) -> tuple[tuple[str, Array], ...]:
+        """Names of the unknowns of the spin in equilibrium, and their values, rad/s."""
+        return ("axial spin", motion.axial_spin), ("radial spin", motion.radial_spin)
+
+    def _assumed_attitude(self, inner: Array, outer: Array, own: dict[str, Array]) -> Array:
+        if self.attitude == "outer":
+            return self.kinematics.outer_control(outer)
+        if self.attitude == "inner":
+            return self.kinematics.inner_control(inner)
+        return own["attitude"]
 
     def _fit(self, load: Array, angle: Array, film: Array, shift: Array) -> Float[Array, "2 ball"]:
         """Whether the centres fit: along the inner contact's normal, as a logarithm, and across it."""
@@ -447,10 +481,11 @@ class LubricatedBallSystem(AbstractBallSystem):
     def _with_traction(self, state: BallsState, contact: PointContact) -> BallsState:
         motion, races, angle = state.motion, state.races, state.angle
         side = jnp.asarray([[1.0], [-1.0]])
-        transverse = side * races.transverse if self.resolved else None
+        slide = self.slide_share * side
+        transverse = slide * races.transverse if self.resolved else None
         bend = 0.5 / self._patch_radius() if self.laws.heathcote else None
-        curved = None if bend is None else bend * side * races.roll
-        sliding = Sliding(side * races.rolling, transverse, races.spin, curved)
+        curved = None if bend is None else bend * slide * races.roll
+        sliding = Sliding(slide * races.rolling, transverse, self.slide_share * races.spin, curved)
         shear = self.laws.shear(contact, state.load, state.film, races.mean_speed, sliding, self.oil)
         forward, about = -side * shear.rolling, -shear.moment
         sine, cosine = jnp.sin(angle), jnp.cos(angle)
@@ -471,9 +506,7 @@ class LubricatedBallSystem(AbstractBallSystem):
             tangential = tangential - drag_force
         pocket = cage_moment = cage_force = outward = None
         if self.cage is not None:
-            axial_spin = motion.spin_speed * jnp.cos(motion.attitude)
-            radial_spin = motion.spin_speed * jnp.sin(motion.attitude)
-            pocket = self.cage.pocket.balance(tangential, axial_spin, radial_spin, self.inlet.viscosity)
+            pocket = self.cage.pocket.balance(tangential, motion.axial_spin, motion.radial_spin, self.inlet.viscosity)
             axis, radius = axis + pocket.friction, radius - pocket.transverse
             # of the ball on the cage
             forward_cage, outward = pocket.load_front - pocket.load_rear, pocket.friction_front - pocket.friction_rear
@@ -490,7 +523,8 @@ class LubricatedBallSystem(AbstractBallSystem):
             radius = radius + couple * motion.transverse
         rows = {
             "spin": axis / scale,
-            "attitude": -radius / scale,
+            "axial spin": axis / scale,
+            "radial spin": -radius / scale,
             "orbit": -tangential / scale,
         }
         if state.pocket_force is not None and outward is not None:

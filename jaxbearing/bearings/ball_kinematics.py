@@ -21,6 +21,16 @@ class BallMotion(NamedTuple):
     attitude: Float[Array, "*batch"]
     transverse: Float[Array, "*batch"]
 
+    @property
+    def axial_spin(self) -> Float[Array, "*batch"]:
+        """Against the bearing axis, rad/s."""
+        return self.spin_speed * jnp.cos(self.attitude)
+
+    @property
+    def radial_spin(self) -> Float[Array, "*batch"]:
+        """Outwards, rad/s."""
+        return self.spin_speed * jnp.sin(self.attitude)
+
 
 class RaceMotion(NamedTuple):
     """Relative motion in the contact with one race, inner or outer; ball minus race.
@@ -74,6 +84,15 @@ class BallKinematics(eqx.Module):
         both = (1.0 - self.ratio * jnp.cos(inner_angle)) * (1.0 + self.ratio * jnp.cos(outer_angle))
         spin = relative * both / (self.ratio * (inner + outer))
         return BallMotion(orbital, spin, jnp.broadcast_to(attitude, spin.shape), jnp.zeros_like(spin))
+
+    def held(self, orbital_speed: Values, inner_angle: Values, outer_angle: Values, attitude: Values) -> BallMotion:
+        """Motion at a given orbital speed, sliding by as much on both races; rad/s, rad."""
+        inner = (self.inner_speed - orbital_speed) * (1.0 - self.ratio * jnp.cos(inner_angle))
+        outer = (orbital_speed - self.outer_speed) * (1.0 + self.ratio * jnp.cos(outer_angle))
+        cosines = jnp.cos(inner_angle - attitude) + jnp.cos(outer_angle - attitude)
+        spin = (inner + outer) / (self.ratio * cosines)
+        ones = jnp.ones_like(spin)
+        return BallMotion(orbital_speed * ones, spin, attitude * ones, jnp.zeros_like(spin))
 
     def outer_control(self, outer_angle: Values) -> Float[Array, "..."]:
         """Attitude without spin on the outer race, rad (source eq. (10))."""

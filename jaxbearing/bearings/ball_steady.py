@@ -217,9 +217,9 @@ def _losses(system: LubricatedBallSystem, state: BallsState, land: LandState | N
     if state.rolling is not None:
         losses["rolling_resistance"] = total(SIDES * state.rolling * state.races.roll)
     if pocket is not None:
-        along, across = motion.spin_speed * jnp.cos(motion.attitude), motion.spin_speed * jnp.sin(motion.attitude)
         radius = 0.5 * system.kinematics.ball_diameter
-        losses["pocket"] = total(radius * (pocket.friction * along + pocket.transverse * across))
+        power = pocket.friction * motion.axial_spin + pocket.transverse * motion.radial_spin
+        losses["pocket"] = total(radius * power)
     if land is not None:
         losses["cage_pilot"] = land.power
     if state.drag_force is not None:
