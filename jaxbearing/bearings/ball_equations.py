@@ -51,6 +51,7 @@ import jax
 import jax.numpy as jnp
 from jaxtyping import Array, Float
 
+from .._types import Scalar
 from ..contacts import PointContact
 from ..contacts.distributed import Traction
 from ..contacts.point_laws import PointFilm, PointLaws
@@ -152,7 +153,7 @@ class LubricatedBallSystem(AbstractBallSystem):
     drag: BallDrag | None = None
     common_orbit: bool = eqx.field(static=True, default=False)
     """Whether balls that roll without sliding have one orbital speed."""
-    slide_share: Float[Array, ""] = eqx.field(converter=as_float, default=1.0)
+    slide_share: Scalar = eqx.field(converter=as_float, default=1.0)
     """Part of the sliding that the traction law sees: 1, less in an eased system."""
 
     # -- structure ------------------------------------------------------------------------------------------------

@@ -113,17 +113,29 @@ def test_race_control_is_the_attitude_without_spin_there(angles):
 
 
 @pytest.mark.slow
-def test_least_power_of_equal_angles_has_finite_derivatives():
-    """Pure radial load, no clearance: inner and outer control agree, and the power does not depend on the attitude."""
+def test_reverse_derivatives_where_the_attitude_takes_least_power():
+    """Combined load: against differences; pure radial load without clearance, where inner and outer control agree and
+    the power does not depend on the attitude: finite."""
     scene = jb.load_scene("turbine_ball").replace({"cage": None, "drag": None, "kinematics.attitude": "min_power"})
-    scene = scene.replace({"geometry.contact_angle": 0.0, "operation.axial_load": 0.0, "operation.radial_load": 5e3})
-    scene = scene.replace({"geometry.n_balls": 4, "contact.traction.resolution": jb.contacts.Resolution(12, 4, True)})
+    scene = scene.replace({"operation.radial_load": 0.0, "geometry.n_balls": 4})
+    scene = scene.replace({"contact.traction.resolution": jb.contacts.Resolution(12, 4, True)})
 
-    def total(load):
-        solution = jb.solve(scene.at_operation(radial_load=load), throw=False)
+    def total(numbers):
+        angle, axial, radial, speed = numbers
+        changed = scene.replace({"geometry.contact_angle": angle, "operation.inner_speed": 1e3 * speed})
+        solution = jb.solve(changed.at_operation(axial_load=1e4 * axial, radial_load=1e4 * radial), throw=False)
         return solution.power_loss.total, solution.status
 
-    (value, status), slope = jax.jit(jax.value_and_grad(total, has_aux=True))(jnp.asarray(5e3))
+    run = jax.jit(jax.value_and_grad(total, has_aux=True))
+    (value, status), slope = run(jnp.asarray([0.0, 0.0, 0.5, 1.3]))
     assert int(status) == 0
     assert float(value) > 0.0
-    assert np.isfinite(slope)
+    assert np.all(np.isfinite(slope))
+
+    combined, step = jnp.asarray([0.5, 0.8, 0.3, 1.3]), 1e-4
+    (value, status), slope = run(combined)
+    assert int(status) == 0
+    for i, direction in enumerate(step * jnp.eye(4)):
+        at = lambda k, direction=direction: float(run(combined + k * direction)[0][0])
+        difference = (8.0 * (at(1) - at(-1)) - (at(2) - at(-2))) / (12.0 * step)
+        np.testing.assert_allclose(slope[i], difference, rtol=1e-6, atol=1e-6 * float(value))
