@@ -16,13 +16,9 @@ from .cylindrical_roller import CylindricalRollerBearing, RollerCage, RollerGeom
 from .kinematics import RollerKinematics
 from .land import LandState
 from .parts import drag_density
-from .roller_equations import (
-    LENGTH_UNIT,
-    CageParts,
-    DryRollerSystem,
-    LubricatedRollerSystem,
-    RollerState,
-)
+from .roller_equations import DryRollerSystem, LubricatedRollerSystem, RollerState
+from .roller_forces import CageParts, ring_torques
+from .roller_loads import LENGTH_UNIT
 from .solution import RING_FREEDOMS, CageState, PowerLoss, RingDisplacement, RollerResults, Solution
 from .steady import assemble
 
@@ -276,19 +272,9 @@ def _ring_torques(system: LubricatedRollerSystem, state: RollerState, land: Land
     Assembled from the forces on the rings; that their power equals the sum of the dissipations is the test of every
     sign in the model.
     """
-    motion, traction, cage = system.kinematics, state.contact.traction, system.cage
-    assert traction is not None
+    cage = system.cage
     assert cage is not None
-    inner = jnp.sum(traction[0]) * motion.inner_radius
-    outer = -jnp.sum(traction[1]) * motion.outer_radius
-    rolling = state.contact.rolling_force
-    if rolling is not None:
-        inner = inner + 0.5 * jnp.sum(rolling[0]) * motion.inner_radius
-        outer = outer - 0.5 * jnp.sum(rolling[1]) * motion.outer_radius
-    if state.inner_flange is not None:
-        inner = inner - jnp.sum(state.inner_flange.ring_moment)
-    if state.outer_flange is not None:
-        outer = outer - jnp.sum(state.outer_flange.ring_moment)
+    inner, outer = ring_torques(system.kinematics, state.contact, state.inner_flange, state.outer_flange)
     if cage.guidance == "inner_ring":
         return inner - land.ring_torque, outer
     return inner, outer - land.ring_torque
