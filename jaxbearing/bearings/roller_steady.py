@@ -76,11 +76,10 @@ def build_system(scene: CylindricalRollerBearing) -> DryRollerSystem | Lubricate
 
 def _cage_parts(scene: CylindricalRollerBearing, motion: RollerKinematics) -> CageParts:
     cage, oil, geometry, operation = scene.cage, scene.oil, scene.geometry, scene.operation
-    assert cage is not None
     assert oil is not None
     viscosity = oil.viscosity.viscosity(0.0, jnp.asarray(operation.oil_temperature))
     rails = None
-    if cage.pocket_axial_clearance is not None:
+    if cage is not None and cage.pocket_axial_clearance is not None:
         edge = PocketEdge(
             inner_radius=jnp.asarray(cage.bore(geometry)) / 2.0,
             outer_radius=jnp.asarray(cage.outside(geometry)) / 2.0,
@@ -107,14 +106,17 @@ def _cage_parts(scene: CylindricalRollerBearing, motion: RollerKinematics) -> Ca
     if scene.drag is not None:
         drag = RollerDrag(coefficient=jnp.asarray(scene.drag.coefficient), area=drag_area(geometry, cage))
         density = drag_density(oil, operation, geometry.pitch_diameter, scene.drag.through_flow_fraction)
-    return CageParts(
-        pocket=Pocket(
+    pocket = None
+    if cage is not None:
+        pocket = Pocket(
             clearance=jnp.asarray(cage.pocket_clearance),
             length=jnp.asarray(geometry.roller_length),
             roller_radius=motion.roller_radius,
-        ),
-        land=cage.land(geometry),
-        guidance=cage.guidance,
+        )
+    return CageParts(
+        pocket=pocket,
+        land=None if cage is None else cage.land(geometry),
+        guidance="inner_ring" if cage is None else cage.guidance,
         rails=rails,
         inner_flange=flange("inner", motion.inner_radius, 1.0),
         outer_flange=flange("outer", motion.outer_radius, -1.0),
@@ -123,17 +125,24 @@ def _cage_parts(scene: CylindricalRollerBearing, motion: RollerKinematics) -> Ca
     )
 
 
-def drag_area(geometry: RollerGeometry, cage: RollerCage) -> Array:
+def drag_area(geometry: RollerGeometry, cage: RollerCage | None) -> Array:
     """Frontal area of a roller that the cage leaves free: length times (diameter - cage thickness), m^2.
 
     The analogue of the source's ball formula; 0 where the cage is thicker than the roller.
     """
-    thickness = (cage.outside(geometry) - cage.bore(geometry)) / 2.0
+    thickness = 0.0 if cage is None else (cage.outside(geometry) - cage.bore(geometry)) / 2.0
     return jnp.asarray(geometry.roller_length) * jnp.maximum(geometry.roller_diameter - thickness, 0.0)
 
 
 def solve_steady(scene: CylindricalRollerBearing, options: NewtonOptions) -> Solution:
-    """Steady state: pure, jit-able, vmap-able, differentiable; never raises for a failed solve."""
+    """Steady state: pure, jit-able, vmap-able, differentiable; never raises for a failed solve.
+
+    **Raises:** `ValueError` for a scene that has no steady state.
+    """
+    if scene.slips and scene.cage is None:
+        raise ValueError(
+            "cage: without one a roller outside the loaded zone has no steady state; simulate can run this scene"
+        )
     system, result = newton_solve(build_system(scene), options)
     results = _dry_results(system, result) if isinstance(system, DryRollerSystem) else _lubricated(system, result)
     ring = {name: result.point.globals[i] * LENGTH_UNIT for i, name in enumerate(scene.ring_freedom)}
@@ -293,7 +302,7 @@ def _input_excess(system: DryRollerSystem | LubricatedRollerSystem) -> dict[str,
         "rings turn against each other at less than 100 rpm: the films vanish, consider a dry scene": SLOWEST
         - jnp.abs(motion.inner_speed - motion.outer_speed),
     }
-    if system.cage is not None:
+    if system.cage is not None and system.cage.land is not None:
         land = system.cage.land
         excess["land wider than a third of its radius: the short journal film overestimates"] = (
             land.width - land.radius / 3.0
