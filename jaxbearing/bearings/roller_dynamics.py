@@ -1,8 +1,9 @@
 r"""The moving cylindrical roller bearing: rate of change of rollers and cage (source eqs. (27)-(41)).
 
-State of roller j: $q_j = R_m(\Psi_j - \Psi^0_j - w_{ref}t)$, $v_j = R_m(W_j - w_{ref})$, $u_j = R_R s_j$; of the
-cage: its centre X, Y, $q_c = R_m(\Psi_c - w_{ref}t)$ and the speeds $V_x, V_y, v_c = R_m(W_c - w_{ref})$. All of them
-are in units (`STATE_UNITS`) with which one tolerance serves for all. Loads and ring displacement follow from the state
+State of roller j: $q_j = R_m(\Psi_j - \Psi^0_j - \int w)$, $v_j = R_m(W_j - w)$, $u_j = R_R s_j$; of the cage: its
+centre X, Y, $q_c = R_m(\Psi_c - \int w)$ and the speeds $V_x, V_y, v_c = R_m(W_c - w)$. The frame turns at
+$w = w_{ref}\,\omega_i(t)/\omega_i$, in proportion to the shaft, so that positions stay small and are resolved. All are in
+units (`ROLLER_UNITS`, `CAGE_UNITS`) with which one tolerance serves for all. Loads and ring displacement follow from the state
 (`roller_loads.distributed_loads`): they are no part of it. Frames and signs: see `cylindrical_roller`.
 
 $$m\dot v = Q_2 - Q_1 - F_{OL} + F_i - F_o + F_E + F_{Ec} + F_P,\qquad
@@ -117,8 +118,9 @@ class RollerDynamics(eqx.Module):
     **Arguments:**
     - `system`: raceways, roller ends, drag and land, with the oil at its inlet temperature, at the operating point.
       Its rigid pocket films are not used.
-    - `reference_speed`: w_ref, rad/s: of the frame in which positions are counted.
-    - `roller_inertia`: J, kg m^2; `cage_mass`, kg; `cage_inertia`: J_c, kg m^2, about the bearing axis.
+    - `reference_speed`: w_ref, rad/s: of the frame in which positions are counted, at the operating point.
+    - `roller_inertia`: J, kg m^2; `cage_mass`, kg; `cage_inertia`: J_c, kg m^2, about the bearing axis; `None` without a
+      cage, whose states then stand still.
     - `pocket`: film on one wall of a pocket; `None`: rollers do not meet the cage.
     - `speed`, `load`: the inner ring's speed and the radial load over those of the operating point.
     - `rotating_load`: a further, turning load; it needs a ring that is free in both directions.
@@ -128,8 +130,8 @@ class RollerDynamics(eqx.Module):
     system: LubricatedRollerSystem
     reference_speed: Float[Array, ""]
     roller_inertia: Float[Array, ""]
-    cage_mass: Float[Array, ""]
-    cage_inertia: Float[Array, ""]
+    cage_mass: Float[Array, ""] | None
+    cage_inertia: Float[Array, ""] | None
     pocket: CompliantPocketFace | None = None
     pocket_clearance: Float[Array, ""] | None = None
     speed: AbstractTimeFactor = Steady()
@@ -147,6 +149,12 @@ class RollerDynamics(eqx.Module):
         """Speeds of the rings."""
         steady = self.system.kinematics
         return eqx.tree_at(lambda m: m.inner_speed, steady, steady.inner_speed * self.speed.factor(time))
+
+    def frame(self, time: Scalar) -> tuple[Float[Array, ""], Float[Array, ""], Float[Array, ""]]:
+        """Angle, rad, speed and acceleration of the frame in which positions are counted."""
+        time = jnp.asarray(time, dtype=float)
+        factor, rate = jax.jvp(self.speed.factor, (time,), (jnp.ones_like(time),))
+        return self.reference_speed * self.speed.integral(time), self.reference_speed * factor, self.reference_speed * rate
 
     def ring_load(self, time: Scalar) -> Float[Array, " freedom"]:
         """Load on the inner ring along its freedoms, N."""
@@ -171,9 +179,9 @@ class RollerDynamics(eqx.Module):
         """All forces."""
         system, motion = self.system, self.motion(time)
         (q, v, u), (x, y, q_c, v_x, v_y, v_c), _ = self.unscaled(state)
-        pitch = motion.pitch_radius
-        azimuth = system.azimuth + q / pitch + self.reference_speed * time
-        orbit, spin = self.reference_speed + v / pitch, u / motion.roller_radius
+        pitch, (turned, turning, _) = motion.pitch_radius, self.frame(time)
+        azimuth = system.azimuth + q / pitch + turned
+        orbit, spin = turning + v / pitch, u / motion.roller_radius
         mean_speed, sliding = motion.surface_speeds(orbit - motion.free_orbit, spin - motion.free_spin)
         distribution = self._distribution(time, azimuth, orbit, mean_speed, sliding)
         contact = system.laws.evaluate(
@@ -185,7 +193,7 @@ class RollerDynamics(eqx.Module):
         tangential, moment = forces.tangential, forces.moment
         pocket, land = None, None
         force, cage_moment = jnp.zeros(2), jnp.zeros(())
-        cage_orbit = self.reference_speed + v_c / pitch
+        cage_orbit = turning + v_c / pitch
         centre, velocity = jnp.stack([x, y]), jnp.stack([v_x, v_y])
         if self.pocket is not None:
             pocket = self._pocket((q, v, u), (x, y, q_c), (v_x, v_y, v_c), azimuth, orbit)
@@ -304,15 +312,17 @@ class RollerDynamics(eqx.Module):
         now = self.at(time, state)
         motion, (_, v, _), cage = now.motion, *self.unscaled(state)[:2]
         acceleration = now.tangential / self.system.roller_mass
+        hurry = motion.pitch_radius * self.frame(time)[2]
         spinning = motion.roller_radius * (acceleration / motion.pitch_radius - now.moment / self.roller_inertia)
-        if self.system.cage is not None and self.system.cage.land is None and self.pocket is None:
+        if self.cage_mass is None or self.cage_inertia is None:
+            # no cage: its states are frozen
             moving = jnp.zeros(6)
         else:
             linear = now.cage_force / self.cage_mass
             angular = motion.pitch_radius * now.cage_moment / self.cage_inertia
-            moving = jnp.concatenate([cage[3:], linear, angular[None]])
+            moving = jnp.concatenate([cage[3:], linear, (angular - hurry)[None]])
         works = self.powers(time, now) / WORK_UNIT
-        rollers = jnp.stack([v, acceleration, spinning]) / jnp.asarray(ROLLER_UNITS)[:, None]
+        rollers = jnp.stack([v, acceleration - hurry, spinning]) / jnp.asarray(ROLLER_UNITS)[:, None]
         rates = ArrowPoint(rollers, jnp.concatenate([moving / jnp.asarray(CAGE_UNITS), works]))
         good = now.distribution.residual < LOAD_FAILURE
         return jax.tree.map(lambda rate: jnp.where(good, rate, jnp.nan), rates)
@@ -380,16 +390,18 @@ class RollerDynamics(eqx.Module):
         load = -jnp.sum(load_rate * now.distribution.ring)
         return jnp.stack([drive, self.losses(now).total, closing, lever, load])
 
-    def kinetic_energy(self, state: ArrowPoint) -> Float[Array, ""]:
+    def kinetic_energy(self, time: Scalar, state: ArrowPoint) -> Float[Array, ""]:
         """Of rollers and cage, J."""
         motion = self.system.kinematics
         (_, v, u), (_, _, _, v_x, v_y, v_c), _ = self.unscaled(state)
-        orbit = self.reference_speed + v / motion.pitch_radius
-        cage = self.reference_speed + v_c / motion.pitch_radius
+        turning = self.frame(time)[1]
+        orbit, cage = turning + v / motion.pitch_radius, turning + v_c / motion.pitch_radius
         rollers = self.system.roller_mass * jnp.square(motion.pitch_radius * orbit)
         rollers = rollers + self.roller_inertia * jnp.square(orbit - u / motion.roller_radius)
-        own = self.cage_mass * (v_x * v_x + v_y * v_y) + self.cage_inertia * jnp.square(cage)
-        return 0.5 * (jnp.sum(rollers) + own)
+        total = 0.5 * jnp.sum(rollers)
+        if self.cage_mass is None or self.cage_inertia is None:
+            return total
+        return total + 0.5 * (self.cage_mass * (v_x * v_x + v_y * v_y) + self.cage_inertia * jnp.square(cage))
 
     def pocket_energy(self, now: MovingState) -> Float[Array, ""]:
         """Elastic energy of the pocket films, J."""

@@ -36,8 +36,8 @@ def build_dynamics(
 ) -> RollerDynamics:
     """Equations of motion, with everything prepared that does not depend on the state.
 
-    **Arguments:** `reference_speed`, rad/s, of the frame in which positions are counted; that of rolling without slip
-    where not given.
+    **Arguments:** `reference_speed`, rad/s, of the frame in which positions are counted, at the operating point; that of
+    rolling without slip where not given.
 
     **Raises:** `ValueError` for a scene without traction on the raceways: nothing would drive its rollers.
     """
@@ -52,10 +52,10 @@ def build_dynamics(
     smoothing = jnp.asarray(simulation.entrainment_smoothing)
     system = eqx.tree_at(lambda s: s.laws.entrainment_smoothing, system, smoothing)
     geometry, materials, cage = scene.geometry, scene.materials, scene.cage
-    pocket, clearance, mass, inertia = None, None, 1.0, 1.0
+    pocket = clearance = mass = inertia = None
     if cage is not None:
         solid = CATALOGUE[ASSUMED_CAGE] if materials.cage is None else materials.cage
-        mass, inertia = cage.mass_and_inertia(geometry, solid.density)
+        mass, inertia = (jnp.asarray(value) for value in cage.mass_and_inertia(geometry, solid.density))
         clearance = jnp.asarray(cage.pocket_clearance)
         pocket = CompliantPocketFace(
             roller_radius=system.kinematics.roller_radius,
@@ -68,8 +68,8 @@ def build_dynamics(
         system=system,
         reference_speed=jnp.asarray(speed),
         roller_inertia=0.5 * system.roller_mass * jnp.square(system.kinematics.roller_radius),
-        cage_mass=jnp.asarray(mass),
-        cage_inertia=jnp.asarray(inertia),
+        cage_mass=mass,
+        cage_inertia=inertia,
         pocket=pocket,
         pocket_clearance=clearance,
         speed=simulation.speed,
@@ -84,7 +84,7 @@ def quasi_static_start(
     """The steady state of the bearing at the speed and radial load of time 0, as a state of motion: rollers and cage
     where the steady films hold them. Without a cage: rolling without slip.
 
-    Pure, jit-able. Its accelerations are not quite 0: the walls of the steady pockets are rigid, and positions that
+    The speed of time 0 must not be 0 (the films that hold the rollers vanish). Pure, jit-able. Its accelerations are not quite 0: the walls of the steady pockets are rigid, and positions that
     stand still in the pockets of an eccentric cage are not what rollers have that go round in it.
     """
     zero = jnp.zeros(())
@@ -96,8 +96,9 @@ def quasi_static_start(
     system = build_system(begins)
     assert isinstance(system, LubricatedRollerSystem)
     motion, n = system.kinematics, scene.geometry.n_rollers
+    factor = simulation.speed.factor(zero)
     if scene.cage is None:
-        dynamics = build_dynamics(scene, simulation, motion.free_orbit)
+        dynamics = build_dynamics(scene, simulation, motion.free_orbit / factor)
         rolling = jnp.full(n, motion.roller_radius * motion.free_spin)
         state = dynamics.scaled(jnp.stack([jnp.zeros(n), jnp.zeros(n), rolling]), jnp.zeros(6))
         return Start(dynamics, state, jnp.asarray(int(Status.CONVERGED)), zero)
@@ -109,7 +110,7 @@ def quasi_static_start(
     assert found.pocket is not None
     assert found.cage_force is not None
     orbit = solved.orbit(result.point.globals[-1])
-    dynamics = build_dynamics(scene, simulation, orbit)
+    dynamics = build_dynamics(scene, simulation, orbit / factor)
 
     pull = jnp.sum(found.cage_force, axis=1)
     land = solved.land_at(result.point, found)

@@ -233,7 +233,7 @@ def _lubricated(system: LubricatedRollerSystem, result: NewtonResult) -> _Result
     orbit = system.orbit(result.point.globals[-1])
     cage = CageState(
         speed=orbit,
-        slip=_cage_slip(orbit, motion),
+        slip=cage_slip(orbit, motion),
         eccentricity_ratio=land.eccentricity_ratio,
         attitude_angle=land.attitude_angle,
     )
@@ -241,7 +241,7 @@ def _lubricated(system: LubricatedRollerSystem, result: NewtonResult) -> _Result
     return _Results(cage, elements, losses, drive, inner, outer, _range_excess(system, state, land))
 
 
-def _cage_slip(orbit: Array, motion: RollerKinematics) -> Array:
+def cage_slip(orbit: Array, motion: RollerKinematics) -> Array:
     """1 - W / W_free, finite (and then without meaning) where rolling without slip would hold the cage still.
 
     W_free is smoothed by 1e-8 of the speed scale: relative error 1e-16 with one ring at rest.

@@ -20,12 +20,19 @@ class AbstractTimeFactor(eqx.Module):
     def factor(self, time: Scalar) -> Float[Array, ""]:
         """**Arguments:** `time`, s, from the start of the run."""
 
+    @abc.abstractmethod
+    def integral(self, time: Scalar) -> Float[Array, ""]:
+        """Of the factor from 0 to `time`, s: with it a frame can turn with the shaft, and positions stay small."""
+
 
 class Steady(AbstractTimeFactor):
     """1 at all times."""
 
     def factor(self, time: Scalar) -> Float[Array, ""]:
         return jnp.ones(())
+
+    def integral(self, time: Scalar) -> Float[Array, ""]:
+        return jnp.asarray(time)
 
 
 class Sinusoidal(AbstractTimeFactor):
@@ -42,6 +49,10 @@ class Sinusoidal(AbstractTimeFactor):
 
     def factor(self, time: Scalar) -> Float[Array, ""]:
         return 1.0 + self.amplitude * jnp.sin(2.0 * jnp.pi * self.frequency * time)
+
+    def integral(self, time: Scalar) -> Float[Array, ""]:
+        half = jnp.sin(jnp.pi * self.frequency * time)
+        return time + self.amplitude / (jnp.pi * self.frequency) * jnp.square(half)
 
 
 class Ramp(AbstractTimeFactor):
@@ -63,6 +74,12 @@ class Ramp(AbstractTimeFactor):
         x = jnp.clip((time - self.begin) / self.duration, 0.0, 1.0)
         return self.start + (self.stop - self.start) * (x * x * x * (10.0 + x * (6.0 * x - 15.0)))
 
+    def integral(self, time: Scalar) -> Float[Array, ""]:
+        since = (time - self.begin) / self.duration
+        x = jnp.clip(since, 0.0, 1.0)
+        risen = x * x * x * x * (2.5 + x * (x - 3.0)) + jnp.maximum(since - 1.0, 0.0)
+        return self.start * time + (self.stop - self.start) * self.duration * risen
+
 
 class Tabulated(AbstractTimeFactor):
     """Straight lines between the entries of a table, constant before the first and after the last.
@@ -82,6 +99,16 @@ class Tabulated(AbstractTimeFactor):
 
     def factor(self, time: Scalar) -> Float[Array, ""]:
         return jnp.interp(jnp.asarray(time), self.times, self.factors)
+
+    def integral(self, time: Scalar) -> Float[Array, ""]:
+        times, factors = jnp.asarray(self.times), jnp.asarray(self.factors)
+        # every interval as far as it lies before `time`
+        steps = jnp.diff(times)
+        passed = jnp.clip((time - times[:-1]) / steps, 0.0, 1.0)
+        slope = jnp.diff(factors)
+        within = jnp.sum(steps * passed * (factors[:-1] + 0.5 * slope * passed))
+        first = jnp.minimum(times[0], time)
+        return first * factors[0] + within + jnp.maximum(time - times[-1], 0.0) * factors[-1]
 
 
 class RotatingLoad(eqx.Module):
