@@ -14,26 +14,28 @@ from .bearings.cylindrical_roller import CylindricalRollerBearing
 from .bearings.history import Energy, History, Instant
 from .bearings.roller_dynamics import WORKS, RollerDynamics
 from .bearings.roller_instants import observe
-from .bearings.roller_motion import Start, quasi_static_start
+from .bearings.roller_motion import QuasiStatic, Start, at_start, begin, quasi_static
 from .bearings.simulation import Simulation
 from .numerics.arrow import ArrowPoint
-from .numerics.integrate import Segment, integrate_segment
+from .numerics.compiling import quickly_compiled
+from .numerics.integrate import IntegratorOptions, Segment, integrate_segment
 from .numerics.precision import as_float, require_x64
 from .numerics.status import SolveError, Status
 
 INTERVAL = 20e-6
 """Time between the instants of a history where a run does not say, s."""
+FIRST_STEP = 1e-7
+"""First step that is tried, s."""
 SEGMENT = 128
 """Instants that are computed in one go."""
 Progress = Callable[[float, float], None]
 
 
 class _Advanced(NamedTuple):
-    """A segment, its instants, and its last one, which may lie before the end."""
+    """A segment, and the instants of its begin, of the times asked for, and of its last state."""
 
     segment: Segment
     instants: Instant
-    last: Instant
 
 
 def rates(time: Any, state: ArrowPoint, dynamics: RollerDynamics) -> ArrowPoint:
@@ -41,9 +43,7 @@ def rates(time: Any, state: ArrowPoint, dynamics: RollerDynamics) -> ArrowPoint:
     return dynamics.rates(time, state)
 
 
-def trajectory(
-    start: Start, times: Float[Array, " time"], simulation: Simulation, adjoint: Any = None
-) -> Segment:
+def trajectory(start: Start, times: Float[Array, " time"], simulation: Simulation, adjoint: Any = None) -> Segment:
     """The motion at given times, > 0 and increasing, in one go: pure, jit-able, vmap-able, differentiable.
 
     Derivatives have a meaning until the first shocks; behind them trajectories separate. **Arguments:** `adjoint`: of
@@ -51,35 +51,33 @@ def trajectory(
     """
     zero = jnp.zeros(())
     options = simulation.options
-    return integrate_segment(
-        rates, start.state, zero, times, start.dynamics, options, adjoint=adjoint, idle=len(WORKS)
-    )
+    return integrate_segment(rates, start.state, zero, times, start.dynamics, options, adjoint=adjoint, idle=len(WORKS))
+
+
+# solved once a run: to compile takes longer than to run
+_quasi_static = quickly_compiled(quasi_static)
 
 
 @eqx.filter_jit
-def _start(scene: CylindricalRollerBearing, simulation: Simulation) -> tuple[Start, Instant]:
-    start = quasi_static_start(scene, simulation)
-    return start, observe(start.dynamics, jnp.zeros(()), start.state)
+def _begin(scene: CylindricalRollerBearing, simulation: Simulation, found: QuasiStatic) -> Start:
+    return begin(scene, simulation, found)
 
 
 @eqx.filter_jit
 def _advance(
-    dynamics: RollerDynamics, state: ArrowPoint, begin: Array, times: Array, simulation: Simulation, step: Array | None
+    dynamics: RollerDynamics, state: ArrowPoint, start: Array, times: Array, options: IntegratorOptions, step: Array
 ) -> _Advanced:
-    segment = integrate_segment(
-        rates, state, begin, times, dynamics, simulation.options, first_step=step, idle=len(WORKS)
-    )
-    at = jnp.minimum(times, segment.last_time)
+    segment = integrate_segment(rates, state, start, times, dynamics, options, first_step=step, idle=len(WORKS))
     reached = times <= segment.last_time
-
-    def one(given):
-        time, good, elements, globals_ = given
-        # beyond the place where a run stopped there are no states
-        safe = jax.tree.map(lambda y, end: jnp.where(good, y, end), ArrowPoint(elements, globals_), segment.last)
-        return observe(dynamics, time, safe)
-
-    instants = jax.lax.map(one, (at, reached, segment.states.elements, segment.states.globals))
-    return _Advanced(segment, instants, observe(dynamics, segment.last_time, segment.last))
+    # beyond the place where a run stopped there are no states
+    safe = jax.tree.map(
+        lambda ys, end: jnp.where(jnp.reshape(reached, (-1, *(1 for _ in end.shape))), ys, end[None]),
+        segment.states,
+        segment.last,
+    )
+    states = jax.tree.map(lambda a, ys, b: jnp.concatenate([a[None], ys, b[None]]), state, safe, segment.last)
+    at = jnp.concatenate([start[None], jnp.minimum(times, segment.last_time), segment.last_time[None]])
+    return _Advanced(segment, jax.lax.map(lambda given: observe(dynamics, *given), (at, states)))
 
 
 def simulate(
@@ -119,37 +117,37 @@ def simulate(
     # one shape of the compiled program, whatever the duration
     pieces = max(1, round(stop / (SEGMENT * interval)))
     times = np.linspace(0.0, stop, pieces * SEGMENT + 1)
+    # the length of the run is no part of the program
+    chosen = dataclasses.replace(chosen, duration=None)
     scene, chosen = (jax.tree.map(as_float, tree) for tree in (scene, chosen))
 
-    start, first = _start(scene, dataclasses.replace(chosen, duration=None))
-    if int(start.status) != Status.CONVERGED:
-        raise SolveError(f"the quasi-static start of the run was not found: {Status(int(start.status)).text}")
-    chosen = dataclasses.replace(chosen, duration=None)
-    state, step, status, interrupted = start.state, None, Status.CONVERGED, False
+    found = _quasi_static(at_start(scene, chosen))
+    if int(found.status) != Status.CONVERGED:
+        raise SolveError(f"the quasi-static start of the run was not found: {Status(int(found.status)).text}")
+    start = _begin(scene, chosen, found)
+    state, status, interrupted = start.state, Status.CONVERGED, False
+    step = jnp.asarray(FIRST_STEP)
     taken = refused = 0
-    kept_times, kept = [times[:1]], [jax.tree.map(lambda leaf: np.asarray(leaf)[None], first)]
+    kept_times, kept = [], []
     try:
         for piece in range(pieces):
-            begin, wanted = times[piece * SEGMENT], times[piece * SEGMENT + 1 : (piece + 1) * SEGMENT + 1]
-            done = _advance(
-                start.dynamics, state, jnp.asarray(begin), jnp.asarray(wanted), chosen, step
+            here = times[piece * SEGMENT : (piece + 1) * SEGMENT + 1]
+            segment, instants = _advance(
+                start.dynamics, state, jnp.asarray(here[0]), jnp.asarray(here[1:]), chosen.options, step
             )
-            segment = done.segment
             taken, refused = taken + int(segment.accepted), refused + int(segment.rejected)
-            state, status = segment.last, Status(int(segment.status))
-            step = jnp.where(segment.step > 0, segment.step, interval)
-            reached = float(segment.last_time)
-            count = int(np.sum(wanted <= reached))
-            kept_times.append(wanted[:count])
-            kept.append(jax.tree.map(lambda leaf, n=count: np.asarray(leaf)[:n], done.instants))
+            state, status, step = segment.last, Status(int(segment.status)), segment.step
+            good = np.append(here <= float(segment.last_time), status != Status.CONVERGED)
+            good[0] = piece == 0
+            kept_times.append(np.append(here, float(segment.last_time))[good])
+            kept.append(jax.tree.map(lambda leaf, good=good: np.asarray(leaf)[good], instants))
             if status != Status.CONVERGED:
-                if count < SEGMENT and reached > (wanted[count - 1] if count else begin):
-                    kept_times.append(np.asarray([reached]))
-                    kept.append(jax.tree.map(lambda leaf: np.asarray(leaf)[None], done.last))
                 break
             if progress is not None:
-                progress(reached, stop)
+                progress(float(segment.last_time), stop)
     except KeyboardInterrupt:
+        if not kept:
+            raise
         status, interrupted = Status.NOT_CONVERGED, True
     instants = jax.tree.map(lambda *leaves: np.concatenate(leaves), *kept)
     history = History(

@@ -43,7 +43,9 @@ class Instant(eqx.Module):
         metadata=label("1", "state of the rolling elements: position, orbital and spin speed in the frame of the run")
     )
     state_cage: Float[Array, " cage_component"] = eqx.field(
-        metadata=label("1", "state of the cage: x, y, angle times pitch radius in the frame of the run, and their rates")
+        metadata=label(
+            "1", "state of the cage: x, y, angle times pitch radius in the frame of the run, and their rates"
+        )
     )
 
 
@@ -57,7 +59,9 @@ class Energy(eqx.Module):
         metadata=label("J", "work that closed the pocket films: oil squeezed out, and elastic energy")
     )
     lever_arm: Float[Array, ""] = eqx.field(
-        metadata=label("J", "neglected by the model: moment of the pocket loads about the cage's centre, not the bearing's")
+        metadata=label(
+            "J", "neglected by the model: moment of the pocket loads about the cage's centre, not the bearing's"
+        )
     )
     kinetic: Float[Array, ""] = eqx.field(metadata=label("J", "gain of kinetic energy"))
     pocket_elastic: Float[Array, ""] = eqx.field(metadata=label("J", "gain of elastic energy of the pocket films"))

@@ -154,7 +154,11 @@ class RollerDynamics(eqx.Module):
         """Angle, rad, speed and acceleration of the frame in which positions are counted."""
         time = jnp.asarray(time, dtype=float)
         factor, rate = jax.jvp(self.speed.factor, (time,), (jnp.ones_like(time),))
-        return self.reference_speed * self.speed.integral(time), self.reference_speed * factor, self.reference_speed * rate
+        return (
+            self.reference_speed * self.speed.integral(time),
+            self.reference_speed * factor,
+            self.reference_speed * rate,
+        )
 
     def ring_load(self, time: Scalar) -> Float[Array, " freedom"]:
         """Load on the inner ring along its freedoms, N."""
@@ -184,9 +188,7 @@ class RollerDynamics(eqx.Module):
         orbit, spin = turning + v / pitch, u / motion.roller_radius
         mean_speed, sliding = motion.surface_speeds(orbit - motion.free_orbit, spin - motion.free_spin)
         distribution = self._distribution(time, azimuth, orbit, mean_speed, sliding)
-        contact = system.laws.evaluate(
-            system.contact, distribution.load, mean_speed, sliding, system.oil, system.inlet
-        )
+        contact = system.laws.evaluate(system.contact, distribution.load, mean_speed, sliding, system.oil, system.inlet)
         parts = system.cage
         assert parts is not None
         forces = forces_without_pocket(motion, system.contact, contact, parts, orbit, spin)
@@ -413,5 +415,3 @@ class RollerDynamics(eqx.Module):
         """Elastic energy of the raceway contacts, J."""
         load = now.distribution.load
         return _PALMGREN_ENERGY * jnp.sum(load * self.system.contact.palmgren_approach(load))
-
-

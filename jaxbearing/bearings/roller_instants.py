@@ -68,5 +68,3 @@ def observe(dynamics: RollerDynamics, time: Scalar, state: ArrowPoint) -> Instan
         state_rollers=rollers,
         state_cage=own,
     )
-
-

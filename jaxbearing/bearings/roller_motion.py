@@ -31,6 +31,18 @@ class Start(NamedTuple):
     residual: Float[Array, ""]
 
 
+class QuasiStatic(NamedTuple):
+    """Orbital speed of all, rad/s; centre of the cage, m; places of the rollers ahead of the middle of their pockets, m;
+    spins, rad/s; how the solve ended."""
+
+    orbit: Float[Array, ""]
+    centre: Float[Array, "2"]
+    position: Float[Array, "*roller"]
+    spin: Float[Array, " roller"]
+    status: Int[Array, ""]
+    residual: Float[Array, ""]
+
+
 def build_dynamics(
     scene: CylindricalRollerBearing, simulation: Simulation, reference_speed: Array | None = None
 ) -> RollerDynamics:
@@ -78,54 +90,66 @@ def build_dynamics(
     )
 
 
-def quasi_static_start(
-    scene: CylindricalRollerBearing, simulation: Simulation, options: NewtonOptions | None = None
-) -> Start:
-    """The steady state of the bearing at the speed and radial load of time 0, as a state of motion: rollers and cage
-    where the steady films hold them. Without a cage: rolling without slip.
-
-    The speed of time 0 must not be 0 (the films that hold the rollers vanish). Pure, jit-able. Its accelerations are not quite 0: the walls of the steady pockets are rigid, and positions that
-    stand still in the pockets of an eccentric cage are not what rollers have that go round in it.
-    """
-    zero = jnp.zeros(())
-    operation = scene.operation
-    begins = scene.at_operation(
-        inner_speed=operation.inner_speed * simulation.speed.factor(zero),
-        radial_load=operation.radial_load * simulation.load.factor(zero),
-    )
-    system = build_system(begins)
+def quasi_static(scene: CylindricalRollerBearing, options: NewtonOptions | None = None) -> QuasiStatic:
+    """Steady state of the operating point as places and speeds of rollers and cage; pure. Without a cage: rolling
+    without slip."""
+    n, zero = scene.geometry.n_rollers, jnp.zeros(())
+    system = build_system(scene)
     assert isinstance(system, LubricatedRollerSystem)
-    motion, n = system.kinematics, scene.geometry.n_rollers
-    factor = simulation.speed.factor(zero)
     if scene.cage is None:
-        dynamics = build_dynamics(scene, simulation, motion.free_orbit / factor)
-        rolling = jnp.full(n, motion.roller_radius * motion.free_spin)
-        state = dynamics.scaled(jnp.stack([jnp.zeros(n), jnp.zeros(n), rolling]), jnp.zeros(6))
-        return Start(dynamics, state, jnp.asarray(int(Status.CONVERGED)), zero)
+        motion = system.kinematics
+        spin = jnp.full(n, motion.free_spin)
+        return QuasiStatic(motion.free_orbit, jnp.zeros(2), zero, spin, jnp.asarray(int(Status.CONVERGED)), zero)
     solved, result = newton_solve(system, options)
     assert isinstance(solved, LubricatedRollerSystem)
-    found, parts = solved.at(result.point), solved.cage
+    motion, found, parts = solved.kinematics, solved.at(result.point), solved.cage
     assert parts is not None
     assert parts.land is not None
     assert found.pocket is not None
     assert found.cage_force is not None
-    orbit = solved.orbit(result.point.globals[-1])
-    dynamics = build_dynamics(scene, simulation, orbit / factor)
-
-    pull = jnp.sum(found.cage_force, axis=1)
-    land = solved.land_at(result.point, found)
+    orbit, inner = solved.orbit(result.point.globals[-1]), parts.guidance == "inner_ring"
+    land, pull = solved.land_at(result.point, found), jnp.sum(found.cage_force, axis=1)
     # what the pockets pull the cage with, the lands' film passes on to the ring
-    sign = 1.0 if parts.guidance == "inner_ring" else -1.0
-    other = motion.inner_speed if parts.guidance == "inner_ring" else motion.outer_speed
-    x, y = parts.land.static_offset(
-        land.eccentricity_ratio, land.attitude_angle, sign * pull[0], sign * pull[1], 0.5 * (other + orbit)
+    toward = pull if inner else -pull
+    mean_speed = 0.5 * ((motion.inner_speed if inner else motion.outer_speed) + orbit)
+    centre = jnp.stack(
+        parts.land.static_offset(land.eccentricity_ratio, land.attitude_angle, toward[0], toward[1], mean_speed)
     )
-    if parts.guidance == "inner_ring":
+    if inner:
         ring = result.point.globals[:-1] * LENGTH_UNIT
         lateral = ring[1] if "lateral" in solved.freedoms else zero
-        x, y = -lateral - x, ring[0] - y
-    offset = x * jnp.cos(solved.azimuth) + y * jnp.sin(solved.azimuth)
+        centre = jnp.stack([-lateral, ring[0]]) - centre
+    offset = centre[0] * jnp.cos(solved.azimuth) + centre[1] * jnp.sin(solved.azimuth)
     q = 0.5 * jnp.asarray(scene.cage.pocket_clearance) - offset - found.pocket.film_front
-    rollers = jnp.stack([q, jnp.zeros(n), motion.roller_radius * found.spin_speed])
-    state = dynamics.scaled(rollers, jnp.stack([x, y, zero, zero, zero, zero]))
-    return Start(dynamics, state, result.status, result.residual_norm)
+    return QuasiStatic(orbit, centre, q, found.spin_speed, result.status, result.residual_norm)
+
+
+def at_start(scene: CylindricalRollerBearing, simulation: Simulation) -> CylindricalRollerBearing:
+    """The scene at the speed and radial load of time 0."""
+    zero, operation = jnp.zeros(()), scene.operation
+    return scene.at_operation(
+        inner_speed=operation.inner_speed * simulation.speed.factor(zero),
+        radial_load=operation.radial_load * simulation.load.factor(zero),
+    )
+
+
+def begin(scene: CylindricalRollerBearing, simulation: Simulation, found: QuasiStatic) -> Start:
+    """Rollers and cage where the steady films of time 0 hold them, as a state of motion; pure.
+
+    The speed of time 0 must not be 0 (the films that hold the rollers vanish). The accelerations of this state are not
+    quite 0: the walls of the steady pockets are rigid, and rollers that go round in the pockets of an eccentric cage do
+    not stand still in them. A rotating load is not in it.
+    """
+    factor = simulation.speed.factor(jnp.zeros(()))
+    dynamics = build_dynamics(scene, simulation, found.orbit / factor)
+    still = jnp.zeros_like(found.spin)
+    rollers = jnp.stack([found.position + still, still, dynamics.system.kinematics.roller_radius * found.spin])
+    state = dynamics.scaled(rollers, jnp.concatenate([found.centre, jnp.zeros(4)]))
+    return Start(dynamics, state, found.status, found.residual)
+
+
+def quasi_static_start(
+    scene: CylindricalRollerBearing, simulation: Simulation, options: NewtonOptions | None = None
+) -> Start:
+    """Equations of motion and the state that a run begins with; pure, jit-able."""
+    return begin(scene, simulation, quasi_static(at_start(scene, simulation), options))

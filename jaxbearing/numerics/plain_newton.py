@@ -39,7 +39,9 @@ def plain_newton(system: AbstractArrowSystem, guess: ArrowPoint, *, tolerance: V
         point, _, steps = state
         equations, jacobian = linearize(held, point)
         step = solve_arrow(jacobian, equations.residual)
-        capped = jax.tree.map(lambda y, s, c, a, b: jnp.clip(y - jnp.clip(s, -c, c), a, b), point, step, caps, low, high)
+        capped = jax.tree.map(
+            lambda y, s, c, a, b: jnp.clip(y - jnp.clip(s, -c, c), a, b), point, step, caps, low, high
+        )
         return capped, _largest(equations.residual), steps + 1
 
     start = (jax.lax.stop_gradient(guess), jnp.asarray(jnp.inf), jnp.asarray(0))
