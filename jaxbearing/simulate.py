@@ -151,12 +151,12 @@ def simulate(
         status, interrupted = Status.NOT_CONVERGED, True
     instants = jax.tree.map(lambda *leaves: np.concatenate(leaves), *kept)
     history = History(
-        status=np.asarray(int(status)),
-        time=np.concatenate(kept_times),
-        stop=np.asarray(stop),
-        accepted=np.asarray(taken),
-        rejected=np.asarray(refused),
-        reference_speed=np.asarray(start.dynamics.reference_speed),
+        status=jnp.asarray(int(status)),
+        time=jnp.asarray(np.concatenate(kept_times)),
+        stop=jnp.asarray(stop),
+        accepted=jnp.asarray(taken),
+        rejected=jnp.asarray(refused),
+        reference_speed=jnp.asarray(start.dynamics.reference_speed),
         operation=scene.operation,
         instants=instants,
         energy=_energy(start.dynamics, state, instants),
@@ -172,7 +172,7 @@ def simulate(
 
 def _energy(dynamics: RollerDynamics, state: ArrowPoint, instants: Instant) -> Energy:
     """The works of the run, and how well they balance."""
-    works = dict(zip(WORKS, np.asarray(dynamics.unscaled(state)[2]), strict=True))
+    works = dict(zip(WORKS, jnp.asarray(dynamics.unscaled(state)[2]), strict=True))
     gain = lambda values: values[-1] - values[0]
     kinetic = gain(instants.kinetic_energy)
     left = works["drive"] - works["dissipation"] - works["pocket_films"] - works["lever_arm"] - kinetic

@@ -30,8 +30,8 @@ The radial direction is quasi-static and a balance of its own (the derivative of
 
 $$F\cdot\dot d = \frac{dE_{race}}{dt} - \Omega - \sum Q_i\frac{d(h_i + h_o)}{dt} - \sum F_c\frac{d\delta_o}{dt},$$
 
-$E_{race} = \sum\frac{0.9}{1.9}(k_iQ_i^{1.9} + k_oQ_o^{1.9})$: the work of the load on the ring is stored by the raceways
-but for the work on the films, that of the centrifugal force, and $\Omega = \sum Q_i\,(d\cdot t)\,W_j$: rollers roll
+$E_{race} = \sum\frac{0.9}{1.9}(k_iQ_i^{1.9} + k_oQ_o^{1.9})$: the work of the load on the ring is stored by the
+raceways but for the work on the films, that of the centrifugal force, and $\Omega = \sum Q_i\,(d\cdot t)\,W_j$: rollers roll
 into the wedge between displaced rings, and the model neglects the tangential force $Q_i\,(d\cdot t)/R_m$ that would
 pay for it. The identities hold to round-off at every state, and `tests` check them so.
 """
@@ -119,8 +119,8 @@ class RollerDynamics(eqx.Module):
     - `system`: raceways, roller ends, drag and land, with the oil at its inlet temperature, at the operating point.
       Its rigid pocket films are not used.
     - `reference_speed`: w_ref, rad/s: of the frame in which positions are counted, at the operating point.
-    - `roller_inertia`: J, kg m^2; `cage_mass`, kg; `cage_inertia`: J_c, kg m^2, about the bearing axis; `None` without a
-      cage, whose states then stand still.
+    - `roller_inertia`: J, kg m^2; `cage_mass`, kg; `cage_inertia`: J_c, kg m^2, about the bearing axis; `None` without
+      a cage, whose states then stand still.
     - `pocket`: film on one wall of a pocket; `None`: rollers do not meet the cage.
     - `speed`, `load`: the inner ring's speed and the radial load over those of the operating point.
     - `rotating_load`: a further, turning load; it needs a ring that is free in both directions.

@@ -2,7 +2,6 @@
 
 import jax.numpy as jnp
 
-
 from .._types import Scalar
 from ..numerics.arrow import ArrowPoint
 from .history import CageMotion, Instant

@@ -32,8 +32,8 @@ class Start(NamedTuple):
 
 
 class QuasiStatic(NamedTuple):
-    """Orbital speed of all, rad/s; centre of the cage, m; places of the rollers ahead of the middle of their pockets, m;
-    spins, rad/s; how the solve ended."""
+    """Orbital speed of all, rad/s; centre of the cage, m; places of the rollers along the pitch circle from those of
+    equal distances, m; spins, rad/s; how the solve ended."""
 
     orbit: Float[Array, ""]
     centre: Float[Array, "2"]
@@ -48,8 +48,8 @@ def build_dynamics(
 ) -> RollerDynamics:
     """Equations of motion, with everything prepared that does not depend on the state.
 
-    **Arguments:** `reference_speed`, rad/s, of the frame in which positions are counted, at the operating point; that of
-    rolling without slip where not given.
+    **Arguments:** `reference_speed`, rad/s, of the frame in which positions are counted, at the operating point; that
+    of rolling without slip where not given.
 
     **Raises:** `ValueError` for a scene without traction on the raceways: nothing would drive its rollers.
     """

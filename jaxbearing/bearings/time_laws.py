@@ -1,6 +1,7 @@
 """Shaft speed and load as functions of time. They are pytrees: new numbers in them never recompile."""
 
 import abc
+from typing import Any
 
 import equinox as eqx
 import jax.numpy as jnp
@@ -87,8 +88,8 @@ class Tabulated(AbstractTimeFactor):
     **Arguments:** `times`, s, increasing; `factors`, as many.
     """
 
-    times: Float[Array, " entry"] = eqx.field(converter=as_float)
-    factors: Float[Array, " entry"] = eqx.field(converter=as_float)
+    times: Any = eqx.field(converter=as_float)
+    factors: Any = eqx.field(converter=as_float)
 
     def __check_init__(self):
         shape = np.shape(self.times)

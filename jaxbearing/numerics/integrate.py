@@ -134,10 +134,12 @@ def integrate_segment(
         throw=False,
         **({} if adjoint is None else {"adjoint": adjoint}),
     )
-    states, ends = found.ys
-    last = jax.tree.map(lambda leaf: leaf[0], ends)
+    # what is asked for is there
+    saved: Any = found.ys
+    ends: Any = found.ts
+    states, last = saved[0], jax.tree.map(lambda leaf: leaf[0], saved[1])
     accepted, rejected = found.stats["num_accepted_steps"], found.stats["num_rejected_steps"]
-    reached = found.ts[1][0]
+    reached = ends[1][0]
     return Segment(
         states=states,
         last=last,
