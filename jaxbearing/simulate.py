@@ -14,7 +14,7 @@ from .bearings.cylindrical_roller import CylindricalRollerBearing
 from .bearings.history import Energy, History, Instant
 from .bearings.roller_dynamics import WORKS, RollerDynamics
 from .bearings.roller_instants import observe
-from .bearings.roller_motion import QuasiStatic, Start, at_start, begin, quasi_static
+from .bearings.roller_motion import IMMOBILE, QuasiStatic, Start, at_start, begin, quasi_static
 from .bearings.simulation import Simulation
 from .numerics.arrow import ArrowPoint
 from .numerics.compiling import quickly_compiled
@@ -107,6 +107,8 @@ def simulate(
     require_x64()
     if not isinstance(scene, CylindricalRollerBearing):
         raise TypeError(f"cannot simulate a {type(scene).__name__}; simulate takes: CylindricalRollerBearing")
+    if not scene.slips:
+        raise ValueError(IMMOBILE)
     chosen = simulation or scene.simulation or Simulation()
     duration = duration if duration is not None else chosen.duration
     if duration is None:

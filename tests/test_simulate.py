@@ -10,7 +10,7 @@ from moving_roller import start_of, table_16
 
 import jaxbearing as jb
 from jaxbearing.bearings.simulation import Simulation
-from jaxbearing.bearings.time_laws import Ramp, RotatingLoad, Sinusoidal
+from jaxbearing.bearings.time_laws import AbstractTimeFactor, Ramp, RotatingLoad, Sinusoidal
 from jaxbearing.simulate import simulate, trajectory
 
 SHORT = 2.56e-3
@@ -38,17 +38,29 @@ def test_a_steady_run_begins_at_the_steady_state():
     first = lambda values: values[0]
     cage, elements = history.instants.cage, history.instants.elements
     np.testing.assert_allclose(first(cage.speed), steady.cage.speed, rtol=1e-12)
-    np.testing.assert_allclose(first(cage.eccentricity_ratio), steady.cage.eccentricity_ratio, rtol=1e-6)
-    np.testing.assert_allclose(first(elements.load_inner), steady.elements.load_inner, rtol=1e-4)
+    np.testing.assert_allclose(first(cage.eccentricity_ratio), steady.cage.eccentricity_ratio, rtol=1e-4)
+    # rollers stand up to half the pocket clearance ahead of or behind their equal distances: that much of the loads' slope
+    slope = np.abs(np.diff(steady.elements.load_inner)).max() / (2.0 * np.pi / 30.0)
+    np.testing.assert_allclose(first(elements.load_inner), steady.elements.load_inner, atol=slope * 150e-6 / 71e-3)
     np.testing.assert_allclose(first(history.instants.power_loss.total), steady.power_loss.total, rtol=0.01)
     np.testing.assert_allclose(cage.speed, steady.cage.speed, rtol=2e-3)
 
 
+class Breaking(AbstractTimeFactor):
+    """A load of which nothing is known after 1 ms."""
+
+    def factor(self, time):
+        return jnp.where(jnp.asarray(time) > 1e-3, jnp.nan, 1.0)
+
+    def integral(self, time):
+        return jnp.asarray(time)
+
+
 def test_a_run_that_stops_early_keeps_what_it_has():
-    broken = Simulation(tolerance=1e-18)
-    history = simulate(table_16(0.6), SHORT, simulation=broken, throw=False)
+    history = simulate(table_16(0.6), SHORT, simulation=Simulation(load=Breaking()), throw=False)
     assert not history.completed
-    assert history.time[-1] < SHORT
+    assert "diverged" in history.failure()
+    np.testing.assert_allclose(history.time[-1], 1e-3, rtol=1e-3)
     assert history.instants.cage.speed.shape == history.time.shape
     assert np.all(np.isfinite(history.instants.state_rollers))
     with pytest.raises(jb.SolveError, match="is kept"):
@@ -62,10 +74,11 @@ def test_without_a_cage_unloaded_rollers_slow_down():
     history = simulate(scene, SHORT)
     assert history.completed
     assert history.instants.cage is None
-    speed = history.instants.elements.orbital_speed
-    # drag alone acts on the roller opposite the load, traction holds the one on the load line
-    assert speed[-1, 15] < 0.99 * speed[0, 15]
-    np.testing.assert_allclose(speed[-1, 0], speed[0, 0], rtol=2e-3)
+    elements = history.instants.elements
+    speed, load = elements.orbital_speed, elements.load_inner[-1]
+    # drag slows down the rollers that carry nothing, traction holds those that do
+    assert speed[-1, int(np.argmin(load))] < 0.99 * speed[0, 0]
+    np.testing.assert_allclose(speed[-1, int(np.argmax(load))], speed[0, 0], rtol=2e-3)
     assert abs(history.energy.error) < 1e-5
 
 

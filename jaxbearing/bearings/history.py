@@ -105,7 +105,5 @@ class History(AbstractSolution):
     def failure(self) -> str:
         reached, stop = float(self.time[-1]), float(self.stop)
         why = "interrupted" if self.interrupted else Status(int(self.status)).text
-        return (
-            f"{why}: the run stopped at {1e3 * reached:.6g} ms of {1e3 * stop:.6g} ms after {int(self.accepted)} steps; "
-            "what was computed until then is kept"
-        )
+        where = f"{1e3 * reached:.6g} ms of {1e3 * stop:.6g} ms, after {int(self.accepted)} steps"
+        return f"{why}: the run stopped at {where}; what was computed until then is kept"

@@ -2,9 +2,9 @@ r"""The moving cylindrical roller bearing: rate of change of rollers and cage (s
 
 State of roller j: $q_j = R_m(\Psi_j - \Psi^0_j - \int w)$, $v_j = R_m(W_j - w)$, $u_j = R_R s_j$; of the cage: its
 centre X, Y, $q_c = R_m(\Psi_c - \int w)$ and the speeds $V_x, V_y, v_c = R_m(W_c - w)$. The frame turns at
-$w = w_{ref}\,\omega_i(t)/\omega_i$, in proportion to the shaft, so that positions stay small and are resolved. All are in
-units (`ROLLER_UNITS`, `CAGE_UNITS`) with which one tolerance serves for all. Loads and ring displacement follow from the state
-(`roller_loads.distributed_loads`): they are no part of it. Frames and signs: see `cylindrical_roller`.
+$w = w_{ref}\,\omega_i(t)/\omega_i$, in proportion to the shaft, so that positions stay small and are resolved. All
+are in units (`ROLLER_UNITS`, `CAGE_UNITS`) with which one tolerance serves for all. Loads and ring displacement follow
+from the state (`roller_loads.distributed_loads`): they are no part of it. Frames and signs: see `cylindrical_roller`.
 
 $$m\dot v = Q_2 - Q_1 - F_{OL} + F_i - F_o + F_E + F_{Ec} + F_P,\qquad
 J(\dot v/R_m - \dot u/R_R) = R_R(F_{C1} + F_{C2} - F_i - F_o) + M_{flange} + M_{rail} + \tfrac12R_R(P_i + P_o)$$
@@ -20,7 +20,8 @@ $E_{kin} = \sum_j[\tfrac12 m R_m^2W_j^2 + \tfrac12J(W_j - s_j)^2] + \tfrac12 m_c
 T the torques that drive the rings, and
 
 - dissipations D, each its own force times its own sliding speed: raceways $F\,\Delta u$, rolling resistance
-  $P\,u$, pocket friction $(F_{C1} + F_{C2})R_R(s + W_c - W) - (F_{C1} - F_{C2})\,V\cdot n$, flanges, rails, lands, drag;
+  $P\,u$, pocket friction $(F_{C1} + F_{C2})R_R(s + W_c - W) - (F_{C1} - F_{C2})\,V\cdot n$, flanges, rails, lands,
+  drag;
 - $\Pi = -\sum(Q_1\dot H_1 + Q_2\dot H_2)$: work that closes the pocket films. A part is stored by their elastic
   flattening, $E_{pocket} = \sum\frac{0.9}{1.9}kQ^{1.9}$, the rest squeezes oil out;
 - $\Lambda = \sum(Q_1 - Q_2)(X\sin\Psi - Y\cos\Psi)W_j$: neglected by the model, which takes the moment of the pocket
@@ -31,9 +32,9 @@ The radial direction is quasi-static and a balance of its own (the derivative of
 $$F\cdot\dot d = \frac{dE_{race}}{dt} - \Omega - \sum Q_i\frac{d(h_i + h_o)}{dt} - \sum F_c\frac{d\delta_o}{dt},$$
 
 $E_{race} = \sum\frac{0.9}{1.9}(k_iQ_i^{1.9} + k_oQ_o^{1.9})$: the work of the load on the ring is stored by the
-raceways but for the work on the films, that of the centrifugal force, and $\Omega = \sum Q_i\,(d\cdot t)\,W_j$: rollers roll
-into the wedge between displaced rings, and the model neglects the tangential force $Q_i\,(d\cdot t)/R_m$ that would
-pay for it. The identities hold to round-off at every state, and `tests` check them so.
+raceways but for the work on the films, that of the centrifugal force, and $\Omega = \sum Q_i\,(d\cdot t)\,W_j$:
+rollers roll into the wedge between displaced rings, and the model neglects the tangential force $Q_i\,(d\cdot t)/R_m$
+that would pay for it. The identities hold to round-off at every state, and `tests` check them so.
 """
 
 from typing import NamedTuple

@@ -22,6 +22,11 @@ ASSUMED_CAGE = "bronze"
 """Material of a cage, where a scene does not give it."""
 
 
+IMMOBILE = (
+    "contact.traction: nothing drives the rollers of a bearing without traction on its raceways; simulate needs it"
+)
+
+
 class Start(NamedTuple):
     """Equations of motion, state at time 0, and how the quasi-static solve ended that gave it."""
 
@@ -54,9 +59,7 @@ def build_dynamics(
     **Raises:** `ValueError` for a scene without traction on the raceways: nothing would drive its rollers.
     """
     if not scene.slips:
-        raise ValueError(
-            "contact.traction: a bearing without traction on its raceways does not move by itself; simulate needs it"
-        )
+        raise ValueError(IMMOBILE)
     if simulation.rotating_load is not None and "lateral" not in scene.ring_freedom:
         scene = scene.replace({"ring_freedom": ("radial", "lateral")})
     system = build_system(scene)

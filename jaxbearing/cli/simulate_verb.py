@@ -46,7 +46,7 @@ def simulate(
         from ..scenes.overrides import split_assignments
         from ..scenes.reader import load_scene
 
-        model = load_scene(scene, split_assignments(changes or []))
+        model: Any = load_scene(scene, split_assignments(changes or []))
         length = None if duration is None else _time("--duration", duration)
         every = _time("--interval", interval)
         if length is None and getattr(getattr(model, "simulation", None), "duration", None) is None:

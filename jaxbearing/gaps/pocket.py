@@ -124,7 +124,7 @@ class CompliantPocketFace(eqx.Module):
         return 0.39 * (8.0 / self.reduced_modulus) ** 0.9 / self.length**0.8
 
     def flattening_energy(self, load: Values) -> Batch:
-        r"""Elastic energy of the flattening, J: $\int Q\,d\delta = \tfrac{0.9}{1.9}kQ^{1.9}$. **Arguments:** `load`, N."""
+        r"""Elastic energy of the flattening, J: $\int Q\,d\delta = \tfrac{0.9}{1.9}kQ^{1.9}$, Q the `load`, N."""
         return 0.9 / 1.9 * self.compliance * jnp.asarray(load) ** 1.9
 
     def face(self, gap: Values, gap_rate: Values, surface_speed: Values, viscosity: Values) -> PocketFace:

@@ -118,7 +118,13 @@ def integrate_segment(
     tolerance = jnp.asarray(options.tolerance)
     # the history of the error steers more smoothly through shocks than the last error alone
     control = dfx.PIDController(
-        rtol=tolerance, atol=tolerance, pcoeff=0.3, icoeff=0.4, dcoeff=0.0, dtmin=options.shortest_step
+        rtol=tolerance,
+        atol=tolerance,
+        pcoeff=0.3,
+        icoeff=0.4,
+        dcoeff=0.0,
+        dtmin=options.shortest_step,
+        force_dtmin=False,
     )
     found = dfx.diffeqsolve(
         dfx.ODETerm(field),

@@ -1,8 +1,8 @@
 """A run in time as a labelled xarray data set.
 
-Every field that carries a label in the result classes becomes one variable, as in `bearing.dataset`; those of an instant
-have the dimension `time`, arrays over the rolling elements (`load_inner`) `time` and `element`. `state_rollers` and
-`state_cage` are the state itself, in SI units and in the frame of the run.
+Every field that carries a label in the result classes becomes one variable, as in `bearing.dataset`; those of an
+instant have the dimension `time`, arrays over the rolling elements (`load_inner`) `time` and `element`. `state_rollers`
+and `state_cage` are the state itself, in SI units and in the frame of the run.
 """
 
 from collections.abc import Iterator

@@ -1,4 +1,4 @@
-"""One page of plots of a run in time: orbit of the cage, speeds, pocket loads over time and azimuth, race loads, power."""
+"""One page of plots of a run in time: orbit of the cage, speeds, power, pocket loads over time and azimuth, sliding."""
 
 import math
 from typing import TYPE_CHECKING, Any

@@ -123,9 +123,8 @@ def print_history(history: History, label: str, console: "Console") -> None:
 
     found = statistics(history)
     console.print(Text(label, style="bold"))
-    console.print(
-        f"{1e3 * float(history.time[-1]):.6g} ms in {int(history.accepted)} steps ({int(history.rejected)} more tried), {history.solver}"
-    )
+    steps = f"{int(history.accepted)} steps ({int(history.rejected)} more tried)"
+    console.print(f"{1e3 * float(history.time[-1]):.6g} ms in {steps}, {history.solver}")
     if not history.completed:
         console.print(Text(history.failure(), style="bold red"))
     table = Table("", "mean", "least", "largest", "at the end", box=None, pad_edge=False)
@@ -152,8 +151,8 @@ def print_history(history: History, label: str, console: "Console") -> None:
     table.add_row("drive power", with_unit(found["drive_power"], "W"))
     console.print(table)
     console.print(
-        f"\nThe energy balance leaves {float(history.energy.error):.1e} of the drive work open. Shocks are not repeatable "
-        "turn by turn: compare statistics, to 10-20 %."
+        f"\nThe energy balance leaves {float(history.energy.error):.1e} of the drive work open. Shocks are not "
+        "repeatable turn by turn: compare statistics, to 10-20 %."
     )
     for text in history.warnings:
         console.print(Text(f"- {text}", style="yellow"))
