@@ -2,13 +2,16 @@
 
 import dataclasses
 
+import diffrax
 import equinox as eqx
+import jax
 import jax.numpy as jnp
 import numpy as np
 import pytest
 from moving_roller import start_of, table_16
 
 import jaxbearing as jb
+from jaxbearing.bearings.roller_motion import quasi_static_start
 from jaxbearing.bearings.simulation import Simulation
 from jaxbearing.bearings.time_laws import AbstractTimeFactor, Ramp, RotatingLoad, Sinusoidal
 from jaxbearing.simulate import simulate, trajectory
@@ -39,7 +42,7 @@ def test_a_steady_run_begins_at_the_steady_state():
     cage, elements = history.instants.cage, history.instants.elements
     np.testing.assert_allclose(first(cage.speed), steady.cage.speed, rtol=1e-12)
     np.testing.assert_allclose(first(cage.eccentricity_ratio), steady.cage.eccentricity_ratio, rtol=1e-4)
-    # rollers stand up to half the pocket clearance ahead of or behind their equal distances: that much of the loads' slope
+    # rollers stand up to half the pocket clearance off their equal distances: that much of the slope of the loads
     slope = np.abs(np.diff(steady.elements.load_inner)).max() / (2.0 * np.pi / 30.0)
     np.testing.assert_allclose(first(elements.load_inner), steady.elements.load_inner, atol=slope * 150e-6 / 71e-3)
     np.testing.assert_allclose(first(history.instants.power_loss.total), steady.power_loss.total, rtol=0.01)
@@ -135,3 +138,21 @@ def test_error_falls_with_the_tolerance_before_the_first_shock(solver):
         steps.append(taken)
     slope = -np.polyfit(np.log(steps), np.log(errors), 1)[0]
     assert slope >= 0.8 * min(ORDERS[solver], 4)
+
+
+@pytest.mark.slow
+def test_slope_of_the_pocket_load_before_the_first_shock():
+    """Through start and run, in forward mode, against a central difference."""
+    scene, simulation = table_16(0.6), Simulation(tolerance=1e-9)
+    times = jnp.linspace(0.0, 0.5e-3, 6)[1:]
+
+    def mean_load(clearance):
+        start = quasi_static_start(scene.replace({"cage.pocket_clearance": clearance}), simulation)
+        run = trajectory(start, times, simulation, adjoint=diffrax.ForwardMode())
+        load = lambda given: start.dynamics.at(given[0], given[1]).pocket.front.load
+        return jnp.mean(jax.lax.map(load, (times, run.states)))
+
+    value, step, one = jax.jit(mean_load), 1e-8, jnp.ones(())
+    at = jnp.asarray(300e-6)
+    slope = jax.jit(lambda x: jax.jvp(mean_load, (x,), (one,))[1])(at)
+    np.testing.assert_allclose(slope, (value(at + step) - value(at - step)) / (2.0 * step), rtol=1e-7)
