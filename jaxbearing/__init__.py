@@ -30,6 +30,7 @@ if TYPE_CHECKING:
     from .scenes.reader import builtin_names as builtin_names
     from .scenes.reader import load_scene as load_scene
     from .sensitivity import sensitivities as sensitivities
+    from .simulate import simulate as simulate
 
 __version__ = "0.1.0"
 
@@ -44,6 +45,7 @@ _LAZY = {
     "builtin_names": ".scenes.reader",
     "load_scene": ".scenes.reader",
     "sensitivities": ".sensitivity",
+    "simulate": ".simulate",
 }
 """Public names that pull in the edge (units, validation) or are only needed by some; imported on first use."""
 

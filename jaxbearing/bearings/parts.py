@@ -58,10 +58,11 @@ class Operation(AbstractOperation):
 
 
 class Materials(eqx.Module):
-    """Solids of a roller bearing: `rings` and `rollers`."""
+    """Solids of a roller bearing: `rings`, `rollers` and, for the dynamics, `cage`."""
 
     rings: Material
     rollers: Material
+    cage: Material | None = None
 
 
 class DragSettings(eqx.Module):

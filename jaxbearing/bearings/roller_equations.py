@@ -26,7 +26,7 @@ The sign of $F_{C2} - F_{C1}$ in the cage's x balance differs from the source's 
 eq. (32) and action = reaction. Each interaction gives its force and its dissipation from one and the same speed.
 """
 
-from typing import Literal, NamedTuple
+from typing import NamedTuple
 
 import equinox as eqx
 import jax
@@ -35,26 +35,16 @@ from jaxtyping import Array, Float
 
 from ..contacts import LineContact
 from ..contacts.laws import ContactLaws, ContactState
-from ..gaps import (
-    EndForces,
-    FlangeCoefficients,
-    Pocket,
-    PocketEdgeCoefficients,
-    PocketFilm,
-    RollerDrag,
-    ShortJournal,
-)
+from ..gaps import EndForces, PocketFilm
 from ..lubricants import InletOil, Lubricant
 from ..numerics.arrow import AbstractArrowSystem, ArrowPoint
 from ..numerics.roots import monotone_root
-from ..numerics.safe import positive_power, safe_norm
+from ..numerics.safe import safe_norm
 from .kinematics import RollerKinematics
 from .land import LandState, guided_land
+from .roller_forces import CageParts, forces_without_pocket, on_cage
+from .roller_loads import LENGTH_UNIT, LOG_LOAD_RANGE, approach_error, guessed_loads, per_race
 
-LENGTH_UNIT = 1e-5
-"""Scale of displacements and approaches, m."""
-LOG_LOAD_RANGE = (-40.0, 18.0)
-"""ln(load / 1 N) that an iterate may take."""
 EASED_ENTRAINMENT = 0.3
 """Entrainment speed that a solve which failed at once is given first, over that of rolling without slip."""
 EASED_PRESSURE = 1.5e9
@@ -80,24 +70,6 @@ class RollerState(NamedTuple):
     moment_error: Float[Array, " roller"] | None
     cage_moment: Float[Array, " roller"] | None
     cage_force: Float[Array, "2 roller"] | None
-
-
-class CageParts(eqx.Module):
-    """What a cage adds to the equations; all prepared, with the oil at its inlet temperature."""
-
-    pocket: Pocket
-    land: ShortJournal
-    guidance: Literal["inner_ring", "outer_ring"] = eqx.field(static=True)
-    rails: PocketEdgeCoefficients | None = None
-    inner_flange: FlangeCoefficients | None = None
-    outer_flange: FlangeCoefficients | None = None
-    drag: RollerDrag | None = None
-    drag_density: Float[Array, ""] | None = None
-
-
-def _per_race(values: Array) -> Float[Array, "2"]:
-    """A contact property, one number or of shape (2, 1), as (inner, outer)."""
-    return jnp.broadcast_to(values, (2, 1))[:, 0]
 
 
 class LubricatedRollerSystem(AbstractArrowSystem):
@@ -160,44 +132,18 @@ class LubricatedRollerSystem(AbstractArrowSystem):
     def initial(self) -> ArrowPoint:
         """Rolling without slip; loads from a dry elastic distribution on rings swollen by the films, plus Martin's
         film force on the rollers outside the loaded zone, at the ring displacement that carries the load."""
-        motion = self.kinematics
-        kappa = _per_race(self.contact.palmgren_compliance)
-        centrifugal = self.centrifugal(motion.free_orbit)
-        total = self.load_scale()
-        n = self.azimuth.shape[0]
+        motion, n = self.kinematics, self.azimuth.shape[0]
         mean_speed, _ = motion.surface_speeds(jnp.zeros(()), jnp.zeros(()))
-        typical = total * 4.0 / n + centrifugal + 1.0
-        films = jnp.exp(
-            self.laws.film.log_thickness(
-                self.contact, typical, mean_speed[:, None], self.inlet.viscosity, self.inlet.pressure_viscosity
-            )
+        shift, log_load = guessed_loads(
+            self.contact,
+            self.laws,
+            self.inlet,
+            mean_speed,
+            self.directions[0],
+            self.load_scale(),
+            self.centrifugal(motion.free_orbit),
+            self.radial_clearance,
         )
-        film = jnp.sum(films)
-        # Q = 4.9 mu u R l / h: Martin's film of a rigid roller
-        martin = (
-            4.9
-            * self.inlet.viscosity
-            * jnp.abs(mean_speed[0])
-            * _per_race(self.contact.reduced_radius * self.contact.length)[0]
-        )
-        cosine = self.directions[0]
-        stiff = jnp.sum(kappa)
-
-        def loads(shift, args):
-            film_, martin_, centrifugal_, clearance = args
-            compression = shift * cosine - clearance + film_
-            elastic = positive_power(positive_power(compression / stiff, 10.0 / 9.0) - 0.5 * centrifugal_, 1.0 + 1e-9)
-            return elastic + martin_ / (jnp.maximum(-compression, 0.0) + film_)
-
-        def balance(shift, args):
-            return jnp.sum(loads(shift, args) * cosine) / total - 1.0
-
-        args = (film, martin, centrifugal, self.radial_clearance)
-        high = self.radial_clearance + stiff * (total + centrifugal) ** 0.9
-        low = jnp.minimum(-high, -LENGTH_UNIT)
-        high = jnp.maximum(high, LENGTH_UNIT)
-        shift = monotone_root(balance, args, low, high, high, tolerance=1e-6).value
-        log_load = jnp.clip(jnp.log(loads(shift, args)), *LOG_LOAD_RANGE)
         ring = jnp.concatenate([shift[None], jnp.zeros(self.directions.shape[0] - 1)]) / LENGTH_UNIT
         if self.cage is None:
             return ArrowPoint(log_load[None, :], ring)
@@ -213,7 +159,7 @@ class LubricatedRollerSystem(AbstractArrowSystem):
         load: it pins the rollers to rolling without slip."""
         extra = EASED_ENTRAINMENT * jnp.abs(self.kinematics.orbit_scale) * self.kinematics.outer_radius
         offset = self.laws.entrainment_offset + jnp.where(path == 0, ease**3 * extra, 0.0)
-        contact = jax.tree.map(lambda values: _per_race(values)[0], self.contact)
+        contact = jax.tree.map(lambda values: per_race(values)[0], self.contact)
         per_roller = 2.0 * jnp.pi * EASED_PRESSURE**2 * contact.reduced_radius * contact.length
         heavy = per_roller / contact.reduced_modulus * self.azimuth.shape[0] / 4.0
         factor = jnp.where(path == 1, jnp.maximum(heavy / self.load_scale(), 1.0) ** ease, 1.0)
@@ -265,11 +211,6 @@ class LubricatedRollerSystem(AbstractArrowSystem):
         mean_speed, sliding = motion.surface_speeds(orbit_change, spin_change)
         contact = self.laws.evaluate(self.contact, load, mean_speed, sliding, self.oil, self.inlet)
         approach = self.contact.palmgren_approach(load)
-        approach_sum, film_sum = jnp.sum(approach, axis=0), jnp.sum(contact.film, axis=0)
-        # both sides positive: their logarithms are nearly linear in ln Q, for a film in a gap and for steel on steel
-        opening = self.radial_clearance - shift
-        apart = approach_sum + jnp.maximum(opening, 0.0)
-        together = film_sum + jnp.maximum(-opening, 0.0)
         state = RollerState(
             load=load,
             approach=approach,
@@ -283,7 +224,7 @@ class LubricatedRollerSystem(AbstractArrowSystem):
             outer_flange=None,
             rails=None,
             drag_force=None,
-            approach_error=jnp.log(apart / together),
+            approach_error=approach_error(approach, contact.film, self.radial_clearance - shift),
             moment_error=None,
             cage_moment=None,
             cage_force=None,
@@ -292,48 +233,25 @@ class LubricatedRollerSystem(AbstractArrowSystem):
 
     def _with_cage(self, state: RollerState, cage: CageParts) -> RollerState:
         """Tangential and moment balance of the rollers, and what they do to the cage."""
-        motion, orbit, spin = self.kinematics, state.orbital_speed, state.spin_speed
-        ends = lambda part, ring_speed: None if part is None else part.evaluate(-spin, ring_speed - orbit)
-        inner_flange = ends(cage.inner_flange, motion.inner_speed)
-        outer_flange = ends(cage.outer_flange, motion.outer_speed)
-        rails = None if cage.rails is None else cage.rails.evaluate(-spin)
-        drag = None
-        traction = state.contact.traction
-        assert traction is not None
-        tangential = traction[0] - traction[1]
-        moment = jnp.zeros_like(spin)
-        for end in (inner_flange, outer_flange, rails):
-            if end is not None:
-                tangential = tangential + end.tangential_force
-                moment = moment + end.moment
-        rolling = state.contact.rolling_force
-        if rolling is not None:
-            lean = _per_race(self.contact.reduced_radius) / motion.roller_radius - 0.5
-            tangential = tangential + rolling[0] * lean[0] - rolling[1] * lean[1]
-            moment = moment + 0.5 * motion.roller_radius * (rolling[0] + rolling[1])
-        if cage.drag is not None:
-            drag = cage.drag.force(motion.pitch_radius * orbit, cage.drag_density)
-            tangential = tangential - drag
+        motion, spin = self.kinematics, state.spin_speed
+        assert cage.pocket is not None
+        forces = forces_without_pocket(motion, self.contact, state.contact, cage, state.orbital_speed, spin)
         # tangential balance: the pocket films carry what is left; front minus rear load
-        pocket = cage.pocket.balance(tangential, spin, self.inlet.viscosity)
-        friction = pocket.friction_front + pocket.friction_rear
-        moment = moment + motion.roller_radius * (friction - traction[0] - traction[1])
-
-        on_cage_forward = pocket.load_front - pocket.load_rear
-        cage_moment = on_cage_forward * motion.pitch_radius - friction * motion.roller_radius
-        if rails is not None:
-            on_cage_forward = on_cage_forward - rails.tangential_force
-            cage_moment = cage_moment - rails.moment - rails.tangential_force * motion.pitch_radius
-        outward = pocket.friction_front - pocket.friction_rear
-        cosine, sine = jnp.cos(self.azimuth), jnp.sin(self.azimuth)
-        # t = (-cos, -sin), n = (-sin, cos) in (X, Y), the load along +Y
-        cage_force = jnp.stack([-on_cage_forward * cosine - outward * sine, -on_cage_forward * sine + outward * cosine])
+        pocket = cage.pocket.balance(forces.tangential, spin, self.inlet.viscosity)
+        moment = forces.moment + motion.roller_radius * (pocket.friction_front + pocket.friction_rear)
+        cage_moment, cage_force = on_cage(
+            motion,
+            self.azimuth,
+            (pocket.load_front, pocket.load_rear),
+            (pocket.friction_front, pocket.friction_rear),
+            forces.rails,
+        )
         return state._replace(
             pocket=pocket,
-            inner_flange=inner_flange,
-            outer_flange=outer_flange,
-            rails=rails,
-            drag_force=drag,
+            inner_flange=forces.inner_flange,
+            outer_flange=forces.outer_flange,
+            rails=forces.rails,
+            drag_force=forces.drag_force,
             moment_error=moment / (self.friction_scale() * motion.roller_radius),
             cage_moment=cage_moment,
             cage_force=cage_force,
@@ -343,6 +261,7 @@ class LubricatedRollerSystem(AbstractArrowSystem):
         """The lands that carry the pocket forces: eccentricity, torques on cage and guiding ring."""
         cage, motion = self.cage, self.kinematics
         assert cage is not None
+        assert cage.land is not None
         return guided_land(
             cage.land, cage.guidance, motion.inner_speed, motion.outer_speed, orbit, force_x, force_y, self.inlet
         )
@@ -394,7 +313,7 @@ class DryRollerSystem(AbstractArrowSystem):
         $k_i Q^{0.9} + k_o (Q + F_c)^{0.9} = d\cdot n - J_d/2$ with Q = 0 until the outer approach of the centrifugal
         force is taken up; solved in $t = Q^{0.9}$, where it is nearly linear: Q is C1 at take-off, with slope 0.
         """
-        kappa = _per_race(self.contact.palmgren_compliance)
+        kappa = per_race(self.contact.palmgren_compliance)
         fc = self.centrifugal()
         # Double where: 0^0.9 has no derivative, and a bearing at rest has no centrifugal force.
         turning = fc > 0

@@ -16,13 +16,9 @@ from .cylindrical_roller import CylindricalRollerBearing, RollerCage, RollerGeom
 from .kinematics import RollerKinematics
 from .land import LandState
 from .parts import drag_density
-from .roller_equations import (
-    LENGTH_UNIT,
-    CageParts,
-    DryRollerSystem,
-    LubricatedRollerSystem,
-    RollerState,
-)
+from .roller_equations import DryRollerSystem, LubricatedRollerSystem, RollerState
+from .roller_forces import CageParts, ring_torques
+from .roller_loads import LENGTH_UNIT
 from .solution import RING_FREEDOMS, CageState, PowerLoss, RingDisplacement, RollerResults, Solution
 from .steady import assemble
 
@@ -80,11 +76,10 @@ def build_system(scene: CylindricalRollerBearing) -> DryRollerSystem | Lubricate
 
 def _cage_parts(scene: CylindricalRollerBearing, motion: RollerKinematics) -> CageParts:
     cage, oil, geometry, operation = scene.cage, scene.oil, scene.geometry, scene.operation
-    assert cage is not None
     assert oil is not None
     viscosity = oil.viscosity.viscosity(0.0, jnp.asarray(operation.oil_temperature))
     rails = None
-    if cage.pocket_axial_clearance is not None:
+    if cage is not None and cage.pocket_axial_clearance is not None:
         edge = PocketEdge(
             inner_radius=jnp.asarray(cage.bore(geometry)) / 2.0,
             outer_radius=jnp.asarray(cage.outside(geometry)) / 2.0,
@@ -111,14 +106,17 @@ def _cage_parts(scene: CylindricalRollerBearing, motion: RollerKinematics) -> Ca
     if scene.drag is not None:
         drag = RollerDrag(coefficient=jnp.asarray(scene.drag.coefficient), area=drag_area(geometry, cage))
         density = drag_density(oil, operation, geometry.pitch_diameter, scene.drag.through_flow_fraction)
-    return CageParts(
-        pocket=Pocket(
+    pocket = None
+    if cage is not None:
+        pocket = Pocket(
             clearance=jnp.asarray(cage.pocket_clearance),
             length=jnp.asarray(geometry.roller_length),
             roller_radius=motion.roller_radius,
-        ),
-        land=cage.land(geometry),
-        guidance=cage.guidance,
+        )
+    return CageParts(
+        pocket=pocket,
+        land=None if cage is None else cage.land(geometry),
+        guidance="inner_ring" if cage is None else cage.guidance,
         rails=rails,
         inner_flange=flange("inner", motion.inner_radius, 1.0),
         outer_flange=flange("outer", motion.outer_radius, -1.0),
@@ -127,17 +125,24 @@ def _cage_parts(scene: CylindricalRollerBearing, motion: RollerKinematics) -> Ca
     )
 
 
-def drag_area(geometry: RollerGeometry, cage: RollerCage) -> Array:
+def drag_area(geometry: RollerGeometry, cage: RollerCage | None) -> Array:
     """Frontal area of a roller that the cage leaves free: length times (diameter - cage thickness), m^2.
 
     The analogue of the source's ball formula; 0 where the cage is thicker than the roller.
     """
-    thickness = (cage.outside(geometry) - cage.bore(geometry)) / 2.0
+    thickness = 0.0 if cage is None else (cage.outside(geometry) - cage.bore(geometry)) / 2.0
     return jnp.asarray(geometry.roller_length) * jnp.maximum(geometry.roller_diameter - thickness, 0.0)
 
 
 def solve_steady(scene: CylindricalRollerBearing, options: NewtonOptions) -> Solution:
-    """Steady state: pure, jit-able, vmap-able, differentiable; never raises for a failed solve."""
+    """Steady state: pure, jit-able, vmap-able, differentiable; never raises for a failed solve.
+
+    **Raises:** `ValueError` for a scene that has no steady state.
+    """
+    if scene.slips and scene.cage is None:
+        raise ValueError(
+            "cage: without one a roller outside the loaded zone has no steady state; simulate can run this scene"
+        )
     system, result = newton_solve(build_system(scene), options)
     results = _dry_results(system, result) if isinstance(system, DryRollerSystem) else _lubricated(system, result)
     ring = {name: result.point.globals[i] * LENGTH_UNIT for i, name in enumerate(scene.ring_freedom)}
@@ -228,7 +233,7 @@ def _lubricated(system: LubricatedRollerSystem, result: NewtonResult) -> _Result
     orbit = system.orbit(result.point.globals[-1])
     cage = CageState(
         speed=orbit,
-        slip=_cage_slip(orbit, motion),
+        slip=cage_slip(orbit, motion),
         eccentricity_ratio=land.eccentricity_ratio,
         attitude_angle=land.attitude_angle,
     )
@@ -236,7 +241,7 @@ def _lubricated(system: LubricatedRollerSystem, result: NewtonResult) -> _Result
     return _Results(cage, elements, losses, drive, inner, outer, _range_excess(system, state, land))
 
 
-def _cage_slip(orbit: Array, motion: RollerKinematics) -> Array:
+def cage_slip(orbit: Array, motion: RollerKinematics) -> Array:
     """1 - W / W_free, finite (and then without meaning) where rolling without slip would hold the cage still.
 
     W_free is smoothed by 1e-8 of the speed scale: relative error 1e-16 with one ring at rest.
@@ -276,19 +281,9 @@ def _ring_torques(system: LubricatedRollerSystem, state: RollerState, land: Land
     Assembled from the forces on the rings; that their power equals the sum of the dissipations is the test of every
     sign in the model.
     """
-    motion, traction, cage = system.kinematics, state.contact.traction, system.cage
-    assert traction is not None
+    cage = system.cage
     assert cage is not None
-    inner = jnp.sum(traction[0]) * motion.inner_radius
-    outer = -jnp.sum(traction[1]) * motion.outer_radius
-    rolling = state.contact.rolling_force
-    if rolling is not None:
-        inner = inner + 0.5 * jnp.sum(rolling[0]) * motion.inner_radius
-        outer = outer - 0.5 * jnp.sum(rolling[1]) * motion.outer_radius
-    if state.inner_flange is not None:
-        inner = inner - jnp.sum(state.inner_flange.ring_moment)
-    if state.outer_flange is not None:
-        outer = outer - jnp.sum(state.outer_flange.ring_moment)
+    inner, outer = ring_torques(system.kinematics, state.contact, state.inner_flange, state.outer_flange)
     if cage.guidance == "inner_ring":
         return inner - land.ring_torque, outer
     return inner, outer - land.ring_torque
@@ -307,7 +302,7 @@ def _input_excess(system: DryRollerSystem | LubricatedRollerSystem) -> dict[str,
         "rings turn against each other at less than 100 rpm: the films vanish, consider a dry scene": SLOWEST
         - jnp.abs(motion.inner_speed - motion.outer_speed),
     }
-    if system.cage is not None:
+    if system.cage is not None and system.cage.land is not None:
         land = system.cage.land
         excess["land wider than a third of its radius: the short journal film overestimates"] = (
             land.width - land.radius / 3.0

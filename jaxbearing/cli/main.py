@@ -14,6 +14,7 @@ import typer
 from .fit_verb import fit
 from .messages import BAD_INPUT, INTERRUPTED, NO_OUTPUT, say
 from .scenes_verb import scenes
+from .simulate_verb import simulate
 from .solve_verb import solve
 from .stiffness_verb import stiffness
 
@@ -100,5 +101,5 @@ def _options(
     pass
 
 
-for _verb in (scenes, solve, stiffness, fit):
+for _verb in (scenes, solve, simulate, stiffness, fit):
     app.command()(_verb)

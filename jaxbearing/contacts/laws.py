@@ -15,7 +15,7 @@ from .line import LineContact
 from .rolling import AbstractRollingResistance
 from .thermal import AbstractThermalFactor, NoThermalReduction
 from .traction import AbstractTraction
-from .warm_film import warm_film
+from .warm_film import WarmFilm, warm_film
 
 SPEED_SMOOTHING = 5e-7
 """Smoothing of the mean surface speed's modulus, m/s: relative error < 1e-12 above 0.5 m/s."""
@@ -45,6 +45,8 @@ class ContactLaws(eqx.Module):
     - `entrainment_offset`: added to the mean surface speed of every contact, m/s. 0 by default; the
       reference closure of the published check values uses 1 mm/s.
     - `rolling`: rolling resistance, or `None`: left out.
+    - `entrainment_smoothing`: smoothing of the mean surface speed's modulus, m/s: what film a contact keeps whose
+      surfaces pass through rest.
     """
 
     film: AbstractLineFilm
@@ -52,6 +54,24 @@ class ContactLaws(eqx.Module):
     traction: AbstractTraction | None = None
     entrainment_offset: Scalar = eqx.field(converter=as_float, default=0.0)
     rolling: AbstractRollingResistance | None = None
+    entrainment_smoothing: Scalar = eqx.field(converter=as_float, default=SPEED_SMOOTHING)
+
+    def entrainment(self, mean_speed: Values) -> Float[Array, "..."]:
+        """Entrainment speed of the film, m/s, > 0. **Arguments:** `mean_speed` (u1 + u2)/2, m/s, of either sign."""
+        return smooth_abs(mean_speed, self.entrainment_smoothing) + self.entrainment_offset
+
+    def warm_film(
+        self,
+        contact: LineContact,
+        load: Values,
+        mean_speed: Values,
+        sliding_speed: Values,
+        lubricant: Lubricant,
+        inlet: InletOil,
+    ) -> WarmFilm:
+        """The film alone; arguments as in `evaluate`."""
+        speed = self.entrainment(mean_speed)
+        return warm_film(self.film, self.thermal, contact, load, speed, sliding_speed, lubricant, inlet)
 
     def evaluate(
         self,
@@ -71,8 +91,8 @@ class ContactLaws(eqx.Module):
         **Arguments:** `load`, N, > 0; `mean_speed` (u1 + u2)/2 and `sliding_speed` u1 - u2, m/s, of either sign;
         `inlet` = `lubricant.at(inlet temperature)`, evaluated once for all contacts.
         """
-        speed = smooth_abs(mean_speed, SPEED_SMOOTHING) + self.entrainment_offset
-        found = warm_film(self.film, self.thermal, contact, load, speed, sliding_speed, lubricant, inlet)
+        speed = self.entrainment(mean_speed)
+        found = self.warm_film(contact, load, mean_speed, sliding_speed, lubricant, inlet)
         base, base_viscosity = inlet.temperature, inlet.viscosity
         if found.rise is not None:
             base = inlet.temperature + found.rise

@@ -60,6 +60,13 @@ class StaticFilm(NamedTuple):
     residual: Batch
 
 
+class LineOfCentres(NamedTuple):
+    """Eccentricity ratio and unit vector from the bush's centre to the journal's."""
+
+    eccentricity_ratio: Batch
+    direction: tuple[Batch, Batch]
+
+
 class ShortJournal(eqx.Module):
     r"""Short (narrow) journal film, isoviscous and rigid, cavitated: p = max(p, 0) (pi film).
 
@@ -125,19 +132,35 @@ class ShortJournal(eqx.Module):
         `film_factors` (12 if laminar).
         """
         c = self.clearance
-        # the shift keeps e_r a unit vector at e = 0; flooring |e| alone would give e_r = 0, F = 0
-        shifted_x = offset_x + OFFSET_SHIFT * c
-        length = safe_norm(safe_norm(shifted_x, offset_y), DIRECTION_FLOOR * c)
-        r_x, r_y = shifted_x / length, offset_y / length
+        eps, (r_x, r_y) = self.line_of_centres(offset_x, offset_y)
+        length = eps * c
         mean_speed = 0.5 * (journal_speed + bush_speed)
         v_r = rate_x * r_x + rate_y * r_y
         v_t = rate_y * r_x - rate_x * r_y - mean_speed * length
-        eps = length / c
         a, b, cc = _film_integrals(saturated_eccentricity(eps), v_r, v_t, SPEED_TINY * c)
         k = self.film_constant(viscosity, k_z)
         f_r = -k * (cc * v_r + b * v_t) - LAND_STIFFNESS * c * eccentricity_overlap(eps)
         f_t = -k * (b * v_r + a * v_t)
         return f_r * r_x - f_t * r_y, f_r * r_y + f_t * r_x
+
+    def line_of_centres(self, offset_x: Values, offset_y: Values) -> LineOfCentres:
+        """Eccentricity and direction at an offset of the journal, m; see `OFFSET_SHIFT`."""
+        # the shift keeps e_r a unit vector at e = 0; flooring |e| alone would give e_r = 0, F = 0
+        shifted_x = offset_x + OFFSET_SHIFT * self.clearance
+        length = safe_norm(safe_norm(shifted_x, offset_y), DIRECTION_FLOOR * self.clearance)
+        return LineOfCentres(length / self.clearance, (shifted_x / length, offset_y / length))
+
+    def static_offset(
+        self, eccentricity_ratio: Values, attitude_angle: Values, force_x: Values, force_y: Values, mean_speed: Values
+    ) -> tuple[Batch, Batch]:
+        """Offset of the journal, m, at a `static_equilibrium` in which the film pushes on the journal along a force.
+
+        **Arguments:** `force_*`, N, of any size; `mean_speed` of journal and bush, rad/s, of which the sign counts.
+        """
+        turn = jnp.where(mean_speed >= 0, 1.0, -1.0) * (jnp.pi - attitude_angle)
+        angle = jnp.arctan2(force_y, force_x) - turn
+        length = eccentricity_ratio * self.clearance
+        return length * jnp.cos(angle) - OFFSET_SHIFT * self.clearance, length * jnp.sin(angle)
 
     def torques(
         self,

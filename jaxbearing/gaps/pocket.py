@@ -118,6 +118,15 @@ class CompliantPocketFace(eqx.Module):
     minimum_speed: Scalar = 0.5
     minimum_film: Scalar = 0.3e-6
 
+    @property
+    def compliance(self) -> Scalar:
+        """k of the flattening k Q^0.9, m/N^0.9."""
+        return 0.39 * (8.0 / self.reduced_modulus) ** 0.9 / self.length**0.8
+
+    def flattening_energy(self, load: Values) -> Batch:
+        r"""Elastic energy of the flattening, J: $\int Q\,d\delta = \tfrac{0.9}{1.9}kQ^{1.9}$, Q the `load`, N."""
+        return 0.9 / 1.9 * self.compliance * jnp.asarray(load) ** 1.9
+
     def face(self, gap: Values, gap_rate: Values, surface_speed: Values, viscosity: Values) -> PocketFace:
         """Load, film and friction at a rigid gap.
 
@@ -141,7 +150,7 @@ class CompliantPocketFace(eqx.Module):
             + 0.54 * jnp.log(self.pressure_viscosity * modulus)
             + 0.13 * jnp.log(modulus * radius * self.length)
         )
-        log_flat = jnp.log(0.39 * (8.0 / modulus) ** 0.9 / self.length**0.8)
+        log_flat = jnp.log(self.compliance)
         args = tuple(jnp.broadcast_arrays(gap, log_martin, log_elastic, log_flat))
         pressed = (jnp.log(jnp.maximum(self.minimum_film, -gap)) - log_flat) / 0.9
         guess = jnp.where(gap < -self.minimum_film, pressed, log_martin - jnp.log(smooth_gap))

@@ -29,24 +29,39 @@ class BlockArrow(lx.AbstractLinearSolver):
 
     The blocks are read off the operator with m + 2g products, whatever the number of elements; that rows of element j
     depend on element j and the globals only is taken for granted, not checked.
+
+    **Arguments:** `idle`: number of globals, the last ones, on which no other row depends (integrals along the way).
+    Nothing is asked about their rows but the diagonal: an iteration finds them one step after the others, and a
+    derivative through this solver misses them.
     """
+
+    idle: int = 0
 
     def init(self, operator: lx.AbstractLinearOperator, options: dict[str, Any]) -> ArrowJacobian:
         del options
         shape = operator.in_structure()
         m, n = shape.elements.shape
         (g,) = shape.globals.shape
-        own = ArrowPoint(jnp.broadcast_to(jnp.eye(m)[:, :, None], (m, m, n)), jnp.zeros((m, g)))
-        common = ArrowPoint(jnp.zeros((g, m, n)), jnp.eye(g))
+        active = g - self.idle
+        last = jnp.zeros(g).at[active:].set(1.0)
+        # forward: the components of all elements, each active global, and all idle ones together
+        forward = ArrowPoint(
+            jnp.zeros((m + active + 1, m, n)).at[:m].set(jnp.broadcast_to(jnp.eye(m)[:, :, None], (m, m, n))),
+            jnp.concatenate([jnp.zeros((m, g)), jnp.eye(active, g), last[None, :]]),
+        )
+        backward = ArrowPoint(jnp.zeros((active, m, n)), jnp.eye(active, g))
+        if not self.idle:
+            forward = jax.tree.map(lambda seeds: seeds[:-1], forward)
+        products = jax.vmap(operator.mv)(forward)
+        rows = jax.vmap(operator.transpose().mv)(backward)
+        corner = jnp.diag(products.globals[-1] * last)
+        corner = corner.at[:active, :active].set(products.globals[m : m + active, :active].T)
         # products come with the seed first; blocks have it second
-        local = jnp.swapaxes(jax.vmap(operator.mv)(own).elements, 0, 1)
-        columns = jax.vmap(operator.mv)(common)
-        rows = jax.vmap(operator.transpose().mv)(common)
         return ArrowJacobian(
-            local=local,
-            to_globals=jnp.swapaxes(columns.elements, 0, 1),
-            contributions=rows.elements,
-            corner=columns.globals.T,
+            local=jnp.swapaxes(products.elements[:m], 0, 1),
+            to_globals=jnp.zeros((m, g, n)).at[:, :active].set(jnp.swapaxes(products.elements[m : m + active], 0, 1)),
+            contributions=jnp.zeros((g, m, n)).at[:active].set(rows.elements),
+            corner=corner,
             chain=jnp.eye(g),
         )
 

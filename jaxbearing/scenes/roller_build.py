@@ -8,6 +8,7 @@ from .contact_laws import contact_laws
 from .materials import material
 from .oils import lubricant
 from .roller_schema import CylindricalRollerTable
+from .simulation_schema import simulation
 
 
 def cylindrical_roller_bearing(table: CylindricalRollerTable) -> CylindricalRollerBearing:
@@ -18,11 +19,16 @@ def cylindrical_roller_bearing(table: CylindricalRollerTable) -> CylindricalRoll
     oil = None if table.oil is None else lubricant(table.oil)
     return CylindricalRollerBearing(
         geometry=RollerGeometry(**table.geometry.model_dump()),
-        materials=Materials(rings=material(table.materials.rings), rollers=material(table.materials.rollers)),
+        materials=Materials(
+            rings=material(table.materials.rings),
+            rollers=material(table.materials.rollers),
+            cage=None if table.materials.cage is None else material(table.materials.cage),
+        ),
         operation=Operation(**table.operation.model_dump(exclude_none=True)),
         oil=oil,
         contact=None if table.contact is None else contact_laws(table.contact, oil),
         cage=cage(RollerCage, table.cage),
         flange=part(RollerFlange, table.flange),
         drag=part(Drag, table.drag),
+        simulation=None if table.simulation is None else simulation(table.simulation),
     )

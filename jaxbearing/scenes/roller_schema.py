@@ -17,6 +17,7 @@ from .bearing_schema import (
 from .laws import TractionAccuracy
 from .materials import MaterialField
 from .oil_schema import OilTable
+from .simulation_schema import SimulationTable
 from .table import Table, refusal_at
 
 
@@ -39,6 +40,7 @@ class GeometryTable(Table):
 class MaterialsTable(Table):
     rings: MaterialField
     rollers: MaterialField
+    cage: MaterialField | None = None
 
 
 class ContactTable(Table):
@@ -113,16 +115,17 @@ class CylindricalRollerTable(Table):
     cage: CageTable | None = None
     flange: FlangeTable | None = None
     drag: DragTable | None = None
+    simulation: SimulationTable | None = None
 
     @model_validator(mode="after")
     def _complete(self) -> Self:
         """What one table needs of another. The classes check the rest when they are built."""
         slips = self.contact is not None and self.contact.traction is not None
-        if slips and self.cage is not None:
+        if slips and (self.cage is not None or self.simulation is not None):
             require_oil_flow(self.drag, self.operation)
         if self.contact is None:
             return self
-        if slips and self.cage is None:
+        if slips and self.cage is None and self.simulation is None:
             expected = (
                 "a table [cage], which contact.traction needs: without one a roller outside the loaded zone slows "
             )

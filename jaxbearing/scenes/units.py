@@ -63,6 +63,8 @@ CONDUCTIVITY = Dimension("a thermal conductivity", "W/(m*K)", "0.147 W/(m*K)")
 CONDUCTIVITY_SLOPE = Dimension("a change of conductivity with temperature", "W/(m*K^2)", "-2.2e-4 W/(m*K^2)")
 KELVIN_PER_PRESSURE = Dimension("a temperature over a pressure", "K/Pa", "-2348.8 K/GPa")
 KELVIN2_PER_PRESSURE = Dimension("a squared temperature over a pressure", "K^2/Pa", "403871.5 K^2/GPa")
+TIME = Dimension("a time", "s", "50 ms")
+FREQUENCY = Dimension("a frequency", "1/s", "40 Hz")
 TANGENTIAL_COMPLIANCE = Dimension("a tangential compliance", "m/Pa", "1e-15 m/Pa")
 
 
@@ -264,6 +266,10 @@ def _between(low: float, high: float) -> Callable[[Any], float]:
 
 Count = Annotated[int, BeforeValidator(count)]
 Switch = Annotated[bool, BeforeValidator(_switch)]
+PositiveTime = Annotated[float, _quantity(TIME, "> 0")]
+NonNegativeTime = Annotated[float, _quantity(TIME, ">= 0")]
+PositiveFrequency = Annotated[float, _quantity(FREQUENCY, "> 0")]
+NonNegativeForce = Annotated[float, _quantity(FORCE, ">= 0")]
 PositiveNumber = Annotated[float, BeforeValidator(lambda value: number(value, "> 0"))]
 NonNegativeNumber = Annotated[float, BeforeValidator(lambda value: number(value, ">= 0"))]
 PoissonRatio = Annotated[float, BeforeValidator(_between(0.0, 0.5))]

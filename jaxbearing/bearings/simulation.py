@@ -1,0 +1,48 @@
+"""What a scene says about its run in time: the same for all kinds of bearings."""
+
+import equinox as eqx
+
+from .._scene import number, optional_number
+from .._types import Scalar
+from ..numerics.checks import require
+from ..numerics.integrate import IntegratorOptions, check_solver
+from .time_laws import AbstractTimeFactor, RotatingLoad, Steady
+
+DEFAULT_SOLVER = "tsit5"
+DEFAULT_TOLERANCE = 1e-5
+
+
+class Simulation(eqx.Module):
+    """A run in time, from the quasi-static state of the operating point.
+
+    **Arguments:**
+    - `duration`: s; `None`: it must be given with the run.
+    - `speed`: inner ring speed over that of the operating point, as a function of time.
+    - `load`: radial load over that of the operating point, as a function of time.
+    - `rotating_load`: a further, turning load; it frees the ring across the load line too.
+    - `solver`: one of `numerics.integrate.SOLVERS`.
+    - `tolerance`: relative tolerance, and absolute one in the units of the state.
+    - `entrainment_smoothing`: smoothing of the mean surface speed's modulus in the films of the raceways, m/s: what
+      film is left where a roller's surface passes through rest.
+    """
+
+    duration: Scalar | None = optional_number()
+    speed: AbstractTimeFactor = Steady()
+    load: AbstractTimeFactor = Steady()
+    rotating_load: RotatingLoad | None = None
+    solver: str = eqx.field(static=True, default=DEFAULT_SOLVER)
+    tolerance: Scalar = number(DEFAULT_TOLERANCE)
+    entrainment_smoothing: Scalar = number(0.05)
+
+    def __check_init__(self):
+        require(
+            "simulation",
+            duration=(self.duration, "> 0"),
+            tolerance=(self.tolerance, "> 0"),
+            entrainment_smoothing=(self.entrainment_smoothing, "> 0"),
+        )
+        check_solver(self.solver)
+
+    @property
+    def options(self) -> IntegratorOptions:
+        return IntegratorOptions(solver=self.solver, tolerance=self.tolerance)

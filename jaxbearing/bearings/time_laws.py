@@ -1,0 +1,132 @@
+"""Shaft speed and load as functions of time. They are pytrees: new numbers in them never recompile."""
+
+import abc
+from typing import Any
+
+import equinox as eqx
+import jax.numpy as jnp
+import numpy as np
+from jaxtyping import Array, Float
+
+from .._scene import number
+from .._types import Scalar
+from ..numerics.checks import require
+from ..numerics.precision import as_float
+
+
+class AbstractTimeFactor(eqx.Module):
+    """A factor on the operating point's speed or load, as a function of time; 1 is the operating point itself."""
+
+    @abc.abstractmethod
+    def factor(self, time: Scalar) -> Float[Array, ""]:
+        """**Arguments:** `time`, s, from the start of the run."""
+
+    @abc.abstractmethod
+    def integral(self, time: Scalar) -> Float[Array, ""]:
+        """Of the factor from 0 to `time`, s: with it a frame can turn with the shaft, and positions stay small."""
+
+
+class Steady(AbstractTimeFactor):
+    """1 at all times."""
+
+    def factor(self, time: Scalar) -> Float[Array, ""]:
+        return jnp.ones(())
+
+    def integral(self, time: Scalar) -> Float[Array, ""]:
+        return jnp.asarray(time)
+
+
+class Sinusoidal(AbstractTimeFactor):
+    r"""$1 + A\sin(2\pi ft)$ (source, section 4.4).
+
+    **Arguments:** `frequency`, f, Hz; `amplitude`, A, as a fraction.
+    """
+
+    frequency: Scalar = number()
+    amplitude: Scalar = number()
+
+    def __check_init__(self):
+        require("sinusoidal", frequency=(self.frequency, "> 0"), amplitude=(self.amplitude, "finite"))
+
+    def factor(self, time: Scalar) -> Float[Array, ""]:
+        return 1.0 + self.amplitude * jnp.sin(2.0 * jnp.pi * self.frequency * time)
+
+    def integral(self, time: Scalar) -> Float[Array, ""]:
+        half = jnp.sin(jnp.pi * self.frequency * time)
+        return time + self.amplitude / (jnp.pi * self.frequency) * jnp.square(half)
+
+
+class Ramp(AbstractTimeFactor):
+    r"""From `start` to `stop` between the times `begin` and `begin + duration`, as the quintic that begins and ends
+    without slope and curvature: a jump of the acceleration would be a shock of its own.
+
+    **Arguments:** `start`, `stop`, factors; `duration`, s, > 0; `begin`, s.
+    """
+
+    start: Scalar = number()
+    stop: Scalar = number()
+    duration: Scalar = number()
+    begin: Scalar = number(0.0)
+
+    def __check_init__(self):
+        require("ramp", start=(self.start, "finite"), stop=(self.stop, "finite"), duration=(self.duration, "> 0"))
+
+    def factor(self, time: Scalar) -> Float[Array, ""]:
+        x = jnp.clip((time - self.begin) / self.duration, 0.0, 1.0)
+        return self.start + (self.stop - self.start) * (x * x * x * (10.0 + x * (6.0 * x - 15.0)))
+
+    def integral(self, time: Scalar) -> Float[Array, ""]:
+        since = (time - self.begin) / self.duration
+        x = jnp.clip(since, 0.0, 1.0)
+        risen = x * x * x * x * (2.5 + x * (x - 3.0)) + jnp.maximum(since - 1.0, 0.0)
+        return self.start * time + (self.stop - self.start) * self.duration * risen
+
+
+class Tabulated(AbstractTimeFactor):
+    """Straight lines between the entries of a table, constant before the first and after the last.
+
+    **Arguments:** `times`, s, increasing; `factors`, as many.
+    """
+
+    times: Any = eqx.field(converter=as_float)
+    factors: Any = eqx.field(converter=as_float)
+
+    def __check_init__(self):
+        shape = np.shape(self.times)
+        if len(shape) != 1 or shape[0] < 2 or np.shape(self.factors) != shape:
+            raise ValueError(
+                f"a table needs as many times as factors, two or more; got {shape} and {np.shape(self.factors)}"
+            )
+
+    def factor(self, time: Scalar) -> Float[Array, ""]:
+        return jnp.interp(jnp.asarray(time), self.times, self.factors)
+
+    def integral(self, time: Scalar) -> Float[Array, ""]:
+        times, factors = jnp.asarray(self.times), jnp.asarray(self.factors)
+        # every interval as far as it lies before `time`
+        steps = jnp.diff(times)
+        passed = jnp.clip((time - times[:-1]) / steps, 0.0, 1.0)
+        slope = jnp.diff(factors)
+        within = jnp.sum(steps * passed * (factors[:-1] + 0.5 * slope * passed))
+        first = jnp.minimum(times[0], time)
+        return first * factors[0] + within + jnp.maximum(time - times[-1], 0.0) * factors[-1]
+
+
+class RotatingLoad(eqx.Module):
+    """A load on the inner ring that turns, as that of an unbalanced shaft: it is added to the radial load.
+
+    **Arguments:** `load`, N; `speed` at which its direction turns, rad/s, counter-clockwise positive (the mean shaft
+    speed for an unbalance); `phase`, its azimuth at time 0 from the load line, rad.
+    """
+
+    load: Scalar = number()
+    speed: Scalar = number()
+    phase: Scalar = number(0.0)
+
+    def __check_init__(self):
+        require("rotating_load", load=(self.load, ">= 0"), speed=(self.speed, "finite"), phase=(self.phase, "finite"))
+
+    def components(self, time: Scalar) -> Float[Array, "2"]:
+        """Along azimuths 0 and 90 degrees, N."""
+        angle = self.speed * time + self.phase
+        return self.load * jnp.stack([jnp.cos(angle), jnp.sin(angle)])

@@ -1,0 +1,166 @@
+r"""Differential equations through diffrax: a solver by its name, one tolerance, and a status instead of an exception.
+
+The state is an `ArrowPoint`, elements and globals, in units in which one tolerance serves for all components: the step
+control compares each error with $\epsilon(1 + |y|)$. Implicit solvers (Kvaerno's ESDIRK methods, implicit Euler) solve
+their stage equations by Newton with the block-arrow elimination of `lineax_solver`, O(number of elements), or with a
+dense one. Where algebraic unknowns couple all elements, the arrow misses a term of low rank: Newton then converges a
+little more slowly, to the same stages (and gradients want the dense elimination).
+
+A run goes segment by segment (`integrate_segment`): whoever runs it can show progress, keep what was computed, and stop
+in between.
+"""
+
+from collections.abc import Callable
+from typing import Any, Literal, NamedTuple, get_args
+
+import diffrax as dfx
+import equinox as eqx
+import jax
+import jax.numpy as jnp
+import lineax as lx
+import optimistix as optx
+from jaxtyping import Array, Bool, Float, Int
+
+from .._types import Scalar
+from .arrow import ArrowPoint
+from .lineax_solver import BlockArrow
+from .precision import as_float
+from .status import Status
+
+Solver = Literal["tsit5", "dopri8", "kvaerno3", "kvaerno4", "kvaerno5", "implicit_euler"]
+SOLVERS: tuple[str, ...] = get_args(Solver)
+IMPLICIT = ("kvaerno3", "kvaerno4", "kvaerno5", "implicit_euler")
+_CLASSES: dict[str, Any] = {
+    "tsit5": dfx.Tsit5,
+    "dopri8": dfx.Dopri8,
+    "kvaerno3": dfx.Kvaerno3,
+    "kvaerno4": dfx.Kvaerno4,
+    "kvaerno5": dfx.Kvaerno5,
+    "implicit_euler": dfx.ImplicitEuler,
+}
+Field = Callable[[Any, ArrowPoint, Any], ArrowPoint]
+
+
+def check_solver(name: str) -> None:
+    """**Raises:** `ValueError` for a name that is none of `SOLVERS`."""
+    if name not in SOLVERS:
+        raise ValueError(f"solver must be one of {', '.join(SOLVERS)}, got {name!r}")
+
+
+class IntegratorOptions(eqx.Module):
+    """How to integrate.
+
+    **Arguments:**
+    - `solver`: one of `SOLVERS`.
+    - `tolerance`: relative, and absolute in the units of the state.
+    - `max_steps`: of one segment, rejected ones included.
+    - `elimination`: of the stage equations of implicit solvers: "arrow", or "dense" for comparison.
+    - `shortest_step`: s; a run whose steps would have to be shorter has failed.
+    """
+
+    solver: str = eqx.field(static=True, default="tsit5")
+    tolerance: Scalar = eqx.field(converter=as_float, default=1e-5)
+    max_steps: int = eqx.field(static=True, default=100_000)
+    elimination: str = eqx.field(static=True, default="arrow")
+    shortest_step: Scalar = eqx.field(converter=as_float, default=1e-14)
+
+    def __check_init__(self):
+        check_solver(self.solver)
+        if self.elimination not in ("arrow", "dense"):
+            raise ValueError(f"elimination must be 'arrow' or 'dense', got {self.elimination!r}")
+
+    def diffrax_solver(self, idle: int = 0) -> Any:
+        """The solver of diffrax that the name stands for. **Arguments:** `idle`: see `lineax_solver.BlockArrow`."""
+        kind = _CLASSES[self.solver]
+        if self.solver not in IMPLICIT:
+            return kind()
+        linear = BlockArrow(idle) if self.elimination == "arrow" else lx.LU()
+        # one Jacobian a stage: half the time of a fresh one at every iteration, for the same steps
+        chord = dfx.with_stepsize_controller_tols(optx.Chord)(linear_solver=linear)
+        return kind(root_finder=chord)
+
+
+class Segment(NamedTuple):
+    """States at the times asked for (inf beyond the place where it stopped), the last state reached, and how it ended.
+
+    `step`: mean accepted step, s, with which the next segment may begin.
+    """
+
+    states: ArrowPoint
+    last: ArrowPoint
+    last_time: Float[Array, ""]
+    status: Int[Array, ""]
+    accepted: Int[Array, ""]
+    rejected: Int[Array, ""]
+    step: Float[Array, ""]
+
+
+def integrate_segment(
+    field: Field,
+    state: ArrowPoint,
+    start: Float[Array, ""],
+    times: Float[Array, " time"],
+    args: Any,
+    options: IntegratorOptions,
+    first_step: Float[Array, ""] | None = None,
+    adjoint: Any = None,
+    idle: int = 0,
+) -> Segment:
+    """Integrate from `start` to the last of `times`; never raises for a run that fails.
+
+    **Arguments:**
+    - `field(t, y, args)`: rates; NaN makes the step be rejected and shortened.
+    - `times`: increasing, after `start`.
+    - `first_step`, s; chosen where not given.
+    - `idle`: number of globals, the last ones, that are integrals along the way: nothing depends on them.
+    - `adjoint`: of diffrax, for gradients; reverse mode with checkpoints where not given.
+    """
+    tolerance = jnp.asarray(options.tolerance)
+    # the history of the error steers more smoothly through shocks than the last error alone
+    control = dfx.PIDController(
+        rtol=tolerance,
+        atol=tolerance,
+        pcoeff=0.3,
+        icoeff=0.4,
+        dcoeff=0.0,
+        dtmin=options.shortest_step,
+        force_dtmin=False,
+    )
+    found = dfx.diffeqsolve(
+        dfx.ODETerm(field),
+        options.diffrax_solver(idle),
+        start,
+        times[-1],
+        first_step,
+        state,
+        args,
+        saveat=dfx.SaveAt(subs=(dfx.SubSaveAt(ts=times), dfx.SubSaveAt(t1=True))),
+        stepsize_controller=control,
+        max_steps=options.max_steps,
+        throw=False,
+        **({} if adjoint is None else {"adjoint": adjoint}),
+    )
+    # what is asked for is there
+    saved: Any = found.ys
+    ends: Any = found.ts
+    states, last = saved[0], jax.tree.map(lambda leaf: leaf[0], saved[1])
+    accepted, rejected = found.stats["num_accepted_steps"], found.stats["num_rejected_steps"]
+    reached = ends[1][0]
+    return Segment(
+        states=states,
+        last=last,
+        last_time=reached,
+        status=_status(found.result, last),
+        accepted=accepted,
+        rejected=rejected,
+        step=(reached - start) / jnp.maximum(accepted, 1),
+    )
+
+
+def _status(result: Any, last: ArrowPoint) -> Int[Array, ""]:
+    """Out of steps is not converged; steps that shrink to nothing, and states that are not finite, have diverged."""
+    finite: Bool[Array, ""] = jnp.all(jnp.isfinite(last.elements)) & jnp.all(jnp.isfinite(last.globals))
+    good = (result == dfx.RESULTS.successful) & finite
+    ran_out = (result == dfx.RESULTS.max_steps_reached) & finite
+    failed = jnp.where(ran_out, int(Status.NOT_CONVERGED), int(Status.DIVERGED))
+    return jnp.where(good, int(Status.CONVERGED), failed)

@@ -1,0 +1,64 @@
+"""Solvers by name on a small system with a known solution: order, status, works that nothing depends on."""
+
+import jax
+import jax.numpy as jnp
+import numpy as np
+import pytest
+
+from jaxbearing.numerics.arrow import ArrowPoint
+from jaxbearing.numerics.integrate import SOLVERS, IntegratorOptions, integrate_segment
+from jaxbearing.numerics.status import Status
+
+RATES = jnp.asarray([1.0, 30.0, 1000.0])
+ZERO = jnp.zeros(())
+
+
+def decay(time, state, args):
+    """Decaying elements drive a global, whose square is integrated beside."""
+    driven, _ = state.globals
+    return ArrowPoint(-RATES[None, :] * state.elements, jnp.stack([state.elements[0, 0] - driven, driven * driven]))
+
+
+START = ArrowPoint(jnp.ones((1, 3)), jnp.zeros(2))
+
+
+def exact(t):
+    """driven = t e^-t; its square integrates to (1 - e^-2t (1 + 2t + 2t^2))/4."""
+    return np.exp(-np.asarray(RATES) * t), t * np.exp(-t), 0.25 * (1.0 - np.exp(-2.0 * t) * (1.0 + 2.0 * t * (1.0 + t)))
+
+
+@pytest.mark.parametrize("elimination", ["arrow", "dense"])
+@pytest.mark.parametrize("solver", SOLVERS)
+def test_known_solution(solver, elimination):
+    # implicit Euler is of first order
+    tolerance = 1e-4 if solver == "implicit_euler" else 1e-7
+    options = IntegratorOptions(solver=solver, tolerance=tolerance, elimination=elimination)
+    times = jnp.asarray([0.5, 1.0])
+    found = jax.jit(lambda y: integrate_segment(decay, y, ZERO, times, None, options, idle=1))(START)
+    assert int(found.status) == Status.CONVERGED
+    elements, driven, square = exact(1.0)
+    atol = 200.0 * tolerance
+    np.testing.assert_allclose(found.last.elements[0], elements, atol=atol)
+    np.testing.assert_allclose(found.last.globals, [driven, square], atol=atol)
+    np.testing.assert_allclose(found.states.globals[0], exact(0.5)[1:], atol=atol)
+
+
+def test_last_good_state_is_kept():
+    """A solution that ends at t = 1, steps that run out: what was reached, and the word for it."""
+    blow_up = lambda t, y, args: jax.tree.map(jnp.square, y)
+    run = lambda options: integrate_segment(blow_up, START, ZERO, jnp.asarray([0.5, 2.0]), None, options)
+    found = run(IntegratorOptions(tolerance=1e-6, max_steps=2000))
+    assert int(found.status) in (Status.DIVERGED, Status.NOT_CONVERGED)
+    assert 0.9 < found.last_time < 1.0 + 1e-3
+    np.testing.assert_allclose(found.states.elements[0], 2.0, rtol=1e-4)
+    assert np.all(np.isfinite(found.last.elements))
+    short = run(IntegratorOptions(tolerance=1e-6, max_steps=10))
+    assert int(short.status) == Status.NOT_CONVERGED
+    np.testing.assert_allclose(short.last.elements, 1.0 / (1.0 - short.last_time), rtol=1e-4)
+
+
+def test_unknown_names_are_refused():
+    with pytest.raises(ValueError, match="kvaerno5"):
+        IntegratorOptions(solver="euler")
+    with pytest.raises(ValueError, match="arrow"):
+        IntegratorOptions(elimination="sparse")

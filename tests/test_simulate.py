@@ -1,0 +1,158 @@
+"""Runs in time: energy, steadiness, early stops, orders of the solvers."""
+
+import dataclasses
+
+import diffrax
+import equinox as eqx
+import jax
+import jax.numpy as jnp
+import numpy as np
+import pytest
+from moving_roller import start_of, table_16
+
+import jaxbearing as jb
+from jaxbearing.bearings.roller_motion import quasi_static_start
+from jaxbearing.bearings.simulation import Simulation
+from jaxbearing.bearings.time_laws import AbstractTimeFactor, Ramp, RotatingLoad, Sinusoidal
+from jaxbearing.simulate import simulate, trajectory
+
+SHORT = 2.56e-3
+"""One segment of a run, s."""
+
+
+def test_energy_closes_on_a_short_run():
+    history = simulate(table_16(0.6), SHORT, simulation=Simulation(tolerance=1e-7))
+    energy = history.energy
+    assert history.completed
+    assert abs(energy.error) < 1e-5
+    terms = energy.dissipation + energy.pocket_films + energy.lever_arm + energy.kinetic
+    np.testing.assert_allclose(terms, energy.drive, rtol=1e-5)
+    # a steady load: its work is the load times the displacement
+    ring = history.instants.ring.radial
+    np.testing.assert_allclose(energy.load_on_ring, 25e3 * (ring[-1] - ring[0]), rtol=1e-9, atol=1e-12)
+    # what the works say, the instants say too: trapezoids
+    drive = np.trapezoid(history.instants.drive_power, history.time)
+    np.testing.assert_allclose(energy.drive, drive, rtol=1e-4)
+
+
+def test_a_steady_run_begins_at_the_steady_state():
+    scene = table_16(0.3)
+    steady, history = jb.solve(scene), simulate(scene, SHORT)
+    first = lambda values: values[0]
+    cage, elements = history.instants.cage, history.instants.elements
+    np.testing.assert_allclose(first(cage.speed), steady.cage.speed, rtol=1e-12)
+    np.testing.assert_allclose(first(cage.eccentricity_ratio), steady.cage.eccentricity_ratio, rtol=1e-4)
+    # rollers stand up to half the pocket clearance off their equal distances: that much of the slope of the loads
+    slope = np.abs(np.diff(steady.elements.load_inner)).max() / (2.0 * np.pi / 30.0)
+    np.testing.assert_allclose(first(elements.load_inner), steady.elements.load_inner, atol=slope * 150e-6 / 71e-3)
+    np.testing.assert_allclose(first(history.instants.power_loss.total), steady.power_loss.total, rtol=0.01)
+    np.testing.assert_allclose(cage.speed, steady.cage.speed, rtol=2e-3)
+
+
+class Breaking(AbstractTimeFactor):
+    """A load of which nothing is known after 1 ms."""
+
+    def factor(self, time):
+        return jnp.where(jnp.asarray(time) > 1e-3, jnp.nan, 1.0)
+
+    def integral(self, time):
+        return jnp.asarray(time)
+
+
+def test_a_run_that_stops_early_keeps_what_it_has():
+    history = simulate(table_16(0.6), SHORT, simulation=Simulation(load=Breaking()), throw=False)
+    assert not history.completed
+    assert "diverged" in history.failure()
+    np.testing.assert_allclose(history.time[-1], 1e-3, rtol=1e-3)
+    assert history.instants.cage.speed.shape == history.time.shape
+    assert np.all(np.isfinite(history.instants.state_rollers))
+    with pytest.raises(jb.SolveError, match="is kept"):
+        history.raise_if_failed()
+
+
+def test_without_a_cage_unloaded_rollers_slow_down():
+    scene = dataclasses.replace(table_16(0.6), cage=None, simulation=Simulation())
+    with pytest.raises(ValueError, match="simulate"):
+        jb.solve(scene)
+    history = simulate(scene, SHORT)
+    assert history.completed
+    assert history.instants.cage is None
+    elements = history.instants.elements
+    speed, load = elements.orbital_speed, elements.load_inner[-1]
+    # drag slows down the rollers that carry nothing, traction holds those that do
+    assert speed[-1, int(np.argmin(load))] < 0.99 * speed[0, 0]
+    np.testing.assert_allclose(speed[-1, int(np.argmax(load))], speed[0, 0], rtol=2e-3)
+    assert abs(history.energy.error) < 1e-5
+
+
+def test_bad_requests_are_refused():
+    with pytest.raises(ValueError, match="duration"):
+        simulate(table_16())
+    with pytest.raises(ValueError, match="traction"):
+        simulate(table_16().replace({"contact": None, "cage": None}), SHORT)
+    with pytest.raises(ValueError, match="solver"):
+        Simulation(solver="heun")
+
+
+DRIVEN = {
+    "perturbed speed": Simulation(speed=Sinusoidal(40.0, 0.1)),
+    "ramp from 2 % of the speed": Simulation(speed=Ramp(0.02, 1.0, 15e-3)),
+    "turning load": Simulation(rotating_load=RotatingLoad(5e3, 1466.0)),
+    "sudden load step": Simulation(load=Ramp(1.0, 0.05, 0.2e-3, 1e-3)),
+}
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", DRIVEN)
+def test_driven_runs(name):
+    history = simulate(table_16(0.6), 4 * SHORT, simulation=DRIVEN[name])
+    assert history.completed
+    assert abs(history.energy.error) < 1e-5
+
+
+ORDERS = {"tsit5": 5, "dopri8": 8, "kvaerno3": 3, "kvaerno4": 4, "kvaerno5": 5}
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("solver", ORDERS)
+def test_error_falls_with_the_tolerance_before_the_first_shock(solver):
+    """The step control holds the error of a step at the tolerance: that of the run goes with nearly its first power."""
+    start = start_of(0.6)
+    times = jnp.asarray([0.5e-3, 1e-3])
+
+    @eqx.filter_jit
+    def run(start, simulation):
+        return trajectory(start, times, simulation)
+
+    def end(name, tolerance):
+        found = run(start, Simulation(solver=name, tolerance=tolerance))
+        assert int(found.status) == 0
+        steps = int(found.accepted)
+        return np.concatenate([np.ravel(found.states.elements[:, :2]), np.ravel(found.states.globals[:, :6])]), steps
+
+    reference, _ = end("dopri8", 1e-11)
+    errors, steps = [], []
+    for tolerance in (1e-4, 1e-5, 1e-6, 1e-7):
+        state, taken = end(solver, tolerance)
+        errors.append(np.abs(state - reference).max())
+        steps.append(taken)
+    slope = -np.polyfit(np.log(steps), np.log(errors), 1)[0]
+    assert slope >= 0.8 * min(ORDERS[solver], 4)
+
+
+@pytest.mark.slow
+def test_slope_of_the_pocket_load_before_the_first_shock():
+    """Through start and run, in forward mode, against a central difference."""
+    scene, simulation = table_16(0.6), Simulation(tolerance=1e-9)
+    times = jnp.linspace(0.0, 0.5e-3, 6)[1:]
+
+    def mean_load(clearance):
+        start = quasi_static_start(scene.replace({"cage.pocket_clearance": clearance}), simulation)
+        run = trajectory(start, times, simulation, adjoint=diffrax.ForwardMode())
+        load = lambda given: start.dynamics.at(given[0], given[1]).pocket.front.load
+        return jnp.mean(jax.lax.map(load, (times, run.states)))
+
+    value, step, one = jax.jit(mean_load), 1e-8, jnp.ones(())
+    at = jnp.asarray(300e-6)
+    slope = jax.jit(lambda x: jax.jvp(mean_load, (x,), (one,))[1])(at)
+    np.testing.assert_allclose(slope, (value(at + step) - value(at - step)) / (2.0 * step), rtol=1e-7)
