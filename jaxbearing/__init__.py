@@ -16,7 +16,8 @@ import jax
 
 jax.config.update("jax_enable_x64", True)
 
-from .solve import jit_solver as jit_solver  # noqa: E402  (64-bit floats first)
+from .simulate import simulate as simulate  # noqa: E402  (64-bit floats first)
+from .solve import jit_solver as jit_solver  # noqa: E402
 from .solve import solve as solve  # noqa: E402
 
 if TYPE_CHECKING:
@@ -30,7 +31,6 @@ if TYPE_CHECKING:
     from .scenes.reader import builtin_names as builtin_names
     from .scenes.reader import load_scene as load_scene
     from .sensitivity import sensitivities as sensitivities
-    from .simulate import simulate as simulate
 
 __version__ = "0.1.0"
 
@@ -45,7 +45,6 @@ _LAZY = {
     "builtin_names": ".scenes.reader",
     "load_scene": ".scenes.reader",
     "sensitivities": ".sensitivity",
-    "simulate": ".simulate",
 }
 """Public names that pull in the edge (units, validation) or are only needed by some; imported on first use."""
 

@@ -18,7 +18,7 @@ from .bearings.roller_motion import IMMOBILE, QuasiStatic, Start, at_start, begi
 from .bearings.simulation import Simulation
 from .numerics.arrow import ArrowPoint
 from .numerics.compiling import quickly_compiled
-from .numerics.integrate import IntegratorOptions, Segment, integrate_segment
+from .numerics.integrator import IntegratorOptions, Segment
 from .numerics.precision import as_float, require_x64
 from .numerics.status import SolveError, Status
 
@@ -49,6 +49,8 @@ def trajectory(start: Start, times: Float[Array, " time"], simulation: Simulatio
     Derivatives have a meaning until the first shocks; behind them trajectories separate. **Arguments:** `adjoint`: of
     diffrax, e.g. `diffrax.ForwardMode()`.
     """
+    from .numerics.integrate import integrate_segment  # diffrax, which nothing else needs, takes a second to import
+
     zero = jnp.zeros(())
     options = simulation.options
     return integrate_segment(rates, start.state, zero, times, start.dynamics, options, adjoint=adjoint, idle=len(WORKS))
@@ -67,6 +69,8 @@ def _begin(scene: CylindricalRollerBearing, simulation: Simulation, found: Quasi
 def _advance(
     dynamics: RollerDynamics, state: ArrowPoint, start: Array, times: Array, options: IntegratorOptions, step: Array
 ) -> _Advanced:
+    from .numerics.integrate import integrate_segment
+
     segment = integrate_segment(rates, state, start, times, dynamics, options, first_step=step, idle=len(WORKS))
     reached = times <= segment.last_time
     # beyond the place where a run stopped there are no states

@@ -5,7 +5,7 @@ import equinox as eqx
 from .._scene import number, optional_number
 from .._types import Scalar
 from ..numerics.checks import require
-from ..numerics.integrate import IntegratorOptions, check_solver
+from ..numerics.integrator import IntegratorOptions, check_solver
 from .time_laws import AbstractTimeFactor, RotatingLoad, Steady
 
 DEFAULT_SOLVER = "tsit5"
@@ -20,7 +20,7 @@ class Simulation(eqx.Module):
     - `speed`: inner ring speed over that of the operating point, as a function of time.
     - `load`: radial load over that of the operating point, as a function of time.
     - `rotating_load`: a further, turning load; it frees the ring across the load line too.
-    - `solver`: one of `numerics.integrate.SOLVERS`.
+    - `solver`: one of `numerics.integrator.SOLVERS`.
     - `tolerance`: relative tolerance, and absolute one in the units of the state.
     - `entrainment_smoothing`: smoothing of the mean surface speed's modulus in the films of the raceways, m/s: what
       film is left where a roller's surface passes through rest.

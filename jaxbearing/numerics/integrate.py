@@ -10,26 +10,20 @@ A run goes segment by segment (`integrate_segment`): whoever runs it can show pr
 in between.
 """
 
-from collections.abc import Callable
-from typing import Any, Literal, NamedTuple, get_args
+from typing import Any
 
 import diffrax as dfx
-import equinox as eqx
 import jax
 import jax.numpy as jnp
 import lineax as lx
 import optimistix as optx
 from jaxtyping import Array, Bool, Float, Int
 
-from .._types import Scalar
 from .arrow import ArrowPoint
+from .integrator import IMPLICIT, Field, IntegratorOptions, Segment
 from .lineax_solver import BlockArrow
-from .precision import as_float
 from .status import Status
 
-Solver = Literal["tsit5", "dopri8", "kvaerno3", "kvaerno4", "kvaerno5", "implicit_euler"]
-SOLVERS: tuple[str, ...] = get_args(Solver)
-IMPLICIT = ("kvaerno3", "kvaerno4", "kvaerno5", "implicit_euler")
 _CLASSES: dict[str, Any] = {
     "tsit5": dfx.Tsit5,
     "dopri8": dfx.Dopri8,
@@ -38,61 +32,17 @@ _CLASSES: dict[str, Any] = {
     "kvaerno5": dfx.Kvaerno5,
     "implicit_euler": dfx.ImplicitEuler,
 }
-Field = Callable[[Any, ArrowPoint, Any], ArrowPoint]
 
 
-def check_solver(name: str) -> None:
-    """**Raises:** `ValueError` for a name that is none of `SOLVERS`."""
-    if name not in SOLVERS:
-        raise ValueError(f"solver must be one of {', '.join(SOLVERS)}, got {name!r}")
-
-
-class IntegratorOptions(eqx.Module):
-    """How to integrate.
-
-    **Arguments:**
-    - `solver`: one of `SOLVERS`.
-    - `tolerance`: relative, and absolute in the units of the state.
-    - `max_steps`: of one segment, rejected ones included.
-    - `elimination`: of the stage equations of implicit solvers: "arrow", or "dense" for comparison.
-    - `shortest_step`: s; a run whose steps would have to be shorter has failed.
-    """
-
-    solver: str = eqx.field(static=True, default="tsit5")
-    tolerance: Scalar = eqx.field(converter=as_float, default=1e-5)
-    max_steps: int = eqx.field(static=True, default=100_000)
-    elimination: str = eqx.field(static=True, default="arrow")
-    shortest_step: Scalar = eqx.field(converter=as_float, default=1e-14)
-
-    def __check_init__(self):
-        check_solver(self.solver)
-        if self.elimination not in ("arrow", "dense"):
-            raise ValueError(f"elimination must be 'arrow' or 'dense', got {self.elimination!r}")
-
-    def diffrax_solver(self, idle: int = 0) -> Any:
-        """The solver of diffrax that the name stands for. **Arguments:** `idle`: see `lineax_solver.BlockArrow`."""
-        kind = _CLASSES[self.solver]
-        if self.solver not in IMPLICIT:
-            return kind()
-        linear = BlockArrow(idle) if self.elimination == "arrow" else lx.LU()
-        # one Jacobian a stage: half the time of a fresh one at every iteration, for the same steps
-        chord = dfx.with_stepsize_controller_tols(optx.Chord)(linear_solver=linear)
-        return kind(root_finder=chord)
-
-
-class Segment(NamedTuple):
-    """States at the times asked for (inf beyond the place where it stopped), the last state reached, and how it ended.
-
-    `step`: mean accepted step, s, with which the next segment may begin.
-    """
-
-    states: ArrowPoint
-    last: ArrowPoint
-    last_time: Float[Array, ""]
-    status: Int[Array, ""]
-    accepted: Int[Array, ""]
-    rejected: Int[Array, ""]
-    step: Float[Array, ""]
+def diffrax_solver(options: IntegratorOptions, idle: int = 0) -> Any:
+    """The solver of diffrax that the name stands for. **Arguments:** `idle`: see `lineax_solver.BlockArrow`."""
+    kind = _CLASSES[options.solver]
+    if options.solver not in IMPLICIT:
+        return kind()
+    linear = BlockArrow(idle) if options.elimination == "arrow" else lx.LU()
+    # one Jacobian a stage: half the time of a fresh one at every iteration, for the same steps
+    chord = dfx.with_stepsize_controller_tols(optx.Chord)(linear_solver=linear)
+    return kind(root_finder=chord)
 
 
 def integrate_segment(
@@ -128,7 +78,7 @@ def integrate_segment(
     )
     found = dfx.diffeqsolve(
         dfx.ODETerm(field),
-        options.diffrax_solver(idle),
+        diffrax_solver(options, idle),
         start,
         times[-1],
         first_step,

@@ -15,7 +15,8 @@ from jaxbearing.bearings.roller_dynamics import WORKS
 from jaxbearing.bearings.roller_loads import LENGTH_UNIT
 from jaxbearing.bearings.simulation import Simulation
 from jaxbearing.bearings.time_laws import Ramp, RotatingLoad, Sinusoidal, Tabulated
-from jaxbearing.numerics.integrate import IntegratorOptions, integrate_segment
+from jaxbearing.numerics.integrate import integrate_segment
+from jaxbearing.numerics.integrator import IntegratorOptions
 
 PUBLISHED = tomllib.loads((Path(__file__).parents[1] / "published" / "roller_dynamics.toml").read_text())
 FIELD = PUBLISHED["vector_field"]

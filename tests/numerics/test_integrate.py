@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 
 from jaxbearing.numerics.arrow import ArrowPoint
-from jaxbearing.numerics.integrate import SOLVERS, IntegratorOptions, integrate_segment
+from jaxbearing.numerics.integrate import integrate_segment
+from jaxbearing.numerics.integrator import SOLVERS, IntegratorOptions
 from jaxbearing.numerics.status import Status
 
 RATES = jnp.asarray([1.0, 30.0, 1000.0])

@@ -1,0 +1,60 @@
+"""What is asked of an integration in time, and what comes back; apart from `integrate`, which pulls in diffrax."""
+
+from collections.abc import Callable
+from typing import Any, Literal, NamedTuple, get_args
+
+import equinox as eqx
+from jaxtyping import Array, Float, Int
+
+from .._types import Scalar
+from .arrow import ArrowPoint
+from .precision import as_float
+
+Solver = Literal["tsit5", "dopri8", "kvaerno3", "kvaerno4", "kvaerno5", "implicit_euler"]
+SOLVERS: tuple[str, ...] = get_args(Solver)
+IMPLICIT = ("kvaerno3", "kvaerno4", "kvaerno5", "implicit_euler")
+Field = Callable[[Any, ArrowPoint, Any], ArrowPoint]
+
+
+def check_solver(name: str) -> None:
+    """**Raises:** `ValueError` for a name that is none of `SOLVERS`."""
+    if name not in SOLVERS:
+        raise ValueError(f"solver must be one of {', '.join(SOLVERS)}, got {name!r}")
+
+
+class IntegratorOptions(eqx.Module):
+    """How to integrate.
+
+    **Arguments:**
+    - `solver`: one of `SOLVERS`.
+    - `tolerance`: relative, and absolute in the units of the state.
+    - `max_steps`: of one segment, rejected ones included.
+    - `elimination`: of the stage equations of implicit solvers: "arrow", or "dense" for comparison.
+    - `shortest_step`: s; a run whose steps would have to be shorter has failed.
+    """
+
+    solver: str = eqx.field(static=True, default="tsit5")
+    tolerance: Scalar = eqx.field(converter=as_float, default=1e-5)
+    max_steps: int = eqx.field(static=True, default=100_000)
+    elimination: str = eqx.field(static=True, default="arrow")
+    shortest_step: Scalar = eqx.field(converter=as_float, default=1e-14)
+
+    def __check_init__(self):
+        check_solver(self.solver)
+        if self.elimination not in ("arrow", "dense"):
+            raise ValueError(f"elimination must be 'arrow' or 'dense', got {self.elimination!r}")
+
+
+class Segment(NamedTuple):
+    """States at the times asked for (inf beyond the place where it stopped), the last state reached, and how it ended.
+
+    `step`: mean accepted step, s, with which the next segment may begin.
+    """
+
+    states: ArrowPoint
+    last: ArrowPoint
+    last_time: Float[Array, ""]
+    status: Int[Array, ""]
+    accepted: Int[Array, ""]
+    rejected: Int[Array, ""]
+    step: Float[Array, ""]
