@@ -88,8 +88,8 @@ def test_forces_on_balls_cage_and_ring_balance(name):
 def test_no_cage_no_pocket_friction():
     scene = turbine(cage=None)
     core = build_core(scene)
-    assert build_lubricated(scene, core).own_unknowns == ("spin", "attitude", "orbit")
-    assert build_lubricated(turbine(), core).own_unknowns == ("spin", "attitude", "outward")
+    assert build_lubricated(scene, core).own_unknowns == ("axial spin", "radial spin", "orbit")
+    assert build_lubricated(turbine(), core).own_unknowns == ("axial spin", "radial spin", "outward")
     assert build_lubricated(turbine(**{"contact.traction": None, "kinematics.attitude": "outer"}), core).cage is None
 
 
