@@ -179,7 +179,7 @@ def simulate(
 def _energy(dynamics: RollerDynamics, state: ArrowPoint, instants: Instant) -> Energy:
     """The works of the run, and how well they balance."""
     works = dict(zip(WORKS, jnp.asarray(dynamics.unscaled(state)[2]), strict=True))
-    gain = lambda values: values[-1] - values[0]
+    gain = lambda values: jnp.asarray(values[-1] - values[0])
     kinetic = gain(instants.kinetic_energy)
     left = works["drive"] - works["dissipation"] - works["pocket_films"] - works["lever_arm"] - kinetic
     load, ring = instants, instants.ring

@@ -150,12 +150,7 @@ class BallBearing(AbstractScene):
             return
         if self.oil is None:
             raise ValueError("oil: a scene with a [contact] table needs an oil")
-        speeds = known(self.operation.inner_speed, self.operation.outer_speed)
-        if speeds is not None and speeds[0] == speeds[1]:
-            raise ValueError(
-                "operation.inner_speed: a lubricated bearing needs rings that turn against each other (100 rpm or "
-                "more); leave out [contact] for a dry one at rest"
-            )
+        self.operation.check_rings_turn()
         if self.slips and self.cage is not None and self.oil.density is None:
             raise ValueError("oil.density: the cage land and the drag need it")
         if isinstance(self.oil.pressure_viscosity, NoPressureViscosity) and self.contact.film.piezoviscous_only:

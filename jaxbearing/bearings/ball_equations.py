@@ -493,7 +493,8 @@ class LubricatedBallSystem(AbstractBallSystem):
         arm = 2.0 / self.kinematics.ball_diameter
         axis = forward[1] * cosine[1] - forward[0] * cosine[0] + arm * (about[1] * sine[1] - about[0] * sine[0])
         radius = forward[0] * sine[0] - forward[1] * sine[1] + arm * (about[1] * cosine[1] - about[0] * cosine[0])
-        rolling = self.laws.rolling_moment(contact, state.load, state.film, races.mean_speed, self.inlet)
+        turn = side * races.roll
+        rolling = self.laws.rolling_moment(contact, state.load, state.film, races.mean_speed, turn, self.inlet)
         curvature = None if bend is None or shear.curvature is None else -bend * shear.curvature
         for resistance in (rolling, curvature):
             if resistance is not None:

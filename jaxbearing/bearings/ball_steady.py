@@ -9,10 +9,12 @@ import numpy as np
 from jaxtyping import Array, Float
 
 from ..contacts import PointContact
+from ..contacts.laws import SPEED_SMOOTHING
 from ..lubricants.ranges import FITTED_PRESSURE, FITTED_TEMPERATURES
 from ..materials import reduced_modulus
 from ..numerics.arrow import ArrowJacobian, ArrowPoint, linearize, schur_complement
 from ..numerics.newton import NewtonOptions, NewtonResult, newton_solve
+from ..numerics.safe import smooth_abs
 from .ball_bearing import BallBearing
 from .ball_build import ball_row, build_core, build_lubricated, ring_directions
 from .ball_core import BallCore
@@ -26,6 +28,10 @@ from .steady import assemble
 
 SIDES = np.array([[1.0], [-1.0]])
 """Inner, outer: the sense of the contact's x axis along the orbit."""
+YIELD_PRESSURE = 4.2e9
+"""Pa: that of the basic static load rating of ball bearings in ISO 76."""
+SKIDDING = 0.1
+"""Sliding along rolling over the rolling speed, from which on the laws made for rolling are extrapolated."""
 LOADED = 0.01
 """Part of the largest load from which on a contact counts in what is said about ranges."""
 
@@ -128,6 +134,9 @@ def _ball_results(
     }
     if geometry.contact_angle is None:
         excess = {}
+    excess["contact pressure beyond 4.2 GPa: balls and races yield (static rating of ISO 76)"] = (
+        jnp.max(pressure) - YIELD_PRESSURE
+    )
     radius = jnp.stack([jnp.asarray(f * geometry.ball_diameter) for f in _conformities(scene)])[:, None]
     reach = jnp.abs(angle) + ellipse.transverse / radius
     shoulders = {"inner": geometry.shoulder_angle_inner, "outer": geometry.shoulder_angle_outer}
@@ -262,6 +271,9 @@ def _law_excess(
         "oil in the contacts beyond 200 degC: the oil laws are extrapolated": most(state.film.temperature) - high,
     }
     if scene.slips:
+        sliding = jnp.abs(state.races.rolling / smooth_abs(state.races.mean_speed, SPEED_SMOOTHING))
+        skidding = "balls skid (sliding above a tenth of rolling): film and rolling resistance are laws for rolling"
+        excess[skidding] = most(sliding) - SKIDDING
         excess["mean contact pressure beyond 1.8 GPa: the traction rheology is extrapolated"] = (
             2.0 / 3.0 * most(pressure) - FITTED_PRESSURE
         )

@@ -190,12 +190,7 @@ class CylindricalRollerBearing(AbstractScene):
             self.cage.check_fits(self.geometry)
         if self.flange is not None:
             _check_height(self.flange, self.geometry)
-        speeds = known(self.operation.inner_speed, self.operation.outer_speed)
-        if speeds is not None and speeds[0] == speeds[1]:
-            raise ValueError(
-                "operation.inner_speed: a lubricated bearing needs rings that turn against each other (100 rpm or "
-                "more); leave out [contact] for a dry one at rest"
-            )
+        self.operation.check_rings_turn()
         if self.oil is None:
             raise ValueError("oil: a scene with a [contact] table needs an oil")
         if self.slips and self.cage is None and self.simulation is None:

@@ -36,6 +36,15 @@ class AbstractOperation(eqx.Module):
             oil_flow=(self.oil_flow, ">= 0"),
         )
 
+    def check_rings_turn(self) -> None:
+        """**Raises:** `ValueError` where the rings turn alike and no film can form (where the numbers are known)."""
+        speeds = known(self.inner_speed, self.outer_speed)
+        if speeds is not None and speeds[0] == speeds[1]:
+            raise ValueError(
+                f"operation.inner_speed: it is {speeds[0]:.6g} rad/s, the same as operation.outer_speed; a lubricated "
+                "bearing needs rings that turn against each other; leave out [contact] for a dry one"
+            )
+
 
 class Operation(AbstractOperation):
     """Operating point of a roller bearing: the batched part of a sweep.

@@ -84,9 +84,20 @@ class PointLaws(eqx.Module):
         return self.traction.traction(patch, film.film, mean_speed, sliding, film.temperature, lubricant)
 
     def rolling_moment(
-        self, contact: PointContact, load: Values, film: PointFilm, mean_speed: Values, inlet: InletOil
+        self, contact: PointContact, load: Values, film: PointFilm, mean_speed: Values, roll: Values, inlet: InletOil
     ) -> Float[Array, "..."] | None:
-        """N m, of the sign of the mean speed (None: not modelled)."""
+        r"""Moment against the roll of the ball over the race, N m (None: not modelled).
+
+        The law is for rolling without sliding, $\omega_rR_x = u$, and has no sign. Where a skidding ball rolls at
+        another rate, $x = \omega_rR_x/|u|$, it is multiplied by $\sqrt2\,x/\sqrt{1 + x^2}$: it always takes power
+        (a moment of the sign of u would drive a ball that turns backwards), 1 at x = 1, not above $\sqrt2$.
+
+        **Arguments:** `roll`, rad/s: rate of the relative roll about the axis across rolling, of the sign of the mean
+        speed, m/s, in rolling without sliding.
+        """
         if not self.rolling_resistance:
             return None
-        return point_rolling_moment(contact, load, mean_speed, film.viscosity, inlet.pressure_viscosity)
+        speed = smooth_abs(mean_speed, SPEED_SMOOTHING)
+        ratio = roll * contact.reduced_radius_rolling / speed
+        moment = point_rolling_moment(contact, load, speed, film.viscosity, inlet.pressure_viscosity)
+        return moment * ratio * jnp.sqrt(2.0 / (1.0 + jnp.square(ratio)))

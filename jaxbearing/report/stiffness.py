@@ -48,7 +48,15 @@ def at_speeds(scene: AbstractScene, speeds: Any) -> list[Bearing]:
         raise ValueError("speeds must be a list of finite numbers >= 0, each larger than the one before")
     if isinstance(scene, CylindricalRollerBearing):
         scene = scene.replace({"ring_freedom": ("radial", "lateral")})
-    return [scene.at_operation(inner_speed=float(value)) for value in values]
+    return [_at_speed(scene, float(value)) for value in values]
+
+
+def _at_speed(scene: Bearing, speed: float) -> Bearing:
+    """**Raises:** `ValueError` that names the speed for which the scene has no meaning."""
+    try:
+        return scene.at_operation(inner_speed=speed)
+    except ValueError as error:
+        raise ValueError(f"at {with_unit(speed, 'rad/s')}: {error}") from None
 
 
 def stiffness_over_speed(

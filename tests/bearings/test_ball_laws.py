@@ -8,7 +8,10 @@ import pytest
 import jaxbearing as jb
 from jaxbearing.bearings.ball_kinematics import BallKinematics
 from jaxbearing.bearings.gyroscopic import CappedCouple, SharedCouple
+from jaxbearing.contacts import point_rolling_moment
+from jaxbearing.contacts.point_laws import PointFilm
 from jaxbearing.gaps import BallPocket
+from jaxbearing.materials import reduced_modulus
 
 RPM = 2.0 * np.pi / 60.0
 DIAMETER = 20.638e-3
@@ -110,6 +113,34 @@ def test_race_control_is_the_attitude_without_spin_there(angles):
     assert float(kin.raceway_control(0.0, 0.0, 0.1)) == 100.0
     slopes = jax.grad(lambda a: kin.raceway_control(a, a, 0.0))(0.0)
     assert np.isfinite(slopes)
+
+
+def test_rolling_resistance_takes_power_whichever_way_a_ball_turns():
+    """Rolling without sliding at any angle: the law's own moment; else of the sign of the roll, bounded."""
+    scene = jb.load_scene("turbine_ball")
+    motion = BallKinematics(*(jnp.asarray(x) for x in (1309.0, 0.0, 153e-3, 20.638e-3)))
+    modulus = reduced_modulus(scene.materials.rings, scene.materials.balls)
+    inner, outer = jnp.asarray(0.65), jnp.asarray(0.51)
+    contact = scene.geometry.contacts(jnp.cos(inner), jnp.cos(outer), modulus)
+    rolling = motion.rolling(inner, outer, jnp.asarray(0.6))
+    races = motion.inner_race(rolling, inner), motion.outer_race(rolling, outer)
+    roll = jnp.stack([races[0].roll, -races[1].roll])
+    speed = jnp.stack([race.mean_speed for race in races])
+    radius = contact.reduced_radius_rolling
+    np.testing.assert_allclose(roll * radius / speed, 1.0, rtol=1e-12)
+    inlet, load = scene.oil.at(373.15), jnp.asarray([3300.0, 4100.0])
+    film = PointFilm(load, load, None, inlet.viscosity * jnp.ones(2), load)
+    moment = lambda speed, roll: scene.contact.rolling_moment(contact, load, film, speed, roll, inlet)
+    own = point_rolling_moment(contact, load, speed, inlet.viscosity, inlet.pressure_viscosity)
+    np.testing.assert_allclose(moment(speed, roll), own, rtol=1e-12)
+    assert np.all(own > 0.0)
+    for factor in (-20.0, -1.0, -1e-3, 0.0, 1e-3, 0.5, 30.0):
+        found = np.asarray(moment(speed, factor * roll))
+        assert np.all(found * factor >= 0.0)
+        assert np.all(np.abs(found) <= np.sqrt(2.0) * np.asarray(own))
+        np.testing.assert_allclose(moment(-speed, factor * roll), found, rtol=1e-12)
+    slopes = jax.grad(lambda s, r: jnp.sum(moment(s, r)), argnums=(0, 1))(0.0 * speed, 0.0 * roll)
+    assert np.all(np.isfinite(np.asarray(slopes)))
 
 
 @pytest.mark.slow

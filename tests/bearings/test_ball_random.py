@@ -63,4 +63,6 @@ def test_random_lubricated_bearings_converge(name):
         assert np.median(steps) <= part.median
         assert np.max(steps) <= part.most
     np.testing.assert_allclose(found.drive_power, found.power_loss.total, rtol=1e-8)
+    for loss in jax.tree.leaves(found.power_loss):
+        assert np.all(loss >= 0.0)  # nothing drives the balls but the rings
     assert np.all(np.isfinite(found.stiffness))
