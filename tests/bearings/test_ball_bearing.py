@@ -63,9 +63,10 @@ def test_energy_closes(name):
 @pytest.mark.slow
 def test_backwards_and_pulled_are_mirror_images():
     fast = jb.jit_solver(turbine())
-    forward = fast()
     speed, load = float(turbine().operation.inner_speed), float(turbine().operation.axial_load)
-    for mirrored in (fast(inner_speed=-speed), fast(axial_load=-load), fast(inner_speed=-speed, axial_load=-load)):
+    run = lambda turn, pull: fast(inner_speed=turn * speed, axial_load=pull * load)  # one program
+    forward = run(1.0, 1.0)
+    for mirrored in (run(-1.0, 1.0), run(1.0, -1.0), run(-1.0, -1.0)):
         assert bool(mirrored.converged)
         np.testing.assert_allclose(mirrored.power_loss.total, forward.power_loss.total, rtol=1e-10)
         np.testing.assert_allclose(mirrored.drive_power, mirrored.power_loss.total, rtol=1e-10)
