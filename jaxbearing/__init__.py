@@ -17,16 +17,20 @@ import jax
 jax.config.update("jax_enable_x64", True)
 
 from .simulate import simulate as simulate  # noqa: E402  (64-bit floats first)
+from .simulate import simulate_batch as simulate_batch  # noqa: E402
 from .solve import jit_solver as jit_solver  # noqa: E402
 from .solve import solve as solve  # noqa: E402
 
 if TYPE_CHECKING:
     from .bearings.ball_bearing import BallBearing as BallBearing
     from .bearings.cylindrical_roller import CylindricalRollerBearing as CylindricalRollerBearing
+    from .bearings.history import History as History
+    from .bearings.simulation import Simulation as Simulation
     from .bearings.solution import Solution as Solution
     from .numerics.newton import NewtonOptions as NewtonOptions
     from .numerics.status import SolveError as SolveError
     from .numerics.status import Status as Status
+    from .report.history_file import read_last_state as read_last_state
     from .scenes.errors import SceneError as SceneError
     from .scenes.reader import builtin_names as builtin_names
     from .scenes.reader import load_scene as load_scene
@@ -37,13 +41,16 @@ __version__ = "0.1.0"
 _LAZY = {
     "BallBearing": ".bearings.ball_bearing",
     "CylindricalRollerBearing": ".bearings.cylindrical_roller",
+    "History": ".bearings.history",
     "NewtonOptions": ".numerics.newton",
     "SceneError": ".scenes.errors",
+    "Simulation": ".bearings.simulation",
     "Solution": ".bearings.solution",
     "SolveError": ".numerics.status",
     "Status": ".numerics.status",
     "builtin_names": ".scenes.reader",
     "load_scene": ".scenes.reader",
+    "read_last_state": ".report.history_file",
     "sensitivities": ".sensitivity",
 }
 """Public names that pull in the edge (units, validation) or are only needed by some; imported on first use."""

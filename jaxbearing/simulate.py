@@ -1,89 +1,36 @@
 """The verb for runs in time: a scene and a duration in, a history out."""
 
 import dataclasses
-from collections.abc import Callable
-from typing import Any, NamedTuple
+from collections.abc import Callable, Mapping
+from typing import Any, Literal, overload
 
-import equinox as eqx
-import jax
-import jax.numpy as jnp
 import numpy as np
-from jaxtyping import Array, Float
 
 from .bearings.cylindrical_roller import CylindricalRollerBearing
-from .bearings.history import Energy, History, Instant
-from .bearings.roller_dynamics import WORKS, RollerDynamics
-from .bearings.roller_instants import observe
-from .bearings.roller_motion import IMMOBILE, QuasiStatic, Start, at_start, begin, quasi_static
+from .bearings.history import History, LastState
+from .bearings.roller_run import check_fits
+from .bearings.roller_simulation import INTERVAL, rates, simulate_roller_batch, simulate_rollers, trajectory
 from .bearings.simulation import Simulation
-from .numerics.arrow import ArrowPoint
-from .numerics.compiling import quickly_compiled
-from .numerics.integrator import IntegratorOptions, Segment
-from .numerics.precision import as_float, require_x64
-from .numerics.status import SolveError, Status
+from .ehl import EHLLineContact, FilmSimulation, FilmState, LineContactHistory, simulate_film
+from .ehl import check_restart as check_film_restart
+from .numerics.precision import require_x64
 
-INTERVAL = 20e-6
-"""Time between the instants of a history where a run does not say, s."""
-FIRST_STEP = 1e-7
-"""First step that is tried, s."""
-SEGMENT = 128
-"""Instants that are computed in one go."""
+__all__ = ["INTERVAL", "check_restart", "rates", "simulate", "simulate_batch", "trajectory"]
+
 Progress = Callable[[float, float], None]
 
 
-class _Advanced(NamedTuple):
-    """A segment, and the instants of its begin, of the times asked for, and of its last state."""
-
-    segment: Segment
-    instants: Instant
-
-
-def rates(time: Any, state: ArrowPoint, dynamics: RollerDynamics) -> ArrowPoint:
-    """The vector field as diffrax wants it."""
-    return dynamics.rates(time, state)
-
-
-def trajectory(start: Start, times: Float[Array, " time"], simulation: Simulation, adjoint: Any = None) -> Segment:
-    """The motion at given times, > 0 and increasing, in one go: pure, jit-able, vmap-able, differentiable.
-
-    Derivatives have a meaning until the first shocks; behind them trajectories separate. **Arguments:** `adjoint`: of
-    diffrax, e.g. `diffrax.ForwardMode()`.
-    """
-    from .numerics.integrate import integrate_segment  # diffrax, which nothing else needs, takes a second to import
-
-    zero = jnp.zeros(())
-    options = simulation.options
-    return integrate_segment(rates, start.state, zero, times, start.dynamics, options, adjoint=adjoint, idle=len(WORKS))
-
-
-# solved once a run: to compile takes longer than to run
-_quasi_static = quickly_compiled(quasi_static)
-
-
-@eqx.filter_jit
-def _begin(scene: CylindricalRollerBearing, simulation: Simulation, found: QuasiStatic) -> Start:
-    return begin(scene, simulation, found)
-
-
-@eqx.filter_jit
-def _advance(
-    dynamics: RollerDynamics, state: ArrowPoint, start: Array, times: Array, options: IntegratorOptions, step: Array
-) -> _Advanced:
-    from .numerics.integrate import integrate_segment
-
-    segment = integrate_segment(rates, state, start, times, dynamics, options, first_step=step, idle=len(WORKS))
-    reached = times <= segment.last_time
-    # beyond the place where a run stopped there are no states
-    safe = jax.tree.map(
-        lambda ys, end: jnp.where(jnp.reshape(reached, (-1, *(1 for _ in end.shape))), ys, end[None]),
-        segment.states,
-        segment.last,
-    )
-    states = jax.tree.map(lambda a, ys, b: jnp.concatenate([a[None], ys, b[None]]), state, safe, segment.last)
-    at = jnp.concatenate([start[None], jnp.minimum(times, segment.last_time), segment.last_time[None]])
-    return _Advanced(segment, jax.lax.map(lambda given: observe(dynamics, *given), (at, states)))
-
-
+@overload
+def simulate(
+    scene: EHLLineContact,
+    duration: float | None = None,
+    *,
+    simulation: FilmSimulation | None = None,
+    throw: bool = True,
+    progress: Progress | None = None,
+    restart: LineContactHistory | FilmState | None = None,
+) -> LineContactHistory: ...
+@overload
 def simulate(
     scene: CylindricalRollerBearing,
     duration: float | None = None,
@@ -92,106 +39,131 @@ def simulate(
     interval: float = INTERVAL,
     throw: bool = True,
     progress: Progress | None = None,
-) -> History:
-    """Run a bearing in time from the quasi-static state of its operating point.
+    restart: History | LastState | None = None,
+) -> History: ...
+def simulate(
+    scene: Any,
+    duration: float | None = None,
+    *,
+    simulation: Any = None,
+    interval: float = INTERVAL,
+    throw: bool = True,
+    progress: Progress | None = None,
+    restart: Any = None,
+) -> Any:
+    """Run a bearing in time from the quasi-static state of its operating point, or a line contact from its steady film.
 
-    A run that fails, or is interrupted by Ctrl-C, keeps what was computed until then: `history.completed`.
+    A run that is interrupted by Ctrl-C comes back with what was computed until then (`history.completed`); so does one
+    that fails, with `throw=False`.
 
     **Arguments:**
     - `duration`: s; that of the scene's simulation where not given.
     - `simulation`: speeds and loads over time, solver, tolerance; the scene's where not given, or else a steady
       operating point with the default solver.
-    - `interval`: about the time between the instants of the history, s.
+    - `interval`: about the time between the instants of the history, s; of a line contact every step is kept.
     - `throw`: raise where the run stops early.
     - `progress`: called with the time reached and the time of the end, s.
+    - `restart`: an earlier run, or its last state (`jaxbearing.read_last_state` of a NetCDF file): it goes on from
+      there by `duration`. The clock and with it speeds and loads over time go on too; the scene may have another
+      operating point, oil or drag, but must be the same bearing; of a line contact another speed or viscosity, but not
+      another load or mesh.
 
     **Raises:** `SolveError` where the quasi-static start is not found or (with `throw`) the run stops early;
-    `ValueError` without a duration, or for a scene that does not move; `TypeError` for another kind of scene.
+    `ValueError` without a duration, for a scene that does not move, or a `restart` from another bearing; `TypeError`
+    for another kind of scene.
     """
     require_x64()
+    if isinstance(scene, EHLLineContact):
+        return _run_film(scene, duration, simulation, restart, throw, progress)
     if not isinstance(scene, CylindricalRollerBearing):
-        raise TypeError(f"cannot simulate a {type(scene).__name__}; simulate takes: CylindricalRollerBearing")
-    if not scene.slips:
-        raise ValueError(IMMOBILE)
-    chosen = simulation or scene.simulation or Simulation()
+        taken = "CylindricalRollerBearing, EHLLineContact"
+        raise TypeError(f"cannot simulate a {type(scene).__name__}; simulate takes: {taken}")
+    if isinstance(restart, LineContactHistory | FilmState):
+        raise ValueError(_OTHER_KIND.format("line contact", "bearing"))
+    return simulate_rollers(
+        scene, duration, simulation=simulation, interval=interval, throw=throw, progress=progress, restart=restart
+    )
+
+
+_OTHER_KIND = "restart: a state of a {}, for a scene of a {}"
+
+
+def check_restart(scene: Any, restart: LastState | FilmState, duration: float | None = None) -> None:
+    """What `simulate` would refuse of a last state, before it begins. **Raises:** `ValueError`."""
+    if isinstance(scene, EHLLineContact):
+        if not isinstance(restart, FilmState):
+            raise ValueError(_OTHER_KIND.format("bearing", "line contact"))
+        chosen, length = _length(scene, duration, None)
+        check_film_restart(scene, chosen, restart, length)
+    else:
+        if not isinstance(restart, LastState):
+            raise ValueError(_OTHER_KIND.format("line contact", "bearing"))
+        check_fits(scene, restart)
+
+
+def _length(
+    scene: EHLLineContact, duration: float | None, simulation: FilmSimulation | None
+) -> tuple[FilmSimulation, float]:
+    chosen = simulation or scene.simulation or FilmSimulation()
     duration = duration if duration is not None else chosen.duration
     if duration is None:
         raise ValueError("simulate needs a duration: give it, or name it in the scene's simulation")
-    stop = float(duration)
-    if not (stop > 0 and np.isfinite(stop) and interval > 0):
-        raise ValueError(f"duration and interval must be > 0 s, got {stop:g} and {interval:g}")
-    # one shape of the compiled program, whatever the duration
-    pieces = max(1, round(stop / (SEGMENT * interval)))
-    times = np.linspace(0.0, stop, pieces * SEGMENT + 1)
-    # the length of the run is no part of the program
-    chosen = dataclasses.replace(chosen, duration=None)
-    scene, chosen = (jax.tree.map(as_float, tree) for tree in (scene, chosen))
+    if not (duration > 0 and np.isfinite(duration)):
+        raise ValueError(f"duration must be > 0 s, got {float(duration):g}")
+    return chosen, float(duration)
 
-    found = _quasi_static(at_start(scene, chosen))
-    if int(found.status) != Status.CONVERGED:
-        raise SolveError(f"the quasi-static start of the run was not found: {Status(int(found.status)).text}")
-    start = _begin(scene, chosen, found)
-    state, status, interrupted = start.state, Status.CONVERGED, False
-    step = jnp.asarray(FIRST_STEP)
-    taken = refused = 0
-    kept_times, kept = [], []
-    try:
-        for piece in range(pieces):
-            here = times[piece * SEGMENT : (piece + 1) * SEGMENT + 1]
-            segment, instants = _advance(
-                start.dynamics, state, jnp.asarray(here[0]), jnp.asarray(here[1:]), chosen.options, step
-            )
-            taken, refused = taken + int(segment.accepted), refused + int(segment.rejected)
-            state, status, step = segment.last, Status(int(segment.status)), segment.step
-            good = np.append(here <= float(segment.last_time), status != Status.CONVERGED)
-            good[0] = piece == 0
-            kept_times.append(np.append(here, float(segment.last_time))[good])
-            kept.append(jax.tree.map(lambda leaf, good=good: np.asarray(leaf)[good], instants))
-            if status != Status.CONVERGED:
-                break
-            if progress is not None:
-                progress(float(segment.last_time), stop)
-    except KeyboardInterrupt:
-        if not kept:
-            raise
-        status, interrupted = Status.NOT_CONVERGED, True
-    instants = jax.tree.map(lambda *leaves: np.concatenate(leaves), *kept)
-    history = History(
-        status=jnp.asarray(int(status)),
-        time=jnp.asarray(np.concatenate(kept_times)),
-        stop=jnp.asarray(stop),
-        accepted=jnp.asarray(taken),
-        rejected=jnp.asarray(refused),
-        reference_speed=jnp.asarray(start.dynamics.reference_speed),
-        operation=scene.operation,
-        instants=instants,
-        energy=_energy(start.dynamics, state, instants),
-        checks={},
-        solver=chosen.solver,
-        interrupted=interrupted,
-        notes=scene.assumptions(),
-    )
+
+def _run_film(
+    scene: EHLLineContact,
+    duration: float | None,
+    simulation: FilmSimulation | None,
+    restart: Any,
+    throw: bool,
+    progress: Progress | None,
+) -> LineContactHistory:
+    chosen, length = _length(scene, duration, simulation)
+    if isinstance(restart, LineContactHistory):
+        restart = restart.last_state
+    if not isinstance(restart, FilmState | None):
+        raise ValueError(_OTHER_KIND.format("bearing", "line contact"))
+    # the length of the run is no part of the program
+    chosen, scene = dataclasses.replace(chosen, duration=None), dataclasses.replace(scene, simulation=None)
+    history = simulate_film(scene, length, chosen, start=restart, progress=progress)
     if throw:
         history.raise_if_failed()
     return history
 
 
-def _energy(dynamics: RollerDynamics, state: ArrowPoint, instants: Instant) -> Energy:
-    """The works of the run, and how well they balance."""
-    works = dict(zip(WORKS, jnp.asarray(dynamics.unscaled(state)[2]), strict=True))
-    gain = lambda values: jnp.asarray(values[-1] - values[0])
-    kinetic = gain(instants.kinetic_energy)
-    left = works["drive"] - works["dissipation"] - works["pocket_films"] - works["lever_arm"] - kinetic
-    load, ring = instants, instants.ring
-    stored = load.radial_load * ring.radial + load.lateral_load * ring.lateral
-    return Energy(
-        drive=works["drive"],
-        dissipation=works["dissipation"],
-        pocket_films=works["pocket_films"],
-        lever_arm=works["lever_arm"],
-        kinetic=kinetic,
-        pocket_elastic=gain(instants.pocket_energy),
-        raceway_elastic=gain(instants.raceway_energy),
-        load_on_ring=gain(stored) + works["load"],
-        error=left / np.maximum(np.abs(works["drive"]), 1e-300),
-    )
+def simulate_batch(
+    scene: CylindricalRollerBearing,
+    duration: float,
+    over: Mapping[str, Any],
+    *,
+    simulation: Simulation | None = None,
+    interval: float = INTERVAL,
+    method: Literal["map", "vmap"] = "map",
+) -> History:
+    """Many runs at once, each with a status of its own: a run that fails leaves the others alone. Pure.
+
+    The result is a `History` with the lanes in front of every array (`history.status`, `history.instants.cage.speed`
+    of shape (lane, time)); beyond the place where a lane stopped it is NaN. `history.lane(3)` is one of them, for
+    files and plots. Compiled once for a number of lanes and of instants:
+
+        speeds = jnp.linspace(800.0, 1600.0, 8)
+        runs = jb.simulate_batch(scene, 5e-3, {"operation.inner_speed": speeds})
+        runs.converged  # which lanes reached the end
+        runs.instants.cage.slip[:, -1]
+
+    **Arguments:**
+    - `over`: dotted paths of the scene -> values, as many for each; "simulation.load" and the like take time laws
+      whose leaves have the lanes in front.
+    - `duration`, `interval`, `simulation`: as in `simulate`.
+    - `method`: "map" runs lane by lane, "vmap" all in step, each waiting for the one with most steps. Measured, 8 lanes
+      on two busy cores, a lane: 5.12 ms with shocks 1.0 s against 1.4 s, 2.56 ms almost without 0.20 s against 0.15 s.
+
+    **Raises:** as `simulate`, but not for a run that fails; `ValueError` where the values are not equally many.
+    """
+    require_x64()
+    if not isinstance(scene, CylindricalRollerBearing):
+        raise TypeError(f"cannot simulate a {type(scene).__name__}; simulate_batch takes: CylindricalRollerBearing")
+    return simulate_roller_batch(scene, duration, over, simulation=simulation, interval=interval, method=method)

@@ -13,15 +13,27 @@ from .bearings.ball_steady import solve_ball
 from .bearings.cylindrical_roller import CylindricalRollerBearing
 from .bearings.roller_steady import solve_steady
 from .bearings.solution import Solution
+from .bearings.tapered_roller import TaperedRollerBearing
+from .bearings.tapered_steady import solve_tapered
+from .bearings.tilting_steady import solve_tilting
+from .ehl import EHLLineContact, LineContactSolution, solve_line_contact
+from .life.bearing_life import with_life
 from .machines import TwoDisk, TwoDiskSolution, solve_two_disk
 from .numerics.compiling import quickly_compiled
 from .numerics.newton import NewtonOptions
 from .numerics.precision import as_float, require_x64
 
+
+def _solve_cylindrical(scene: CylindricalRollerBearing, options: NewtonOptions) -> Solution:
+    return solve_tilting(scene, options) if scene.tilts else solve_steady(scene, options)
+
+
 _STEADY: dict[type, Callable[..., Any]] = {
-    CylindricalRollerBearing: solve_steady,
+    CylindricalRollerBearing: _solve_cylindrical,
     BallBearing: solve_ball,
+    TaperedRollerBearing: solve_tapered,
     TwoDisk: solve_two_disk,
+    EHLLineContact: solve_line_contact,
 }
 
 
@@ -35,7 +47,7 @@ def steady_function(scene: AbstractScene) -> Callable[..., Any]:
 
 
 def _solve_any(scene: AbstractScene, options: NewtonOptions) -> Any:
-    return steady_function(scene)(scene, options)
+    return with_life(scene, steady_function(scene)(scene, options))
 
 
 _solve = eqx.filter_jit(_solve_any)
@@ -46,12 +58,19 @@ _solve_once = quickly_compiled(_solve_any)
 def solve(scene: TwoDisk, *, throw: bool = True, options: NewtonOptions | None = None) -> TwoDiskSolution: ...
 @overload
 def solve(
-    scene: CylindricalRollerBearing | BallBearing, *, throw: bool = True, options: NewtonOptions | None = None
+    scene: EHLLineContact, *, throw: bool = True, options: NewtonOptions | None = None
+) -> LineContactSolution: ...
+@overload
+def solve(
+    scene: CylindricalRollerBearing | BallBearing | TaperedRollerBearing,
+    *,
+    throw: bool = True,
+    options: NewtonOptions | None = None,
 ) -> Solution: ...
 @overload
 def solve(scene: AbstractScene, *, throw: bool = True, options: NewtonOptions | None = None) -> Any: ...
 def solve(scene: AbstractScene, *, throw: bool = True, options: NewtonOptions | None = None) -> Any:
-    """Steady state of a scene: of a bearing, or the traction curves of a two-disk machine.
+    """Steady state of a scene: of a bearing, the traction curves of a two-disk machine, the film of a line contact.
 
     Compiled once per structure (kind, parts, number of rolling elements); new numbers never recompile. May be called
     inside `jax.jit`, `jax.vmap`, `jax.grad` and `jax.lax.map`; derivatives, in both modes and with respect to every
@@ -61,7 +80,7 @@ def solve(scene: AbstractScene, *, throw: bool = True, options: NewtonOptions | 
     - `scene`: from `load_scene`, or built from parts.
     - `throw`: raise where the solve fails. Inside `jit` or `vmap` nothing can be raised for one lane alone: look at
       `solution.status`; the results of a failed lane are NaN and those of the others are not touched.
-    - `options`: tolerances of the Newton iteration; a two-disk machine has none.
+    - `options`: tolerances of the Newton iteration; two-disk machines and line contacts have none.
 
     **Raises:** `SolveError` with status, residual and worst equation; `TypeError` for 32-bit numbers or an unknown
     kind of scene; `RuntimeError` where 64-bit floats are switched off.

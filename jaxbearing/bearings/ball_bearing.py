@@ -21,6 +21,7 @@ from .cage import ASSUMED_LANDS as ASSUMED_LANDS
 from .cage import AbstractCage
 from .gyroscopic import AbstractGyroscopic, ResolvedCouple
 from .parts import AbstractOperation, DragSettings
+from .rating import Rating
 
 ASSUMED_CAGE_THICKNESS = 0.4
 """Radial thickness of the cage over the ball diameter, where a scene does not give its diameters."""
@@ -134,6 +135,7 @@ class BallBearing(AbstractScene):
     contact: PointLaws | None = None
     cage: BallCage | None = None
     drag: BallDragSettings | None = None
+    rating: Rating | None = None
 
     def __check_init__(self):
         if not self.slips and self.kinematics.attitude not in ("outer", "inner"):

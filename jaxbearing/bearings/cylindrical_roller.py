@@ -29,6 +29,8 @@ from .parts import (
     number,
     optional_number,
 )
+from .rating import Rating
+from .roller_profile import RollerProfile
 from .simulation import Simulation
 
 ASSUMED_CAGE_INNER = 7.0 / 12.0
@@ -165,6 +167,7 @@ class CylindricalRollerBearing(AbstractScene):
     - `contact.traction=None`: films, but no friction on the raceways; rollers orbit without slip.
     - with traction a `cage` is needed: without one a roller outside the loaded zone has no steady state, and the scene
       must have a `simulation`.
+    - `profile`, or `operation.misalignment` or `operation.moment`: rollers that tilt, in laminae; dry only.
     - `simulation`: what a run in time does beyond the operating point; a steady solve does not look at it.
 
     **Raises:** `ValueError` for combinations that have no steady state or lack what they need.
@@ -180,12 +183,19 @@ class CylindricalRollerBearing(AbstractScene):
     drag: Drag | None = None
     simulation: Simulation | None = None
     ring_freedom: tuple[str, ...] = eqx.field(static=True, default=("radial",))
+    rating: Rating | None = None
+    profile: RollerProfile | None = None
 
     def __check_init__(self):
         if not self.ring_freedom or self.ring_freedom[0] != "radial" or set(self.ring_freedom) - {"radial", "lateral"}:
             raise ValueError(f"ring_freedom must be ('radial',) or ('radial', 'lateral'), got {self.ring_freedom!r}")
         if self.contact is None:
             return
+        if self.tilts:
+            raise ValueError(
+                "contact: tilting or profiled rollers (profile, operation.misalignment, operation.moment) are dry and "
+                "frictionless in this version; leave out [contact]"
+            )
         if self.cage is not None:
             self.cage.check_fits(self.geometry)
         if self.flange is not None:
@@ -208,6 +218,12 @@ class CylindricalRollerBearing(AbstractScene):
                         f"contact.{name}: {type(law).__name__} holds for oils whose viscosity rises with pressure, not "
                         "for an isoviscous one; film = 'moes' and rolling_resistance = 'rigid_isoviscous' do"
                     )
+
+    @property
+    def tilts(self) -> bool:
+        """Whether rollers may tilt and are cut into laminae; without it they carry evenly along their length."""
+        operation = self.operation
+        return self.profile is not None or operation.misalignment is not None or operation.moment is not None
 
     @property
     def slips(self) -> bool:

@@ -6,6 +6,9 @@ The command line, JSON, files and plots read this metadata; nothing keeps a seco
 from typing import Any
 
 import equinox as eqx
+import jax
+import jax.numpy as jnp
+import numpy as np
 from jaxtyping import Array, Bool, Float, Int
 
 from .._scene import AbstractSolution
@@ -25,6 +28,17 @@ class CageMotion(eqx.Module):
     eccentricity_ratio: Float[Array, ""] = eqx.field(metadata=label("1", "cage offset over radial guiding clearance"))
 
 
+class PocketPeaks(eqx.Module):
+    """A shock lasts some microseconds, less than lies between two instants: the largest loads in between."""
+
+    front: Float[Array, " element"] = eqx.field(
+        metadata=label("N", "largest load on the front pocket wall since the instant before")
+    )
+    rear: Float[Array, " element"] = eqx.field(
+        metadata=label("N", "largest load on the rear pocket wall since the instant before")
+    )
+
+
 class Instant(eqx.Module):
     """What happens at one time; in a `History` every array has the times in front."""
 
@@ -34,6 +48,7 @@ class Instant(eqx.Module):
     ring: RingDisplacement
     cage: CageMotion | None
     elements: RollerResults
+    pocket_peaks: PocketPeaks | None
     power_loss: PowerLoss
     drive_power: Float[Array, ""] = eqx.field(metadata=label("W", "sum over both rings of torque times speed"))
     kinetic_energy: Float[Array, ""] = eqx.field(metadata=label("J", "kinetic energy of rolling elements and cage"))
@@ -47,6 +62,26 @@ class Instant(eqx.Module):
             "1", "state of the cage: x, y, angle times pitch radius in the frame of the run, and their rates"
         )
     )
+    frame_angle: Float[Array, ""] = eqx.field(metadata=label("rad", "angle of the frame of the state"))
+    frame_speed: Float[Array, ""] = eqx.field(metadata=label("rad/s", "speed of that frame"))
+
+
+class LastState(eqx.Module):
+    """From where another run can go on: `History.last_state`, or that of a file.
+
+    **Arguments:** `time`, s; `rollers`: q, m, v and u, m/s; `cage`: X, Y, q, m, and their rates; angle, rad, and speed,
+    rad/s, of the frame in which they are counted; `reference_speed` of that frame at the operating point, rad/s;
+    `azimuth` of the rollers, rad; whether there is a cage.
+    """
+
+    time: Float[Array | np.ndarray, ""]
+    rollers: Float[Array | np.ndarray, "3 roller"]
+    cage: Float[Array | np.ndarray, "6"]
+    frame_angle: Float[Array | np.ndarray, ""]
+    frame_speed: Float[Array | np.ndarray, ""]
+    reference_speed: Float[Array | np.ndarray, ""]
+    azimuth: Float[Array | np.ndarray, " roller"]
+    has_cage: bool = eqx.field(static=True)
 
 
 class Energy(eqx.Module):
@@ -94,15 +129,43 @@ class History(AbstractSolution):
     notes: tuple[str, ...] = eqx.field(static=True, default=())
 
     @property
-    def converged(self) -> Bool[Array, ""]:
+    def converged(self) -> Bool[Array, "*batch"]:
         """Whether the run reached its end."""
-        return self.status == Status.CONVERGED
+        return jnp.asarray(self.status) == Status.CONVERGED
 
     @property
     def completed(self) -> bool:
         return bool(self.converged)
 
+    def last_state(self) -> LastState:
+        """The state of the last instant, for `jaxbearing.simulate(..., restart=...)`.
+
+        **Raises:** `ValueError` for a run that did not begin.
+        """
+        if np.size(self.time) == 0:
+            raise ValueError(self.failure())
+        last = jax.tree.map(lambda leaf: np.asarray(leaf[-1]), self.instants)
+        return LastState(
+            time=np.asarray(self.time[-1]),
+            rollers=last.state_rollers,
+            cage=last.state_cage,
+            frame_angle=last.frame_angle,
+            frame_speed=last.frame_speed,
+            reference_speed=np.asarray(self.reference_speed),
+            azimuth=last.elements.azimuth,
+            has_cage=last.cage is not None,
+        )
+
+    def lane(self, index: int) -> "History":
+        """One run of a batch, up to the last instant that it reached."""
+        one = jax.tree.map(lambda leaf: np.asarray(np.asarray(leaf)[index]), self)
+        reached = np.isfinite(one.time)
+        instants = jax.tree.map(lambda leaf: leaf[reached], one.instants)
+        return eqx.tree_at(lambda h: (h.time, h.instants), one, (one.time[reached], instants))
+
     def failure(self) -> str:
+        if np.size(self.time) == 0:
+            return f"{Status(int(self.status)).text}: the quasi-static start of the run was not found"
         reached, stop = float(self.time[-1]), float(self.stop)
         why = "interrupted" if self.interrupted else Status(int(self.status)).text
         where = f"{1e3 * reached:.6g} ms of {1e3 * stop:.6g} ms, after {int(self.accepted)} steps"

@@ -52,6 +52,8 @@ class Operation(AbstractOperation):
     **Arguments:**
     - `inner_speed`, `outer_speed`: absolute speeds of the rings, rad/s, counter-clockwise positive.
     - `radial_load`: on the inner ring, along azimuth 0, N, > 0.
+    - `moment`: on the inner ring, N m (also 0): its tilt is free; without it the ring is held at `misalignment`, rad. A
+      positive one moves azimuth 0 along the axis. Both need rollers that may tilt, which are dry and frictionless.
     - `oil_temperature`: inlet temperature, K; every interaction uses it unless it computes its own.
     - `oil_flow`: supplied to the bearing, m^3/s.
     """
@@ -61,9 +63,18 @@ class Operation(AbstractOperation):
     oil_temperature: Scalar = number(373.15, metadata=label("K", "oil temperature"))
     oil_flow: Scalar = number(0.0, metadata=label("m^3/s", "oil flow"))
     outer_speed: Scalar = number(0.0, metadata=label("rad/s", "outer ring speed"))
+    moment: Scalar | None = optional_number(metadata=label("N m", "moment"))
+    misalignment: Scalar | None = optional_number(metadata=label("rad", "misalignment"))
 
     def __check_init__(self):
-        require("operation", radial_load=(self.radial_load, "> 0"))
+        require(
+            "operation",
+            radial_load=(self.radial_load, "> 0"),
+            moment=(self.moment, "finite"),
+            misalignment=(self.misalignment, "finite"),
+        )
+        if self.moment is not None and self.misalignment is not None:
+            raise ValueError("operation.misalignment: none beside operation.moment, which sets the tilt free")
 
 
 class Materials(eqx.Module):

@@ -49,26 +49,29 @@ from ..contacts.laws import ContactState
 from ..gaps import CompliantPocketFace
 from ..gaps.pocket import PocketFace
 from ..numerics.arrow import ArrowPoint
+from ..time_laws import AbstractTimeFactor, RotatingLoad, Steady
 from .kinematics import RollerKinematics
 from .roller_equations import LubricatedRollerSystem
 from .roller_forces import RollerForces, forces_without_pocket, on_cage, ring_torques
 from .roller_loads import Distribution, RaceLoads, distributed_loads
 from .solution import PowerLoss
-from .time_laws import AbstractTimeFactor, RotatingLoad, Steady
 
 ROLLER_UNITS = (1e-5, 0.1, 1.0)
 """Units of q, m, v and u, m/s: with the same tolerance, absolute in these units and relative, q is held to 1e-9 m, v
 to 1e-5 m/s and u to 1e-4 m/s at 1e-4."""
 CAGE_UNITS = (1e-5, 1e-5, 1e-5, 0.1, 0.1, 0.1)
 """Units of X, Y, q_c, m, and their speeds, m/s."""
-WORK_UNIT = 100.0
-"""Unit of the works that are integrated beside the state, J: so large that they do not steer the step."""
+WORK_PART = 0.1
+"""Unit of the works that are integrated beside the state, over the rollers' kinetic energy at the operating point: so
+large that they do not steer the step (some 100 J in a turbine), and in proportion also where all turns slowly."""
+LEAST_WORK = 1e-9
+"""That the unit of the works is at least, J."""
 WORKS = ("drive", "dissipation", "pocket_films", "lever_arm", "load")
-LOAD_TOLERANCE = 1e-10
-"""Scaled residual of the load distribution; a looser one makes the step control stumble."""
+LOAD_TOLERANCE = 1e-6
+"""Scaled residual of the load distribution before the last step, which squares it."""
 LOAD_STEPS = 40
-LOAD_FAILURE = 1e-7
-"""Residual of the load distribution from which on the rates are NaN: the step is then rejected and shortened."""
+LOAD_FAILURE = 1e-5
+"""That residual from which on the rates are NaN: the step is then rejected and shortened."""
 _PALMGREN_ENERGY = 0.9 / 1.9
 
 
@@ -166,6 +169,15 @@ class RollerDynamics(eqx.Module):
         load = self.system.ring_load * self.load.factor(time)
         return load if self.rotating_load is None else load + self.rotating_load.components(time)
 
+    @property
+    def work_unit(self) -> Float[Array, ""]:
+        """J, see `WORK_PART`."""
+        motion = self.system.kinematics
+        speed = motion.pitch_radius * self.reference_speed
+        rollers = 0.5 * self.system.azimuth.shape[0] * self.system.roller_mass * jnp.square(speed)
+        spin = 0.5 * self.system.azimuth.shape[0] * self.roller_inertia * jnp.square(motion.free_spin)
+        return jnp.asarray(WORK_PART * (rollers + spin) + LEAST_WORK)
+
     # -- state ----------------------------------------------------------------------------------------------------
 
     def scaled(self, rollers: Float[Array, "3 roller"], cage: Float[Array, "6"]) -> ArrowPoint:
@@ -177,7 +189,7 @@ class RollerDynamics(eqx.Module):
 
     def unscaled(self, state: ArrowPoint) -> tuple[Float[Array, "3 roller"], Float[Array, "6"], Float[Array, " work"]]:
         """q, v, u; X, Y, q_c, V_x, V_y, v_c; works in the order of `WORKS`, J."""
-        cage, works = state.globals[:6] * jnp.asarray(CAGE_UNITS), state.globals[6:] * WORK_UNIT
+        cage, works = state.globals[:6] * jnp.asarray(CAGE_UNITS), state.globals[6:] * self.work_unit
         return state.elements * jnp.asarray(ROLLER_UNITS)[:, None], cage, works
 
     def at(self, time: Scalar, state: ArrowPoint) -> MovingState:
@@ -324,7 +336,7 @@ class RollerDynamics(eqx.Module):
             linear = now.cage_force / self.cage_mass
             angular = motion.pitch_radius * now.cage_moment / self.cage_inertia
             moving = jnp.concatenate([cage[3:], linear, (angular - hurry)[None]])
-        works = self.powers(time, now) / WORK_UNIT
+        works = self.powers(time, now) / self.work_unit
         rollers = jnp.stack([v, acceleration - hurry, spinning]) / jnp.asarray(ROLLER_UNITS)[:, None]
         rates = ArrowPoint(rollers, jnp.concatenate([moving / jnp.asarray(CAGE_UNITS), works]))
         good = now.distribution.residual < LOAD_FAILURE

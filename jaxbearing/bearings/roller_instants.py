@@ -1,10 +1,12 @@
 """What is reported of a moving cylindrical roller bearing at one time."""
 
+import jax
 import jax.numpy as jnp
+from jaxtyping import Array, Float
 
 from .._types import Scalar
 from ..numerics.arrow import ArrowPoint
-from .history import CageMotion, Instant
+from .history import CageMotion, Instant, PocketPeaks
 from .roller_dynamics import RollerDynamics
 from .roller_steady import cage_slip
 from .solution import RING_FREEDOMS, RingDisplacement, RollerResults
@@ -50,7 +52,9 @@ def observe(dynamics: RollerDynamics, time: Scalar, state: ArrowPoint) -> Instan
             slip=cage_slip(now.cage_orbit, motion),
             eccentricity_ratio=now.land.eccentricity_ratio,
         )
+    peaks = None if pocket is None else PocketPeaks(front=pocket.front.load, rear=pocket.rear.load)
     inner, outer = dynamics.drive_torques(now)
+    frame_angle, frame_speed, _ = dynamics.frame(time)
     rollers, own, _ = dynamics.unscaled(state)
     return Instant(
         inner_speed=motion.inner_speed,
@@ -59,6 +63,7 @@ def observe(dynamics: RollerDynamics, time: Scalar, state: ArrowPoint) -> Instan
         ring=RingDisplacement(**{name: ring.get(name, zero) for name in RING_FREEDOMS}),
         cage=cage,
         elements=elements,
+        pocket_peaks=peaks,
         power_loss=dynamics.losses(now),
         drive_power=motion.inner_speed * inner + motion.outer_speed * outer,
         kinetic_energy=dynamics.kinetic_energy(time, state),
@@ -66,4 +71,27 @@ def observe(dynamics: RollerDynamics, time: Scalar, state: ArrowPoint) -> Instan
         raceway_energy=dynamics.raceway_energy(now),
         state_rollers=rollers,
         state_cage=own,
+        frame_angle=frame_angle,
+        frame_speed=frame_speed,
     )
+
+
+def pocket_loads(dynamics: RollerDynamics, time: Scalar, state: ArrowPoint) -> Float[Array, "2 roller"]:
+    """Loads on the front and the rear walls, N, and nothing else: the part of `observe` that follows shocks."""
+    rollers, cage, _ = dynamics.unscaled(state)
+    pitch, (turned, turning, _) = dynamics.system.kinematics.pitch_radius, dynamics.frame(time)
+    azimuth = dynamics.system.azimuth + rollers[0] / pitch + turned
+    pocket = dynamics._pocket(tuple(rollers), tuple(cage[:3]), tuple(cage[3:]), azimuth, turning + rollers[1] / pitch)
+    return jnp.stack([pocket.front.load, pocket.rear.load])
+
+
+def pocket_peaks(
+    dynamics: RollerDynamics, times: Float[Array, "interval part"], states: ArrowPoint
+) -> Float[Array, "2 interval roller"]:
+    """Largest loads on the front and the rear walls in each interval, of states at several times within it.
+
+    **Arguments:** `states`, with `interval * part` in front.
+    """
+    # one search for all: rollers far from a wall cost as little as the rest
+    loads = jax.vmap(lambda time, state: pocket_loads(dynamics, time, state))(times.reshape(-1), states)
+    return jnp.swapaxes(jnp.max(loads.reshape(*times.shape, *loads.shape[1:]), axis=1), 0, 1)

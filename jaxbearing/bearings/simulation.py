@@ -6,7 +6,7 @@ from .._scene import number, optional_number
 from .._types import Scalar
 from ..numerics.checks import require
 from ..numerics.integrator import IntegratorOptions, check_solver
-from .time_laws import AbstractTimeFactor, RotatingLoad, Steady
+from ..time_laws import AbstractTimeFactor, RotatingLoad, Steady
 
 DEFAULT_SOLVER = "tsit5"
 DEFAULT_TOLERANCE = 1e-5

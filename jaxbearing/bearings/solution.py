@@ -120,6 +120,15 @@ class PowerLoss(eqx.Module):
     drag: Float[Array, ""] | None = eqx.field(default=None, metadata=label("W", "oil drag on the orbiting rollers"))
 
 
+class LaminaLoads(eqx.Module):
+    """Loads of the laminae into which rollers are cut along their length, N, from the end s = 0; `profiled`: whether
+    the rollers have a profile, which spreads the load near the ends."""
+
+    inner: Float[Array, "element lamina"]
+    outer: Float[Array, "element lamina"]
+    profiled: bool = eqx.field(static=True, default=False)
+
+
 class Solution(AbstractSolution):
     """Result of a steady solve. Where `status` is not converged every result is NaN, never the last iterate.
 
@@ -156,6 +165,9 @@ class Solution(AbstractSolution):
     """Rows and columns of `stiffness`; `None`: those of `ring_freedom`."""
     element_name: str = eqx.field(static=True, default="roller")
     raceway_power: Any = None
+    laminae: LaminaLoads | None = None
+    life: Any = None
+    """`life.result.Life`, where the scene has a rating."""
 
     @property
     def freedoms_of_stiffness(self) -> tuple[str, ...]:
@@ -175,6 +187,11 @@ class Solution(AbstractSolution):
         if float(self.inner_residual) > INNER_TOLERANCE:
             name = "nested solve (inlet temperature rise of a contact, or cage land)"
             place = f", residual {float(self.inner_residual):.3g}"
+        if int(self.status) == Status.NO_EQUILIBRIUM:
+            return (
+                f"{Status.NO_EQUILIBRIUM.text}: contacts that only push cannot balance these loads, the inner ring "
+                f"comes out (proved after {int(self.iterations)} Newton steps)"
+            )
         return (
             f"{Status(int(self.status)).text} after {int(self.iterations)} Newton steps: scaled residual "
             f"{float(self.residual_norm):.3g}, worst equation: {name}{place}"

@@ -10,10 +10,11 @@ from ..numerics.newton import NewtonResult
 from .ball_bearing import BallBearing
 from .cylindrical_roller import CylindricalRollerBearing
 from .solution import RingDisplacement, Solution
+from .tapered_roller import TaperedRollerBearing
 
 
 def assemble(
-    scene: CylindricalRollerBearing | BallBearing,
+    scene: CylindricalRollerBearing | BallBearing | TaperedRollerBearing,
     result: NewtonResult,
     results: Any,
     ring: RingDisplacement,

@@ -1,6 +1,6 @@
 """Options that several verbs have."""
 
-from typing import Annotated
+from typing import Annotated, Any
 
 import typer
 
@@ -21,3 +21,17 @@ JsonOption = Annotated[bool, typer.Option("--json", help="Print one JSON object 
 def labelled(scene: str, changes: list[str] | None) -> str:
     """Name of a scene with its changes, as it was typed."""
     return " ".join([scene, *(f"--set {change}" for change in changes or [])])
+
+
+def option_quantity(option: str, text: str, dimension: Any, bound: str = "") -> float:
+    """The value of an option with a unit, in SI. **Raises:** `SceneError`."""
+    from pydantic_core import PydanticCustomError
+
+    from ..scenes.errors import SceneError
+    from ..scenes.units import quantity
+
+    try:
+        return quantity(text.strip(), dimension, bound)
+    except PydanticCustomError as error:
+        context = error.context or {}
+        raise SceneError(option, "", context["found"], context["expected"]) from None

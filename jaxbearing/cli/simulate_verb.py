@@ -1,6 +1,7 @@
 """`jaxbearing simulate`: a run in time on the screen, as JSON, as a picture, as a file."""
 
 import json
+import shutil
 import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
@@ -10,23 +11,46 @@ from typing import Annotated, Any
 import typer
 
 from .messages import INTERRUPTED, NOT_CONVERGED, bad_input, refuse
-from .options import JsonOption, SceneArgument, SetOption, labelled
+from .options import JsonOption, SceneArgument, SetOption, labelled, option_quantity
 from .output_files import PICTURES, check_files, writing
 from .terminal import console
 
+ANIMATIONS = (".gif", ".html", ".mp4")
+Progress = Callable[[float, float], None]
 Duration = Annotated[
     str | None,
     typer.Option("--duration", metavar="TIME", help="Of the run, e.g. '50 ms'; that of the scene if not given."),
 ]
 Interval = Annotated[
-    str, typer.Option("--interval", metavar="TIME", help="About the time between the results that are kept.")
+    str | None,
+    typer.Option(
+        "--interval",
+        metavar="TIME",
+        help="Of a bearing: about the time between the results that are kept, 20 us if not given.",
+    ),
 ]
 OutOption = Annotated[
     Path | None, typer.Option("--out", metavar="FILE.nc", help="Write all results over time, with units, as NetCDF.")
 ]
 PlotOption = Annotated[
     Path | None,
-    typer.Option("--plot", metavar="FILE", help="Draw orbit, speeds, loads and power; .png, .svg or .pdf."),
+    typer.Option(
+        "--plot", metavar="FILE", help="Draw orbit, speeds, loads and power, or films over time; .png, .svg or .pdf."
+    ),
+]
+AnimationOption = Annotated[
+    Path | None,
+    typer.Option(
+        "--animation",
+        metavar="FILE",
+        help="Show rollers, cage and loads, or pressure and film, in motion; .gif, .html, or .mp4 (needs ffmpeg).",
+    ),
+]
+RestartOption = Annotated[
+    Path | None,
+    typer.Option(
+        "--restart", metavar="FILE.nc", help="Go on, by the duration, from the end of an earlier run that --out wrote."
+    ),
 ]
 
 
@@ -35,25 +59,43 @@ def simulate(
     duration: Duration = None,
     changes: SetOption = None,
     as_json: JsonOption = False,
-    interval: Interval = "20 us",
+    interval: Interval = None,
     plot: PlotOption = None,
     out: OutOption = None,
+    animation: AnimationOption = None,
+    restart: RestartOption = None,
 ) -> None:
     """A run in time, from the steady state of the operating point: motion of rolling elements and cage, shocks between
-    them, power. Ctrl-C ends the run and keeps what was computed."""
+    them, power; of a line contact, the film while its speed changes. Ctrl-C ends the run and keeps what was
+    computed."""
     with bad_input():
+        from ..ehl import EHLLineContact
         from ..scenes.errors import SceneError
         from ..scenes.overrides import split_assignments
         from ..scenes.reader import load_scene
+        from ..scenes.units import TIME
 
         model: Any = load_scene(scene, split_assignments(changes or []))
-        length = None if duration is None else _time("--duration", duration)
-        every = _time("--interval", interval)
+        length = None if duration is None else option_quantity("--duration", duration, TIME, "> 0")
+        every = None if interval is None else option_quantity("--interval", interval, TIME, "> 0")
         if length is None and getattr(getattr(model, "simulation", None), "duration", None) is None:
             raise SceneError("--duration", "", "nothing", "a time with a unit, e.g. '50 ms'")
-        if not getattr(model, "slips", False) or not hasattr(model, "simulation"):
-            refuse(f"SCENE: found '{scene}'; expected a cylindrical roller bearing with contact.traction")
-        check_files((("--plot", plot, PICTURES), ("--out", out, (".nc",))))
+        film = isinstance(model, EHLLineContact)
+        if not film and not (getattr(model, "slips", False) and hasattr(model, "simulation")):
+            refuse(
+                f"SCENE: found '{scene}'; expected a cylindrical roller bearing with contact.traction, or a line "
+                "contact"
+            )
+        if film and every is not None:
+            refuse(
+                f"--interval: found '{interval}' for a line contact; expected none: every step is kept "
+                "(simulation.tolerance says how long they are)"
+            )
+        if not film:
+            _check_instants(length or float(model.simulation.duration), every)
+        check_files((("--plot", plot, PICTURES), ("--out", out, (".nc",)), ("--animation", animation, ANIMATIONS)))
+        _check_animation(animation)
+        last = None if restart is None else _last_state(restart, model, scene, length)
 
     from .cache import enable_compilation_cache
     from .quiet import without_false_alarms
@@ -65,57 +107,90 @@ def simulate(
         from ..simulate import simulate as run
 
         try:
-            with _progress(as_json) as progress:
-                history = run(model, length, interval=every, throw=False, progress=progress)
+            with _progress(as_json, "start and compilation") as progress:
+                more: Any = {} if every is None else {"interval": every}
+                history = run(model, length, throw=False, progress=progress, restart=last, **more)
         except SolveError as error:
             _no_start(str(error), label, as_json)
             raise typer.Exit(NOT_CONVERGED) from None
         _write_files(history, label, plot, out)
+        if animation is not None:
+            _animate(history, model, label, animation, as_json)
         _print(history, label, as_json)
     if not history.completed:
         raise typer.Exit(INTERRUPTED if history.interrupted else NOT_CONVERGED)
 
 
-def _time(option: str, text: str) -> float:
-    from pydantic_core import PydanticCustomError
+def _check_instants(length: float, every: float | None) -> None:
+    from ..bearings.roller_simulation import INTERVAL, MOST_INSTANTS
 
-    from ..scenes.errors import SceneError
-    from ..scenes.units import TIME, quantity
+    if length / (every or INTERVAL) > MOST_INSTANTS:
+        refuse(
+            f"--duration: found {length:g} s with results every {every or INTERVAL:g} s; expected at most "
+            f"{MOST_INSTANTS} results: choose a longer --interval"
+        )
 
+
+def _check_animation(path: Path | None) -> None:
+    """Without ffmpeg there are no films of this kind; said before the run, not after it."""
+    if path is not None and path.suffix.lower() == ".mp4" and shutil.which("ffmpeg") is None:
+        refuse(
+            f"--animation: found '{path}'; expected .gif or .html: .mp4 needs the program ffmpeg, which is not there"
+        )
+
+
+def _last_state(path: Path, model: Any, scene: str, duration: float | None) -> Any:
+    """The end of an earlier run, which fits the scene; refused otherwise."""
+    from ..report.history_file import read_last_state
+    from ..simulate import check_restart
+
+    wanted = "a NetCDF file of an earlier run of this scene, as --out writes it"
     try:
-        return quantity(text.strip(), TIME, "> 0")
-    except PydanticCustomError as error:
-        context = error.context or {}
-        raise SceneError(option, "", context["found"], context["expected"]) from None
+        last = read_last_state(path)
+        check_restart(model, last, duration)
+    except OSError as error:
+        refuse(f"--restart: found '{path}', which cannot be read ({error.strerror or error}); expected {wanted}")
+    except ValueError as error:
+        reason = str(error).removeprefix("restart: ").removeprefix(f"{path} ")
+        refuse(f"--restart: found '{path}' for '{scene}': {reason}; expected {wanted}")
+    return last
 
 
 @contextmanager
-def _progress(as_json: bool) -> Iterator[Callable[[float, float], None] | None]:
+def _progress(as_json: bool, begin: str, unit: str = "ms", factor: float = 1e3) -> Iterator[Progress | None]:
     """A bar on the terminal; nothing where nobody looks."""
     if as_json or not sys.stdout.isatty():
         yield None
         return
-    from rich.progress import Progress
+    from rich.progress import Progress as Bar
 
-    with Progress(console=console(), transient=True) as bar:
-        task = bar.add_task("start and compilation", total=None)
+    with Bar(console=console(), transient=True) as bar:
+        task = bar.add_task(begin, total=None)
 
         def show(reached: float, stop: float) -> None:
-            text = f"{1e3 * reached:.4g} of {1e3 * stop:.4g} ms"
+            text = f"{factor * reached:.4g} of {factor * stop:.4g} {unit}"
             bar.update(task, description=text, total=stop, completed=reached)
 
         yield show
 
 
+def _animate(history: Any, model: Any, label: str, path: Path, as_json: bool) -> None:
+    from ..report.animations import save_animation
+    from ..report.histories import animate_history
+
+    with writing(path), _progress(as_json, "drawing", "pictures", 1.0) as progress:
+        save_animation(animate_history(history, model, label), path, progress)
+
+
 def _write_files(history: Any, label: str, plot: Path | None, out: Path | None) -> None:
     if out is not None:
         from ..report.dataset import write_netcdf
-        from ..report.history_dataset import history_to_dataset
+        from ..report.histories import history_to_dataset
 
         with writing(out):
             write_netcdf(history_to_dataset(history), out)
     if plot is not None:
-        from ..report.history_plots import plot_history
+        from ..report.histories import plot_history
         from ..report.plots import save_plot
 
         with writing(plot):
@@ -123,7 +198,7 @@ def _write_files(history: Any, label: str, plot: Path | None, out: Path | None) 
 
 
 def _print(history: Any, label: str, as_json: bool) -> None:
-    from ..report.history_summary import history_to_dict, print_history
+    from ..report.histories import history_to_dict, print_history
 
     if as_json:
         typer.echo(json.dumps(history_to_dict(history), allow_nan=False))
@@ -135,6 +210,7 @@ def _print(history: Any, label: str, as_json: bool) -> None:
 
 def _no_start(message: str, label: str, as_json: bool) -> None:
     if as_json:
-        empty = {"completed": False, "status": "not_converged", "time": None, "steps": None, "energy_error": None}
+        none = {"time": {"start": None, "stop": None}, "steps": {"accepted": 0, "rejected": 0}, "energy_error": None}
+        empty = {"completed": False, "status": "not_converged", "warnings": [], "interrupted": False} | none
         typer.echo(json.dumps(empty | {"failure": message, "summary": {}}))
     typer.echo(f"not converged: {label}: {message}", err=True)

@@ -17,7 +17,9 @@ OutOption = Annotated[
 PlotOption = Annotated[
     Path | None,
     typer.Option(
-        "--plot", metavar="FILE", help="Draw power loss, loads and films, or traction curves; .png, .svg or .pdf."
+        "--plot",
+        metavar="FILE",
+        help="Draw power loss, loads and films, traction curves, or pressure and film; .png, .svg or .pdf.",
     ),
 ]
 SensitivitiesOption = Annotated[
@@ -29,6 +31,17 @@ SensitivitiesOption = Annotated[
     ),
 ]
 
+LineContactOption = Annotated[
+    tuple[str, Path] | None,
+    typer.Option(
+        "--line-contact",
+        metavar="RACE FILE.toml",
+        help="Of a ball bearing: write the contact of the most loaded ball with the inner or outer race as the scene "
+        "of a line contact, for its field solver.",
+    ),
+]
+RACES = ("inner", "outer")
+
 
 def solve(
     scene: SceneArgument,
@@ -37,14 +50,18 @@ def solve(
     sensitivities: SensitivitiesOption = False,
     plot: PlotOption = None,
     out: OutOption = None,
+    line_contact: LineContactOption = None,
 ) -> None:
-    """Steady state: power loss, loads, films, pressures, speeds; of a two-disk machine, its traction curves."""
+    """Steady state: power loss, loads, films, pressures, speeds; of a two-disk machine, its traction curves; of a line
+    contact, its film."""
     with bad_input():
         from ..scenes.overrides import split_assignments
         from ..scenes.reader import load_scene
 
         model = load_scene(scene, split_assignments(changes or []))
-        check_files((("--plot", plot, PICTURES), ("--out", out, (".nc",))))
+        race, contact = _line_contact(line_contact, model, scene)
+        files = (("--plot", plot, PICTURES), ("--out", out, (".nc",)), ("--line-contact", contact, (".toml",)))
+        check_files(files)
         if sensitivities and not getattr(model, "slips", False):
             refuse(
                 "--sensitivities: found a scene without power loss; expected a bearing with contact.traction (and a "
@@ -63,14 +80,57 @@ def solve(
         if not failure:
             # files first: what cannot be written is said before results scroll by
             _write_files(solution, label, plot, out)
+            if contact is not None:
+                _write_line_contact(model, solution, race, contact, scene, changes)
         _print_json(solution, slopes) if as_json else _print_screen(solution, slopes, label)
+    if not failure and contact is not None and not as_json:
+        typer.echo(f"wrote {contact}: take it as a scene, jaxbearing solve {contact}")
     if failure:
-        left_out = [str(path) for path in (plot, out) if path is not None]
+        left_out = [str(path) for path in (plot, out, contact) if path is not None]
         if left_out:
             typer.echo(f"not written: {', '.join(left_out)}", err=True)
         if as_json:
             typer.echo(f"not converged: {label}: {failure}", err=True)
         raise typer.Exit(NOT_CONVERGED)
+
+
+def _line_contact(wanted: tuple[str, Path] | None, model: Any, scene: str) -> tuple[str, Path | None]:
+    """Race and file, or no file; refused where there is no such contact."""
+    if wanted is None:
+        return "", None
+    from ..bearings.ball_bearing import BallBearing
+
+    race, path = wanted
+    if race not in RACES:
+        refuse(f"--line-contact: found '{race}'; expected inner or outer, and a file")
+    if not isinstance(model, BallBearing):
+        refuse(f"--line-contact: found '{scene}', a {type(model).__name__}; expected a scene of the kind ball_bearing")
+    if model.oil is None:
+        refuse(f"--line-contact: found '{scene}', which has no oil; expected a ball bearing with an oil")
+    return race, path
+
+
+def _write_line_contact(
+    model: Any, solution: Any, race: Any, path: Path, scene: str, changes: list[str] | None
+) -> None:
+    import numpy as np
+
+    from ..bearings.line_contact_bridge import line_contact_of
+    from ..report.files import appearing_whole
+    from ..scenes.line_contact_writer import line_contact_text
+    from ..scenes.overrides import split_assignments
+    from ..scenes.reader import oil_origins
+
+    ball = int(np.argmax(np.asarray(getattr(solution.elements, f"load_{race}"))))
+    contact = line_contact_of(model, solution, race=race, ball=ball)
+    header = [
+        f"Equivalent line contact of ball {ball}, the most loaded one, with the {race} race of",
+        labelled(Path(scene).name, changes),
+        "Same Hertz pressure and half width along rolling; mean of both surfaces' speeds; no side leakage, no spin.",
+    ]
+    text = line_contact_text(contact, header, oil_origins(scene, split_assignments(changes or [])))
+    with writing(path), appearing_whole(path) as temporary:
+        temporary.write_text(text, encoding="utf-8")
 
 
 def _solved(model: Any, sensitivities: bool) -> tuple[Any, Any]:

@@ -8,7 +8,7 @@ from typing import Annotated, Any
 import typer
 
 from .messages import NOT_CONVERGED, bad_input, refuse
-from .options import JsonOption, SceneArgument, SetOption, labelled
+from .options import JsonOption, SceneArgument, SetOption, labelled, option_quantity
 from .output_files import check_files, writing
 from .terminal import console
 
@@ -54,7 +54,7 @@ def stiffness(
         from ..scenes.units import ANGLE
 
         values = _speeds(speeds)
-        angle = _quantity("--load-direction", load_direction, ANGLE)
+        angle = option_quantity("--load-direction", load_direction, ANGLE)
         model = load_scene(scene, split_assignments(changes or []))
         _check(scene, model, values)
         check_files((("--ross", ross, (".toml",)),))
@@ -93,7 +93,7 @@ def _speeds(text: str) -> list[float]:
     parts = [part.strip() for part in text.split(":")]
     if len(parts) != 3:
         raise SceneError("--speeds", "", describe(text), f"FIRST:LAST:NUMBER, e.g. {_EXAMPLE}")
-    first, last = (_quantity("--speeds", part, SPEED, ">= 0") for part in parts[:2])
+    first, last = (option_quantity("--speeds", part, SPEED, ">= 0") for part in parts[:2])
     if not re.fullmatch(r"[0-9]{1,9}", parts[2]) or not 2 <= int(parts[2]) <= MOST_SPEEDS:
         raise SceneError("--speeds", "", describe(parts[2]), f"a whole number of speeds from 2 to {MOST_SPEEDS}")
     if not first < last:
@@ -101,20 +101,6 @@ def _speeds(text: str) -> list[float]:
     number = int(parts[2])
     steps = [i / (number - 1) for i in range(number)]
     return [first * (1.0 - step) + last * step for step in steps]
-
-
-def _quantity(option: str, text: str, dimension: Any, bound: str = "") -> float:
-    """A value with a unit in SI. **Raises:** `SceneError`."""
-    from pydantic_core import PydanticCustomError
-
-    from ..scenes.errors import SceneError
-    from ..scenes.units import quantity
-
-    try:
-        return quantity(text.strip(), dimension, bound)
-    except PydanticCustomError as error:
-        context = error.context or {}
-        raise SceneError(option, "", context["found"], context["expected"]) from None
 
 
 def _check(scene: str, model: Any, values: list[float]) -> None:

@@ -25,6 +25,9 @@ from .point_film import HamrockDowsonCentral as HamrockDowsonCentral
 from .point_film import HamrockDowsonMinimum as HamrockDowsonMinimum
 from .point_film import NijenbanningVennerMoes as NijenbanningVennerMoes
 from .point_laws import PointLaws as PointLaws
+from .profile import AbstractProfile as AbstractProfile
+from .profile import CrownedProfile as CrownedProfile
+from .profile import LogarithmicProfile as LogarithmicProfile
 from .resolution import PRESETS as PRESETS
 from .resolution import Resolution as Resolution
 from .rolling import AbstractRollingResistance as AbstractRollingResistance
@@ -38,6 +41,10 @@ from .thermal import Gupta as Gupta
 from .thermal import HsuLee as HsuLee
 from .thermal import NoThermalReduction as NoThermalReduction
 from .thermal import inlet_temperature_rise as inlet_temperature_rise
+from .tilted_line import AbstractTiltedLine as AbstractTiltedLine
+from .tilted_line import SlicedLine as SlicedLine
+from .tilted_line import StraightLine as StraightLine
+from .tilted_line import palmgren_stiffness as palmgren_stiffness
 from .traction import AbstractTraction as AbstractTraction
 from .traction import MaxwellEyring as MaxwellEyring
 from .traction import MeanPressureTraction as MeanPressureTraction

@@ -2,20 +2,28 @@
 
 from typing import NamedTuple
 
+import equinox as eqx
 import jax
 import jax.numpy as jnp
 from jaxtyping import Array, Float, Int
 
 from .._types import Values
-from .arrow import AbstractArrowSystem, ArrowPoint, evaluate, linearize, solve_arrow
+from .arrow import AbstractArrowSystem, ArrowJacobian, ArrowPoint, Equations, evaluate, linearize, solve_arrow
 
 
 class PlainRoot(NamedTuple):
     """A root, its largest scaled residual (or that of nested solves, if larger) before the last step, and the Newton
-    steps taken."""
+    steps taken before the last one."""
 
     point: ArrowPoint
     residual: Float[Array, ""]
+    steps: Int[Array, ""]
+
+
+class _Iterate(NamedTuple):
+    point: ArrowPoint
+    equations: Equations
+    jacobian: ArrowJacobian
     steps: Int[Array, ""]
 
 
@@ -30,29 +38,38 @@ def plain_newton(system: AbstractArrowSystem, guess: ArrowPoint, *, tolerance: V
     held = jax.lax.stop_gradient(system)
     caps, (low, high) = held.step_caps(), held.bounds()
 
-    def go_on(state):
-        _, residual, steps = state
-        return (residual > tolerance) & (steps < max_steps)
+    def go_on(state: _Iterate):
+        # NaN ends the search
+        return (_largest(state.equations.residual) > tolerance) & (state.steps < max_steps)
 
-    def advance(state):
-        point, _, steps = state
-        equations, jacobian = linearize(held, point)
-        step = solve_arrow(jacobian, equations.residual)
+    def advance(state: _Iterate):
+        step = solve_arrow(state.jacobian, state.equations.residual)
         capped = jax.tree.map(
-            lambda y, s, c, a, b: jnp.clip(y - jnp.clip(s, -c, c), a, b), point, step, caps, low, high
+            lambda y, s, c, a, b: jnp.clip(y - jnp.clip(s, -c, c), a, b), state.point, step, caps, low, high
         )
-        return capped, _largest(equations.residual), steps + 1
+        return _Iterate(capped, *linearize(held, capped), state.steps + 1)
 
-    start = (jax.lax.stop_gradient(guess), jnp.asarray(jnp.inf), jnp.asarray(0))
-    point, _, steps = jax.lax.while_loop(go_on, advance, start)
-    _, jacobian = jax.lax.stop_gradient(linearize(held, point))
-    equations = evaluate(system, point)
-    last = solve_arrow(jacobian, equations.residual)
-    root = jax.tree.map(lambda y, s: y - s, point, last)
-    residual = jnp.maximum(_largest(equations.residual), equations.inner)
-    return PlainRoot(root, jax.lax.stop_gradient(residual), steps)
+    guess = jax.lax.stop_gradient(guess)
+    found = jax.lax.while_loop(go_on, advance, _Iterate(guess, *linearize(held, guess), jnp.asarray(0)))
+    found = jax.lax.stop_gradient(found)
+    last = solve_arrow(found.jacobian, _known(system, point=found.point, residual=found.equations.residual))
+    root = jax.tree.map(lambda y, s: y - s, found.point, last)
+    return PlainRoot(root, jnp.maximum(_largest(found.equations.residual), found.equations.inner), found.steps)
+
+
+@eqx.filter_custom_jvp
+def _known(system: AbstractArrowSystem, *, point: ArrowPoint, residual: ArrowPoint) -> ArrowPoint:
+    """The residual at a point, which is known already, with its derivative with respect to the system."""
+    return residual
+
+
+@_known.def_jvp
+def _known_jvp(primals, tangents, *, point, residual):
+    (system,), (system_dot,) = primals, tangents
+    _, residual_dot = eqx.filter_jvp(lambda s: evaluate(s, point).residual, (system,), (system_dot,))
+    return residual, residual_dot
 
 
 def _largest(residual: ArrowPoint) -> Array:
-    """Largest modulus; NaN, where there is one, ends the search."""
+    """Largest modulus."""
     return jnp.maximum(jnp.max(jnp.abs(residual.elements)), jnp.max(jnp.abs(residual.globals)))

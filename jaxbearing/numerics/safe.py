@@ -52,13 +52,19 @@ def smooth_sign(x: Values, width: Values) -> Batch:
     return x / smooth_abs(x, width)
 
 
+def power(x: Values, exponent: float) -> Batch:
+    """x**exponent for x > 0 as exp(exponent ln x): on a CPU, where XLA leaves the power of doubles to scalar code, an
+    eighth of its time; relative error about 1e-16 |exponent ln x|."""
+    return jnp.exp(exponent * jnp.log(x))
+
+
 def regular_power(x: Values, exponent: float, width: float) -> Batch:
     r"""$x\,(x^2 + w^2)^{(m-1)/2}$: $x^m$ for 0 < m < 1 with a finite slope at 0 (x >= 0).
 
     Zero at zero, slope $w^{m-1}$ there; relative error $(1-m) w^2/(2x^2)$ for x >> w. (Subtracting
     an offset, $(x^2+w^2)^{m/2} - w^m$, would keep the offset $w^m$ at every x.)
     """
-    return x * (jnp.square(x) + width**2) ** ((exponent - 1.0) / 2.0)
+    return x * power(jnp.square(x) + width**2, (exponent - 1.0) / 2.0)
 
 
 def safe_norm(x: Values, y: Values, floor: float = NORM_FLOOR) -> Batch:
@@ -72,7 +78,7 @@ def positive_power(x: Values, exponent: float) -> Batch:
     Double `where`: the power is never formed at x <= 0, where its gradient would be NaN.
     """
     positive = x > 0
-    return jnp.where(positive, jnp.where(positive, x, 1.0) ** exponent, 0.0)
+    return jnp.where(positive, power(jnp.where(positive, x, 1.0), exponent), 0.0)
 
 
 def smoothstep(t: Values) -> Batch:

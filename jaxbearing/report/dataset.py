@@ -8,10 +8,12 @@ from typing import Any
 import xarray as xr
 
 from ..bearings.solution import Solution
+from ..ehl import LineContactSolution
 from ..machines import TwoDiskSolution
 from .bearing.dataset import bearing_to_dataset
 from .files import appearing_whole
 from .labelled import udunits as udunits
+from .line_contact.dataset import line_contact_to_dataset
 from .two_disk.dataset import two_disk_to_dataset
 
 
@@ -34,6 +36,7 @@ def solution_to_dataset(solution: Any, dims: Sequence[str] = ()) -> xr.Dataset:
 
 solution_to_dataset.register(Solution, bearing_to_dataset)
 solution_to_dataset.register(TwoDiskSolution, two_disk_to_dataset)
+solution_to_dataset.register(LineContactSolution, line_contact_to_dataset)
 
 
 def write_netcdf(dataset: xr.Dataset, path: str | os.PathLike[str]) -> None:

@@ -13,6 +13,7 @@ import xarray as xr
 
 from ..bearings.history import History
 from ..numerics.status import Status
+from .history_shocks import FACES, SHOCK, peaks_by_turn, sectors, whirl_ratio
 from .labelled import attributes, described, flags, labelled, without_fill
 
 _STATES = {
@@ -30,13 +31,14 @@ def history_to_dataset(history: History) -> xr.Dataset:
         name, dims = path.removeprefix("elements.").replace(".", "_"), ("time",)
         if path in _STATES:
             dims = ("time", "roller_state", "element") if path == "state_rollers" else ("time", "cage_state")
-        elif path.startswith("elements."):
+        elif path.startswith(("elements.", "pocket_peaks.")):
             dims = ("time", "element")
         elif values.ndim == 0:
             dims = ()
         dataset[name] = xr.Variable(dims, values, described(metadata, path))
     dataset["status"].attrs |= flags(dataset["status"].dtype, [status.text for status in Status])
     count = dataset.sizes["element"]
+    dataset = dataset.assign(_statistics(history))
     names = {"element": (np.arange(count), "number of the rolling element, 0 on the load line at the start")}
     names |= {dim: (list(parts), "component of the state") for dim, parts in _STATES.values()}
     coordinates = {
@@ -49,3 +51,28 @@ def history_to_dataset(history: History) -> xr.Dataset:
 def _labels(history: History) -> Iterator[tuple[str, Any, Any]]:
     for path, value, metadata in labelled(history):
         yield path.removeprefix("instants."), value, metadata
+
+
+def _statistics(history: History) -> dict[str, xr.Variable]:
+    """Shocks turn by turn and round the azimuth, and the whirl of the cage."""
+    found: dict[str, xr.Variable] = {}
+    say = lambda unit, text: {"units": unit, "long_name": text, "path": "summary"}
+    whirl, peaks, spread = whirl_ratio(history), peaks_by_turn(history), sectors(history)
+    if whirl is not None:
+        text = "mean angular speed of the cage's centre about its mean place over the mean cage speed"
+        found["whirl_ratio"] = xr.Variable((), whirl, say("1", text))
+    if peaks is not None and spread is not None:
+        text = "largest pocket load of each rolling element in each turn of the cage; the last turn may be a part"
+        found["turn_peak"] = xr.Variable(("face", "turn", "element"), peaks, say("N", text))
+        text = f"a pocket load above this is a shock: {SHOCK}"
+        found["shock_threshold"] = xr.Variable((), spread.threshold, say("N", text))
+        text = "number of shocks by azimuth"
+        found["shock_count"] = xr.Variable(("face", "sector"), spread.number, say("1", text))
+        text = "mean peak of the shocks by azimuth"
+        found["shock_mean_peak"] = xr.Variable(("face", "sector"), spread.mean_peak, say("N", text))
+        text = "azimuth from the load line at which the sector begins"
+        found["sector"] = xr.Variable(("sector",), spread.edges[:-1], say("rad", text))
+        found["face"] = xr.Variable(("face",), list(FACES), say("1", "wall of the pocket"))
+        turns = np.arange(1, peaks.shape[1] + 1)
+        found["turn"] = xr.Variable(("turn",), turns, say("1", "turn of the cage since the start of the run"))
+    return found

@@ -31,9 +31,9 @@ def plot_history(history: History, title: str) -> "matplotlib.figure.Figure":
         _orbit(figure.add_subplot(grid[0, 0]), cage)
     _speeds(figure.add_subplot(grid[0, 1]), time, instants)
     _power(figure.add_subplot(grid[0, 2]), time, instants)
-    if instants.elements.pocket_load_front is not None:
-        _pocket_over_time(figure.add_subplot(grid[1, 0]), time, instants.elements)
-        _pocket_over_azimuth(figure.add_subplot(grid[1, 1]), instants.elements)
+    if instants.pocket_peaks is not None:
+        _pocket_over_time(figure.add_subplot(grid[1, 0]), time, instants.pocket_peaks)
+        _pocket_over_azimuth(figure.add_subplot(grid[1, 1]), instants)
     _sliding(figure.add_subplot(grid[1, 2]), instants.elements)
     return figure
 
@@ -74,23 +74,27 @@ def _power(axes: Any, time: Any, instants: Any) -> None:
     grid_lines(axes)
 
 
-def _pocket_over_time(axes: Any, time: Any, elements: Any) -> None:
-    front, rear = np.asarray(elements.pocket_load_front), np.asarray(elements.pocket_load_rear)
-    axes.plot(time, front.max(axis=1), color=OUTER, linewidth=0.8, label="front")
-    axes.plot(time, -rear.max(axis=1), color=INNER, linewidth=0.8, label="rear (drawn downwards)")
+def _pocket_over_time(axes: Any, time: Any, peaks: Any) -> None:
+    front, rear = np.asarray(peaks.front).max(axis=1), np.asarray(peaks.rear).max(axis=1)
+    axes.plot(time, front, color=OUTER, linewidth=0.8, label="front")
+    axes.plot(time, -rear, color=INNER, linewidth=0.8, label="rear (drawn downwards)")
+    # room for the legend below the curves
+    axes.set_ylim(-1.35 * float(rear.max()) - 0.1 * float(front.max()), None)
     axes.set_xlabel("time, ms", fontsize=9)
-    axes.legend(fontsize=8, frameon=False)
+    axes.legend(fontsize=8, frameon=False, loc="lower left", ncols=2)
     title_of(axes, "Largest pocket load of all rollers, N")
     grid_lines(axes)
 
 
-def _pocket_over_azimuth(axes: Any, elements: Any) -> None:
+def _pocket_over_azimuth(axes: Any, instants: Any) -> None:
+    """Peaks between instants, of whichever wall is pressed more."""
     turned = lambda values: np.degrees(np.mod(np.asarray(values) + np.pi, 2.0 * np.pi) - np.pi)
-    azimuth = turned(elements.azimuth)
-    net = np.asarray(elements.pocket_load_front) - np.asarray(elements.pocket_load_rear)
-    axes.plot(azimuth.ravel(), net.ravel(), ",", color=FAINT)
+    azimuth, elements = turned(instants.elements.azimuth), instants.elements
+    front, rear = np.asarray(instants.pocket_peaks.front), np.asarray(instants.pocket_peaks.rear)
+    net = np.where(front > rear, front, -rear)
+    axes.plot(azimuth.ravel(), net.ravel(), ".", color=FAINT, markersize=1.0)
     one = FOLLOWED % azimuth.shape[1]
-    axes.plot(azimuth[:, one], net[:, one], ".", color=OUTER, markersize=1.5, label=f"roller {one + 1}, grey: all")
+    axes.plot(azimuth[:, one], net[:, one], ".", color=OUTER, markersize=2.0, label=f"roller {one + 1}, grey: all")
     load = np.asarray(elements.load_inner)[:, one]
     scale = float(np.abs(net).max()) / max(float(load.max()), 1e-300)
     axes.plot(azimuth[:, one], scale * load, ".", color=LOSS, markersize=0.7, label="its race load, scaled")
@@ -98,7 +102,7 @@ def _pocket_over_azimuth(axes: Any, elements: Any) -> None:
     axes.set_xticks([-180, -90, 0, 90, 180])
     axes.set_xlabel("azimuth from the load line, deg", fontsize=9)
     axes.legend(fontsize=8, frameon=False, markerscale=5)
-    title_of(axes, "Pocket load, front less rear, N")
+    title_of(axes, "Pocket load, N: front up, rear down")
     grid_lines(axes)
 
 

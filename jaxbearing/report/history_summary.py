@@ -8,52 +8,11 @@ import numpy as np
 from ..bearings.history import History
 from ..numerics.status import Status
 from .display import with_unit
+from .history_shocks import FACES, SHOCK, Sectors, sectors, shocks, whirl_ratio
 from .plain import finite, plain
 
 if TYPE_CHECKING:
     from rich.console import Console
-
-FACES = ("front", "rear")
-
-
-def turns(history: History) -> np.ndarray:
-    """Whole turns of the cage (or, without one, of the first roller) since the start, at each time."""
-    instants = history.instants
-    speed = instants.elements.orbital_speed[:, 0] if instants.cage is None else instants.cage.speed
-    time, speed = np.asarray(history.time), np.asarray(speed)
-    steps = 0.5 * (speed[1:] + speed[:-1]) * np.diff(time)
-    angle = np.concatenate([[0.0], np.cumsum(steps)])
-    return np.floor(np.abs(angle) / (2.0 * math.pi) + 1e-12).astype(int)
-
-
-def shocks(history: History) -> dict[str, list[dict[str, float]]]:
-    """Largest load of each roller on the front and the rear wall of its pocket, turn by turn: mean and maximum over the
-    rollers, N; the last turn may not be a whole one (`part` says how much of it there is)."""
-    elements = history.instants.elements
-    if elements.pocket_load_front is None:
-        return {}
-    number, time = turns(history), np.asarray(history.time)
-    found: dict[str, list[dict[str, float]]] = {}
-    for face in FACES:
-        load = np.asarray(getattr(elements, f"pocket_load_{face}"))
-        peaks = [load[number == turn].max(axis=0) for turn in range(number[-1] + 1)]
-        found[face] = [{"mean": float(peak.mean()), "max": float(peak.max())} for peak in peaks]
-    lengths = [float(np.ptp(time[number == turn])) for turn in range(number[-1] + 1)]
-    whole = max(lengths)
-    for face in FACES:
-        for entry, length in zip(found[face], lengths, strict=True):
-            entry["part"] = length / whole if whole > 0 else 0.0
-    return found
-
-
-def whirl_ratio(history: History) -> float | None:
-    """Mean angular speed of the cage's centre about its mean place over the mean cage speed."""
-    cage, time = history.instants.cage, np.asarray(history.time)
-    if cage is None or time.size < 3:
-        return None
-    x, y = np.asarray(cage.x) - np.mean(cage.x), np.asarray(cage.y) - np.mean(cage.y)
-    turned = np.unwrap(np.arctan2(y, x))
-    return float((turned[-1] - turned[0]) / (time[-1] - time[0]) / np.mean(cage.speed))
 
 
 def statistics(history: History) -> dict[str, Any]:
@@ -64,6 +23,8 @@ def statistics(history: History) -> dict[str, Any]:
         "ring": {"radial": _spread(instants.ring.radial)},
         "power_loss": {name: float(np.mean(value)) for name, value in _losses(history).items()},
         "drive_power": float(np.mean(instants.drive_power)),
+        "power": {"loss": _spread(instants.power_loss.total), "drive": _spread(instants.drive_power)}
+        | _stored(history),
         "pressure_max": float(max(np.max(instants.elements.pressure_inner), np.max(instants.elements.pressure_outer))),
         "sliding_max": float(
             max(np.abs(instants.elements.sliding_inner).max(), np.abs(instants.elements.sliding_outer).max())
@@ -81,7 +42,18 @@ def statistics(history: History) -> dict[str, Any]:
         found["pocket_load"] = {
             face: {"max": max(entry["max"] for entry in peaks[face]), "turns": peaks[face]} for face in FACES
         }
+    spread = sectors(history)
+    if spread is not None:
+        found["shocks"] = _by_sector(spread)
     return found
+
+
+def _by_sector(spread: Sectors) -> dict[str, Any]:
+    faces = {
+        face: {"count": spread.number[i].tolist(), "mean_peak": finite(spread.mean_peak[i].tolist())}
+        for i, face in enumerate(FACES)
+    }
+    return {"threshold": spread.threshold, "sector_edges": spread.edges.tolist()} | faces
 
 
 def _spread(values: Any) -> dict[str, float]:
@@ -94,25 +66,35 @@ def _spread(values: Any) -> dict[str, float]:
     }
 
 
+def _stored(history: History) -> dict[str, float]:
+    """What the drive spends beside the dissipation, as mean powers over the run, W."""
+    energy, time = history.energy, float(history.time[-1] - history.time[0])
+    works = {"pocket_films": energy.pocket_films, "lever_arm": energy.lever_arm, "kinetic": energy.kinetic}
+    return {name: float(work) / time if time > 0 else math.nan for name, work in works.items()}
+
+
 def _losses(history: History) -> dict[str, Any]:
     loss = history.instants.power_loss
     return {name: getattr(loss, name) for name in ("total", *vars(loss)) if getattr(loss, name) is not None}
 
 
 def history_to_dict(history: History) -> dict[str, Any]:
-    """The run as plain numbers and texts in SI units, ready for `json.dumps`; what is not finite is `None`."""
+    """The run as plain numbers and texts in SI units, ready for `json.dumps`; what is not finite is `None`. A run that
+    did not begin has no time and no summary."""
+    begun = np.size(history.time) > 0
+    ends = (float(history.time[0]), float(history.time[-1])) if begun else (None, None)
     return {
         "completed": history.completed,
         "status": Status(int(history.status)).text,
         "interrupted": history.interrupted,
         "warnings": list(history.warnings),
-        "time": {"start": float(history.time[0]), "stop": float(history.time[-1]), "wanted": float(history.stop)},
+        "time": {"start": ends[0], "stop": ends[1], "wanted": float(history.stop)},
         "steps": {"accepted": int(history.accepted), "rejected": int(history.rejected)},
         "solver": history.solver,
         "energy_error": finite(float(history.energy.error)),
         "energy": plain(history.energy),
         "operation": plain(history.operation),
-        "summary": plain(statistics(history)),
+        "summary": plain(statistics(history)) if begun else {},
     }
 
 
@@ -125,6 +107,8 @@ def print_history(history: History, label: str, console: "Console") -> None:
     console.print(Text(label, style="bold"))
     steps = f"{int(history.accepted)} steps ({int(history.rejected)} more tried)"
     console.print(f"{1e3 * float(history.time[-1]):.6g} ms in {steps}, {history.solver}")
+    if float(history.time[0]) > 0.0:
+        console.print(f"goes on from {1e3 * float(history.time[0]):.6g} ms")
     if not history.completed:
         console.print(Text(history.failure(), style="bold red"))
     table = Table("", "mean", "least", "largest", "at the end", box=None, pad_edge=False)
@@ -133,6 +117,7 @@ def print_history(history: History, label: str, console: "Console") -> None:
         cage = found["cage"]
         rows += [("cage speed", cage["speed"], "rad/s"), ("cage slip", cage["slip"], "1")]
         rows += [("cage eccentricity ratio", cage["eccentricity_ratio"], "1")]
+    rows += [("power loss", found["power"]["loss"], "W"), ("drive power", found["power"]["drive"], "W")]
     for name, spread, unit in rows:
         table.add_row(name, *(with_unit(spread[key], unit) for key in ("mean", "min", "max", "end")))
     console.print(table)
@@ -144,10 +129,16 @@ def print_history(history: History, label: str, console: "Console") -> None:
             name = f"{number}" if a["part"] > 0.95 else f"{number} ({100 * a['part']:.0f} % of it)"
             table.add_row(name, *(with_unit(v, "N") for v in (a["mean"], a["max"], b["mean"], b["max"])))
         console.print(table)
-    console.print("\nMean power loss")
+    if "cage" in found and found["cage"]["whirl_ratio"] is not None:
+        console.print(f"The cage's centre whirls with {found['cage']['whirl_ratio']:.3g} of the cage speed.")
+    if "shocks" in found:
+        _print_sectors(found["shocks"], console)
+    console.print("\nMean power")
     table = Table("", "", box=None, pad_edge=False, show_header=False)
     for name, watts in sorted(found["power_loss"].items(), key=lambda item: (item[0] != "total", -item[1])):
         table.add_row(name.replace("_", " "), with_unit(watts, "W"))
+    for name, key in (("pocket films, squeezed", "pocket_films"), ("into kinetic energy", "kinetic")):
+        table.add_row(name, with_unit(found["power"][key], "W"))
     table.add_row("drive power", with_unit(found["drive_power"], "W"))
     console.print(table)
     console.print(
@@ -156,3 +147,21 @@ def print_history(history: History, label: str, console: "Console") -> None:
     )
     for text in history.warnings:
         console.print(Text(f"- {text}", style="yellow"))
+
+
+def _print_sectors(found: dict[str, Any], console: "Console") -> None:
+    """Where the shocks are: two lines a face, or one line where there are none."""
+    from rich.table import Table
+
+    threshold = with_unit(found["threshold"], "N")
+    if not any(sum(found[face]["count"]) for face in FACES):
+        console.print(f"\nNo shock: no pocket load above {threshold}, {SHOCK}.")
+        return
+    console.print(f"\nShocks (above {threshold}: {SHOCK}) by azimuth from the load line, deg")
+    edges = [round(math.degrees(edge)) for edge in found["sector_edges"][:-1]]
+    table = Table("from", *(f"{edge}" for edge in edges), box=None, pad_edge=False)
+    for face in FACES:
+        table.add_row(f"{face}: number", *(f"{count}" for count in found[face]["count"]))
+        peaks = ("" if peak is None else f"{peak:.3g}" for peak in found[face]["mean_peak"])
+        table.add_row("  mean peak, N", *peaks)
+    console.print(table)

@@ -4,9 +4,11 @@ import functools
 from typing import Any
 
 from ..bearings.solution import Solution
+from ..ehl import LineContactSolution
 from ..machines import TwoDiskSolution
 from ..sensitivity import Sensitivities, largest
 from .bearing.json_report import bearing_to_dict
+from .line_contact.json_report import line_contact_to_dict
 from .plain import plain
 from .two_disk.json_report import two_disk_to_dict
 
@@ -22,6 +24,7 @@ def solution_to_dict(solution: Any) -> dict[str, Any]:
 
 solution_to_dict.register(Solution, bearing_to_dict)
 solution_to_dict.register(TwoDiskSolution, two_disk_to_dict)
+solution_to_dict.register(LineContactSolution, line_contact_to_dict)
 
 
 def sensitivities_to_dict(sensitivities: Sensitivities) -> dict[str, Any]:

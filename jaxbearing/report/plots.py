@@ -6,9 +6,11 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ..bearings.solution import Solution
+from ..ehl import LineContactSolution
 from ..machines import TwoDiskSolution
 from .bearing.plots import plot_bearing
 from .files import appearing_whole
+from .line_contact.plots import plot_line_contact
 from .two_disk.plots import plot_two_disk
 
 if TYPE_CHECKING:
@@ -35,6 +37,7 @@ def plot_solution(solution: Any, title: str) -> "matplotlib.figure.Figure":
 
 plot_solution.register(Solution, plot_bearing)
 plot_solution.register(TwoDiskSolution, plot_two_disk)
+plot_solution.register(LineContactSolution, plot_line_contact)
 
 
 def save_plot(figure: Any, path: str | os.PathLike[str]) -> None:

@@ -10,13 +10,14 @@ from .._scene import AbstractScene
 from ..bearings.ball_bearing import BallBearing
 from ..bearings.cylindrical_roller import CylindricalRollerBearing
 from ..bearings.solution import Solution
+from ..bearings.tapered_roller import TaperedRollerBearing
 from ..numerics.status import SolveError
 from ..solve import jit_solver
 from .display import display_unit, with_unit
 from .plain import plain
 from .screen import column, counted, headline, pieces, print_line, print_table, print_warnings
 
-Bearing = BallBearing | CylindricalRollerBearing
+Bearing = BallBearing | CylindricalRollerBearing | TaperedRollerBearing
 
 
 class StiffnessTable(NamedTuple):
@@ -46,7 +47,7 @@ def at_speeds(scene: AbstractScene, speeds: Any) -> list[Bearing]:
     values = np.asarray(speeds, dtype=np.float64)
     if values.ndim != 1 or not np.all(np.isfinite(values)) or np.any(values < 0.0) or np.any(np.diff(values) <= 0.0):
         raise ValueError("speeds must be a list of finite numbers >= 0, each larger than the one before")
-    if isinstance(scene, CylindricalRollerBearing):
+    if isinstance(scene, CylindricalRollerBearing) and not scene.tilts:
         scene = scene.replace({"ring_freedom": ("radial", "lateral")})
     return [_at_speed(scene, float(value)) for value in values]
 

@@ -6,8 +6,10 @@ from typing import Any
 from rich.console import Console
 
 from ..bearings.solution import Solution
+from ..ehl import LineContactSolution
 from ..machines import TwoDiskSolution
 from .bearing.summary import print_bearing
+from .line_contact.summary import print_line_contact
 from .two_disk.summary import print_two_disk
 
 
@@ -26,3 +28,4 @@ def print_summary(solution: Any, scene_label: str, console: Console) -> None:
 
 print_summary.register(Solution, print_bearing)
 print_summary.register(TwoDiskSolution, print_two_disk)
+print_summary.register(LineContactSolution, print_line_contact)

@@ -11,6 +11,7 @@ from ..bearings.ball_bearing import (
 )
 from ..bearings.ball_geometry import BallGeometry
 from ..bearings.gyroscopic import AbstractGyroscopic, CappedCouple, ResolvedCouple, SharedCouple
+from ..bearings.rating import Rating
 from ..contacts import PointLaws
 from ..lubricants import Lubricant
 from .ball_schema import BallBearingTable, BallContactTable, KinematicsTable
@@ -37,6 +38,7 @@ def ball_bearing(table: BallBearingTable) -> BallBearing:
         contact=contact,
         cage=cage(BallCage, table.cage),
         drag=part(BallDragSettings, table.drag),
+        rating=part(Rating, table.rating),
     )
 
 

@@ -8,7 +8,7 @@ from pydantic import BeforeValidator, model_validator
 
 from . import units
 from .bearing_schema import BearingCageTable as BallCageTable
-from .bearing_schema import BearingOperationTable, require_oil, require_oil_flow
+from .bearing_schema import BearingOperationTable, RatingTable, require_oil, require_oil_flow
 from .laws import TractionAccuracy
 from .materials import MaterialField
 from .oil_schema import OilTable
@@ -141,7 +141,6 @@ class BallOperationTable(BearingOperationTable):
 class BallBearingTable(Table):
     """The whole file. A table that is left out is not modelled."""
 
-    not_yet: ClassVar[Mapping[str, str]] = {"rating": "a scene without a life rating"}
     kind: Literal["ball_bearing"]
     geometry: BallGeometryTable
     materials: BallMaterialsTable
@@ -151,6 +150,7 @@ class BallBearingTable(Table):
     kinematics: KinematicsTable | None = None
     cage: BallCageTable | None = None
     drag: BallDragTable | None = None
+    rating: RatingTable | None = None
 
     @model_validator(mode="after")
     def _complete(self) -> Self:

@@ -1,10 +1,13 @@
 """What the scene files of all bearings have in common: cage, operating point, and what these need of the oil."""
 
 from collections.abc import Mapping
-from typing import Literal, Self
+from typing import Annotated, Any, Literal, Self
 
-from pydantic import model_validator
+from pydantic import BeforeValidator, model_validator
 
+from ..bearings.rating import LAMINAE
+from ..life.basic import RELIABILITY_FACTORS
+from ..life.modification import CLEANLINESS
 from . import units
 from .oil_needs import require_laws, require_piezoviscous
 from .oil_schema import OilTable
@@ -36,6 +39,37 @@ class BearingOperationTable(Table):
     outer_speed: units.Speed = 0.0
     oil_temperature: units.Temperature | None = None
     oil_flow: units.NonNegativeFlow | None = None
+
+
+def _reliability(value: Any) -> float:
+    given = units.number(value)
+    if given not in RELIABILITY_FACTORS:
+        known = ", ".join(f"{one:g}" for one in RELIABILITY_FACTORS)
+        raise units.refusal(f"one of {known}, without quotes", units.describe(value))
+    return given
+
+
+class RatingTable(Table):
+    """What the life needs; see `bearings.rating.Rating`."""
+
+    dynamic_capacity: units.PositiveForce | None = None
+    static_capacity: units.PositiveForce | None = None
+    fatigue_load_limit: units.PositiveForce | None = None
+    viscosity_ratio: units.PositiveNumber | None = None
+    roughness_rings: units.PositiveLength | None = None
+    roughness_elements: units.PositiveLength | None = None
+    reliability: Annotated[float, BeforeValidator(_reliability)] = 0.90
+    cleanliness: Literal[tuple(CLEANLINESS)] | None = None  # pyright: ignore[reportInvalidTypeForm]
+    n_laminae: units.Count = LAMINAE
+    edge_factor: units.Switch | None = None
+
+    @model_validator(mode="after")
+    def _both_roughnesses(self) -> Self:
+        if (self.roughness_rings is None) != (self.roughness_elements is None):
+            given = "roughness_rings" if self.roughness_elements is None else "roughness_elements"
+            missing = "roughness_elements" if self.roughness_elements is None else "roughness_rings"
+            raise refusal_at(missing, f"a length, which '{given}' needs beside it", "nothing")
+        return self
 
 
 def require_oil_flow(drag: Table | None, operation: BearingOperationTable) -> None:

@@ -66,22 +66,28 @@ def oil_text(
 
     **Raises:** `ValueError` for a law that files do not know.
     """
-    origins = origins or {}
     lines = [*(f"# {_line(text)}" for text in [*header, HEADER])]
     lines += [f"name = {_string(name)}", f"description = {_string(description)}"]
+    return "\n".join([*lines, *law_lines(oil, origins)]) + "\n"
+
+
+def law_lines(oil: Lubricant, origins: Mapping[str, Origin] | None = None, above: str = "") -> list[str]:
+    """The tables of the laws, an empty line before each. **Arguments:** `above`: what stands before their names, "oil."
+    in a scene. **Raises:** `ValueError` for a law that files do not know."""
+    origins, lines = origins or {}, []
     laws = _laws(oil)
     notes = _notes(oil, laws, origins)
     for law, (table, values) in laws.items():
         sources = origins[law].sources if law in origins else {}
-        lines += ["", f"[{law}]", f"law = {_string(typing.get_args(table.model_fields['law'].annotation)[0])}"]
+        lines += ["", f"[{above}{law}]", f"law = {_string(typing.get_args(table.model_fields['law'].annotation)[0])}"]
         lines += [f"{key} = {_value(value, table, key)}" for key, value in values.items()]
         lines += [f"note = {_string(notes[law])}"] if law in notes else []
-        lines += ["", f"[{law}.sources]"] if values else []
+        lines += ["", f"[{above}{law}.sources]"] if values else []
         texts = {key: sources.get(key, UNKNOWN_SOURCE) for key in values}
         if len(values) > 1 and len(set(texts.values())) == 1:
             texts = {"all": next(iter(texts.values()))}
         lines += [f"{key} = {_string(text)}" for key, text in texts.items()]
-    return "\n".join(lines) + "\n"
+    return lines
 
 
 def _laws(oil: Lubricant) -> dict[str, tuple[type[Law], dict[str, Any]]]:

@@ -11,11 +11,15 @@ from .ball_build import ball_bearing
 from .ball_schema import BallBearingTable
 from .data_files import builtin_names, builtin_summary, builtin_text
 from .errors import SceneError, from_class, from_validation, nearest, one_of
+from .line_contact_build import line_contact
+from .line_contact_schema import LineContactTable
 from .oil_files import Origin, origins
 from .oils import with_catalogue
 from .overrides import REMOVE, apply, parse_value
 from .roller_build import cylindrical_roller_bearing
 from .roller_schema import CylindricalRollerTable
+from .tapered_build import tapered_roller_bearing
+from .tapered_schema import TaperedRollerTable
 from .toml_files import parse_toml, read_text
 from .two_disk_build import two_disk
 from .two_disk_schema import TwoDiskTable
@@ -27,10 +31,11 @@ _KIND_EXAMPLE = 'kind = "cylindrical_roller_bearing"'
 _SCHEMAS: dict[str, tuple[type[BaseModel], Callable[[Any], AbstractScene]]] = {
     "ball_bearing": (BallBearingTable, ball_bearing),
     "cylindrical_roller_bearing": (CylindricalRollerTable, cylindrical_roller_bearing),
+    "tapered_roller_bearing": (TaperedRollerTable, tapered_roller_bearing),
     "two_disk": (TwoDiskTable, two_disk),
+    "line_contact": (LineContactTable, line_contact),
 }
-AVAILABLE_KINDS = tuple(_SCHEMAS)
-KINDS = (*AVAILABLE_KINDS, "tapered_roller_bearing", "line_contact")
+KINDS = tuple(_SCHEMAS)
 
 
 def load_scene(source: str | Path, overrides: Mapping[str, str] | None = None) -> AbstractScene:
@@ -39,8 +44,8 @@ def load_scene(source: str | Path, overrides: Mapping[str, str] | None = None) -
     **Arguments:**
     - `source`: path of a TOML file, or one of `builtin_names()`.
     - `overrides`: dotted path of a field -> value as it would be typed, {"operation.inner_speed": "12000 rpm"}; the
-      value "none" takes an optional table or field out. `oil.file` is relative to the working folder here, and to the
-      file's own folder in a scene file.
+      value "none" takes an optional table or field out. `oil.file` and the files of `simulation` are relative to the
+      working folder here, and to the file's own folder in a scene file.
 
     **Raises:** `SceneError` with file, field, what was found and what is expected.
     """
@@ -93,6 +98,9 @@ def _build(
         raise from_validation(error, model, origin) from None
     try:
         return build(table)
+    except SceneError:
+        # of another file
+        raise
     except ValueError as error:
         raise from_class(error, raw, origin) from None
 
@@ -112,12 +120,23 @@ def _read(source: str | Path) -> tuple[str, dict[str, Any]]:
     return label, _beside(parse_toml(text, label, f"a scene that begins with {_KIND_EXAMPLE}"), Path(source).parent)
 
 
+_FILES = (("oil",), ("simulation", "speed_table"), ("simulation", "load_table"))
+"""Tables with the name of a further file in their field `file`."""
+
+
 def _beside(mapping: dict[str, Any], folder: Path) -> dict[str, Any]:
-    """The tables of a file in this folder, with the path of the oil's file as it is seen from here."""
-    oil = mapping.get("oil")
-    if not (isinstance(oil, dict) and isinstance(oil.get("file"), str)):
-        return mapping
-    return {**mapping, "oil": {**oil, "file": str(folder / oil["file"])}}
+    """The tables of a file in this folder, with the paths of further files as they are seen from here."""
+    for tables in _FILES:
+        mapping = _moved(mapping, tables, folder)
+    return mapping
+
+
+def _moved(table: dict[str, Any], inside: tuple[str, ...], folder: Path) -> dict[str, Any]:
+    if not inside:
+        file = table.get("file")
+        return {**table, "file": str(folder / file)} if isinstance(file, str) else table
+    deeper = table.get(inside[0])
+    return {**table, inside[0]: _moved(deeper, inside[1:], folder)} if isinstance(deeper, dict) else table
 
 
 def _known_kind(kind: Any, mapping: Mapping[str, Any], origin: str) -> str:
@@ -126,10 +145,7 @@ def _known_kind(kind: Any, mapping: Mapping[str, Any], origin: str) -> str:
         near = next((key for key in mapping if key != "kind" and nearest(key, ("kind",))), "")
         found = f"the unknown name {near!r}" if near else "nothing"
         raise SceneError(origin, "kind", found, f"the kind of scene, e.g. {_KIND_EXAMPLE}", "kind" if near else "")
-    if kind in AVAILABLE_KINDS:
+    if kind in KINDS:
         return kind
-    if isinstance(kind, str) and kind in KINDS:
-        found = f"kind '{kind}', which is not available in this version"
-        raise SceneError(origin, "kind", found, one_of(AVAILABLE_KINDS))
     near = nearest(kind, KINDS) if isinstance(kind, str) else ""
     raise SceneError(origin, "kind", describe(kind), one_of(KINDS), near)

@@ -3,10 +3,12 @@ the constructors: nothing runs on JAX."""
 
 from ..bearings.cylindrical_roller import CylindricalRollerBearing, RollerCage, RollerFlange, RollerGeometry
 from ..bearings.parts import Drag, Materials, Operation
+from ..bearings.rating import Rating
 from .bearing_build import cage, part
 from .contact_laws import contact_laws
 from .materials import material
 from .oils import lubricant
+from .profile_schema import roller_profile
 from .roller_schema import CylindricalRollerTable
 from .simulation_schema import simulation
 
@@ -17,6 +19,7 @@ def cylindrical_roller_bearing(table: CylindricalRollerTable) -> CylindricalRoll
     **Raises:** `ValueError` for combinations that the classes refuse.
     """
     oil = None if table.oil is None else lubricant(table.oil)
+    speed, load = table.operation.inner_speed, table.operation.radial_load
     return CylindricalRollerBearing(
         geometry=RollerGeometry(**table.geometry.model_dump()),
         materials=Materials(
@@ -30,5 +33,7 @@ def cylindrical_roller_bearing(table: CylindricalRollerTable) -> CylindricalRoll
         cage=cage(RollerCage, table.cage),
         flange=part(RollerFlange, table.flange),
         drag=part(Drag, table.drag),
-        simulation=None if table.simulation is None else simulation(table.simulation),
+        simulation=None if table.simulation is None else simulation(table.simulation, speed, load),
+        rating=part(Rating, table.rating),
+        profile=roller_profile(table.profile),
     )

@@ -9,6 +9,7 @@ from . import units
 from .bearing_schema import (
     BearingCageTable,
     BearingOperationTable,
+    RatingTable,
     in_mm,
     law_in_words,
     require_oil,
@@ -17,6 +18,7 @@ from .bearing_schema import (
 from .laws import TractionAccuracy
 from .materials import MaterialField
 from .oil_schema import OilTable
+from .profile_schema import ProfileTable
 from .simulation_schema import SimulationTable
 from .table import Table, refusal_at
 
@@ -91,19 +93,23 @@ class DragTable(Table):
 
 
 class OperationTable(BearingOperationTable):
-    not_yet: ClassVar[Mapping[str, str]] = {
-        "axial_load": "a radial load only",
-        "moment": "a radial load only (the tilt is held at 0)",
-        "misalignment": "aligned rings",
-    }
+    not_yet: ClassVar[Mapping[str, str]] = {"axial_load": "a radial load only, beside a moment or misalignment"}
     radial_load: units.PositiveForce
+    moment: units.Moment | None = None
+    misalignment: units.Angle | None = None
+
+    @model_validator(mode="after")
+    def _tilt(self) -> Self:
+        if self.moment is not None and self.misalignment is not None:
+            expected = "none beside operation.moment, which sets the tilt free"
+            raise refusal_at("misalignment", expected, f"{self.misalignment:g} rad")
+        return self
 
 
 class CylindricalRollerTable(Table):
     """The whole file. A table that is left out is not modelled."""
 
     not_yet: ClassVar[Mapping[str, str]] = {
-        "rating": "a scene without a life rating",
         "kinematics": "a scene without [kinematics], which belongs to ball bearings",
     }
     kind: Literal["cylindrical_roller_bearing"]
@@ -116,6 +122,8 @@ class CylindricalRollerTable(Table):
     flange: FlangeTable | None = None
     drag: DragTable | None = None
     simulation: SimulationTable | None = None
+    rating: RatingTable | None = None
+    profile: ProfileTable | None = None
 
     @model_validator(mode="after")
     def _complete(self) -> Self:

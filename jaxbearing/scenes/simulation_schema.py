@@ -5,9 +5,13 @@ from typing import Literal, Self
 from pydantic import model_validator
 
 from ..bearings.simulation import DEFAULT_SOLVER, DEFAULT_TOLERANCE, Simulation
-from ..bearings.time_laws import AbstractTimeFactor, Ramp, RotatingLoad, Sinusoidal, Steady
+from ..time_laws import AbstractTimeFactor, Ramp, RotatingLoad, Sinusoidal, Steady, Tabulated
 from . import units
+from .errors import SceneError
 from .table import Table, refusal_at
+from .time_tables import read_time_table
+
+_LAWS = ("perturbation", "ramp", "table")
 
 
 class PerturbationTable(Table):
@@ -26,6 +30,12 @@ class RampTable(Table):
     begin: units.NonNegativeTime = 0.0
 
 
+class FileTable(Table):
+    """A factor over time from a CSV file, see `time_tables`."""
+
+    file: str
+
+
 class RotatingLoadTable(Table):
     """A turning load beside the radial one."""
 
@@ -40,34 +50,53 @@ class SimulationTable(Table):
     tolerance: units.PositiveNumber = DEFAULT_TOLERANCE
     speed_perturbation: PerturbationTable | None = None
     speed_ramp: RampTable | None = None
+    speed_table: FileTable | None = None
     load_perturbation: PerturbationTable | None = None
     load_ramp: RampTable | None = None
+    load_table: FileTable | None = None
     rotating_load: RotatingLoadTable | None = None
 
     @model_validator(mode="after")
     def _consistent(self) -> Self:
         for name in ("speed", "load"):
-            if getattr(self, f"{name}_perturbation") is not None and getattr(self, f"{name}_ramp") is not None:
-                raise refusal_at(f"{name}_ramp", f"either {name}_ramp or {name}_perturbation", "both")
+            given = [field for field in (f"{name}_{law}" for law in _LAWS) if getattr(self, field) is not None]
+            if len(given) > 1:
+                raise refusal_at(given[1], f"one of {' and '.join(given)}", "both")
         if self.speed_ramp is not None and self.speed_ramp.start == 0.0:
             raise refusal_at("speed_ramp.start", "a number > 0: at rest the films vanish", "the number 0")
+        if self.load_ramp is not None and self.load_ramp.start == 0.0:
+            raise refusal_at("load_ramp.start", "a number > 0: a run begins with a loaded bearing", "the number 0")
         return self
 
 
-def simulation(table: SimulationTable) -> Simulation:
-    """The run that a table describes."""
+def simulation(table: SimulationTable, inner_speed: float, radial_load: float) -> Simulation:
+    """The run that a table describes. **Arguments:** speed, rad/s, and load, N, of the operating point.
+
+    **Raises:** `SceneError` for a file that cannot be read or makes no sense.
+    """
     turning = table.rotating_load
     return Simulation(
         duration=table.duration,
-        speed=_factor(table.speed_perturbation, table.speed_ramp),
-        load=_factor(table.load_perturbation, table.load_ramp),
+        speed=_factor(table, "speed", inner_speed),
+        load=_factor(table, "load", radial_load),
         rotating_load=None if turning is None else RotatingLoad(**turning.model_dump()),
         solver=table.solver,
         tolerance=table.tolerance,
     )
 
 
-def _factor(perturbation: PerturbationTable | None, ramp: RampTable | None) -> AbstractTimeFactor:
+def _factor(table: SimulationTable, name: str, steady: float) -> AbstractTimeFactor:
+    perturbation, ramp, file = (getattr(table, f"{name}_{law}") for law in _LAWS)
     if perturbation is not None:
         return Sinusoidal(**perturbation.model_dump())
-    return Steady() if ramp is None else Ramp(**ramp.model_dump())
+    if ramp is not None:
+        return Ramp(**ramp.model_dump())
+    if file is None:
+        return Steady()
+    field = f"simulation.{name}_table.file"
+    found = read_time_table(file.file, name, field)
+    if not found.relative and steady == 0.0:
+        raise SceneError(
+            file.file, "", f"a column '{name}'", f"a column 'factor': operation.inner_speed is 0, for {field}"
+        )
+    return Tabulated(found.times, found.values if found.relative else found.values / steady)

@@ -26,7 +26,7 @@ def read_text(path: str | Path, expected: str, near: Iterable[str] = ()) -> str:
         raise SceneError(label, "", "a folder", expected) from None
     except UnicodeDecodeError as error:
         found = f"bytes that are not UTF-8 text (at byte {error.start})"
-        raise SceneError(label, "", found, "a TOML file in UTF-8") from None
+        raise SceneError(label, "", found, "a file in UTF-8") from None
     except (OSError, ValueError) as error:
         # ValueError: a path with a null byte
         reason = getattr(error, "strerror", None) or str(error)

@@ -49,6 +49,7 @@ ANGLE = Dimension("an angle", "rad", "0.375 deg")
 SPEED = Dimension("a rotational speed", "rad/s", "10500 rpm")
 SURFACE_SPEED = Dimension("a speed", "m/s", "1 mm/s")
 FORCE = Dimension("a force", "N", "25 kN")
+LINE_LOAD = Dimension("a load per length", "N/m", "76.31 N/mm")
 MOMENT = Dimension("a moment", "N*m", "50 N*m")
 PRESSURE = Dimension("a pressure or modulus", "Pa", "203 GPa")
 INVERSE_PRESSURE = Dimension("a reciprocal pressure", "1/Pa", "10.4 1/GPa")
@@ -272,6 +273,10 @@ PositiveFrequency = Annotated[float, _quantity(FREQUENCY, "> 0")]
 NonNegativeForce = Annotated[float, _quantity(FORCE, ">= 0")]
 PositiveNumber = Annotated[float, BeforeValidator(lambda value: number(value, "> 0"))]
 NonNegativeNumber = Annotated[float, BeforeValidator(lambda value: number(value, ">= 0"))]
+Number = Annotated[float, BeforeValidator(number)]
+Numbers = Annotated[
+    tuple[float, ...], BeforeValidator(lambda given: several(given, number, "a number, or a list of them"))
+]
 PoissonRatio = Annotated[float, BeforeValidator(_between(0.0, 0.5))]
 Fraction = Annotated[float, BeforeValidator(_between(0.0, 1.0))]
 
@@ -281,11 +286,13 @@ FlangeAngle = Annotated[float, BeforeValidator(_flange_angle)]
 """From 0 to below 90 degrees."""
 NonNegativeLength = Annotated[float, _quantity(LENGTH, ">= 0")]
 Speed = Annotated[float, _quantity(SPEED)]
+SurfaceSpeed = Annotated[float, _quantity(SURFACE_SPEED)]
 NonNegativeSurfaceSpeed = Annotated[float, _quantity(SURFACE_SPEED, ">= 0")]
 Angle = Annotated[float, _quantity(ANGLE)]
 Moment = Annotated[float, _quantity(MOMENT)]
 Force = Annotated[float, _quantity(FORCE)]
 PositiveForce = Annotated[float, _quantity(FORCE, "> 0")]
+PositiveLineLoad = Annotated[float, _quantity(LINE_LOAD, "> 0")]
 PositivePressure = Annotated[float, _quantity(PRESSURE, "> 0")]
 InversePressure = Annotated[float, _quantity(INVERSE_PRESSURE)]
 PositiveInversePressure = Annotated[float, _quantity(INVERSE_PRESSURE, "> 0")]
@@ -306,5 +313,6 @@ Kelvin2PerPressure = Annotated[float, _quantity(KELVIN2_PER_PRESSURE)]
 PositiveSurfaceSpeeds = Annotated[tuple[float, ...], _several(SURFACE_SPEED, "> 0")]
 PositiveForces = Annotated[tuple[float, ...], _several(FORCE, "> 0")]
 PositivePressures = Annotated[tuple[float, ...], _several(PRESSURE, "> 0")]
+Times = Annotated[tuple[float, ...], _several(TIME, ">= 0")]
 Temperatures = Annotated[tuple[float, ...], _several(TEMPERATURE, "> 0")]
 """A text with a unit, or a list of them."""

@@ -116,11 +116,6 @@ BROKEN = {
         "kind",
         ["Did you mean 'cylindrical_roller_bear"],
     ),
-    "kind_not_yet": (
-        line("kind", 'kind = "tapered_roller_bearing"'),
-        "kind",
-        ["'tapered_roller_bearing'", "not available in this version"],
-    ),
     "kind_missing": (line("kind", ""), "kind", ["nothing", 'kind = "cylindrical_roller_bearing"']),
     "kind_misspelt": (line("kind", 'knid = "cylindrical_roller_bearing"'), "kind", ["'knid'", "Did you mean 'kind'"]),
     "kind_number": (line("kind", "kind = 3"), "kind", ["the number 3"]),
@@ -212,7 +207,6 @@ def test_unreadable_file(jaxbearing_command, folder, monkeypatch):
         ("operation.axial_load=none", "operation.axial_load", ["not available in this version", "radial load only"]),
         ("contact.thermal=off", "contact.thermal", ["or leave it out (--set contact.thermal=none)"]),
         ("kind=none", "kind", ["found nothing", "kind ="]),
-        ("kind=line_contact", "kind", ["not available in this version"]),
     ],
 )
 def test_set(change, path, words, jaxbearing_command, folder):

@@ -1,22 +1,31 @@
 """`jaxbearing simulate`: JSON, NetCDF, picture, exit codes."""
 
+import contextlib
 import json
+import os
+import pty
+import signal
+import subprocess
+import sys
 
 import numpy as np
 import pytest
 import xarray as xr
 from typer.testing import CliRunner
 
+import jaxbearing as jb
 from jaxbearing.cli.main import app
 
 BASE = ("simulate", "turbine_roller_dynamic", "--set", "contact.thermal=none")
+
+FILES = (("--out", "run.nc"), ("--plot", "run.png"), ("--animation", "run.gif"))
 
 
 @pytest.fixture(scope="module")
 def run(tmp_path_factory):
     """One short run with everything that can be written."""
     folder = tmp_path_factory.mktemp("simulate")
-    files = ("--out", str(folder / "run.nc"), "--plot", str(folder / "run.png"))
+    files = [part for option, name in FILES for part in (option, str(folder / name))]
     result = CliRunner().invoke(app, [*BASE, "--duration", "0.5 ms", "--json", *files])
     return result, folder
 
@@ -38,6 +47,7 @@ def test_json_has_the_agreed_keys(run):
 def test_files(run):
     _, folder = run
     assert (folder / "run.png").stat().st_size > 10_000
+    assert 10_000 < (folder / "run.gif").stat().st_size < 5_000_000
     with xr.open_dataset(folder / "run.nc", engine="h5netcdf") as dataset:
         assert dataset["pocket_load_front"].dims == ("time", "element")
         assert dataset["cage_speed"].attrs["units"] == "rad s-1"
@@ -45,12 +55,112 @@ def test_files(run):
         np.testing.assert_allclose(dataset["time"][-1], 0.5e-3)
 
 
+def test_restart_goes_on(run):
+    """By the duration, from the time at which the file ends."""
+    _, folder = run
+    arguments = [*BASE, "--duration", "0.5 ms", "--restart", str(folder / "run.nc")]
+    result = CliRunner().invoke(app, [*arguments, "--json"])
+    assert result.exit_code == 0
+    found = json.loads(result.stdout)
+    np.testing.assert_allclose([found["time"][name] for name in ("start", "stop", "wanted")], [0.5e-3, 1e-3, 1e-3])
+    again = json.loads(run[0].stdout)["summary"]["cage"]["speed"]["end"]
+    assert abs(found["summary"]["cage"]["speed"]["max"] / again - 1.0) < 0.01
+    result = CliRunner().invoke(app, arguments)
+    assert result.exit_code == 0
+    assert "goes on from 0.5 ms" in result.stdout
+
+
+@pytest.mark.parametrize(
+    ("changes", "reason"),
+    [
+        (("--set", "geometry.n_rollers=28"), "30 rollers, for a scene with 28"),
+        (("--set", "cage=none"), "a state with a cage"),
+        (("--restart", "run.png"), "not a NetCDF file"),
+        (("--restart", "gone.nc"), "cannot be read"),
+        (("--restart", "."), "cannot be read"),
+    ],
+)
+def test_restart_from_something_else_is_refused(run, changes, reason, monkeypatch):
+    _, folder = run
+    monkeypatch.chdir(folder)
+    result = CliRunner().invoke(app, [*BASE, "--duration", "1 ms", "--restart", "run.nc", *changes])
+    assert result.exit_code == 2
+    assert reason in result.stderr
+    assert result.stderr.startswith("error: --restart")
+    assert result.stderr.count("\n") == 1
+    assert result.stdout == ""
+
+
+@pytest.mark.slow
+def test_interrupted_run_keeps_what_it_has(tmp_path):
+    """A process on a terminal, and Ctrl-C when its bar shows that it moves."""
+    out, (reader, terminal) = tmp_path / "run.nc", pty.openpty()
+    command = [sys.executable, "-m", "jaxbearing", *BASE, "--duration", "10 s", "--out", str(out)]
+    with subprocess.Popen(command, stdout=terminal, stderr=subprocess.PIPE, env={**os.environ, "TERM": "xterm"}) as run:
+        os.close(terminal)
+        shown = b""
+        while b"of 1e+04 ms" not in shown:
+            shown += os.read(reader, 4096)
+        run.send_signal(signal.SIGINT)
+        with contextlib.suppress(OSError):  # the end of a terminal
+            while part := os.read(reader, 4096):
+                shown += part
+        assert run.wait() == 130
+    os.close(reader)
+    assert b"interrupted" in shown
+    with xr.open_dataset(out, engine="h5netcdf") as dataset:
+        assert dataset.attrs["completed"] == 0
+        reached = float(dataset["time"][-1])
+        assert 0.0 < reached < 1.0
+    assert jb.read_last_state(out).time == reached
+    result = CliRunner().invoke(app, [*BASE, "--duration", "0.5 ms", "--json", "--restart", str(out)])
+    assert result.exit_code == 0
+    np.testing.assert_allclose(json.loads(result.stdout)["time"]["stop"], reached + 0.5e-3)
+
+
+DRY = {
+    "no cage": ("cage=none",),
+    "no drag": ("drag=none",),
+    "no flange and no ends": ("flange=none", "cage.pocket_axial_clearance=none"),
+}
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", DRY)
+def test_parts_that_are_left_out_are_not_modelled(name):
+    changes = [part for change in DRY[name] for part in ("--set", change)]
+    result = CliRunner().invoke(app, [*BASE, *changes, "--duration", "0.5 ms", "--json"])
+    assert result.exit_code == 0
+    found = json.loads(result.stdout)
+    assert abs(found["energy_error"]) < 1e-4
+    assert ("cage" in found["summary"]) == ("pocket_load" in found["summary"]) == (name != "no cage")
+    assert ("drag" in found["summary"]["power_loss"]) == (name != "no drag")
+    assert ("flange" in found["summary"]["power_loss"]) == (not name.startswith("no flange"))
+
+
 REFUSED = {
     "without a duration": (BASE, "--duration"),
     "a bare number": ((*BASE, "--duration", "50"), "unit"),
     "no traction": ((*BASE, "--duration", "1 ms", "--set", "contact.traction=none"), "contact.traction"),
+    "no contact": ((*BASE[:2], "--duration", "1 ms", "--set", "contact=none"), "contact.traction"),
+    "no pocket": ((*BASE, "--duration", "1 ms", "--set", "cage.pocket_clearance=none"), "cage.pocket_clearance"),
+    "no table": ((*BASE, "--duration", "1 ms", "--set", "simulation.speed_table.file=gone.csv"), "gone.csv"),
+    "an animation of another kind": ((*BASE, "--duration", "1 ms", "--animation", "run.avi"), ".gif"),
     "a steady kind": (("simulate", "turbine_ball", "--duration", "1 ms"), "cylindrical"),
     "an unknown solver": ((*BASE, "--duration", "1 ms", "--set", "simulation.solver=euler"), "tsit5"),
+    "too many results": ((*BASE, "--duration", "1e9 s"), "--interval"),
+    "a load from zero": (
+        (
+            *BASE,
+            "--duration",
+            "1 ms",
+            "--set",
+            "simulation.load_ramp.start=0",
+            "--set",
+            "simulation.load_ramp.duration=1 ms",
+        ),
+        "loaded bearing",
+    ),
     "a ramp from rest": (
         (
             *BASE,

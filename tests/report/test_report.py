@@ -198,9 +198,9 @@ def test_small_powers_keep_their_digits(scale, total, pocket):
 
 
 def test_summary_of_a_failure_prints_no_result():
-    text = text_of(solution(Status.NO_EQUILIBRIUM, np.nan))
+    text = text_of(solution(Status.NOT_CONVERGED, np.nan))
     assert "NOT CONVERGED" in text
-    assert "no_equilibrium" in text
+    assert "not_converged" in text
     assert "ring balance" in text
     assert "Power" not in text
     assert "nan" not in text.lower()
@@ -241,3 +241,10 @@ def test_engineers_units():
 def test_bars_fit(fraction, ascii_only):
     assert len(bar(fraction, 10, ascii_only)) <= 10
     assert len(bar(1.0, 10, ascii_only)) == 10
+
+
+def test_loads_that_no_contact_can_balance_are_said_so():
+    text = " ".join(text_of(solution(Status.NO_EQUILIBRIUM, np.nan)).split())
+    assert "NOT CONVERGED" in text
+    assert "cannot balance these loads" in text
+    assert "No results" in text

@@ -8,6 +8,7 @@ import pytest
 
 from jaxbearing.bearings.ball_bearing import BallBearing
 from jaxbearing.bearings.cylindrical_roller import CylindricalRollerBearing
+from jaxbearing.bearings.tapered_roller import TaperedRollerBearing
 from jaxbearing.contacts import (
     DistributedTraction,
     DowsonHigginson,
@@ -19,6 +20,7 @@ from jaxbearing.contacts import (
     ReeEyring,
     Resolution,
 )
+from jaxbearing.ehl import EHLLineContact
 from jaxbearing.gaps import BlendedTurbulence, FullTurbulence, Laminar
 from jaxbearing.lubricants import ConstantPressureViscosity, FittedPressureViscosity, IntegratedPressureViscosity
 from jaxbearing.machines import TwoDisk
@@ -28,7 +30,13 @@ from jaxbearing.scenes.oils import load_oil, missing_sources, oil_data
 from jaxbearing.scenes.overrides import parse_value, split_assignments
 from jaxbearing.scenes.reader import builtin_names, builtin_summary, builtin_text, load_scene, scene_from_mapping
 
-KINDS = {"ball_bearing": BallBearing, "cylindrical_roller_bearing": CylindricalRollerBearing, "two_disk": TwoDisk}
+KINDS = {
+    "ball_bearing": BallBearing,
+    "cylindrical_roller_bearing": CylindricalRollerBearing,
+    "tapered_roller_bearing": TaperedRollerBearing,
+    "two_disk": TwoDisk,
+    "line_contact": EHLLineContact,
+}
 
 
 @pytest.mark.parametrize("name", builtin_names())

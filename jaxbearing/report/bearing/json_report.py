@@ -10,7 +10,7 @@ from ...numerics.status import Status
 from ..plain import field_names, finite, plain
 from .operation import unused_operation
 
-_INSIDE = ("status", "worst_equation", "stiffness", "checks", "ring_freedom", "equation_names", "notes")
+_INSIDE = ("status", "worst_equation", "stiffness", "checks", "ring_freedom", "equation_names", "notes", "laminae")
 _NAMES = ("stiffness_freedom", "element_name")
 """Fields that are not written as they are, but in words or in another order, or not at all."""
 
@@ -33,7 +33,7 @@ def bearing_to_dict(solution: Solution) -> dict[str, Any]:
     results["operation"] |= dict.fromkeys(unused_operation(solution))
     results["stiffness"] = _embedded(np.asarray(solution.stiffness), solution.freedoms_of_stiffness)
     results["worst_equation"] = solution.equation_names[int(solution.worst_equation)]
-    results["life"] = None
+    results.setdefault("life", None)
     return results
 
 

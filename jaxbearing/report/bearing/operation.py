@@ -27,7 +27,7 @@ def operating_point(solution: Solution) -> str:
         if given is None:
             continue
         value = float(np.asarray(given))
-        if field.name in hidden or (field.name == "outer_speed" and value == 0.0):
+        if field.name in hidden or (field.name in ("outer_speed", "load_position") and value == 0.0):
             continue
         said.append(f"{field.metadata['description']} {_with_unit(value, field.metadata['unit'])}")
     return ", ".join(said)

@@ -40,7 +40,7 @@ def plot_bearing(solution: Solution, title: str) -> "matplotlib.figure.Figure":
     if not bool(solution.converged):
         raise ValueError(f"a solve that failed has no results: {solution.failure()}")
     losses = power_losses(solution)
-    rounds = [name for name in _ROUND if getattr(solution.elements, f"{name}_inner") is not None]
+    rounds = [name for name in _ROUND if getattr(solution.elements, f"{name}_inner", None) is not None]
     figure = Page()
     head(figure, title, pretty(operating_point(solution)))
     bottom = 0.075 + 0.019 * foot(figure, solution.warnings)

@@ -152,6 +152,7 @@ def _facts(solution: Solution) -> Iterator[tuple[str, str]]:
         yield "Cage", f"{with_unit(float(cage.speed), 'rad/s')}, {slip}, {place}, {angle}"
     yield "Inner ring", ", ".join(_ring(solution))
     yield from _ball_facts(solution)
+    yield from _tapered_facts(solution)
     stiffness = np.diagonal(np.asarray(solution.stiffness))
     entries = [
         f"{freedom} {with_unit(float(value), 'N/m')}"
@@ -164,6 +165,33 @@ def _facts(solution: Solution) -> Iterator[tuple[str, str]]:
         text = ", ".join(_extremes(solution.elements, name, pick))
         if text:
             yield title, text
+    yield from _life(solution)
+
+
+def _life(solution: Solution) -> Iterator[tuple[str, str]]:
+    """Ratings, reference life and what modifies it."""
+    life = solution.life
+    if life is None:
+        return
+    of = lambda name: float(np.asarray(getattr(life, name)))
+    kilonewton = lambda name: f"{digits(1e-3 * of(name))} kN"
+    lives = f"L10r {_revolutions(of('L10r'))}, {digits(of('L10r_hours'))} h"
+    if life.L10 is not None:
+        lives += f"; ISO 281 L10 {_revolutions(of('L10'))}"
+    yield "Life", lives
+    yield "Rating", f"C {kilonewton('dynamic_capacity')}, C0 {kilonewton('static_capacity')}"
+    said = [] if life.viscosity_ratio is None else [f"kappa {digits(of('viscosity_ratio'), 3)}"]
+    if life.film_ratio_inner is not None:
+        thinnest = min(float(np.min(np.asarray(getattr(life, f"film_ratio_{side}")))) for side in ("inner", "outer"))
+        said.append(f"smallest lambda ratio {digits(thinnest, 3)}")
+    if life.Lnmr is not None:
+        said.append(f"a_ISO {digits(of('modification_factor'), 3)}, modified life {_revolutions(of('Lnmr'))}")
+    if said:
+        yield "Lubrication", ", ".join(said)
+
+
+def _revolutions(millions: float) -> str:
+    return f"{digits(millions)} million revolutions"
 
 
 def _ball_facts(solution: Solution) -> Iterator[tuple[str, str]]:
@@ -187,6 +215,17 @@ def _ball_facts(solution: Solution) -> Iterator[tuple[str, str]]:
             if getattr(power, f"inner_{kind}") is not None
         }
         yield "Raceways", ", ".join(f"{digits(watts)} W {_KINDS[kind]}" for kind, watts in parts.items())
+
+
+def _tapered_facts(solution: Solution) -> Iterator[tuple[str, str]]:
+    """Load and pressure of the roller ends on the rib, and the rollers' tilt."""
+    elements = solution.elements
+    if getattr(elements, "load_flange", None) is None:
+        return
+    load, pressure = (np.asarray(getattr(elements, f"{name}_flange")) for name in ("load", "pressure"))
+    j = int(np.argmax(load))
+    at = f"(at {np.degrees(float(np.asarray(elements.azimuth)[j])):.0f} deg)"
+    yield "Rib", f"largest load {digits(float(load[j]))} N, pressure {with_unit(float(pressure[j]), 'Pa')} {at}"
 
 
 _KINDS = {

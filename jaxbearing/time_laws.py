@@ -8,10 +8,10 @@ import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Array, Float
 
-from .._scene import number
-from .._types import Scalar
-from ..numerics.checks import require
-from ..numerics.precision import as_float
+from ._scene import number
+from ._types import Scalar
+from .numerics.checks import require
+from .numerics.precision import as_float
 
 
 class AbstractTimeFactor(eqx.Module):
@@ -22,8 +22,16 @@ class AbstractTimeFactor(eqx.Module):
         """**Arguments:** `time`, s, from the start of the run."""
 
     @abc.abstractmethod
+    def antiderivative(self, time: Scalar) -> Float[Array, ""]:
+        """Of the factor, s, with any constant."""
+
     def integral(self, time: Scalar) -> Float[Array, ""]:
         """Of the factor from 0 to `time`, s: with it a frame can turn with the shaft, and positions stay small."""
+        return self.antiderivative(time) - self.antiderivative(jnp.zeros(()))
+
+    def kinks(self) -> Float[Array, " kink"]:
+        """Times, s, at which the factor or its slope may jump: a solver does well to end a step there."""
+        return jnp.zeros(0)
 
 
 class Steady(AbstractTimeFactor):
@@ -32,7 +40,7 @@ class Steady(AbstractTimeFactor):
     def factor(self, time: Scalar) -> Float[Array, ""]:
         return jnp.ones(())
 
-    def integral(self, time: Scalar) -> Float[Array, ""]:
+    def antiderivative(self, time: Scalar) -> Float[Array, ""]:
         return jnp.asarray(time)
 
 
@@ -51,7 +59,7 @@ class Sinusoidal(AbstractTimeFactor):
     def factor(self, time: Scalar) -> Float[Array, ""]:
         return 1.0 + self.amplitude * jnp.sin(2.0 * jnp.pi * self.frequency * time)
 
-    def integral(self, time: Scalar) -> Float[Array, ""]:
+    def antiderivative(self, time: Scalar) -> Float[Array, ""]:
         half = jnp.sin(jnp.pi * self.frequency * time)
         return time + self.amplitude / (jnp.pi * self.frequency) * jnp.square(half)
 
@@ -69,17 +77,63 @@ class Ramp(AbstractTimeFactor):
     begin: Scalar = number(0.0)
 
     def __check_init__(self):
-        require("ramp", start=(self.start, "finite"), stop=(self.stop, "finite"), duration=(self.duration, "> 0"))
+        require(
+            "ramp",
+            start=(self.start, "finite"),
+            stop=(self.stop, "finite"),
+            duration=(self.duration, "> 0"),
+            begin=(self.begin, "finite"),
+        )
 
     def factor(self, time: Scalar) -> Float[Array, ""]:
         x = jnp.clip((time - self.begin) / self.duration, 0.0, 1.0)
         return self.start + (self.stop - self.start) * (x * x * x * (10.0 + x * (6.0 * x - 15.0)))
 
-    def integral(self, time: Scalar) -> Float[Array, ""]:
+    def antiderivative(self, time: Scalar) -> Float[Array, ""]:
         since = (time - self.begin) / self.duration
         x = jnp.clip(since, 0.0, 1.0)
         risen = x * x * x * x * (2.5 + x * (x - 3.0)) + jnp.maximum(since - 1.0, 0.0)
         return self.start * time + (self.stop - self.start) * self.duration * risen
+
+
+class LinearRamp(AbstractTimeFactor):
+    """Straight from `start` to `stop` between the times `begin` and `begin + duration`; at once (just after `begin`)
+    for a duration of 0.
+
+    **Arguments:** `start`, `stop`, factors; `duration`, s, >= 0; `begin`, s.
+    """
+
+    start: Scalar = number()
+    stop: Scalar = number()
+    duration: Scalar = number()
+    begin: Scalar = number(0.0)
+
+    def __check_init__(self):
+        require(
+            "ramp",
+            start=(self.start, "finite"),
+            stop=(self.stop, "finite"),
+            duration=(self.duration, ">= 0"),
+            begin=(self.begin, "finite"),
+        )
+
+    def factor(self, time: Scalar) -> Float[Array, ""]:
+        return self.start + (self.stop - self.start) * self._risen(time)
+
+    def antiderivative(self, time: Scalar) -> Float[Array, ""]:
+        since = jnp.asarray(time - self.begin, dtype=float)
+        within = jnp.clip(since, 0.0, self.duration)
+        risen = 0.5 * within * self._risen(time) + jnp.maximum(since - self.duration, 0.0)
+        return self.start * time + (self.stop - self.start) * risen
+
+    def kinks(self) -> Float[Array, " kink"]:
+        return self.begin + jnp.stack([jnp.zeros(()), jnp.asarray(self.duration, dtype=float)])
+
+    def _risen(self, time: Scalar) -> Float[Array, ""]:
+        since = jnp.asarray(time - self.begin, dtype=float)
+        lasting = jnp.asarray(self.duration > 0)
+        slope = jnp.clip(since / jnp.where(lasting, self.duration, 1.0), 0.0, 1.0)
+        return jnp.where(lasting, slope, jnp.where(since > 0, 1.0, 0.0))
 
 
 class Tabulated(AbstractTimeFactor):
@@ -101,7 +155,7 @@ class Tabulated(AbstractTimeFactor):
     def factor(self, time: Scalar) -> Float[Array, ""]:
         return jnp.interp(jnp.asarray(time), self.times, self.factors)
 
-    def integral(self, time: Scalar) -> Float[Array, ""]:
+    def antiderivative(self, time: Scalar) -> Float[Array, ""]:
         times, factors = jnp.asarray(self.times), jnp.asarray(self.factors)
         # every interval as far as it lies before `time`
         steps = jnp.diff(times)
@@ -110,6 +164,9 @@ class Tabulated(AbstractTimeFactor):
         within = jnp.sum(steps * passed * (factors[:-1] + 0.5 * slope * passed))
         first = jnp.minimum(times[0], time)
         return first * factors[0] + within + jnp.maximum(time - times[-1], 0.0) * factors[-1]
+
+    def kinks(self) -> Float[Array, " kink"]:
+        return jnp.asarray(self.times)
 
 
 class RotatingLoad(eqx.Module):

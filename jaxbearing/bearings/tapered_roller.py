@@ -1,0 +1,111 @@
+r"""The tapered roller bearing as a scene: geometry, materials, oil, contact laws, operating point.
+
+Frames and signs. As for ball bearings: axial load and displacement push the inner ring (the cone) along $+e_x$, radial
+ones along azimuth 0; a positive moment or tilt moves azimuth 0 of the inner ring along $+e_x$. Here $+e_x$ points from
+the rollers' big ends towards the common apex of the cones, so that a positive axial load presses the bearing together.
+Loads and displacements are those of the *reference point* on the axis, `operation.load_position` from the apex: by
+default the apex itself. (The source's tilt t and moment M_1 have the opposite sense: $t = -$tilt.)
+"""
+
+from .._scene import AbstractScene, label, number, optional_number
+from .._types import Scalar
+from ..contacts.laws import ContactLaws
+from ..lubricants import Lubricant
+from ..numerics.checks import known, require
+from .parts import AbstractOperation, Materials
+from .rating import Rating
+from .roller_profile import RollerProfile
+from .tapered_geometry import TaperedGeometry
+
+
+class TaperedOperation(AbstractOperation):
+    """Operating point of a tapered roller bearing: the batched part of a sweep.
+
+    Where neither `radial_load` nor `moment` nor `misalignment` is given all rollers are alike, and one of them is
+    solved for. A `moment` (also 0) frees the tilt of the inner ring; without it the ring is held at `misalignment`.
+
+    **Arguments:**
+    - `inner_speed`, `outer_speed`: rad/s.
+    - `axial_load`: on the inner ring towards the apex, N; `radial_load`: along azimuth 0, N.
+    - `moment`: about the reference point, N m; `misalignment`: tilt of the inner ring, rad.
+    - `load_position`: of the reference point, from the apex along the axis, m; the rollers are on its negative side.
+    - `oil_temperature`: inlet temperature, K; `oil_flow`: supplied to the bearing, m^3/s.
+    """
+
+    inner_speed: Scalar = number(metadata=label("rad/s", "inner ring speed"))
+    axial_load: Scalar = number(metadata=label("N", "axial load"))
+    radial_load: Scalar | None = optional_number(metadata=label("N", "radial load"))
+    moment: Scalar | None = optional_number(metadata=label("N m", "moment"))
+    misalignment: Scalar | None = optional_number(metadata=label("rad", "misalignment"))
+    load_position: Scalar = number(0.0, metadata=label("m", "reference point from the apex"))
+    oil_temperature: Scalar = number(373.15, metadata=label("K", "oil temperature"))
+    oil_flow: Scalar = number(0.0, metadata=label("m^3/s", "oil flow"))
+    outer_speed: Scalar = number(0.0, metadata=label("rad/s", "outer ring speed"))
+
+    def __check_init__(self):
+        names = ("axial_load", "radial_load", "moment", "misalignment", "load_position")
+        require("operation", **{name: (getattr(self, name), "finite") for name in names})
+        if self.moment is not None and self.misalignment is not None:
+            raise ValueError("operation.misalignment: none beside operation.moment, which sets the tilt free")
+
+    @property
+    def symmetric(self) -> bool:
+        """Whether all rollers are alike."""
+        return self.radial_load is None and self.moment is None and self.misalignment is None
+
+
+class TaperedRollerBearing(AbstractScene):
+    """A steady single-row tapered roller bearing under axial load, radial load and moment, without friction on the
+    raceways: loads of raceways and rib, films, displacements.
+
+    - `contact=None`: dry. With `contact` (no traction): films, and where named the rolling resistance.
+    - `profile=None`: straight rollers, contacts integrated in closed form.
+
+    **Raises:** `ValueError` for combinations that lack what they need.
+    """
+
+    geometry: TaperedGeometry
+    materials: Materials
+    operation: TaperedOperation
+    oil: Lubricant | None = None
+    contact: ContactLaws | None = None
+    profile: RollerProfile | None = None
+    rating: Rating | None = None
+
+    def __check_init__(self):
+        if self.contact is None:
+            return
+        if self.contact.traction is not None:
+            raise ValueError("contact.traction: the tapered roller bearing has no friction on its raceways yet")
+        if self.oil is None:
+            raise ValueError("oil: a scene with a [contact] table needs an oil")
+        self.operation.check_rings_turn()
+
+    @property
+    def slips(self) -> bool:
+        """Rollers roll without sliding on the raceways."""
+        return False
+
+    @property
+    def ring_freedom(self) -> tuple[str, ...]:
+        """Active freedoms of the inner ring, in the order of the unknowns."""
+        if self.operation.symmetric:
+            return ("axial",)
+        return ("axial", "radial") if self.operation.moment is None else ("axial", "radial", "tilt")
+
+    def unused_parts(self) -> tuple[str, ...]:
+        """Tables that the scene names but that have no effect."""
+        return ("oil",) if self.contact is None and self.oil is not None and self.rating is None else ()
+
+    def assumptions(self) -> tuple[str, ...]:
+        """What the model assumed, for the user."""
+        said = []
+        if self.contact is not None and self.oil is not None:
+            said += [f"oil: {note}" for note in self.oil.notes]
+        loads = known(self.operation.load_position)
+        if self.operation.moment is not None and loads is not None and loads[0] == 0.0:
+            said.append(
+                "operation.load_position is 0: radial load and moment act at the common apex of the cones, not at the "
+                "bearing's middle"
+            )
+        return tuple(said)

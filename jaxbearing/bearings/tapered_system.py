@@ -1,0 +1,256 @@
+r"""Equations of the tapered roller bearing without friction on the raceways: one block-arrow system.
+
+Unknowns per roller: u_x along its axis towards the small end, u_z outwards (both of the big end's centre), and the tilt
+phi that moves the small end outwards; globally the displacements of the cone. With the cone's motion at the roller,
+(Da, Dr) of the apex and the tilt t that turns a towards r (source eqs. (44)-(50), coefficients derived):
+
+- $\delta_k(s) = f_k + g_ks$: $f_i = u_x\sin\epsilon - u_z\cos\epsilon + \phi C + D_a\sin\alpha_i + D_r\cos\alpha_i -
+  td$, $g_i = t - \phi$; $f_o = u_x\sin\epsilon + u_z\cos\epsilon - \phi C$, $g_o = \phi$; $C =
+  \frac{D_w}{2}\sin\epsilon$;
+- $\delta_f = -u_x\cos\theta - u_z\sin\theta - \phi R_s\cos\lambda\sin\theta + D_a\cos\alpha_f - D_r\sin\alpha_f +
+  tT_f$.
+  (Eq. (50) prints D_f for B_f in its second term, and -D_f, +E_f in its ring terms, which contradict eqs. (56)-(57).)
+
+Everything is the gradient of one convex potential, $\Pi = \sum[w_i + w_o + \frac25k_f\delta_{f+}^{5/2} - F_c\,u_r +
+M_g\phi] - F\cdot q$, with $u_r$ outwards at the centre of mass: the rows are those of eqs. (54), (56), (57) with *all*
+moments about the big end's centre (the source takes the contacts' about it and the rib's lever about the centre of
+mass: its moment row is off by $s_c(Q_i - Q_o)$).
+
+A roller that nothing touches has no place, nor has a cone that touches no roller. Each is held by a spring of `ANCHOR`
+from where it is, which adds to the Jacobian and nothing to the balances.
+"""
+
+import dataclasses
+from typing import NamedTuple
+
+import equinox as eqx
+import jax.numpy as jnp
+from jaxtyping import Array, Bool, Float, Int
+
+from ..contacts import AbstractTiltedLine
+from ..numerics.arrow import ArrowPoint
+from ..numerics.convex import AbstractConvexArrow, anchored, descend
+from ..numerics.safe import positive_power
+from .roller_loads import LENGTH_UNIT
+
+ANCHOR = 1e-4
+"""Spring that holds a roller where it is, N/m: 1e-12 of a loaded contact's stiffness in derivatives (a hundred times as
+much spoils those of rollers that hardly touch by 6e-6), nothing in balances."""
+LOAD_FLOOR = 1e-3
+"""Added to the scale of loads, N."""
+START_TOLERANCE, START_STEPS = 1e-7, 500
+"""Scaled residual at which the descent of the potential hands over to Newton; most steps of it."""
+LONGEST_STEP = 1e-4
+"""Of a displacement in one Newton step, m."""
+BACKED_OFF = 0.5
+"""Part of the cone's retreat with which rollers follow it, so that all three contacts open."""
+SEPARATION_MARGIN = 1e-6
+"""Work of the loads, relative to their size times the distance, from which on a way to fall apart counts."""
+
+
+class TaperedForm(NamedTuple):
+    """Geometry as the equations need it; `sine`, `cosine`: of epsilon; angles in rad, lengths in m."""
+
+    sine: Array
+    cosine: Array
+    cone_angle: Array
+    cup_angle: Array
+    axis_angle: Array
+    flange_angle: Array
+    flange_tilt: Array
+    offset: Array
+    """C."""
+    apex_distance: Array
+    end_height: Array
+    flange_arm: Array
+    """T_f."""
+
+
+class Inertia(NamedTuple):
+    """Centrifugal force, N, at `centre` from the big end along the roller axis, m, and gyroscopic moment, N m."""
+
+    force: Array
+    centre: Array
+    moment: Array
+
+
+class TaperedState(NamedTuple):
+    """What happens at every roller: approaches f (m) and g (rad), loads (N), moments about s = 0 (N m), races first."""
+
+    approach: Float[Array, "2 roller"]
+    slope: Float[Array, "2 roller"]
+    flange_approach: Float[Array, " roller"]
+    load: Float[Array, "2 roller"]
+    moment: Float[Array, "2 roller"]
+    flange_load: Float[Array, " roller"]
+
+
+class TaperedSystem(AbstractConvexArrow):
+    """See the module. Unknowns are lengths in units of 10 um: phi times the roller length, ring tilts times d.
+
+    `columns[f]` are (Da, Dr, t) at every roller for a unit of freedom f, `held` those of what is given; `ring_load` is
+    conjugate to the freedoms.
+    """
+
+    form: TaperedForm
+    line: AbstractTiltedLine
+    flange_stiffness: Float[Array, ""]
+    inertia: Inertia
+    columns: Float[Array, "freedom 3 roller"]
+    held: Float[Array, "3 roller"]
+    ring_load: Float[Array, " freedom"]
+    guess: ArrowPoint | None
+    freedoms: tuple[str, ...] = eqx.field(static=True)
+    multiplicity: int = eqx.field(static=True)
+
+    # -- scales ---------------------------------------------------------------------------------------------------
+
+    @property
+    def roller_count(self) -> int:
+        return self.multiplicity * self.held.shape[1]
+
+    def load_scale(self) -> Array:
+        """Of the ring's balances, N."""
+        return jnp.sqrt(jnp.sum(jnp.square(self.ring_load)) + LOAD_FLOOR**2)
+
+    def roller_scale(self) -> Array:
+        """Of a roller's balances, N."""
+        return self.load_scale() / self.roller_count + self.inertia.force
+
+    def units(self) -> Float[Array, "3 1"]:
+        """u_x, u_z, phi for a unit of the unknowns."""
+        return LENGTH_UNIT * jnp.stack([jnp.ones(()), jnp.ones(()), 1.0 / jnp.asarray(self.line.length)])[:, None]
+
+    # -- solver contract ------------------------------------------------------------------------------------------
+
+    def equation_names(self) -> tuple[str, ...]:
+        ring = tuple(f"{name} load balance of the ring" for name in self.freedoms)
+        return ("force balance along a roller", "force balance across a roller", "moment balance of a roller", *ring)
+
+    def step_caps(self) -> ArrowPoint:
+        cap = LONGEST_STEP / LENGTH_UNIT
+        return ArrowPoint(jnp.full((3, 1), cap), jnp.full(len(self.freedoms), cap))
+
+    def bounds(self) -> tuple[ArrowPoint, ArrowPoint]:
+        far = 1e7
+        high = ArrowPoint(jnp.full((3, 1), far), jnp.full(len(self.freedoms), far))
+        return ArrowPoint(-high.elements, -high.globals), high
+
+    def initial(self) -> ArrowPoint:
+        """In contact: the ring pressed in by 20 um or more, rollers in between."""
+        if self.guess is not None:
+            return self.guess
+        share = self.load_scale() / (self.roller_count * jnp.sin(self.form.cup_angle))
+        even = (share / (self.line.stiffness * self.line.length)) ** 0.9
+        axial = jnp.maximum(2.0 * even / jnp.sin(self.form.cone_angle), 2e-6) / LENGTH_UNIT
+        ring = jnp.stack([axial if name == "axial" else jnp.zeros(()) for name in self.freedoms])
+        ones = jnp.ones(self.held.shape[1])
+        return ArrowPoint(jnp.stack([0.9 * axial * ones, 0.05 * axial * ones, 0.0 * ones]), ring)
+
+    def element(self, unknowns, shared):
+        state = self.state(unknowns, shared)
+        balance = self.balance(state) + anchored(unknowns, ANCHOR * LENGTH_UNIT)
+        totals = self.multiplicity * jnp.einsum("fcn,cn->fn", self.columns, self.ring_force(state))
+        return balance / self.roller_scale(), totals, jnp.zeros(())
+
+    def closure(self, globals_, totals):
+        held = anchored(globals_, ANCHOR * LENGTH_UNIT)
+        return (totals - self.ring_load + held) / self.load_scale(), jnp.zeros(())
+
+    def potential(self, point: ArrowPoint) -> Float[Array, ""]:
+        """Energy of the contacts less the work of all loads, J."""
+        state = self.at(point)
+        along, across, tilt = self.units() * point.elements
+        line = jnp.sum(self.line.energy(state.approach, state.slope), axis=0)
+        flange = 0.4 * self.flange_stiffness * positive_power(state.flange_approach, 2.5)
+        sine, cosine = jnp.sin(self.form.axis_angle), jnp.cos(self.form.axis_angle)
+        outwards = -along * sine + (across + tilt * self.inertia.centre) * cosine
+        rollers = line + flange - self.inertia.force * outwards + self.inertia.moment * tilt
+        return self.multiplicity * jnp.sum(rollers) - LENGTH_UNIT * jnp.sum(self.ring_load * point.globals)
+
+    def started(self) -> tuple["TaperedSystem", Int[Array, ""]]:
+        """These equations with the minimum of the potential as first guess, and the steps to it."""
+        found = descend(self, self.initial(), tolerance=START_TOLERANCE, max_steps=START_STEPS)
+        finite = ArrowPoint(*(jnp.where(jnp.isfinite(leaf), leaf, 0.0) for leaf in found.point))
+        return dataclasses.replace(self, guess=finite), found.steps
+
+    # -- physics --------------------------------------------------------------------------------------------------
+
+    def at(self, point: ArrowPoint) -> TaperedState:
+        shape = (point.globals.shape[0], point.elements.shape[1])
+        return self.state(point.elements, jnp.broadcast_to(point.globals[:, None], shape))
+
+    def state(self, unknowns: Float[Array, "3 roller"], shared: Float[Array, "freedom roller"]) -> TaperedState:
+        motion = self.held + LENGTH_UNIT * jnp.einsum("fn,fcn->cn", shared, self.columns)
+        return self._loaded(*self.approaches(self.units() * unknowns, motion))
+
+    def approaches(
+        self, place: Float[Array, "3 roller"], motion: Float[Array, "3 roller"]
+    ) -> tuple[Float[Array, "2 roller"], Float[Array, "2 roller"], Float[Array, " roller"]]:
+        """f and g of both races and delta_f, from (u_x, u_z, phi) and the cone's (Da, Dr, t), m and rad."""
+        form, (along, across, tilt), (axial, radial, turn) = self.form, place, motion
+        cone = axial * jnp.sin(form.cone_angle) + radial * jnp.cos(form.cone_angle) - turn * form.apex_distance
+        inner = along * form.sine - across * form.cosine + tilt * form.offset + cone
+        outer = along * form.sine + across * form.cosine - tilt * form.offset
+        rib = axial * jnp.cos(form.flange_angle) - radial * jnp.sin(form.flange_angle) + turn * form.flange_arm
+        below = jnp.sin(form.flange_tilt)
+        flange = rib - along * jnp.cos(form.flange_tilt) - (across + tilt * form.end_height) * below
+        return jnp.stack([inner, outer]), jnp.stack([turn - tilt, tilt]), flange
+
+    def _loaded(self, approach: Array, slope: Array, flange: Array) -> TaperedState:
+        load, moment = self.line.load_and_moment(approach, slope)
+        return TaperedState(approach, slope, flange, load, moment, self.flange_stiffness * positive_power(flange, 1.5))
+
+    def balance(self, state: TaperedState) -> Float[Array, "3 roller"]:
+        """Forces along and across a roller and moment (over the roller length) about its big end's centre, N."""
+        form, (inner, outer), (inner_moment, outer_moment) = self.form, state.load, state.moment
+        flange, inertia = state.flange_load, self.inertia
+        sine, cosine = jnp.sin(form.axis_angle), jnp.cos(form.axis_angle)
+        below = jnp.sin(form.flange_tilt)
+        along = (inner + outer) * form.sine - flange * jnp.cos(form.flange_tilt) + inertia.force * sine
+        across = (outer - inner) * form.cosine - flange * below - inertia.force * cosine
+        moment = outer_moment - inner_moment + form.offset * (inner - outer) - flange * form.end_height * below
+        moment = moment - inertia.force * inertia.centre * cosine + inertia.moment
+        return jnp.stack([along, across, moment / self.line.length])
+
+    def ring_force(self, state: TaperedState) -> Float[Array, "3 roller"]:
+        """Force of the cone on each roller, axial and radial, N, and moment about the apex, N m: conjugate to (Da, Dr,
+        t)."""
+        form, inner, flange = self.form, state.load[0], state.flange_load
+        axial = inner * jnp.sin(form.cone_angle) + flange * jnp.cos(form.flange_angle)
+        radial = inner * jnp.cos(form.cone_angle) - flange * jnp.sin(form.flange_angle)
+        return jnp.stack([axial, radial, state.moment[0] - form.apex_distance * inner + form.flange_arm * flange])
+
+    def cup_force(self, state: TaperedState) -> Float[Array, "3 roller"]:
+        """Force of each roller on the cup, axial, radial, N, and moment about the apex, N m, conjugate to the cup's
+        (Da, Dr, t): for the closure of the whole."""
+        form, outer = self.form, state.load[1]
+        axial, radial = outer * jnp.sin(form.cup_angle), outer * jnp.cos(form.cup_angle)
+        return jnp.stack([axial, radial, state.moment[1] - form.apex_distance * outer])
+
+    # -- no equilibrium -------------------------------------------------------------------------------------------
+
+    def falls_apart(self, point: ArrowPoint) -> Bool[Array, ""]:
+        """Whether the way from contact to this point proves that there is no equilibrium.
+
+        A direction in which no contact closes at either end (approaches are linear: nowhere then) and along which the
+        loads do work has no end: the potential is not bounded below. The direction to the point is made such a one by
+        moving the cone back as far as that needs, rollers halfway with it, which opens all contacts at once.
+        """
+        units, form = self.units(), self.form
+        size = jnp.maximum(jnp.max(jnp.abs(point.elements)), jnp.max(jnp.abs(point.globals)))
+        elements, ring = (leaf / jnp.maximum(size, 1.0) for leaf in point)
+        motion = LENGTH_UNIT * jnp.einsum("f,fcn->cn", ring, self.columns)
+        approach, slope, flange = self.approaches(units * elements, motion)
+        closing = jnp.max(jnp.stack([*approach, *(approach + slope * self.line.length), flange]), axis=0)
+        back = jnp.maximum(jnp.max(closing), 0.0)
+        opens = jnp.min(jnp.stack([jnp.sin(form.cone_angle), jnp.sin(form.cup_angle), jnp.cos(form.flange_angle)]))
+        back = back * (1.0 + 1e-9) / (BACKED_OFF * opens) / LENGTH_UNIT
+        retreat = jnp.stack([1.0 if name == "axial" else 0.0 for name in self.freedoms]) * back
+        along, across, tilt = units * elements
+        sine, cosine = jnp.sin(form.axis_angle), jnp.cos(form.axis_angle)
+        outwards = -along * sine + (across + tilt * self.inertia.centre) * cosine
+        # the rollers' retreat is axial: their centrifugal forces do no work on it
+        work = self.multiplicity * jnp.sum(self.inertia.force * outwards - self.inertia.moment * tilt)
+        work = work + LENGTH_UNIT * jnp.sum(self.ring_load * (ring - retreat))
+        return work > SEPARATION_MARGIN * self.load_scale() * LENGTH_UNIT

@@ -1,0 +1,129 @@
+r"""Cylindrical roller bearing whose rollers may tilt: rings misaligned, rollers with a profile, cut into laminae; dry
+and without friction.
+
+Unknowns per roller: the outward displacement x of its end s = 0 and its tilt phi, which moves the end s = l outwards;
+globally the displacements of the inner ring, m, and its tilt $\tau$ (moves azimuth 0 along +axial: the end s = l, on
+the axial side, then moves inwards there), times the length. With the profile h(s) of the roller (on both contacts)
+
+$\delta_o = x + \phi s - h$, $\delta_i = d\cdot n - J_d/2 - \tau\cos\psi(s - \ell/2) - x - \phi s - h$,
+
+roller: $Q_o - Q_i = F_c$, $M_o - M_i = F_c\ell/2$; ring: $\sum Q_in = F$, $-\sum(M_i - Q_i\ell/2)\cos\psi = M$. The
+gradient of one convex potential, with the springs of `tapered_system.ANCHOR`.
+"""
+
+import dataclasses
+from typing import NamedTuple
+
+import equinox as eqx
+import jax.numpy as jnp
+from jaxtyping import Array, Float, Int
+
+from ..contacts import AbstractTiltedLine
+from ..numerics.arrow import ArrowPoint
+from ..numerics.convex import AbstractConvexArrow, anchored, descend
+from .roller_loads import LENGTH_UNIT
+from .tapered_system import ANCHOR, LOAD_FLOOR, LONGEST_STEP, START_STEPS, START_TOLERANCE
+
+
+class TiltingState(NamedTuple):
+    """Approaches f (m) and g (rad) of the races (inner, outer), loads, N, and their moments about s = 0, N m."""
+
+    approach: Float[Array, "2 roller"]
+    slope: Float[Array, "2 roller"]
+    load: Float[Array, "2 roller"]
+    moment: Float[Array, "2 roller"]
+
+
+class TiltingRollers(AbstractConvexArrow):
+    """See the module. `columns[f]` are (towards the roller, slope of the inner race) for a unit of each freedom of the
+    ring, `held` those of the given misalignment."""
+
+    line: AbstractTiltedLine
+    azimuth: Float[Array, " roller"]
+    columns: Float[Array, "freedom 2 roller"]
+    held: Float[Array, "2 roller"]
+    ring_load: Float[Array, " freedom"]
+    radial_clearance: Float[Array, ""]
+    centrifugal: Float[Array, ""]
+    guess: ArrowPoint | None
+    freedoms: tuple[str, ...] = eqx.field(static=True)
+
+    def load_scale(self) -> Array:
+        return jnp.sqrt(jnp.sum(jnp.square(self.ring_load)) + LOAD_FLOOR**2)
+
+    def roller_scale(self) -> Array:
+        return self.load_scale() / self.azimuth.size + self.centrifugal
+
+    def units(self) -> Float[Array, "2 1"]:
+        """x, phi for a unit of the unknowns."""
+        return LENGTH_UNIT * jnp.stack([jnp.ones(()), 1.0 / jnp.asarray(self.line.length)])[:, None]
+
+    def equation_names(self) -> tuple[str, ...]:
+        ring = tuple(f"{name} load balance of the ring" for name in self.freedoms)
+        return ("force balance of a roller", "moment balance of a roller", *ring)
+
+    def step_caps(self) -> ArrowPoint:
+        cap = LONGEST_STEP / LENGTH_UNIT
+        return ArrowPoint(jnp.full((2, 1), cap), jnp.full(len(self.freedoms), cap))
+
+    def bounds(self) -> tuple[ArrowPoint, ArrowPoint]:
+        high = ArrowPoint(jnp.full((2, 1), 1e7), jnp.full(len(self.freedoms), 1e7))
+        return ArrowPoint(-high.elements, -high.globals), high
+
+    def initial(self) -> ArrowPoint:
+        """The ring pressed in by the clearance and what one roller under the whole load needs; rollers half-way."""
+        if self.guess is not None:
+            return self.guess
+        load = self.load_scale() + self.centrifugal
+        depth = jnp.maximum(
+            self.radial_clearance + 2.0 * (load / (self.line.stiffness * self.line.length)) ** 0.9, 1e-6
+        )
+        ring = jnp.stack([depth if name == "radial" else jnp.zeros(()) for name in self.freedoms]) / LENGTH_UNIT
+        half = 0.5 * (depth * jnp.cos(self.azimuth) - self.radial_clearance) / LENGTH_UNIT
+        return ArrowPoint(jnp.stack([half, jnp.zeros_like(half)]), ring)
+
+    def element(self, unknowns, shared):
+        state = self.state(unknowns, shared)
+        balance = self.balance(state) + anchored(unknowns, ANCHOR * LENGTH_UNIT)
+        totals = jnp.einsum("fcn,cn->fn", self.columns, self.ring_force(state))
+        return balance / self.roller_scale(), totals, jnp.zeros(())
+
+    def closure(self, globals_, totals):
+        held = anchored(globals_, ANCHOR * LENGTH_UNIT)
+        return (totals - self.ring_load + held) / self.load_scale(), jnp.zeros(())
+
+    def potential(self, point: ArrowPoint) -> Float[Array, ""]:
+        """Energy of the contacts less the work of all loads, J."""
+        state = self.at(point)
+        out, tilt = self.units() * point.elements
+        energy = jnp.sum(self.line.energy(state.approach, state.slope), axis=0)
+        rollers = energy - self.centrifugal * (out + 0.5 * self.line.length * tilt)
+        return jnp.sum(rollers) - LENGTH_UNIT * jnp.sum(self.ring_load * point.globals)
+
+    def started(self) -> tuple["TiltingRollers", Int[Array, ""]]:
+        """These equations with the minimum of the potential as first guess, and the steps to it."""
+        found = descend(self, self.initial(), tolerance=START_TOLERANCE, max_steps=START_STEPS)
+        finite = ArrowPoint(*(jnp.where(jnp.isfinite(leaf), leaf, 0.0) for leaf in found.point))
+        return dataclasses.replace(self, guess=finite), found.steps
+
+    def at(self, point: ArrowPoint) -> TiltingState:
+        shape = (point.globals.shape[0], point.elements.shape[1])
+        return self.state(point.elements, jnp.broadcast_to(point.globals[:, None], shape))
+
+    def state(self, unknowns: Float[Array, "2 roller"], shared: Float[Array, "freedom roller"]) -> TiltingState:
+        inward, turn = self.held + LENGTH_UNIT * jnp.einsum("fn,fcn->cn", shared, self.columns)
+        out, tilt = self.units() * unknowns
+        # `turn` is about the middle of the roller
+        inner = inward - self.radial_clearance - 0.5 * self.line.length * turn - out
+        approach, slope = jnp.stack([inner, out]), jnp.stack([turn - tilt, tilt])
+        return TiltingState(approach, slope, *self.line.load_and_moment(approach, slope))
+
+    def balance(self, state: TiltingState) -> Float[Array, "2 roller"]:
+        """Force, N, and moment about s = 0 over the length, N."""
+        force = state.load[1] - state.load[0] - self.centrifugal
+        moment = (state.moment[1] - state.moment[0]) / self.line.length - 0.5 * self.centrifugal
+        return jnp.stack([force, moment])
+
+    def ring_force(self, state: TiltingState) -> Float[Array, "2 roller"]:
+        """Force on each roller, N, and moment about its middle, N m, conjugate to (towards the roller, slope)."""
+        return jnp.stack([state.load[0], state.moment[0] - 0.5 * self.line.length * state.load[0]])

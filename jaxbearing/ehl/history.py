@@ -1,0 +1,88 @@
+"""Results of a run in time of a line contact, labelled."""
+
+from typing import Any
+
+import equinox as eqx
+from jaxtyping import Array, Bool, Float, Int
+
+from .._scene import AbstractSolution, label
+from ..numerics.status import Status
+from .last_state import FilmState
+from .line_contact import ContactOperation
+from .solution import HertzResult
+
+
+class FilmHistory(eqx.Module):
+    """Film over time; the minimum is that of the nodes: a parabola may undershoot 0 at the kink of a stop."""
+
+    central: Float[Array, " time"] = eqx.field(metadata=label("m", "film at the centre"))
+    minimum: Float[Array, " time"] = eqx.field(metadata=label("m", "smallest film"))
+    minimum_position: Float[Array, " time"] = eqx.field(metadata=label("m", "place of the smallest film"))
+
+
+class PressureHistory(eqx.Module):
+    """Pressure over time."""
+
+    central: Float[Array, " time"] = eqx.field(metadata=label("Pa", "pressure at the centre"))
+    maximum: Float[Array, " time"] = eqx.field(metadata=label("Pa", "largest pressure"))
+
+
+class ProfileHistory(eqx.Module):
+    """Over the contact and time, x along the direction of positive speed."""
+
+    x: Float[Array, " node"] = eqx.field(metadata=label("m", "place along rolling, from the centre"))
+    pressure: Float[Array, "time node"] = eqx.field(metadata=label("Pa", "pressure"))
+    film: Float[Array, "time node"] = eqx.field(metadata=label("m", "film thickness"))
+
+
+class LineContactHistory(AbstractSolution):
+    """Result of a run in time: the steady start and every accepted step, also where the run ended early.
+
+    A run whose film falls below `contact.film_limit` has come to the end of what the model describes: it is completed,
+    and a warning says so. `last_state` is where it stands: `simulate(scene, ..., restart=history)` goes on from there.
+    """
+
+    status: Int[Array, ""] = eqx.field(metadata=label("1", "how the run ended"))
+    time: Float[Array, " time"] = eqx.field(metadata=label("s", "time"))
+    stop: Float[Array, ""] = eqx.field(metadata=label("s", "time to which the run was to go"))
+    accepted: Int[Array, ""] = eqx.field(metadata=label("1", "steps taken"))
+    rejected: Int[Array, ""] = eqx.field(metadata=label("1", "steps tried and not taken"))
+    newton_steps: Int[Array, ""] = eqx.field(metadata=label("1", "Newton steps"))
+    mass_balance: Float[Array, ""] = eqx.field(
+        metadata=label("1", "largest relative imbalance of mass in the zone under pressure in one step")
+    )
+    entrainment_speed: Float[Array, " time"] = eqx.field(metadata=label("m/s", "mean surface speed"))
+    film: FilmHistory
+    pressure: PressureHistory
+    profile: ProfileHistory
+    hertz: HertzResult
+    operation: ContactOperation
+    last_state: FilmState
+    checks: dict[str, Bool[Array, ""]]
+    ended_thin: bool = eqx.field(static=True, default=False)
+    interrupted: bool = eqx.field(static=True, default=False)
+    solver: str = eqx.field(static=True, default="bdf2")
+    notes: tuple[str, ...] = eqx.field(static=True, default=())
+
+    @property
+    def converged(self) -> Bool[Array, ""]:
+        """Whether the run reached its end, or the end of what the model describes."""
+        return self.status == Status.CONVERGED
+
+    @property
+    def completed(self) -> bool:
+        return bool(self.converged)
+
+    def failure(self) -> str:
+        reached, stop = float(self.time[-1]), float(self.stop)
+        why = "interrupted" if self.interrupted else Status(int(self.status)).text
+        where = f"{1e3 * reached:.6g} ms of {1e3 * stop:.6g} ms, after {int(self.accepted)} steps"
+        return f"{why}: the run stopped at {where}; what was computed until then is kept"
+
+
+def thin_note(time: float, limit: Any) -> str:
+    """What is said of a run that ended below its film limit."""
+    return (
+        f"the run ended at {1e3 * time:.6g} ms: the smallest film fell below contact.film_limit, "
+        f"{1e9 * float(limit):.3g} nm, where a continuum, and smooth surfaces, mean nothing"
+    )

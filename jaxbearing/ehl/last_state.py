@@ -1,0 +1,101 @@
+"""Where a run in time of a line contact stands, in SI units, and how another run goes on from there."""
+
+import equinox as eqx
+import jax
+import jax.numpy as jnp
+import numpy as np
+from jaxtyping import Array, Float, Int
+
+from .._scene import label
+from .equations import Point, film_shape, mass
+from .line_contact import EHLLineContact, Scales
+from .mesh import Mesh, MeshKey, mesh
+from .stepping import Motion
+
+ALIKE = 1e-6
+"""Relative difference of loads and films up to which a state is one of a scene."""
+_SAME_PLACE = 1e-9
+"""Largest difference between nodes, half widths."""
+
+
+class FilmState(eqx.Module):
+    """From where another run can go on: `LineContactHistory.last_state`, or that of a file.
+
+    **Arguments:** `x`: the nodes, m; values at the last three times, newest first: `pressure`, `offset` of the film and
+    `mass`, density over that at ambient pressure times film; `steps` between these times; `known`: how many of them are
+    there; `proposal`: the step to try next.
+    """
+
+    x: Float[Array | np.ndarray, " node"]
+    time: Float[Array | np.ndarray, ""] = eqx.field(metadata=label("s", "time from which a run can go on"))
+    pressure: Float[Array | np.ndarray, "3 node"] = eqx.field(metadata=label("Pa", "pressure at the last three times"))
+    offset: Float[Array | np.ndarray, "3"] = eqx.field(metadata=label("m", "constant of the film at these times"))
+    mass: Float[Array | np.ndarray, "3 node"] = eqx.field(
+        metadata=label("m", "density over that at ambient pressure times film, at these times")
+    )
+    steps: Float[Array | np.ndarray, "2"] = eqx.field(metadata=label("s", "steps between these times"))
+    known: Int[Array | np.ndarray, ""] = eqx.field(metadata=label("1", "how many of these times there are"))
+    proposal: Float[Array | np.ndarray, ""] = eqx.field(metadata=label("s", "step to try next"))
+
+
+def state_of(motion: Motion, scales: Scales, key: MeshKey) -> FilmState:
+    """A motion in SI units."""
+    unit = scales.half_width / scales.reference_speed
+    return FilmState(
+        x=jnp.asarray(mesh(key).x) * scales.half_width,
+        time=motion.time * unit,
+        pressure=motion.points.pressure * scales.hertz_pressure,
+        offset=motion.points.offset * scales.film,
+        mass=motion.masses * scales.film,
+        steps=motion.steps * unit,
+        known=motion.known,
+        proposal=motion.proposal * unit,
+    )
+
+
+def motion_of(state: FilmState, scales: Scales) -> Motion:
+    """The way back, also at another speed, which is the unit of time."""
+    unit = scales.half_width / scales.reference_speed
+    return Motion(
+        jnp.asarray(state.time) / unit,
+        jax.vmap(Point)(jnp.asarray(state.pressure) / scales.hertz_pressure, jnp.asarray(state.offset) / scales.film),
+        jnp.asarray(state.mass) / scales.film,
+        jnp.asarray(state.steps) / unit,
+        jnp.asarray(state.known, dtype=int),
+        jnp.asarray(state.proposal) / unit,
+    )
+
+
+def mesh_of_state(scene: EHLLineContact, state: FilmState, backwards: bool) -> MeshKey:
+    """The mesh of a state that fits the scene. **Arguments:** `backwards`: whether oil is to enter from +x too.
+
+    **Raises:** `ValueError` where the state is not one of this contact, or has no inlet where one is needed.
+    """
+    finite = (state.x, state.time, state.pressure, state.offset, state.mass, state.steps, state.proposal)
+    if not all(np.all(np.isfinite(values)) for values in finite):
+        raise ValueError("restart: a state with numbers that are not finite")
+    if not (1 <= int(state.known) <= 3 and np.all(np.asarray(state.steps) > 0) and float(state.proposal) > 0):
+        raise ValueError("restart: a state whose steps are not > 0 s")
+    nodes, scales = np.size(state.x), scene.scales()
+    if nodes != scene.contact.nodes:
+        raise ValueError(f"restart: a state on another mesh: {nodes} nodes, for contact.nodes = {scene.contact.nodes}")
+    places = np.asarray(state.x) / float(scales.half_width)
+    keys = (scene.run_mesh(False), scene.run_mesh(True))
+    key = next((key for key in keys if np.abs(places - mesh(key).x).max() <= _SAME_PLACE), None)
+    if key is None:
+        raise ValueError("restart: a state on another mesh: contact.inlet or the Hertz half width differ")
+    if backwards and key.inlet != key.outlet:
+        raise ValueError("restart: a state on another mesh: the speed turns negative, and it has no inlet on that side")
+    _check_contact(scene, scales, motion_of(state, scales), mesh(key))
+    return key
+
+
+def _check_contact(scene: EHLLineContact, scales: Scales, motion: Motion, grid: Mesh) -> None:
+    """Load and film of the newest point."""
+    point = Point(motion.points.pressure[0], motion.points.offset[0])
+    carried = float(jnp.sum(jnp.asarray(grid.weight) * point.pressure[1:-1])) / (0.5 * np.pi)
+    if abs(carried - 1.0) > ALIKE:
+        raise ValueError(f"restart: a state of another contact: it carries {carried:.6g} times the load of the scene")
+    m = mass(scene.fluid(scales), point.pressure, film_shape(point, grid))
+    if float(jnp.max(jnp.abs(motion.masses[0] / m - 1.0))) > ALIKE:
+        raise ValueError("restart: a state of another contact: contact.compressible, radius or materials differ")

@@ -1,0 +1,211 @@
+"""A lubricated line contact as a scene: two cylinders, an oil, a load and a speed."""
+
+from typing import Any, NamedTuple
+
+import equinox as eqx
+import jax.numpy as jnp
+from jaxtyping import Array, Bool, Float
+
+from .._scene import AbstractScene, number, optional_number
+from .._types import Scalar
+from ..contacts import AbstractLineFilm, DowsonHigginson, DowsonToyoda, LineContact, Moes
+from ..lubricants import Lubricant
+from ..materials import Material, reduced_modulus
+from ..numerics.checks import require
+from .equations import Fluid
+from .mesh import INLET, OUTLET, STOP_OUTLET, MeshKey
+from .simulation import FilmSimulation
+from .steady import Steady, existing
+
+SMALLEST_MOES_LOAD = 3.0
+"""Moes load number M below which a contact is all but rigid: its Hertz half width no longer measures the film, and the
+domain would have to be many times longer."""
+FEWEST_NODES, MOST_NODES = 51, 3201
+
+
+class ContactGeometry(eqx.Module):
+    """**Arguments:** `reduced_radius_rolling`: R', m, 1/R' = 1/R1 + 1/R2 in the plane of rolling, > 0."""
+
+    reduced_radius_rolling: Scalar = number()
+
+    def __check_init__(self):
+        require("geometry", reduced_radius_rolling=(self.reduced_radius_rolling, "> 0"))
+
+
+class ContactBodies(eqx.Module):
+    """Solids of the two bodies."""
+
+    body_1: Material
+    body_2: Material
+
+
+class FilmModel(eqx.Module):
+    """What is modelled, and how finely.
+
+    **Arguments:**
+    - `compressible`: whether the density follows Dowson and Higginson; else it is constant.
+    - `nodes`: of the mesh; error of the film about 0.9 % at 201, a quarter of that for each doubling.
+    - `inlet`: length of the domain upstream of the centre, half widths; light loads (M < 25) need more than 4.
+    - `film_limit`: a run in time ends where the film is thinner, m: below about 0.5 nm a continuum means nothing.
+    """
+
+    compressible: bool = eqx.field(static=True, default=True)
+    nodes: int = eqx.field(static=True, default=501)
+    inlet: float = eqx.field(static=True, default=INLET)
+    film_limit: Scalar = number(0.5e-9)
+
+    def __check_init__(self):
+        require("contact", film_limit=(self.film_limit, ">= 0"))
+        if not FEWEST_NODES <= self.nodes <= MOST_NODES:
+            raise ValueError(f"contact.nodes must be from {FEWEST_NODES} to {MOST_NODES}, got {self.nodes}")
+        if not 2.0 <= self.inlet <= 64.0:
+            raise ValueError(f"contact.inlet must be from 2 to 64 half widths, got {self.inlet:g}")
+
+
+class ContactOperation(eqx.Module):
+    """**Arguments:**
+    - `entrainment_speed`: (u1 + u2)/2, m/s, any sign: a negative one enters the contact from the other side.
+    - `oil_temperature`: of the contact, K, > 0.
+    - `load_per_length`: N/m, or `pressure`: Hertz (peak) pressure, Pa; one of the two.
+    """
+
+    entrainment_speed: Scalar = number()
+    oil_temperature: Scalar = number()
+    load_per_length: Scalar | None = optional_number()
+    pressure: Scalar | None = optional_number()
+
+    def __check_init__(self):
+        require(
+            "operation",
+            entrainment_speed=(self.entrainment_speed, "finite"),
+            oil_temperature=(self.oil_temperature, "> 0"),
+            load_per_length=(self.load_per_length, "> 0"),
+            pressure=(self.pressure, "> 0"),
+        )
+        if (self.load_per_length is None) == (self.pressure is None):
+            found = "neither" if self.pressure is None else "both"
+            raise ValueError(
+                f"operation.load_per_length: found {found} of load_per_length and pressure, expected one of the two"
+            )
+
+
+class Scales(NamedTuple):
+    """What makes a contact dimensionless, and its numbers."""
+
+    half_width: Float[Array, ""]
+    hertz_pressure: Float[Array, ""]
+    load_per_length: Float[Array, ""]
+    film: Float[Array, ""]
+    """a^2/R', m."""
+    reference_speed: Float[Array, ""]
+    """|u_m| of the operation, 1 m/s where that is 0."""
+    wedge: Float[Array, ""]
+    """lambda = 12 eta_0 u R'^2/(a^3 p_h)."""
+    moes_load: Float[Array, ""]
+    moes_material: Float[Array, ""]
+
+
+class EHLLineContact(AbstractScene):
+    """A lubricated line contact.
+
+    The pressure between two elastic cylinders and the film that keeps them apart, isothermal, Newtonian, fully flooded,
+    smooth; cavitation as P >= 0 with the Swift-Stieber condition (oil that cavitates is not conserved there).
+
+    **Arguments:** `geometry`; `materials`; `oil`, whose law of viscosity counts; `contact`: model and mesh;
+    `operation`; `simulation`: what a run in time does.
+    """
+
+    geometry: ContactGeometry
+    materials: ContactBodies
+    oil: Lubricant
+    contact: FilmModel
+    operation: ContactOperation
+    simulation: FilmSimulation | None = None
+
+    @property
+    def hertz(self) -> LineContact:
+        """The dry contact, 1 m long."""
+        return LineContact(self.geometry.reduced_radius_rolling, 1.0, self._reduced_modulus)
+
+    @property
+    def _reduced_modulus(self) -> Array:
+        return reduced_modulus(self.materials.body_1, self.materials.body_2)
+
+    @property
+    def load_per_length(self) -> Scalar:
+        """N/m."""
+        operation = self.operation
+        if operation.load_per_length is not None:
+            return operation.load_per_length
+        return self.hertz.load_at_pressure(operation.pressure)
+
+    def scales(self) -> Scales:
+        """Dimensionless numbers and the units of the unknowns."""
+        modulus, radius, load = self._reduced_modulus, self.geometry.reduced_radius_rolling, self.load_per_length
+        load, radius = jnp.asarray(load, dtype=float), jnp.asarray(radius, dtype=float)
+        speed = jnp.abs(jnp.asarray(self.operation.entrainment_speed, dtype=float))
+        moving = speed > 0
+        reference = jnp.where(moving, speed, 1.0)
+        half_width = jnp.sqrt(8.0 * load * radius / (jnp.pi * modulus))
+        pressure = 2.0 * load / (jnp.pi * half_width)
+        inlet = self.oil.at(self.operation.oil_temperature)
+        wedge = 12.0 * inlet.viscosity * reference * radius**2 / (half_width**3 * pressure)
+        speed_number = 2.0 * inlet.viscosity * reference / (modulus * radius)
+        return Scales(
+            half_width,
+            pressure,
+            load,
+            half_width**2 / radius,
+            reference,
+            jnp.asarray(wedge),
+            load / (modulus * radius) / jnp.sqrt(speed_number),
+            jnp.asarray(inlet.pressure_viscosity * modulus * speed_number**0.25),
+        )
+
+    def fluid(self, scales: Scales) -> Fluid:
+        """The oil over this contact's pressure."""
+        temperature = jnp.asarray(self.operation.oil_temperature, dtype=float)
+        return Fluid(self.oil.viscosity, temperature, scales.hertz_pressure, self.contact.compressible)
+
+    def formulas(self, speed: Any = None) -> dict[str, Float[Array, ""]]:
+        """Film formulas beside the solution, m. **Arguments:** `speed`: m/s; the operation's where not given."""
+        inlet = self.oil.at(self.operation.oil_temperature)
+        speed = jnp.abs(jnp.asarray(self.operation.entrainment_speed if speed is None else speed, dtype=float))
+        laws: dict[str, AbstractLineFilm] = {
+            "moes_central": Moes(),
+            "dowson_toyoda_central": DowsonToyoda(),
+            "dowson_higginson_minimum": DowsonHigginson(),
+        }
+        load = jnp.asarray(self.load_per_length, dtype=float)
+        contact, oil = self.hertz, (inlet.viscosity, inlet.pressure_viscosity)
+        return {name: jnp.exp(law.log_thickness(contact, load, speed, *oil)) for name, law in laws.items()}
+
+    def steady(self, scales: Scales, speed: Any) -> Steady:
+        """The steady problem at a speed (over the reference speed, any sign)."""
+        speed = jnp.asarray(speed, dtype=float)
+        guess = self.formulas(speed * scales.reference_speed)["moes_central"] / scales.film
+        return Steady(self.fluid(scales), scales.wedge, speed, guess, self.solvable(scales, speed))
+
+    def solvable(self, scales: Scales, speed: Any) -> Bool[Array, ""]:
+        """Whether there is a film at this speed that this model describes."""
+        return existing(scales.wedge, speed) & (scales.moes_load >= SMALLEST_MOES_LOAD)
+
+    @property
+    def steady_mesh(self) -> MeshKey:
+        return MeshKey(self.contact.nodes, self.contact.inlet, OUTLET)
+
+    def run_mesh(self, reverses: bool) -> MeshKey:
+        """Mesh of a run in time; one that reverses has an inlet on both sides."""
+        outlet = self.contact.inlet if reverses else STOP_OUTLET
+        return MeshKey(self.contact.nodes, self.contact.inlet, outlet, stop=True)
+
+    def assumptions(self) -> tuple[str, ...]:
+        """What the scene's data were not made for or leave open; for the user."""
+        # the notes of the oil on conductivity and rheology are about what is not used here
+        notes = tuple(f"oil: {note}" for note in self.oil.viscosity.notes)
+        if self.contact.compressible:
+            return notes
+        return (
+            *notes,
+            "the oil is incompressible (contact.compressible): compression thins the central film",
+        )

@@ -1,0 +1,208 @@
+"""A run in time of a line contact: from the steady film, segment after segment."""
+
+from collections.abc import Callable
+from typing import NamedTuple
+
+import equinox as eqx
+import jax
+import jax.numpy as jnp
+import numpy as np
+from jaxtyping import Array, Float
+
+from ..numerics.compiling import quickly_compiled
+from ..numerics.precision import as_float
+from ..numerics.status import SolveError, Status
+from .equations import Point, film_shape
+from .history import FilmHistory, LineContactHistory, PressureHistory, ProfileHistory, thin_note
+from .last_state import FilmState, mesh_of_state, motion_of, state_of
+from .line_contact import SMALLEST_MOES_LOAD, EHLLineContact, Scales
+from .mesh import MeshKey, mesh
+from .simulation import FilmSimulation
+from .solution import HertzResult, central_value, range_checks
+from .steady import SteadyRoot, existing, no_film, steady_root
+from .stepping import SEGMENT, Advanced, Drive, Motion, advance, at_rest
+
+LOOKS = 2_001
+"""Times at which the speed is looked at, to see whether it turns negative."""
+
+
+class Begun(NamedTuple):
+    """A steady start, and what drives the run from there."""
+
+    scales: Scales
+    drive: Drive
+    motion: Motion
+    root: SteadyRoot
+
+
+class Seen(NamedTuple):
+    """What is kept of a step, SI."""
+
+    central: Float[Array, ""]
+    minimum: Float[Array, ""]
+    minimum_position: Float[Array, ""]
+    central_pressure: Float[Array, ""]
+    largest_pressure: Float[Array, ""]
+    pressure: Float[Array, " node"]
+    film: Float[Array, " node"]
+
+
+def drive_of(scene: EHLLineContact, simulation: FilmSimulation, scales: Scales) -> Drive:
+    """What does not change in the run."""
+    unit = scales.half_width / scales.reference_speed
+    base = jnp.asarray(scene.operation.entrainment_speed) / scales.reference_speed
+    limit = scene.contact.film_limit / scales.film
+    return Drive(scene.fluid(scales), scales.wedge, simulation.speed, unit, base, simulation.tolerance, limit)
+
+
+def _steady_start(scene: EHLLineContact, simulation: FilmSimulation, key: MeshKey) -> Begun:
+    scales = scene.scales()
+    drive = drive_of(scene, simulation, scales)
+    problem = scene.steady(scales, drive.speed_at(jnp.zeros(())))
+    root = steady_root(problem, key=key)
+    root = root._replace(status=no_film(root.status, existing(scales.wedge, problem.speed)))
+    return Begun(scales, drive, at_rest(root.point, drive.fluid, mesh(key)), root)
+
+
+# solved once a run: to compile takes longer than to run
+_begin = quickly_compiled(_steady_start)
+
+
+@eqx.filter_jit
+def _prepare(scene: EHLLineContact, simulation: FilmSimulation) -> tuple[Scales, Drive]:
+    scales = scene.scales()
+    return scales, drive_of(scene, simulation, scales)
+
+
+@eqx.filter_jit
+def _advance(drive: Drive, motion: Motion, stop: Array, key: MeshKey) -> Advanced:
+    return advance(drive, motion, stop, mesh(key))
+
+
+@eqx.filter_jit
+def _see(points: Point, scales: Scales, key: MeshKey) -> Seen:
+    grid = mesh(key)
+
+    def one(point: Point) -> Seen:
+        film = film_shape(point, grid)
+        lowest = jnp.argmin(film)
+        return Seen(
+            central_value(film, grid) * scales.film,
+            film[lowest] * scales.film,
+            jnp.asarray(grid.x)[lowest] * scales.half_width,
+            central_value(point.pressure, grid) * scales.hertz_pressure,
+            jnp.max(point.pressure) * scales.hertz_pressure,
+            point.pressure * scales.hertz_pressure,
+            film * scales.film,
+        )
+
+    return jax.vmap(one)(points)
+
+
+def enters_behind(scene: EHLLineContact, simulation: FilmSimulation, begin: float, stop: float) -> bool:
+    """Whether oil enters from +x at some time between two, s."""
+    factors = np.asarray(jax.vmap(simulation.speed.factor)(jnp.linspace(begin, stop, LOOKS)))
+    return bool((float(scene.operation.entrainment_speed) * factors).min() < 0.0)
+
+
+def check_restart(scene: EHLLineContact, simulation: FilmSimulation, state: FilmState, duration: float) -> MeshKey:
+    """The mesh of a run that goes on from a state. **Raises:** `ValueError` where it does not fit."""
+    begin = float(state.time)
+    return mesh_of_state(scene, state, enters_behind(scene, simulation, begin, begin + duration))
+
+
+def _no_start(begun: Begun) -> str:
+    """Why there is no steady film, in words."""
+    root, scales = begun.root, begun.scales
+    if bool(root.iterations):
+        reason = f"Newton's last step was {float(root.step):.3g}"
+    elif float(scales.moes_load) < SMALLEST_MOES_LOAD:
+        reason = (
+            f"load number M = {float(scales.moes_load):.3g} is below {SMALLEST_MOES_LOAD:g}: the cylinders are all but "
+            "rigid and this elastic model does not apply"
+        )
+    else:
+        reason = "at rest there is none: the speed at the start carries no oil into the contact"
+    return f"the steady film at the start of the run was not found: {Status(int(root.status)).text}: {reason}"
+
+
+def simulate_film(
+    scene: EHLLineContact,
+    duration: float,
+    simulation: FilmSimulation,
+    *,
+    start: FilmState | None = None,
+    progress: Callable[[float, float], None] | None = None,
+) -> LineContactHistory:
+    """Run a line contact in time; see `simulate`. Ctrl-C keeps what was computed.
+
+    **Raises:** `SolveError` where there is no steady film to begin with; `ValueError` for a `start` of another contact
+    or on another mesh.
+    """
+    scene, simulation = (jax.tree.map(as_float, tree) for tree in (scene, simulation))
+    began = 0.0 if start is None else float(start.time)
+    stop = began + duration
+    if start is None:
+        key = scene.run_mesh(enters_behind(scene, simulation, began, stop))
+        begun = _begin(scene, simulation, key)
+        if int(begun.root.status) != Status.CONVERGED:
+            raise SolveError(_no_start(begun))
+        scales, drive, motion = begun.scales, begun.drive, begun.motion
+    else:
+        key = check_restart(scene, simulation, start, duration)
+        scales, drive = _prepare(scene, simulation)
+        motion = motion_of(start, scales)
+    end = jnp.asarray(stop) / drive.unit
+    unit = float(drive.unit)
+    first = jax.tree.map(lambda leaf: jnp.broadcast_to(leaf[:1], (SEGMENT, *leaf.shape[1:])), motion.points)
+    kept = [jax.tree.map(lambda leaf: np.asarray(leaf)[:1], _see(first, scales, key))]
+    times, speeds = [np.asarray([began])], [np.asarray([float(drive.speed_at(motion.time))])]
+    taken = refused = newton_steps = 0
+    balance, status, thin, interrupted = 0.0, Status.CONVERGED, False, False
+    try:
+        while True:
+            found = _advance(drive, motion, end, key)
+            count = int(found.taken)
+            seen = jax.tree.map(
+                lambda leaf, count=count: np.asarray(leaf)[:count], _see(found.record.point, scales, key)
+            )
+            motion, kept = found.motion, [*kept, seen]
+            times.append(np.asarray(found.record.time)[:count] * unit)
+            speeds.append(np.asarray(found.record.speed)[:count])
+            taken, refused = taken + count, refused + int(found.rejected)
+            newton_steps += int(found.newton_steps)
+            balance = max(balance, float(np.max(np.asarray(found.record.balance)[:count], initial=0.0)))
+            if progress is not None:
+                progress(float(times[-1][-1]) if count else began, stop)
+            if int(found.status) >= 0:
+                status, thin = Status(int(found.status)), bool(found.thin)
+                break
+    except KeyboardInterrupt:
+        status, interrupted = Status.NOT_CONVERGED, True
+    all_times = np.concatenate(times)
+    if status == Status.CONVERGED and not thin:
+        all_times[-1] = stop
+    seen = jax.tree.map(lambda *leaves: jnp.asarray(np.concatenate(leaves)), *kept)
+    notes = scene.assumptions()
+    if thin:
+        notes = (thin_note(float(all_times[-1]), scene.contact.film_limit), *notes)
+    return LineContactHistory(
+        status=jnp.asarray(int(status)),
+        time=jnp.asarray(all_times),
+        stop=jnp.asarray(stop, dtype=float),
+        accepted=jnp.asarray(taken),
+        rejected=jnp.asarray(refused),
+        newton_steps=jnp.asarray(newton_steps),
+        mass_balance=jnp.asarray(balance, dtype=float),
+        entrainment_speed=jnp.asarray(np.concatenate(speeds)) * scales.reference_speed,
+        film=FilmHistory(seen.central, seen.minimum, seen.minimum_position),
+        pressure=PressureHistory(seen.central_pressure, seen.largest_pressure),
+        profile=ProfileHistory(jnp.asarray(mesh(key).x) * scales.half_width, seen.pressure, seen.film),
+        hertz=HertzResult(scales.half_width, scales.hertz_pressure),
+        operation=scene.operation,
+        last_state=state_of(motion, scales, key),
+        checks=range_checks(scene, scales),
+        ended_thin=thin,
+        interrupted=interrupted,
+        notes=notes,
+    )

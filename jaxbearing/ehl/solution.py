@@ -1,0 +1,186 @@
+"""Results of a steady line contact, and the solve that makes them."""
+
+from typing import Any
+
+import equinox as eqx
+import jax.numpy as jnp
+import numpy as np
+from jaxtyping import Array, Bool, Float, Int
+
+from .._scene import AbstractSolution, label
+from ..lubricants.ranges import FITTED_TEMPERATURES
+from ..numerics.status import Status
+from .equations import film_shape
+from .line_contact import SMALLEST_MOES_LOAD, ContactOperation, EHLLineContact, Scales
+from .mesh import Mesh, mesh
+from .steady import SMALLEST_WEDGE, no_film, steady_root
+
+THIN = "minimum film below contact.film_limit: a continuum means little"
+
+
+class FilmResult(eqx.Module):
+    """Film thickness."""
+
+    central: Float[Array, ""] = eqx.field(metadata=label("m", "film at the centre"))
+    minimum: Float[Array, ""] = eqx.field(metadata=label("m", "smallest film"))
+    minimum_position: Float[Array, ""] = eqx.field(metadata=label("m", "place of the smallest film"))
+
+
+class HertzResult(eqx.Module):
+    """The dry contact."""
+
+    half_width: Float[Array, ""] = eqx.field(metadata=label("m", "Hertz half width"))
+    pressure: Float[Array, ""] = eqx.field(metadata=label("Pa", "Hertz (peak) pressure"))
+
+
+class Profile(eqx.Module):
+    """Over the contact, x along the direction of positive speed."""
+
+    x: Float[Array, " node"] = eqx.field(metadata=label("m", "place along rolling, from the centre"))
+    pressure: Float[Array, " node"] = eqx.field(metadata=label("Pa", "pressure"))
+    film: Float[Array, " node"] = eqx.field(metadata=label("m", "film thickness"))
+
+
+class FormulaResult(eqx.Module):
+    """Film formulas for the same contact."""
+
+    moes_central: Float[Array, ""] = eqx.field(metadata=label("m", "central film by Moes"))
+    dowson_toyoda_central: Float[Array, ""] = eqx.field(metadata=label("m", "central film by Dowson and Toyoda"))
+    dowson_higginson_minimum: Float[Array, ""] = eqx.field(metadata=label("m", "minimum film by Dowson and Higginson"))
+
+
+class LineContactSolution(AbstractSolution):
+    """Steady film of a line contact. What a failed solve gives is NaN, but for Hertz and the formulas."""
+
+    status: Int[Array, ""] = eqx.field(metadata=label("1", "how the solve ended"))
+    iterations: Int[Array, ""] = eqx.field(metadata=label("1", "Newton steps on all meshes"))
+    residual_norm: Float[Array, ""] = eqx.field(
+        metadata=label("1", "largest scaled residual before the last Newton step")
+    )
+    last_step: Float[Array, ""] = eqx.field(metadata=label("1", "largest change of an unknown by the last Newton step"))
+    film: FilmResult
+    hertz: HertzResult
+    profile: Profile
+    formulas: FormulaResult
+    load_per_length: Float[Array, ""] = eqx.field(metadata=label("N/m", "load per length"))
+    central_pressure: Float[Array, ""] = eqx.field(metadata=label("Pa", "pressure at the centre"))
+    moes_load: Float[Array, ""] = eqx.field(metadata=label("1", "Moes load number M"))
+    moes_material: Float[Array, ""] = eqx.field(metadata=label("1", "Moes material number L"))
+    speed_number: Float[Array, ""] = eqx.field(metadata=label("1", "lambda = 12 eta u R'^2/(a^3 p_h)"))
+    operation: ContactOperation
+    checks: dict[str, Bool[Array, ""]]
+    unknowns: int = eqx.field(static=True, default=0)
+    compressible: bool = eqx.field(static=True, default=True)
+    notes: tuple[str, ...] = eqx.field(static=True, default=())
+
+    @property
+    def converged(self) -> Bool[Array, "*batch"]:
+        return self.status == Status.CONVERGED
+
+    def failure(self) -> str:
+        """One sentence on a solve that failed (one solution only)."""
+        status, speed, load = Status(int(self.status)).text, float(self.speed_number), float(self.moes_load)
+        if not speed >= SMALLEST_WEDGE:
+            return (
+                f"{status}: the surfaces do not carry oil into the contact (speed number {speed:.3g}, at least "
+                f"{SMALLEST_WEDGE:g} needed): at rest there is no steady film; a run in time (simulate) can stop there"
+            )
+        if not load >= SMALLEST_MOES_LOAD:
+            martin = 2.447 / load
+            return (
+                f"{status}: load number M = {load:.3g} is below {SMALLEST_MOES_LOAD:g}: the cylinders are all but "
+                f"rigid and this elastic model does not apply; rigid and isoviscous, the smallest film over "
+                f"R' sqrt(U) is 2.447/M = {martin:.3g}"
+            )
+        return (
+            f"{status} after {int(self.iterations)} Newton steps: last step {float(self.last_step):.3g}, "
+            f"Reynolds' equation or the load: residual {float(self.residual_norm):.3g}"
+        )
+
+
+def central_weights(grid: Mesh) -> tuple[int, np.ndarray]:
+    """First of three nodes about X = 0, and their weights in the parabola's value there."""
+    i = int(np.clip(np.argmin(np.abs(grid.x)), 1, grid.size - 2)) - 1
+    a, b, c = grid.x[i : i + 3]
+    return i, np.asarray([b * c / ((a - b) * (a - c)), a * c / ((b - a) * (b - c)), a * b / ((c - a) * (c - b))])
+
+
+def central_value(values: Float[Array, " node"], grid: Mesh) -> Float[Array, ""]:
+    """At X = 0, by the parabola through three nodes."""
+    i, weights = central_weights(grid)
+    return jnp.sum(jnp.asarray(weights) * values[i : i + 3])
+
+
+def parabola_minimum(values: Float[Array, " node"], grid: Mesh) -> tuple[Float[Array, ""], Float[Array, ""]]:
+    """Vertex of the parabola through the lowest node and its neighbours: value and place X."""
+    i = jnp.clip(jnp.argmin(values), 1, grid.size - 2)
+    x, step = jnp.asarray(grid.x), jnp.asarray(grid.step)
+    left, right = step[i - 1], step[i]
+    before, after = (values[i] - values[i - 1]) / left, (values[i + 1] - values[i]) / right
+    curvature = (after - before) / (left + right)
+    slope = (before * right + after * left) / (left + right)
+    bent = jnp.where(curvature > 0, curvature, 1.0)
+    shift = jnp.where(curvature > 0, -0.5 * slope / bent, 0.0)
+    return values[i] + shift * (slope + curvature * shift), x[i] + shift
+
+
+def solve_line_contact(scene: EHLLineContact, options: Any = None) -> LineContactSolution:
+    """The steady film. `options` is there for the other scenes' sake: tolerances are the solver's own
+    (`steady.TOLERANCE`)."""
+    scales, key = scene.scales(), scene.steady_mesh
+    # solved for flow in +X and mirrored: the mesh is finer and longer on the inlet's side
+    speed = jnp.abs(jnp.asarray(scene.operation.entrainment_speed, dtype=float)) / scales.reference_speed
+    problem = scene.steady(scales, speed)
+    # a lane that is not solved needs numbers that can be differentiated
+    root = steady_root(problem, key=key)
+    grid = mesh(key)
+    shape = film_shape(root.point, grid)
+    minimum, place = parabola_minimum(shape, grid)
+    good = root.solved
+    shown = lambda value: jnp.where(good, value, jnp.nan)
+    backwards = jnp.asarray(scene.operation.entrainment_speed) < 0
+    turned = lambda values: jnp.where(backwards, values[::-1], values)
+    sign = jnp.where(backwards, -1.0, 1.0)
+    exists = scales.wedge * speed >= SMALLEST_WEDGE
+    x = jnp.asarray(grid.x)
+    return LineContactSolution(
+        status=no_film(root.status, exists),
+        iterations=root.iterations,
+        residual_norm=root.residual,
+        last_step=root.step,
+        film=FilmResult(
+            shown(central_value(shape, grid) * scales.film),
+            shown(minimum * scales.film),
+            shown(sign * place * scales.half_width),
+        ),
+        hertz=HertzResult(scales.half_width, scales.hertz_pressure),
+        profile=Profile(
+            sign * turned(x) * scales.half_width,
+            shown(turned(root.point.pressure) * scales.hertz_pressure),
+            shown(turned(shape) * scales.film),
+        ),
+        formulas=FormulaResult(**scene.formulas()),
+        load_per_length=scales.load_per_length,
+        central_pressure=shown(central_value(root.point.pressure, grid) * scales.hertz_pressure),
+        moes_load=scales.moes_load,
+        moes_material=scales.moes_material,
+        speed_number=scales.wedge * speed,
+        operation=scene.operation,
+        checks=range_checks(scene, scales) | {THIN: shown(minimum * scales.film) < scene.contact.film_limit},
+        unknowns=key.nodes - 1,
+        compressible=scene.contact.compressible,
+        notes=scene.assumptions(),
+    )
+
+
+def range_checks(scene: EHLLineContact, scales: Scales) -> dict[str, Bool[Array, ""]]:
+    """Which ranges are left."""
+    temperature, (low, high) = jnp.asarray(scene.operation.oil_temperature), FITTED_TEMPERATURES
+    load, inlet = scales.moes_load, scene.contact.inlet
+    short = ((load < 25.0) & (inlet < 8.0)) | ((load < 8.0) & (inlet < 16.0))
+    return {
+        "oil beyond 200 degC: the oil laws are extrapolated": temperature > high,
+        "oil below -20 degC: the oil laws are extrapolated": temperature < low,
+        "Hertz pressure beyond 4.2 GPa: the bodies would yield": scales.hertz_pressure > 4.2e9,
+        "contact.inlet is too short for this light load: take 8 half widths for M < 25, 16 for M < 8": short,
+    }

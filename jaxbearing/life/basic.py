@@ -1,0 +1,50 @@
+"""Basic rating life of ISO 281 and the equivalent loads of catalogues."""
+
+import jax.numpy as jnp
+import numpy as np
+from jaxtyping import Array, Float
+
+from .._types import Scalar, Values
+
+RELIABILITY_FACTORS = {0.90: 1.0, 0.95: 0.64, 0.96: 0.55, 0.97: 0.47, 0.98: 0.37, 0.99: 0.25}
+"""a_1 of ISO 281:2007 by reliability [M]; the edition before had 0.62, 0.53, 0.44, 0.33, 0.21."""
+BALL_EXPONENT, ROLLER_EXPONENT = 3.0, 10.0 / 3.0
+
+_GROOVE = np.array(
+    [
+        # f0 Fa/C0, e, Y
+        (0.172, 0.19, 2.30),
+        (0.345, 0.22, 1.99),
+        (0.689, 0.26, 1.71),
+        (1.03, 0.28, 1.55),
+        (1.38, 0.30, 1.45),
+        (2.07, 0.34, 1.31),
+        (3.45, 0.38, 1.15),
+        (5.17, 0.42, 1.04),
+        (6.89, 0.44, 1.00),
+    ]
+)
+
+
+def basic_life(capacity: Values, equivalent_load: Values, exponent: float) -> Float[Array, "..."]:
+    """L10 = (C/P)^p, 10^6 revolutions; infinite at no load. **Arguments:** N; `exponent` 3 (balls), 10/3 (rollers)."""
+    return jnp.asarray(capacity / equivalent_load) ** exponent
+
+
+def tapered_equivalent_load(radial: Values, axial: Values, contact_angle: Values) -> Float[Array, "..."]:
+    """P = Fr where Fa/Fr <= e = 1.5 tan(alpha), else 0.4 Fr + 0.4 cot(alpha) Fa, N [M]."""
+    tangent = jnp.tan(contact_angle)
+    combined = 0.4 * radial + 0.4 / tangent * axial
+    return jnp.where(axial <= 1.5 * tangent * radial, radial * jnp.ones_like(combined), combined)
+
+
+def deep_groove_equivalent_load(
+    radial: Values, axial: Values, static_capacity: Scalar, load_factor: Scalar
+) -> Float[Array, "..."]:
+    """P = Fr where Fa/Fr <= e, else 0.56 Fr + Y Fa, N, with e and Y interpolated over f0 Fa/C0 [M].
+
+    **Arguments:** `load_factor` f0 of the bearing, about 14.
+    """
+    relative = load_factor * axial / static_capacity
+    e, y = (jnp.interp(relative, jnp.asarray(_GROOVE[:, 0]), jnp.asarray(_GROOVE[:, i])) for i in (1, 2))
+    return jnp.where(axial <= e * radial, radial, 0.56 * radial + y * axial)

@@ -1,0 +1,212 @@
+"""From a scene and its solution to the life: which loads, sizes and laws each kind of bearing has."""
+
+import dataclasses
+from collections.abc import Callable
+from typing import Any, NamedTuple
+
+import jax
+import jax.numpy as jnp
+import numpy as np
+from jaxtyping import Array, Bool, Float
+
+from ..bearings.ball_bearing import BallBearing
+from ..bearings.cylindrical_roller import CylindricalRollerBearing
+from ..bearings.rating import Rating
+from ..bearings.solution import Solution
+from ..bearings.tapered_roller import TaperedRollerBearing
+from ..lubricants import Lubricant
+from .basic import BALL_EXPONENT, RELIABILITY_FACTORS, ROLLER_EXPONENT, basic_life, tapered_equivalent_load
+from .capacity import ball_capacity, roller_capacity
+from .modification import (
+    Family,
+    contamination_factor,
+    fatigue_load_limit,
+    film_ratio,
+    modification_factor,
+    reference_viscosity,
+)
+from .reference import (
+    ball_contact_capacities,
+    ball_damage_rate,
+    edge_factors,
+    roller_contact_capacities,
+    roller_damage_rate,
+)
+from .result import Life
+from .static import ball_static_capacity, roller_static_capacity
+
+_HOURS = 1e6 * 2.0 * np.pi / 3600.0
+"""Hours of a million revolutions at 1 rad/s."""
+
+
+class Rated(NamedTuple):
+    """What a kind of bearing gives to the life."""
+
+    family: Family
+    pitch_diameter: Array
+    dynamic_capacity: Array
+    static_capacity: Array
+    damage_rate: Array
+    catalogue_load: Array | None
+    """Equivalent load of ISO 281 by the catalogue's formulas, N."""
+
+
+def with_life(scene: Any, solution: Any) -> Any:
+    """The solution of a bearing with the life in it where the scene has a rating; any other as it is."""
+    rating = getattr(scene, "rating", None)
+    if rating is None:
+        return solution
+    return dataclasses.replace(solution, life=bearing_life(scene, solution))
+
+
+def bearing_life(scene: Any, solution: Solution) -> Life:
+    """Life from the contact loads of a solution, pure; NaN where the solve failed.
+
+    Needs `scene.rating`. The modified life takes the viscosity ratio, and the load ratio at `equivalent_load`, for the
+    bearing as a whole ([M]: the standard does so contact by contact).
+
+    **Raises:** `TypeError` for a kind of bearing without a life.
+    """
+    try:
+        rated_by = _RATED[type(scene)]
+    except KeyError:
+        raise TypeError(f"no life of a {type(scene).__name__}") from None
+    rating: Rating = scene.rating
+    good = solution.converged
+    # a lane that failed has finite numbers in the formulas, so that its NaN reaches no derivative of another
+    solid = jax.tree.map(lambda leaf: jnp.where(good, leaf, 1.0), (solution.elements, solution.laminae))
+    operation = scene.operation
+    speed = jnp.asarray(operation.inner_speed) - operation.outer_speed
+    turns = _turning(operation)
+    rated = rated_by(scene, *solid, turns)
+    exponent = BALL_EXPONENT if rated.family == "ball" else ROLLER_EXPONENT
+    rate = rated.damage_rate
+    loaded = rate > 0
+    safe_rate = jnp.where(loaded, rate, 1.0)
+    reference = jnp.where(loaded, 1.0 / safe_rate, jnp.inf)
+    equivalent = jnp.where(loaded, rated.dynamic_capacity * safe_rate ** (1.0 / exponent), 0.0)
+    hours = lambda revolutions: revolutions * _HOURS / jnp.abs(speed)
+    reliability = RELIABILITY_FACTORS[rating.reliability]
+    kappa = _viscosity_ratio(scene, rated.pitch_diameter, speed)
+    more: dict[str, Any] = {}
+    if kappa is not None:
+        more["viscosity_ratio"] = kappa
+    if kappa is not None and rating.cleanliness is not None:
+        limit = rating.fatigue_load_limit
+        if limit is None:
+            limit = fatigue_load_limit(rated.static_capacity, rated.pitch_diameter, rated.family)
+        clean = contamination_factor(kappa, rated.pitch_diameter, rating.cleanliness)
+        ratio = clean * limit / jnp.where(loaded, equivalent, 1.0)
+        factor = modification_factor(kappa, ratio, rated.family)
+        modified = reliability * factor * reference
+        more |= {"modification_factor": factor, "Lnmr": modified, "Lnmr_hours": hours(modified)}
+    if rating.roughness_rings is not None and solid[0].film_inner is not None:
+        rough = (rating.roughness_rings, rating.roughness_elements)
+        more["film_ratio_inner"] = film_ratio(solid[0].film_inner, *rough)
+        more["film_ratio_outer"] = film_ratio(solid[0].film_outer, *rough)
+    if rated.catalogue_load is not None:
+        more["L10"] = basic_life(rated.dynamic_capacity, rated.catalogue_load, exponent)
+    life = Life(
+        damage_rate=rate,
+        L10r=reference,
+        L10r_hours=hours(reference),
+        dynamic_capacity=rated.dynamic_capacity,
+        static_capacity=rated.static_capacity,
+        equivalent_load=equivalent,
+        reliability_factor=jnp.asarray(reliability),
+        **more,
+    )
+    return jax.tree.map(lambda leaf: jnp.where(good, leaf, jnp.nan), life)
+
+
+def _turning(operation: Any) -> tuple[Bool[Array, ""], Bool[Array, ""]]:
+    """Whether the inner and the outer ring turn against the load, which stands still; the inner one where none does."""
+    inner, outer = (jnp.asarray(value) != 0.0 for value in (operation.inner_speed, operation.outer_speed))
+    return inner | ~outer, outer
+
+
+def _viscosity_ratio(scene: Any, pitch_diameter: Array, speed: Array) -> Float[Array, ""] | None:
+    """kappa as given, or from the oil at its inlet temperature; `None` where the scene says neither."""
+    if scene.rating.viscosity_ratio is not None:
+        return jnp.asarray(scene.rating.viscosity_ratio)
+    oil: Lubricant | None = scene.oil
+    if oil is None or oil.density is None:
+        return None
+    temperature = jnp.asarray(scene.operation.oil_temperature)
+    kinematic = oil.viscosity.viscosity(0.0, temperature) / oil.density.density(temperature)
+    return kinematic / reference_viscosity(speed, pitch_diameter)
+
+
+def _given(value: Any, computed: Callable[[], Array]) -> Array:
+    return computed() if value is None else jnp.asarray(value)
+
+
+def _ball(scene: BallBearing, elements: Any, laminae: Any, turns: Any) -> Rated:
+    geometry, rating = scene.geometry, scene.rating
+    assert rating is not None
+    # ratings are made for the nominal angle: 0 of a bearing that is given by its clearance
+    angle = jnp.asarray(0.0 if geometry.contact_angle is None else geometry.contact_angle)
+    sizes = (geometry.n_balls, geometry.ball_diameter, geometry.pitch_diameter, angle)
+    grooves = (geometry.conformity_inner, geometry.conformity_outer)
+    capacity = _given(rating.dynamic_capacity, lambda: ball_capacity(*sizes, *grooves))
+    static = _given(rating.static_capacity, lambda: ball_static_capacity(*sizes, geometry.conformity_inner))
+    limits = ball_contact_capacities(capacity, *sizes, *grooves)
+    rate = ball_damage_rate(elements.load_inner, elements.load_outer, limits, *turns)
+    operation = scene.operation
+    radial_only = operation.axial_load is None and operation.moment is None and operation.radial_load is not None
+    load = jnp.abs(jnp.asarray(operation.radial_load)) if radial_only else None
+    return Rated("ball", jnp.asarray(geometry.pitch_diameter), capacity, static, rate, load)
+
+
+def edge_weights(rating: Rating, profiled: bool, count: int) -> np.ndarray:
+    """f_k on the laminae: those of the standard, or 1."""
+    wanted = not profiled if rating.edge_factor is None else rating.edge_factor
+    return edge_factors(count) if wanted else np.ones(count)
+
+
+def even_laminae(load: Float[Array, " element"], count: int) -> Float[Array, "element lamina"]:
+    """Loads of the laminae of rollers that carry evenly along their length."""
+    return jnp.broadcast_to(load[:, None] / count, (load.shape[0], count))
+
+
+def _cylindrical(scene: CylindricalRollerBearing, elements: Any, laminae: Any, turns: Any) -> Rated:
+    geometry, rating = scene.geometry, scene.rating
+    assert rating is not None
+    sizes = (geometry.n_rollers, geometry.roller_diameter, geometry.pitch_diameter)
+    length = geometry.loaded_length
+    capacity = _given(rating.dynamic_capacity, lambda: roller_capacity(*sizes, length))
+    static = _given(rating.static_capacity, lambda: roller_static_capacity(*sizes, length))
+    limits = roller_contact_capacities(capacity, *sizes)
+    if laminae is None:
+        inner, outer = (even_laminae(load, rating.n_laminae) for load in (elements.load_inner, elements.load_outer))
+    else:
+        inner, outer = laminae.inner, laminae.outer
+    profiled = laminae is not None and laminae.profiled
+    rate = roller_damage_rate(inner, outer, limits, *turns, factors=edge_weights(rating, profiled, inner.shape[1]))
+    load = jnp.abs(jnp.asarray(scene.operation.radial_load))
+    return Rated("roller", jnp.asarray(geometry.pitch_diameter), capacity, static, rate, load)
+
+
+def _tapered(scene: TaperedRollerBearing, elements: Any, laminae: Any, turns: Any) -> Rated:
+    geometry, rating, operation = scene.geometry, scene.rating, scene.operation
+    assert rating is not None
+    angle = jnp.asarray(geometry.contact_angle)
+    pitch, length = geometry.pitch_diameter, geometry.roller_length
+    sizes = (geometry.n_rollers, geometry.mean_roller_diameter, pitch)
+    capacity = _given(rating.dynamic_capacity, lambda: roller_capacity(*sizes, length, angle))
+    static = _given(rating.static_capacity, lambda: roller_static_capacity(*sizes, length, angle))
+    limits = roller_contact_capacities(capacity, *sizes, angle)
+    weights = edge_weights(rating, laminae.profiled, laminae.inner.shape[1])
+    rate = roller_damage_rate(laminae.inner, laminae.outer, limits, *turns, factors=weights)
+    load = None
+    if operation.moment is None and operation.misalignment is None:
+        radial = jnp.abs(jnp.asarray(0.0 if operation.radial_load is None else operation.radial_load))
+        load = tapered_equivalent_load(radial, jnp.asarray(operation.axial_load), angle)
+    return Rated("roller", pitch, capacity, static, rate, load)
+
+
+_RATED: dict[type, Callable[..., Rated]] = {
+    BallBearing: _ball,
+    CylindricalRollerBearing: _cylindrical,
+    TaperedRollerBearing: _tapered,
+}

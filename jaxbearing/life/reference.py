@@ -1,0 +1,135 @@
+r"""Reference life from the loads of every contact (ISO/TS 16281, now ISO 16281): the damage of all contacts adds up.
+
+What is computed is the damage rate $1/L_{10r}$ per million revolutions, smooth in all loads and 0 where nothing is
+loaded. A ring that turns against the load meets the mean over the elements of $Q^3$ (balls) or $q^4$ (laminae), one at
+rest the sum of its own points, $Q^{10/3}$ or $q^{9/2}$.
+"""
+
+from typing import NamedTuple
+
+import jax.numpy as jnp
+import numpy as np
+from jaxtyping import Array, Bool, Float
+
+from .._types import Scalar
+from .capacity import ball_size_ratio, groove_ratio, roller_ratio
+
+TINY = 1e-40
+"""Added to means of loads to the third or fourth power, over the capacity: no load has a gradient."""
+REDUCTION = 0.83
+"""lambda of line contacts in ISO 281, taken out of the capacity of a contact and put on each lamina."""
+
+
+class ContactCapacities(NamedTuple):
+    """Q_ci, Q_ce: loads on one contact that give its ring a life of 10^6 revolutions, N."""
+
+    inner: Float[Array, ""]
+    outer: Float[Array, ""]
+
+
+def ball_contact_capacities(
+    capacity: Scalar,
+    n_balls: int,
+    ball_diameter: Scalar,
+    pitch_diameter: Scalar,
+    contact_angle: Scalar,
+    conformity_inner: Scalar,
+    conformity_outer: Scalar,
+) -> ContactCapacities:
+    r"""$Q_{ci} = \frac{C}{0.407Z\cos\alpha}[1 + A^{10/3}]^{3/10}$, $Q_{ce} = \frac{C}{0.389Z\cos\alpha}
+    [1 + A^{-10/3}]^{3/10}$, A with the constant 1.044.
+
+    **Evidence:** [D] 0.407 and 0.389 are $J_r/J_1$, $J_r/J_2$ of the load distribution without clearance; [C] at F = C
+    the life is 0.999; $Q_{ci}$ is Lundberg and Palmgren's contact capacity within 0.8 %.
+    **Arguments:** as `capacity.ball_capacity`; `capacity` C, N.
+    """
+    gamma = ball_size_ratio(ball_diameter, pitch_diameter, contact_angle)
+    ratio = groove_ratio(gamma, conformity_inner, conformity_outer, 1.044)
+    share = capacity / (n_balls * jnp.cos(contact_angle))
+    inner = share / 0.407 * (1.0 + ratio ** (10.0 / 3.0)) ** 0.3
+    return ContactCapacities(inner, share / 0.389 * (1.0 + ratio ** (-10.0 / 3.0)) ** 0.3)
+
+
+def roller_contact_capacities(
+    capacity: Scalar, n_rollers: int, roller_diameter: Scalar, pitch_diameter: Scalar, contact_angle: Scalar = 0.0
+) -> ContactCapacities:
+    r"""$Q_{ci} = \frac{1}{0.83}\frac{C}{0.378Z\cos\alpha}[1 + B^{9/2}]^{2/9}$, $Q_{ce} = \frac{1}{0.83}
+    \frac{C}{0.364Z\cos\alpha}[1 + B^{-9/2}]^{2/9}$, B with the constant 1.038.
+
+    **Evidence:** [D] line-contact integrals give 0.376 and 0.363; [C] within 0.4 % of Lundberg and Palmgren's form.
+    **Arguments:** as `capacity.roller_capacity`; `capacity` C, N.
+    """
+    gamma = ball_size_ratio(roller_diameter, pitch_diameter, contact_angle)
+    ratio = roller_ratio(gamma, 1.038)
+    share = capacity / (REDUCTION * n_rollers * jnp.cos(contact_angle))
+    inner = share / 0.378 * (1.0 + ratio**4.5) ** (2.0 / 9.0)
+    return ContactCapacities(inner, share / 0.364 * (1.0 + ratio**-4.5) ** (2.0 / 9.0))
+
+
+def _mean_power(relative: Array, turns: Bool[Array, ""], turning: float, resting: float) -> Array:
+    """Of relative loads over the elements (axis 0): mean of the power `turning`, raised to `resting`, or of that."""
+    mean = jnp.mean(relative**turning, axis=0)
+    rolled = (mean + TINY) ** (resting / turning) - TINY ** (resting / turning)
+    return jnp.where(turns, rolled, jnp.mean(relative**resting, axis=0))
+
+
+def ball_damage_rate(
+    inner: Float[Array, " element"],
+    outer: Float[Array, " element"],
+    capacities: ContactCapacities,
+    inner_turns: Bool[Array, ""],
+    outer_turns: Bool[Array, ""],
+) -> Float[Array, ""]:
+    r"""$1/L_{10r} = [(Q_{ei}/Q_{ci})^{10/3} + (Q_{ee}/Q_{ce})^{10/3}]^{9/10}$, per 10^6 revolutions.
+
+    **Evidence:** [C], see `ball_contact_capacities`. **Arguments:** loads of all contacts, N, zeros included; whether
+    each ring turns against the load.
+    """
+    rings = ((inner, capacities.inner, inner_turns), (outer, capacities.outer, outer_turns))
+    each = [_mean_power(load / limit, turns, 3.0, 10.0 / 3.0) for load, limit, turns in rings]
+    return _power(each[0] + each[1], 0.9)
+
+
+def edge_factors(n_laminae: int) -> np.ndarray:
+    r"""$f_k = 1 - 0.01/\ln(1.985|2k - n_s - 1|/(2n_s))$ of the laminae of a roller whose profile is not modelled: the
+    stress concentration at its ends; 1 in the exact middle; shape (n_laminae,).
+
+    **Evidence:** [M] plausible: 30 laminae give 1.2414 at the end, 1.0886 beside it, 1.0029 in the middle.
+    """
+    k = np.arange(1, n_laminae + 1)
+    distance = np.abs(2 * k - n_laminae - 1)
+    inside = distance > 0
+    argument = 1.985 * np.where(inside, distance, 1) / (2 * n_laminae)
+    return np.where(inside, 1.0 - 0.01 / np.log(argument), 1.0)
+
+
+def roller_damage_rate(
+    inner: Float[Array, "element lamina"],
+    outer: Float[Array, "element lamina"],
+    capacities: ContactCapacities,
+    inner_turns: Bool[Array, ""],
+    outer_turns: Bool[Array, ""],
+    factors: Float[np.ndarray, " lamina"] | Float[Array, " lamina"],
+) -> Float[Array, ""]:
+    r"""$1/L_{10r} = (\sum_k[(q_{kei}/q_{ci})^{9/2} + (q_{kee}/q_{ce})^{9/2}])^{8/9}$, $q_c = Q_cn_s^{-7/9}$, per 10^6
+    revolutions.
+
+    **Evidence:** [C], see `roller_contact_capacities`. The load exponent is 4 here and 10/3 in ISO 281, and the
+    factor $(1/0.83)^4$ is in the standard: lives differ from the catalogue's by 4 or 5 times at a moderate load.
+
+    **Arguments:** loads of all laminae, N; `factors` f_k on them.
+    """
+    count = inner.shape[1]
+    factor = jnp.asarray(factors)[None, :]
+    rings = ((inner, capacities.inner, inner_turns), (outer, capacities.outer, outer_turns))
+    each = [
+        jnp.sum(_mean_power(factor * load * count ** (7.0 / 9.0) / limit, turns, 4.0, 4.5))
+        for load, limit, turns in rings
+    ]
+    return _power(each[0] + each[1], 8.0 / 9.0)
+
+
+def _power(damage: Array, exponent: float) -> Array:
+    """damage^exponent with a finite slope at 0: the value there is 0."""
+    positive = damage > 0
+    return jnp.where(positive, jnp.where(positive, damage, 1.0) ** exponent, 0.0)

@@ -1,0 +1,84 @@
+"""The last state of a run from its NetCDF file, to go on from."""
+
+import os
+from collections.abc import Sequence
+
+import numpy as np
+import xarray as xr
+
+from ..bearings.history import LastState
+from ..ehl import FilmState
+
+_NEEDED = ("time", "state_rollers", "state_cage", "frame_angle", "frame_speed", "reference_speed", "azimuth")
+_OF_A_FILM = ("time", "pressure", "offset", "mass", "steps", "known", "proposal")
+"""Variables of a line contact's last state, without their prefix."""
+_PREFIX = "last_state_"
+
+
+def read_last_state(path: str | os.PathLike[str]) -> LastState | FilmState:
+    """For `jaxbearing.simulate(..., restart=...)`: the end of a run, of a bearing or a line contact, that `jaxbearing
+    simulate --out` wrote, also of one that was interrupted or stopped early.
+
+    **Raises:** `OSError` for a file that cannot be read, `ValueError` for one that is not of a run in time.
+    """
+    name = os.fspath(path)
+    # the reader's own message for a missing file is a guess at engines
+    with open(path, "rb"):
+        pass
+    try:
+        with xr.open_dataset(path, engine="h5netcdf", decode_times=False) as dataset:
+            if any(str(field).startswith(_PREFIX) for field in dataset.variables):
+                return _film_state(dataset)
+            return _bearing_state(dataset)
+    except _Other as error:
+        raise ValueError(f"{name} is not a run in time that can be gone on with: {error}") from None
+    # what is no NetCDF file, or half of one, fails in many ways
+    except Exception as error:
+        raise ValueError(f"{name} is not a NetCDF file that can be read: {_first_line(error)}") from None
+
+
+def _bearing_state(dataset: xr.Dataset) -> LastState:
+    _require(dataset, _NEEDED)
+    if dataset.sizes["time"] == 0:
+        raise _Other("it has no instants")
+    last = dataset[list(_NEEDED)].isel(time=-1)
+    values = {field: np.asarray(last[field].values, dtype=float) for field in _NEEDED}
+    if values["state_rollers"].ndim != 2 or values["state_rollers"].shape[0] != 3 or values["state_cage"].shape != (6,):
+        raise _Other("its states have another shape")
+    return LastState(
+        time=values["time"],
+        rollers=values["state_rollers"],
+        cage=values["state_cage"],
+        frame_angle=values["frame_angle"],
+        frame_speed=values["frame_speed"],
+        reference_speed=values["reference_speed"],
+        azimuth=values["azimuth"],
+        has_cage="cage_speed" in dataset.variables,
+    )
+
+
+def _film_state(dataset: xr.Dataset) -> FilmState:
+    names = [_PREFIX + field for field in _OF_A_FILM]
+    _require(dataset, ["x", *names])
+    x = np.asarray(dataset["x"].values, dtype=float)
+    values = {field: np.asarray(dataset[_PREFIX + field].values) for field in _OF_A_FILM}
+    n = x.shape[0] if x.ndim == 1 else -1
+    shapes = {"pressure": (3, n), "offset": (3,), "mass": (3, n), "steps": (2,)}
+    if any(values[field].shape != shapes.get(field, ()) for field in _OF_A_FILM):
+        raise _Other("its state has another shape")
+    known = values.pop("known").astype(int)
+    return FilmState(x=x, known=known, **{field: value.astype(float) for field, value in values.items()})
+
+
+def _require(dataset: xr.Dataset, fields: Sequence[str]) -> None:
+    missing = [field for field in fields if field not in dataset.variables]
+    if missing:
+        raise _Other(f"it has no {', '.join(missing)}")
+
+
+class _Other(Exception):
+    """A file of something else."""
+
+
+def _first_line(error: Exception) -> str:
+    return (str(error).strip() or type(error).__name__).splitlines()[0]

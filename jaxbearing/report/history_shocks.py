@@ -1,0 +1,117 @@
+"""Shocks between rolling elements and cage: peaks turn by turn, how they are spread round the azimuth, and whirl."""
+
+import math
+from typing import Any, NamedTuple
+
+import numpy as np
+from jaxtyping import Float, Int
+
+from ..bearings.history import History
+
+FACES = ("front", "rear")
+SECTORS = 12
+"""Equal parts of the circumference, the first one beginning at the load line."""
+SHOCK_OVER_MEDIAN, SHOCK_OVER_LARGEST = 10.0, 0.1
+"""A pocket load counts as a shock above this many times the median of all pocket loads of the run, and above this part
+of the largest one."""
+SHOCK = "a tenth of the largest and ten times the median pocket load"
+"""From where on a pocket load is a shock, in words."""
+
+
+class Sectors(NamedTuple):
+    """Shocks round the azimuth: `number` and `mean_peak`, N (NaN where there is none), front and rear; `edges`, rad,
+    from the load line; `threshold`, N, from which a load is a shock. Neighbouring intervals above it are one shock."""
+
+    edges: Float[np.ndarray, " edge"]
+    threshold: float
+    number: Int[np.ndarray, "2 sector"]
+    mean_peak: Float[np.ndarray, "2 sector"]
+
+
+def angle_of(history: History) -> Float[np.ndarray, " time"]:
+    """Angle by which the cage (or, without one, the first roller) has turned since the start, at each time, rad."""
+    instants = history.instants
+    speed = instants.elements.orbital_speed[:, 0] if instants.cage is None else instants.cage.speed
+    time, speed = np.asarray(history.time), np.asarray(speed)
+    steps = 0.5 * (speed[1:] + speed[:-1]) * np.diff(time)
+    return np.concatenate([[0.0], np.cumsum(steps)])
+
+
+def turns(history: History) -> Int[np.ndarray, " time"]:
+    """Whole turns of the cage (or, without one, of the first roller) since the start, at each time."""
+    return np.floor(np.abs(angle_of(history)) / (2.0 * math.pi) + 1e-12).astype(int)
+
+
+def pocket_peaks(history: History) -> Float[np.ndarray, "2 time element"] | None:
+    """Largest pocket loads, front and rear, N, since the instant before; `None` without pockets."""
+    peaks = history.instants.pocket_peaks
+    return None if peaks is None else np.stack([np.asarray(getattr(peaks, face)) for face in FACES])
+
+
+def peaks_by_turn(history: History) -> Float[np.ndarray, "2 turn element"] | None:
+    """Largest pocket load of each roller in each turn of the cage, front and rear, N; the last turn may be a part."""
+    load = pocket_peaks(history)
+    if load is None:
+        return None
+    number = turns(history)
+    # no instant may lie in a turn where instants are far apart
+    return np.stack([load[:, number == turn].max(axis=1, initial=0.0) for turn in range(number[-1] + 1)], axis=1)
+
+
+def shocks(history: History) -> dict[str, list[dict[str, float]]]:
+    """Largest load of each roller on the front and the rear wall of its pocket, turn by turn: mean and maximum over the
+    rollers, N; the last turn may not be a whole one (`part` says how much of it there is)."""
+    peaks = peaks_by_turn(history)
+    if peaks is None:
+        return {}
+    # all turns but the last are whole
+    done = float(np.abs(angle_of(history)[-1])) / (2.0 * math.pi)
+    parts = [min(1.0, done - turn) for turn in range(peaks.shape[1])]
+    return {
+        face: [
+            {"mean": float(peak.mean()), "max": float(peak.max()), "part": part}
+            for peak, part in zip(of_face, parts, strict=True)
+        ]
+        for face, of_face in zip(FACES, peaks, strict=True)
+    }
+
+
+def sectors(history: History) -> Sectors | None:
+    """How shocks are spread round the azimuth; `None` without pockets."""
+    load = pocket_peaks(history)
+    if load is None:
+        return None
+    azimuth = np.mod(np.asarray(history.instants.elements.azimuth), 2.0 * math.pi)
+    threshold = max(SHOCK_OVER_MEDIAN * float(np.median(load)), SHOCK_OVER_LARGEST * float(np.max(load)))
+    count, total = np.zeros((2, SECTORS), dtype=int), np.zeros((2, SECTORS))
+    for face in range(2):
+        for element in range(load.shape[2]):
+            for at, peak in single_shocks(load[face, :, element], threshold):
+                sector = min(int(azimuth[at, element] / (2.0 * math.pi) * SECTORS), SECTORS - 1)
+                count[face, sector] += 1
+                total[face, sector] += peak
+    mean = np.where(count > 0, total / np.maximum(count, 1), np.nan)
+    return Sectors(np.linspace(0.0, 2.0 * math.pi, SECTORS + 1), threshold, count, mean)
+
+
+def single_shocks(load: Float[np.ndarray, " time"], threshold: float) -> list[tuple[int, float]]:
+    """Index and height of the peak of every uninterrupted stay above a threshold."""
+    above = np.concatenate([[False], load > threshold, [False]])
+    begins, ends = np.flatnonzero(above[1:] & ~above[:-1]), np.flatnonzero(above[:-1] & ~above[1:])
+    found = [int(begin) + int(np.argmax(load[begin:end])) for begin, end in zip(begins, ends, strict=True)]
+    return [(at, float(load[at])) for at in found]
+
+
+def whirl_ratio(history: History) -> float | None:
+    """Mean angular speed of the cage's centre about its mean place over the mean cage speed; > 0: whirls the way it
+    turns. `None` without a cage and for less than three instants."""
+    cage, time = history.instants.cage, np.asarray(history.time)
+    if cage is None or time.size < 3:
+        return None
+    return mean_whirl(time, np.asarray(cage.x), np.asarray(cage.y)) / float(np.mean(cage.speed))
+
+
+def mean_whirl(time: Any, x: Any, y: Any) -> float:
+    """Mean angular speed, rad/s, of a point about its mean place: X to the right, Y upwards, counter-clockwise > 0."""
+    turned = np.unwrap(np.arctan2(y - np.mean(y), x - np.mean(x)))
+    return float((turned[-1] - turned[0]) / (time[-1] - time[0]))

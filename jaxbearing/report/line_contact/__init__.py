@@ -1,0 +1,1 @@
+"""How the film of a line contact is shown, steady and in time."""

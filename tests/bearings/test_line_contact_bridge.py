@@ -1,0 +1,98 @@
+"""The line contact that stands for a ball on a race."""
+
+import jax.numpy as jnp
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+
+import jaxbearing as jb
+from jaxbearing.bearings.line_contact_bridge import line_contact_of
+from jaxbearing.ehl import FilmModel
+from jaxbearing.materials import reduced_modulus
+from jaxbearing.numerics.status import Status
+
+BARE = {"contact.thermal": "none", "cage": "none", "contact.rolling_resistance": "none"}
+ROLLING = BARE | {"contact.traction": "none", "kinematics": "none", "drag": "none"}
+"""Without friction: balls roll without sliding."""
+
+
+@pytest.fixture(scope="module")
+def rolling():
+    scene = jb.load_scene("turbine_ball", ROLLING)
+    return scene, jb.solve(scene)
+
+
+@pytest.fixture(scope="module")
+def sliding():
+    """A light load at high speed, against drag: the balls slide by 11 m/s on the inner race."""
+    changes = {"operation.axial_load": "500 N", "contact.traction_accuracy": "1e-2"}
+    scene = jb.load_scene("turbine_ball", BARE | changes)
+    return scene, jb.solve(scene)
+
+
+def surfaces(scene, solution, race, ball=0):
+    """Speeds of race and ball along rolling, relative to the contact, by hand."""
+    elements, geometry = solution.elements, scene.geometry
+    angle = float(getattr(elements, f"contact_angle_{race}")[ball])
+    names = ("orbital_speed", "spin_speed", "attitude_angle")
+    orbit, spin, attitude = (float(getattr(elements, name)[ball]) for name in names)
+    pitch, diameter = float(geometry.pitch_diameter), float(geometry.ball_diameter)
+    if race == "inner":
+        ring = (float(scene.operation.inner_speed) - orbit) * 0.5 * (pitch - diameter * np.cos(angle))
+    else:
+        ring = (orbit - float(scene.operation.outer_speed)) * 0.5 * (pitch + diameter * np.cos(angle))
+    return ring, 0.5 * spin * diameter * np.cos(angle - attitude)
+
+
+@pytest.mark.parametrize("race", ["inner", "outer"])
+@pytest.mark.parametrize("case", ["rolling", "sliding"])
+def test_hertz_contact_is_that_of_the_ball(case, race, request):
+    """Pressure and half width along rolling to round-off, those of the solution's own ellipse."""
+    scene, solution = request.getfixturevalue(case)
+    scales = line_contact_of(scene, solution, race=race).scales()
+    elements = solution.elements
+    assert_allclose(scales.hertz_pressure, getattr(elements, f"pressure_{race}")[0], rtol=1e-12)
+    cosines = (np.cos(elements.contact_angle_inner), np.cos(elements.contact_angle_outer))
+    modulus = reduced_modulus(scene.materials.rings, scene.materials.balls)
+    loads = np.stack([elements.load_inner, elements.load_outer])
+    ellipse = scene.geometry.contacts(*cosines, modulus).ellipse(loads)
+    assert_allclose(scales.half_width, ellipse.rolling[("inner", "outer").index(race), 0], rtol=1e-12)
+
+
+@pytest.mark.parametrize("race", ["inner", "outer"])
+def test_entrainment_is_the_mean_of_both_surfaces(rolling, sliding, race):
+    """Rolling without sliding both surfaces are as fast as the race; with friction they differ by the sliding."""
+    for scene, solution in (rolling, sliding):
+        ring, ball = surfaces(scene, solution, race)
+        found = float(line_contact_of(scene, solution, race=race).operation.entrainment_speed)
+        assert_allclose(found, 0.5 * (ring + ball), rtol=1e-12)
+        assert found > 0
+    ring, ball = surfaces(*rolling, race)
+    assert_allclose(ball, ring, rtol=1e-12)
+    ring, ball = surfaces(*sliding, race)
+    slid = float(getattr(sliding[1].elements, f"sliding_{race}")[0])
+    assert_allclose(abs(ball - ring), abs(slid), rtol=1e-6)
+    assert abs(slid) > 0.02 * abs(ring)
+
+
+@pytest.mark.parametrize("race", ["inner", "outer"])
+def test_a_like_film(rolling, race):
+    scene, solution = rolling
+    line = line_contact_of(scene, solution, race=race, model=FilmModel(nodes=101, compressible=False))
+    cosine = np.cos(getattr(solution.elements, f"contact_angle_{race}")[0])
+    ratio = 20.638 / 153.0 * cosine
+    radius = 0.5 * 20.638e-3 * (1.0 - ratio if race == "inner" else 1.0 + ratio)
+    assert_allclose(line.geometry.reduced_radius_rolling, radius, rtol=0.1)
+    film = jb.solve(line).film
+    point = float(getattr(solution.elements, f"film_{race}")[0])
+    assert 0.6 < float(film.central) / point < 1.5
+
+
+def test_refusals():
+    scene = jb.load_scene("turbine_ball", ROLLING)
+    solution = jb.solve(scene)
+    with pytest.raises(ValueError, match="ball: found 20, expected a number from 0 to 19"):
+        line_contact_of(scene, solution, ball=20)
+    object.__setattr__(solution, "status", jnp.asarray(int(Status.DIVERGED)))
+    with pytest.raises(jb.SolveError):
+        line_contact_of(scene, solution)

@@ -1,0 +1,282 @@
+"""Tapered roller bearing: check values, closures, energy, refusals, freedoms, no equilibrium, stiffness, gradients."""
+
+import dataclasses
+
+import jax
+import jax.numpy as jnp
+import numpy as np
+import pytest
+from tapered_cases import G1, RPM, STEEL, tapered
+
+import jaxbearing as jb
+from jaxbearing.bearings.tapered_build import build_tapered, roller_body
+from jaxbearing.bearings.tapered_geometry import TaperedGeometry
+from jaxbearing.numerics.arrow import ArrowPoint, evaluate
+from jaxbearing.numerics.status import Status
+from jaxbearing.solve import jit_solver
+
+CUP = G1["contact_angle"]
+TIGHT = jb.NewtonOptions(residual_tolerance=1e-13, step_tolerance=1e-11)
+
+# Da, D1 (um), tilt, then of roller 0: Q_i, Q_o, Q_f, u_x, phi, u_z; printed to 7 digits, with a spring of 1 N/m
+CHECKS = {
+    "A": ((10e3,), {}, (58.03818, 0, 0, 2420.416, 2425.397, 169.1898, 5.54238e-5, 8.69183e-5, 4.66123e-6)),
+    "B": (
+        (5e3, 10e3, 3000),
+        {},
+        (30.25991, 7.121336, 0, 2452.596, 2458.972, 171.7668, 2.67573e-5, 8.80081e-5, 5.74437e-6),
+    ),
+    "C": ((3e3, None, 15000), {}, (19.29163, 0, 0, 692.9694, 727.6192, 56.63041, 1.82271e-5, 2.96293e-5, 1.59468e-6)),
+    "D": (
+        (8e3, 6e3, 3000),
+        {"moment": 660.0},
+        (47.20960, 133.7550, -1.154747e-3, 2672.520, 2679.348, 187.1397, 1.85987e-5, 6.72846e-4, 3.84563e-6),
+    ),
+}
+
+
+@pytest.fixture(scope="module")
+def solutions():
+    return {name: jb.solve(tapered(*loads, **more)) for name, (loads, more, _) in CHECKS.items()}
+
+
+@pytest.mark.parametrize("name", CHECKS)
+def test_check_values(name, solutions):
+    found, e = solutions[name], solutions[name].elements
+    places = (e.load_inner, e.load_outer, e.load_flange, e.roller_shift, e.roller_tilt, e.roller_lift)
+    values = [found.ring.axial * 1e6, found.ring.radial * 1e6, found.ring.tilt, *(v[0] for v in places)]
+    np.testing.assert_allclose(values, CHECKS[name][2], rtol=3e-6, atol=1e-12)  # printed to 6 digits
+
+
+def test_geometry_check_values():
+    geometry = TaperedGeometry(**G1)
+    values = {
+        "big_end_radius": 23.736355e-3,
+        "apex_distance": 0.11389849,
+        "flange_radius": 20.634142e-3,
+        "mean_roller_diameter": 7.6149648e-3,
+        "pitch_diameter": 45.4708581e-3,
+        "flange_tilt": np.radians(1.686),
+        "cone_angle": np.radians(10.036),
+    }
+    for name, value in values.items():
+        np.testing.assert_allclose(getattr(geometry, name), value, rtol=5e-8)
+    contact = geometry.flange_contact(206e9 / 0.91)
+    # the ellipse is long in the direction of rolling: the rib closes round the sphere
+    np.testing.assert_allclose(1.0 / contact.ellipticity(), 6.2139517, rtol=1e-7)
+    np.testing.assert_allclose(contact.stiffness_constant(), 1.1670794e11, rtol=5e-8)
+    np.testing.assert_allclose(
+        1 / contact.reduced_radius_rolling + 1 / contact.reduced_radius_transverse, 9.8115535, rtol=5e-8
+    )
+    body = roller_body(geometry, jnp.asarray(7850.0))
+    np.testing.assert_allclose(body, (3.4322749e-3, 4.6564623e-3, 2.4958943e-8, 3.8752955e-8), rtol=5e-8)
+    fast = build_tapered(tapered(1e4, rpm=15000)).inertia
+    np.testing.assert_allclose((fast.force, fast.moment), (33.7034, 0.0168145), rtol=3e-6)  # printed to 6 digits
+
+
+def test_axial_load_in_closed_form(solutions):
+    e, half, theta = solutions["A"].elements, G1["roller_half_angle"], np.radians(1.686)
+    outer = 10e3 / 17 / np.sin(CUP)
+    ratio = np.cos(theta) / np.sin(half), np.sin(theta) / np.cos(half)
+    flange = 2.0 * outer / sum(ratio)
+    expected = (0.5 * flange * (ratio[0] - ratio[1]), outer, flange)
+    np.testing.assert_allclose((e.load_inner[0], e.load_outer[0], e.load_flange[0]), expected, rtol=1e-11)
+
+
+@pytest.mark.parametrize("name", CHECKS)
+def test_loads_close(name, solutions):
+    """Forces of the cup equal the loads on the cone, and the moments about the apex too (F1: 1e-9)."""
+    loads, more, _ = CHECKS[name]
+    e = solutions[name].elements
+    axial, radial = loads[0], (loads[1] or 0.0) if len(loads) > 1 else 0.0
+    sine, cosine = np.sin(CUP), np.cos(CUP)
+    np.testing.assert_allclose(np.sum(e.load_outer) * sine, axial, rtol=1e-9)
+    np.testing.assert_allclose(np.sum(e.load_outer * np.cos(e.azimuth)) * cosine, radial, atol=1e-9 * axial)
+    cone, rib = np.radians(10.036), G1["flange_angle"]
+    np.testing.assert_allclose(np.sum(e.load_inner * np.sin(cone) + e.load_flange * np.cos(rib)), axial, rtol=1e-9)
+    along = (e.load_inner * np.cos(cone) - e.load_flange * np.sin(rib)) * np.cos(e.azimuth)
+    np.testing.assert_allclose(np.sum(along), radial, atol=1e-9 * axial)
+    if name in ("A", "D"):
+        return
+    # moments: those of the cup, of the inertia and of the ring's holder about the apex
+    scene = tapered(*loads, **more)
+    system = build_tapered(scene, ("axial", "radial", "tilt"))
+    ring, own = solutions[name].ring, e
+    units = np.asarray(system.units())
+    place = jnp.stack([own.roller_shift, own.roller_lift, own.roller_tilt]) / units
+    state = system.at(ArrowPoint(place, jnp.stack([ring.axial, ring.radial, 0.0 * ring.axial]) / 1e-5))
+    on_ring, on_cup = np.asarray(system.ring_force(state)), np.asarray(system.cup_force(state))
+    inertia, gamma = system.inertia, np.radians(12.036)
+    a = -G1["roller_diameter"] / 2 * np.cos(gamma) / np.tan(G1["roller_half_angle"]) + inertia.centre * np.cos(gamma)
+    # a force outwards at a, and a couple that turns the small end inwards (from a towards r: negative)
+    np.testing.assert_allclose(on_cup[0], on_ring[0], rtol=1e-8)
+    np.testing.assert_allclose(on_cup[1], on_ring[1] + inertia.force, rtol=1e-8)
+    np.testing.assert_allclose(on_cup[2], on_ring[2] + inertia.force * a - inertia.moment, rtol=1e-8)
+    if name == "B":
+        held = np.sum(on_ring[2] * np.cos(e.azimuth))
+        np.testing.assert_allclose(held, -1123.4679, rtol=1e-7)
+        np.testing.assert_allclose(
+            (e.load_inner[8], e.load_outer[8], e.load_flange[8]), (64.3678, 65.8292, 4.8271), rtol=2e-5
+        )
+
+
+@pytest.mark.parametrize("laminae", [False, True])
+def test_equations_are_the_gradient_of_the_energy(laminae):
+    scene = tapered(5e3, 10e3, 5000, moment=600.0, load_position=-0.02)
+    if laminae:
+        scene = with_profile(scene)
+    system = build_tapered(scene)
+    rng = np.random.default_rng(1)
+    start = system.initial()
+    for _ in range(4):
+        point = ArrowPoint(
+            start.elements + jnp.asarray(rng.normal(size=start.elements.shape)),
+            start.globals + jnp.asarray(rng.normal(size=start.globals.shape)),
+        )
+        slope = jax.grad(system.potential)(point)
+        found = evaluate(system, point).residual
+        scale = 1e-5 * system.roller_scale()
+        np.testing.assert_allclose(
+            found.elements * scale, slope.elements, rtol=1e-8, atol=1e-8 * np.max(slope.elements)
+        )
+        scale = 1e-5 * system.load_scale()
+        np.testing.assert_allclose(found.globals * scale, slope.globals, rtol=1e-8, atol=1e-8 * np.max(slope.globals))
+
+
+def with_profile(scene):
+    from jaxbearing.bearings.roller_profile import RollerProfile
+    from jaxbearing.contacts import LogarithmicProfile
+
+    return scene.replace({"profile": RollerProfile(LogarithmicProfile(4e-6))})
+
+
+REFUSED = {
+    "contact_angle": {"contact_angle": 1.6},
+    "roller_half_angle": {"roller_half_angle": np.radians(0.2)},
+    "roller_half_angle ": {"roller_half_angle": np.radians(7.5)},
+    "roller_length": {"roller_length": 0.2},
+    "end_radius": {"end_radius": 3e-3},
+    "n_rollers": {"n_rollers": 19},
+    "flange_angle": {"flange_angle": np.radians(12.5)},
+    "flange_angle ": {"flange_angle": np.radians(9.5)},
+    "end_radius ": {"roller_half_angle": np.radians(2.0), "end_radius": 300e-3, "flange_angle": np.radians(11.5)},
+}
+
+
+@pytest.mark.parametrize("name", REFUSED)
+def test_impossible_bearings_are_refused(name):
+    with pytest.raises(ValueError, match=f"geometry.{name.strip()}"):
+        TaperedGeometry(**(G1 | REFUSED[name]))
+
+
+@pytest.mark.slow
+def test_one_roller_stands_for_all():
+    whole = jb.solve(tapered(10e3, 0.0, 3000, misalignment=0.0))
+    one = jb.solve(tapered(10e3, None, 3000))
+    assert (one.unknowns, whole.unknowns) == (4, 53)
+    for name in ("load_inner", "load_outer", "load_flange", "roller_tilt"):
+        np.testing.assert_allclose(getattr(one.elements, name), getattr(whole.elements, name), rtol=1e-9)
+    np.testing.assert_allclose(one.stiffness, whole.stiffness, rtol=1e-7, atol=1e-6 * float(whole.stiffness[3, 3]))
+
+
+def test_reference_point_and_free_tilt():
+    """The reference point changes no load: only which displacement and which moment are meant."""
+    at_apex = jb.solve(tapered(8e3, 6e3, 3000, moment=660.0))
+    position = -0.11
+    elsewhere = jb.solve(tapered(8e3, 6e3, 3000, moment=660.0 + position * 6e3, load_position=position))
+    np.testing.assert_allclose(elsewhere.elements.load_inner, at_apex.elements.load_inner, rtol=1e-7)
+    np.testing.assert_allclose(elsewhere.ring.tilt, at_apex.ring.tilt, rtol=1e-8)
+    moved = at_apex.ring.radial - position * at_apex.ring.tilt
+    np.testing.assert_allclose(elsewhere.ring.radial, moved, rtol=1e-6, atol=1e-10)
+    # held at that tilt the loads are the same
+    held = jb.solve(tapered(8e3, 6e3, 3000, misalignment=float(at_apex.ring.tilt)))
+    np.testing.assert_allclose(held.elements.load_inner, at_apex.elements.load_inner, rtol=1e-7)
+
+
+@pytest.mark.slow
+def test_stiffness_is_the_derivative_of_the_load(solutions):
+    stiffness = solutions["D"].stiffness
+    np.testing.assert_allclose(stiffness, stiffness.T, rtol=1e-8, atol=1e-9 * float(stiffness[3, 3]))
+    assert np.all(np.linalg.eigvalsh(stiffness) > 0)
+    fast = jit_solver(tapered(8e3, 6e3, 3000, moment=660.0), options=TIGHT)
+    steps = {"axial_load": (8e3, 20.0), "radial_load": (6e3, 5.0), "moment": (660.0, 0.5)}
+    place = lambda **load: np.array([getattr(fast(**load).ring, name) for name in ("axial", "radial", "tilt")])
+    compliance = []
+    for name, (value, step) in steps.items():
+        near, far = (place(**{name: value + k * step}) - place(**{name: value - k * step}) for k in (1, 2))
+        compliance.append((8.0 * near - far) / (12.0 * step))
+    # lateral freedoms do not couple: the symmetry about the load line
+    product = np.array(compliance) @ np.asarray(stiffness)[np.ix_([0, 1, 3], [0, 1, 3])]
+    lengths = np.array([1.0, 1.0, 0.114])  # forces over forces, moments over forces times 114 mm
+    np.testing.assert_allclose(product * lengths[:, None] / lengths[None, :], np.eye(3), atol=2e-6)
+
+
+@pytest.mark.parametrize("ratio", [0.98, 0.5])
+def test_no_equilibrium(ratio):
+    """Below the static bound no distribution of loads balances; above it, however near, one does."""
+    radial = 10e3
+    fast = jit_solver(tapered(5e3, radial, 3000))
+    assert int(fast(axial_load=ratio * radial * np.tan(CUP)).status) == Status.NO_EQUILIBRIUM
+    near = fast(axial_load=1.02 * radial * np.tan(CUP))
+    assert bool(near.converged)
+    assert int(np.sum(near.elements.load_inner > 0)) < 17
+    with pytest.raises(jb.SolveError, match="no_equilibrium"):
+        jb.solve(tapered(ratio * radial * np.tan(CUP), radial, 3000))
+    assert int(fast(axial_load=-100.0).status) == Status.NO_EQUILIBRIUM
+
+
+@pytest.mark.slow
+def test_gradients_through_the_solve():
+    """Also of a partly loaded bearing at rest, whose other rollers touch nothing."""
+    scene = tapered(3e3, 10e3)
+
+    def most(numbers):
+        changed = scene.at_operation(axial_load=numbers[0], radial_load=numbers[1])
+        changed = changed.replace_geometry(end_radius=numbers[2], roller_diameter=numbers[3])
+        solution = jb.solve(changed, throw=False, options=TIGHT)
+        return jnp.stack(
+            [solution.ring.axial * 1e9, solution.elements.load_inner[0], solution.elements.pressure_outer[0] * 1e-6]
+        )
+
+    point = jnp.asarray([3e3, 10e3, 108e-3, 7.95e-3])
+    assert np.any(jb.solve(scene).elements.load_outer == 0.0)
+    slope, value = jax.jit(jax.jacrev(most))(point), jax.jit(most)
+    # the end radius hardly moves anything: its differences need a longer step
+    for i, relative in enumerate((1e-4, 1e-4, 3e-4, 1e-4)):
+        step = relative * point[i]
+        near, far = (value(point.at[i].add(k * step)) - value(point.at[i].add(-k * step)) for k in (1, 2))
+        np.testing.assert_allclose(slope[:, i], (8.0 * near - far) / (12.0 * step), rtol=1e-6)
+
+
+@pytest.mark.slow
+def test_partial_contact_and_pressures():
+    """Misaligned by 2 mrad some rollers touch over a part of their length, and the pressure peaks at an end."""
+    e = jb.solve(tapered(8e3, 6e3, 3000, misalignment=2e-3)).elements
+    straight = jb.solve(tapered(8e3, 6e3, 3000)).elements
+    assert np.max(e.pressure_inner) > 1.2 * np.max(straight.pressure_inner)
+    assert np.all(e.pressure_flange >= 0)
+
+
+@pytest.mark.slow
+def test_laminae_of_straight_rollers_find_the_same():
+    from jaxbearing.bearings.roller_profile import RollerProfile
+
+    plain = jb.solve(tapered(5e3, 10e3, 3000))
+    cut = jb.solve(tapered(5e3, 10e3, 3000).replace({"profile": RollerProfile()}))
+    np.testing.assert_allclose(cut.elements.load_inner, plain.elements.load_inner, rtol=1e-6)
+    np.testing.assert_allclose(np.sum(plain.laminae.inner, axis=1), plain.elements.load_inner, rtol=1e-5)
+
+
+@pytest.mark.slow
+def test_a_profile_relieves_the_ends():
+    straight = jb.solve(tapered(8e3, 6e3, 3000, misalignment=2e-3)).elements
+    relieved = jb.solve(with_profile(tapered(8e3, 6e3, 3000, misalignment=2e-3))).elements
+    assert np.max(relieved.pressure_inner) < np.max(straight.pressure_inner)
+
+
+def test_both_rings_turn():
+    """As seen from the cage nothing but the centrifugal force changes when both rings turn on."""
+    turning = build_tapered(tapered(5e3, rpm=3000, outer_speed=3000 * RPM)).inertia
+    alone = build_tapered(tapered(5e3, rpm=3000)).inertia
+    assert turning.force > 4.0 * alone.force
+    assert dataclasses.replace(STEEL).density == 7850.0

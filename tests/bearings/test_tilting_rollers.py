@@ -1,0 +1,127 @@
+"""Cylindrical rollers that tilt, with profiles: the plane model as limit, closures, freedoms, life and gradients."""
+
+import jax
+import jax.numpy as jnp
+import numpy as np
+import pytest
+
+import jaxbearing as jb
+from jaxbearing.bearings.rating import Rating
+from jaxbearing.bearings.roller_profile import RollerProfile
+from jaxbearing.bearings.tilting_steady import build_tilting
+from jaxbearing.contacts import CrownedProfile, LogarithmicProfile
+from jaxbearing.numerics.arrow import ArrowPoint, evaluate
+from jaxbearing.numerics.precision import as_float
+from jaxbearing.solve import jit_solver
+
+DRY = dict.fromkeys(("contact", "oil", "cage", "flange", "drag"))
+TIGHT = jb.NewtonOptions(residual_tolerance=1e-13, step_tolerance=1e-11)
+
+
+def roller(profile=None, **operation):
+    """The dry bearing of `turbine_roller`."""
+    scene = jb.load_scene("turbine_roller").replace({**DRY, "rating": Rating(), "profile": profile})
+    return scene.replace({f"operation.{name}": value for name, value in operation.items()})
+
+
+LOGARITHMIC = RollerProfile(LogarithmicProfile(5e-6))
+
+
+@pytest.fixture(scope="module")
+def tilted():
+    return jit_solver(roller(LOGARITHMIC, misalignment=1e-3), options=TIGHT)
+
+
+def test_straight_aligned_rollers_are_the_plane_model():
+    plain, cut = jb.solve(roller()), jb.solve(roller(RollerProfile()))
+    np.testing.assert_allclose(cut.elements.load_inner, plain.elements.load_inner, atol=1e-9 * 4200.0)
+    np.testing.assert_allclose(cut.elements.load_outer, plain.elements.load_outer, rtol=1e-10)
+    np.testing.assert_allclose(cut.elements.pressure_inner, plain.elements.pressure_inner, rtol=1e-9, atol=1.0)
+    np.testing.assert_allclose(cut.ring.radial, plain.ring.radial, rtol=1e-11)
+    np.testing.assert_allclose(cut.life.damage_rate, plain.life.damage_rate, rtol=1e-10)
+    np.testing.assert_allclose(cut.stiffness[0, 0], plain.stiffness[0, 0], rtol=1e-8)
+    assert plain.laminae is None
+    assert (plain.unknowns, cut.unknowns) == (1, 61)
+
+
+def test_balances_close(tilted):
+    found = tilted(misalignment=2e-3)
+    e, load = found.elements, 25e3
+    np.testing.assert_allclose(np.sum(e.load_inner * np.cos(e.azimuth)), load, rtol=1e-11)
+    centrifugal = e.load_outer - e.load_inner
+    np.testing.assert_allclose(centrifugal, centrifugal[0], rtol=1e-8)
+    np.testing.assert_allclose(np.sum(found.laminae.inner, axis=1), e.load_inner, rtol=1e-12, atol=1e-12 * load)
+    # moments of both races about the roller's middle are equal, lamina by lamina to their own error
+    lever = (np.arange(30) + 0.5) / 30 - 0.5
+    both = [np.asarray(side) @ lever for side in (found.laminae.inner, found.laminae.outer)]
+    np.testing.assert_allclose(both[0], both[1], atol=2e-3 * np.max(np.abs(both[0])))
+
+
+def test_equations_are_the_gradient_of_the_energy():
+    system = build_tilting(jax.tree.map(as_float, roller(LOGARITHMIC, moment=20.0)))
+    rng = np.random.default_rng(2)
+    start = system.initial()
+    point = ArrowPoint(
+        start.elements + jnp.asarray(rng.normal(size=start.elements.shape)),
+        start.globals + jnp.asarray(rng.normal(size=start.globals.shape)),
+    )
+    slope, found = jax.grad(system.potential)(point), evaluate(system, point).residual
+    np.testing.assert_allclose(found.elements * 1e-5 * system.roller_scale(), slope.elements, rtol=1e-8, atol=1e-9)
+    np.testing.assert_allclose(found.globals * 1e-5 * system.load_scale(), slope.globals, rtol=1e-8, atol=1e-9)
+
+
+@pytest.mark.slow
+def test_moment_and_misalignment_are_two_sides_of_one_state(tilted):
+    held = tilted(misalignment=8e-4)
+    lever = 12.4e-3 * ((np.arange(30) + 0.5) / 30 - 0.5)
+    free = jb.solve(roller(LOGARITHMIC, moment=15.0), options=TIGHT)
+    again = tilted(misalignment=free.ring.tilt)
+    np.testing.assert_allclose(again.elements.load_inner, free.elements.load_inner, rtol=1e-8, atol=1e-6)
+    # the reaction: a tilt that moves azimuth 0 axially lifts the rollers' far ends there
+    reaction = -np.sum((np.asarray(free.laminae.inner) @ lever) * np.cos(free.elements.azimuth))
+    np.testing.assert_allclose(reaction, 15.0, rtol=2e-3)
+    assert held.ring.tilt == 8e-4
+    np.testing.assert_allclose(free.stiffness, free.stiffness.T, atol=1e-8 * float(free.stiffness[0, 0]))
+
+
+def test_misalignment_shortens_life_and_its_sign_does_not_matter(tilted):
+    lives = [float(tilted(misalignment=tilt).life.L10r) for tilt in (0.0, 1e-3, 2e-3, -2e-3)]
+    assert lives[0] > lives[1] > lives[2]
+    np.testing.assert_allclose(lives[3], lives[2], rtol=1e-9)
+
+
+@pytest.mark.slow
+def test_large_tilt_of_a_preloaded_bearing_converges(tilted):
+    scene = roller(RollerProfile(CrownedProfile(8e-6, 0.5)), misalignment=5e-3)
+    found = jb.solve(scene.replace({"geometry.diametral_clearance": -20e-6, "operation.inner_speed": 0.0}))
+    assert bool(found.converged)
+    assert np.all(np.isfinite(found.stiffness))
+    assert bool(tilted(misalignment=0.02, radial_load=100.0).converged)
+
+
+@pytest.mark.slow
+def test_gradients_of_life(tilted):
+    """F5: profile drop, clearance and tilt against central differences, to 1e-6."""
+
+    def life(drop, clearance, tilt):
+        changed = roller(LOGARITHMIC, misalignment=tilt).replace(
+            {"geometry.diametral_clearance": clearance, "profile.shape.drop": drop}
+        )
+        return jb.solve(changed, throw=False, options=TIGHT).life.L10r
+
+    point = (5e-6, 30e-6, 1e-3)
+    value = jax.jit(life)
+    slopes = jax.jit(jax.grad(life, argnums=(0, 1, 2)))(*point)
+    assert np.isfinite(value(*point))
+    for i in range(3):
+        step = 2e-4 * point[i]
+        at = lambda k, i=i, step=step: value(*(x + (k * step if j == i else 0.0) for j, x in enumerate(point)))
+        difference = (8.0 * (at(1) - at(-1)) - (at(2) - at(-2))) / (12.0 * step)
+        np.testing.assert_allclose(slopes[i], difference, rtol=1e-6)
+
+
+def test_refusals():
+    with pytest.raises(ValueError, match="contact: tilting"):
+        jb.load_scene("turbine_roller").replace({"operation.misalignment": 1e-3})
+    with pytest.raises(ValueError, match="sets the tilt free"):
+        roller(misalignment=1e-3, moment=0.0)

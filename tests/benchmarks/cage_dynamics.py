@@ -1,0 +1,265 @@
+"""Speed AND error of runs in time, every solver that is offered, beside scipy's on the same vector field.
+
+    python tests/benchmarks/cage_dynamics.py [--quick] [--scenes]
+
+The bearing of Table 16 with the reference laws (25 kN, 14 000 rpm, 30 rollers), from its quasi-static state: 0.7 turns
+of the cage with a drag coefficient of 0.6, and one turn with 1.2, where rollers hit the cage hard. An error is the
+largest one over all rollers and 64 times, of positions q (um) and speeds v (m/s), against dopri8 at a tolerance of
+1e-11, with which scipy's DOP853 at its own tightest tolerance has to agree. scipy gets our jitted vector field, without
+the works, and where it asks for one its jitted Jacobian, in the same units and with the same tolerances. "Times" is the
+time of scipy's fastest run that is at least as exact, interpolated between its tolerances where it has two on either
+side, over ours. Times are wall times of warm runs, the best of several.
+
+With `--scenes` instead what the default solver is chosen from: the time of every solver on warm and cold oil, with thin
+films, and with and without shocks.
+"""
+
+import argparse
+import os
+import platform
+import sys
+import time
+from pathlib import Path
+
+parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+parser.add_argument("--quick", action="store_true", help="0.1 turns, two tolerances, batches of 4")
+parser.add_argument("--scenes", action="store_true", help="all solvers on other scenes instead")
+arguments = parser.parse_args() if __name__ == "__main__" else parser.parse_args(["--quick"])
+
+sys.path.insert(0, str(Path(__file__).parents[1]))
+
+import equinox as eqx  # noqa: E402
+import jax  # noqa: E402
+import jax.numpy as jnp  # noqa: E402
+import numpy as np  # noqa: E402
+from benchmark_tools import best_time, sharded  # noqa: E402
+from moving_roller import start_of, started, table_16  # noqa: E402
+from scipy.integrate import solve_ivp  # noqa: E402
+
+from jaxbearing.bearings.roller_dynamics import CAGE_UNITS, ROLLER_UNITS, WORKS  # noqa: E402
+from jaxbearing.bearings.simulation import Simulation  # noqa: E402
+from jaxbearing.numerics.arrow import ArrowPoint  # noqa: E402
+from jaxbearing.numerics.integrate import integrate_segment  # noqa: E402
+from jaxbearing.numerics.integrator import IMPLICIT, SOLVERS, IntegratorOptions  # noqa: E402
+from jaxbearing.numerics.status import Status  # noqa: E402
+from jaxbearing.simulate import rates  # noqa: E402
+
+RUNS = {"0.7 turns, drag 0.6": (0.6, 0.7), "1 turn, drag 1.2": (1.2, 1.0)}
+"""Drag coefficient and turns of the cage."""
+TOLERANCES = (1e-3, 1e-4, 1e-5, 1e-6)
+SCIPY = ("Radau", "BDF", "LSODA", "DOP853")
+SLOWEST = 4.0
+"""A run that takes longer is the last one of its method, s."""
+SAMPLES = 64
+REFERENCE = 1e-11
+ATOMS = len(ROLLER_UNITS)
+
+
+@eqx.filter_jit
+def ours(start, times, options):
+    """A run in one go: states at the times, and what it took."""
+    return integrate_segment(
+        rates, start.state, jnp.zeros(()), times, start.dynamics, options, jnp.asarray(1e-7), idle=len(WORKS)
+    )
+
+
+def field_of(dynamics):
+    """The vector field as scipy wants it, without the works, and its Jacobian: both compiled."""
+
+    def field(t, y):
+        n = dynamics.system.azimuth.shape[0]
+        cage = jnp.concatenate([y[ATOMS * n :], jnp.zeros(len(WORKS))])
+        found = dynamics.rates(t, ArrowPoint(y[: ATOMS * n].reshape(ATOMS, n), cage))
+        return jnp.concatenate([found.elements.ravel(), found.globals[: len(CAGE_UNITS)]])
+
+    return jax.jit(field), jax.jit(jax.jacfwd(field, argnums=1))
+
+
+def flat(state):
+    """States, with times in front, as rows for scipy."""
+    count = state.globals.shape[0]
+    return np.concatenate(
+        [np.asarray(state.elements).reshape(count, -1), np.asarray(state.globals)[:, : len(CAGE_UNITS)]], axis=1
+    )
+
+
+def errors(rows, exact, rollers):
+    """Largest errors of q, um, and of v, m/s."""
+    n = rollers
+    apart = np.abs(rows - exact)
+    return 1e6 * ROLLER_UNITS[0] * float(np.max(apart[:, :n])), ROLLER_UNITS[1] * float(np.max(apart[:, n : 2 * n]))
+
+
+def scipy_run(functions, y0, times, method, tolerance):
+    """Rows, calls of the field, wall time, s."""
+    field, jacobian = functions
+    count = [0]
+
+    def f(t, y):
+        count[0] += 1
+        return np.asarray(field(np.float64(t), y))
+
+    more = {} if method == "DOP853" else {"jac": lambda t, y: np.asarray(jacobian(np.float64(t), y))}
+    begin = time.perf_counter()
+    found = solve_ivp(f, (0.0, times[-1]), y0, method, t_eval=times, rtol=tolerance, atol=tolerance, **more)
+    seconds = time.perf_counter() - begin
+    rows = found.y.T if found.success else None
+    return rows, count[0], seconds
+
+
+def time_at(error, points):
+    """Time at which a method is as exact as asked, from (error, time) pairs; interpolated between its tolerances, in
+    logarithms; None where it never is."""
+    good = sorted((e, t) for e, t in points if e <= error)
+    worse = sorted((e, t) for e, t in points if e > error)
+    if not good:
+        return None
+    best = min(t for _, t in good)
+    if worse:
+        (e1, t1), (e2, t2) = good[-1], worse[0]
+        share = np.log(error / e1) / np.log(e2 / e1)
+        best = min(best, float(np.exp((1.0 - share) * np.log(t1) + share * np.log(t2))))
+    return best
+
+
+def batch(start, times, options, size):
+    """Seconds a run of a batch at loads from 90 % to 110 %, and the lanes that failed."""
+    loads = start.dynamics.system.ring_load[None, :] * jnp.linspace(0.9, 1.1, size)[:, None]
+
+    def one(load):
+        dynamics = eqx.tree_at(lambda d: d.system.ring_load, start.dynamics, load)
+        return ours(start._replace(dynamics=dynamics), times, options)
+
+    run = sharded(jax.vmap(one))
+    found = run(loads)
+    failed = int(np.sum(np.asarray(found.status) != Status.CONVERGED))
+    return best_time(lambda: run(loads), 1) / size, failed
+
+
+def _said(row):
+    """The row, shown at once: the whole takes minutes."""
+    print(*(f"{value:.3g}" if isinstance(value, float) else value for value in row), file=sys.stderr, flush=True)
+    return row
+
+
+def benchmark(quick=False):
+    """Figures of both runs."""
+    figures = {}
+    for name, (drag, turns) in RUNS.items():
+        start = start_of(drag)
+        rollers = start.state.elements.shape[1]
+        turn = 2.0 * np.pi / float(start.dynamics.reference_speed)
+        times = np.linspace(0.0, (0.1 if quick else turns) * turn, SAMPLES + 1)[1:]
+        exact = ours(start, jnp.asarray(times), IntegratorOptions(solver="dopri8", tolerance=REFERENCE))
+        assert int(exact.status) == Status.CONVERGED
+        exact = flat(exact.states)
+        tolerances = TOLERANCES[1:3] if quick else TOLERANCES
+        table, rival = [], {}
+        functions, y0 = field_of(start.dynamics), flat(jax.tree.map(lambda leaf: leaf[None], start.state))[0]
+        for function in functions:
+            jax.block_until_ready(function(np.float64(0.0), y0))
+        for method in SCIPY[-1:] if quick else SCIPY:
+            points = []
+            for tolerance in (*tolerances, 1e-10) if method == "DOP853" else tolerances:
+                rows, calls, seconds = scipy_run(functions, y0, times, method, tolerance)
+                if rows is None:
+                    continue
+                q, v = errors(rows, exact, rollers)
+                if tolerance > 1e-10:
+                    points.append((q, seconds))
+                table.append(_said((f"scipy {method}", tolerance, calls, None, q, v, seconds, None)))
+                if seconds > SLOWEST:
+                    break
+            rival[method] = points
+        for solver in ("tsit5", "dopri8") if quick else SOLVERS:
+            for tolerance in tolerances:
+                options = IntegratorOptions(solver=solver, tolerance=tolerance)
+                run = lambda options=options, start=start, times=times: ours(start, jnp.asarray(times), options)
+                if tolerance == tolerances[0]:
+                    run()  # compiles
+                begin = time.perf_counter()
+                found = jax.block_until_ready(run())
+                seconds = time.perf_counter() - begin
+                if seconds < 1.0:
+                    seconds = min(seconds, best_time(run, 3))
+                if int(found.status) != Status.CONVERGED:
+                    table.append(_said((solver, tolerance, None, None, np.nan, np.nan, np.nan, None)))
+                    continue
+                q, v = errors(flat(found.states), exact, rollers)
+                rivals = [t for t in (time_at(q, points) for points in rival.values()) if t is not None]
+                ratio = min(rivals) / seconds if rivals else None
+                steps = int(found.accepted), int(found.rejected)
+                table.append(_said((solver, tolerance, *steps, q, v, seconds, ratio)))
+                if seconds > SLOWEST:
+                    break
+        size = 4 if quick else 64
+        each, failed = batch(start, jnp.asarray(times), IntegratorOptions(solver="tsit5", tolerance=1e-4), size)
+        figures[name] = {"table": table, "batch": (size, each, failed), "turns": times[-1] / turn}
+    return figures
+
+
+SCENES = {
+    "oil at 100 degC": {},
+    "oil at 0 degC": {"operation.oil_temperature": 273.15},
+    "oil at 200 degC, thin films": {"operation.oil_temperature": 473.15},
+    "drag 1.2, hard shocks": {"drag.coefficient": 1.2},
+}
+"""Changes of the bearing of Table 16 with a drag coefficient of 0.6."""
+CANDIDATES = ("tsit5", "dopri8", "kvaerno3", "kvaerno4", "kvaerno5")
+
+
+def scenes_table(turns=1.0):
+    """What the default solver is chosen from: steps, largest error of q over the run, um, and seconds."""
+    found = {}
+    for name, changes in SCENES.items():
+        start = started(table_16(0.6).replace(changes), Simulation())
+        times = np.linspace(0.0, turns * 2.0 * np.pi / float(start.dynamics.reference_speed), SAMPLES + 1)[1:]
+        run = lambda options, start=start, times=times: ours(start, jnp.asarray(times), options)
+        exact = run(IntegratorOptions(solver="dopri8", tolerance=REFERENCE))
+        if int(exact.status) != Status.CONVERGED:
+            found[name, "dopri8", REFERENCE] = None
+            continue
+        for solver in CANDIDATES:
+            for tolerance in (1e-4, 1e-6):
+                options = IntegratorOptions(solver=solver, tolerance=tolerance)
+                result = run(options)
+                if int(result.status) != Status.CONVERGED:
+                    found[name, solver, tolerance] = None
+                    continue
+                error = errors(flat(result.states), flat(exact.states), start.state.elements.shape[1])[0]
+                seconds = best_time(lambda options=options, run=run: run(options), 1 if solver in IMPLICIT else 3)
+                found[name, solver, tolerance] = int(result.accepted), int(result.rejected), error, seconds
+    return found
+
+
+def print_scenes(found):
+    print("\nOne turn of the cage: steps (refused), largest error of q, um, seconds")
+    print("| scene | solver | tolerance | steps | error, um | seconds |")
+    print("|---|---|---|---|---|---|")
+    for (name, solver, tolerance), row in found.items():
+        if row is None:
+            print(f"| {name} | {solver} | {tolerance:.0e} | FAILED | | |")
+            continue
+        steps, refused, error, seconds = row
+        print(f"| {name} | {solver} | {tolerance:.0e} | {steps} ({refused}) | {error:.2g} | {seconds:.2f} |")
+
+
+def print_table(figures):
+    print(f"{os.cpu_count()} cores, {platform.machine()}, jax {jax.__version__}, {jax.devices()[0].platform}")
+    for name, rows in figures.items():
+        print(f"\n{name} (run over {rows['turns']:.2g} turns)")
+        print("| solver | tolerance | steps (refused) | error of q, um | of v, m/s | seconds | times |")
+        print("|---|---|---|---|---|---|---|")
+        for solver, tolerance, steps, refused, q, v, seconds, ratio in rows["table"]:
+            taken = f"{steps} calls" if refused is None else f"{steps} ({refused})"
+            times = "" if ratio is None else f"{ratio:.1f}"
+            print(f"| {solver} | {tolerance:.0e} | {taken} | {q:.2g} | {v:.2g} | {seconds:.3f} | {times} |")
+        size, each, failed = rows["batch"]
+        print(f"batch of {size}, tsit5 1e-4: {each:.4f} s a run, {failed} failed")
+
+
+if __name__ == "__main__":
+    if arguments.scenes:
+        print_scenes(scenes_table())
+    else:
+        print_table(benchmark(arguments.quick))

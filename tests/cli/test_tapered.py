@@ -1,0 +1,83 @@
+"""`solve` of the tapered roller bearing: screen, JSON with the fixed keys, refusals, no equilibrium; lives."""
+
+import json
+
+import numpy as np
+import pytest
+
+
+def test_screen_and_files(jaxbearing_command, folder):
+    result = jaxbearing_command("solve", "tapered_example", "--plot", "a.png", "--out", "a.nc")
+    assert (result.code, result.err) == (0, "")
+    for word in ("CONVERGED", "Rib", "Life", "L10r", "Rating", "kappa", "axial displacement"):
+        assert word in result.out
+    assert max(map(len, result.out.splitlines())) <= 100
+    assert (folder / "a.png").stat().st_size > 1000
+    assert (folder / "a.nc").stat().st_size > 1000
+
+
+def test_json(jaxbearing_command, folder):
+    result = jaxbearing_command("solve", "tapered_example", "--json")
+    assert (result.code, result.err) == (0, "")
+    found = json.loads(result.out)
+    assert found["converged"] is True
+    assert found["cage"] is None
+    assert np.array(found["stiffness"], dtype=float).shape == (5, 5)
+    assert set(found["ring"]) == {"axial", "radial", "lateral", "tilt", "tilt_lateral"}
+    for name in ("load_inner", "load_outer", "load_flange", "film_inner", "pressure_outer", "contact_angle_outer"):
+        assert len(found["elements"][name]) == 17
+    np.testing.assert_allclose(found["elements"]["load_inner"][0], 2452.596, rtol=3e-7)
+    assert found["life"]["L10r"] > 0
+    assert found["life"]["L10r_hours"] > 0
+    assert found["power_loss"] == {"total": 0.0}
+
+
+def test_no_equilibrium(jaxbearing_command, folder):
+    result = jaxbearing_command("solve", "tapered_example", "--set", "operation.radial_load=21 kN", "--json")
+    assert result.code == 3
+    found = json.loads(result.out)
+    assert (found["converged"], found["status"]) == (False, "no_equilibrium")
+    assert found["elements"]["load_inner"] is None or None in found["elements"]["load_inner"]
+    assert "no_equilibrium" in result.err
+
+
+@pytest.mark.parametrize(
+    ("change", "words"),
+    [
+        ("geometry.n_rollers=30", ["geometry.n_rollers", "do not fit"]),
+        ("geometry.flange_angle=13 deg", ["geometry.flange_angle", "below its axis"]),
+        ("operation.axial_load=none", ["operation.axial_load", "a force"]),
+        ("rating.reliability=0.94", ["rating.reliability", "0.95"]),
+        ("rating.cleanliness=dirty", ["rating.cleanliness", "grease_normal"]),
+        ("rating.roughness_rings=0.2 um", ["rating.roughness_elements"]),
+        ("profile.shape=logarithmic", ["profile.drop", "8 um"]),
+    ],
+)
+def test_bad_input(change, words, jaxbearing_command, folder):
+    result = jaxbearing_command("solve", "tapered_example", "--set", change)
+    assert (result.code, result.out) == (2, "")
+    for word in words:
+        assert word in result.err
+
+
+def test_life_of_the_other_kinds(jaxbearing_command, folder):
+    changes = ("--set", "rating.dynamic_capacity=14 kN", "--set", "operation.moment=none")
+    ball = json.loads(jaxbearing_command("solve", "deep_groove_6205", "--json", *changes).out)
+    assert ball["life"]["dynamic_capacity"] == 14e3
+    assert ball["life"]["L10r"] > 0
+    without = json.loads(jaxbearing_command("solve", "deep_groove_6205", "--json").out)
+    assert without["life"] is None
+
+
+def test_misaligned_cylindrical_rollers(jaxbearing_command, folder):
+    dry = [word for name in ("contact", "oil", "cage", "flange", "drag") for word in ("--set", f"{name}=none")]
+    profile = ("--set", "profile.shape=logarithmic", "--set", "profile.drop=5 um", "--set", "rating.n_laminae=30")
+    tilt = ("--set", "operation.misalignment=1 mrad")
+    result = jaxbearing_command("solve", "turbine_roller", *dry, *profile, *tilt, "--json")
+    assert (result.code, result.err) == (0, "")
+    found = json.loads(result.out)
+    assert found["ring"]["tilt"] == pytest.approx(1e-3)
+    assert found["life"]["L10r"] > 0
+    lubricated = jaxbearing_command("solve", "turbine_roller", *tilt)
+    assert lubricated.code == 2
+    assert "dry and frictionless" in lubricated.err

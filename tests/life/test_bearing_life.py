@@ -1,0 +1,83 @@
+"""Life of solved scenes: the reference case, what modifies it, who has one, failed lanes, gradients."""
+
+import jax
+import jax.numpy as jnp
+import numpy as np
+import pytest
+
+import jaxbearing as jb
+from jaxbearing.bearings.ball_bearing import BallAttitude, BallBearing, BallMaterials, BallOperation
+from jaxbearing.bearings.ball_geometry import BallGeometry
+from jaxbearing.bearings.rating import Rating
+from jaxbearing.materials import CATALOGUE
+
+STEEL = CATALOGUE["52100"]
+
+
+def reference_case(speed=0.0):
+    return BallBearing(
+        BallGeometry(7, 43.5e-3, 11.5e-3, 0.52, 0.52, diametral_clearance=0.0),
+        BallMaterials(STEEL, STEEL),
+        BallOperation(speed, radial_load=1000.0),
+        BallAttitude("outer"),
+        rating=Rating(dynamic_capacity=23400.0),
+    )
+
+
+def test_reference_case_of_the_standard():
+    life = jb.solve(reference_case()).life
+    np.testing.assert_allclose(life.L10r, 13163.0, rtol=1e-4)
+    np.testing.assert_allclose(life.L10, 23.4**3, rtol=1e-12)
+    assert np.isinf(life.L10r_hours)  # at rest
+    turning = jb.solve(reference_case(100.0)).life
+    np.testing.assert_allclose(turning.L10r_hours, turning.L10r * 1e6 * 2.0 * np.pi / 100.0 / 3600.0, rtol=1e-12)
+    np.testing.assert_allclose((23400.0 / turning.equivalent_load) ** 3, turning.L10r, rtol=1e-12)
+
+
+@pytest.mark.slow
+def test_modified_life_of_a_lubricated_roller_bearing():
+    scene = jb.load_scene("reference_roller").replace(dict.fromkeys(("contact.traction", "cage", "flange", "drag")))
+    conditions = {"cleanliness": "online_filter_15", "roughness_rings": 0.2e-6, "roughness_elements": 0.1e-6}
+    plain = jb.solve(scene)
+    assert plain.life is None
+    solution = jb.solve(scene.replace({"rating": Rating(**conditions)}))
+    for name in ("load_inner", "film_inner"):
+        np.testing.assert_allclose(getattr(solution.elements, name), getattr(plain.elements, name), rtol=1e-11)
+    life = solution.life
+    assert 0.1 < life.viscosity_ratio < 4.0
+    np.testing.assert_allclose(life.Lnmr, life.modification_factor * life.L10r, rtol=1e-12)
+    np.testing.assert_allclose(life.film_ratio_inner, solution.elements.film_inner / np.hypot(0.2e-6, 0.1e-6))
+    assert 2.0 < life.L10r / life.L10 < 8.0
+    safer = jb.solve(scene.replace({"rating": Rating(**conditions, reliability=0.99)})).life
+    np.testing.assert_allclose(safer.Lnmr, 0.25 * life.Lnmr, rtol=1e-12)
+
+
+@pytest.mark.slow
+def test_gradient_through_the_solve_and_failed_lanes():
+    scene = jb.load_scene("deep_groove_6205").replace({"rating": Rating()})
+    rate = lambda load: jb.solve(scene.at_operation(radial_load=load), throw=False).life.damage_rate
+    slope = jax.grad(rate)(1500.0)
+    np.testing.assert_allclose(slope, (rate(1500.5) - rate(1499.5)), rtol=1e-6)
+    # a lane that fails spoils no shared derivative
+    dry = jb.load_scene("reference_roller").replace(dict.fromkeys(("contact", "oil", "cage", "flange", "drag")))
+    dry = dry.replace({"rating": Rating()})
+    loads = jnp.asarray([5e3, -1.0, 2e4])
+
+    def lives(clearance):
+        one = lambda load: jb.solve(
+            dry.replace({"operation.radial_load": load, "geometry.diametral_clearance": clearance}), throw=False
+        )
+        found = jax.vmap(one)(loads)
+        return jnp.sum(jnp.where(found.converged, found.life.damage_rate, 0.0)), found.life.L10r
+
+    (_, each), slope = jax.value_and_grad(lives, has_aux=True)(20e-6)
+    assert np.isnan(each[1])
+    assert np.all(np.isfinite(each[jnp.asarray([0, 2])]))
+    assert np.isfinite(slope)
+
+
+def test_refusals():
+    with pytest.raises(ValueError, match=r"rating\.dynamic_capacity must be > 0"):
+        Rating(dynamic_capacity=-1.0)
+    with pytest.raises(ValueError, match=r"rating\.roughness_rings"):
+        Rating(roughness_rings=1e-7)
