@@ -143,7 +143,7 @@ def test_error_falls_with_the_tolerance_before_the_first_shock(solver):
 
 @pytest.mark.slow
 def test_slope_of_the_pocket_load_before_the_first_shock():
-    """Through start and run, in forward mode, against a central difference."""
+    """Through start and run, in forward mode, against a central difference (itself good to some 1e-7: step control)."""
     scene, simulation = table_16(0.6), Simulation(tolerance=1e-9)
     times = jnp.linspace(0.0, 0.5e-3, 6)[1:]
 
@@ -156,7 +156,7 @@ def test_slope_of_the_pocket_load_before_the_first_shock():
     value, step, one = jax.jit(mean_load), 1e-8, jnp.ones(())
     at = jnp.asarray(300e-6)
     slope = jax.jit(lambda x: jax.jvp(mean_load, (x,), (one,))[1])(at)
-    np.testing.assert_allclose(slope, (value(at + step) - value(at - step)) / (2.0 * step), rtol=1e-7)
+    np.testing.assert_allclose(slope, (value(at + step) - value(at - step)) / (2.0 * step), rtol=2e-6)
 
 
 @pytest.mark.slow
