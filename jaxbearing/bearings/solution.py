@@ -133,7 +133,8 @@ class Solution(AbstractSolution):
     """Result of a steady solve. Where `status` is not converged every result is NaN, never the last iterate.
 
     `operation`, `elements` and `power_loss` are those of the kind of bearing: `Operation`, `RollerResults`,
-    `PowerLoss`, or `BallOperation`, `BallResults`, `BallPowerLoss` and `RacewayPower`.
+    `PowerLoss`, or `BallOperation`, `BallResults`, `BallPowerLoss` and `RacewayPower`, or `TaperedOperation`,
+    `TaperedResults`, `TaperedPowerLoss`; a tapered bearing without friction has no drive power and torques.
     """
 
     status: Int[Array, ""] = eqx.field(metadata=label("1", "how the solve ended"))
@@ -149,9 +150,9 @@ class Solution(AbstractSolution):
     cage: CageState | None
     elements: Any
     power_loss: Any
-    drive_power: Float[Array, ""] = eqx.field(metadata=label("W", "sum over both rings of torque times speed"))
-    inner_torque: Float[Array, ""] = eqx.field(metadata=label("N m", "torque that drives the inner ring"))
-    outer_torque: Float[Array, ""] = eqx.field(metadata=label("N m", "torque that drives the outer ring"))
+    drive_power: Float[Array, ""] | None = eqx.field(metadata=label("W", "sum over both rings of torque times speed"))
+    inner_torque: Float[Array, ""] | None = eqx.field(metadata=label("N m", "torque that drives the inner ring"))
+    outer_torque: Float[Array, ""] | None = eqx.field(metadata=label("N m", "torque that drives the outer ring"))
     stiffness: Float[Array, "freedom freedom"] = eqx.field(
         metadata=label("N/m", "d load / d displacement, active freedoms")
     )

@@ -10,9 +10,10 @@ default the apex itself. (The source's tilt t and moment M_1 have the opposite s
 from .._scene import AbstractScene, label, number, optional_number
 from .._types import Scalar
 from ..contacts.laws import ContactLaws
+from ..contacts.point_laws import PointLaws
 from ..lubricants import Lubricant
 from ..numerics.checks import known, require
-from .parts import AbstractOperation, Materials
+from .parts import AbstractOperation, Drag, Materials
 from .rating import Rating
 from .roller_profile import RollerProfile
 from .tapered_geometry import TaperedGeometry
@@ -55,11 +56,15 @@ class TaperedOperation(AbstractOperation):
 
 
 class TaperedRollerBearing(AbstractScene):
-    """A steady single-row tapered roller bearing under axial load, radial load and moment, without friction on the
-    raceways: loads of raceways and rib, films, displacements.
+    """A steady single-row tapered roller bearing under axial load, radial load and moment, whose rollers roll without
+    sliding about the apex: loads of raceways and rib, displacements, films, and what friction costs
+    (`tapered_friction`). A part that is `None` is not modelled.
 
-    - `contact=None`: dry. With `contact` (no traction): films, and where named the rolling resistance.
-    - `profile=None`: straight rollers, contacts integrated in closed form.
+    - `contact`: laws of the raceways: films, and where named the rolling resistance. Its `traction` moves nothing: it
+      tells whether the films can carry what keeps the rollers rolling.
+    - `rib`: laws of the roller ends on the rib: film, and where named the traction of what slides there.
+    - `drag`: of the oil on the orbiting rollers.
+    - `profile`: without one rollers are straight, and contacts integrated in closed form.
 
     **Raises:** `ValueError` for combinations that lack what they need.
     """
@@ -71,14 +76,20 @@ class TaperedRollerBearing(AbstractScene):
     contact: ContactLaws | None = None
     profile: RollerProfile | None = None
     rating: Rating | None = None
+    rib: PointLaws | None = None
+    drag: Drag | None = None
 
     def __check_init__(self):
         if self.contact is None:
+            if self.rib is not None:
+                raise ValueError("contact: a scene with laws of the rib needs those of the raceways")
             return
-        if self.contact.traction is not None:
-            raise ValueError("contact.traction: the tapered roller bearing has no friction on its raceways yet")
         if self.oil is None:
             raise ValueError("oil: a scene with a [contact] table needs an oil")
+        if self.drag is not None and self.oil.density is None:
+            raise ValueError("oil.density: the drag needs it")
+        if self.rib is not None and self.rib.rolling_resistance:
+            raise ValueError("rib.rolling_resistance: the rib has none, the roller ends slide on it")
         self.operation.check_rings_turn()
 
     @property
@@ -95,7 +106,10 @@ class TaperedRollerBearing(AbstractScene):
 
     def unused_parts(self) -> tuple[str, ...]:
         """Tables that the scene names but that have no effect."""
-        return ("oil",) if self.contact is None and self.oil is not None and self.rating is None else ()
+        if self.contact is not None:
+            return ()
+        named = {"oil": self.oil if self.rating is None else None, "drag": self.drag}
+        return tuple(name for name, part in named.items() if part is not None)
 
     def assumptions(self) -> tuple[str, ...]:
         """What the model assumed, for the user."""

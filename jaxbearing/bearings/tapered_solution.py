@@ -19,7 +19,8 @@ def _optional(unit: str, description: str) -> Any:
 
 
 class TaperedResults(eqx.Module):
-    """Arrays over the rollers; what is not modelled is `None`. Speeds are positive in normal running."""
+    """Arrays over the rollers; what is not modelled is `None`, a film where nothing touches NaN. Speeds are positive in
+    normal running."""
 
     azimuth: _Values = _result("rad", "azimuth from the load line")
     load_inner: _Values = _result("N", "normal load on the inner raceway")
@@ -38,4 +39,26 @@ class TaperedResults(eqx.Module):
     film_inner: _Values | None = _optional("m", "central film on the inner raceway, at mid length")
     film_outer: _Values | None = _optional("m", "central film on the outer raceway, at mid length")
     temperature_rise_inner: _Values | None = _optional("K", "inlet heating, inner")
+    film_flange: _Values | None = _optional("m", "central film on the rib")
+    temperature_rise_inner: _Values | None = _optional("K", "inlet heating, inner")
     temperature_rise_outer: _Values | None = _optional("K", "inlet heating, outer")
+    temperature_rise_flange: _Values | None = _optional("K", "inlet heating, rib")
+    sliding_flange: _Values | None = _optional("m/s", "speed of the rib over the roller end")
+    spin_flange: _Values | None = _optional("rad/s", "spin of the rib over the roller end about the normal")
+    traction_inner: _Values | None = _optional("N", "forward force by the inner race that keeps the roller rolling")
+    traction_outer: _Values | None = _optional("N", "backward force by the outer race that keeps the roller rolling")
+    traction_flange: _Values | None = _optional("N", "forward force by the rib")
+
+
+_Power = Float[Array, ""]
+
+
+class TaperedPowerLoss(eqx.Module):
+    """Dissipated power by location, W; what a scene does not model is `None`, `total` too where that is all. The entries
+    add up to `total`."""
+
+    total: _Power | None = _optional("W", "total")
+    inner_raceway: _Power | None = _optional("W", "rolling resistance of the inner raceway")
+    outer_raceway: _Power | None = _optional("W", "rolling resistance of the outer raceway")
+    flange: _Power | None = _optional("W", "roller ends sliding on the rib")
+    drag: _Power | None = _optional("W", "oil drag on the orbiting rollers")

@@ -1,44 +1,58 @@
 """Steady state of a tapered roller bearing: from the scene to the equations, and from the root to the results."""
 
+import dataclasses
 from typing import NamedTuple
 
 import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Array, Bool, Float
 
-from ..contacts import LineContact
+from ..contacts import Gupta, LineContact
+from ..lubricants.ranges import FITTED_PRESSURE, FITTED_TEMPERATURES
 from ..materials import reduced_modulus
 from ..numerics.arrow import ArrowPoint, linearize, schur_complement
 from ..numerics.newton import NewtonOptions, NewtonResult, newton_solve
 from ..numerics.status import Status
 from .rating import LAMINAE
 from .roller_loads import LENGTH_UNIT
-from .solution import RING_FREEDOMS, CageState, LaminaLoads, PowerLoss, RingDisplacement, Solution
+from .roller_steady import SLOWEST
+from .solution import RING_FREEDOMS, CageState, LaminaLoads, RingDisplacement, Solution
 from .steady import assemble
-from .tapered_build import TaperedMotion, build_tapered, rolling_motion
+from .tapered_build import build_tapered, rolling_motion
+from .tapered_friction import TaperedFriction, tapered_friction
 from .tapered_roller import TaperedRollerBearing
-from .tapered_solution import TaperedResults
+from .tapered_solution import TaperedPowerLoss, TaperedResults
 from .tapered_system import TaperedState, TaperedSystem
 
 YIELD_PRESSURE = 4.0e9
 """Pa: that of the basic static load rating of roller bearings in ISO 76."""
 HIGHEST = 9.0
 """1/(10/9 - 1): see `line_pressure`."""
+LARGEST_TILT = 10e-3
+"""Of cone and rollers, rad: the approaches are linear in it, the squares of 10 mrad change a reach of 100 mm by 5 um."""
+LOADED = 0.01
+"""Rollers whose load on the cone is above this part of the largest one count as loaded."""
 
 
 def solve_tapered(scene: TaperedRollerBearing, options: NewtonOptions) -> Solution:
     """Steady state: pure, jit-able, vmap-able, differentiable; never raises for a failed solve.
 
-    Where no equilibrium is found and one of two proofs holds that there is none, the status is `no_equilibrium`: the
-    axial load is below the radial one times tan(alpha_o), so that the cone slides out whatever it does; or a way to
-    fall apart has been found (`TaperedSystem.falls_apart`).
+    There are two proofs of no equilibrium, and then the status is `no_equilibrium`: the axial load is below the radial
+    one times tan(alpha_o), so that the cone slides out whatever it does, which the loads alone tell; or, where a solve
+    fails, a way to fall apart has been found (`TaperedSystem.falls_apart`).
     """
-    started, steps = build_tapered(scene).started()
+    posed, sliding = build_tapered(scene), slides_out(scene)
+    # what has no equilibrium is not looked for: in its place a few steps to one that is finite, with its derivatives
+    easy = jnp.where(sliding, _axial_only(posed), posed.ring_load)
+    started, steps = dataclasses.replace(posed, ring_load=easy).started()
     system, result = newton_solve(started, options)
-    none = ~result.converged & (
-        slides_out(scene) | system.falls_apart(result.point) | started.falls_apart(_at(started))
-    )
-    result = result._replace(status=jnp.where(none, int(Status.NO_EQUILIBRIUM), result.status))
+    apart = ~result.converged & (system.falls_apart(result.point) | started.falls_apart(_at(started)))
+    result = result._replace(status=jnp.where(sliding | apart, int(Status.NO_EQUILIBRIUM), result.status))
+    result = result._replace(residual_norm=jnp.where(sliding, jnp.nan, result.residual_norm))
+    friction = None
+    if scene.contact is not None:
+        friction = tapered_friction(scene, system.at(result.point))
+        result = _with_nested(result, friction, options)
     ring = {name: result.point.globals[i] * LENGTH_UNIT for i, name in enumerate(system.freedoms)}
     lever = scene.geometry.apex_distance
     if scene.operation.moment is None and scene.operation.misalignment is not None:
@@ -51,10 +65,11 @@ def solve_tapered(scene: TaperedRollerBearing, options: NewtonOptions) -> Soluti
     return assemble(
         scene,
         result,
-        _results(scene, system, result),
+        _results(scene, system, result, friction, displacement),
         displacement,
         _stiffness(scene, system, result),
-        iterations=steps + result.iterations,
+        input_excess=_input_excess(scene),
+        iterations=jnp.where(sliding, 0, steps + result.iterations),
         ring_freedom=(*scene.ring_freedom, "tilt") if tilted else scene.ring_freedom,
         stiffness_freedom=RING_FREEDOMS,
         equation_names=system.equation_names(),
@@ -66,10 +81,29 @@ def _at(system: TaperedSystem) -> ArrowPoint:
     return system.guess
 
 
+def _axial_only(system: TaperedSystem) -> Float[Array, " freedom"]:
+    """Loads of the size of the system's that have an equilibrium: along the axis alone."""
+    along = jnp.asarray([1.0 if name == "axial" else 0.0 for name in system.freedoms])
+    return along * (system.load_scale() + jnp.sum(jnp.abs(system.ring_load) * (1.0 - along)))
+
+
+def _with_nested(result: NewtonResult, friction: TaperedFriction, options: NewtonOptions) -> NewtonResult:
+    """The residual of the films' nested solves; not converged where that is too large."""
+    residual = friction.races.residual
+    if friction.rib is not None:
+        residual = jnp.maximum(residual, friction.rib.residual)
+    failed = result.converged & ~(residual <= options.inner_tolerance)
+    status = jnp.where(failed, int(Status.NOT_CONVERGED), result.status)
+    return result._replace(status=status, inner_residual=jnp.maximum(result.inner_residual, residual))
+
+
 def slides_out(scene: TaperedRollerBearing) -> Bool[Array, ""]:
     r"""Whether $F_a < F_r\tan\alpha_o$: every roller leans on the cup at that angle, so that no distribution of loads
-    balances both; necessary whatever the tilt, and centrifugal forces have no part in either sum."""
+    balances both; necessary whatever the tilt and the moment. Centrifugal forces have no part in either sum: those of
+    two rollers or more, evenly spaced, add up to none (a single one proves nothing)."""
     operation = scene.operation
+    if scene.geometry.n_rollers < 2:
+        return jnp.asarray(False)
     radial = 0.0 if operation.radial_load is None else operation.radial_load
     return jnp.asarray(operation.axial_load) < jnp.abs(jnp.asarray(radial)) * jnp.tan(scene.geometry.contact_angle)
 
@@ -79,15 +113,21 @@ class _Results(NamedTuple):
 
     cage: CageState | None
     elements: TaperedResults
-    power_loss: PowerLoss
-    drive_power: Array
-    inner_torque: Array
-    outer_torque: Array
+    power_loss: TaperedPowerLoss
+    drive_power: Array | None
+    inner_torque: Array | None
+    outer_torque: Array | None
     laminae: LaminaLoads
     range_excess: dict[str, Array]
 
 
-def _results(scene: TaperedRollerBearing, system: TaperedSystem, result: NewtonResult) -> _Results:
+def _results(
+    scene: TaperedRollerBearing,
+    system: TaperedSystem,
+    result: NewtonResult,
+    friction: TaperedFriction | None,
+    ring: RingDisplacement,
+) -> _Results:
     geometry, state = scene.geometry, system.at(result.point)
     count = geometry.n_rollers
     every = lambda values: jnp.broadcast_to(values, (count,))
@@ -96,12 +136,13 @@ def _results(scene: TaperedRollerBearing, system: TaperedSystem, result: NewtonR
     pressure = line_pressure(scene, system, state)
     modulus = reduced_modulus(scene.materials.rings, scene.materials.rollers)
     flange = geometry.flange_contact(modulus).hertz_pressure(state.flange_load)
-    more, losses = _films(scene, state, motion)
+    more = {} if friction is None else _of_friction(friction, state)
+    positive = lambda values: every(jnp.where(values > 0, values, 0.0))  # and no -0.0
     elements = TaperedResults(
         azimuth=jnp.asarray(2.0 * np.pi * np.arange(count) / count),
-        load_inner=every(state.load[0]),
-        load_outer=every(state.load[1]),
-        load_flange=every(state.flange_load),
+        load_inner=positive(state.load[0]),
+        load_outer=positive(state.load[1]),
+        load_flange=positive(state.flange_load),
         contact_angle_inner=every(geometry.cone_angle),
         contact_angle_outer=every(jnp.asarray(geometry.contact_angle)),
         pressure_inner=every(pressure[0]),
@@ -120,23 +161,101 @@ def _results(scene: TaperedRollerBearing, system: TaperedSystem, result: NewtonR
     cut = lambda side: jnp.broadcast_to(
         system.line.laminae(state.approach[side], state.slope[side], laminae), (count, laminae)
     )
-    speed = jnp.asarray(scene.operation.inner_speed) - scene.operation.outer_speed
-    turning = speed != 0.0
-    torque = jnp.where(turning, losses.total / jnp.where(turning, speed, 1.0), 0.0)
-    excess = {"contact pressure beyond 4 GPa: rollers and races yield (static rating of ISO 76)": jnp.max(pressure)}
+    excess = {
+        "contact pressure beyond 4 GPa: rollers and races yield (static rating of ISO 76)": jnp.max(pressure),
+        "pressure on the rib beyond 4 GPa: it yields (static rating of ISO 76)": jnp.max(elements.pressure_flange),
+    }
     excess = {text: value - YIELD_PRESSURE for text, value in excess.items()}
+    tilted = jnp.maximum(jnp.max(jnp.abs(place[2])), jnp.maximum(jnp.abs(ring.tilt), jnp.abs(ring.tilt_lateral)))
+    excess["tilt of the inner ring or of a roller beyond 10 mrad: the model is linear in it"] = tilted - LARGEST_TILT
     end = jnp.max(jnp.where(state.flange_load > 0, _end_reach(scene, state), 0.0))
     excess["contact ellipse on the rib cut off at the edge of the roller's end face"] = end
+    losses, drive, inner, outer = TaperedPowerLoss(), None, None, None
+    if friction is not None:
+        excess |= _law_excess(scene, friction, state, elements)
+        losses, inner, outer = friction.losses, friction.inner_torque, friction.outer_torque
+    if inner is not None and outer is not None:
+        drive = scene.operation.inner_speed * inner + scene.operation.outer_speed * outer
     return _Results(
         cage=None,
         elements=elements,
         power_loss=losses,
-        drive_power=losses.total,
-        inner_torque=torque,
-        outer_torque=-torque,
+        drive_power=drive,
+        inner_torque=inner,
+        outer_torque=outer,
         laminae=LaminaLoads(cut(0), cut(1), scene.profile is not None and scene.profile.shape is not None),
         range_excess=excess,
     )
+
+
+def _of_friction(friction: TaperedFriction, state: TaperedState) -> dict[str, Array]:
+    """Films, their temperatures and friction, by the names of the results."""
+    races, rib, balance = friction.races, friction.rib, friction.balance
+    more = {"film_inner": races.film[0], "film_outer": races.film[1]}
+    if races.temperature_rise is not None:
+        more |= {"temperature_rise_inner": races.temperature_rise[0], "temperature_rise_outer": races.temperature_rise[1]}
+    if balance is not None:
+        more |= {"traction_inner": balance.traction[0], "traction_outer": -balance.traction[1]}
+    if rib is None:
+        return more
+    more |= {"film_flange": rib.film, "sliding_flange": rib.motion.sliding_speed, "spin_flange": rib.motion.spin}
+    if rib.temperature_rise is not None:
+        more["temperature_rise_flange"] = rib.temperature_rise
+    if rib.traction is not None:
+        more["traction_flange"] = rib.traction.rolling
+    return more
+
+
+def _input_excess(scene: TaperedRollerBearing) -> dict[str, Array]:
+    """By how much the scene itself leaves the ranges for which the laws were made; said of failed solves too."""
+    if scene.contact is None:
+        return {}
+    operation, (low, high) = scene.operation, FITTED_TEMPERATURES
+    temperature = jnp.asarray(operation.oil_temperature)
+    return {
+        "inlet oil beyond 200 degC: the oil laws are extrapolated": temperature - high,
+        "inlet oil below -20 degC: the oil laws are extrapolated": low - temperature,
+        "rings turn against each other at less than 100 rpm: the films vanish, consider a dry scene": SLOWEST
+        - jnp.abs(jnp.asarray(operation.inner_speed) - operation.outer_speed),
+    }
+
+
+def _law_excess(
+    scene: TaperedRollerBearing, friction: TaperedFriction, state: TaperedState, elements: TaperedResults
+) -> dict[str, Array]:
+    """By how much the results leave the ranges for which the laws were made."""
+    assert scene.contact is not None
+    assert scene.oil is not None
+    races, rib = friction.races, friction.rib
+    loaded = (state.load[0] > 0) & (state.load[0] >= LOADED * jnp.max(state.load[0]))
+    most = lambda values, where: jnp.max(jnp.where(where, values, -jnp.inf))
+    excess = {}
+    inlet = scene.oil.at(scene.operation.oil_temperature)
+    hottest = [most(rise, loaded[None]) for rise in (races.temperature_rise,) if rise is not None]
+    if rib is not None and rib.temperature_rise is not None:
+        hottest.append(most(rib.temperature_rise, state.flange_load > 0))
+    for rise in hottest:
+        beyond = inlet.temperature + rise - FITTED_TEMPERATURES[1]
+        text = "oil in the contacts beyond 200 degC: the oil laws are extrapolated"
+        excess[text] = jnp.maximum(excess.get(text, -jnp.inf), beyond)
+    if isinstance(scene.contact.thermal, Gupta):
+        loading = jnp.max(scene.contact.thermal.thermal_loading(races.speed, inlet))
+        excess["thermal loading beyond 20: Gupta's factor is extrapolated"] = loading - 20.0
+    if races.capacity is not None and friction.balance is not None:
+        # rollers without load are the cage's: those with load, and all together
+        slack = races.capacity - jnp.abs(friction.balance.traction)
+        least = jnp.minimum(-most(-slack, loaded[None]), jnp.min(jnp.sum(slack, axis=1)))
+        text = (
+            "rollers would skid (keeping them rolling takes more traction than the raceway films have at 10 % sliding): "
+            "speeds and losses are those of pure rolling"
+        )
+        excess[text] = -least
+    if rib is not None and rib.traction is not None:
+        pressure = 2.0 / 3.0 * jnp.max(elements.pressure_flange)
+        excess["mean pressure on the rib beyond 1.8 GPa: the traction rheology is extrapolated"] = (
+            pressure - FITTED_PRESSURE
+        )
+    return excess
 
 
 def line_pressure(scene: TaperedRollerBearing, system: TaperedSystem, state: TaperedState) -> Float[Array, "2 roller"]:
@@ -171,35 +290,6 @@ def _end_reach(scene: TaperedRollerBearing, state: TaperedState) -> Array:
     # across the rolling direction, along the rib's generator
     ellipse = geometry.flange_contact(modulus).ellipse(state.flange_load)
     return below + ellipse.transverse - 0.5 * geometry.roller_diameter
-
-
-def _films(
-    scene: TaperedRollerBearing, state: TaperedState, motion: TaperedMotion
-) -> tuple[dict[str, Array], PowerLoss]:
-    """Films of the raceways as even line contacts of the sizes and speeds at mid length, and what rolling costs."""
-    if scene.contact is None or scene.oil is None:
-        return {}, PowerLoss(total=jnp.zeros(()))
-    geometry, operation, laws = scene.geometry, scene.operation, scene.contact
-    modulus = reduced_modulus(scene.materials.rings, scene.materials.rollers)
-    contact = LineContact(
-        geometry.race_reduced_radii(jnp.asarray(0.5))[:, None], jnp.asarray(geometry.roller_length), modulus
-    )
-    reach = geometry.apex_distance - 0.5 * geometry.roller_length
-    speed = motion.spin_speed * reach * jnp.sin(geometry.roller_half_angle) * jnp.ones((2, 1))
-    inlet = scene.oil.at(operation.oil_temperature)
-    still = jnp.zeros_like(state.load)
-    found = laws.evaluate(contact, state.load, speed + still, still, scene.oil, inlet)
-    films = {"film_inner": found.film[0], "film_outer": found.film[1]}
-    if found.temperature_rise is not None:
-        films |= {
-            "temperature_rise_inner": found.temperature_rise[0],
-            "temperature_rise_outer": found.temperature_rise[1],
-        }
-    if found.rolling_force is None:
-        return films, PowerLoss(total=jnp.zeros(()))
-    multiplicity = geometry.n_rollers // state.load.shape[1]
-    power = multiplicity * jnp.sum(found.rolling_force * speed)
-    return films, PowerLoss(total=power, rolling_resistance=power)
 
 
 def _stiffness(scene: TaperedRollerBearing, system: TaperedSystem, result: NewtonResult) -> Float[Array, "5 5"]:

@@ -21,6 +21,7 @@ from .patch import ContactPatch as ContactPatch
 from .patch import contact_patch as contact_patch
 from .point import PointContact as PointContact
 from .point_film import AbstractPointFilm as AbstractPointFilm
+from .point_film import ChittendenCentral as ChittendenCentral
 from .point_film import HamrockDowsonCentral as HamrockDowsonCentral
 from .point_film import HamrockDowsonMinimum as HamrockDowsonMinimum
 from .point_film import NijenbanningVennerMoes as NijenbanningVennerMoes

@@ -58,7 +58,7 @@ class NijenbanningVennerMoes(AbstractPointFilm):
 
     **Limits:** each regime's film where it dominates; the isoviscous film at $\alpha$ = 0 (floored at 1e-25 1/Pa).
     **Validity:** $\lambda\le1$, rolling along the minor axis; for $\lambda$ > 1 it extrapolates: use
-    `HamrockDowsonCentral`. Below 1e-4 $\lambda$ counts as 1e-4. M is floored as $\sqrt{M^2 + 10^{-12}}$, the speed
+    `ChittendenCentral`. Below 1e-4 $\lambda$ counts as 1e-4. M is floored as $\sqrt{M^2 + 10^{-12}}$, the speed
     levels off at 1e-6 m/s. About 10 % from Hamrock and Dowson in the elastic-piezoviscous regime.
     **Reference:** Nijenbanning, Venner and Moes (1994), Wear 176, 217; constants as recalled, checked by their limits.
     """
@@ -149,6 +149,35 @@ class HamrockDowsonMinimum(AbstractPointFilm):
         log_speed, log_material, log_load = _log_groups(contact, load, entrainment_speed, viscosity, pressure_viscosity)
         shape = jnp.log(-jnp.expm1(-0.68 * _fitted_ellipticity(contact)))
         log_film = jnp.log(3.63) + 0.68 * log_speed + 0.49 * log_material - 0.073 * log_load + shape
+        return log_film + jnp.log(contact.reduced_radius_rolling)
+
+
+class ChittendenCentral(AbstractPointFilm):
+    r"""Central film of an elastohydrodynamic point contact that rolls along either axis of its ellipse.
+
+    $h_c/R_x = 4.31\,U^{0.68}G^{0.49}W^{-0.073}[1 - \exp(-1.23(R_y/R_x)^{2/3})]$, groups as in `HamrockDowsonCentral`.
+
+    **Limits:** within 5 % of Hamrock and Dowson's film of a circle.
+    **Validity:** the elastic-piezoviscous regime only, with the floors of `HamrockDowsonCentral`; fitted for rolling
+    along the minor axis as well as along the major one (R_y < R_x), there down to about R_y/R_x = 0.1.
+    **Reference:** Chittenden, Dowson, Dunn and Taylor (1985), Proc. R. Soc. A 397, 245; constants as recalled, checked
+    by that limit.
+    """
+
+    piezoviscous_only: ClassVar[bool] = True
+
+    def log_thickness(
+        self,
+        contact: PointContact,
+        load: Values,
+        entrainment_speed: Values,
+        viscosity: Values,
+        pressure_viscosity: Values,
+    ) -> Float[Array, "..."]:
+        log_speed, log_material, log_load = _log_groups(contact, load, entrainment_speed, viscosity, pressure_viscosity)
+        log_ratio = jnp.log(contact.reduced_radius_transverse) - jnp.log(contact.reduced_radius_rolling)
+        shape = jnp.log(-jnp.expm1(-1.23 * jnp.exp(2.0 / 3.0 * log_ratio)))
+        log_film = jnp.log(4.31) + 0.68 * log_speed + 0.49 * log_material - 0.073 * log_load + shape
         return log_film + jnp.log(contact.reduced_radius_rolling)
 
 

@@ -1,13 +1,16 @@
 """From a valid table of a tapered roller bearing to the scene of the library. Only Python and numpy numbers enter the
 constructors: nothing runs on JAX."""
 
-from ..bearings.parts import ContactLaws, Materials
+from ..bearings.parts import ContactLaws, Drag, Materials
 from ..bearings.rating import Rating
 from ..bearings.tapered_geometry import TaperedGeometry
 from ..bearings.tapered_roller import TaperedOperation, TaperedRollerBearing
+from ..contacts import ChittendenCentral, Gupta, MeanPressureTraction, NijenbanningVennerMoes, NoThermalReduction
+from ..contacts.point_laws import PointLaws
+from ..lubricants import Lubricant, NoPressureViscosity
 from .bearing_build import part
 from .contact_laws import FILMS, ROLLING
-from .laws import thermal_factor
+from .laws import POINT_FILMS, distributed_traction, thermal_factor, viscous_function
 from .materials import material
 from .oils import lubricant
 from .profile_schema import roller_profile
@@ -19,17 +22,37 @@ def tapered_roller_bearing(table: TaperedRollerTable) -> TaperedRollerBearing:
 
     **Raises:** `ValueError` for combinations that the classes refuse.
     """
+    oil = None if table.oil is None else lubricant(table.oil)
     return TaperedRollerBearing(
         geometry=TaperedGeometry(**table.geometry.model_dump()),
         materials=Materials(rings=material(table.materials.rings), rollers=material(table.materials.rollers)),
         operation=TaperedOperation(**table.operation.model_dump(exclude_none=True)),
-        oil=None if table.oil is None else lubricant(table.oil),
-        contact=None if table.contact is None else _laws(table.contact),
+        oil=oil,
+        contact=None if table.contact is None else _laws(table.contact, oil),
+        rib=None if table.contact is None else _rib_laws(table.contact, oil),
+        drag=part(Drag, table.drag),
         profile=roller_profile(table.profile),
         rating=part(Rating, table.rating),
     )
 
 
-def _laws(table: TaperedContactTable) -> ContactLaws:
+def _laws(table: TaperedContactTable, oil: Lubricant | None) -> ContactLaws:
+    """Of the raceways."""
     rolling = None if table.rolling_resistance is None else ROLLING[table.rolling_resistance]()
-    return ContactLaws(film=FILMS[table.film](), thermal=thermal_factor(table.thermal), rolling=rolling)
+    traction = None if table.traction is None else MeanPressureTraction(viscous_function(table.traction, oil))
+    return ContactLaws(film=FILMS[table.film](), thermal=thermal_factor(table.thermal), traction=traction, rolling=rolling)
+
+
+def _rib_laws(table: TaperedContactTable, oil: Lubricant | None) -> PointLaws:
+    """Of the roller ends; without a name the film of contacts that roll along their longer axis, which holds for oils
+    whose viscosity rises with pressure."""
+    isoviscous = oil is not None and isinstance(oil.pressure_viscosity, NoPressureViscosity)
+    film = NijenbanningVennerMoes if isoviscous else ChittendenCentral
+    traction = None
+    if table.traction is not None:
+        traction = distributed_traction(table.traction, table.traction_accuracy, oil)
+    return PointLaws(
+        film=film() if table.flange_film is None else POINT_FILMS[table.flange_film](),
+        thermal=NoThermalReduction() if table.thermal is None else Gupta(),
+        traction=traction,
+    )

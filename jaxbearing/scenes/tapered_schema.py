@@ -1,14 +1,17 @@
 """The scene file of a tapered roller bearing. Names are the attribute names of the classes that it builds."""
 
-from typing import Literal, Self
+from collections.abc import Mapping
+from typing import ClassVar, Literal, Self
 
 from pydantic import model_validator
 
 from . import units
-from .bearing_schema import BearingOperationTable, RatingTable, require_oil
+from .bearing_schema import BearingOperationTable, RatingTable, require_oil, require_oil_flow
+from .laws import TractionAccuracy
 from .materials import MaterialField
 from .oil_schema import OilTable
 from .profile_schema import ProfileTable
+from .roller_schema import DragTable
 from .table import Table, refusal_at
 
 
@@ -28,15 +31,30 @@ class TaperedMaterialsTable(Table):
 
 
 class TaperedContactTable(Table):
-    """Laws of the raceway films, by the names in `scenes.contact_laws`; there is no traction on these raceways."""
+    """Laws of the contacts, by the names in `scenes.laws`. `film`, `rolling_resistance`: of the raceways; `flange_film`:
+    of the roller ends on the rib; `thermal`: of both, on the rib always Gupta's, the other one is made for lines;
+    `traction`: of what slides on the rib, and what the raceways could carry."""
 
+    about: ClassVar[Mapping[str, tuple[str, ...]]] = {"traction": ("traction_accuracy",)}
     film: Literal["moes", "dowson_higginson", "dowson_toyoda", "pan_hamrock", "grubin"]
     thermal: Literal["gupta", "hsu_lee"] | None = None
     rolling_resistance: Literal["rigid_isoviscous", "ertel_grubin"] | None = None
-    traction: None = None
+    flange_film: Literal["chittenden", "hamrock_dowson", "nijenbanning"] | None = None
+    traction: Literal["maxwell_eyring", "ree_eyring", "bair_winer", "gecim_winer", "elsharkawy_hamrock"] | None = None
+    traction_accuracy: TractionAccuracy | None = None
+
+    @model_validator(mode="after")
+    def _consistent(self) -> Self:
+        if self.traction_accuracy is not None and self.traction is None:
+            raise refusal_at("traction", "a law, without which traction_accuracy has no meaning", "nothing")
+        return self
 
 
-ISOVISCOUS = {"film": ("moes",), "rolling_resistance": ("rigid_isoviscous",)}
+ISOVISCOUS = {
+    "film": ("moes",),
+    "rolling_resistance": ("rigid_isoviscous",),
+    "flange_film": ("nijenbanning",),
+}
 """The laws of `TaperedContactTable` that hold for an oil of the same viscosity at every pressure."""
 
 
@@ -64,11 +82,14 @@ class TaperedRollerTable(Table):
     operation: TaperedOperationTable
     oil: OilTable | None = None
     contact: TaperedContactTable | None = None
+    drag: DragTable | None = None
     profile: ProfileTable | None = None
     rating: RatingTable | None = None
 
     @model_validator(mode="after")
     def _complete(self) -> Self:
         if self.contact is not None:
-            require_oil(self.oil, self.operation, self.contact, "", ISOVISCOUS)
+            require_oil_flow(self.drag, self.operation)
+            density = "" if self.drag is None else "the drag"
+            require_oil(self.oil, self.operation, self.contact, density, ISOVISCOUS)
         return self

@@ -11,6 +11,7 @@ from reference_oils import mobil_jet_ii
 from scipy.special import ellipe, ellipk
 
 from jaxbearing.contacts import (
+    ChittendenCentral,
     Gupta,
     HamrockDowsonCentral,
     HamrockDowsonMinimum,
@@ -25,7 +26,8 @@ from jaxbearing.lubricants import IntegratedPressureViscosity
 
 PUBLISHED = tomllib.loads((Path(__file__).parents[1] / "published" / "point_contact.toml").read_text())
 STEEL = 2.2747252747e11
-FILMS = [NijenbanningVennerMoes(), HamrockDowsonCentral(), HamrockDowsonMinimum()]  # new law: add it, get every test
+# new law: add it, get every test
+FILMS = [NijenbanningVennerMoes(), HamrockDowsonCentral(), HamrockDowsonMinimum(), ChittendenCentral()]
 NAMES = lambda film: type(film).__name__
 JITTED = {film: jax.jit(film.log_thickness) for film in FILMS}
 MOMENT = jax.jit(point_rolling_moment)
@@ -176,7 +178,7 @@ def test_isoviscous_oil():
     ri, ei = 145 * 1.796 ** (-15 / 7) / 25.0, 3.18 * 1.63**-0.56 * 5 ** (-2 / 15)
     h = (ri**1.5 + (ei**-4 + 1.8**-4) ** (-3 / 8)) ** (2 / 3)
     np.testing.assert_allclose(nijenbanning_h(5.0, 0.0), h, rtol=1e-9)
-    assert [film.piezoviscous_only for film in FILMS] == [False, True, True]
+    assert [film.piezoviscous_only for film in FILMS] == [False, True, True, True]
 
 
 def test_the_two_central_films_agree():
@@ -184,6 +186,17 @@ def test_the_two_central_films_agree():
         jnp.exp(JITTED[f](PointContact(0.01, 0.01, 2.3e11), 100.0, 5.0, 0.02, 2e-8)) for f in FILMS[:2]
     )
     np.testing.assert_allclose(nijenbanning, hamrock, rtol=0.1)
+
+
+def test_chittenden_s_film():
+    """Hamrock and Dowson's of a circle at typical groups; far less where it rolls along the major axis of the ellipse,
+    where the oil escapes to the sides: there the bracket is linear in (Ry/Rx)^(2/3)."""
+    groups = (1e-11, 4500.0, 1e-6)
+    film = lambda law, ratio: jnp.exp(of_groups(JITTED[law], PointContact(0.01, 0.01 * ratio, 2.3e11), *groups))
+    np.testing.assert_allclose(film(FILMS[3], 1.0), film(FILMS[1], 1.0), rtol=0.05)
+    np.testing.assert_allclose(film(FILMS[3], 1e-6) / film(FILMS[3], 1e-9), 100.0, rtol=1e-4)  # next: 1.23e-4/2
+    plain = 4.31 * (0.5e-11) ** 0.68 * 4500**0.49 * 1e-6**-0.073 * (1 - np.exp(-1.23 * 0.06 ** (2 / 3)))
+    np.testing.assert_allclose(film(FILMS[3], 0.06) / 0.01, plain, rtol=1e-12)
 
 
 FILM_SLOPES = {
