@@ -189,9 +189,11 @@ class Solution(AbstractSolution):
             name = "nested solve (inlet temperature rise of a contact, or cage land)"
             place = f", residual {float(self.inner_residual):.3g}"
         if int(self.status) == Status.NO_EQUILIBRIUM:
+            steps = int(self.iterations)
+            found = f"after {steps} Newton steps" if steps else "by the loads alone"
             return (
                 f"{Status.NO_EQUILIBRIUM.text}: contacts that only push cannot balance these loads, the inner ring "
-                f"comes out (proved after {int(self.iterations)} Newton steps)"
+                f"comes out (proved {found})"
             )
         return (
             f"{Status(int(self.status)).text} after {int(self.iterations)} Newton steps: scaled residual "

@@ -254,7 +254,7 @@ def _balance(
     moment, force, torque = jnp.zeros_like(races.film), jnp.zeros(races.film.shape[1]), jnp.zeros_like(races.film)
     if races.rolling is not None:
         couple = races.rolling * races.radius
-        moment = moment - jnp.sum(couple * roller.line, axis=1)
+        moment = moment - jnp.sum(couple[None] * roller.line, axis=1)
         torque = torque - couple * roller.line[0]
     if rib is not None:
         normal = jnp.stack([jnp.cos(jnp.asarray(geometry.flange_angle)), -jnp.sin(jnp.asarray(geometry.flange_angle))])

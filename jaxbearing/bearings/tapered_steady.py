@@ -30,8 +30,8 @@ HIGHEST = 9.0
 """1/(10/9 - 1): see `line_pressure`."""
 LARGEST_TILT = 10e-3
 """Of cone and rollers, rad: the approaches are linear in it, the squares of 10 mrad change a reach of 100 mm by 5 um."""
-LOADED = 0.01
-"""Rollers whose load on the cone is above this part of the largest one count as loaded."""
+LOADED = 0.1
+"""Rollers whose load on the cone is above this part of the largest one roll by themselves; a cage takes others along."""
 
 
 def solve_tapered(scene: TaperedRollerBearing, options: NewtonOptions) -> Solution:
@@ -242,7 +242,7 @@ def _law_excess(
         loading = jnp.max(scene.contact.thermal.thermal_loading(races.speed, inlet))
         excess["thermal loading beyond 20: Gupta's factor is extrapolated"] = loading - 20.0
     if races.capacity is not None and friction.balance is not None:
-        # rollers without load are the cage's: those with load, and all together
+        # each of those that roll by themselves, and, since a cage hands on what others lack, all together
         slack = races.capacity - jnp.abs(friction.balance.traction)
         least = jnp.minimum(-most(-slack, loaded[None]), jnp.min(jnp.sum(slack, axis=1)))
         text = (

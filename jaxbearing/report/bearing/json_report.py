@@ -31,6 +31,8 @@ def bearing_to_dict(solution: Solution) -> dict[str, Any]:
         if name not in (*_INSIDE, *_NAMES) and not name.startswith("global_"):
             results[name] = plain(getattr(solution, name))
     results["operation"] |= dict.fromkeys(unused_operation(solution))
+    # fixed keys, also where the scene models no friction
+    results["power_loss"].setdefault("total", None)
     results["stiffness"] = _embedded(np.asarray(solution.stiffness), solution.freedoms_of_stiffness)
     results["worst_equation"] = solution.equation_names[int(solution.worst_equation)]
     results.setdefault("life", None)

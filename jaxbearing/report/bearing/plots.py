@@ -15,7 +15,8 @@ if TYPE_CHECKING:
     import matplotlib.figure
 
 # Okabe and Ito's colours, which all kinds of colour vision tell apart
-INNER, OUTER, LOSS = "#0072B2", "#D55E00", "#56789A"
+INNER, OUTER, RIB, LOSS = "#0072B2", "#D55E00", "#009E73", "#56789A"
+_SIDES = (("outer", OUTER, "s", "outer race"), ("inner", INNER, "o", "inner race"), ("flange", RIB, "^", "rib"))
 
 _LOG_FROM = 20.0
 """Largest over smallest value from which on an axis is logarithmic: the films of the loaded zone must be readable."""
@@ -27,7 +28,7 @@ _ROUND = {
     "pressure": ("Hertz (peak) pressure", True),
     "sliding": ("Sliding speed", False),
 }
-"""Results that both raceways have: title, and whether the axis begins at 0."""
+"""Results of raceways or rib: title, and whether the axis begins at 0."""
 
 
 def plot_bearing(solution: Solution, title: str) -> "matplotlib.figure.Figure":
@@ -40,7 +41,8 @@ def plot_bearing(solution: Solution, title: str) -> "matplotlib.figure.Figure":
     if not bool(solution.converged):
         raise ValueError(f"a solve that failed has no results: {solution.failure()}")
     losses = power_losses(solution)
-    rounds = [name for name in _ROUND if getattr(solution.elements, f"{name}_inner", None) is not None]
+    at = lambda name, side: getattr(solution.elements, f"{name}_{side}", None)
+    rounds = [name for name in _ROUND if at(name, "inner") is not None or at(name, "flange") is not None]
     figure = Page()
     head(figure, title, pretty(operating_point(solution)))
     bottom = 0.075 + 0.019 * foot(figure, solution.warnings)
@@ -60,9 +62,19 @@ def plot_bearing(solution: Solution, title: str) -> "matplotlib.figure.Figure":
     _plot_loads(loads, solution)
     for name, place in zip(rounds, places, strict=True):
         _plot_round(figure.add_subplot(place), solution, name)
-    handles, names = loads.get_legend_handles_labels()
+    handles, names = _legend(figure)
     figure.legend(handles, names, loc="center right", bbox_to_anchor=(0.99, 0.92), ncols=2, fontsize=9.5, frameon=False)
     return figure
+
+
+def _legend(figure: Any) -> tuple[list[Any], list[str]]:
+    """One entry for each of the raceways and the rib that is drawn anywhere."""
+    drawn: dict[str, Any] = {}
+    for axes in figure.axes:
+        handles, names = axes.get_legend_handles_labels()
+        drawn |= dict(zip(names, handles, strict=True))
+    names = [label for *_, label in _SIDES if label in drawn]
+    return [drawn[name] for name in names], names
 
 
 def power_losses(solution: Solution) -> dict[str, float]:
@@ -135,19 +147,21 @@ def _load_arrow(axes: Any) -> None:
 def _plot_round(axes: Any, solution: Solution, name: str) -> None:
     title, from_zero = _ROUND[name]
     elements = solution.elements
-    values = {side: np.asarray(getattr(elements, f"{name}_{side}")) for side in ("inner", "outer")}
-    metadata = {field.name: field.metadata for field in dataclasses.fields(elements)}[f"{name}_inner"]
-    largest = float(max(np.abs(v).max() for v in values.values()))
+    values = {side: getattr(elements, f"{name}_{side}", None) for side in ("inner", "outer", "flange")}
+    values = {side: np.asarray(v) for side, v in values.items() if v is not None}
+    labels = {field.name: field.metadata for field in dataclasses.fields(elements)}
+    metadata = labels[f"{name}_{next(iter(values))}"]
+    # a roller that touches nothing has no film: NaN
+    largest = float(max((np.nanmax(np.abs(v)) for v in values.values() if np.any(np.isfinite(v))), default=0.0))
     unit, factor = axis_unit(metadata["unit"], largest)
     azimuth = displayed(1.0, "rad") * np.asarray(elements.azimuth)
     azimuth = np.where(azimuth > 180.0 + 1e-9, azimuth - 360.0, azimuth)
     order = np.argsort(azimuth)
-    for side, colour, marker in (("outer", OUTER, "s"), ("inner", INNER, "o")):
-        shown = factor * values[side][order]
-        axes.plot(
-            azimuth[order], shown, color=colour, marker=marker, markersize=3.2, linewidth=1.2, label=f"{side} race"
-        )
-    smallest = float(min(v.min() for v in values.values()))
+    for side, colour, marker, label in _SIDES:
+        if side in values:
+            shown = factor * values[side][order]
+            axes.plot(azimuth[order], shown, color=colour, marker=marker, markersize=3.2, linewidth=1.2, label=label)
+    smallest = float(min((np.nanmin(v) for v in values.values() if np.any(np.isfinite(v))), default=0.0))
     if not from_zero and smallest > 0.0 and largest > _LOG_FROM * smallest:
         _logarithmic(axes, smallest * factor, largest * factor)
     else:

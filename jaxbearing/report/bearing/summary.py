@@ -66,7 +66,7 @@ def _print_losses(solution: Solution, console: Console) -> None:
         for field in dataclasses.fields(loss)
         if getattr(loss, field.name) is not None
     }
-    total = entries.pop("total")
+    total = entries.pop("total", 0.0)
     if not entries:
         return
     largest = max(abs(watts) for watts in entries.values())
@@ -161,7 +161,7 @@ def _facts(solution: Solution) -> Iterator[tuple[str, str]]:
     ]
     if entries:
         yield "Stiffness", ", ".join(entries)
-    for title, name, pick in (("Thinnest film", "film", np.argmin), ("Highest pressure", "pressure", np.argmax)):
+    for title, name, pick in (("Thinnest film", "film", np.nanargmin), ("Highest pressure", "pressure", np.argmax)):
         text = ", ".join(_extremes(solution.elements, name, pick))
         if text:
             yield title, text
@@ -182,7 +182,8 @@ def _life(solution: Solution) -> Iterator[tuple[str, str]]:
     yield "Rating", f"C {kilonewton('dynamic_capacity')}, C0 {kilonewton('static_capacity')}"
     said = [] if life.viscosity_ratio is None else [f"kappa {digits(of('viscosity_ratio'), 3)}"]
     if life.film_ratio_inner is not None:
-        thinnest = min(float(np.min(np.asarray(getattr(life, f"film_ratio_{side}")))) for side in ("inner", "outer"))
+        ratios = [np.asarray(getattr(life, f"film_ratio_{side}")) for side in ("inner", "outer")]
+        thinnest = float(np.nanmin(ratios))  # NaN: a roller that touches nothing
         said.append(f"smallest lambda ratio {digits(thinnest, 3)}")
     if life.Lnmr is not None:
         said.append(f"a_ISO {digits(of('modification_factor'), 3)}, modified life {_revolutions(of('Lnmr'))}")
@@ -226,6 +227,13 @@ def _tapered_facts(solution: Solution) -> Iterator[tuple[str, str]]:
     j = int(np.argmax(load))
     at = f"(at {np.degrees(float(np.asarray(elements.azimuth)[j])):.0f} deg)"
     yield "Rib", f"largest load {digits(float(load[j]))} N, pressure {with_unit(float(pressure[j]), 'Pa')} {at}"
+    if elements.film_flange is None or load[j] <= 0.0:
+        return
+    of = lambda name: np.asarray(getattr(elements, name))[j]
+    said = [f"film {with_unit(float(of('film_flange')), 'm')}", f"sliding {with_unit(float(of('sliding_flange')), 'm/s')}"]
+    if elements.traction_flange is not None:
+        said.append(f"traction {digits(float(of('traction_flange')), 3)} N")
+    yield "", ", ".join(said)
 
 
 _KINDS = {
@@ -246,7 +254,8 @@ def _ring(solution: Solution) -> Iterator[str]:
 def _extremes(elements: Any, name: str, pick: Any) -> Iterator[str]:
     for field in dataclasses.fields(elements):
         values = getattr(elements, field.name)
-        if values is not None and field.name in (f"{name}_inner", f"{name}_outer"):
+        touches = values is not None and not np.all(np.isnan(np.asarray(values)))
+        if touches and field.name in (f"{name}_inner", f"{name}_outer"):
             j = int(pick(np.asarray(values)))
             side = field.name.removeprefix(f"{name}_")
             at = f"{np.degrees(float(np.asarray(elements.azimuth)[j])):.0f} deg"
