@@ -18,8 +18,8 @@ with all that dissipates in G. In a frame that orbits with the rollers, S the sp
   the reduced radius. (What it pushes around the bearing belongs to the constraint force.)
 - *Rib*: at $x_f = (a_f, r_f)$ rib and roller end move with $u_1 = (\omega_i - \omega_m)r_f$ and $u_2 = SR_s\sin\theta$;
   they slide on each other and spin about the normal $n_f$ with $(\omega_i - \omega_m)\cos\alpha_f + S\cos\theta$. The
-  sheared film gives a force $F_f$ around the bearing and a moment $M_f$ about the normal, $F_f(r_f, -a_f) + M_fn_f$. Its
-  roll there (a few per cent) dissipates nothing here.
+  film sheared in the Hertz ellipse gives a force $F_f$ around the bearing and a moment $M_f$ about the normal,
+  $F_f(r_f, -a_f) + M_fn_f$. Left out: shear outside the ellipse, and the rolling resistance of what little rolls there.
 - *Drag* D against the orbit, at mid length on the roller axis: $-D(r_m, -a_m)$.
 
 Gyroscopic and normal forces have no moment in that plane. The torques that drive the rings are assembled from the same

@@ -54,8 +54,8 @@ _Power = Float[Array, ""]
 
 
 class TaperedPowerLoss(eqx.Module):
-    """Dissipated power by location, W; what a scene does not model is `None`, `total` too where that is all. The entries
-    add up to `total`."""
+    """Dissipated power by location, W; what a scene does not model is `None`, and `total` where that is everything. The
+    entries add up to `total`."""
 
     total: _Power | None = _optional("W", "total")
     inner_raceway: _Power | None = _optional("W", "rolling resistance of the inner raceway")

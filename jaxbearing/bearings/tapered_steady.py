@@ -29,9 +29,9 @@ YIELD_PRESSURE = 4.0e9
 HIGHEST = 9.0
 """1/(10/9 - 1): see `line_pressure`."""
 LARGEST_TILT = 10e-3
-"""Of cone and rollers, rad: the approaches are linear in it, the squares of 10 mrad change a reach of 100 mm by 5 um."""
+"""Of cone and rollers, rad: the approaches are linear in it; the square of 10 mrad moves 100 mm by 5 um."""
 LOADED = 0.1
-"""Rollers whose load on the cone is above this part of the largest one roll by themselves; a cage takes others along."""
+"""Rollers above this part of the largest load on the cone roll by themselves; a cage takes the others along."""
 
 
 def solve_tapered(scene: TaperedRollerBearing, options: NewtonOptions) -> Solution:
@@ -193,7 +193,10 @@ def _of_friction(friction: TaperedFriction, state: TaperedState) -> dict[str, Ar
     races, rib, balance = friction.races, friction.rib, friction.balance
     more = {"film_inner": races.film[0], "film_outer": races.film[1]}
     if races.temperature_rise is not None:
-        more |= {"temperature_rise_inner": races.temperature_rise[0], "temperature_rise_outer": races.temperature_rise[1]}
+        more |= {
+            "temperature_rise_inner": races.temperature_rise[0],
+            "temperature_rise_outer": races.temperature_rise[1],
+        }
     if balance is not None:
         more |= {"traction_inner": balance.traction[0], "traction_outer": -balance.traction[1]}
     if rib is None:
@@ -246,8 +249,8 @@ def _law_excess(
         slack = races.capacity - jnp.abs(friction.balance.traction)
         least = jnp.minimum(-most(-slack, loaded[None]), jnp.min(jnp.sum(slack, axis=1)))
         text = (
-            "rollers would skid (keeping them rolling takes more traction than the raceway films have at 10 % sliding): "
-            "speeds and losses are those of pure rolling"
+            "rollers would skid (to keep them rolling takes more traction than the raceway films have at 10 % "
+            "sliding): speeds and losses are those of pure rolling"
         )
         excess[text] = -least
     if rib is not None and rib.traction is not None:

@@ -40,7 +40,9 @@ def _laws(table: TaperedContactTable, oil: Lubricant | None) -> ContactLaws:
     """Of the raceways."""
     rolling = None if table.rolling_resistance is None else ROLLING[table.rolling_resistance]()
     traction = None if table.traction is None else MeanPressureTraction(viscous_function(table.traction, oil))
-    return ContactLaws(film=FILMS[table.film](), thermal=thermal_factor(table.thermal), traction=traction, rolling=rolling)
+    return ContactLaws(
+        film=FILMS[table.film](), thermal=thermal_factor(table.thermal), traction=traction, rolling=rolling
+    )
 
 
 def _rib_laws(table: TaperedContactTable, oil: Lubricant | None) -> PointLaws:

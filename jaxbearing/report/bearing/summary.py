@@ -66,12 +66,13 @@ def _print_losses(solution: Solution, console: Console) -> None:
         for field in dataclasses.fields(loss)
         if getattr(loss, field.name) is not None
     }
-    total = entries.pop("total", 0.0)
-    if not entries:
+    total, drive = entries.pop("total", None), solution.drive_power
+    if not entries or total is None or drive is None:
         return
+    drive = float(drive)
     largest = max(abs(watts) for watts in entries.values())
     entries = dict(sorted(entries.items(), key=lambda entry: -entry[1]))
-    watts = _watts([*entries.values(), total, float(solution.drive_power)])
+    watts = _watts([*entries.values(), total, drive])
     columns = {
         "Power loss": [*entries, "total"],
         "W": watts[:-1],
@@ -80,11 +81,11 @@ def _print_losses(solution: Solution, console: Console) -> None:
     fractions = [value / (largest or 1.0) for value in entries.values()]
     print_rule("Power", console)
     print_table(columns, fractions, _LOSS_BAR, "red", console)
-    torques = [f"{digits(float(solution.inner_torque))} N m on the inner ring"]
+    torque = lambda ring: f"{digits(float(np.asarray(getattr(solution, f'{ring}_torque'))))} N m on the {ring} ring"
+    torques = [torque("inner")]
     if float(np.asarray(solution.operation.outer_speed)) != 0.0:
-        torques.append(f"{digits(float(solution.outer_torque))} N m on the outer ring")
+        torques.append(torque("outer"))
     print_line("Drive power", f"{watts[-1]} W   ({', '.join(torques)})", console)
-    total, drive = float(solution.power_loss.total), float(solution.drive_power)
     if abs(drive - total) > OPEN_BALANCE * abs(total):
         says = f"the drive power is {100.0 * (drive / total - 1.0):+.3g} % off the sum of the losses"
         print_line("Not balanced", f"{says}: the attitude of the balls is a hypothesis", console)
@@ -230,7 +231,10 @@ def _tapered_facts(solution: Solution) -> Iterator[tuple[str, str]]:
     if elements.film_flange is None or load[j] <= 0.0:
         return
     of = lambda name: np.asarray(getattr(elements, name))[j]
-    said = [f"film {with_unit(float(of('film_flange')), 'm')}", f"sliding {with_unit(float(of('sliding_flange')), 'm/s')}"]
+    said = [
+        f"film {with_unit(float(of('film_flange')), 'm')}",
+        f"sliding {with_unit(float(of('sliding_flange')), 'm/s')}",
+    ]
     if elements.traction_flange is not None:
         said.append(f"traction {digits(float(of('traction_flange')), 3)} N")
     yield "", ", ".join(said)
