@@ -40,7 +40,8 @@ def assemble(
     notes = scene.assumptions()
     if scene.unused_parts():
         unused = ", ".join(scene.unused_parts())
-        notes = (*notes, f"without traction on the raceways these tables have no effect: {unused}")
+        lacking = "[contact]" if isinstance(scene, TaperedRollerBearing) else "traction on the raceways"
+        notes = (*notes, f"without {lacking} these tables have no effect: {unused}")
     return Solution(
         status=result.status,
         iterations=result.iterations if iterations is None else iterations,

@@ -198,7 +198,9 @@ def _of_friction(friction: TaperedFriction, state: TaperedState) -> dict[str, Ar
             "temperature_rise_outer": races.temperature_rise[1],
         }
     if balance is not None:
-        more |= {"traction_inner": balance.traction[0], "traction_outer": -balance.traction[1]}
+        # without load it is the cage's, not the raceway's
+        traction = jnp.where(state.load > 0, balance.traction, jnp.nan)
+        more |= {"traction_inner": traction[0], "traction_outer": -traction[1]}
     if rib is None:
         return more
     more |= {"film_flange": rib.film, "sliding_flange": rib.motion.sliding_speed, "spin_flange": rib.motion.spin}

@@ -17,6 +17,7 @@ from ..bearings.tapered_roller import TaperedRollerBearing
 from ..lubricants import Lubricant
 from .basic import BALL_EXPONENT, RELIABILITY_FACTORS, ROLLER_EXPONENT, basic_life, tapered_equivalent_load
 from .capacity import ball_capacity, roller_capacity
+from .minimum_film import minimum_films
 from .modification import (
     Family,
     contamination_factor,
@@ -102,8 +103,8 @@ def bearing_life(scene: Any, solution: Solution) -> Life:
         more |= {"modification_factor": factor, "Lnmr": modified, "Lnmr_hours": hours(modified)}
     if rating.roughness_rings is not None and solid[0].film_inner is not None:
         rough = (rating.roughness_rings, rating.roughness_elements)
-        more["film_ratio_inner"] = film_ratio(solid[0].film_inner, *rough)
-        more["film_ratio_outer"] = film_ratio(solid[0].film_outer, *rough)
+        inner, outer = minimum_films(scene, solid[0])
+        more |= {"film_ratio_inner": film_ratio(inner, *rough), "film_ratio_outer": film_ratio(outer, *rough)}
     if rated.catalogue_load is not None:
         more["L10"] = basic_life(rated.dynamic_capacity, rated.catalogue_load, exponent)
     life = Life(

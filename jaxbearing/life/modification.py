@@ -94,5 +94,6 @@ def fatigue_load_limit(static_capacity: Scalar, pitch_diameter: Scalar, family: 
 
 
 def film_ratio(film: Values, roughness_a: Values, roughness_b: Values) -> Float[Array, "..."]:
-    r"""$\Lambda = h/\sqrt{R_{q1}^2 + R_{q2}^2}$: below 1 mixed, above 3 full film. **Arguments:** m."""
+    r"""$\Lambda = h/\sqrt{R_{q1}^2 + R_{q2}^2}$: below 1 mixed, above 3 full film. **Arguments:**
+    `film`, the minimum one, m."""
     return film / jnp.sqrt(jnp.square(roughness_a) + jnp.square(roughness_b))

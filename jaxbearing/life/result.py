@@ -32,5 +32,9 @@ class Life(eqx.Module):
     modification_factor: _Number | None = _optional("1", "a_ISO")
     Lnmr: _Number | None = _optional("1", "modified reference rating life a_1 a_ISO L10r, million revolutions")
     Lnmr_hours: _Number | None = _optional("h", "modified reference rating life")
-    film_ratio_inner: Float[Array, " element"] | None = _optional("1", "lambda ratio on the inner raceway")
-    film_ratio_outer: Float[Array, " element"] | None = _optional("1", "lambda ratio on the outer raceway")
+    film_ratio_inner: Float[Array, " element"] | None = _optional(
+        "1", "lambda ratio (of the minimum film) on the inner raceway"
+    )
+    film_ratio_outer: Float[Array, " element"] | None = _optional(
+        "1", "lambda ratio (of the minimum film) on the outer raceway"
+    )

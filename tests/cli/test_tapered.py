@@ -9,7 +9,18 @@ import pytest
 def test_screen_and_files(jaxbearing_command, folder):
     result = jaxbearing_command("solve", "tapered_example", "--plot", "a.png", "--out", "a.nc")
     assert (result.code, result.err) == (0, "")
-    for word in ("CONVERGED", "Rib", "Life", "L10r", "Rating", "kappa", "axial displacement"):
+    for word in (
+        "CONVERGED",
+        "Rib",
+        "sliding",
+        "flange",
+        "Drive power",
+        "Life",
+        "L10r",
+        "Rating",
+        "kappa",
+        "axial displacement",
+    ):
         assert word in result.out
     assert max(map(len, result.out.splitlines())) <= 100
     assert (folder / "a.png").stat().st_size > 1000
@@ -29,7 +40,32 @@ def test_json(jaxbearing_command, folder):
     np.testing.assert_allclose(found["elements"]["load_inner"][0], 2452.596, rtol=3e-7)
     assert found["life"]["L10r"] > 0
     assert found["life"]["L10r_hours"] > 0
-    assert found["power_loss"] == {"total": 0.0}
+    losses = found["power_loss"]
+    assert set(losses) == {"total", "inner_raceway", "outer_raceway", "flange", "drag"}
+    assert min(losses.values()) > 0
+    np.testing.assert_allclose(sum(losses.values()), 2 * losses["total"], rtol=1e-12)
+    np.testing.assert_allclose(found["drive_power"], losses["total"], rtol=1e-12)
+    np.testing.assert_allclose(found["inner_torque"] * 100 * np.pi, losses["total"], rtol=1e-12)  # 3000 rpm
+
+
+def test_idle_rollers_and_dry_ones(jaxbearing_command, folder):
+    """A roller that touches nothing has no film; a scene without friction no losses: both null."""
+    result = jaxbearing_command(
+        "solve", "tapered_example", "--set", "operation.axial_load=3 kN", "--plot", "a.png", "--json"
+    )
+    assert (result.code, result.err) == (0, "")
+    elements = json.loads(result.out)["elements"]
+    assert elements["load_inner"][8] == 0.0
+    assert elements["film_inner"][8] is None
+    assert elements["film_inner"][0] > 0
+    assert elements["traction_inner"][8] is None
+    screen = jaxbearing_command("solve", "tapered_example", "--set", "operation.axial_load=3 kN")
+    assert "nan" not in screen.out
+    dry = [word for name in ("contact", "drag") for word in ("--set", f"{name}=none")]
+    found = json.loads(jaxbearing_command("solve", "tapered_example", *dry, "--json").out)
+    assert found["power_loss"] == {"total": None}
+    assert (found["drive_power"], found["inner_torque"], found["converged"]) == (None, None, True)
+    assert "Power" not in jaxbearing_command("solve", "tapered_example", *dry, "--plot", "b.png", "--out", "b.nc").out
 
 
 def test_no_equilibrium(jaxbearing_command, folder):
@@ -39,6 +75,7 @@ def test_no_equilibrium(jaxbearing_command, folder):
     assert (found["converged"], found["status"]) == (False, "no_equilibrium")
     assert found["elements"]["load_inner"] is None or None in found["elements"]["load_inner"]
     assert "no_equilibrium" in result.err
+    assert found["iterations"] == 0  # the loads alone tell
 
 
 @pytest.mark.parametrize(
@@ -51,6 +88,8 @@ def test_no_equilibrium(jaxbearing_command, folder):
         ("rating.cleanliness=dirty", ["rating.cleanliness", "grease_normal"]),
         ("rating.roughness_rings=0.2 um", ["rating.roughness_elements"]),
         ("profile.shape=logarithmic", ["profile.drop", "8 um"]),
+        ("operation.oil_flow=none", ["operation.oil_flow", "[drag]"]),
+        ("contact.flange_film=moes", ["contact.flange_film", "chittenden"]),
     ],
 )
 def test_bad_input(change, words, jaxbearing_command, folder):

@@ -1,0 +1,54 @@
+"""Minimum over central film: what the lambda ratio needs of solutions that show the central film."""
+
+from typing import Any
+
+import jax.numpy as jnp
+from jaxtyping import Array, Float
+
+from ..bearings.ball_bearing import BallBearing
+from ..contacts import (
+    AbstractLineFilm,
+    DowsonHigginson,
+    HamrockDowsonCentral,
+    HamrockDowsonMinimum,
+    MartinBlend,
+    PanHamrockMinimum,
+)
+from ..materials import reduced_modulus
+
+LINE_SHARE = 0.75
+"""Of a line contact: 0.750 and 0.746 in own full solutions of the source's two contacts (table 18), 0.75 by Dowson and
+Higginson's minimum and Dowson and Toyoda's central film at U = 1e-11, W = 1e-4."""
+
+
+def minimum_films(scene: Any, elements: Any) -> tuple[Float[Array, " element"], Float[Array, " element"]]:
+    """Minimum films of the inner and the outer raceway, m, from the films of a solution.
+
+    Line contacts: `LINE_SHARE` of the central film, all of it where the scene's law is one of the minimum film. Point
+    contacts: the ratio of Hamrock and Dowson's two laws, at most 1, at the mean speed of the pitch circle (it goes with
+    its power 0.01).
+    """
+    if isinstance(scene.contact.film, HamrockDowsonMinimum):
+        share = jnp.ones((2, 1))
+    else:
+        share = _point_share(scene, elements) if isinstance(scene, BallBearing) else _line_share(scene.contact.film)
+    films = jnp.stack([elements.film_inner, elements.film_outer]) * share
+    return films[0], films[1]
+
+
+def _line_share(law: AbstractLineFilm) -> Array:
+    law = law.film if isinstance(law, MartinBlend) else law
+    return jnp.full((2, 1), 1.0 if isinstance(law, DowsonHigginson | PanHamrockMinimum) else LINE_SHARE)
+
+
+def _point_share(scene: BallBearing, elements: Any) -> Float[Array, "2 element"]:
+    assert scene.oil is not None
+    angles = elements.contact_angle_inner, elements.contact_angle_outer
+    modulus = reduced_modulus(scene.materials.rings, scene.materials.balls)
+    contact = scene.geometry.contacts(*(jnp.cos(angle) for angle in angles), modulus)
+    load = jnp.stack([elements.load_inner, elements.load_outer])
+    operation, inlet = scene.operation, scene.oil.at(scene.operation.oil_temperature)
+    speed = 0.25 * scene.geometry.pitch_diameter * (jnp.asarray(operation.inner_speed) - operation.outer_speed)
+    state = (contact, load, speed, inlet.viscosity, inlet.pressure_viscosity)
+    ratio = HamrockDowsonMinimum().log_thickness(*state) - HamrockDowsonCentral().log_thickness(*state)
+    return jnp.exp(jnp.minimum(ratio, 0.0))
