@@ -19,8 +19,8 @@ def _optional(unit: str, description: str) -> Any:
 
 
 class TaperedResults(eqx.Module):
-    """Arrays over the rollers; what is not modelled is `None`, films and tractions where nothing touches are NaN. Speeds
-    are positive in normal running."""
+    """Arrays over the rollers; what is not modelled is `None`, films and tractions where nothing touches are NaN.
+    Speeds are positive in normal running."""
 
     azimuth: _Values = _result("rad", "azimuth from the load line")
     load_inner: _Values = _result("N", "normal load on the inner raceway")

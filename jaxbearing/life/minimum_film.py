@@ -45,7 +45,7 @@ def _point_share(scene: BallBearing, elements: Any) -> Float[Array, "2 element"]
     assert scene.oil is not None
     angles = elements.contact_angle_inner, elements.contact_angle_outer
     modulus = reduced_modulus(scene.materials.rings, scene.materials.balls)
-    contact = scene.geometry.contacts(*(jnp.cos(angle) for angle in angles), modulus)
+    contact = scene.geometry.contacts(jnp.cos(angles[0]), jnp.cos(angles[1]), modulus)
     load = jnp.stack([elements.load_inner, elements.load_outer])
     operation, inlet = scene.operation, scene.oil.at(scene.operation.oil_temperature)
     speed = 0.25 * scene.geometry.pitch_diameter * (jnp.asarray(operation.inner_speed) - operation.outer_speed)

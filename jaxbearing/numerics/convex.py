@@ -23,6 +23,9 @@ STIFFENED = (16.0, 12)
 """The same for the step with all diagonals stiffened: surely downhill, and no element flies."""
 STIFFENING = 1e-3
 """Added to diagonals there, over the largest of them."""
+LEAPS = 3
+"""Whole Newton steps that are taken although the potential does not fall: with many idle rollers rounding may stop the
+descent long before the residual is small."""
 
 FAST = 0.5
 """A whole Newton step that lowers the potential, and the residual to this part, is taken without a search."""
@@ -54,11 +57,13 @@ class _State(NamedTuple):
     residual: Array
     steps: Array
     going: Bool[Array, ""]
+    leaps: Array
 
 
 def descend(system: AbstractConvexArrow, guess: ArrowPoint, *, tolerance: float, max_steps: int) -> Descent:
     """Towards the minimum of the potential, until the scaled residual is below `tolerance`, or until no trial along
-    Newton's direction lowers the potential (round-off). Not differentiated: the start of an iteration."""
+    Newton's direction lowers the potential (round-off), which a few whole steps that raise it may overcome. Not
+    differentiated: the start of an iteration."""
     system, guess = jax.lax.stop_gradient((system, guess))
     ways = (TOGETHER, SPLIT, STIFFENED)
     fractions = jnp.asarray(np.concatenate([first * 0.5 ** np.arange(count) for first, count in ways]))
@@ -82,11 +87,13 @@ def descend(system: AbstractConvexArrow, guess: ArrowPoint, *, tolerance: float,
             return move(fractions[best], way_of[best]), values[best] < value
 
         trial, lower = jax.lax.cond(fast, lambda _: (whole, jnp.asarray(True)), search, None)
-        go = lower & (residual > tolerance)
+        leap = ~lower & (state.leaps < LEAPS)
+        trial = jax.tree.map(lambda found, new: jnp.where(leap, new, found), trial, whole)
+        go = (lower | leap) & (residual > tolerance)
         point = ArrowPoint(*(jnp.where(go, new, old) for new, old in zip(trial, state.point, strict=True)))
-        return _State(point, residual, state.steps + go.astype(int), go)
+        return _State(point, residual, state.steps + go.astype(int), go, state.leaps + leap.astype(int))
 
-    start = _State(guess, jnp.asarray(jnp.inf), jnp.asarray(0), jnp.asarray(True))
+    start = _State(guess, jnp.asarray(jnp.inf), jnp.asarray(0), jnp.asarray(True), jnp.asarray(0))
     end = jax.lax.while_loop(lambda s: s.going & (s.steps < max_steps), advance, start)
     return Descent(end.point, _largest(evaluate(system, end.point).residual), end.steps)
 
