@@ -27,8 +27,9 @@ forces, $\sum[A_i\sin\alpha_i + P_iR_i\cos\alpha_i + F_fr_f + M_f\cos\alpha_f]$ 
 P_oR_o\cos\alpha_o]$; that their power is the sum of the dissipations tests every sign.
 
 **Validity:** pure rolling. Friction does not change the normal loads and does not skew the rollers (the rib's force
-along its generator and what friction does to the cone's equilibrium are left out). There is no cage: where a roller without load on the cone is
-dragged, the constraint forces stand for the pocket that would push it, and are not forces of the raceways.
+along its generator and what friction does to the cone's equilibrium are left out). There is no cage: where a roller
+without load on the cone is dragged, the constraint forces stand for the pocket that would push it, and are not forces of
+the raceways.
 **Reference:** own derivation; the source's tapered bearing is frictionless.
 """
 
