@@ -28,7 +28,7 @@ P_oR_o\cos\alpha_o]$; that their power is the sum of the dissipations tests ever
 
 **Validity:** pure rolling. Friction does not change the normal loads and does not skew the rollers (the rib's force
 along its generator and what friction does to the cone's equilibrium are left out). There is no cage: where a roller
-without load on the cone is dragged, the constraint forces stand for the pocket that would push it, and are not forces of
+without load on the cone is dragged, the constraint forces stand for the pocket that would push it, and are none of
 the raceways.
 **Reference:** own derivation; the source's tapered bearing is frictionless.
 """
