@@ -11,7 +11,6 @@ from ..contacts import (
     AbstractThermalFactor,
     AbstractViscousFunction,
     BairWiner,
-    ChittendenCentral,
     DistributedTraction,
     DowsonHigginson,
     DowsonToyoda,
@@ -41,7 +40,6 @@ LINE_FILMS: dict[str, type[AbstractLineFilm]] = {
 POINT_FILMS: dict[str, type[AbstractPointFilm]] = {
     "nijenbanning": NijenbanningVennerMoes,
     "hamrock_dowson": HamrockDowsonCentral,
-    "chittenden": ChittendenCentral,
 }
 THERMAL: dict[str, type[AbstractThermalFactor]] = {"gupta": Gupta, "hsu_lee": HsuLee}
 VISCOUS: dict[str, type[AbstractViscousFunction]] = {

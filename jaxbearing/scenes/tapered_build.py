@@ -16,6 +16,9 @@ from .oils import lubricant
 from .profile_schema import roller_profile
 from .tapered_schema import TaperedContactTable, TaperedRollerTable
 
+FLANGE_FILMS = {**POINT_FILMS, "chittenden": ChittendenCentral}
+"""Of `flange_film`; those of `film`, `thermal`, `rolling_resistance` and `traction` are in `laws` and `contact_laws`."""
+
 
 def tapered_roller_bearing(table: TaperedRollerTable) -> TaperedRollerBearing:
     """The scene that a table describes.
@@ -54,7 +57,7 @@ def _rib_laws(table: TaperedContactTable, oil: Lubricant | None) -> PointLaws:
     if table.traction is not None:
         traction = distributed_traction(table.traction, table.traction_accuracy, oil)
     return PointLaws(
-        film=film() if table.flange_film is None else POINT_FILMS[table.flange_film](),
+        film=film() if table.flange_film is None else FLANGE_FILMS[table.flange_film](),
         thermal=NoThermalReduction() if table.thermal is None else Gupta(),
         traction=traction,
     )

@@ -31,7 +31,7 @@ class TaperedMaterialsTable(Table):
 
 
 class TaperedContactTable(Table):
-    """Laws of the contacts, by the names in `scenes.laws`. `film`, `rolling_resistance`: of the raceways;
+    """Laws of the contacts, by the names in `tapered_build`. `film`, `rolling_resistance`: of the raceways;
     `flange_film`: of the roller ends on the rib; `thermal`: of both, on the rib always Gupta's, the other one is made
     for lines; `traction`: of what slides on the rib, and what the raceways could carry."""
 
