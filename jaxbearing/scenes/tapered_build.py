@@ -17,7 +17,7 @@ from .profile_schema import roller_profile
 from .tapered_schema import TaperedContactTable, TaperedRollerTable
 
 FLANGE_FILMS = {**POINT_FILMS, "chittenden": ChittendenCentral}
-"""Of `flange_film`; those of `film`, `thermal`, `rolling_resistance` and `traction` are in `laws` and `contact_laws`."""
+"""Of `flange_film`; the names of the other laws are in `laws` and `contact_laws`."""
 
 
 def tapered_roller_bearing(table: TaperedRollerTable) -> TaperedRollerBearing:
