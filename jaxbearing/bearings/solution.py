@@ -190,7 +190,7 @@ class Solution(AbstractSolution):
         if int(self.status) == Status.NO_EQUILIBRIUM:
             return (
                 f"{Status.NO_EQUILIBRIUM.text}: contacts that only push cannot balance these loads, the inner ring "
-                f"comes out (proved after {int(self.iterations)} Newton steps)"
+                f"comes out or tilts out of all bounds (proved after {int(self.iterations)} Newton steps)"
             )
         return (
             f"{Status(int(self.status)).text} after {int(self.iterations)} Newton steps: scaled residual "

@@ -18,7 +18,7 @@ from .steady import assemble
 from .tapered_build import TaperedMotion, build_tapered, rolling_motion
 from .tapered_roller import TaperedRollerBearing
 from .tapered_solution import TaperedResults
-from .tapered_system import TaperedState, TaperedSystem
+from .tapered_system import Inertia, TaperedState, TaperedSystem
 
 YIELD_PRESSURE = 4.0e9
 """Pa: that of the basic static load rating of roller bearings in ISO 76."""
@@ -30,14 +30,14 @@ def solve_tapered(scene: TaperedRollerBearing, options: NewtonOptions) -> Soluti
     """Steady state: pure, jit-able, vmap-able, differentiable; never raises for a failed solve.
 
     Where no equilibrium is found and one of two proofs holds that there is none, the status is `no_equilibrium`: the
-    axial load is below the radial one times tan(alpha_o), so that the cone slides out whatever it does; or a way to
-    fall apart has been found (`TaperedSystem.falls_apart`).
+    axial load is below a static bound (`slides_out`); or the cone, with all else in equilibrium, is still pushed on at
+    a tilt of 0.1 rad, or at a displacement of the apex distance (`numerics.convex.find_minimum`).
     """
-    started, steps = build_tapered(scene).started()
+    posed = build_tapered(scene)
+    slides = slides_out(scene, posed.inertia)
+    started, minimum = posed.started(slides)
     system, result = newton_solve(started, options)
-    none = ~result.converged & (
-        slides_out(scene) | system.falls_apart(result.point) | started.falls_apart(_at(started))
-    )
+    none = ~result.converged & (slides | minimum.outside)
     result = result._replace(status=jnp.where(none, int(Status.NO_EQUILIBRIUM), result.status))
     ring = {name: result.point.globals[i] * LENGTH_UNIT for i, name in enumerate(system.freedoms)}
     lever = scene.geometry.apex_distance
@@ -54,24 +54,26 @@ def solve_tapered(scene: TaperedRollerBearing, options: NewtonOptions) -> Soluti
         _results(scene, system, result),
         displacement,
         _stiffness(scene, system, result),
-        iterations=steps + result.iterations,
+        iterations=minimum.steps + result.iterations,
         ring_freedom=(*scene.ring_freedom, "tilt") if tilted else scene.ring_freedom,
         stiffness_freedom=RING_FREEDOMS,
         equation_names=system.equation_names(),
     )
 
 
-def _at(system: TaperedSystem) -> ArrowPoint:
-    assert system.guess is not None
-    return system.guess
+def slides_out(scene: TaperedRollerBearing, inertia: Inertia) -> Bool[Array, ""]:
+    r"""Whether $F_a < F_r\tan\alpha_o + ZQ_c\sin\alpha_o$, $Q_c = F_c\cos\alpha_f/\cos(\alpha_o - \alpha_f)$: no
+    equilibrium then, whatever the tilt.
 
-
-def slides_out(scene: TaperedRollerBearing) -> Bool[Array, ""]:
-    r"""Whether $F_a < F_r\tan\alpha_o$: every roller leans on the cup at that angle, so that no distribution of loads
-    balances both; necessary whatever the tilt, and centrifugal forces have no part in either sum."""
-    operation = scene.operation
-    radial = 0.0 if operation.radial_load is None else operation.radial_load
-    return jnp.asarray(operation.axial_load) < jnp.abs(jnp.asarray(radial)) * jnp.tan(scene.geometry.contact_angle)
+    Every roller leans on the cup at that angle, and the centrifugal forces cancel: $F_a - F_r\tan\alpha_o =
+    \sin\alpha_o\sum Q_o(1 - \cos\psi)$; and $Q_c$ is the least that a roller leans on the cup with, its centrifugal
+    force carried by cup and rib alone.
+    """
+    operation, geometry = scene.operation, scene.geometry
+    radial = jnp.abs(jnp.asarray(0.0 if operation.radial_load is None else operation.radial_load))
+    cup, rib = jnp.asarray(geometry.contact_angle), jnp.asarray(geometry.flange_angle)
+    least = inertia.force * jnp.cos(rib) / jnp.cos(cup - rib)
+    return jnp.asarray(operation.axial_load) < radial * jnp.tan(cup) + geometry.n_rollers * least * jnp.sin(cup)
 
 
 class _Results(NamedTuple):

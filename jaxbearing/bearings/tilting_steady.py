@@ -69,7 +69,7 @@ def _motion(scene: CylindricalRollerBearing) -> RollerKinematics:
 
 def solve_tilting(scene: CylindricalRollerBearing, options: NewtonOptions) -> Solution:
     """Steady state: pure, jit-able, vmap-able, differentiable; never raises for a failed solve."""
-    started, steps = build_tilting(scene).started()
+    started, minimum = build_tilting(scene).started()
     system, result = newton_solve(started, options)
     length = scene.geometry.loaded_length
     ring = {name: result.point.globals[i] * LENGTH_UNIT for i, name in enumerate(system.freedoms)}
@@ -90,7 +90,7 @@ def solve_tilting(scene: CylindricalRollerBearing, options: NewtonOptions) -> So
         _results(scene, system, system.at(result.point)),
         displacement,
         _stiffness(scene, system, result.point),
-        iterations=steps + result.iterations,
+        iterations=minimum.steps + result.iterations,
         ring_freedom=(*system.freedoms, "tilt") if held else system.freedoms,
         stiffness_freedom=FREEDOMS,
         equation_names=system.equation_names(),
