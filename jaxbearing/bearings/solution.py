@@ -62,6 +62,12 @@ class RollerResults(eqx.Module):
     film_outer: Float[Array, " element"] | None = eqx.field(
         default=None, metadata=label("m", "central film on the outer raceway")
     )
+    film_least_inner: Float[Array, " element"] | None = eqx.field(
+        default=None, metadata=label("m", "central film of the lamina that carries most, inner")
+    )
+    film_least_outer: Float[Array, " element"] | None = eqx.field(
+        default=None, metadata=label("m", "central film of the lamina that carries most, outer")
+    )
     temperature_rise_inner: Float[Array, " element"] | None = eqx.field(
         default=None, metadata=label("K", "inlet heating, inner")
     )

@@ -179,9 +179,7 @@ def descend_settled(system: AbstractConvexArrow, guess: ArrowPoint, *, tolerance
         size = jnp.max(jnp.abs(right))
         diagonal = jnp.diag(jnp.diagonal(schur))
         steps = jax.vmap(lambda damping: solve_dense(schur + damping * diagonal, right))(jnp.asarray(HARDENING))
-        steps = steps / jnp.maximum(
-            jnp.max(jnp.abs(steps) / system.step_caps().globals, axis=1, keepdims=True), 1.0
-        )
+        steps = steps / jnp.maximum(jnp.max(jnp.abs(steps) / system.step_caps().globals, axis=1, keepdims=True), 1.0)
         steps = (fractions[None, :, None] * steps[:, None, :]).reshape(-1, ring.shape[0])
         coupled = solve_blocks(jacobian.local, jacobian.to_globals)
 
@@ -216,8 +214,8 @@ def find_minimum(system: AbstractConvexArrow, *, tolerance: float, hopeless: Boo
     """A start for Newton's iteration that is the minimum of the potential to `tolerance`, where there is one inside the
     bounds: all unknowns descend together, and, where that takes long, the globals alone with every element settled.
 
-    `hopeless`: known to have none, not worth the long way. The proof that it is outside: at a bound, everything else in equilibrium, the potential still falls outwards. As a
-    convex function it then does so all the way to there.
+    The proof that it is outside: at a bound, everything else in equilibrium, the potential still falls outwards. As a
+    convex function it then does so all the way to there. `hopeless`: known to have no minimum, not worth the long way.
     """
     system = jax.lax.stop_gradient(system)
     quick = descend(system, system.initial(), tolerance=tolerance, max_steps=QUICK_STEPS)

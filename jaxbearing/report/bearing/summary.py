@@ -161,7 +161,7 @@ def _facts(solution: Solution) -> Iterator[tuple[str, str]]:
     ]
     if entries:
         yield "Stiffness", ", ".join(entries)
-    for title, name, pick in (("Thinnest film", "film", np.argmin), ("Highest pressure", "pressure", np.argmax)):
+    for title, name, pick in (("Thinnest film", "film", np.nanargmin), ("Highest pressure", "pressure", np.argmax)):
         text = ", ".join(_extremes(solution.elements, name, pick))
         if text:
             yield title, text
@@ -182,7 +182,7 @@ def _life(solution: Solution) -> Iterator[tuple[str, str]]:
     yield "Rating", f"C {kilonewton('dynamic_capacity')}, C0 {kilonewton('static_capacity')}"
     said = [] if life.viscosity_ratio is None else [f"kappa {digits(of('viscosity_ratio'), 3)}"]
     if life.film_ratio_inner is not None:
-        thinnest = min(float(np.min(np.asarray(getattr(life, f"film_ratio_{side}")))) for side in ("inner", "outer"))
+        thinnest = min(float(np.nanmin(np.asarray(getattr(life, f"film_ratio_{side}")))) for side in ("inner", "outer"))
         said.append(f"smallest lambda ratio {digits(thinnest, 3)}")
     if life.Lnmr is not None:
         said.append(f"a_ISO {digits(of('modification_factor'), 3)}, modified life {_revolutions(of('Lnmr'))}")
