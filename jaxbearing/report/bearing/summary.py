@@ -246,7 +246,9 @@ def _ring(solution: Solution) -> Iterator[str]:
 def _extremes(elements: Any, name: str, pick: Any) -> Iterator[str]:
     for field in dataclasses.fields(elements):
         values = getattr(elements, field.name)
-        if values is not None and field.name in (f"{name}_inner", f"{name}_outer"):
+        if field.name not in (f"{name}_inner", f"{name}_outer") or values is None:
+            continue
+        if np.any(np.isfinite(np.asarray(values))):
             j = int(pick(np.asarray(values)))
             side = field.name.removeprefix(f"{name}_")
             at = f"{np.degrees(float(np.asarray(elements.azimuth)[j])):.0f} deg"
