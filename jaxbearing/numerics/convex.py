@@ -141,9 +141,8 @@ def settle(
         residual, push = jax.linearize(lambda u: system.element(u, shared)[0], state.elements)
         local = jnp.swapaxes(jax.vmap(push)(seeds), 0, 1)
         scale = jnp.max(jnp.abs(jnp.einsum("mmn->mn", local)), axis=0)
-        along = lambda damping: solve_blocks(
-            local + damping * scale[None, None, :] * jnp.eye(m)[:, :, None], residual[:, None, :]
-        )
+        identity = scale[None, None, :] * jnp.eye(m)[:, :, None]
+        along = lambda damping: solve_blocks(local + damping * identity, residual[:, None, :])
         ways = jax.vmap(along)(jnp.asarray(DAMPING))[:, :, 0]
         longest = FLIGHT * system.step_caps().elements[None]
         ways = ways / jnp.maximum(jnp.max(jnp.abs(ways) / longest, axis=1, keepdims=True), 1.0)
@@ -181,9 +180,8 @@ def descend_settled(system: AbstractConvexArrow, guess: ArrowPoint, *, tolerance
         size = jnp.max(jnp.abs(right))
         diagonal = jnp.diag(jnp.diagonal(schur))
         steps = jax.vmap(lambda damping: solve_dense(schur + damping * diagonal, right))(jnp.asarray(HARDENING))
-        steps = steps / jnp.maximum(
-            jnp.max(jnp.abs(steps) / system.step_caps().globals[None, :], axis=1, keepdims=True), 1.0
-        )
+        over = jnp.max(jnp.abs(steps) / system.step_caps().globals[None, :], axis=1, keepdims=True)
+        steps = steps / jnp.maximum(over, 1.0)
         steps = (fractions[None, :, None] * steps[:, None, :]).reshape(-1, ring.shape[0])
         coupled = solve_blocks(jacobian.local, jacobian.to_globals)
 
