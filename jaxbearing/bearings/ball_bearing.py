@@ -208,4 +208,6 @@ class BallBearing(AbstractScene):
                 f"kinematics.attitude = '{self.kinematics.attitude}' is a hypothesis: the moments about the radius do "
                 "not balance, and the losses do not add up to the drive power"
             )
+        if self.rating is not None:
+            said += self.rating.groove_assumptions()
         return tuple(said)

@@ -167,7 +167,8 @@ class CylindricalRollerBearing(AbstractScene):
     - `contact.traction=None`: films, but no friction on the raceways; rollers orbit without slip.
     - with traction a `cage` is needed: without one a roller outside the loaded zone has no steady state, and the scene
       must have a `simulation`.
-    - `profile`, or `operation.misalignment` or `operation.moment`: rollers that tilt, in laminae; dry only.
+    - `profile`, or `operation.misalignment` or `operation.moment`: rollers that tilt, in laminae; with a
+      `contact` without traction: films and what rolling costs, for rolling without sliding.
     - `simulation`: what a run in time does beyond the operating point; a steady solve does not look at it.
 
     **Raises:** `ValueError` for combinations that have no steady state or lack what they need.
@@ -191,10 +192,10 @@ class CylindricalRollerBearing(AbstractScene):
             raise ValueError(f"ring_freedom must be ('radial',) or ('radial', 'lateral'), got {self.ring_freedom!r}")
         if self.contact is None:
             return
-        if self.tilts:
+        if self.tilts and self.slips:
             raise ValueError(
-                "contact: tilting or profiled rollers (profile, operation.misalignment, operation.moment) are dry and "
-                "frictionless in this version; leave out [contact]"
+                "contact.traction: tilting or profiled rollers (profile, operation.misalignment, operation.moment) "
+                "roll without sliding in this version; leave out contact.traction"
             )
         if self.cage is not None:
             self.cage.check_fits(self.geometry)
@@ -234,10 +235,10 @@ class CylindricalRollerBearing(AbstractScene):
         """Tables that the scene names but that have no effect without traction on the raceways."""
         if self.slips:
             return ()
-        rolling = None if self.contact is None else self.contact.rolling
+        rolling = None if self.contact is None or self.tilts else self.contact.rolling
         named = {"cage": self.cage, "flange": self.flange, "drag": self.drag, "contact.rolling_resistance": rolling}
         if self.contact is None:
-            named["oil"] = self.oil
+            named["oil"] = None if self.rating is not None else self.oil
         return tuple(name for name, part in named.items() if part is not None)
 
     def assumptions(self) -> tuple[str, ...]:
@@ -246,6 +247,11 @@ class CylindricalRollerBearing(AbstractScene):
         if self.contact is not None and self.oil is not None:
             said += [f"oil: {note}" for note in self.oil.notes]
             said += _misfit(self.contact, self.oil)
+        if self.tilts and self.contact is not None:
+            said.append(
+                "tilting rollers roll without sliding: cage, skidding and sliding friction are not modelled, losses "
+                "are those of rolling resistance alone"
+            )
         if self.geometry.contact_length is None:
             said.append("geometry.contact_length is not given: the whole roller length carries load")
         if self.slips and self.cage is not None:

@@ -1,11 +1,15 @@
 """What a scene says about the fatigue life of its bearing: the same for all kinds of bearings."""
 
+from typing import Literal
+
 import equinox as eqx
 
 from .._scene import optional_number
 from .._types import Scalar
 from ..numerics.checks import require
 
+CATALOGUE_CONFORMITY = 0.52
+"""Groove radius over ball diameter for which ISO 281 and catalogues rate ball bearings."""
 LAMINAE = 30
 """Laminae of a roller in the reference life where a scene does not say."""
 
@@ -16,6 +20,9 @@ class Rating(eqx.Module):
     **Arguments:**
     - `dynamic_capacity`, `static_capacity`: C and C0, N; not given: from the geometry.
     - `fatigue_load_limit`: C_u, N; not given: from C0.
+    - `grooves`: of ball bearings, for which conformities C and C0 are computed: "catalogue", 0.52 of both races, which
+      ratings of catalogues are made with, whatever the grooves; or "scene" (structure). ISO 281 gives no higher rating
+      to closer grooves, and a closer one of the inner race alone adds 9 %.
     - `reliability`: 0.90, 0.95, 0.96, 0.97, 0.98 or 0.99 (structure: another one recompiles).
     - `cleanliness`: name of a contamination class; with it, and with a viscosity ratio, the life is modified (a_ISO).
     - `viscosity_ratio`: kappa; not given: from the oil, its temperature and the speed, where the scene has them.
@@ -35,6 +42,7 @@ class Rating(eqx.Module):
     cleanliness: str | None = eqx.field(static=True, default=None)
     n_laminae: int = eqx.field(static=True, default=LAMINAE)
     edge_factor: bool | None = eqx.field(static=True, default=None)
+    grooves: Literal["catalogue", "scene"] = eqx.field(static=True, default="catalogue")
 
     def __check_init__(self):
         positive = (
@@ -48,5 +56,18 @@ class Rating(eqx.Module):
         require("rating", **{name: (getattr(self, name), "> 0") for name in positive})
         if (self.roughness_rings is None) != (self.roughness_elements is None):
             raise ValueError("rating.roughness_rings: give it and rating.roughness_elements, or neither")
+        if self.grooves not in ("catalogue", "scene"):
+            raise ValueError(f"rating.grooves must be 'catalogue' or 'scene', got {self.grooves!r}")
         if self.n_laminae < 1:
             raise ValueError(f"rating.n_laminae must be >= 1, got {self.n_laminae}")
+
+    def groove_assumptions(self) -> tuple[str, ...]:
+        """Which grooves the ratings of a ball bearing are computed for, for the user."""
+        missing = [name for name in ("dynamic_capacity", "static_capacity") if getattr(self, name) is None]
+        if not missing:
+            return ()
+        grooves = "the conformities of the scene"
+        if self.grooves == "catalogue":
+            grooves = "grooves of conformity 0.52, as catalogues do (rating.grooves = 'scene' takes the scene's)"
+        names = " and ".join(f"rating.{name}" for name in missing)
+        return (f"{names} not given: computed with {grooves}",)

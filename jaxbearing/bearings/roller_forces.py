@@ -43,6 +43,11 @@ class RollerForces(NamedTuple):
     drag_force: Float[Array, " roller"] | None
 
 
+def rolling_lean(contact: LineContact, motion: RollerKinematics) -> Float[Array, "2"]:
+    """Tangential force on a roller by its rolling resistance, over it, per race: R_reduced/R_R - 1/2."""
+    return per_race(contact.reduced_radius) / motion.roller_radius - 0.5
+
+
 def forces_without_pocket(
     motion: RollerKinematics,
     contact: LineContact,
@@ -66,7 +71,7 @@ def forces_without_pocket(
             moment = moment + end.moment
     rolling = state.rolling_force
     if rolling is not None:
-        lean = per_race(contact.reduced_radius) / motion.roller_radius - 0.5
+        lean = rolling_lean(contact, motion)
         tangential = tangential + rolling[0] * lean[0] - rolling[1] * lean[1]
         moment = moment + 0.5 * motion.roller_radius * (rolling[0] + rolling[1])
     drag = None

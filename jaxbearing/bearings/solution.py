@@ -62,6 +62,12 @@ class RollerResults(eqx.Module):
     film_outer: Float[Array, " element"] | None = eqx.field(
         default=None, metadata=label("m", "central film on the outer raceway")
     )
+    film_least_inner: Float[Array, " element"] | None = eqx.field(
+        default=None, metadata=label("m", "central film of the lamina that carries most, inner")
+    )
+    film_least_outer: Float[Array, " element"] | None = eqx.field(
+        default=None, metadata=label("m", "central film of the lamina that carries most, outer")
+    )
     temperature_rise_inner: Float[Array, " element"] | None = eqx.field(
         default=None, metadata=label("K", "inlet heating, inner")
     )
@@ -193,7 +199,7 @@ class Solution(AbstractSolution):
             found = f"after {steps} Newton steps" if steps else "by the loads alone"
             return (
                 f"{Status.NO_EQUILIBRIUM.text}: contacts that only push cannot balance these loads, the inner ring "
-                f"comes out (proved {found})"
+                f"comes out or tilts out of all bounds (proved {found})"
             )
         return (
             f"{Status(int(self.status)).text} after {int(self.iterations)} Newton steps: scaled residual "

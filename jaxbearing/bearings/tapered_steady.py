@@ -22,7 +22,7 @@ from .tapered_build import build_tapered, rolling_motion
 from .tapered_friction import TaperedFriction, tapered_friction
 from .tapered_roller import TaperedRollerBearing
 from .tapered_solution import TaperedPowerLoss, TaperedResults
-from .tapered_system import TaperedState, TaperedSystem
+from .tapered_system import Inertia, TaperedState, TaperedSystem
 
 YIELD_PRESSURE = 4.0e9
 """Pa: that of the basic static load rating of roller bearings in ISO 76."""
@@ -37,17 +37,19 @@ LOADED = 0.1
 def solve_tapered(scene: TaperedRollerBearing, options: NewtonOptions) -> Solution:
     """Steady state: pure, jit-able, vmap-able, differentiable; never raises for a failed solve.
 
-    There are two proofs of no equilibrium, and then the status is `no_equilibrium`: the axial load is below the radial
-    one times tan(alpha_o), so that the cone slides out whatever it does, which the loads alone tell; or, where a solve
-    fails, a way to fall apart has been found (`TaperedSystem.falls_apart`).
+    Where no equilibrium is found and one of two proofs holds that there is none, the status is `no_equilibrium`: the
+    axial load is below a static bound (`slides_out`), which the loads alone tell; or the cone, with all else in
+    equilibrium, is still pushed on at a tilt of 0.1 rad, or at a displacement of the apex distance
+    (`numerics.convex.find_minimum`).
     """
-    posed, sliding = build_tapered(scene), slides_out(scene)
+    posed = build_tapered(scene)
+    sliding = slides_out(scene, posed.inertia)
     # what has no equilibrium is not looked for: in its place a few steps to one that is finite, with its derivatives
     easy = jnp.where(sliding, _axial_only(posed), posed.ring_load)
-    started, steps = dataclasses.replace(posed, ring_load=easy).started()
+    started, minimum = dataclasses.replace(posed, ring_load=easy).started(sliding)
     system, result = newton_solve(started, options)
-    apart = ~result.converged & (system.falls_apart(result.point) | started.falls_apart(_at(started)))
-    result = result._replace(status=jnp.where(sliding | apart, int(Status.NO_EQUILIBRIUM), result.status))
+    none = sliding | (~result.converged & minimum.outside)
+    result = result._replace(status=jnp.where(none, int(Status.NO_EQUILIBRIUM), result.status))
     result = result._replace(residual_norm=jnp.where(sliding, jnp.nan, result.residual_norm))
     friction = None
     if scene.contact is not None:
@@ -69,16 +71,28 @@ def solve_tapered(scene: TaperedRollerBearing, options: NewtonOptions) -> Soluti
         displacement,
         _stiffness(scene, system, result),
         input_excess=_input_excess(scene),
-        iterations=jnp.where(sliding, 0, steps + result.iterations),
+        iterations=jnp.where(sliding, 0, minimum.steps + result.iterations),
         ring_freedom=(*scene.ring_freedom, "tilt") if tilted else scene.ring_freedom,
         stiffness_freedom=RING_FREEDOMS,
         equation_names=system.equation_names(),
     )
 
 
-def _at(system: TaperedSystem) -> ArrowPoint:
-    assert system.guess is not None
-    return system.guess
+def slides_out(scene: TaperedRollerBearing, inertia: Inertia) -> Bool[Array, ""]:
+    r"""Whether $F_a < F_r\tan\alpha_o + ZQ_c\sin\alpha_o$, $Q_c = F_c\cos\alpha_f/\cos(\alpha_o - \alpha_f)$: no
+    equilibrium then, whatever the tilt.
+
+    Every roller leans on the cup at that angle, and the centrifugal forces of two or more cancel (a single one proves
+    nothing): $F_a - F_r\tan\alpha_o = \sin\alpha_o\sum Q_o(1 - \cos\psi)$; and $Q_c$ is the least that a roller leans
+    on the cup with, its centrifugal force carried by cup and rib alone.
+    """
+    operation, geometry = scene.operation, scene.geometry
+    if geometry.n_rollers < 2:
+        return jnp.asarray(False)
+    radial = jnp.abs(jnp.asarray(0.0 if operation.radial_load is None else operation.radial_load))
+    cup, rib = jnp.asarray(geometry.contact_angle), jnp.asarray(geometry.flange_angle)
+    least = inertia.force * jnp.cos(rib) / jnp.cos(cup - rib)
+    return jnp.asarray(operation.axial_load) < radial * jnp.tan(cup) + geometry.n_rollers * least * jnp.sin(cup)
 
 
 def _axial_only(system: TaperedSystem) -> Float[Array, " freedom"]:
@@ -95,17 +109,6 @@ def _with_nested(result: NewtonResult, friction: TaperedFriction, options: Newto
     failed = result.converged & ~(residual <= options.inner_tolerance)
     status = jnp.where(failed, int(Status.NOT_CONVERGED), result.status)
     return result._replace(status=status, inner_residual=jnp.maximum(result.inner_residual, residual))
-
-
-def slides_out(scene: TaperedRollerBearing) -> Bool[Array, ""]:
-    r"""Whether $F_a < F_r\tan\alpha_o$: every roller leans on the cup at that angle, so that no distribution of loads
-    balances both; necessary whatever the tilt and the moment. Centrifugal forces have no part in either sum: those of
-    two rollers or more, evenly spaced, add up to none (a single one proves nothing)."""
-    operation = scene.operation
-    if scene.geometry.n_rollers < 2:
-        return jnp.asarray(False)
-    radial = 0.0 if operation.radial_load is None else operation.radial_load
-    return jnp.asarray(operation.axial_load) < jnp.abs(jnp.asarray(radial)) * jnp.tan(scene.geometry.contact_angle)
 
 
 class _Results(NamedTuple):

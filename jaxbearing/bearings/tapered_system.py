@@ -25,11 +25,11 @@ from typing import NamedTuple
 
 import equinox as eqx
 import jax.numpy as jnp
-from jaxtyping import Array, Bool, Float, Int
+from jaxtyping import Array, Bool, Float
 
 from ..contacts import AbstractTiltedLine
 from ..numerics.arrow import ArrowPoint
-from ..numerics.convex import AbstractConvexArrow, anchored, descend
+from ..numerics.convex import AbstractConvexArrow, Minimum, anchored, find_minimum
 from ..numerics.safe import positive_power
 from .roller_loads import LENGTH_UNIT
 
@@ -38,14 +38,15 @@ ANCHOR = 1e-4
 much spoils those of rollers that hardly touch by 6e-6), nothing in balances."""
 LOAD_FLOOR = 1e-3
 """Added to the scale of loads, N."""
-START_TOLERANCE, START_STEPS = 1e-7, 500
-"""Scaled residual at which the descent of the potential hands over to Newton; most steps of it."""
+START_TOLERANCE = 1e-7
+"""Scaled residual at which the descent of the potential hands over to Newton."""
 LONGEST_STEP = 1e-4
 """Of a displacement in one Newton step, m."""
-BACKED_OFF = 0.5
-"""Part of the cone's retreat with which rollers follow it, so that all three contacts open."""
-SEPARATION_MARGIN = 1e-6
-"""Work of the loads, relative to their size times the distance, from which on a way to fall apart counts."""
+FARTHEST = 100.0
+"""Displacement of a roller, m, at which an iterate is lost."""
+MOST_TILT = 0.1
+"""Of a ring that is free to tilt, rad. The equations are those of small displacements; they do have roots beyond, where
+rollers carry all load on the last micrometres of their length while the others are millimetres apart."""
 
 
 class TaperedForm(NamedTuple):
@@ -132,8 +133,10 @@ class TaperedSystem(AbstractConvexArrow):
         return ArrowPoint(jnp.full((3, 1), cap), jnp.full(len(self.freedoms), cap))
 
     def bounds(self) -> tuple[ArrowPoint, ArrowPoint]:
-        far = 1e7
-        high = ArrowPoint(jnp.full((3, 1), far), jnp.full(len(self.freedoms), far))
+        """Of the ring: the apex distance, or the largest tilt; whoever looks for a balance looks no further."""
+        away = self.form.apex_distance / LENGTH_UNIT
+        ring = jnp.stack([MOST_TILT * away if name.startswith("tilt") else away for name in self.freedoms])
+        high = ArrowPoint(jnp.full((3, 1), FARTHEST / LENGTH_UNIT), ring)
         return ArrowPoint(-high.elements, -high.globals), high
 
     def initial(self) -> ArrowPoint:
@@ -157,22 +160,25 @@ class TaperedSystem(AbstractConvexArrow):
         held = anchored(globals_, ANCHOR * LENGTH_UNIT)
         return (totals - self.ring_load + held) / self.load_scale(), jnp.zeros(())
 
-    def potential(self, point: ArrowPoint) -> Float[Array, ""]:
-        """Energy of the contacts less the work of all loads, J."""
-        state = self.at(point)
-        along, across, tilt = self.units() * point.elements
+    def energies(self, unknowns, shared):
+        """Of the contacts of each roller less the work of its inertia, J."""
+        state = self.state(unknowns, shared)
+        along, across, tilt = self.units() * unknowns
         line = jnp.sum(self.line.energy(state.approach, state.slope), axis=0)
         flange = 0.4 * self.flange_stiffness * positive_power(state.flange_approach, 2.5)
         sine, cosine = jnp.sin(self.form.axis_angle), jnp.cos(self.form.axis_angle)
         outwards = -along * sine + (across + tilt * self.inertia.centre) * cosine
-        rollers = line + flange - self.inertia.force * outwards + self.inertia.moment * tilt
-        return self.multiplicity * jnp.sum(rollers) - LENGTH_UNIT * jnp.sum(self.ring_load * point.globals)
+        return self.multiplicity * (line + flange - self.inertia.force * outwards + self.inertia.moment * tilt)
 
-    def started(self) -> tuple["TaperedSystem", Int[Array, ""]]:
-        """These equations with the minimum of the potential as first guess, and the steps to it."""
-        found = descend(self, self.initial(), tolerance=START_TOLERANCE, max_steps=START_STEPS)
-        finite = ArrowPoint(*(jnp.where(jnp.isfinite(leaf), leaf, 0.0) for leaf in found.point))
-        return dataclasses.replace(self, guess=finite), found.steps
+    def work(self, globals_):
+        """Of the ring's loads, J."""
+        return LENGTH_UNIT * jnp.sum(self.ring_load * globals_)
+
+    def started(self, hopeless: Bool[Array, ""]) -> tuple["TaperedSystem", Minimum]:
+        """These equations with the minimum of the potential as first guess, and how it was found; `hopeless`: known to
+        have none."""
+        found = find_minimum(self, tolerance=START_TOLERANCE, hopeless=hopeless)
+        return dataclasses.replace(self, guess=found.point), found
 
     # -- physics --------------------------------------------------------------------------------------------------
 
@@ -227,30 +233,3 @@ class TaperedSystem(AbstractConvexArrow):
         form, outer = self.form, state.load[1]
         axial, radial = outer * jnp.sin(form.cup_angle), outer * jnp.cos(form.cup_angle)
         return jnp.stack([axial, radial, state.moment[1] - form.apex_distance * outer])
-
-    # -- no equilibrium -------------------------------------------------------------------------------------------
-
-    def falls_apart(self, point: ArrowPoint) -> Bool[Array, ""]:
-        """Whether the way from contact to this point proves that there is no equilibrium.
-
-        A direction in which no contact closes at either end (approaches are linear: nowhere then) and along which the
-        loads do work has no end: the potential is not bounded below. The direction to the point is made such a one by
-        moving the cone back as far as that needs, rollers halfway with it, which opens all contacts at once.
-        """
-        units, form = self.units(), self.form
-        size = jnp.maximum(jnp.max(jnp.abs(point.elements)), jnp.max(jnp.abs(point.globals)))
-        elements, ring = (leaf / jnp.maximum(size, 1.0) for leaf in point)
-        motion = LENGTH_UNIT * jnp.einsum("f,fcn->cn", ring, self.columns)
-        approach, slope, flange = self.approaches(units * elements, motion)
-        closing = jnp.max(jnp.stack([*approach, *(approach + slope * self.line.length), flange]), axis=0)
-        back = jnp.maximum(jnp.max(closing), 0.0)
-        opens = jnp.min(jnp.stack([jnp.sin(form.cone_angle), jnp.sin(form.cup_angle), jnp.cos(form.flange_angle)]))
-        back = back * (1.0 + 1e-9) / (BACKED_OFF * opens) / LENGTH_UNIT
-        retreat = jnp.stack([1.0 if name == "axial" else 0.0 for name in self.freedoms]) * back
-        along, across, tilt = units * elements
-        sine, cosine = jnp.sin(form.axis_angle), jnp.cos(form.axis_angle)
-        outwards = -along * sine + (across + tilt * self.inertia.centre) * cosine
-        # the rollers' retreat is axial: their centrifugal forces do no work on it
-        work = self.multiplicity * jnp.sum(self.inertia.force * outwards - self.inertia.moment * tilt)
-        work = work + LENGTH_UNIT * jnp.sum(self.ring_load * (ring - retreat))
-        return work > SEPARATION_MARGIN * self.load_scale() * LENGTH_UNIT

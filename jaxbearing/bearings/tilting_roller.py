@@ -16,13 +16,13 @@ from typing import NamedTuple
 
 import equinox as eqx
 import jax.numpy as jnp
-from jaxtyping import Array, Float, Int
+from jaxtyping import Array, Float
 
 from ..contacts import AbstractTiltedLine
 from ..numerics.arrow import ArrowPoint
-from ..numerics.convex import AbstractConvexArrow, anchored, descend
+from ..numerics.convex import AbstractConvexArrow, Minimum, anchored, find_minimum
 from .roller_loads import LENGTH_UNIT
-from .tapered_system import ANCHOR, LOAD_FLOOR, LONGEST_STEP, START_STEPS, START_TOLERANCE
+from .tapered_system import ANCHOR, FARTHEST, LOAD_FLOOR, LONGEST_STEP, MOST_TILT, START_TOLERANCE
 
 
 class TiltingState(NamedTuple):
@@ -67,7 +67,10 @@ class TiltingRollers(AbstractConvexArrow):
         return ArrowPoint(jnp.full((2, 1), cap), jnp.full(len(self.freedoms), cap))
 
     def bounds(self) -> tuple[ArrowPoint, ArrowPoint]:
-        high = ArrowPoint(jnp.full((2, 1), 1e7), jnp.full(len(self.freedoms), 1e7))
+        far = FARTHEST / LENGTH_UNIT
+        tilt = MOST_TILT * jnp.asarray(self.line.length) / LENGTH_UNIT
+        ring = jnp.stack([tilt if name.startswith("tilt") else jnp.asarray(far) for name in self.freedoms])
+        high = ArrowPoint(jnp.full((2, 1), far), ring)
         return ArrowPoint(-high.elements, -high.globals), high
 
     def initial(self) -> ArrowPoint:
@@ -92,19 +95,21 @@ class TiltingRollers(AbstractConvexArrow):
         held = anchored(globals_, ANCHOR * LENGTH_UNIT)
         return (totals - self.ring_load + held) / self.load_scale(), jnp.zeros(())
 
-    def potential(self, point: ArrowPoint) -> Float[Array, ""]:
-        """Energy of the contacts less the work of all loads, J."""
-        state = self.at(point)
-        out, tilt = self.units() * point.elements
+    def energies(self, unknowns, shared):
+        """Of the contacts of each roller less the work of its centrifugal force, J."""
+        state = self.state(unknowns, shared)
+        out, tilt = self.units() * unknowns
         energy = jnp.sum(self.line.energy(state.approach, state.slope), axis=0)
-        rollers = energy - self.centrifugal * (out + 0.5 * self.line.length * tilt)
-        return jnp.sum(rollers) - LENGTH_UNIT * jnp.sum(self.ring_load * point.globals)
+        return energy - self.centrifugal * (out + 0.5 * self.line.length * tilt)
 
-    def started(self) -> tuple["TiltingRollers", Int[Array, ""]]:
-        """These equations with the minimum of the potential as first guess, and the steps to it."""
-        found = descend(self, self.initial(), tolerance=START_TOLERANCE, max_steps=START_STEPS)
-        finite = ArrowPoint(*(jnp.where(jnp.isfinite(leaf), leaf, 0.0) for leaf in found.point))
-        return dataclasses.replace(self, guess=finite), found.steps
+    def work(self, globals_):
+        """Of the ring's loads, J."""
+        return LENGTH_UNIT * jnp.sum(self.ring_load * globals_)
+
+    def started(self) -> tuple["TiltingRollers", Minimum]:
+        """These equations with the minimum of the potential as first guess, and how it was found."""
+        found = find_minimum(self, tolerance=START_TOLERANCE)
+        return dataclasses.replace(self, guess=found.point), found
 
     def at(self, point: ArrowPoint) -> TiltingState:
         shape = (point.globals.shape[0], point.elements.shape[1])

@@ -1,4 +1,9 @@
-"""Steady state of a cylindrical roller bearing with tilting, profiled rollers: dry, frictionless."""
+r"""Steady state of a cylindrical roller bearing with tilting, profiled rollers.
+
+The load distribution is dry and frictionless. With an oil and contact laws films and rolling resistance follow from it
+for rolling without sliding: laminae are short line contacts side by side, each with its own load per length. The
+tractions that rolling without sliding needs balance each roller; ring torques are assembled from them.
+"""
 
 from typing import NamedTuple
 
@@ -7,17 +12,25 @@ import numpy as np
 from jaxtyping import Array, Float
 
 from ..contacts import LineContact, palmgren_stiffness
+from ..contacts.laws import ContactState
 from ..materials import reduced_modulus
 from ..numerics.arrow import ArrowPoint, linearize, schur_complement
 from ..numerics.newton import NewtonOptions, newton_solve
+from ..numerics.status import Status
 from .cylindrical_roller import CylindricalRollerBearing
 from .kinematics import RollerKinematics
+from .roller_forces import ring_torques, rolling_lean
 from .roller_loads import LENGTH_UNIT
 from .roller_profile import RollerProfile
 from .solution import CageState, LaminaLoads, PowerLoss, RingDisplacement, RollerResults, Solution
 from .steady import assemble
+from .tapered_steady import YIELD_PRESSURE
 from .tilting_roller import TiltingRollers, TiltingState
 
+BUSY = 0.1
+"""Load of a contact, over the largest, from which on its distribution along the roller is looked at."""
+EDGE_LOADED = 1.5
+LARGEST_TILT = 0.01
 FREEDOMS = ("radial", "lateral", "tilt", "tilt_lateral")
 """Of the inner ring, those that the model has: nothing holds it axially."""
 
@@ -69,8 +82,10 @@ def _motion(scene: CylindricalRollerBearing) -> RollerKinematics:
 
 def solve_tilting(scene: CylindricalRollerBearing, options: NewtonOptions) -> Solution:
     """Steady state: pure, jit-able, vmap-able, differentiable; never raises for a failed solve."""
-    started, steps = build_tilting(scene).started()
+    started, minimum = build_tilting(scene).started()
     system, result = newton_solve(started, options)
+    none = ~result.converged & minimum.outside
+    result = result._replace(status=jnp.where(none, int(Status.NO_EQUILIBRIUM), result.status))
     length = scene.geometry.loaded_length
     ring = {name: result.point.globals[i] * LENGTH_UNIT for i, name in enumerate(system.freedoms)}
     held = scene.operation.moment is None and scene.operation.misalignment is not None
@@ -87,10 +102,10 @@ def solve_tilting(scene: CylindricalRollerBearing, options: NewtonOptions) -> So
     return assemble(
         scene,
         result,
-        _results(scene, system, system.at(result.point)),
+        _results(scene, system, system.at(result.point), place("tilt") / length),
         displacement,
         _stiffness(scene, system, result.point),
-        iterations=steps + result.iterations,
+        iterations=minimum.steps + result.iterations,
         ring_freedom=(*system.freedoms, "tilt") if held else system.freedoms,
         stiffness_freedom=FREEDOMS,
         equation_names=system.equation_names(),
@@ -110,17 +125,21 @@ class _Results(NamedTuple):
     range_excess: dict[str, Array]
 
 
-def _results(scene: CylindricalRollerBearing, system: TiltingRollers, state: TiltingState) -> _Results:
+def _results(
+    scene: CylindricalRollerBearing, system: TiltingRollers, state: TiltingState, tilt: Float[Array, ""]
+) -> _Results:
     motion, zero, ones = _motion(scene), jnp.zeros(()), jnp.ones_like(system.azimuth)
     count = RollerProfile().n_laminae if scene.profile is None else scene.profile.n_laminae
-    inner, outer = (system.line.laminae(state.approach[side], state.slope[side], count) for side in (0, 1))
-    modulus = reduced_modulus(scene.materials.rings, scene.materials.rollers)
-    curvatures = (1.0 / motion.inner_radius, -1.0 / motion.outer_radius)
-    peaks = []
-    for laminae, curvature in zip((inner, outer), curvatures, strict=True):
-        contact = LineContact(1.0 / (1.0 / motion.roller_radius + curvature), system.line.length / count, modulus)
-        largest = jnp.max(laminae, axis=1)
-        peaks.append(jnp.where(largest > 0, contact.hertz_pressure(largest), 0.0))
+    laminae = jnp.stack([system.line.laminae(state.approach[side], state.slope[side], count) for side in (0, 1)])
+    curvatures = jnp.stack([1.0 / motion.inner_radius, -1.0 / motion.outer_radius])
+    contact = LineContact(
+        (1.0 / (1.0 / motion.roller_radius + curvatures))[:, None],
+        jnp.asarray(system.line.length),
+        reduced_modulus(scene.materials.rings, scene.materials.rollers),
+    )
+    most = jnp.max(laminae, axis=2)
+    peaks = jnp.where(most > 0, contact.hertz_pressure(jnp.where(most > 0, most, 1.0) * count), 0.0)
+    more, rolling = _films(scene, contact, motion, laminae)
     elements = RollerResults(
         azimuth=system.azimuth,
         load_inner=state.load[0],
@@ -129,9 +148,97 @@ def _results(scene: CylindricalRollerBearing, system: TiltingRollers, state: Til
         pressure_outer=peaks[1],
         orbital_speed=motion.free_orbit * ones,
         spin_speed=motion.free_spin * ones,
+        **more,
     )
     profiled = scene.profile is not None and scene.profile.shape is not None
-    return _Results(None, elements, PowerLoss(total=zero), zero, zero, zero, LaminaLoads(inner, outer, profiled), {})
+    losses, drive, inner, outer = PowerLoss(total=zero), zero, zero, zero
+    if rolling is not None:
+        power = jnp.sum(rolling) * motion.surface_speeds(zero, zero)[0][0]
+        losses = PowerLoss(total=power, rolling_resistance=power)
+        inner, outer = ring_torques(motion, _without_sliding(contact, motion, rolling), None, None)
+        drive = motion.inner_speed * inner + motion.outer_speed * outer
+    return _Results(
+        None,
+        elements,
+        losses,
+        drive,
+        inner,
+        outer,
+        LaminaLoads(laminae[0], laminae[1], profiled),
+        _range_excess(scene, system, state, laminae, peaks, tilt),
+    )
+
+
+def _films(
+    scene: CylindricalRollerBearing,
+    contact: LineContact,
+    motion: RollerKinematics,
+    laminae: Float[Array, "2 roller lamina"],
+) -> tuple[dict[str, Array], Float[Array, "2 roller"] | None]:
+    """Films, NaN where nothing is loaded, and the rolling resistance of each contact, N.
+
+    `film_*`: of the whole contact, its load spread evenly over the length; `film_least_*`: the thinnest of the laminae.
+    """
+    laws, oil = scene.contact, scene.oil
+    if laws is None or oil is None:
+        return {}, None
+    inlet = oil.at(scene.operation.oil_temperature)
+    speed = motion.surface_speeds(jnp.zeros(()), jnp.zeros(()))[0][:, None]
+
+    def loaded(one: LineContact, load: Array, speed: Array) -> tuple[Array, ContactState]:
+        carries = load > 0
+        safe = jnp.where(carries, load, 1.0)
+        return carries, laws.evaluate(one, safe, speed + 0.0 * safe, 0.0 * safe, oil, inlet)
+
+    carries, whole = loaded(contact, jnp.sum(laminae, axis=2), speed)
+    each = LineContact(contact.reduced_radius[..., None], contact.length / laminae.shape[2], contact.reduced_modulus)
+    carried, parts = loaded(each, laminae, speed[..., None])
+    blank = lambda values: jnp.where(carries, values, jnp.nan)
+    film = blank(whole.film)
+    least = blank(jnp.min(jnp.where(carried, parts.film, jnp.inf), axis=2))
+    more = {"film_inner": film[0], "film_outer": film[1], "film_least_inner": least[0], "film_least_outer": least[1]}
+    if whole.temperature_rise is not None:
+        rise = blank(whole.temperature_rise)
+        more |= {"temperature_rise_inner": rise[0], "temperature_rise_outer": rise[1]}
+    if parts.rolling_force is None:
+        return more, None
+    return more, jnp.sum(jnp.where(carried, parts.rolling_force, 0.0), axis=2)
+
+
+def _without_sliding(contact: LineContact, motion: RollerKinematics, rolling: Float[Array, "2 roller"]) -> ContactState:
+    r"""The tractions that balance each roller against its rolling resistances R: $T_i + T_o = (R_i + R_o)/2$ (moment),
+    $T_i - T_o = \lambda_oR_o - \lambda_iR_i$, $\lambda$ as in `roller_forces.rolling_lean` (tangential force)."""
+    lean = rolling_lean(contact, motion)
+    total = 0.5 * (rolling[0] + rolling[1])
+    difference = lean[1] * rolling[1] - lean[0] * rolling[0]
+    traction = 0.5 * jnp.stack([total + difference, total - difference])
+    return ContactState(jnp.ones_like(rolling), None, traction, rolling, jnp.zeros(()))
+
+
+def _range_excess(
+    scene: CylindricalRollerBearing,
+    system: TiltingRollers,
+    state: TiltingState,
+    laminae: Float[Array, "2 roller lamina"],
+    peaks: Float[Array, "2 roller"],
+    tilt: Float[Array, ""],
+) -> dict[str, Array]:
+    """By how much the results leave what the model, or a bearing, is made for."""
+    most = jnp.max(state.load)
+    busy = state.load >= BUSY * most
+    mean = jnp.where(busy, state.load, 1.0) / laminae.shape[2]
+    end = jnp.maximum(laminae[..., 0], laminae[..., -1]) / mean
+    behind = jnp.max(jnp.where(jnp.cos(system.azimuth) < -0.5, state.load[0], 0.0))
+    squeezed = jnp.where(system.radial_clearance > 0, behind - 0.01 * most, -1.0)
+    return {
+        "contact pressure beyond 4 GPa: rollers and races yield (static rating of ISO 76)": jnp.max(peaks)
+        - YIELD_PRESSURE,
+        "the inner ring tilts by more than 10 mrad: far beyond what cylindrical roller bearings bear (1 to 2 mrad), "
+        "and the equations are those of small tilts": jnp.abs(tilt) - LARGEST_TILT,
+        "rollers are loaded on an edge, with more than 1.5 times their mean load per length at an end: the peak of "
+        "pressure there is higher than that of laminae": jnp.max(jnp.where(busy, end, 0.0)) - EDGE_LOADED,
+        "the tilt takes up the whole clearance: rollers opposite the load are squeezed": squeezed,
+    }
 
 
 def _stiffness(scene: CylindricalRollerBearing, system: TiltingRollers, point: ArrowPoint) -> Float[Array, "4 4"]:

@@ -130,7 +130,8 @@ def _sums(f: Array, g: Array, length: Array, power: int, orders: int) -> list[Ar
 def _straight(f: Array, g: Array, length: Array) -> tuple[Array, Array]:
     """Integrals of delta^(10/9) and delta^(10/9) s over the contact."""
     load, moment = _sums(f, g, length, power=1, orders=2)
-    return load, moment
+    # 0 over a negative slope is -0
+    return jnp.where(load > 0, load, 0.0), jnp.where(load > 0, moment, 0.0)
 
 
 @_straight.defjvp

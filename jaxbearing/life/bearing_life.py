@@ -11,7 +11,7 @@ from jaxtyping import Array, Bool, Float
 
 from ..bearings.ball_bearing import BallBearing
 from ..bearings.cylindrical_roller import CylindricalRollerBearing
-from ..bearings.rating import Rating
+from ..bearings.rating import CATALOGUE_CONFORMITY, Rating
 from ..bearings.solution import Solution
 from ..bearings.tapered_roller import TaperedRollerBearing
 from ..lubricants import Lubricant
@@ -149,8 +149,10 @@ def _ball(scene: BallBearing, elements: Any, laminae: Any, turns: Any) -> Rated:
     angle = jnp.asarray(0.0 if geometry.contact_angle is None else geometry.contact_angle)
     sizes = (geometry.n_balls, geometry.ball_diameter, geometry.pitch_diameter, angle)
     grooves = (geometry.conformity_inner, geometry.conformity_outer)
-    capacity = _given(rating.dynamic_capacity, lambda: ball_capacity(*sizes, *grooves))
-    static = _given(rating.static_capacity, lambda: ball_static_capacity(*sizes, geometry.conformity_inner))
+    # the ratings' grooves; those that share the damage between the races are the bearing's own
+    rated = grooves if rating.grooves == "scene" else (CATALOGUE_CONFORMITY,) * 2
+    capacity = _given(rating.dynamic_capacity, lambda: ball_capacity(*sizes, *rated))
+    static = _given(rating.static_capacity, lambda: ball_static_capacity(*sizes, rated[0]))
     limits = ball_contact_capacities(capacity, *sizes, *grooves)
     rate = ball_damage_rate(elements.load_inner, elements.load_outer, limits, *turns)
     operation = scene.operation

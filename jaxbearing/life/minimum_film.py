@@ -24,7 +24,8 @@ Higginson's minimum and Dowson and Toyoda's central film at U = 1e-11, W = 1e-4.
 def minimum_films(scene: Any, elements: Any) -> tuple[Float[Array, " element"], Float[Array, " element"]]:
     """Minimum films of the inner and the outer raceway, m, from the films of a solution.
 
-    Line contacts: `LINE_SHARE` of the central film, all of it where the scene's law is one of the minimum film. Point
+    Line contacts: `LINE_SHARE` of the central film, all of it where the scene's law is one of the minimum film; of
+    rollers in laminae that of the thinnest lamina. Point
     contacts: the ratio of Hamrock and Dowson's two laws, at most 1, at the mean speed of the pitch circle (it goes with
     its power 0.01).
     """
@@ -32,8 +33,13 @@ def minimum_films(scene: Any, elements: Any) -> tuple[Float[Array, " element"], 
         share = jnp.ones((2, 1))
     else:
         share = _point_share(scene, elements) if isinstance(scene, BallBearing) else _line_share(scene.contact.film)
-    films = jnp.stack([elements.film_inner, elements.film_outer]) * share
-    return films[0], films[1]
+    films = [_thinnest(elements, side) for side in ("inner", "outer")]
+    return films[0] * share[0], films[1] * share[1]
+
+
+def _thinnest(elements: Any, side: str) -> Float[Array, " element"]:
+    least = getattr(elements, f"film_least_{side}", None)
+    return getattr(elements, f"film_{side}") if least is None else least
 
 
 def _line_share(law: AbstractLineFilm) -> Array:

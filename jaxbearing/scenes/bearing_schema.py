@@ -62,6 +62,7 @@ class RatingTable(Table):
     cleanliness: Literal[tuple(CLEANLINESS)] | None = None  # pyright: ignore[reportInvalidTypeForm]
     n_laminae: units.Count = LAMINAE
     edge_factor: units.Switch | None = None
+    grooves: Literal["catalogue", "scene"] = "catalogue"
 
     @model_validator(mode="after")
     def _both_roughnesses(self) -> Self:

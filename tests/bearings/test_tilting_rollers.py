@@ -121,7 +121,54 @@ def test_gradients_of_life(tilted):
 
 
 def test_refusals():
-    with pytest.raises(ValueError, match="contact: tilting"):
+    with pytest.raises(ValueError, match=r"contact\.traction: tilting"):
         jb.load_scene("turbine_roller").replace({"operation.misalignment": 1e-3})
     with pytest.raises(ValueError, match="sets the tilt free"):
         roller(misalignment=1e-3, moment=0.0)
+
+
+@pytest.fixture(scope="module")
+def lubricated():
+    scene = jb.load_scene("turbine_roller", {"contact.rolling_resistance": "ertel_grubin"})
+    rating = Rating(roughness_rings=1e-7, roughness_elements=1e-7)
+    scene = scene.replace(dict.fromkeys(("contact.traction", "cage", "flange", "drag")) | {"rating": rating})
+    return scene.replace({"operation.misalignment": 1e-3, "profile": LOGARITHMIC})
+
+
+@pytest.mark.parametrize("speeds", [(1100.0, 0.0), (1100.0, -400.0)])
+def test_rolling_takes_the_power_that_the_rings_bring(lubricated, speeds):
+    """Ring torques are assembled from forces times levers, the loss from resistances times speeds."""
+    found = jb.solve(lubricated.at_operation(inner_speed=speeds[0], outer_speed=speeds[1]))
+    np.testing.assert_allclose(found.drive_power, found.power_loss.total, rtol=1e-12)
+    np.testing.assert_allclose(found.inner_torque * speeds[0] + found.outer_torque * speeds[1], found.drive_power)
+    assert found.power_loss.rolling_resistance > 0
+    assert found.power_loss.inner_raceway is None
+    dry = jb.solve(lubricated.replace({"contact.rolling": None}))
+    assert dry.power_loss.rolling_resistance is None
+    assert any("without sliding" in note for note in found.notes)
+
+
+def test_films_of_laminae(lubricated):
+    tilted_ = jb.solve(lubricated)
+    e = tilted_.elements
+    idle = np.asarray(e.load_inner) == 0.0
+    assert np.any(idle)
+    for film in (e.film_inner, e.film_least_inner, tilted_.life.film_ratio_inner):
+        assert np.array_equal(np.isnan(film), idle)
+    assert not np.any(np.signbit(e.load_inner))
+    assert np.all(e.film_least_inner[~idle] < e.film_inner[~idle])
+    np.testing.assert_allclose(tilted_.life.film_ratio_inner, e.film_least_inner / np.hypot(1e-7, 1e-7))
+    assert tilted_.life.viscosity_ratio > 0.1
+    # aligned straight rollers: all laminae alike, and the film of the plane model but for its share of the elastic gap
+    even = jb.solve(lubricated.replace({"operation.misalignment": 0.0, "profile": RollerProfile()})).elements
+    np.testing.assert_allclose(even.film_least_inner, even.film_inner, rtol=1e-9)
+    plane = jb.solve(lubricated.replace({"operation.misalignment": None, "profile": None})).elements
+    np.testing.assert_allclose(even.film_inner[0], plane.film_inner[0], rtol=5e-3)
+
+
+def test_absurd_tilts_are_said(tilted):
+    said = lambda **point: " ".join(text for text, on in tilted(**point).checks.items() if on)
+    assert said(misalignment=5e-4) == ""
+    absurd = said(misalignment=0.03)
+    for words in ("4 GPa", "more than 10 mrad", "on an edge", "whole clearance"):
+        assert words in absurd

@@ -81,3 +81,18 @@ def test_refusals():
         Rating(dynamic_capacity=-1.0)
     with pytest.raises(ValueError, match=r"rating\.roughness_rings"):
         Rating(roughness_rings=1e-7)
+
+
+@pytest.mark.parametrize(
+    ("name", "low", "high"), [("deep_groove_6205", 14.0e3, 14.0e3), ("angular_contact_218", 106e3, 108e3)]
+)
+def test_built_in_balls_have_the_rating_of_catalogues(name, low, high):
+    """Catalogues rate grooves of 0.52, whatever the bearing's; the solution says which were taken."""
+    scene = jb.load_scene(name).replace({"rating": Rating()})
+    solution = jb.solve(scene)
+    margin = 0.02 if low == high else 0.03
+    assert low * (1.0 - margin) < solution.life.dynamic_capacity < high * (1.0 + margin)
+    assert any("conformity 0.52" in note for note in solution.notes)
+    own = scene.replace({"rating": Rating(grooves="scene")})
+    assert any("conformities of the scene" in note for note in own.assumptions())
+    assert abs(jb.solve(own).life.dynamic_capacity / solution.life.dynamic_capacity - 1.0) > 0.04
