@@ -58,32 +58,31 @@ class LaneProgram:
         self.width = self.lanes * len(chosen)
         """Lanes of one call on all devices."""
         self._order = np.arange(self.width).reshape(self.lanes, len(chosen)).T.ravel()
-        one = lambda shared, inputs: solve(make(shared, inputs), throw=False, options=options)
+
+        def one(shared: Any, inputs: Any) -> Any:
+            return solve(make(shared, inputs), throw=False, options=options)
+
         example = jax.tree.map(as_float, example)
         steady_function(make(self.base, example))
         self.structure = jax.eval_shape(one, self.base, example)
         """The solution of one lane, with shapes for arrays."""
         empty = _without_result(self.structure)
 
-        def lane(shared: Any, active: Bool[Array, ""], inputs: Any) -> Any:
+        def lane(shared: Any, active: Array, inputs: Any) -> Any:
             return jax.lax.cond(active, lambda: one(shared, inputs), lambda: empty)
 
         def device(shared: Any, active: Bool[Array, " lane"], inputs: Any) -> Any:
             if method == "map":
-                return jax.lax.map(lambda given: lane(shared, *given), (active, inputs))
-            return jax.vmap(lambda *given: lane(shared, *given))(active, inputs)
+                return jax.lax.map(lambda given: lane(shared, given[0], given[1]), (active, inputs))
+            return jax.vmap(lane, in_axes=(None, 0, 0))(shared, active, inputs)
 
-        mesh = jax.make_mesh(
-            (len(chosen),), ("lane",), axis_types=(jax.sharding.AxisType.Auto,), devices=np.asarray(chosen)
-        )
+        mesh = jax.make_mesh((len(chosen),), ("lane",), axis_types=(jax.sharding.AxisType.Auto,), devices=chosen)
         split, same = PartitionSpec("lane"), PartitionSpec()
         self._call = jax.jit(
             jax.shard_map(device, mesh=mesh, in_specs=(same, split, split), out_specs=split, check_vma=False)
         )
 
-    def __call__(
-        self, inputs: Any, active: np.ndarray, progress: Callable[[int], None] = lambda lanes: None
-    ) -> Any:
+    def __call__(self, inputs: Any, active: np.ndarray, progress: Callable[[int], None] = lambda lanes: None) -> Any:
         """Solutions of as many lanes as there are.
 
         **Arguments:**
@@ -91,7 +90,8 @@ class LaneProgram:
         - `active`: which lanes are solved, shape (lane,); the others are not converged, and their results NaN.
         - `progress`: called with the number of lanes that were finished.
         """
-        count, done, pending = len(active), [], []
+        count, done = len(active), []
+        pending: list[tuple[int, Any]] = []
         for start in range(0, count, self.width):
             # one call is on its way while the results of the one before are fetched
             pending.append((min(self.width, count - start), self._start(inputs, active, start)))

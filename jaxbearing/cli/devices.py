@@ -13,7 +13,9 @@ def use_cores(count: int) -> None:
     (`JAX_NUM_CPU_DEVICES`, `XLA_FLAGS`) holds, and devices that are there already stay."""
     import jax
 
-    if (jax.config.jax_num_cpu_devices or -1) > 0 or "host_platform_device_count" in os.environ.get("XLA_FLAGS", ""):
+    if getattr(jax.config, "jax_num_cpu_devices", -1) > 0 or "host_platform_device_count" in os.environ.get(
+        "XLA_FLAGS", ""
+    ):
         return
     try:
         jax.config.update("jax_num_cpu_devices", count)

@@ -15,6 +15,7 @@ from .options import JsonOption, SceneArgument, SetOption, labelled
 from .output_files import writing
 from .terminal import console
 
+_EXTRA = "pip install 'jaxbearing[cluster]'"
 OverOption = Annotated[
     list[str] | None,
     typer.Option(
@@ -35,15 +36,15 @@ RandomOption = Annotated[
 ]
 HypercubeOption = Annotated[
     int | None,
-    typer.Option(
-        "--latin-hypercube", metavar="COUNT", help="As --random, evenly spread over the range of each field."
-    ),
+    typer.Option("--latin-hypercube", metavar="COUNT", help="As --random, evenly spread over the range of each field."),
 ]
 SeedOption = Annotated[int, typer.Option("--seed", metavar="NUMBER", min=0, help="Of the random numbers.")]
 OutOption = Annotated[
     Path | None,
     typer.Option(
-        "--out", metavar="FILE", help="NetCDF (.nc) or Zarr (.zarr, needs the extra cluster); SCENE_sweep.nc if not given."
+        "--out",
+        metavar="FILE",
+        help="NetCDF (.nc) or Zarr (.zarr, needs the extra cluster); SCENE_sweep.nc if not given.",
     ),
 ]
 OverwriteOption = Annotated[
@@ -66,7 +67,9 @@ WorkersOption = Annotated[
 SchedulerOption = Annotated[
     str | None,
     typer.Option(
-        "--scheduler", metavar="ADDRESS", help="Compute on a running Dask cluster, e.g. tcp://host:8786 (extra cluster)."
+        "--scheduler",
+        metavar="ADDRESS",
+        help="Compute on a running Dask cluster, e.g. tcp://host:8786 (extra cluster).",
     ),
 ]
 
@@ -140,7 +143,9 @@ def _check_modes(over: Any, cases_file: Any, random: Any, latin_hypercube: Any) 
     if random is not None and latin_hypercube is not None:
         refuse("--random: found --latin-hypercube beside it; expected one of the two")
     if cases_file is None and not over:
-        refuse("--over: found nothing; expected a field to vary, e.g. --over operation.inner_speed='2000 rpm:20000 rpm:10'")
+        refuse(
+            "--over: found nothing; expected a field to vary, e.g. --over operation.inner_speed='2000 rpm:20000 rpm:10'"
+        )
 
 
 def _cases(source: Any, over: Any, cases_file: Any, random: Any, latin_hypercube: Any, seed: int) -> tuple[Any, Any]:
@@ -180,7 +185,7 @@ def _check_target(target: Path) -> None:
     except SweepError as error:
         refuse(f"--out: {error}")
     if target.suffix.lower() == ".zarr" and find_spec("zarr") is None:
-        refuse(f"--out: found '{target}', which needs the extra 'cluster'; expected .nc, or pip install 'jaxbearing[cluster]'")
+        refuse(f"--out: found '{target}', which needs the extra 'cluster'; expected .nc, or {_EXTRA}")
     if not target.parent.is_dir():
         refuse(f"--out: found '{target}'; expected a file in an existing folder")
     with writing(target):
@@ -194,7 +199,7 @@ def _check_extra(workers: int | None, scheduler: str | None) -> None:
         refuse("--scheduler: found --workers beside it; expected one of the two")
     if (workers is not None or scheduler is not None) and find_spec("distributed") is None:
         option = "--workers" if workers is not None else "--scheduler"
-        refuse(f"{option}: found no Dask, which it needs; expected the extra 'cluster': pip install 'jaxbearing[cluster]'")
+        refuse(f"{option}: found no Dask, which it needs; expected the extra 'cluster': {_EXTRA}")
 
 
 @contextmanager
@@ -223,7 +228,9 @@ def _watcher(cases: int, as_json: bool) -> Iterator[Any]:
             speed = bar.tasks[0].speed
             bar.update(task, rate=f"{speed:.0f} cases/s" if speed else "")
 
-        yield Watcher(done, lambda text: bar.update(task, description=text), lambda text: bar.console.print(f"note: {text}"))
+        yield Watcher(
+            done, lambda text: bar.update(task, description=text), lambda text: bar.console.print(f"note: {text}")
+        )
 
 
 def _print(outcome: Any, label: str, target: Path, seconds: float, as_json: bool) -> None:

@@ -14,7 +14,15 @@ from rich.text import Text
 from .display import with_unit
 from .screen import counted, headline, print_warnings
 
-_MAIN = ("power_loss_total", "cage_slip", "ring_radial", "ring_axial", "film_central", "film_minimum", "life_L10r_hours")
+_MAIN = (
+    "power_loss_total",
+    "cage_slip",
+    "ring_radial",
+    "ring_axial",
+    "film_central",
+    "film_minimum",
+    "life_L10r_hours",
+)
 """Results that are shown, where the scene has them."""
 _REASONS = 3
 """Reasons of failures that are shown, the most frequent ones."""
@@ -30,7 +38,11 @@ def print_sweep(file: str | os.PathLike[str], label: str, kept: int, seconds: fl
         rate = f", {new / seconds:.0f} cases/s with start and compilation" if new and seconds > 0 else ""
         headline(label, status, style, f"{counted(failure.size, 'case')} in {seconds:.1f} s{rate}", console)
         rows = {path: _spread(dataset[path.replace(".", "_")]) for path in dataset.attrs["sweep_fields"].split()}
-        rows |= {name: _spread(dataset[name]) for name in _MAIN if name in dataset and np.any(dataset[name].values)}
+        rows |= {
+            name: _spread(dataset[name])
+            for name in _MAIN
+            if name in dataset and np.nansum(np.abs(dataset[name].values))
+        }
         grid = Table.grid(padding=(0, 2, 0, 0))
         for name, text in rows.items():
             grid.add_row(Text(f"  {name}"), Text(text))
@@ -45,7 +57,8 @@ def _reasons(failure: np.ndarray) -> Iterator[str]:
     for text, count in found.most_common(_REASONS):
         yield f"{counted(count, 'case')} failed: {text}"
     if len(found) > _REASONS:
-        yield f"{counted(sum(found.values()) - sum(n for _, n in found.most_common(_REASONS)), 'case')} failed otherwise"
+        others = sum(count for _, count in found.most_common()[_REASONS:])
+        yield f"{counted(others, 'case')} failed otherwise"
 
 
 def _spread(values: xr.DataArray) -> str:
@@ -53,7 +66,7 @@ def _spread(values: xr.DataArray) -> str:
     numbers = values.values[np.isfinite(values.values)]
     if numbers.size == 0:
         return "-"
-    unit = _LABEL_UNITS.get(values.attrs["units"], values.attrs["units"])
+    unit = _LABEL_UNITS.get(values.attrs["units"]) or str(values.attrs["units"])
     return f"{with_unit(float(numbers.min()), unit)} to {with_unit(float(numbers.max()), unit)}"
 
 

@@ -57,7 +57,8 @@ def run_chunk(
     good = converged(solution)
     kept = columns(solution, labels) | {FAILURE: failures(solution, _said(plan, reasons, good, start))}
     with appearing_whole(chunk_path(Path(folder), index)) as temporary, temporary.open("wb") as file:
-        np.savez(file, **kept, **{KEY: np.asarray(key), GOOD: np.asarray(good.sum())})
+        arrays: dict[str, Any] = {**kept, KEY: np.asarray(key), GOOD: np.asarray(good.sum())}
+        np.savez(file, **arrays)
     return int(good.sum()), stop - start
 
 
@@ -73,9 +74,9 @@ def _opened(folder: str, key: str, devices: int | None) -> tuple[Plan, LaneProgr
 def _said(plan: Plan, reasons: list[str], good: np.ndarray, start: int) -> list[str]:
     """Where a scene would have been refused, that is the reason: values that no equation can show."""
     said = list(reasons)
-    for lane in np.flatnonzero(~good):
+    for lane in np.flatnonzero(~good).tolist():
         if not said[lane]:
-            (values,) = [plan.cases.part(start + lane, start + lane + 1)]
+            values = plan.cases.part(start + lane, start + lane + 1)
             try:
                 plan.recipe.scene({path: float(value[0]) for path, value in values.items()})
             except ValueError as error:

@@ -52,10 +52,10 @@ def _run_remotely(folder: str, index: int, key: str) -> tuple[int, int]:
     """In a worker: JAX keeps its compiled programs where those of the sweep are."""
     import jax
 
-    from .plan import read_plan
+    from .plan import compilation_cache, read_plan
 
     cache = read_plan(folder).cache
-    if cache is not None and jax.config.jax_compilation_cache_dir is None:
+    if cache is not None and compilation_cache() is None:
         jax.config.update("jax_compilation_cache_dir", cache)
         jax.config.update("jax_persistent_cache_min_compile_time_secs", 0.0)
         jax.config.update("jax_persistent_cache_min_entry_size_bytes", -1)
@@ -64,13 +64,13 @@ def _run_remotely(folder: str, index: int, key: str) -> tuple[int, int]:
 
 @contextlib.contextmanager
 def _client(count: int | None, scheduler: str | None) -> Iterator[Any]:
-    import dask
+    from dask import config
     from dask.distributed import Client, LocalCluster
 
     settings = {
         "distributed.scheduler.allowed-failures": LOST_WORKERS,
     }
-    with dask.config.set(settings):
+    with config.set(settings):
         if scheduler is not None:
             try:
                 client = Client(scheduler, timeout=CONNECT)
@@ -81,7 +81,7 @@ def _client(count: int | None, scheduler: str | None) -> Iterator[Any]:
             return
         with (
             LocalCluster(
-                n_workers=count, threads_per_worker=1, processes=True, dashboard_address=None, memory_limit=0
+                n_workers=count, threads_per_worker=1, processes=True, dashboard_address="", memory_limit=0
             ) as cluster,
             Client(cluster) as client,
         ):

@@ -3,13 +3,13 @@
 import contextlib
 import os
 import shutil
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
 import xarray as xr
 
-from .chunks import GOOD, KEY, DamagedChunkError, chunk_path, read_chunk, run_chunk
+from .chunks import GOOD, KEY, DamagedChunkError, read_chunk, run_chunk
 from .gather import STORES, store
 from .plan import PLAN, Plan, read_plan, write_plan
 
@@ -167,7 +167,5 @@ def _locked(folder: Path) -> Iterator[None]:
         try:
             fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
         except BlockingIOError:
-            raise SweepError(f"another process is computing this sweep, in '{folder}'; wait for it or stop it") from None
+            raise SweepError(f"another process is computing this sweep in '{folder}'; wait or stop it") from None
         yield
-
-

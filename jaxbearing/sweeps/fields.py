@@ -83,7 +83,7 @@ class SceneSource:
         names = path.split(".")
         if not all(names) or not is_known(self.model, names):
             known = next((n for n in range(1, len(names) + 1) if not is_known(self.model, names[:n])), len(names))
-            raise SceneError(where, ".".join(names[:known]), **unknown_name(names[:known], self.model))
+            raise SceneError(where, ".".join(names[:known]), others=0, **unknown_name(names[:known], self.model))
         kind = type_at(self.model, names)
         what = _no_number(kind)
         if what:
@@ -231,7 +231,7 @@ def _column(name: str, given: Any, source: SceneSource, label: str) -> tuple[Fie
         raise SceneError(label, name, f"the unit '{unit}'", "a number without a unit")
     if field.dimension is not None:
         # the text of the first value is read as that of a scene file, and says what is wrong with the unit
-        field.read(f"{values[0]!r} {unit or ''}", label)
+        field.read(f"{float(values[0])!r} {unit or ''}", label)
         units = registry()
         values = np.asarray(units.Quantity(values, units.Unit(unit)).to(field.dimension.si).magnitude)
     for place in (int(np.argmin(values)), int(np.argmax(values))):

@@ -6,21 +6,21 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
-import jax
 import numpy as np
 import xarray as xr
 
-from ..numerics.status import Status
-from ..report.labelled import CHECK, flags
+from ..report.labelled import CHECK, without_fill
 from .chunks import KEY, read_chunk
 from .labels import CASE, FAILURE, per_case, template
 from .plan import Plan
 
+Progress = Callable[[int, int], None]
 STORES = (".nc", ".zarr")
-NONE_COUNTED = (lambda done, total: None)
 
 
-def store(plan: Plan, folder: Path, target: Path, progress: Callable[[int, int], None] = NONE_COUNTED) -> None:
+def store(
+    plan: Plan, folder: Path, target: Path, progress: Callable[[int, int], None] = lambda done, total: None
+) -> None:
     """Write the whole sweep, as NetCDF or Zarr by the suffix, into the folder of the chunks, and move it to its place.
 
     A grid has one dimension a field, named like its coordinate (`operation_inner_speed`); other sweeps have `case`.
@@ -46,45 +46,54 @@ def _labels(plan: Plan) -> xr.Dataset:
 
 
 def _pieces(plan: Plan, folder: Path, labels: xr.Dataset) -> Iterator[tuple[xr.Dataset, int]]:
-    """Data sets that together are the whole, each small: coordinates and what all cases share, then each variable."""
-    names = [name for name in per_case(labels) if name not in map(_name_of, plan.cases.paths)]
+    """Data sets that together are the whole, each small: coordinates and what all cases share, then each variable.
+    All have the same attributes: Zarr keeps those of the last."""
     axes = _axes(plan)
     dims = tuple(axes) if plan.cases.kind == "grid" else (CASE,)
-    whole = lambda name: _shaped(_column(plan, folder, name), plan.cases.shape)
-    shared = labels.drop_vars([*per_case(labels)]).assign_coords(axes)
-    for name, variable in list(shared.variables.items()):
-        if variable.dtype.kind == "f" and name not in axes and _is_kept(plan, folder, str(name)):
-            # what a template lacks, such as the azimuths: NaN where all cases of a chunk failed
-            parts = [read_chunk(folder, i, plan.key, [str(name)])[str(name)] for i in range(plan.chunks)]
-            shared[name] = variable.copy(data=np.fmax.reduce(parts))
-    broken = whole("out_of_range") if "out_of_range" in names else None
-    if broken is not None:
-        shared.attrs["warnings"] = "\n".join(_warnings(broken, [str(text) for text in labels[CHECK].values]))
+    names = [name for name in per_case(labels) if name not in axes]
+    whole = lambda name: _column(plan, folder, name).reshape(*plan.cases.shape, *labels[name].shape[1:])
+    shared = labels.drop_vars(per_case(labels))
+    for name in _lacking(plan, folder, shared):
+        parts = [read_chunk(folder, i, plan.key, [name])[name] for i in range(plan.chunks)]
+        shared[name] = shared[name].copy(data=np.fmax.reduce(parts))
+    shared = shared.assign_coords(axes)
     for name in [name for name in names if name in labels.coords]:
-        values = whole(name)
-        variable = labels[name].variable
-        finite = values[np.isfinite(values)]
-        constant = values.shape == plan.cases.shape and finite.size > 0 and np.all(finite == finite[0])
-        there = ((), finite[0]) if constant else ((*dims, *variable.dims[1:]), values)
+        values, variable = whole(name), labels[name].variable
+        alike = _one_value(values) if variable.ndim == 1 else None
+        there = ((*dims, *variable.dims[1:]), values) if alike is None else ((), alike)
         shared = shared.assign_coords({name: xr.Variable(*there, variable.attrs)})
-    failure = {"units": "1", "long_name": "why a case has no results; empty where it has"}
-    total = len(names) + 2
+    if "out_of_range" in names:
+        texts = [str(text) for text in labels[CHECK].values]
+        shared.attrs["warnings"] = "\n".join(_warnings(whole("out_of_range"), texts))
+    results = [name for name in names if name not in labels.coords]
+    total = len(results) + 2
     yield _tidy(shared), total
-    yield _tidy(xr.Dataset({FAILURE: xr.Variable(dims, whole(FAILURE).astype(object), failure)})), total
-    for name in names:
-        if name not in labels.coords:
-            variable = labels[name].variable
-            values = broken if name == "out_of_range" and broken is not None else whole(name)
-            yield _tidy(xr.Dataset({name: xr.Variable((*dims, *variable.dims[1:]), values, variable.attrs)})), total
+    words = {"units": "1", "long_name": "why a case has no results; empty where it has"}
+    failure = _column(plan, folder, FAILURE).astype(object).reshape(plan.cases.shape)
+    yield xr.Dataset({FAILURE: xr.Variable(dims, failure, words)}, attrs=shared.attrs), total
+    for name in results:
+        variable = labels[name].variable
+        one = xr.Variable((*dims, *variable.dims[1:]), whole(name), variable.attrs)
+        yield xr.Dataset({name: one}, attrs=shared.attrs), total
+
+
+def _lacking(plan: Plan, folder: Path, shared: xr.Dataset) -> list[str]:
+    """What all cases share but only they know, such as the azimuths: NaN where all cases of a chunk failed."""
+    kept = read_chunk(folder, 0, plan.key)
+    return [str(name) for name in shared.variables if str(name) in kept]
+
+
+def _one_value(values: np.ndarray) -> np.ndarray | None:
+    """The value of all cases that have one; `None` where they differ."""
+    finite = values[np.isfinite(values)]
+    return finite[0] if finite.size and np.all(finite == finite[0]) else None
 
 
 def _tidy(dataset: xr.Dataset) -> xr.Dataset:
-    """Texts of any length, and no mark for what is missing where nothing is."""
+    """Texts of any length."""
     for name, variable in dataset.variables.items():
         if variable.dtype.kind == "U":
             dataset[name] = variable.copy(data=variable.values.astype(object))
-    for name in dataset.coords:
-        dataset[name].encoding["_FillValue"] = None
     return dataset
 
 
@@ -109,14 +118,6 @@ def _column(plan: Plan, folder: Path, name: str) -> np.ndarray:
     return np.concatenate([read_chunk(folder, i, plan.key, [name])[name] for i in range(plan.chunks)])
 
 
-def _is_kept(plan: Plan, folder: Path, name: str) -> bool:
-    return name in read_chunk(folder, 0, plan.key)
-
-
-def _shaped(values: np.ndarray, shape: tuple[int, ...]) -> np.ndarray:
-    return values.reshape(*shape, *values.shape[1:])
-
-
 def _warnings(broken: np.ndarray, texts: list[str]) -> Iterator[str]:
     lanes = broken.reshape(-1, broken.shape[-1])
     for text, count in zip(texts, lanes.sum(axis=0), strict=True):
@@ -137,6 +138,8 @@ def _require_space(plan: Plan, labels: xr.Dataset, folder: Path) -> None:
 
 
 def _to_netcdf(dataset: xr.Dataset, path: Path, mode: Any) -> None:
+    # Zarr's coordinates keep their mark: without one their zeros would be taken for it
+    dataset = without_fill(dataset)
     try:
         dataset.to_netcdf(path, mode=mode, engine="h5netcdf")
     except RuntimeError as error:
@@ -146,7 +149,7 @@ def _to_netcdf(dataset: xr.Dataset, path: Path, mode: Any) -> None:
 
 def _to_zarr(dataset: xr.Dataset, path: Path, mode: Any) -> None:
     # format 3 has no settled way to write texts
-    dataset.to_zarr(path, mode=mode, consolidated=True, zarr_format=2)
+    dataset.drop_encoding().to_zarr(path, mode=mode, consolidated=True, zarr_format=2)
 
 
 def _replace(temporary: Path, target: Path) -> None:

@@ -111,6 +111,11 @@ def _source() -> str:
     return digest.hexdigest()
 
 
+def compilation_cache() -> str | None:
+    """Folder where JAX keeps compiled programs in this process."""
+    return getattr(jax.config, "jax_compilation_cache_dir", None)
+
+
 def write_plan(plan: Plan, folder: Path) -> None:
     """**Raises:** `OSError`."""
     with appearing_whole(folder / PLAN) as temporary:

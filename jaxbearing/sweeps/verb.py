@@ -17,7 +17,7 @@ from .cases import Cases, grid
 from .cluster import on_workers
 from .engine import Runner, in_process
 from .fields import Field, dimension_of, label_of
-from .plan import CHUNK, HEAVY_CHUNK, HEAVY_LANES, LANES, VMAP_LANES, Plan
+from .plan import CHUNK, HEAVY_CHUNK, HEAVY_LANES, LANES, VMAP_LANES, Plan, compilation_cache
 from .recipe import Recipe, in_scene
 
 _QUICK = (BallBearing, CylindricalRollerBearing, TaperedRollerBearing)
@@ -52,7 +52,7 @@ def make_plan(
         method=method,
         label=label,
         metadata=metadata,
-        cache=jax.config.jax_compilation_cache_dir,
+        cache=compilation_cache(),
     )
 
 

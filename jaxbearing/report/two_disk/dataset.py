@@ -14,7 +14,8 @@ def two_disk_to_dataset(solution: TwoDiskSolution, dims: Sequence[str] = ()) -> 
     """See `report.dataset.solution_to_dataset`.
 
     The dimensions are `temperature`, `entrainment_speed`, `pressure` or `load` (the one that the operation gives; the
-    other is a coordinate along it) and `slide_to_roll`, after those of a batch, `dims`. `out_of_range` says which checks of the laws' ranges were left.
+    other is a coordinate along it) and `slide_to_roll`, behind those of a batch, `dims`. `out_of_range` says which
+    checks of the laws' ranges were left.
     """
     dims = tuple(dims)
     if np.ndim(solution.traction_coefficient) != 4 + len(dims):
