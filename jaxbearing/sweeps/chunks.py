@@ -91,7 +91,8 @@ def read_chunk(folder: Path, index: int, key: str, names: list[str] | None = Non
     """
     path = chunk_path(folder, index)
     try:
-        with np.load(path, allow_pickle=False) as file:
+        # opened here: numpy leaves a file open that it cannot read
+        with path.open("rb") as raw, np.load(raw, allow_pickle=False) as file:
             found = {name: file[name] for name in (file.files if names is None else [KEY, *names])}
     except FileNotFoundError:
         raise
