@@ -8,8 +8,9 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
-from .chunks import run_chunk
+from .chunks import GOOD, read_chunk, run_chunk
 from .engine import Runner, SweepError
+from .labels import FAILURE
 
 CONNECT = 15
 """Time that a scheduler has to answer, s."""
@@ -33,15 +34,17 @@ def on_workers(count: int | None = None, scheduler: str | None = None) -> Runner
 
         with _client(count, scheduler) as client:
             # `pure=False`: a chunk that was damaged must be computed, whatever the scheduler remembers
-            tasks = [
+            tasks = as_completed(
                 client.submit(_run_remotely, str(folder.resolve()), index, key, pure=False, retries=2)
                 for index in missing
-            ]
-            for done in as_completed(tasks):
+            )
+            for done in tasks:
                 try:
                     good, cases = done.result()
                 except KilledWorker:
                     raise ChildProcessError(f"{LOST_WORKERS} workers died one after the other of one chunk") from None
+                # or else its result would be lost with its worker, and computed again
+                done.release()
                 progress(cases)
                 yield good, cases
 
@@ -59,6 +62,10 @@ def _run_remotely(folder: str, index: int, key: str) -> tuple[int, int]:
         jax.config.update("jax_compilation_cache_dir", cache)
         jax.config.update("jax_persistent_cache_min_compile_time_secs", 0.0)
         jax.config.update("jax_persistent_cache_min_entry_size_bytes", -1)
+    with contextlib.suppress(OSError):
+        # of a worker that died after it had written it
+        found = read_chunk(Path(folder), index, key)
+        return int(found[GOOD]), len(found[FAILURE])
     return run_chunk(folder, index, key)
 
 

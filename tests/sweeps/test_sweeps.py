@@ -301,5 +301,3 @@ def test_samples_have_the_dimension_case(scene):
     assert found["operation_radial_load"].values.tobytes() == cases.values[0].tobytes()
     order = np.argsort(found["operation_radial_load"].values)
     assert np.all(np.diff(found["ring_radial"].values[order]) > 0)
-
-
