@@ -1,17 +1,21 @@
 """Many scenes of one structure solved by one compiled program, whatever their number and that of the devices.
 
-The program solves a fixed number of lanes on each device; more lanes are more calls of it. So a lane's numbers do not
-depend on how many others there are, where in the batch it stands, or how many devices share the work.
+The program solves a fixed number of lanes on one device; more lanes are more calls of it, on whichever device is free.
+So a lane's numbers do not depend on how many others there are, where among them it stands, or how many devices share
+the work. `jax.shard_map` would be another program for another number of devices: measured, loads of a dry bearing
+then differ in the last bits between one device and two.
 """
 
+import threading
 from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
+from queue import SimpleQueue
 from typing import Any, Literal
 
 import equinox as eqx
 import jax
 import jax.numpy as jnp
 import numpy as np
-from jax.sharding import PartitionSpec
 from jaxtyping import Array, Bool
 
 from ._scene import AbstractScene
@@ -54,10 +58,7 @@ class LaneProgram:
         require_x64()
         self.base = jax.tree.map(as_float, base)
         self.lanes = lanes
-        chosen = jax.local_devices()[:devices]
-        self.width = self.lanes * len(chosen)
-        """Lanes of one call on all devices."""
-        self._order = np.arange(self.width).reshape(self.lanes, len(chosen)).T.ravel()
+        self.devices = jax.local_devices()[:devices]
 
         def one(shared: Any, inputs: Any) -> Any:
             return solve(make(shared, inputs), throw=False, options=options)
@@ -76,11 +77,9 @@ class LaneProgram:
                 return jax.lax.map(lambda given: lane(shared, given[0], given[1]), (active, inputs))
             return jax.vmap(lane, in_axes=(None, 0, 0))(shared, active, inputs)
 
-        mesh = jax.make_mesh((len(chosen),), ("lane",), axis_types=(jax.sharding.AxisType.Auto,), devices=chosen)
-        split, same = PartitionSpec("lane"), PartitionSpec()
-        self._call = jax.jit(
-            jax.shard_map(device, mesh=mesh, in_specs=(same, split, split), out_specs=split, check_vma=False)
-        )
+        self._program = jax.jit(device)
+        self._compiled: dict[Any, Any] = {}
+        self._tracing = threading.Lock()
 
     def __call__(self, inputs: Any, active: np.ndarray, progress: Callable[[int], None] = lambda lanes: None) -> Any:
         """Solutions of as many lanes as there are.
@@ -91,33 +90,40 @@ class LaneProgram:
         - `progress`: called with the number of lanes that were finished.
         """
         count, done = len(active), []
-        pending: list[tuple[int, Any]] = []
-        for start in range(0, count, self.width):
-            # one call is on its way while the results of the one before are fetched
-            pending.append((min(self.width, count - start), self._start(inputs, active, start)))
-            if len(pending) > 1:
-                done.append(self._fetch(*pending.pop(0), progress))
-        done += [self._fetch(*one, progress) for one in pending]
+        free: SimpleQueue[Any] = SimpleQueue()
+        for one in self.devices:
+            free.put(one)
+
+        def solved(start: int) -> Any:
+            chosen = free.get()
+            try:
+                return self._block(chosen, inputs, active, start)
+            finally:
+                free.put(chosen)
+
+        # compiled programs run outside Python's lock
+        with ThreadPoolExecutor(len(self.devices)) as threads:
+            for block in threads.map(solved, range(0, count, self.lanes)):
+                progress(len(block.status))
+                done.append(block)
         return jax.tree.map(lambda *parts: np.concatenate(parts), *done)
 
-    def _start(self, inputs: Any, active: np.ndarray, start: int) -> Any:
-        """Neighbours go to different devices: they cost about the same."""
+    def _block(self, device: Any, inputs: Any, active: np.ndarray, start: int) -> Any:
+        """Lanes of one call; the last block is filled up with lanes that are not solved."""
 
-        def block(values: Any) -> np.ndarray:
-            part = np.asarray(values)[start : start + self.width]
-            filled = np.concatenate([part, np.repeat(part[-1:], self.width - len(part), axis=0)])
-            return filled[self._order]
+        def part(values: Any) -> np.ndarray:
+            values = np.asarray(values)[start : start + self.lanes]
+            return np.concatenate([values, np.repeat(values[-1:], self.lanes - len(values), axis=0)])
 
-        wanted = np.zeros(self.width, dtype=bool)
-        wanted[: len(active) - start] = active[start : start + self.width]
-        return self._call(self.base, wanted[self._order], jax.tree.map(block, inputs))
-
-    def _fetch(self, lanes: int, result: Any, progress: Callable[[int], None]) -> Any:
-        places = np.empty_like(self._order)
-        places[self._order] = np.arange(self.width)
-        fetched = jax.tree.map(lambda leaf: np.asarray(leaf)[places[:lanes]], result)
-        progress(lanes)
-        return fetched
+        wanted = np.zeros(self.lanes, dtype=bool)
+        count = min(self.lanes, len(active) - start)
+        wanted[:count] = active[start : start + count]
+        given = jax.device_put((self.base, wanted, jax.tree.map(part, inputs)), device)
+        if device not in self._compiled:
+            with self._tracing:
+                lowered = self._program.lower(*given)
+            self._compiled[device] = lowered.compile()
+        return jax.tree.map(lambda leaf: np.asarray(leaf)[:count], self._compiled[device](*given))
 
 
 def _without_result(structure: Any) -> Any:
