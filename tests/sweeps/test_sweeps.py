@@ -1,6 +1,7 @@
 """Sweeps: the same numbers as single solves, failed cases, files that survive kills and damage, what is refused."""
 
 import os
+import re
 import signal
 import subprocess
 import sys
@@ -301,3 +302,40 @@ def test_samples_have_the_dimension_case(scene):
     assert found["operation_radial_load"].values.tobytes() == cases.values[0].tobytes()
     order = np.argsort(found["operation_radial_load"].values)
     assert np.all(np.diff(found["ring_radial"].values[order]) > 0)
+
+
+def test_the_page_of_the_docs_runs(capsys):
+    page = (Path(__file__).parents[2] / "docs" / "sweeps.md").read_text(encoding="utf-8")
+    (block,) = re.findall(r"```python\n(.*?)```", page, flags=re.DOTALL)
+    exec(compile(block, "sweeps.md", "exec"), {})
+    assert capsys.readouterr().out.startswith("[")
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("name", "path", "values", "variable", "result"),
+    [
+        ("deep_groove_6205", "operation.radial_load", [1e3, 3e3], "ring_radial", lambda s: s.ring.radial),
+        ("angular_contact_218", "geometry.conformity_inner", [0.515, 0.53], "ring_axial", lambda s: s.ring.axial),
+        ("tapered_example", "operation.radial_load", [2e3, 4e3], "load_outer", lambda s: s.elements.load_outer),
+        ("satellite_contact_1", "operation.entrainment_speed", [0.1, 0.2], "profile_film", lambda s: s.profile.film),
+        ("two_disk_etm", "geometry.reduced_radius_rolling", [5e-3, 1e-2], "film", lambda s: s.film),
+    ],
+)
+def test_every_kind_of_scene(name, path, values, variable, result, tmp_path):
+    scene = jb.load_scene(name, {"contact.accuracy": "1e-2"} if name.startswith("satellite") else {})
+    found = jb.sweep(scene, {path: values}, chunk=2, out=tmp_path / "sweep.nc").load()
+    assert found["failure"].values.tolist() == ["", ""]
+    for lane, value in enumerate(values):
+        one = np.asarray(result(jb.solve(scene.replace({path: value}))))
+        np.testing.assert_allclose(found[variable].values[lane], one, rtol=1e-8, atol=1e-9 * np.max(np.abs(one)))
+    for key, quantity in found.variables.items():
+        assert quantity.attrs["units"], key
+
+
+@pytest.mark.slow
+def test_no_equilibrium_is_said_of_its_case_only(tmp_path):
+    found = jb.sweep(jb.load_scene("tapered_example"), {"operation.axial_load": [10.0, 8e3]}, chunk=2)
+    assert found["status"].values.tolist() == [3, 0]
+    assert "no_equilibrium" in str(found["failure"].values[0])
+    assert np.isnan(found["ring_axial"].values).tolist() == [True, False]

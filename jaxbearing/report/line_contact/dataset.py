@@ -16,7 +16,8 @@ def line_contact_to_dataset(solution: LineContactSolution, dims: Sequence[str] =
     coordinate along it that differs from lane to lane."""
     dims = tuple(dims)
     if np.ndim(solution.status) != len(dims):
-        raise ValueError(f"dims: got {len(dims)} names {dims}; the solution has {np.ndim(solution.status)} dimensions")
+        batch = np.ndim(solution.status)
+        raise ValueError(f"dims: got {len(dims)} names {dims}; the solution is a batch of {batch} dimensions")
     if not dims and not bool(solution.converged):
         raise ValueError(f"a solve that failed has no results: {solution.failure()}")
     dataset = _variables(solution, "Film and pressure of a line contact", dims, "node" if dims else "x")

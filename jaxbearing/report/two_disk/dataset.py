@@ -20,7 +20,7 @@ def two_disk_to_dataset(solution: TwoDiskSolution, dims: Sequence[str] = ()) -> 
     dims = tuple(dims)
     if np.ndim(solution.traction_coefficient) != 4 + len(dims):
         batch = np.ndim(solution.traction_coefficient) - 4
-        raise ValueError(f"dims: got {len(dims)} names {dims}; the traction curves have {batch} leading dimensions")
+        raise ValueError(f"dims: got {len(dims)} names {dims}; the curves are a batch of {batch} dimensions")
     if not dims and not bool(solution.converged):
         raise ValueError(f"a solve that failed has no results: {solution.failure()}")
     loaded = "load" if solution.operation.pressure is None else "pressure"
