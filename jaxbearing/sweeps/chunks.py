@@ -64,7 +64,7 @@ def run_chunk(
 
 @functools.lru_cache(maxsize=1)
 def _opened(folder: str, key: str, devices: int | None) -> tuple[Plan, LaneProgram, xr.Dataset]:
-    plan = read_plan(folder)
+    _, plan = read_plan(folder)
     if plan.key != key:
         raise ValueError("this process has another version of jaxbearing or JAX than the one that began the sweep")
     program = plan.program(devices)

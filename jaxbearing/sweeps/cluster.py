@@ -57,7 +57,7 @@ def _run_remotely(folder: str, index: int, key: str) -> tuple[int, int]:
 
     from .plan import compilation_cache, read_plan
 
-    cache = read_plan(folder).cache
+    cache = read_plan(folder)[1].cache
     if cache is not None and compilation_cache() is None:
         jax.config.update("jax_compilation_cache_dir", cache)
         jax.config.update("jax_persistent_cache_min_compile_time_secs", 0.0)

@@ -92,7 +92,7 @@ def _claim(plan: Plan, folder: Path, target: Path, overwrite: bool) -> None:
     """The folder becomes this plan's, or is so already."""
     there = [path for path in folder.iterdir() if path.name != _LOCK]
     try:
-        known = read_plan(folder).key if (folder / PLAN).exists() else None
+        known = read_plan(folder)[0] if (folder / PLAN).exists() else None
     except ValueError:
         known = None
     if known == plan.key:

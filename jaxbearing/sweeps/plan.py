@@ -119,20 +119,21 @@ def compilation_cache() -> str | None:
 def write_plan(plan: Plan, folder: Path) -> None:
     """**Raises:** `OSError`."""
     with appearing_whole(folder / PLAN) as temporary:
-        temporary.write_bytes(pickle.dumps(plan))
+        temporary.write_bytes(pickle.dumps((plan.key, plan)))
 
 
-def read_plan(folder: str | os.PathLike[str]) -> Plan:
-    """The plan of a sweep, which other processes read; as any pickle, from folders of your own only.
+def read_plan(folder: str | os.PathLike[str]) -> tuple[str, Plan]:
+    """The plan of a sweep, which other processes read, and the hash that it had where it was made: `plan.key` is that
+    of this process, which may have another version. As any pickle, from folders of your own only.
 
     **Raises:** `OSError`; `ValueError` for a damaged file.
     """
     try:
-        plan = pickle.loads((Path(folder) / PLAN).read_bytes())
+        key, plan = pickle.loads((Path(folder) / PLAN).read_bytes())
     except OSError:
         raise
     except Exception as error:
         raise ValueError(f"{Path(folder) / PLAN} cannot be read: {error}") from None
     if not isinstance(plan, Plan):
         raise ValueError(f"{Path(folder) / PLAN} is no plan of a sweep")
-    return plan
+    return str(key), plan

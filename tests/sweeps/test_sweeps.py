@@ -171,6 +171,11 @@ def test_chunks_of_another_sweep_are_not_mixed_in_nor_dropped(scene, tmp_path):
         with pytest.raises(SweepError, match="chunks of another sweep"):
             run(different, target)
         assert {path.name: path.read_bytes() for path in chunk_folder(target).iterdir()} == before
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr("jaxbearing.sweeps.plan._source", lambda: "another version of the package")
+        with pytest.raises(SweepError, match="another version"):
+            run(plan_of(scene), target)
+    assert {path.name: path.read_bytes() for path in chunk_folder(target).iterdir()} == before
     found, _, computed = finished(other, target, overwrite=True)
     assert computed == 15
     assert found.attrs["sweep_key"] == other.key
