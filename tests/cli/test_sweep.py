@@ -2,7 +2,6 @@
 
 import json
 import os
-import resource
 import subprocess
 import sys
 
@@ -136,17 +135,20 @@ def test_lists_that_are_refused(jaxbearing_command, folder, text, words):
     assert os.listdir(folder) == ["cases.csv"]
 
 
-def command(folder, *arguments, limit=None, **variables):
-    environment = {**os.environ, "PYTHONPATH": os.pathsep.join(sys.path), "JAXBEARING_CACHE": "off", **variables}
-    return subprocess.run(
-        [sys.executable, "-m", "jaxbearing", "sweep", *arguments],
-        cwd=folder,
-        env=environment,
-        capture_output=True,
-        text=True,
-        check=False,
-        preexec_fn=None if limit is None else lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (limit, limit)),
-    )
+_LIMITED = """
+import resource, runpy, sys
+limit = {limit}
+if limit:
+    resource.setrlimit(resource.RLIMIT_FSIZE, (limit, limit))
+sys.argv = ["jaxbearing", "sweep", *sys.argv[1:]]
+runpy.run_module("jaxbearing", run_name="__main__")
+"""
+
+
+def command(folder, *arguments, limit=None):
+    environment = {**os.environ, "PYTHONPATH": os.pathsep.join(sys.path), "JAXBEARING_CACHE": "off"}
+    program = [sys.executable, "-c", _LIMITED.format(limit=limit), *arguments]
+    return subprocess.run(program, cwd=folder, env=environment, capture_output=True, text=True, check=False)
 
 
 @pytest.mark.slow
