@@ -20,6 +20,7 @@ from .simulate import simulate as simulate  # noqa: E402  (64-bit floats first)
 from .simulate import simulate_batch as simulate_batch  # noqa: E402
 from .solve import jit_solver as jit_solver  # noqa: E402
 from .solve import solve as solve  # noqa: E402
+from .sweep import sweep as sweep  # noqa: E402
 
 if TYPE_CHECKING:
     from .bearings.ball_bearing import BallBearing as BallBearing

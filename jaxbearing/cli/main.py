@@ -17,6 +17,7 @@ from .scenes_verb import scenes
 from .simulate_verb import simulate
 from .solve_verb import solve
 from .stiffness_verb import stiffness
+from .sweep_verb import sweep
 
 _EPILOG = """\b
 Exit codes: 0 solved; 1 the output cannot be written; 2 bad input;
@@ -101,5 +102,5 @@ def _options(
     pass
 
 
-for _verb in (scenes, solve, simulate, stiffness, fit):
+for _verb in (scenes, solve, sweep, simulate, stiffness, fit):
     app.command()(_verb)

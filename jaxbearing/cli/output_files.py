@@ -28,10 +28,10 @@ def check_files(wanted: Iterable[tuple[str, Path | None, tuple[str, ...]]]) -> N
         if not path.parent.is_dir() or path.is_dir():
             refuse(f"{option}: found '{path}'; expected a file in an existing folder")
         with writing(path):
-            _try_to_write(path)
+            try_to_write(path)
 
 
-def _try_to_write(path: Path) -> None:
+def try_to_write(path: Path) -> None:
     """**Raises:** `OSError` where no file can be made, or one that is there is write-protected."""
     if path.exists() and not os.access(path, os.W_OK):
         raise PermissionError(13, "Permission denied")

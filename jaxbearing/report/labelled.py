@@ -59,6 +59,19 @@ def checks(solution: Any, dims: tuple[str, ...]) -> xr.Variable:
     return xr.Variable((*dims, CHECK), broken, attributes | flags(broken.dtype, ("within", "beyond")))
 
 
+def common(values: np.ndarray, own: int, name: str) -> np.ndarray:
+    """What is the same in all lanes, from values with `own` dimensions behind those of the batch; failed lanes are NaN.
+
+    **Raises:** `ValueError` where the lanes differ.
+    """
+    lanes = values.reshape(-1, *values.shape[values.ndim - own :])
+    # fmax and fmin pass over NaN
+    found = np.fmax.reduce(lanes, axis=0)
+    if not np.array_equal(found, np.fmin.reduce(lanes, axis=0), equal_nan=True):
+        raise ValueError(f"{name}: the lanes of the batch have different ones")
+    return found
+
+
 def without_fill(dataset: xr.Dataset) -> xr.Dataset:
     """Nothing is missing in a coordinate, and the conventions allow no mark for it."""
     for coordinate in dataset.coords.values():

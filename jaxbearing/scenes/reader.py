@@ -1,5 +1,6 @@
 """From a scene file, or the name of a built-in scene, to a scene."""
 
+import typing
 from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any
@@ -49,13 +50,13 @@ def load_scene(source: str | Path, overrides: Mapping[str, str] | None = None) -
 
     **Raises:** `SceneError` with file, field, what was found and what is expected.
     """
-    label, mapping = _read(source)
+    label, mapping = read_tables(source)
     return scene_from_mapping(mapping, label, overrides)
 
 
 def oil_origins(source: str | Path, overrides: Mapping[str, str] | None = None) -> dict[str, Origin]:
     """Where the laws of the oil come from, for a scene that `load_scene` takes with the same arguments."""
-    label, mapping = _read(source)
+    label, mapping = read_tables(source)
     overrides = overrides or {}
     model, _ = _schema(mapping, overrides, label)
     return origins(apply(mapping, overrides, model, label).get("oil", {}), label)
@@ -77,6 +78,17 @@ def scene_from_mapping(
         if culprit is None or error.file != origin:
             raise
         raise error.of(f"{origin} with --set {culprit}={shortened(overrides[culprit])}") from None
+
+
+def scene_model(mapping: Mapping[str, Any], overrides: Mapping[str, str], origin: str) -> type[BaseModel]:
+    """The schema of a scene's tables. **Raises:** `SceneError` for an unknown kind."""
+    return _schema(mapping, overrides, origin)[0]
+
+
+def model_of(scene: AbstractScene) -> type[BaseModel] | None:
+    """The schema of the files of such scenes."""
+    built = {typing.get_type_hints(build)["return"]: model for model, build in _SCHEMAS.values()}
+    return built.get(type(scene))
 
 
 def _schema(
@@ -110,8 +122,8 @@ def _related(a: str, b: str) -> bool:
     return f"{a}.".startswith(f"{b}.") or f"{b}.".startswith(f"{a}.")
 
 
-def _read(source: str | Path) -> tuple[str, dict[str, Any]]:
-    """Name for messages, and tables."""
+def read_tables(source: str | Path) -> tuple[str, dict[str, Any]]:
+    """Name for messages, and the tables of a file or a built-in scene. **Raises:** `SceneError`."""
     label = str(source)
     if isinstance(source, str) and source in builtin_names():
         text = builtin_text(source)

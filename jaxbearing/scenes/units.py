@@ -282,7 +282,7 @@ Fraction = Annotated[float, BeforeValidator(_between(0.0, 1.0))]
 
 Length = Annotated[float, _quantity(LENGTH)]
 PositiveLength = Annotated[float, _quantity(LENGTH, "> 0")]
-FlangeAngle = Annotated[float, BeforeValidator(_flange_angle)]
+FlangeAngle = Annotated[float, QuantityValidator(_flange_angle, dimension=ANGLE)]
 """From 0 to below 90 degrees."""
 NonNegativeLength = Annotated[float, _quantity(LENGTH, ">= 0")]
 Speed = Annotated[float, _quantity(SPEED)]

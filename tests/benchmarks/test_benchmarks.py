@@ -65,6 +65,17 @@ def test_ball_bearing():
             assert error < 1e-6  # where scipy solves the equations it finds our displacement
 
 
+def test_sweep():
+    module = script("sweep")
+    figures = module.benchmark(quick=True)
+    for name, rows in figures.items():
+        module.print_rows(name, 60, rows)
+        assert rows["same bits"]
+        for one in rows["lanes"].values():
+            assert one["failed"] == 0
+            assert one["error"] < 1e-9
+
+
 @pytest.mark.usefixtures("optimized")
 def test_traction():
     module = script("traction")

@@ -13,7 +13,7 @@ import xarray as xr
 
 from ...bearings.solution import Solution
 from ...numerics.status import Status
-from ..labelled import CHECK, attributes, checks, described, flags, labelled, without_fill
+from ..labelled import CHECK, attributes, checks, common, described, flags, labelled, without_fill
 from .operation import unused_operation
 
 _ELEMENT = "element"
@@ -72,9 +72,7 @@ def _with_coordinates(dataset: xr.Dataset, solution: Solution, dims: tuple[str, 
     """Operating point, azimuths and names as coordinates."""
     azimuth = dataset["azimuth"]
     if dims:
-        # the same in all lanes; fmax passes over the NaN of those that failed
-        values = np.fmax.reduce(azimuth.values.reshape(-1, azimuth.shape[-1]), axis=0)
-        azimuth = xr.DataArray(values, dims=(_ELEMENT,), attrs=azimuth.attrs)
+        azimuth = xr.DataArray(common(azimuth.values, 1, "azimuth"), dims=(_ELEMENT,), attrs=azimuth.attrs)
     names = {
         _ELEMENT: (np.arange(azimuth.size), "number of the rolling element, 0 on the load line"),
         _FREEDOMS[0]: (list(solution.freedoms_of_stiffness), "freedom of the inner ring along which the load acts"),

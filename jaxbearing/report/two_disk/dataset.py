@@ -7,20 +7,21 @@ import xarray as xr
 
 from ...machines import TwoDiskSolution
 from ...numerics.status import Status
-from ..labelled import CHECK, attributes, checks, described, flags, labelled, without_fill
+from ..labelled import CHECK, attributes, checks, common, described, flags, labelled, without_fill
 
 
 def two_disk_to_dataset(solution: TwoDiskSolution, dims: Sequence[str] = ()) -> xr.Dataset:
     """See `report.dataset.solution_to_dataset`.
 
     The dimensions are `temperature`, `entrainment_speed`, `pressure` or `load` (the one that the operation gives; the
-    other is a coordinate along it) and `slide_to_roll`. `out_of_range` says which checks of the laws' ranges were left.
+    other is a coordinate along it) and `slide_to_roll`, behind those of a batch, `dims`. `out_of_range` says which
+    checks of the laws' ranges were left.
     """
-    if dims or np.ndim(solution.traction_coefficient) != 4:
-        raise ValueError(
-            f"dims: got {tuple(dims)} for a family of traction curves; expected none, and no batch of them"
-        )
-    if not bool(solution.converged):
+    dims = tuple(dims)
+    if np.ndim(solution.traction_coefficient) != 4 + len(dims):
+        batch = np.ndim(solution.traction_coefficient) - 4
+        raise ValueError(f"dims: got {len(dims)} names {dims}; the curves are a batch of {batch} dimensions")
+    if not dims and not bool(solution.converged):
         raise ValueError(f"a solve that failed has no results: {solution.failure()}")
     loaded = "load" if solution.operation.pressure is None else "pressure"
     axes = ("temperature", "entrainment_speed", loaded, "slide_to_roll")
@@ -32,10 +33,14 @@ def two_disk_to_dataset(solution: TwoDiskSolution, dims: Sequence[str] = ()) -> 
             # pressure or load: as asked, and as they are on both sides of Hertz's law
             continue
         dims_of = own.get(name, (name,) if path != name else axes)
-        dataset[name] = xr.Variable(dims_of, np.asarray(value), described(metadata, path))
+        values = np.asarray(value)
+        if path != name and dims:
+            # an axis is that of all lanes
+            values = common(values, 1, path)
+        dataset[name] = xr.Variable((*dims, *dims_of)[-values.ndim :], values, described(metadata, path))
     dataset["status"].attrs |= flags(dataset["status"].dtype, [status.text for status in Status])
     if solution.checks:
-        dataset["out_of_range"] = checks(solution, ())
+        dataset["out_of_range"] = checks(solution, dims)
         words = {"units": "1", "long_name": "what is checked"}
         dataset = dataset.assign_coords({CHECK: xr.Variable((CHECK,), list(solution.checks), words)})
     return without_fill(dataset.set_coords([name for name in (*axes, *own) if name in dataset]))

@@ -1,0 +1,243 @@
+"""`jaxbearing sweep`: many steady states in one labelled file."""
+
+import json
+import sys
+import time
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Annotated, Any
+
+import typer
+
+from .messages import NOT_CONVERGED, bad_input, refuse
+from .options import JsonOption, SceneArgument, SetOption, labelled
+from .output_files import writing
+from .terminal import console
+
+_EXTRA = "pip install 'jaxbearing[cluster]'"
+OverOption = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--over",
+        metavar="NAME=START:STOP:COUNT[:log]",
+        help="A field and its values, e.g. operation.inner_speed='2000 rpm:20000 rpm:10'; several make a grid. For "
+        "samples NAME=START:STOP[:log].",
+    ),
+]
+ListOption = Annotated[
+    Path | None,
+    typer.Option(
+        "--list", metavar="FILE.csv", help="One case a row; columns are fields, 'operation.inner_speed [rpm]'."
+    ),
+]
+RandomOption = Annotated[
+    int | None, typer.Option("--random", metavar="COUNT", help="So many random cases within the ranges of --over.")
+]
+HypercubeOption = Annotated[
+    int | None,
+    typer.Option("--latin-hypercube", metavar="COUNT", help="As --random, evenly spread over the range of each field."),
+]
+SeedOption = Annotated[int, typer.Option("--seed", metavar="NUMBER", min=0, help="Of the random numbers.")]
+OutOption = Annotated[
+    Path | None,
+    typer.Option(
+        "--out",
+        metavar="FILE",
+        help="NetCDF (.nc) or Zarr (.zarr, needs the extra cluster); SCENE_sweep.nc if not given.",
+    ),
+]
+OverwriteOption = Annotated[
+    bool, typer.Option("--overwrite", help="Replace the file, and drop what is there of another sweep.")
+]
+NoElementsOption = Annotated[
+    bool, typer.Option("--without-elements", help="Leave out the results of each rolling element: a tenth of the file.")
+]
+ChunkOption = Annotated[
+    int | None,
+    typer.Option("--chunk", metavar="COUNT", min=1, help="Cases computed and kept at a time; what a kill can cost."),
+]
+DevicesOption = Annotated[
+    int | None, typer.Option("--devices", metavar="COUNT", min=1, help="Cores to use (or GPUs); all if not given.")
+]
+WorkersOption = Annotated[
+    int | None,
+    typer.Option("--workers", metavar="COUNT", min=1, help="Compute in so many processes (needs the extra cluster)."),
+]
+SchedulerOption = Annotated[
+    str | None,
+    typer.Option(
+        "--scheduler",
+        metavar="ADDRESS",
+        help="Compute on a running Dask cluster, e.g. tcp://host:8786 (extra cluster).",
+    ),
+]
+
+
+def sweep(
+    scene: SceneArgument,
+    over: OverOption = None,
+    cases_file: ListOption = None,
+    random: RandomOption = None,
+    latin_hypercube: HypercubeOption = None,
+    seed: SeedOption = 0,
+    changes: SetOption = None,
+    as_json: JsonOption = False,
+    out: OutOption = None,
+    overwrite: OverwriteOption = False,
+    without_elements: NoElementsOption = False,
+    chunk: ChunkOption = None,
+    devices: DevicesOption = None,
+    workers: WorkersOption = None,
+    scheduler: SchedulerOption = None,
+) -> None:
+    """Many steady states: a grid, a list or samples of fields, in one labelled file. A sweep that is stopped goes on
+    where it was when the same command is given again."""
+    begin = time.monotonic()
+    target = out if out is not None else Path(f"{Path(scene).stem}_sweep.nc")
+    with bad_input():
+        from ..scenes.overrides import split_assignments
+        from ..sweeps.fields import SceneSource
+
+        _check_modes(over, cases_file, random, latin_hypercube)
+        source = SceneSource.of(scene, split_assignments(changes or []))
+        fields, cases = _cases(source, over, cases_file, random, latin_hypercube, seed)
+        with _refused("--over"):
+            recipe = source.recipe(cases, fields)
+        _check_target(target)
+        _check_extra(workers, scheduler)
+
+    from .cache import enable_compilation_cache
+    from .devices import cores, use_cores
+    from .interrupt import prompt_interrupt
+    from .quiet import without_false_alarms
+
+    label = labelled(scene, changes)
+    enable_compilation_cache()
+    use_cores((devices or cores()) if workers is None and scheduler is None else 1)
+    with prompt_interrupt(), without_false_alarms():
+        from ..sweeps.engine import SweepError, run
+        from ..sweeps.fields import described_fields
+        from ..sweeps.verb import make_plan, runner_of
+
+        try:
+            runner = runner_of(devices, workers, scheduler)
+            metadata = described_fields(fields, recipe.example_scene)
+            plan = make_plan(recipe, cases, metadata, label, elements=not without_elements, chunk=chunk)
+            with writing(target), _watcher(len(cases), as_json) as watcher:
+                outcome = run(plan, target, runner=runner, overwrite=overwrite, watcher=watcher)
+        except SweepError as error:
+            refuse(f"--out: {error}")
+        except ValueError as error:
+            refuse(str(error))
+        seconds = time.monotonic() - begin
+        _print(outcome, label, target, seconds, as_json)
+    if outcome.converged == 0:
+        typer.echo(f"not converged: {label}: none of {outcome.cases} cases; {target} says why", err=True)
+        raise typer.Exit(NOT_CONVERGED)
+
+
+def _check_modes(over: Any, cases_file: Any, random: Any, latin_hypercube: Any) -> None:
+    if cases_file is not None and (over or random is not None or latin_hypercube is not None):
+        refuse("--list: found --over, --random or --latin-hypercube beside it; expected one way to choose the cases")
+    if random is not None and latin_hypercube is not None:
+        refuse("--random: found --latin-hypercube beside it; expected one of the two")
+    if cases_file is None and not over:
+        refuse(
+            "--over: found nothing; expected a field to vary, e.g. --over operation.inner_speed='2000 rpm:20000 rpm:10'"
+        )
+
+
+def _cases(source: Any, over: Any, cases_file: Any, random: Any, latin_hypercube: Any, seed: int) -> tuple[Any, Any]:
+    from ..sweeps.fields import grid_of, list_of, parse_over, samples_of
+
+    if cases_file is not None:
+        with _refused("--list"):
+            return list_of(cases_file, source)
+    count, kind = (random, "random") if random is not None else (latin_hypercube, "latin_hypercube")
+    fields, ranges = parse_over(over, source, counted=count is None)
+    with _refused("--over" if count is None else f"--{kind.replace('_', '-')}"):
+        return fields, grid_of(ranges) if count is None else samples_of(ranges, kind, count, seed)
+
+
+@contextmanager
+def _refused(option: str) -> Iterator[None]:
+    """What the library says of values that no sweep can have."""
+    from ..scenes.errors import SceneError
+
+    try:
+        yield
+    except SceneError:
+        raise
+    except ValueError as error:
+        refuse(f"{option}: {error}")
+
+
+def _check_target(target: Path) -> None:
+    """Refuse a place that cannot be written before the work, not after it."""
+    from importlib.util import find_spec
+
+    from ..sweeps.engine import SweepError, check_target
+    from .output_files import try_to_write
+
+    try:
+        check_target(target)
+    except SweepError as error:
+        refuse(f"--out: {error}")
+    if target.suffix.lower() == ".zarr" and find_spec("zarr") is None:
+        refuse(f"--out: found '{target}', which needs the extra 'cluster'; expected .nc, or {_EXTRA}")
+    if not target.parent.is_dir():
+        refuse(f"--out: found '{target}'; expected a file in an existing folder")
+    with writing(target):
+        try_to_write(target)
+
+
+def _check_extra(workers: int | None, scheduler: str | None) -> None:
+    from importlib.util import find_spec
+
+    if workers is not None and scheduler is not None:
+        refuse("--scheduler: found --workers beside it; expected one of the two")
+    if (workers is not None or scheduler is not None) and find_spec("distributed") is None:
+        option = "--workers" if workers is not None else "--scheduler"
+        refuse(f"{option}: found no Dask, which it needs; expected the extra 'cluster': {_EXTRA}")
+
+
+@contextmanager
+def _watcher(cases: int, as_json: bool) -> Iterator[Any]:
+    """A bar with rate and remaining time on the terminal; sentences go to stderr."""
+    from ..sweeps.engine import Watcher
+
+    note = lambda text: typer.echo(f"note: {text}", err=True)
+    if as_json or not sys.stdout.isatty():
+        yield Watcher(note=note)
+        return
+    from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
+
+    columns = (
+        TextColumn("{task.description}"),
+        BarColumn(),
+        MofNCompleteColumn(),
+        TextColumn("{task.fields[rate]}"),
+        TimeRemainingColumn(),
+    )
+    with Progress(*columns, console=console(), transient=True) as bar:
+        task = bar.add_task("compiling", total=cases, rate="")
+
+        def done(count: int) -> None:
+            bar.update(task, advance=count, description="solving")
+            speed = bar.tasks[0].speed
+            bar.update(task, rate=f"{speed:.0f} cases/s" if speed else "")
+
+        yield Watcher(
+            done, lambda text: bar.update(task, description=text), lambda text: bar.console.print(f"note: {text}")
+        )
+
+
+def _print(outcome: Any, label: str, target: Path, seconds: float, as_json: bool) -> None:
+    if as_json:
+        found = {"cases": outcome.cases, "converged": outcome.converged, "failed": outcome.failed}
+        typer.echo(json.dumps(found | {"file": str(target), "seconds": round(seconds, 3)}))
+        return
+    from ..report.sweep_summary import print_sweep
+
+    print_sweep(target, label, outcome.kept, seconds, console())

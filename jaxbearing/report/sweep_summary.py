@@ -1,0 +1,74 @@
+"""A sweep on the screen: how many cases, why some failed, the spread of the main results."""
+
+import collections
+import os
+from collections.abc import Iterator
+from pathlib import Path
+
+import numpy as np
+import xarray as xr
+from rich.console import Console
+from rich.table import Table
+from rich.text import Text
+
+from .display import with_unit
+from .screen import counted, headline, print_warnings
+
+_MAIN = (
+    "power_loss_total",
+    "cage_slip",
+    "ring_radial",
+    "ring_axial",
+    "film_central",
+    "film_minimum",
+    "life_L10r_hours",
+)
+"""Results that are shown, where the scene has them."""
+_REASONS = 3
+"""Reasons of failures that are shown, the most frequent ones."""
+
+
+def print_sweep(file: str | os.PathLike[str], label: str, kept: int, seconds: float, console: Console) -> None:
+    """**Arguments:** `file`: the store; `kept`: cases that an earlier run had computed; `seconds`: of this run."""
+    with xr.open_dataset(file, engine="zarr" if Path(file).is_dir() else "h5netcdf") as dataset:
+        failure = dataset["failure"].values.astype(object).ravel()
+        failed = int(np.sum(failure != ""))
+        status, style = ("ALL CONVERGED", "bold green") if failed == 0 else (f"{failed} FAILED", "bold red")
+        new = failure.size - kept
+        rate = f", {new / seconds:.0f} cases/s with start and compilation" if new and seconds > 0 else ""
+        headline(label, status, style, f"{counted(failure.size, 'case')} in {seconds:.1f} s{rate}", console)
+        rows = {path: _spread(dataset[path.replace(".", "_")]) for path in dataset.attrs["sweep_fields"].split()}
+        rows |= {
+            name: _spread(dataset[name])
+            for name in _MAIN
+            if name in dataset and np.nansum(np.abs(dataset[name].values))
+        }
+        grid = Table.grid(padding=(0, 2, 0, 0))
+        for name, text in rows.items():
+            grid.add_row(Text(f"  {name}"), Text(text))
+        console.print(grid)
+        print_warnings(_reasons(failure), console)
+        print_warnings(filter(None, dataset.attrs.get("warnings", "").split("\n")), console)
+    console.print(Text(f"wrote {os.fspath(file)}: open it with xarray.open_dataset"))
+
+
+def _reasons(failure: np.ndarray) -> Iterator[str]:
+    found = collections.Counter(text for text in failure.tolist() if text)
+    for text, count in found.most_common(_REASONS):
+        yield f"{counted(count, 'case')} failed: {text}"
+    if len(found) > _REASONS:
+        others = sum(count for _, count in found.most_common()[_REASONS:])
+        yield f"{counted(others, 'case')} failed otherwise"
+
+
+def _spread(values: xr.DataArray) -> str:
+    """Smallest and largest value, in engineer's units."""
+    numbers = values.values[np.isfinite(values.values)]
+    if numbers.size == 0:
+        return "-"
+    unit = _LABEL_UNITS.get(values.attrs["units"]) or str(values.attrs["units"])
+    return f"{with_unit(float(numbers.min()), unit)} to {with_unit(float(numbers.max()), unit)}"
+
+
+_LABEL_UNITS = {"rad s-1": "rad/s", "N m-1": "N/m", "m3 s-1": "m^3/s"}
+"""Units of a data set -> those of the library's labels, which know how they are shown."""

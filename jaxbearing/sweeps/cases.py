@@ -1,0 +1,117 @@
+"""Which cases a sweep has: a grid, a list, or random samples of fields; SI numbers."""
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any, Literal
+
+import numpy as np
+
+MOST_CASES = 10_000_000
+Kind = Literal["grid", "list", "random", "latin_hypercube"]
+
+
+@dataclass(frozen=True)
+class Cases:
+    """Values of fields, case by case.
+
+    **Arguments:**
+    - `kind`: how they were chosen.
+    - `paths`: dotted paths of the fields.
+    - `values`: of each field: along its axis for a grid, whose last field varies fastest; otherwise one a case.
+
+    **Raises:** `ValueError` for no field, no case, too many, or values that are not finite numbers.
+    """
+
+    kind: Kind
+    paths: tuple[str, ...]
+    values: tuple[np.ndarray, ...]
+
+    def __post_init__(self):
+        if not self.paths:
+            raise ValueError("a sweep needs a field to vary")
+        for path, values in zip(self.paths, self.values, strict=True):
+            if values.ndim != 1 or values.size == 0 or not np.all(np.isfinite(values)):
+                raise ValueError(f"{path}: expected one or more finite numbers, one after the other")
+        if self.kind != "grid" and len({values.size for values in self.values}) != 1:
+            raise ValueError("a list of cases needs as many values of each field")
+        if len(self) > MOST_CASES:
+            raise ValueError(f"{len(self)} cases are too many: at most {MOST_CASES}")
+
+    def __len__(self) -> int:
+        return math.prod(self.shape)
+
+    @property
+    def shape(self) -> tuple[int, ...]:
+        """Numbers of values along the axes; a list has one axis."""
+        sizes = tuple(values.size for values in self.values)
+        return sizes if self.kind == "grid" else sizes[:1]
+
+    def part(self, start: int, stop: int) -> dict[str, np.ndarray]:
+        """Values of each field in the cases from `start` to `stop`, shape (case,)."""
+        if self.kind != "grid":
+            return {path: values[start:stop] for path, values in zip(self.paths, self.values, strict=True)}
+        places = np.unravel_index(np.arange(start, min(stop, len(self))), self.shape)
+        return {path: values[at] for path, values, at in zip(self.paths, self.values, places, strict=True)}
+
+    def corners(self) -> list[dict[str, float]]:
+        """All fields at their first values, at their last, smallest and largest ones."""
+        ends = ([v[0] for v in self.values], [v[-1] for v in self.values])
+        ends += ([v.min() for v in self.values], [v.max() for v in self.values])
+        return [dict(zip(self.paths, map(float, values), strict=True)) for values in ends]
+
+
+def _columns(over: Mapping[str, Any]) -> tuple[tuple[str, ...], tuple[np.ndarray, ...]]:
+    return tuple(over), tuple(np.atleast_1d(np.asarray(values, dtype=np.float64)) for values in over.values())
+
+
+def grid(over: Mapping[str, Any]) -> Cases:
+    """Every combination of the values of each field. **Arguments:** `over`: dotted path -> SI values."""
+    return Cases("grid", *_columns(over))
+
+
+def listed(over: Mapping[str, Any]) -> Cases:
+    """Case by case. **Arguments:** `over`: dotted path -> SI values, as many for each."""
+    return Cases("list", *_columns(over))
+
+
+def random(bounds: Mapping[str, Sequence[Any]], count: int, seed: int = 0) -> Cases:
+    """Independent and evenly distributed between bounds.
+
+    **Arguments:** `bounds`: dotted path -> lowest and highest value in SI, and "log" as a third where the logarithm is
+    to be evenly distributed.
+    """
+    _positive(count)
+    return _within("random", bounds, np.random.default_rng(seed).random((count, len(bounds))))
+
+
+def latin_hypercube(bounds: Mapping[str, Sequence[Any]], count: int, seed: int = 0) -> Cases:
+    """As `random`, but with one case in each of `count` equal parts of every field's range."""
+    from scipy.stats import qmc
+
+    _positive(count)
+    sampler = qmc.LatinHypercube(max(1, len(bounds)), rng=np.random.default_rng(seed))
+    return _within("latin_hypercube", bounds, sampler.random(count))
+
+
+def _positive(count: int) -> None:
+    if not 1 <= count <= MOST_CASES:
+        raise ValueError(f"found {count} cases, expected 1 to {MOST_CASES}")
+
+
+def _within(kind: Kind, bounds: Mapping[str, Sequence[Any]], unit: np.ndarray) -> Cases:
+    values = {}
+    for (path, (low, high, *spacing)), part in zip(bounds.items(), unit.T, strict=False):
+        values[path] = between(float(low), float(high), part, "log" in spacing, path)
+    return Cases(kind, *_columns(values))
+
+
+def between(low: float, high: float, part: np.ndarray, log: bool, path: str) -> np.ndarray:
+    """Values at parts 0 to 1 of the way from `low` to `high`, with `log` of that between their logarithms; the ends
+    are met exactly. **Raises:** `ValueError` where these do not exist."""
+    if not log:
+        return low * (1.0 - part) + high * part
+    if not (low > 0.0 and high > 0.0):
+        raise ValueError(f"{path}: logarithmic spacing needs values > 0, found {low:g} and {high:g} in SI units")
+    values = np.exp(math.log(low) * (1.0 - part) + math.log(high) * part)
+    return np.where(part == 0.0, low, np.where(part == 1.0, high, values))

@@ -1,0 +1,103 @@
+"""Chunks of a sweep: computed one by one, each in a file that appears whole or not at all."""
+
+import functools
+import os
+import zipfile
+import zlib
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import xarray as xr
+
+from ..lanes import LaneProgram
+from ..report.files import appearing_whole
+from .labels import FAILURE, columns, converged, failures, template
+from .plan import Plan, read_plan
+
+KEY, GOOD = "sweep_key", "converged_cases"
+"""Names in the file of a chunk beside its variables."""
+
+
+class DamagedChunkError(OSError):
+    """A chunk's file that cannot be used."""
+
+
+def chunk_path(folder: Path, index: int) -> Path:
+    return folder / f"chunk-{index:06d}.npz"
+
+
+def run_chunk(
+    folder: str | os.PathLike[str],
+    index: int,
+    key: str,
+    devices: int | None = None,
+    progress: Callable[[int], None] = lambda lanes: None,
+) -> tuple[int, int]:
+    """Solve the cases of one chunk and write its file: all that a worker of any kind has to call.
+
+    The program is compiled at the first chunk of a process and kept.
+
+    **Arguments:**
+    - `folder`: of the sweep's chunks, which holds its plan.
+    - `key`: hash of the plan.
+    - `devices`: local ones to use; all if not given.
+    - `progress`: called with the number of cases that were solved.
+
+    **Returns:** how many cases converged and how many there are.
+
+    **Raises:** `OSError`; `ValueError` where this process has another version than the one that made the plan.
+    """
+    plan, program, labels = _opened(str(folder), key, devices)
+    start, stop = plan.range_of(index)
+    inputs, reasons = plan.recipe.inputs(plan.cases.part(start, stop))
+    active = np.asarray([not reason for reason in reasons])
+    solution = program(inputs, active, progress)
+    good = converged(solution)
+    kept = columns(solution, labels) | {FAILURE: failures(solution, _said(plan, reasons, good, start))}
+    with appearing_whole(chunk_path(Path(folder), index)) as temporary, temporary.open("wb") as file:
+        arrays: dict[str, Any] = {**kept, KEY: np.asarray(key), GOOD: np.asarray(good.sum())}
+        np.savez(file, **arrays)
+    return int(good.sum()), stop - start
+
+
+@functools.lru_cache(maxsize=1)
+def _opened(folder: str, key: str, devices: int | None) -> tuple[Plan, LaneProgram, xr.Dataset]:
+    _, plan = read_plan(folder)
+    if plan.key != key:
+        raise ValueError("this process has another version of jaxbearing or JAX than the one that began the sweep")
+    program = plan.program(devices)
+    return plan, program, template(program.structure, plan.elements)
+
+
+def _said(plan: Plan, reasons: list[str], good: np.ndarray, start: int) -> list[str]:
+    """Where a scene would have been refused, that is the reason: values that no equation can show."""
+    said = list(reasons)
+    for lane in np.flatnonzero(~good).tolist():
+        if not said[lane]:
+            values = plan.cases.part(start + lane, start + lane + 1)
+            try:
+                plan.recipe.scene({path: float(value[0]) for path, value in values.items()})
+            except ValueError as error:
+                said[lane] = str(error)
+    return said
+
+
+def read_chunk(folder: Path, index: int, key: str, names: list[str] | None = None) -> dict[str, Any]:
+    """Variables of a chunk, all if not named. The checksums of what is read are compared.
+
+    **Raises:** `FileNotFoundError`; `DamagedChunkError` for a file that is cut off, changed or of another sweep.
+    """
+    path = chunk_path(folder, index)
+    try:
+        # opened here: numpy leaves a file open that it cannot read
+        with path.open("rb") as raw, np.load(raw, allow_pickle=False) as file:
+            found = {name: file[name] for name in (file.files if names is None else [KEY, *names])}
+    except FileNotFoundError:
+        raise
+    except (OSError, ValueError, KeyError, EOFError, zipfile.BadZipFile, zlib.error, NotImplementedError) as error:
+        raise DamagedChunkError(f"{path}: {error}") from None
+    if str(found.get(KEY)) != key:
+        raise DamagedChunkError(f"{path}: it is of another sweep")
+    return found

@@ -1,0 +1,95 @@
+"""Chunks computed by the workers of a Dask cluster; a chunk whose worker dies is given to another one.
+
+Workers see the folder of the chunks under the same path, and write the same files as one process does.
+"""
+
+import contextlib
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Any
+
+from .chunks import GOOD, read_chunk, run_chunk
+from .engine import Runner, SweepError
+from .labels import FAILURE
+
+CONNECT = 15
+"""Time that a scheduler has to answer, s."""
+LOST_WORKERS = 10
+"""Workers that may die of one chunk before it is given up."""
+
+
+def on_workers(count: int | None = None, scheduler: str | None = None) -> Runner:
+    """A runner for `engine.run`: on so many processes of this machine, or on a running cluster.
+
+    **Arguments:** `count`: local processes, each with one device; `scheduler`: address, "tcp://host:8786".
+
+    **Raises:** `ImportError` without the extra `cluster`.
+    """
+    import dask.distributed  # noqa: F401  (said before the work begins)
+
+    def runner(
+        folder: Path, key: str, missing: list[int], progress: Callable[[int], None]
+    ) -> Iterator[tuple[int, int]]:
+        from dask.distributed import KilledWorker, as_completed
+
+        with _client(count, scheduler) as client:
+            # `pure=False`: a chunk that was damaged must be computed, whatever the scheduler remembers
+            tasks = as_completed(
+                client.submit(_run_remotely, str(folder.resolve()), index, key, pure=False, retries=2)
+                for index in missing
+            )
+            for done in tasks:
+                try:
+                    good, cases = done.result()
+                except KilledWorker:
+                    raise ChildProcessError(f"{LOST_WORKERS} workers died one after the other of one chunk") from None
+                # or else its result would be lost with its worker, and computed again
+                done.release()
+                progress(cases)
+                yield good, cases
+
+    return runner
+
+
+def _run_remotely(folder: str, index: int, key: str) -> tuple[int, int]:
+    """In a worker: JAX keeps its compiled programs where those of the sweep are."""
+    import jax
+
+    from .plan import compilation_cache, read_plan
+
+    cache = read_plan(folder)[1].cache
+    if cache is not None and compilation_cache() is None:
+        jax.config.update("jax_compilation_cache_dir", cache)
+        jax.config.update("jax_persistent_cache_min_compile_time_secs", 0.0)
+        jax.config.update("jax_persistent_cache_min_entry_size_bytes", -1)
+    with contextlib.suppress(OSError):
+        # of a worker that died after it had written it
+        found = read_chunk(Path(folder), index, key)
+        return int(found[GOOD]), len(found[FAILURE])
+    return run_chunk(folder, index, key)
+
+
+@contextlib.contextmanager
+def _client(count: int | None, scheduler: str | None) -> Iterator[Any]:
+    from dask import config
+    from dask.distributed import Client, LocalCluster
+
+    settings = {
+        "distributed.scheduler.allowed-failures": LOST_WORKERS,
+    }
+    with config.set(settings):
+        if scheduler is not None:
+            try:
+                client = Client(scheduler, timeout=CONNECT)
+            except (OSError, ValueError) as error:
+                raise SweepError(f"scheduler: found '{scheduler}', which does not answer ({error})") from None
+            with client:
+                yield client
+            return
+        with (
+            LocalCluster(
+                n_workers=count, threads_per_worker=1, processes=True, dashboard_address="", memory_limit=0
+            ) as cluster,
+            Client(cluster) as client,
+        ):
+            yield client

@@ -1,0 +1,171 @@
+"""Runs the chunks of a sweep that are not there yet, in this process or in others, and gathers them."""
+
+import contextlib
+import os
+import shutil
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from pathlib import Path
+
+import xarray as xr
+
+from .chunks import GOOD, KEY, DamagedChunkError, read_chunk, run_chunk
+from .gather import STORES, store
+from .plan import PLAN, Plan, read_plan, write_plan
+
+Runner = Callable[[Path, str, list[int], Callable[[int], None]], Iterator[tuple[int, int]]]
+"""Computes chunks: folder, key, numbers of the chunks, progress -> converged cases and cases of each."""
+
+
+class SweepError(ValueError):
+    """A sweep that cannot be begun where it was asked for: something else is there."""
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """How a sweep ended. `kept`: cases that were there from an earlier run."""
+
+    cases: int
+    converged: int
+    kept: int
+
+    @property
+    def failed(self) -> int:
+        return self.cases - self.converged
+
+
+@dataclass(frozen=True)
+class Watcher:
+    """Who is told what happens: `cases`: that so many more are done; `stage`: what is done now; `note`: a sentence."""
+
+    cases: Callable[[int], None] = lambda count: None
+    stage: Callable[[str], None] = lambda text: None
+    note: Callable[[str], None] = lambda text: None
+
+
+def chunk_folder(target: Path) -> Path:
+    """Where the chunks of a sweep are until the whole is written."""
+    return target.with_name(f"{target.name}.chunks")
+
+
+def check_target(target: Path) -> None:
+    """**Raises:** `SweepError` for a name that no store can have."""
+    if target.suffix.lower() not in STORES:
+        raise SweepError(f"found '{target}'; expected a file name that ends in {' or '.join(STORES)}")
+
+
+def run(
+    plan: Plan, target: Path, *, runner: Runner | None = None, overwrite: bool = False, watcher: Watcher | None = None
+) -> Outcome:
+    """Compute what is not there yet and write the store.
+
+    A run that ends at any moment, however, goes on where it was when it is started again: chunks that are there are
+    not computed again, and the store appears whole. Afterwards the chunks are removed.
+
+    **Raises:** `SweepError` where another sweep or another file is in the way (`overwrite` removes them), or another
+    process is at this one; `OSError` for what cannot be written: the chunks stay.
+    """
+    check_target(target)
+    watcher = watcher or Watcher()
+    folder, found = chunk_folder(target), _finished(target)
+    if found is not None and found[0] == plan.key:
+        shutil.rmtree(folder, ignore_errors=True)
+        watcher.note(f"{target} has this sweep already: nothing is computed")
+        watcher.cases(len(plan.cases))
+        return Outcome(len(plan.cases), found[1], len(plan.cases))
+    if os.path.lexists(target) and not overwrite:
+        what = "another sweep" if found is not None else "which is there already and is not this sweep's"
+        raise SweepError(f"found '{target}', {what}; expected a new name, or --overwrite")
+    if overwrite and os.path.lexists(target) and found is None and target.is_dir():
+        raise SweepError(f"found '{target}', a folder that is no sweep; expected a new name")
+    folder.mkdir(exist_ok=True)
+    with _locked(folder):
+        _claim(plan, folder, target, overwrite)
+        outcome = _computed(plan, folder, runner or in_process(), watcher)
+        watcher.stage("writing")
+        store(plan, folder, target)
+        shutil.rmtree(folder, ignore_errors=True)
+    return outcome
+
+
+def _claim(plan: Plan, folder: Path, target: Path, overwrite: bool) -> None:
+    """The folder becomes this plan's, or is so already."""
+    there = [path for path in folder.iterdir() if path.name != _LOCK]
+    try:
+        known = read_plan(folder)[0] if (folder / PLAN).exists() else None
+    except ValueError:
+        known = None
+    if known == plan.key:
+        return
+    others = [path for path in there if path.suffix != ".part" and path.name != PLAN]
+    if others and not overwrite:
+        raise SweepError(
+            f"found the chunks of another sweep in '{folder}' (another scene, other cases or options, or another "
+            f"version); expected those of this one: choose another name than '{target}', or --overwrite to drop them"
+        )
+    for path in there:
+        shutil.rmtree(path) if path.is_dir() else path.unlink()
+    write_plan(plan, folder)
+
+
+def _computed(plan: Plan, folder: Path, runner: Runner, watcher: Watcher) -> Outcome:
+    converged, kept, missing = 0, 0, []
+    for index in range(plan.chunks):
+        start, stop = plan.range_of(index)
+        try:
+            converged += int(read_chunk(folder, index, plan.key)[GOOD])
+        except FileNotFoundError:
+            missing.append(index)
+        except DamagedChunkError as error:
+            watcher.note(f"a damaged chunk is computed again: {error}")
+            missing.append(index)
+        else:
+            kept += stop - start
+    if kept:
+        watcher.note(f"{kept} of {len(plan.cases)} cases are there from an earlier run")
+        watcher.cases(kept)
+    if missing:
+        for good, _ in runner(folder, plan.key, missing, watcher.cases):
+            converged += good
+    return Outcome(len(plan.cases), converged, kept)
+
+
+def in_process(devices: int | None = None) -> Runner:
+    """Chunk by chunk, on the local devices."""
+
+    def runner(
+        folder: Path, key: str, missing: list[int], progress: Callable[[int], None]
+    ) -> Iterator[tuple[int, int]]:
+        for index in missing:
+            yield run_chunk(folder, index, key, devices, progress)
+
+    return runner
+
+
+def _finished(target: Path) -> tuple[str, int] | None:
+    """Key and number of converged cases of the sweep that is stored there; `None` where there is none."""
+    if not target.exists():
+        return None
+    try:
+        with xr.open_dataset(target, engine="zarr" if target.is_dir() else "h5netcdf") as dataset:
+            key = dataset.attrs.get(KEY)
+            return None if key is None else (str(key), int((dataset["failure"] == "").sum()))
+    except Exception:
+        # whatever it is, it is no sweep
+        return None
+
+
+_LOCK = "lock"
+
+
+@contextlib.contextmanager
+def _locked(folder: Path) -> Iterator[None]:
+    """One process at a time; the system lets go of the lock when it ends, however it ends."""
+    import fcntl
+
+    with (folder / _LOCK).open("a") as file:
+        try:
+            fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except BlockingIOError:
+            raise SweepError(f"another process is computing this sweep in '{folder}'; wait or stop it") from None
+        yield

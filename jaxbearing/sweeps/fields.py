@@ -1,0 +1,262 @@
+"""Fields of a scene file that can be swept: their units, and values of them as a person writes them."""
+
+import re
+import typing
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from pydantic import BaseModel, TypeAdapter, ValidationError
+
+from .._scene import AbstractScene
+from ..report.labelled import udunits
+from ..scenes.errors import SceneError, unknown_name
+from ..scenes.fields import is_known, type_at
+from ..scenes.overrides import REMOVE, parse_value
+from ..scenes.reader import read_tables, scene_from_mapping, scene_model
+from ..scenes.units import Dimension, QuantityValidator, describe, registry
+from .cases import MOST_CASES, Cases, between, grid, latin_hypercube, listed, random
+from .recipe import Direct, Read, from_reader, structural
+
+OVER = "--over"
+_GRID = "NAME=START:STOP:COUNT or NAME=START:STOP:COUNT:log, e.g. operation.inner_speed='2000 rpm:20000 rpm:10'"
+_RANGE = "NAME=START:STOP or NAME=START:STOP:log, e.g. operation.inner_speed='2000 rpm:20000 rpm'"
+_COLUMN = re.compile(r"(?P<name>[^\[\]]*?)\s*(?:\[\s*(?P<unit>[^\[\]]*?)\s*\])?")
+
+
+@dataclass(frozen=True)
+class Field:
+    """One number of a scene file. `dimension`: `None` for a number without a unit."""
+
+    path: str
+    dimension: Dimension | None
+    kind: Any
+
+    def text(self, value: float) -> str:
+        """A value in SI as it would be typed."""
+        return repr(float(value)) if self.dimension is None else f"{float(value)!r} {self.dimension.si}"
+
+    def read(self, text: str, where: str) -> float:
+        """SI value of a text, within the bounds of the field. **Raises:** `SceneError`."""
+        given = text.strip() if self.dimension is not None else parse_value(text.strip())
+        try:
+            return float(TypeAdapter(self.kind).validate_python(given))
+        except ValidationError as error:
+            context = error.errors(include_url=False)[0].get("ctx", {})
+            found, expected = context.get("found", describe(given)), context.get("expected", "a number")
+            raise SceneError(where, self.path, found, expected) from None
+
+    def metadata(self) -> dict[str, str]:
+        """Attributes of the coordinate, where the library's own classes have none."""
+        words = self.path.rpartition(".")[2].replace("_", " ")
+        if self.dimension is None:
+            return {"units": "1", "long_name": words}
+        flat = re.sub(r"/\((.+?)\)", lambda under: "/" + under[1].replace("*", "/"), self.dimension.si)
+        return {"units": udunits(flat.replace("*", " ")), "long_name": words}
+
+
+@dataclass(frozen=True)
+class SceneSource:
+    """A scene file or built-in scene with its changes: what a case is read from."""
+
+    label: str
+    tables: dict[str, Any]
+    overrides: dict[str, str]
+
+    @classmethod
+    def of(cls, source: str | Path, overrides: Mapping[str, str] | None = None) -> "SceneSource":
+        """**Raises:** `SceneError` for a scene that cannot be read."""
+        label, tables = read_tables(source)
+        return cls(label, tables, dict(overrides or {}))
+
+    @property
+    def model(self) -> type[BaseModel]:
+        return scene_model(self.tables, self.overrides, self.label)
+
+    def field(self, path: str, where: str) -> Field:
+        """The field at a dotted path.
+
+        **Raises:** `SceneError` for what is not there, and for what is not one number.
+        """
+        names = path.split(".")
+        if not all(names) or not is_known(self.model, names):
+            known = next((n for n in range(1, len(names) + 1) if not is_known(self.model, names[:n])), len(names))
+            raise SceneError(where, ".".join(names[:known]), others=0, **unknown_name(names[:known], self.model))
+        kind = type_at(self.model, names)
+        what = _no_number(kind)
+        if what:
+            raise SceneError(where, path, what, structural(path).partition("expected ")[2])
+        return Field(path, dimension_of(kind), kind)
+
+    def recipe(self, cases: Cases, fields: Mapping[str, Field]) -> Direct | Read:
+        """**Raises:** `SceneError`, or `ValueError` for a field that shapes the equations."""
+        return from_reader(_Reader(self, dict(fields)), cases)
+
+
+@dataclass(frozen=True)
+class _Reader:
+    source: SceneSource
+    fields: dict[str, Field]
+
+    def __call__(self, values: dict[str, float]) -> AbstractScene:
+        texts = {path: self.fields[path].text(value) for path, value in values.items()}
+        return scene_from_mapping(self.source.tables, self.source.label, {**self.source.overrides, **texts})
+
+
+def _parts(kind: Any) -> list[Any]:
+    """A type without what may be left out, and all that annotates it."""
+    if typing.get_origin(kind) is typing.Annotated:
+        inner, *notes = typing.get_args(kind)
+        return [*_parts(inner), *notes]
+    alternatives = [one for one in typing.get_args(kind) if one is not type(None)]
+    if alternatives and type(None) in typing.get_args(kind) and len(alternatives) == 1:
+        return _parts(alternatives[0])
+    return [kind]
+
+
+def dimension_of(kind: Any) -> Dimension | None:
+    """Of a field's type; `None` for a number without a unit."""
+    found = [note.dimension for note in _parts(kind) if isinstance(note, QuantityValidator)]
+    return found[0] if found else None
+
+
+def _no_number(kind: Any) -> str:
+    """What a field is that is not one number; "" for one that is."""
+    base = _parts(kind)[0]
+    if base is float:
+        return ""
+    if base is int:
+        return "a whole number, which shapes the equations"
+    if base is bool:
+        return "a switch, which shapes the equations"
+    if typing.get_origin(base) is tuple:
+        return "a field that takes a list of its own"
+    if isinstance(base, type) and issubclass(base, BaseModel):
+        return "a table"
+    return "a choice of words"
+
+
+def parse_over(texts: list[str], source: SceneSource, counted: bool) -> tuple[dict[str, Field], dict[str, Any]]:
+    """Fields and ranges of `--over` texts: path -> (start, stop, count, log), or without the count for samples.
+
+    **Raises:** `SceneError`.
+    """
+    expected, fields, ranges = (_GRID if counted else _RANGE), {}, {}
+    for text in texts:
+        path, equals, span = text.partition("=")
+        path, parts = path.strip(), [part.strip() for part in span.split(":")]
+        log = parts[-1] == "log"
+        parts = parts[:-1] if log else parts
+        if not equals or len(parts) != (3 if counted else 2) or not all(parts) or REMOVE in parts:
+            raise SceneError(OVER, path, f"'{text}'", expected)
+        if path in fields:
+            raise SceneError(OVER, path, "this field twice", "each field once")
+        if path in source.overrides:
+            raise SceneError(OVER, path, "a field that --set gives too", "one of the two")
+        field = source.field(path, OVER)
+        start, stop = (field.read(part, OVER) for part in parts[:2])
+        if log and not (start > 0.0 and stop > 0.0):
+            raise SceneError(OVER, path, f"'{span}'", "values > 0 in SI units, which logarithmic spacing needs")
+        fields[path], ranges[path] = field, (start, stop, _count(parts[2], path) if counted else None, log)
+        if start == stop and ranges[path][2] != 1:
+            raise SceneError(OVER, path, f"'{span}'", "a stop that differs from the start")
+    return fields, ranges
+
+
+def _count(text: str, path: str) -> int:
+    if not re.fullmatch(r"[0-9]{1,9}", text) or not 1 <= int(text) <= MOST_CASES:
+        raise SceneError(OVER, path, describe(text), f"a whole number of values from 1 to {MOST_CASES}")
+    return int(text)
+
+
+def grid_of(ranges: Mapping[str, Any]) -> Cases:
+    """**Raises:** `ValueError` for too many cases."""
+    values = {}
+    for path, (start, stop, count, log) in ranges.items():
+        values[path] = between(start, stop, np.linspace(0.0, 1.0, count), log, path)
+    return grid(values)
+
+
+def samples_of(ranges: Mapping[str, Any], kind: str, count: int, seed: int) -> Cases:
+    """**Raises:** `ValueError` for a count that is not possible."""
+    bounds = {path: (start, stop, *(["log"] if log else [])) for path, (start, stop, _, log) in ranges.items()}
+    return (latin_hypercube if kind == "latin_hypercube" else random)(bounds, count, seed)
+
+
+def list_of(file: Path, source: SceneSource) -> tuple[dict[str, Field], Cases]:
+    """Cases of a CSV file: one row a case, one column a field, its unit in the header, `operation.inner_speed [rpm]`.
+
+    Comma, semicolon or tab between the columns; lines that begin with `#` are skipped.
+
+    **Raises:** `SceneError`.
+    """
+    import pandas
+
+    label, expected = str(file), "a CSV file with columns such as 'operation.inner_speed [rpm]'"
+    try:
+        header = next((line for line in file.read_text("utf-8-sig").splitlines() if _says(line)), "")
+        separator = max(",;\t", key=header.count)
+        table = pandas.read_csv(file, sep=separator, comment="#", skipinitialspace=True, encoding="utf-8-sig")
+    except OSError as error:
+        raise SceneError(label, "", f"a file that cannot be read: {error.strerror or error}", expected) from None
+    except (UnicodeDecodeError, ValueError) as error:
+        raise SceneError(label, "", " ".join(str(error).split()), expected) from None
+    if table.empty:
+        raise SceneError(label, "", "no rows", expected)
+    fields, values = {}, {}
+    for name in table.columns:
+        field, column = _column(str(name), table[name], source, label)
+        if field.path in fields or field.path in source.overrides:
+            raise SceneError(label, field.path, "this field twice", "each field once, here or in --set")
+        fields[field.path], values[field.path] = field, column
+    return fields, listed(values)
+
+
+def _says(line: str) -> bool:
+    return bool(line.strip()) and not line.lstrip().startswith("#")
+
+
+def _column(name: str, given: Any, source: SceneSource, label: str) -> tuple[Field, np.ndarray]:
+    parted = _COLUMN.fullmatch(name.strip())
+    if parted is None:
+        raise SceneError(label, name, "this name of a column", "a field and its unit, 'operation.inner_speed [rpm]'")
+    field, unit = source.field(parted["name"], label), parted["unit"]
+    if given.dtype.kind not in "if" or not np.all(np.isfinite(given.to_numpy(dtype=np.float64))):
+        wrong = next((i for i, one in enumerate(given) if not _is_finite(one)), 0)
+        raise SceneError(label, name, f"'{given.iloc[wrong]}' in row {wrong + 1}", "a finite number")
+    values = given.to_numpy(dtype=np.float64)
+    if field.dimension is None and unit:
+        raise SceneError(label, name, f"the unit '{unit}'", "a number without a unit")
+    if field.dimension is not None:
+        # the text of the first value is read as that of a scene file, and says what is wrong with the unit
+        field.read(f"{float(values[0])!r} {unit or ''}", label)
+        units = registry()
+        values = np.asarray(units.Quantity(values, units.Unit(unit)).to(field.dimension.si).magnitude)
+    for place in (int(np.argmin(values)), int(np.argmax(values))):
+        field.read(field.text(values[place]), f"{label}: row {place + 1}")
+    return field, values
+
+
+def _is_finite(value: Any) -> bool:
+    try:
+        return bool(np.isfinite(float(value)))
+    except (TypeError, ValueError):
+        return False
+
+
+def described_fields(fields: Mapping[str, Field], scene: AbstractScene) -> dict[str, dict[str, str]]:
+    """Unit and description of each swept field: of the class that has it, where that says."""
+    return {path: label_of(scene, path) or field.metadata() for path, field in fields.items()}
+
+
+def label_of(scene: Any, path: str) -> dict[str, str] | None:
+    """The label of a field of the library's own classes."""
+    *above, last = path.split(".")
+    for name in above:
+        scene = getattr(scene, name, None)
+    fields = getattr(type(scene), "__dataclass_fields__", {})
+    if last not in fields or "unit" not in fields[last].metadata:
+        return None
+    return {"units": udunits(fields[last].metadata["unit"]), "long_name": fields[last].metadata["description"]}

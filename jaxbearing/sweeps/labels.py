@@ -1,0 +1,65 @@
+"""What is kept of the solutions of a sweep: the variables of their data set, as arrays over the cases."""
+
+import functools
+from typing import Any
+
+import jax
+import numpy as np
+import xarray as xr
+
+from ..numerics.status import Status
+from ..report.dataset import solution_to_dataset
+from ..report.labelled import checks, common
+
+CASE = "case"
+FAILURE = "failure"
+_EACH = {"element", "node"}
+"""Dimensions of results that a sweep may leave out."""
+
+
+def template(structure: Any, elements: bool) -> xr.Dataset:
+    """The data set of one case, with names, units and dimensions but no results.
+
+    **Arguments:** `structure`: a solution with shapes for arrays; `elements`: see `Plan`.
+    """
+    one = jax.tree.map(lambda leaf: np.zeros((1, *leaf.shape), leaf.dtype), structure)
+    dataset = solution_to_dataset(one, (CASE,))
+    if not elements:
+        dataset = dataset.drop_dims(sorted(_EACH & set(dataset.dims)))
+    return dataset
+
+
+def per_case(dataset: xr.Dataset) -> list[str]:
+    """Names of the variables with a value for each case."""
+    return [str(name) for name, variable in dataset.variables.items() if CASE in variable.dims]
+
+
+def columns(solution: Any, labels: xr.Dataset) -> dict[str, np.ndarray]:
+    """Variables of a batch of solutions: those of each case, and those that all cases share but a template lacks."""
+    found = {}
+    for name, variable in labels.variables.items():
+        path = variable.attrs.get("path", "")
+        if path == "checks":
+            found[str(name)] = checks(solution, (CASE,)).values
+        elif path:
+            values = np.asarray(functools.reduce(getattr, path.split("."), solution))
+            if CASE in variable.dims:
+                # the scene's own number stands for all lanes
+                found[str(name)] = np.broadcast_to(values, (len(converged(solution)), *values.shape[1:]))
+            elif values.ndim > variable.ndim:
+                found[str(name)] = common(values, variable.ndim, str(name))
+    return found
+
+
+def converged(solution: Any) -> np.ndarray:
+    """Which lanes are, shape (lane,)."""
+    status = np.asarray(solution.status)
+    return np.all(status == Status.CONVERGED, axis=tuple(range(1, status.ndim)))
+
+
+def failures(solution: Any, reasons: list[str]) -> np.ndarray:
+    """Why a lane failed, in a sentence; "" where it did not."""
+    texts = list(reasons)
+    for lane in np.flatnonzero(~converged(solution)):
+        texts[lane] = texts[lane] or jax.tree.map(lambda leaf, lane=lane: leaf[lane], solution).failure()
+    return np.asarray(texts, dtype=np.str_)

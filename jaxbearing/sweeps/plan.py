@@ -1,0 +1,139 @@
+"""What a sweep computes, how it is cut into chunks, and the hash by which its files know each other."""
+
+import functools
+import hashlib
+import os
+import pickle
+import re
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import jax
+import numpy as np
+
+from .. import __version__
+from ..lanes import LaneProgram, Method
+from ..numerics.newton import NewtonOptions
+from ..report.files import appearing_whole
+from .cases import Cases
+from .recipe import Recipe
+
+PLAN = "plan.pickle"
+CHUNK, LANES = 1000, 125
+"""Cases of a chunk, and those of them that a device solves in one call: eight devices can share one."""
+VMAP_LANES = 1000
+HEAVY_CHUNK, HEAVY_LANES = 32, 4
+"""Of scenes whose solve takes a large part of a second."""
+
+
+@dataclass(frozen=True)
+class Plan:
+    """All that decides the numbers of a sweep.
+
+    **Arguments:**
+    - `recipe`, `cases`: the scenes.
+    - `options`: of the solver.
+    - `chunk`: cases in a file; `lanes`: cases in a call on one device.
+    - `elements`: whether results of each rolling element (of each point of a profile) are kept, or only numbers.
+    - `platform`: "cpu", "gpu"; `method`: how a device goes through its lanes.
+    - `label`: the scene as it was named, for messages and titles.
+    - `metadata`: unit and description of each swept field.
+    - `cache`: folder of JAX's compilation cache, for other processes; not part of the hash.
+    """
+
+    recipe: Recipe
+    cases: Cases
+    options: NewtonOptions
+    chunk: int
+    lanes: int
+    elements: bool
+    platform: str
+    method: Method
+    label: str
+    metadata: dict[str, dict[str, str]]
+    cache: str | None = None
+
+    @property
+    def chunks(self) -> int:
+        """How many there are."""
+        return -(-len(self.cases) // self.chunk)
+
+    def range_of(self, index: int) -> tuple[int, int]:
+        """First case of a chunk and the one after its last."""
+        return index * self.chunk, min((index + 1) * self.chunk, len(self.cases))
+
+    @functools.cached_property
+    def key(self) -> str:
+        """Hash of scene, cases, options and versions: two sweeps with the same key have the same numbers."""
+        digest = hashlib.sha256()
+        scene = self.recipe.example_scene
+        told = [__version__, _source(), jax.__version__, self.platform, self.method, self.chunk, self.lanes]
+        told += [self.elements, _structure(self.options), self.cases.kind, self.cases.paths, self.cases.shape]
+        told += [type(self.recipe).__name__, _structure(scene)]
+        digest.update(repr(told).encode())
+        for array in (*jax.tree.leaves((scene, self.options)), *self.cases.values):
+            digest.update(np.asarray(array, dtype=np.float64).tobytes())
+        return digest.hexdigest()[:32]
+
+    def __getstate__(self) -> dict[str, Any]:
+        # another process finds its own hash: it may run another version
+        return {name: value for name, value in vars(self).items() if name != "key"}
+
+    def program(self, devices: int | None = None) -> LaneProgram:
+        """What solves the lanes; compiled at its first call."""
+        start = self.recipe.inputs(self.cases.part(0, 1))[0]
+        example = jax.tree.map(lambda leaf: np.asarray(leaf)[0], start)
+        return LaneProgram(
+            self.recipe.make,
+            self.recipe.base,
+            example,
+            method=self.method,
+            lanes=self.lanes,
+            devices=devices,
+            options=self.options,
+        )
+
+
+def _structure(tree: Any) -> str:
+    """Everything in a scene but its numbers; addresses in memory are no part of it."""
+    shapes = [np.shape(leaf) for leaf in jax.tree.leaves(tree)]
+    return re.sub(r" at 0x[0-9a-f]+", "", f"{jax.tree.structure(tree)} {shapes}")
+
+
+@functools.cache
+def _source() -> str:
+    """Hash of the package's source: in a clone that is being worked on the version says too little."""
+    digest = hashlib.sha256()
+    folder = Path(__file__).parents[1]
+    for path in sorted(folder.rglob("*.py")):
+        digest.update(path.relative_to(folder).as_posix().encode() + path.read_bytes())
+    return digest.hexdigest()
+
+
+def compilation_cache() -> str | None:
+    """Folder where JAX keeps compiled programs in this process."""
+    return getattr(jax.config, "jax_compilation_cache_dir", None)
+
+
+def write_plan(plan: Plan, folder: Path) -> None:
+    """**Raises:** `OSError`."""
+    with appearing_whole(folder / PLAN) as temporary:
+        temporary.write_bytes(pickle.dumps((plan.key, plan)))
+
+
+def read_plan(folder: str | os.PathLike[str]) -> tuple[str, Plan]:
+    """The plan of a sweep, which other processes read, and the hash that it had where it was made: `plan.key` is that
+    of this process, which may have another version. As any pickle, from folders of your own only.
+
+    **Raises:** `OSError`; `ValueError` for a damaged file.
+    """
+    try:
+        key, plan = pickle.loads((Path(folder) / PLAN).read_bytes())
+    except OSError:
+        raise
+    except Exception as error:
+        raise ValueError(f"{Path(folder) / PLAN} cannot be read: {error}") from None
+    if not isinstance(plan, Plan):
+        raise ValueError(f"{Path(folder) / PLAN} is no plan of a sweep")
+    return str(key), plan

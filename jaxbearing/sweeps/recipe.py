@@ -1,0 +1,203 @@
+"""From the values of a case to its scene: set in the scene, or read like a scene file."""
+
+import dataclasses
+from collections.abc import Callable
+from typing import Any, Protocol
+
+import equinox as eqx
+import jax
+import numpy as np
+
+from .._scene import AbstractScene
+from ..numerics.precision import as_float
+from .cases import Cases
+
+Inputs = tuple[Any, list[str]]
+"""What a lane's program needs of its cases, lanes in front, and why a case has no scene ("": it has one)."""
+
+
+class Recipe(Protocol):
+    """How the cases of a sweep become scenes. Can be pickled."""
+
+    @property
+    def base(self) -> Any:
+        """Numbers that all cases share."""
+        ...
+
+    @property
+    def example_scene(self) -> AbstractScene:
+        """The scene of one of the cases."""
+        ...
+
+    def make(self, base: Any, inputs: Any) -> AbstractScene:
+        """Scene of one lane; pure."""
+        ...
+
+    def inputs(self, values: dict[str, np.ndarray]) -> Inputs:
+        """What `make` needs, of many cases."""
+        ...
+
+    def scene(self, values: dict[str, float]) -> AbstractScene:
+        """Scene of one case. **Raises:** `ValueError` where its values do not fit together."""
+        ...
+
+
+@dataclasses.dataclass(frozen=True)
+class Direct:
+    """Values that are numbers of the scene: a case is a copy of the scene with other numbers.
+
+    `checked`: whether each case is built once outside the program, where dimensions that do not fit together are
+    refused; twice the time of the quickest solves. An operating point cannot fail there, but for its own bounds.
+    """
+
+    base: Any
+    checked: bool
+
+    @property
+    def example_scene(self) -> AbstractScene:
+        return self.base
+
+    def make(self, base: Any, inputs: Any) -> AbstractScene:
+        return base.replace(inputs)
+
+    def scene(self, values: dict[str, float]) -> AbstractScene:
+        return self.base.replace(values)
+
+    def inputs(self, values: dict[str, np.ndarray]) -> Inputs:
+        count = len(next(iter(values.values())))
+        if not self.checked:
+            return values, [""] * count
+        return values, [self._refusal({path: float(v[i]) for path, v in values.items()}) for i in range(count)]
+
+    def _refusal(self, values: dict[str, float]) -> str:
+        try:
+            self.scene(values)
+        except ValueError as error:
+            return str(error)
+        return ""
+
+
+@dataclasses.dataclass(frozen=True)
+class Read:
+    """Values that the scene does not hold as they are: each case is read like a scene file (5 to 10 ms)."""
+
+    read: Callable[[dict[str, float]], AbstractScene]
+    example_scene: Any
+    base: Any = None
+
+    def make(self, base: Any, inputs: Any) -> AbstractScene:
+        return jax.tree.unflatten(jax.tree.structure(self.example_scene), inputs)
+
+    def scene(self, values: dict[str, float]) -> AbstractScene:
+        scene = jax.tree.map(as_float, self.read(values))
+        if jax.tree.structure(scene) != jax.tree.structure(self.example_scene):
+            raise ValueError("these values give a scene of another structure")
+        return scene
+
+    def inputs(self, values: dict[str, np.ndarray]) -> Inputs:
+        rows, reasons = [], []
+        for i in range(len(next(iter(values.values())))):
+            try:
+                rows.append(jax.tree.leaves(self.scene({path: float(v[i]) for path, v in values.items()})))
+                reasons.append("")
+            except ValueError as error:
+                rows.append(jax.tree.leaves(self.example_scene))
+                reasons.append(str(error))
+        return [np.stack([np.asarray(leaf) for leaf in leaves]) for leaves in zip(*rows, strict=True)], reasons
+
+
+def in_scene(scene: AbstractScene, cases: Cases) -> Direct:
+    """The recipe of a scene that was built: paths are those of its attributes.
+
+    **Raises:** `ValueError` for a field that is not a number of the scene, or for values that it refuses;
+    `AttributeError` for one that is not there.
+    """
+    for path in cases.paths:
+        _require_number(scene, path)
+    scene = jax.tree.map(as_float, scene)
+    base, *_ = _possible(scene.replace, cases.corners())
+    # an operating point has no dimensions to fit together: its bounds are enough
+    checked = not all(path.startswith("operation.") for path in cases.paths)
+    if not checked:
+        for path, values in zip(cases.paths, cases.values, strict=True):
+            for value in (values.min(), values.max()):
+                base.replace({path: float(value)})
+    return Direct(base, checked)
+
+
+def _possible(make: Callable[[dict[str, float]], AbstractScene], corners: list[dict[str, float]]) -> list[Any]:
+    """Scenes of those corners that have one: values may fit together in some cases only.
+
+    **Raises:** `ValueError` of the first corner where none has.
+    """
+    scenes, refused = [], []
+    for values in corners:
+        try:
+            scenes.append(jax.tree.map(as_float, make(values)))
+        except ValueError as error:
+            refused.append(error)
+    if not scenes:
+        raise refused[0]
+    return scenes
+
+
+def _require_number(scene: AbstractScene, path: str) -> None:
+    """**Raises:** `ValueError` where the field is part of the structure."""
+    part: Any = scene
+    *above, last = path.split(".")
+    for name in above:
+        part = getattr(part, name, None)
+    fields = {field.name: field for field in dataclasses.fields(part)} if isinstance(part, eqx.Module) else {}
+    if last not in fields:
+        # says what is there
+        scene.replace({path: 0.0})
+        return
+    value = getattr(part, last)
+    if fields[last].metadata.get("static", False) or isinstance(value, str | bool | eqx.Module | tuple):
+        raise ValueError(structural(path))
+    if np.ndim(value):
+        raise ValueError(f"{path}: found a field that is a list of its own; expected one that is a number")
+
+
+def structural(path: str, what: str = "a field that shapes the equations") -> str:
+    """Why a field cannot be swept."""
+    return (
+        f"{path}: found {what}; expected a number that varies from case to case (another structure is another "
+        "program: run a sweep for each)"
+    )
+
+
+def from_reader(read: Callable[[dict[str, float]], AbstractScene], cases: Cases) -> Direct | Read:
+    """The recipe of a scene file: `Direct` where its values are numbers of the scene as they are.
+
+    **Arguments:** `read`: from values of the fields in SI to a scene.
+
+    **Raises:** `ValueError` for a field that changes the structure of the scene, and where no corner is a scene.
+    """
+    corners = cases.corners()
+    first, *_ = _possible(read, corners)
+    for path, values in zip(cases.paths, cases.values, strict=True):
+        for value in (values[0], values[-1], values.min(), values.max()):
+            for other in _quietly(read, corners[0] | {path: float(value)}):
+                if jax.tree.structure(other) != jax.tree.structure(first):
+                    raise ValueError(structural(path))
+    try:
+        direct = in_scene(first, cases)
+    except (AttributeError, ValueError, TypeError):
+        return Read(read, first)
+    same = all(_same(scene, direct.scene(values)) for values in corners for scene in _quietly(read, values))
+    return direct if same else Read(read, first)
+
+
+def _quietly(read: Callable[[dict[str, float]], AbstractScene], values: dict[str, float]) -> list[Any]:
+    """The scene of these values, where there is one."""
+    try:
+        return [jax.tree.map(as_float, read(values))]
+    except ValueError:
+        return []
+
+
+def _same(one: Any, other: Any) -> bool:
+    return jax.tree.structure(one) == jax.tree.structure(other) and all(
+        np.array_equal(a, b) for a, b in zip(jax.tree.leaves(one), jax.tree.leaves(other), strict=True)
+    )

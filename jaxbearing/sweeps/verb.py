@@ -1,0 +1,94 @@
+"""From what a person asks for to the plan of a sweep and to who computes it."""
+
+from collections.abc import Mapping
+from typing import Any
+
+import jax
+
+from .._scene import AbstractScene
+from ..bearings.ball_bearing import BallBearing
+from ..bearings.cylindrical_roller import CylindricalRollerBearing
+from ..bearings.tapered_roller import TaperedRollerBearing
+from ..lanes import default_method
+from ..numerics.newton import NewtonOptions
+from ..scenes.fields import is_known, type_at
+from ..scenes.reader import model_of
+from .cases import Cases, grid
+from .cluster import on_workers
+from .engine import Runner, in_process
+from .fields import Field, dimension_of, label_of
+from .plan import CHUNK, HEAVY_CHUNK, HEAVY_LANES, LANES, VMAP_LANES, Plan, compilation_cache
+from .recipe import Recipe, in_scene
+
+_QUICK = (BallBearing, CylindricalRollerBearing, TaperedRollerBearing)
+"""Scenes that are solved in milliseconds."""
+
+
+def make_plan(
+    recipe: Recipe,
+    cases: Cases,
+    metadata: dict[str, dict[str, str]],
+    label: str,
+    *,
+    options: NewtonOptions | None = None,
+    elements: bool = True,
+    chunk: int | None = None,
+) -> Plan:
+    """Cut the cases into chunks. **Raises:** `ValueError` for a chunk without cases."""
+    if chunk is not None and chunk < 1:
+        raise ValueError(f"chunk: found {chunk}, expected 1 or more cases")
+    quick = isinstance(recipe.example_scene, _QUICK)
+    method = default_method()
+    size = (CHUNK if quick else HEAVY_CHUNK) if chunk is None else chunk
+    most = (LANES if quick else HEAVY_LANES) if method == "map" else VMAP_LANES
+    return Plan(
+        recipe=recipe,
+        cases=cases,
+        options=NewtonOptions() if options is None else options,
+        chunk=size,
+        lanes=min(size, most),
+        elements=elements,
+        platform=jax.default_backend(),
+        method=method,
+        label=label,
+        metadata=metadata,
+        cache=compilation_cache(),
+    )
+
+
+def plan_in_scene(
+    scene: AbstractScene,
+    over: Mapping[str, Any] | Cases,
+    *,
+    options: NewtonOptions | None = None,
+    elements: bool = True,
+    chunk: int | None = None,
+) -> Plan:
+    """Plan of a sweep over attributes of a scene, in SI. **Raises:** see `jaxbearing.sweep`."""
+    cases = over if isinstance(over, Cases) else grid(over)
+    recipe = in_scene(scene, cases)
+    metadata = {path: _described(recipe.base, path) for path in cases.paths}
+    label = type(scene).__name__
+    return make_plan(recipe, cases, metadata, label, options=options, elements=elements, chunk=chunk)
+
+
+def _described(scene: AbstractScene, path: str) -> dict[str, str]:
+    """Unit and description of a field: from its class, or from the schema of scene files."""
+    found, model = label_of(scene, path), model_of(scene)
+    if found is not None:
+        return found
+    known = model is not None and is_known(model, path.split("."))
+    kind = type_at(model, path.split(".")) if model is not None and known else None
+    return Field(path, None if kind is None else dimension_of(kind), kind).metadata()
+
+
+def runner_of(devices: int | None, workers: int | None, scheduler: str | None) -> Runner:
+    """Who computes the chunks. **Raises:** `ValueError` for counts that are not possible."""
+    for name, count in (("devices", devices), ("workers", workers)):
+        if count is not None and count < 1:
+            raise ValueError(f"{name}: found {count}, expected 1 or more")
+    if workers is not None and scheduler is not None:
+        raise ValueError("scheduler: found one beside workers; expected one of the two")
+    if workers is None and scheduler is None:
+        return in_process(devices)
+    return on_workers(workers, scheduler)
