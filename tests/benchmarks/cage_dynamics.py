@@ -192,9 +192,14 @@ def benchmark(quick=False):
                 table.append(_said((solver, tolerance, *steps, q, v, seconds, ratio)))
                 if seconds > SLOWEST:
                     break
-        size = 4 if quick else 64
-        each, failed = batch(start, jnp.asarray(times), IntegratorOptions(solver="tsit5", tolerance=1e-4), size)
-        figures[name] = {"table": table, "batch": (size, each, failed), "turns": times[-1] / turn}
+        size, batches = 4 if quick else 64, []
+        for tolerance in tolerances:
+            options = IntegratorOptions(solver="tsit5", tolerance=tolerance)
+            each, failed = batch(start, jnp.asarray(times), options, size)
+            q = next(row[4] for row in table if row[:2] == ("tsit5", tolerance))
+            rivals = [t for t in (time_at(q, points) for points in rival.values()) if t is not None]
+            batches.append(_said((size, tolerance, each, failed, min(rivals) / each if rivals else None)))
+        figures[name] = {"table": table, "batches": batches, "turns": times[-1] / turn}
     return figures
 
 
@@ -254,8 +259,9 @@ def print_table(figures):
             taken = f"{steps} calls" if refused is None else f"{steps} ({refused})"
             times = "" if ratio is None else f"{ratio:.1f}"
             print(f"| {solver} | {tolerance:.0e} | {taken} | {q:.2g} | {v:.2g} | {seconds:.3f} | {times} |")
-        size, each, failed = rows["batch"]
-        print(f"batch of {size}, tsit5 1e-4: {each:.4f} s a run, {failed} failed")
+        for size, tolerance, each, failed, ratio in rows["batches"]:
+            times = "" if ratio is None else f", {ratio:.1f} times"
+            print(f"batch of {size}, tsit5 {tolerance:.0e}: {each:.4f} s a run{times}, {failed} failed")
 
 
 if __name__ == "__main__":
