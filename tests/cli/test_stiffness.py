@@ -98,7 +98,7 @@ def test_unwritable_file_is_said_before_solving(jaxbearing_command, folder, monk
     def refused(path):
         raise PermissionError(13, "Permission denied")
 
-    monkeypatch.setattr("jaxbearing.cli.output_files._try_to_write", refused)
+    monkeypatch.setattr("jaxbearing.cli.output_files.try_to_write", refused)
     monkeypatch.setattr("jaxbearing.report.stiffness.stiffness_over_speed", lambda *_, **__: pytest.fail("solved"))
     result = jaxbearing_command("stiffness", "angular_contact_218", *SPEEDS, "--ross", "a.toml")
     assert (result.code, result.out) == (1, "")
