@@ -250,7 +250,7 @@ class CylindricalRollerBearing(AbstractScene):
         if self.tilts and self.contact is not None:
             said.append(
                 "tilting rollers roll without sliding: cage, skidding and sliding friction are not modelled, losses "
-                "are those of rolling resistance alone"
+                + ("are not either" if self.contact.rolling is None else "are those of rolling resistance alone")
             )
         if self.geometry.contact_length is None:
             said.append("geometry.contact_length is not given: the whole roller length carries load")

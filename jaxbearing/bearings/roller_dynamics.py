@@ -403,7 +403,9 @@ class RollerDynamics(eqx.Module):
         time = jnp.asarray(time, dtype=float)
         _, load_rate = jax.jvp(self.ring_load, (time,), (jnp.ones_like(time),))
         load = -jnp.sum(load_rate * now.distribution.ring)
-        return jnp.stack([drive, self.losses(now).total, closing, lever, load])
+        lost = self.losses(now).total
+        assert lost is not None
+        return jnp.stack([drive, lost, closing, lever, load])
 
     def kinetic_energy(self, time: Scalar, state: ArrowPoint) -> Float[Array, ""]:
         """Of rollers and cage, J."""

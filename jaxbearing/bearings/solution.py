@@ -101,9 +101,10 @@ class RollerResults(eqx.Module):
 
 
 class PowerLoss(eqx.Module):
-    """Dissipated power by location, W; what a scene does not model is `None`. The entries add up to `total`."""
+    """Dissipated power by location, W; what a scene does not model is `None`, and `total` of rollers that tilt where
+    that is everything. The entries add up to `total`."""
 
-    total: Float[Array, ""] = eqx.field(metadata=label("W", "total"))
+    total: Float[Array, ""] | None = eqx.field(metadata=label("W", "total"))
     inner_raceway: Float[Array, ""] | None = eqx.field(
         default=None, metadata=label("W", "sliding on the inner raceway")
     )
@@ -196,10 +197,14 @@ class Solution(AbstractSolution):
             place = f", residual {float(self.inner_residual):.3g}"
         if int(self.status) == Status.NO_EQUILIBRIUM:
             steps = int(self.iterations)
-            found = f"after {steps} Newton steps" if steps else "by the loads alone"
+            if not steps:
+                return (
+                    f"{Status.NO_EQUILIBRIUM.text}: contacts that only push cannot balance these loads, the inner ring "
+                    "comes out (proved by the loads alone)"
+                )
             return (
-                f"{Status.NO_EQUILIBRIUM.text}: contacts that only push cannot balance these loads, the inner ring "
-                f"comes out or tilts out of all bounds (proved {found})"
+                f"{Status.NO_EQUILIBRIUM.text}: nothing balances these loads with small tilts and displacements, the "
+                f"inner ring comes out or tilts by more than 0.1 rad (proved after {steps} Newton steps)"
             )
         return (
             f"{Status(int(self.status)).text} after {int(self.iterations)} Newton steps: scaled residual "

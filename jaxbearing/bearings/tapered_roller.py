@@ -12,7 +12,7 @@ from .._types import Scalar
 from ..contacts.laws import ContactLaws
 from ..contacts.point_laws import PointLaws
 from ..lubricants import Lubricant
-from ..numerics.checks import known, require
+from ..numerics.checks import require
 from .parts import AbstractOperation, Drag, Materials
 from .rating import Rating
 from .roller_profile import RollerProfile
@@ -116,10 +116,4 @@ class TaperedRollerBearing(AbstractScene):
         said = []
         if self.contact is not None and self.oil is not None:
             said += [f"oil: {note}" for note in self.oil.notes]
-        loads = known(self.operation.load_position)
-        if self.operation.moment is not None and loads is not None and loads[0] == 0.0:
-            said.append(
-                "operation.load_position is 0: radial load and moment act at the common apex of the cones, not at the "
-                "bearing's middle"
-            )
         return tuple(said)

@@ -38,7 +38,6 @@ class TaperedResults(eqx.Module):
     roller_tilt: _Values = _result("rad", "tilt of the roller, small end outwards")
     film_inner: _Values | None = _optional("m", "central film on the inner raceway, at mid length")
     film_outer: _Values | None = _optional("m", "central film on the outer raceway, at mid length")
-    temperature_rise_inner: _Values | None = _optional("K", "inlet heating, inner")
     film_flange: _Values | None = _optional("m", "central film on the rib")
     temperature_rise_inner: _Values | None = _optional("K", "inlet heating, inner")
     temperature_rise_outer: _Values | None = _optional("K", "inlet heating, outer")

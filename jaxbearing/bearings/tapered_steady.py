@@ -13,6 +13,7 @@ from ..materials import reduced_modulus
 from ..numerics.arrow import ArrowPoint, linearize, schur_complement
 from ..numerics.newton import NewtonOptions, NewtonResult, newton_solve
 from ..numerics.status import Status
+from .lamina_checks import EDGE_WARNING, edge_excess
 from .rating import LAMINAE
 from .roller_loads import LENGTH_UNIT
 from .roller_steady import SLOWEST
@@ -24,6 +25,8 @@ from .tapered_roller import TaperedRollerBearing
 from .tapered_solution import TaperedPowerLoss, TaperedResults
 from .tapered_system import Inertia, TaperedState, TaperedSystem
 
+ROUNDING = 1e-9
+"""Of the moments that a bound compares: what lies closer is left to the solve."""
 YIELD_PRESSURE = 4.0e9
 """Pa: that of the basic static load rating of roller bearings in ISO 76."""
 HIGHEST = 9.0
@@ -38,12 +41,12 @@ def solve_tapered(scene: TaperedRollerBearing, options: NewtonOptions) -> Soluti
     """Steady state: pure, jit-able, vmap-able, differentiable; never raises for a failed solve.
 
     Where no equilibrium is found and one of two proofs holds that there is none, the status is `no_equilibrium`: the
-    axial load is below a static bound (`slides_out`), which the loads alone tell; or the cone, with all else in
+    loads are beyond a static bound (`slides_out`, `tips_over`), which they tell alone; or the cone, with all else in
     equilibrium, is still pushed on at a tilt of 0.1 rad, or at a displacement of the apex distance
     (`numerics.convex.find_minimum`).
     """
     posed = build_tapered(scene)
-    sliding = slides_out(scene, posed.inertia)
+    sliding = slides_out(scene, posed.inertia) | tips_over(scene)
     # what has no equilibrium is not looked for: in its place a few steps to one that is finite, with its derivatives
     easy = jnp.where(sliding, _axial_only(posed), posed.ring_load)
     started, minimum = dataclasses.replace(posed, ring_load=easy).started(sliding)
@@ -89,10 +92,32 @@ def slides_out(scene: TaperedRollerBearing, inertia: Inertia) -> Bool[Array, ""]
     operation, geometry = scene.operation, scene.geometry
     if geometry.n_rollers < 2:
         return jnp.asarray(False)
-    radial = jnp.abs(jnp.asarray(0.0 if operation.radial_load is None else operation.radial_load))
+    radial = jnp.abs(_radial(scene))
     cup, rib = jnp.asarray(geometry.contact_angle), jnp.asarray(geometry.flange_angle)
     least = inertia.force * jnp.cos(rib) / jnp.cos(cup - rib)
     return jnp.asarray(operation.axial_load) < radial * jnp.tan(cup) + geometry.n_rollers * least * jnp.sin(cup)
+
+
+def tips_over(scene: TaperedRollerBearing) -> Bool[Array, ""]:
+    r"""Whether a given moment lies beyond what the cup can hold: no equilibrium then, whatever the tilt.
+
+    M about the apex (`moment` less the radial load times `load_position`) is $\sum\rho Q_o\cos\psi$, each load at a
+    distance $\rho$ between d - l and d from the apex, $F_r = \cos\alpha_o\sum Q_o\cos\psi$ and $F_a =
+    \sin\alpha_o\sum Q_o$; so $|M - (d - l/2)F_r/\cos\alpha_o| \le (l/2)F_a/\sin\alpha_o$. What rotation adds cancels
+    round two or more rollers.
+    """
+    operation, geometry = scene.operation, scene.geometry
+    if operation.moment is None or geometry.n_rollers < 2:
+        return jnp.asarray(False)
+    cup, length = jnp.asarray(geometry.contact_angle), jnp.asarray(geometry.roller_length)
+    moment = jnp.asarray(operation.moment) - jnp.asarray(operation.load_position) * _radial(scene)
+    middle = (geometry.apex_distance - 0.5 * length) * _radial(scene) / jnp.cos(cup)
+    most = 0.5 * length * jnp.asarray(operation.axial_load) / jnp.sin(cup)
+    return jnp.abs(moment - middle) > most + ROUNDING * (jnp.abs(moment) + jnp.abs(middle))
+
+
+def _radial(scene: TaperedRollerBearing) -> Float[Array, ""]:
+    return jnp.asarray(0.0 if scene.operation.radial_load is None else scene.operation.radial_load)
 
 
 def _axial_only(system: TaperedSystem) -> Float[Array, " freedom"]:
@@ -172,6 +197,8 @@ def _results(
     tilted = jnp.maximum(jnp.max(jnp.abs(place[2])), jnp.maximum(jnp.abs(ring.tilt), jnp.abs(ring.tilt_lateral)))
     excess["tilt of the inner ring or of a roller beyond 10 mrad: the model is linear in it"] = tilted - LARGEST_TILT
     end = jnp.max(jnp.where(state.flange_load > 0, _end_reach(scene, state), 0.0))
+    laminae_both = jnp.stack([cut(0), cut(1)])
+    excess[EDGE_WARNING] = edge_excess(laminae_both, jnp.broadcast_to(state.load, laminae_both.shape[:2]))
     excess["contact ellipse on the rib cut off at the edge of the roller's end face"] = end
     losses, drive, inner, outer = TaperedPowerLoss(), None, None, None
     if friction is not None:
@@ -216,11 +243,18 @@ def _of_friction(friction: TaperedFriction, state: TaperedState) -> dict[str, Ar
 
 def _input_excess(scene: TaperedRollerBearing) -> dict[str, Array]:
     """By how much the scene itself leaves the ranges for which the laws were made; said of failed solves too."""
-    if scene.contact is None:
-        return {}
     operation, (low, high) = scene.operation, FITTED_TEMPERATURES
+    excess = {}
+    if operation.moment is not None:
+        text = (
+            "operation.load_position is 0: radial load and moment act at the common apex of the cones, not at the "
+            "bearing's middle"
+        )
+        excess[text] = jnp.where(jnp.asarray(operation.load_position) == 0.0, 1.0, -1.0)
+    if scene.contact is None:
+        return excess
     temperature = jnp.asarray(operation.oil_temperature)
-    return {
+    return excess | {
         "inlet oil beyond 200 degC: the oil laws are extrapolated": temperature - high,
         "inlet oil below -20 degC: the oil laws are extrapolated": low - temperature,
         "rings turn against each other at less than 100 rpm: the films vanish, consider a dry scene": SLOWEST

@@ -19,6 +19,7 @@ from ..numerics.newton import NewtonOptions, newton_solve
 from ..numerics.status import Status
 from .cylindrical_roller import CylindricalRollerBearing
 from .kinematics import RollerKinematics
+from .lamina_checks import EDGE_WARNING, edge_excess
 from .roller_forces import ring_torques, rolling_lean
 from .roller_loads import LENGTH_UNIT
 from .roller_profile import RollerProfile
@@ -27,9 +28,6 @@ from .steady import assemble
 from .tapered_steady import YIELD_PRESSURE
 from .tilting_roller import TiltingRollers, TiltingState
 
-BUSY = 0.1
-"""Load of a contact, over the largest, from which on its distribution along the roller is looked at."""
-EDGE_LOADED = 1.5
 LARGEST_TILT = 0.01
 FREEDOMS = ("radial", "lateral", "tilt", "tilt_lateral")
 """Of the inner ring, those that the model has: nothing holds it axially."""
@@ -118,9 +116,9 @@ class _Results(NamedTuple):
     cage: CageState | None
     elements: RollerResults
     power_loss: PowerLoss
-    drive_power: Array
-    inner_torque: Array
-    outer_torque: Array
+    drive_power: Array | None
+    inner_torque: Array | None
+    outer_torque: Array | None
     laminae: LaminaLoads
     range_excess: dict[str, Array]
 
@@ -151,7 +149,7 @@ def _results(
         **more,
     )
     profiled = scene.profile is not None and scene.profile.shape is not None
-    losses, drive, inner, outer = PowerLoss(total=zero), zero, zero, zero
+    losses, drive, inner, outer = PowerLoss(total=None), None, None, None
     if rolling is not None:
         power = jnp.sum(rolling) * motion.surface_speeds(zero, zero)[0][0]
         losses = PowerLoss(total=power, rolling_resistance=power)
@@ -225,9 +223,6 @@ def _range_excess(
 ) -> dict[str, Array]:
     """By how much the results leave what the model, or a bearing, is made for."""
     most = jnp.max(state.load)
-    busy = state.load >= BUSY * most
-    mean = jnp.where(busy, state.load, 1.0) / laminae.shape[2]
-    end = jnp.maximum(laminae[..., 0], laminae[..., -1]) / mean
     behind = jnp.max(jnp.where(jnp.cos(system.azimuth) < -0.5, state.load[0], 0.0))
     squeezed = jnp.where(system.radial_clearance > 0, behind - 0.01 * most, -1.0)
     return {
@@ -235,8 +230,7 @@ def _range_excess(
         - YIELD_PRESSURE,
         "the inner ring tilts by more than 10 mrad: far beyond what cylindrical roller bearings bear (1 to 2 mrad), "
         "and the equations are those of small tilts": jnp.abs(tilt) - LARGEST_TILT,
-        "rollers are loaded on an edge, with more than 1.5 times their mean load per length at an end: the peak of "
-        "pressure there is higher than that of laminae": jnp.max(jnp.where(busy, end, 0.0)) - EDGE_LOADED,
+        EDGE_WARNING: edge_excess(laminae, state.load),
         "the tilt takes up the whole clearance: rollers opposite the load are squeezed": squeezed,
     }
 

@@ -19,6 +19,7 @@ from .basic import BALL_EXPONENT, RELIABILITY_FACTORS, ROLLER_EXPONENT, basic_li
 from .capacity import ball_capacity, roller_capacity
 from .minimum_film import minimum_films
 from .modification import (
+    KAPPA_RANGE,
     Family,
     contamination_factor,
     fatigue_load_limit,
@@ -40,6 +41,11 @@ _HOURS = 1e6 * 2.0 * np.pi / 3600.0
 """Hours of a million revolutions at 1 rad/s."""
 
 
+THIN_WARNING = (
+    "viscosity ratio kappa below 0.1: ISO 281 gives no a_ISO there, that of kappa = 0.1 is used; boundary lubrication"
+)
+
+
 class Rated(NamedTuple):
     """What a kind of bearing gives to the life."""
 
@@ -57,7 +63,11 @@ def with_life(scene: Any, solution: Any) -> Any:
     rating = getattr(scene, "rating", None)
     if rating is None:
         return solution
-    return dataclasses.replace(solution, life=bearing_life(scene, solution))
+    life = bearing_life(scene, solution)
+    checks = dict(solution.checks)
+    if life.modification_factor is not None and life.viscosity_ratio is not None:
+        checks[THIN_WARNING] = life.viscosity_ratio < KAPPA_RANGE[0]
+    return dataclasses.replace(solution, life=life, checks=checks)
 
 
 def bearing_life(scene: Any, solution: Solution) -> Life:
@@ -186,7 +196,9 @@ def _cylindrical(scene: CylindricalRollerBearing, elements: Any, laminae: Any, t
         inner, outer = laminae.inner, laminae.outer
     profiled = laminae is not None and laminae.profiled
     rate = roller_damage_rate(inner, outer, limits, *turns, factors=edge_weights(rating, profiled, inner.shape[1]))
-    load = jnp.abs(jnp.asarray(scene.operation.radial_load))
+    operation, load = scene.operation, None
+    if operation.moment is None and operation.misalignment is None:
+        load = jnp.abs(jnp.asarray(operation.radial_load))
     return Rated("roller", jnp.asarray(geometry.pitch_diameter), capacity, static, rate, load)
 
 
