@@ -11,6 +11,7 @@ from tapered_cases import G1, RPM, STEEL, tapered
 import jaxbearing as jb
 from jaxbearing.bearings.tapered_build import build_tapered, roller_body
 from jaxbearing.bearings.tapered_geometry import TaperedGeometry
+from jaxbearing.bearings.tapered_steady import tips_over
 from jaxbearing.numerics.arrow import ArrowPoint, evaluate
 from jaxbearing.numerics.status import Status
 from jaxbearing.solve import jit_solver
@@ -283,3 +284,23 @@ def test_both_rings_turn():
     alone = build_tapered(tapered(5e3, rpm=3000)).inertia
     assert turning.force > 4.0 * alone.force
     assert dataclasses.replace(STEEL).density == 7850.0
+
+
+def test_what_the_cup_can_hold_of_a_moment():
+    """Just inside the static bound the solve is left to try, just outside the loads alone prove that nothing balances;
+    the same whatever the reference point."""
+    geometry = tapered(1e4, 1e3, moment=0.0).geometry
+    cup, length = float(geometry.contact_angle), float(geometry.roller_length)
+    middle = (float(geometry.apex_distance) - 0.5 * length) * 1e3 / np.cos(cup)
+    most = 0.5 * length * 1e4 / np.sin(cup)
+    for side in (-1.0, 1.0):
+        for share, proved in ((0.999, False), (1.001, True)):
+            for place in (0.0, -0.11):
+                scene = tapered(1e4, 1e3, moment=middle + side * share * most + place * 1e3, load_position=place)
+                assert bool(tips_over(scene)) is proved
+
+
+def test_loads_on_an_edge_are_warned_of():
+    words = "loaded on an edge"
+    assert not any(words in text for text in jb.solve(tapered(5e3, 5e3)).warnings)
+    assert any(words in text for text in jb.solve(tapered(5e3, 1e4, misalignment=2e-3)).warnings)

@@ -78,6 +78,15 @@ def test_no_equilibrium(jaxbearing_command, folder):
     assert found["iterations"] == 0  # the loads alone tell
 
 
+def test_a_moment_about_the_apex_is_warned_of(jaxbearing_command, folder):
+    """The radial load then has a lever of 110 mm, which no cup can hold: on the screen with the reason."""
+    result = jaxbearing_command("solve", "tapered_example", "--set", "operation.moment=0 N*m")
+    said = " ".join(result.out.split() + result.err.split())
+    assert result.code == 3
+    assert "proved by the loads alone" in said
+    assert "operation.load_position is 0" in said
+
+
 @pytest.mark.parametrize(
     ("change", "words"),
     [

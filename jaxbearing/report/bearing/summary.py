@@ -46,6 +46,7 @@ def print_bearing(solution: Solution, scene_label: str, console: Console) -> Non
     if not bool(solution.converged):
         print_failure(scene_label, Status(int(solution.status)).text, solution.failure(), console)
         print_line("Operating point", operating_point(solution), console)
+        print_warnings(solution.warnings, console)
         return
     counts = f"{counted(int(solution.iterations), 'Newton step')}, {counted(solution.unknowns, 'unknown')}"
     state = f"{counts}, largest scaled residual {float(solution.residual_norm):.1e}"
