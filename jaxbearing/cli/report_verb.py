@@ -5,7 +5,7 @@ from typing import Annotated, Any
 
 import typer
 
-from .messages import NOT_CONVERGED, bad_input, refuse
+from .messages import NOT_CONVERGED, bad_input
 from .options import SceneArgument, SetOption, labelled
 from .output_files import check_files, writing
 from .terminal import console
@@ -28,7 +28,6 @@ def report(scene: SceneArgument, changes: SetOption = None, out: OutOption = Non
 
         overrides = split_assignments(changes or [])
         model = load_scene(scene, overrides)
-        _check_kind(model, scene)
         inputs = scene_inputs(scene, overrides, model)
         check_files([("--out", target, SUFFIXES)])
 
@@ -51,17 +50,6 @@ def report(scene: SceneArgument, changes: SetOption = None, out: OutOption = Non
         print_summary(solution, label, console())
     typer.echo(f"not written: {target}", err=True)
     raise typer.Exit(NOT_CONVERGED)
-
-
-def _check_kind(model: Any, scene: str) -> None:
-    """Refuse a scene of which there is no page before the work, not after it."""
-    from ..bearings.ball_bearing import BallBearing
-    from ..bearings.cylindrical_roller import CylindricalRollerBearing
-    from ..bearings.tapered_roller import TaperedRollerBearing
-
-    if not isinstance(model, BallBearing | CylindricalRollerBearing | TaperedRollerBearing):
-        expected = "a bearing; for others there are solve --plot and solve --out"
-        refuse(f"report: found '{scene}', a {type(model).__name__}; expected {expected}")
 
 
 def _write(model: Any, solution: Any, title: str, inputs: Any, target: Path) -> None:

@@ -9,12 +9,16 @@ from typing import Any
 
 from .. import __version__
 from ..bearings.solution import Solution
+from ..ehl import LineContactSolution
+from ..machines import TwoDiskSolution
 from ..scenes.inputs import SceneInput
 from .bearing.page_content import bearing_content
 from .charts import library
 from .json_report import solution_to_dict
+from .line_contact.page_content import line_contact_content
 from .page_content import Content
 from .sheet import typeset
+from .two_disk.page_content import two_disk_content
 
 _OF_PACKAGES = ("jax", "jaxlib", "plotly")
 
@@ -25,6 +29,8 @@ def _content(solution: Any, scene: Any) -> Content:
 
 
 _content.register(Solution, lambda solution, scene: bearing_content(scene, solution))
+_content.register(LineContactSolution, lambda solution, scene: line_contact_content(solution))
+_content.register(TwoDiskSolution, lambda solution, scene: two_disk_content(solution))
 
 
 def html_report(

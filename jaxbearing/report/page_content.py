@@ -22,7 +22,7 @@ class Content:
 
     - `operation`: the operating point in words.
     - `headlines`: name, value of the few results at the top.
-    - `facts`: name, text of further results in words.
+    - `facts`: name, text of further results in words, under `facts_title`.
     - `losses`: power loss by location: name, W, share.
     - `convergence`: name, text on how the solve ended.
     - `checks`: text of each check of the laws' ranges, whether it was left.
@@ -34,6 +34,7 @@ class Content:
     headlines: Sequence[tuple[str, str]] = ()
     sketches: Sequence[Sketch] = ()
     facts: Sequence[tuple[str, str]] = ()
+    facts_title: str = "Motion, films and stiffness"
     life: Sequence[Row] = ()
     losses: Sequence[tuple[str, str, str]] = ()
     charts: Sequence[Chart] = ()
