@@ -34,7 +34,8 @@ window.addEventListener("load", function () { setTimeout(function () {
     width: inside.innerWidth,
     content: page.documentElement.scrollWidth,
     charts: charts.map(function (chart) { return [chart.id, chart.querySelectorAll(".trace").length]; }),
-    widths: charts.map(function (chart) { return chart.querySelector(".main-svg").getBoundingClientRect().width; }),
+    widths: charts.map(function (chart) {
+      return (chart.querySelector(".main-svg") || page.body).getBoundingClientRect().width; }),
     drawings: Array.from(page.querySelectorAll("figure > svg")).map(function (one) {
       return one.getBoundingClientRect().width; })
   });

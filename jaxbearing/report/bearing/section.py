@@ -12,13 +12,13 @@ from ...bearings.cylindrical_roller import CylindricalRollerBearing
 from ...bearings.solution import Solution
 from ...bearings.tapered_roller import TaperedRollerBearing
 from ..display import digits
-from ..drawing import FAINT, LOAD, RING, RING_THICKNESS, ROLLER
+from ..drawing import FAINT, RING, RING_THICKNESS, ROLLER
 from ..svg import INK, Drawing, Point
 from .plots import INNER, OUTER, RIB
 
-_WIDTH = 150.0
+_WIDTH = 115.0
 """Of the rolling element's diameter, points of the page."""
-_LONGEST = 0.75
+_LONGEST = 0.9
 """Longest arrow, in diameters of the element."""
 _SIDE = 0.25
 """Ring beside the rolling element, in its diameters."""
@@ -62,9 +62,9 @@ def _axial_load(drawing: Drawing, solution: Solution, x: float, lowest: float, d
         return
     reach = math.copysign(0.35 * diameter, float(axial))
     y = lowest - 32.0 / drawing.scale
-    drawing.arrow((x - reach, y), (x + reach, y), LOAD, width=4.0)
+    drawing.arrow((x - reach, y), (x + reach, y), INK, width=4.0)
     below = x, y - 18.0 / drawing.scale
-    drawing.text(below, f"axial load on the inner ring {1e-3 * float(axial):.5g} kN", fill=LOAD)
+    drawing.text(below, f"axial load on the inner ring {1e-3 * float(axial):.5g} kN")
 
 
 _SAID = {"inner": "inner race", "outer": "outer race", "flange": "rib"}

@@ -9,7 +9,7 @@ from ...bearings.ball_bearing import BallBearing
 from ...bearings.solution import Solution
 from ...bearings.tapered_roller import TaperedRollerBearing
 from ..display import displayed
-from ..drawing import CAGE, FAINT, LOAD, RING, RING_THICKNESS, ROLLER
+from ..drawing import CAGE, FAINT, RING, RING_THICKNESS, ROLLER
 from ..svg import INK, Drawing, Point
 from .plots import INNER, OUTER
 
@@ -99,6 +99,6 @@ def _applied(drawing: Drawing, sizes: Sizes, solution: Solution) -> None:
     if radial:
         words.append(f"radial {1e-3 * radial:.5g} kN")
         reach = math.copysign(0.32 * sizes.bore, radial)
-        drawing.arrow((0.0, 0.0), (0.0, -reach), LOAD, width=4.0)
+        drawing.arrow((0.0, 0.0), (0.0, -reach), INK, width=4.0)
     gap = 7.5 * len(words) / drawing.scale
-    drawing.text((0.0, gap + 6.0 / drawing.scale if radial else 0.0), "\n".join(words), fill=INK)
+    drawing.text((0.0, gap + 6.0 / drawing.scale if radial else 0.0), "\n".join(words))
