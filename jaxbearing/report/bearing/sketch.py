@@ -100,5 +100,7 @@ def _applied(drawing: Drawing, sizes: Sizes, solution: Solution) -> None:
         words.append(f"radial {1e-3 * radial:.5g} kN")
         reach = math.copysign(0.32 * sizes.bore, radial)
         drawing.arrow((0.0, 0.0), (0.0, -reach), INK, width=4.0)
-    gap = 7.5 * len(words) / drawing.scale
-    drawing.text((0.0, gap + 6.0 / drawing.scale if radial else 0.0), "\n".join(words))
+    # a small bore holds four lines of smaller letters
+    size = min(12.0, 0.55 * sizes.bore * drawing.scale / len(words))
+    gap = (0.625 * size * len(words) + 6.0) / drawing.scale
+    drawing.text((0.0, gap if radial else 0.0), "\n".join(words), size=size)
