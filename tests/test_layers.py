@@ -39,7 +39,19 @@ RANK = {
     "__main__": 12,
 }
 SIBLINGS = {("lubricants", "materials"), ("materials", "lubricants"), ("contacts", "gaps"), ("gaps", "contacts")}
-EDGE_ONLY = {"pint", "pydantic", "matplotlib", "xarray", "rich", "typer", "tomllib", "json", "platformdirs", "jinja2"}
+EDGE_ONLY = {
+    "pint",
+    "pydantic",
+    "matplotlib",
+    "xarray",
+    "rich",
+    "typer",
+    "tomllib",
+    "json",
+    "platformdirs",
+    "jinja2",
+    "plotly",
+}
 FITTING_MAY_USE = RANK["machines"]
 FITTING_IO_MAY_USE = ("jaxbearing.scenes.", "jaxbearing.report.")
 FITTING_IO_ONLY = {"pint", "csv", "tomllib", "json", "rich", "matplotlib", "pydantic", "pydantic_core"}

@@ -13,6 +13,7 @@ import typer
 
 from .fit_verb import fit
 from .messages import BAD_INPUT, INTERRUPTED, NO_OUTPUT, say
+from .report_verb import report
 from .scenes_verb import scenes
 from .simulate_verb import simulate
 from .solve_verb import solve
@@ -102,5 +103,5 @@ def _options(
     pass
 
 
-for _verb in (scenes, solve, sweep, simulate, stiffness, fit):
+for _verb in (scenes, solve, report, sweep, simulate, stiffness, fit):
     app.command()(_verb)

@@ -21,7 +21,7 @@ RING, ROLLER, CAGE = "#CDD3DB", "#F6F7F9", "#E6CB8B"
 _FONT = 8.5
 _DRAWN_CLEARANCE = 0.07
 """A clearance in the drawing, in roller diameters."""
-_RING_THICKNESS = 0.45
+RING_THICKNESS = 0.45
 """Of a ring at its raceway, in roller diameters."""
 _CAPTION = (
     "Names as in --set and in Python; those without a dot belong to geometry. To scale, except for the clearances (all "
@@ -71,7 +71,7 @@ class _Size:
         self.inner, self.outer = mm(geometry.inner_radius), mm(geometry.outer_radius)
         self.loaded = min(mm(geometry.loaded_length), self.length)
         self.gap = _DRAWN_CLEARANCE * self.diameter
-        self.ring = _RING_THICKNESS * self.diameter
+        self.ring = RING_THICKNESS * self.diameter
         self.step = 2.0 * math.pi / geometry.n_rollers
         between = 2.0 * self.pitch * math.sin(math.pi / max(geometry.n_rollers, 2)) - self.diameter
         self.pocket = min(self.gap, 0.3 * between)

@@ -43,8 +43,13 @@ def head(figure: Any, title: str, operation: str) -> None:
     figure.text(0.985, 0.955, f"jaxbearing {__version__}", fontsize=8, color=FAINT, va="center", ha="right")
 
 
+def typeset(text: str) -> str:
+    """With the signs of units that a terminal may not have."""
+    return text.replace(" degC", " °C").replace(" um", " µm").replace("/um", "/µm")
+
+
 def pretty(text: str) -> str:
-    return text.replace(" degC", " °C").replace(" um", " µm").replace(", ", "   ·   ")
+    return typeset(text).replace(", ", "   ·   ")
 
 
 def foot(figure: Any, warnings: Iterable[str]) -> int:
@@ -75,3 +80,10 @@ def round_up(value: float) -> float:
     power = 10.0 ** math.floor(math.log10(value))
     steps = (1.0, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0)
     return next(step * power for step in steps if step * power >= 0.999 * value)
+
+
+def log_ticks(low: float, high: float) -> list[float]:
+    """1, 2 and 5 times powers of ten between these limits; of many powers, the powers only."""
+    powers = range(math.floor(math.log10(low)), math.ceil(math.log10(high)) + 1)
+    ticks = [step * 10.0**power for power in powers for step in ((1, 2, 5) if len(powers) < 5 else (1,))]
+    return [tick for tick in ticks if low <= tick <= high]

@@ -31,7 +31,7 @@ def path_of(location: Sequence[int | str]) -> str:
 
 def names_at(model: type[BaseModel], location: Sequence[int | str]) -> Names:
     """Valid names of the table at a location of `model`."""
-    models = _models_at(model, location)
+    models = tables_at(model, location)
     names = dict.fromkeys(name for candidate in models for name in candidate.model_fields)
     not_yet: dict[str, str] = {}
     instead: dict[str, tuple[str, ...]] = {}
@@ -43,7 +43,8 @@ def names_at(model: type[BaseModel], location: Sequence[int | str]) -> Names:
     return Names(tuple(names), not_yet, instead, about)
 
 
-def _models_at(model: type[BaseModel], location: Sequence[int | str]) -> list[type[BaseModel]]:
+def tables_at(model: type[BaseModel], location: Sequence[int | str]) -> list[type[BaseModel]]:
+    """The tables that may stand at a location: several where there are alternatives, none where it is a value."""
     models = [model]
     for part in location:
         if is_tag(part):
@@ -60,14 +61,14 @@ def is_known(model: type[BaseModel], path: Sequence[str]) -> bool:
 
 def is_optional(model: type[BaseModel], location: Sequence[int | str]) -> bool:
     """Whether the field at a location may be left out, the table around it being there."""
-    owners = _models_at(model, location[:-1])
+    owners = tables_at(model, location[:-1])
     fields = [owner.model_fields[str(location[-1])] for owner in owners if str(location[-1]) in owner.model_fields]
     return bool(fields) and all(not info.is_required() and info.default is None for info in fields)
 
 
 def type_at(model: type[BaseModel], location: Sequence[int | str]) -> Any:
     """The type of the field at a location with all that validates it; `None` where there is no such field."""
-    for owner in _models_at(model, location[:-1]):
+    for owner in tables_at(model, location[:-1]):
         info = owner.model_fields.get(str(location[-1]))
         if info is not None:
             return typing.Annotated[info.annotation, *info.metadata] if info.metadata else info.annotation

@@ -8,7 +8,7 @@ import numpy as np
 
 from ...bearings.solution import Solution
 from ..display import digits, displayed
-from ..sheet import FAINT, INK, axis_unit, foot, grid_lines, head, pretty, round_up, title_of
+from ..sheet import FAINT, INK, axis_unit, foot, grid_lines, head, log_ticks, pretty, round_up, title_of
 from .operation import operating_point
 
 if TYPE_CHECKING:
@@ -16,14 +16,14 @@ if TYPE_CHECKING:
 
 # Okabe and Ito's colours, which all kinds of colour vision tell apart
 INNER, OUTER, RIB, LOSS = "#0072B2", "#D55E00", "#009E73", "#56789A"
-_SIDES = (("outer", OUTER, "s", "outer race"), ("inner", INNER, "o", "inner race"), ("flange", RIB, "^", "rib"))
+SIDES = (("outer", OUTER, "s", "outer race"), ("inner", INNER, "o", "inner race"), ("flange", RIB, "^", "rib"))
 
-_LOG_FROM = 20.0
+LOG_FROM = 20.0
 """Largest over smallest value from which on an axis is logarithmic: the films of the loaded zone must be readable."""
 _SCALE_AZIMUTH = math.radians(157.5)
 """Where the numbers of the polar plot stand: away from the load line."""
 
-_ROUND = {
+ROUND = {
     "film": ("Central film", False),
     "pressure": ("Hertz (peak) pressure", True),
     "sliding": ("Sliding speed", False),
@@ -42,7 +42,7 @@ def plot_bearing(solution: Solution, title: str) -> "matplotlib.figure.Figure":
         raise ValueError(f"a solve that failed has no results: {solution.failure()}")
     losses = power_losses(solution)
     at = lambda name, side: getattr(solution.elements, f"{name}_{side}", None)
-    rounds = [name for name in _ROUND if at(name, "inner") is not None or at(name, "flange") is not None]
+    rounds = [name for name in ROUND if at(name, "inner") is not None or at(name, "flange") is not None]
     figure = Page()
     head(figure, title, pretty(operating_point(solution)))
     bottom = 0.075 + 0.019 * foot(figure, solution.warnings)
@@ -73,7 +73,7 @@ def _legend(figure: Any) -> tuple[list[Any], list[str]]:
     for axes in figure.axes:
         handles, names = axes.get_legend_handles_labels()
         drawn |= dict(zip(names, handles, strict=True))
-    names = [label for *_, label in _SIDES if label in drawn]
+    names = [label for *_, label in SIDES if label in drawn]
     return [drawn[name] for name in names], names
 
 
@@ -145,7 +145,7 @@ def _load_arrow(axes: Any) -> None:
 
 
 def _plot_round(axes: Any, solution: Solution, name: str) -> None:
-    title, from_zero = _ROUND[name]
+    title, from_zero = ROUND[name]
     elements = solution.elements
     values = {side: getattr(elements, f"{name}_{side}", None) for side in ("inner", "outer", "flange")}
     values = {side: np.asarray(v) for side, v in values.items() if v is not None}
@@ -157,12 +157,12 @@ def _plot_round(axes: Any, solution: Solution, name: str) -> None:
     azimuth = displayed(1.0, "rad") * np.asarray(elements.azimuth)
     azimuth = np.where(azimuth > 180.0 + 1e-9, azimuth - 360.0, azimuth)
     order = np.argsort(azimuth)
-    for side, colour, marker, label in _SIDES:
+    for side, colour, marker, label in SIDES:
         if side in values:
             shown = factor * values[side][order]
             axes.plot(azimuth[order], shown, color=colour, marker=marker, markersize=3.2, linewidth=1.2, label=label)
     smallest = float(min((np.nanmin(v) for v in values.values() if np.any(np.isfinite(v))), default=0.0))
-    if not from_zero and smallest > 0.0 and largest > _LOG_FROM * smallest:
+    if not from_zero and smallest > 0.0 and largest > LOG_FROM * smallest:
         _logarithmic(axes, smallest * factor, largest * factor)
     else:
         axes.margins(y=0.1)
@@ -180,8 +180,6 @@ def _logarithmic(axes: Any, smallest: float, largest: float) -> None:
     """A logarithmic axis with ticks at 1, 2 and 5 times powers of ten, written out."""
     axes.set_yscale("log")
     axes.set_ylim(0.8 * smallest, 1.25 * largest)
-    powers = range(math.floor(math.log10(0.8 * smallest)), math.ceil(math.log10(1.25 * largest)) + 1)
-    ticks = [step * 10.0**power for power in powers for step in ((1, 2, 5) if len(powers) < 5 else (1,))]
-    inside = [tick for tick in ticks if 0.8 * smallest <= tick <= 1.25 * largest]
+    inside = log_ticks(0.8 * smallest, 1.25 * largest)
     axes.set_yticks(inside, [f"{tick:g}" for tick in inside])
     axes.set_yticks([], minor=True)

@@ -55,7 +55,7 @@ def print_bearing(solution: Solution, scene_label: str, console: Console) -> Non
     _print_losses(solution, console)
     _print_loads(solution, console)
     print_rule("Motion and films", console)
-    for name, text in _facts(solution):
+    for name, text in facts(solution):
         print_line(name, text, console)
     print_warnings(solution.warnings, console)
 
@@ -145,7 +145,8 @@ def _range(values: np.ndarray, unit: str) -> str:
     return f"{low if low == high else f'{low} to {high}'} {display_unit(unit)}"
 
 
-def _facts(solution: Solution) -> Iterator[tuple[str, str]]:
+def facts(solution: Solution) -> Iterator[tuple[str, str]]:
+    """Name and text of what an engineer wants to know besides losses and loads."""
     if solution.cage is not None:
         cage = solution.cage
         slip = f"slip {digits(100.0 * float(cage.slip), 3)} %"

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
 PROFILES = 6
 """Profiles that are drawn of a run."""
-_SHOWN = 2.0
+SHOWN = 2.0
 """Half widths to each side that are drawn."""
 
 
@@ -55,13 +55,14 @@ def plot_line_contact(solution: LineContactSolution, title: str) -> "matplotlib.
     film.legend(fontsize=9, frameon=False, loc="upper center")
     title_of(film, f"Film thickness, {unit}")
     for axes in (pressure, film):
-        axes.set_xlim(-_SHOWN, min(_SHOWN, float(np.abs(x).max())))
+        axes.set_xlim(-SHOWN, min(SHOWN, float(np.abs(x).max())))
         grid_lines(axes)
-    film.set_xlabel("place along rolling over the Hertz half width; oil enters " + _side(solution), fontsize=9)
+    film.set_xlabel("place along rolling over the Hertz half width; oil enters " + inlet_side(solution), fontsize=9)
     return figure
 
 
-def _side(solution: LineContactSolution) -> str:
+def inlet_side(solution: LineContactSolution) -> str:
+    """Where the oil comes from, in words."""
     return "from the left" if float(solution.operation.entrainment_speed) > 0 else "from the right"
 
 

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 PANELS = 12
 """Diagrams on the page; more are counted at its foot."""
 # Okabe and Ito's colours, which all kinds of colour vision tell apart
-_COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#56B4E9", "#E69F00", "#222222")
+COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#56B4E9", "#E69F00", "#222222")
 _MARKERS = "os^Dv<>"
 _MARKED = 40
 """Points of a curve up to which each is marked."""
@@ -84,12 +84,12 @@ def _plot_panel(axes: Any, solution: TwoDiskSolution, curves: list[Curve]) -> No
         axes.plot(
             100.0 * slide[order],
             curve.of(solution.traction_coefficient)[order],
-            color=_COLOURS[number % len(_COLOURS)],
-            linestyle=("-", "--", ":", "-.")[number // len(_COLOURS) % 4],
+            color=COLOURS[number % len(COLOURS)],
+            linestyle=("-", "--", ":", "-.")[number // len(COLOURS) % 4],
             marker=_MARKERS[number % len(_MARKERS)] if slide.size <= _MARKED else None,
             markersize=3.0,
             linewidth=1.3,
-            label=_name(solution, curve),
+            label=curve_name(solution, curve),
         )
     speed_unit, factor = axis_unit("m/s", curves[0].entrainment_speed)
     temperature = f"{curves[0].temperature - ZERO_CELSIUS:.5g} °C"
@@ -97,7 +97,8 @@ def _plot_panel(axes: Any, solution: TwoDiskSolution, curves: list[Curve]) -> No
     grid_lines(axes)
 
 
-def _name(solution: TwoDiskSolution, curve: Curve) -> str:
+def curve_name(solution: TwoDiskSolution, curve: Curve) -> str:
+    """What the curves of a panel differ in: pressure, or load."""
     unit, factor = axis_unit("Pa", curve.pressure)
     if solution.operation.pressure is not None:
         return f"{factor * curve.pressure:.4g} {unit}"

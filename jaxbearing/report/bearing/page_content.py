@@ -1,0 +1,111 @@
+"""What the report page of a bearing shows."""
+
+from collections.abc import Iterator
+from typing import Any
+
+import numpy as np
+
+from ...bearings.ball_bearing import BallBearing
+from ...bearings.solution import Solution
+from ...bearings.tapered_roller import TaperedRollerBearing
+from ...numerics.status import Status
+from ..display import digits, with_unit
+from ..page_content import Content, Sketch
+from ..result_tables import element_columns, result_rows
+from ..sheet import pretty
+from .charts import bearing_charts
+from .operation import operating_point, unused_operation
+from .plots import power_losses
+from .section import section
+from .sketch import front_view
+from .summary import facts
+
+_KINDS = {BallBearing: "ball bearing", TaperedRollerBearing: "tapered roller bearing"}
+_SOLVER = ("status", "iterations", "residual_norm", "inner_residual", "worst_equation", "worst_element", "unknowns")
+_LIFE = ("Life", "Rating", "Lubrication")
+"""Facts that stand in a table of their own."""
+_ARROWS = (
+    "Arrows outside and inside the rings: normal force of each {name} on the outer and on the inner ring, all at one "
+    "scale, so that their lengths are proportional to the loads. In the middle: what acts on the inner ring. "
+    "Diameters and positions are to scale; clearances and films are not (micrometres beside millimetres: they are "
+    "drawn closed), nor are {rings}, which a scene does not have."
+)
+_SECTION = (
+    "Forces of the {name} on the rings, lengths proportional to the loads{angles}. The axis of the bearing lies below. "
+    "Size of the {name} and its contacts to scale; clearances are drawn closed, and the rings at usual proportions."
+)
+
+
+def bearing_content(scene: Any, solution: Solution) -> Content:
+    """See `report.html_report.html_report`."""
+    losses = power_losses(solution)
+    total = float(solution.power_loss.total) if losses else 0.0
+    share = lambda watts: f"{100.0 * watts / total:.1f}" if total else "-"
+    rows = [(name, digits(watts), share(watts)) for name, watts in losses.items()]
+    unused = {f"operation.{name}" for name in unused_operation(solution)}
+    results = [row for row in result_rows(solution, unused | set(_SOLVER)) if not row.path.startswith("operation.")]
+    name = solution.element_name
+    freedoms = solution.freedoms_of_stiffness
+    stiffness = [[digits(float(value), 5) for value in row] for row in np.asarray(solution.stiffness)]
+    return Content(
+        kind=_KINDS.get(type(scene), "cylindrical roller bearing"),
+        operation=pretty(operating_point(solution)),
+        headlines=list(_headlines(solution, total if losses else None)),
+        sketches=[
+            Sketch("Seen along the axis", front_view(scene, solution), _front_caption(scene, name)),
+            Sketch(f"The most loaded {name}", section(scene, solution), _section_caption(scene, name)),
+        ],
+        facts=[fact for fact in facts(solution) if fact[0] not in _LIFE],
+        life=[row for row in results if row.path.startswith("life.")],
+        losses=[*rows, ("total", digits(total), "100")] if rows else [],
+        charts=bearing_charts(solution),
+        convergence=list(_convergence(solution, total if losses else None)),
+        checks=[(text, bool(broken)) for text, broken in solution.checks.items()],
+        notes=solution.notes,
+        results=[row for row in results if not row.path.startswith(("life.", "power_loss."))],
+        elements=element_columns(solution.elements),
+        element_name=name,
+        stiffness=(freedoms, stiffness),
+    )
+
+
+def _front_caption(scene: Any, name: str) -> str:
+    rings = "the shoulders, bore and outside diameter of the rings"
+    if not isinstance(scene, BallBearing):
+        rings = "bore and outside diameter of the rings"
+    return _ARROWS.format(name=name, rings=rings)
+
+
+def _section_caption(scene: Any, name: str) -> str:
+    angles = ", directions those of the contacts" if isinstance(scene, BallBearing | TaperedRollerBearing) else ""
+    return _SECTION.format(name=name, angles=angles)
+
+
+def _headlines(solution: Solution, total: float | None) -> Iterator[tuple[str, str]]:
+    elements, life = solution.elements, solution.life
+    if total is not None:
+        yield "power loss", with_unit(total, "W")
+    loads = np.maximum(np.asarray(elements.load_inner), np.asarray(elements.load_outer))
+    yield f"largest {solution.element_name} load", with_unit(float(np.max(loads)), "N")
+    pressures = np.maximum(np.asarray(elements.pressure_inner), np.asarray(elements.pressure_outer))
+    yield "highest pressure", with_unit(float(np.max(pressures)), "Pa")
+    films = [getattr(elements, f"film_{side}") for side in ("inner", "outer")]
+    found = [np.asarray(film) for film in films if film is not None and not np.all(np.isnan(np.asarray(film)))]
+    if found:
+        yield "thinnest film", with_unit(min(float(np.nanmin(film)) for film in found), "m")
+    if solution.cage is not None:
+        yield "cage slip", f"{digits(100.0 * float(solution.cage.slip), 3)} %"
+    if life is not None:
+        yield "life L10r", f"{digits(float(life.L10r_hours))} h"
+
+
+def _convergence(solution: Solution, total: float | None) -> Iterator[tuple[str, str]]:
+    yield "status", Status(int(solution.status)).text.replace("_", " ")
+    yield "Newton steps", str(int(solution.iterations))
+    yield "unknowns", str(solution.unknowns)
+    yield "largest scaled residual", f"{float(solution.residual_norm):.1e}"
+    yield "equation of this residual", solution.equation_names[int(solution.worst_equation)]
+    yield "residual of nested solves", f"{float(solution.inner_residual):.1e}"
+    if total and solution.drive_power is not None:
+        drive = float(solution.drive_power)
+        yield "drive power over sum of losses", f"{drive / total - 1.0:+.1e} off 1"

@@ -1,0 +1,106 @@
+"""A solved bearing seen along its axis, to scale, with the loads of the contacts as arrows."""
+
+import math
+from typing import Any
+
+import numpy as np
+
+from ...bearings.ball_bearing import BallBearing
+from ...bearings.solution import Solution
+from ...bearings.tapered_roller import TaperedRollerBearing
+from ..display import displayed
+from ..drawing import CAGE, FAINT, RING, RING_THICKNESS, ROLLER
+from ..svg import INK, Drawing, Point
+from .plots import INNER, OUTER
+
+_WIDTH = 290.0
+"""Of the outer ring, points of the page."""
+_SHOULDER = 0.3
+"""Height of the shoulders of a ball bearing's rings over the pitch circle, in ball diameters."""
+_LONGEST = 0.42
+"""Longest arrow, in radii of the bore."""
+
+
+class Sizes:
+    """Radii of the drawing, mm: of the pitch circle, the elements, the rings where elements touch or shoulders end."""
+
+    def __init__(self, scene: Any):
+        geometry = scene.geometry
+        mm = lambda value: 1e3 * float(np.asarray(value))
+        self.pitch = 0.5 * mm(geometry.pitch_diameter)
+        tapered = isinstance(scene, TaperedRollerBearing)
+        if isinstance(scene, BallBearing):
+            self.diameter = mm(geometry.ball_diameter)
+            self.inner, self.outer = self.pitch - _SHOULDER * self.diameter, self.pitch + _SHOULDER * self.diameter
+        else:
+            self.diameter = mm(geometry.mean_roller_diameter if tapered else geometry.roller_diameter)
+            half = 0.5 * self.diameter
+            self.inner, self.outer = self.pitch - half, self.pitch + half
+        self.back = (0.5 + RING_THICKNESS) * self.diameter
+        cage = getattr(scene, "cage", None)
+        self.cage = None if cage is None else (0.5 * mm(cage.bore(geometry)), 0.5 * mm(cage.outside(geometry)))
+
+    @property
+    def bore(self) -> float:
+        return self.pitch - self.back
+
+    @property
+    def outside(self) -> float:
+        return self.pitch + self.back
+
+
+def front_view(scene: Any, solution: Solution) -> str:
+    """SVG: rings, elements at their azimuths (0 below, counter-clockwise), the force of each on the rings, the applied
+    load."""
+    sizes = Sizes(scene)
+    elements = solution.elements
+    drawing = Drawing("The bearing seen along its axis, with the loads of its contacts", _WIDTH / (2.0 * sizes.outside))
+    drawing.ring((0.0, 0.0), sizes.outer, sizes.outside, fill=RING, stroke=INK, stroke_width=1.0)
+    drawing.ring((0.0, 0.0), sizes.bore, sizes.inner, fill=RING, stroke=INK, stroke_width=1.0)
+    if sizes.cage is not None:
+        drawing.ring((0.0, 0.0), *sizes.cage, fill=CAGE, stroke=INK, stroke_width=0.6)
+    azimuth = np.asarray(elements.azimuth)
+    for angle in azimuth:
+        drawing.circle(at(angle, sizes.pitch), 0.5 * sizes.diameter, fill=ROLLER, stroke=INK, stroke_width=1.0)
+    _loads(drawing, sizes, azimuth, np.asarray(elements.load_inner), np.asarray(elements.load_outer))
+    _applied(drawing, sizes, solution)
+    drawing.text(at(0.0, sizes.pitch), "0", size=9.0)
+    drawing.circle((0.0, 0.0), sizes.pitch, fill="none", stroke=FAINT, stroke_width=0.8, stroke_dasharray="6 3 1 3")
+    return drawing.markup()
+
+
+def at(azimuth: float, radius: float) -> Point:
+    """Azimuth 0 is below, counter-clockwise."""
+    return radius * math.sin(azimuth), -radius * math.cos(azimuth)
+
+
+def _loads(drawing: Drawing, sizes: Sizes, azimuth: np.ndarray, inner: np.ndarray, outer: np.ndarray) -> None:
+    largest = float(max(inner.max(), outer.max()))
+    if not largest > 0.0:
+        return
+    length = _LONGEST * sizes.bore / largest
+    for angle, on_inner, on_outer in zip(azimuth, inner, outer, strict=True):
+        start = sizes.outside
+        drawing.arrow(at(angle, start), at(angle, start + length * on_outer), OUTER, data_load=float(on_outer))
+        start = sizes.bore
+        drawing.arrow(at(angle, start), at(angle, start - length * on_inner), INNER, data_load=float(on_inner))
+
+
+def _applied(drawing: Drawing, sizes: Sizes, solution: Solution) -> None:
+    """Load on the inner ring and its speed, in the middle."""
+    operation = solution.operation
+    number = lambda name: None if getattr(operation, name, None) is None else float(getattr(operation, name))
+    radial, axial, moment = (number(name) for name in ("radial_load", "axial_load", "moment"))
+    words = [f"{displayed(float(operation.inner_speed), 'rad/s'):.6g} rpm"]
+    if axial:
+        words.append(f"axial {1e-3 * axial:.5g} kN")
+    if moment:
+        words.append(f"moment {moment:.5g} N m")
+    if radial:
+        words.append(f"radial {1e-3 * radial:.5g} kN")
+        reach = math.copysign(0.32 * sizes.bore, radial)
+        drawing.arrow((0.0, 0.0), (0.0, -reach), INK, width=4.0)
+    # a small bore holds four lines of smaller letters
+    size = min(12.0, 0.55 * sizes.bore * drawing.scale / len(words))
+    gap = (0.625 * size * len(words) + 6.0) / drawing.scale
+    drawing.text((0.0, gap if radial else 0.0), "\n".join(words), size=size)

@@ -1,0 +1,47 @@
+"""What a report page shows of a solve, whatever its kind."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+
+from .charts import Chart
+from .result_tables import Column, Row
+
+
+@dataclass(frozen=True)
+class Sketch:
+    """A drawing: an SVG element, which is markup and no text, with heading and caption."""
+
+    title: str
+    markup: str
+    caption: str
+
+
+@dataclass(frozen=True)
+class Content:
+    """Parts of the page; what is empty is not on it.
+
+    - `operation`: the operating point in words.
+    - `headlines`: name, value of the few results at the top.
+    - `facts`: name, text of further results in words, under `facts_title`.
+    - `losses`: power loss by location: name, W, share.
+    - `convergence`: name, text on how the solve ended.
+    - `checks`: text of each check of the laws' ranges, whether it was left.
+    - `stiffness`: names of the rows and columns, texts of the rows.
+    """
+
+    kind: str
+    operation: str
+    headlines: Sequence[tuple[str, str]] = ()
+    sketches: Sequence[Sketch] = ()
+    facts: Sequence[tuple[str, str]] = ()
+    facts_title: str = "Motion, films and stiffness"
+    life: Sequence[Row] = ()
+    losses: Sequence[tuple[str, str, str]] = ()
+    charts: Sequence[Chart] = ()
+    convergence: Sequence[tuple[str, str]] = ()
+    checks: Sequence[tuple[str, bool]] = ()
+    notes: Sequence[str] = ()
+    results: Sequence[Row] = ()
+    elements: Sequence[Column] = ()
+    element_name: str = "element"
+    stiffness: tuple[Sequence[str], Sequence[Sequence[str]]] = field(default=((), ()))

@@ -1,0 +1,118 @@
+"""What a scene file says, field by field, with what each field is: for pages that list their inputs."""
+
+import dataclasses
+import inspect
+import re
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from pydantic import BaseModel
+
+from .._scene import AbstractScene
+from .fields import tables_at
+from .overrides import apply
+from .reader import read_tables, scene_model
+
+_ARGUMENT = re.compile(r"^\s*- (?P<names>`\w+`.*?): (?P<text>.*)$")
+_NO_NEWS = re.compile(r"(?:m|rad|rad/s|N|N m|K|Pa|m\^3/s|structure|[<>]=? ?[\d.]+)\.?")
+"""Units and bounds in the text of an argument: the value beside it has its unit."""
+
+
+@dataclass(frozen=True)
+class SceneInput:
+    """One field: its dotted path, its value as the file or `--set` has it, what it is. `given`: otherwise a default."""
+
+    path: str
+    text: str
+    description: str
+    given: bool = True
+
+
+def scene_inputs(
+    source: str | Path, overrides: Mapping[str, str] | None, scene: AbstractScene
+) -> dict[str, list[SceneInput]]:
+    """Fields by table, of a scene that `load_scene` made of the same arguments; "" holds those outside tables."""
+    label, mapping = read_tables(source)
+    overrides = overrides or {}
+    model = scene_model(mapping, overrides, label)
+    found: dict[str, list[SceneInput]] = {}
+    for one in _fields(apply(mapping, overrides, model, label), (), model, scene):
+        table = one.path.partition(".")[0] if "." in one.path else ""
+        found.setdefault(table, []).append(one)
+    return found
+
+
+def _fields(
+    table: Mapping[str, Any], inside: tuple[str, ...], model: type[BaseModel], scene: AbstractScene
+) -> Iterator[SceneInput]:
+    for name, value in table.items():
+        path = (*inside, name)
+        if isinstance(value, Mapping):
+            yield from _fields(value, path, model, scene)
+        else:
+            yield SceneInput(".".join(path), _text(value), described_field(scene, path))
+    schemas = tables_at(model, inside)
+    if len(schemas) != 1 or not inside:
+        return
+    for name, info in schemas[0].model_fields.items():
+        if name not in table and not info.is_required() and isinstance(info.default, bool | int | float | str):
+            path = (*inside, name)
+            yield SceneInput(".".join(path), _text(info.default), described_field(scene, path), given=False)
+
+
+def _text(value: Any) -> str:
+    if isinstance(value, bool):
+        return str(value).lower()
+    if isinstance(value, list):
+        return ", ".join(map(_text, value))
+    return f"{value:g}" if isinstance(value, float) else str(value)
+
+
+def described_field(scene: AbstractScene, path: tuple[str, ...]) -> str:
+    """What a field is: the label of the class that holds it, what a law says of itself, or what the class's docstring
+    says of its argument."""
+    words = path[-1].replace("_", " ")
+    owner: Any = scene
+    for name in path[:-1]:
+        owner = getattr(owner, name, None)
+    if not dataclasses.is_dataclass(owner):
+        return words
+    label = {field.name: field.metadata for field in dataclasses.fields(owner)}.get(path[-1], {}).get("description")
+    if label:
+        return label
+    law = getattr(owner, path[-1], None)
+    if dataclasses.is_dataclass(law):
+        summary = _first_sentence(type(law))
+        return f"{words}: {summary}" if summary else words
+    said = next((text for one in type(owner).__mro__ if (text := _arguments(one).get(path[-1]))), "")
+    return f"{words}: {said}" if said else words
+
+
+def _first_sentence(law: type) -> str:
+    paragraph = (inspect.cleandoc(law.__doc__ or "")).split("\n\n")[0]
+    sentence = " ".join(paragraph.split()).partition(". ")[0].rstrip(".")
+    # formulas are written for another reader
+    return "" if "$" in sentence else sentence.replace("`", "")
+
+
+def _arguments(one: type) -> dict[str, str]:
+    """Argument -> what a class's docstring says of it."""
+    found: dict[str, str] = {}
+    names: list[str] = []
+    for line in inspect.cleandoc(one.__dict__.get("__doc__") or "").splitlines():
+        entry = _ARGUMENT.match(line)
+        if entry is not None:
+            names = re.findall(r"`(\w+)`", entry["names"])
+            found |= dict.fromkeys(names, entry["text"])
+        elif line.startswith("  ") and names:
+            found |= {name: f"{found[name]} {line.strip()}" for name in names}
+        else:
+            names = []
+    return {name: _plain(text) for name, text in found.items()}
+
+
+def _plain(text: str) -> str:
+    parts = [part for part in re.split(r", |; ", text.replace("`", "")) if not _NO_NEWS.fullmatch(part)]
+    return ", ".join(parts).rstrip(".")
