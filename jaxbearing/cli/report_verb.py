@@ -1,12 +1,13 @@
 """`jaxbearing report`: a solve as one HTML page."""
 
+import json
 from pathlib import Path
 from typing import Annotated, Any
 
 import typer
 
 from .messages import NOT_CONVERGED, bad_input
-from .options import SceneArgument, SetOption, labelled
+from .options import JsonOption, SceneArgument, SetOption, labelled
 from .output_files import check_files, writing
 from .terminal import console
 
@@ -17,9 +18,9 @@ OutOption = Annotated[
 SUFFIXES = (".html", ".htm")
 
 
-def report(scene: SceneArgument, changes: SetOption = None, out: OutOption = None) -> None:
+def report(scene: SceneArgument, changes: SetOption = None, out: OutOption = None, as_json: JsonOption = False) -> None:
     """One HTML page of a steady solve that needs no network: drawing with the loads, tables, interactive charts,
-    convergence and validity."""
+    convergence and validity. With `--json` the object that `solve` prints, and the page's name on stderr."""
     target = out if out is not None else Path(f"{Path(scene).stem}_report.html")
     with bad_input():
         from ..scenes.inputs import scene_inputs
@@ -43,13 +44,18 @@ def report(scene: SceneArgument, changes: SetOption = None, out: OutOption = Non
         solution = solve_once(model)
         if bool(solution.converged):
             _write(model, solution, labelled(Path(scene).name, changes), inputs, target)
-            typer.echo(f"wrote {target}: open it in a browser")
-            return
-        from ..report.summary import print_summary
+            typer.echo(f"wrote {target}: open it in a browser", err=as_json)
+        if as_json:
+            from ..report.json_report import solution_to_dict
 
-        print_summary(solution, label, console())
-    typer.echo(f"not written: {target}", err=True)
-    raise typer.Exit(NOT_CONVERGED)
+            typer.echo(json.dumps(solution_to_dict(solution), allow_nan=False))
+        elif not bool(solution.converged):
+            from ..report.summary import print_summary
+
+            print_summary(solution, label, console())
+    if not bool(solution.converged):
+        typer.echo(f"not written: {target}", err=True)
+        raise typer.Exit(NOT_CONVERGED)
 
 
 def _write(model: Any, solution: Any, title: str, inputs: Any, target: Path) -> None:

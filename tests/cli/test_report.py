@@ -29,6 +29,21 @@ def test_page(jaxbearing_command, folder):
     assert "reference_roller --set contact=none" in page.text
 
 
+def test_json_beside_the_page(jaxbearing_command, folder):
+    result = jaxbearing_command(*DRY, "--out", "a.html", "--json")
+    assert (result.code, result.err) == (0, "wrote a.html: open it in a browser\n")
+    page = Page((folder / "a.html").read_text(encoding="utf-8"))
+    assert json.loads(result.out) == page.data("solution")
+
+
+@pytest.mark.usefixtures("failing_solve")
+def test_json_of_a_failed_solve(jaxbearing_command, folder):
+    result = jaxbearing_command(*DRY, "--json")
+    assert (result.code, result.err) == (3, "not written: reference_roller_report.html\n")
+    assert json.loads(result.out)["converged"] is False
+    assert os.listdir(folder) == []
+
+
 def test_a_name_that_is_markup(jaxbearing_command, folder):
     name = "<img src=x onerror=alert(1)>.toml"
     jaxbearing_command("scenes", "--copy", "reference_roller")
