@@ -18,6 +18,7 @@ from .scenes_verb import scenes
 from .simulate_verb import simulate
 from .solve_verb import solve
 from .stiffness_verb import stiffness
+from .study_verb import study
 from .sweep_verb import sweep
 
 _EPILOG = """\b
@@ -103,5 +104,5 @@ def _options(
     pass
 
 
-for _verb in (scenes, solve, report, sweep, simulate, stiffness, fit):
+for _verb in (scenes, solve, report, sweep, study, simulate, stiffness, fit):
     app.command()(_verb)

@@ -1,0 +1,98 @@
+"""`jaxbearing study`: the power-loss study of a bearing, with what the source says about it."""
+
+import json
+import time
+from pathlib import Path
+from typing import Annotated, Any
+
+import typer
+
+from .messages import NOT_CONVERGED, bad_input, refuse
+from .options import SCENE_HELP, JsonOption, SetOption, labelled
+from .output_files import PICTURES, check_files, writing
+from .terminal import console
+
+SceneArgument = Annotated[str, typer.Argument(metavar="[SCENE]", help=SCENE_HELP)]
+OutOption = Annotated[
+    Path | None, typer.Option("--out", metavar="FILE.nc", help="Write all results, one NetCDF group a figure.")
+]
+PlotOption = Annotated[
+    Path | None, typer.Option("--plot", metavar="FILE", help="Draw all figures on one page; .png, .svg or .pdf.")
+]
+
+
+def study(
+    scene: SceneArgument = "turbine_roller",
+    changes: SetOption = None,
+    as_json: JsonOption = False,
+    plot: PlotOption = None,
+    out: OutOption = None,
+) -> None:
+    """Power loss of a roller or ball bearing against operating conditions and internal geometry (the source's Figures
+    36 to 40), and which of the source's statements hold."""
+    begin = time.monotonic()
+    with bad_input():
+        from ..bearings.ball_bearing import BallBearing
+        from ..bearings.cylindrical_roller import CylindricalRollerBearing
+        from ..scenes.overrides import split_assignments
+        from ..scenes.reader import load_scene
+
+        model = load_scene(scene, split_assignments(changes or []))
+        if not isinstance(model, BallBearing | CylindricalRollerBearing):
+            refuse(f"SCENE: found '{scene}', a {type(model).__name__}; expected a cylindrical roller or ball bearing")
+        if not model.slips:
+            refuse(
+                f"SCENE: found '{scene}' without power loss; expected a bearing with contact.traction (and a cage, if "
+                "it is of rollers)"
+            )
+        check_files((("--plot", plot, PICTURES), ("--out", out, (".nc",))))
+
+    from .cache import enable_compilation_cache
+    from .devices import cores, use_cores
+    from .interrupt import prompt_interrupt
+    from .quiet import without_false_alarms
+
+    label = labelled(scene, changes)
+    enable_compilation_cache()
+    use_cores(cores())
+    with prompt_interrupt(), without_false_alarms():
+        from ..studies import claims_of, power_loss_study
+
+        try:
+            found = power_loss_study(model)
+        except ValueError as error:
+            refuse(str(error))
+        failed = found.failed == found.cases
+        claims = [] if failed else claims_of(found)
+        if not failed:
+            _write_files(found, label, plot, out)
+        _print(found, claims, label, time.monotonic() - begin, as_json)
+    if failed:
+        left_out = [str(path) for path in (plot, out) if path is not None]
+        if left_out:
+            typer.echo(f"not written: {', '.join(left_out)}", err=True)
+        typer.echo(f"not converged: {label}: none of {found.cases} cases", err=True)
+        raise typer.Exit(NOT_CONVERGED)
+
+
+def _write_files(found: Any, label: str, plot: Path | None, out: Path | None) -> None:
+    from ..report.files import appearing_whole
+
+    if out is not None:
+        with writing(out), appearing_whole(out) as temporary:
+            found.tree().to_netcdf(temporary, engine="h5netcdf")
+    if plot is not None:
+        from ..report.plots import save_plot
+        from ..studies.pictures import study_page
+
+        with writing(plot):
+            save_plot(study_page(found, label), plot)
+
+
+def _print(found: Any, claims: Any, label: str, seconds: float, as_json: bool) -> None:
+    from ..studies.tables import print_study, study_to_dict
+
+    if as_json:
+        typer.echo(json.dumps(study_to_dict(found, claims), allow_nan=False))
+    elif found.failed < found.cases:
+        print_study(found, claims, label, seconds, console())
