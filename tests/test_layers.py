@@ -29,8 +29,9 @@ RANK = {
     "simulate": 7,
     "sensitivity": 7,
     "scenes": 9,
-    "plots": 9,
     "report": 9,
+    # figures use the panels and units of the pages; the pages know no figure
+    "plots": 10,
     # sweeps are labelled and kept in files: a verb of the edge
     "sweeps": 10,
     "sweep": 10,

@@ -1,0 +1,231 @@
+"""Figures of a sweep: stacked power loss against a field, a result against a field, maps over two fields."""
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ..report.sheet import INK, axis_unit, grid_lines
+from .style import COLOURS, LINES, axis_name, finish, prepare, shown
+
+if TYPE_CHECKING:
+    import matplotlib.figure
+    import xarray as xr
+
+_LOSS = "power_loss_"
+_LINES_AT_MOST = 8
+"""Values of a second field that are drawn as lines of their own."""
+
+
+def power_loss_against(
+    sweep: "xr.Dataset", field: str | None = None, *, axes: Any = None
+) -> "matplotlib.figure.Figure":
+    """Power loss by location, stacked, against a swept field; the black line is the total. The form of the source's
+    Figures 36 to 40.
+
+    A case that failed is a gap. Where a second field is swept too, one line of the total for each of its values.
+
+    **Arguments:**
+    - `sweep`: data set of a grid, from `jaxbearing.sweep` or read from its file.
+    - `field`: dotted path of the field on the horizontal axis, "operation.inner_speed"; may be left out if only one
+      field is swept.
+    - `axes`: matplotlib axes to draw into; a new figure if not given.
+
+    **Raises:** `ValueError` for a sweep that is no grid, a field that was not swept, more than two fields, or a scene
+    without power loss.
+    """
+    own, axes = axes is None, prepare(axes)
+    fields = swept(sweep)
+    x_name = _field(sweep, field, fields)
+    others = [name for name in fields if name != x_name]
+    _require(sweep, f"{_LOSS}total")
+    if len(others) > 1:
+        left = ", ".join(others[1:])
+        raise ValueError(f"sweep: found {len(fields)} swept fields, expected at most 2; select a value of {left} first")
+    x, x_unit = shown(sweep[x_name])
+    order = np.argsort(x)
+    if others:
+        _family(axes, sweep, f"{_LOSS}total", x_name, others[0])
+        caption = "Total power loss, one line for each value of the second field."
+    else:
+        caption = "Power loss by location, stacked; black line: the total."
+        _stack(axes, sweep, x[order], order)
+    axes.set_xlabel(axis_name(sweep[x_name], x_unit), fontsize=9)
+    axes.set_xlim(x.min(), x.max() if x.max() > x.min() else None)
+    grid_lines(axes)
+    return finish(axes, caption + _failed_note(sweep, "Gaps"), own)
+
+
+def result_against(
+    sweep: "xr.Dataset", result: str, field: str | None = None, *, axes: Any = None
+) -> "matplotlib.figure.Figure":
+    """One result of a sweep, "cage_slip", against a swept field; a second field gives a family of lines, a failed case
+    a gap. Arguments and errors as for `power_loss_against`; `result` is a name of the data set."""
+    own, axes = axes is None, prepare(axes)
+    fields = swept(sweep)
+    x_name = _field(sweep, field, fields)
+    others = [name for name in fields if name != x_name]
+    _require(sweep, result)
+    if len(others) > 1:
+        raise ValueError(f"sweep: found {len(fields)} swept fields, expected at most 2")
+    if others:
+        _family(axes, sweep, result, x_name, others[0])
+    else:
+        x, _ = shown(sweep[x_name])
+        values, unit = shown(_results(sweep, result))
+        order = np.argsort(x)
+        axes.plot(x[order], values[order], color=COLOURS[0], marker="o", markersize=3.5)
+        axes.set_ylabel(axis_name(sweep[result], unit), fontsize=9)
+    axes.set_xlabel(axis_name(sweep[x_name], shown(sweep[x_name])[1]), fontsize=9)
+    grid_lines(axes)
+    text = sweep[result].attrs.get("long_name", result)
+    return finish(axes, f"{text[:1].upper()}{text[1:]}.{_failed_note(sweep, 'Gaps')}", own)
+
+
+def map_of(
+    sweep: "xr.Dataset", result: str, x: str | None = None, y: str | None = None, *, axes: Any = None
+) -> "matplotlib.figure.Figure":
+    """Filled contours of one result over two swept fields; cases that failed are hatched, not interpolated.
+
+    **Arguments:** `sweep`: data set of a grid; `result`: a name of the data set with one value a case
+    ("power_loss_total", "cage_slip", "life_film_parameter"); `x`, `y`: dotted paths of the fields, the two that are
+    swept if left out; `axes`: to draw into.
+
+    **Raises:** `ValueError` for another number of swept fields, for one with fewer than two values, or an unknown
+    name.
+    """
+    own, axes = axes is None, prepare(axes)
+    fields = swept(sweep)
+    if len(fields) != 2:
+        raise ValueError(f"sweep: found {len(fields)} swept fields, expected 2: {', '.join(fields) or 'none'}")
+    x_name = fields[0] if x is None and y is None else next(f for f in fields if y is None or f != _named(y, fields))
+    x_name = x_name if x is None else _named(x, fields)
+    y_name = next(name for name in fields if name != x_name)
+    if y is not None and _named(y, fields) != y_name:
+        raise ValueError(f"y: found {y!r}, expected another field than x")
+    _require(sweep, result)
+    data = _results(sweep, result).transpose(y_name, x_name)
+    if min(data.shape) < 2:
+        raise ValueError(f"sweep: found {' x '.join(map(str, data.shape))} cases, expected at least 2 x 2 for a map")
+    values, unit = shown(data)
+    (xs, x_unit), (ys, y_unit) = shown(sweep[x_name]), shown(sweep[y_name])
+    rows, columns = np.argsort(ys), np.argsort(xs)
+    xs, ys, values = xs[columns], ys[rows], np.ma.masked_invalid(values[rows][:, columns])
+    # hatched below; only failed cases let it be seen
+    axes.set_facecolor("#F2F2F2")
+    axes.fill_between([xs[0], xs[-1]], ys[0], ys[-1], facecolor="none", edgecolor="#9A9A9A", hatch="////", linewidth=0)
+    if values.count() and values.min() < values.max():
+        filled = axes.contourf(xs, ys, values, levels=12, cmap="cividis", corner_mask=False)
+        lines = axes.contour(xs, ys, values, levels=filled.levels[::2], colors="white", linewidths=0.6)
+        axes.clabel(lines, fontsize=7.5)
+    else:
+        filled = axes.pcolormesh(xs, ys, values, cmap="cividis")
+    bar = axes.figure.colorbar(filled, ax=axes)
+    bar.set_label(axis_name(sweep[result], unit), fontsize=9)
+    bar.ax.tick_params(labelsize=8)
+    axes.set_xlabel(axis_name(sweep[x_name], x_unit), fontsize=9)
+    axes.set_ylabel(axis_name(sweep[y_name], y_unit), fontsize=9)
+    axes.set_xlim(xs[0], xs[-1])
+    axes.set_ylim(ys[0], ys[-1])
+    axes.tick_params(labelsize=8.5)
+    text = sweep[result].attrs.get("long_name", result)
+    note = _failed_note(sweep, "Hatched")
+    return finish(axes, f"{text[:1].upper()}{text[1:]} over two swept fields.{note}", own)
+
+
+def raceway_control_map(sweep: "xr.Dataset", *, element: int = 0, axes: Any = None) -> "matplotlib.figure.Figure":
+    """Raceway control of one ball (100 % outer, 0 % inner control) over two swept fields, or against one.
+
+    **Arguments:** `sweep`: data set of a grid of a ball bearing, with `elements`; `element`: which ball, 0 stands on
+    the load line; `axes`: to draw into.
+
+    **Raises:** `ValueError` where the sweep has no raceway control, or as `map_of`.
+    """
+    _require(sweep, "raceway_control")
+    one = sweep["raceway_control"].isel(element=element) if "element" in sweep["raceway_control"].dims else None
+    data = sweep if one is None else sweep.drop_vars("raceway_control").assign(raceway_control=one)
+    data["raceway_control"].attrs |= {"long_name": f"outer-race control of ball {element}", "units": "%"}
+    draw = map_of if len(swept(sweep)) == 2 else result_against
+    figure = draw(data, "raceway_control", axes=axes)
+    return figure
+
+
+def swept(sweep: "xr.Dataset") -> list[str]:
+    """Names of the dimensions of a grid, those that have one value left out.
+
+    **Raises:** `ValueError` for a sweep that is no grid.
+    """
+    if sweep.attrs.get("sweep_kind", "grid") != "grid":
+        raise ValueError(f"sweep: found the cases of a {sweep.attrs['sweep_kind']} sweep, expected a grid of fields")
+    names = [path.replace(".", "_") for path in sweep.attrs.get("sweep_fields", "").split()]
+    return [name for name in names if name in sweep.dims]
+
+
+def _named(field: str, fields: list[str]) -> str:
+    name = field.replace(".", "_")
+    if name not in fields:
+        raise ValueError(f"field: found {field!r}, expected a swept field: {', '.join(fields) or 'there is none'}")
+    return name
+
+
+def _field(sweep: "xr.Dataset", field: str | None, fields: list[str]) -> str:
+    if field is not None:
+        return _named(field, fields)
+    if len(fields) != 1:
+        raise ValueError(f"field: found none, expected one of the swept fields: {', '.join(fields) or 'there is none'}")
+    return fields[0]
+
+
+def _require(sweep: "xr.Dataset", result: str) -> None:
+    if result not in sweep:
+        kind = "the scene models no power loss" if result.startswith(_LOSS) else "expected a name of the data set"
+        raise ValueError(f"sweep: found no {result!r}: {kind}")
+
+
+def _results(sweep: "xr.Dataset", result: str) -> "xr.DataArray":
+    """A result, NaN where the case failed, whatever is stored there."""
+    return sweep[result].where(sweep["failure"] == "") if "failure" in sweep else sweep[result]
+
+
+def _failed_note(sweep: "xr.Dataset", mark: str) -> str:
+    failed = int((sweep["failure"] != "").sum()) if "failure" in sweep else 0
+    return f" {mark}: {failed} of {sweep['failure'].size} cases failed." if failed else ""
+
+
+def _stack(axes: Any, sweep: "xr.Dataset", x: np.ndarray, order: np.ndarray) -> None:
+    total = _results(sweep, f"{_LOSS}total").values[order]
+    unit, factor = axis_unit("W", float(np.nanmax(np.abs(total), initial=0.0)))
+    names = [str(n) for n in sweep.data_vars if str(n).startswith(_LOSS) and n != f"{_LOSS}total"]
+    parts = {name: factor * _results(sweep, name).values[order] for name in names}
+    # a loss that is nowhere a thousandth of the total would be a line of no width with an entry of its own
+    largest = float(np.nanmax(np.abs(factor * total), initial=0.0))
+    drawn = [name for name in names if np.nanmax(np.abs(parts[name]), initial=0.0) > 1e-3 * largest]
+    small = [parts[name] for name in names if name not in drawn]
+    bands = [(name.removeprefix(_LOSS).replace("_", " "), parts[name]) for name in drawn]
+    if small:
+        bands.append(("other, each < 0.1 %", np.sum(small, axis=0)))
+    base = np.zeros_like(x)
+    for number, (name, values) in enumerate(bands):
+        style = {"facecolor": COLOURS[number % 7], "hatch": "///" if number >= 7 else None}
+        axes.fill_between(x, base, base + values, label=name, edgecolor="white", linewidth=0.5, **style)
+        base = base + values
+    axes.plot(x, factor * total, color=INK, linewidth=1.4, marker="o", markersize=3, label="total")
+    axes.set_ylim(bottom=0.0)
+    axes.set_ylabel(f"power loss, {unit}", fontsize=9)
+    handles, labels = axes.get_legend_handles_labels()
+    axes.legend(handles[::-1], labels[::-1], fontsize=8, frameon=False, loc="upper left")
+
+
+def _family(axes: Any, sweep: "xr.Dataset", result: str, x_name: str, other: str) -> None:
+    x, _ = shown(sweep[x_name])
+    second, second_unit = shown(sweep[other])
+    data = _results(sweep, result).transpose(other, x_name)
+    values, unit = shown(data)
+    picked = np.unique(np.linspace(0, second.size - 1, min(second.size, _LINES_AT_MOST)).round().astype(int))
+    order = np.argsort(x)
+    for number, row in enumerate(picked):
+        label = f"{second[row]:.4g} {second_unit}".rstrip()
+        style = {"color": COLOURS[number % 6], "linestyle": LINES[number // 6]}
+        axes.plot(x[order], values[row][order], marker="o", markersize=3, linewidth=1.4, label=label, **style)
+    axes.legend(title=str(sweep[other].attrs.get("long_name", other)), fontsize=8, title_fontsize=8, frameon=False)
+    axes.set_ylabel(axis_name(sweep[result], unit) if result != f"{_LOSS}total" else f"total power loss, {unit}")
+    axes.yaxis.label.set_fontsize(9)

@@ -1,0 +1,79 @@
+"""Figures of a sweep: what is drawn are the numbers of the data set, and failed cases are gaps."""
+
+import numpy as np
+import pytest
+import xarray as xr
+
+from jaxbearing.plots import map_of, power_loss_against, result_against
+
+RPM = np.array([1000.0, 2000.0, 3000.0, 4000.0])
+LOADS = np.array([1e3, 2e3, 3e3])
+
+
+def made_up(dims=("operation_inner_speed",), failed=None):
+    """Two losses that add up; the stored numbers of a failed case are there, and must not be drawn."""
+    axes = {"operation_inner_speed": RPM * np.pi / 30.0, "operation_radial_load": LOADS}
+    units = {"operation_inner_speed": "rad s-1", "operation_radial_load": "N"}
+    shape = tuple(axes[name].size for name in dims)
+    drag = 100.0 + np.arange(np.prod(shape), dtype=float).reshape(shape)
+    failure = np.full(shape, "", dtype=object)
+    if failed is not None:
+        failure[failed] = "not converged"
+    watts = lambda values, name: (dims, values, {"units": "W", "long_name": name})
+    return xr.Dataset(
+        {
+            "power_loss_total": watts(1.5 * drag, "total"),
+            "power_loss_drag": watts(drag, "drag"),
+            "power_loss_pocket": watts(0.5 * drag, "pocket"),
+            "failure": (dims, failure),
+        },
+        coords={name: ((name,), axes[name], {"units": units[name], "long_name": name}) for name in dims},
+        attrs={"sweep_kind": "grid", "sweep_fields": " ".join(name.replace("_", ".", 1) for name in dims)},
+    )
+
+
+def test_stack_adds_up_to_the_total_in_engineers_units():
+    axes = power_loss_against(made_up(), "operation.inner_speed").axes[0]
+    (total,) = axes.lines
+    np.testing.assert_allclose(total.get_xdata(), RPM, rtol=1e-12)
+    np.testing.assert_allclose(total.get_ydata(), 1.5 * (100.0 + np.arange(4)), rtol=1e-12)
+    top = max(band.get_paths()[0].vertices[:, 1].max() for band in axes.collections)
+    assert top == pytest.approx(total.get_ydata().max(), rel=1e-12)
+    assert "W" in axes.get_ylabel() and "rpm" in axes.get_xlabel()
+
+
+def test_failed_case_is_a_gap_and_said():
+    figure = power_loss_against(made_up(failed=2))
+    assert np.isnan(figure.axes[0].lines[0].get_ydata()).tolist() == [False, False, True, False]
+    assert "1 of 4 cases failed" in figure.caption
+
+
+def test_second_field_is_a_line_each():
+    data = made_up(("operation_inner_speed", "operation_radial_load"))
+    axes = power_loss_against(data, "operation.inner_speed").axes[0]
+    drawn = np.array([line.get_ydata() for line in axes.lines])
+    np.testing.assert_allclose(drawn, data.power_loss_total.values.T, rtol=1e-12)
+    assert [text.get_text() for text in axes.get_legend().get_texts()] == ["1 kN", "2 kN", "3 kN"]
+
+
+def test_map_masks_the_failed_case_and_says_so():
+    data = made_up(("operation_inner_speed", "operation_radial_load"), failed=(1, 1))
+    figure = map_of(data, "power_loss_total", "operation.radial_load", "operation.inner_speed")
+    assert "1 of 12 cases failed" in figure.caption
+    assert figure.axes[0].get_xlim() == pytest.approx((1.0, 3.0))
+    assert figure.axes[0].get_ylim() == pytest.approx((1000.0, 4000.0))
+
+
+@pytest.mark.parametrize(
+    ("draw", "words"),
+    [
+        (lambda: power_loss_against(made_up(), "operation.oil_flow"), "expected a swept field: operation_inner_speed"),
+        (lambda: power_loss_against(made_up().drop_vars("power_loss_total")), "models no power loss"),
+        (lambda: power_loss_against(made_up().assign_attrs(sweep_kind="list")), "cases of a list sweep"),
+        (lambda: map_of(made_up(), "power_loss_total"), "expected 2"),
+        (lambda: result_against(made_up(), "cage_slip"), "no 'cage_slip'"),
+    ],
+)
+def test_what_cannot_be_drawn_is_said(draw, words):
+    with pytest.raises(ValueError, match=words):
+        draw()
