@@ -205,7 +205,7 @@ _DATA: tuple[tuple[str, str, tuple[str, ...], Callable[[PowerLossStudy], Found]]
         _guiding,
     ),
     (
-        "Smaller axial clearance and angle of the flanges raise the loss there, without significant effect on the total",
+        "Smaller axial clearance and angle of the flanges raise the loss there, with little effect on the total",
         "flange at axial clearances of 15, 60 µm, angles of 0.1, 0.75°; the totals [W]",
         (AXIAL, ANGLE),
         _flanges,

@@ -16,8 +16,8 @@ from .power_loss import PowerLossStudy
 
 NO_CLAIMS = "The source prints no study of this kind of bearing: there are no statements to compare."
 SCALED = (
-    "The source speaks of its own bearing at 10 500 rpm and 25 kN. Speeds, loads, flows and clearances named here stand "
-    "for the same multiples of this scene's."
+    "The source speaks of its own bearing at 10 500 rpm and 25 kN. Speeds, loads, flows and clearances named here "
+    "stand for the same multiples of this scene's."
 )
 
 
