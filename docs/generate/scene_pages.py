@@ -94,9 +94,9 @@ def _title(name, table):
 
 def _table(title, model, scene_class, anchor=""):
     rows = [f"| `{f.name}` | {f.unit} | {f.expected} | {f.default} | {f.description} |" for f in fields(model, scene_class)]
-    if not rows:
-        return ""
     head = f"### `{title}`" + (f" {{ #{anchor} }}" if anchor else "")
+    if not rows:
+        return f"{head}\n\nNo fields but `law`."
     return "\n".join([head, "", "| field | SI unit | takes | default | what it is |", "|---|---|---|---|---|", *rows])
 
 
