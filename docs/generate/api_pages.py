@@ -33,6 +33,6 @@ def pages(top):
 
 _OPTIONS = {
     # a package: what it is; its names are documented where they are defined
-    True: "    options:\n      members: false\n",
+    True: "    options:\n      members: false\n      show_root_heading: false\n",
     False: "",
 }

@@ -6,6 +6,7 @@ import re
 def page():
     """Markdown: what each verb does, its arguments and options."""
     import typer
+
     from jaxbearing.cli.main import app
 
     root = typer.main.get_command(app)

@@ -35,6 +35,7 @@ def on_files(files, config):
     for uri, make in MADE.items():
         add(uri, make())
     add("generated/site.css", (Path(__file__).parent / "site.css").read_text(encoding="utf-8"))
+    add("generated/math.ttf", maths.font())
     found = []
     for path in sorted((TOP / "notebooks").glob("*.ipynb")):
         text, pictures = notebook_pages.page(path)

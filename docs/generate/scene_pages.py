@@ -1,6 +1,7 @@
 """The page of scene files: every table and field with its unit, range, default and meaning, from the schemas."""
 
 import dataclasses
+import itertools
 import types
 import typing
 
@@ -10,7 +11,7 @@ import jaxbearing.lubricants
 from jaxbearing.materials import Material
 from jaxbearing.scenes.fields import tables_at
 from jaxbearing.scenes.inputs import described_argument
-from jaxbearing.scenes.reader import KINDS, builtin_names, builtin_summary, schema_of_kind
+from jaxbearing.scenes.reader import KINDS, builtin_names, builtin_text, schema_of_kind
 from jaxbearing.scenes.units import QuantityValidator
 
 HEAD = """# Scene files
@@ -40,7 +41,7 @@ class Field:
 
 def page():
     """Markdown."""
-    scenes = "".join(f"| `{name}` | {builtin_summary(name)} |\n" for name in builtin_names())
+    scenes = "".join(f"| `{name}` | {summary(name)} |\n" for name in builtin_names())
     parts = [HEAD + "| scene | what it is |\n|---|---|\n" + scenes]
     shared = _shared()
     for kind in KINDS:
@@ -59,14 +60,29 @@ def page():
     return "\n\n".join(part for part in parts if part) + "\n"
 
 
+_NAMED = {"MaterialTable": "material"}
+"""Tables that stand in fields of several names."""
+
+
+def summary(scene):
+    """First sentence of the comment at the head of a built-in scene."""
+    comment = itertools.takewhile(lambda line: line.startswith("#"), builtin_text(scene).splitlines())
+    text = " ".join(line.lstrip("# ") for line in comment)
+    return text.partition(". ")[0].rstrip(".") + "."
+
+
 def _shared():
     """Tables of more than one kind, and the tables inside them -> name of the field that holds them."""
     found, kinds = {}, {}
     for kind in KINDS:
         model, _ = schema_of_kind(kind)
         for name, table in _below(model):
-            found.setdefault(table, name)
+            found.setdefault(table, _NAMED.get(table.__name__, name))
             kinds.setdefault(table, set()).add(kind)
+    names = [*found.values()]
+    for table, name in found.items():
+        if len(kinds[table]) == 1 and names.count(name) > 1 and "law" not in table.model_fields:
+            found[table] = f"{name}, {min(kinds[table])}"
     tops = {t for k in KINDS for n in schema_of_kind(k)[0].model_fields for t in tables_at(schema_of_kind(k)[0], (n,))}
     return {
         table: name
@@ -93,7 +109,9 @@ def _title(name, table):
 
 
 def _table(title, model, scene_class, anchor=""):
-    rows = [f"| `{f.name}` | {f.unit} | {f.expected} | {f.default} | {f.description} |" for f in fields(model, scene_class)]
+    rows = [
+        f"| `{f.name}` | {f.unit} | {f.expected} | {f.default} | {f.description} |" for f in fields(model, scene_class)
+    ]
     head = f"### `{title}`" + (f" {{ #{anchor} }}" if anchor else "")
     if not rows:
         return f"{head}\n\nNo fields but `law`."
@@ -114,8 +132,10 @@ def fields(model, scene_class):
             default = "optional"
         else:
             default = f"{str(info.default).lower() if isinstance(info.default, bool) else info.default} {unit}".strip()
-        said = described_argument(scene_class, name) if scene_class is not None else ""
         words = name.replace("_", " ")
+        said = described_argument(scene_class, name) if scene_class is not None else ""
+        # a field that no class has, or that its class does not explain, is explained by its table
+        said = said if said and said != words else described_argument(model, name)
         text = _cell(said.removeprefix(f"{words}: ") or words)
         yield Field(name, unit, _expected(model, name, annotation, unit), default, text)
 
