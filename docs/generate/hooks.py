@@ -46,11 +46,19 @@ def on_files(files, config):
     if (TOP / "docs" / "gallery.md").exists():
         found.insert(0, "gallery.md")
     config.nav.append({"Notebooks": found})
+    _list_the_rest(config.nav, found)
     pages = api_pages.pages(TOP)
     for uri, content in pages.items():
         add(uri, content)
     config.nav.append({"API": list(pages)})
     return files
+
+
+def _list_the_rest(nav, named):
+    """Pages of docs/ that the navigation does not name yet go to the end of the guide."""
+    written = (TOP / "mkdocs.yml").read_text(encoding="utf-8").split("\nnav:")[1].split()
+    rest = (path.name for path in sorted((TOP / "docs").glob("*.md")) if path.name not in (*written, *named))
+    next(section["Guide"] for section in nav if "Guide" in section).extend(rest)
 
 
 def on_page_markdown(markdown, page, config, files):

@@ -37,7 +37,7 @@ def of_page(markdown, uri):
     def one(found):
         target = found[1]
         if not target.startswith(up):
-            return found[0]
+            return found[0].replace(".ipynb", ".md")
         return f"](/{_page(target.removeprefix(up))}{found[2] or ''})".replace("](/", "](" + up.removeprefix("../"))
 
     return _LINK.sub(one, markdown)
