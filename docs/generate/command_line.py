@@ -21,7 +21,7 @@ def _verb(name, command):
     context = command.make_context(name, [], resilient_parsing=True)
     rows = [_row(one, context) for one in command.params]
     usage = " ".join(command.collect_usage_pieces(context))
-    table = ["| | |", "|---|---|", *filter(None, rows)]
+    table = ["| option | what it does |", "|---|---|", *filter(None, rows)]
     text = re.sub(r"^[ \t]+", "", (command.help or "").replace("\b", ""), flags=re.MULTILINE)
     return [f"## jaxbearing {name}", f"```text\njaxbearing {name} {usage}\n```", text, "\n".join(table)]
 

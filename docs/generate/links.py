@@ -3,6 +3,7 @@
 import re
 
 _SECTION = re.compile(r"^<!-- README: (.+?) -->$", flags=re.MULTILINE)
+_FILE = re.compile(r"^<!-- FILE: (.+?) -->$", flags=re.MULTILINE)
 _LINK = re.compile(r"\]\(([^)\s:]+?)(#[^)\s]*)?\)")
 
 
@@ -23,6 +24,11 @@ def with_readme(markdown, readme):
         return of_top_level(section(readme, "" if found[1] == "top" else found[1]))
 
     return _SECTION.sub(one, markdown)
+
+
+def with_files(markdown, folder):
+    """A page with `<!-- FILE: path -->` replaced by that Python file as code; the path is relative to `folder`."""
+    return _FILE.sub(lambda found: f"```python\n{(folder / found[1]).read_text(encoding='utf-8')}```", markdown)
 
 
 def of_top_level(markdown):

@@ -68,8 +68,7 @@ from the labels of the result classes.
 
 def page():
     """Markdown."""
-    status = "| value | name | meaning |\n|---|---|---|\n"
-    status += "".join(f"| {int(one)} | `{one.name.lower()}` | {one.text} |\n" for one in Status)
+    status = "| value | name |\n|---|---|\n" + "".join(f"| {int(one)} | `{one.text}` |\n" for one in Status)
     parts = [HEAD + status]
     for title, classes in SECTIONS.items():
         parts.append(f"## {title}")
