@@ -4,12 +4,14 @@ import random
 import re
 
 VALUES = [
-    "nan", "inf", "-inf", "1e400", "-1", "0", "1e-320", "true", "false", '""', '" "', '"nan mm"', '"inf rpm"', '"-3 mm"',
-    '"0 mm"', '"1e400 m"', '"3"', '"mm"', '"3 parsec"', '"3 mm/mm"', '"3 degC"', '"-300 degC"', '"1e309 N"', '"3 mm 4"',
-    '"١٢ mm"', '"３ mm"', '"1,5 mm"', '"1_000 mm"', '"0x10 mm"', '"3 mm**400"', '"(3 mm"', '"__import__"', '"auto"',
-    '"none"', "[]", "[1, 2]", "{}", '{a = 1}', '["3 mm"]', "2026-11-23", "12:30:00", "9999999999999999999999", "'''x'''",
-    '"\\u0000"', '"\\U0001F600"', '"M50"', '"mobil_jet_ii"', '"dowson_higginson"', '"ball_bearing"', '"two_disk"',
+    "nan", "inf", "-inf", "1e400", "-1", "0", "1e-320", "true", "false", '""', '" "', '"nan mm"', '"inf rpm"',
+    '"-3 mm"', '"0 mm"', '"1e400 m"', '"3"', '"mm"', '"3 parsec"', '"3 mm/mm"', '"3 degC"', '"-300 degC"',
+    '"1e309 N"', '"3 mm 4"', '"١٢ mm"', '"３ mm"', '"1,5 mm"', '"1_000 mm"', '"0x10 mm"', '"3 mm**400"', '"(3 mm"',
+    '"__import__"', '"auto"', '"none"', "[]", "[1, 2]", "{}", "{a = 1}", '["3 mm"]', "2026-11-23", "12:30:00",
+    "9999999999999999999999", "'''x'''", '"\\u0000"', '"\\U0001F600"', '"M50"', '"mobil_jet_ii"',
+    '"dowson_higginson"', '"ball_bearing"', '"two_disk"',
 ]  # fmt: skip
+# ruff: noqa: RUF001
 """Values that a field may hold by accident."""
 
 
