@@ -3,13 +3,17 @@
 import hashlib
 import os
 import platform
+import re
 import sys
+import warnings
 from pathlib import Path
+from typing import Any
 
 VARIABLE = "JAXBEARING_CACHE"
 """Environment variable: `off`, `on` (as without it: the user's cache folder), or a folder."""
 _OFF = ("off", "0", "no", "false")
 _ON = ("", "on", "1", "yes", "true")
+_DAMAGED = re.compile(r"Error reading persistent compilation cache entry for '(\w+)'")
 
 
 def cache_folder() -> Path | None:
@@ -71,4 +75,19 @@ def enable_compilation_cache() -> Path | None:
     # the default keeps only programs that compiled for a second
     jax.config.update("jax_persistent_cache_min_compile_time_secs", 0.0)
     jax.config.update("jax_persistent_cache_min_entry_size_bytes", -1)
+    warnings.showwarning = _drop_damaged(folder, warnings.showwarning)
     return folder
+
+
+def _drop_damaged(folder: Path, show: Any) -> Any:
+    """Instead of JAX's warning of an entry that it cannot read, as one that a killed run was writing: the entry goes.
+    JAX never writes over one, and would compile and warn in every run that follows."""
+
+    def showwarning(message: Any, *where: Any, **options: Any) -> None:
+        found = _DAMAGED.match(str(message))
+        if found is None:
+            return show(message, *where, **options)
+        for path in folder.glob(f"{found[1]}-*"):
+            path.unlink(missing_ok=True)
+
+    return showwarning

@@ -19,8 +19,10 @@ JsonOption = Annotated[bool, typer.Option("--json", help="Print one JSON object 
 
 
 def labelled(scene: str, changes: list[str] | None) -> str:
-    """Name of a scene with its changes, as it was typed."""
-    return " ".join([scene, *(f"--set {change}" for change in changes or [])])
+    """Name of a scene with its changes, as it was typed; without the surrogates that stand for bytes which the locale
+    cannot read, and which nothing can print."""
+    label = " ".join([scene, *(f"--set {change}" for change in changes or [])])
+    return label.encode("utf-8", "surrogateescape").decode("utf-8", "replace")
 
 
 def option_quantity(option: str, text: str, dimension: Any, bound: str = "") -> float:

@@ -45,7 +45,10 @@ class BallMaterialsTable(Table):
 
 
 class BallContactTable(Table):
-    """Laws of the raceway contacts, by the names in `scenes.laws`, which says what each stands for."""
+    """Laws of the raceway contacts, by the names in `scenes.laws`, which says what each stands for.
+
+    - `traction_accuracy`: relative error of the traction forces for which the march through the Hertz pressure is cut
+    """
 
     about: ClassVar[Mapping[str, tuple[str, ...]]] = {"traction": ("traction_accuracy", "heathcote")}
     film: Literal["nijenbanning", "hamrock_dowson"]
@@ -93,7 +96,12 @@ OF_COUPLE = {
 
 class KinematicsTable(Table):
     """`inner_share` and `outer_share`: parts of the couple that the friction of each race carries, in units of half of
-    it; one of them is enough, since they add up to 2."""
+    it; one of them is enough, since they add up to 2.
+
+    - `gyroscopic_sign`: of the force pair that carries the couple
+    - `gyroscopic_friction`: coefficient of friction that caps what a race carries
+    - `inner_share`, `outer_share`: part of the couple that the race carries, in units of half of it
+    """
 
     about: ClassVar[Mapping[str, tuple[str, ...]]] = {"gyroscopic": tuple(OF_COUPLE)}
     attitude: Literal["outer", "inner", "min_power", "equilibrium"] | None = None

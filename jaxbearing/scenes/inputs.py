@@ -79,15 +79,22 @@ def described_field(scene: AbstractScene, path: tuple[str, ...]) -> str:
         owner = getattr(owner, name, None)
     if not dataclasses.is_dataclass(owner):
         return words
-    label = {field.name: field.metadata for field in dataclasses.fields(owner)}.get(path[-1], {}).get("description")
-    if label:
-        return label
     law = getattr(owner, path[-1], None)
     if dataclasses.is_dataclass(law):
         summary = _first_sentence(type(law))
         return f"{words}: {summary}" if summary else words
-    said = next((text for one in type(owner).__mro__ if (text := _arguments(one).get(path[-1]))), "")
-    return f"{words}: {said}" if said else words
+    return described_argument(type(owner), path[-1]) or words
+
+
+def described_argument(owner: type, name: str) -> str:
+    """What a field of a class of a scene is: its label, or what the docstring of the class or of its `__init__` says of
+    the argument; "" where neither says anything."""
+    if dataclasses.is_dataclass(owner):
+        label = {field.name: field.metadata for field in dataclasses.fields(owner)}.get(name, {}).get("description")
+        if label:
+            return label
+    said = next((text for one in owner.__mro__ if (text := _arguments(one).get(name))), "")
+    return f"{name.replace('_', ' ')}: {said}" if said else ""
 
 
 def _first_sentence(law: type) -> str:
@@ -101,7 +108,9 @@ def _arguments(one: type) -> dict[str, str]:
     """Argument -> what a class's docstring says of it."""
     found: dict[str, str] = {}
     names: list[str] = []
-    for line in inspect.cleandoc(one.__dict__.get("__doc__") or "").splitlines():
+    docstrings = (one.__dict__.get("__doc__"), getattr(one.__dict__.get("__init__"), "__doc__", None))
+    lines = [line for text in docstrings for line in inspect.cleandoc(text or "").splitlines()]
+    for line in lines:
         entry = _ARGUMENT.match(line)
         if entry is not None:
             names = re.findall(r"`(\w+)`", entry["names"])

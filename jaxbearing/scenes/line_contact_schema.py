@@ -36,6 +36,15 @@ class ContactBodiesTable(Table):
 
 
 class FilmModelTable(Table):
+    """How the contact is solved.
+
+    - `accuracy`: relative error of the films for which the mesh is chosen
+    - `compressible`: density by Dowson and Higginson; false: constant
+    - `nodes`: of the mesh
+    - `inlet`: length of the inlet, in half widths of the Hertz contact
+    - `film_limit`: film below which a run ends
+    """
+
     instead: ClassVar[Mapping[str, tuple[str, ...]]] = {"accuracy": ("nodes",), "nodes": ("accuracy",)}
     compressible: units.Switch = True
     accuracy: Annotated[float, BeforeValidator(_accuracy)] | None = None

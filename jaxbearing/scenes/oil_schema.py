@@ -82,7 +82,12 @@ class ConstantViscosityTable(Law):
 
 
 class TwoViscositiesTable(Law):
-    """Kinematic viscosities at two temperatures; `pressure_viscosity` at `temperature_1` is estimated if left out."""
+    """Kinematic viscosities at two temperatures; `pressure_viscosity` at `temperature_1` is estimated if left out.
+
+    - `viscosity_1`, `viscosity_2`: kinematic, at the two temperatures
+    - `temperature_1`, `temperature_2`: of the two viscosities, the lower first
+    - `pressure_viscosity`: at `temperature_1`; not given: estimated, and marked so
+    """
 
     tag: ClassVar[str] = "<two_viscosities>"
     law: Literal["two_viscosities"]
@@ -256,7 +261,17 @@ def _oil_name(value: Any) -> str:
 
 class OilTable(Table):
     """`name` takes the laws of an oil of the catalogue, `file` those of an oil file; further tables replace or amend
-    them. A `--set` of the file is of the whole oil."""
+    them. A `--set` of the file is of the whole oil.
+
+    - `name`: of the catalogue
+    - `file`: an oil file
+    - `description`: for the reader
+    - `viscosity`: law of viscosity
+    - `pressure_viscosity`: coefficient of film formulas; not given: by integral
+    - `rheology`: shear modulus and stress, which traction needs
+    - `density`: which drag, cage lands and kinematic viscosities need
+    - `conductivity`: which thermal factors and film heating need
+    """
 
     instead: ClassVar[Mapping[str, tuple[str, ...]]] = {"name": ("file",), "file": ("name", "description", *_LAWS)}
     name: Annotated[str, BeforeValidator(_oil_name)] | None = None

@@ -16,7 +16,14 @@ _OF_LAW = {"drop": ("crowned", "logarithmic"), "straight_fraction": ("crowned",)
 
 
 class ProfileTable(Table):
-    """`shape` and its numbers; see `contacts.profile`."""
+    """`shape` and its numbers; see `contacts.profile`.
+
+    - `shape`: of the roller along its length
+    - `drop`: what is ground off at the ends
+    - `straight_fraction`: part of the length that is straight
+    - `end_ratio`: of the logarithmic profile, how near to its pole the ends are
+    - `n_laminae`: slices of a roller
+    """
 
     about: ClassVar[Mapping[str, tuple[str, ...]]] = {"shape": ("drop", "straight_fraction", "end_ratio")}
     shape: Literal["straight", "crowned", "logarithmic"] = "straight"

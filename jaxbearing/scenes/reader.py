@@ -39,6 +39,12 @@ _SCHEMAS: dict[str, tuple[type[BaseModel], Callable[[Any], AbstractScene]]] = {
 KINDS = tuple(_SCHEMAS)
 
 
+def schema_of_kind(kind: str) -> tuple[type[BaseModel], type]:
+    """The schema of the scene files of a kind, one of `KINDS`, and the class of the scenes that they become."""
+    model, build = _SCHEMAS[kind]
+    return model, typing.get_type_hints(build)["return"]
+
+
 def load_scene(source: str | Path, overrides: Mapping[str, str] | None = None) -> AbstractScene:
     """A scene from a file or by the name of a built-in scene.
 
@@ -87,7 +93,7 @@ def scene_model(mapping: Mapping[str, Any], overrides: Mapping[str, str], origin
 
 def model_of(scene: AbstractScene) -> type[BaseModel] | None:
     """The schema of the files of such scenes."""
-    built = {typing.get_type_hints(build)["return"]: model for model, build in _SCHEMAS.values()}
+    built = {scene_class: model for model, scene_class in map(schema_of_kind, KINDS)}
     return built.get(type(scene))
 
 

@@ -46,7 +46,12 @@ class MaterialsTable(Table):
 
 
 class ContactTable(Table):
-    """Laws of the raceway contacts, by the names in `scenes.contact_laws`, which says what each stands for."""
+    """Laws of the raceway contacts, by the names in `scenes.contact_laws`, which says what each stands for.
+
+    - `traction_model`: the law at the mean Hertz pressure, or marched through the pressure
+    - `traction_accuracy`: relative error of the traction forces for which the march through the Hertz pressure is cut
+    - `rolling_resistance`: of the raceways; not given: none
+    """
 
     instead: ClassVar[Mapping[str, tuple[str, ...]]] = {"traction_model": ("traction_accuracy",)}
     about: ClassVar[Mapping[str, tuple[str, ...]]] = {
@@ -88,6 +93,12 @@ class FlangeTable(Table):
 
 
 class DragTable(Table):
+    """Oil drag of the rolling elements.
+
+    - `coefficient`: drag coefficient of one roller in its row
+    - `through_flow_fraction`: part of the oil flow that passes through the bearing; 1: under-race supply
+    """
+
     coefficient: units.NonNegativeNumber
     through_flow_fraction: units.Fraction = 1.0
 

@@ -15,14 +15,23 @@ _LAWS = ("perturbation", "ramp", "table")
 
 
 class PerturbationTable(Table):
-    """A factor 1 + amplitude sin(2 pi frequency t)."""
+    """A factor 1 + amplitude sin(2 pi frequency t).
+
+    - `frequency`: of the swing
+    - `amplitude`: as a part of the mean value
+    """
 
     frequency: units.PositiveFrequency
     amplitude: units.Fraction
 
 
 class RampTable(Table):
-    """A factor that goes smoothly from `start` to `stop`."""
+    """A factor that goes smoothly from `start` to `stop`.
+
+    - `start`, `stop`: factor before and after
+    - `duration`: of the change
+    - `begin`: when it begins
+    """
 
     start: units.NonNegativeNumber
     stop: units.NonNegativeNumber = 1.0
@@ -31,13 +40,21 @@ class RampTable(Table):
 
 
 class FileTable(Table):
-    """A factor over time from a CSV file, see `time_tables`."""
+    """A factor over time from a CSV file, see `time_tables`.
+
+    - `file`: CSV with a column of time and one of the value or its factor
+    """
 
     file: str
 
 
 class RotatingLoadTable(Table):
-    """A turning load beside the radial one."""
+    """A turning load beside the radial one.
+
+    - `load`: its size
+    - `speed`: at which it turns
+    - `phase`: its azimuth at time 0
+    """
 
     load: units.NonNegativeForce
     speed: units.Speed

@@ -33,7 +33,12 @@ class TaperedMaterialsTable(Table):
 class TaperedContactTable(Table):
     """Laws of the contacts, by the names in `tapered_build`. `film`, `rolling_resistance`: of the raceways;
     `flange_film`: of the roller ends on the rib; `thermal`: of both, on the rib always Gupta's, the other one is made
-    for lines; `traction`: of what slides on the rib, and what the raceways could carry."""
+    for lines; `traction`: of what slides on the rib, and what the raceways could carry.
+
+    - `traction_accuracy`: relative error of the traction forces for which the march through the Hertz pressure is cut
+    - `rolling_resistance`: of the raceways; not given: none
+    - `flange_film`: film law of the roller ends on the rib
+    """
 
     about: ClassVar[Mapping[str, tuple[str, ...]]] = {"traction": ("traction_accuracy",)}
     film: Literal["moes", "dowson_higginson", "dowson_toyoda", "pan_hamrock", "grubin"]

@@ -100,7 +100,14 @@ class DiskMaterialsTable(Table):
 
 
 class TwoDiskContactTable(Table):
-    """Laws of the contact, by the names in `scenes.laws`, which says what each stands for."""
+    """Laws of the contact, by the names in `scenes.laws`, which says what each stands for.
+
+    - `traction_accuracy`: relative error of the traction forces for which the march through the Hertz pressure is cut
+    - `compliance`: tangential compliance of the bodies in series with the film; not given: none
+    - `film_heating`: whether the heat of the sheared film counts
+    - `inlet`: whether the oil in the contact has the temperature of the heated inlet or of the supply
+    - `elastic`: whether the oil is a Maxwell element; false: the viscous limit
+    """
 
     film: Literal[
         "nijenbanning", "hamrock_dowson", "moes", "dowson_higginson", "dowson_toyoda", "pan_hamrock", "grubin"

@@ -1,0 +1,86 @@
+"""The page of results: every key with its unit and meaning, from the labels that the result classes carry."""
+
+import dataclasses
+
+from jaxbearing.bearings import ball_solution, history, solution, tapered_solution
+from jaxbearing.ehl import history as film_history
+from jaxbearing.ehl import solution as film
+from jaxbearing.life.result import Life
+from jaxbearing.machines import two_disk
+from jaxbearing.numerics.status import Status
+from jaxbearing.report.labelled import udunits
+
+SECTIONS = {
+    "Steady state of a bearing": {
+        "": solution.Solution,
+        "ring": solution.RingDisplacement,
+        "cage": solution.CageState,
+        "life": Life,
+    },
+    "Rolling elements and power: cylindrical rollers": {
+        "elements": solution.RollerResults,
+        "power_loss": solution.PowerLoss,
+    },
+    "Rolling elements and power: balls": {
+        "elements": ball_solution.BallResults,
+        "power_loss": ball_solution.BallPowerLoss,
+        "raceway_power": ball_solution.RacewayPower,
+    },
+    "Rolling elements and power: tapered rollers": {
+        "elements": tapered_solution.TaperedResults,
+        "power_loss": tapered_solution.TaperedPowerLoss,
+    },
+    "Motion of rollers and cage": {
+        "": history.History,
+        "instants": history.Instant,
+        "instants.cage": history.CageMotion,
+        "pocket_peaks": history.PocketPeaks,
+        "energy": history.Energy,
+        "last": history.LastState,
+    },
+    "Line contact": {
+        "": film.LineContactSolution,
+        "film": film.FilmResult,
+        "hertz": film.HertzResult,
+        "profile": film.Profile,
+        "formula": film.FormulaResult,
+    },
+    "Line contact in time": {
+        "": film_history.LineContactHistory,
+        "film": film_history.FilmHistory,
+        "pressure": film_history.PressureHistory,
+        "profile": film_history.ProfileHistory,
+    },
+    "Two-disk machine": {"": two_disk.TwoDiskSolution},
+}
+
+HEAD = """# Results
+
+Names are those of the Python result (`solution.power_loss.total`). Variables of NetCDF files carry the same unit and
+description as attributes, with the dotted path; `--json` prints SI numbers under the names of the interface. What a
+scene does not model is absent (`None` in Python). A failed solve is NaN throughout and says why. This page is made
+from the labels of the result classes.
+
+## Status
+
+"""
+
+
+def page():
+    """Markdown."""
+    status = "| value | name |\n|---|---|\n" + "".join(f"| {int(one)} | `{one.text}` |\n" for one in Status)
+    parts = [HEAD + status]
+    for title, classes in SECTIONS.items():
+        parts.append(f"## {title}")
+        rows = [row for path, one in classes.items() for row in rows_of(one, path)]
+        head = "| result | unit | what it is |\n|---|---|---|\n"
+        parts.append(head + "\n".join(f"| `{path}` | {unit} | {text} |" for path, unit, text in rows))
+    return "\n\n".join(parts) + "\n"
+
+
+def rows_of(one, path):
+    """Path, unit and meaning of each labelled field of a result class."""
+    for field in dataclasses.fields(one):
+        if "unit" in field.metadata:
+            name = f"{path}.{field.name}" if path else field.name
+            yield name, udunits(field.metadata["unit"]), field.metadata["description"].replace("|", "\\|")

@@ -1,0 +1,189 @@
+"""The documentation site without its builder: generated pages, links, names of fields and sections, examples."""
+
+import ast
+import dataclasses
+import importlib
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from jaxbearing.scenes.fields import is_known, tables_at
+from jaxbearing.scenes.reader import KINDS, builtin_names, schema_of_kind
+
+TOP = Path(__file__).parents[2]
+DOCS = TOP / "docs"
+PAGES = sorted(DOCS.rglob("*.md"))
+MADE = ("changelog.md", "command_line.md", "scene_files.md", "results.md")
+sys.path.insert(0, str(DOCS / "generate"))
+
+import api_pages  # noqa: E402
+import command_line  # noqa: E402
+import links  # noqa: E402
+import result_pages  # noqa: E402
+import scene_pages  # noqa: E402
+
+each_page = pytest.mark.parametrize("path", PAGES, ids=lambda path: str(path.relative_to(DOCS)))
+
+
+@each_page
+def test_links_of_a_page_lead_to_files(path):
+    text = re.sub(r"```.*?```", "", path.read_text(encoding="utf-8"), flags=re.DOTALL)
+    for target in re.findall(r"\]\(([^)\s#]+)", text):
+        if "://" not in target:
+            beside = path.parent / target
+            assert beside.exists() or beside.resolve() in {DOCS / name for name in MADE}, target
+
+
+@each_page
+def test_references_of_a_page_are_public_names(path):
+    for name in re.findall(r"\]\[((?:jaxbearing|fitting)[\w.]*)\]", path.read_text(encoding="utf-8")):
+        module, _, member = name.rpartition(".")
+        try:
+            importlib.import_module(name)
+        except ModuleNotFoundError:
+            assert hasattr(importlib.import_module(module), member), name
+
+
+@each_page
+def test_fields_that_a_page_names_exist(path):
+    models = [schema_of_kind(kind)[0] for kind in KINDS]
+    tables = {name for model in models for name in model.model_fields if tables_at(model, (name,))}
+    for field in re.findall(r"`(\w+(?:\.\w+)+)(?: = [^`]*)?`", path.read_text(encoding="utf-8")):
+        names = field.split(".")
+        if names[0] in tables and names[0] != "cage" and path.stem != "cage_dynamics":
+            assert any(is_known(model, names) for model in models), field
+
+
+@each_page
+def test_sections_of_the_readme_exist(path):
+    readme = (TOP / "README.md").read_text(encoding="utf-8")
+    text = path.read_text(encoding="utf-8")
+    made = links.with_readme(text, readme)
+    assert "<!-- README" not in made
+    assert len(made) > len(text) or made == text
+
+
+def test_links_of_the_readme_become_pages():
+    text = "[a](docs/claims.md) [b](CHANGELOG.md) [c](https://x.org/docs/a.md) [d](notebooks/rheology.ipynb)"
+    expected = "[a](claims.md) [b](changelog.md) [c](https://x.org/docs/a.md) [d](notebooks/rheology.md)"
+    assert links.of_top_level(text) == expected
+    assert links.of_page("[a](../notebooks/x.ipynb) [b](y.md)", "life.md") == "[a](notebooks/x.md) [b](y.md)"
+    assert links.of_page("[a](../../docs/life.md) [b](y.ipynb)", "notebooks/x.md") == "[a](../life.md) [b](y.md)"
+
+
+def test_navigation_names_pages_that_are_there():
+    nav = (TOP / "mkdocs.yml").read_text(encoding="utf-8").partition("\nnav:")[2]
+    named = re.findall(r"[\w/]+\.md", nav)
+    assert len(named) == len(set(named))
+    assert {name for name in named if not (DOCS / name).exists()} == set(MADE)
+    theory = {f"theory/{path.name}" for path in (DOCS / "theory").glob("*.md")}
+    assert theory <= set(named)
+
+
+def test_page_of_the_command_line_has_every_option():
+    page = command_line.page()
+    for verb in ("scenes", "solve", "report", "sweep", "simulate", "stiffness", "fit"):
+        assert f"## jaxbearing {verb}" in page
+    assert "| `--latin-hypercube COUNT` |" in page
+    assert "3 not converged" in page
+
+
+def test_page_of_scene_files():
+    page = scene_pages.page()
+    for name in builtin_names():
+        assert f"| `{name}` | " in page
+    assert "| `diametral_clearance` | m | a length with a unit, e.g. '12 mm' | required |" in page
+    assert "| `roller_length` | m | a length > 0 with a unit, e.g. '12 mm' | required |" in page
+    assert "| `c2` | K | a temperature difference > 0 with a unit, e.g. '29.406 K' | required | C2 |" in page
+    assert "| `through_flow_fraction` |  | a number from 0 to 1 | 1.0 |" in page
+    assert "'mean_pressure' or 'distributed' | mean_pressure | the law at the mean Hertz pressure, or marched" in page
+    anchors = set(re.findall(r"\{ #([\w-]+) \}", page))
+    assert anchors
+    assert set(re.findall(r"\]\(#([\w-]+)\)", page)) <= anchors
+
+
+def test_every_field_of_every_kind_has_a_line():
+    page = scene_pages.page()
+    for kind in KINDS:
+        model, _ = schema_of_kind(kind)
+        for _, table in scene_pages._below(model):
+            for field in scene_pages.fields(table, None):
+                assert f"| `{field.name}` | {field.unit} |" in page
+                assert field.expected
+
+
+def test_page_of_results_has_every_labelled_class():
+    page = result_pages.page()
+    assert "| `power_loss.drag` | W | " in page
+    assert "| `elements.raceway_control` | percent | 100: outer race control, 0: inner race control |" in page
+    shown = {one for classes in result_pages.SECTIONS.values() for one in classes.values()}
+    modules = {sys.modules[one.__module__] for one in shown}
+    for module in modules:
+        for one in vars(module).values():
+            labelled = isinstance(one, type) and dataclasses.is_dataclass(one) and one.__module__ == module.__name__
+            if labelled and any("unit" in field.metadata for field in dataclasses.fields(one)):
+                inputs = one.__name__.startswith(("Disk", "TwoDiskLaws"))
+                assert one in shown or inputs, f"{one} is on no page"
+
+
+def test_every_public_module_is_on_one_page_of_the_api():
+    pages = api_pages.pages(TOP)
+    names = re.findall(r"^::: (.+)$", "\n".join(pages.values()), flags=re.MULTILINE)
+    assert len(names) == len(set(names))
+    assert {"jaxbearing.solve", "jaxbearing.contacts.film", "fitting.io.pcs", "fitting.fit"} <= set(names)
+    assert not [name for name in names if ".cli" in name or "._" in name]
+
+
+def test_example_of_a_law_prints_what_the_page_says(tmp_path):
+    page = (DOCS / "adding_a_law.md").read_text(encoding="utf-8")
+    assert '```python\n"""A viscosity law of one\'s own' in links.with_files(page, DOCS)
+    command = [sys.executable, str(DOCS / "examples" / "vogel_law.py")]
+    ran = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, check=True)
+    assert f"```text\n{ran.stdout}```" in page
+
+
+def test_python_of_the_fitting_page_prints_what_it_says(tmp_path, monkeypatch, capsys):
+    page = (DOCS / "fitting.md").read_text(encoding="utf-8")
+    (curves,) = re.findall(r"```csv\n(.*?)```", page, flags=re.DOTALL)
+    (tmp_path / "curves.csv").write_text(curves, encoding="utf-8")
+    monkeypatch.chdir(tmp_path)
+    (block,) = re.findall(r"```python\n(.*?)```", page, flags=re.DOTALL)
+    names = {}
+    exec(compile(block, "fitting.md", "exec"), names)
+    assert f"```text\n{capsys.readouterr().out}```" in page
+    modulus, stress = names["result"].parameters["shear_modulus"], names["result"].parameters["stress"]
+    for number in (1e-3 * modulus.value, 1e-6 * stress.value):
+        assert f"{number:.4g}".ljust(5, "0") in page
+
+
+def test_lists_and_parts_of_docstrings():
+    pytest.importorskip("markdown")
+    gfm_lists = importlib.import_module("gfm_lists")
+    lines = ["**Arguments:**", "- `a`: x,", "  more", "- `b`", "", "**Validity:** y", "**Reference:** z"]
+    expected = ["**Arguments:**", "", *lines[1:6], "", "**Reference:** z"]
+    assert gfm_lists.with_blank_lines(lines) == expected
+    assert gfm_lists.with_blank_lines(["```", "a", "- b", "```"]) == ["```", "a", "- b", "```"]
+
+
+def test_arguments_written_below_a_class_are_found():
+    pytest.importorskip("griffe")
+    docstrings = importlib.import_module("docstrings")
+    tree = ast.parse((TOP / "jaxbearing" / "lubricants" / "simple_viscosity.py").read_text(encoding="utf-8"))
+    found = docstrings.init_docstrings(tree)
+    assert set(found) == {"ConstantViscosity", "Barus", "Roelands"}
+    assert "`pressure_viscosity`: alpha, 1/Pa, > 0." in found["Barus"]
+
+
+def test_formulas_become_mathml():
+    pytest.importorskip("latex2mathml")
+    maths = importlib.import_module("maths")
+    page = maths.to_mathml(r'a <span class="arithmatex">\(a &lt; b^2\)</span>')
+    assert page.startswith("a <math")
+    assert "<mo>&#x0003C;</mo><msup><mi>b</mi>" in page
+    assert "arithmatex" not in page
+    sine = maths.to_mathml(r'<div class="arithmatex">\[\sin x + \sin(x) + \sin^2 x\]</div>')
+    assert sine.count("<mspace") == 1
+    assert 'display="block"' in sine
