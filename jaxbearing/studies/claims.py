@@ -31,7 +31,7 @@ from .panels import (
     scaled,
     temperatures,
 )
-from .power_loss import PowerLossStudy
+from .power_loss import NotInStudy, PowerLossStudy
 
 LOADED = 100.0
 """Load in N above which a roller counts as loaded: the others carry the few newtons of their films."""
@@ -48,7 +48,7 @@ class Claim:
     statement: str
     printed: str
     holds: bool | None
-    numbers: tuple[float, ...]
+    numbers: tuple[int | float, ...]
     why: str = ""
 
 
@@ -80,7 +80,7 @@ def _in_front(study: PowerLossStudy) -> Found:
     heaviest = driving.any() and (not others.size or load[driving].min() > others.max())
     holds = driving[0] and heaviest and not np.any(driving & ~loaded) and share > 0.5
     opposite = len(load) // 2
-    return bool(holds), [1e6 * front[0], 1e6 * rear[opposite], driving.sum(), loaded.sum(), 100 * share]
+    return bool(holds), [1e6 * front[0], 1e6 * rear[opposite], int(driving.sum()), int(loaded.sum()), 100 * share]
 
 
 def _load(study: PowerLossStudy) -> Found:
@@ -225,7 +225,10 @@ def _judged(study: PowerLossStudy, number: int, statement: str, printed: str, ne
     lacking = [path for path in needs if not own(study.scene, path)]
     if lacking:
         return Claim(number, statement, printed, None, (), f"the scene has no {lacking[0]}, or zero")
-    holds, numbers = judge(study)
+    try:
+        holds, numbers = judge(study)
+    except NotInStudy as point:
+        return Claim(number, statement, printed, None, (), str(point))
     if not np.all(np.isfinite(numbers)):
         return Claim(number, statement, printed, None, (), "a solve did not converge")
-    return Claim(number, statement, printed, bool(holds), tuple(map(float, numbers)))
+    return Claim(number, statement, printed, bool(holds), tuple(v if isinstance(v, int) else float(v) for v in numbers))

@@ -99,9 +99,10 @@ def _roller(scene: Any) -> list[Panel]:
 
 
 def _ball(scene: Any) -> list[Panel]:
-    axial = own(scene, AXIAL_LOAD) or 0.0
-    load, other = (AXIAL_LOAD, RADIAL) if axial > 0.0 else (RADIAL, AXIAL_LOAD)
-    beside = np.linspace(0.0, 0.3, 4) * (own(scene, load) or 0.0)
+    axial, radial = own(scene, AXIAL_LOAD), own(scene, RADIAL)
+    load, other = (AXIAL_LOAD, RADIAL) if (axial or 0.0) >= (radial or 0.0) else (RADIAL, AXIAL_LOAD)
+    # a load that the scene does not name is no unknown's business: with it the bearing would be another program
+    beside = np.linspace(0.0, 0.3, 4) * (math.nan if own(scene, other) is None else own(scene, load) or 0.0)
     conformity = own(scene, CONFORMITY)
     conformities = np.array([0.51, 0.515, 0.52, 0.53, 0.54]) if conformity is not None else np.array([math.nan])
     angle = own(scene, CONTACT_ANGLE)

@@ -18,6 +18,10 @@ if TYPE_CHECKING:
 Change = Mapping[str, float]
 
 
+class NotInStudy(Exception):
+    """A point that was asked for was not solved: its figure is left out."""
+
+
 @dataclass(frozen=True)
 class PowerLossStudy:
     """Results of the study.
@@ -37,8 +41,11 @@ class PowerLossStudy:
     _fields: tuple[str, ...]
 
     def result(self, name: str, change: Change | None = None, lands: str = "blend") -> np.ndarray:
-        """One result of the point with this change. **Raises:** `KeyError` for a point that was not solved."""
-        place = self._places[lands, _key(self.scene, change or {}, self._fields)]
+        """One result of the point with this change. **Raises:** `NotInStudy` for a point that was not solved."""
+        key = (lands, _key(self.scene, change or {}, self._fields))
+        if key not in self._places or not set(change or {}) <= set(self._fields):
+            raise NotInStudy(f"not solved for: {', '.join(change or {})}")
+        place = self._places[key]
         values = self._found[lands][name]
         return np.asarray(values.isel(case=place) if "case" in values.dims else values)
 

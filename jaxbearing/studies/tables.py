@@ -51,7 +51,7 @@ def print_study(study: PowerLossStudy, claims: Sequence[Claim], label: str, seco
     for title in ("", "statement", "holds", "our numbers"):
         table.add_column(title, overflow="fold")
     for claim in claims:
-        numbers = ", ".join(digits(value, 4) for value in claim.numbers)
+        numbers = ", ".join(str(value) if isinstance(value, int) else digits(value, 4) for value in claim.numbers)
         text = f"{claim.printed}: {numbers}" if claim.holds is not None else claim.why
         table.add_row(str(claim.number), claim.statement, verdict(claim), text)
     console.print(table)
