@@ -39,7 +39,8 @@ def test_stack_adds_up_to_the_total_in_engineers_units():
     np.testing.assert_allclose(total.get_ydata(), 1.5 * (100.0 + np.arange(4)), rtol=1e-12)
     top = max(band.get_paths()[0].vertices[:, 1].max() for band in axes.collections)
     assert top == pytest.approx(total.get_ydata().max(), rel=1e-12)
-    assert "W" in axes.get_ylabel() and "rpm" in axes.get_xlabel()
+    assert "W" in axes.get_ylabel()
+    assert "rpm" in axes.get_xlabel()
 
 
 def test_failed_case_is_a_gap_and_said():
