@@ -2,6 +2,17 @@
 something is drawn, not before. Each takes `axes=` to draw into, returns the figure, and says in `figure.caption` what
 is shown."""
 
+from .properties import film_against_temperature as film_against_temperature
+from .properties import pressure_viscosity as pressure_viscosity
+from .properties import traction_against_rheology as traction_against_rheology
+from .properties import viscosity_against_pressure as viscosity_against_pressure
+from .solutions import cage_orbit as cage_orbit
+from .solutions import films as films
+from .solutions import load_distribution as load_distribution
+from .solutions import power_loss as power_loss
+from .solutions import pressures as pressures
+from .solutions import sliding as sliding
+from .solutions import traction_curves as traction_curves
 from .sweeps import map_of as map_of
 from .sweeps import power_loss_against as power_loss_against
 from .sweeps import raceway_control_map as raceway_control_map

@@ -28,7 +28,7 @@ def plot_history(history: History, title: str) -> "matplotlib.figure.Figure":
     grid = figure.add_gridspec(2, 3, left=0.06, right=0.98, top=0.85, bottom=bottom, wspace=0.26, hspace=0.38)
     cage = instants.cage
     if cage is not None:
-        _orbit(figure.add_subplot(grid[0, 0]), cage)
+        draw_orbit(figure.add_subplot(grid[0, 0]), cage)
     _speeds(figure.add_subplot(grid[0, 1]), time, instants)
     _power(figure.add_subplot(grid[0, 2]), time, instants)
     if instants.pocket_peaks is not None:
@@ -38,7 +38,7 @@ def plot_history(history: History, title: str) -> "matplotlib.figure.Figure":
     return figure
 
 
-def _orbit(axes: Any, cage: Any) -> None:
+def draw_orbit(axes: Any, cage: Any) -> None:
     x, y = 1e6 * np.asarray(cage.x), 1e6 * np.asarray(cage.y)
     axes.plot(x, y, color=INNER, linewidth=0.8)
     axes.plot(x[0], y[0], "o", color=FAINT, markersize=4)

@@ -50,7 +50,7 @@ def plot_bearing(solution: Solution, title: str) -> "matplotlib.figure.Figure":
         left = figure.add_gridspec(1, 1, left=0.125, right=0.575, top=0.843, bottom=0.47)
         right = figure.add_gridspec(1, 1, left=0.67, right=0.93, top=0.818, bottom=0.47)
         lower = figure.add_gridspec(1, len(rounds), left=0.05, right=0.985, top=0.355, bottom=bottom, wspace=0.17)
-        _plot_losses(figure.add_subplot(left[0]), losses, float(solution.power_loss.total))
+        draw_losses(figure.add_subplot(left[0]), losses, float(solution.power_loss.total))
         loads = figure.add_subplot(right[0], projection="polar")
         places = [lower[i] for i in range(len(rounds))]
     else:
@@ -59,9 +59,9 @@ def plot_bearing(solution: Solution, title: str) -> "matplotlib.figure.Figure":
         )
         loads = figure.add_subplot(grid[:, 0], projection="polar")
         places = [grid[i, 1] for i in range(len(rounds))]
-    _plot_loads(loads, solution)
+    draw_loads(loads, solution)
     for name, place in zip(rounds, places, strict=True):
-        _plot_round(figure.add_subplot(place), solution, name)
+        draw_round(figure.add_subplot(place), solution, name)
     handles, names = _legend(figure)
     figure.legend(handles, names, loc="center right", bbox_to_anchor=(0.99, 0.92), ncols=2, fontsize=9.5, frameon=False)
     return figure
@@ -85,7 +85,7 @@ def power_losses(solution: Solution) -> dict[str, float]:
     return dict(sorted(watts.items(), key=lambda entry: -entry[1]))
 
 
-def _plot_losses(axes: Any, losses: dict[str, float], total: float) -> None:
+def draw_losses(axes: Any, losses: dict[str, float], total: float) -> None:
     unit, factor = axis_unit("W", max(abs(watts) for watts in losses.values()))
     widths = [watts * factor for watts in losses.values()]
     names = [name.replace("_", " ") for name in losses]
@@ -110,7 +110,7 @@ def _power(value: float, column: list[float]) -> str:
     return f"{value:.{len(decimals)}f}" if "e" not in decimals else digits(value)
 
 
-def _plot_loads(axes: Any, solution: Solution) -> None:
+def draw_loads(axes: Any, solution: Solution) -> None:
     """Loads round the bearing as the bearing stands: azimuth 0, the load line, points down."""
     elements = solution.elements
     azimuth = np.asarray(elements.azimuth)
@@ -144,7 +144,7 @@ def _load_arrow(axes: Any) -> None:
     axes.text(1.05, 0.165, "load", transform=axes.transAxes, fontsize=9, color=INK, ha="center")
 
 
-def _plot_round(axes: Any, solution: Solution, name: str) -> None:
+def draw_round(axes: Any, solution: Solution, name: str) -> None:
     title, from_zero = ROUND[name]
     elements = solution.elements
     values = {side: getattr(elements, f"{name}_{side}", None) for side in ("inner", "outer", "flange")}

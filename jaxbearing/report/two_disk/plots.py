@@ -45,7 +45,7 @@ def plot_two_disk(solution: TwoDiskSolution, title: str) -> "matplotlib.figure.F
     for number, place in enumerate(places):
         axes = figure.add_subplot(grid[divmod(number, columns)], sharex=first, sharey=first)
         first = axes if first is None else first
-        _plot_panel(axes, solution, [curve for curve in curves if curve.place[:2] == place])
+        draw_panel(axes, solution, [curve for curve in curves if curve.place[:2] == place])
         if number % columns == 0:
             axes.set_ylabel("traction coefficient", fontsize=9)
         if number >= len(places) - columns:
@@ -72,7 +72,7 @@ def _layout(places: list[tuple[int, ...]]) -> tuple[int, int]:
     return math.ceil(len(places) / columns), columns
 
 
-def _plot_panel(axes: Any, solution: TwoDiskSolution, curves: list[Curve]) -> None:
+def draw_panel(axes: Any, solution: TwoDiskSolution, curves: list[Curve]) -> None:
     slide = np.asarray(solution.operation.slide_to_roll)
     order = np.argsort(slide, kind="stable")
     axes.axhline(0.0, color=INK, linewidth=0.6)

@@ -1,0 +1,126 @@
+"""Figures of one solution or run: the panels of the pages, each as a figure of its own."""
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ..bearings.history import History
+from ..bearings.solution import Solution
+from ..machines import TwoDiskSolution
+from ..report.bearing.plots import ROUND, draw_loads, draw_losses, draw_round, power_losses
+from ..report.history_plots import draw_orbit
+from ..report.sheet import INK
+from ..report.two_disk.curves import curves_of
+from ..report.two_disk.plots import draw_panel
+from .style import finish, prepare
+
+if TYPE_CHECKING:
+    import matplotlib.figure
+
+
+def load_distribution(solution: Solution, *, axes: Any = None) -> "matplotlib.figure.Figure":
+    """Load on each rolling element at both races, polar; the load line points down.
+
+    **Arguments:** `solution`: one solution of a bearing that converged; `axes`: polar matplotlib axes, a new figure if
+    not given.
+
+    **Raises:** `ValueError` for a batch, or a solution that did not converge.
+    """
+    _check(solution)
+    own, axes = axes is None, prepare(axes, polar=True)
+    draw_loads(axes, solution)
+    axes.legend(fontsize=8, frameon=False, loc="upper left", bbox_to_anchor=(1.08, 1.0))
+    return finish(axes, "Normal load on each rolling element; azimuth 0 is the load line.", own)
+
+
+def films(solution: Solution, *, axes: Any = None) -> "matplotlib.figure.Figure":
+    """Central film at each rolling element over its azimuth. Arguments and errors as `load_distribution`, and
+    `ValueError` where the scene models no film."""
+    return _round(solution, "film", "Central film at each rolling element, by the film law of the scene.", axes)
+
+
+def pressures(solution: Solution, *, axes: Any = None) -> "matplotlib.figure.Figure":
+    """Hertz (peak) pressure at each rolling element over its azimuth. Arguments and errors as `load_distribution`."""
+    return _round(solution, "pressure", "Hertz (peak) pressure at each rolling element.", axes)
+
+
+def sliding(solution: Solution, *, axes: Any = None) -> "matplotlib.figure.Figure":
+    """Sliding speed at each rolling element over its azimuth. Arguments and errors as `films`."""
+    return _round(solution, "sliding", "Sliding speed at each rolling element, signed.", axes)
+
+
+def power_loss(solution: Solution, *, axes: Any = None) -> "matplotlib.figure.Figure":
+    """Power loss by location, largest first, with its share of the total. Arguments and errors as `load_distribution`,
+    and `ValueError` where the scene models no loss."""
+    _check(solution)
+    losses = power_losses(solution)
+    if not losses:
+        raise ValueError("power_loss: the scene models no power loss")
+    own, axes = axes is None, prepare(axes)
+    draw_losses(axes, losses, float(solution.power_loss.total))
+    return finish(axes, "Power loss by location; the shares add up to the total.", own)
+
+
+def traction_curves(
+    solution: TwoDiskSolution, *, temperature: int = 0, speed: int = 0, axes: Any = None
+) -> "matplotlib.figure.Figure":
+    """Traction coefficient over slide-to-roll ratio, one curve for each pressure or load.
+
+    **Arguments:** `solution`: of a two-disk machine; `temperature`, `speed`: which of those computed, by number;
+    `axes`: to draw into.
+
+    **Raises:** `ValueError` for a solution that did not converge; `IndexError` for a number that is not there.
+    """
+    if not bool(np.all(solution.converged)):
+        raise ValueError(f"a solve that failed has no results: {solution.failure()}")
+    curves = [curve for curve in curves_of(solution) if curve.place[:2] == (temperature, speed)]
+    if not curves:
+        raise IndexError(f"found temperature {temperature} and speed {speed}, expected numbers of those computed")
+    own, axes = axes is None, prepare(axes)
+    draw_panel(axes, solution, curves)
+    axes.set_xlabel("slide-to-roll ratio, %", fontsize=9)
+    axes.set_ylabel("traction coefficient", fontsize=9)
+    axes.legend(fontsize=8, frameon=False)
+    return finish(axes, "Traction coefficient; the slide-to-roll ratio is the speed difference over the mean.", own)
+
+
+def cage_orbit(history: History, *, axes: Any = None) -> "matplotlib.figure.Figure":
+    """Path of the cage's centre, and the circle of its guiding clearance.
+
+    **Arguments:** `history`: a run of a bearing with a cage that completed; `axes`: to draw into.
+
+    **Raises:** `ValueError` for a scene without a cage, or a run that stopped early.
+    """
+    cage = history.instants.cage
+    if cage is None:
+        raise ValueError("cage_orbit: the scene has no cage")
+    if not bool(history.completed):
+        raise ValueError(f"cage_orbit: the run did not complete: {history.failure()}")
+    own, axes = axes is None, prepare(axes)
+    draw_orbit(axes, cage)
+    caption = "Path of the cage's centre; grey: start, red: end."
+    offset, ratio = np.hypot(np.asarray(cage.x), np.asarray(cage.y)), np.asarray(cage.eccentricity_ratio)
+    farthest = int(np.argmax(ratio))
+    if ratio[farthest] > 0.0:
+        radius = 1e6 * offset[farthest] / ratio[farthest]
+        angle = np.linspace(0.0, 2.0 * np.pi, 181)
+        axes.plot(radius * np.sin(angle), radius * np.cos(angle), color=INK, linestyle="--", linewidth=1.0)
+        caption += f" Dashed: the radial guiding clearance, {radius:.4g} µm."
+    return finish(axes, caption, own)
+
+
+def _round(solution: Solution, name: str, caption: str, axes: Any) -> "matplotlib.figure.Figure":
+    _check(solution)
+    if not any(getattr(solution.elements, f"{name}_{side}", None) is not None for side in ("inner", "flange")):
+        raise ValueError(f"{ROUND[name][0].lower()}: the scene does not model it")
+    own, axes = axes is None, prepare(axes)
+    draw_round(axes, solution, name)
+    axes.legend(fontsize=8, frameon=False)
+    return finish(axes, caption, own)
+
+
+def _check(solution: Solution) -> None:
+    if np.ndim(solution.status) != 0:
+        raise ValueError("found a batch of solutions, expected one: take one lane of it")
+    if not bool(solution.converged):
+        raise ValueError(f"a solve that failed has no results: {solution.failure()}")
