@@ -13,6 +13,7 @@ import typer
 from .messages import NOT_CONVERGED, bad_input, refuse
 from .options import JsonOption, SceneArgument, SetOption, labelled
 from .output_files import writing
+from .sweep_plot import check_plot, write_plot
 from .terminal import console
 
 _EXTRA = "pip install 'jaxbearing[cluster]'"
@@ -45,6 +46,14 @@ OutOption = Annotated[
         "--out",
         metavar="FILE",
         help="NetCDF (.nc) or Zarr (.zarr, needs the extra cluster); SCENE_sweep.nc if not given.",
+    ),
+]
+PlotOption = Annotated[
+    Path | None,
+    typer.Option(
+        "--plot",
+        metavar="FILE",
+        help="Picture of a grid, .png, .svg or .pdf: power loss by location against one field, a map over two.",
     ),
 ]
 OverwriteOption = Annotated[
@@ -84,6 +93,7 @@ def sweep(
     changes: SetOption = None,
     as_json: JsonOption = False,
     out: OutOption = None,
+    plot: PlotOption = None,
     overwrite: OverwriteOption = False,
     without_elements: NoElementsOption = False,
     chunk: ChunkOption = None,
@@ -105,6 +115,7 @@ def sweep(
         with _refused("--over"):
             recipe = source.recipe(cases, fields)
         _check_target(target)
+        check_plot(plot, cases, recipe.example_scene)
         _check_extra(workers, scheduler)
 
     from .cache import enable_compilation_cache
@@ -130,9 +141,13 @@ def sweep(
             refuse(f"--out: {error}")
         except ValueError as error:
             refuse(str(error))
+        if plot is not None and outcome.converged > 0:
+            write_plot(plot, target, label)
         seconds = time.monotonic() - begin
         _print(outcome, label, target, seconds, as_json)
     if outcome.converged == 0:
+        if plot is not None:
+            typer.echo(f"not written: {plot}", err=True)
         typer.echo(f"not converged: {label}: none of {outcome.cases} cases; {target} says why", err=True)
         raise typer.Exit(NOT_CONVERGED)
 

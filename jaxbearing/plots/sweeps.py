@@ -14,10 +14,23 @@ if TYPE_CHECKING:
 _LOSS = "power_loss_"
 _LINES_AT_MOST = 8
 """Values of a second field that are drawn as lines of their own."""
+_LOCATIONS = {
+    "drag": ("#CC79A7", None),
+    "cage_pilot": ("#56B4E9", None),
+    "pocket": ("#D55E00", None),
+    "flange": ("#E69F00", None),
+    "element_ends": ("#009E73", None),
+    "outer_raceway": ("#0072B2", None),
+    "inner_raceway": ("#F0E442", None),
+    "rolling_resistance": ("#999999", None),
+}
+"""Colour and hatch of each location, the same in every figure."""
+_MORE = (("#CC79A7", "///"), ("#56B4E9", "///"), ("#D55E00", "///"), ("#E69F00", "///"))
+_REST = ("#DDDDDD", "...")
 
 
 def power_loss_against(
-    sweep: "xr.Dataset", field: str | None = None, *, axes: Any = None
+    sweep: "xr.Dataset", field: str | None = None, *, axes: Any = None, legend: bool = True
 ) -> "matplotlib.figure.Figure":
     """Power loss by location, stacked, against a swept field; the black line is the total. The form of the source's
     Figures 36 to 40.
@@ -29,6 +42,7 @@ def power_loss_against(
     - `field`: dotted path of the field on the horizontal axis, "operation.inner_speed"; may be left out if only one
       field is swept.
     - `axes`: matplotlib axes to draw into; a new figure if not given.
+    - `legend`: of the locations; without it the caller's. Colours belong to locations, in every figure the same.
 
     **Raises:** `ValueError` for a sweep that is no grid, a field that was not swept, more than two fields, or a scene
     without power loss.
@@ -48,7 +62,7 @@ def power_loss_against(
         caption = "Total power loss, one line for each value of the second field."
     else:
         caption = "Power loss by location, stacked; black line: the total."
-        _stack(axes, sweep, x[order], order)
+        _stack(axes, sweep, x[order], order, legend)
     axes.set_xlabel(axis_name(sweep[x_name], x_unit), fontsize=9)
     axes.set_xlim(x.min(), x.max() if x.max() > x.min() else None)
     grid_lines(axes)
@@ -191,7 +205,7 @@ def _failed_note(sweep: "xr.Dataset", mark: str) -> str:
     return f" {mark}: {failed} of {sweep['failure'].size} cases failed." if failed else ""
 
 
-def _stack(axes: Any, sweep: "xr.Dataset", x: np.ndarray, order: np.ndarray) -> None:
+def _stack(axes: Any, sweep: "xr.Dataset", x: np.ndarray, order: np.ndarray, legend: bool) -> None:
     total = _results(sweep, f"{_LOSS}total").values[order]
     unit, factor = axis_unit("W", float(np.nanmax(np.abs(total), initial=0.0)))
     names = [str(n) for n in sweep.data_vars if str(n).startswith(_LOSS) and n != f"{_LOSS}total"]
@@ -200,19 +214,30 @@ def _stack(axes: Any, sweep: "xr.Dataset", x: np.ndarray, order: np.ndarray) -> 
     largest = float(np.nanmax(np.abs(factor * total), initial=0.0))
     drawn = [name for name in names if np.nanmax(np.abs(parts[name]), initial=0.0) > 1e-3 * largest]
     small = [parts[name] for name in names if name not in drawn]
-    bands = [(name.removeprefix(_LOSS).replace("_", " "), parts[name]) for name in drawn]
+    others = iter(_MORE * len(drawn))
+    bands = []
+    for name in drawn:
+        location = name.removeprefix(_LOSS)
+        bands.append((location.replace("_", " "), _LOCATIONS.get(location) or next(others), parts[name]))
     if small:
-        bands.append(("other, each < 0.1 %", np.sum(small, axis=0)))
+        bands.append(("other, each < 0.1 %", _REST, np.sum(small, axis=0)))
     base = np.zeros_like(x)
-    for number, (name, values) in enumerate(bands):
-        style = {"facecolor": COLOURS[number % 7], "hatch": "///" if number >= 7 else None}
-        axes.fill_between(x, base, base + values, label=name, edgecolor="white", linewidth=0.5, **style)
+    for name, (colour, hatch), values in bands:
+        style = {"facecolor": colour, "hatch": hatch, "edgecolor": "white", "linewidth": 0.5}
+        axes.fill_between(x, base, base + values, label=name, **style)
         base = base + values
     axes.plot(x, factor * total, color=INK, linewidth=1.4, marker="o", markersize=3, label="total")
     axes.set_ylim(bottom=0.0)
     axes.set_ylabel(f"power loss, {unit}", fontsize=9)
-    handles, labels = axes.get_legend_handles_labels()
-    axes.legend(handles[::-1], labels[::-1], fontsize=8, frameon=False, loc="upper left")
+    if legend:
+        handles, labels = axes.get_legend_handles_labels()
+        _beside(axes, handles[::-1], labels[::-1])
+
+
+def _beside(axes: Any, handles: Any, labels: Any, title: str | None = None) -> None:
+    """A legend on the right of the axes, where it hides nothing."""
+    style = {"fontsize": 8, "title_fontsize": 8, "frameon": False, "borderaxespad": 0.0}
+    axes.legend(handles, labels, title=title, loc="upper left", bbox_to_anchor=(1.02, 1.0), **style)
 
 
 def _family(axes: Any, sweep: "xr.Dataset", result: str, x_name: str, other: str) -> None:
@@ -223,9 +248,9 @@ def _family(axes: Any, sweep: "xr.Dataset", result: str, x_name: str, other: str
     picked = np.unique(np.linspace(0, second.size - 1, min(second.size, _LINES_AT_MOST)).round().astype(int))
     order = np.argsort(x)
     for number, row in enumerate(picked):
-        label = f"{second[row]:.4g} {second_unit}".rstrip()
+        label = f"{second[row]:.5g} {second_unit}".rstrip()
         style = {"color": COLOURS[number % 6], "linestyle": LINES[number // 6]}
         axes.plot(x[order], values[row][order], marker="o", markersize=3, linewidth=1.4, label=label, **style)
-    axes.legend(title=str(sweep[other].attrs.get("long_name", other)), fontsize=8, title_fontsize=8, frameon=False)
+    _beside(axes, *axes.get_legend_handles_labels(), title=str(sweep[other].attrs.get("long_name", other)))
     axes.set_ylabel(axis_name(sweep[result], unit) if result != f"{_LOSS}total" else f"total power loss, {unit}")
     axes.yaxis.label.set_fontsize(9)

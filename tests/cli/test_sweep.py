@@ -9,6 +9,8 @@ import numpy as np
 import pytest
 import xarray as xr
 
+from jaxbearing.report import plots
+
 DRY = ("reference_roller", "--set", "contact=none")
 SPEED = "operation.inner_speed=5000 rpm:15000 rpm:3"
 LOAD = "operation.radial_load=5 kN:20 kN:3:log"
@@ -180,3 +182,40 @@ def test_one_and_two_devices_give_the_same_data(tmp_path):
     for name, variable in found[0].variables.items():
         if variable.dtype.kind == "f":
             assert variable.values.tobytes() == found[1][name].values.tobytes()
+
+
+@pytest.mark.parametrize(
+    ("over", "panels"), [((SPEED,), 1), ((SPEED, LOAD, "geometry.contact_length=11 mm:12 mm:1"), 2)]
+)
+def test_picture(over, panels, jaxbearing_command, folder, monkeypatch):
+    """Without losses: the displacement of the ring, as a line or as a map with its colour bar."""
+    drawn = []
+    saved = plots.save_plot
+    monkeypatch.setattr(plots, "save_plot", lambda figure, path: (drawn.append(figure), saved(figure, path)))
+    options = [word for one in over for word in ("--over", one)]
+    result = jaxbearing_command("sweep", *DRY, *options, "--out", "a.nc", "--plot", "a.png", "--chunk", "4")
+    assert (result.code, sorted(os.listdir(folder))) == (0, ["a.nc", "a.png"]), result.err
+    (figure,) = drawn
+    assert len(figure.axes) == panels
+    with xr.open_dataset("a.nc") as dataset:
+        if panels == 1:
+            np.testing.assert_allclose(figure.axes[0].lines[0].get_ydata(), 1e6 * dataset.ring_radial, rtol=1e-12)
+    assert "inner ring speed, rpm" in (figure.axes[0].get_xlabel(), figure.axes[0].get_ylabel())
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        (("--over", SPEED, "--plot", "a.txt"), ["--plot", "'a.txt'"]),
+        (("--over", SPEED, "--plot", "no/a.png"), ["--plot", "existing folder"]),
+        (
+            ("--over", SPEED, "--over", LOAD, "--over", "drag.coefficient=0.1:1:2", "--plot", "a.png"),
+            ["--plot", "3 fields"],
+        ),
+        (("--over", "drag.coefficient=0.1:1", "--random", "4", "--plot", "a.png"), ["--plot", "no grid"]),
+    ],
+)
+def test_no_picture_of_this(arguments, words, jaxbearing_command, folder):
+    result = jaxbearing_command("sweep", "reference_roller", *arguments)
+    assert (result.code, os.listdir(folder)) == (2, [])
+    assert all(word in result.err for word in words)

@@ -1,0 +1,48 @@
+"""The picture of a sweep: against one field the losses stacked (or a result without losses), over two fields a map."""
+
+from pathlib import Path
+from typing import Any
+
+from .messages import refuse
+from .output_files import PICTURES, check_files, writing
+
+MAIN = ("power_loss_total", "film_central", "ring_radial", "ring_axial")
+"""Results of which the first that a sweep has is drawn."""
+
+
+def check_plot(plot: Path | None, cases: Any, scene: Any) -> None:
+    """Refuse, before anything is computed, a picture that cannot be drawn or written."""
+    if plot is None:
+        return
+    from ..machines import TwoDisk
+
+    check_files((("--plot", plot, PICTURES),))
+    if cases.kind != "grid":
+        refuse("--plot: found cases that are no grid; expected --over with START:STOP:COUNT, of one or two fields")
+    if isinstance(scene, TwoDisk):
+        refuse("--plot: found a two-disk machine, whose results are curves; expected a bearing or a line contact")
+    several = sum(size > 1 for size in cases.shape)
+    if several not in (1, 2):
+        refuse(f"--plot: found {several} fields with several values; expected one or two")
+
+
+def write_plot(plot: Path, target: Path, label: str) -> None:
+    """Draw the file of a sweep."""
+    import xarray as xr
+
+    from ..plots import map_of, power_loss_against, result_against
+    from ..plots.sweeps import swept
+    from ..report.plots import save_plot
+
+    opened = xr.open_zarr(target) if target.suffix.lower() == ".zarr" else xr.open_dataset(target)
+    with opened as whole:
+        found = whole.squeeze()
+        # dry scenes have a loss, which is zero
+        main = next(name for name in MAIN if name in found and bool((found[name] != 0.0).any()))
+        if len(swept(found)) == 2:
+            figure = map_of(found, main)
+        else:
+            figure = power_loss_against(found) if main == MAIN[0] else result_against(found, main)
+    figure.suptitle(label, fontsize=10, parse_math=False)
+    with writing(plot):
+        save_plot(figure, plot)
