@@ -23,6 +23,7 @@ from .solve import solve as solve  # noqa: E402
 from .sweep import sweep as sweep  # noqa: E402
 
 if TYPE_CHECKING:
+    from . import plots as plots
     from .bearings.ball_bearing import BallBearing as BallBearing
     from .bearings.cylindrical_roller import CylindricalRollerBearing as CylindricalRollerBearing
     from .bearings.history import History as History
@@ -58,10 +59,12 @@ _LAZY = {
 
 
 def __getattr__(name: str) -> Any:
+    if name == "plots":
+        return importlib.import_module(".plots", __name__)
     if name in _LAZY:
         return getattr(importlib.import_module(_LAZY[name], __name__), name)
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
 
 
 def __dir__() -> list[str]:
-    return sorted([*globals(), *_LAZY])
+    return sorted([*globals(), *_LAZY, "plots"])
