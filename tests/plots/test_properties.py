@@ -1,4 +1,4 @@
-"""The source's property figures: what is drawn is the laws' numbers in display units, with the limits they must have."""
+"""The source's property figures: what is drawn is the laws' numbers in display units, with their limits."""
 
 import importlib.util
 from pathlib import Path
@@ -107,8 +107,10 @@ def test_shear_modulus_sets_the_slope_and_stress_the_level():
     stiff = traction.traction_at(traction.scaled(oil, "shear_modulus", 4.0), slides)
     strong = traction.traction_at(traction.scaled(oil, "stress", 2.0), slides)
     assert base[0] == 0.0
-    assert stiff[1] / base[1] > 2.0 and abs(stiff[2] / base[2] - 1.0) < 0.01
-    assert abs(strong[1] / base[1] - 1.0) < 0.1 and strong[2] / base[2] > 1.8
+    assert stiff[1] / base[1] > 2.0
+    assert abs(stiff[2] / base[2] - 1.0) < 0.01
+    assert abs(strong[1] / base[1] - 1.0) < 0.1
+    assert strong[2] / base[2] > 1.8
     weak = traction.traction_at(traction.scaled(oil, "shear_modulus", 0.25), slides)
     assert 0.97 < weak[2] / base[2] < 1.0, "less than 3 % at 10 % sliding, as the caption says"
 
@@ -149,7 +151,8 @@ def test_spin_friction_grows_with_pressure_and_spin():
     drawn = lines(properties.spin_friction(pressures=(1.19e9, 2.38e9)))
     low, high = drawn["1.19 GPa"][:, 1], drawn["2.38 GPa"][:, 1]
     assert low[0] == high[0] == 0.0
-    assert np.all(np.diff(high) > 0.0) and np.all(high[1:] > low[1:])
+    assert np.all(np.diff(high) > 0.0)
+    assert np.all(high[1:] > low[1:])
     assert high[-1] < 0.20, "the end of the source's axis"
 
 
@@ -157,7 +160,9 @@ def test_draws_into_given_axes_without_a_caption():
     figure = Figure()
     axes = figure.add_subplot()
     assert properties.film_of_models(axes=axes) is figure
-    assert axes.get_xlabel() == "temperature, °C" and axes.get_ylabel() == "central film, µm" and not figure.texts
+    assert axes.get_xlabel() == "temperature, °C"
+    assert axes.get_ylabel() == "central film, µm"
+    assert not figure.texts
 
 
 def test_page_lists_every_picture_and_no_other():
@@ -177,4 +182,6 @@ def test_the_whole_gallery_is_made_anew(tmp_path):
     made = (tmp_path / "gallery.md").read_text(encoding="utf-8")
     assert made == (DOCS / "gallery.md").read_text(encoding="utf-8"), "run docs/make_gallery.py"
     sizes = [path.stat().st_size for path in (tmp_path / "pictures").iterdir()]
-    assert len(sizes) == len(module.ENTRIES) and min(sizes) > 5000 and sum(sizes) < 2.5e6
+    assert len(sizes) == len(module.ENTRIES)
+    assert min(sizes) > 5000
+    assert sum(sizes) < 2.5e6

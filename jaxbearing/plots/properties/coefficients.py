@@ -1,5 +1,8 @@
 """Pressure-viscosity coefficient and the film that follows from it: the source's Figures 27, 28 and 34."""
 
+# the coefficient is called by its Greek letter on axes and in captions
+# ruff: noqa: RUF001
+
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
@@ -86,7 +89,8 @@ def film_of_models(pressure: float = 1.05e9, axes: Any = None) -> "matplotlib.fi
     caption = (
         "Isothermal central film by Nijenbanning, Venner and Moes for Rx = Ry = 20 mm, U1 = U2 = 40 m/s and "
         f"{pressure / 1e9:g} GPa Hertz pressure, with ambient viscosity and α* of Mobil Jet II by three laws. "
-        f"{_MATCHED}. Modified WLF at 100 °C and 1.05 GPa: 0.624 µm, Roelands 5 % and Barus 50 % more. In Figure 28 of the source the decade of the axis "
+        f"{_MATCHED}. Modified WLF at 100 °C and 1.05 GPa: 0.624 µm, "
+        "Roelands 5 % and Barus 50 % more. In Figure 28 of the source the decade of the axis "
         "is lost, its pressure is 1.05 GPa in the caption and 1.5 GPa in the text, and the other laws' parameters are "
         "not given: its 20 % spread cannot be compared."
     )

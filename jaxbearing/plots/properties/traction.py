@@ -23,8 +23,10 @@ if TYPE_CHECKING:
 TEMPERATURE, SPEED, PRESSURE = 297.0, 21.175, 1.5e9
 """Of the source's tests (Figure 29), cold: K; mean speed, m/s (U1 + U2 = 42.35 m/s); Hertz pressure, Pa."""
 FINE = Resolution(128, 24)
-_WHERE = "Mobil Jet II at 297 K, 1.5 GPa Hertz pressure, U1 + U2 = 42.35 m/s, R = 20 mm, isothermal Maxwell-Eyring model"
-_LOST = "the operating point of the source's figure is not stated and its curves are not in the text: not comparable"
+_WHERE = (
+    "Mobil Jet II at 297 K, 1.5 GPa Hertz pressure, U1 + U2 = 42.35 m/s, R = 20 mm, isothermal Maxwell-Eyring model"
+)
+_LOST = "of the source states no operating point and its curves are not in the text: not comparable"
 
 
 def traction_models(axes: Any = None) -> "matplotlib.figure.Figure":
@@ -35,7 +37,7 @@ def traction_models(axes: Any = None) -> "matplotlib.figure.Figure":
     caption = (
         f"Traction of one oil film by a one-dimensional (line) and a two-dimensional (point) contact: {_WHERE}, film "
         "and peak pressure the same. The line contact has the higher mean pressure, π/4 instead of 2/3 of the peak, "
-        f"and therefore more traction. The coarse mesh is 16 % too low at 10 % sliding. Of Figure 21 {_LOST}."
+        f"and therefore more traction. The coarse mesh is 16 % too low at 10 % sliding. Figure 21 {_LOST}."
     )
     figure, axes = drawing(axes, caption)
     models = {
@@ -58,7 +60,8 @@ def traction_shear_modulus(
     """
     caption = (
         f"Traction with the shear modulus G of the oil multiplied by the factor shown: {_WHERE}. G sets the slope at "
-        f"the origin, as the source says, and moves the traction at 10 % sliding by less than 3 % over this range. Of Figure 22 {_LOST}."
+        f"the origin, as the source says, "
+        f"while a quarter of it lowers the traction at 10 % sliding by less than 3 %. Figure 22 {_LOST}."
     )
     return _varied("shear_modulus", "G", factors, caption, axes)
 
@@ -72,7 +75,8 @@ def traction_stress(
     """
     caption = (
         f"Traction with the characteristic stress τ0 of the oil multiplied by the factor shown: {_WHERE}. τ0 sets the "
-        f"traction at high sliding, as the source says (it speaks of the maximum; this model has none). Of Figure 23 {_LOST}."
+        f"traction at high sliding, as the source says "
+        f"(it speaks of the maximum; this model has none). Figure 23 {_LOST}."
     )
     return _varied("stress", "τ0", factors, caption, axes)
 

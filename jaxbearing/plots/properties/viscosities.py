@@ -61,15 +61,19 @@ def viscosity_models(oil: str | Lubricant = "mobil_jet_ii", axes: Any = None) ->
     """
     lubricant, name = oil_named(oil)
     own = lubricant.viscosity
+    laws = {"own law": own, "Barus": matched_barus(own), "Roelands": matched_roelands(own)}
+    apart = {
+        label: float(law.viscosity(1e9, MATCHED[0]) / own.viscosity(1e9, MATCHED[0])) for label, law in laws.items()
+    }
     caption = (
         f"Viscosity of {name} at 40 °C (solid) and 164 °C (dashed) by its own law and by those of Barus and Roelands, "
-        "which are matched to it in three points: 40 °C at 0 and 50 MPa, 164 °C at 0. At 1 GPa and 40 °C Mobil Jet II is nearly three decades below Barus and less than half a decade below Roelands. In "
-        "Figure 26 of the source they have parameters of other authors, which the text does not give, and there is a "
-        "power law too, which the library lacks: the spread is alike in kind, its values cannot be compared."
+        "which are matched to it in three points: 40 °C at 0 and 50 MPa, 164 °C at 0. At 1 GPa and 40 °C Barus is "
+        f"{apart['Barus']:.3g} and Roelands {apart['Roelands']:.3g} times the own law. In Figure 26 of the source "
+        "(Mobil Jet II) they have parameters of other authors, which the text does not give, and there is a power law "
+        "too, which the library lacks: values cannot be compared."
     )
     figure, axes = drawing(axes, caption)
     pressure = jnp.linspace(0.0, 1e9, 161)
-    laws = {"own law": own, "Barus": matched_barus(own), "Roelands": matched_roelands(own)}
     for colour, (label, law) in zip(COLOURS, laws.items(), strict=False):
         for temperature, line in zip(MATCHED, ("-", "--"), strict=True):
             shown = f"{label}, {temperature - ZERO_CELSIUS:.0f} °C"
