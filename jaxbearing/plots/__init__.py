@@ -1,11 +1,10 @@
-"""Figures, one function each: of a solution, a history, a sweep, and of the property laws. Matplotlib is imported when
-something is drawn, not before. Each takes `axes=` to draw into, returns the figure, and says in `figure.caption` what
-is shown."""
+"""Figures, one function each: of a solution, a history, a sweep, and (`plots.properties`) of the property laws.
 
-from .properties import film_against_temperature as film_against_temperature
-from .properties import pressure_viscosity as pressure_viscosity
-from .properties import traction_against_rheology as traction_against_rheology
-from .properties import viscosity_against_pressure as viscosity_against_pressure
+Matplotlib is imported when something is drawn, not before. Each takes `axes=` to draw into and returns the figure; a
+figure of its own has its caption under it.
+"""
+
+from . import properties as properties
 from .solutions import cage_orbit as cage_orbit
 from .solutions import films as films
 from .solutions import load_distribution as load_distribution

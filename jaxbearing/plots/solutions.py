@@ -99,14 +99,32 @@ def cage_orbit(history: History, *, axes: Any = None) -> "matplotlib.figure.Figu
     own, axes = axes is None, prepare(axes)
     draw_orbit(axes, cage)
     caption = "Path of the cage's centre; grey: start, red: end."
-    offset, ratio = np.hypot(np.asarray(cage.x), np.asarray(cage.y)), np.asarray(cage.eccentricity_ratio)
-    farthest = int(np.argmax(ratio))
-    if ratio[farthest] > 0.0:
-        radius = 1e6 * offset[farthest] / ratio[farthest]
+    x, y, radius = _guide(history)
+    if radius > 0.0:
         angle = np.linspace(0.0, 2.0 * np.pi, 181)
-        axes.plot(radius * np.sin(angle), radius * np.cos(angle), color=INK, linestyle="--", linewidth=1.0)
-        caption += f" Dashed: the radial guiding clearance, {radius:.4g} µm."
+        circle = 1e6 * (x + radius * np.sin(angle)), 1e6 * (y + radius * np.cos(angle))
+        axes.plot(*circle, color=INK, linestyle="--", linewidth=1.0)
+        caption += (
+            f" Dashed: where the cage touches the ring that guides it, {1e6 * radius:.4g} µm round its mean centre."
+        )
     return finish(axes, caption, own)
+
+
+def _guide(history: History) -> tuple[float, float, float]:
+    """Mean centre of the guiding ring and radial guiding clearance, m; no clearance where the cage stays concentric.
+
+    A history does not say which ring guides; it is the one from whose centre offset over eccentricity ratio is one
+    length, the clearance.
+    """
+    cage, ring = history.instants.cage, history.instants.ring
+    ratio, zero = np.asarray(cage.eccentricity_ratio), np.zeros_like(np.asarray(cage.x))
+    if not np.any(ratio > 0.0):
+        return 0.0, 0.0, 0.0
+    found = []
+    for x, y in ((zero, zero), (-np.asarray(ring.lateral) + zero, np.asarray(ring.radial) + zero)):
+        radius = np.hypot(np.asarray(cage.x) - x, np.asarray(cage.y) - y)[ratio > 0.0] / ratio[ratio > 0.0]
+        found.append((float(np.ptp(radius)), float(np.mean(x)), float(np.mean(y)), float(np.median(radius))))
+    return min(found)[1:]
 
 
 def _round(solution: Solution, name: str, caption: str, axes: Any) -> "matplotlib.figure.Figure":

@@ -1,12 +1,10 @@
-"""What the figures share: the axes to draw into, the caption, colours, and the units of swept fields and results."""
+"""What figures of solutions and sweeps share: the axes to draw into, colours, units of swept fields and results."""
 
-import textwrap
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ..report.display import ZERO_CELSIUS, display_unit, displayed
-from ..report.sheet import INK, axis_unit
+from .frame import HEIGHT, WIDTH, axis_for, label_unit, write_below
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -14,41 +12,33 @@ if TYPE_CHECKING:
 # Okabe and Ito's colours, which all kinds of colour vision tell apart
 COLOURS = ("#0072B2", "#D55E00", "#009E73", "#E69F00", "#56B4E9", "#CC79A7", "#F0E442", "#222222")
 LINES = ("-", "--", ":", "-.")
-LABEL_UNITS = {"rad s-1": "rad/s", "m s-1": "m/s", "N m-1": "N/m", "m3 s-1": "m^3/s"}
-"""Units of a data set -> those of the library's labels, which know how they are shown."""
-_CAPTION_LENGTH = 105
-_SIZE = (7.2, 4.6)
 
 
 def prepare(axes: Any, polar: bool = False) -> Any:
-    """The axes given, or those of a new figure, made without pyplot: no window, no state."""
+    """The axes given, or those of a new figure."""
     if axes is not None:
         return axes
-    from matplotlib.figure import Figure
+    from ..report.page import Page
 
-    figure = Figure(figsize=_SIZE, dpi=100, facecolor="white", layout="constrained")
+    figure = Page(WIDTH, HEIGHT)
+    # before anything is drawn: a colour bar is placed by the engine of its figure
+    figure.set_layout_engine("constrained")
     return figure.add_subplot(projection="polar" if polar else None)
 
 
 def finish(axes: Any, caption: str, own: bool) -> Any:
-    """The figure, with its caption as `figure.caption`; printed below the picture if the figure is our `own`."""
-    figure = axes.figure
-    figure.caption = caption
+    """The figure; with its caption, which may tell what was found while drawing, if the figure is our `own`."""
     if own:
-        figure.supxlabel("\n".join(textwrap.wrap(caption, _CAPTION_LENGTH)), fontsize=7.5, color=INK, x=0.02, ha="left")
-    return figure
+        write_below(axes.figure, caption)
+    return axes.figure
 
 
 def shown(variable: "xr.DataArray") -> tuple[np.ndarray, str]:
-    """Values in engineer's units and the unit: the fields of a scene, or results of a sweep."""
+    """Values in engineer's units and the unit ("" for a number): fields of a scene, or results of a sweep."""
     values = np.asarray(variable.values, dtype=float)
-    unit = LABEL_UNITS.get(variable.attrs.get("units", "1"), variable.attrs.get("units", "1"))
-    if unit == "K":
-        return values - ZERO_CELSIUS, "°C"
-    if unit in ("rad/s", "rad", "m^3/s"):
-        return displayed(1.0, unit) * values, display_unit(unit)
-    name, factor = axis_unit(unit, float(np.nanmax(np.abs(values), initial=0.0)))
-    return factor * values, "" if name == "1" else name
+    units = str(variable.attrs.get("units", "1"))
+    axis = axis_for(units if units in ("%", "percent") else label_unit(units), values)
+    return axis.of(values), "" if axis.unit == "1" else axis.unit
 
 
 def axis_name(variable: "xr.DataArray", unit: str) -> str:

@@ -64,6 +64,7 @@ def power_loss_against(
         caption = "Power loss by location, stacked; black line: the total."
         _stack(axes, sweep, x[order], order, legend)
     axes.set_xlabel(axis_name(sweep[x_name], x_unit), fontsize=9)
+    axes.set_xscale(_spread(x[order]))
     axes.set_xlim(x.min(), x.max() if x.max() > x.min() else None)
     grid_lines(axes)
     return finish(axes, caption + _failed_note(sweep, "Gaps"), own)
@@ -88,10 +89,12 @@ def result_against(
         values, unit = shown(_results(sweep, result))
         order = np.argsort(x)
         axes.plot(x[order], values[order], color=COLOURS[0], marker="o", markersize=3.5)
-        axes.set_ylabel(axis_name(sweep[result], unit), fontsize=9)
-    axes.set_xlabel(axis_name(sweep[x_name], shown(sweep[x_name])[1]), fontsize=9)
+        axes.set_ylabel(_name_of(sweep, result, unit), fontsize=9)
+    values, unit = shown(sweep[x_name])
+    axes.set_xlabel(axis_name(sweep[x_name], unit), fontsize=9)
+    axes.set_xscale(_spread(np.sort(values)))
     grid_lines(axes)
-    text = sweep[result].attrs.get("long_name", result)
+    text = _name_of(sweep, result, "")
     return finish(axes, f"{text[:1].upper()}{text[1:]}.{_failed_note(sweep, 'Gaps')}", own)
 
 
@@ -134,14 +137,13 @@ def map_of(
     else:
         filled = axes.pcolormesh(xs, ys, values, cmap="cividis")
     bar = axes.figure.colorbar(filled, ax=axes)
-    bar.set_label(axis_name(sweep[result], unit), fontsize=9)
+    bar.set_label(_name_of(sweep, result, unit), fontsize=9)
     bar.ax.tick_params(labelsize=8)
     axes.set_xlabel(axis_name(sweep[x_name], x_unit), fontsize=9)
     axes.set_ylabel(axis_name(sweep[y_name], y_unit), fontsize=9)
-    axes.set_xlim(xs[0], xs[-1])
-    axes.set_ylim(ys[0], ys[-1])
+    axes.set(xscale=_spread(xs), yscale=_spread(ys), xlim=(xs[0], xs[-1]), ylim=(ys[0], ys[-1]))
     axes.tick_params(labelsize=8.5)
-    text = sweep[result].attrs.get("long_name", result)
+    text = _name_of(sweep, result, "")
     note = _failed_note(sweep, "Hatched")
     return finish(axes, f"{text[:1].upper()}{text[1:]} over two swept fields.{note}", own)
 
@@ -155,12 +157,12 @@ def raceway_control_map(sweep: "xr.Dataset", *, element: int = 0, axes: Any = No
     **Raises:** `ValueError` where the sweep has no raceway control, or as `map_of`.
     """
     _require(sweep, "raceway_control")
-    one = sweep["raceway_control"].isel(element=element) if "element" in sweep["raceway_control"].dims else None
-    data = sweep if one is None else sweep.drop_vars("raceway_control").assign(raceway_control=one)
-    data["raceway_control"].attrs |= {"long_name": f"outer-race control of ball {element}", "units": "%"}
+    one = sweep["raceway_control"]
+    one = one.isel(element=element) if "element" in one.dims else one.copy()
+    one.attrs = {"long_name": f"outer-race control of ball {element}", "units": "%"}
+    data = sweep.drop_vars("raceway_control").assign(raceway_control=one)
     draw = map_of if len(swept(sweep)) == 2 else result_against
-    figure = draw(data, "raceway_control", axes=axes)
-    return figure
+    return draw(data, "raceway_control", axes=axes)
 
 
 def swept(sweep: "xr.Dataset") -> list[str]:
@@ -193,6 +195,21 @@ def _require(sweep: "xr.Dataset", result: str) -> None:
     if result not in sweep:
         kind = "the scene models no power loss" if result.startswith(_LOSS) else "expected a name of the data set"
         raise ValueError(f"sweep: found no {result!r}: {kind}")
+
+
+def _name_of(sweep: "xr.Dataset", result: str, unit: str) -> str:
+    """A result's name and unit; that of the total loss, labelled as a row of its table, in full."""
+    if result == f"{_LOSS}total":
+        return f"total power loss, {unit}" if unit else "total power loss"
+    return axis_name(sweep[result], unit)
+
+
+def _spread(values: np.ndarray) -> str:
+    """The scale of an axis: logarithmic where values stand at equal ratios over more than a decade."""
+    if values.size < 4 or values.min() <= 0.0 or values.max() < 10.0 * values.min():
+        return "linear"
+    steps = np.diff(np.log(values))
+    return "log" if np.ptp(steps) < 0.05 * steps.mean() else "linear"
 
 
 def _results(sweep: "xr.Dataset", result: str) -> "xr.DataArray":
@@ -252,5 +269,4 @@ def _family(axes: Any, sweep: "xr.Dataset", result: str, x_name: str, other: str
         style = {"color": COLOURS[number % 6], "linestyle": LINES[number // 6]}
         axes.plot(x[order], values[row][order], marker="o", markersize=3, linewidth=1.4, label=label, **style)
     _beside(axes, *axes.get_legend_handles_labels(), title=str(sweep[other].attrs.get("long_name", other)))
-    axes.set_ylabel(axis_name(sweep[result], unit) if result != f"{_LOSS}total" else f"total power loss, {unit}")
-    axes.yaxis.label.set_fontsize(9)
+    axes.set_ylabel(_name_of(sweep, result, unit), fontsize=9)

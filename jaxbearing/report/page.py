@@ -9,10 +9,11 @@ NOTEBOOK_RESOLUTION = 90
 
 
 class Page(Figure):
-    """A4 landscape, white. Made without pyplot: no window, no state, no display; a notebook shows it by itself."""
+    """White, A4 landscape if no size in inches is given. Made without pyplot: no window, no state, no display; a
+    notebook shows it by itself."""
 
-    def __init__(self):
-        super().__init__(figsize=(11.69, 8.27), facecolor="white")
+    def __init__(self, width: float = 11.69, height: float = 8.27):
+        super().__init__(figsize=(width, height), facecolor="white")
 
     def _repr_png_(self) -> bytes:
         buffer = io.BytesIO()

@@ -1,0 +1,97 @@
+"""What all figures have in common: size, caption, units of an axis."""
+
+import re
+import textwrap
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+
+from ..report.display import ZERO_CELSIUS, display_unit, displayed
+from ..report.sheet import INK, axis_unit
+
+if TYPE_CHECKING:
+    import matplotlib.figure
+
+WIDTH, HEIGHT = 7.2, 4.9
+"""Of a figure, inches."""
+_CAPTION_SIZE, _PER_INCH, _LINE = 8.5, 15.5, 0.165
+"""Size of a caption's letters in points, letters in an inch, height of a line in inches."""
+_MARGIN = 0.12
+
+
+class Axis(NamedTuple):
+    """Unit on an axis ("" for a number) and what turns SI values into it."""
+
+    unit: str
+    of: Callable[[Any], np.ndarray]
+
+    def named(self, text: str) -> str:
+        """A label: what is drawn, and its unit."""
+        return f"{text}, {self.unit}" if self.unit else text
+
+
+def label_unit(units: str) -> str:
+    """A unit of a data set ("m3 s-1") as the library's labels write it ("m^3/s")."""
+    powers = [re.fullmatch(r"([A-Za-z]+)(-?)([2-9]?)1?", factor) for factor in units.split()]
+    if not powers or any(power is None for power in powers):
+        return units
+    named = [(f"{power[1]}^{power[3]}" if power[3] else power[1], power[2]) for power in powers if power is not None]
+    over = " ".join(name for name, under in named if not under) or "1"
+    return over + "".join(f"/{name}" for name, under in named if under)
+
+
+def axis_for(unit: str, values: Any) -> Axis:
+    """Engineer's unit of an axis.
+
+    **Arguments:** `unit`: SI, as in the labels; `values`: all that is drawn, in SI, NaN where there is nothing.
+    """
+    if unit == "K":
+        return Axis("°C", lambda kelvin: np.asarray(kelvin) - ZERO_CELSIUS)
+    if unit == "percent":
+        return Axis("%", np.asarray)
+    numbers = np.abs(np.asarray(values, dtype=np.float64))
+    largest = float(np.max(numbers[np.isfinite(numbers)], initial=0.0))
+    name, factor = axis_unit(unit, largest)
+    if name == unit and factor == 1.0:
+        name, factor = display_unit(unit), displayed(1.0, unit)
+    return Axis(name.replace("um", "µm"), lambda si: factor * np.asarray(si))
+
+
+def drawing(
+    axes: Any, caption: str, projection: str | None = None, size: tuple[float, float] = (WIDTH, HEIGHT)
+) -> "tuple[matplotlib.figure.Figure, Any]":
+    """Figure and axes to draw into: the given axes, or new ones with the caption under them.
+
+    **Arguments:** `axes`: matplotlib axes, or `None`; `projection`: that new axes are to have; `size`: inches.
+
+    **Raises:** `ValueError` where the given axes have another projection.
+    """
+    if axes is not None:
+        if axes.name != (projection or "rectilinear"):
+            raise ValueError(f"axes: found the projection '{axes.name}', expected '{projection or 'rectilinear'}'")
+        return axes.figure, axes
+    from ..report.page import Page
+
+    figure = Page(*size)
+    write_below(figure, caption)
+    return figure, figure.add_subplot(projection=projection)
+
+
+def write_below(figure: Any, caption: str) -> None:
+    """The caption under what is drawn."""
+    width, height = figure.get_size_inches()
+    lines = textwrap.wrap(caption, int(_PER_INCH * (width - 0.3)))
+    below = _LINE * len(lines) + 2.0 * _MARGIN
+    figure.set_layout_engine("constrained", rect=(0.0, below / height, 1.0, 1.0 - below / height - 0.01))
+    figure.text(
+        0.15 / width,
+        _MARGIN / height,
+        "\n".join(lines),
+        fontsize=_CAPTION_SIZE,
+        color=INK,
+        va="bottom",
+        linespacing=1.35,
+        in_layout=False,
+        parse_math=False,
+    )
