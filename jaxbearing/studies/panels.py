@@ -6,7 +6,6 @@ speed, load, flow and clearances keep their ratio to the scene's own values; tem
 
 import math
 from dataclasses import dataclass
-from functools import reduce
 from typing import Any
 
 import numpy as np
@@ -41,8 +40,10 @@ class Panel:
 
 def own(scene: Any, path: str) -> float | None:
     """The scene's own value of a field; `None` where it or its part is not there."""
-    found = reduce(lambda part, name: None if part is None else getattr(part, name, None), path.split("."), scene)
-    return None if found is None or (not np.isscalar(found) and np.ndim(found) != 0) else float(found)
+    found: Any = scene
+    for name in path.split("."):
+        found = getattr(found, name, None)
+    return None if found is None or np.ndim(found) != 0 else float(found)
 
 
 def scaled(scene: Any, path: str, factors: Any) -> np.ndarray:

@@ -1,6 +1,6 @@
 """The power-loss study of one bearing: all cases of its panels in one sweep, each point solved once."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -104,7 +104,7 @@ def _key(scene: Any, change: Change, fields: tuple[str, ...]) -> tuple[float, ..
 
 
 def _solved(
-    scene: Any, points: list[Change], fields: tuple[str, ...], lands: str, places: dict[Any, int], progress: Any
+    scene: Any, points: Sequence[Change], fields: tuple[str, ...], lands: str, places: dict[Any, int], progress: Any
 ) -> "xr.Dataset":
     keys = list(dict.fromkeys(_key(scene, point, fields) for point in points))
     places |= {(lands, key): i for i, key in enumerate(keys)}
