@@ -99,9 +99,8 @@ FIGURES = [
         "A result over two fields: film of the most loaded roller",
         "import numpy as np\n\n"
         + _SWEEP
-        + 'grid = {"operation.inner_speed": np.linspace(200.0, 2000.0, 10), "operation.oil_temperature": '
-        "np.linspace(320.0, 470.0, 10)}\n"
-        "found = jb.sweep(scene, grid)\n"
+        + "speeds, temperatures = np.linspace(200.0, 2000.0, 10), np.linspace(320.0, 470.0, 10)\n"
+        'found = jb.sweep(scene, {"operation.inner_speed": speeds, "operation.oil_temperature": temperatures})\n'
         'found["film"] = found.film_inner.min("element", keep_attrs=True)\n'
         'figure = jb.plots.map_of(found, "film", x="operation.oil_temperature")',
     ),
