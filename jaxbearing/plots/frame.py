@@ -1,6 +1,5 @@
 """What all figures have in common: size, caption, units of an axis."""
 
-import re
 import textwrap
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any, NamedTuple
@@ -29,16 +28,6 @@ class Axis(NamedTuple):
     def named(self, text: str) -> str:
         """A label: what is drawn, and its unit."""
         return f"{text}, {self.unit}" if self.unit else text
-
-
-def label_unit(units: str) -> str:
-    """A unit of a data set ("m3 s-1") as the library's labels write it ("m^3/s")."""
-    powers = [re.fullmatch(r"([A-Za-z]+)(-?)([2-9]?)1?", factor) for factor in units.split()]
-    if not powers or any(power is None for power in powers):
-        return units
-    named = [(f"{power[1]}^{power[3]}" if power[3] else power[1], power[2]) for power in powers if power is not None]
-    over = " ".join(name for name, under in named if not under) or "1"
-    return over + "".join(f"/{name}" for name, under in named if under)
 
 
 def axis_for(unit: str, values: Any) -> Axis:

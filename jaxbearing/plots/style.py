@@ -4,7 +4,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from .frame import HEIGHT, WIDTH, axis_for, label_unit, write_below
+from ..report.labelled import label_unit
+from .frame import HEIGHT, WIDTH, axis_for, write_below
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -36,8 +37,7 @@ def finish(axes: Any, caption: str, own: bool) -> Any:
 def shown(variable: "xr.DataArray") -> tuple[np.ndarray, str]:
     """Values in engineer's units and the unit ("" for a number): fields of a scene, or results of a sweep."""
     values = np.asarray(variable.values, dtype=float)
-    units = str(variable.attrs.get("units", "1"))
-    axis = axis_for(units if units in ("%", "percent") else label_unit(units), values)
+    axis = axis_for(label_unit(str(variable.attrs.get("units", "1"))), values)
     return axis.of(values), "" if axis.unit == "1" else axis.unit
 
 

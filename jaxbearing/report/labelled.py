@@ -31,6 +31,16 @@ def udunits(unit: str) -> str:
     return " ".join(powers) or "1"
 
 
+def label_unit(units: str) -> str:
+    """The way back: a unit of a data set, "m3 s-1", as the labels write it, "m^3/s"."""
+    powers = [re.fullmatch(r"([A-Za-z]+)(-?)([2-9]?)1?", factor) for factor in units.split()]
+    if not powers or any(power is None for power in powers):
+        return units
+    named = [(f"{power[1]}^{power[3]}" if power[3] else power[1], power[2]) for power in powers if power is not None]
+    over = " ".join(name for name, under in named if not under) or "1"
+    return over + "".join(f"/{name}" for name, under in named if under)
+
+
 def labelled(part: Any, above: str = "") -> Iterator[tuple[str, Any, Any]]:
     """Path, value and label of every field that has a label, at any depth."""
     for field in dataclasses.fields(part):

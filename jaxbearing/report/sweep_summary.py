@@ -12,6 +12,7 @@ from rich.table import Table
 from rich.text import Text
 
 from .display import with_unit
+from .labelled import label_unit
 from .screen import counted, headline, print_warnings
 
 _MAIN = (
@@ -66,9 +67,5 @@ def _spread(values: xr.DataArray) -> str:
     numbers = values.values[np.isfinite(values.values)]
     if numbers.size == 0:
         return "-"
-    unit = _LABEL_UNITS.get(values.attrs["units"]) or str(values.attrs["units"])
+    unit = label_unit(str(values.attrs["units"]))
     return f"{with_unit(float(numbers.min()), unit)} to {with_unit(float(numbers.max()), unit)}"
-
-
-_LABEL_UNITS = {"rad s-1": "rad/s", "N m-1": "N/m", "m3 s-1": "m^3/s"}
-"""Units of a data set -> those of the library's labels, which know how they are shown."""
