@@ -137,6 +137,7 @@ def test_every_public_module_is_on_one_page_of_the_api():
     assert not [name for name in names if ".cli" in name or "._" in name]
 
 
+@pytest.mark.slow
 def test_example_of_a_law_prints_what_the_page_says(tmp_path):
     page = (DOCS / "adding_a_law.md").read_text(encoding="utf-8")
     assert '```python\n"""A viscosity law of one\'s own' in links.with_files(page, DOCS)
@@ -145,6 +146,7 @@ def test_example_of_a_law_prints_what_the_page_says(tmp_path):
     assert f"```text\n{ran.stdout}```" in page
 
 
+@pytest.mark.slow
 def test_python_of_the_fitting_page_prints_what_it_says(tmp_path, monkeypatch, capsys):
     page = (DOCS / "fitting.md").read_text(encoding="utf-8")
     (curves,) = re.findall(r"```csv\n(.*?)```", page, flags=re.DOTALL)

@@ -115,6 +115,7 @@ def test_shear_modulus_sets_the_slope_and_stress_the_level():
     assert 0.97 < weak[2] / base[2] < 1.0, "less than 3 % at 10 % sliding, as the caption says"
 
 
+@pytest.mark.slow
 def test_coarse_mesh_is_as_wrong_as_the_caption_says():
     drawn = lines(properties.traction_models())
     fine = drawn["point contact (2D), 128 steps, 24 strips"][-1, 1]
@@ -147,6 +148,7 @@ def test_spin_film_is_that_of_the_printed_groups():
     assert spin.film_thickness(1.89e9) / spin.RADIUS == pytest.approx(1.1109e-4, rel=2e-3)
 
 
+@pytest.mark.slow
 def test_spin_friction_grows_with_pressure_and_spin():
     drawn = lines(properties.spin_friction(pressures=(1.19e9, 2.38e9)))
     low, high = drawn["1.19 GPa"][:, 1], drawn["2.38 GPa"][:, 1]
