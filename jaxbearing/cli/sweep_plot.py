@@ -38,7 +38,8 @@ def write_plot(plot: Path, target: Path, label: str) -> None:
     with opened as whole:
         found = whole.squeeze()
         # dry scenes have a loss, which is zero
-        main = next(name for name in MAIN if name in found and bool((found[name] != 0.0).any()))
+        there = [name for name in MAIN if name in found]
+        main = next((name for name in there if bool((found[name] != 0.0).any())), there[0])
         if len(swept(found)) == 2:
             figure = map_of(found, main)
         else:

@@ -156,7 +156,7 @@ def raceway_control_map(sweep: "xr.Dataset", *, element: int = 0, axes: Any = No
 
     **Raises:** `ValueError` where the sweep has no raceway control, or as `map_of`.
     """
-    _require(sweep, "raceway_control")
+    _there(sweep, "raceway_control")
     one = sweep["raceway_control"]
     one = one.isel(element=element) if "element" in one.dims else one.copy()
     one.attrs = {"long_name": f"outer-race control of ball {element}", "units": "%"}
@@ -186,15 +186,26 @@ def _named(field: str, fields: list[str]) -> str:
 def _field(sweep: "xr.Dataset", field: str | None, fields: list[str]) -> str:
     if field is not None:
         return _named(field, fields)
+    if not fields:
+        raise ValueError("sweep: found no swept field, expected a grid of which one field is left at least")
     if len(fields) != 1:
         raise ValueError(f"field: found none, expected one of the swept fields: {', '.join(fields) or 'there is none'}")
     return fields[0]
 
 
-def _require(sweep: "xr.Dataset", result: str) -> None:
+def _there(sweep: "xr.Dataset", result: str) -> None:
     if result not in sweep:
         kind = "the scene models no power loss" if result.startswith(_LOSS) else "expected a name of the data set"
         raise ValueError(f"sweep: found no {result!r}: {kind}")
+
+
+def _require(sweep: "xr.Dataset", result: str) -> None:
+    """One number a case."""
+    _there(sweep, result)
+    dims = [str(name) for name in sweep[result].dims if name not in swept(sweep)]
+    if dims or not np.issubdtype(sweep[result].dtype, np.number):
+        found = f"a value for each {', '.join(dims)}" if dims else "text"
+        raise ValueError(f"{result}: found {found}, expected one number a case (select one first)")
 
 
 def _name_of(sweep: "xr.Dataset", result: str, unit: str) -> str:

@@ -36,7 +36,11 @@ def print_sweep(file: str | os.PathLike[str], label: str, kept: int, seconds: fl
         failed = int(np.sum(failure != ""))
         status, style = ("ALL CONVERGED", "bold green") if failed == 0 else (f"{failed} FAILED", "bold red")
         new = failure.size - kept
-        rate = f", {new / seconds:.0f} cases/s with start and compilation" if new and seconds > 0 else ""
+        rate = (
+            f", {new / seconds:.{0 if new > 10 * seconds else 1}f} cases/s with start and compilation"
+            if new and seconds > 0
+            else ""
+        )
         headline(label, status, style, f"{counted(failure.size, 'case')} in {seconds:.1f} s{rate}", console)
         rows = {path: _spread(dataset[path.replace(".", "_")]) for path in dataset.attrs["sweep_fields"].split()}
         rows |= {

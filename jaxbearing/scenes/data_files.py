@@ -22,8 +22,9 @@ def builtin_text(name: str) -> str:
 
 
 def builtin_summary(name: str) -> str:
-    """First comment line of a built-in scene."""
-    return builtin_text(name).splitlines()[0].lstrip("# ").rstrip()
+    """First comment line of a built-in scene, up to its last whole sentence."""
+    line = builtin_text(name).splitlines()[0].lstrip("# ").rstrip()
+    return line if line.endswith(".") or ". " not in line else line[: line.rindex(". ") + 1]
 
 
 @functools.cache

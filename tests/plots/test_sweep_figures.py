@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 import xarray as xr
 
+import jaxbearing as jb
 from jaxbearing.plots import map_of, power_loss_against, result_against
 
 RPM = np.array([1000.0, 2000.0, 3000.0, 4000.0])
@@ -78,3 +79,12 @@ def test_map_masks_the_failed_case_and_says_so():
 def test_what_cannot_be_drawn_is_said(draw, words):
     with pytest.raises(ValueError, match=words):
         draw()
+
+
+def test_results_that_are_not_one_number_a_case_are_refused():
+    found = jb.sweep(jb.load_scene("reference_roller", {"contact": "none"}), {"operation.radial_load": [5e3, 1e4]})
+    for name, words in (("load_inner", "for each element"), ("failure", "text")):
+        with pytest.raises(ValueError, match=words):
+            result_against(found, name)
+    with pytest.raises(ValueError, match="no swept field"):
+        result_against(found.isel(operation_radial_load=0), "ring_radial")
