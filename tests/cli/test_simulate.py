@@ -95,7 +95,10 @@ def test_restart_from_something_else_is_refused(run, changes, reason, monkeypatc
 def test_interrupted_run_keeps_what_it_has(tmp_path):
     """A process on a terminal, and Ctrl-C when its bar shows that it moves."""
     out, (reader, terminal) = tmp_path / "run.nc", pty.openpty()
-    command = [sys.executable, "-m", "jaxbearing", *BASE, "--duration", "10 s", "--out", str(out)]
+    # tests started in the background of a shell may ignore Ctrl-C, and so would what they start
+    listening = "import runpy, signal; signal.signal(signal.SIGINT, signal.default_int_handler); "
+    listening += "runpy.run_module('jaxbearing', run_name='__main__')"
+    command = [sys.executable, "-c", listening, *BASE, "--duration", "10 s", "--out", str(out)]
     with subprocess.Popen(command, stdout=terminal, stderr=subprocess.PIPE, env={**os.environ, "TERM": "xterm"}) as run:
         os.close(terminal)
         shown = b""
