@@ -228,3 +228,8 @@ def test_no_array_is_on_a_device():
     import jax
 
     assert not any(isinstance(leaf, jax.Array) for leaf in jax.tree.leaves(load_scene("turbine_roller")))
+
+
+@pytest.mark.parametrize("name", builtin_names())
+def test_summaries_are_whole_sentences(name):
+    assert builtin_summary(name).endswith(".")
