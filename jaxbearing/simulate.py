@@ -9,13 +9,13 @@ import numpy as np
 from .bearings.cylindrical_roller import CylindricalRollerBearing
 from .bearings.history import History, LastState
 from .bearings.roller_run import check_fits
-from .bearings.roller_simulation import INTERVAL, rates, simulate_roller_batch, simulate_rollers, trajectory
+from .bearings.roller_simulation import FIELD, INTERVAL, simulate_roller_batch, simulate_rollers, trajectory
 from .bearings.simulation import Simulation
 from .ehl import EHLLineContact, FilmSimulation, FilmState, LineContactHistory, simulate_film
 from .ehl import check_restart as check_film_restart
 from .numerics.precision import require_x64
 
-__all__ = ["INTERVAL", "check_restart", "rates", "simulate", "simulate_batch", "trajectory"]
+__all__ = ["FIELD", "INTERVAL", "check_restart", "simulate", "simulate_batch", "trajectory"]
 
 Progress = Callable[[float, float], None]
 

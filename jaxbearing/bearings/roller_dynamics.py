@@ -192,15 +192,40 @@ class RollerDynamics(eqx.Module):
         cage, works = state.globals[:6] * jnp.asarray(CAGE_UNITS), state.globals[6:] * self.work_unit
         return state.elements * jnp.asarray(ROLLER_UNITS)[:, None], cage, works
 
-    def at(self, time: Scalar, state: ArrowPoint) -> MovingState:
-        """All forces."""
+    def race_loads(self, time: Scalar, state: ArrowPoint) -> RaceLoads:
+        """Equations of the load distribution."""
+        system, motion = self.system, self.motion(time)
+        azimuth, orbit, spin = self._places(time, state)
+        mean_speed, sliding = motion.surface_speeds(orbit - motion.free_orbit, spin - motion.free_spin)
+        return RaceLoads(
+            contact=system.contact,
+            laws=system.laws,
+            oil=system.oil,
+            inlet=system.inlet,
+            directions=self.directions(azimuth),
+            mean_speed=mean_speed,
+            sliding_speed=sliding,
+            centrifugal=system.centrifugal(orbit),
+            ring_load=self.ring_load(time),
+            radial_clearance=system.radial_clearance,
+        )
+
+    def _places(self, time: Scalar, state: ArrowPoint) -> tuple[Array, Array, Array]:
+        """Azimuths, rad, orbital speeds and spins, rad/s, of the rollers."""
+        (q, v, u), _, _ = self.unscaled(state)
+        motion, (turned, turning, _) = self.system.kinematics, self.frame(time)
+        pitch = motion.pitch_radius
+        return self.system.azimuth + q / pitch + turned, turning + v / pitch, u / motion.roller_radius
+
+    def at(self, time: Scalar, state: ArrowPoint, guess: ArrowPoint | None = None) -> MovingState:
+        """All forces. **Arguments:** `guess` of the load distribution (`Distribution.point` of a state nearby)."""
         system, motion = self.system, self.motion(time)
         (q, v, u), (x, y, q_c, v_x, v_y, v_c), _ = self.unscaled(state)
-        pitch, (turned, turning, _) = motion.pitch_radius, self.frame(time)
-        azimuth = system.azimuth + q / pitch + turned
-        orbit, spin = turning + v / pitch, u / motion.roller_radius
-        mean_speed, sliding = motion.surface_speeds(orbit - motion.free_orbit, spin - motion.free_spin)
-        distribution = self._distribution(time, azimuth, orbit, mean_speed, sliding)
+        pitch, (_, turning, _) = motion.pitch_radius, self.frame(time)
+        azimuth, orbit, spin = self._places(time, state)
+        loads = self.race_loads(time, state)
+        mean_speed, sliding = loads.mean_speed, loads.sliding_speed
+        distribution = distributed_loads(loads, LOAD_TOLERANCE, LOAD_STEPS, guess)
         contact = system.laws.evaluate(system.contact, distribution.load, mean_speed, sliding, system.oil, system.inlet)
         parts = system.cage
         assert parts is not None
@@ -247,24 +272,6 @@ class RollerDynamics(eqx.Module):
         """Outward unit vectors at the rollers along the freedoms of the ring."""
         along = {"radial": jnp.cos(azimuth), "lateral": jnp.sin(azimuth)}
         return jnp.stack([along[name] for name in self.system.freedoms])
-
-    def _distribution(
-        self, time: Scalar, azimuth: Array, orbit: Array, mean_speed: Array, sliding: Array
-    ) -> Distribution:
-        system = self.system
-        loads = RaceLoads(
-            contact=system.contact,
-            laws=system.laws,
-            oil=system.oil,
-            inlet=system.inlet,
-            directions=self.directions(azimuth),
-            mean_speed=mean_speed,
-            sliding_speed=sliding,
-            centrifugal=system.centrifugal(orbit),
-            ring_load=self.ring_load(time),
-            radial_clearance=system.radial_clearance,
-        )
-        return distributed_loads(loads, LOAD_TOLERANCE, LOAD_STEPS)
 
     def _pocket(
         self,
@@ -324,7 +331,13 @@ class RollerDynamics(eqx.Module):
 
     def rates(self, time: Scalar, state: ArrowPoint) -> ArrowPoint:
         """d state / d time, 1/s; NaN where no load distribution is found."""
-        now = self.at(time, state)
+        return self.rates_and_loads(time, state)[0]
+
+    def rates_and_loads(
+        self, time: Scalar, state: ArrowPoint, guess: ArrowPoint | None = None
+    ) -> tuple[ArrowPoint, ArrowPoint]:
+        """`rates`, and the load distribution that was found: a guess for states nearby."""
+        now = self.at(time, state, guess)
         motion, (_, v, _), cage = now.motion, *self.unscaled(state)[:2]
         acceleration = now.tangential / self.system.roller_mass
         hurry = motion.pitch_radius * self.frame(time)[2]
@@ -340,7 +353,7 @@ class RollerDynamics(eqx.Module):
         rollers = jnp.stack([v, acceleration - hurry, spinning]) / jnp.asarray(ROLLER_UNITS)[:, None]
         rates = ArrowPoint(rollers, jnp.concatenate([moving / jnp.asarray(CAGE_UNITS), works]))
         good = now.distribution.residual < LOAD_FAILURE
-        return jax.tree.map(lambda rate: jnp.where(good, rate, jnp.nan), rates)
+        return jax.tree.map(lambda rate: jnp.where(good, rate, jnp.nan), rates), now.distribution.point
 
     # -- energy ---------------------------------------------------------------------------------------------------
 

@@ -137,14 +137,21 @@ class RaceLoads(AbstractArrowSystem):
 
 
 class Distribution(NamedTuple):
-    """Loads on both races, N, displacement of the inner ring along its freedoms, m, and the scaled residual."""
+    """Loads on both races, N, displacement of the inner ring along its freedoms, m, the scaled residual, and the
+    unknowns that were solved for: a guess for a bearing not far from this one."""
 
     load: Float[Array, "2 roller"]
     ring: Float[Array, " freedom"]
     residual: Float[Array, ""]
+    point: ArrowPoint
 
 
-def distributed_loads(system: RaceLoads, tolerance: Values, max_steps: int) -> Distribution:
+def distributed_loads(
+    system: RaceLoads, tolerance: Values, max_steps: int, guess: ArrowPoint | None = None
+) -> Distribution:
     """Solve for all loads at once, with implicit (first) derivatives: O(number of rollers)."""
-    found = plain_newton(system, jax.lax.stop_gradient(system).initial(), tolerance=tolerance, max_steps=max_steps)
-    return Distribution(system.both(found.point.elements[0]), found.point.globals * LENGTH_UNIT, found.residual)
+    if guess is None:
+        guess = jax.lax.stop_gradient(system).initial()
+    found = plain_newton(system, guess, tolerance=tolerance, max_steps=max_steps)
+    load, ring = system.both(found.point.elements[0]), found.point.globals * LENGTH_UNIT
+    return Distribution(load, ring, found.residual, found.point)

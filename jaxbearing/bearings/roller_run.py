@@ -9,7 +9,7 @@ import numpy as np
 from jaxtyping import Array, Float
 
 from ..numerics.arrow import ArrowPoint
-from ..numerics.integrator import IntegratorOptions, Segment
+from ..numerics.integrator import IntegratorOptions, NestedField, Segment
 from .cylindrical_roller import CylindricalRollerBearing
 from .history import Energy, Instant, LastState
 from .roller_dynamics import WORKS, RollerDynamics
@@ -37,9 +37,11 @@ class Resumed(NamedTuple):
     state: ArrowPoint
 
 
-def rates(time: Any, state: ArrowPoint, dynamics: RollerDynamics) -> ArrowPoint:
-    """The vector field as diffrax wants it."""
-    return dynamics.rates(time, state)
+FIELD = NestedField(
+    rates=lambda time, state, dynamics, guess: dynamics.rates_and_loads(time, state, guess),
+    guess=lambda time, state, dynamics: dynamics.race_loads(time, state).initial(),
+)
+"""The vector field as the integrator wants it."""
 
 
 def advance(
@@ -58,7 +60,7 @@ def advance(
     share = jnp.arange(1, parts) / parts
     fine = jnp.concatenate([begin[:, None] + (times - begin)[:, None] * share[None, :], times[:, None]], axis=1)
     segment = integrate_segment(
-        rates, state, start, fine.reshape(-1), dynamics, options, first_step=step, idle=len(WORKS)
+        FIELD, state, start, fine.reshape(-1), dynamics, options, first_step=step, idle=len(WORKS)
     )
     fine = jnp.minimum(fine, segment.last_time)
     reached = fine.reshape(-1) < segment.last_time

@@ -18,7 +18,7 @@ from .cylindrical_roller import CylindricalRollerBearing
 from .history import Energy, History, LastState
 from .roller_dynamics import WORKS
 from .roller_motion import IMMOBILE, QuasiStatic, Start, at_start, begin, quasi_static, quasi_static_start
-from .roller_run import Advanced, Resumed, advance, check_fits, energy_of, rates, resume
+from .roller_run import FIELD, Advanced, Resumed, advance, check_fits, energy_of, resume
 from .simulation import Simulation
 
 INTERVAL = 20e-6
@@ -60,7 +60,7 @@ def trajectory(start: Start, times: Float[Array, " time"], simulation: Simulatio
     # would come back in reverse mode
     first = jnp.asarray(FIRST_STEP)
     return integrate_segment(
-        rates, start.state, zero, times, start.dynamics, options, first_step=first, adjoint=adjoint, idle=len(WORKS)
+        FIELD, start.state, zero, times, start.dynamics, options, first_step=first, adjoint=adjoint, idle=len(WORKS)
     )
 
 

@@ -15,6 +15,8 @@ SPIN_FLOOR = 1.0
 """Spin that keeps a film on a roller at rest, rad/s: raises the load speed by 1.4e-8 at 6000 rad/s."""
 LOG_LOAD_RANGE = (-80.0, 35.0)
 """Bracket of ln(load/N) in the compliant face."""
+LOAD_STEP = 1e-5
+"""Last step of ln(load), whose cube is left as its error."""
 
 
 class PocketFilm(NamedTuple):
@@ -154,7 +156,14 @@ class CompliantPocketFace(eqx.Module):
         args = tuple(jnp.broadcast_arrays(gap, log_martin, log_elastic, log_flat))
         pressed = (jnp.log(jnp.maximum(self.minimum_film, -gap)) - log_flat) / 0.9
         guess = jnp.where(gap < -self.minimum_film, pressed, log_martin - jnp.log(smooth_gap))
-        z = monotone_root(_face_balance, args, *LOG_LOAD_RANGE, guess + jnp.zeros_like(args[0]))
+        z = monotone_root(
+            _face_balance,
+            args,
+            *LOG_LOAD_RANGE,
+            guess + jnp.zeros_like(args[0]),
+            tolerance=LOAD_STEP,
+            expansion=_face_expansion,
+        )
         film = _face_film(z.value, args[1], args[2])
         drag = viscosity * surface_speed * self.length * factors.shear
         return PocketFace(
@@ -174,6 +183,25 @@ def _face_balance(log_load: Array, args: tuple[Array, Array, Array, Array]) -> A
     """H + flattening - film: increasing in ln Q."""
     gap, log_martin, log_elastic, log_flat = args
     return gap + jnp.exp(log_flat + 0.9 * log_load) - _face_film(log_load, log_martin, log_elastic)
+
+
+def _face_expansion(log_load: Array, args: tuple[Array, Array, Array, Array]) -> tuple[Array, Array, Array]:
+    r"""The balance, its slope and its curvature over z = ln Q, at the cost of its value.
+
+    With the cubes M, E of both films and a = E/(M + E): $h = (M + E)^{1/3}$, $h' = -(1 - 0.87a)h$,
+    $h'' = [(1 - 0.87a)^2 + 3\,0.87^2a(1 - a)]h$.
+    """
+    gap, log_martin, log_elastic, log_flat = args
+    flat = jnp.exp(log_flat + 0.9 * log_load)
+    # no overflow within the bracket: cubes of films of 1e-12 m to 1e30 m
+    martin, elastic = jnp.exp(3.0 * (log_martin - log_load)), jnp.exp(3.0 * (log_elastic - 0.13 * log_load))
+    total = martin + elastic
+    film = jnp.exp(jnp.log(total) / 3.0)
+    share = elastic / total
+    fall = 1.0 - 0.87 * share
+    # d(share)/dz = 3 (1 - 0.13) share (1 - share)
+    bend = fall * fall + 3.0 * 0.87**2 * share * (1.0 - share)
+    return gap + flat - film, 0.9 * flat + film * fall, 0.81 * flat - film * bend
 
 
 def side_leakage_factor(length: Values, radius: Values, film: Values) -> Batch:

@@ -10,17 +10,20 @@ A run goes segment by segment (`integrate_segment`): whoever runs it can show pr
 in between.
 """
 
-from typing import Any
+from typing import Any, NamedTuple
 
 import diffrax as dfx
 import jax
 import jax.numpy as jnp
 import lineax as lx
+import optimistix as optx
+from jax.flatten_util import ravel_pytree
 from jaxtyping import Array, Bool, Float, Int
 
 from .arrow import ArrowPoint
-from .integrator import IMPLICIT, Field, IntegratorOptions, Segment
+from .integrator import IMPLICIT, Field, IntegratorOptions, NestedField, Segment
 from .lineax_solver import BlockArrow
+from .remembering import Memory, Remembering
 from .status import Status
 
 _CLASSES: dict[str, Any] = {
@@ -50,8 +53,54 @@ def diffrax_solver(options: IntegratorOptions, idle: int = 0) -> Any:
     return kind(root_finder=chord)
 
 
+class _Problem(NamedTuple):
+    """What diffrax integrates: its vector field, solver, state and arguments; the norm of an error; the state proper."""
+
+    field: Any
+    solver: Any
+    state: Any
+    args: Any
+    norm: Any
+    proper: Any
+
+
+def _problem(
+    field: Field | NestedField,
+    state: ArrowPoint,
+    start: Float[Array, ""],
+    args: Any,
+    options: IntegratorOptions,
+    idle: int,
+) -> _Problem:
+    solver, same = diffrax_solver(options, idle), lambda y: y
+    if not isinstance(field, NestedField):
+        return _Problem(field, solver, state, args, optx.rms_norm, same)
+    nested = field
+    if options.solver in IMPLICIT:
+        # the arrow of the stage equations is that of the state alone
+        cold = lambda t, y, a: nested.rates(t, y, a, nested.guess(t, y, a))[0]
+        return _Problem(cold, solver, state, args, optx.rms_norm, same)
+    flat, unravel = ravel_pytree(state)
+    first, unravel_found = ravel_pytree(jax.lax.stop_gradient(nested.guess(start, state, args)))
+    size = flat.shape[0]
+
+    def remembering(t, y, given):
+        own, memory = given
+        rates, found = nested.rates(t, unravel(y[:size]), own, unravel_found(memory.at(t)))
+        return jnp.concatenate([ravel_pytree(rates)[0], jax.lax.stop_gradient(ravel_pytree(found)[0])])
+
+    return _Problem(
+        remembering,
+        Remembering(solver),
+        jnp.concatenate([flat, jnp.zeros_like(first)]),
+        (args, Memory(start, first, jnp.zeros_like(first))),
+        lambda error: optx.rms_norm(error[:size]),
+        lambda y: unravel(y[:size]),
+    )
+
+
 def integrate_segment(
-    field: Field,
+    field: Field | NestedField,
     state: ArrowPoint,
     start: Float[Array, ""],
     times: Float[Array, " time"],
@@ -64,13 +113,15 @@ def integrate_segment(
     """Integrate from `start` to the last of `times`; never raises for a run that fails.
 
     **Arguments:**
-    - `field(t, y, args)`: rates; NaN makes the step be rejected and shortened.
+    - `field(t, y, args)`: rates; NaN makes the step be rejected and shortened. With a solve inside a `NestedField`:
+      explicit solvers then begin it with what they found before.
     - `times`: increasing, after `start`.
     - `first_step`, s; chosen where not given.
     - `idle`: number of globals, the last ones, that are integrals along the way: nothing depends on them.
     - `adjoint`: of diffrax, for gradients; reverse mode with checkpoints where not given.
     """
     tolerance = jnp.asarray(options.tolerance)
+    problem = _problem(field, state, start, args, options, idle)
     # the history of the error steers more smoothly through shocks than the last error alone
     control = dfx.PIDController(
         rtol=tolerance,
@@ -80,16 +131,18 @@ def integrate_segment(
         dcoeff=0.0,
         dtmin=options.shortest_step,
         force_dtmin=False,
+        norm=problem.norm,
     )
+    proper = lambda t, y, a: problem.proper(y)
     found = dfx.diffeqsolve(
-        dfx.ODETerm(field),
-        diffrax_solver(options, idle),
+        dfx.ODETerm(problem.field),
+        problem.solver,
         start,
         times[-1],
         first_step,
-        state,
-        args,
-        saveat=dfx.SaveAt(subs=(dfx.SubSaveAt(ts=times), dfx.SubSaveAt(t1=True))),
+        problem.state,
+        problem.args,
+        saveat=dfx.SaveAt(subs=(dfx.SubSaveAt(ts=times, fn=proper), dfx.SubSaveAt(t1=True, fn=proper))),
         stepsize_controller=control,
         max_steps=options.max_steps,
         throw=False,

@@ -16,6 +16,17 @@ IMPLICIT = ("kvaerno3", "kvaerno4", "kvaerno5", "implicit_euler")
 Field = Callable[[Any, ArrowPoint, Any], ArrowPoint]
 
 
+class NestedField(NamedTuple):
+    """A vector field with a solve inside, which goes on from a guess.
+
+    - `rates(time, state, args, guess)`: rates, and what the solve found.
+    - `guess(time, state, args)`: a first guess of that, for a state that nothing is known about.
+    """
+
+    rates: Callable[[Any, ArrowPoint, Any, ArrowPoint], tuple[ArrowPoint, ArrowPoint]]
+    guess: Callable[[Any, ArrowPoint, Any], ArrowPoint]
+
+
 def check_solver(name: str) -> None:
     """**Raises:** `ValueError` for a name that is none of `SOLVERS`."""
     if name not in SOLVERS:

@@ -31,12 +31,14 @@ def monotone_root(
     *,
     tolerance: float = 1e-14,
     max_steps: int = 60,
+    expansion: Callable[[Array, PyTree], tuple[Array, Array, Array]] | None = None,
 ) -> Root:
     r"""Root of a function that is strictly increasing in x on [lower, upper], elementwise.
 
     Safeguarded Newton: a Newton step that would leave the bracket (or is not finite) is replaced
     by bisection, and the bracket shrinks at every step. It stops when every element's step is
-    below `tolerance * max(1, |x|)`; that step is taken, so the error is about its square. A root outside
+    below `tolerance * max(1, |x|)`; that step is taken, so the error is about its square (its cube with an
+    `expansion`: the steps are then Halley's, of third order). A root outside
     the bracket ends at the nearer bracket end, and its residual says so.
 
     The derivative is that of the implicit function, $dx = -(\partial f/\partial a)\,da /
@@ -46,12 +48,19 @@ def monotone_root(
     - `function(x, args)`: elementwise in x, increasing; shape of x in, shape of x out.
     - `args`: pytree of everything that `function` depends on (what it closes over must not be differentiated).
     - `lower`, `upper`, `guess`: broadcast to the shape of the root; not differentiated.
+    - `expansion(x, args)`: value, slope and curvature of the same function, where they are cheap.
     """
     lower, upper, guess = jnp.broadcast_arrays(
         *(jax.lax.stop_gradient(jnp.asarray(v, dtype=float)) for v in (lower, upper, guess))
     )
     value, residual, _ = _root(
-        args, function=function, bracket=(lower, upper), guess=guess, tolerance=tolerance, max_steps=max_steps
+        args,
+        function=function,
+        expansion=expansion,
+        bracket=(lower, upper),
+        guess=guess,
+        tolerance=tolerance,
+        max_steps=max_steps,
     )
     return Root(value, residual)
 
@@ -76,6 +85,7 @@ def _root(
     args: PyTree,
     *,
     function: Callable[[Array, PyTree], Array],
+    expansion: Callable[[Array, PyTree], tuple[Array, Array, Array]] | None,
     bracket: tuple[Array, Array],
     guess: Array,
     tolerance: float,
@@ -88,10 +98,18 @@ def _root(
         return (state.steps < max_steps) & jnp.any(state.step > tolerance)
 
     def advance(state):
-        value, slope = _value_and_slope(function, state.x, args)
+        if expansion is None:
+            value, slope = _value_and_slope(function, state.x, args)
+            step = value / slope
+        else:
+            value, slope, curvature = expansion(state.x, args)
+            step = value / slope
+            # Halley's; Newton's far from the root, where the former is longer than twice it
+            bend = 0.5 * step * curvature / slope
+            step = step / jnp.where(bend < 0.5, 1.0 - bend, 1.0)
         low = jnp.where(value < 0, state.x, state.low)
         high = jnp.where(value > 0, state.x, state.high)
-        newton = state.x - value / slope
+        newton = state.x - step
         # False for NaN; where a function that should rise falls, halving the bracket still finds a root
         inside = (newton >= low) & (newton <= high) & (slope > 0)
         x = jnp.where(value == 0, state.x, jnp.where(inside, newton, 0.5 * (low + high)))

@@ -42,7 +42,7 @@ from jaxbearing.numerics.arrow import ArrowPoint  # noqa: E402
 from jaxbearing.numerics.integrate import integrate_segment  # noqa: E402
 from jaxbearing.numerics.integrator import IMPLICIT, SOLVERS, IntegratorOptions  # noqa: E402
 from jaxbearing.numerics.status import Status  # noqa: E402
-from jaxbearing.simulate import rates  # noqa: E402
+from jaxbearing.simulate import FIELD  # noqa: E402
 
 RUNS = {"0.7 turns, drag 0.6": (0.6, 0.7), "1 turn, drag 1.2": (1.2, 1.0)}
 """Drag coefficient and turns of the cage."""
@@ -59,7 +59,7 @@ ATOMS = len(ROLLER_UNITS)
 def ours(start, times, options):
     """A run in one go: states at the times, and what it took."""
     return integrate_segment(
-        rates, start.state, jnp.zeros(()), times, start.dynamics, options, jnp.asarray(1e-7), idle=len(WORKS)
+        FIELD, start.state, jnp.zeros(()), times, start.dynamics, options, jnp.asarray(1e-7), idle=len(WORKS)
     )
 
 
