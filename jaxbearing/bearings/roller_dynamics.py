@@ -67,11 +67,14 @@ large that they do not steer the step (some 100 J in a turbine), and in proporti
 LEAST_WORK = 1e-9
 """That the unit of the works is at least, J."""
 WORKS = ("drive", "dissipation", "pocket_films", "lever_arm", "load")
-LOAD_TOLERANCE = 1e-6
-"""Scaled residual of the load distribution before the last step, which squares it."""
+LOAD_TOLERANCE = 1e-2
+"""Scaled residual of the load distribution before the last step, which squares it, over the root of the integration's
+tolerance: loads are found to 1e-4 of that."""
+FINE = 1e-8
+"""Tolerance for which loads are found where none is given."""
 LOAD_STEPS = 40
-LOAD_FAILURE = 1e-5
-"""That residual from which on the rates are NaN: the step is then rejected and shortened."""
+LOAD_FAILURE = 10.0
+"""That residual over its tolerance from which on the rates are NaN: the step is then rejected and shortened."""
 _PALMGREN_ENERGY = 0.9 / 1.9
 
 
@@ -217,15 +220,18 @@ class RollerDynamics(eqx.Module):
         pitch = motion.pitch_radius
         return self.system.azimuth + q / pitch + turned, turning + v / pitch, u / motion.roller_radius
 
-    def at(self, time: Scalar, state: ArrowPoint, guess: ArrowPoint | None = None) -> MovingState:
-        """All forces. **Arguments:** `guess` of the load distribution (`Distribution.point` of a state nearby)."""
+    def at(
+        self, time: Scalar, state: ArrowPoint, guess: ArrowPoint | None = None, tolerance: Scalar = FINE
+    ) -> MovingState:
+        """All forces. **Arguments:** `guess` of the load distribution (`Distribution.point` of a state nearby);
+        `tolerance`: of an integration that asks."""
         system, motion = self.system, self.motion(time)
         (q, v, u), (x, y, q_c, v_x, v_y, v_c), _ = self.unscaled(state)
         pitch, (_, turning, _) = motion.pitch_radius, self.frame(time)
         azimuth, orbit, spin = self._places(time, state)
         loads = self.race_loads(time, state)
         mean_speed, sliding = loads.mean_speed, loads.sliding_speed
-        distribution = distributed_loads(loads, LOAD_TOLERANCE, LOAD_STEPS, guess)
+        distribution = distributed_loads(loads, LOAD_TOLERANCE * jnp.sqrt(tolerance), LOAD_STEPS, guess)
         contact = system.laws.evaluate(system.contact, distribution.load, mean_speed, sliding, system.oil, system.inlet)
         parts = system.cage
         assert parts is not None
@@ -334,10 +340,10 @@ class RollerDynamics(eqx.Module):
         return self.rates_and_loads(time, state)[0]
 
     def rates_and_loads(
-        self, time: Scalar, state: ArrowPoint, guess: ArrowPoint | None = None
+        self, time: Scalar, state: ArrowPoint, guess: ArrowPoint | None = None, tolerance: Scalar = FINE
     ) -> tuple[ArrowPoint, ArrowPoint]:
-        """`rates`, and the load distribution that was found: a guess for states nearby."""
-        now = self.at(time, state, guess)
+        """`rates`, and the load distribution that was found: a guess for states nearby. Arguments as of `at`."""
+        now = self.at(time, state, guess, tolerance)
         motion, (_, v, _), cage = now.motion, *self.unscaled(state)[:2]
         acceleration = now.tangential / self.system.roller_mass
         hurry = motion.pitch_radius * self.frame(time)[2]
@@ -352,7 +358,7 @@ class RollerDynamics(eqx.Module):
         works = self.powers(time, now) / self.work_unit
         rollers = jnp.stack([v, acceleration - hurry, spinning]) / jnp.asarray(ROLLER_UNITS)[:, None]
         rates = ArrowPoint(rollers, jnp.concatenate([moving / jnp.asarray(CAGE_UNITS), works]))
-        good = now.distribution.residual < LOAD_FAILURE
+        good = now.distribution.residual < LOAD_FAILURE * LOAD_TOLERANCE * jnp.sqrt(tolerance)
         return jax.tree.map(lambda rate: jnp.where(good, rate, jnp.nan), rates), now.distribution.point
 
     # -- energy ---------------------------------------------------------------------------------------------------

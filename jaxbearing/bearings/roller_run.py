@@ -38,7 +38,7 @@ class Resumed(NamedTuple):
 
 
 FIELD = NestedField(
-    rates=lambda time, state, dynamics, guess: dynamics.rates_and_loads(time, state, guess),
+    rates=lambda time, state, dynamics, guess, tolerance: dynamics.rates_and_loads(time, state, guess, tolerance),
     guess=lambda time, state, dynamics: dynamics.race_loads(time, state).initial(),
 )
 """The vector field as the integrator wants it."""

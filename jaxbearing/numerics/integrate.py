@@ -78,7 +78,7 @@ def _problem(
     nested = field
     if options.solver in IMPLICIT:
         # the arrow of the stage equations is that of the state alone
-        cold = lambda t, y, a: nested.rates(t, y, a, nested.guess(t, y, a))[0]
+        cold = lambda t, y, a: nested.rates(t, y, a, nested.guess(t, y, a), options.tolerance)[0]
         return _Problem(cold, solver, state, args, optx.rms_norm, same)
     flat, unravel = ravel_pytree(state)
     first, unravel_found = ravel_pytree(jax.lax.stop_gradient(nested.guess(start, state, args)))
@@ -86,14 +86,15 @@ def _problem(
 
     def remembering(t, y, given):
         own, memory = given
-        rates, found = nested.rates(t, unravel(y[:size]), own, unravel_found(memory.at(t)))
+        guess = unravel_found(memory.at(t))
+        rates, found = nested.rates(t, unravel(y[:size]), own, guess, options.tolerance)
         return jnp.concatenate([ravel_pytree(rates)[0], jax.lax.stop_gradient(ravel_pytree(found)[0])])
 
     return _Problem(
         remembering,
         Remembering(solver),
         jnp.concatenate([flat, jnp.zeros_like(first)]),
-        (args, Memory(start, first, jnp.zeros_like(first))),
+        (args, Memory(start, first, jnp.zeros_like(first), jnp.zeros_like(first))),
         lambda error: optx.rms_norm(error[:size]),
         lambda y: unravel(y[:size]),
     )

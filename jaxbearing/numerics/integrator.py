@@ -19,11 +19,11 @@ Field = Callable[[Any, ArrowPoint, Any], ArrowPoint]
 class NestedField(NamedTuple):
     """A vector field with a solve inside, which goes on from a guess.
 
-    - `rates(time, state, args, guess)`: rates, and what the solve found.
+    - `rates(time, state, args, guess, tolerance)`: rates, and what the solve found; `tolerance`: of the integration.
     - `guess(time, state, args)`: a first guess of that, for a state that nothing is known about.
     """
 
-    rates: Callable[[Any, ArrowPoint, Any, ArrowPoint], tuple[ArrowPoint, ArrowPoint]]
+    rates: Callable[[Any, ArrowPoint, Any, ArrowPoint, Scalar], tuple[ArrowPoint, ArrowPoint]]
     guess: Callable[[Any, ArrowPoint, Any], ArrowPoint]
 
 

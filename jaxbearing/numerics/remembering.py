@@ -15,16 +15,22 @@ from jaxtyping import Array, Float
 from .._types import Scalar
 
 
+FULL = 0.95
+"""Part of a step from which on a stage counts as one at its end."""
+
+
 class Memory(NamedTuple):
-    """What was found at a time, and its slope, 1/s."""
+    """What was found at a time, its slope, 1/s, and half its curvature, 1/s^2."""
 
     time: Scalar
     value: Float[Array, " found"]
     slope: Float[Array, " found"]
+    bend: Float[Array, " found"]
 
     def at(self, time: Scalar) -> Float[Array, " found"]:
         """Extrapolated."""
-        return self.value + self.slope * (time - self.time)
+        later = time - self.time
+        return self.value + later * (self.slope + later * self.bend)
 
 
 class Remembering(dfx.AbstractAdaptiveSolver, dfx.AbstractWrappedSolver):
@@ -54,6 +60,13 @@ class Remembering(dfx.AbstractAdaptiveSolver, dfx.AbstractWrappedSolver):
     def error_order(self, terms: Any) -> Any:
         return self.solver.error_order(terms)
 
+    @property
+    def _between(self) -> tuple[int, float]:
+        """The stage that is the last but those at the end of the step, and its place in the step."""
+        places = [0.0, *(float(c) for c in self.solver.tableau.c)]
+        stage = max(i for i, place in enumerate(places) if place < FULL)
+        return stage, places[stage]
+
     def init(self, terms: Any, t0: Any, t1: Any, y0: Any, args: Any) -> Any:
         return self.solver.init(terms, t0, t1, y0, args), args[1]
 
@@ -64,8 +77,12 @@ class Remembering(dfx.AbstractAdaptiveSolver, dfx.AbstractWrappedSolver):
         inner, memory = solver_state
         found = self.solver.step(terms, t0, t1, y0, (args[0], memory), inner, made_jump)
         y1, error, dense, inner, result = found
-        # rates times the step, of the stages at its begin and its end
+        # rates times the step, of the stages at its begin, between, and at its end
         length, stages = t1 - t0, dense["k"][:, -memory.value.shape[0] :]
+        middle, place = self._between
         last = stages[-1] / length
-        memory = Memory(t1, last, (last - stages[0] / length) / length)
+        back = (last - stages[0] / length) / length
+        near = (last - stages[middle] / length) / ((1.0 - place) * length)
+        bend = (near - back) / (place * length)
+        memory = Memory(t1, last, back + bend * length, bend)
         return y1, error, dense, (inner, memory), result
