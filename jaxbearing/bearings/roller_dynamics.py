@@ -340,9 +340,12 @@ class RollerDynamics(eqx.Module):
         return self.rates_and_loads(time, state)[0]
 
     def rates_and_loads(
-        self, time: Scalar, state: ArrowPoint, guess: ArrowPoint | None = None, tolerance: Scalar = FINE
+        self, time: Scalar, state: ArrowPoint, closing: ArrowPoint | None = None, tolerance: Scalar = FINE
     ) -> tuple[ArrowPoint, ArrowPoint]:
-        """`rates`, and the load distribution that was found: a guess for states nearby. Arguments as of `at`."""
+        """`rates`, and the load distribution that was found, as `RaceLoads.smoothed` gives it: extrapolated over time
+        it is the argument `closing` of states nearby. `tolerance`: of an integration that asks."""
+        loads = self.race_loads(time, state)
+        guess = None if closing is None else loads.unsmoothed(closing)
         now = self.at(time, state, guess, tolerance)
         motion, (_, v, _), cage = now.motion, *self.unscaled(state)[:2]
         acceleration = now.tangential / self.system.roller_mass
@@ -359,7 +362,12 @@ class RollerDynamics(eqx.Module):
         rollers = jnp.stack([v, acceleration - hurry, spinning]) / jnp.asarray(ROLLER_UNITS)[:, None]
         rates = ArrowPoint(rollers, jnp.concatenate([moving / jnp.asarray(CAGE_UNITS), works]))
         good = now.distribution.residual < LOAD_FAILURE * LOAD_TOLERANCE * jnp.sqrt(tolerance)
-        return jax.tree.map(lambda rate: jnp.where(good, rate, jnp.nan), rates), now.distribution.point
+        return jax.tree.map(lambda rate: jnp.where(good, rate, jnp.nan), rates), loads.smoothed(now.distribution.point)
+
+    def first_closing(self, time: Scalar, state: ArrowPoint) -> ArrowPoint:
+        """The argument `closing` of `rates_and_loads` where nothing is known."""
+        loads = self.race_loads(time, state)
+        return loads.smoothed(loads.initial())
 
     # -- energy ---------------------------------------------------------------------------------------------------
 

@@ -9,6 +9,7 @@ from jaxtyping import Array, Float
 
 from .._types import Values
 from ..contacts import LineContact
+from ..contacts.film import MARTIN_CONSTANT
 from ..contacts.laws import ContactLaws
 from ..lubricants import InletOil, Lubricant
 from ..numerics.arrow import AbstractArrowSystem, ArrowPoint
@@ -20,6 +21,8 @@ LENGTH_UNIT = 1e-5
 """Scale of displacements and approaches, m."""
 LOG_LOAD_RANGE = (-40.0, 18.0)
 """ln(load / 1 N) that an iterate may take."""
+LEAST_SPEED = 1e-3
+"""Speed at which the film of an extrapolated load is still one, m/s."""
 LEAST_LOAD = 1e-3
 """Load on the ring at which the guess still has a direction, N."""
 
@@ -59,9 +62,9 @@ def guessed_loads(
     typical = total * 4.0 / cosine.shape[0] + centrifugal + 1.0
     film = laws.film.log_thickness(contact, typical, mean_speed[:, None], inlet.viscosity, inlet.pressure_viscosity)
     film = jnp.sum(jnp.exp(film))
-    # Q = 4.9 mu u R l / h: Martin's film of a rigid roller
+    # Martin's film of a rigid roller
     size = per_race(contact.reduced_radius * contact.length)[0]
-    martin = 4.9 * inlet.viscosity * jnp.abs(mean_speed[0]) * size
+    martin = MARTIN_CONSTANT * inlet.viscosity * jnp.abs(mean_speed[0]) * size
     stiff = jnp.sum(kappa)
 
     def loads(shift, args):
@@ -129,6 +132,32 @@ class RaceLoads(AbstractArrowSystem):
 
     def closure(self, globals_, totals):
         return (totals - self.ring_load) / self.load_scale(), jnp.zeros(())
+
+    def smoothed(self, point: ArrowPoint) -> ArrowPoint:
+        """The unknowns as numbers that follow the rollers' places smoothly, for extrapolation: instead of ln Q, whose
+        course bends sharply where a roller enters the loaded zone, about the closing of the gap (in `LENGTH_UNIT`),
+        k Q - M/Q, as of a linear spring and Martin's film."""
+        spring, film = self._gap_law()
+        load = jnp.exp(point.elements)
+        return ArrowPoint(spring * load - film / load, point.globals)
+
+    def unsmoothed(self, smooth: ArrowPoint) -> ArrowPoint:
+        """The inverse of `smoothed`."""
+        spring, film = self._gap_law()
+        closing = smooth.elements
+        root = jnp.sqrt(jnp.square(closing) + 4.0 * spring * film)
+        pressed = closing > 0
+        # no cancellation on either side
+        load = jnp.where(pressed, root + closing, 4.0 * spring * film / (root - jnp.where(pressed, 0.0, closing)))
+        return ArrowPoint(jnp.clip(jnp.log(load / (2.0 * spring)), *LOG_LOAD_RANGE), smooth.globals)
+
+    def _gap_law(self) -> tuple[Array, Array]:
+        """k, 1/N, and M, N, of a typical roller, in `LENGTH_UNIT`."""
+        typical = 4.0 * self.load_scale() / self.centrifugal.shape[0]
+        spring = jnp.sum(per_race(self.contact.palmgren_compliance)) * typical**-0.1 / LENGTH_UNIT
+        size = per_race(self.contact.reduced_radius * self.contact.length)[0]
+        speed = jnp.abs(jnp.mean(self.mean_speed[0])) + LEAST_SPEED
+        return spring, MARTIN_CONSTANT * self.inlet.viscosity * speed * size / LENGTH_UNIT
 
     def both(self, log_load: Float[Array, " roller"]) -> Float[Array, "2 roller"]:
         """Loads on both races, N, from ln Qi."""

@@ -39,7 +39,7 @@ class Resumed(NamedTuple):
 
 FIELD = NestedField(
     rates=lambda time, state, dynamics, guess, tolerance: dynamics.rates_and_loads(time, state, guess, tolerance),
-    guess=lambda time, state, dynamics: dynamics.race_loads(time, state).initial(),
+    guess=lambda time, state, dynamics: dynamics.first_closing(time, state),
 )
 """The vector field as the integrator wants it."""
 
