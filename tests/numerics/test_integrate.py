@@ -7,7 +7,7 @@ import pytest
 
 from jaxbearing.numerics.arrow import ArrowPoint
 from jaxbearing.numerics.integrate import integrate_segment
-from jaxbearing.numerics.integrator import SOLVERS, IntegratorOptions
+from jaxbearing.numerics.integrator import SOLVERS, IntegratorOptions, NestedField
 from jaxbearing.numerics.status import Status
 
 RATES = jnp.asarray([1.0, 30.0, 1000.0])
@@ -63,3 +63,37 @@ def test_unknown_names_are_refused():
         IntegratorOptions(solver="euler")
     with pytest.raises(ValueError, match="arrow"):
         IntegratorOptions(elimination="sparse")
+
+
+def steps_recorded(guesses):
+    """`decay` whose global is driven through a solve, z^3 = element 0, with what it is asked to begin with."""
+
+    def rates(time, state, args, guess, tolerance):
+        z = jnp.cbrt(state.elements[0, 0])
+        jax.debug.callback(lambda *given: guesses.append(tuple(float(g) for g in given)), time, guess.globals[0], z)
+        plain = decay(time, state, args)
+        driven = z**3 - state.globals[0]
+        return plain._replace(globals=plain.globals.at[0].set(driven)), ArrowPoint(jnp.zeros((1, 0)), z[None])
+
+    return NestedField(rates, lambda time, state, args: ArrowPoint(jnp.zeros((1, 0)), jnp.asarray([0.5])))
+
+
+@pytest.mark.parametrize("solver", SOLVERS)
+def test_a_solve_inside_begins_where_the_last_one_ended(solver):
+    """Same motion; explicit solvers extrapolate what was found, to third order in the step."""
+    guesses, times = [], jnp.asarray([0.5, 1.0])
+    # implicit Euler is of first order
+    options = IntegratorOptions(solver=solver, tolerance=1e-3 if solver == "implicit_euler" else 1e-6)
+    run = jax.jit(lambda y: integrate_segment(steps_recorded(guesses), y, ZERO, times, None, options, idle=1))
+    found = run(START)
+    jax.effects_barrier()
+    assert int(found.status) == Status.CONVERGED
+    assert found.states.elements.shape == (2, 1, 3)
+    np.testing.assert_allclose(found.last.globals, exact(1.0)[1:], atol=200.0 * float(options.tolerance))
+    if solver in ("tsit5", "dopri8"):
+        time, guess, z = np.asarray(guesses).T
+        late = time > 0.2
+        assert np.max(np.abs(guess[late] - z[late])) < 1e-5
+        assert np.max(np.abs(guess - 0.5)) > 0.1
+    else:
+        assert all(guess == 0.5 for _, guess, _ in guesses)

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from scipy.special import lambertw
 
 from jaxbearing.numerics.precision import as_float
 from jaxbearing.numerics.quadrature import gauss_legendre
@@ -50,6 +51,23 @@ def test_root_elementwise_and_batched():
     each = jax.vmap(lambda b_: monotone_root(cubic, (2.0, b_), -10.0, 10.0, 0.0).value)(b)
     np.testing.assert_allclose(together, each, rtol=1e-14)
     np.testing.assert_allclose(cubic(together, (2.0, b)), 0.0, atol=1e-13)
+
+
+def test_halley_steps_are_of_third_order_and_keep_the_derivative():
+    """x + e^x = b: three steps from 0.3 away where Newton's take five; also from far outside."""
+    f = lambda x, b: x + jnp.exp(x) - b
+    expansion = lambda x, b: (f(x, b), 1.0 + jnp.exp(x), jnp.exp(x))
+    exact = lambda b: b - lambertw(np.exp(b)).real
+    for b, guess in ((2.0, 0.8), (2.0, 19.0), (-30.0, 3.0)):
+        solve = lambda b_, guess=guess, **more: monotone_root(f, b_, -60.0, 20.0, guess, **more)
+        found = solve(jnp.asarray(b), expansion=expansion, tolerance=1e-5)
+        np.testing.assert_allclose(found.value, exact(b), rtol=1e-14)
+        # what is left is the cube of the last step, not its square
+        steps = [abs(float(solve(jnp.asarray(b), expansion=expansion, max_steps=n).value) - exact(b)) for n in (1, 2)]
+        if guess == 0.8:
+            assert steps[1] < 0.3 * steps[0] ** 3
+        slope = jax.grad(lambda b_: solve(b_, expansion=expansion, tolerance=1e-5).value)(b)
+        np.testing.assert_allclose(slope, 1.0 / (1.0 + np.exp(exact(b))), rtol=1e-13)
 
 
 @pytest.mark.parametrize(("b", "end"), [(1e9, 10.0), (-1e9, -10.0)])
