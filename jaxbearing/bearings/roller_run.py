@@ -1,6 +1,6 @@
 """A run of a moving cylindrical roller bearing, piece by piece: states, instants, the shocks between them, energy."""
 
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import equinox as eqx
 import jax

@@ -54,7 +54,7 @@ def diffrax_solver(options: IntegratorOptions, idle: int = 0) -> Any:
 
 
 class _Problem(NamedTuple):
-    """What diffrax integrates: its vector field, solver, state and arguments; the norm of an error; the state proper."""
+    """What diffrax integrates: vector field, solver, state and arguments; the norm of an error; the state proper."""
 
     field: Any
     solver: Any

@@ -1,4 +1,4 @@
-r"""Explicit Runge-Kutta methods for vector fields with a solve inside: what the last step found is the next one's guess.
+r"""Explicit Runge-Kutta methods for vector fields with a solve inside, which begins with what the last step found.
 
 The state that diffrax integrates is one flat vector: the state proper and, behind it, the integral of what the inner
 solve finds. That integral is of no use, but its rates, which a Runge-Kutta method keeps anyway, are what was found at
@@ -9,11 +9,9 @@ step's stages. Nothing is computed twice, and a refused step forgets what it fou
 from typing import Any, NamedTuple
 
 import diffrax as dfx
-import jax.numpy as jnp
 from jaxtyping import Array, Float
 
 from .._types import Scalar
-
 
 FULL = 0.95
 """Part of a step from which on a stage counts as one at its end."""
