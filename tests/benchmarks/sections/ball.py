@@ -1,0 +1,76 @@
+"""Steady ball bearing: accuracy of the traction over the ellipses, the frictionless core, scipy on the same equations."""
+
+import time
+
+import jax
+import numpy as np
+from benchmark_tools import best_time, error_of
+from report import HERE, load
+from section_shape import Section, Table
+
+import jaxbearing as jb
+
+
+def section(quick=False):
+    script = load(HERE / "ball_bearing.py")
+    figures = script.benchmark(True)
+    rows = []
+    exact = None if quick else np.asarray(script.results(jb.jit_solver(at(1e-5))()))
+    for accuracy in () if exact is None else (1e-1, 1e-2, 1e-3, 1e-4):
+        fast = jb.jit_solver(at(accuracy))
+        begin = time.perf_counter()
+        found = script.results(jax.block_until_ready(fast()))
+        first = time.perf_counter() - begin
+        rows.append((accuracy, error_of(found, exact), first, 1e3 * best_time(fast, 5)))
+    scipy = tuple(
+        (name, method, start, 1e3 * seconds, f"{solved}/{attempts}", error, seconds / each["warm"])
+        for name, each in figures.items()
+        for (method, start), (seconds, solved, attempts, error) in each["scipy"].items()
+    )
+    cores = tuple(
+        (
+            name,
+            each["unknowns"],
+            each["error"],
+            each["cold"],
+            1e3 * each["warm"],
+            size,
+            1e6 * row["seconds"],
+            row["error"],
+        )
+        for name, each in figures.items()
+        for size, row in each["batch"].items()
+    )
+    core = figures["core, combined load"]
+    return Section(
+        "Steady ball bearing",
+        "Errors are the largest relative ones of axial displacement, largest load and (whole model) power loss.",
+        (
+            Table(
+                "`turbine_ball` whole, by the accuracy of the traction (against 1e-5):",
+                ("accuracy asked", "error", "first solve, s", "warm, ms"),
+                tuple(rows),
+            ),
+            Table(
+                "The frictionless core (errors against solves to 1e-11):",
+                ("core", "unknowns", "error", "first, s", "warm, ms", "batch", "us a solve", "error in the batch"),
+                cores,
+            ),
+            Table(
+                "scipy `root` (hybr) on all unknowns of the core:",
+                ("core", "derivatives", "start", "ms an attempt", "solved", "error", "times one solve"),
+                scipy,
+            ),
+        ),
+        {
+            "error of the core": core["error"],
+            "failed": float(sum(row["failed"] for each in figures.values() for row in each["batch"].values())),
+            "times scipy, exact Jacobian, one solve": min(
+                row[-1] for row in scipy if row[0] == "core, combined load" and row[1] == "exact Jacobian"
+            ),
+        },
+    )
+
+
+def at(accuracy):
+    return jb.load_scene("turbine_ball", {"contact.traction_accuracy": accuracy})

@@ -1,0 +1,92 @@
+"""Rheology from traction curves: our optimisers beside scipy's on the same residuals."""
+
+import time
+
+import equinox as eqx
+import jax
+import numpy as np
+import scipy.optimize
+from report import HERE, load
+from section_shape import Section, Table
+
+import fitting
+from fitting.estimation import jacobian
+from fitting.search import Search
+
+ACCURACIES = (1e-2, 1e-3, 1e-4, 1e-5)
+
+
+def section(quick=False):
+    script = load(HERE / "rheology_fit.py")
+    accuracy = 1e-2 if quick else 1e-3
+    recovered = float(np.max(np.abs(script.recovery("mobil_jet_ii", accuracy))))
+    methods = script.methods("mobil_jet_ii")
+    ours = methods["levenberg_marquardt"][1]
+    rows = [(method, cold, warm, steps, loss, warm / ours) for method, (cold, warm, steps, loss, _) in methods.items()]
+    for name, exact in (("finite differences", False), ("our Jacobian", True)):
+        seconds, calls, loss = scipy_fit(script, exact)
+        rows.append((f"scipy least_squares, {name}", None, seconds, calls, loss, seconds / ours))
+    marches = march_rows(script, ACCURACIES[:2] if quick else ACCURACIES)
+    best = min(row[4] for row in rows)
+    return Section(
+        "Rheology from traction curves",
+        "60 points of two-disk curves of Mobil Jet II with 1 % noise, six parameters, started from a modulus and a stress "
+        "that are wrong by a factor of 3.",
+        (
+            Table(
+                "One fit (loss: half the sum of squared residuals):",
+                ("method", "first, s", "warm, s", "steps or calls", "loss", "time over ours"),
+                tuple(rows),
+            ),
+            Table(
+                "Curves of the finest march, fitted with coarser ones: what the march costs the parameters:",
+                ("accuracy of the march", "largest relative error of a parameter", "warm, s"),
+                marches,
+            ),
+        ),
+        {
+            "noise-free recovery": recovered,
+            "largest loss over the least, ours": max(row[4] for row in rows[:3]) / best - 1.0,
+            "times scipy, finite differences": rows[3][5],
+            "times scipy, our Jacobian": rows[4][5],
+        },
+    )
+
+
+def noisy(script):
+    scene, table = script.experiment("mobil_jet_ii")
+    rng = np.random.default_rng(script.SEED)
+    values = table.traction_coefficient * (1.0 + script.NOISE * rng.normal(size=len(table.slide_to_roll)))
+    return script.three_times_wrong(scene), script.dataclasses.replace(table, traction_coefficient=values)
+
+
+def scipy_fit(script, exact):
+    """Seconds, warm, calls and loss of scipy's trust-region method on our residuals."""
+    start, table = noisy(script)
+    search = Search(fitting.Measurements.of(table, start), start, fitting.FitOptions(errors=script.ERRORS))
+    problem = search.problem(search.free_by_rule()[0], {})
+    residual = eqx.filter_jit(lambda u: problem.residual(u))
+    slopes = eqx.filter_jit(lambda u: jacobian(problem, u))
+    call = lambda u: np.asarray(residual(jax.numpy.asarray(u)))
+    more = {"jac": lambda u: np.asarray(slopes(jax.numpy.asarray(u)))} if exact else {}
+    first = np.zeros(6)
+    call(first), slopes(jax.numpy.zeros(6))  # compile
+    begin = time.perf_counter()
+    found = scipy.optimize.least_squares(call, first, method="trf", x_scale="jac", xtol=1e-10, ftol=1e-10, **more)
+    return time.perf_counter() - begin, int(found.nfev), float(found.cost)
+
+
+def march_rows(script, accuracies):
+    scene, table = script.experiment("mobil_jet_ii", 1e-6)
+    true = np.array([float(getattr(scene.oil.rheology, name)) for name in script.NAMES])
+    rows = []
+    for accuracy in accuracies:
+        start = script.three_times_wrong(script.experiment("mobil_jet_ii", accuracy)[0])
+        measurements, options = fitting.Measurements.of(table, start), fitting.FitOptions(errors=script.ERRORS)
+        fitting.fit(measurements, start, options)
+        begin = time.perf_counter()
+        result = fitting.fit(measurements, start, options)
+        seconds = time.perf_counter() - begin
+        found = np.array([result.parameters[name].value for name in script.NAMES])
+        rows.append((accuracy, float(np.max(np.abs(found / true - 1.0))), seconds))
+    return tuple(rows)

@@ -1,0 +1,83 @@
+"""Steady cylindrical roller bearing: accuracy of the traction and of Newton, batches, scipy on the same equations."""
+
+import time
+
+import jax
+import numpy as np
+from benchmark_tools import best_time, error_of
+from report import HERE, load
+from section_shape import Section, Table
+
+import jaxbearing as jb
+
+ACCURACIES = (1e-2, 1e-3, 1e-4, 1e-5)
+
+
+def section(quick=False):
+    script = load(HERE / "roller_bearing.py")
+    by_accuracy = accuracy_rows(script, ACCURACIES[:2] if quick else ACCURACIES)
+    figures = script.benchmark(True)["reference_roller"]
+    newton = newton_rows(script, 20 if quick else 200)
+    ours = figures["batch"][100]["seconds"]
+    scipy = tuple(
+        (method, start, 1e3 * seconds, f"{solved}/{attempts}", error, seconds / figures["warm"], seconds / ours)
+        for (method, start), (seconds, solved, attempts, error) in figures["scipy"].items()
+    )
+    return Section(
+        "Steady cylindrical roller bearing",
+        "Errors are the largest relative ones of power loss, cage speed and largest load.",
+        (
+            Table(
+                "`turbine_roller`, by the accuracy of the traction that the scene names (against 1e-6):",
+                ("accuracy asked", "error", "first solve, s", "warm, ms"),
+                by_accuracy,
+            ),
+            Table(
+                "`reference_roller`, random points over Table 14, by Newton's tolerance:",
+                ("tolerance", "error", "ms a solve, batch", "failed"),
+                newton,
+            ),
+            Table(
+                "scipy `root` (hybr) on the 94 equations of `reference_roller` with nothing eliminated:",
+                ("derivatives", "start", "ms an attempt", "solved", "error", "times one solve", "times a batch of 100"),
+                scipy,
+            ),
+        ),
+        {
+            "power closure": figures["closure"],
+            "failed": float(sum(row["failed"] for row in figures["batch"].values()) + sum(row[3] for row in newton)),
+            "error of Newton": newton[-1][1],
+            "times scipy, exact Jacobian, batch": min(row[-1] for row in scipy if row[0] == "exact Jacobian"),
+            "times scipy, finite differences, batch": min(row[-1] for row in scipy if row[0] != "exact Jacobian"),
+            "error at traction accuracy 1e-3": next(row[1] for row in by_accuracy if row[0] == 1e-3),
+        },
+    )
+
+
+def accuracy_rows(script, accuracies):
+    exact = np.asarray(script.results(jb.jit_solver(at(1e-6))()))
+    rows = []
+    for accuracy in accuracies:
+        fast = jb.jit_solver(at(accuracy))
+        begin = time.perf_counter()
+        found = script.results(jax.block_until_ready(fast()))
+        first = time.perf_counter() - begin
+        rows.append((accuracy, error_of(found, exact), first, 1e3 * best_time(fast, 10)))
+    return tuple(rows)
+
+
+def at(accuracy):
+    return jb.load_scene("turbine_roller", {"contact.traction_accuracy": accuracy})
+
+
+def newton_rows(script, count):
+    scene, points = script.reference_roller(), script.operations(count)
+    exact = script.batched(scene, script.TIGHT)(points)[0]
+    rows = []
+    for tolerance in (1e-2, 1e-4, 1e-6, 1e-10):
+        options = jb.NewtonOptions(residual_tolerance=tolerance, step_tolerance=tolerance, inner_tolerance=1e-6)
+        run = script.batched(scene, options)
+        values, status, _ = run(points)
+        seconds = best_time(lambda run=run: run(points), 3) / count
+        rows.append((tolerance, error_of(values, exact), 1e3 * seconds, int(np.sum(np.asarray(status) != 0))))
+    return tuple(rows)
