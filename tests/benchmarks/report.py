@@ -60,7 +60,7 @@ def environment() -> dict[str, str]:
     )
     found = {
         "date": time.strftime("%Y-%m-%d"),
-        "machine": f"{model}, {len(os.sched_getaffinity(0)) if hasattr(os, 'sched_getaffinity') else os.cpu_count()} cores",
+        "machine": f"{model}, {os.cpu_count()} cores",
         "platform": os.environ.get("JAX_PLATFORMS") or "as jax chooses",
         "floats": "64 bits",
         "commit": asked.stdout.strip() or "unknown",

@@ -1,4 +1,4 @@
-"""Steady ball bearing: accuracy of the traction over the ellipses, the frictionless core, scipy on the same equations."""
+"""Steady ball bearing: accuracy of the traction over the ellipses, frictionless core, scipy on the same equations."""
 
 import time
 
