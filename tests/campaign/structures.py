@@ -1,0 +1,5 @@
+"""All structures of the campaign."""
+
+from campaign import rollers
+
+STRUCTURES = [*rollers.STRUCTURES]
