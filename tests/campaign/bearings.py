@@ -5,7 +5,6 @@ from typing import Any
 import jax
 import jax.numpy as jnp
 import numpy as np
-
 from campaign.draws import Numbers, Range, even, log
 from campaign.structure import Results, Twin
 
@@ -100,9 +99,7 @@ def energy(results: Results) -> dict[str, tuple[np.ndarray, float]]:
 def summary(solution: Any) -> jax.Array:
     """Loads, displacements, films and power in one number of order 1 to 100."""
     loads = solution.elements.load_outer
-    scale = jax.lax.stop_gradient(jnp.max(loads))
-    value = jnp.sum((loads / scale) ** 2) + jnp.log(jnp.sum(loads**2))
-    value += jnp.log(jnp.sum(solution.elements.load_inner ** 2))
+    value = jnp.log(jnp.sum(loads**4)) + jnp.log(jnp.sum(solution.elements.load_inner**2))
     for name in solution.ring_freedom:
         size = 1e3 if name.startswith("tilt") else 1e5
         value += size * getattr(solution.ring, name)
@@ -111,7 +108,7 @@ def summary(solution: Any) -> jax.Array:
         value += jnp.log(total)
     films = solution.elements.film_outer if hasattr(solution.elements, "film_outer") else None
     if films is not None:
-        heaviest = jax.lax.stop_gradient(jnp.argmax(loads))
+        heaviest = jnp.argmax(loads)
         value += jnp.log(films[heaviest])
     return value
 
@@ -194,9 +191,10 @@ CRAWL = Twin("at rest = hardly turning", _crawling, _crawl_error, 1e-6, base=at_
 SCALE = 1.7
 
 
-def scaled(lengths: tuple[str, ...], limit: float = 1e-7) -> Twin:
+def scaled(lengths: tuple[str, ...], floor: float = 0.0, limit: float = 1e-7) -> Twin:
     """All lengths times 1.7: with loads times its square, moments times its cube and speeds over it pressures and
-    angles stay, for solids obey no other length. **Arguments:** `lengths`: paths besides those of `geometry`."""
+    angles stay, for solids obey no other length. **Arguments:** `lengths`: paths besides those of `geometry`; `floor`:
+    loads that the package adds and does not scale, N."""
     powers = {**dict.fromkeys(lengths, 1), **dict.fromkeys(SPEEDS, -1)}
     powers |= {"operation.axial_load": 2, "operation.radial_load": 2, "operation.moment": 3}
     shapes = ("angle", "conformity")
@@ -210,11 +208,17 @@ def scaled(lengths: tuple[str, ...], limit: float = 1e-7) -> Twin:
 
     def error(numbers: Numbers, results: Results, others: Numbers, twin: Results) -> np.ndarray:
         worst = np.zeros(1)
-        for name, power in {"load_inner": 2, "load_outer": 2, "pressure_inner": 0, "pressure_outer": 0}.items():
-            here, there = results[f"elements.{name}"], twin[f"elements.{name}"] / SCALE**power
+        for name in ("load_inner", "load_outer", "pressure_inner", "pressure_outer"):
+            here, there = results[f"elements.{name}"], twin[f"elements.{name}"]
+            if name.startswith("load"):
+                there = there / SCALE**2
+            else:
+                # like loads: that of an unloaded contact is the pressure of 1 nN, which is not scaled
+                here, there = here**3, there**3
             worst = np.maximum(worst, largest(here - there) / np.maximum(largest(here), TINY))
         moved = largest(_displacement(results) - _displacement(twin) / SCALE)
-        return np.maximum(worst, moved / np.maximum(largest(_displacement(results)), 1e-7))
+        worst = np.maximum(worst, moved / np.maximum(largest(_displacement(results)), 1e-7))
+        return np.maximum(worst - floor / largest(results["elements.load_outer"]), 0.0)
 
     return Twin("all lengths scaled", change, error, limit)
 

@@ -6,9 +6,9 @@ from typing import Any, NamedTuple
 
 import jax
 import numpy as np
-
 from campaign.draws import Numbers, joined, pick, single
 from campaign.structure import Results, Structure, Twin, in_chunks, results_of
+
 from jaxbearing.numerics.status import Status
 
 GRADIENT_LIMIT = 1e-5

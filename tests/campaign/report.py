@@ -4,7 +4,6 @@ import json
 from pathlib import Path
 
 import numpy as np
-
 from campaign.judge import Verdict
 
 COLUMNS = (

@@ -8,9 +8,9 @@ from typing import Any, NamedTuple
 import jax
 import jax.numpy as jnp
 import numpy as np
+from campaign.draws import Numbers, Range, drawn
 
 import jaxbearing as jb
-from campaign.draws import Numbers, Range, drawn
 
 Results = dict[str, np.ndarray]
 """Path in the solution, "elements.load_inner", -> values of all cases."""

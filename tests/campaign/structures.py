@@ -1,5 +1,5 @@
 """All structures of the campaign."""
 
-from campaign import rollers
+from campaign import balls, contacts, rollers, tapered
 
-STRUCTURES = [*rollers.STRUCTURES]
+STRUCTURES = [*rollers.STRUCTURES, *balls.STRUCTURES, *tapered.STRUCTURES, *contacts.STRUCTURES]
