@@ -26,10 +26,8 @@ class Range(NamedTuple):
         if self.negative:
             below, above = rest / self.negative, (rest - self.negative) / (1.0 - self.negative)
             rest = np.where(rest < self.negative, below, above)
-        if self.log:
-            size = self.low * (self.high / self.low) ** rest
-        else:
-            size = self.low + (self.high - self.low) * rest
+        span = self.high - self.low
+        size = self.low * (self.high / self.low) ** rest if self.log else self.low + span * rest
         return np.where(unit < self.zero, 0.0, sign * size)
 
 
