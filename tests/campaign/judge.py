@@ -183,25 +183,25 @@ def refused_scenes(structure: Structure, numbers: Numbers) -> list[Breach]:
     return found
 
 
-def campaign(structure: Structure, cases: int, seed: int, chunk: int = 256, part: float = 0.1) -> Verdict:
+def campaign(structure: Structure, cases: int, seed: int, chunk: int = 64, part: float = 0.1) -> Verdict:
     """All invariants on random scenes of a structure; a `part` of them has twins and gradients."""
     start = time.time()
     units = np.random.default_rng(seed).random((cases, structure.size))
     numbers = structure.at(units)
     breaches = refused_scenes(structure, numbers)
-    _, results = solve_batch(structure, numbers, min(chunk, cases))
+    # one size for all: another one would be compiled anew
+    _, results = solve_batch(structure, numbers, chunk)
     breaches += judge_numbers(structure, numbers, results)
     balances, closure, worst = judge_balances(structure, numbers, results)
     statuses, counts = judge_status(structure, numbers, results)
     breaches += balances + statuses
     few = slice(0, max(2, round(part * cases)))
     sampled, theirs = pick(numbers, few), {path: values[few] for path, values in results.items()}
-    size = min(chunk, len(theirs["status"]))
     for twin in structure.twins:
-        breaches += judge_twin(structure, twin, sampled, theirs, size)
+        breaches += judge_twin(structure, twin, sampled, theirs, chunk)
     least = slice(0, max(2, round(0.3 * part * cases)))
     slopes, gradient = judge_gradient(
-        structure, pick(numbers, least), {path: values[least] for path, values in results.items()}, size, seed
+        structure, pick(numbers, least), {path: values[least] for path, values in results.items()}, chunk, seed
     )
     good = converged_cases(results)
     steps = results.get("iterations", np.zeros(cases))[good]

@@ -108,7 +108,7 @@ def roller_balances(scene: Any, n: Numbers, r: Results) -> dict[str, tuple[np.nd
     outward = mass[:, None] * pitch[:, None] / 2.0 * r["elements.orbital_speed"] ** 2
     found = energy(r) | {
         "ring carries the load": (np.abs(np.sum(inner * cosine, axis=1) - radial) / radial, 1e-9),
-        "a roller is in balance": (np.max(np.abs(outer - inner - outward) / (outer + 1e-9), axis=1), 1e-9),
+        "a roller is in balance": (np.max(np.abs(outer - inner - outward), axis=1) / (radial + np.max(outer, axis=1)), 1e-9),
     }
     if scene.tilts:
         return found
