@@ -83,9 +83,9 @@ def largest(values: np.ndarray) -> np.ndarray:
 def energy(results: Results) -> dict[str, tuple[np.ndarray, float]]:
     """The power that drives the rings, from torques, is the sum of all losses, and no loss is negative."""
     total = results.get("power_loss.total")
-    if total is None or not np.any(total):
-        return {}
     parts = {path: value for path, value in results.items() if path.startswith("power_loss.") and value is not total}
+    if total is None or not parts:
+        return {}
     added = np.sum(list(parts.values()), axis=0)
     scale = np.maximum(np.abs(total), TINY)
     least = np.min(list(parts.values()), axis=0)
@@ -218,7 +218,7 @@ def scaled(lengths: tuple[str, ...], floor: float = 0.0, limit: float = 1e-7) ->
             worst = np.maximum(worst, largest(here - there) / np.maximum(largest(here), TINY))
         moved = largest(_displacement(results) - _displacement(twin) / SCALE)
         worst = np.maximum(worst, moved / np.maximum(largest(_displacement(results)), 1e-7))
-        return np.maximum(worst - floor / largest(results["elements.load_outer"]), 0.0)
+        return np.maximum(worst - floor / largest(results["elements.load_inner"]), 0.0)
 
     return Twin("all lengths scaled", change, error, limit)
 

@@ -1,7 +1,8 @@
 """Random two-disk machines and lubricated line contacts.
 
 The films of line contacts are asked for M = 3 to 1000, as the documentation states, with the inlet that a light load
-needs; below M = 3 the solve must refuse. Traction beyond 1.8 GPa is extrapolated, and said so: it is drawn to 2.5 GPa.
+needs; below M = 3 the solve must refuse. A mesh of 101 nodes is left out above M = 500: it is too coarse for the edges of
+such a contact, and Newton's iteration fails on every second one above M = 600 (with 201 and 401 nodes on none). Traction beyond 1.8 GPa is extrapolated, and said so: it is drawn to 2.5 GPa.
 """
 
 import functools
@@ -309,10 +310,10 @@ STRUCTURES = [
         },
         twins=(EXCHANGED, HOTTER),
     ),
-    line("incompressible", {"contact.nodes": "101", "contact.inlet": "4"}, log(25.0, 1000.0), small=True),
+    line("incompressible", {"contact.nodes": "101", "contact.inlet": "4"}, log(25.0, 500.0), small=True),
     line(
         "compressible, Mobil Jet II",
-        {"contact.nodes": "101", "contact.compressible": "true", "contact.inlet": "4", "oil.name": "mobil_jet_ii"},
+        {"contact.nodes": "201", "contact.compressible": "true", "contact.inlet": "4", "oil.name": "mobil_jet_ii"},
         log(25.0, 1000.0),
     ),
     line(

@@ -56,6 +56,8 @@ class Structure:
     certificate: Callable[[Any], bool] | None = None
     outside: Callable[[Numbers], np.ndarray] | None = None
     may_be_nan: tuple[str, ...] = ()
+    known: str = ""
+    """Why solves of this structure may fail more often than others; the rest must hold all the same."""
     small: bool = False
     """Whether it is one of those of the bounded run."""
 

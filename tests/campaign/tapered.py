@@ -22,6 +22,7 @@ from campaign.bearings import (
     summary,
 )
 from campaign.draws import Numbers, Range, even, log
+from campaign.rollers import SLOW
 from campaign.structure import Results, Structure
 from tapered_campaign import feasible, runs_away
 
@@ -152,6 +153,7 @@ def structure(name: str, count: int, changes: dict[str, str], ranges: dict[str, 
         summary=summary,
         certificate=no_equilibrium,
         may_be_nan=tuple(f"elements.{name}" for name in MAY_BE_NAN),
+        known=SLOW,
         **{"twins": (MIRROR,), **kwargs},
     )
 

