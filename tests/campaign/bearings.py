@@ -218,7 +218,8 @@ def scaled(lengths: tuple[str, ...], floor: float = 0.0, limit: float = 1e-7) ->
             worst = np.maximum(worst, largest(here - there) / np.maximum(largest(here), TINY))
         moved = largest(_displacement(results) - _displacement(twin) / SCALE)
         worst = np.maximum(worst, moved / np.maximum(largest(_displacement(results)), 1e-7))
-        return np.maximum(worst - floor / largest(results["elements.load_inner"]), 0.0)
+        heaviest = largest(results["elements.load_inner"])
+        return np.where(heaviest < 100.0 * floor, 0.0, worst - floor / heaviest)
 
     return Twin("all lengths scaled", change, error, limit)
 

@@ -1,8 +1,9 @@
 """Random two-disk machines and lubricated line contacts.
 
 The films of line contacts are asked for M = 3 to 1000, as the documentation states, with the inlet that a light load
-needs; below M = 3 the solve must refuse. A mesh of 101 nodes is left out above M = 500: it is too coarse for the edges of
-such a contact, and Newton's iteration fails on every second one above M = 600 (with 201 and 401 nodes on none). Traction beyond 1.8 GPa is extrapolated, and said so: it is drawn to 2.5 GPa.
+needs; below M = 3 the solve must refuse. A mesh of 101 nodes is left out above M = 500: it is too coarse for the edges
+of such a contact, and Newton's iteration fails on every second one above M = 600 (with 201 and 401 nodes on none).
+Traction beyond 1.8 GPa is extrapolated, and said so: it is drawn to 2.5 GPa.
 """
 
 import functools
