@@ -223,6 +223,7 @@ def structure(
     built = functools.cache(lambda: jb.load_scene(base, {**small, **changes}))
     return Structure(
         name=f"ball: {name}",
+        dear="sliding" in name,
         kind="ball",
         load=built,
         ranges={**DIMENSIONS, **OPERATION, **STEELS, **ranges},

@@ -165,6 +165,7 @@ def structure(name: str, count: int, changes: dict[str, str], ranges: dict[str, 
     twins = rest.pop("twins", (MIRROR,))
     return Structure(
         name=f"roller: {name}",
+        dear="guiding" in ranges or "tilt" in ranges,
         kind="cylindrical roller",
         load=built,
         ranges={**DIMENSIONS, **OPERATION, **STEELS, **ranges},

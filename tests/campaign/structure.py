@@ -56,6 +56,8 @@ class Structure:
     certificate: Callable[[Any], bool] | None = None
     outside: Callable[[Numbers], np.ndarray] | None = None
     may_be_nan: tuple[str, ...] = ()
+    dear: bool = False
+    """Whether its scenes take so long that it gets a quarter of the share of others."""
     known: str = ""
     """Why solves of this structure may fail more often than others; the rest must hold all the same."""
     small: bool = False

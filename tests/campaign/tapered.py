@@ -145,6 +145,7 @@ def structure(name: str, count: int, changes: dict[str, str], ranges: dict[str, 
     built = functools.cache(lambda: jb.load_scene("tapered_example", {**small, **changes}))
     return Structure(
         name=f"tapered: {name}",
+        dear=True,
         kind="tapered roller",
         load=built,
         ranges={**DIMENSIONS, **OPERATION, **STEELS, **ranges},

@@ -3,7 +3,7 @@
 import pytest
 from campaign import report
 from campaign.judge import Verdict, campaign
-from campaign.structures import STRUCTURES
+from campaign.structures import STRUCTURES, shares
 
 LEAST_CONVERGED = 0.995
 """Part of the scenes that have an equilibrium."""
@@ -27,7 +27,7 @@ def test_random_scenes(structure, verdicts, request):
     if not cases:
         pytest.skip("the long run: give --campaign CASES")
     seed = request.config.getoption("--campaign-seed")
-    found = campaign(structure, -(-cases // len(STRUCTURES)), seed)
+    found = campaign(structure, shares(cases)[structure.name], seed)
     verdicts.append(found)
     unexpected = [breach for breach in found.breaches if breach.rule != "converges"]
     assert not unexpected, unexpected[:3]
