@@ -5,8 +5,8 @@ is drawn to it from any side; no certificate is accepted. Left out:
 
 - balls that slide under a radial load without a cage: the package says that it finds no steady state;
 - shares of the gyroscopic couple that an unloaded contact cannot carry (`kinematics.gyroscopic` = shared);
-- angular contact bearings under less than the 1.22 F_r tan(alpha) of axial load that keeps half of the balls loaded: the
-  inner ring lifts off on the far side by more than its groove is deep, and the full circle of the model is no groove;
+- angular contact bearings under less axial load than the 1.22 F_r tan(alpha) that keeps half of the balls loaded: on
+  the far side the inner ring lifts off by more than its groove is deep, and the full circle of the model is no groove;
 - lubricated bearings below the least load of makers' catalogues, a hundredth of the capacity, or below the
   centrifugal force of the balls, which are then thrown off the inner race and skid: every third of those fails, and
   says so.
