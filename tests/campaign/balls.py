@@ -238,7 +238,7 @@ ELASTIC = (MIRROR, HEAVIER, CRAWL, scaled((), floor=0.05))
 NO_CAGE = {"cage": "none"}
 STRUCTURES = [
     structure("dry, axial", "angular_contact_218", 16, {}, {}, twins=ELASTIC),
-    structure("dry, combined, tilt free", "deep_groove_6205", 9, {}, {}, twins=ELASTIC, small=True),
+    structure("dry, combined, tilt free", "deep_groove_6205", 9, {}, {}, twins=ELASTIC),
     structure(
         "dry, radial, held",
         "deep_groove_6205",
@@ -287,7 +287,7 @@ STRUCTURES = [
         OIL,
         twins=(MIRROR, HOTTER),
     ),
-    structure("sliding, axial", "turbine_ball", 14, {"drag": "none", **NO_CAGE}, OIL, small=True),
+    structure("sliding, axial", "turbine_ball", 14, {"drag": "none", **NO_CAGE}, OIL),
     structure("sliding, axial, cage and drag", "turbine_ball", 12, {}, {**OIL, **CAGE}),
     structure(
         "sliding, axial, Heathcote, Hamrock-Dowson",

@@ -202,7 +202,7 @@ STRUCTURES = [
         without=("cage", "flange", "drag"),
         twins=(MIRROR, HOTTER),
     ),
-    structure("skidding, Ree-Eyring", 9, MEAN, LUBRICATED, small=True),
+    structure("skidding, Ree-Eyring", 9, MEAN, LUBRICATED),
     structure(
         "outer guided, flanges, rails",
         15,

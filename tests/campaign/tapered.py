@@ -169,7 +169,7 @@ DRY = {"oil": "none", "contact": "none", "drag": "none"}
 ELASTIC = (MIRROR, CRAWL, HEAVIER, scaled(("profile.shape.drop",), floor=1e-6))
 STRUCTURES = [
     structure("dry, axial", 17, {**DRY, "operation.radial_load": "none"}, {}, twins=ELASTIC),
-    structure("dry, radial, held", 12, {**DRY, "operation.misalignment": "0 mrad"}, {}, twins=ELASTIC, small=True),
+    structure("dry, radial, held", 12, {**DRY, "operation.misalignment": "0 mrad"}, {}, twins=ELASTIC),
     structure("dry, moment", 10, {**DRY, "operation.moment": "0 N*m"}, {}, twins=ELASTIC),
     structure(
         "dry, moment, logarithmic",
