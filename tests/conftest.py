@@ -24,6 +24,15 @@ jax.config.update("jax_compilation_cache_dir", str(_CACHE))
 jax.config.update("jax_persistent_cache_min_compile_time_secs", 0.5)
 
 
+def pytest_addoption(parser):
+    """Options of the long campaign; here because options of folders below are read too late."""
+    parser.addoption(
+        "--campaign", type=int, default=0, metavar="N", help="random scenes of tests/campaign, all together"
+    )
+    parser.addoption("--campaign-seed", type=int, default=0, help="of the random scenes")
+    parser.addoption("--campaign-file", type=Path, default=Path("campaign.json"), help="for the cases that fail")
+
+
 def pytest_configure():
     """Most of the time of the tests is spent in XLA: they compile quickly, but for those that ask for `optimized`."""
     jax.config.update("jax_disable_most_optimizations", True)

@@ -57,14 +57,18 @@ def solve_points(points, free):
     return [np.asarray(a) for a in jax.jit(lambda p: jax.lax.map(one, p))(points)]
 
 
-def feasible(point, free):
+def scene_of(point, free):
+    extra = {"moment": point["moment"]} if free else {"misalignment": point["misalignment"]}
+    scene = tapered(point["axial_load"], point["radial_load"], 0.0, **extra)
+    return scene.at_operation(inner_speed=point["inner_speed"])
+
+
+def feasible(scene):
     """Whether forces of contacts that only push can balance all loads: linear programming, no stiffness in it.
 
     A line contact gives any load Q with a moment between 0 and l Q about its big end.
     """
-    extra = {"moment": point["moment"]} if free else {"misalignment": point["misalignment"]}
-    scene = tapered(point["axial_load"], point["radial_load"], 0.0, **extra)
-    system = build_tapered(scene.at_operation(inner_speed=point["inner_speed"]))
+    system = build_tapered(scene)
     n, d = system.held.shape[1], len(system.freedoms)
     zero = np.zeros((3, n))
     columns, units = np.asarray(system.columns), np.asarray(system.units())
@@ -81,7 +85,7 @@ def feasible(point, free):
     for f in range(d):
         moved = approaches(zero, columns[f])
         for j in range(n):
-            matrix[3 * n + f, 5 * j : 5 * j + 5] = moved[:, j]
+            matrix[3 * n + f, 5 * j : 5 * j + 5] = system.multiplicity * moved[:, j]
     unloaded = system.balance(system._loaded(-jnp.ones((2, n)), jnp.zeros((2, n)), -jnp.ones(n)))
     rollers = np.broadcast_to(np.asarray(unloaded), (3, n)).T.ravel()
     # balance = contact forces' part + unloaded part = 0; sign: contacts enter as + d approach / d unknown
@@ -91,13 +95,16 @@ def feasible(point, free):
     return found.status == 0
 
 
-def runs_away(point):
-    """Whether the moment is beyond what the cone held at a tilt of +-0.1 rad asks for: that moment grows with the tilt
-    (the potential is convex), so that a balance asks for more tilt still. Returns no where a held solve fails."""
-    loads = point["axial_load"], point["radial_load"], 0.0
+def runs_away(free):
+    """Whether a cone that is free to tilt finds no rest within +-0.1 rad: its moment is beyond what the cone held at
+    those tilts asks for. That moment grows with the tilt (the potential is convex), so that a balance asks for more
+    tilt still. Returns no for a cone that is held, and where a held solve fails."""
+    moment = free.operation.moment
+    if moment is None:
+        return False
     reactions = []
     for tilt in (-MOST_TILT, MOST_TILT):
-        scene = tapered(*loads, misalignment=tilt).at_operation(inner_speed=point["inner_speed"])
+        scene = free.at_operation(moment=None, misalignment=tilt)
         system = build_tapered(scene)
         solution = jb.solve(scene, throw=False)
         if not solution.converged:
@@ -107,7 +114,7 @@ def runs_away(point):
         state = system.at(ArrowPoint(place, jnp.stack([solution.ring.axial, solution.ring.radial]) / 1e-5))
         # conjugate to t, which is minus the tilt
         reactions.append(-float(jnp.sum(system.ring_force(state)[2] * jnp.cos(e.azimuth))))
-    return not reactions[0] <= point["moment"] <= reactions[1]
+    return not reactions[0] <= float(moment) <= reactions[1]
 
 
 def campaign(cases, free, seed=0):
@@ -117,6 +124,7 @@ def campaign(cases, free, seed=0):
     seconds = time.time() - start
     solved, none = status == Status.CONVERGED, status == Status.NO_EQUILIBRIUM
     single = lambda i: {name: float(value[i]) for name, value in points.items()}
+    scene = lambda i: scene_of(single(i), free)
     return {
         "points": points,
         "solved": solved,
@@ -126,8 +134,8 @@ def campaign(cases, free, seed=0):
         "residual": residual,
         "finite": finite,
         "seconds": seconds,
-        "contradicted": [i for i in np.flatnonzero(none) if feasible(single(i), free) and not runs_away(single(i))],
-        "ran away": [i for i in np.flatnonzero(none) if feasible(single(i), free)],
+        "contradicted": [i for i in np.flatnonzero(none) if feasible(scene(i)) and not runs_away(scene(i))],
+        "ran away": [i for i in np.flatnonzero(none) if feasible(scene(i))],
         "single": single,
     }
 
@@ -144,7 +152,7 @@ if __name__ == "__main__":
     print(f"{out['seconds']:.1f} s with compilation")
     for i in np.flatnonzero(out["other"])[:10]:
         point = out["single"](i)
-        print("other:", point, feasible(point, free))
+        print("other:", point, feasible(scene_of(point, free)))
     print(f"balances beyond a tilt of {MOST_TILT} rad: {len(out['ran away'])}")
     for i in out["contradicted"][:5]:
         print("contradicted:", out["single"](i))

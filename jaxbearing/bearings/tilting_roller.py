@@ -15,6 +15,7 @@ import dataclasses
 from typing import NamedTuple
 
 import equinox as eqx
+import jax
 import jax.numpy as jnp
 from jaxtyping import Array, Float
 
@@ -23,6 +24,11 @@ from ..numerics.arrow import ArrowPoint
 from ..numerics.convex import AbstractConvexArrow, Minimum, anchored, find_minimum
 from .roller_loads import LENGTH_UNIT
 from .tapered_system import ANCHOR, FARTHEST, LOAD_FLOOR, LONGEST_STEP, MOST_TILT, START_TOLERANCE
+
+SLOW = 1e-2
+"""Centrifugal force over a roller's share of the load below which a bearing is solved at rest first."""
+HALVINGS = 60
+"""Of the approach of a roller that only its centrifugal force holds."""
 
 
 class TiltingState(NamedTuple):
@@ -107,9 +113,47 @@ class TiltingRollers(AbstractConvexArrow):
         return LENGTH_UNIT * jnp.sum(self.ring_load * globals_)
 
     def started(self) -> tuple["TiltingRollers", Minimum]:
-        """These equations with the minimum of the potential as first guess, and how it was found."""
-        found = find_minimum(self, tolerance=START_TOLERANCE)
+        """These equations with the minimum of the potential as first guess, and how it was found.
+
+        Where the bearing turns slowly, the search begins from the bearing at rest, with the rollers that carry nothing
+        there seated on the outer race: a centrifugal force that is next to nothing asks for approaches that are, and
+        the search does not find such a place from afar.
+        """
+        posed = jax.lax.stop_gradient(self)
+        slow = posed.centrifugal < SLOW * posed.load_scale() / posed.azimuth.size
+        resting = dataclasses.replace(posed, centrifugal=jnp.where(slow, 0.0, posed.centrifugal))
+
+        def search(carry: tuple[ArrowPoint, Array], centrifugal: Array) -> tuple[tuple[ArrowPoint, Array], Minimum]:
+            guess, steps = carry
+            found = find_minimum(
+                dataclasses.replace(posed, guess=guess, centrifugal=centrifugal), tolerance=START_TOLERANCE
+            )
+            seated = posed.seated(found.point)
+            guess = ArrowPoint(*(jnp.where(slow, new, old) for new, old in zip(seated, found.point, strict=True)))
+            return (guess, steps + found.steps), found
+
+        first = (resting.initial(), jnp.asarray(0))
+        both = jnp.stack([resting.centrifugal, posed.centrifugal])
+        (_, steps), founds = jax.lax.scan(search, first, both)
+        found = jax.tree.map(lambda leaf: leaf[-1], founds)._replace(steps=steps)
         return dataclasses.replace(self, guess=found.point), found
+
+    def seated(self, point: ArrowPoint) -> ArrowPoint:
+        """The point with each roller that does not reach the inner race seated on the outer one, held there by its
+        centrifugal force; a profile is the same on both sides of the middle, so that it does not tilt."""
+        length, zero = jnp.asarray(self.line.length), jnp.zeros(())
+        position = jnp.linspace(0.0, 1.0, 101)
+        high = (self.centrifugal / (self.line.stiffness * length)) ** 0.9 + jnp.max(self.line.drop(position))
+
+        def halved(_: Array, ends: tuple[Array, Array]) -> tuple[Array, Array]:
+            middle = 0.5 * (ends[0] + ends[1])
+            heavy = self.line.load_and_moment(middle, zero)[0] > self.centrifugal
+            return jnp.where(heavy, ends[0], middle), jnp.where(heavy, middle, ends[1])
+
+        depth = jax.lax.fori_loop(0, HALVINGS, halved, (zero, high))[1]
+        flat = jnp.stack([depth, zero])[:, None] / self.units() * jnp.ones_like(point.elements)
+        alone = self.at(ArrowPoint(flat, point.globals)).load[0] == 0.0
+        return ArrowPoint(jnp.where(alone, flat, point.elements), point.globals)
 
     def at(self, point: ArrowPoint) -> TiltingState:
         shape = (point.globals.shape[0], point.elements.shape[1])

@@ -46,10 +46,10 @@ def section(quick=False):
     facts["failed"] = float(sum(row[3] for row in batches))
     return Section(
         "Cage dynamics",
-        "The bearing of Table 16 with the reference laws, 30 rollers, errors against dopri8 at 1e-11. The rivals get our "
-        "jitted vector field (and Jacobian) without the integrals of the works. 'Times' is the time of scipy's fastest "
-        "run of no larger error, interpolated between its tolerances, over ours. Behind shocks the motion is chaotic: an "
-        "error of several um is a matter of luck, ours and scipy's.",
+        "The bearing of Table 16 with the reference laws, 30 rollers, errors against dopri8 at 1e-11. The rivals get "
+        "our jitted vector field (and Jacobian) without the integrals of the works. 'Times' is the time of scipy's "
+        "fastest run of no larger error, interpolated between its tolerances, over ours. Behind shocks the motion is "
+        "chaotic: an error of several um is a matter of luck, ours and scipy's.",
         (
             Table(
                 "One run:",

@@ -22,8 +22,8 @@ def section(quick=False):
     )
     return Section(
         "Film of a line contact",
-        "The source's contact 1, steady from cold, against the converged film; a Newton step beside `jax.jacfwd` and LAPACK "
-        "on the same equations; the contact stopped within 10 ms.",
+        "The source's contact 1, steady from cold, against the converged film; a Newton step beside `jax.jacfwd` and "
+        "LAPACK on the same equations; the contact stopped within 10 ms.",
         (
             Table(
                 "Steady:",

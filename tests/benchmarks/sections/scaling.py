@@ -25,9 +25,7 @@ def section(quick=False):
     elements = ELEMENTS[1:3] if quick else ELEMENTS
     tables, facts = [], {}
     for kind, scene in kinds().items():
-        rows = []
-        for n in elements:
-            rows.append((n, *timed(scaled(scene, kind, n))))
+        rows = [(n, *timed(scaled(scene, kind, n))) for n in elements]
         large = [row for row in rows if row[0] >= 30]
         exponent = float(np.polyfit(np.log([row[0] for row in large]), np.log([row[1] for row in large]), 1)[0])
         facts[f"exponent over elements, {kind}"] = exponent

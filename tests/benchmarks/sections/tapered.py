@@ -21,8 +21,8 @@ def section(quick=False):
     )
     return Section(
         "Misaligned tapered roller bearing",
-        "`tapered_example` with 2 mrad between its rings, without friction. Straight rollers have closed forms of load and "
-        "moment; laminae, which profiles need, converge to them.",
+        "`tapered_example` with 2 mrad between its rings, without friction. Straight rollers have closed forms of load "
+        "and moment; laminae, which profiles need, converge to them.",
         (
             Table(
                 "Errors of a contact's load and moment, and of the largest load of the bearing:",

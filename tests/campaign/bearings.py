@@ -1,0 +1,239 @@
+"""What the bearings of the campaign have in common: oils, rings' speeds, energy, twins."""
+
+from typing import Any
+
+import jax
+import jax.numpy as jnp
+import numpy as np
+from campaign.draws import Numbers, Range, even, log
+from campaign.structure import Results, Twin
+
+RPM = 2.0 * np.pi / 60.0
+LITRE_PER_HOUR = 1e-3 / 3600.0
+CELSIUS = 273.15
+TINY = 1e-300
+
+OPERATION: dict[str, Range] = {
+    "speed": even(0.0, 1.0, negative=0.3),
+    "both": even(0.0, 1.0),
+    "outer": even(-1.0, 0.9),
+}
+"""`speed`: logarithm of the inner ring's; `both`: above 0.6 the outer ring turns too, by `outer` of the inner."""
+OIL: dict[str, Range] = {
+    "temperature": even(CELSIUS - 20.0, CELSIUS + 200.0),
+    "grade": log(0.2, 5.0),
+    "stress": log(0.5, 2.0),
+    "modulus": log(0.5, 2.0),
+}
+"""Temperature, K; viscosity, shear stress and shear modulus over those of the oil of the catalogue."""
+STEELS: dict[str, Range] = {
+    "rings_modulus": even(190e9, 220e9),
+    "elements_modulus": even(190e9, 320e9),
+    "poisson": even(0.24, 0.32),
+    "density": even(3200.0, 8000.0),
+}
+"""From silicon nitride to steel."""
+
+
+def speeds(v: Numbers, pitch: np.ndarray, low: float, high: float, rest: float = 0.0) -> Numbers:
+    """Speeds of the rings, rad/s: from `low`, rpm, to `high`, the product of rpm and pitch diameter in mm; a part
+    `rest` at rest. Where both turn they do so against each other by at least `low`."""
+    share = np.abs(v["speed"])
+    moving = share >= rest
+    share = np.where(moving, (share - rest) / (1.0 - rest), 0.0)
+    both = (v["both"] > 0.6) & moving
+    least = np.where(both, 10.0 * low, low)
+    most = np.maximum(high / (1e3 * pitch), 2.0 * least)
+    inner = np.sign(v["speed"]) * least * (most / least) ** share * RPM * moving
+    return {"operation.inner_speed": inner, "operation.outer_speed": np.where(both, v["outer"] * inner, 0.0)}
+
+
+def oil(v: Numbers, scene: Any) -> Numbers:
+    """Numbers of the oil, those of the scene's own scaled."""
+    law = scene.oil
+    viscosity = type(law.viscosity).__name__
+    names = {"ModifiedWLF": ("glass_viscosity",), "WaltherRoelands": ("viscosity_1", "viscosity_2")}[viscosity]
+    changes = {"operation.oil_temperature": v["temperature"]}
+    for name in names:
+        value = float(getattr(law.viscosity, name))
+        changes[f"oil.viscosity.{name}"] = value * v["grade"]
+        if hasattr(law.pressure_viscosity, "viscosity"):
+            # the coefficient is integrated from a copy of the law
+            changes[f"oil.pressure_viscosity.viscosity.{name}"] = value * v["grade"]
+    if law.rheology is not None:
+        changes["oil.rheology.stress"] = float(law.rheology.stress) * v["stress"]
+        changes["oil.rheology.shear_modulus"] = float(law.rheology.shear_modulus) * v["modulus"]
+    return changes
+
+
+def solids(v: Numbers, elements: str) -> Numbers:
+    return {
+        "materials.rings.youngs_modulus": v["rings_modulus"],
+        f"materials.{elements}.youngs_modulus": v["elements_modulus"],
+        f"materials.{elements}.poisson_ratio": v["poisson"],
+        f"materials.{elements}.density": v["density"],
+    }
+
+
+def largest(values: np.ndarray) -> np.ndarray:
+    """Over all but the axis of the cases."""
+    return np.max(np.abs(values.reshape(len(values), -1)), axis=1)
+
+
+def energy(results: Results) -> dict[str, tuple[np.ndarray, float]]:
+    """The power that drives the rings, from torques, is the sum of all losses, and no loss is negative."""
+    total = results.get("power_loss.total")
+    parts = {path: value for path, value in results.items() if path.startswith("power_loss.") and value is not total}
+    if total is None or not parts:
+        return {}
+    added = np.sum(list(parts.values()), axis=0)
+    scale = np.maximum(np.abs(total), TINY)
+    least = np.min(list(parts.values()), axis=0)
+    return {
+        "drive power = total loss": (np.abs(results["drive_power"] - total) / scale, 1e-8),
+        "losses add up": (np.abs(added - total) / scale, 1e-12),
+        "no negative loss": (np.maximum(-least, 0.0) / scale, 1e-9),
+    }
+
+
+def summary(solution: Any) -> jax.Array:
+    """Loads, displacements, films and power in one number of order 1 to 100."""
+    loads = solution.elements.load_outer
+    value = jnp.log(jnp.sum(loads**4)) + jnp.log(jnp.sum(solution.elements.load_inner**2))
+    for name in solution.ring_freedom:
+        size = 1e3 if name.startswith("tilt") else 1e5
+        value += size * getattr(solution.ring, name)
+    total = solution.power_loss.total
+    if total is not None and solution.drive_power is not None and solution.cage is not None:
+        value += jnp.log(total)
+    films = solution.elements.film_outer if hasattr(solution.elements, "film_outer") else None
+    if films is not None:
+        heaviest = jnp.argmax(loads)
+        value += jnp.log(films[heaviest])
+    return value
+
+
+# -- twins ------------------------------------------------------------------------------------------------------------
+
+SPEEDS = ("operation.inner_speed", "operation.outer_speed")
+
+
+def _mirrored(numbers: Numbers) -> Numbers:
+    return {name: -value if name in SPEEDS else value for name, value in numbers.items()}
+
+
+def _mirror_error(numbers: Numbers, results: Results, others: Numbers, twin: Results) -> np.ndarray:
+    loads = results["elements.load_outer"]
+    turned = -np.arange(loads.shape[1]) % loads.shape[1]
+    error = np.zeros(len(loads))
+    for name in ("load_inner", "load_outer", "pressure_inner", "film_inner", "film_outer"):
+        here, there = results.get(f"elements.{name}"), twin.get(f"elements.{name}")
+        if here is None or there is None:
+            continue
+        here, there = np.nan_to_num(here), np.nan_to_num(there)
+        error = np.maximum(error, largest(here - there[:, turned]) / np.maximum(largest(here), TINY))
+    if "power_loss.total" in results:
+        total = results["power_loss.total"]
+        error = np.maximum(error, np.abs(twin["power_loss.total"] - total) / np.maximum(np.abs(total), 1e-12))
+    for name in ("radial", "axial"):
+        error = np.maximum(error, np.abs(results[f"ring.{name}"] - twin[f"ring.{name}"]) / 1e-6)
+    return error
+
+
+MIRROR = Twin("turned the other way", _mirrored, _mirror_error, 1e-7)
+"""All speeds reversed: the same loads, films and power at the rolling elements on the other side of the load line."""
+
+
+def at_rest(numbers: Numbers) -> Numbers:
+    return {name: np.zeros_like(value) if name in SPEEDS else value for name, value in numbers.items()}
+
+
+def _crawling(numbers: Numbers) -> Numbers:
+    return {**at_rest(numbers), "operation.inner_speed": np.full_like(numbers["operation.inner_speed"], 1e-3)}
+
+
+def _displacement(results: Results) -> np.ndarray:
+    return np.stack([results[f"ring.{name}"] for name in ("axial", "radial")], axis=1)
+
+
+def _crawl_error(numbers: Numbers, results: Results, others: Numbers, twin: Results) -> np.ndarray:
+    loads = results["elements.load_inner"]
+    error = largest(loads - twin["elements.load_inner"]) / np.maximum(largest(loads), TINY)
+    moved = largest(_displacement(results) - _displacement(twin))
+    return np.maximum(error, moved / np.maximum(largest(_displacement(results)), 1e-7))
+
+
+LOADS = ("operation.axial_load", "operation.radial_load", "operation.moment")
+
+
+def _heavier(numbers: Numbers) -> Numbers:
+    return {name: 1.2 * value if name in LOADS else value for name, value in at_rest(numbers).items()}
+
+
+def _work(numbers: Numbers, results: Results) -> np.ndarray:
+    """Loads times displacements, J."""
+    pairs = zip(LOADS, ("axial", "radial", "tilt"), strict=True)
+    return sum((numbers[load] * results[f"ring.{name}"] for load, name in pairs if load in numbers), np.zeros(1))
+
+
+def _softer(numbers: Numbers, results: Results, others: Numbers, twin: Results) -> np.ndarray:
+    """How far the work falls; an elastic bearing gives way in the direction of its load: the operator is monotone."""
+    before, after = _work(numbers, results), _work(numbers, twin)
+    lighter = largest(results["elements.load_inner"]) - largest(twin["elements.load_inner"])
+    scale = np.maximum(np.abs(before), np.abs(after))
+    single = sum(name in numbers for name in LOADS) == 1
+    unloaded = lighter / np.maximum(largest(results["elements.load_inner"]), TINY) if single else np.zeros(1)
+    return np.maximum((before - after) / np.maximum(scale, TINY), unloaded)
+
+
+HEAVIER = Twin("more load, more deflection", _heavier, _softer, 1e-9, base=at_rest)
+CRAWL = Twin("at rest = hardly turning", _crawling, _crawl_error, 1e-6, base=at_rest)
+SCALE = 1.7
+
+
+def scaled(lengths: tuple[str, ...], floor: float = 0.0, limit: float = 1e-7) -> Twin:
+    """All lengths times 1.7: with loads times its square, moments times its cube and speeds over it pressures and
+    angles stay, for solids obey no other length. **Arguments:** `lengths`: paths besides those of `geometry`; `floor`:
+    loads that the package adds and does not scale, N."""
+    powers = {**dict.fromkeys(lengths, 1), **dict.fromkeys(SPEEDS, -1)}
+    powers |= {"operation.axial_load": 2, "operation.radial_load": 2, "operation.moment": 3}
+    shapes = ("angle", "conformity")
+
+    def change(numbers: Numbers) -> Numbers:
+        power = {
+            name: 1 if name.startswith("geometry.") and not any(s in name for s in shapes) else powers.get(name, 0)
+            for name in numbers
+        }
+        return {name: value * SCALE ** power[name] for name, value in numbers.items()}
+
+    def error(numbers: Numbers, results: Results, others: Numbers, twin: Results) -> np.ndarray:
+        worst = np.zeros(1)
+        for name in ("load_inner", "load_outer", "pressure_inner", "pressure_outer"):
+            here, there = results[f"elements.{name}"], twin[f"elements.{name}"]
+            if name.startswith("load"):
+                there = there / SCALE**2
+            else:
+                # like loads: that of an unloaded contact is the pressure of 1 nN, which is not scaled
+                here, there = here**3, there**3
+            worst = np.maximum(worst, largest(here - there) / np.maximum(largest(here), TINY))
+        moved = largest(_displacement(results) - _displacement(twin) / SCALE)
+        worst = np.maximum(worst, moved / np.maximum(largest(_displacement(results)), 1e-7))
+        heaviest = largest(results["elements.load_inner"])
+        return np.where(heaviest < 100.0 * floor, 0.0, worst - floor / heaviest)
+
+    return Twin("all lengths scaled", change, error, limit)
+
+
+def _hotter(numbers: Numbers) -> Numbers:
+    return {**numbers, "operation.oil_temperature": numbers["operation.oil_temperature"] + 10.0}
+
+
+def _thicker(numbers: Numbers, results: Results, others: Numbers, twin: Results) -> np.ndarray:
+    """How much thicker the hotter film of the most loaded element is."""
+    rows, heaviest = np.arange(len(results["status"])), np.argmax(results["elements.load_outer"], axis=1)
+    here, there = (r["elements.film_outer"][rows, heaviest] for r in (results, twin))
+    return (there - here) / here
+
+
+HOTTER = Twin("hotter oil, thinner film", _hotter, _thicker, 0.0)
+"""At the same speeds and without inlet heating, which a thinner oil has less of."""
