@@ -1,9 +1,14 @@
-"""Test settings: float64, strict shapes and dtypes, run-time checked annotations, warnings are errors."""
+"""Test settings: float64, strict shapes and dtypes, run-time checked annotations, warnings are errors.
+
+On the CPU, unless JAX_PLATFORMS says otherwise: `JAX_PLATFORMS=cuda python -m pytest`.
+"""
 
 import os
 from pathlib import Path
 
 os.environ.setdefault("JAX_PLATFORMS", "cpu")
+# the commands that tests start share a GPU with them
+os.environ.setdefault("XLA_PYTHON_CLIENT_PREALLOCATE", "false")
 
 from jaxtyping import install_import_hook
 
@@ -34,7 +39,10 @@ def pytest_addoption(parser):
 
 
 def pytest_configure():
-    """Most of the time of the tests is spent in XLA: they compile quickly, but for those that ask for `optimized`."""
+    """Most of the time of the tests is spent in XLA: on a CPU they compile quickly, but for those that ask for
+    `optimized`."""
+    if os.environ["JAX_PLATFORMS"] != "cpu":
+        return
     jax.config.update("jax_disable_most_optimizations", True)
     # a flag that is not known ends the process
     if jaxlib.__version__.startswith("0.10."):
@@ -56,6 +64,7 @@ def pytest_runtest_teardown(item, nextitem):
 @pytest.fixture
 def optimized():
     """Programs as users run them."""
+    before = jax.config.read("jax_disable_most_optimizations")
     jax.config.update("jax_disable_most_optimizations", False)
     yield
-    jax.config.update("jax_disable_most_optimizations", True)
+    jax.config.update("jax_disable_most_optimizations", before)

@@ -1,5 +1,8 @@
 """The one error of curve files: which file, line and column, what was found, what is expected, what is near."""
 
+from typing import NoReturn
+
+from jaxbearing.scenes.csv_files import Refuse
 from jaxbearing.scenes.errors import printable
 from jaxbearing.scenes.units import shortened
 
@@ -28,3 +31,12 @@ class CurveError(ValueError):
         if self.suggestion:
             text += f" Did you mean '{self.suggestion}'?"
         return printable(" ".join(text.split()))
+
+
+def refusing(file: str) -> Refuse:
+    """What raises the error of a cell of the file."""
+
+    def refuse(line: int, column: str, found: str, expected: str) -> NoReturn:
+        raise CurveError(file, line, column, found, expected)
+
+    return refuse

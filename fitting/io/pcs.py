@@ -15,10 +15,11 @@ from pathlib import Path
 import numpy as np
 from jaxtyping import Float64
 
+from jaxbearing.scenes.csv_files import NumberReader
+
 from .checks import check_count, check_sliding, remarks
 from .columns import REQUIRED, Column, check_unit, to_si
-from .errors import CurveError
-from .numbers import NumberReader
+from .errors import CurveError, refusing
 from .pcs_steps import Step, steps_of
 from .table import CurveTable
 
@@ -74,7 +75,7 @@ class _Reader:
 
     def __init__(self, file: str, sweeps: Sequence[Step]):
         self._file, self._sweeps = file, sweeps
-        self._numbers = NumberReader(file, comma_allowed=True)
+        self._numbers = NumberReader(refusing(file), comma_allowed=True)
         self._check_rows()
         self.chosen = self._choose()
 

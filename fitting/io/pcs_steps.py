@@ -5,7 +5,7 @@ import re
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
-from .text import Line, numbered_lines
+from jaxbearing.scenes.csv_files import Line, numbered_lines
 
 _TITLE = re.compile(r"\s*(?:MTM|ETM|EHD|EHS)\w* Test Data File\b")
 _STEP = re.compile(r"Step (\d+)\b[^\t]*\bstarted at\b")

@@ -1,19 +1,12 @@
-"""Files as text: reading with errors for a person, lines numbered as in an editor."""
+"""Files as text: reading with errors for a person."""
 
-import re
 from pathlib import Path
-from typing import NamedTuple
+
+from jaxbearing.scenes.csv_files import numbered_lines
 
 from .errors import CurveError
 
 _EXPECTED = "a file with traction curves"
-
-
-class Line(NamedTuple):
-    """One line of a file: its number as in an editor, from 1, and its text without the end of line."""
-
-    number: int
-    text: str
 
 
 def read_bytes(path: Path) -> bytes:
@@ -45,8 +38,3 @@ def decode(raw: bytes, path: Path) -> str:
         line = len(numbered_lines(raw[: error.start].decode("latin-1")))
         found = f"bytes that are not UTF-8 text (at byte {error.start})"
         raise CurveError(str(path), line, "", found, "a text file in UTF-8") from None
-
-
-def numbered_lines(text: str) -> list[Line]:
-    """All lines. Not `str.splitlines`, which also splits where editors do not (form feed, U+2028)."""
-    return [Line(number, line) for number, line in enumerate(re.split(r"\r\n|\n|\r", text), start=1)]

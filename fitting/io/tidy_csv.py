@@ -1,6 +1,5 @@
 """Tidy CSV files: one row a point, one column a quantity, units in the header."""
 
-import csv
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -9,20 +8,16 @@ from pathlib import Path
 import numpy as np
 from jaxtyping import Int64
 
+from jaxbearing.scenes.csv_files import SEPARATORS, Line, NumberReader, cells_of, name_and_unit, telling_lines
 from jaxbearing.scenes.errors import nearest
 from jaxbearing.scenes.units import shortened
 
 from .checks import check_count, check_sliding, remarks
 from .columns import CURVE, DIMENSIONS, EXAMPLES, KNOWN, REQUIRED, Column, check_unit, to_si
-from .errors import CurveError
+from .errors import CurveError, refusing
 from .grouping import group
-from .numbers import NumberReader
 from .table import CurveTable
-from .text import Line, numbered_lines
 from .units_file import side_units, units_path
-
-_SEPARATORS = {",": "','", ";": "';'", "\t": "a tab"}
-_HEADER = re.compile(r"(?P<name>[^\[\]]*?)\s*(?:\[\s*(?P<unit>[^\[\]]*?)\s*\])?")
 
 
 @dataclass(frozen=True)
@@ -60,7 +55,7 @@ def parse_tidy_csv(text: str, path: Path) -> CurveTable:
 
     **Raises:** `CurveError`.
     """
-    lines = [line for line in numbered_lines(text) if line.text.strip() and not line.text.lstrip().startswith("#")]
+    lines = telling_lines(text)
     if not lines:
         raise CurveError(str(path), None, "", "an empty file", f"a header such as '{','.join(_examples(REQUIRED))}'")
     layout = _layout(lines[0], path)
@@ -77,14 +72,13 @@ def parse_tidy_csv(text: str, path: Path) -> CurveTable:
 def _layout(header: Line, path: Path) -> _Layout:
     separator = _separator(header)
     cells = _cells(header, separator, path)
-    parsed = [_HEADER.fullmatch(cell) for cell in cells]
-    names = [match["name"] if match else cell for match, cell in zip(parsed, cells, strict=True)]
-    units = [match["unit"] if match else None for match in parsed]
+    parted = [name_and_unit(cell) for cell in cells]
+    names = [name for name, _ in parted]
     _check_mixed(cells, separator, header, path)
     _check_names(names, header, path)
     side = side_units(path, [name for name in names if name])
     columns = {}
-    for index, (name, unit) in enumerate(zip(names, units, strict=True)):
+    for index, (name, unit) in enumerate(parted):
         if name in KNOWN:
             columns[name] = _column(name, unit, side.get(name), index, header.number, path)
     ignored = tuple(name for name in names if name and name not in KNOWN)
@@ -98,26 +92,24 @@ def _separator(header: Line) -> str:
         names = [re.sub(r"\[.*", "", cell).strip(' "') for cell in header.text.split(separator)]
         return sum(name in KNOWN for name in names), len(names)
 
-    return max(_SEPARATORS, key=score)
+    return max(SEPARATORS, key=score)
 
 
 def _cells(line: Line, separator: str, path: Path) -> list[str]:
     try:
-        # one line at a time: a quotation mark left open must not swallow the rest of the file
-        cells = next(csv.reader([line.text], delimiter=separator, strict=True, skipinitialspace=True), [])
-    except csv.Error as error:
+        return cells_of(line.text, separator)
+    except ValueError as error:
         found = f"a line that cannot be parted into cells ({error})"
-        expected = f"cells separated by {_SEPARATORS[separator]}, quotation marks in pairs"
+        expected = f"cells separated by {SEPARATORS[separator]}, quotation marks in pairs"
         raise CurveError(str(path), line.number, "", found, expected) from None
-    return [cell.strip() for cell in cells]
 
 
 def _check_mixed(cells: list[str], separator: str, header: Line, path: Path) -> None:
-    for other in _SEPARATORS:
+    for other in SEPARATORS:
         for cell in cells:
             parts = [part.split("[")[0].strip() for part in cell.split(other)]
             if other != separator and len(parts) > 1 and any(part in KNOWN for part in parts):
-                found = f"{_SEPARATORS[separator]} and {_SEPARATORS[other]} between columns"
+                found = f"{SEPARATORS[separator]} and {SEPARATORS[other]} between columns"
                 raise CurveError(str(path), header.number, "", found, "one separator throughout the file")
 
 
@@ -163,10 +155,10 @@ def _rows(lines: Sequence[Line], layout: _Layout) -> list[tuple[int, list[str]]]
         if not any(cells):
             continue  # spreadsheets write their empty rows as ";;;"
         if len(cells) != layout.width:
-            others = [shown for mark, shown in _SEPARATORS.items() if mark != layout.separator and mark in line.text]
+            others = [shown for mark, shown in SEPARATORS.items() if mark != layout.separator and mark in line.text]
             found = f"{len(cells)} cell{'s' if len(cells) > 1 else ''}" + "".join(f" and {other}" for other in others)
             there = f"in the header (line {layout.header.number})"
-            expected = f"{layout.width} cells separated by {_SEPARATORS[layout.separator]}, as {there}"
+            expected = f"{layout.width} cells separated by {SEPARATORS[layout.separator]}, as {there}"
             raise CurveError(layout.file, line.number, "", found, expected)
         if cells == header:
             raise CurveError(layout.file, line.number, "", "the header once more", "a row of numbers")
@@ -175,7 +167,7 @@ def _rows(lines: Sequence[Line], layout: _Layout) -> list[tuple[int, list[str]]]
 
 
 def _values(rows: list[tuple[int, list[str]]], numbers: list[int], layout: _Layout) -> dict[str, np.ndarray]:
-    reader = NumberReader(layout.file, comma_allowed=layout.separator != ",")
+    reader = NumberReader(refusing(layout.file), comma_allowed=layout.separator != ",")
     used = [column for name, column in layout.columns.items() if name != CURVE]
     # row by row, so that the first line that is wrong is the one reported
     raw = np.array([[reader.number(cells[one.index], line, one.label) for one in used] for line, cells in rows])

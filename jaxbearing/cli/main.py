@@ -13,6 +13,7 @@ import typer
 
 from .fit_verb import fit
 from .messages import BAD_INPUT, INTERRUPTED, NO_OUTPUT, say
+from .quiet import only_news
 from .report_verb import report
 from .scenes_verb import scenes
 from .simulate_verb import simulate
@@ -52,6 +53,7 @@ def _run() -> int:
     if isinstance(sys.stdout, io.TextIOWrapper):
         # a terminal without these characters shows others
         sys.stdout.reconfigure(errors="replace")
+    only_news()
     try:
         code = app(standalone_mode=False)
         sys.stdout.flush()

@@ -16,7 +16,6 @@ simplifier says that it stopped rewriting one form into another and back; both a
 @contextmanager
 def without_false_alarms() -> Iterator[None]:
     """Holds back what anyone writes to stderr, compiled libraries too; passes it on at the end, less the alarms."""
-    logging.getLogger("jax._src.xla_bridge").addFilter(_is_news)
     try:
         sys.stderr.flush()
         held = tempfile.TemporaryFile()  # noqa: SIM115 (closed below, where the body's own errors pass)
@@ -40,6 +39,16 @@ def without_false_alarms() -> Iterator[None]:
             sys.stderr.flush()
 
 
+def only_news() -> None:
+    """Leaves out what libraries log that changes nothing for the user; to be called before they are imported."""
+    for name in ("jax._src.xla_bridge", "matplotlib"):
+        logging.getLogger(name).addFilter(_is_news)
+
+
+_NO_NEWS = ("Falling back to cpu", "mkdir -p failed", "MPLCONFIGDIR")
+
+
 def _is_news(record: logging.LogRecord) -> bool:
-    """JAX says on every start that a GPU is there which its build cannot use; the answer is the same without it."""
-    return "Falling back to cpu" not in record.getMessage()
+    """JAX says on every start that a GPU is there which its build cannot use; the answer is the same without it.
+    matplotlib says in two lines that it cannot keep its list of fonts where there is no home; so is the picture."""
+    return not any(words in record.getMessage() for words in _NO_NEWS)

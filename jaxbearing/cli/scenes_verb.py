@@ -42,6 +42,7 @@ def _list() -> None:
 
 
 def _copy(name: str, to: Path | None, force: bool) -> None:
+    from ..report.files import appearing_whole
     from ..scenes.data_files import builtin_names, builtin_text
     from ..scenes.errors import SceneError, nearest, one_of
 
@@ -52,11 +53,13 @@ def _copy(name: str, to: Path | None, force: bool) -> None:
     try:
         if target.is_dir():
             target = target / f"{name}.toml"
-        with open(target, "w" if force else "x", encoding="utf-8") as file:
-            file.write(builtin_text(name))
-    except FileExistsError:
-        found, expected = "a file that exists already", "a new file (--to FILE), or --force to overwrite it"
-        raise SceneError(str(target), "", found, expected) from None
+        if target.exists() and not force:
+            found, expected = "a file that exists already", "a new file (--to FILE), or --force to overwrite it"
+            raise SceneError(str(target), "", found, expected)
+        with appearing_whole(target) as temporary:
+            temporary.write_text(builtin_text(name), encoding="utf-8")
+    except SceneError:
+        raise
     except (OSError, ValueError) as error:
         # ValueError: a path with a null byte
         found = f"a place that cannot be written: {getattr(error, 'strerror', None) or error}"

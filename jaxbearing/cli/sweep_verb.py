@@ -164,7 +164,8 @@ def _check_modes(over: Any, cases_file: Any, random: Any, latin_hypercube: Any) 
 
 
 def _cases(source: Any, over: Any, cases_file: Any, random: Any, latin_hypercube: Any, seed: int) -> tuple[Any, Any]:
-    from ..sweeps.fields import grid_of, list_of, parse_over, samples_of
+    from ..sweeps.case_lists import list_of
+    from ..sweeps.fields import grid_of, parse_over, samples_of
 
     if cases_file is not None:
         with _refused("--list"):

@@ -12,11 +12,12 @@ _QUICK = {
     "xla_llvm_disable_expensive_passes": True,
 }
 """On a CPU, XLA's older way to emit loops and LLVM without its optimizations: a bearing compiles in 0.65 of the time
-and 0.4 of the processor time; its programs run 2 to 3 times slower, milliseconds for one solve."""
+and 0.4 of the processor time; its programs run 2 to 3 times slower, milliseconds for one solve. None of it on a GPU,
+where the options stand for something else."""
 
 
 def quickly_compiled(function: Callable[..., Any]) -> Callable[..., Any]:
-    """`equinox.filter_jit(function)`, compiled fast for a process that calls it once and ends.
+    """`equinox.filter_jit(function)`, on a CPU compiled fast for a process that calls it once and ends.
 
     Not to be called inside another `jax.jit`, which allows compiler options on the outside only.
     """
@@ -24,6 +25,8 @@ def quickly_compiled(function: Callable[..., Any]) -> Callable[..., Any]:
     ordinary = eqx.filter_jit(function)
 
     def call(*args: Any, **kwargs: Any) -> Any:
+        if jax.default_backend() != "cpu":
+            return ordinary(*args, **kwargs)
         try:
             return quick(*args, **kwargs)
         except jax.errors.JaxRuntimeError as error:

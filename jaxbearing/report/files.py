@@ -1,6 +1,7 @@
 """Files that appear whole or not at all."""
 
 import os
+import secrets
 import shutil
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
@@ -24,7 +25,9 @@ def appearing_whole(path: str | os.PathLike[str]) -> Iterator[Path]:
             raise OSError(22, "Not an ordinary file", os.fspath(path))
         if not os.access(target, os.W_OK):
             raise PermissionError(13, "Permission denied", os.fspath(path))
-    temporary = target.with_name(f".{target.name[:200]}.{os.getpid()}.part")
+    # Not the number of the process: what a killed one left would be in the way of the next with the same number, which
+    # a container gives to every run. File systems count bytes, of which a letter may have four.
+    temporary = target.with_name(f".{target.name[:60]}.{secrets.token_hex(4)}.part")
     try:
         temporary.open("xb").close()
     except OSError as error:

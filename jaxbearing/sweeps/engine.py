@@ -6,6 +6,7 @@ import shutil
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
+from typing import IO
 
 import xarray as xr
 
@@ -67,9 +68,28 @@ def run(
     """
     check_target(target)
     watcher = watcher or Watcher()
-    folder, found = chunk_folder(target), _finished(target)
-    if found is not None and found[0] == plan.key:
+    there = _there_already(plan, target, overwrite, watcher)
+    if there is not None:
+        return there
+    folder = chunk_folder(target)
+    with _locked(folder):
+        # another process may have finished it while this one was at the door
+        there = _there_already(plan, target, overwrite, watcher)
+        if there is not None:
+            return there
+        _claim(plan, folder, target, overwrite)
+        outcome = _computed(plan, folder, runner or in_process(), watcher)
+        watcher.stage("writing")
+        store(plan, folder, target)
         shutil.rmtree(folder, ignore_errors=True)
+    return outcome
+
+
+def _there_already(plan: Plan, target: Path, overwrite: bool, watcher: Watcher) -> Outcome | None:
+    """How the sweep ended, where its store is there. **Raises:** `SweepError` where something else is."""
+    found = _finished(target)
+    if found is not None and found[0] == plan.key:
+        shutil.rmtree(chunk_folder(target), ignore_errors=True)
         watcher.note(f"{target} has this sweep already: nothing is computed")
         watcher.cases(len(plan.cases))
         return Outcome(len(plan.cases), found[1], len(plan.cases))
@@ -78,14 +98,7 @@ def run(
         raise SweepError(f"found '{target}', {what}; expected a new name, or --overwrite")
     if overwrite and os.path.lexists(target) and found is None and target.is_dir():
         raise SweepError(f"found '{target}', a folder that is no sweep; expected a new name")
-    folder.mkdir(exist_ok=True)
-    with _locked(folder):
-        _claim(plan, folder, target, overwrite)
-        outcome = _computed(plan, folder, runner or in_process(), watcher)
-        watcher.stage("writing")
-        store(plan, folder, target)
-        shutil.rmtree(folder, ignore_errors=True)
-    return outcome
+    return None
 
 
 def _claim(plan: Plan, folder: Path, target: Path, overwrite: bool) -> None:
@@ -161,11 +174,29 @@ _LOCK = "lock"
 @contextlib.contextmanager
 def _locked(folder: Path) -> Iterator[None]:
     """One process at a time; the system lets go of the lock when it ends, however it ends."""
+    with _lock_file(folder):
+        yield
+
+
+def _lock_file(folder: Path) -> IO[str]:
+    """Open and locked. The process that finishes a sweep removes the folder with the lock, perhaps just now: then both
+    are made anew."""
     import fcntl
 
-    with (folder / _LOCK).open("a") as file:
+    path = folder / _LOCK
+    while True:
+        folder.mkdir(exist_ok=True)
+        try:
+            file = path.open("a")
+        except FileNotFoundError:
+            continue
         try:
             fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            if os.path.samestat(os.fstat(file.fileno()), os.stat(path)):
+                return file
         except BlockingIOError:
+            file.close()
             raise SweepError(f"another process is computing this sweep in '{folder}'; wait or stop it") from None
-        yield
+        except FileNotFoundError:
+            pass
+        file.close()

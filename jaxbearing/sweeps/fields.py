@@ -16,14 +16,13 @@ from ..scenes.errors import SceneError, unknown_name
 from ..scenes.fields import is_known, type_at
 from ..scenes.overrides import REMOVE, parse_value
 from ..scenes.reader import read_tables, scene_from_mapping, scene_model
-from ..scenes.units import Dimension, QuantityValidator, describe, registry
-from .cases import MOST_CASES, Cases, between, grid, latin_hypercube, listed, random
+from ..scenes.units import Dimension, QuantityValidator, describe
+from .cases import MOST_CASES, Cases, between, grid, latin_hypercube, random
 from .recipe import Direct, Read, from_reader, structural
 
 OVER = "--over"
 _GRID = "NAME=START:STOP:COUNT or NAME=START:STOP:COUNT:log, e.g. operation.inner_speed='2000 rpm:20000 rpm:10'"
 _RANGE = "NAME=START:STOP or NAME=START:STOP:log, e.g. operation.inner_speed='2000 rpm:20000 rpm'"
-_COLUMN = re.compile(r"(?P<name>[^\[\]]*?)\s*(?:\[\s*(?P<unit>[^\[\]]*?)\s*\])?")
 
 
 @dataclass(frozen=True)
@@ -183,67 +182,6 @@ def samples_of(ranges: Mapping[str, Any], kind: str, count: int, seed: int) -> C
     """**Raises:** `ValueError` for a count that is not possible."""
     bounds = {path: (start, stop, *(["log"] if log else [])) for path, (start, stop, _, log) in ranges.items()}
     return (latin_hypercube if kind == "latin_hypercube" else random)(bounds, count, seed)
-
-
-def list_of(file: Path, source: SceneSource) -> tuple[dict[str, Field], Cases]:
-    """Cases of a CSV file: one row a case, one column a field, its unit in the header, `operation.inner_speed [rpm]`.
-
-    Comma, semicolon or tab between the columns; lines that begin with `#` are skipped.
-
-    **Raises:** `SceneError`.
-    """
-    import pandas
-
-    label, expected = str(file), "a CSV file with columns such as 'operation.inner_speed [rpm]'"
-    try:
-        header = next((line for line in file.read_text("utf-8-sig").splitlines() if _says(line)), "")
-        separator = max(",;\t", key=header.count)
-        table = pandas.read_csv(file, sep=separator, comment="#", skipinitialspace=True, encoding="utf-8-sig")
-    except OSError as error:
-        raise SceneError(label, "", f"a file that cannot be read: {error.strerror or error}", expected) from None
-    except (UnicodeDecodeError, ValueError) as error:
-        raise SceneError(label, "", " ".join(str(error).split()), expected) from None
-    if table.empty:
-        raise SceneError(label, "", "no rows", expected)
-    fields, values = {}, {}
-    for name in table.columns:
-        field, column = _column(str(name), table[name], source, label)
-        if field.path in fields or field.path in source.overrides:
-            raise SceneError(label, field.path, "this field twice", "each field once, here or in --set")
-        fields[field.path], values[field.path] = field, column
-    return fields, listed(values)
-
-
-def _says(line: str) -> bool:
-    return bool(line.strip()) and not line.lstrip().startswith("#")
-
-
-def _column(name: str, given: Any, source: SceneSource, label: str) -> tuple[Field, np.ndarray]:
-    parted = _COLUMN.fullmatch(name.strip())
-    if parted is None:
-        raise SceneError(label, name, "this name of a column", "a field and its unit, 'operation.inner_speed [rpm]'")
-    field, unit = source.field(parted["name"], label), parted["unit"]
-    if given.dtype.kind not in "if" or not np.all(np.isfinite(given.to_numpy(dtype=np.float64))):
-        wrong = next((i for i, one in enumerate(given) if not _is_finite(one)), 0)
-        raise SceneError(label, name, f"'{given.iloc[wrong]}' in row {wrong + 1}", "a finite number")
-    values = given.to_numpy(dtype=np.float64)
-    if field.dimension is None and unit:
-        raise SceneError(label, name, f"the unit '{unit}'", "a number without a unit")
-    if field.dimension is not None:
-        # the text of the first value is read as that of a scene file, and says what is wrong with the unit
-        field.read(f"{float(values[0])!r} {unit or ''}", label)
-        units = registry()
-        values = np.asarray(units.Quantity(values, units.Unit(unit)).to(field.dimension.si).magnitude)
-    for place in (int(np.argmin(values)), int(np.argmax(values))):
-        field.read(field.text(values[place]), f"{label}: row {place + 1}")
-    return field, values
-
-
-def _is_finite(value: Any) -> bool:
-    try:
-        return bool(np.isfinite(float(value)))
-    except (TypeError, ValueError):
-        return False
 
 
 def described_fields(fields: Mapping[str, Field], scene: AbstractScene) -> dict[str, dict[str, str]]:

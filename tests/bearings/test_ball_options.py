@@ -1,6 +1,8 @@
 """Parts of the ball bearing that a scene may name: radial pocket friction and land on the inner ring, Heathcote slip,
 one orbital speed for all balls, numbers of the gyroscopic couple."""
 
+import dataclasses
+
 import jax
 import jax.numpy as jnp
 import numpy as np
@@ -391,6 +393,33 @@ def test_couple_without_meaning_is_refused(changes, field, words):
 def test_taking_the_couple_out_takes_its_numbers_along():
     scene = {"kinematics.gyroscopic": "none"}
     assert jb.load_scene("turbine_ball", scene).kinematics.gyroscopic is None
+
+
+def test_gyroscopic_couple_is_euler_s():
+    """By cross products: the ball's moment about the radius, and the couple that friction has to carry."""
+    scene = turbine(**{"kinematics.gyroscopic": ResolvedCouple(), "cage": None, "drag": None})
+    system = build_lubricated(scene, build_core(scene))
+    # none of it for friction to carry: loads and slides do not depend on the inertia then
+    system = dataclasses.replace(system, couple_share=jnp.zeros(()))
+    unknowns = system.initial().elements.at[system.own_unknowns.index("transverse") + 2].set(0.03)
+    shared = jnp.broadcast_to(system.initial().globals[:, None], (system.initial().globals.size, unknowns.shape[1]))
+
+    @jax.jit
+    def radial_row(inertia):
+        state = dataclasses.replace(system, inertia=inertia).balls(unknowns, shared)
+        return state.rows[system.own_unknowns.index("radial spin")][0], jax.tree.map(lambda x: x[0], state.motion)
+
+    (without, _), (row, motion) = radial_row(jnp.zeros(())), radial_row(system.inertia)
+    # along e_x, e_r, e_t: right-handed
+    spin = np.array([-motion.spin_speed * np.cos(motion.attitude), motion.radial_spin, motion.transverse])
+    orbit = np.array([motion.orbital_speed, 0.0, 0.0])
+    inertia_moment = -np.cross(orbit, system.inertia * spin)
+    assert abs(spin[2]) > 0.01 * abs(spin[0])
+    # the rows are forces, moments times 2/D, and this one counts the other way
+    expected = -2.0 / scene.geometry.ball_diameter * inertia_moment[1] / system.friction_scale()
+    np.testing.assert_allclose(row - without, expected, rtol=1e-9)
+    whole = dataclasses.replace(system, couple_share=jnp.ones(()))
+    np.testing.assert_allclose(whole.couple(motion), -inertia_moment[2], rtol=1e-12)
 
 
 def test_bad_couples_are_refused():

@@ -9,8 +9,10 @@ import pytest
 from roller_cases import HARD_CASES, changed, dry_roller, reference_roller, turbine_roller
 
 import jaxbearing as jb
+from jaxbearing.bearings.roller_forces import CageParts, forces_without_pocket, ring_torques
 from jaxbearing.bearings.roller_steady import build_system
 from jaxbearing.contacts import JoinedRollingResistance, NoThermalReduction, RigidRollingResistance
+from jaxbearing.contacts.laws import ContactState
 from jaxbearing.numerics.arrow import evaluate
 
 SCENES = {"reference": reference_roller, "turbine": turbine_roller}
@@ -83,6 +85,25 @@ def test_few_rollers_at_100_rpm(n_rollers):
     geometry = dataclasses.replace(turbine_roller().geometry, n_rollers=n_rollers)
     solution = jb.solve(changed(turbine_roller(), {"geometry": geometry, "rpm": 100.0}))
     np.testing.assert_allclose(solution.drive_power, solution.power_loss.total, rtol=1e-8)
+
+
+def test_raceways_act_as_they_are_acted_upon():
+    """The moment about the bearing axis of what a roller gets from both races is what their rings are driven with."""
+    system = build_system(reference_roller())
+    random = np.random.default_rng(1)
+    traction, rolling = (jnp.asarray(random.normal(size=(2, 30))) for _ in range(2))
+    contact = ContactState(jnp.ones((2, 30)), None, traction, rolling, jnp.zeros(()))
+    parts = CageParts(pocket=None, land=None, guidance="inner_ring")
+    speeds = jnp.full(30, 500.0), jnp.full(30, 6000.0)
+    forces = forces_without_pocket(system.kinematics, system.contact, contact, parts, *speeds)
+    driven = sum(ring_torques(system.kinematics, contact, None, None))
+    got = jnp.sum(forces.tangential * system.kinematics.pitch_radius + forces.moment)
+    np.testing.assert_allclose(got, driven, rtol=1e-12)
+    # and each kind of force by itself
+    for state in (contact._replace(rolling_force=None), contact._replace(traction=jnp.zeros((2, 30)))):
+        forces = forces_without_pocket(system.kinematics, system.contact, state, parts, *speeds)
+        got = jnp.sum(forces.tangential * system.kinematics.pitch_radius + forces.moment)
+        np.testing.assert_allclose(got, sum(ring_torques(system.kinematics, state, None, None)), rtol=1e-12)
 
 
 def test_dry_has_no_power_and_carries_the_load():

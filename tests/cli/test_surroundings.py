@@ -2,34 +2,16 @@
 
 import json
 import os
-import subprocess
-import sys
 import warnings
 
+import numpy as np
 import pytest
+import xarray as xr
+from command_process import DRY, run, start
+from fit_results import MEDIAN
 
 from jaxbearing.cli.cache import _drop_damaged
 from jaxbearing.cli.options import labelled
-
-DRY = ("--set", "contact=none")
-
-
-def environment(**more):
-    """Of a process of its own; None takes a variable out."""
-    variables = os.environ | {"JAX_PLATFORMS": "cpu", "JAXBEARING_CACHE": "off"} | more
-    return {name: value for name, value in variables.items() if value is not None}
-
-
-def start(folder, *arguments, **variables):
-    command = [sys.executable, "-m", "jaxbearing", *arguments]
-    streams = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE, "encoding": "utf-8", "errors": "surrogateescape"}
-    return subprocess.Popen(command, cwd=folder, env=environment(**variables), **streams)
-
-
-def run(folder, *arguments, **variables):
-    process = start(folder, *arguments, **variables)
-    out, err = process.communicate(timeout=300)
-    return process.returncode, out, err
 
 
 def test_a_name_that_the_locale_cannot_read_can_be_printed():
@@ -74,6 +56,88 @@ def test_no_home_folder(tmp_path):
     code, out, err = run(tmp_path, "solve", "reference_roller", *DRY, "--json", HOME="/nowhere", JAXBEARING_CACHE=None)
     assert (code, err) == (0, "")
     assert json.loads(out)["converged"]
+
+
+@pytest.mark.slow
+def test_a_file_where_the_cache_should_be(tmp_path):
+    """As where nothing can be written at home; tests may be run by who may write everywhere."""
+    blocked = tmp_path / "blocked"
+    blocked.write_text("", encoding="utf-8")
+    places = {"HOME": str(blocked), "XDG_CACHE_HOME": str(blocked), "XDG_CONFIG_HOME": str(blocked / "no")}
+    places |= {"JAXBEARING_CACHE": None, "MPLCONFIGDIR": None}
+    folder = tmp_path / "work"
+    folder.mkdir()
+    code, out, err = run(folder, "solve", "reference_roller", *DRY, "--json", "--plot", "a.png", **places)
+    assert (code, err) == (0, "")
+    assert json.loads(out)["converged"]
+    assert os.listdir(folder) == ["a.png"]
+    assert blocked.read_text(encoding="utf-8") == ""
+
+
+# verb: (its arguments, option of the file, name)
+WRITING = {
+    "scenes": (("scenes", "--copy", "reference_roller"), "--to", "é.toml"),
+    "sweep": (("sweep", "reference_roller", *DRY, "--over", "operation.radial_load=5 kN:9 kN:3"), "--out", "ä.nc"),
+    "simulate": (
+        ("simulate", "turbine_roller_dynamic", "--set", "contact.thermal=none", "--duration", "0.1 ms"),
+        "--out",
+        "漢字.nc",
+    ),
+    "stiffness": (("stiffness", "deep_groove_6205", "--speeds", "2000 rpm:3000 rpm:2"), "--ross", "ß.toml"),
+    "fit": (("fit", str(MEDIAN), "--scene", "two_disk_etm", "--starts", "1"), "--out", "öl.toml"),
+}
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    "variables", [{}, {"LC_ALL": "C", "PYTHONUTF8": "0", "PYTHONCOERCECLOCALE": "0"}], ids=["", "C"]
+)
+@pytest.mark.parametrize("verb", WRITING)
+def test_names_of_what_verbs_write(verb, variables, tmp_path):
+    arguments, option, name = WRITING[verb]
+    folder = tmp_path / "Prüfstand 7"
+    folder.mkdir()
+    code, _, err = run(folder, *arguments, option, name, **variables)
+    assert (code, "Traceback" in err) == (0, False), err
+    assert os.listdir(folder) == [name]
+
+
+@pytest.mark.slow
+def test_one_core(tmp_path):
+    """The same results as on all of them."""
+    one = "import os; os.sched_setaffinity(0, [min(os.sched_getaffinity(0))])"
+    found = [run(tmp_path, "solve", "turbine_roller", "--json", before=before) for before in (None, one)]
+    assert [code for code, *_ in found] == [0, 0]
+    all_of_them, alone = (json.loads(out) for _, out, _ in found)
+    assert alone["iterations"] == all_of_them["iterations"]
+    for name, value in all_of_them["power_loss"].items():
+        np.testing.assert_allclose(alone["power_loss"][name], value, rtol=1e-12)
+    for name, values in all_of_them["elements"].items():
+        np.testing.assert_allclose(alone["elements"][name], values, rtol=1e-12, atol=1e-12 * np.max(np.abs(values)))
+
+
+@pytest.mark.slow
+def test_two_runs_write_in_one_folder(tmp_path):
+    """The same file: one of the two, whole. The same sweep: one computes it, the other says so or finds it."""
+    commands = [("report", "reference_roller", *DRY, "--out", "page.html")] * 2
+    commands += [("solve", "reference_roller", *DRY, "--out", "state.nc", "--plot", "state.svg")] * 2
+    commands += [("sweep", "reference_roller", *DRY, "--over", "operation.radial_load=5 kN:9 kN:5", "--json")] * 2
+    runs = [start(tmp_path, *command) for command in commands]
+    said = [process.communicate(timeout=300) for process in runs]
+    codes = [process.returncode for process in runs]
+    assert codes[:4] == [0] * 4, said
+    assert sorted(codes[4:]) in ([0, 0], [0, 2]), said
+    for code, (_, err) in zip(codes[4:], said[4:], strict=True):
+        assert (code == 2) == ("another process is computing this sweep" in err)
+    assert sorted(os.listdir(tmp_path)) == ["page.html", "reference_roller_sweep.nc", "state.nc", "state.svg"]
+    assert (tmp_path / "page.html").read_text(encoding="utf-8").rstrip().endswith("</html>")
+    assert (tmp_path / "state.svg").read_text(encoding="utf-8").rstrip().endswith("</svg>")
+    with (
+        xr.open_dataset(tmp_path / "state.nc") as state,
+        xr.open_dataset(tmp_path / "reference_roller_sweep.nc") as cases,
+    ):
+        assert float(state["ring_radial"]) > 0.0
+        assert cases["ring_radial"].shape == (5,)
 
 
 @pytest.mark.slow

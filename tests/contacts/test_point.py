@@ -73,6 +73,18 @@ def test_hertz_check_values(row):
     np.testing.assert_allclose(contact.mean_pressure(row["load"]) * np.pi * got[0] * got[1], row["load"], rtol=1e-9)
 
 
+@pytest.mark.parametrize("ratio", [0.2, 1.0, 7.0, 300.0])
+def test_stiffness(ratio):
+    r"""From the approach $3QK(e)/(2\pi E^*a)$, a the larger semi-axis: Johnson, eq. (4.26)."""
+    contact, load = PointContact(0.01, 0.01 * ratio, 2.2e11), 500.0
+    small, large = sorted((float(contact.semi_axis_rolling(load)), float(contact.semi_axis_transverse(load))))
+    approach = 3.0 * load * ellipk(1.0 - (small / large) ** 2) / (2.0 * np.pi * 0.5 * 2.2e11 * large)
+    np.testing.assert_allclose(contact.stiffness_constant(), load / approach**1.5, rtol=1e-10)
+    if ratio == 1.0:
+        # the approach sees the relative radius of a sphere: 4/3 E* sqrt(R)
+        np.testing.assert_allclose(contact.stiffness_constant(), 4.0 / 3.0 * 1.1e11 * np.sqrt(0.01), rtol=1e-12)
+
+
 def test_ellipse_gradients():
     x = jnp.asarray([-13.0, -1.0, -1e-4, 0.0, 1e-9, 0.5, 4.0, 13.0])
     slope = jax.jit(jax.vmap(jax.grad(log_ellipticity)))(x)

@@ -4,6 +4,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from table_accidents import cells_as_they_stand, mutated, number
 
 from fitting.io import CurveError, CurveTable, read_curves
 
@@ -355,6 +356,34 @@ def test_no_bytes_lead_to_another_error(read):
             assert str(error).isprintable()  # noqa: PT017
         else:
             assert np.isfinite(table.slide_to_roll).all()
+
+
+def test_accidents_are_refused_or_read_right(read, tmp_path):
+    """Of a spreadsheet, a slip of the hand, a cut transfer."""
+    good = 0
+    for seed in range(400):
+        content = mutated(GOOD.replace("5,0.04", "-5,-0.04"), seed)
+        try:
+            table = read(content)
+        except CurveError as error:
+            check(error, tmp_path / "curves.csv", error.line, error.column, [])
+            continue
+        good += 1
+        head, *rows = cells_as_they_stand(content)
+        for name in ("slide_to_roll", "traction_coefficient", "load"):
+            places = [i for i, cell in enumerate(head) if cell.split("[")[0].strip() == name]
+            if name == "load" and not places:
+                continue
+            (place,) = places
+            scale = {"[%]": 0.01, "[kN]": 1e3}.get(head[place].removeprefix(name).strip(), 1.0)
+            close(getattr(table, name), [scale * number(row[place]) for row in rows])
+    assert 40 < good < 200
+
+
+def test_the_minus_of_typesetters(read):
+    table = read(GOOD.replace("5,0.04", "\N{MINUS SIGN}5,\N{MINUS SIGN}0.04"))
+    close(table.slide_to_roll, [0.01, -0.05, 0.1])
+    close(table.traction_coefficient, [0.01, -0.04, 0.05])
 
 
 def test_a_table_refuses_what_does_not_fit_together():

@@ -41,7 +41,7 @@ def test_stored_as_it_ran(path):
 @pytest.mark.slow
 @pytest.mark.parametrize("path", NOTEBOOKS, ids=lambda path: path.stem)
 def test_runs_from_top_to_bottom(path, tmp_path):
-    environment = os.environ | {"MPLBACKEND": "Agg", "JAX_PLATFORMS": "cpu", "TMPDIR": str(tmp_path)}
+    environment = os.environ | {"MPLBACKEND": "Agg", "TMPDIR": str(tmp_path)}
     command = [sys.executable, "-c", RUN, str(path)]
     ran = subprocess.run(command, cwd=tmp_path, env=environment, capture_output=True, text=True, timeout=900)
     assert ran.returncode == 0, ran.stderr[-3000:]

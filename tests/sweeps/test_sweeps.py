@@ -2,6 +2,7 @@
 
 import os
 import re
+import shutil
 import signal
 import subprocess
 import sys
@@ -228,6 +229,27 @@ def test_one_process_at_a_time(scene, tmp_path):
         fcntl.flock(file, fcntl.LOCK_EX)
         with pytest.raises(SweepError, match="another process"):
             run(plan_of(scene), target)
+
+
+def test_another_process_that_finishes_at_this_moment(scene, tmp_path, monkeypatch):
+    """It removes the folder with the lock while this one is at the door: what it wrote is found."""
+    import fcntl
+
+    plan, elsewhere, target = plan_of(scene), tmp_path / "elsewhere.nc", tmp_path / "sweep.nc"
+    run(plan, elsewhere)
+    lock, notes = fcntl.flock, []
+
+    def late(file, how):
+        if not target.exists():
+            shutil.rmtree(chunk_folder(target))
+            elsewhere.rename(target)
+        return lock(file, how)
+
+    monkeypatch.setattr(fcntl, "flock", late)
+    outcome = run(plan, target, watcher=Watcher(note=notes.append))
+    assert (outcome.cases, outcome.converged, outcome.kept) == (15, 15, 15)
+    assert any("has this sweep already" in note for note in notes)
+    assert os.listdir(tmp_path) == ["sweep.nc"]
 
 
 _RUN = """

@@ -31,9 +31,9 @@ def section(quick=False):
     best = min(row[3] for row in alone)
     return Section(
         "Rheology from traction curves",
-        "60 points of two-disk curves of Mobil Jet II with noise, six parameters, started from a modulus and a stress that "
-        "are wrong by a factor of 3. `fitting.fit` includes the choice of the start, intervals and all it says of the fit; "
-        "the optimisers alone are compared below.",
+        "60 points of two-disk curves of Mobil Jet II with noise, six parameters, started from a modulus and a stress "
+        "that are wrong by a factor of 3. `fitting.fit` includes the choice of the start, intervals and all it says of the "
+        "fit; the optimisers alone are compared below.",
         (
             Table(
                 "Whole fits (loss: half the sum of squared residuals):",

@@ -1,0 +1,53 @@
+"""A command that is killed or interrupted while it writes: at the place asked for is what was there before."""
+
+import signal
+
+import pytest
+from command_process import DRY, run
+from fit_results import MEDIAN
+
+MOVING = ("simulate", "turbine_roller_dynamic", "--set", "contact.thermal=none", "--duration", "0.1 ms")
+VERBS = {
+    "scenes": (("scenes", "--force", "--copy", "turbine_ball", "--to"), "ball.toml"),
+    "solve": (("solve", "reference_roller", *DRY, "--out"), "state.nc"),
+    "plot": (("solve", "reference_roller", *DRY, "--plot"), "state.png"),
+    "report": (("report", "reference_roller", *DRY, "--out"), "page.html"),
+    "stiffness": (("stiffness", "deep_groove_6205", "--speeds", "2000 rpm:3000 rpm:2", "--ross"), "bearing.toml"),
+    "sweep": (
+        ("sweep", "reference_roller", *DRY, "--overwrite", "--over", "operation.radial_load=5 kN:9 kN:5", "--out"),
+        "cases.nc",
+    ),
+    "simulate": ((*MOVING, "--out"), "run.nc"),
+    "animation": ((*MOVING, "--animation"), "run.gif"),
+    "fit": (("fit", str(MEDIAN), "--scene", "two_disk_etm", "--starts", "1", "--out"), "oil.toml"),
+}
+# The signal comes when the file has been written beside its place and is about to take it.
+STOP = """
+import os, signal, time
+signal.signal(signal.SIGINT, signal.default_int_handler)
+replace = os.replace
+def stop(source, to, **options):
+    if os.path.basename(to) == {name!r}:
+        with open({mark!r}, "x"):
+            os.kill(os.getpid(), {number})
+            time.sleep(60)
+    replace(source, to, **options)
+os.replace = stop
+"""
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("number", [signal.SIGKILL, signal.SIGINT], ids=["kill", "ctrl-c"])
+@pytest.mark.parametrize("verb", VERBS)
+def test_stopped_while_it_writes(verb, number, tmp_path):
+    arguments, name = VERBS[verb]
+    folder = tmp_path / "work"
+    folder.mkdir()
+    target, mark = folder / name, tmp_path / "reached"
+    target.write_text("what was there", encoding="utf-8")
+    program = STOP.format(name=name, mark=str(mark), number=int(number))
+    code, _, err = run(folder, *arguments, str(target), before=program)
+    assert mark.exists(), err
+    assert code == (-9 if number == signal.SIGKILL else 130), err
+    assert "Traceback" not in err
+    assert target.read_text(encoding="utf-8") == "what was there"
