@@ -30,7 +30,8 @@ jax.config.update("jax_persistent_cache_min_compile_time_secs", 0.5)
 
 
 def pytest_addoption(parser):
-    """Options of the long campaign; here because options of folders below are read too late."""
+    """Options of the long campaign and of the benchmarks; here because options of folders below are read too late."""
+    parser.addoption("--report-to", default="benchmark_report", help="folder of the report of all benchmarks")
     parser.addoption(
         "--campaign", type=int, default=0, metavar="N", help="random scenes of tests/campaign, all together"
     )

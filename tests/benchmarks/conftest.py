@@ -8,10 +8,6 @@ import pytest
 sys.path.insert(0, str(Path(__file__).parent))
 
 
-def pytest_addoption(parser):
-    parser.addoption("--report-to", default="benchmark_report", help="folder of the report of all benchmarks")
-
-
 def pytest_collection_modifyitems(config, items):
     """Asked for: the folder (or the file) of the benchmarks by name, and no expression of markers."""
     named = [Path(str(argument).split("::")[0]).resolve() for argument in config.args]
@@ -20,5 +16,5 @@ def pytest_collection_modifyitems(config, items):
     if not wanted:
         skip = pytest.mark.skip(reason="the whole report: python -m pytest tests/benchmarks")
         for item in items:
-            if "report" in item.keywords:
+            if item.get_closest_marker("report"):
                 item.add_marker(skip)

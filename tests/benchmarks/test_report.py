@@ -8,8 +8,8 @@ The whole report (some 15 minutes) is made where `tests/benchmarks` is named on 
 import json
 from pathlib import Path
 
+import benchmark_report as report
 import pytest
-import report
 from section_shape import Section, Table
 
 

@@ -4,8 +4,8 @@ import time
 
 import jax
 import numpy as np
+from benchmark_report import HERE, load
 from benchmark_tools import best_time, error_of
-from report import HERE, load
 from section_shape import Section, Table
 
 import jaxbearing as jb

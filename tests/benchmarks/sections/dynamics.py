@@ -2,8 +2,8 @@
 
 import jax.numpy as jnp
 import numpy as np
+from benchmark_report import HERE, load
 from benchmark_tools import best_time
-from report import HERE, load
 from section_shape import Section, Table
 
 SOLVERS = {"tsit5": (1e-3, 1e-4, 1e-5, 1e-6), "dopri8": (1e-3, 1e-4, 1e-5, 1e-6), "kvaerno3": (1e-2, 1e-3)}

@@ -1,6 +1,6 @@
 """Film of a line contact: error over nodes, Newton's step beside a dense one, stops, batches."""
 
-from report import HERE, load
+from benchmark_report import HERE, load
 from section_shape import Section, Table
 
 

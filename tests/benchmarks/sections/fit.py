@@ -6,8 +6,8 @@ import equinox as eqx
 import jax
 import numpy as np
 import scipy.optimize
+from benchmark_report import HERE, load
 from benchmark_tools import best_time
-from report import HERE, load
 from section_shape import Section, Table
 
 import fitting
@@ -32,8 +32,8 @@ def section(quick=False):
     return Section(
         "Rheology from traction curves",
         "60 points of two-disk curves of Mobil Jet II with noise, six parameters, started from a modulus and a stress "
-        "that are wrong by a factor of 3. `fitting.fit` includes the choice of the start, intervals and all it says of the "
-        "fit; the optimisers alone are compared below.",
+        "that are wrong by a factor of 3. `fitting.fit` includes the choice of the start, intervals and all it says of "
+        "the fit; the optimisers alone are compared below.",
         (
             Table(
                 "Whole fits (loss: half the sum of squared residuals):",

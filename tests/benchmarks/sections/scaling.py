@@ -5,8 +5,8 @@ import time
 import jax
 import jax.numpy as jnp
 import numpy as np
+from benchmark_report import HERE, load
 from benchmark_tools import best_time
-from report import HERE, load
 from section_shape import Section, Table
 
 import jaxbearing as jb

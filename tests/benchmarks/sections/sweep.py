@@ -1,6 +1,6 @@
 """Sweeps: throughput on one device and on all, beside single solves."""
 
-from report import HERE, load
+from benchmark_report import HERE, load
 from section_shape import Section, Table
 
 import jaxbearing as jb

@@ -1,6 +1,6 @@
 """Tapered roller bearing: laminae of the tilted contacts against the closed form."""
 
-from report import HERE, load
+from benchmark_report import HERE, load
 from section_shape import Section, Table
 
 

@@ -2,7 +2,7 @@
 
 import jax.numpy as jnp
 import numpy as np
-from report import HERE, load
+from benchmark_report import HERE, load
 from section_shape import Section, Table
 
 from jaxbearing.contacts import PRESETS

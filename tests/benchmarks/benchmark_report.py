@@ -1,7 +1,7 @@
 """One report of how fast and how exact everything is: Markdown and JSON.
 
     python -m pytest tests/benchmarks                      # writes benchmark_report/report.md and report.json
-    python tests/benchmarks/report.py [--out FOLDER] [--only roller,ball] [--quick]
+    python tests/benchmarks/benchmark_report.py [--out FOLDER] [--only roller,ball] [--quick]
 
 Each section (`sections/`) runs in a process of its own, one after the other: its peak memory is that process's, and one
 that fails leaves the others alone; the report then says so and the command ends with status 1.
@@ -90,7 +90,7 @@ def run_apart(name: str, quick: bool, folder: Path) -> dict:
     """A section in a process of its own; where it fails, the end of what it said."""
     answer = folder / f"{name}.json"
     answer.unlink(missing_ok=True)
-    command = [sys.executable, str(HERE / "report.py"), "--section", name, "--answer", str(answer)]
+    command = [sys.executable, str(HERE / "benchmark_report.py"), "--section", name, "--answer", str(answer)]
     settings = dict(os.environ)
     if settings.get("JAX_PLATFORMS", "cpu") == "cpu":
         devices = f"--xla_force_host_platform_device_count={os.cpu_count()}"
