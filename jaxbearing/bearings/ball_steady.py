@@ -134,6 +134,10 @@ def _ball_results(
     }
     if geometry.contact_angle is None:
         excess = {}
+    # the groove of the model is a full circle
+    excess["a loaded ball touches the groove beyond 90°, where no groove is: it cannot run so"] = (
+        most(jnp.abs(angle)) - 0.5 * np.pi
+    )
     excess["contact pressure beyond 4.2 GPa: balls and races yield (static rating of ISO 76)"] = (
         jnp.max(pressure) - YIELD_PRESSURE
     )

@@ -1,5 +1,5 @@
-"""Balls that roll without sliding, where the centrifugal force is large beside the loads: their orbits and outer contact
-angles belong together."""
+"""Balls that roll without sliding, where the centrifugal force is large beside the loads: the orbital speed and the
+outer contact angle belong together."""
 
 import jax.numpy as jnp
 import numpy as np
@@ -56,3 +56,16 @@ def test_balls_are_in_balance(solver, inner, outer):
     )
     for left in (radial, axial):
         np.testing.assert_allclose(left, 0.0, atol=1e-11 * float(jnp.max(balls.load_outer)))
+
+
+def test_a_ball_that_is_caught_behind_the_groove_is_warned_of():
+    """A radial load far above the axial one, and a moment: the groove of the model is a full circle."""
+    scene = jb.load_scene("angular_contact_218", {"operation.radial_load": "5 kN", "operation.moment": "10 N*m"})
+    solve = jb.jit_solver(scene)
+    caught = solve(axial_load=1211.6, radial_load=48825.8, inner_speed=2602.4, moment=2101.2)
+    usual = solve(axial_load=20e3, radial_load=5e3, inner_speed=500.0, moment=10.0)
+    for found, behind in ((caught, True), (usual, False)):
+        assert bool(found.converged)
+        angle = jnp.where(found.elements.load_inner > 100.0, jnp.abs(found.elements.contact_angle_inner), 0.0)
+        assert (float(jnp.max(angle)) > 0.5 * np.pi) is behind
+        assert any("beyond 90°" in text for text in found.warnings()) is behind
