@@ -68,4 +68,4 @@ def test_a_ball_that_is_caught_behind_the_groove_is_warned_of():
         assert bool(found.converged)
         angle = jnp.where(found.elements.load_inner > 100.0, jnp.abs(found.elements.contact_angle_inner), 0.0)
         assert (float(jnp.max(angle)) > 0.5 * np.pi) is behind
-        assert any("beyond 90°" in text for text in found.warnings()) is behind
+        assert any("beyond 90°" in text for text in found.warnings) is behind
