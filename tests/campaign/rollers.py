@@ -191,9 +191,8 @@ STRUCTURES = [
         TILT,
         without=DRY,
         twins=ELASTIC,
-        known=SLOW,
     ),
-    structure("moment, straight", 8, {"operation.moment": "1 N*m"}, TILT, without=DRY, twins=ELASTIC, known=SLOW),
+    structure("moment, straight", 8, {"operation.moment": "1 N*m"}, TILT, without=DRY, twins=ELASTIC),
     structure(
         "films, isothermal",
         11,
