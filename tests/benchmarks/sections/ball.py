@@ -73,4 +73,4 @@ def section(quick=False):
 
 
 def at(accuracy):
-    return jb.load_scene("turbine_ball", {"contact.traction_accuracy": accuracy})
+    return jb.load_scene("turbine_ball", {"contact.traction_accuracy": f"{accuracy:g}"})

@@ -67,7 +67,7 @@ def accuracy_rows(script, accuracies):
 
 
 def at(accuracy):
-    return jb.load_scene("turbine_roller", {"contact.traction_accuracy": accuracy})
+    return jb.load_scene("turbine_roller", {"contact.traction_accuracy": f"{accuracy:g}"})
 
 
 def newton_rows(script, count):
