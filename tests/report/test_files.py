@@ -12,6 +12,8 @@ from jaxbearing.report.files import appearing_whole
 
 _WRITER = f"""
 import runpy, signal, sys
+# tests started in the background of a shell may ignore Ctrl-C, and so would what they start
+signal.signal(signal.SIGINT, signal.default_int_handler)
 appearing_whole = runpy.run_path({files.__file__!r})["appearing_whole"]
 with appearing_whole(sys.argv[1]) as temporary:
     temporary.write_text("half", encoding="utf-8")
@@ -26,13 +28,8 @@ def test_a_process_that_ends_in_the_middle(signal_name, name, tmp_path):
     for before in (None, "what was there"):
         if before is not None:
             target.write_text(before, encoding="utf-8")
-        # tests started in the background of a shell may ignore Ctrl-C, and so would what they start
         process = subprocess.run(
-            [sys.executable, "-c", _WRITER, str(target), signal_name],
-            capture_output=True,
-            text=True,
-            check=False,
-            preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),
+            [sys.executable, "-c", _WRITER, str(target), signal_name], capture_output=True, text=True, check=False
         )
         assert process.returncode == -getattr(signal, signal_name)
         if before is None:
