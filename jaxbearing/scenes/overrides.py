@@ -32,6 +32,23 @@ def split_assignments(assignments: Iterable[str]) -> dict[str, str]:
     return overrides
 
 
+def as_texts(overrides: Mapping[str, str | float] | None) -> dict[str, str]:
+    """Changes as they would be typed: a plain number or a truth value, from Python, as well.
+
+    **Raises:** `SceneError` for a value of another kind.
+    """
+    texts = {}
+    for path, value in (overrides or {}).items():
+        if isinstance(value, bool):
+            texts[path] = str(value).lower()
+        elif isinstance(value, str | int | float):
+            texts[path] = str(value)
+        else:
+            expected = "text as it would be typed ('12000 rpm'), or a plain number"
+            raise SceneError("overrides", path, f"a {type(value).__name__}", expected)
+    return texts
+
+
 def parse_value(text: str) -> Any:
     """A value of a `--set`: TOML where it is TOML (numbers, true, "quoted"), a number also as ".3" or "3.", otherwise
     the text itself."""

@@ -16,7 +16,7 @@ from .line_contact_build import line_contact
 from .line_contact_schema import LineContactTable
 from .oil_files import Origin, origins
 from .oils import with_catalogue
-from .overrides import REMOVE, apply, parse_value
+from .overrides import REMOVE, apply, as_texts, parse_value
 from .roller_build import cylindrical_roller_bearing
 from .roller_schema import CylindricalRollerTable
 from .tapered_build import tapered_roller_bearing
@@ -45,12 +45,13 @@ def schema_of_kind(kind: str) -> tuple[type[BaseModel], type]:
     return model, typing.get_type_hints(build)["return"]
 
 
-def load_scene(source: str | Path, overrides: Mapping[str, str] | None = None) -> AbstractScene:
+def load_scene(source: str | Path, overrides: Mapping[str, str | float] | None = None) -> AbstractScene:
     """A scene from a file or by the name of a built-in scene.
 
     **Arguments:**
     - `source`: path of a TOML file, or one of `builtin_names()`.
-    - `overrides`: dotted path of a field -> value as it would be typed, {"operation.inner_speed": "12000 rpm"}; the
+    - `overrides`: dotted path of a field -> value as it would be typed, {"operation.inner_speed": "12000 rpm"}, or a
+      plain number for a field without a unit; the
       value "none" takes an optional table or field out. `oil.file` and the files of `simulation` are relative to the
       working folder here, and to the file's own folder in a scene file.
 
@@ -60,22 +61,22 @@ def load_scene(source: str | Path, overrides: Mapping[str, str] | None = None) -
     return scene_from_mapping(mapping, label, overrides)
 
 
-def oil_origins(source: str | Path, overrides: Mapping[str, str] | None = None) -> dict[str, Origin]:
+def oil_origins(source: str | Path, overrides: Mapping[str, str | float] | None = None) -> dict[str, Origin]:
     """Where the laws of the oil come from, for a scene that `load_scene` takes with the same arguments."""
     label, mapping = read_tables(source)
-    overrides = overrides or {}
+    overrides = as_texts(overrides)
     model, _ = _schema(mapping, overrides, label)
     return origins(apply(mapping, overrides, model, label).get("oil", {}), label)
 
 
 def scene_from_mapping(
-    mapping: Mapping[str, Any], origin: str = "scene", overrides: Mapping[str, str] | None = None
+    mapping: Mapping[str, Any], origin: str = "scene", overrides: Mapping[str, str | float] | None = None
 ) -> AbstractScene:
     """A scene from the tables of a scene file, {"kind": ..., "geometry": {...}, ...}; `origin` names it in messages.
 
     **Raises:** `SceneError`.
     """
-    overrides = overrides or {}
+    overrides = as_texts(overrides)
     try:
         model, build = _schema(mapping, overrides, origin)
         return _build(apply(mapping, overrides, model, origin), model, build, origin)

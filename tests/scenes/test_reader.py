@@ -233,3 +233,13 @@ def test_no_array_is_on_a_device():
 @pytest.mark.parametrize("name", builtin_names())
 def test_summaries_are_whole_sentences(name):
     assert builtin_summary(name).endswith(".")
+
+
+def test_numbers_from_python_stand_for_what_would_be_typed():
+    scene = load_scene("turbine_roller", {"drag.coefficient": 0.9, "geometry.n_rollers": 28})
+    assert float(scene.drag.coefficient) == 0.9
+    assert scene.geometry.n_rollers == 28
+    with pytest.raises(SceneError, match=r"contact\.traction_model: .*a list"):
+        load_scene("turbine_roller", {"contact.traction_model": ["mean_pressure"]})
+    with pytest.raises(SceneError, match="operation.inner_speed"):
+        load_scene("turbine_roller", {"operation.inner_speed": 12000})
