@@ -241,5 +241,5 @@ def test_numbers_from_python_stand_for_what_would_be_typed():
     assert scene.geometry.n_rollers == 28
     with pytest.raises(SceneError, match=r"contact\.traction_model: .*a list"):
         load_scene("turbine_roller", {"contact.traction_model": ["mean_pressure"]})
-    with pytest.raises(SceneError, match="operation.inner_speed"):
+    with pytest.raises(SceneError, match=r"operation\.inner_speed"):
         load_scene("turbine_roller", {"operation.inner_speed": 12000})
