@@ -177,7 +177,6 @@ def structure(name: str, count: int, changes: dict[str, str], ranges: dict[str, 
     )
 
 
-SLOW = "unloaded rollers that may tilt, and whose centrifugal force is next to nothing"
 MEAN = {"contact.traction_model": "mean_pressure", "contact.traction_accuracy": "none"}
 ELASTIC = (MIRROR, HEAVIER, CRAWL, scaled(("profile.shape.drop",)))
 LUBRICATED = {**OIL, **CAGE}

@@ -6,7 +6,9 @@ from campaign.judge import Verdict, campaign
 from campaign.structures import STRUCTURES, shares
 
 LEAST_CONVERGED = 0.995
-"""Part of the scenes that have an equilibrium."""
+"""Part of the scenes that have an equilibrium, of all structures together."""
+LEAST_OF_ONE = 0.97
+"""The same of one structure, of some of which there are 200 scenes only."""
 
 
 @pytest.fixture(scope="module")
@@ -33,4 +35,13 @@ def test_random_scenes(structure, verdicts, request):
     assert not unexpected, unexpected[:3]
     if structure.known:
         pytest.xfail(f"{found.failed} of {found.cases} not converged: {structure.known}")
-    assert found.failed <= (1.0 - LEAST_CONVERGED) * (found.converged + found.failed)
+    assert found.failed <= (1.0 - LEAST_OF_ONE) * (found.converged + found.failed)
+
+
+@pytest.mark.slow
+def test_nearly_all_converge(verdicts, request):
+    """After all structures, in one process."""
+    if not request.config.getoption("--campaign") or len(verdicts) < len(STRUCTURES):
+        pytest.skip("the whole long run: give --campaign CASES")
+    failed, converged = (sum(getattr(v, name) for v in verdicts) for name in ("failed", "converged"))
+    assert failed <= (1.0 - LEAST_CONVERGED) * (converged + failed)
