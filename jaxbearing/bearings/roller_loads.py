@@ -68,15 +68,15 @@ def guessed_loads(
     stiff = jnp.sum(kappa)
 
     def loads(shift, args):
-        film_, martin_, centrifugal_, clearance, cosine_, _ = args
+        film_, martin_, centrifugal_, clearance, cosine_, _, compliance = args
         compression = shift * cosine_ - clearance + film_
-        elastic = positive_power(positive_power(compression / stiff, 10.0 / 9.0) - 0.5 * centrifugal_, 1.0 + 1e-9)
+        elastic = positive_power(positive_power(compression / compliance, 10.0 / 9.0) - 0.5 * centrifugal_, 1.0 + 1e-9)
         return elastic + martin_ / (jnp.maximum(-compression, 0.0) + film_)
 
     def balance(shift, args):
         return jnp.sum(loads(shift, args) * args[4]) / args[5] - 1.0
 
-    args = (film, martin, centrifugal, radial_clearance, cosine, total)
+    args = (film, martin, centrifugal, radial_clearance, cosine, total, stiff)
     high = radial_clearance + stiff * (total + centrifugal) ** 0.9
     low = jnp.minimum(-high, -LENGTH_UNIT)
     high = jnp.maximum(high, LENGTH_UNIT)

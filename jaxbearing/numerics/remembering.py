@@ -52,6 +52,11 @@ class Remembering(dfx.AbstractAdaptiveSolver, dfx.AbstractWrappedSolver):
     def term_compatible_contr_kwargs(self):  # pyright: ignore[reportIncompatibleVariableOverride]
         return self.solver.term_compatible_contr_kwargs
 
+    @property
+    def scan_kind(self) -> Any:
+        """The wrapped solver's: diffrax' adjoints set it there, through this name."""
+        return self.solver.scan_kind
+
     def order(self, terms: Any) -> int | None:
         return self.solver.order(terms)
 
