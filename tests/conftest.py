@@ -39,15 +39,20 @@ def pytest_addoption(parser):
     parser.addoption("--campaign-file", type=Path, default=Path("campaign.json"), help="for the cases that fail")
 
 
+_PASSES = "reshape-mover,while-loop-invariant-code-motion"
+"""What the former does and the algebraic simplifier undoes, 25 times over, is a fifth of the time of large programs."""
+
+
 def pytest_configure():
     """Most of the time of the tests is spent in XLA: on a CPU they compile quickly, but for those that ask for
     `optimized`."""
     if os.environ["JAX_PLATFORMS"] != "cpu":
         return
     jax.config.update("jax_disable_most_optimizations", True)
+    os.environ.setdefault("JAX_DISABLE_MOST_OPTIMIZATIONS", "1")  # of the commands that tests start
     # a flag that is not known ends the process
     if jaxlib.__version__.startswith("0.10."):
-        os.environ.setdefault("XLA_FLAGS", "--xla_cpu_use_fusion_emitters=false")
+        os.environ.setdefault("XLA_FLAGS", f"--xla_cpu_use_fusion_emitters=false --xla_disable_hlo_passes={_PASSES}")
 
 
 # Each compiled program takes memory maps, of which Linux grants a process 65 530: a worker that has no more crashes.
