@@ -4,6 +4,8 @@ import os
 import subprocess
 import sys
 
+import jax
+
 DRY = ("--set", "contact=none")
 
 
@@ -11,6 +13,9 @@ def environment(**more):
     """Of a process of its own; None takes a variable out."""
     # the package that is tested, wherever another one may be installed
     here = {"PYTHONPATH": os.pathsep.join(filter(None, sys.path)), "JAXBEARING_CACHE": "off"}
+    if "JAXBEARING_CACHE" not in more:
+        # JAX's own cache, that of the tests: the same scene is not compiled for each of them
+        here |= {"JAX_COMPILATION_CACHE_DIR": jax.config.jax_compilation_cache_dir or ""}
     variables = os.environ | here | more
     return {name: value for name, value in variables.items() if value is not None}
 

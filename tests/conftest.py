@@ -39,8 +39,20 @@ def pytest_addoption(parser):
     parser.addoption("--campaign-file", type=Path, default=Path("campaign.json"), help="for the cases that fail")
 
 
-_PASSES = "reshape-mover,while-loop-invariant-code-motion"
-"""What the former does and the algebraic simplifier undoes, 25 times over, is a fifth of the time of large programs."""
+_IDLE_PASSES = (
+    "reshape-mover",
+    "simplify-while-loops",
+    "tree_reduction_rewriter",
+    "while-loop-constant-sinking",
+    "while-loop-invariant-code-motion",
+)
+_FLAGS = (
+    "--xla_cpu_use_fusion_emitters=false",
+    "--xla_cpu_parallel_codegen_split_count=1",
+    f"--xla_disable_hlo_passes={','.join(_IDLE_PASSES)}",
+)
+"""For quick compilation: of the largest programs 38 instead of 62 s. What the reshape mover does the algebraic simplifier
+undoes, 25 times over, with all other passes in between."""
 
 
 def pytest_configure():
@@ -52,7 +64,7 @@ def pytest_configure():
     os.environ.setdefault("JAX_DISABLE_MOST_OPTIMIZATIONS", "1")  # of the commands that tests start
     # a flag that is not known ends the process
     if jaxlib.__version__.startswith("0.10."):
-        os.environ.setdefault("XLA_FLAGS", f"--xla_cpu_use_fusion_emitters=false --xla_disable_hlo_passes={_PASSES}")
+        os.environ.setdefault("XLA_FLAGS", " ".join(_FLAGS))
 
 
 # Each compiled program takes memory maps, of which Linux grants a process 65 530: a worker that has no more crashes.

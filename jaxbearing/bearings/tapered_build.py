@@ -121,6 +121,7 @@ def build_tapered(scene: TaperedRollerBearing, freedoms: tuple[str, ...] | None 
         held=tilt * lever * columns["tilt"],
         ring_load=jnp.stack([loads.get(name, jnp.zeros(())) for name in names]),
         guess=None,
+        seated=None,
         freedoms=names,
         multiplicity=geometry.n_rollers // count,
     )

@@ -24,6 +24,7 @@ import dataclasses
 from typing import NamedTuple
 
 import equinox as eqx
+import jax
 import jax.numpy as jnp
 from jaxtyping import Array, Bool, Float
 
@@ -47,6 +48,12 @@ FARTHEST = 100.0
 MOST_TILT = 0.1
 """Of a ring that is free to tilt, rad. The equations are those of small displacements; they do have roots beyond, where
 rollers carry all load on the last micrometres of their length while the others are millimetres apart."""
+
+
+SEATING = 1e-3
+"""Centrifugal force, over a roller's share of the load, below which rollers that carry nothing hardly find their
+places: forces of 1e-10 of the others bring them there. Where Newton's iteration fails so, it begins with this much and
+walks down."""
 
 
 class TaperedForm(NamedTuple):
@@ -101,6 +108,8 @@ class TaperedSystem(AbstractConvexArrow):
     held: Float[Array, "3 roller"]
     ring_load: Float[Array, " freedom"]
     guess: ArrowPoint | None
+    seated: ArrowPoint | None
+    """First guess at full ease."""
     freedoms: tuple[str, ...] = eqx.field(static=True)
     multiplicity: int = eqx.field(static=True)
 
@@ -174,11 +183,44 @@ class TaperedSystem(AbstractConvexArrow):
         """Of the ring's loads, J."""
         return LENGTH_UNIT * jnp.sum(self.ring_load * globals_)
 
+    @property
+    def paths(self) -> int:
+        return 0 if self.seated is None else 1
+
+    def eased(self, ease, path):
+        """More inertia, where there is some: it brings the rollers that carry nothing to their places."""
+        del path
+        guess = None
+        if self.guess is not None and self.seated is not None:
+            guess = jax.tree.map(lambda own, other: jnp.where(ease < 1.0, own, other), self.guess, self.seated)
+        force = self.inertia.force
+        factor = jnp.maximum(self._slowness(), 1.0) ** ease
+        inertia = self.inertia._replace(force=force * factor, moment=self.inertia.moment * factor)
+        return dataclasses.replace(self, inertia=inertia, guess=guess)
+
+    def _slowness(self) -> Array:
+        """`SEATING` over the centrifugal force; 0 at rest."""
+        force = self.inertia.force
+        least = SEATING * self.load_scale() / self.roller_count
+        return jnp.where(force > 0, least / jnp.where(force > 0, force, 1.0), 0.0)
+
     def started(self, hopeless: Bool[Array, ""]) -> tuple["TaperedSystem", Minimum]:
-        """These equations with the minimum of the potential as first guess, and how it was found; `hopeless`: known to
-        have none."""
-        found = find_minimum(self, tolerance=START_TOLERANCE, hopeless=hopeless)
-        return dataclasses.replace(self, guess=found.point), found
+        """These equations with the minimum of the potential as first guess, that with more inertia as another one, and
+        how the first was found; `hopeless`: known to have none."""
+        posed = jax.lax.stop_gradient(self)
+        start = posed.initial()
+        nothing = Minimum(start, jnp.asarray(0), jnp.asarray(False))
+
+        def search(ease: Array) -> Minimum:
+            # where it is fast enough the second one is the first
+            there = dataclasses.replace(posed.eased(ease, 0), guess=start)
+            find = lambda: find_minimum(there, tolerance=START_TOLERANCE, hopeless=hopeless)
+            return jax.lax.cond((ease > 0.0) & ((posed._slowness() <= 1.0) | hopeless), lambda: nothing, find)
+
+        both = jax.lax.map(search, jnp.asarray([0.0, 1.0]))
+        found, seated = (jax.tree.map(lambda leaf, i=i: leaf[i], both) for i in (0, 1))
+        system = dataclasses.replace(self, guess=found.point, seated=seated.point)
+        return system, found._replace(steps=found.steps + seated.steps)
 
     # -- physics --------------------------------------------------------------------------------------------------
 

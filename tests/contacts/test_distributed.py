@@ -189,7 +189,8 @@ def test_extrapolation(heating):
     for field in ("rolling", "power"):
         expected = (4 * getattr(fine, field) - getattr(coarse, field)) / 3
         np.testing.assert_allclose(getattr(both, field), expected, rtol=1e-13)
-    assert both.film_rise == fine.film_rise
+    # two programs: XLA may order the operations of each in its own way
+    np.testing.assert_allclose(both.film_rise, fine.film_rise, rtol=1e-14)
 
 
 @SLOW
