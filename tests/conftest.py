@@ -19,6 +19,8 @@ import jax
 import jaxlib
 import pytest
 
+from jaxbearing.numerics.compiling import IDLE_PASSES
+
 jax.config.update("jax_numpy_rank_promotion", "raise")
 jax.config.update("jax_numpy_dtype_promotion", "strict")
 
@@ -39,20 +41,12 @@ def pytest_addoption(parser):
     parser.addoption("--campaign-file", type=Path, default=Path("campaign.json"), help="for the cases that fail")
 
 
-_IDLE_PASSES = (
-    "reshape-mover",
-    "simplify-while-loops",
-    "tree_reduction_rewriter",
-    "while-loop-constant-sinking",
-    "while-loop-invariant-code-motion",
-)
 _FLAGS = (
     "--xla_cpu_use_fusion_emitters=false",
     "--xla_cpu_parallel_codegen_split_count=1",
-    f"--xla_disable_hlo_passes={','.join(_IDLE_PASSES)}",
+    f"--xla_disable_hlo_passes={','.join(IDLE_PASSES)}",
 )
-"""For quick compilation: of the largest programs 38 instead of 62 s. What the reshape mover does the algebraic simplifier
-undoes, 25 times over, with all other passes in between."""
+"""For quick compilation: of the largest programs 38 instead of 62 s."""
 
 
 def pytest_configure():

@@ -213,7 +213,7 @@ class TaperedSystem(AbstractConvexArrow):
 
         def search(ease: Array) -> Minimum:
             # where it is fast enough the second one is the first
-            there = dataclasses.replace(posed.eased(ease, 0), guess=start)
+            there = dataclasses.replace(posed.eased(ease, jnp.asarray(0)), guess=start)
             find = lambda: find_minimum(there, tolerance=START_TOLERANCE, hopeless=hopeless)
             return jax.lax.cond((ease > 0.0) & ((posed._slowness() <= 1.0) | hopeless), lambda: nothing, find)
 
