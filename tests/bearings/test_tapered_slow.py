@@ -58,9 +58,7 @@ def test_loads_are_those_at_rest(found):
 def test_rollers_are_in_balance(scene, found):
     """Along the bearing's axis, where no inertia acts; to what counts as converged, 1e-10 of the load."""
     elements, geometry = found.elements, scene.geometry
-    cup, half, rib = (
-        float(getattr(geometry, name)) for name in ("contact_angle", "roller_half_angle", "flange_angle")
-    )
+    cup, half, rib = (float(getattr(geometry, name)) for name in ("contact_angle", "roller_half_angle", "flange_angle"))
     forces = (
         np.asarray(elements.load_outer) * np.sin(cup)
         - np.asarray(elements.load_inner) * np.sin(cup - 2.0 * half)

@@ -24,7 +24,7 @@ from fitting.estimation import column_scales, estimate, linearized
 from fitting.parameters import NAMES, natural
 from fitting.search import Search
 from fitting.uncertainty import spread
-from jaxbearing.contacts import Resolution
+from jaxbearing.contacts import PRESETS, Resolution
 from jaxbearing.machines import TwoDisk
 
 SEED = 20261122
@@ -48,10 +48,10 @@ class Table:
     load: None = None
 
 
-def experiment(name: str, accuracy: float = 1e-3) -> tuple[TwoDisk, Table]:
+def experiment(name: str, march: Resolution = PRESETS[1e-3]) -> tuple[TwoDisk, Table]:
     """Scene with the true oil, and the points of the curves without noise (made and fitted with the same steps)."""
     scene = jb.load_scene(f"two_disk_{name}")
-    traction = dataclasses.replace(scene.contact.traction, resolution=Resolution.for_accuracy(accuracy))
+    traction = dataclasses.replace(scene.contact.traction, resolution=march)
     scene = eqx.tree_at(lambda s: s.contact.traction, scene, traction)
     if name == "mobil_jet_ii":
         temperatures, pressures, speed = (297.0, 340.0, 378.0), (1.05e9, 1.5e9), 21.175
@@ -77,9 +77,9 @@ def three_times_wrong(scene: TwoDisk) -> TwoDisk:
     return eqx.tree_at(lambda s: s.oil.rheology, scene, dataclasses.replace(rheology, **wrong))
 
 
-def recovery(name: str, accuracy: float = 1e-3) -> np.ndarray:
+def recovery(name: str, march: Resolution = PRESETS[1e-3]) -> np.ndarray:
     """Relative error of each parameter from noise-free curves."""
-    scene, table = experiment(name, accuracy)
+    scene, table = experiment(name, march)
     start = three_times_wrong(scene)
     result = fitting.fit(fitting.Measurements.of(table, start), start, fitting.FitOptions(errors=ERRORS))
     assert result.converged, result.failure()
@@ -87,9 +87,9 @@ def recovery(name: str, accuracy: float = 1e-3) -> np.ndarray:
     return np.array([result.parameters[n].value for n in NAMES]) / true - 1.0
 
 
-def coverage(name: str, repetitions: int, accuracy: float = 1e-3) -> tuple[np.ndarray, int]:
+def coverage(name: str, repetitions: int, march: Resolution = PRESETS[1e-3]) -> tuple[np.ndarray, int]:
     """Part of the repetitions whose interval holds the true value, by parameter; and how many did not converge."""
-    scene, table = experiment(name, accuracy)
+    scene, table = experiment(name, march)
     rng = np.random.default_rng(SEED)
     noise = rng.normal(size=(repetitions, len(table.slide_to_roll)))
     clean = table.traction_coefficient

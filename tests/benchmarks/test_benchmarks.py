@@ -30,8 +30,8 @@ def test_rheology_comes_back_and_its_intervals_are_honest(name, repetitions):
     """Of 40 intervals that hold the true value with 95 %, fewer than 33 do so with 0.07 %; of 5, fewer than 3 with
     0.12 %. The study with 200 is the script's."""
     module = script("rheology_fit")
-    assert np.max(np.abs(module.recovery(name, accuracy=1e-2))) < 1e-6
-    inside, failed = module.coverage(name, repetitions, accuracy=1e-2)
+    assert np.max(np.abs(module.recovery(name, PRESETS[1e-2]))) < 1e-6
+    inside, failed = module.coverage(name, repetitions, PRESETS[1e-2])
     assert failed == 0
     assert np.all(inside * repetitions >= (33 if repetitions == 40 else 3))
 

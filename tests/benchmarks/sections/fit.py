@@ -13,21 +13,24 @@ from section_shape import Section, Table
 import fitting
 from fitting.estimation import column_scales, estimate, jacobian
 from fitting.search import Search
+from jaxbearing.contacts.resolution import PRESETS, Resolution
 
-ACCURACIES = (1e-2, 1e-3, 1e-4, 1e-5)
+MARCHES = {
+    **{f"{accuracy:g}": PRESETS[accuracy] for accuracy in (1e-2, 1e-3, 1e-4)},
+    "1e-6, extrapolated": Resolution(128, 24, True),
+}
 
 
 def section(quick=False):
     script = load(HERE / "rheology_fit.py")
-    accuracy = 1e-2 if quick else 1e-3
-    recovered = float(np.max(np.abs(script.recovery("mobil_jet_ii", accuracy))))
+    recovered = float(np.max(np.abs(script.recovery("mobil_jet_ii", PRESETS[1e-2 if quick else 1e-3]))))
     methods = script.methods("mobil_jet_ii")
     rows = [(f"fitting.fit, {name}", *found[:-1]) for name, found in methods.items()]
     alone = [("Levenberg-Marquardt, ours", *our_fit(script))]
     for name, exact in (("finite differences", False), ("our Jacobian", True)):
         alone.append((f"scipy least_squares, {name}", *scipy_fit(script, exact)))
     alone = [(*row, row[1] / alone[0][1]) for row in alone]
-    marches = march_rows(script, ACCURACIES[:2] if quick else ACCURACIES)
+    marches = march_rows(script, dict(list(MARCHES.items())[:2]) if quick else MARCHES)
     best = min(row[3] for row in alone)
     return Section(
         "Rheology from traction curves",
@@ -96,17 +99,17 @@ def scipy_fit(script, exact):
     return time.perf_counter() - begin, int(found.nfev), float(found.cost)
 
 
-def march_rows(script, accuracies):
-    scene, table = script.experiment("mobil_jet_ii", 1e-6)
+def march_rows(script, marches):
+    scene, table = script.experiment("mobil_jet_ii", PRESETS[1e-6])
     true = np.array([float(getattr(scene.oil.rheology, name)) for name in script.NAMES])
     rows = []
-    for accuracy in accuracies:
-        start = script.three_times_wrong(script.experiment("mobil_jet_ii", accuracy)[0])
+    for name, resolution in marches.items():
+        start = script.three_times_wrong(script.experiment("mobil_jet_ii", resolution)[0])
         measurements, options = fitting.Measurements.of(table, start), fitting.FitOptions(errors=script.ERRORS)
         fitting.fit(measurements, start, options)
         begin = time.perf_counter()
         result = fitting.fit(measurements, start, options)
         seconds = time.perf_counter() - begin
         found = np.array([result.parameters[name].value for name in script.NAMES])
-        rows.append((accuracy, float(np.max(np.abs(found / true - 1.0))), seconds))
+        rows.append((name, float(np.max(np.abs(found / true - 1.0))), seconds))
     return tuple(rows)
