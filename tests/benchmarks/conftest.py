@@ -1,20 +1,21 @@
-"""The whole report is made on request only: `python -m pytest tests/benchmarks`."""
+"""`python -m pytest tests/benchmarks` makes the whole report, which stands for the slow tests here: they are smaller
+runs of the same. No other choice of tests makes it, but for that of its own file."""
 
 import sys
 from pathlib import Path
 
 import pytest
 
-sys.path.insert(0, str(Path(__file__).parent))
+HERE = Path(__file__).parent.resolve()
+sys.path.insert(0, str(HERE))
 
 
 def pytest_collection_modifyitems(config, items):
-    """Asked for: the folder (or the file) of the benchmarks by name, and no expression of markers."""
     named = [Path(str(argument).split("::")[0]).resolve() for argument in config.args]
-    here = Path(__file__).parent.resolve()
-    wanted = not config.option.markexpr and any(path == here or here in path.parents for path in named)
-    if not wanted:
-        skip = pytest.mark.skip(reason="the whole report: python -m pytest tests/benchmarks")
-        for item in items:
-            if item.get_closest_marker("report"):
-                item.add_marker(skip)
+    if config.option.markexpr or not {HERE, HERE / "test_report.py"} & set(named):
+        left_out, reason = "report", "the whole report: python -m pytest tests/benchmarks"
+    else:
+        left_out, reason = "slow", "smaller than the whole report"
+    for item in items:
+        if HERE in item.path.parents and item.get_closest_marker(left_out):
+            item.add_marker(pytest.mark.skip(reason=reason))

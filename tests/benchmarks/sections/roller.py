@@ -24,7 +24,7 @@ def section(quick=False):
         "Errors are the largest relative ones of power loss, cage speed and largest load.",
         (
             Table(
-                "`turbine_roller`, by the accuracy of the traction that the scene names (against 2400 steps, extrapolated):",
+                "`turbine_roller`, by the accuracy of its traction (against 2400 steps, extrapolated):",
                 ("accuracy asked", "error", "first solve, s", "warm, ms"),
                 by_accuracy,
             ),
