@@ -3,6 +3,7 @@
 On the CPU, unless JAX_PLATFORMS says otherwise: `JAX_PLATFORMS=cuda python -m pytest`.
 """
 
+import gc
 import os
 from pathlib import Path
 
@@ -19,7 +20,7 @@ import jax
 import jaxlib
 import pytest
 
-from jaxbearing.numerics.compiling import IDLE_PASSES
+from jaxbearing.numerics.compiling import IDLE_PASSES, RARELY
 
 jax.config.update("jax_numpy_rank_promotion", "raise")
 jax.config.update("jax_numpy_dtype_promotion", "strict")
@@ -51,7 +52,9 @@ _FLAGS = (
 
 def pytest_configure():
     """Most of the time of the tests is spent in XLA: on a CPU they compile quickly, but for those that ask for
-    `optimized`."""
+    `optimized`. Tracing comes next, a third of it Python's collector of garbage (`collecting_rarely`)."""
+    gc.freeze()
+    gc.set_threshold(*RARELY)
     if os.environ["JAX_PLATFORMS"] != "cpu":
         return
     jax.config.update("jax_disable_most_optimizations", True)

@@ -7,7 +7,7 @@ import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Array, Bool, Float
 
-from ..contacts import Gupta, LineContact
+from ..contacts import Gupta, LineContact, lamina_points
 from ..lubricants.ranges import FITTED_PRESSURE, FITTED_TEMPERATURES
 from ..materials import reduced_modulus
 from ..numerics.arrow import ArrowPoint, linearize, schur_complement
@@ -304,7 +304,8 @@ def line_pressure(scene: TaperedRollerBearing, system: TaperedSystem, state: Tap
     r"""Largest Hertz pressure along each raceway contact, Pa: $p_0^2 = qE'/(2\pi R)$ with q and R of the place.
 
     Straight rollers: R shrinks towards the apex, so that the largest is at an end, or, where the load falls towards the
-    small end, at $s = 10d - 9f/|g|$, where $d\,p_0/ds = 0$. With a profile: the largest of the laminae.
+    small end, at $s = 10d - 9f/|g|$, where $d\,p_0/ds = 0$. With a profile: the largest of the points that the load is
+    summed over, so that one without load has none.
     """
     geometry = scene.geometry
     modulus = reduced_modulus(scene.materials.rings, scene.materials.rollers)
@@ -315,9 +316,8 @@ def line_pressure(scene: TaperedRollerBearing, system: TaperedSystem, state: Tap
         inside = jnp.where(falls, 10.0 * reach - HIGHEST * state.approach / steep, 0.0)
         place = jnp.stack([jnp.zeros_like(inside), jnp.ones_like(inside), jnp.clip(inside / length, 0.0, 1.0)])
     else:
-        count = scene.profile.n_laminae
-        middles = jnp.asarray((np.arange(count) + 0.5) / count)[:, None, None]
-        place = jnp.broadcast_to(middles, (count, *state.slope.shape))
+        places = jnp.asarray(lamina_points(scene.profile.n_laminae)[0])[:, None, None]
+        place = jnp.broadcast_to(places, (len(places), *state.slope.shape))
     load = system.line.load_per_length(state.approach[None], state.slope[None], place)
     radii = jnp.stack([geometry.race_reduced_radii(place[:, side])[side] for side in (0, 1)], axis=1)
     contact = LineContact(radii, jnp.ones(()), modulus)

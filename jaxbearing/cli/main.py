@@ -11,6 +11,7 @@ from typing import Annotated, Any
 
 import typer
 
+from ..numerics.compiling import collecting_rarely
 from .fit_verb import fit
 from .messages import BAD_INPUT, INTERRUPTED, NO_OUTPUT, say
 from .quiet import only_news
@@ -55,7 +56,8 @@ def _run() -> int:
         sys.stdout.reconfigure(errors="replace")
     only_news()
     try:
-        code = app(standalone_mode=False)
+        with collecting_rarely():
+            code = app(standalone_mode=False)
         sys.stdout.flush()
     except _UsageError as error:
         return _usage(error)

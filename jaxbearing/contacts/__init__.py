@@ -45,6 +45,7 @@ from .thermal import inlet_temperature_rise as inlet_temperature_rise
 from .tilted_line import AbstractTiltedLine as AbstractTiltedLine
 from .tilted_line import SlicedLine as SlicedLine
 from .tilted_line import StraightLine as StraightLine
+from .tilted_line import lamina_points as lamina_points
 from .tilted_line import palmgren_stiffness as palmgren_stiffness
 from .traction import AbstractTraction as AbstractTraction
 from .traction import MaxwellEyring as MaxwellEyring

@@ -59,7 +59,7 @@ class AbstractTiltedLine(eqx.Module):
 
     def laminae(self, f: Float[Array, " batch"], g: Float[Array, " batch"], count: int) -> Float[Array, "batch lamina"]:
         """Loads of `count` equal laminae, N, by two Gauss-Legendre points in each."""
-        places, weights = _points(count)
+        places, weights = lamina_points(count)
         density = self.load_per_length(f[:, None], g[:, None], jnp.asarray(places)[None, :])
         each = density * jnp.asarray(weights)[None, :] * self.length
         return jnp.sum(each.reshape(f.shape[0], count, POINTS), axis=2)
@@ -168,7 +168,7 @@ class SlicedLine(AbstractTiltedLine):
     def _points(self, f: Values, g: Values) -> tuple[Array, Array, Array]:
         """Places s/l, weights (together 1) and approaches of all points, on the first axis."""
         f, g = jnp.broadcast_arrays(jnp.asarray(f, dtype=float), jnp.asarray(g, dtype=float))
-        places, weights = _points(self.count)
+        places, weights = lamina_points(self.count)
         shape = (-1, *(1,) * f.ndim)
         place = jnp.asarray(places).reshape(shape)
         approach = f[None] + g[None] * (self.length * place) - self.drop(place)
@@ -185,7 +185,7 @@ class SlicedLine(AbstractTiltedLine):
         return self.stiffness * self.length / (EXPONENT + 1.0) * jnp.sum(each, axis=0)
 
 
-def _points(count: int) -> tuple[np.ndarray, np.ndarray]:
+def lamina_points(count: int) -> tuple[np.ndarray, np.ndarray]:
     """Places and weights of `POINTS` points in each of `count` laminae of [0, 1], in their order."""
     nodes, weights = gauss_legendre(POINTS)
     places = (np.arange(count)[:, None] + nodes[None, :]) / count

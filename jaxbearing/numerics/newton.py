@@ -33,8 +33,10 @@ TURNING_BACK = 0.5
 """A step that takes back the one before it goes at most this part of its length: as in bisection, what two steps that
 oppose each other enclose is halved. Newton's iteration in a kink goes back and forth for ever."""
 ROUNDED_STEP = 1e-12
-"""A root that Newton's step locates to this (scaled) is found although rounding keeps the residual above its tolerance,
-by no more than the system's `rounding`."""
+"""A root that Newton's step locates to this (scaled) is found although rounding keeps the residual above its tolerance:
+by no more than the system's `rounding`, or than the last bits of the unknowns make of each equation."""
+LAST_BITS = 10.0 * 2.0**-52
+"""Relative change of every unknown, in its scale where it is smaller, that a residual of rounding stands for."""
 LONGEST_STAGE = 0.25
 """First length of a stage, in ease."""
 SHORTEST_STAGE = 0.02
@@ -65,7 +67,7 @@ class NewtonOptions(eqx.Module):
     residual_tolerance: float = eqx.field(static=True, default=1e-10)
     step_tolerance: float = eqx.field(static=True, default=1e-7)
     inner_tolerance: float = eqx.field(static=True, default=1e-8)
-    max_steps: int = eqx.field(static=True, default=60)
+    max_steps: int = eqx.field(static=True, default=200)
     further_tries: bool = eqx.field(static=True, default=True)
 
 
@@ -175,6 +177,17 @@ def _paced(
     )
 
 
+def _of_last_bits(equations: Equations, jacobian: ArrowJacobian, at: ArrowPoint) -> Bool[Array, ""]:
+    """Whether no residual is more than what the last bits of the unknowns make of it."""
+    steep = jax.tree.map(jnp.abs, jacobian)
+    own, common = (LAST_BITS * jnp.maximum(jnp.abs(part), 1.0) for part in at)
+    elements = jnp.einsum("ijn,jn->in", steep.local, own) + jnp.einsum("ign,g->in", steep.to_globals, common)
+    carried = jnp.einsum("kjn,jn->k", steep.contributions, own)
+    globals_ = steep.corner @ common + steep.chain @ carried
+    residual = equations.residual
+    return jnp.all(jnp.abs(residual.elements) <= elements) & jnp.all(jnp.abs(residual.globals) <= globals_)
+
+
 def _choose(condition: Bool[Array, ""], a: ArrowPoint, b: ArrowPoint) -> ArrowPoint:
     return ArrowPoint(*(jnp.where(condition, x, y) for x, y in zip(a, b, strict=True)))
 
@@ -200,7 +213,8 @@ def _iterate(system: AbstractArrowSystem, options: NewtonOptions) -> _Iterate:
         usable = jnp.isfinite(norm) & jnp.isfinite(_largest(step))
         size, ahead = _largest(equations.residual), _largest(step)
         met = (size <= options.residual_tolerance) & (ahead <= options.step_tolerance)
-        rounded = (size <= system.rounding * options.residual_tolerance) & (ahead <= ROUNDED_STEP)
+        small = (size <= system.rounding * options.residual_tolerance) | _of_last_bits(equations, jacobian, state.trial)
+        rounded = small & (ahead <= ROUNDED_STEP)
         settled = usable & (met | rounded)
         converged = settled & (equations.inner <= options.inner_tolerance)
 

@@ -12,6 +12,8 @@ import benchmark_report as report
 import pytest
 from section_shape import Section, Table
 
+from jaxbearing.contacts import PRESETS
+
 
 def made_up(name, quick, folder):
     if name == "broken":
@@ -55,7 +57,7 @@ def test_the_whole_report(request):
     for name, value in facts.items():
         if name.endswith(": failed"):
             assert value == 0, name
-    for accuracy in (1e-2, 1e-3, 1e-4, 1e-5, 1e-6):
+    for accuracy in PRESETS:
         assert facts[f"traction: error at accuracy {accuracy:g}"] < 2 * accuracy
     assert facts["roller: power closure"] < 1e-10
     # where tamaas is installed

@@ -126,15 +126,17 @@ def ball_balances(scene: Any, n: Numbers, r: Results) -> dict[str, tuple[np.ndar
     inner, outer = r["elements.load_inner"], r["elements.load_outer"]
     at_inner, at_outer = r["elements.contact_angle_inner"], r["elements.contact_angle_outer"]
     cosine = np.cos(r["elements.azimuth"])
-    found = energy(r) if scene.kinematics.attitude == "equilibrium" or not scene.slips else {}
+    mass = n["materials.balls.density"] * np.pi / 6.0 * n["geometry.ball_diameter"] ** 3
+    outward = 0.5 * mass[:, None] * n["geometry.pitch_diameter"][:, None] * r["elements.orbital_speed"] ** 2
+    number = lambda name: n.get(f"operation.{name}", np.zeros(len(inner)))
+    axial, radial, moment = number("axial_load"), number("radial_load"), number("moment")
+    # residuals of forces are in 1 % of the load and of the centrifugal forces
+    speed = np.abs(number("inner_speed")) + np.abs(number("outer_speed"))
+    unit = 0.01 * (np.hypot(axial, radial) + np.sum(outward, axis=1)) * speed * n["geometry.pitch_diameter"]
+    found = energy(r, unit) if scene.kinematics.attitude == "equilibrium" or not scene.slips else {}
     if scene.kinematics.gyroscopic is not None:
         # its friction stands in all balances of forces
         return found
-    number = lambda name: n.get(f"operation.{name}", np.zeros(len(inner)))
-    axial, radial, moment = number("axial_load"), number("radial_load"), number("moment")
-    diameter, pitch = n["geometry.ball_diameter"], n["geometry.pitch_diameter"]
-    mass = n["materials.balls.density"] * np.pi / 6.0 * diameter**3
-    outward = 0.5 * mass[:, None] * pitch[:, None] * r["elements.orbital_speed"] ** 2
     total = np.hypot(axial, radial) + np.max(inner, axis=1) * 1e-3
     # the floor of 1 mN on the centrifugal force, which holds a ball that nothing loads
     floor = 1.1e-3
