@@ -53,8 +53,8 @@ class NewtonOptions(eqx.Module):
     """Tolerances and limits of the Newton iteration; plain numbers, none of them differentiated.
 
     **Arguments:**
-    - `residual_tolerance`: largest scaled residual of a converged solve; times the system's `rounding` where the Newton
-      step is below 1e-12, so that only rounding is left of it.
+    - `residual_tolerance`: largest scaled residual of a converged solve. Where the Newton step is below 1e-12 and only
+      rounding is left of the residual, times the system's `rounding`, or what the last bits of the unknowns make.
     - `step_tolerance`: largest scaled Newton step of a converged solve. Convergence asks for both: a small
       residual alone says nothing where the Jacobian is nearly singular.
     - `inner_tolerance`: largest scaled residual of solves nested in the equations.

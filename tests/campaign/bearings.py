@@ -81,9 +81,9 @@ def largest(values: np.ndarray) -> np.ndarray:
 
 
 def energy(results: Results, unit: np.ndarray | float = 0.0) -> dict[str, tuple[np.ndarray, float]]:
-    """The power that drives the rings, from torques, is the sum of all losses, and no loss is negative. The residual of
-    the equations, in `unit`, W, is granted: where thick oil makes forces of the last bits of a speed it is what rounding
-    leaves, above the tolerance."""
+    """The power that drives the rings, from torques, is the sum of all losses, and no loss is negative. Granted is the
+    residual of the equations, in `unit`, W: where thick oil makes forces of the last bits of a speed rounding leaves
+    more of it than the tolerance."""
     total = results.get("power_loss.total")
     parts = {path: value for path, value in results.items() if path.startswith("power_loss.") and value is not total}
     if total is None or not parts:
