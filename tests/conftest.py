@@ -66,14 +66,29 @@ def pytest_configure():
 
 # Each compiled program takes memory maps, of which Linux grants a process 65 530: a worker that has no more crashes.
 _MAPS, _MANY_MAPS = Path("/proc/self/maps"), 15_000
+# Traces are garbage that is seldom collected by itself.
+_PAGES, _MUCH = Path("/proc/self/statm"), 2**30
+_resident_before = 0
 
 
 def pytest_runtest_teardown(item, nextitem):
-    """Compiled programs are let go of between modules and slow tests, where there are many."""
+    """Compiled programs are let go of between modules and slow tests, where there are many; garbage, where the process
+    has grown by 1 GiB."""
+    global _resident_before
     if nextitem is not None and nextitem.path == item.path and "slow" not in item.keywords:
         return
-    if _MAPS.exists() and _MAPS.read_bytes().count(b"\n") > _MANY_MAPS:
+    if not _MAPS.exists():
+        return
+    if _MAPS.read_bytes().count(b"\n") > _MANY_MAPS:
         jax.clear_caches()
+    if _resident() > _resident_before + _MUCH:
+        gc.collect()
+        _resident_before = _resident()
+
+
+def _resident():
+    """Memory of this process, bytes."""
+    return int(_PAGES.read_text().split()[1]) * os.sysconf("SC_PAGE_SIZE")
 
 
 @pytest.fixture
