@@ -19,7 +19,7 @@ from .bearings.tilting_steady import solve_tilting
 from .ehl import EHLLineContact, LineContactSolution, solve_line_contact
 from .life.bearing_life import with_life
 from .machines import TwoDisk, TwoDiskSolution, solve_two_disk
-from .numerics.compiling import quickly_compiled
+from .numerics.compiling import collecting_rarely, quickly_compiled
 from .numerics.newton import NewtonOptions
 from .numerics.precision import as_float, require_x64
 
@@ -46,6 +46,7 @@ def steady_function(scene: AbstractScene) -> Callable[..., Any]:
         raise TypeError(f"cannot solve a {type(scene).__name__}; solve takes: {known}") from None
 
 
+@collecting_rarely()  # its body runs where it is traced
 def _solve_any(scene: AbstractScene, options: NewtonOptions) -> Any:
     return with_life(scene, steady_function(scene)(scene, options))
 

@@ -65,7 +65,6 @@ def operations():
 
 
 @pytest.mark.slow
-@pytest.mark.usefixtures("optimized")
 @pytest.mark.parametrize("mapped", ["map", "vmap"])
 def test_2000_solves_with_lanes_that_fail(operations, mapped):
     """Values and gradients of the good lanes equal single solves; a shared parameter keeps a finite gradient."""

@@ -17,7 +17,7 @@ STRUCTURES = [("inner_ring", "inner"), ("outer_ring", "outer")]
 OFTEN, RARELY = 8, 40
 """Newton steps that half of the solves and nearly all of them may take."""
 
-pytestmark = [pytest.mark.slow, pytest.mark.usefixtures("optimized")]
+pytestmark = pytest.mark.slow
 
 
 def random_points(seed):

@@ -6,7 +6,6 @@ from tapered_campaign import campaign
 
 
 @pytest.mark.slow
-@pytest.mark.usefixtures("optimized")
 @pytest.mark.parametrize(("free", "cases"), [(False, 150), (True, 60)])
 def test_random_tapered_bearings(free, cases):
     found = campaign(cases, free, seed=7)
