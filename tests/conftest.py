@@ -66,7 +66,7 @@ def pytest_configure():
 
 # Each compiled program takes memory maps, of which Linux grants a process 65 530: a worker that has no more crashes.
 _MAPS, _MANY_MAPS = Path("/proc/self/maps"), 15_000
-# Traces are garbage that is seldom collected by itself.
+# Traces, garbage once they have ended, are seldom collected by themselves.
 _PAGES, _MUCH = Path("/proc/self/statm"), 2**30
 _resident_before = 0
 

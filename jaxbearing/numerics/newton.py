@@ -36,7 +36,9 @@ ROUNDED_STEP = 1e-12
 """A root that Newton's step locates to this (scaled) is found although rounding keeps the residual above its tolerance:
 by no more than the system's `rounding`, or than the last bits of the unknowns make of each equation."""
 LAST_BITS = 10.0 * 2.0**-52
-"""Relative change of every unknown, in its scale where it is smaller, that a residual of rounding stands for."""
+"""Relative change of every unknown, or of its scale where it is smaller, that a residual of rounding stands for."""
+MOST_ROUNDED = 1e-5
+"""No larger scaled residual counts as rounding, however steep the equation is there."""
 LONGEST_STAGE = 0.25
 """First length of a stage, in ease."""
 SHORTEST_STAGE = 0.02
@@ -54,12 +56,13 @@ class NewtonOptions(eqx.Module):
 
     **Arguments:**
     - `residual_tolerance`: largest scaled residual of a converged solve. Where the Newton step is below 1e-12 and only
-      rounding is left of the residual, times the system's `rounding`, or what the last bits of the unknowns make.
+      rounding is left of the residual, times the system's `rounding`, or what the last bits of the unknowns make, up to
+      1e-5.
     - `step_tolerance`: largest scaled Newton step of a converged solve. Convergence asks for both: a small
       residual alone says nothing where the Jacobian is nearly singular.
     - `inner_tolerance`: largest scaled residual of solves nested in the equations.
     - `max_steps`: Newton steps of the first try, rejected trials counted; the others together may take four times as
-      many for each path of the system.
+      many for each path of the system. What a batch may have to wait for, where a lane has no solution.
     - `further_tries`: whether a solve that fails at once is tried again. A batch under `vmap` waits for its slowest
       lane; without further tries it waits for `max_steps` at most.
     """
@@ -178,7 +181,8 @@ def _paced(
 
 
 def _of_last_bits(equations: Equations, jacobian: ArrowJacobian, at: ArrowPoint) -> Bool[Array, ""]:
-    """Whether no residual is more than what the last bits of the unknowns make of it."""
+    """Whether no residual is more than what the last bits of the unknowns make of it: those of 1 where an unknown is
+    smaller, for it then stands for a difference of two of that order."""
     steep = jax.tree.map(jnp.abs, jacobian)
     own, common = (LAST_BITS * jnp.maximum(jnp.abs(part), 1.0) for part in at)
     elements = jnp.einsum("ijn,jn->in", steep.local, own) + jnp.einsum("ign,g->in", steep.to_globals, common)
@@ -213,7 +217,8 @@ def _iterate(system: AbstractArrowSystem, options: NewtonOptions) -> _Iterate:
         usable = jnp.isfinite(norm) & jnp.isfinite(_largest(step))
         size, ahead = _largest(equations.residual), _largest(step)
         met = (size <= options.residual_tolerance) & (ahead <= options.step_tolerance)
-        small = (size <= system.rounding * options.residual_tolerance) | _of_last_bits(equations, jacobian, state.trial)
+        last_bits = (size <= MOST_ROUNDED) & _of_last_bits(equations, jacobian, state.trial)
+        small = (size <= system.rounding * options.residual_tolerance) | last_bits
         rounded = small & (ahead <= ROUNDED_STEP)
         settled = usable & (met | rounded)
         converged = settled & (equations.inner <= options.inner_tolerance)

@@ -1,6 +1,6 @@
-"""`python -m pytest tests/benchmarks` makes the whole report, which stands for the slow tests here: they are smaller
-runs of the same. `python -m pytest tests/benchmarks/test_benchmarks.py` runs all of those; other choices of tests leave
-out what is marked `report`."""
+"""`python -m pytest tests/benchmarks` makes the whole report and leaves the slow tests of the single benchmarks out;
+`python -m pytest tests/benchmarks/test_benchmarks.py` runs all of those. Other choices of tests leave out what is
+marked `report`: the report itself, and those that take too long for every submission and measure what it measures."""
 
 import sys
 from pathlib import Path
@@ -16,7 +16,7 @@ def pytest_collection_modifyitems(config, items):
     if config.option.markexpr or not any(HERE in (path, path.parent) for path in named):
         left_out, reason = "report", "long: python -m pytest tests/benchmarks, or a file of this folder"
     elif HERE in named:
-        left_out, reason = "slow", "smaller than the whole report"
+        left_out, reason = "slow", "not the report: name the file, or -m slow"
     else:
         return
     for item in items:

@@ -1,6 +1,6 @@
 """The report of all benchmarks: it is written whole, and what must hold on any machine holds; times are not looked at.
 
-The whole report (some 15 minutes) is made where `tests/benchmarks` is named on the command line and no marker:
+The whole report (18 minutes on two cores) is made where `tests/benchmarks` is named on the command line and no marker:
 
     python -m pytest tests/benchmarks [--report-to FOLDER]
 """
@@ -58,17 +58,22 @@ def test_the_whole_report(request):
         if name.endswith(": failed"):
             assert value == 0, name
     for accuracy in PRESETS:
-        assert facts[f"traction: error at accuracy {accuracy:g}"] < 2 * accuracy
+        assert facts[f"traction: error at accuracy {accuracy:g}"] < accuracy
+        assert facts[f"roller: error at accuracy {accuracy:g}"] < accuracy
+        # spinning contacts are beyond what the accuracies promise
+        assert facts[f"ball: error at accuracy {accuracy:g}"] < 10 * accuracy
+    assert facts["traction: finest march off Radau"] < 1e-7
+    assert all(value < 1e-3 for name, value in facts.items() if name.endswith("reference off scipy's DOP853, um"))
     assert facts["roller: power closure"] < 1e-10
     # where tamaas is installed
     assert all(value < 2e-3 for name, value in facts.items() if name.endswith("off by"))
     assert facts["roller: error of Newton"] < 1e-9
-    assert facts["roller: error at traction accuracy 1e-3"] < 1e-3
     assert facts["ball: error of the core"] < 1e-9
     assert facts["tapered: error with 30 laminae"] < 1e-6
     assert 1.8 < facts["film: order of the error"] < 2.2
     assert facts["film: mass balance"] < 1e-8
     assert facts["fit: noise-free recovery"] < 1e-6
+    assert facts["fit: error of a march over its accuracy"] < 3
     assert facts["fit: largest loss over the least, ours"] < 1e-6
     assert facts["sweep: same bits on any number of devices"] == 1.0
     assert facts["sweep: largest error"] < 1e-9

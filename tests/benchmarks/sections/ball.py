@@ -51,6 +51,7 @@ def section(quick=False):
         ),
         {
             "error of the core": core["error"],
+            **{f"error at accuracy {row[0]:g}": row[1] for row in by_accuracy},
             "failed": float(sum(row["failed"] for each in figures.values() for row in each["batch"].values())),
             "times scipy, exact Jacobian, one solve": min(
                 row[-1] for row in scipy if row[0] == "core, combined load" and row[1] == "exact Jacobian"
