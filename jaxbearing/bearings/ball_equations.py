@@ -76,7 +76,7 @@ ROLLING_PASSES = 5
 it. Light balls between fast rings that turn against each other take all of them, usual ones two."""
 FRICTION_PASSES = 3
 """Load and angle of the outer contact under the friction that carries the couple: the error falls as fast."""
-EASIEST_SLIDE = 1e-5
+EASIEST_SLIDE = 1e-3
 """Part of the sliding that the traction law of the easiest system sees."""
 PART_TOLERANCE = 1e-12
 """Of the part of the way from outer to inner control at which the spin power is least."""

@@ -29,6 +29,8 @@ GROWTH = 4.0
 a rise (measured on random roller bearings with both rings turning: with 1.5, three times as many solves of more than
 20 steps). The further tries, begun nearer to their root, ask for a decrease: a residual that saturates never grows by
 that factor."""
+LEAST_FALL = 0.1
+"""Of the fall of the residual that its linearization promises for a step of a further try."""
 TURNING_BACK = 0.5
 """A step that takes back the one before it goes at most this part of its length: as in bisection, what two steps that
 oppose each other enclose is halved. Newton's iteration in a kink goes back and forth for ever."""
@@ -117,6 +119,8 @@ class _Iterate(NamedTuple):
     base: ArrowPoint
     step: ArrowPoint
     base_norm: Float[Array, ""]
+    share: Float[Array, ""]
+    """Of the Newton step that `step` is, after caps and pacing; what the residual may fall by is as much less."""
     attempt: Int[Array, ""]
     iterations: Int[Array, ""]
     status: Int[Array, ""]
@@ -225,7 +229,8 @@ def _iterate(system: AbstractArrowSystem, options: NewtonOptions) -> _Iterate:
 
         growth = jnp.asarray(GROWTH)
         if state.path is not None:
-            growth = jnp.where(state.path.tries <= 1, growth, 1.0 - 0.1 * fractions[state.attempt])
+            least_fall = LEAST_FALL * state.share * fractions[state.attempt]
+            growth = jnp.where(state.path.tries <= 1, growth, 1.0 - least_fall)
         enough = norm <= growth * state.base_norm
         accept = usable & (enough | (state.attempt == last_attempt))
         stuck = ~usable & (state.attempt == last_attempt)
@@ -235,6 +240,9 @@ def _iterate(system: AbstractArrowSystem, options: NewtonOptions) -> _Iterate:
         taken = jax.tree.map(jnp.subtract, state.base, state.trial)
         paced = _capped(system, _paced(system, step, taken, falling))
         next_step = _choose(accept, paced, state.step)
+        whole = _norm(step)
+        share = jnp.minimum(_norm(paced) / jnp.where(whole > 0, whole, 1.0), 1.0)
+        share = jnp.where(accept, share, state.share)
         # across a hump the residual grows first
         base_norm = jnp.where(accept, jnp.where(turned, jnp.inf, norm), state.base_norm)
         iterations = state.iterations + 1
@@ -272,6 +280,7 @@ def _iterate(system: AbstractArrowSystem, options: NewtonOptions) -> _Iterate:
             base=base,
             step=next_step,
             base_norm=base_norm,
+            share=share,
             attempt=attempt,
             iterations=iterations,
             status=status,
@@ -293,6 +302,7 @@ def _iterate(system: AbstractArrowSystem, options: NewtonOptions) -> _Iterate:
         base=start,
         step=zeros,
         base_norm=jnp.asarray(jnp.inf),
+        share=jnp.asarray(1.0),
         attempt=jnp.asarray(0),
         iterations=jnp.asarray(0),
         status=jnp.asarray(-1),

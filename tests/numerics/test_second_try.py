@@ -57,6 +57,24 @@ class Eased(Plateau):
         return eqx.tree_at(lambda system: system.root, self, (1.0 - ease) * target)
 
 
+class Far(Eased):
+    """x - a = 0 by steps of 0.15 at most, from -1e6; with any ease from 0."""
+
+    start: Array | float = -1e6
+
+    def plateau(self, x):
+        return x - self.root
+
+    def initial(self):
+        return ArrowPoint(jnp.full((1, 2), self.start), jnp.full(1, self.start))
+
+    def step_caps(self):
+        return ArrowPoint(jnp.full((1, 1), 0.15), jnp.full(1, 0.15))
+
+    def eased(self, ease, path):
+        return Far(self.root, self.steepness, start=jnp.where(ease > 0.0, 0.0, -1e6))
+
+
 def parameters(root, steepness=1.0):
     return jnp.asarray(root), jnp.asarray(steepness)
 
@@ -81,6 +99,15 @@ def test_stages_shorten_where_one_fails():
     assert int(quarter.status) != Status.CONVERGED
     _, whole = newton_solve(Eased(*parameters(root)))
     assert int(whole.status) == Status.CONVERGED
+
+
+@pytest.mark.parametrize("root", [1.0, 6.0, 25.0])
+def test_a_further_try_walks_far_by_capped_steps(root):
+    """A capped step is a small part of Newton's, and the residual falls by as small a part: that must do."""
+    _, result = newton_solve(Far(*parameters(root)))
+    assert int(result.status) == Status.CONVERGED
+    assert int(result.iterations) <= NewtonOptions().max_steps + root / 0.15 + 12
+    np.testing.assert_allclose(result.point.elements, root, rtol=1e-14)
 
 
 @pytest.mark.parametrize("root", [0.5, 6.0])
