@@ -1,6 +1,6 @@
-"""Ball bearings found by random scenes. Combined load under which half of the balls slide with hardly any load: the last
-bits of a speed make forces there, and the balls reach their speeds only by a long walk. Axial load and oil so thick that
-traction saturates within a thousandth of the ring's speed: solved from slower sliding, by a long walk too."""
+"""Ball bearings found by random scenes. Combined load under which half of the balls slide with hardly any load: the
+last bits of a speed make forces there, and the balls reach their speeds only by a long walk. Axial load in thick oil:
+found from slower sliding only, by a long walk too."""
 
 import jax
 import jax.numpy as jnp
