@@ -44,7 +44,7 @@ def speeds(v: Numbers, pitch: np.ndarray, low: float, high: float, rest: float =
     both = (v["both"] > 0.6) & moving
     least = np.where(both, 10.0 * low, low)
     most = np.maximum(high / (1e3 * pitch), 2.0 * least)
-    inner = np.sign(v["speed"]) * least * (most / least) ** share * RPM * moving
+    inner = np.where(v["speed"] < 0.0, -1.0, 1.0) * least * (most / least) ** share * RPM * moving
     return {"operation.inner_speed": inner, "operation.outer_speed": np.where(both, v["outer"] * inner, 0.0)}
 
 

@@ -168,7 +168,7 @@ def line_numbers(v: Numbers, scene: Any) -> Numbers:
     glass = float(scene.oil.viscosity.glass_viscosity) * v["grade"]
     numbers |= {
         "operation.load_per_length": load,
-        "operation.entrainment_speed": np.sign(v["sign"]) * np.clip(speed, SLOWEST, FASTEST),
+        "operation.entrainment_speed": np.where(v["sign"] < 0.0, -1.0, 1.0) * np.clip(speed, SLOWEST, FASTEST),
         "operation.oil_temperature": v["temperature"],
         "oil.viscosity.glass_viscosity": glass,
     }
