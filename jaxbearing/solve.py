@@ -112,23 +112,27 @@ def jit_solver(scene: AbstractScene, *, options: NewtonOptions | None = None) ->
     chosen = NewtonOptions() if options is None else options
     require_x64()
     steady_function(scene)
-    numbers, structure = jax.tree.flatten(jax.tree.map(as_float, scene))
+    given, structure = jax.tree.flatten(jax.tree.map(as_float, scene))
     # on the device once, and flat: less to do at each call
-    numbers = [value if isinstance(value, Tracer) else jax.device_put(value) for value in numbers]
+    numbers = [value if isinstance(value, Tracer) else jax.device_put(value) for value in given]
 
     @jax.jit
-    def compiled(numbers: list[Any], operation: dict[str, Any]) -> Any:
-        return _solve_any(jax.tree.unflatten(structure, numbers).at_operation(**operation), chosen)
+    def compiled(numbers: list[Any]) -> Any:
+        return _solve_any(jax.tree.unflatten(structure, numbers), chosen)
+
+    # of leaves that a changed copy has in common with it
+    own = jax.tree.unflatten(structure, given)
 
     def fast(other: AbstractScene | None = None, /, **operation: Any) -> Any:
-        if operation:
-            (scene if other is None else other).at_operation(**operation)  # refuses what is no operating point
-        changes = {name: None if value is None else as_float(value) for name, value in operation.items()}
-        if other is None:
-            return compiled(numbers, changes)
-        others, kind = jax.tree.flatten(jax.tree.map(as_float, other))
+        if other is None and not operation:
+            return compiled(numbers)
+        changed = own if other is None else other
+        # outside of the program, which is the same for whatever is changed
+        changed = changed.at_operation(**operation) if operation else changed
+        others, kind = jax.tree.flatten(changed)
         if kind == structure:
-            return compiled(others, changes)
-        return _solve(jax.tree.map(as_float, other.at_operation(**operation)), chosen)
+            leaves = zip(others, given, numbers, strict=True)
+            return compiled([kept if new is old else as_float(new) for new, old, kept in leaves])
+        return _solve(jax.tree.map(as_float, changed), chosen)
 
     return fast

@@ -121,6 +121,14 @@ def test_numbers_never_recompile():
     jb.solve(dry_roller().replace({"geometry.n_rollers": 37}))  # 37: in no other test, so not compiled yet
     assert sum(entry == ("jaxpr_trace_duration", "_solve_any") for entry in compiled) >= 1  # the listener hears
 
+    base = dry_roller().replace({"geometry.n_rollers": 35})
+    fast = jb.jit_solver(base)
+    ask = (lambda: fast(), lambda: fast(inner_speed=900.0), lambda: fast(radial_load=5e3), lambda: fast(base))
+    deepest = [float(jnp.max(call().elements.load_outer)) for call in ask]
+    assert sum(entry == ("jaxpr_trace_duration", "compiled") for entry in compiled) == 1
+    assert deepest[0] == deepest[3]
+    assert len(set(deepest)) == 3
+
 
 @pytest.mark.parametrize("scene", SCENES.values(), ids=SCENES.keys())
 def test_random_operating_points(scene):
