@@ -85,6 +85,7 @@ def tried(mutation: Mutation | None, tests: str) -> Outcome:
         unneeded = shutil.ignore_patterns(".git", ".*_cache", "__pycache__", "notebooks", "site")
         shutil.copytree(ROOT, copy, ignore=unneeded)
         # compiled programs, keyed by what they compute: an error compiles its own
+        (ROOT / ".pytest_cache").mkdir(exist_ok=True)
         (copy / ".pytest_cache").symlink_to(ROOT / ".pytest_cache", target_is_directory=True)
         if mutation is not None:
             path = copy / mutation.file

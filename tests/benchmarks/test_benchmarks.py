@@ -108,6 +108,7 @@ def test_cage_dynamics():
 
 
 @pytest.mark.usefixtures("optimized")
+@pytest.mark.report
 def test_cage_shocks():
     """Mean peaks in the third turn are those of the independent solution of our model sheet, to the 20 % to which
     shocks are repeatable; the perturbed shaft shakes the cage along."""
@@ -138,6 +139,7 @@ def test_line_contact():
     assert all(row["failed"] == 0 for row in figures["batch"].values())
 
 
+@pytest.mark.report
 def test_misaligned_roller():
     module = script("misaligned_roller")
     for errors in (errors for n, errors in module.laminae_errors().items() if n >= 30):
