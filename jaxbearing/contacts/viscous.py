@@ -187,8 +187,9 @@ ElsharkawyHamrock.__init__.__doc__ = """**Arguments:**
 """
 
 
-def _same_shape(trial: Values, relaxation: Values) -> list[Array]:
-    return jnp.broadcast_arrays(jnp.asarray(trial, dtype=float), jnp.asarray(relaxation, dtype=float))
+def _same_shape(trial: Values, relaxation: Values) -> tuple[Array, Array]:
+    first, second = jnp.broadcast_arrays(jnp.asarray(trial, dtype=float), jnp.asarray(relaxation, dtype=float))
+    return first, second
 
 
 def _sign_and_size(x: Values) -> tuple[Array, Array]:

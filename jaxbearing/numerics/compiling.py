@@ -1,5 +1,6 @@
 """Programs that run once: compile time counts, run time does not."""
 
+import functools
 import gc
 import threading
 from collections.abc import Callable, Iterator
@@ -62,24 +63,36 @@ def collecting_rarely() -> Iterator[None]:
                 gc.set_threshold(*_Depth.before)
 
 
+def _known() -> dict[str, Any]:
+    """Those of the quick options that this jaxlib knows: jaxlib 0.12 has dropped the older way to emit loops."""
+    nothing = jax.jit(lambda: None).lower()
+
+    def known(options: dict[str, Any]) -> bool:
+        try:
+            nothing.compile(options)
+        except jax.errors.JaxRuntimeError as error:
+            if "compile option" not in str(error).lower():
+                raise
+            return False
+        return True
+
+    return _QUICK if known(_QUICK) else {name: value for name, value in _QUICK.items() if known({name: value})}
+
+
 def quickly_compiled(function: Callable[..., Any]) -> Callable[..., Any]:
     """`equinox.filter_jit(function)`, on a CPU compiled fast for a process that calls it once and ends.
 
     Not to be called inside another `jax.jit`, which allows compiler options on the outside only.
     """
-    quick = eqx.filter_jit(function, compiler_options=_QUICK)  # pyright: ignore[reportCallIssue]
     ordinary = eqx.filter_jit(function)
+
+    @functools.cache
+    def quick() -> Callable[..., Any]:
+        return eqx.filter_jit(function, compiler_options=_known())  # pyright: ignore[reportCallIssue]
 
     @collecting_rarely()
     def call(*args: Any, **kwargs: Any) -> Any:
-        if jax.default_backend() != "cpu":
-            return ordinary(*args, **kwargs)
-        try:
-            return quick(*args, **kwargs)
-        except jax.errors.JaxRuntimeError as error:
-            if "compile option" not in str(error).lower():
-                raise
-            # a jaxlib that has dropped the option
-            return ordinary(*args, **kwargs)
+        chosen = quick() if jax.default_backend() == "cpu" else ordinary
+        return chosen(*args, **kwargs)
 
     return call
