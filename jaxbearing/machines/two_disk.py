@@ -1,6 +1,7 @@
 """The two-disk machine: two bodies that roll and slide on each other under load, and the traction between them."""
 
 import dataclasses
+from collections.abc import Sequence
 from typing import Any, NamedTuple
 
 import equinox as eqx
@@ -367,7 +368,7 @@ def solve_two_disk(scene: TwoDisk, options: Any = None) -> TwoDiskSolution:
     )
 
 
-def _in_batches(function: Any, grid: list[Array]) -> Any:
+def _in_batches(function: Any, grid: Sequence[Array]) -> Any:
     """`function` of each point of a grid; the last batch is filled up: one program does them all."""
     shape, size = grid[0].shape, grid[0].size
     count = -(-size // BATCH)
