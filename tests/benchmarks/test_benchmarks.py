@@ -128,6 +128,7 @@ def test_cage_shocks():
 
 
 @pytest.mark.usefixtures("optimized")
+@pytest.mark.report
 def test_line_contact():
     module = script("line_contact")
     figures = module.benchmark(quick=True)

@@ -44,7 +44,7 @@ def test_stored_as_it_ran(path):
 def test_runs_from_top_to_bottom(path, tmp_path):
     # of programs that other tests and notebooks have compiled
     cache = {
-        "JAX_COMPILATION_CACHE_DIR": str(jax.config.read("jax_compilation_cache_dir")),
+        "JAX_COMPILATION_CACHE_DIR": str(jax.config.jax_compilation_cache_dir),
         "JAX_PERSISTENT_CACHE_MIN_COMPILE_TIME_SECS": "0.5",
     }
     environment = os.environ | {"MPLBACKEND": "Agg", "TMPDIR": str(tmp_path)} | cache
