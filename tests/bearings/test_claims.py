@@ -57,16 +57,17 @@ class Solved:
         return self.losses("total", name, values, lands)
 
 
+BEARINGS = {"reference_roller": reference_roller, "turbine_roller": turbine_roller}
+
+
 @pytest.fixture(scope="module")
 def bearings():
-    return {"reference_roller": Solved(reference_roller()), "turbine_roller": Solved(turbine_roller())}
+    return {name: Solved(bearing()) for name, bearing in BEARINGS.items()}
 
 
 @functools.cache
 def claims(bearing):
-    return claims_of(
-        power_loss_study({"reference_roller": reference_roller, "turbine_roller": turbine_roller}[bearing]())
-    )
+    return claims_of(power_loss_study(BEARINGS[bearing]()))
 
 
 def test_the_page_has_the_twelve_rows():
@@ -80,7 +81,7 @@ def test_the_page_has_the_twelve_rows():
 
 
 @pytest.mark.parametrize("index", range(12))
-@pytest.mark.parametrize("bearing", ["reference_roller", "turbine_roller"])
+@pytest.mark.parametrize("bearing", BEARINGS)
 def test_verdict_and_numbers_of_the_page(index, bearing):
     claim = claims(bearing)[index]
     verdict, ours = claim.holds, claim.numbers

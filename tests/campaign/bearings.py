@@ -8,7 +8,7 @@ import numpy as np
 from campaign.draws import Numbers, Range, even, log
 from campaign.structure import Results, Twin
 
-from jaxbearing.numerics.newton import NewtonOptions
+from jaxbearing.numerics.newton import MOST_ROUNDED, NewtonOptions
 
 RPM = 2.0 * np.pi / 60.0
 LITRE_PER_HOUR = 1e-3 / 3600.0
@@ -85,7 +85,7 @@ def largest(values: np.ndarray) -> np.ndarray:
 def energy(results: Results, unit: np.ndarray | float = 0.0) -> dict[str, tuple[np.ndarray, float]]:
     """The power that drives the rings, from torques, is the sum of all losses, and no loss is negative. Granted is the
     residual of the equations, in `unit`, W, where it is beyond its tolerance: where thick oil makes forces of the last
-    bits of a speed rounding leaves more, at most 1e-5."""
+    bits of a speed rounding leaves more, at most `MOST_ROUNDED`."""
     total = results.get("power_loss.total")
     parts = {path: value for path, value in results.items() if path.startswith("power_loss.") and value is not total}
     if total is None or not parts:
@@ -94,7 +94,7 @@ def energy(results: Results, unit: np.ndarray | float = 0.0) -> dict[str, tuple[
     scale = np.maximum(np.abs(total), TINY)
     least = np.min(list(parts.values()), axis=0)
     residual = results["residual_norm"]
-    left = np.where(residual > NewtonOptions().residual_tolerance, np.minimum(residual, 1e-5), 0.0) * unit
+    left = np.where(residual > NewtonOptions().residual_tolerance, np.minimum(residual, MOST_ROUNDED), 0.0) * unit
     return {
         "drive power = total loss": (np.maximum(np.abs(results["drive_power"] - total) - left, 0.0) / scale, 1e-8),
         "losses add up": (np.abs(added - total) / scale, 1e-12),

@@ -1,13 +1,12 @@
 """The notebooks run from top to bottom as plain Python, without Jupyter; their assertions are part of the test."""
 
 import json
-import os
 import subprocess
 import sys
 from pathlib import Path
 
-import jax
 import pytest
+from command_process import environment
 
 NOTEBOOKS = sorted((Path(__file__).parents[2] / "notebooks").glob("*.ipynb"))
 LARGEST = 400_000
@@ -42,12 +41,7 @@ def test_stored_as_it_ran(path):
 @pytest.mark.slow
 @pytest.mark.parametrize("path", NOTEBOOKS, ids=lambda path: path.stem)
 def test_runs_from_top_to_bottom(path, tmp_path):
-    # of programs that other tests and notebooks have compiled
-    cache = {
-        "JAX_COMPILATION_CACHE_DIR": str(jax.config.jax_compilation_cache_dir),
-        "JAX_PERSISTENT_CACHE_MIN_COMPILE_TIME_SECS": "0.5",
-    }
-    environment = os.environ | {"MPLBACKEND": "Agg", "TMPDIR": str(tmp_path)} | cache
+    surroundings = environment(MPLBACKEND="Agg", TMPDIR=str(tmp_path))
     command = [sys.executable, "-c", RUN, str(path)]
-    ran = subprocess.run(command, cwd=tmp_path, env=environment, capture_output=True, text=True, timeout=900)
+    ran = subprocess.run(command, cwd=tmp_path, env=surroundings, capture_output=True, text=True, timeout=900)
     assert ran.returncode == 0, ran.stderr[-3000:]

@@ -72,7 +72,7 @@ class Far(Eased):
         return ArrowPoint(jnp.full((1, 1), 0.15), jnp.full(1, 0.15))
 
     def eased(self, ease, path):
-        return Far(self.root, self.steepness, start=jnp.where(ease > 0.0, 0.0, -1e6))
+        return Far(self.root, self.steepness, start=jnp.where(ease > 0.0, 0.0, self.start))
 
 
 def parameters(root, steepness=1.0):
