@@ -33,7 +33,7 @@ def random_operations(rng, n):
 
 @pytest.mark.slow
 @pytest.mark.usefixtures("optimized")
-@pytest.mark.parametrize("scene", [*SCENES.values(), dry_roller], ids=[*SCENES, "dry"])
+@pytest.mark.parametrize("scene", [reference_roller, dry_roller], ids=["reference", "dry"])
 def test_residual_eager_equals_jit_of_vmap_on_20000_points(scene):
     """The wrong rows of jax 0.10.2 began at index 16 384 of such a batch."""
     system = build_system(scene())

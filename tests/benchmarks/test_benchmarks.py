@@ -24,7 +24,11 @@ def script(name):
 
 @pytest.mark.usefixtures("optimized")
 @pytest.mark.parametrize(
-    ("name", "repetitions"), [("mobil_jet_ii", 40), pytest.param("pennzane", 5, marks=pytest.mark.report)]
+    ("name", "repetitions"),
+    [
+        pytest.param("mobil_jet_ii", 40, marks=pytest.mark.report),
+        pytest.param("pennzane", 5, marks=pytest.mark.report),
+    ],
 )
 def test_rheology_comes_back_and_its_intervals_are_honest(name, repetitions):
     """Of 40 intervals that hold the true value with 95 %, fewer than 33 do so with 0.07 %; of 5, fewer than 3 with

@@ -1,4 +1,5 @@
-"""Three hundred random bearings: operating point, clearance, guidance, flanges, one or both rings turning."""
+"""Random bearings whose cage the outer ring guides: operating point, clearance, one or both rings turning. Other
+structures are in `tests/campaign`."""
 
 import equinox as eqx
 import jax
@@ -11,9 +12,6 @@ import jaxbearing as jb
 from jaxbearing.numerics.status import Status
 
 N = 150
-"""Points a structure."""
-STRUCTURES = [("inner_ring", "inner"), ("outer_ring", "outer")]
-"""Guidance of the cage, ring with flanges."""
 OFTEN, RARELY = 8, 40
 """Newton steps that half of the solves and nearly all of them may take."""
 
@@ -39,12 +37,9 @@ def random_points(seed):
     return jax.tree.map(jnp.asarray, (operation, clearance)), both
 
 
-@pytest.mark.parametrize(("guidance", "ring"), STRUCTURES)
-def test_random_bearings_converge_with_finite_results_and_derivatives(guidance, ring):
-    scene = turbine_roller().replace({"cage.guidance": guidance, "flange.ring": ring})
-    points, both = random_points(
-        seed=("inner_ring", "outer_ring").index(guidance) + 2 * ("inner", "outer", "both").index(ring)
-    )
+def test_random_bearings_converge_with_finite_results_and_derivatives():
+    scene = turbine_roller().replace({"cage.guidance": "outer_ring", "flange.ring": "outer"})
+    points, both = random_points(seed=3)
 
     def solved(point):
         operation, clearance = point
@@ -55,7 +50,7 @@ def test_random_bearings_converge_with_finite_results_and_derivatives(guidance, 
     steps = np.asarray(solution.iterations)
     failed = int(np.sum(np.asarray(solution.status) != Status.CONVERGED))
     print(
-        f"{guidance}, flanges {ring}: failed {failed} of {N}; steps "
+        f"failed {failed} of {N}; steps "
         f"median {np.median(steps):g}, max {np.max(steps[~both])} (outer ring at rest), {np.max(steps)} (all)"
     )
     assert failed == 0
