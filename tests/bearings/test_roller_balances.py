@@ -43,9 +43,7 @@ def test_power_and_forces_close(scene, case):
 @pytest.mark.parametrize(
     "change",
     [
-        pytest.param({"cage.guidance": "outer_ring"}, marks=pytest.mark.slow),
         pytest.param({"flange.ring": "outer"}, marks=pytest.mark.slow),
-        pytest.param({"flange.ring": "both"}, marks=pytest.mark.slow),
         {"operation.outer_speed": 300.0},
         {"operation.outer_speed": -400.0},
         {"operation.inner_speed": 0.0, "operation.outer_speed": 900.0},
@@ -79,7 +77,7 @@ def test_rolling_resistance_doubles_the_loss_of_the_reference():
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("n_rollers", [1, 3, 5])
+@pytest.mark.parametrize("n_rollers", [1, 5])
 def test_few_rollers_at_100_rpm(n_rollers):
     """Sliding of 1e-9 m/s under 25 kN on a roller: what a difference of surface speeds cannot resolve."""
     geometry = dataclasses.replace(turbine_roller().geometry, n_rollers=n_rollers)
