@@ -1,6 +1,6 @@
 """`python -m pytest tests/benchmarks` makes the whole report and leaves the slow tests of the single benchmarks out;
 `python -m pytest tests/benchmarks/test_benchmarks.py` runs all of those. Other choices of tests leave out what is
-marked `report`: the report itself, and those that take too long for every submission and measure what it measures."""
+marked `report`: the report itself, and those that take too long for every submission."""
 
 import sys
 from pathlib import Path

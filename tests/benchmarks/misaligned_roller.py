@@ -8,9 +8,6 @@ Then the example of docs/life.md: drop and end ratio of a logarithmic profile fo
 misaligned cylindrical roller bearing, by BFGS on exact derivatives through the solve.
 """
 
-import contextlib
-import io
-import re
 import sys
 import time
 from pathlib import Path
@@ -21,6 +18,7 @@ import jax
 import jax.numpy as jnp
 import numpy as np
 from benchmark_tools import best_time
+from life_page import optimisation_example
 
 import jaxbearing as jb
 from jaxbearing.bearings.roller_profile import RollerProfile
@@ -48,16 +46,6 @@ def solve_rows():
         exact = load if exact is None else exact
         rows[n] = best_time(lambda fast=fast: jax.block_until_ready(fast()), 20), abs(load / exact - 1.0)
     return rows
-
-
-def optimisation_example():
-    """Names and printed lines of the Python of docs/life.md: a profile optimised for life under misalignment."""
-    text = (Path(__file__).parents[2] / "docs" / "life.md").read_text(encoding="utf-8")
-    (block,) = re.findall(r"```python\n(.*?)```", text, flags=re.DOTALL)
-    names, printed = {}, io.StringIO()
-    with contextlib.redirect_stdout(printed):
-        exec(compile(block, "life.md", "exec"), names)
-    return names, printed.getvalue()
 
 
 if __name__ == "__main__":

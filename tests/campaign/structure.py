@@ -31,10 +31,6 @@ class Twin(NamedTuple):
     base: Callable[[Numbers], Numbers] | None = None
 
 
-OPEN = "more than 3 % do not converge, each with its status; why is an open question"
-"""For `Structure.known`."""
-
-
 @dataclass(frozen=True)
 class Structure:
     """One compiled program.
@@ -62,8 +58,6 @@ class Structure:
     may_be_nan: tuple[str, ...] = ()
     dear: bool = False
     """Whether its scenes take so long that it gets a quarter of the share of others."""
-    known: str = ""
-    """Why solves of this structure may fail more often than others; the rest must hold all the same."""
     small: bool = False
     """Whether it is one of those of the bounded run."""
 

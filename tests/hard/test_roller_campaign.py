@@ -1,5 +1,5 @@
-"""Random bearings whose cage the outer ring guides: operating point, clearance, one or both rings turning. Other
-structures are in `tests/campaign`."""
+"""Random bearings: operating point, clearance, one or both rings turning. Other guidance and flanges: `tests/campaign`,
+the long run."""
 
 import equinox as eqx
 import jax
@@ -38,8 +38,8 @@ def random_points(seed):
 
 
 def test_random_bearings_converge_with_finite_results_and_derivatives():
-    scene = turbine_roller().replace({"cage.guidance": "outer_ring", "flange.ring": "outer"})
-    points, both = random_points(seed=3)
+    scene = turbine_roller()
+    points, both = random_points(seed=0)
 
     def solved(point):
         operation, clearance = point

@@ -1,13 +1,12 @@
-"""docs/life.md is true: its scene file solves, and so does a misaligned bearing from the command line."""
+"""docs/life.md is true: its scene file solves, aligned as well, and its Python prints what the page says."""
 
 import re
-from pathlib import Path
 
 import numpy as np
+import pytest
+from life_page import PAGE, optimisation_example
 
 import jaxbearing as jb
-
-PAGE = (Path(__file__).parents[2] / "docs" / "life.md").read_text(encoding="utf-8")
 
 
 def test_scene_of_the_page(tmp_path):
@@ -20,3 +19,10 @@ def test_scene_of_the_page(tmp_path):
     assert np.nanmin(solution.elements.film_least_inner) < np.nanmin(solution.elements.film_inner)
     aligned = jb.solve(jb.load_scene(str(file), {"operation.misalignment": "0 mrad"}))
     assert aligned.life.L10r > solution.life.L10r
+
+
+@pytest.mark.slow
+def test_profile_for_the_longest_life():
+    names, printed = optimisation_example()
+    assert names["lives"][1] > max(names["lives"][0], names["straight"])
+    assert printed in PAGE

@@ -57,6 +57,13 @@ class Eased(Plateau):
         return eqx.tree_at(lambda system: system.root, self, (1.0 - ease) * target)
 
 
+class Capped(Eased):
+    """Steps may cross the flank, onto the plateau behind it."""
+
+    def step_caps(self):
+        return ArrowPoint(jnp.full((1, 1), 5.0), jnp.full(1, 5.0))
+
+
 class Far(Eased):
     """x - a = 0 by steps of 0.15 at most, from -1e6; with any ease from 0."""
 
@@ -85,8 +92,9 @@ def test_without_a_path_newton_fails_and_says_so():
 
 
 @pytest.mark.parametrize("root", [0.5, 1.5, 6.0, 7.5, 40.0])
-def test_second_try_finds_the_root(root):
-    _, result = newton_solve(Eased(*parameters(root)))
+@pytest.mark.parametrize("kind", [Eased, Capped])
+def test_second_try_finds_the_root(kind, root):
+    _, result = newton_solve(kind(*parameters(root)))
     assert int(result.status) == Status.CONVERGED
     np.testing.assert_allclose(result.point.elements, root, rtol=1e-14)
     np.testing.assert_allclose(result.point.globals, root, rtol=1e-14)
@@ -101,7 +109,7 @@ def test_stages_shorten_where_one_fails():
     assert int(whole.status) == Status.CONVERGED
 
 
-@pytest.mark.parametrize("root", [1.0, 6.0, 25.0])
+@pytest.mark.parametrize("root", [6.0, 25.0])
 def test_a_further_try_walks_far_by_capped_steps(root):
     """A capped step is a small part of Newton's, and the residual falls by as small a part: that must do."""
     _, result = newton_solve(Far(*parameters(root)))
