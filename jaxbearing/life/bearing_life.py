@@ -67,7 +67,19 @@ def with_life(scene: Any, solution: Any) -> Any:
     checks = dict(solution.checks)
     if life.modification_factor is not None and life.viscosity_ratio is not None:
         checks[THIN_WARNING] = life.viscosity_ratio < KAPPA_RANGE[0]
-    return dataclasses.replace(solution, life=life, checks=checks)
+    notes = (*solution.notes, *_without_effect(rating, life))
+    return dataclasses.replace(solution, life=life, checks=checks, notes=notes)
+
+
+def _without_effect(rating: Rating, life: Life) -> list[str]:
+    """What the scene says about the life and lacks something else for."""
+    found = []
+    if rating.cleanliness is not None and life.viscosity_ratio is None:
+        lacking = "a viscosity ratio: rating.viscosity_ratio, or an oil with a density"
+        found.append(f"rating.cleanliness has no effect without {lacking}")
+    if rating.roughness_rings is not None and life.film_ratio_inner is None:
+        found.append("rating.roughness_rings and roughness_elements have no effect without films")
+    return found
 
 
 def bearing_life(scene: Any, solution: Solution) -> Life:

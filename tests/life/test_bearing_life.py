@@ -34,6 +34,18 @@ def test_reference_case_of_the_standard():
     np.testing.assert_allclose((23400.0 / turning.equivalent_load) ** 3, turning.L10r, rtol=1e-12)
 
 
+def test_what_has_no_effect_is_said():
+    rating = Rating(cleanliness="grease_normal", roughness_rings=0.2e-6, roughness_elements=0.1e-6)
+    solution = jb.solve(reference_case().replace({"rating": rating}))
+    assert solution.life.modification_factor is solution.life.film_ratio_inner is None
+    for name in ("rating.cleanliness", "rating.roughness_rings"):
+        (note,) = [text for text in solution.warnings if name in text]
+        assert "no effect without" in note
+    given = jb.solve(reference_case().replace({"rating": Rating(cleanliness="grease_normal", viscosity_ratio=2.0)}))
+    assert given.life.Lnmr > given.life.L10r
+    assert not any("no effect" in text for text in given.warnings)
+
+
 @pytest.mark.slow
 def test_modified_life_of_a_lubricated_roller_bearing():
     scene = jb.load_scene("reference_roller").replace(dict.fromkeys(("contact.traction", "cage", "flange", "drag")))
