@@ -16,6 +16,8 @@ GRADIENT_LIMIT = 1e-5
 STEPS = (1e-5, 1e-4)
 """Relative changes of the numbers for the two finite differences: where a contact begins to touch within one of them,
 the difference itself is off."""
+FINER_STEPS = (1e-7, 1e-6)
+"""Those of two more where both are off."""
 HONEST = (Status.NOT_CONVERGED, Status.DIVERGED, Status.NO_EQUILIBRIUM)
 
 
@@ -163,13 +165,21 @@ def judge_gradient(
         factor = {name: np.exp(step * direction[name]) for name in numbers}
         return {n: v * factor[n].reshape((cases,) + (1,) * (v.ndim - 1)) for n, v in numbers.items()}
 
-    signs = [sign * step for step in STEPS for sign in (1.0, -1.0)]
-    solution, around = solve_batch(structure, joined([moved(step) for step in signs]), chunk)
-    values = np.asarray(structure.summarised(solution)).reshape(len(signs), cases)
-    good &= np.all(converged_cases(around).reshape(len(signs), cases), axis=0)
-    differences = [(values[2 * i] - values[2 * i + 1]) / (2.0 * step) for i, step in enumerate(STEPS)]
-    with np.errstate(all="ignore"):
-        error = np.min([np.abs(d - along) for d in differences], axis=0) / np.maximum(size, 1e-3)
+    def compared(steps: tuple[float, ...]) -> tuple[np.ndarray, np.ndarray]:
+        """Error of each case at its best step, and whether all of it converged."""
+        signs = [sign * step for step in steps for sign in (1.0, -1.0)]
+        solution, around = solve_batch(structure, joined([moved(step) for step in signs]), chunk)
+        values = np.asarray(structure.summarised(solution)).reshape(len(signs), cases)
+        solved = np.all(converged_cases(around).reshape(len(signs), cases), axis=0)
+        differences = [(values[2 * i] - values[2 * i + 1]) / (2.0 * step) for i, step in enumerate(steps)]
+        with np.errstate(all="ignore"):
+            return np.min([np.abs(d - along) for d in differences], axis=0) / np.maximum(size, 1e-3), solved
+
+    error, solved = compared(STEPS)
+    good &= solved
+    if not np.all(error[good] <= GRADIENT_LIMIT):
+        finer, solved = compared(FINER_STEPS)
+        error = np.where(solved, np.minimum(error, finer), error)
     found += _breaches(structure, "gradient = finite difference", error, GRADIENT_LIMIT, good, numbers)
     return found, float(np.max(error[good], initial=0.0))
 
