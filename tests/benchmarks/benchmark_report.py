@@ -9,6 +9,7 @@ that fails leaves the others alone; the report then says so and the command ends
 
 import argparse
 import contextlib
+import gc
 import importlib.metadata
 import importlib.util
 import json
@@ -179,6 +180,9 @@ def main() -> int:
     arguments = parser.parse_args()
     if arguments.section:
         sys.argv = sys.argv[:1]
+        from jaxbearing.numerics.compiling import RARELY
+
+        gc.set_threshold(*RARELY)  # as `jaxbearing` does where it traces
         arguments.answer.write_text(json.dumps(run_here(arguments.section, arguments.quick)), encoding="utf-8")
         return 0
     names = arguments.only.split(",") if arguments.only else section_names()

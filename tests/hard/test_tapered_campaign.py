@@ -6,7 +6,7 @@ from tapered_campaign import campaign
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(("free", "cases"), [(False, 150), (True, 60)])
+@pytest.mark.parametrize(("free", "cases"), [(False, 100), (True, 30)])
 def test_random_tapered_bearings(free, cases):
     found = campaign(cases, free, seed=7)
     assert not np.any(found["other"]), [found["single"](i) for i in np.flatnonzero(found["other"])]

@@ -4,6 +4,7 @@ from benchmark_report import HERE, load
 from section_shape import Section, Table
 
 import jaxbearing as jb
+from jaxbearing.sweeps.plan import LANES as DEFAULT_LANES
 
 SCENES = ("reference_roller", "tapered_example")
 
@@ -13,7 +14,7 @@ def section(quick=False):
     rows, errors, failed, alike = [], [], 0, True
     for name in SCENES[: 1 if quick else None]:
         _, ranges, result = script.CASES[name]
-        figures = script.row(jb.load_scene(name), name, ranges, result, 60 if quick else 500, (25, 125))
+        figures = script.row(jb.load_scene(name), name, ranges, result, 60 if quick else 500, (DEFAULT_LANES,))
         alike = alike and figures["same bits"]
         for (devices, lanes), one in figures["lanes"].items():
             failed += one["failed"]
