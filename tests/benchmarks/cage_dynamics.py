@@ -122,18 +122,22 @@ def time_at(error, points):
     return best
 
 
-def batch(start, times, options, size):
-    """Seconds a run of a batch at loads from 90 % to 110 %, and the lanes that failed."""
+def batches_of(start, times, tolerances, size, solver="tsit5"):
+    """By tolerance: seconds a run of a batch at loads from 90 % to 110 %, and the lanes that failed; one program."""
     loads = start.dynamics.system.ring_load[None, :] * jnp.linspace(0.9, 1.1, size)[:, None]
 
-    def one(load):
+    def one(given):
+        load, tolerance = given
         dynamics = eqx.tree_at(lambda d: d.system.ring_load, start.dynamics, load)
+        options = IntegratorOptions(solver=solver, tolerance=tolerance)
         return ours(start._replace(dynamics=dynamics), times, options)
 
-    run = sharded(jax.vmap(one))
-    found = run(loads)
-    failed = int(np.sum(np.asarray(found.status) != Status.CONVERGED))
-    return best_time(lambda: run(loads), 1) / size, failed
+    program = sharded(jax.vmap(one))
+    for tolerance in tolerances:
+        given = loads, jnp.full(size, tolerance)
+        run = lambda given=given: program(given)
+        failed = int(np.sum(np.asarray(run().status) != Status.CONVERGED))
+        yield tolerance, best_time(run, 1) / size, failed
 
 
 def _said(row):
@@ -193,9 +197,7 @@ def benchmark(quick=False):
                 if seconds > SLOWEST:
                     break
         size, batches = 4 if quick else 64, []
-        for tolerance in tolerances:
-            options = IntegratorOptions(solver="tsit5", tolerance=tolerance)
-            each, failed = batch(start, jnp.asarray(times), options, size)
+        for tolerance, each, failed in batches_of(start, jnp.asarray(times), tolerances, size):
             q = next(row[4] for row in table if row[:2] == ("tsit5", tolerance))
             rivals = [t for t in (time_at(q, points) for points in rival.values()) if t is not None]
             batches.append(_said((size, tolerance, each, failed, min(rivals) / each if rivals else None)))

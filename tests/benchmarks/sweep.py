@@ -61,8 +61,8 @@ def ranges_of(name, ranges):
     return {f"operation.{field}": bounds for field, bounds in ranges.items()}
 
 
-def row(scene, name, ranges, result, count, sizes):
-    """All figures of a scene."""
+def row(scene, name, ranges, result, count, sizes, files=True):
+    """All figures of a scene; without `files` none of a whole sweep."""
     cases = latin_hypercube(ranges_of(name, ranges), count, seed=1)
     inputs, active = cases.part(0, count), np.ones(count, dtype=bool)
     example = {path: values[0] for path, values in inputs.items()}
@@ -96,7 +96,8 @@ def row(scene, name, ranges, result, count, sizes):
             }
             bits.setdefault(lanes, set()).add(b"".join(leaf.tobytes() for leaf in jax.tree.leaves(found)))
     figures["same bits"] = all(len(alike) == 1 for alike in bits.values())
-    figures["files"] = with_files(scene, cases) / count
+    if files:
+        figures["files"] = with_files(scene, cases) / count
     return figures
 
 

@@ -41,9 +41,8 @@ def section(quick=False):
                 steps = int(found.accepted) + int(found.rejected)
                 rows.append((name, solver, tolerance, steps, q, v, seconds, ratio))
                 facts[f"{name}: error of q of {solver} at {tolerance:g}, um"] = q
-        for tolerance in SOLVERS["tsit5"][:1] if quick else SOLVERS["tsit5"]:
-            options = script.IntegratorOptions(solver="tsit5", tolerance=tolerance)
-            each, failed = script.batch(start, at, options, 4 if quick else 64)
+        asked = SOLVERS["tsit5"][:1] if quick else SOLVERS["tsit5"]
+        for tolerance, each, failed in script.batches_of(start, at, asked, 4 if quick else 64):
             theirs = least(next(r[4] for r in rows if r[:3] == (name, "tsit5", tolerance)))
             batches.append((name, tolerance, each, failed, None if theirs is None else theirs / each))
     facts["failed"] = float(sum(row[3] for row in batches))
