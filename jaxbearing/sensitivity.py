@@ -10,7 +10,7 @@ from jaxtyping import Array, Float
 
 from .bearings.parts import AbstractScene
 from .bearings.solution import Solution
-from .numerics.compiling import quickly_compiled
+from .numerics.compiling import collecting_rarely, quickly_compiled
 from .numerics.newton import NewtonOptions
 from .numerics.precision import as_float, require_x64
 from .solve import steady_function
@@ -47,6 +47,7 @@ def sensitivities_once(scene: AbstractScene) -> tuple[Solution, Sensitivities]:
     return _run(scene, False, NewtonOptions(), _once)
 
 
+@collecting_rarely()
 def _run(scene: AbstractScene, throw: bool, options: NewtonOptions, function: Any) -> tuple[Solution, Sensitivities]:
     require_x64()
     steady_function(scene)

@@ -13,6 +13,7 @@ from .bearings.roller_simulation import FIELD, INTERVAL, simulate_roller_batch, 
 from .bearings.simulation import Simulation
 from .ehl import EHLLineContact, FilmSimulation, FilmState, LineContactHistory, simulate_film
 from .ehl import check_restart as check_film_restart
+from .numerics.compiling import collecting_rarely
 from .numerics.precision import require_x64
 
 __all__ = ["FIELD", "INTERVAL", "check_restart", "simulate", "simulate_batch", "trajectory"]
@@ -41,6 +42,7 @@ def simulate(
     progress: Progress | None = None,
     restart: History | LastState | None = None,
 ) -> History: ...
+@collecting_rarely()
 def simulate(
     scene: Any,
     duration: float | None = None,
@@ -134,6 +136,7 @@ def _run_film(
     return history
 
 
+@collecting_rarely()
 def simulate_batch(
     scene: CylindricalRollerBearing,
     duration: float,

@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ._scene import AbstractScene
+from .numerics.compiling import collecting_rarely
 from .numerics.newton import NewtonOptions
 from .numerics.precision import require_x64
 
@@ -16,6 +17,7 @@ if TYPE_CHECKING:
     from .sweeps import Cases
 
 
+@collecting_rarely()
 def sweep(
     scene: AbstractScene,
     over: "Mapping[str, Any] | Cases",
