@@ -23,15 +23,16 @@ def error_of(found, exact):
 
 
 def sharded(run):
-    """A function of a batch (pytree with a leading axis), compiled, the batch split over all devices where it can
-    be."""
+    """A function of a batch (pytree with a leading axis) and of what its lanes share, compiled; the batch is split over
+    all devices where it can be."""
     devices = len(jax.devices())
 
-    def split(batch):
+    def split(batch, *shared):
         if devices == 1 or len(jax.tree.leaves(batch)[0]) % devices:
-            return run(batch)
+            return run(batch, *shared)
         mesh = jax.make_mesh((devices,), ("case",), axis_types=(jax.sharding.AxisType.Auto,))
         spec = PartitionSpec("case")
-        return jax.shard_map(run, mesh=mesh, in_specs=spec, out_specs=spec, check_vma=False)(batch)
+        given = spec, *[PartitionSpec()] * len(shared)
+        return jax.shard_map(run, mesh=mesh, in_specs=given, out_specs=spec, check_vma=False)(batch, *shared)
 
     return jax.jit(split)

@@ -15,6 +15,7 @@ films, and with and without shocks.
 """
 
 import argparse
+import functools
 import os
 import platform
 import sys
@@ -122,20 +123,29 @@ def time_at(error, points):
     return best
 
 
-def batches_of(start, times, tolerances, size, solver="tsit5"):
-    """By tolerance: seconds a run of a batch at loads from 90 % to 110 %, and the lanes that failed; one program."""
-    loads = start.dynamics.system.ring_load[None, :] * jnp.linspace(0.9, 1.1, size)[:, None]
+@functools.cache
+def batch_program(static, solver):
+    """Runs that differ in load and tolerance, from one start and at the same times; `static`: what of the start is no
+    array."""
 
-    def one(given):
+    def one(given, numbers, times):
         load, tolerance = given
+        start = eqx.combine(numbers, static)
         dynamics = eqx.tree_at(lambda d: d.system.ring_load, start.dynamics, load)
         options = IntegratorOptions(solver=solver, tolerance=tolerance)
         return ours(start._replace(dynamics=dynamics), times, options)
 
-    program = sharded(jax.vmap(one))
+    return sharded(jax.vmap(one, in_axes=(0, None, None)))
+
+
+def batches_of(start, times, tolerances, size, solver="tsit5"):
+    """By tolerance: seconds a run of a batch at loads from 90 % to 110 %, and the lanes that failed; one program."""
+    loads = start.dynamics.system.ring_load[None, :] * jnp.linspace(0.9, 1.1, size)[:, None]
+    numbers, static = eqx.partition(start, eqx.is_array)
+    program = batch_program(static, solver)
     for tolerance in tolerances:
         given = loads, jnp.full(size, tolerance)
-        run = lambda given=given: program(given)
+        run = lambda given=given: program(given, numbers, times)
         failed = int(np.sum(np.asarray(run().status) != Status.CONVERGED))
         yield tolerance, best_time(run, 1) / size, failed
 

@@ -20,10 +20,11 @@ def section(quick=False):
         at, rollers = jnp.asarray(times), start.state.elements.shape[1]
         tight = script.IntegratorOptions(solver="dopri8", tolerance=script.REFERENCE)
         exact = script.flat(script.ours(start, at, tight).states)
-        rival = rivals(script, start, times, exact, name, rows, quick)
+        functions = script.field_of(start.dynamics)
+        rival = rivals(script, functions, start, times, exact, name, rows, quick)
         if drag < 1.0:
             # behind hard shocks two exact solutions part
-            facts[f"{name}: reference off scipy's DOP853, um"] = off_dop853(script, start, times, exact)
+            facts[f"{name}: reference off scipy's DOP853, um"] = off_dop853(script, functions, start, times, exact)
         least = lambda error, rival=rival: min(
             (t for t in (script.time_at(error, points) for points in rival.values()) if t is not None), default=None
         )
@@ -68,20 +69,19 @@ def section(quick=False):
     )
 
 
-def off_dop853(script, start, times, exact):
+def off_dop853(script, functions, start, times, exact):
     """Error of q of a rival at 1e-10, which has to agree with what errors are counted from."""
     import jax
 
     first = script.flat(jax.tree.map(lambda leaf: leaf[None], start.state))[0]
-    states, *_ = script.scipy_run(script.field_of(start.dynamics), first, times, "DOP853", 1e-10)
+    states, *_ = script.scipy_run(functions, first, times, "DOP853", 1e-10)
     return script.errors(states, exact, start.state.elements.shape[1])[0]
 
 
-def rivals(script, start, times, exact, name, rows, quick):
+def rivals(script, functions, start, times, exact, name, rows, quick):
     """method -> (error of q, seconds) by tolerance; rows are added to the table."""
     import jax
 
-    functions = script.field_of(start.dynamics)
     first = script.flat(jax.tree.map(lambda leaf: leaf[None], start.state))[0]
     for function in functions:
         jax.block_until_ready(function(np.float64(0.0), first))
