@@ -82,7 +82,7 @@ def tried(mutation: Mutation | None, tests: str) -> Outcome:
     """Run test files in a copy of the repository with one error, or with none."""
     with tempfile.TemporaryDirectory() as folder:
         copy = Path(folder) / "repository"
-        unneeded = shutil.ignore_patterns(".git", ".*_cache", "__pycache__", "notebooks", "site")
+        unneeded = shutil.ignore_patterns(".git", ".venv*", ".*_cache", "__pycache__", "notebooks", "site")
         shutil.copytree(ROOT, copy, ignore=unneeded)
         # compiled programs, keyed by what they compute: an error compiles its own
         (ROOT / ".pytest_cache").mkdir(exist_ok=True)
