@@ -51,6 +51,12 @@ def reference():
     return jb.sensitivities(reference_roller())
 
 
+@pytest.fixture(scope="module")
+def fast():
+    """One program for all inputs."""
+    return jb.jit_solver(reference_roller())
+
+
 def input_value(scene, path):
     for name in path.split("."):
         scene = getattr(scene, name)
@@ -72,10 +78,9 @@ def test_solution_is_that_of_solve(reference):
 
 @pytest.mark.slow
 @pytest.mark.parametrize("path", INPUTS)
-def test_against_differences_of_solve(reference, path):
+def test_against_differences_of_solve(reference, fast, path):
     _, slopes = reference
     scene = reference_roller()
-    fast = jb.jit_solver(scene)
     value, step = input_value(scene, path), INPUTS[path]
 
     def at(k):

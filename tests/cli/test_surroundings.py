@@ -34,21 +34,19 @@ def test_damaged_entries_of_the_cache_go(tmp_path):
 
 @pytest.mark.slow
 def test_names_of_files(tmp_path):
-    """Also where the locale is ASCII."""
+    """Where the locale is ASCII, the harder of the two."""
     name = "Wälzlager 漢字 zwei.toml"
     folder = tmp_path / "Prüfstand 7"
     folder.mkdir()
     assert run(folder, "scenes", "--copy", "reference_roller")[0] == 0
     (folder / "reference_roller.toml").rename(folder / name)
-    for variables in ({"LC_ALL": "C.UTF-8"}, {"LC_ALL": "C", "PYTHONUTF8": "0", "PYTHONCOERCECLOCALE": "0"}):
-        code, _, err = run(folder, "solve", name, *DRY, "--out", "ä.nc", "--plot", "ö.svg", **variables)
-        assert (code, "Traceback" in err) == (0, False)
-        code, _, err = run(folder, "report", name, *DRY, "--out", "ü.html", **variables)
-        assert (code, "Traceback" in err) == (0, False)
-        assert sorted(os.listdir(folder)) == sorted([name, "ä.nc", "ö.svg", "ü.html"])
-        assert name in (folder / "ü.html").read_text(encoding="utf-8")
-        for file in ("ä.nc", "ö.svg", "ü.html"):
-            (folder / file).unlink()
+    variables = {"LC_ALL": "C", "PYTHONUTF8": "0", "PYTHONCOERCECLOCALE": "0"}
+    code, _, err = run(folder, "solve", name, *DRY, "--out", "ä.nc", "--plot", "ö.svg", **variables)
+    assert (code, "Traceback" in err) == (0, False)
+    code, _, err = run(folder, "report", name, *DRY, "--out", "ü.html", **variables)
+    assert (code, "Traceback" in err) == (0, False)
+    assert sorted(os.listdir(folder)) == sorted([name, "ä.nc", "ö.svg", "ü.html"])
+    assert name in (folder / "ü.html").read_text(encoding="utf-8")
 
 
 @pytest.mark.slow
@@ -105,7 +103,7 @@ def test_names_of_what_verbs_write(verb, tmp_path):
 def test_one_core(tmp_path):
     """The same results as on all of them."""
     one = "import os; os.sched_setaffinity(0, [min(os.sched_getaffinity(0))])"
-    found = [run(tmp_path, "solve", "turbine_roller", "--json", before=before) for before in (None, one)]
+    found = [run(tmp_path, "solve", "reference_roller", "--json", before=before) for before in (None, one)]
     assert [code for code, *_ in found] == [0, 0]
     all_of_them, alone = (json.loads(out) for _, out, _ in found)
     assert alone["iterations"] == all_of_them["iterations"]
@@ -142,7 +140,8 @@ def test_two_runs_write_in_one_folder(tmp_path):
 @pytest.mark.slow
 def test_runs_at_once_and_a_cache_that_a_kill_damaged(tmp_path):
     cache = tmp_path / "cache"
-    runs = [start(tmp_path, "solve", "reference_roller", "--json", JAXBEARING_CACHE=str(cache)) for _ in range(3)]
+    command = ("solve", "reference_roller", "--set", "contact.traction=none", "--set", "cage=none", "--json")
+    runs = [start(tmp_path, *command, JAXBEARING_CACHE=str(cache)) for _ in range(3)]
     said = [process.communicate(timeout=300) for process in runs]
     assert [process.returncode for process in runs] == [0, 0, 0]
     assert len({out for out, _ in said}) == 1
@@ -150,7 +149,7 @@ def test_runs_at_once_and_a_cache_that_a_kill_damaged(tmp_path):
     assert entries
     for path in entries:
         path.write_bytes(path.read_bytes()[:100])
-    assert run(tmp_path, "solve", "reference_roller", "--json", JAXBEARING_CACHE=str(cache)) == (0, *said[0])
+    assert run(tmp_path, *command, JAXBEARING_CACHE=str(cache)) == (0, *said[0])
     # written anew
     assert all(path.stat().st_size > 100 for path in cache.rglob("*-cache"))
 
