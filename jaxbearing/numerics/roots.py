@@ -112,7 +112,11 @@ def _root(
         newton = state.x - step
         # False for NaN; where a function that should rise falls, halving the bracket still finds a root
         inside = (newton >= low) & (newton <= high) & (slope > 0)
-        x = jnp.where(value == 0, state.x, jnp.where(inside, newton, 0.5 * (low + high)))
+        # XLA may compute `value` twice, with other last bits: at the root one copy says on which side of it x lies, the
+        # other where Newton's step goes. The last step is taken whatever the bracket says.
+        last = (jnp.abs(step) <= tolerance * jnp.maximum(1.0, jnp.abs(state.x))) & (slope > 0)
+        newton = jnp.where(last, jnp.clip(newton, lower, upper), newton)
+        x = jnp.where(value == 0, state.x, jnp.where(inside | last, newton, 0.5 * (low + high)))
         step = jnp.abs(x - state.x) / jnp.maximum(1.0, jnp.abs(x))
         # proper: the Newton step from here stays in the first bracket, so x is a root and not a bracket end
         proper = (newton > lower) & (newton < upper) & (slope > 0)
