@@ -11,6 +11,10 @@ from jaxtyping import Array, Bool, Float, PyTree
 from .._types import Values
 
 
+SHORT = 100.0
+"""Times the tolerance: a Newton step as short as that is taken whatever the bracket says."""
+
+
 class Root(NamedTuple):
     """A root and how well it was found.
 
@@ -36,7 +40,7 @@ def monotone_root(
     r"""Root of a function that is strictly increasing in x on [lower, upper], elementwise.
 
     Safeguarded Newton: a Newton step that would leave the bracket (or is not finite) is replaced
-    by bisection, and the bracket shrinks at every step. It stops when every element's step is
+    by bisection unless it is as short as the last ones, and the bracket shrinks at every step. It stops when every element's step is
     below `tolerance * max(1, |x|)`; that step is taken, so the error is about its square (its cube with an
     `expansion`: the steps are then Halley's, of third order). A root outside
     the bracket ends at the nearer bracket end, and its residual says so.
@@ -110,13 +114,13 @@ def _root(
         low = jnp.where(value < 0, state.x, state.low)
         high = jnp.where(value > 0, state.x, state.high)
         newton = state.x - step
-        # False for NaN; where a function that should rise falls, halving the bracket still finds a root
-        inside = (newton >= low) & (newton <= high) & (slope > 0)
-        # XLA may compute `value` twice, with other last bits: at the root one copy says on which side of it x lies, the
-        # other where Newton's step goes. The last step is taken whatever the bracket says.
-        last = (jnp.abs(step) <= tolerance * jnp.maximum(1.0, jnp.abs(state.x))) & (slope > 0)
-        newton = jnp.where(last, jnp.clip(newton, lower, upper), newton)
-        x = jnp.where(value == 0, state.x, jnp.where(inside | last, newton, 0.5 * (low + high)))
+        # False for NaN; where a function that should rise falls, halving the bracket still finds a root. XLA may compute
+        # `value` twice, with other last bits: at the root one copy says on which side of it x lies, the other where
+        # Newton's step goes. So the step is held against the bracket of before, and short ones are always taken.
+        inside = (newton >= state.low) & (newton <= state.high) & (slope > 0)
+        short = (jnp.abs(step) <= SHORT * tolerance * jnp.maximum(1.0, jnp.abs(state.x))) & (slope > 0)
+        newton = jnp.where(short, jnp.clip(newton, lower, upper), newton)
+        x = jnp.where(value == 0, state.x, jnp.where(inside | short, newton, 0.5 * (low + high)))
         step = jnp.abs(x - state.x) / jnp.maximum(1.0, jnp.abs(x))
         # proper: the Newton step from here stays in the first bracket, so x is a root and not a bracket end
         proper = (newton > lower) & (newton < upper) & (slope > 0)

@@ -1,4 +1,4 @@
-"""Sweeps: throughput on one device and on all, beside single solves."""
+"""Sweeps: throughput on all devices, of the first scene on one too, beside single solves."""
 
 from benchmark_report import HERE, load
 from section_shape import Section, Table
