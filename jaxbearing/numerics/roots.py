@@ -10,7 +10,6 @@ from jaxtyping import Array, Bool, Float, PyTree
 
 from .._types import Values
 
-
 SHORT = 100.0
 """Times the tolerance: a Newton step as short as that is taken whatever the bracket says."""
 
@@ -40,9 +39,9 @@ def monotone_root(
     r"""Root of a function that is strictly increasing in x on [lower, upper], elementwise.
 
     Safeguarded Newton: a Newton step that would leave the bracket (or is not finite) is replaced
-    by bisection unless it is as short as the last ones, and the bracket shrinks at every step. It stops when every element's step is
-    below `tolerance * max(1, |x|)`; that step is taken, so the error is about its square (its cube with an
-    `expansion`: the steps are then Halley's, of third order). A root outside
+    by bisection unless it is as short as the last ones, and the bracket shrinks at every step. It stops when every
+    element's step is below `tolerance * max(1, |x|)`; that step is taken, so the error is about its square (its
+    cube with an `expansion`: the steps are then Halley's, of third order). A root outside
     the bracket ends at the nearer bracket end, and its residual says so.
 
     The derivative is that of the implicit function, $dx = -(\partial f/\partial a)\,da /
@@ -114,9 +113,9 @@ def _root(
         low = jnp.where(value < 0, state.x, state.low)
         high = jnp.where(value > 0, state.x, state.high)
         newton = state.x - step
-        # False for NaN; where a function that should rise falls, halving the bracket still finds a root. XLA may compute
-        # `value` twice, with other last bits: at the root one copy says on which side of it x lies, the other where
-        # Newton's step goes. So the step is held against the bracket of before, and short ones are always taken.
+        # False for NaN; where a function that should rise falls, halving the bracket still finds a root. XLA may
+        # compute `value` twice, with other last bits: at the root one copy says on which side of it x lies, the other
+        # where Newton's step goes. So the step is held against the bracket of before, and short ones are always taken.
         inside = (newton >= state.low) & (newton <= state.high) & (slope > 0)
         short = (jnp.abs(step) <= SHORT * tolerance * jnp.maximum(1.0, jnp.abs(state.x))) & (slope > 0)
         newton = jnp.where(short, jnp.clip(newton, lower, upper), newton)

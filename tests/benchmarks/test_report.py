@@ -1,6 +1,7 @@
 """The report of all benchmarks: it is written whole, and what must hold on any machine holds; times are not looked at.
 
-The whole report (about 20 minutes on two cores) is made where `tests/benchmarks` is named on the command line and no marker:
+The whole report (about 20 minutes on two cores) is made where `tests/benchmarks` is named on the command line and no
+marker:
 
     python -m pytest tests/benchmarks [--report-to FOLDER]
 """
