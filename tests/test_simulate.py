@@ -16,7 +16,7 @@ from jaxbearing.bearings.roller_instants import pocket_loads
 from jaxbearing.bearings.roller_motion import quasi_static_start
 from jaxbearing.bearings.simulation import Simulation
 from jaxbearing.simulate import simulate, trajectory
-from jaxbearing.time_laws import AbstractTimeFactor, Sinusoidal
+from jaxbearing.time_laws import AbstractTimeFactor, Ramp, RotatingLoad, Sinusoidal
 
 SHORT = 2.56e-3
 """One segment of a run, s."""
@@ -96,10 +96,18 @@ def test_bad_requests_are_refused():
         Simulation(solver="heun")
 
 
+DRIVEN = {
+    "perturbed speed": Simulation(speed=Sinusoidal(40.0, 0.1)),
+    "ramp from 2 % of the speed": Simulation(speed=Ramp(0.02, 1.0, 15e-3)),
+    "turning load": Simulation(rotating_load=RotatingLoad(5e3, 1466.0)),
+    "sudden load step": Simulation(load=Ramp(1.0, 0.05, 0.2e-3, 1e-3)),
+}
+
+
 @pytest.mark.slow
-def test_perturbed_speed():
-    """Other drives: `tests/hard/test_moving_roller.py`."""
-    history = simulate(table_16(0.6), 4 * SHORT, simulation=Simulation(speed=Sinusoidal(40.0, 0.1)))
+@pytest.mark.parametrize("name", DRIVEN)
+def test_driven_runs(name):
+    history = simulate(table_16(0.6), 4 * SHORT, simulation=DRIVEN[name])
     assert history.completed
     assert abs(history.energy.error) < 1e-5
 

@@ -40,7 +40,7 @@ CAMPAIGNS = {
     "free": (FREE, [running(60, 8, 15), light(100.0, 60, 20, 100)]),
     "cage and drag": ({}, [running(60, 8, 20), light(100.0, 30, 20, 60)]),
     "couple resolved": (FREE | {"kinematics.gyroscopic": ResolvedCouple()}, [running(60, 10, 40)]),
-    "combined load and moment": (COMBINED, [light(500.0, 4, 20, 150)]),
+    "combined load and moment": (COMBINED, [light(500.0, 8, 20, 150)]),
 }
 
 

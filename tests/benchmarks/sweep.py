@@ -61,8 +61,8 @@ def ranges_of(name, ranges):
     return {f"operation.{field}": bounds for field, bounds in ranges.items()}
 
 
-def row(scene, name, ranges, result, count, sizes, files=True, alone=True):
-    """All figures of a scene; without `files` none of a whole sweep, without `alone` none of one device of several."""
+def row(scene, name, ranges, result, count, sizes, files=True):
+    """All figures of a scene; without `files` none of a whole sweep."""
     cases = latin_hypercube(ranges_of(name, ranges), count, seed=1)
     inputs, active = cases.part(0, count), np.ones(count, dtype=bool)
     example = {path: values[0] for path, values in inputs.items()}
@@ -72,7 +72,7 @@ def row(scene, name, ranges, result, count, sizes, files=True, alone=True):
     exact = [solver(one) for one in scenes]
     single = best_time(lambda: [result(solver(one)) for one in scenes], 3) / few
     figures, bits = {"single": single, "lanes": {}}, {}
-    for devices in sorted({1, len(jax.devices())} if alone else {len(jax.devices())}):
+    for devices in sorted({1, len(jax.devices())}):
         for lanes in sizes:
             program = LaneProgram(
                 lambda base, values: base.replace(values), scene, example, lanes=lanes, devices=devices

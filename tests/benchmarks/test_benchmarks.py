@@ -71,7 +71,6 @@ def test_ball_bearing():
             assert error < 1e-6  # where scipy solves the equations it finds our displacement
 
 
-@pytest.mark.report
 def test_sweep():
     module = script("sweep")
     figures = module.benchmark(quick=True)

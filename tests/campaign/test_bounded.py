@@ -21,7 +21,7 @@ from jaxbearing.numerics.newton import newton_solve
 pytestmark = pytest.mark.slow
 
 SMALL = [structure for structure in STRUCTURES if structure.small]
-EXAMPLES = 30
+EXAMPLES = 40
 AGREEMENT = 1e-9
 by_name = pytest.mark.parametrize("structure", SMALL, ids=lambda structure: structure.name)
 

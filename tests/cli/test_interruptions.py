@@ -38,7 +38,7 @@ os.replace = stop
 
 SIGNALS = {"kill": signal.SIGKILL, "ctrl-c": signal.SIGINT}
 # one function puts most files in their places: both signals where a run is long, one elsewhere
-ONE = dict.fromkeys(("scenes", "plot", "report", "stiffness"), "kill") | dict.fromkeys(("solve", "animation"), "ctrl-c")
+ONE = {"scenes": "kill", "plot": "kill", "stiffness": "kill", "animation": "ctrl-c"}
 CASES = [(verb, name) for verb in VERBS for name in SIGNALS if ONE.get(verb, name) == name]
 
 

@@ -93,9 +93,7 @@ def test_refused(arguments, words, jaxbearing_command, folder):
 @pytest.mark.parametrize("name", [NAME, "two_disk_pennzane", "two_disk_etm"])
 @pytest.mark.slow
 def test_built_in_scenes_converge(name, jaxbearing_command):
-    """414 points with a heated film are many for the finest march."""
-    coarse = ("--set", "contact.traction_accuracy=1e-2") if name == "two_disk_pennzane" else ()
-    result = jaxbearing_command("solve", name, *coarse, "--json")
+    result = jaxbearing_command("solve", name, "--json")
     assert (result.code, result.err) == (0, "")
     solution = json.loads(result.out)
     assert solution["converged"] is True

@@ -8,12 +8,14 @@ from pathlib import Path
 import pytest
 from command_process import environment
 
+from jaxbearing.numerics.compiling import RARELY
+
 NOTEBOOKS = sorted((Path(__file__).parents[2] / "notebooks").glob("*.ipynb"))
 LARGEST = 400_000
 """Bytes of a notebook with its outputs."""
-RUN = """
-import gc, json, sys
-gc.set_threshold(100_000, 20, 10)  # as tests
+RUN = f"import gc; gc.set_threshold{RARELY}"  # as tests
+RUN += """
+import json, sys
 names = {"__name__": "__main__"}
 for i, cell in enumerate(json.load(open(sys.argv[1], encoding="utf-8"))["cells"]):
     if cell["cell_type"] == "code":

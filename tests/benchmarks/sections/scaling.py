@@ -105,12 +105,10 @@ def batch_rows(sizes):
     for size in sizes:
         points = script.operations(size)
         run = script.batched(scene).lower(points).compile()
-        seconds, found = np.inf, None
-        for _ in range(1 if size > 10_000 else 3):
-            begin = time.perf_counter()
-            found = jax.block_until_ready(run(points))
-            seconds = min(seconds, time.perf_counter() - begin)
-        failed += int(np.sum(np.asarray(found[1]) != 0))
+        found = []
+        solved = lambda run=run, points=points, found=found: found.append(run(points)) or found[-1]
+        seconds = best_time(solved, 1 if size > 1000 else 5)
+        failed += int(np.sum(np.asarray(found[-1][1]) != 0))
         before = rows[-1] if rows else None
         exponent = None if before is None else float(np.log(seconds / before[1]) / np.log(size / before[0]))
         rows.append((size, seconds, 1e3 * seconds / size, exponent))

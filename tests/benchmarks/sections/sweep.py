@@ -1,4 +1,4 @@
-"""Sweeps: throughput on all devices, of the first scene on one too, beside single solves."""
+"""Sweeps: throughput on one device and on all, beside single solves."""
 
 from benchmark_report import HERE, load
 from section_shape import Section, Table
@@ -7,7 +7,6 @@ import jaxbearing as jb
 from jaxbearing.sweeps.plan import LANES as DEFAULT_LANES
 
 SCENES = ("reference_roller", "tapered_example")
-"""The first on one device and on all; the second, whose program takes long to compile, on all."""
 
 
 def section(quick=False):
@@ -16,9 +15,7 @@ def section(quick=False):
     for name in SCENES[: 1 if quick else None]:
         _, ranges, result = script.CASES[name]
         count = 60 if quick else 500
-        figures = script.row(
-            jb.load_scene(name), name, ranges, result, count, (DEFAULT_LANES,), False, name == SCENES[0]
-        )
+        figures = script.row(jb.load_scene(name), name, ranges, result, count, (DEFAULT_LANES,), files=False)
         alike = alike and figures["same bits"]
         for (devices, lanes), one in figures["lanes"].items():
             failed += one["failed"]
