@@ -4,7 +4,8 @@ import time
 
 import jax
 import numpy as np
-from jax.sharding import PartitionSpec
+
+from jaxbearing.numerics.devices import shared_out
 
 
 def best_time(function, repeats):
@@ -25,14 +26,4 @@ def error_of(found, exact):
 def sharded(run):
     """A function of a batch (pytree with a leading axis) and of what its lanes share, compiled; the batch is split over
     all devices where it can be."""
-    devices = len(jax.devices())
-
-    def split(batch, *shared):
-        if devices == 1 or len(jax.tree.leaves(batch)[0]) % devices:
-            return run(batch, *shared)
-        mesh = jax.make_mesh((devices,), ("case",), axis_types=(jax.sharding.AxisType.Auto,))
-        spec = PartitionSpec("case")
-        given = spec, *[PartitionSpec()] * len(shared)
-        return jax.shard_map(run, mesh=mesh, in_specs=given, out_specs=spec, check_vma=False)(batch, *shared)
-
-    return jax.jit(split)
+    return jax.jit(shared_out(run))

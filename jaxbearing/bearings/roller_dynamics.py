@@ -49,6 +49,7 @@ from ..contacts.laws import ContactState
 from ..gaps import CompliantPocketFace
 from ..gaps.pocket import PocketFace
 from ..numerics.arrow import ArrowPoint
+from ..numerics.series import cosine_and_sine
 from ..time_laws import AbstractTimeFactor, RotatingLoad, Steady
 from .kinematics import RollerKinematics
 from .roller_equations import LubricatedRollerSystem
@@ -67,13 +68,13 @@ large that they do not steer the step (some 100 J in a turbine), and in proporti
 LEAST_WORK = 1e-9
 """That the unit of the works is at least, J."""
 WORKS = ("drive", "dissipation", "pocket_films", "lever_arm", "load")
-LOAD_TOLERANCE = 1e-2
+LOAD_TOLERANCE = 0.3
 """Scaled residual of the load distribution before the last step, which squares it, over the root of the integration's
-tolerance: loads are found to 1e-4 of that."""
-FINE = 1e-8
+tolerance: loads are found to a tenth of that."""
+FINE = 1e-11
 """Tolerance for which loads are found where none is given."""
 LOAD_STEPS = 40
-LOAD_FAILURE = 10.0
+LOAD_FAILURE = 2.0
 """That residual over its tolerance from which on the rates are NaN: the step is then rejected and shortened."""
 _PALMGREN_ENERGY = 0.9 / 1.9
 
@@ -276,7 +277,7 @@ class RollerDynamics(eqx.Module):
 
     def directions(self, azimuth: Float[Array, " roller"]) -> Float[Array, "freedom roller"]:
         """Outward unit vectors at the rollers along the freedoms of the ring."""
-        along = {"radial": jnp.cos(azimuth), "lateral": jnp.sin(azimuth)}
+        along = dict(zip(("radial", "lateral"), cosine_and_sine(azimuth), strict=True))
         return jnp.stack([along[name] for name in self.system.freedoms])
 
     def _pocket(
@@ -290,7 +291,7 @@ class RollerDynamics(eqx.Module):
         (q, v, u), (x, y, q_c), (v_x, v_y, v_c) = roller, position, velocity
         assert self.pocket is not None
         assert self.pocket_clearance is not None
-        cosine, sine = jnp.cos(azimuth), jnp.sin(azimuth)
+        cosine, sine = cosine_and_sine(azimuth)
         ahead = (q_c - q) - (x * cosine + y * sine)
         rate = (v_c - v) - (v_x * cosine + v_y * sine) + (x * sine - y * cosine) * orbit
         half = 0.5 * self.pocket_clearance
@@ -390,7 +391,7 @@ class RollerDynamics(eqx.Module):
         sliding = jnp.sum(contact.traction * now.sliding_speed, axis=1)
         rolling, rails = contact.rolling_force, forces.rails
         flanges = [end for end in (forces.inner_flange, forces.outer_flange) if end is not None]
-        cosine, sine = jnp.cos(now.azimuth), jnp.sin(now.azimuth)
+        cosine, sine = cosine_and_sine(now.azimuth)
         behind = now.orbit - now.cage_orbit
         pocket = ends = None
         if now.pocket is not None:
@@ -425,7 +426,8 @@ class RollerDynamics(eqx.Module):
         if now.pocket is not None:
             push = now.pocket.front.load - now.pocket.rear.load
             closing = -jnp.sum(push * now.pocket.gap_rate)
-            arm = now.centre[0] * jnp.sin(now.azimuth) - now.centre[1] * jnp.cos(now.azimuth)
+            cosine, sine = cosine_and_sine(now.azimuth)
+            arm = now.centre[0] * sine - now.centre[1] * cosine
             lever = jnp.sum(push * arm * now.orbit)
         time = jnp.asarray(time, dtype=float)
         _, load_rate = jax.jvp(self.ring_load, (time,), (jnp.ones_like(time),))

@@ -10,6 +10,7 @@ from jaxtyping import Array, Float
 from ..contacts import LineContact
 from ..contacts.laws import ContactState
 from ..gaps import EndForces, FlangeCoefficients, Pocket, PocketEdgeCoefficients, RollerDrag, ShortJournal
+from ..numerics.series import cosine_and_sine
 from .kinematics import RollerKinematics
 from .roller_loads import per_race
 
@@ -98,7 +99,7 @@ def on_cage(
         forward = forward - rails.tangential_force
         moment = moment - rails.moment - rails.tangential_force * motion.pitch_radius
     outward = friction[0] - friction[1]
-    cosine, sine = jnp.cos(azimuth), jnp.sin(azimuth)
+    cosine, sine = cosine_and_sine(azimuth)
     # t = (-cos, -sin), n = (-sin, cos) in (X, Y), the load along +Y
     return moment, jnp.stack([-forward * cosine - outward * sine, -forward * sine + outward * cosine])
 

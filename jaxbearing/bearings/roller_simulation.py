@@ -11,6 +11,7 @@ import numpy as np
 from jaxtyping import Array, Float
 
 from ..numerics.compiling import quickly_compiled
+from ..numerics.devices import shared_out
 from ..numerics.integrator import Segment
 from ..numerics.precision import as_float
 from ..numerics.status import SolveError, Status
@@ -231,8 +232,14 @@ def _batch(
     times: Float[Array, " time"],
     method: str,
 ) -> History:
-    lane = lambda changes: _lane(scene.replace(changes), simulation, times)
-    return jax.lax.map(lane, values) if method == "map" else jax.vmap(lane)(values)
+    numbers, rest = eqx.partition((scene, simulation), eqx.is_array_like)
+
+    def lanes(values: dict[str, Any], numbers: Any, times: Float[Array, " time"]) -> History:
+        scene, simulation = eqx.combine(numbers, rest)
+        lane = lambda changes: _lane(scene.replace(changes), simulation, times)
+        return jax.lax.map(lane, values) if method == "map" else jax.vmap(lane)(values)
+
+    return shared_out(lanes)(values, numbers, times)
 
 
 def _lane(scene: CylindricalRollerBearing, simulation: Simulation | None, times: Float[Array, " time"]) -> History:

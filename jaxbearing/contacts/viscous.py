@@ -8,7 +8,6 @@ import jax.numpy as jnp
 from jaxtyping import Array, Float
 
 from .._types import Scalar, Values
-from ..numerics.safe import log_add
 from .relaxation import Slopes, limiting_root, sinh_root
 
 LOG_SATURATED = 230.0
@@ -214,16 +213,18 @@ def _saturated_product(log_scale: Values, x: Values) -> Array:
 
 
 def asinh_of_scaled(log_scale: Values, x: Values) -> Float[Array, "..."]:
-    """asinh(exp(log_scale) x): odd in x, slope exp(log_scale) at x = 0, no overflow for log_scale up to 600.
+    r"""asinh(exp(log_scale) x): odd in x, slope exp(log_scale) at x = 0, no overflow for log_scale up to 600.
 
-    Beyond asinh(1) it works on logarithms, ln(e^s + sqrt(1 + e^2s)); double `where` on both branches. A finite
-    x with log_scale > 600 and |x| < e^-600 is the only place where the slope is not exact.
+    $\ln(1 + w + w^2/(1 + r))$ with w = e^log_scale |x| up to 1 and, beyond, $-\ln w + \ln(1 + r)$ with w its inverse;
+    $r = \sqrt{1 + w^2}$. A finite x with log_scale > 600 and |x| < e^-600 is the only place where the slope is not
+    exact.
     """
     log_scale, x = jnp.broadcast_arrays(jnp.asarray(log_scale, dtype=float), jnp.asarray(x, dtype=float))
-    size = jnp.abs(x)
+    sign, size = _sign_and_size(x)
     log_size = log_scale + jnp.log(jnp.where(size > 0, size, 1.0))
     large = (size > 0) & (log_size > 0)
-    small_argument = jnp.where(large, 0.0, x) * jnp.exp(jnp.where(large, 0.0, jnp.minimum(log_scale, LOG_SCALE_CAP)))
-    s = jnp.where(large, log_size, 0.0)
-    high = jnp.sign(x) * log_add(s, 0.5 * log_add(0.0, 2.0 * s))
-    return jnp.where(large, high, jnp.arcsinh(small_argument))
+    exponent = jnp.where(large, -log_size, jnp.minimum(log_scale, LOG_SCALE_CAP))
+    w = jnp.where(large, 1.0, size) * jnp.exp(exponent)
+    root = jnp.sqrt(1.0 + w * w)
+    rest = jnp.log1p(jnp.where(large, root, w + w * w / (1.0 + root)))
+    return sign * (jnp.where(large, log_size, 0.0) + rest)

@@ -8,6 +8,7 @@ import jax.numpy as jnp
 
 from .._types import Batch, Values
 from ..numerics.safe import smooth_abs
+from ..numerics.series import horner
 
 MARTIN_LOAD = 4.894968493913369
 """Gw at s = 0: W = 4.895 mu u R L/h (Martin's 4.9; 2.45 if written with u1 + u2)."""
@@ -41,13 +42,6 @@ class MartinFactors(NamedTuple):
     rolling: Batch
 
 
-def _horner(coefficients: tuple[float, ...], x: Values) -> Batch:
-    total = jnp.zeros_like(x)
-    for c in reversed(coefficients):
-        total = total * x + c
-    return total
-
-
 def _angle(sin: Values, cos: Values) -> Batch:
     """Angle between 0 and pi: it, or its supplement, is halved three times, and the rest is a series (error < 1e-16).
     On a CPU XLA leaves the arctangent of doubles to scalar code, which takes seven times as long."""
@@ -55,7 +49,7 @@ def _angle(sin: Values, cos: Values) -> Batch:
     for _ in range(2):
         tangent = tangent / (1.0 + jnp.sqrt(1.0 + tangent * tangent))
     square = tangent * tangent
-    angle = 8.0 * tangent * _horner(_ARCTAN_SERIES, square)
+    angle = 8.0 * tangent * horner(_ARCTAN_SERIES, square)
     return jnp.where(cos < 0, math.pi - angle, angle)
 
 
@@ -71,36 +65,56 @@ def _moments(exit_position: Values) -> tuple[Batch, Batch, Batch, Batch]:
     small = beta < _SERIES_BELOW
     b = jnp.where(small, beta, 0.0)
     b2 = b * b
-    i2 = jnp.where(small, b * b2 * _horner(_I2_SERIES, b2), 0.5 * (beta - sin * cos))
-    i4 = jnp.where(small, b * b2 * _horner(_I4_SERIES, b2), 0.75 * i2 - 0.25 * cos * sin**3)
+    i2 = jnp.where(small, b * b2 * horner(_I2_SERIES, b2), 0.5 * (beta - sin * cos))
+    i4 = jnp.where(small, b * b2 * horner(_I4_SERIES, b2), 0.75 * i2 - 0.25 * cos * sin**3)
     return beta, sin, i2, i4
 
 
-def _squeeze_of_exit(exit_position: Values) -> tuple[Batch, Batch]:
-    r"""s(T) and ds/dT < 0.
+class _Exit(NamedTuple):
+    """Exit position T of a film, and `_moments` there."""
+
+    position: Batch
+    angle: Batch
+    sine: Batch
+    second: Batch
+    fourth: Batch
+
+
+def _excess_and_slope(exit_: _Exit) -> tuple[Batch, Batch]:
+    r"""T + s(T) and ds/dT < 0.
 
     The printed quotient is $s = (I_2-(1+T^2)I_4)/D$, $D = TI_4 + \sin^4\beta/4$; with
     $I_4 = \tfrac34I_2 - \tfrac14\cos\beta\sin^3\beta$ it is $I_2/(4D) - T$, which does not cancel.
     With dI2/dT = sin^4, dD/dT = I4 the slope is $-I_4(2T+s)/D$.
     """
-    _, sin, i2, i4 = _moments(exit_position)
-    denominator = exit_position * i4 + 0.25 * sin**4
-    excess = 0.25 * i2 / denominator  # T + s
-    return excess - exit_position, -i4 * (exit_position + excess) / denominator
+    t, _, sin, i2, i4 = exit_
+    denominator = t * i4 + 0.25 * sin**4
+    excess = 0.25 * i2 / denominator
+    return excess, -i4 * (t + excess) / denominator
+
+
+def _moved(exit_: _Exit, way: Values) -> _Exit:
+    """What a small change of T changes, to first order."""
+    t, _, sin, _, _ = exit_
+    square = sin * sin
+    return _Exit(way, square * way, -t * sin * square * way, square**2 * way, square**3 * way)
 
 
 @jax.custom_jvp
 def _exit(s):
+    """Newton's step from a polynomial, and its first-order effect on the moments, whose square is below round-off:
+    they are the dear part, and are computed once."""
     root = jnp.sqrt(1.0 + s * s)
-    t = root * _horner(_EXIT_START, s / (1.0 + root))
-    value, slope = _squeeze_of_exit(t)
-    return t - (value - s) / slope
+    t = root * horner(_EXIT_START, s / (1.0 + root))
+    start = _Exit(t, *_moments(t))
+    excess, slope = _excess_and_slope(start)
+    return _Exit(*(a + b for a, b in zip(start, _moved(start, (s - (excess - t)) / slope), strict=True)))
 
 
 @_exit.defjvp
 def _exit_jvp(primals, tangents):
-    t = _exit(primals[0])
-    return t, tangents[0] / _squeeze_of_exit(t)[1]
+    found = _exit(primals[0])
+    return found, _moved(found, tangents[0] / _excess_and_slope(found)[1])
 
 
 def martin_exit(s: Values) -> Batch:
@@ -113,7 +127,7 @@ def martin_exit(s: Values) -> Batch:
     **Reference:** Martin (1916), Engineering 102, 119; Dowson, Markho and Jones (1976), ASME J.
     Lubr. Technol. 98, 509.
     """
-    return _exit(jnp.clip(jnp.asarray(s), -SQUEEZE_LIMIT, SQUEEZE_LIMIT))
+    return _exit(jnp.clip(jnp.asarray(s), -SQUEEZE_LIMIT, SQUEEZE_LIMIT)).position
 
 
 def martin_factors(s: Values) -> MartinFactors:
@@ -126,10 +140,10 @@ def martin_factors(s: Values) -> MartinFactors:
     $G_w\to128/(27s^2)$: the film never pulls. Frozen beyond |s| = 300.
     """
     s = jnp.clip(jnp.asarray(s), -SQUEEZE_LIMIT, SQUEEZE_LIMIT)
-    t = _exit(s)
-    beta, sin, i2, i4 = _moments(t)
+    found = _exit(s)
+    t, beta, sin, i2, _ = found
     sin2 = sin * sin
-    excess = 0.25 * i2 / (t * i4 + 0.25 * sin2 * sin2)  # T + s without cancellation at s << 0
+    excess, _ = _excess_and_slope(found)  # T + s without cancellation at s << 0
     return MartinFactors(
         load=6.0 * (sin2 - s * i2),
         shear=beta,

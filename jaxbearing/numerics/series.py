@@ -1,0 +1,47 @@
+"""Power series, and by them cosine and sine together: on a CPU XLA leaves those of doubles to scalar code."""
+
+import math
+
+import jax
+import jax.numpy as jnp
+
+from .._types import Batch, Values
+
+_HALF_PI = (1.5707963267341256, 6.077100506506192e-11)
+"""pi/2: a number of 33 bits, whose multiples below 2^20 are exact, and the rest."""
+_SINE = tuple((-1) ** k / math.factorial(2 * k + 1) for k in range(8))
+_COSINE = tuple((-1) ** k / math.factorial(2 * k) for k in range(9))
+
+
+def horner(coefficients: tuple[float, ...], x: Values) -> Batch:
+    """sum_k c_k x^k."""
+    total = jnp.zeros_like(x)
+    for c in reversed(coefficients):
+        total = total * x + c
+    return total
+
+
+@jax.custom_jvp
+def cosine_and_sine(angle: Values) -> tuple[Batch, Batch]:
+    r"""cos and sin of an angle, rad, in a quarter of the time of both: Taylor's series of the angle less the nearest
+    multiple of pi/2.
+
+    Within 2.3e-16 of the exact ones for |angle| < 1e6 rad, and beyond within two last bits of the angle; NaN for an
+    angle that is not finite.
+    """
+    angle = jnp.asarray(angle, dtype=float)
+    turns = jnp.round(angle * (2.0 / math.pi))
+    rest = (angle - turns * _HALF_PI[0]) - turns * _HALF_PI[1]
+    square = rest * rest
+    sine, cosine = rest * horner(_SINE, square), horner(_COSINE, square)
+    quadrant = turns - 4.0 * jnp.floor(0.25 * turns)
+    across = (quadrant == 1.0) | (quadrant == 3.0)
+    x, y = jnp.where(across, sine, cosine), jnp.where(across, cosine, sine)
+    x = jnp.where((quadrant == 1.0) | (quadrant == 2.0), -x, x)
+    return x, jnp.where(quadrant >= 2.0, -y, y)
+
+
+@cosine_and_sine.defjvp
+def _cosine_and_sine_jvp(primals, tangents):
+    cosine, sine = cosine_and_sine(primals[0])
+    return (cosine, sine), (-sine * tangents[0], cosine * tangents[0])
