@@ -13,6 +13,7 @@ in between.
 from typing import Any, NamedTuple
 
 import diffrax as dfx
+import equinox as eqx
 import jax
 import jax.numpy as jnp
 import lineax as lx
@@ -76,25 +77,27 @@ def _problem(
     if not isinstance(field, NestedField):
         return _Problem(field, solver, state, args, optx.rms_norm, same)
     nested = field
+    # diffrax calls the field in many places: so it is traced once
+    rates = eqx.filter_jit(nested.rates)
     if options.solver in IMPLICIT:
         # the arrow of the stage equations is that of the state alone
-        cold = lambda t, y, a: nested.rates(t, y, a, nested.guess(t, y, a), options.tolerance)[0]
-        return _Problem(cold, solver, state, args, optx.rms_norm, same)
+        guess = eqx.filter_jit(nested.guess)
+        cold = lambda t, y, a: rates(t, y, a[0], guess(t, y, a[0]), a[1])[0]
+        return _Problem(cold, solver, state, (args, jnp.asarray(options.tolerance)), optx.rms_norm, same)
     flat, unravel = ravel_pytree(state)
     first, unravel_found = ravel_pytree(jax.lax.stop_gradient(nested.guess(start, state, args)))
     size = flat.shape[0]
 
     def remembering(t, y, given):
-        own, memory = given
-        guess = unravel_found(memory.at(t))
-        rates, found = nested.rates(t, unravel(y[:size]), own, guess, options.tolerance)
-        return jnp.concatenate([ravel_pytree(rates)[0], jax.lax.stop_gradient(ravel_pytree(found)[0])])
+        (own, tolerance), memory = given
+        rate, found = rates(t, unravel(y[:size]), own, unravel_found(memory.at(t)), tolerance)
+        return jnp.concatenate([ravel_pytree(rate)[0], jax.lax.stop_gradient(ravel_pytree(found)[0])])
 
     return _Problem(
         remembering,
         Remembering(solver),
         jnp.concatenate([flat, jnp.zeros_like(first)]),
-        (args, Memory(start, first, jnp.zeros_like(first), jnp.zeros_like(first))),
+        ((args, jnp.asarray(options.tolerance)), Memory(start, first, jnp.zeros_like(first), jnp.zeros_like(first))),
         lambda error: optx.rms_norm(error[:size]),
         lambda y: unravel(y[:size]),
     )

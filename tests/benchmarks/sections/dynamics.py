@@ -75,8 +75,8 @@ def section(quick=False):
         "The bearing of Table 16 with the reference laws, 30 rollers, errors against dopri8 at 1e-11: each the "
         "geometric mean over runs at 90, 100 and 110 % of the load, the seconds their mean. The rivals get our jitted "
         "vector field (and Jacobian) without the integrals of the works. 'Times' is the time of scipy's fastest run of "
-        "no larger error, interpolated between its tolerances, over ours. Behind shocks the motion is chaotic: an error "
-        "of several um is a matter of luck, ours and scipy's.",
+        "no larger error, interpolated between its tolerances, over ours. Behind shocks the motion is chaotic: errors of "
+        "several um are a matter of luck, ours and scipy's.",
         (
             Table(
                 "One run:",
