@@ -161,8 +161,9 @@ def simulate_batch(
     - `over`: dotted paths of the scene -> values, as many for each; "simulation.load" and the like take time laws
       whose leaves have the lanes in front.
     - `duration`, `interval`, `simulation`: as in `simulate`.
-    - `method`: "map" runs lane by lane, "vmap" all in step, each waiting for the one with most steps. Measured, 8 lanes
-      on two busy cores, a lane: 5.12 ms with shocks 1.0 s against 1.4 s, 2.56 ms almost without 0.20 s against 0.15 s.
+    - `method`: "map" runs lane by lane, "vmap" all in step, each waiting for the one with most steps: on a CPU twice
+      as fast from some ten lanes on. Lanes are shared out among all local devices where they divide: on a CPU let JAX
+      have as many as there are cores, before anything runs on it: `jax.config.update("jax_num_cpu_devices", 2)`.
 
     **Raises:** as `simulate`, but not for a run that fails; `ValueError` where the values are not equally many.
     """

@@ -11,7 +11,7 @@ import numpy as np
 from jaxtyping import Array, Float
 
 from ..numerics.compiling import quickly_compiled
-from ..numerics.devices import shared_out
+from ..numerics.devices import may_be_shared_out, shared_out
 from ..numerics.integrator import Segment
 from ..numerics.precision import as_float
 from ..numerics.status import SolveError, Status
@@ -221,7 +221,8 @@ def simulate_roller_batch(
     times = jnp.linspace(0.0, length, pieces + 1)[1:]
     # that of the scene may change from lane to lane
     given = simulation is not None or scene.simulation is None
-    return _batch(scene, chosen if given else None, values, times, method)
+    share = may_be_shared_out((scene, chosen, values))
+    return _batch(scene, chosen if given else None, values, times, method, share)
 
 
 @eqx.filter_jit
@@ -231,6 +232,7 @@ def _batch(
     values: dict[str, Any],
     times: Float[Array, " time"],
     method: str,
+    share: bool,
 ) -> History:
     numbers, rest = eqx.partition((scene, simulation), eqx.is_array_like)
 
@@ -239,7 +241,7 @@ def _batch(
         lane = lambda changes: _lane(scene.replace(changes), simulation, times)
         return jax.lax.map(lane, values) if method == "map" else jax.vmap(lane)(values)
 
-    return shared_out(lanes)(values, numbers, times)
+    return (shared_out(lanes) if share else lanes)(values, numbers, times)
 
 
 def _lane(scene: CylindricalRollerBearing, simulation: Simulation | None, times: Float[Array, " time"]) -> History:

@@ -4,6 +4,7 @@ from collections.abc import Callable
 from typing import Any
 
 import jax
+from jax.core import Tracer
 from jax.sharding import PartitionSpec
 
 AXIS = "lane"
@@ -13,8 +14,9 @@ def shared_out(run: Callable[..., Any]) -> Callable[..., Any]:
     """A function of lanes (a pytree with the lanes in front of every array) and of what all lanes share, of which each
     device runs a part for itself; unchanged where there is one device, or the lanes are no multiple of the devices.
 
-    For the inside of `jax.jit`. On a CPU, two devices on two cores go through lanes in step (`vmap`) in half of the
-    time of one device, which shares out its small operations one by one.
+    For the inside of `jax.jit`, where `may_be_shared_out` says so of what is given from outside. On a CPU, two devices
+    on two cores go through lanes in step (`vmap`) in half of the time of one device, which shares out its small
+    operations one by one.
     """
 
     def split(lanes: Any, *shared: Any) -> Any:
@@ -27,3 +29,12 @@ def shared_out(run: Callable[..., Any]) -> Callable[..., Any]:
         return part(lanes, *shared)
 
     return split
+
+
+def may_be_shared_out(given: Any) -> bool:
+    """Whether nobody has chosen devices already: by `jax.device_put`, by a mesh, by a default, or by a transformation
+    of JAX around the call, of which nothing is known."""
+    if getattr(jax.config, "jax_default_device", None) is not None or not jax.sharding.get_abstract_mesh().empty:
+        return False
+    chosen = lambda leaf: isinstance(leaf, Tracer) or getattr(leaf, "committed", False)
+    return not any(chosen(leaf) for leaf in jax.tree.leaves(given))

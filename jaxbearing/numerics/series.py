@@ -9,6 +9,7 @@ from .._types import Batch, Values
 
 _HALF_PI = (1.5707963267341256, 6.077100506506192e-11)
 """pi/2: a number of 33 bits, whose multiples below 2^20 are exact, and the rest."""
+_LARGEST = 1e15
 _SINE = tuple((-1) ** k / math.factorial(2 * k + 1) for k in range(8))
 _COSINE = tuple((-1) ** k / math.factorial(2 * k) for k in range(9))
 
@@ -26,12 +27,13 @@ def cosine_and_sine(angle: Values) -> tuple[Batch, Batch]:
     r"""cos and sin of an angle, rad, in a quarter of the time of both: Taylor's series of the angle less the nearest
     multiple of pi/2.
 
-    Within 2.3e-16 of the exact ones for |angle| < 1e6 rad, and beyond within two last bits of the angle; NaN for an
-    angle that is not finite.
+    Within 2.3e-16 of the exact ones for |angle| < 1e6 rad, and beyond within two last bits of the angle; NaN from
+    1e15 rad on, where these are no part of a turn.
     """
     angle = jnp.asarray(angle, dtype=float)
     turns = jnp.round(angle * (2.0 / math.pi))
     rest = (angle - turns * _HALF_PI[0]) - turns * _HALF_PI[1]
+    rest = jnp.where(jnp.abs(angle) < _LARGEST, rest, jnp.nan)
     square = rest * rest
     sine, cosine = rest * horner(_SINE, square), horner(_COSINE, square)
     quadrant = turns - 4.0 * jnp.floor(0.25 * turns)
