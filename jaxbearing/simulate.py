@@ -161,9 +161,10 @@ def simulate_batch(
     - `over`: dotted paths of the scene -> values, as many for each; "simulation.load" and the like take time laws
       whose leaves have the lanes in front.
     - `duration`, `interval`, `simulation`: as in `simulate`.
-    - `method`: "map" runs lane by lane, "vmap" all in step, each waiting for the one with most steps: on a CPU twice
-      as fast from some ten lanes on. Lanes are shared out among all local devices where they divide: on a CPU let JAX
-      have as many as there are cores, before anything runs on it: `jax.config.update("jax_num_cpu_devices", 2)`.
+    - `method`: "map" runs lane by lane, "vmap" all in step, each waiting for the one with most steps. Lanes are shared
+      out among all local devices where they divide; on a CPU let JAX have as many as there are cores, before anything
+      runs on it: `jax.config.update("jax_num_cpu_devices", 2)`. Measured, 32 lanes of 5 ms from 15 to 30 kN, a lane:
+      "map" 75 ms on one device and 43 on two, "vmap" 102 and 52; in batches of nearly equal lanes "vmap" overtakes.
 
     **Raises:** as `simulate`, but not for a run that fails; `ValueError` where the values are not equally many.
     """

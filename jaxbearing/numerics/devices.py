@@ -15,8 +15,8 @@ def shared_out(run: Callable[..., Any]) -> Callable[..., Any]:
     device runs a part for itself; unchanged where there is one device, or the lanes are no multiple of the devices.
 
     For the inside of `jax.jit`, where `may_be_shared_out` says so of what is given from outside. On a CPU, two devices
-    on two cores go through lanes in step (`vmap`) in half of the time of one device, which shares out its small
-    operations one by one.
+    on two cores go through lanes in step (`vmap`) in half of the time of one, which shares out its small operations
+    one by one.
     """
 
     def split(lanes: Any, *shared: Any) -> Any:

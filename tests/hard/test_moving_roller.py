@@ -46,7 +46,9 @@ def check(history):
 
 @pytest.mark.parametrize("name", RUNS)
 def test_hard_operating_points(name):
-    history = jb.simulate(moving(**RUNS[name]), TURN, simulation=Simulation(tolerance=1e-4), interval=1e-4)
+    # of 160 runs with shocks at 1e-4, loads from 20 to 30 kN, one leaves more than 2e-5 of the energy open
+    tolerance = 3e-5 if name == "strong drag" else 1e-4
+    history = jb.simulate(moving(**RUNS[name]), TURN, simulation=Simulation(tolerance=tolerance), interval=1e-4)
     check(history)
     if "cold" in name or "0 degC" in name:
         # stiff oil drags the cage along faster than the rollers roll
