@@ -6,9 +6,10 @@ The bearing of Table 16 with the reference laws (25 kN, 14 000 rpm, 30 rollers),
 of the cage with a drag coefficient of 0.6, and one turn with 1.2, where rollers hit the cage hard. An error is the
 largest one over all rollers and 64 times, of positions q (um) and speeds v (m/s), against dopri8 at a tolerance of
 1e-11, with which scipy's DOP853 at its own tightest tolerance has to agree. scipy gets our jitted vector field, without
-the works, and where it asks for one its jitted Jacobian, in the same units and with the same tolerances. "Times" is the
-time of scipy's fastest run that is at least as exact, interpolated between its tolerances where it has two on either
-side, over ours. Times are wall times of warm runs, the best of several.
+the works, and where it asks for one its jitted Jacobian, in the same units and with the same tolerances, also of the
+loads inside. "Times" is the time of scipy's fastest run that is at least as exact, interpolated between its tolerances
+where it has two on either side, over ours. Times are wall times of warm runs, the best of several. The report
+(`sections/dynamics.py`) has means over three loads instead of one.
 
 With `--scenes` instead what the default solver is chosen from: the time of every solver on warm and cold oil, with thin
 films, and with and without shocks.
