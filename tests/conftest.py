@@ -65,6 +65,13 @@ def pytest_configure():
         os.environ.setdefault("XLA_FLAGS", " ".join([*older, *_FLAGS]))
 
 
+def pytest_collection_modifyitems(items):
+    """Tests of the whole package, long ones, come first: near the end a worker that has nothing left to do would wait
+    for them."""
+    here = Path(__file__).parent
+    items.sort(key=lambda item: item.path.parent != here)
+
+
 # Each compiled program takes memory maps, of which Linux grants a process 65 530: a worker that has no more crashes.
 _MAPS, _MANY_MAPS = Path("/proc/self/maps"), 15_000
 # Traces, garbage once they have ended, are seldom collected by themselves.

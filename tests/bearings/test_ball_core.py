@@ -201,7 +201,6 @@ def test_balances():
 
 
 @pytest.mark.slow
-@pytest.mark.usefixtures("optimized")
 @pytest.mark.parametrize(
     "couple", [None, CappedCouple(), CappedCouple(sign=-1.0)], ids=["off", "capped", "printed sign"]
 )

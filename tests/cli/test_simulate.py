@@ -11,6 +11,7 @@ import sys
 import numpy as np
 import pytest
 import xarray as xr
+from command_process import environment
 from typer.testing import CliRunner
 
 import jaxbearing as jb
@@ -99,7 +100,7 @@ def test_interrupted_run_keeps_what_it_has(tmp_path):
     listening = "import runpy, signal; signal.signal(signal.SIGINT, signal.default_int_handler); "
     listening += "runpy.run_module('jaxbearing', run_name='__main__')"
     command = [sys.executable, "-c", listening, *BASE, "--duration", "10 s", "--out", str(out)]
-    with subprocess.Popen(command, stdout=terminal, stderr=subprocess.PIPE, env={**os.environ, "TERM": "xterm"}) as run:
+    with subprocess.Popen(command, stdout=terminal, stderr=subprocess.PIPE, env=environment(TERM="xterm")) as run:
         os.close(terminal)
         shown = b""
         while b"of 1e+04 ms" not in shown:

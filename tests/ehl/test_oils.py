@@ -47,7 +47,6 @@ def roelands(m, el, nodes, compressible):
 
 
 @pytest.mark.slow
-@pytest.mark.usefixtures("optimized")
 @pytest.mark.parametrize(("m", "el"), [(20, 5.0), (20, 10.0), (100, 5.0), (100, 12.0), (200, 10.0)])
 def test_roelands_and_density_from_cold(m, el):
     """Converged on every mesh, of order 2; compression thins the centre by the density at most."""

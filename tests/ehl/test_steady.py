@@ -49,7 +49,6 @@ def constant_of_the_film(scene):
 
 
 @pytest.mark.slow
-@pytest.mark.usefixtures("optimized")
 @pytest.mark.parametrize("row", PUBLISHED["steady"], ids=lambda row: str(row["condition"]))
 def test_check_values(row):
     films = [solved(satellite(row["condition"], nodes)) for nodes in (201, 401)]
@@ -66,7 +65,6 @@ def test_check_values(row):
 
 
 @pytest.mark.slow
-@pytest.mark.usefixtures("optimized")
 def test_order_two_on_four_meshes_and_monotone_to_1601():
     for condition in CONDITIONS:
         meshes = (101, 201, 401, 801, 1601)[: 5 if condition == 1 else 4]
@@ -96,7 +94,6 @@ def logarithm_of_central(v, nodes=401):
 
 
 @pytest.mark.slow
-@pytest.mark.usefixtures("optimized")
 def test_sensitivities():
     v = jnp.array([RADIUS, MODULUS, 76310.0, 0.02, 293.15])
     slope = jax.jit(jax.grad(logarithm_of_central))(v)
@@ -135,7 +132,6 @@ def test_gradients_of_every_number():
 
 @pytest.mark.parametrize("row", PUBLISHED["moes"], ids=lambda row: f"M{row['M']}-L{row['L']}")
 @pytest.mark.slow
-@pytest.mark.usefixtures("optimized")
 def test_moes_rows(row):
     values = []
     for nodes in (401, 801):
@@ -148,7 +144,6 @@ def test_moes_rows(row):
 
 
 @pytest.mark.slow
-@pytest.mark.usefixtures("optimized")
 def test_envelope_converges_from_cold():
     """40 points, M 5 to 1000 and L 0 to 25; at the largest alpha p_h is about 220."""
     numbers = [(m, el) for m in (5, 10, 20, 50, 100, 200, 500, 1000) for el in (0.0, 2.5, 5.0, 10.0, 25.0)]
