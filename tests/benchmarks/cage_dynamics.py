@@ -66,17 +66,23 @@ def ours(start, times, options):
 
 
 def field_of(dynamics):
-    """The vector field as scipy wants it, without the works, and its Jacobian: both compiled. Loads are found as
-    exactly as ours are at the tolerance."""
+    """The vector field as scipy wants it, without the works, and its Jacobian, both compiled: functions of the load on
+    the ring, and see `loaded`. Loads inside are found as exactly as ours are at the tolerance."""
 
-    def field(t, y, tolerance):
+    def field(ring_load, t, y, tolerance):
+        moving = eqx.tree_at(lambda d: d.system.ring_load, dynamics, ring_load)
         n = dynamics.system.azimuth.shape[0]
         cage = jnp.concatenate([y[ATOMS * n :], jnp.zeros(len(WORKS))])
         state = ArrowPoint(y[: ATOMS * n].reshape(ATOMS, n), cage)
-        found, _ = dynamics.rates_and_loads(t, state, tolerance=tolerance)
+        found, _ = moving.rates_and_loads(t, state, tolerance=tolerance)
         return jnp.concatenate([found.elements.ravel(), found.globals[: len(CAGE_UNITS)]])
 
-    return jax.jit(field), jax.jit(jax.jacfwd(field, argnums=1))
+    return jax.jit(field), jax.jit(jax.jacfwd(field, argnums=2))
+
+
+def loaded(functions, ring_load):
+    """The functions of `field_of` at a load: of time, state, tolerance."""
+    return tuple(functools.partial(function, ring_load) for function in functions)
 
 
 def flat(state):
@@ -172,7 +178,8 @@ def benchmark(quick=False):
         exact = flat(exact.states)
         tolerances = TOLERANCES[1:3] if quick else TOLERANCES
         table, rival = [], {}
-        functions, y0 = field_of(start.dynamics), flat(jax.tree.map(lambda leaf: leaf[None], start.state))[0]
+        functions = loaded(field_of(start.dynamics), start.dynamics.system.ring_load)
+        y0 = flat(jax.tree.map(lambda leaf: leaf[None], start.state))[0]
         for function in functions:
             jax.block_until_ready(function(np.float64(0.0), y0, 1e-3))
         for method in SCIPY[-1:] if quick else SCIPY:

@@ -40,7 +40,8 @@ def section(quick=False):
         nominal = script.start_of(drag)
         turn = 2.0 * np.pi / float(nominal.dynamics.reference_speed)
         times = np.linspace(0.0, (0.1 if quick else turns) * turn, script.SAMPLES + 1)[1:]
-        lanes = [lane_at(script, nominal, share, times) for share in (LOADS[1:2] if quick else LOADS)]
+        functions = script.field_of(nominal.dynamics)
+        lanes = [lane_at(script, nominal, functions, share, times) for share in (LOADS[1:2] if quick else LOADS)]
         if drag < 1.0:
             # behind hard shocks two exact solutions part
             facts[f"{name}: reference off scipy's DOP853, um"] = off_dop853(script, lanes[len(lanes) // 2], times)
@@ -93,14 +94,14 @@ def section(quick=False):
     )
 
 
-def lane_at(script, nominal, share, times):
-    """The run at a share of the load, from the nominal start as in the batch."""
-    dynamics = eqx.tree_at(lambda d: d.system.ring_load, nominal.dynamics, share * nominal.dynamics.system.ring_load)
-    start = nominal._replace(dynamics=dynamics)
+def lane_at(script, nominal, functions, share, times):
+    """The run at a share of the load, from the nominal start as in the batch; `functions`: of `field_of`."""
+    load = share * nominal.dynamics.system.ring_load
+    start = nominal._replace(dynamics=eqx.tree_at(lambda d: d.system.ring_load, nominal.dynamics, load))
     tight = script.IntegratorOptions(solver="dopri8", tolerance=script.REFERENCE)
     exact = script.ours(start, jnp.asarray(times), tight)
     assert int(exact.status) == script.Status.CONVERGED
-    functions = script.field_of(dynamics)
+    functions = script.loaded(functions, load)
     for function in functions:
         jax.block_until_ready(function(np.float64(0.0), first_of(script, start), 1e-3))
     return Lane(start, functions, script.flat(exact.states))
