@@ -27,3 +27,18 @@ def sharded(run):
     """A function of a batch (pytree with a leading axis) and of what its lanes share, compiled; the batch is split over
     all devices where it can be."""
     return jax.jit(shared_out(run))
+
+
+def time_at(error, points):
+    """Time at which a method is as exact as asked, from (error, time) pairs; interpolated between its tolerances, in
+    logarithms; None where it never is."""
+    good = sorted((e, t) for e, t in points if e <= error)
+    worse = sorted((e, t) for e, t in points if e > error)
+    if not good:
+        return None
+    best = min(t for _, t in good)
+    if worse:
+        (e1, t1), (e2, t2) = good[-1], worse[0]
+        share = np.log(error / e1) / np.log(e2 / e1)
+        best = min(best, float(np.exp((1.0 - share) * np.log(t1) + share * np.log(t2))))
+    return best

@@ -204,7 +204,9 @@ def test_balances():
 @pytest.mark.parametrize(
     "couple", [None, CappedCouple(), CappedCouple(sign=-1.0)], ids=["off", "capped", "printed sign"]
 )
-@pytest.mark.parametrize("kind", ["axial", "combined", "moment", "deep groove"])
+@pytest.mark.parametrize(
+    "kind", ["axial", pytest.param("combined", marks=pytest.mark.usefixtures("optimized")), "moment", "deep groove"]
+)
 def test_random_bearings_converge(kind, couple):
     rng = np.random.default_rng(5)
     n = 300

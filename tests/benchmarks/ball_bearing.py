@@ -119,7 +119,7 @@ def scipy_rows(scene, n):
                 seconds = time.perf_counter() - begin
                 solved = bool(np.max(np.abs(found.fun)) < 1e-8)
                 axial = 1e-5 * found.x[shape[0] * shape[1]]
-                error = abs(axial / float(exact) - 1.0) if solved else 0.0
+                error = abs(axial / float(exact) - 1.0) if solved else np.nan
                 table.setdefault((method, start), []).append((seconds, solved, error))
     columns = {key: list(zip(*rows, strict=True)) for key, rows in table.items()}
     return {

@@ -31,7 +31,8 @@ FIRST = ("traction", "roller", "ball", "tapered", "scaling", "dynamics", "film",
 """Order of the sections; others follow by name."""
 LONGEST = 600
 """Seconds after which a section has failed."""
-PACKAGES = ("jax", "jaxlib", "numpy", "scipy", "diffrax", "optimistix", "equinox")
+PACKAGES = ("jaxbearing", "jax", "jaxlib", "numpy", "scipy", "diffrax", "optimistix", "equinox")
+RIVALS = ("tamaas", "ross-rotordynamics")
 
 
 def section_names() -> list[str]:
@@ -56,17 +57,22 @@ def environment() -> dict[str, str]:
     with contextlib.suppress(OSError):
         lines = Path("/proc/cpuinfo").read_text().splitlines()
         model = next((line.split(":", 1)[1].strip() for line in lines if line.startswith("model name")), model)
-    asked = subprocess.run(
-        ["git", "describe", "--always", "--dirty"], cwd=HERE, capture_output=True, text=True, check=False
-    )
+    commit = ""
+    with contextlib.suppress(OSError):  # no git
+        commit = subprocess.run(
+            ["git", "describe", "--always", "--dirty"], cwd=HERE, capture_output=True, text=True, check=False
+        ).stdout.strip()
     found = {
         "date": time.strftime("%Y-%m-%d"),
         "machine": f"{model}, {os.cpu_count()} cores",
         "platform": os.environ.get("JAX_PLATFORMS") or "as jax chooses",
         "floats": "64 bits",
-        "commit": asked.stdout.strip() or "unknown",
+        "commit": commit or "unknown",
         "python": platform.python_version(),
     }
+    for name in RIVALS:
+        with contextlib.suppress(importlib.metadata.PackageNotFoundError):
+            found[name] = importlib.metadata.version(name)
     return found | {name: importlib.metadata.version(name) for name in PACKAGES}
 
 
@@ -110,9 +116,12 @@ def run_apart(name: str, quick: bool, folder: Path) -> dict:
         return {"failed": f"took more than {LONGEST} s"}
     if not answer.exists():
         return {"failed": (said.strip().splitlines() or ["it said nothing"])[-1]}
-    found = json.loads(answer.read_text())
-    answer.unlink()
-    return found
+    try:
+        return json.loads(answer.read_text())
+    except ValueError:  # stopped while it wrote
+        return {"failed": (said.strip().splitlines() or ["half an answer"])[-1]}
+    finally:
+        answer.unlink()
 
 
 def _cell(value) -> str:

@@ -34,7 +34,7 @@ import equinox as eqx  # noqa: E402
 import jax  # noqa: E402
 import jax.numpy as jnp  # noqa: E402
 import numpy as np  # noqa: E402
-from benchmark_tools import best_time, sharded  # noqa: E402
+from benchmark_tools import best_time, sharded, time_at  # noqa: E402
 from moving_roller import start_of, started, table_16  # noqa: E402
 from scipy.integrate import solve_ivp  # noqa: E402
 
@@ -115,21 +115,6 @@ def scipy_run(functions, y0, times, method, tolerance):
     seconds = time.perf_counter() - begin
     rows = found.y.T if found.success else None
     return rows, count[0], seconds
-
-
-def time_at(error, points):
-    """Time at which a method is as exact as asked, from (error, time) pairs; interpolated between its tolerances, in
-    logarithms; None where it never is."""
-    good = sorted((e, t) for e, t in points if e <= error)
-    worse = sorted((e, t) for e, t in points if e > error)
-    if not good:
-        return None
-    best = min(t for _, t in good)
-    if worse:
-        (e1, t1), (e2, t2) = good[-1], worse[0]
-        share = np.log(error / e1) / np.log(e2 / e1)
-        best = min(best, float(np.exp((1.0 - share) * np.log(t1) + share * np.log(t2))))
-    return best
 
 
 @functools.cache

@@ -99,14 +99,14 @@ def scipy_rows(name, make, n):
                 seconds = time.perf_counter() - begin
                 solved = bool(np.max(np.abs(found.fun)) < 1e-8)
                 speed = 3 * 30 + 1  # the scaled cage speed: 1 + it is the speed itself
-                error = abs((found.x[speed] - exact[speed]) / (1.0 + exact[speed])) if solved else 0.0
+                error = abs((found.x[speed] - exact[speed]) / (1.0 + exact[speed])) if solved else np.nan
                 table.setdefault((method, start), []).append((seconds, solved, error))
     return {
         key: (
             float(np.median([row[0] for row in rows])),
             sum(row[1] for row in rows),
             len(rows),
-            max(row[2] for row in rows),
+            max((row[2] for row in rows if row[1]), default=np.nan),
         )
         for key, rows in table.items()
     }

@@ -18,6 +18,7 @@ COLUMNS = (
     "closure",
     "other balances",
     "gradient",
+    "alone",
     "breaches",
     "s",
 )
@@ -31,7 +32,8 @@ def row(v: Verdict) -> tuple[str, ...]:
         v.structure,
         *(str(number) for number in numbers),
         steps,
-        *(f"{error:.0e}" for error in errors),
+        *("-" if error is None else f"{error:.0e}" for error in errors),
+        str(v.alone),
         str(len(v.breaches)),
         f"{v.seconds:.0f}",
     )

@@ -46,7 +46,7 @@ def test_random_scenes(structure):
         found += judge.judge_balances(structure, numbers, results)[0]
         found += judge.judge_status(structure, numbers, results)[0]
         for twin in structure.twins:
-            found += judge.judge_twin(structure, twin, numbers, results, 1)
+            found += judge.judge_twin(structure, twin, numbers, results, 1)[0]
         assert not found, found
 
     check()
@@ -57,7 +57,7 @@ def test_gradients(structure):
     """Finite and equal to finite differences, by every number of a few scenes."""
     numbers = structure.at(np.random.default_rng(1).random((8, structure.size)))
     _, results = judge.solve_batch(structure, numbers, 1)
-    found, worst = judge.judge_gradient(structure, numbers, results, 1, seed=1)
+    found, worst, _ = judge.judge_gradient(structure, numbers, results, 1, seed=1)
     assert not found, found
     assert 0.0 < worst <= judge.GRADIENT_LIMIT  # something was compared
 

@@ -14,6 +14,8 @@ LEAST_OF_ONE = 0.97
 @pytest.fixture(scope="module")
 def verdicts(request):
     """Those of the structures so far; the table and the file when all are done."""
+    if request.config.getoption("--campaign") and hasattr(request.config, "workerinput"):
+        pytest.fail("the long run makes one table and one file: leave out -n")
     found: list[Verdict] = []
     yield found
     file = request.config.getoption("--campaign-file")

@@ -49,6 +49,7 @@ def constant_of_the_film(scene):
 
 
 @pytest.mark.slow
+@pytest.mark.usefixtures("optimized")  # as users run it; elsewhere quickly compiled
 @pytest.mark.parametrize("row", PUBLISHED["steady"], ids=lambda row: str(row["condition"]))
 def test_check_values(row):
     films = [solved(satellite(row["condition"], nodes)) for nodes in (201, 401)]

@@ -7,7 +7,7 @@ import jax
 import jax.numpy as jnp
 import numpy as np
 from benchmark_report import HERE, load
-from benchmark_tools import best_time
+from benchmark_tools import best_time, time_at
 from section_shape import Section, Table
 
 SOLVERS = {"tsit5": (1e-3, 1e-4, 1e-5, 1e-6), "dopri8": (1e-3, 1e-4, 1e-5, 1e-6), "kvaerno3": (1e-2, 1e-3)}
@@ -54,7 +54,7 @@ def section(quick=False):
 
         def times_of(q, seconds, rival=rival):
             """Time of scipy's fastest run that is as exact over ours."""
-            found = [t for t in (script.time_at(q, points) for points in rival.values()) if t is not None]
+            found = [t for t in (time_at(q, points) for points in rival.values()) if t is not None]
             return min(found) / seconds if found else None
 
         errors = {}

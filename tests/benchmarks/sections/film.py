@@ -1,5 +1,6 @@
 """Film of a line contact: error over nodes, Newton's step beside a dense one, stops, batches."""
 
+import numpy as np
 from benchmark_report import HERE, load
 from section_shape import Section, Table
 
@@ -52,7 +53,7 @@ def section(quick=False):
         ),
         {
             "order of the error": order(steady),
-            "mass balance": max(row["balance"] for row in stop.values()),
+            "mass balance": float(np.max([row["balance"] for row in stop.values()])),
             "failed": float(sum(row["failed"] for row in batch.values())),
             "times dense at the largest": rows[-1][-1],
         },
@@ -61,8 +62,6 @@ def section(quick=False):
 
 def order(steady):
     """From the two finest meshes."""
-    import numpy as np
-
     coarse, fine = list(steady)[-2:]
     errors = [abs(steady[n]["error"][0]) for n in (coarse, fine)]
     return float(np.log(errors[0] / errors[1]) / np.log((fine - 1) / (coarse - 1)))

@@ -37,10 +37,20 @@ def section(quick=False):
             )
         )
     rows, failed = batch_rows(BATCHES[:3] if quick else BATCHES)
-    tables.append(Table("Batches of `reference_roller`:", ("cases", "seconds", "ms a case", "exponent"), rows))
+    tables.append(
+        Table(
+            "Batches of `reference_roller` (exponent: from the row above):",
+            ("cases", "seconds", "ms a case", "exponent"),
+            rows,
+        )
+    )
     chunks = chunk_rows(200 if quick else 2000, CHUNKS[:3] if quick else CHUNKS)
     best = min(row[1] for row in chunks)
     facts["cost a lane over the best chunk"] = next(row[1] for row in chunks if row[0] == DEFAULT_LANES) / best
+    large = [row for row in rows if row[0] >= 100]
+    if len(large) > 1:
+        fitted = np.polyfit(np.log([row[0] for row in large]), np.log([row[1] for row in large]), 1)
+        facts["exponent over batches"] = float(fitted[0])
     facts["failed"] = float(failed + sum(row[-1] for table in tables[:-1] for row in table.rows))
     tables.append(
         Table(
