@@ -70,10 +70,10 @@ def environment() -> dict[str, str]:
         "commit": commit or "unknown",
         "python": platform.python_version(),
     }
-    for name in RIVALS:
+    for name in (*PACKAGES, *RIVALS):
         with contextlib.suppress(importlib.metadata.PackageNotFoundError):
             found[name] = importlib.metadata.version(name)
-    return found | {name: importlib.metadata.version(name) for name in PACKAGES}
+    return found
 
 
 def run_here(name: str, quick: bool) -> dict:
