@@ -38,12 +38,14 @@ CHECKS = {
 
 @pytest.fixture(scope="module")
 def solutions():
-    return {name: jb.solve(tapered(*loads, **more)) for name, (loads, more, _) in CHECKS.items()}
+    """Whether they converged is for the tests to say."""
+    return {name: jb.solve(tapered(*loads, **more), throw=False) for name, (loads, more, _) in CHECKS.items()}
 
 
 @pytest.mark.parametrize("name", CHECKS)
 def test_check_values(name, solutions):
     found, e = solutions[name], solutions[name].elements
+    assert bool(found.converged)
     places = (e.load_inner, e.load_outer, e.load_flange, e.roller_shift, e.roller_tilt, e.roller_lift)
     values = [found.ring.axial * 1e6, found.ring.radial * 1e6, found.ring.tilt, *(v[0] for v in places)]
     np.testing.assert_allclose(values, CHECKS[name][2], rtol=3e-6, atol=1e-12)  # printed to 6 digits
