@@ -26,8 +26,7 @@ def section(quick=False):
     tables, facts = [], {}
     for kind, scene in kinds().items():
         rows = [(n, *timed(scaled(scene, kind, n))) for n in elements]
-        large = [row for row in rows if row[0] >= 30]
-        exponent = float(np.polyfit(np.log([row[0] for row in large]), np.log([row[1] for row in large]), 1)[0])
+        exponent = exponent_from(30, rows)
         facts[f"exponent over elements, {kind}"] = exponent
         tables.append(
             Table(
@@ -47,10 +46,8 @@ def section(quick=False):
     chunks = chunk_rows(200 if quick else 2000, CHUNKS[:3] if quick else CHUNKS)
     best = min(row[1] for row in chunks)
     facts["cost a lane over the best chunk"] = next(row[1] for row in chunks if row[0] == DEFAULT_LANES) / best
-    large = [row for row in rows if row[0] >= 100]
-    if len(large) > 1:
-        fitted = np.polyfit(np.log([row[0] for row in large]), np.log([row[1] for row in large]), 1)
-        facts["exponent over batches"] = float(fitted[0])
+    if not quick:
+        facts["exponent over batches"] = exponent_from(100, rows)
     facts["failed"] = float(failed + sum(row[-1] for table in tables[:-1] for row in table.rows))
     tables.append(
         Table(
@@ -62,6 +59,12 @@ def section(quick=False):
     return Section(
         "Scaling", "Loads grow with the number of elements, so that each carries the same.", tuple(tables), facts
     )
+
+
+def exponent_from(least, rows):
+    """Fitted to (size, time, ...) of sizes not below the least."""
+    size, taken = np.log([row[:2] for row in rows if row[0] >= least]).T
+    return float(np.polyfit(size, taken, 1)[0])
 
 
 def kinds():
