@@ -15,6 +15,7 @@ import importlib.util
 import json
 import os
 import platform
+import re
 import resource
 import subprocess
 import sys
@@ -93,6 +94,14 @@ def run_here(name: str, quick: bool) -> dict:
     }
 
 
+def error_line(said: str, nothing: str) -> str:
+    """The line that names the exception, or the last one of what a process said."""
+    lines = said.strip().splitlines() or [nothing]
+    return next(
+        (line for line in reversed(lines) if re.match(r"[\w.]+(Error|Exception|Exit|Interrupt): ", line)), lines[-1]
+    )
+
+
 def run_apart(name: str, quick: bool, folder: Path) -> dict:
     """A section in a process of its own; where it fails, the end of what it said."""
     answer = folder / f"{name}.json"
@@ -115,11 +124,11 @@ def run_apart(name: str, quick: bool, folder: Path) -> dict:
     except subprocess.TimeoutExpired:
         return {"failed": f"took more than {LONGEST} s"}
     if not answer.exists():
-        return {"failed": (said.strip().splitlines() or ["it said nothing"])[-1]}
+        return {"failed": error_line(said, "it said nothing")}
     try:
         return json.loads(answer.read_text())
     except ValueError:  # stopped while it wrote
-        return {"failed": (said.strip().splitlines() or ["half an answer"])[-1]}
+        return {"failed": error_line(said, "half an answer")}
     finally:
         answer.unlink()
 

@@ -38,13 +38,30 @@ def test_the_report_is_written_and_a_failed_section_is_said(tmp_path, capsys):
     assert "broken: FAILED" in capsys.readouterr().err
 
 
+@pytest.mark.parametrize(
+    ("said", "line"),
+    [
+        (
+            "Traceback:\n  f()\nValueError: no property 'a'\n\n    Valid:\n        b\n^^^^\n",
+            "ValueError: no property 'a'",
+        ),
+        ("pkg.TooLongError: first\n\nDuring handling:\n\nKeyError: 'second'\n", "KeyError: 'second'"),
+        ("  assert found\nAssertionError\n", "AssertionError"),
+        ("killed\nout of memory\n", "out of memory"),
+        ("", "it said nothing"),
+    ],
+)
+def test_the_line_of_the_exception_is_said(said, line):
+    assert report.error_line(said, "it said nothing") == line
+
+
 @pytest.mark.slow
 def test_a_section_runs_in_a_process_of_its_own(tmp_path):
     found = report.run_apart("public", True, tmp_path)
     assert "failed" not in found, found
     assert found["tables"][0]["rows"][0][0] == "closed ellipse"
     assert found["memory"] > 2**26
-    assert "failed" in report.run_apart("no_such_section", True, tmp_path)
+    assert "no_such_section" in report.run_apart("no_such_section", True, tmp_path)["failed"]
     assert list(tmp_path.iterdir()) == []
 
 
