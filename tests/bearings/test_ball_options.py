@@ -44,8 +44,10 @@ def turbine(**changes):
 FORCES = {
     "inner guidance": {},
     "outer guidance": {"cage.guidance": "outer_ring"},
-    "capped couple": {"kinematics.gyroscopic": CappedCouple()},
-    "turning back": {"operation.inner_speed": -12500 * RPM},
+    "capped couple, turning back": {
+        "kinematics.gyroscopic": CappedCouple(),
+        "operation.inner_speed": -12500 * RPM,
+    },
 }
 
 
