@@ -44,10 +44,8 @@ def turbine(**changes):
 FORCES = {
     "inner guidance": {},
     "outer guidance": {"cage.guidance": "outer_ring"},
-    "capped couple, turning back": {
-        "kinematics.gyroscopic": CappedCouple(),
-        "operation.inner_speed": -12500 * RPM,
-    },
+    "capped couple": {"kinematics.gyroscopic": CappedCouple()},
+    "turning back": {"operation.inner_speed": -12500 * RPM},
 }
 
 
