@@ -119,6 +119,14 @@ def summary(solution: Any) -> jax.Array:
     return value
 
 
+def first_moment(laminae: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Of the loads of a roller's laminae about its end s = 0, over its length; and by how much at most they leave it
+    open: each acts somewhere within its lamina."""
+    count = laminae.shape[-1]
+    places = (np.arange(count) + 0.5) / count
+    return np.sum(laminae * places, axis=-1), np.sum(laminae, axis=-1) / (2.0 * count)
+
+
 # -- twins ------------------------------------------------------------------------------------------------------------
 
 SPEEDS = ("operation.inner_speed", "operation.outer_speed")

@@ -15,6 +15,7 @@ from campaign.bearings import (
     OPERATION,
     STEELS,
     energy,
+    first_moment,
     oil,
     scaled,
     solids,
@@ -114,7 +115,7 @@ def roller_balances(scene: Any, n: Numbers, r: Results) -> dict[str, tuple[np.nd
         ),
     }
     if scene.tilts:
-        return found
+        return found | _moments(scene, n, r)
     poisson = n["materials.rollers.poisson_ratio"]
     rings = (n["materials.rings.youngs_modulus"], RING_POISSON)
     modulus = elastic.reduced_modulus(rings, (n["materials.rollers.youngs_modulus"], poisson))
@@ -135,6 +136,26 @@ def roller_balances(scene: Any, n: Numbers, r: Results) -> dict[str, tuple[np.nd
         gap = approach - closing - films
         scale += np.max(films, axis=1)
     return found | {"rings and rollers fit": (np.max(np.abs(gap), axis=1) / scale, 1e-8)}
+
+
+def _moments(scene: Any, n: Numbers, r: Results) -> dict[str, tuple[np.ndarray, float]]:
+    """By how much the moments of rollers and ring leave what their laminae, within which nothing is printed, allow;
+    over load and length. The end s = l lies along the axis; there a moment moves the ring at azimuth 0, off that end
+    of the roller."""
+    (inner, open_inner), (outer, open_outer) = (first_moment(r[f"laminae.{place}"]) for place in ("inner", "outer"))
+    load = np.sum(r["laminae.inner"], axis=2)
+    outward = np.sum(r["laminae.outer"], axis=2) - load
+    # the centrifugal force acts at mid length
+    roller = np.maximum(np.abs(outer - inner - 0.5 * outward) - open_inner - open_outer, 0.0)
+    most = np.max(load, axis=1)
+    found = {"a roller does not tip": (np.max(roller, axis=1) / most, 1e-9)}
+    if scene.operation.moment is not None:
+        cosine = np.cos(r["elements.azimuth"])
+        moment = np.sum((inner - 0.5 * load) * cosine, axis=1)
+        given = n["operation.moment"] / n["geometry.contact_length"]
+        left = np.abs(moment + given) - np.sum(open_inner * np.abs(cosine), axis=1)
+        found["ring carries the moment"] = (np.maximum(left, 0.0) / most, 1e-9)
+    return found
 
 
 DRY = ("contact", "oil", "cage", "flange", "drag")

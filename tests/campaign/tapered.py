@@ -15,6 +15,7 @@ from campaign.bearings import (
     OIL,
     OPERATION,
     energy,
+    first_moment,
     oil,
     scaled,
     solids,
@@ -119,7 +120,17 @@ def tapered_balances(scene: Any, n: Numbers, r: Results) -> dict[str, tuple[np.n
     first = (inner + outer) * np.sin(column(half)) - rib * np.cos(column(theta))
     second = (outer - inner) * np.cos(column(half)) - rib * np.sin(column(theta))
     roller = np.abs(first * np.cos(column(axis)) + second * np.sin(column(axis)))
-    return energy(r) | {
+    found = energy(r)
+    if scene.operation.moment is not None:
+        # about the apex, from which the end s = 0 is the farther; what rotation adds cancels round the bearing
+        length = column(n["geometry.roller_length"])
+        place, left_open = first_moment(r["laminae.outer"])
+        apex = column(n["geometry.roller_diameter"] / (2.0 * np.sin(half)))
+        moment = np.sum((apex * np.sum(r["laminae.outer"], axis=2) - length * place) * cosine, axis=1)
+        left = np.abs(moment - n["operation.moment"]) - np.sum(length * left_open * np.abs(cosine), axis=1)
+        size = np.max(outer, axis=1) * n["geometry.roller_length"]
+        found["ring carries the moment"] = (np.maximum(left, 0.0) / size, 1e-8)
+    return found | {
         "ring carries the axial load": (np.abs(along - axial) / scale, 1e-8),
         "ring carries the radial load": (np.abs(across - radial) / scale, 1e-8),
         "a roller is in balance along the axis": (np.max(roller, axis=1) / (scale + np.max(outer, axis=1)), 1e-8),

@@ -62,6 +62,20 @@ def test_gradients(structure):
     assert 0.0 < worst <= judge.GRADIENT_LIMIT  # something was compared
 
 
+@pytest.mark.parametrize("name", ["roller: moment, straight", "tapered: dry, moment"])
+def test_moments_are_judged(name):
+    """Given moments are carried, and the opposite ones are not."""
+    structure = next(structure for structure in STRUCTURES if structure.name == name)
+    numbers = structure.at(np.random.default_rng(4).random((8, structure.size)))
+    _, results = judge.solve_batch(structure, numbers, 8)
+    assert np.sum(judge.converged_cases(results)) >= 5
+    assert not judge.judge_balances(structure, numbers, results)[0]
+    opposite = numbers | {"operation.moment": -numbers["operation.moment"]}
+    breaches = judge.judge_balances(structure, opposite, results)[0]
+    assert {breach.rule for breach in breaches} == {"ring carries the moment"}
+    assert len(breaches) >= 4
+
+
 AGREEING = [
     structure for structure in STRUCTURES if structure.name in ("roller: dry", "ball: dry, combined, tilt free")
 ]
