@@ -121,10 +121,17 @@ def summary(solution: Any) -> jax.Array:
 
 def first_moment(laminae: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Of the loads of a roller's laminae about its end s = 0, over its length; and by how much at most they leave it
-    open: each acts somewhere within its lamina."""
+    open. A lamina at an end of the contact carries somewhere; within another the load per length changes as
+    between neighbours, or twice as much: a linear change D moves its moment by D/12 of its width."""
     count = laminae.shape[-1]
     places = (np.arange(count) + 0.5) / count
-    return np.sum(laminae * places, axis=-1), np.sum(laminae, axis=-1) / (2.0 * count)
+    beside = [(0, 0)] * (laminae.ndim - 1)
+    before, after = (np.pad(laminae, [*beside, pad], "edge") for pad in ((1, 0), (0, 1)))
+    before, after = before[..., :-1], after[..., 1:]
+    change = np.maximum(np.abs(laminae - before), np.abs(after - laminae))
+    ends = np.minimum(before, after) <= 0.0
+    left_open = np.where(ends, laminae / 2.0, change / 6.0) / count
+    return np.sum(laminae * places, axis=-1), np.sum(left_open, axis=-1)
 
 
 # -- twins ------------------------------------------------------------------------------------------------------------

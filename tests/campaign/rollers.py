@@ -139,16 +139,19 @@ def roller_balances(scene: Any, n: Numbers, r: Results) -> dict[str, tuple[np.nd
 
 
 def _moments(scene: Any, n: Numbers, r: Results) -> dict[str, tuple[np.ndarray, float]]:
-    """By how much the moments of rollers and ring leave what their laminae, within which nothing is printed, allow;
-    over load and length. The end s = l lies along the axis; there a moment moves the ring at azimuth 0, off that end
-    of the roller."""
+    """The laminae add up to the load; by how much the moments of rollers and ring leave what their laminae, within
+    which nothing is printed, allow; over load and length. The end s = l lies along the axis; there a moment moves the
+    ring at azimuth 0, off that end of the roller."""
     (inner, open_inner), (outer, open_outer) = (first_moment(r[f"laminae.{place}"]) for place in ("inner", "outer"))
-    load = np.sum(r["laminae.inner"], axis=2)
-    outward = np.sum(r["laminae.outer"], axis=2) - load
-    # the centrifugal force acts at mid length
-    roller = np.maximum(np.abs(outer - inner - 0.5 * outward) - open_inner - open_outer, 0.0)
+    load, outer_load = r["elements.load_inner"], r["elements.load_outer"]
     most = np.max(load, axis=1)
-    found = {"a roller does not tip": (np.max(roller, axis=1) / most, 1e-9)}
+    sums = np.sum(r["laminae.inner"], axis=2) - load, np.sum(r["laminae.outer"], axis=2) - outer_load
+    # the centrifugal force acts at mid length
+    tipping = np.abs(outer - inner - 0.5 * (outer_load - load)) - open_inner - open_outer
+    found = {
+        "laminae add up to the load": (np.max(np.abs(sums), axis=(0, 2)) / most, 1e-12),
+        "a roller does not tip": (np.maximum(np.max(tipping, axis=1), 0.0) / most, 1e-9),
+    }
     if scene.operation.moment is not None:
         cosine = np.cos(r["elements.azimuth"])
         moment = np.sum((inner - 0.5 * load) * cosine, axis=1)
