@@ -2,14 +2,18 @@
 
 import abc
 import dataclasses
+from collections.abc import Mapping
 from typing import Any, TypeVar
 
 import equinox as eqx
 import jax
+import numpy as np
 from jaxtyping import Array, Bool
 
+from ._checks import Checks
+from .numerics.checks import bounded
 from .numerics.precision import as_float
-from .numerics.status import SolveError
+from .numerics.status import SolveError, Status
 
 Scene = TypeVar("Scene", bound="AbstractScene")
 
@@ -19,16 +23,16 @@ def label(unit: str, description: str) -> dict[str, str]:
     return {"unit": unit, "description": description}
 
 
-def number(default: Any = dataclasses.MISSING, **kwargs: Any) -> Any:
-    """Field of a scene that holds one number, converted to a float64 leaf."""
+def number(default: Any = dataclasses.MISSING, *, bound: str = "finite", **kwargs: Any) -> Any:
+    """Field of a scene that holds one number, converted to a float64 leaf, within a bound of `numerics.checks`."""
     if default is not dataclasses.MISSING:
         kwargs["default"] = default
-    return eqx.field(converter=as_float, **kwargs)
+    return bounded(bound, converter=as_float, **kwargs)
 
 
-def optional_number(**kwargs: Any) -> Any:
+def optional_number(*, bound: str = "finite", **kwargs: Any) -> Any:
     """Like `number`, `None` where the scene does not say."""
-    return eqx.field(converter=lambda v: None if v is None else as_float(v), default=None, **kwargs)
+    return bounded(bound, converter=lambda v: None if v is None else as_float(v), default=None, **kwargs)
 
 
 class AbstractScene(eqx.Module):
@@ -51,10 +55,11 @@ class AbstractScene(eqx.Module):
 
 
 class AbstractSolution(eqx.Module):
-    """What every result of a steady solve can say about itself: `checks`, text -> whether a law is used beyond its
-    range, and `notes`, what the model assumed or left out."""
+    """What every result of a solve can say about itself: `status`; `checks`, text -> whether an input is out of its
+    bound or a law is used beyond its range; `notes`, what the model assumed or left out."""
 
-    checks: eqx.AbstractVar[dict[str, Bool[Array, ""]]]
+    status: eqx.AbstractVar[Any]
+    checks: eqx.AbstractVar[Mapping[str, Bool[Array, ""]]]
     notes: eqx.AbstractVar[tuple[str, ...]]
 
     @property
@@ -63,13 +68,33 @@ class AbstractSolution(eqx.Module):
         """Whether there is a result."""
 
     @abc.abstractmethod
+    def solver_failure(self) -> str:
+        """One sentence on a solve that failed, whose inputs were valid."""
+
     def failure(self) -> str:
-        """One sentence on a solve that failed."""
+        """One sentence on a solve that failed (one solution only)."""
+        broken = self.broken_rules
+        if broken:
+            return f"{Status.INVALID_INPUT.text}: {'; '.join(broken)}"
+        return self.solver_failure()
+
+    @property
+    def broken_rules(self) -> list[str]:
+        """The rules that inputs break (one solution only)."""
+        if not isinstance(self.checks, Checks):
+            return []
+        return [rule for rule, flag in zip(self.checks.rules, np.asarray(self.checks.broken), strict=True) if flag]
+
+    @property
+    def range_checks(self) -> Mapping[str, Bool[Array, ""]]:
+        """Those of `checks` that are about the ranges of laws."""
+        return self.checks.ranges if isinstance(self.checks, Checks) else self.checks
 
     @property
     def warnings(self) -> list[str]:
         """What left the range of a law, and what the model assumed or left out, in words (one solution only)."""
-        return [text for text, broken in self.checks.items() if bool(broken)] + list(self.notes)
+        left = [text for text, broken in self.range_checks.items() if bool(broken)]
+        return [*self.broken_rules, *left, *self.notes]
 
     def raise_if_failed(self) -> None:
         """Does nothing while JAX traces: each lane has its status.

@@ -90,7 +90,7 @@ class LaneProgram:
 
         **Arguments:**
         - `inputs`: those of each lane, lanes in front of every array.
-        - `active`: which lanes are solved, shape (lane,); the others are not converged, and their results NaN.
+        - `active`: which lanes are solved, shape (lane,); the others are `invalid_input`, and their results NaN.
         - `progress`: called with the number of lanes that were finished.
         """
         count, done = len(active), []
@@ -132,10 +132,10 @@ class LaneProgram:
 
 
 def _without_result(structure: Any) -> Any:
-    """A solution that says nothing but that it is none."""
+    """The solution of a lane that is not solved, because its scene was refused."""
 
     def nothing(leaf: Any) -> Array:
         return jnp.full(leaf.shape, jnp.nan if jnp.issubdtype(leaf.dtype, jnp.inexact) else 0, leaf.dtype)
 
-    status = jnp.full(structure.status.shape, int(Status.NOT_CONVERGED), structure.status.dtype)
+    status = jnp.full(structure.status.shape, int(Status.INVALID_INPUT), structure.status.dtype)
     return eqx.tree_at(lambda one: one.status, jax.tree.map(nothing, structure), status)

@@ -1,32 +1,27 @@
 """Elastic materials of rings, rolling elements and cages."""
 
-import equinox as eqx
+from typing import ClassVar
+
 import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Array, Float
 
 from ._types import Scalar
-from .numerics.checks import require
+from .numerics.checks import Checked, bounded
 
 
-class Material(eqx.Module):
+class Material(Checked):
     """A linear elastic, isotropic, homogeneous solid.
 
     **Validity:** small strains at room temperature; bearing steel loses about 4 % of its modulus at 150 C,
     which is not modelled.
     """
 
-    youngs_modulus: Scalar
-    poisson_ratio: Scalar
-    density: Scalar
+    part: ClassVar[str] = "material"
 
-    def __check_init__(self):
-        require(
-            "material",
-            youngs_modulus=(self.youngs_modulus, "> 0"),
-            poisson_ratio=(self.poisson_ratio, "between 0 and 0.5"),
-            density=(self.density, "> 0"),
-        )
+    youngs_modulus: Scalar = bounded("> 0")
+    poisson_ratio: Scalar = bounded("between 0 and 0.5")
+    density: Scalar = bounded("> 0")
 
 
 Material.__init__.__doc__ = """**Arguments:**

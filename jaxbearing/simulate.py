@@ -13,6 +13,7 @@ from .bearings.roller_simulation import FIELD, INTERVAL, simulate_roller_batch, 
 from .bearings.simulation import Simulation
 from .ehl import EHLLineContact, FilmSimulation, FilmState, LineContactHistory, simulate_film
 from .ehl import check_restart as check_film_restart
+from .numerics.checks import check_inputs
 from .numerics.compiling import collecting_rarely
 from .numerics.precision import require_x64
 
@@ -123,7 +124,9 @@ def _run_film(
     throw: bool,
     progress: Progress | None,
 ) -> LineContactHistory:
+    check_inputs(scene)
     chosen, length = _length(scene, duration, simulation)
+    check_inputs(chosen)
     if isinstance(restart, LineContactHistory):
         restart = restart.last_state
     if not isinstance(restart, FilmState | None):

@@ -1,12 +1,15 @@
 """The steady verb: a scene in, a solution out."""
 
+import dataclasses
 from collections.abc import Callable
 from typing import Any, overload
 
 import equinox as eqx
 import jax
+import jax.numpy as jnp
 from jax.core import Tracer
 
+from ._checks import Checks
 from ._scene import AbstractScene
 from .bearings.ball_bearing import BallBearing
 from .bearings.ball_steady import solve_ball
@@ -19,9 +22,11 @@ from .bearings.tilting_steady import solve_tilting
 from .ehl import EHLLineContact, LineContactSolution, solve_line_contact
 from .life.bearing_life import with_life
 from .machines import TwoDisk, TwoDiskSolution, solve_two_disk
+from .numerics.checks import check_inputs, void
 from .numerics.compiling import collecting_rarely, quickly_compiled
 from .numerics.newton import NewtonOptions
 from .numerics.precision import as_float, require_x64
+from .numerics.status import Status
 
 
 def _solve_cylindrical(scene: CylindricalRollerBearing, options: NewtonOptions) -> Solution:
@@ -48,7 +53,17 @@ def steady_function(scene: AbstractScene) -> Callable[..., Any]:
 
 @collecting_rarely()  # its body runs where it is traced
 def _solve_any(scene: AbstractScene, options: NewtonOptions) -> Any:
-    return with_life(scene, steady_function(scene)(scene, options))
+    """The whole way from a scene to its solution. Where an input is invalid the solve ends at once, in NaN."""
+    inputs = check_inputs(scene)
+    given: Any = scene
+    lane = dataclasses.replace(given, operation=void(given.operation, inputs.valid))
+    solution = with_life(lane, steady_function(scene)(lane, options))
+    return dataclasses.replace(
+        solution,
+        status=jnp.where(inputs.valid, solution.status, int(Status.INVALID_INPUT)),
+        operation=given.operation,
+        checks=Checks(dict(solution.checks), inputs.broken, inputs.rules),
+    )
 
 
 _solve = eqx.filter_jit(_solve_any)
@@ -126,6 +141,8 @@ def jit_solver(scene: AbstractScene, *, options: NewtonOptions | None = None) ->
     def fast(other: AbstractScene | None = None, /, **operation: Any) -> Any:
         if other is None and not operation:
             return compiled(numbers)
+        if not isinstance(other, AbstractScene | None):
+            raise TypeError(f"expected a scene, or keywords of the operating point, got {type(other).__name__}")
         changed = own if other is None else other
         # outside of the program, which is the same for whatever is changed
         changed = changed.at_operation(**operation) if operation else changed

@@ -1,7 +1,7 @@
 """Shaft speed and load as functions of time. They are pytrees: new numbers in them never recompile."""
 
 import abc
-from typing import Any
+from typing import Any, ClassVar
 
 import equinox as eqx
 import jax.numpy as jnp
@@ -10,11 +10,11 @@ from jaxtyping import Array, Float
 
 from ._scene import number
 from ._types import Scalar
-from .numerics.checks import require
+from .numerics.checks import Checked, demand, functions, given
 from .numerics.precision import as_float
 
 
-class AbstractTimeFactor(eqx.Module):
+class AbstractTimeFactor(Checked):
     """A factor on the operating point's speed or load, as a function of time; 1 is the operating point itself."""
 
     @abc.abstractmethod
@@ -50,11 +50,10 @@ class Sinusoidal(AbstractTimeFactor):
     **Arguments:** `frequency`, f, Hz; `amplitude`, A, as a fraction.
     """
 
-    frequency: Scalar = number()
-    amplitude: Scalar = number()
+    part: ClassVar[str] = "sinusoidal"
 
-    def __check_init__(self):
-        require("sinusoidal", frequency=(self.frequency, "> 0"), amplitude=(self.amplitude, "finite"))
+    frequency: Scalar = number(bound="> 0")
+    amplitude: Scalar = number()
 
     def factor(self, time: Scalar) -> Float[Array, ""]:
         return 1.0 + self.amplitude * jnp.sin(2.0 * jnp.pi * self.frequency * time)
@@ -71,19 +70,12 @@ class Ramp(AbstractTimeFactor):
     **Arguments:** `start`, `stop`, factors; `duration`, s, > 0; `begin`, s.
     """
 
+    part: ClassVar[str] = "ramp"
+
     start: Scalar = number()
     stop: Scalar = number()
-    duration: Scalar = number()
+    duration: Scalar = number(bound="> 0")
     begin: Scalar = number(0.0)
-
-    def __check_init__(self):
-        require(
-            "ramp",
-            start=(self.start, "finite"),
-            stop=(self.stop, "finite"),
-            duration=(self.duration, "> 0"),
-            begin=(self.begin, "finite"),
-        )
 
     def factor(self, time: Scalar) -> Float[Array, ""]:
         x = jnp.clip((time - self.begin) / self.duration, 0.0, 1.0)
@@ -103,19 +95,12 @@ class LinearRamp(AbstractTimeFactor):
     **Arguments:** `start`, `stop`, factors; `duration`, s, >= 0; `begin`, s.
     """
 
+    part: ClassVar[str] = "ramp"
+
     start: Scalar = number()
     stop: Scalar = number()
-    duration: Scalar = number()
+    duration: Scalar = number(bound=">= 0")
     begin: Scalar = number(0.0)
-
-    def __check_init__(self):
-        require(
-            "ramp",
-            start=(self.start, "finite"),
-            stop=(self.stop, "finite"),
-            duration=(self.duration, ">= 0"),
-            begin=(self.begin, "finite"),
-        )
 
     def factor(self, time: Scalar) -> Float[Array, ""]:
         return self.start + (self.stop - self.start) * self._risen(time)
@@ -146,10 +131,18 @@ class Tabulated(AbstractTimeFactor):
     factors: Any = eqx.field(converter=as_float)
 
     def __check_init__(self):
+        super().__check_init__()
         shape = np.shape(self.times)
         if len(shape) != 1 or shape[0] < 2 or np.shape(self.factors) != shape:
             raise ValueError(
                 f"a table needs as many times as factors, two or more; got {shape} and {np.shape(self.factors)}"
+            )
+        if given(self.times, self.factors) is not None:
+            xp = functions(self.times, self.factors)
+            demand(
+                "a table's times must increase, and all its numbers be finite",
+                xp.all(xp.diff(self.times) > 0) & xp.all(xp.isfinite(self.times)) & xp.all(xp.isfinite(self.factors)),
+                lambda: "a table's times must increase, and all its numbers be finite",
             )
 
     def factor(self, time: Scalar) -> Float[Array, ""]:
@@ -169,19 +162,18 @@ class Tabulated(AbstractTimeFactor):
         return jnp.asarray(self.times)
 
 
-class RotatingLoad(eqx.Module):
+class RotatingLoad(Checked):
     """A load on the inner ring that turns, as that of an unbalanced shaft: it is added to the radial load.
 
     **Arguments:** `load`, N; `speed` at which its direction turns, rad/s, counter-clockwise positive (the mean shaft
     speed for an unbalance); `phase`, its azimuth at time 0 from the load line, rad.
     """
 
-    load: Scalar = number()
+    part: ClassVar[str] = "rotating_load"
+
+    load: Scalar = number(bound=">= 0")
     speed: Scalar = number()
     phase: Scalar = number(0.0)
-
-    def __check_init__(self):
-        require("rotating_load", load=(self.load, ">= 0"), speed=(self.speed, "finite"), phase=(self.phase, "finite"))
 
     def components(self, time: Scalar) -> Float[Array, "2"]:
         """Along azimuths 0 and 90 degrees, N."""

@@ -6,6 +6,8 @@ or tilt moves azimuth 0 of the inner ring along $+e_x$. Contact angles are posit
 along $+e_x$. The groove is taken as a full circle: `geometry.shoulder_angle_*` says where it ends.
 """
 
+import functools
+import operator
 from typing import ClassVar, Literal
 
 import equinox as eqx
@@ -15,7 +17,7 @@ from .._types import Scalar
 from ..contacts.point_laws import PointLaws
 from ..lubricants import Lubricant, NoPressureViscosity
 from ..materials import Material
-from ..numerics.checks import known, require
+from ..numerics.checks import demand, given
 from .ball_geometry import BallGeometry
 from .cage import ASSUMED_LANDS as ASSUMED_LANDS
 from .cage import AbstractCage
@@ -46,18 +48,21 @@ class BallOperation(AbstractOperation):
     radial_load: Scalar | None = optional_number(metadata=label("N", "radial load"))
     moment: Scalar | None = optional_number(metadata=label("N m", "moment"))
     misalignment: Scalar | None = optional_number(metadata=label("rad", "misalignment"))
-    oil_temperature: Scalar = number(373.15, metadata=label("K", "oil temperature"))
-    oil_flow: Scalar = number(0.0, metadata=label("m^3/s", "oil flow"))
+    oil_temperature: Scalar = number(373.15, bound="> 0", metadata=label("K", "oil temperature"))
+    oil_flow: Scalar = number(0.0, bound=">= 0", metadata=label("m^3/s", "oil flow"))
     outer_speed: Scalar = number(0.0, metadata=label("rad/s", "outer ring speed"))
 
     def __check_init__(self):
-        loads = {name: (getattr(self, name), "finite") for name in ("axial_load", "radial_load", "moment")}
-        require("operation", misalignment=(self.misalignment, "finite"), **loads)
-        if all(value is None for value, _ in loads.values()):
+        super().__check_init__()
+        loads = [load for load in (self.axial_load, self.radial_load, self.moment) if load is not None]
+        if not loads:
             raise ValueError("operation.axial_load: a ball bearing needs an axial_load, a radial_load or a moment")
-        sizes = known(*(value for value, _ in loads.values() if value is not None))
-        if sizes is not None and not any(sizes):
-            raise ValueError("operation.axial_load: all loads are 0, and nothing holds the inner ring in its place")
+        if given(*loads) is not None:
+            demand(
+                "operation.axial_load, radial_load or moment must differ from 0",
+                functools.reduce(operator.or_, (abs(load) > 0 for load in loads)),
+                lambda: "operation.axial_load: all loads are 0, and nothing holds the inner ring in its place",
+            )
 
     @property
     def symmetric(self) -> bool:

@@ -1,6 +1,6 @@
 """Geometry of a ball bearing: grooves, contact angle, centres of curvature."""
 
-import math
+from typing import ClassVar
 
 import equinox as eqx
 import jax.numpy as jnp
@@ -9,11 +9,11 @@ from jaxtyping import Array, Float
 from .._scene import number, optional_number
 from .._types import Scalar, Values
 from ..contacts import PointContact
-from ..numerics.checks import known, require
+from ..numerics.checks import Checked, demand, given
 from .parts import check_row_fits
 
 
-class BallGeometry(eqx.Module):
+class BallGeometry(Checked):
     """Main dimensions of a single-row ball bearing; give the contact angle or the clearance, the other follows.
 
     **Arguments:**
@@ -25,41 +25,30 @@ class BallGeometry(eqx.Module):
     - `shoulder_angle_inner`, `shoulder_angle_outer`: angle at which the groove ends, rad; not given: no check.
     """
 
+    part: ClassVar[str] = "geometry"
+
     n_balls: int = eqx.field(static=True)
-    pitch_diameter: Scalar = number()
-    ball_diameter: Scalar = number()
-    conformity_inner: Scalar = number()
-    conformity_outer: Scalar = number()
-    contact_angle: Scalar | None = optional_number()
-    diametral_clearance: Scalar | None = optional_number()
-    shoulder_angle_inner: Scalar | None = optional_number()
-    shoulder_angle_outer: Scalar | None = optional_number()
+    pitch_diameter: Scalar = number(bound="> 0")
+    ball_diameter: Scalar = number(bound="> 0")
+    conformity_inner: Scalar = number(bound="between 0.5 and 1, and not 0.5")
+    conformity_outer: Scalar = number(bound="between 0.5 and 1, and not 0.5")
+    contact_angle: Scalar | None = optional_number(bound=">= 0 and below 90 degrees")
+    diametral_clearance: Scalar | None = optional_number(bound=">= 0")
+    shoulder_angle_inner: Scalar | None = optional_number(bound="> 0")
+    shoulder_angle_outer: Scalar | None = optional_number(bound="> 0")
 
     def __check_init__(self):
-        require(
-            "geometry",
-            pitch_diameter=(self.pitch_diameter, "> 0"),
-            ball_diameter=(self.ball_diameter, "> 0"),
-            conformity_inner=(self.conformity_inner, "finite"),
-            conformity_outer=(self.conformity_outer, "finite"),
-            contact_angle=(self.contact_angle, ">= 0"),
-            diametral_clearance=(self.diametral_clearance, ">= 0"),
-            shoulder_angle_inner=(self.shoulder_angle_inner, "> 0"),
-            shoulder_angle_outer=(self.shoulder_angle_outer, "> 0"),
-        )
+        super().__check_init__()
         check_row_fits(self.n_balls, self.ball_diameter, self.pitch_diameter, "ball")
         if (self.contact_angle is None) == (self.diametral_clearance is None):
             raise ValueError("geometry.contact_angle: give it or geometry.diametral_clearance, one of the two")
-        for name in ("conformity_inner", "conformity_outer"):
-            conformity = known(getattr(self, name))
-            if conformity is not None and not 0.5 < conformity[0] <= 1.0:
-                raise ValueError(f"geometry.{name} must lie between 0.5 and 1, got {conformity[0]:g}")
-        angle = known(self.contact_angle)
-        if angle is not None and not angle[0] < 0.5 * math.pi:
-            raise ValueError(f"geometry.contact_angle must be below 90 degrees, got {math.degrees(angle[0]):g} degrees")
-        sizes = known(self.diametral_clearance, self.ball_diameter, self.conformity_inner, self.conformity_outer)
-        if sizes is not None and not sizes[0] < 2.0 * (sizes[2] + sizes[3] - 1.0) * sizes[1]:
-            raise ValueError(f"geometry.diametral_clearance: {sizes[0]:g} m is more than the grooves hold")
+        sizes = given(self.diametral_clearance, self.ball_diameter, self.conformity_inner, self.conformity_outer)
+        if sizes is not None:
+            demand(
+                "geometry.diametral_clearance must be less than the grooves hold",
+                sizes[0] < 2.0 * (sizes[2] + sizes[3] - 1.0) * sizes[1],
+                lambda: f"geometry.diametral_clearance: {float(sizes[0]):g} m is more than the grooves hold",
+            )
 
     @property
     def centre_distance(self) -> Array:

@@ -10,14 +10,14 @@ import jax.numpy as jnp
 from .._scene import number, optional_number
 from .._types import Scalar
 from ..gaps import AbstractTurbulence, BlendedTurbulence, ShortJournal
-from ..numerics.checks import known, require
+from ..numerics.checks import Checked, given, require
 from .parts import check_between
 
 ASSUMED_LANDS = 2
 """Number of cage lands, where a scene does not give it."""
 
 
-class AbstractCage(eqx.Module):
+class AbstractCage(Checked):
     """One-piece cage, guided by one ring on `n_lands` lands. It has the fields too, against the habit of this
     package: they are the same in every cage, and so are their checks.
 
@@ -31,6 +31,7 @@ class AbstractCage(eqx.Module):
     - `turbulence`: flow regime of the lands.
     """
 
+    part: ClassVar[str] = "cage"
     element: ClassVar[str]
     """What the pockets hold."""
     assumed_inner: ClassVar[float]
@@ -39,26 +40,19 @@ class AbstractCage(eqx.Module):
     """Outside diameter = pitch diameter plus this times the element's diameter, where a scene does not give it."""
 
     guidance: Literal["inner_ring", "outer_ring"] = eqx.field(static=True)
-    guiding_clearance: Scalar = number()
-    pocket_clearance: Scalar = number()
-    land_width: Scalar = number()
-    inner_diameter: Scalar | None = optional_number()
-    outer_diameter: Scalar | None = optional_number()
+    guiding_clearance: Scalar = number(bound="> 0")
+    pocket_clearance: Scalar = number(bound="> 0")
+    land_width: Scalar = number(bound="> 0")
+    inner_diameter: Scalar | None = optional_number(bound="> 0")
+    outer_diameter: Scalar | None = optional_number(bound="> 0")
     n_lands: int | None = eqx.field(static=True, default=None)
     turbulence: AbstractTurbulence = BlendedTurbulence()
 
     def __check_init__(self):
+        super().__check_init__()
         if self.guidance not in ("inner_ring", "outer_ring"):
             raise ValueError(f"cage.guidance must be 'inner_ring' or 'outer_ring', got {self.guidance!r}")
-        require(
-            "cage",
-            guiding_clearance=(self.guiding_clearance, "> 0"),
-            pocket_clearance=(self.pocket_clearance, "> 0"),
-            land_width=(self.land_width, "> 0"),
-            inner_diameter=(self.inner_diameter, "> 0"),
-            outer_diameter=(self.outer_diameter, "> 0"),
-            n_lands=(self.n_lands, "> 0"),
-        )
+        require("cage", n_lands=(self.n_lands, "> 0"))
 
     @abc.abstractmethod
     def row(self, geometry: Any) -> tuple[int, Scalar]:
@@ -107,7 +101,7 @@ class AbstractCage(eqx.Module):
     def check_fits(self, geometry: Any) -> None:
         """**Raises:** `ValueError` where the cage cannot exist between the rings (where the numbers are known)."""
         count, diameter = self.row(geometry)
-        sizes = known(
+        sizes = given(
             geometry.pitch_diameter,
             diameter,
             self.bore(geometry),

@@ -15,7 +15,7 @@ import equinox as eqx
 from .._types import Scalar
 from ..contacts import DistributedTraction, MeanPressureTraction
 from ..lubricants import Lubricant, NoPressureViscosity
-from ..numerics.checks import known, require
+from ..numerics.checks import Checked, demand, given
 from .cage import ASSUMED_LANDS as ASSUMED_LANDS
 from .cage import AbstractCage
 from .parts import (
@@ -41,7 +41,7 @@ ASSUMED_FLANGE_HEIGHT = 2.5 / 12.0
 """Flange height over roller diameter, where a scene does not give it."""
 
 
-class RollerGeometry(eqx.Module):
+class RollerGeometry(Checked):
     """Main dimensions, m. `diametral_clearance` may be negative (preload).
 
     **Arguments:**
@@ -51,23 +51,28 @@ class RollerGeometry(eqx.Module):
     - `diametral_clearance`: of the assembled bearing, m.
     """
 
+    part: ClassVar[str] = "geometry"
+
     n_rollers: int = eqx.field(static=True)
-    pitch_diameter: Scalar = number()
-    roller_diameter: Scalar = number()
-    roller_length: Scalar = number()
+    pitch_diameter: Scalar = number(bound="> 0")
+    roller_diameter: Scalar = number(bound="> 0")
+    roller_length: Scalar = number(bound="> 0")
     diametral_clearance: Scalar = number()
-    contact_length: Scalar | None = optional_number()
+    contact_length: Scalar | None = optional_number(bound="> 0")
 
     def __check_init__(self):
-        require(
-            "geometry",
-            pitch_diameter=(self.pitch_diameter, "> 0"),
-            roller_diameter=(self.roller_diameter, "> 0"),
-            roller_length=(self.roller_length, "> 0"),
-            diametral_clearance=(self.diametral_clearance, "finite"),
-            contact_length=(self.contact_length, "> 0"),
-        )
+        super().__check_init__()
         check_row_fits(self.n_rollers, self.roller_diameter, self.pitch_diameter)
+        sizes = given(self.contact_length, self.roller_length)
+        if sizes is not None:
+            demand(
+                "geometry.contact_length must be at most the roller length",
+                sizes[0] <= sizes[1],
+                lambda: (
+                    f"geometry.contact_length must be at most the roller length, {float(sizes[1]):.6g} m, got "
+                    f"{float(sizes[0]):.6g} m"
+                ),
+            )
 
     @property
     def loaded_length(self) -> Scalar:
@@ -106,10 +111,7 @@ class RollerCage(AbstractCage):
     assumed_inner: ClassVar[float] = ASSUMED_CAGE_INNER
     assumed_outer: ClassVar[float] = ASSUMED_CAGE_OUTER
 
-    pocket_axial_clearance: Scalar | None = optional_number()
-
-    def __check_init__(self):
-        require("cage", pocket_axial_clearance=(self.pocket_axial_clearance, "> 0"))
+    pocket_axial_clearance: Scalar | None = optional_number(bound="> 0")
 
     def row(self, geometry: RollerGeometry) -> tuple[int, Scalar]:
         return geometry.n_rollers, geometry.roller_diameter
@@ -130,7 +132,7 @@ class RollerCage(AbstractCage):
         return ring - pockets, inertia
 
 
-class RollerFlange(eqx.Module):
+class RollerFlange(Checked):
     """Flanges that guide the rollers axially, on the inner ring, the outer ring or both.
 
     **Arguments:**
@@ -140,20 +142,17 @@ class RollerFlange(eqx.Module):
     - `height`: of the flange above the raceway, m; assumed from the roller size where not given.
     """
 
+    part: ClassVar[str] = "flange"
+
     ring: Literal["inner", "outer", "both"] = eqx.field(static=True)
-    axial_clearance: Scalar = number()
-    angle: Scalar = number(0.0)
-    height: Scalar | None = optional_number()
+    axial_clearance: Scalar = number(bound="> 0")
+    angle: Scalar = number(0.0, bound=">= 0 and below 90 degrees")
+    height: Scalar | None = optional_number(bound="> 0")
 
     def __check_init__(self):
+        super().__check_init__()
         if self.ring not in ("inner", "outer", "both"):
             raise ValueError(f"flange.ring must be 'inner', 'outer' or 'both', got {self.ring!r}")
-        require(
-            "flange",
-            axial_clearance=(self.axial_clearance, "> 0"),
-            angle=(self.angle, ">= 0"),
-            height=(self.height, "> 0"),
-        )
 
     def rim_height(self, geometry: RollerGeometry) -> Scalar:
         return ASSUMED_FLANGE_HEIGHT * geometry.roller_diameter if self.height is None else self.height
@@ -277,7 +276,7 @@ def _misfit(contact: ContactLaws, oil: Lubricant) -> list[str]:
 
 def _check_height(flange: RollerFlange, geometry: RollerGeometry) -> None:
     """**Raises:** `ValueError` where the flange cannot exist between the rings (where the numbers are known)."""
-    sizes = known(flange.rim_height(geometry), geometry.roller_diameter)
+    sizes = given(flange.rim_height(geometry), geometry.roller_diameter)
     if sizes is not None:
         height, roller = sizes
         limit = roller / 2.0 if flange.ring == "both" else roller

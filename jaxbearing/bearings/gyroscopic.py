@@ -1,20 +1,21 @@
 """How friction at the contacts of a ball carries its gyroscopic couple, where no traction law resolves it."""
 
 import abc
+from typing import ClassVar
 
 import equinox as eqx
 import jax.numpy as jnp
 from jaxtyping import Array, Float
 
 from .._types import Scalar, Values
-from ..numerics.checks import known, require
+from ..numerics.checks import Checked, bounded, demand, given
 from ..numerics.precision import as_float
 
 NO_LOAD = 1e-9
 """Added to the sum of both loads, N: no couple where no contact carries anything."""
 
 
-class AbstractGyroscopic(eqx.Module):
+class AbstractGyroscopic(Checked):
     r"""Friction forces $T_i, T_o$ on the ball that balance the couple $M_g = J\omega_R\omega_m\sin\beta$.
 
     Euler's equation asks the contacts for the couple $+M_ge_t$: each carries $-(D/2)F_kb_k\times n_k$ of it with
@@ -22,12 +23,17 @@ class AbstractGyroscopic(eqx.Module):
     eqs. (14)-(15), for comparison with the literature.
     """
 
+    part: ClassVar[str] = "kinematics"
     sign: eqx.AbstractVar[Scalar]
 
     def __check_init__(self):
-        sign = known(self.sign)
-        if sign is not None and abs(sign[0]) != 1.0:
-            raise ValueError(f"kinematics.gyroscopic_sign must be 1 or -1, got {sign[0]:g}")
+        super().__check_init__()
+        if given(self.sign) is not None:
+            demand(
+                "kinematics.gyroscopic.sign must be 1 or -1",
+                abs(self.sign) == 1.0,
+                lambda: f"kinematics.gyroscopic_sign must be 1 or -1, got {float(self.sign):g}",
+            )
 
     @abc.abstractmethod
     def friction(
@@ -42,12 +48,9 @@ class SharedCouple(AbstractGyroscopic):
     **Limits:** asks an unloaded inner contact for friction: at light load and high speed no equilibrium exists.
     """
 
-    inner_share: Scalar = eqx.field(converter=as_float, default=1.0)
-    outer_share: Scalar = eqx.field(converter=as_float, default=1.0)
+    inner_share: Scalar = bounded("finite", converter=as_float, default=1.0)
+    outer_share: Scalar = bounded("finite", converter=as_float, default=1.0)
     sign: Scalar = eqx.field(converter=as_float, default=1.0)
-
-    def __check_init__(self):
-        require("kinematics", inner_share=(self.inner_share, "finite"), outer_share=(self.outer_share, "finite"))
 
     def friction(self, couple, diameter, inner_load, outer_load):
         return self.inner_share * couple / diameter, self.outer_share * couple / diameter
@@ -60,11 +63,8 @@ class CappedCouple(AbstractGyroscopic):
     the ball would start to turn about $e_t$, which this law leaves out.
     """
 
-    friction_coefficient: Scalar = eqx.field(converter=as_float, default=0.05)
+    friction_coefficient: Scalar = bounded("> 0", name="gyroscopic_friction", converter=as_float, default=0.05)
     sign: Scalar = eqx.field(converter=as_float, default=1.0)
-
-    def __check_init__(self):
-        require("kinematics", gyroscopic_friction=(self.friction_coefficient, "> 0"))
 
     def friction(self, couple, diameter, inner_load, outer_load):
         limit = self.friction_coefficient * (inner_load + outer_load + NO_LOAD)

@@ -3,6 +3,7 @@
 The command line, JSON, files and plots read this metadata; nothing keeps a second list.
 """
 
+from collections.abc import Mapping
 from typing import Any
 
 import equinox as eqx
@@ -122,7 +123,7 @@ class History(AbstractSolution):
     operation: Any
     instants: Any
     energy: Energy
-    checks: dict[str, Bool[Array, ""]]
+    checks: Mapping[str, Bool[Array, ""]]
     solver: str = eqx.field(static=True)
     interrupted: bool = eqx.field(static=True, default=False)
     element_name: str = eqx.field(static=True, default="roller")
@@ -163,7 +164,7 @@ class History(AbstractSolution):
         instants = jax.tree.map(lambda leaf: leaf[reached], one.instants)
         return eqx.tree_at(lambda h: (h.time, h.instants), one, (one.time[reached], instants))
 
-    def failure(self) -> str:
+    def solver_failure(self) -> str:
         if np.size(self.time) == 0:
             return f"{Status(int(self.status)).text}: the quasi-static start of the run was not found"
         reached, stop = float(self.time[-1]), float(self.stop)

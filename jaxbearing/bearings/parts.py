@@ -1,7 +1,7 @@
 """Parts that bearing families share: the operating point, the contact laws, drag, checks of their sizes."""
 
 import math
-from typing import Any
+from typing import Any, ClassVar
 
 import equinox as eqx
 import jax.numpy as jnp
@@ -13,36 +13,33 @@ from ..contacts.laws import ContactLaws
 from ..gaps import air_density, mixture_density, saturated_oil_fraction
 from ..lubricants import Lubricant
 from ..materials import Material
-from ..numerics.checks import known, require
+from ..numerics.checks import Checked, demand, given, known
 from ..numerics.safe import safe_norm
 
 __all__ = ["AbstractScene", "ContactLaws", "Drag", "Materials", "Operation", "number", "optional_number"]
 
 
-class AbstractOperation(eqx.Module):
+class AbstractOperation(Checked):
     """What the operating points of all bearings have besides their loads."""
+
+    part: ClassVar[str] = "operation"
 
     inner_speed: eqx.AbstractVar[Scalar]
     outer_speed: eqx.AbstractVar[Scalar]
     oil_temperature: eqx.AbstractVar[Scalar]
     oil_flow: eqx.AbstractVar[Scalar]
 
-    def __check_init__(self):
-        require(
-            "operation",
-            inner_speed=(self.inner_speed, "finite"),
-            outer_speed=(self.outer_speed, "finite"),
-            oil_temperature=(self.oil_temperature, "> 0"),
-            oil_flow=(self.oil_flow, ">= 0"),
-        )
-
     def check_rings_turn(self) -> None:
         """**Raises:** `ValueError` where the rings turn alike and no film can form (where the numbers are known)."""
-        speeds = known(self.inner_speed, self.outer_speed)
-        if speeds is not None and speeds[0] == speeds[1]:
-            raise ValueError(
-                f"operation.inner_speed: it is {speeds[0]:.6g} rad/s, the same as operation.outer_speed; a lubricated "
-                "bearing needs rings that turn against each other; leave out [contact] for a dry one"
+        speeds = given(self.inner_speed, self.outer_speed)
+        if speeds is not None:
+            demand(
+                "operation.inner_speed of a lubricated bearing must differ from operation.outer_speed",
+                abs(speeds[0] - speeds[1]) > 0,
+                lambda: (
+                    f"operation.inner_speed: it is {float(speeds[0]):.6g} rad/s, the same as operation.outer_speed; a "
+                    "lubricated bearing needs rings that turn against each other; leave out [contact] for a dry one"
+                ),
             )
 
 
@@ -59,20 +56,15 @@ class Operation(AbstractOperation):
     """
 
     inner_speed: Scalar = number(metadata=label("rad/s", "inner ring speed"))
-    radial_load: Scalar = number(metadata=label("N", "radial load"))
-    oil_temperature: Scalar = number(373.15, metadata=label("K", "oil temperature"))
-    oil_flow: Scalar = number(0.0, metadata=label("m^3/s", "oil flow"))
+    radial_load: Scalar = number(bound="> 0", metadata=label("N", "radial load"))
+    oil_temperature: Scalar = number(373.15, bound="> 0", metadata=label("K", "oil temperature"))
+    oil_flow: Scalar = number(0.0, bound=">= 0", metadata=label("m^3/s", "oil flow"))
     outer_speed: Scalar = number(0.0, metadata=label("rad/s", "outer ring speed"))
     moment: Scalar | None = optional_number(metadata=label("N m", "moment"))
     misalignment: Scalar | None = optional_number(metadata=label("rad", "misalignment"))
 
     def __check_init__(self):
-        require(
-            "operation",
-            radial_load=(self.radial_load, "> 0"),
-            moment=(self.moment, "finite"),
-            misalignment=(self.misalignment, "finite"),
-        )
+        super().__check_init__()
         if self.moment is not None and self.misalignment is not None:
             raise ValueError("operation.misalignment: none beside operation.moment, which sets the tilt free")
 
@@ -85,7 +77,7 @@ class Materials(eqx.Module):
     cage: Material | None = None
 
 
-class DragSettings(eqx.Module):
+class DragSettings(Checked):
     """Oil drag on the orbiting rolling elements (windage and churning).
 
     **Arguments:**
@@ -94,15 +86,10 @@ class DragSettings(eqx.Module):
     - `through_flow_fraction`: part of the oil flow that passes through the bearing; 1 = under-race supply.
     """
 
-    coefficient: Scalar | None = optional_number()
-    through_flow_fraction: Scalar = number(1.0)
+    part: ClassVar[str] = "drag"
 
-    def __check_init__(self):
-        require(
-            "drag",
-            coefficient=(self.coefficient, ">= 0"),
-            through_flow_fraction=(self.through_flow_fraction, "between 0 and 1"),
-        )
+    coefficient: Scalar | None = optional_number(bound=">= 0")
+    through_flow_fraction: Scalar = number(1.0, bound="between 0 and 1")
 
 
 class Drag(DragSettings):
@@ -114,7 +101,7 @@ class Drag(DragSettings):
     - `through_flow_fraction`: part of the oil flow that passes through the bearing; 1 = under-race supply.
     """
 
-    coefficient: Scalar = number()
+    coefficient: Scalar = number(bound=">= 0")
 
 
 def drag_density(
@@ -133,13 +120,17 @@ def drag_density(
     return mixture_density(fraction, oil.density.density(temperature), air_density(temperature))
 
 
-def check_between(name: str, value: float, low: float, high: float, below: str, above: str) -> None:
-    """**Arguments:** `below`, `above`: what the limits are, in words.
+def check_between(name: str, value: Any, low: Any, high: Any, below: str, above: str) -> None:
+    """**Arguments:** lengths, m, known or traced; `below`, `above`: what the limits are, in words.
 
-    **Raises:** `ValueError` where a dimension, m, lies on a limit or beyond.
+    **Raises:** `ValueError` where a known dimension lies on a limit or beyond.
     """
-    if not low < value < high:
-        raise ValueError(f"{name} must lie between {low:.6g} m ({below}) and {high:.6g} m ({above}), got {value:.6g} m")
+    ends = f"{float(low):.6g} m ({below}) and {float(high):.6g} m ({above})" if known(low, high) is not None else ""
+    demand(
+        f"{name} must lie between {below} and {above}",
+        (low < value) & (value < high),
+        lambda: f"{name} must lie between {ends}, got {float(value):.6g} m",
+    )
 
 
 def check_row_fits(count: int, diameter: Any, pitch_diameter: Any, element: str = "roller") -> None:
@@ -147,12 +138,15 @@ def check_row_fits(count: int, diameter: Any, pitch_diameter: Any, element: str 
     name = f"geometry.n_{element}s"
     if count < 1:
         raise ValueError(f"{name} must be >= 1, got {count}")
-    sizes = known(diameter, pitch_diameter)
+    sizes = given(diameter, pitch_diameter)
     if sizes is None:
         return
     chord = sizes[1] * math.sin(math.pi / max(count, 2))
-    if sizes[0] >= chord:
-        raise ValueError(
-            f"{name}: {count} {element}s of diameter {sizes[0]:g} m do not fit on a pitch "
-            f"circle of {sizes[1]:g} m: their centres are {chord:g} m apart"
-        )
+    demand(
+        f"{name} {element}s must fit on the pitch circle beside each other",
+        sizes[0] < chord,
+        lambda: (
+            f"{name}: {count} {element}s of diameter {float(sizes[0]):g} m do not fit on a pitch "
+            f"circle of {float(sizes[1]):g} m: their centres are {float(chord):g} m apart"
+        ),
+    )

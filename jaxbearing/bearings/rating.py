@@ -1,12 +1,12 @@
 """What a scene says about the fatigue life of its bearing: the same for all kinds of bearings."""
 
-from typing import Literal
+from typing import ClassVar, Literal
 
 import equinox as eqx
 
 from .._scene import optional_number
 from .._types import Scalar
-from ..numerics.checks import require
+from ..numerics.checks import Checked
 
 CATALOGUE_CONFORMITY = 0.52
 """Groove radius over ball diameter for which ISO 281 and catalogues rate ball bearings."""
@@ -14,7 +14,7 @@ LAMINAE = 30
 """Laminae of a roller in the reference life where a scene does not say."""
 
 
-class Rating(eqx.Module):
+class Rating(Checked):
     """Ratings and conditions for the life; what is not given is computed from the geometry, or not modelled.
 
     **Arguments:**
@@ -32,12 +32,14 @@ class Rating(eqx.Module):
       is computed; not given: yes for straight rollers, no for rollers with a profile.
     """
 
-    dynamic_capacity: Scalar | None = optional_number()
-    static_capacity: Scalar | None = optional_number()
-    fatigue_load_limit: Scalar | None = optional_number()
-    viscosity_ratio: Scalar | None = optional_number()
-    roughness_rings: Scalar | None = optional_number()
-    roughness_elements: Scalar | None = optional_number()
+    part: ClassVar[str] = "rating"
+
+    dynamic_capacity: Scalar | None = optional_number(bound="> 0")
+    static_capacity: Scalar | None = optional_number(bound="> 0")
+    fatigue_load_limit: Scalar | None = optional_number(bound="> 0")
+    viscosity_ratio: Scalar | None = optional_number(bound="> 0")
+    roughness_rings: Scalar | None = optional_number(bound="> 0")
+    roughness_elements: Scalar | None = optional_number(bound="> 0")
     reliability: float = eqx.field(static=True, default=0.90)
     cleanliness: str | None = eqx.field(static=True, default=None)
     n_laminae: int = eqx.field(static=True, default=LAMINAE)
@@ -45,15 +47,7 @@ class Rating(eqx.Module):
     grooves: Literal["catalogue", "scene"] = eqx.field(static=True, default="catalogue")
 
     def __check_init__(self):
-        positive = (
-            "dynamic_capacity",
-            "static_capacity",
-            "fatigue_load_limit",
-            "viscosity_ratio",
-            "roughness_rings",
-            "roughness_elements",
-        )
-        require("rating", **{name: (getattr(self, name), "> 0") for name in positive})
+        super().__check_init__()
         if (self.roughness_rings is None) != (self.roughness_elements is None):
             raise ValueError("rating.roughness_rings: give it and rating.roughness_elements, or neither")
         if self.grooves not in ("catalogue", "scene"):

@@ -1,5 +1,6 @@
 """From the scene of a cylindrical roller bearing to its equations of motion and the state that a run begins with."""
 
+import dataclasses
 from typing import NamedTuple
 
 import equinox as eqx
@@ -9,6 +10,7 @@ from jaxtyping import Array, Float, Int
 from ..gaps import CompliantPocketFace
 from ..materials import CATALOGUE, reduced_modulus
 from ..numerics.arrow import ArrowPoint
+from ..numerics.checks import InputChecks, check_inputs, void
 from ..numerics.newton import NewtonOptions, newton_solve
 from ..numerics.status import Status
 from .cylindrical_roller import CylindricalRollerBearing
@@ -154,5 +156,17 @@ def begin(scene: CylindricalRollerBearing, simulation: Simulation, found: QuasiS
 def quasi_static_start(
     scene: CylindricalRollerBearing, simulation: Simulation, options: NewtonOptions | None = None
 ) -> Start:
-    """Equations of motion and the state that a run begins with; pure, jit-able."""
-    return begin(scene, simulation, quasi_static(at_start(scene, simulation), options))
+    """Equations of motion and the state that a run begins with; pure, jit-able.
+
+    Where a traced input is invalid `status` says so, and the state is NaN."""
+    lane, inputs = checked_lane(scene, simulation)
+    start = begin(lane, simulation, quasi_static(at_start(lane, simulation), options))
+    return start._replace(status=jnp.where(inputs.valid, start.status, int(Status.INVALID_INPUT)))
+
+
+def checked_lane(
+    scene: CylindricalRollerBearing, simulation: Simulation
+) -> tuple[CylindricalRollerBearing, InputChecks]:
+    """The checks of traced inputs, and the scene with an operation that is NaN where they are invalid."""
+    inputs = check_inputs(dataclasses.replace(scene, simulation=simulation))
+    return dataclasses.replace(scene, operation=void(scene.operation, inputs.valid)), inputs

@@ -10,6 +10,8 @@ import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Array, Float
 
+from .._checks import Checks
+from ..numerics.checks import check_inputs
 from ..numerics.compiling import quickly_compiled
 from ..numerics.devices import may_be_shared_out, shared_out
 from ..numerics.integrator import Segment
@@ -18,7 +20,7 @@ from ..numerics.status import SolveError, Status
 from .cylindrical_roller import CylindricalRollerBearing
 from .history import Energy, History, LastState
 from .roller_dynamics import WORKS
-from .roller_motion import IMMOBILE, QuasiStatic, Start, at_start, begin, quasi_static, quasi_static_start
+from .roller_motion import IMMOBILE, QuasiStatic, Start, at_start, begin, checked_lane, quasi_static
 from .roller_run import FIELD, Advanced, Resumed, advance, check_fits, energy_of, resume
 from .simulation import Simulation
 
@@ -51,6 +53,8 @@ def trajectory(start: Start, times: Float[Array, " time"], simulation: Simulatio
 
         jax.jit(jax.grad(mean_load))(300e-6)  # N per m
 
+    A start that was not found takes no steps: its status is that of the trajectory, whose states are NaN.
+
     **Arguments:** `adjoint`: of diffrax, e.g. `diffrax.ForwardMode()`; reverse mode with checkpoints where not given.
     """
     from ..numerics.integrate import integrate_segment  # diffrax, which nothing else needs, takes a second to import
@@ -60,9 +64,13 @@ def trajectory(start: Start, times: Float[Array, " time"], simulation: Simulatio
     # a first step that is guessed may be so long that there are no rates at its end: it is then shortened, but its NaN
     # would come back in reverse mode
     first = jnp.asarray(FIRST_STEP)
-    return integrate_segment(
-        FIELD, start.state, zero, times, start.dynamics, options, first_step=first, adjoint=adjoint, idle=len(WORKS)
+    begun = start.status == Status.CONVERGED
+    until = jnp.where(begun, times, zero)
+    run = integrate_segment(
+        FIELD, start.state, zero, until, start.dynamics, options, first_step=first, adjoint=adjoint, idle=len(WORKS)
     )
+    states = jax.tree.map(lambda leaf: jnp.where(begun, leaf, jnp.nan), run.states)
+    return run._replace(states=states, status=jnp.where(begun, run.status, start.status))
 
 
 # solved once a run: to compile takes longer than to run
@@ -89,7 +97,9 @@ def _request(
     """What is asked of a run, checked: how, and how long, s."""
     if not scene.slips:
         raise ValueError(IMMOBILE)
+    check_inputs(scene)
     chosen = simulation or scene.simulation or Simulation()
+    check_inputs(chosen)
     duration = duration if duration is not None else chosen.duration
     if duration is None:
         raise ValueError("simulate needs a duration: give it, or name it in the scene's simulation")
@@ -247,16 +257,21 @@ def _batch(
 def _lane(scene: CylindricalRollerBearing, simulation: Simulation | None, times: Float[Array, " time"]) -> History:
     """One whole run in one go, from its quasi-static start; pure."""
     simulation = simulation or scene.simulation or Simulation()
-    start = quasi_static_start(scene, simulation)
+    operation = scene.operation
+    scene, inputs = checked_lane(scene, simulation)
+    start = begin(scene, simulation, quasi_static(at_start(scene, simulation)))
     zero = jnp.zeros(())
-    found = advance(start.dynamics, start.state, zero, times, simulation.options, jnp.asarray(FIRST_STEP))
+    begun = jnp.where(inputs.valid, start.status, int(Status.INVALID_INPUT))
+    # a lane without a start takes no steps, for which the others would have to wait
+    until = jnp.where(begun == Status.CONVERGED, times, zero)
+    found = advance(start.dynamics, start.state, zero, until, simulation.options, jnp.asarray(FIRST_STEP))
     segment = found.segment
-    status = jnp.where(start.status == Status.CONVERGED, segment.status, start.status)
+    status = jnp.where(begun == Status.CONVERGED, segment.status, begun)
     # a run that stopped early has its last state after the instants that it reached
     reached = jnp.sum(times <= segment.last_time) + 1
     stopped = status != Status.CONVERGED
     shown = jnp.arange(times.shape[0] + 1) < jnp.where(stopped, reached + 1, reached)
-    shown = shown & (start.status == Status.CONVERGED)
+    shown = shown & (begun == Status.CONVERGED)
     masked = lambda leaf: jnp.where(jnp.reshape(shown, (-1, *(1 for _ in leaf.shape[1:]))), leaf[:-1], jnp.nan)
     ends = [jax.tree.map(lambda leaf, at=at: leaf[at], found.instants) for at in (0, -1)]
     energy = energy_of(start.dynamics, segment.last, *ends)
@@ -267,10 +282,10 @@ def _lane(scene: CylindricalRollerBearing, simulation: Simulation | None, times:
         accepted=segment.accepted,
         rejected=segment.rejected,
         reference_speed=start.dynamics.reference_speed,
-        operation=jax.tree.map(jnp.asarray, scene.operation),
+        operation=jax.tree.map(jnp.asarray, operation),
         instants=jax.tree.map(masked, found.instants),
         energy=energy,
-        checks=_checks(scene, energy),
+        checks=Checks(_checks(scene, energy), inputs.broken, inputs.rules),
         solver=simulation.solver,
         notes=scene.assumptions(),
     )

@@ -1,10 +1,12 @@
 """What a scene says about its run in time: the same for all kinds of bearings."""
 
+from typing import ClassVar
+
 import equinox as eqx
 
 from .._scene import number, optional_number
 from .._types import Scalar
-from ..numerics.checks import require
+from ..numerics.checks import Checked
 from ..numerics.integrator import IntegratorOptions, check_solver
 from ..time_laws import AbstractTimeFactor, RotatingLoad, Steady
 
@@ -12,7 +14,7 @@ DEFAULT_SOLVER = "tsit5"
 DEFAULT_TOLERANCE = 1e-5
 
 
-class Simulation(eqx.Module):
+class Simulation(Checked):
     """A run in time, from the quasi-static state of the operating point.
 
     **Arguments:**
@@ -26,21 +28,18 @@ class Simulation(eqx.Module):
       film is left where a roller's surface passes through rest.
     """
 
-    duration: Scalar | None = optional_number()
+    part: ClassVar[str] = "simulation"
+
+    duration: Scalar | None = optional_number(bound="> 0")
     speed: AbstractTimeFactor = Steady()
     load: AbstractTimeFactor = Steady()
     rotating_load: RotatingLoad | None = None
     solver: str = eqx.field(static=True, default=DEFAULT_SOLVER)
-    tolerance: Scalar = number(DEFAULT_TOLERANCE)
-    entrainment_smoothing: Scalar = number(0.05)
+    tolerance: Scalar = number(DEFAULT_TOLERANCE, bound="> 0")
+    entrainment_smoothing: Scalar = number(0.05, bound="> 0")
 
     def __check_init__(self):
-        require(
-            "simulation",
-            duration=(self.duration, "> 0"),
-            tolerance=(self.tolerance, "> 0"),
-            entrainment_smoothing=(self.entrainment_smoothing, "> 0"),
-        )
+        super().__check_init__()
         check_solver(self.solver)
 
     @property

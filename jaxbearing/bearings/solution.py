@@ -3,6 +3,7 @@
 The command line, JSON, files and pages read this metadata; nothing keeps a second list.
 """
 
+from collections.abc import Mapping
 from typing import Any
 
 import equinox as eqx
@@ -163,7 +164,7 @@ class Solution(AbstractSolution):
     stiffness: Float[Array, "freedom freedom"] = eqx.field(
         metadata=label("N/m", "d load / d displacement, active freedoms")
     )
-    checks: dict[str, Bool[Array, ""]]
+    checks: Mapping[str, Bool[Array, ""]]
     ring_freedom: tuple[str, ...] = eqx.field(static=True)
     equation_names: tuple[str, ...] = eqx.field(static=True)
     global_equations: int = eqx.field(static=True)
@@ -186,7 +187,7 @@ class Solution(AbstractSolution):
     def converged(self) -> Bool[Array, "*batch"]:
         return self.status == Status.CONVERGED
 
-    def failure(self) -> str:
+    def solver_failure(self) -> str:
         """One sentence on a solve that failed: status, residual, worst equation."""
         local_equations = len(self.equation_names) - self.global_equations
         worst = int(self.worst_equation)

@@ -8,6 +8,7 @@ reconstructed.
 """
 
 import math
+from typing import Any, ClassVar
 
 import equinox as eqx
 import jax.numpy as jnp
@@ -16,13 +17,13 @@ from jaxtyping import Array
 from .._scene import number
 from .._types import Scalar
 from ..contacts import PointContact
-from ..numerics.checks import known, require
+from ..numerics.checks import Checked, demand, functions, given
 
 LEAST_HALF_ANGLE = math.radians(0.3)
 """Of the rollers: below, the apex goes to infinity and the bearing is a cylindrical one."""
 
 
-class TaperedGeometry(eqx.Module):
+class TaperedGeometry(Checked):
     """Main dimensions; the pitch diameter follows from them.
 
     **Arguments:**
@@ -37,20 +38,22 @@ class TaperedGeometry(eqx.Module):
     **Raises:** `ValueError` naming the field that makes the bearing impossible.
     """
 
+    part: ClassVar[str] = "geometry"
+
     n_rollers: int = eqx.field(static=True)
-    roller_diameter: Scalar = number()
-    roller_length: Scalar = number()
-    contact_angle: Scalar = number()
-    roller_half_angle: Scalar = number()
-    flange_angle: Scalar = number()
-    end_radius: Scalar = number()
+    roller_diameter: Scalar = number(bound="> 0")
+    roller_length: Scalar = number(bound="> 0")
+    contact_angle: Scalar = number(bound="above 0 and below 90 degrees")
+    roller_half_angle: Scalar = number(bound="> 0")
+    flange_angle: Scalar = number(bound="> 0")
+    end_radius: Scalar = number(bound="> 0")
 
     def __check_init__(self):
-        names = ("roller_diameter", "roller_length", "contact_angle", "roller_half_angle", "flange_angle", "end_radius")
-        require("geometry", **{name: (getattr(self, name), "> 0") for name in names})
+        super().__check_init__()
         if self.n_rollers < 1:
             raise ValueError(f"geometry.n_rollers must be >= 1, got {self.n_rollers}")
-        sizes = known(*(getattr(self, name) for name in names))
+        names = ("roller_diameter", "roller_length", "contact_angle", "roller_half_angle", "flange_angle", "end_radius")
+        sizes = given(*(getattr(self, name) for name in names))
         if sizes is not None:
             _check(self.n_rollers, *sizes)
 
@@ -120,52 +123,76 @@ class TaperedGeometry(eqx.Module):
         return jnp.stack([1.0 / (1.0 / roller + 1.0 / inner), 1.0 / (1.0 / roller - 1.0 / outer)])
 
 
-def _check(
-    n_rollers: int, diameter: float, length: float, cup: float, half: float, flange: float, end_radius: float
-) -> None:
-    """**Raises:** `ValueError` for a bearing that cannot be built."""
-    degrees = lambda angle: f"{math.degrees(angle):g} degrees"
+def _check(n_rollers: int, diameter: Any, length: Any, cup: Any, half: Any, flange: Any, end_radius: Any) -> None:
+    """Numbers known or traced. **Raises:** `ValueError` for a bearing that is known to be impossible."""
+    xp = functions(diameter, length, cup, half, flange, end_radius)
+    degrees = lambda angle: f"{math.degrees(float(angle)):g} degrees"
+    metres = lambda size: f"{float(size):g} m"
     gamma, cone = cup - half, cup - 2.0 * half
-    if not cup < 0.5 * math.pi:
-        raise ValueError(f"geometry.contact_angle must be below 90 degrees, got {degrees(cup)}")
-    if half < LEAST_HALF_ANGLE:
-        raise ValueError(
+    demand(
+        "geometry.roller_half_angle must be at least 0.3 degrees",
+        half >= LEAST_HALF_ANGLE,
+        lambda: (
             f"geometry.roller_half_angle must be at least 0.3 degrees, got {degrees(half)}: a smaller taper is a "
             "cylindrical roller bearing"
-        )
-    if cone <= 0.0:
-        raise ValueError(f"geometry.roller_half_angle must be below half the contact_angle, got {degrees(half)}")
-    if length * math.sin(half) >= 0.5 * diameter:
-        raise ValueError(f"geometry.roller_length: {length:g} m reaches beyond the tip of the roller's cone")
-    if end_radius <= 0.5 * diameter:
-        raise ValueError(f"geometry.end_radius must be above half the roller_diameter, got {end_radius:g} m")
-    radius = 0.5 * diameter * math.sin(gamma) / math.tan(half)
+        ),
+    )
+    demand(
+        "geometry.roller_half_angle must be below half the contact_angle",
+        cone > 0.0,
+        lambda: f"geometry.roller_half_angle must be below half the contact_angle, got {degrees(half)}",
+    )
+    demand(
+        "geometry.roller_length must end before the tip of the roller's cone",
+        length * xp.sin(half) < 0.5 * diameter,
+        lambda: f"geometry.roller_length: {metres(length)} reaches beyond the tip of the roller's cone",
+    )
+    wide = end_radius > 0.5 * diameter
+    demand(
+        "geometry.end_radius must be above half the roller_diameter",
+        wide,
+        lambda: f"geometry.end_radius must be above half the roller_diameter, got {metres(end_radius)}",
+    )
+    radius = 0.5 * diameter * xp.sin(gamma) / xp.tan(half)
     # rollers are nearest where they touch their neighbours: the plane of two axes through the apex
-    if math.sin(half) >= math.sin(gamma) * math.sin(math.pi / max(n_rollers, 2)):
-        raise ValueError(
-            f"geometry.n_rollers: {n_rollers} rollers of big-end diameter {diameter:g} m do not fit on a circle of "
-            f"radius {radius:g} m"
-        )
+    demand(
+        "geometry.n_rollers rollers must fit beside each other",
+        xp.sin(half) < xp.sin(gamma) * math.sin(math.pi / max(n_rollers, 2)),
+        lambda: (
+            f"geometry.n_rollers: {n_rollers} rollers of big-end diameter {metres(diameter)} do not fit on a circle of "
+            f"radius {metres(radius)}"
+        ),
+    )
     theta = gamma - flange
-    if theta <= 0.0:
-        raise ValueError(
-            f"geometry.flange_angle must be below {degrees(gamma)} (the roller axis), got {degrees(flange)}: the "
-            "roller end would not touch the rib below its axis"
-        )
-    if end_radius * math.sin(theta) >= 0.5 * diameter:
-        raise ValueError(
-            f"geometry.flange_angle: with {degrees(flange)} and an end_radius of {end_radius:g} m the contact lies "
+    demand(
+        "geometry.flange_angle must be below the angle of the roller axis",
+        theta > 0.0,
+        lambda: (
+            f"geometry.flange_angle must be above 0 degrees and below {degrees(gamma)} (the roller axis), got "
+            f"{degrees(flange)}: the roller end would not touch the rib below its axis"
+        ),
+    )
+    demand(
+        "geometry.flange_angle must put the contact on the roller's end face",
+        end_radius * xp.sin(theta) < 0.5 * diameter,
+        lambda: (
+            f"geometry.flange_angle: with {degrees(flange)} and an end_radius of {metres(end_radius)} the contact lies "
             "beyond the roller's end face"
-        )
-    height = math.sqrt(end_radius**2 - 0.25 * diameter**2)
-    contact_radius = radius + end_radius * math.sin(flange) - height * math.sin(gamma)
-    cone_big_end = diameter / (2.0 * math.sin(half)) * math.sin(cone)
-    if contact_radius <= cone_big_end:
-        raise ValueError(
-            f"geometry.flange_angle: the contact with the rib at radius {contact_radius:g} m lies below the cone's big "
-            f"end, {cone_big_end:g} m"
-        )
-    if 1.0 / end_radius <= math.sin(flange) / contact_radius:
-        raise ValueError(
-            f"geometry.end_radius: {end_radius:g} m fits the rib closer than a sphere can: Hertz does not hold"
-        )
+        ),
+    )
+    height = xp.sqrt(xp.where(wide, end_radius**2 - 0.25 * diameter**2, 0.0))
+    contact_radius = radius + end_radius * xp.sin(flange) - height * xp.sin(gamma)
+    cone_big_end = diameter / (2.0 * xp.sin(half)) * xp.sin(cone)
+    demand(
+        "geometry.flange_angle must put the contact with the rib above the cone's big end",
+        contact_radius > cone_big_end,
+        lambda: (
+            f"geometry.flange_angle: the contact with the rib at radius {metres(contact_radius)} lies below the cone's "
+            f"big end, {metres(cone_big_end)}"
+        ),
+    )
+    demand(
+        "geometry.end_radius must fit the rib less closely than a sphere can",
+        1.0 / end_radius > xp.sin(flange) / contact_radius,
+        lambda: f"geometry.end_radius: {metres(end_radius)} fits the rib closer than a sphere can: Hertz does not hold",
+    )

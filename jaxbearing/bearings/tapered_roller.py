@@ -12,7 +12,6 @@ from .._types import Scalar
 from ..contacts.laws import ContactLaws
 from ..contacts.point_laws import PointLaws
 from ..lubricants import Lubricant
-from ..numerics.checks import require
 from .parts import AbstractOperation, Drag, Materials
 from .rating import Rating
 from .roller_profile import RollerProfile
@@ -39,13 +38,12 @@ class TaperedOperation(AbstractOperation):
     moment: Scalar | None = optional_number(metadata=label("N m", "moment"))
     misalignment: Scalar | None = optional_number(metadata=label("rad", "misalignment"))
     load_position: Scalar = number(0.0, metadata=label("m", "reference point from the apex"))
-    oil_temperature: Scalar = number(373.15, metadata=label("K", "oil temperature"))
-    oil_flow: Scalar = number(0.0, metadata=label("m^3/s", "oil flow"))
+    oil_temperature: Scalar = number(373.15, bound="> 0", metadata=label("K", "oil temperature"))
+    oil_flow: Scalar = number(0.0, bound=">= 0", metadata=label("m^3/s", "oil flow"))
     outer_speed: Scalar = number(0.0, metadata=label("rad/s", "outer ring speed"))
 
     def __check_init__(self):
-        names = ("axial_load", "radial_load", "moment", "misalignment", "load_position")
-        require("operation", **{name: (getattr(self, name), "finite") for name in names})
+        super().__check_init__()
         if self.moment is not None and self.misalignment is not None:
             raise ValueError("operation.misalignment: none beside operation.moment, which sets the tilt free")
 

@@ -1,18 +1,21 @@
 """Tangential compliance of the bodies in series with the film."""
 
 import abc
+from typing import ClassVar
 
-import equinox as eqx
 import jax.numpy as jnp
 from jaxtyping import Array, Float
 
 from .._types import Scalar, Values
+from ..numerics.checks import Checked, bounded
 from ..numerics.precision import as_float
 from .patch import ContactPatch
 
 
-class AbstractTangentialCompliance(eqx.Module):
+class AbstractTangentialCompliance(Checked):
     """Elastic surface displacement per shear stress, as if each point were on a spring of its own."""
+
+    part: ClassVar[str] = "contact.compliance"
 
     @abc.abstractmethod
     def compliance(self, patch: ContactPatch) -> Float[Array, "..."]:
@@ -22,7 +25,7 @@ class AbstractTangentialCompliance(eqx.Module):
 class GivenCompliance(AbstractTangentialCompliance):
     """One number. **Arguments:** `value`: L1, m/Pa, >= 0."""
 
-    value: Scalar = eqx.field(converter=as_float)
+    value: Scalar = bounded(">= 0", converter=as_float)
 
     def compliance(self, patch: ContactPatch) -> Float[Array, "..."]:
         return jnp.asarray(self.value) * jnp.ones_like(jnp.asarray(patch.half_width, dtype=float))
@@ -45,7 +48,7 @@ class HalfSpaceCompliance(AbstractTangentialCompliance):
     """
 
     reduced_modulus: Values
-    poisson_ratio: Scalar = eqx.field(converter=as_float, default=0.3)
+    poisson_ratio: Scalar = bounded("between 0 and 0.5", converter=as_float, default=0.3)
 
     def compliance(self, patch: ContactPatch) -> Float[Array, "..."]:
         if patch.line:

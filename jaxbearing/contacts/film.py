@@ -3,11 +3,11 @@
 import abc
 from typing import ClassVar
 
-import equinox as eqx
 import jax.numpy as jnp
 from jaxtyping import Array, Float
 
 from .._types import Scalar, Values
+from ..numerics.checks import Checked, bounded
 from ..numerics.safe import log_add, smooth_abs
 from .line import LOAD_FLOOR, LineContact, log_entrainment_sum, log_material_number
 
@@ -19,9 +19,10 @@ MOES_LOAD_FLOOR = 1e-6
 LOG_2 = 0.6931471805599453
 
 
-class AbstractLineFilm(eqx.Module):
+class AbstractLineFilm(Checked):
     """Film thickness of a line contact from load, speed and the oil at the inlet."""
 
+    part: ClassVar[str] = "contact.film"
     piezoviscous_only: ClassVar[bool]
     """Whether the law holds only for an oil whose viscosity rises with pressure: for others its film is about 0."""
 
@@ -250,7 +251,7 @@ class MartinBlend(AbstractLineFilm):
     """
 
     film: AbstractLineFilm
-    exponent: Scalar = 3.0
+    exponent: Scalar = bounded("> 0", default=3.0)
 
     @property
     def piezoviscous_only(self) -> bool:  # pyright: ignore[reportIncompatibleVariableOverride]  (the wrapped film's)

@@ -1,13 +1,13 @@
 """Heat of the sheared film in a contact: temperature across the film and of the surfaces."""
 
-from typing import NamedTuple
+from typing import ClassVar, NamedTuple
 
-import equinox as eqx
 import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Array, Float
 
 from .._types import Scalar, Values
+from ..numerics.checks import Checked, bounded
 from ..numerics.precision import as_float
 from ..numerics.safe import softplus_floor
 
@@ -20,7 +20,7 @@ RISE_WIDTH = 15.0
 """Smoothing width of that limit, K: a rise of 100 K is changed by 4e-11 K."""
 
 
-class FilmHeating(eqx.Module):
+class FilmHeating(Checked):
     r"""Heat of shear, led across the film into two equal surfaces that carry it away.
 
     Source q = stress times shear rate, parabolic temperature profile, no conduction along the film:
@@ -42,11 +42,13 @@ class FilmHeating(eqx.Module):
     - `film_heat_capacity`: rho c of the oil, J/(m^3 K); None: no convection in the film.
     """
 
-    conductivity: Scalar | None = None
-    solid_density: Scalar = eqx.field(converter=as_float, default=7800.0)
-    solid_heat_capacity: Scalar = eqx.field(converter=as_float, default=460.0)
-    solid_conductivity: Scalar = eqx.field(converter=as_float, default=46.0)
-    film_heat_capacity: Scalar | None = None
+    part: ClassVar[str] = "contact.heating"
+
+    conductivity: Scalar | None = bounded("> 0", default=None)
+    solid_density: Scalar = bounded("> 0", converter=as_float, default=7800.0)
+    solid_heat_capacity: Scalar = bounded("> 0", converter=as_float, default=460.0)
+    solid_conductivity: Scalar = bounded("> 0", converter=as_float, default=46.0)
+    film_heat_capacity: Scalar | None = bounded("> 0", default=None)
 
     def peclet_number(self, half_width: Values, film: Values, speed: Values, conductivity: Values) -> Array:
         """rho c u h^2/(12 k a): heat carried along by the film over heat led across it."""

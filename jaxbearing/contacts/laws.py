@@ -1,13 +1,13 @@
 """One lubricated contact put together: film, inlet heating and traction from load and surface speeds."""
 
-from typing import NamedTuple
+from typing import ClassVar, NamedTuple
 
-import equinox as eqx
 import jax.numpy as jnp
 from jaxtyping import Array, Float
 
 from .._types import Scalar, Values
 from ..lubricants import InletOil, Lubricant
+from ..numerics.checks import Checked, bounded
 from ..numerics.precision import as_float
 from ..numerics.safe import smooth_abs
 from .film import AbstractLineFilm
@@ -35,7 +35,7 @@ class ContactState(NamedTuple):
     inner_residual: Float[Array, ""]
 
 
-class ContactLaws(eqx.Module):
+class ContactLaws(Checked):
     """Laws of the lubricated raceway contacts.
 
     **Arguments:**
@@ -49,12 +49,14 @@ class ContactLaws(eqx.Module):
       surfaces pass through rest.
     """
 
+    part: ClassVar[str] = "contact"
+
     film: AbstractLineFilm
     thermal: AbstractThermalFactor = NoThermalReduction()
     traction: AbstractTraction | None = None
-    entrainment_offset: Scalar = eqx.field(converter=as_float, default=0.0)
+    entrainment_offset: Scalar = bounded(">= 0", converter=as_float, default=0.0)
     rolling: AbstractRollingResistance | None = None
-    entrainment_smoothing: Scalar = eqx.field(converter=as_float, default=SPEED_SMOOTHING)
+    entrainment_smoothing: Scalar = bounded("> 0", converter=as_float, default=SPEED_SMOOTHING)
 
     def entrainment(self, mean_speed: Values) -> Float[Array, "..."]:
         """Entrainment speed of the film, m/s, > 0. **Arguments:** `mean_speed` (u1 + u2)/2, m/s, of either sign."""

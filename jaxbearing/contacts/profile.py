@@ -2,18 +2,20 @@
 
 import abc
 import math
+from typing import ClassVar
 
-import equinox as eqx
 import jax.numpy as jnp
 from jaxtyping import Array, Float
 
 from .._types import Scalar, Values
-from ..numerics.checks import require
+from ..numerics.checks import Checked, bounded
 from ..numerics.precision import as_float
 
 
-class AbstractProfile(eqx.Module):
+class AbstractProfile(Checked):
     """Radial drop of a roller over its length; a straight roller has no profile."""
+
+    part: ClassVar[str] = "profile"
 
     @abc.abstractmethod
     def drop_at(self, position: Values) -> Float[Array, "..."]:
@@ -29,11 +31,8 @@ class CrownedProfile(AbstractProfile):
     - `straight_fraction`: x0, of the length, >= 0 and below 1.
     """
 
-    drop: Scalar = eqx.field(converter=as_float)
-    straight_fraction: Scalar = eqx.field(converter=as_float, default=0.0)
-
-    def __check_init__(self):
-        require("profile", drop=(self.drop, ">= 0"), straight_fraction=(self.straight_fraction, "between 0 and 1"))
+    drop: Scalar = bounded(">= 0", converter=as_float)
+    straight_fraction: Scalar = bounded(">= 0 and below 1", converter=as_float, default=0.0)
 
     def drop_at(self, position: Values) -> Float[Array, "..."]:
         beyond = jnp.maximum(jnp.abs(position) - self.straight_fraction, 0.0)
@@ -53,11 +52,8 @@ class LogarithmicProfile(AbstractProfile):
     - `end_ratio`: r, above 0 and below 1: the smaller, the nearer to the ends the roller falls off.
     """
 
-    drop: Scalar = eqx.field(converter=as_float)
-    end_ratio: Scalar = eqx.field(converter=as_float, default=0.01)
-
-    def __check_init__(self):
-        require("profile", drop=(self.drop, ">= 0"), end_ratio=(self.end_ratio, "between 0 and 1"))
+    drop: Scalar = bounded(">= 0", converter=as_float)
+    end_ratio: Scalar = bounded("above 0 and below 1", converter=as_float, default=0.01)
 
     def drop_at(self, position: Values) -> Float[Array, "..."]:
         return self.drop * jnp.log1p(-(1.0 - self.end_ratio) * jnp.square(position)) / jnp.log(self.end_ratio)

@@ -3,11 +3,11 @@
 import abc
 from typing import ClassVar
 
-import equinox as eqx
 import jax.numpy as jnp
 from jaxtyping import Array, Float
 
 from .._types import Scalar, Values
+from ..numerics.checks import Checked, bounded
 from .relaxation import Slopes, limiting_root, sinh_root
 
 LOG_SATURATED = 230.0
@@ -17,10 +17,11 @@ SMALLEST_RATE = 1e-100
 """q below which slopes are those at 1e-100."""
 
 
-class AbstractViscousFunction(eqx.Module):
+class AbstractViscousFunction(Checked):
     r"""$q = F(s)$, odd and increasing with F'(0) = 1: s the stress in units of the oil's characteristic stress, q the
     shear rate in units of that stress over the viscosity."""
 
+    part: ClassVar[str] = "contact.traction"
     name: ClassVar[str]
 
     @abc.abstractmethod
@@ -147,7 +148,7 @@ class ElsharkawyHamrock(AbstractLimitingFunction):
     without its sign.
     """
 
-    exponent: Scalar = 2.0
+    exponent: Scalar = bounded("> 0", default=2.0)
     name: ClassVar[str] = "elsharkawy_hamrock"
 
     def rate_ratio(self, s: Values) -> Float[Array, "..."]:

@@ -1,5 +1,6 @@
 """Results of a run in time of a line contact, labelled."""
 
+from collections.abc import Mapping
 from typing import Any
 
 import equinox as eqx
@@ -58,7 +59,7 @@ class LineContactHistory(AbstractSolution):
     hertz: HertzResult
     operation: ContactOperation
     last_state: FilmState
-    checks: dict[str, Bool[Array, ""]]
+    checks: Mapping[str, Bool[Array, ""]]
     ended_thin: bool = eqx.field(static=True, default=False)
     interrupted: bool = eqx.field(static=True, default=False)
     solver: str = eqx.field(static=True, default="bdf2")
@@ -73,7 +74,7 @@ class LineContactHistory(AbstractSolution):
     def completed(self) -> bool:
         return bool(self.converged)
 
-    def failure(self) -> str:
+    def solver_failure(self) -> str:
         reached, stop = float(self.time[-1]), float(self.stop)
         why = "interrupted" if self.interrupted else Status(int(self.status)).text
         where = f"{1e3 * reached:.6g} ms of {1e3 * stop:.6g} ms, after {int(self.accepted)} steps"

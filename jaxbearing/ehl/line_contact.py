@@ -1,6 +1,6 @@
 """A lubricated line contact as a scene: two cylinders, an oil, a load and a speed."""
 
-from typing import Any, NamedTuple
+from typing import Any, ClassVar, NamedTuple
 
 import equinox as eqx
 import jax.numpy as jnp
@@ -11,7 +11,7 @@ from .._types import Scalar
 from ..contacts import AbstractLineFilm, DowsonHigginson, DowsonToyoda, LineContact, Moes
 from ..lubricants import Lubricant
 from ..materials import Material, reduced_modulus
-from ..numerics.checks import require
+from ..numerics.checks import Checked
 from .equations import Fluid
 from .mesh import INLET, OUTLET, STOP_OUTLET, MeshKey
 from .simulation import FilmSimulation
@@ -23,13 +23,12 @@ domain would have to be many times longer."""
 FEWEST_NODES, MOST_NODES = 51, 3201
 
 
-class ContactGeometry(eqx.Module):
+class ContactGeometry(Checked):
     """**Arguments:** `reduced_radius_rolling`: R', m, 1/R' = 1/R1 + 1/R2 in the plane of rolling, > 0."""
 
-    reduced_radius_rolling: Scalar = number()
+    part: ClassVar[str] = "geometry"
 
-    def __check_init__(self):
-        require("geometry", reduced_radius_rolling=(self.reduced_radius_rolling, "> 0"))
+    reduced_radius_rolling: Scalar = number(bound="> 0")
 
 
 class ContactBodies(eqx.Module):
@@ -39,7 +38,7 @@ class ContactBodies(eqx.Module):
     body_2: Material
 
 
-class FilmModel(eqx.Module):
+class FilmModel(Checked):
     """What is modelled, and how finely.
 
     **Arguments:**
@@ -49,39 +48,37 @@ class FilmModel(eqx.Module):
     - `film_limit`: a run in time ends where the film is thinner, m: below about 0.5 nm a continuum means nothing.
     """
 
+    part: ClassVar[str] = "contact"
+
     compressible: bool = eqx.field(static=True, default=True)
     nodes: int = eqx.field(static=True, default=501)
     inlet: float = eqx.field(static=True, default=INLET)
-    film_limit: Scalar = number(0.5e-9)
+    film_limit: Scalar = number(0.5e-9, bound=">= 0")
 
     def __check_init__(self):
-        require("contact", film_limit=(self.film_limit, ">= 0"))
+        super().__check_init__()
         if not FEWEST_NODES <= self.nodes <= MOST_NODES:
             raise ValueError(f"contact.nodes must be from {FEWEST_NODES} to {MOST_NODES}, got {self.nodes}")
         if not 2.0 <= self.inlet <= 64.0:
             raise ValueError(f"contact.inlet must be from 2 to 64 half widths, got {self.inlet:g}")
 
 
-class ContactOperation(eqx.Module):
+class ContactOperation(Checked):
     """**Arguments:**
     - `entrainment_speed`: (u1 + u2)/2, m/s, any sign: a negative one enters the contact from the other side.
     - `oil_temperature`: of the contact, K, > 0.
     - `load_per_length`: N/m, or `pressure`: Hertz (peak) pressure, Pa; one of the two.
     """
 
+    part: ClassVar[str] = "operation"
+
     entrainment_speed: Scalar = number()
-    oil_temperature: Scalar = number()
-    load_per_length: Scalar | None = optional_number()
-    pressure: Scalar | None = optional_number()
+    oil_temperature: Scalar = number(bound="> 0")
+    load_per_length: Scalar | None = optional_number(bound="> 0")
+    pressure: Scalar | None = optional_number(bound="> 0")
 
     def __check_init__(self):
-        require(
-            "operation",
-            entrainment_speed=(self.entrainment_speed, "finite"),
-            oil_temperature=(self.oil_temperature, "> 0"),
-            load_per_length=(self.load_per_length, "> 0"),
-            pressure=(self.pressure, "> 0"),
-        )
+        super().__check_init__()
         if (self.load_per_length is None) == (self.pressure is None):
             found = "neither" if self.pressure is None else "both"
             raise ValueError(

@@ -1,16 +1,16 @@
 """What a scene of a line contact says about its run in time."""
 
-import equinox as eqx
+from typing import ClassVar
 
 from .._scene import number, optional_number
 from .._types import Scalar
-from ..numerics.checks import require
+from ..numerics.checks import Checked
 from ..time_laws import AbstractTimeFactor, Steady
 
 DEFAULT_TOLERANCE = 1e-4
 
 
-class FilmSimulation(eqx.Module):
+class FilmSimulation(Checked):
     """A run in time, from the steady film of the speed at its start.
 
     **Arguments:**
@@ -19,9 +19,8 @@ class FilmSimulation(eqx.Module):
     - `tolerance`: largest local error of the film in one step, relative.
     """
 
-    duration: Scalar | None = optional_number()
-    speed: AbstractTimeFactor = Steady()
-    tolerance: Scalar = number(DEFAULT_TOLERANCE)
+    part: ClassVar[str] = "simulation"
 
-    def __check_init__(self):
-        require("simulation", duration=(self.duration, "> 0"), tolerance=(self.tolerance, "> 0"))
+    duration: Scalar | None = optional_number(bound="> 0")
+    speed: AbstractTimeFactor = Steady()
+    tolerance: Scalar = number(DEFAULT_TOLERANCE, bound="> 0")

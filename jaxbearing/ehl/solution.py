@@ -1,5 +1,6 @@
 """Results of a steady line contact, and the solve that makes them."""
 
+from collections.abc import Mapping
 from typing import Any
 
 import equinox as eqx
@@ -68,7 +69,7 @@ class LineContactSolution(AbstractSolution):
     moes_material: Float[Array, ""] = eqx.field(metadata=label("1", "Moes material number L"))
     speed_number: Float[Array, ""] = eqx.field(metadata=label("1", "lambda = 12 eta u R'^2/(a^3 p_h)"))
     operation: ContactOperation
-    checks: dict[str, Bool[Array, ""]]
+    checks: Mapping[str, Bool[Array, ""]]
     unknowns: int = eqx.field(static=True, default=0)
     compressible: bool = eqx.field(static=True, default=True)
     notes: tuple[str, ...] = eqx.field(static=True, default=())
@@ -77,7 +78,7 @@ class LineContactSolution(AbstractSolution):
     def converged(self) -> Bool[Array, "*batch"]:
         return self.status == Status.CONVERGED
 
-    def failure(self) -> str:
+    def solver_failure(self) -> str:
         """One sentence on a solve that failed (one solution only)."""
         status, speed, load = Status(int(self.status)).text, float(self.speed_number), float(self.moes_load)
         if not speed >= SMALLEST_WEDGE:

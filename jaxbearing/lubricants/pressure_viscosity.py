@@ -5,11 +5,12 @@ at p = 0, which is larger: 26.1 instead of 20.3 1/GPa for Mobil Jet II at 0 C.
 """
 
 import abc
+from typing import ClassVar
 
-import equinox as eqx
 import jax.numpy as jnp
 
 from .._types import Batch, Scalar, Values
+from ..numerics.checks import Checked, bounded
 from ..numerics.quadrature import gauss_legendre
 from ..numerics.safe import softplus_floor
 from .simple_viscosity import ConstantViscosity
@@ -26,8 +27,10 @@ FIT_WIDTH = 1.0
 """Smoothing width of that clamp, K: 57 K above it (243 K for Mobil Jet II) T is exact to round-off."""
 
 
-class AbstractPressureViscosity(eqx.Module):
+class AbstractPressureViscosity(Checked):
     """Pressure-viscosity coefficient of a lubricant as a function of temperature."""
+
+    part: ClassVar[str] = "oil.pressure_viscosity"
 
     @abc.abstractmethod
     def coefficient(self, temperature: Values) -> Batch:
@@ -43,7 +46,7 @@ class ConstantPressureViscosity(AbstractPressureViscosity):
     **Validity:** a baseline; the coefficient of real oils halves between 0 and 100 C.
     """
 
-    value: Scalar
+    value: Scalar = bounded("> 0")
 
     def coefficient(self, temperature: Values) -> Batch:
         return jnp.full(jnp.shape(temperature), self.value, dtype=float)
@@ -65,12 +68,12 @@ class FittedPressureViscosity(AbstractPressureViscosity):
     **Reference:** source eq. (93) and table 11.
     """
 
-    offset: Scalar
-    a00: Scalar
-    a01: Scalar
-    pole_temperature: Scalar
-    a10: Scalar
-    a11: Scalar
+    offset: Scalar = bounded("finite")
+    a00: Scalar = bounded("finite")
+    a01: Scalar = bounded("finite")
+    pole_temperature: Scalar = bounded("> 0")
+    a10: Scalar = bounded("finite")
+    a11: Scalar = bounded("finite")
 
     def coefficient(self, temperature: Values) -> Batch:
         t = softplus_floor(temperature, self.pole_temperature + FIT_MARGIN, FIT_WIDTH)
@@ -112,6 +115,7 @@ class IntegratedPressureViscosity(AbstractPressureViscosity):
     viscosity: AbstractViscosity
 
     def __check_init__(self):
+        super().__check_init__()
         if isinstance(self.viscosity, ConstantViscosity):
             raise ValueError(
                 "pressure_viscosity: a constant viscosity has no coefficient to integrate, its law is none"

@@ -1,9 +1,12 @@
 """Shear modulus and characteristic shear stress of a lubricant under contact pressure."""
 
+from typing import ClassVar
+
 import equinox as eqx
 import jax.numpy as jnp
 
 from .._types import Batch, Scalar, Values
+from ..numerics.checks import Checked, bounded
 
 EXPONENT_CAP = 60.0
 """Exponents are clipped to +-60 (26 decades): beyond, the law is constant and its gradient 0."""
@@ -12,7 +15,7 @@ VISCOUS_FUNCTIONS = ("ree_eyring", "bair_winer", "gecim_winer", "elsharkawy_hamr
 """Names of the flow laws with which shear modulus and stress may have been fitted."""
 
 
-class ExponentialRheology(eqx.Module):
+class ExponentialRheology(Checked):
     r"""Shear modulus and characteristic stress, exponential in pressure and in 1/temperature.
 
     $G = G_0\exp[\alpha_G p + \beta_G(1/T - 1/T_0)]$, $\tau = \tau_{00}\exp[\alpha_\tau p + \beta_\tau(1/T - 1/T_0)]$.
@@ -27,17 +30,20 @@ class ExponentialRheology(eqx.Module):
     **Reference:** source eqs. (78)-(79), tables 8 and 12.
     """
 
-    reference_temperature: Scalar
-    shear_modulus: Scalar
-    shear_modulus_pressure: Scalar
-    shear_modulus_temperature: Scalar
-    stress: Scalar
-    stress_pressure: Scalar
-    stress_temperature: Scalar
+    part: ClassVar[str] = "oil.rheology"
+
+    reference_temperature: Scalar = bounded("> 0")
+    shear_modulus: Scalar = bounded("> 0")
+    shear_modulus_pressure: Scalar = bounded("finite")
+    shear_modulus_temperature: Scalar = bounded("finite")
+    stress: Scalar = bounded("> 0")
+    stress_pressure: Scalar = bounded("finite")
+    stress_temperature: Scalar = bounded("finite")
     viscous_function: str | None = eqx.field(static=True, default=None)
     exponent: float | None = eqx.field(static=True, default=None)
 
     def __check_init__(self):
+        super().__check_init__()
         if self.viscous_function is not None and self.viscous_function not in VISCOUS_FUNCTIONS:
             raise ValueError(f"viscous_function: found {self.viscous_function!r}, expected one of {VISCOUS_FUNCTIONS}")
 

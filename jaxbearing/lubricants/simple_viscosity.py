@@ -3,6 +3,7 @@
 import jax.numpy as jnp
 
 from .._types import Batch, Scalar, Values
+from ..numerics.checks import bounded
 from ..numerics.safe import nonnegative_pressure, softplus_floor
 from .viscosity import AbstractViscosity, capped
 
@@ -24,7 +25,7 @@ class ConstantViscosity(AbstractViscosity):
     **Validity:** one temperature, and pressures at which the fluid does not thicken (water: below about 0.5 GPa).
     """
 
-    value: Scalar
+    value: Scalar = bounded("> 0")
 
     def log_viscosity(self, pressure: Values, temperature: Values) -> Batch:
         shape = jnp.broadcast_shapes(jnp.shape(pressure), jnp.shape(temperature))
@@ -47,10 +48,10 @@ class Barus(AbstractViscosity):
     **Reference:** Barus (1893), Am. J. Sci. 45, 87; source eqs. (73)-(74).
     """
 
-    reference_viscosity: Scalar
-    reference_temperature: Scalar
-    pressure_viscosity: Scalar
-    temperature_viscosity: Scalar
+    reference_viscosity: Scalar = bounded("> 0")
+    reference_temperature: Scalar = bounded("> 0")
+    pressure_viscosity: Scalar = bounded("> 0")
+    temperature_viscosity: Scalar = bounded(">= 0")
 
     def log_viscosity(self, pressure: Values, temperature: Values) -> Batch:
         inverse = 1.0 / jnp.asarray(temperature, dtype=float) - 1.0 / self.reference_temperature
@@ -79,10 +80,10 @@ class Roelands(AbstractViscosity):
     **Reference:** Roelands (1966), thesis, TU Delft; source eq. (75), garbled there.
     """
 
-    reference_viscosity: Scalar
-    reference_temperature: Scalar
-    pressure_exponent: Scalar
-    temperature_exponent: Scalar
+    reference_viscosity: Scalar = bounded("> 6.31e-5 (Roelands' smallest viscosity)")
+    reference_temperature: Scalar = bounded("> 138 (the pole of Roelands' law)")
+    pressure_exponent: Scalar = bounded("> 0")
+    temperature_exponent: Scalar = bounded(">= 0")
 
     def log_viscosity(self, pressure: Values, temperature: Values) -> Batch:
         log_reference = jnp.log(self.reference_viscosity)

@@ -1,9 +1,11 @@
 """Density and thermal conductivity of a lubricant at ambient pressure."""
 
-import equinox as eqx
+from typing import ClassVar
+
 import jax.numpy as jnp
 
 from .._types import Batch, Scalar, Values
+from ..numerics.checks import Checked, bounded
 from ..numerics.safe import softplus_floor
 
 CONDUCTIVITY_FLOOR = 0.05
@@ -12,16 +14,18 @@ CONDUCTIVITY_WIDTH = 2.5e-3
 """Smoothing width of that floor, W/(m K): at 0.125 W/(m K) (473 K) the value is exact to 1e-15."""
 
 
-class LinearDensity(eqx.Module):
+class LinearDensity(Checked):
     r"""$\rho = \rho_r + s (T - T_r)$.
 
     **Validity:** the range of the fit; compressibility is left out.
     **Reference:** source eq. (91) for Mobil Jet II (printed in g/ml, a wrong unit: it is kg/m^3).
     """
 
-    value: Scalar
-    slope: Scalar
-    reference_temperature: Scalar
+    part: ClassVar[str] = "oil.density"
+
+    value: Scalar = bounded("> 0")
+    slope: Scalar = bounded("finite")
+    reference_temperature: Scalar = bounded("> 0")
 
     def density(self, temperature: Values) -> Batch:
         """Density, kg/m^3. **Arguments:** `temperature`, K."""
@@ -35,7 +39,7 @@ LinearDensity.__init__.__doc__ = """**Arguments:**
 """
 
 
-class LinearConductivity(eqx.Module):
+class LinearConductivity(Checked):
     r"""$k = k_r + s (T - T_r)$, never below 0.05 W/(m K).
 
     **Validity:** the range of the fit. The floor is smooth (width 2.5e-3 W/(m K)) and changes nothing above
@@ -43,9 +47,11 @@ class LinearConductivity(eqx.Module):
     **Reference:** source eq. (90) for Mobil Jet II (printed in N/s/K, meaning W/(m K)).
     """
 
-    value: Scalar
-    slope: Scalar
-    reference_temperature: Scalar
+    part: ClassVar[str] = "oil.conductivity"
+
+    value: Scalar = bounded("> 0")
+    slope: Scalar = bounded("finite")
+    reference_temperature: Scalar = bounded("> 0")
 
     def conductivity(self, temperature: Values) -> Batch:
         """Thermal conductivity, W/(m K). **Arguments:** `temperature`, K."""

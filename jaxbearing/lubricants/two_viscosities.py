@@ -3,6 +3,7 @@
 import jax.numpy as jnp
 
 from .._types import Batch, Scalar, Values
+from ..numerics.checks import bounded, demand, given
 from ..numerics.safe import softplus_floor
 from .simple_viscosity import LOG_ROELANDS_VISCOSITY, ROELANDS_RATE, log_compression
 from .thermal import LinearDensity
@@ -54,18 +55,25 @@ class WaltherRoelands(AbstractViscosity):
     **Reference:** ASTM D341; Walther (1931), Erdoel und Teer 7, 382; Roelands (1966), thesis, TU Delft.
     """
 
-    viscosity_1: Scalar
-    temperature_1: Scalar
-    viscosity_2: Scalar
-    temperature_2: Scalar
-    density: LinearDensity
-    pressure_viscosity: Scalar | None = None
+    viscosity_1: Scalar = bounded("> 0.3e-6 (0.3 cSt)")
+    temperature_1: Scalar = bounded("> 0")
+    viscosity_2: Scalar = bounded("> 0.3e-6 (0.3 cSt)")
+    temperature_2: Scalar = bounded("> 0")
+    density: LinearDensity  # pyright: ignore[reportGeneralTypeIssues]  (the fields before it have no default either)
+    pressure_viscosity: Scalar | None = bounded("> 0", default=None)
 
     def __check_init__(self):
-        for given in (self.viscosity_1, self.viscosity_2):
-            # a traced value is not looked at
-            if isinstance(given, float) and given <= (1.0 - WALTHER_SHIFT) * CENTISTOKES:
-                raise ValueError(f"viscosity: the kinematic viscosities must be above 0.3 cSt, found {given:g} m^2/s")
+        super().__check_init__()
+        points = given(self.viscosity_1, self.viscosity_2, self.temperature_1, self.temperature_2)
+        if points is not None:
+            demand(
+                "oil.viscosity must fall with the temperature between its two points",
+                (points[0] - points[1]) * (points[3] - points[2]) > 0,
+                lambda: (
+                    f"oil.viscosity: {float(points[0]):g} m^2/s at {float(points[2]):g} K and {float(points[1]):g} "
+                    f"m^2/s at {float(points[3]):g} K; the viscosity must fall with the temperature"
+                ),
+            )
 
     def log_viscosity(self, pressure: Values, temperature: Values) -> Batch:
         log_ambient = self._log_ambient(jnp.asarray(temperature, dtype=float))

@@ -2,13 +2,14 @@
 
 import abc
 import math
+from typing import ClassVar
 
-import equinox as eqx
 import jax
 import jax.numpy as jnp
 import numpy as np
 
 from .._types import Batch, Scalar, Values
+from ..numerics.checks import Checked, bounded
 from ..numerics.safe import log_add, nonnegative_pressure, softplus_floor
 
 LN10 = math.log(10.0)
@@ -40,8 +41,10 @@ LIMIT_SCAN_DECADES = 18.0
 """Viscosity ratio to ambient, in decades, at which the scan stops: far beyond what an integral of 1/viscosity sees."""
 
 
-class AbstractViscosity(eqx.Module):
+class AbstractViscosity(Checked):
     """Low-shear viscosity of a lubricant. A law implements `log_viscosity`; everything else follows."""
+
+    part: ClassVar[str] = "oil.viscosity"
 
     @abc.abstractmethod
     def log_viscosity(self, pressure: Values, temperature: Values) -> Batch:
@@ -103,14 +106,14 @@ class ModifiedWLF(AbstractViscosity):
     **Reference:** Yasutomi, Bair and Winer (1984), ASME J. Tribology 106, 291; source eq. (76).
     """
 
-    glass_viscosity: Scalar
-    glass_temperature: Scalar
-    glass_shift: Scalar
-    glass_shift_rate: Scalar
-    expansion_factor: Scalar
-    expansion_rate: Scalar
-    c1: Scalar
-    c2: Scalar
+    glass_viscosity: Scalar = bounded("> 0")
+    glass_temperature: Scalar = bounded("> 0")
+    glass_shift: Scalar = bounded("> 0")
+    glass_shift_rate: Scalar = bounded("> 0")
+    expansion_factor: Scalar = bounded("> 0")
+    expansion_rate: Scalar = bounded("> 0")
+    c1: Scalar = bounded("> 0")
+    c2: Scalar = bounded("> 0")
 
     def log_viscosity(self, pressure: Values, temperature: Values) -> Batch:
         log10_glass = jnp.log10(self.glass_viscosity)

@@ -1,14 +1,13 @@
 """The two-disk machine: two bodies that roll and slide on each other under load, and the traction between them."""
 
 import dataclasses
-from collections.abc import Sequence
-from typing import Any, NamedTuple
+from collections.abc import Mapping, Sequence
+from typing import Any, ClassVar, NamedTuple
 
 import equinox as eqx
 import jax
 import jax.numpy as jnp
 import numpy as np
-from jax.core import Tracer
 from jaxtyping import Array, Bool, Float, Int
 
 from .._scene import AbstractScene, AbstractSolution, label, number, optional_number
@@ -33,7 +32,7 @@ from ..contacts.warm_film import warm_film
 from ..lubricants import Lubricant, NoPressureViscosity
 from ..lubricants.ranges import FITTED_PRESSURE, FITTED_TEMPERATURES
 from ..materials import Material, reduced_modulus
-from ..numerics.checks import RANGES, require
+from ..numerics.checks import RANGES, Checked, demand, functions
 from ..numerics.precision import as_float
 from ..numerics.status import Status
 
@@ -43,7 +42,7 @@ BATCH = 512
 """Points that are computed side by side; more of them are taken one batch after the other."""
 
 
-class DiskGeometry(eqx.Module):
+class DiskGeometry(Checked):
     """Reduced radii of the contact, m: 1/R = 1/R1 + 1/R2, convex > 0. A ball on a flat disc has its own radius twice.
 
     **Arguments:**
@@ -52,17 +51,14 @@ class DiskGeometry(eqx.Module):
     - `contact_length`: of a line contact between cylinders; then there is no transverse radius.
     """
 
-    reduced_radius_rolling: Scalar = number()
-    reduced_radius_transverse: Scalar | None = optional_number()
-    contact_length: Scalar | None = optional_number()
+    part: ClassVar[str] = "geometry"
+
+    reduced_radius_rolling: Scalar = number(bound="> 0")
+    reduced_radius_transverse: Scalar | None = optional_number(bound="> 0")
+    contact_length: Scalar | None = optional_number(bound="> 0")
 
     def __check_init__(self):
-        require(
-            "geometry",
-            reduced_radius_rolling=(self.reduced_radius_rolling, "> 0"),
-            reduced_radius_transverse=(self.reduced_radius_transverse, "> 0"),
-            contact_length=(self.contact_length, "> 0"),
-        )
+        super().__check_init__()
         if self.contact_length is not None and self.reduced_radius_transverse is not None:
             raise ValueError("geometry.contact_length: a line contact has no geometry.reduced_radius_transverse")
 
@@ -151,11 +147,12 @@ def _require_each(name: str, values: Any, allowed: str) -> None:
         return
     if np.ndim(values) != 1 or np.size(values) == 0:
         raise ValueError(f"operation.{name} must be a number or a list of them, got the shape {np.shape(values)}")
-    if isinstance(values, Tracer):
-        return
-    wrong = [float(value) for value in np.asarray(values) if not (np.isfinite(value) and RANGES[allowed](value))]
-    if wrong:
-        raise ValueError(f"operation.{name} must be {allowed}, got {wrong[0]:g}")
+    inside = RANGES[allowed].holds(values)
+    demand(
+        f"operation.{name} must be {allowed}",
+        functions(values).all(inside),
+        lambda: f"operation.{name} must be {allowed}, got {np.asarray(values)[~np.asarray(inside)][0]:g}",
+    )
 
 
 class DiskState(NamedTuple):
@@ -198,7 +195,7 @@ class TwoDiskSolution(AbstractSolution):
     surface_rise: Float[Array, "temperature speed load slide"] | None = eqx.field(
         default=None, metadata=label("K", "largest rise of the surface temperature in the contact")
     )
-    checks: dict[str, Bool[Array, ""]] = eqx.field(default_factory=dict)
+    checks: Mapping[str, Bool[Array, ""]] = eqx.field(default_factory=dict)
     notes: tuple[str, ...] = eqx.field(static=True, default=())
 
     @property
@@ -206,7 +203,7 @@ class TwoDiskSolution(AbstractSolution):
         """Whether all points are."""
         return jnp.all(self.status == Status.CONVERGED)
 
-    def failure(self) -> str:
+    def solver_failure(self) -> str:
         """One sentence on the points that failed."""
         status, residual = np.asarray(self.status), np.asarray(self.inner_residual)
         failed = status != Status.CONVERGED

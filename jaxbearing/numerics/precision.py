@@ -13,7 +13,7 @@ def as_float(value):
     and cost no dispatch; 64-bit arrays and tracers pass through; what is not a number (the placeholders of
     tree transformations) passes through for the type checker or the validator to judge.
 
-    **Raises:** `TypeError` for a float narrower than 64 bits.
+    **Raises:** `TypeError` for a float narrower than 64 bits, and for complex numbers.
     """
     dtype = getattr(value, "dtype", None)
     if dtype is None:
@@ -21,6 +21,8 @@ def as_float(value):
     if np.issubdtype(dtype, np.integer):
         value = value.astype(np.float64)
         dtype = value.dtype
+    if np.issubdtype(dtype, np.complexfloating):
+        raise TypeError(f"expected a real number, got one of type {dtype}")
     if dtype != np.float64:
         raise TypeError(f"{_HINT}; got {dtype}")
     if getattr(value, "weak_type", False):  # as jnp.asarray(1.0) is: another type to jit, a recompilation

@@ -10,10 +10,12 @@ class Status(enum.IntEnum):
     NOT_CONVERGED = 1
     DIVERGED = 2
     NO_EQUILIBRIUM = 3
+    INVALID_INPUT = 4
+    """A traced number is outside of its bound: `checks` names it."""
 
     @property
     def text(self) -> str:
-        """`converged`, `not_converged`, `diverged` or `no_equilibrium`."""
+        """The name in small letters, `converged` for example."""
         return self.name.lower()
 
 

@@ -64,7 +64,7 @@ def flags(dtype: np.dtype, meanings: Sequence[str]) -> dict[str, Any]:
 
 def checks(solution: Any, dims: tuple[str, ...]) -> xr.Variable:
     """Which checks of the laws' ranges were left."""
-    broken = np.stack([np.asarray(value) for value in solution.checks.values()], axis=-1).astype(np.int8)
+    broken = np.stack([np.asarray(value) for value in solution.range_checks.values()], axis=-1).astype(np.int8)
     attributes = {"units": "1", "long_name": "whether a law is used beyond its range", "path": "checks"}
     return xr.Variable((*dims, CHECK), broken, attributes | flags(broken.dtype, ("within", "beyond")))
 
@@ -102,7 +102,7 @@ def attributes(solution: Any, title: str) -> dict[str, str]:
 
 
 def _broken_checks(solution: Any) -> Iterator[str]:
-    for text, broken in solution.checks.items():
+    for text, broken in solution.range_checks.items():
         lanes = np.asarray(broken)
         if lanes.any():
             yield text if lanes.ndim == 0 else f"{text} ({int(lanes.sum())} of {lanes.size} cases)"

@@ -198,7 +198,7 @@ def test_idle_rollers_have_no_film(solver):
 
 def test_warnings(solver):
     said = lambda **operation: " ".join(
-        text for text, broken in solver(**operation).checks.items() if bool(np.asarray(broken))
+        text for text, broken in solver(**operation).range_checks.items() if bool(np.asarray(broken))
     )
     assert "skid" in said(axial_load=500.0, radial_load=100.0, rpm=10000.0)
     assert "skid" not in said()

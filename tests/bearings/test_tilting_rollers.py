@@ -169,7 +169,7 @@ def test_films_of_laminae(lubricated):
 
 
 def test_absurd_tilts_are_said(tilted):
-    said = lambda **point: " ".join(text for text, on in tilted(**point).checks.items() if on)
+    said = lambda **point: " ".join(text for text, on in tilted(**point).range_checks.items() if on)
     assert said(misalignment=5e-4) == ""
     absurd = said(misalignment=0.03)
     for words in ("4 GPa", "more than 10 mrad", "on an edge", "whole clearance"):

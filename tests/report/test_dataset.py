@@ -94,14 +94,14 @@ def test_units_that_are_not_understood_are_refused(unit):
 
 
 def test_status_and_checks_have_their_meanings(solution):
-    broken = eqx.tree_at(lambda s: next(iter(s.checks.values())), solution, jnp.asarray(True))
+    broken = eqx.tree_at(lambda s: next(iter(s.range_checks.values())), solution, jnp.asarray(True))
     dataset = solution_to_dataset(broken)
     assert dataset["status"].attrs["flag_meanings"].split() == [status.text for status in Status]
     assert dataset["status"].attrs["flag_values"].tolist() == [int(status) for status in Status]
     assert dataset["status"].attrs["flag_values"].dtype == dataset["status"].dtype
     equations = dataset["worst_equation"].attrs
     assert len(equations["flag_meanings"].split()) == len(solution.equation_names) == len(equations["flag_values"])
-    first = next(iter(solution.checks))
+    first = next(iter(solution.range_checks))
     assert int(dataset["out_of_range"].sel(check=first)) == 1
     assert dataset.attrs["warnings"] == first
 
@@ -142,7 +142,7 @@ def test_batch_of_two_dimensions(dry):
 def test_warnings_of_a_batch_count_the_cases(solution):
     numbers, rest = eqx.partition(solution, eqx.is_array)
     two = eqx.combine(jax.tree.map(lambda leaf: jnp.stack([jnp.asarray(leaf)] * 2), numbers), rest)
-    two = eqx.tree_at(lambda s: next(iter(s.checks.values())), two, jnp.asarray([True, False]))
+    two = eqx.tree_at(lambda s: next(iter(s.range_checks.values())), two, jnp.asarray([True, False]))
     dataset = solution_to_dataset(two, ("case",))
     assert dataset.attrs["warnings"].endswith("(1 of 2 cases)")
     assert int(dataset["out_of_range"].sum()) == 1

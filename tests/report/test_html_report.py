@@ -170,8 +170,8 @@ def test_no_name_breaks_the_page(solved):
 
 def test_warnings_come_first(solved):
     scene, solution = solved["turbine_roller"]
-    text = next(iter(solution.checks))
-    warned = dataclasses.replace(solution, checks=solution.checks | {text: jnp.asarray(True)})
+    text = next(iter(solution.range_checks))
+    warned = dataclasses.replace(solution, checks={**solution.range_checks, text: jnp.asarray(True)})
     page = Page(html_report(scene, warned, "x", {}, WHEN)).text
     assert page.index("Warnings") < page.index(text) < page.index("Drawing")
     assert "1 of" in page

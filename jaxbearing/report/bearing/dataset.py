@@ -54,7 +54,7 @@ def bearing_to_dataset(solution: Solution, dims: Sequence[str] = ()) -> xr.Datas
             dataset[name] = variable
     dataset["status"].attrs |= flags(dataset["status"].dtype, [status.text for status in Status])
     dataset["worst_equation"].attrs |= flags(dataset["worst_equation"].dtype, solution.equation_names)
-    if solution.checks:
+    if solution.range_checks:
         dataset["out_of_range"] = checks(solution, dims)
     return _with_coordinates(dataset, solution, dims)
 
@@ -78,8 +78,8 @@ def _with_coordinates(dataset: xr.Dataset, solution: Solution, dims: tuple[str, 
         _FREEDOMS[0]: (list(solution.freedoms_of_stiffness), "freedom of the inner ring along which the load acts"),
         _FREEDOMS[1]: (list(solution.freedoms_of_stiffness), "freedom of the inner ring that is displaced"),
     }
-    if solution.checks:
-        names[CHECK] = (list(solution.checks), "what is checked")
+    if solution.range_checks:
+        names[CHECK] = (list(solution.range_checks), "what is checked")
     coordinates = {
         name: xr.Variable((name,), values, {"units": "1", "long_name": long_name})
         for name, (values, long_name) in names.items()

@@ -60,7 +60,7 @@ def bearing_content(scene: Any, solution: Solution) -> Content:
         losses=[*rows, ("total", digits(total), "100")] if rows else [],
         charts=bearing_charts(solution),
         convergence=list(_convergence(solution, total if losses else None)),
-        checks=[(text, bool(broken)) for text, broken in solution.checks.items()],
+        checks=[(text, bool(broken)) for text, broken in solution.range_checks.items()],
         notes=solution.notes,
         results=[row for row in results if not row.path.startswith(("life.", "power_loss."))],
         elements=element_columns(solution.elements),

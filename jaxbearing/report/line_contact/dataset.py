@@ -25,7 +25,7 @@ def line_contact_to_dataset(solution: LineContactSolution, dims: Sequence[str] =
         dataset = dataset.set_coords("x")
         dataset["out_of_range"] = checks(solution, dims)
         words = {"units": "1", "long_name": "what is checked"}
-        dataset = dataset.assign_coords({CHECK: xr.Variable((CHECK,), list(solution.checks), words)})
+        dataset = dataset.assign_coords({CHECK: xr.Variable((CHECK,), list(solution.range_checks), words)})
     return without_fill(dataset)
 
 

@@ -36,7 +36,7 @@ def line_contact_content(solution: LineContactSolution) -> Content:
             ("last step", f"{float(solution.last_step):.1e}"),
             ("residual before it", f"{float(solution.residual_norm):.1e}"),
         ],
-        checks=[(text, bool(broken)) for text, broken in solution.checks.items()],
+        checks=[(text, bool(broken)) for text, broken in solution.range_checks.items()],
         notes=solution.notes,
         results=result_rows(solution, _SOLVER),
     )

@@ -39,8 +39,8 @@ def two_disk_to_dataset(solution: TwoDiskSolution, dims: Sequence[str] = ()) -> 
             values = common(values, 1, path)
         dataset[name] = xr.Variable((*dims, *dims_of)[-values.ndim :], values, described(metadata, path))
     dataset["status"].attrs |= flags(dataset["status"].dtype, [status.text for status in Status])
-    if solution.checks:
+    if solution.range_checks:
         dataset["out_of_range"] = checks(solution, dims)
         words = {"units": "1", "long_name": "what is checked"}
-        dataset = dataset.assign_coords({CHECK: xr.Variable((CHECK,), list(solution.checks), words)})
+        dataset = dataset.assign_coords({CHECK: xr.Variable((CHECK,), list(solution.range_checks), words)})
     return without_fill(dataset.set_coords([name for name in (*axes, *own) if name in dataset]))

@@ -30,7 +30,7 @@ def two_disk_content(solution: TwoDiskSolution) -> Content:
             ("points", str(np.asarray(solution.status).size)),
             ("largest residual of nested solves", f"{float(np.max(np.asarray(solution.inner_residual))):.1e}"),
         ],
-        checks=[(text, bool(broken)) for text, broken in solution.checks.items()],
+        checks=[(text, bool(broken)) for text, broken in solution.range_checks.items()],
         notes=solution.notes,
     )
 

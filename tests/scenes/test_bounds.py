@@ -1,0 +1,275 @@
+"""Every number of every scene has a bound: eager copies beyond it are refused, traced ones end as `invalid_input`."""
+
+import functools
+import operator
+
+import equinox as eqx
+import jax
+import jax.numpy as jnp
+import line_contacts
+import numpy as np
+import pytest
+import tapered_cases
+import two_disk_cases
+from roller_cases import reference_roller
+
+import jaxbearing as jb
+from jaxbearing.bearings.parts import Drag
+from jaxbearing.bearings.rating import Rating
+from jaxbearing.numerics.checks import RANGES, check_inputs
+from jaxbearing.numerics.precision import as_float
+from jaxbearing.numerics.status import Status
+from jaxbearing.scenes.fields import type_at
+from jaxbearing.scenes.reader import builtin_names, load_scene
+from jaxbearing.sweeps.fields import SceneSource, dimension_of
+
+SCENES = [*builtin_names(), "rated", "rotating load", "capped couple"]
+RATED = {
+    "rating.dynamic_capacity": "14 kN",
+    "rating.static_capacity": "8 kN",
+    "rating.viscosity_ratio": "1.5",
+    "rating.fatigue_load_limit": "0.3 kN",
+}
+
+
+@functools.cache
+def scene(name):
+    if name == "rated":
+        return numbers(load_scene("deep_groove_6205", RATED))
+    if name == "rotating load":
+        more = {"load": "3 kN", "speed": "5000 rpm"}
+        return numbers(
+            load_scene("turbine_roller_dynamic", {f"simulation.rotating_load.{k}": v for k, v in more.items()})
+        )
+    if name == "capped couple":
+        return numbers(load_scene("turbine_ball", {"kinematics.gyroscopic": "capped"}))
+    return numbers(load_scene(name))
+
+
+def numbers(given):
+    return jax.tree.map(as_float, given)
+
+
+def paths(given):
+    """Dotted path of every number of a scene."""
+    leaves, _ = jax.tree_util.tree_flatten_with_path(given)
+    return {jax.tree_util.keystr(path, simple=True, separator="."): leaf for path, leaf in leaves}
+
+
+@functools.cache
+def traced_checks(name):
+    """The rules of a scene, and a compiled function of its numbers to which of them are broken."""
+    leaves, structure = jax.tree.flatten(scene(name))
+    rules = []
+
+    @jax.jit
+    def broken(values):
+        found = check_inputs(jax.tree.unflatten(structure, values))
+        rules[:] = found.rules
+        return found.broken, found.valid
+
+    flags, valid = broken(leaves)
+    assert bool(valid)
+    assert not np.any(flags)
+    return tuple(rules), broken
+
+
+def bounds(name):
+    """(path, bound) of every number with a bound of its own."""
+    found = [rule.partition(" must be ") for rule in traced_checks(name)[0]]
+    return [(path, bound) for path, _, bound in found if bound in RANGES]
+
+
+def outside(interval):
+    """Values that are not allowed: beyond each end, at it where it does not belong, and what is no number."""
+    values = [np.nan, np.inf, -np.inf]
+    if np.isfinite(interval.low):
+        values += [interval.low - 1e-6] if interval.low_allowed else [interval.low - 1e-6, interval.low]
+    if np.isfinite(interval.high):
+        values += [interval.high + 1e-6] if interval.high_allowed else [interval.high + 1e-6, interval.high]
+    return values
+
+
+@pytest.mark.parametrize("name", SCENES)
+def test_every_number_has_a_bound(name):
+    rules = traced_checks(name)[0]
+    named = {rule.split(" ")[0] for rule in rules}
+    # numbers of tables that stand side by side, judged together; the table of a run's speed over time
+    together = {"simulation.speed.times", "simulation.speed.factors"}
+    # reduced moduli and the like are given by the package, not by a user
+    assert set(paths(scene(name))) - named - together == set()
+
+
+@pytest.mark.parametrize("name", SCENES)
+def test_eager_copies_are_refused_and_traced_ones_are_flagged(name):
+    rules, broken = traced_checks(name)
+    given = scene(name)
+    where = {path: i for i, path in enumerate(paths(given))}
+    for path, bound in bounds(name):
+        for value in outside(RANGES[bound]):
+            shape = np.shape(paths(given)[path])
+            # one bad number among good ones is enough
+            bad = np.array(paths(given)[path], copy=True)
+            bad.flat[-1] = value
+            in_files = path.rpartition(".")[2].replace("friction_coefficient", "gyroscopic_friction")
+            with pytest.raises(ValueError, match=in_files):
+                given.replace({path: bad if shape else float(value)})
+            leaves = jax.tree.leaves(given)
+            leaves[where[path]] = bad
+            flags, valid = broken(leaves)
+            assert f"{path} must be {bound}" in [rules[i] for i in np.flatnonzero(flags)], (path, value)
+            assert not bool(valid)
+
+
+@pytest.mark.parametrize("name", [name for name in SCENES if name in builtin_names()])
+def test_files_have_the_bounds_of_the_classes(name):
+    """What a scene file refuses the class refuses, and the other way round."""
+    source = SceneSource.of(name)
+    checked = 0
+    for path, bound in bounds(name):
+        kind = type_at(source.model, path.split("."))
+        if kind is None or np.ndim(paths(scene(name))[path]):
+            continue
+        dimension = dimension_of(kind)
+        unit = "" if dimension is None else f" {dimension.si}"
+        in_file = lambda value, path=path, unit=unit: load_scene(name, {path: f"{float(value)!r}{unit}"})
+        if refuses(jb.SceneError, lambda: in_file(paths(scene(name))[path])):  # noqa: B023  (called at once)
+            continue  # one property of a material that has a name
+        for value in {*(value for value in outside(RANGES[bound]) if np.isfinite(value)), -1.0, 0.0}:
+            refused = refuses(jb.SceneError, lambda value=value: in_file(value))  # noqa: B023  (called at once)
+            assert refused == refuses(ValueError, lambda: scene(name).replace({path: value})), (path, value)  # noqa: B023
+            checked += 1
+    assert checked > 5
+
+
+def refuses(error, make):
+    try:
+        make()
+    except error:
+        return True
+    return False
+
+
+def solved_lanes(given, changes, throw=False):
+    """Solutions of lanes with other numbers, each path an array over the lanes, one compiled program."""
+
+    @jax.jit
+    def run(changes):
+        return jax.lax.map(lambda lane: jb.solve(given.replace(lane), throw=throw), changes)
+
+    return run({path: jnp.asarray(values, dtype=float) for path, values in changes.items()})
+
+
+def rated_ball():
+    ball = load_scene("deep_groove_6205")
+    return eqx.tree_at(lambda s: s.rating, ball, Rating(dynamic_capacity=14e3), is_leaf=lambda x: x is None)
+
+
+LANES = {
+    "ball": (
+        rated_ball,
+        {
+            "operation.radial_load": ([1.0e3, np.nan, 1e3, 1e3], "operation.radial_load must be finite"),
+            "geometry.ball_diameter": ([7.94e-3, 7.94e-3, 20e-3, 7.94e-3], "geometry.n_balls balls must fit"),
+            "rating.dynamic_capacity": ([14e3, 14e3, 14e3, -1.0], "rating.dynamic_capacity must be > 0"),
+        },
+    ),
+    "roller": (
+        reference_roller,
+        {
+            "operation.oil_flow": ([4e-5, -4e-5, 4e-5, 4e-5], "operation.oil_flow must be >= 0"),
+            "geometry.roller_diameter": ([12e-3, 12e-3, 20e-3, 12e-3], "geometry.n_rollers rollers must fit"),
+            "drag.coefficient": ([1.2, 1.2, 1.2, -1.0], "drag.coefficient must be >= 0"),
+        },
+    ),
+    "tapered": (
+        lambda: tapered_cases.tapered(2e3),
+        {
+            "geometry.flange_angle": ([np.radians(10.35), -0.1], "geometry.flange_angle must be > 0"),
+            "geometry.end_radius": ([108e-3, 108e-3], ""),
+        },
+    ),
+    "disks": (
+        lambda: two_disk_cases.small(),
+        {"oil.rheology.stress": ([5e6, -5e6], "oil.rheology.stress must be > 0")},
+    ),
+    "contact": (
+        lambda: line_contacts.satellite(nodes=101),
+        {"operation.load_per_length": ([76310.0, -1.0], "operation.load_per_length must be > 0")},
+    ),
+}
+
+
+@pytest.mark.parametrize("kind", LANES)
+def test_invalid_lanes_say_so_and_leave_the_others_alone(kind):
+    make, changes = LANES[kind]
+    given = numbers(make())
+    found = solved_lanes(given, {path: values for path, (values, _) in changes.items()})
+    statuses = np.asarray(found.status).reshape(np.shape(found.status)[0], -1)
+    assert np.all(statuses[0] == Status.CONVERGED)
+    assert np.all(statuses[1:] == Status.INVALID_INPUT)
+    result = {"disks": "traction_coefficient", "contact": "film.central"}.get(kind, "elements.load_inner")
+    values = np.asarray(functools.reduce(getattr, result.split("."), found))
+    assert np.all(np.isfinite(values[0]))
+    assert np.all(np.isnan(values[1:]))
+    for path, (numbers_, rule) in changes.items():
+        for lane in np.flatnonzero([value != numbers_[0] for value in numbers_]):
+            one = jax.tree.map(lambda leaf, lane=lane: leaf[lane], found)
+            assert rule in one.failure(), path
+            assert "invalid_input" in one.failure()
+            assert any(rule in text and bool(flag) for text, flag in one.checks.items())
+    # the operation that was asked for is what is shown
+    if "operation.oil_flow" in changes:
+        np.testing.assert_array_equal(found.operation.oil_flow, changes["operation.oil_flow"][0])
+
+
+def test_invalid_lanes_reach_no_derivative():
+    given = numbers(load_scene("deep_groove_6205"))
+
+    def total(load, diameters):
+        def lane(diameter):
+            changed = given.replace({"geometry.ball_diameter": diameter, "operation.radial_load": load})
+            solution = jb.solve(changed, throw=False)
+            return jnp.where(solution.converged, solution.ring.radial, 0.0)
+
+        return jnp.sum(jax.lax.map(lane, diameters))
+
+    slope = jax.jit(jax.grad(total))
+    alone, beside = slope(1e3, jnp.asarray([7.94e-3, 7.94e-3])), slope(1e3, jnp.asarray([7.94e-3, 20e-3]))
+    np.testing.assert_allclose(2.0 * beside, alone, rtol=1e-12)
+
+
+def test_a_scene_that_was_changed_behind_the_checks_is_refused_by_name():
+    broken = eqx.tree_at(lambda s: s.geometry.ball_diameter, load_scene("deep_groove_6205"), np.float64(-1.0))
+    with pytest.raises(jb.SolveError, match=r"invalid_input: geometry\.ball_diameter must be > 0"):
+        jb.solve(broken)
+
+
+@pytest.mark.parametrize("value", [1j, "1100", [1.0], np.ones(2), None, object()])
+def test_what_is_no_number_is_refused_by_name(value):
+    with pytest.raises(ValueError, match=r"operation\.inner_speed must be one number"):
+        load_scene("reference_roller").at_operation(inner_speed=value)
+
+
+def test_compiled_solvers_refuse_what_is_no_scene():
+    fast = jb.jit_solver(load_scene("deep_groove_6205"))
+    # without the run-time checks of the tests: "expected a scene, or keywords of the operating point"
+    with pytest.raises(TypeError, match=r"scene"):
+        fast(1100.0)
+    with pytest.raises(TypeError, match="expected a real number"):
+        fast(inner_speed=np.complex128(1j))
+
+
+def test_the_loss_at_no_flow_has_a_slope_that_foretells_a_step():
+    """Parker's law has an infinite slope at no flow; that of the model is the secant to 0.1 l/h."""
+    roller = numbers(reference_roller())
+    roller = eqx.tree_at(lambda s: s.drag, roller, Drag(coefficient=1.2))
+
+    def loss(flow):
+        return jb.solve(roller.at_operation(oil_flow=flow), throw=False).power_loss.drag
+
+    litre = 1e-3 / 3600.0
+    at_rest, slope = jax.jit(lambda flow: jax.jvp(loss, (flow,), (1.0,)))(0.0)
+    few = 0.01 * litre
+    np.testing.assert_allclose(slope * few, jax.jit(loss)(few) - at_rest, rtol=5e-3)
+    assert operator.lt(0.0, slope * 0.1 * litre)
