@@ -20,7 +20,7 @@ from .patch import ContactPatch, Strips, contact_patch
 from .resolution import Resolution
 from .shear import Maxwell, Mesh, Oil, Sliding, relaxed_stress, viscous_stress
 from .traction import AbstractTraction, inlet_shear
-from .viscous import AbstractViscousFunction, ReeEyring
+from .viscous import AbstractViscousFunction, viscous_function_for, viscous_notes
 
 SPEED_FLOOR = 1e-6
 """Smoothing of the mean speed's modulus, m/s: at rest the oil has all the time it needs and flows as a viscous
@@ -68,14 +68,15 @@ class DistributedTraction(AbstractTraction):
     source eqs. (66)-(72). The source's stress is on body 2, as here; its eq. (69) has another transverse axis.
 
     **Arguments:**
-    - `viscous`: the viscous function that the rheology's stress belongs to.
+    - `viscous`: the viscous function; None: the one with which the oil's rheology was fitted (Ree and Eyring's where
+      the oil does not say).
     - `resolution`: steps and strips.
     - `compliance`: tangential compliance of the bodies, or `None`: rigid.
     - `heating`: `None`: isothermal.
     - `elastic`: whether the oil's shear modulus counts.
     """
 
-    viscous: AbstractViscousFunction = ReeEyring()
+    viscous: AbstractViscousFunction | None = None
     resolution: Resolution = eqx.field(static=True, default=Resolution.for_accuracy(1e-3))
     compliance: AbstractTangentialCompliance | None = None
     heating: FilmHeating | None = None
@@ -102,6 +103,9 @@ class DistributedTraction(AbstractTraction):
         patch = contact_patch(contact, load)
         pressed = self.traction(patch, film, entrainment_speed, Sliding(sliding_speed), temperature, lubricant).rolling
         return pressed + inlet_shear(contact, film, sliding_speed, viscosity_inlet)
+
+    def notes(self, lubricant: Lubricant) -> tuple[str, ...]:
+        return viscous_notes(self.viscous, lubricant)
 
     def traction(
         self,
@@ -161,6 +165,7 @@ class _Problem(eqx.Module):
     """One film on its strips: arrays of shape (*batch, strip)."""
 
     law: DistributedTraction
+    viscous: AbstractViscousFunction
     lubricant: Lubricant
     film: Array
     temperature: Array
@@ -217,8 +222,8 @@ class _Problem(eqx.Module):
     def middle(self, half_step: Array, stress: Array, rate: Array, oil: Oil) -> Array:
         """Stress at the middle of a step."""
         if self.law.elastic:
-            return relaxed_stress(self.law.viscous, Maxwell.of(oil), half_step, stress, rate)
-        return viscous_stress(self.law.viscous, oil, rate)
+            return relaxed_stress(self.viscous, Maxwell.of(oil), half_step, stress, rate)
+        return viscous_stress(self.viscous, oil, rate)
 
     def _isothermal(self, mesh: Mesh) -> Traction:
         elastic = self.law.elastic
@@ -233,10 +238,10 @@ class _Problem(eqx.Module):
             rate = self.rate_at(position)
             if elastic:
                 stress = going * stress
-                middle = relaxed_stress(self.law.viscous, oil, (0.5 * step * sine) * time, stress, rate)
+                middle = relaxed_stress(self.viscous, oil, (0.5 * step * sine) * time, stress, rate)
                 stress = 2.0 * middle - stress
             else:
-                middle = viscous_stress(self.law.viscous, oil, rate)
+                middle = viscous_stress(self.viscous, oil, rate)
             return (stress, sums.plus(middle, rate, weight * sine, position)), None
 
         rows = jax.tree.map(jnp.asarray, tuple(mesh[:-1]))
@@ -367,6 +372,7 @@ def _problem(
         slope = jnp.stack([jnp.zeros(half_width.shape), in_strips(spin * half_width / film)])
     return _Problem(
         law=law,
+        viscous=viscous_function_for(law.viscous, lubricant),
         lubricant=lubricant,
         film=film,
         temperature=column(temperature),

@@ -284,9 +284,7 @@ class TwoDisk(AbstractScene):
 
     def assumptions(self) -> tuple[str, ...]:
         """What the scene's data were not made for or leave open; for the user."""
-        rheology = self.oil.rheology
-        misfit = () if rheology is None else rheology.misfit(self.contact.traction.viscous.name)
-        return (*(f"oil: {note}" for note in self.oil.notes), *misfit)
+        return (*(f"oil: {note}" for note in self.oil.notes), *self.contact.traction.notes(self.oil))
 
     def state(
         self,
