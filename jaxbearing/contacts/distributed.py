@@ -7,10 +7,12 @@ from typing import NamedTuple
 import equinox as eqx
 import jax
 import jax.numpy as jnp
+import numpy as np
 from jaxtyping import Array, Float
 
 from .._types import Values
 from ..lubricants import Lubricant
+from ..numerics.peak import peak
 from ..numerics.roots import monotone_root
 from ..numerics.safe import smooth_abs
 from .compliance import AbstractTangentialCompliance
@@ -36,8 +38,8 @@ class Traction(NamedTuple):
 
     `rolling`, `transverse`, N; `moment`, N m, about the normal through the centre; `power`, W, dissipated;
     `curvature`, N m^2: integral of the stress along rolling times y^2 (None: no sliding of that kind).
-    `film_rise`, `surface_rise`, K: largest rises of the mean film and surface temperature above the base (None:
-    isothermal); `inner_residual`, K, of the nested solves for it.
+    `film_rise`, `surface_rise`, K: peaks of the rise of the mean film and surface temperature above the base, at 40
+    steps at most 0.2 and 0.4 % low (None: isothermal); `inner_residual`, K, of the nested solves for it.
     """
 
     rolling: Float[Array, "*batch"]
@@ -182,6 +184,8 @@ class _Problem(eqx.Module):
     """Shear rate where x = 0, 1/s; the first axis holds the components."""
     rate_slope: Array | None
     """Its change over one half-width, of spin."""
+    half: bool = eqx.field(static=True)
+    """Whether the strips are those of one half, the other being alike."""
     curved: bool = eqx.field(static=True)
     """Whether the sliding changes with the square of the distance from the middle."""
 
@@ -287,10 +291,18 @@ class _Problem(eqx.Module):
         start = (jnp.zeros_like(self.rate), _Sums.zero(self), jnp.zeros((steps, *shape)), zeros, zeros)
         rows = (jnp.arange(steps), mesh.sine, mesh.position, flow.history, flow.own, flow.widths)
         (_, sums, *_), (film, surface, residual) = jax.lax.scan(advance, start, jax.tree.map(jnp.asarray, rows))
-        largest = lambda field: jnp.max(field, axis=(0, -1))
         return self.assembled(sums)._replace(
-            film_rise=largest(film), surface_rise=largest(surface), inner_residual=largest(residual)
+            film_rise=self.highest(film), surface_rise=self.highest(surface), inner_residual=jnp.max(residual, (0, -1))
         )
+
+    def highest(self, field: Float[Array, "step ... strip"]) -> Array:
+        """Peak over the contact of what is known in the middle of each step of each strip."""
+        offset, strips = self.strips.offset, peak(np.arange(float(len(field))), jnp.moveaxis(field, 0, -1))
+        if self.half:
+            # the first strip is in the middle, the second one has a twin beyond
+            offset = jnp.concatenate([-offset[..., 1:2], offset], axis=-1)
+            strips = jnp.concatenate([strips[..., 1:2], strips], axis=-1)
+        return peak(offset, strips)
 
     def conductivity(self, heating: FilmHeating) -> Array:
         """Of the oil, W/(m K)."""
@@ -352,7 +364,9 @@ def _problem(
     if lubricant.rheology is None:
         raise ValueError("The traction law needs the lubricant's rheology (shear modulus and stress): none is given.")
     # a line contact has one strip only where all of them are alike
-    strips = patch.strips(law.resolution.strips, symmetric=sliding.alike if patch.line else sliding.spin is None)
+    symmetric = sliding.alike if patch.line else sliding.spin is None
+    # the hottest place is mostly in the middle, where an even number of strips has none
+    strips = patch.strips(law.resolution.strips, symmetric, middle=law.heating is not None)
     film, speed = column(film), column(entrainment_speed)
     half_width = column(patch.half_width) * strips.scale
     direction = jnp.where(speed >= 0, 1.0, -1.0)
@@ -384,5 +398,6 @@ def _problem(
         direction=direction,
         rate=jnp.stack(rate),
         rate_slope=slope,
+        half=symmetric and not patch.line,
         curved=sliding.curvature is not None,
     )
