@@ -6,10 +6,11 @@ from typing import Any, TypeVar
 
 import equinox as eqx
 import jax
+import numpy as np
 from jaxtyping import Array, Bool
 
 from .numerics.precision import as_float
-from .numerics.status import SolveError
+from .numerics.status import SolveError, Status
 
 Scene = TypeVar("Scene", bound="AbstractScene")
 
@@ -81,7 +82,7 @@ class AbstractSolution(eqx.Module):
         except jax.errors.ConcretizationTypeError:
             return
         if failed:
-            raise SolveError(self.failure())
+            raise SolveError(self.failure(), Status(int(np.max(np.asarray(self.status)))))
 
 
 def _replaced(part: Any, changes: dict[tuple[str, ...], Any], above: str = "") -> Any:

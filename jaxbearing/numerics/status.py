@@ -10,12 +10,19 @@ class Status(enum.IntEnum):
     NOT_CONVERGED = 1
     DIVERGED = 2
     NO_EQUILIBRIUM = 3
+    INVALID_INPUT = 4
+    OUTSIDE_VALIDITY = 5
+    THERMAL_RUNAWAY = 6
 
     @property
     def text(self) -> str:
-        """`converged`, `not_converged`, `diverged` or `no_equilibrium`."""
+        """The name in lower case, e.g. `not_converged`."""
         return self.name.lower()
 
 
 class SolveError(RuntimeError):
     """A solve that did not converge; the message names status, residual and worst equation."""
+
+    def __init__(self, message: str, status: Status = Status.NOT_CONVERGED):
+        super().__init__(message)
+        self.status = status
