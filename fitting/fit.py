@@ -22,7 +22,7 @@ from .parameters import GROUPS, NAMES, POSITIVE, SCALES, SYMBOLS, values_of, wit
 from .result import FitResult, Parameter
 from .search import Search
 from .uncertainty import Spread, correlation
-from .viscous import plain_rheology, with_viscous_function
+from .viscous import held_misfit, plain_rheology, with_viscous_function
 
 OUTLIER = 4.0
 """Robust standard deviations beyond which a point is named an outlier."""
@@ -187,6 +187,7 @@ def _result(search: Search, problem: Problem, u: Any, estimate: Estimate, held: 
     conditions = [SYMBOLS[i] for i in sorted(judged) if not free[i] or blind[i]]
     if conditions and np.any(free & ~blind):
         notes.append(f"All intervals hold for these values of {', '.join(conditions)}.")
+    notes += held_misfit(search.scene, tuple(NAMES[i] for i in fitted))
     notes += [confounded(search.pressure, search.temperature)]
     if best > exact:
         notes += lack_of_fit(search.measurements, standard, difference, outlier)

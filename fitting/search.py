@@ -11,7 +11,7 @@ import numpy as np
 from jaxtyping import Array, Float
 from scipy import stats
 
-from jaxbearing.contacts import deborah_number
+from jaxbearing.contacts import ReeEyring, deborah_number, viscous_function_for
 from jaxbearing.machines import DiskState, TwoDisk
 from jaxbearing.machines.two_disk import INNER_TOLERANCE
 
@@ -129,6 +129,7 @@ class Search:
     def problem(self, free: np.ndarray, pinned: Mapping[int, float], base: np.ndarray | None = None) -> Problem:
         start = estimated_start(
             self.rheology,
+            viscous_function_for(self.scene.contact.traction.viscous, self.scene.oil).name != ReeEyring.name,
             self.scene.oil,
             self.state,
             self.coefficient,

@@ -34,6 +34,7 @@ def mean_stress_estimate(stress: np.ndarray, newtonian: np.ndarray) -> np.ndarra
 
 def estimated_start(
     rheology: ExponentialRheology,
+    limiting: bool,
     oil: Lubricant,
     state: DiskState,
     coefficient: np.ndarray,
@@ -43,8 +44,8 @@ def estimated_start(
     """The rheology with stress and modulus shifted so that they agree with the curves in the mean.
 
     Stress: from the largest coefficient of every curve, by `mean_stress_estimate` for an Eyring stress and as the mean
-    stress itself for a limiting one. Modulus: from the first slope of curves with D > 3, by `elastic_slope`. Pressure
-    and temperature coefficients stay.
+    stress itself for a `limiting` one, as the viscous function of the fit has it. Modulus: from the first slope of
+    curves with D > 3, by `elastic_slope`. Pressure and temperature coefficients stay.
     """
     area, load = np.asarray(state.patch.area), np.asarray(state.load)
     pressure, temperature = np.asarray(state.patch.mean_pressure), np.asarray(state.temperature)
@@ -52,7 +53,6 @@ def estimated_start(
     stress = np.abs(coefficient) * load / area
     viscosity = np.exp(np.asarray(oil.viscosity.log_viscosity(pressure, temperature)))
     newtonian = viscosity * sliding / np.asarray(state.film)
-    limiting = rheology.viscous_function not in (None, "ree_eyring")
     shifts, stiffer = [], []
     for number in np.unique(curve):
         points = np.flatnonzero(curve == number)

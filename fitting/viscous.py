@@ -5,35 +5,41 @@ import dataclasses
 import equinox as eqx
 import numpy as np
 
-from jaxbearing.contacts import BairWiner, ElsharkawyHamrock, GecimWiner, ReeEyring
+from jaxbearing.contacts import VISCOUS_LAWS, ElsharkawyHamrock, viscous_function, viscous_function_for
 from jaxbearing.lubricants import ExponentialRheology
 from jaxbearing.machines import TwoDisk
 
-from .parameters import NAMES
+from .parameters import GROUPS, NAMES, SYMBOLS
 
-VISCOUS = {
-    "ree_eyring": ReeEyring,
-    "bair_winer": BairWiner,
-    "gecim_winer": GecimWiner,
-    "elsharkawy_hamrock": ElsharkawyHamrock,
-}
+VISCOUS = VISCOUS_LAWS
 
 
 def with_viscous_function(scene: TwoDisk, model: str | None) -> tuple[TwoDisk, str]:
-    """The scene with another viscous function; the exponent of Elsharkawy and Hamrock's law is the oil's, or 2."""
+    """The scene with the viscous function of this name (None: its own, or that of its oil), and that name; the exponent
+    of Elsharkawy and Hamrock's law is the oil's, or 2."""
     traction = scene.contact.traction
-    if model is None or model == traction.viscous.name:
-        return scene, traction.viscous.name
-    exponent = None if scene.oil.rheology is None else scene.oil.rheology.exponent
-    viscous = VISCOUS[model]()
-    if model == "elsharkawy_hamrock" and exponent is not None:
-        viscous = ElsharkawyHamrock(exponent)
-    return eqx.tree_at(lambda s: s.contact.traction, scene, dataclasses.replace(traction, viscous=viscous)), model
+    viscous = viscous_function_for(traction.viscous, scene.oil)
+    if model is not None and model != viscous.name:
+        viscous = viscous_function(model, scene.oil.rheology)
+    traction = dataclasses.replace(traction, viscous=viscous)
+    return eqx.tree_at(lambda s: s.contact.traction, scene, traction), viscous.name
+
+
+def held_misfit(scene: TwoDisk, fitted: tuple[str, ...]) -> tuple[str, ...]:
+    """A sentence where numbers of the oil's stress are held that were fitted with another viscous function: they mean
+    something with that one only.
+
+    **Arguments:** `scene`: with the viscous function of the fit, and the oil before it; `fitted`: names of the
+    parameters that are fitted.
+    """
+    held = [SYMBOLS[i] for i in GROUPS[1] if NAMES[i] not in fitted]
+    said = scene.contact.traction.notes(scene.oil)
+    return tuple(f"{', '.join(held)} held at the oil's own: {note}." for note in said) if held else ()
 
 
 def plain_rheology(rheology: ExponentialRheology, model: str, scene: TwoDisk) -> ExponentialRheology:
     """Numbers instead of arrays, with the name of the law that they were fitted with."""
     numbers = {name: np.float64(getattr(rheology, name)) for name in NAMES}
-    viscous = scene.contact.traction.viscous
+    viscous = viscous_function_for(scene.contact.traction.viscous, scene.oil)
     exponent = float(viscous.exponent) if isinstance(viscous, ElsharkawyHamrock) else None
     return dataclasses.replace(rheology, **numbers, viscous_function=model, exponent=exponent)

@@ -106,7 +106,7 @@ class AbstractSolution(eqx.Module):
         except jax.errors.ConcretizationTypeError:
             return
         if failed:
-            raise SolveError(self.failure())
+            raise SolveError(self.failure(), Status(int(np.max(np.asarray(self.status)))))
 
 
 def _replaced(part: Any, changes: dict[tuple[str, ...], Any], above: str = "") -> Any:

@@ -50,7 +50,7 @@ MUTATIONS = (
     M("jaxbearing/contacts/rolling.py", "0.022 * log_viscous - 0.35", "0.022 * log_viscous - 0.33", "Rolling moment of a point contact: exponent", "contacts/test_point.py"),
     M("jaxbearing/lubricants/simple_viscosity.py", "LOG_ROELANDS_VISCOSITY = -9.67", "LOG_ROELANDS_VISCOSITY = -9.76", "Roelands: digits swapped", "lubricants/test_viscosity_laws.py"),
     M("jaxbearing/lubricants/rheology.py", "pressure + self.stress_temperature * inverse", "pressure - self.stress_temperature * inverse", "Eyring stress: sign of its temperature coefficient", "lubricants/test_properties.py"),
-    M("jaxbearing/gaps/martin.py", "load=6.0 * (sin2 - s * i2)", "load=6.0 * (sin2 + s * i2)", "Martin film: sign of the squeeze", "gaps/test_martin_and_pocket.py"),
+    M("jaxbearing/gaps/martin.py", "load=6.0 * (speed * sin2 - squeeze * i2)", "load=6.0 * (speed * sin2 + squeeze * i2)", "Martin film: sign of the squeeze", "gaps/test_martin_and_pocket.py"),
     M("jaxbearing/gaps/pocket.py", "+ 0.13 * jnp.log(modulus * radius", "- 0.13 * jnp.log(modulus * radius", "Pocket face: sign of an exponent of the elastic film", "gaps/test_martin_and_pocket.py"),
     M("jaxbearing/gaps/journal.py", "return -shear - couple, shear - couple", "return -shear - couple, shear + couple", "Land: couple of the offset film on the bush", "gaps/test_turbulence_and_journal.py"),
     M("jaxbearing/gaps/couette.py", "self.side_clearance + height * jnp.tan", "self.side_clearance - height * jnp.tan", "Flange: film closes outwards", "gaps/test_couette_and_drag.py"),

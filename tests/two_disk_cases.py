@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from jaxbearing.contacts import DistributedTraction, NijenbanningVennerMoes, Resolution
+from jaxbearing.contacts import DistributedTraction, NijenbanningVennerMoes, ReeEyring, Resolution
 from jaxbearing.machines import DiskGeometry, DiskMaterials, DiskOperation, TwoDisk, TwoDiskLaws
 from jaxbearing.materials import Material
 from jaxbearing.scenes.oils import load_oil
@@ -24,7 +24,7 @@ def mobil_jet_ii(**operation):
         materials=DiskMaterials(STEEL, STEEL),
         oil=load_oil("mobil_jet_ii"),
         contact=TwoDiskLaws(
-            film=NijenbanningVennerMoes(), traction=DistributedTraction(resolution=Resolution.for_accuracy(1e-4))
+            film=NijenbanningVennerMoes(), traction=DistributedTraction(ReeEyring(), Resolution.for_accuracy(1e-4))
         ),
         operation=DiskOperation(**(values | operation)),
     )

@@ -194,8 +194,8 @@ class BallBearing(AbstractScene):
         said = []
         if self.contact is not None and self.oil is not None:
             said += [f"oil: {note}" for note in self.oil.notes]
-            if self.contact.traction is not None and self.oil.rheology is not None:
-                said += self.oil.rheology.misfit(self.contact.traction.viscous.name)
+            if self.contact.traction is not None:
+                said += self.contact.traction.notes(self.oil)
             if self.contact.heathcote:
                 said.append(
                     "contact.heathcote: ball and race slide also because their contact is curved (Heathcote slip), "

@@ -13,7 +13,6 @@ from typing import ClassVar, Literal
 import equinox as eqx
 
 from .._types import Scalar
-from ..contacts import DistributedTraction, MeanPressureTraction
 from ..lubricants import Lubricant, NoPressureViscosity
 from ..numerics.checks import Checked, demand, given
 from .cage import ASSUMED_LANDS as ASSUMED_LANDS
@@ -263,8 +262,8 @@ class CylindricalRollerBearing(AbstractScene):
 def _misfit(contact: ContactLaws, oil: Lubricant) -> list[str]:
     """Laws that were not made for this oil."""
     said = []
-    if isinstance(contact.traction, MeanPressureTraction | DistributedTraction) and oil.rheology is not None:
-        said += oil.rheology.misfit(contact.traction.viscous.name)
+    if contact.traction is not None:
+        said += contact.traction.notes(oil)
     isoviscous = isinstance(oil.pressure_viscosity, NoPressureViscosity)
     if contact.rolling is not None and not contact.rolling.piezoviscous_only and not isoviscous:
         said.append(

@@ -140,7 +140,8 @@ def simulate_rollers(
     if last is None:
         found = _quasi_static(at_start(scene, chosen))
         if int(found.status) != Status.CONVERGED:
-            raise SolveError(f"the quasi-static start of the run was not found: {Status(int(found.status)).text}")
+            status = Status(int(found.status))
+            raise SolveError(f"the quasi-static start of the run was not found: {status.text}", status)
         begun = _begin(scene, chosen, found)
         dynamics, state = begun.dynamics, begun.state
     else:

@@ -110,8 +110,10 @@ class TaperedRollerBearing(AbstractScene):
         return tuple(name for name, part in named.items() if part is not None)
 
     def assumptions(self) -> tuple[str, ...]:
-        """What the model assumed, for the user."""
+        """What the model assumed, and what its data were not made for; for the user."""
         said = []
         if self.contact is not None and self.oil is not None:
             said += [f"oil: {note}" for note in self.oil.notes]
+            laws = (self.contact.traction, None if self.rib is None else self.rib.traction)
+            said += dict.fromkeys(note for law in laws if law is not None for note in law.notes(self.oil))
         return tuple(said)

@@ -6,7 +6,7 @@ import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
@@ -14,6 +14,9 @@ from .messages import INTERRUPTED, NOT_CONVERGED, bad_input, refuse
 from .options import JsonOption, SceneArgument, SetOption, labelled, option_quantity
 from .output_files import PICTURES, check_files, writing
 from .terminal import console
+
+if TYPE_CHECKING:
+    from ..numerics.status import SolveError
 
 ANIMATIONS = (".gif", ".html", ".mp4")
 Progress = Callable[[float, float], None]
@@ -111,7 +114,7 @@ def simulate(
                 more: Any = {} if every is None else {"interval": every}
                 history = run(model, length, throw=False, progress=progress, restart=last, **more)
         except SolveError as error:
-            _no_start(str(error), label, as_json)
+            _no_start(error, label, as_json)
             raise typer.Exit(NOT_CONVERGED) from None
         _write_files(history, label, plot, out)
         if animation is not None:
@@ -208,9 +211,9 @@ def _print(history: Any, label: str, as_json: bool) -> None:
         print_history(history, label, console())
 
 
-def _no_start(message: str, label: str, as_json: bool) -> None:
+def _no_start(error: "SolveError", label: str, as_json: bool) -> None:
     if as_json:
         none = {"time": {"start": None, "stop": None}, "steps": {"accepted": 0, "rejected": 0}, "energy_error": None}
-        empty = {"completed": False, "status": "not_converged", "warnings": [], "interrupted": False} | none
-        typer.echo(json.dumps(empty | {"failure": message, "summary": {}}))
-    typer.echo(f"not converged: {label}: {message}", err=True)
+        empty = {"completed": False, "status": error.status.text, "warnings": [], "interrupted": False} | none
+        typer.echo(json.dumps(empty | {"failure": str(error), "summary": {}}))
+    typer.echo(f"not converged: {label}: {error}", err=True)

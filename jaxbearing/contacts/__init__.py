@@ -50,9 +50,12 @@ from .tilted_line import palmgren_stiffness as palmgren_stiffness
 from .traction import AbstractTraction as AbstractTraction
 from .traction import MaxwellEyring as MaxwellEyring
 from .traction import MeanPressureTraction as MeanPressureTraction
+from .viscous import VISCOUS_LAWS as VISCOUS_LAWS
 from .viscous import AbstractViscousFunction as AbstractViscousFunction
 from .viscous import BairWiner as BairWiner
 from .viscous import ElsharkawyHamrock as ElsharkawyHamrock
 from .viscous import GecimWiner as GecimWiner
 from .viscous import ReeEyring as ReeEyring
+from .viscous import viscous_function as viscous_function
+from .viscous import viscous_function_for as viscous_function_for
 from .warm_film import warm_film as warm_film

@@ -56,13 +56,14 @@ class ContactPatch(eqx.Module):
         """m^2."""
         return jnp.asarray((4.0 if self.line else jnp.pi) * self.half_width * self.half_length)
 
-    def strips(self, count: int, symmetric: bool) -> Strips:
+    def strips(self, count: int, symmetric: bool, middle: bool = False) -> Strips:
         """Gauss-Legendre strips in the angle phi of y = c sin(phi), in which pressure and half-width are smooth; in y
         for a line contact.
 
         **Arguments:**
         - `count`: strips over the whole width.
         - `symmetric`: what is integrated is even in y: only one half is looked at (of a line contact: one strip).
+        - `middle`: whether the first strip of such a half is the one at y = 0, with the weight 0 where `count` is even.
         """
         half_length = jnp.asarray(self.half_length, dtype=float)[..., None]
         if self.line and symmetric:
@@ -74,6 +75,8 @@ class ContactPatch(eqx.Module):
             half = nodes > -1e-12
             weights = np.where(np.abs(nodes) < 1e-12, 1.0, 2.0)[half] * weights[half]
             nodes = nodes[half]
+            if middle and count % 2 == 0:
+                nodes, weights = np.append(0.0, nodes), np.append(0.0, weights)
         scale, offset, width = np.ones_like(nodes), nodes, weights
         if not self.line:
             scale, offset = np.cos(0.5 * np.pi * nodes), np.sin(0.5 * np.pi * nodes)

@@ -11,7 +11,7 @@ from ..lubricants import Lubricant
 from ..numerics.safe import log_add
 from .film import LOG_2
 from .line import LineContact, log_entrainment_sum
-from .viscous import AbstractViscousFunction, ReeEyring
+from .viscous import AbstractViscousFunction, ReeEyring, viscous_function_for, viscous_notes
 
 INLET_COUETTE_CONSTANT = 2.01435
 r"""$\int dx/h$ over the inlet up to the Reynolds exit, in units of $\sqrt{2R/h}$: pi/2 + 25.415 degrees, the exit
@@ -46,6 +46,10 @@ class AbstractTraction(eqx.Module):
         - `viscosity_inlet`: at the inlet temperature and ambient pressure, Pa s.
         """
 
+    def notes(self, lubricant: Lubricant) -> tuple[str, ...]:
+        """What a user should know of this law with this oil, a sentence each."""
+        return ()
+
 
 class MeanPressureTraction(AbstractTraction):
     r"""Viscous flow at the mean pressure with a Maxwell correction for the transit time, plus inlet shear.
@@ -54,7 +58,8 @@ class MeanPressureTraction(AbstractTraction):
     + 2.01435\,\mu_{in}\,\Delta u\,\ell\sqrt{2R/h}$, $\;1/\mu_l = 1/\mu(\bar p, T) + u/(G b)$:
     an element of oil crosses the contact in about b/u and cannot relax its elastic strain in a shorter time, so a
     glassy oil answers with G b/u and not with its viscosity. $F^{-1}$ is that of the viscous function: asinh for Ree
-    and Eyring's. Without `elastic` it is the viscous limit, $\mu_l = \mu$.
+    and Eyring's; by default it is the one with which the oil's rheology was fitted. Without `elastic` it is the viscous
+    limit, $\mu_l = \mu$.
 
     **Limits:** linear at rest with slope $2b\ell\mu_l/h$ plus the inlet term (Newton's law for small
     $\Delta u$ and large G); at large sliding $\tau_0\ln(2x)$ (Ree-Eyring) or the limiting stress times the area
@@ -67,7 +72,7 @@ class MeanPressureTraction(AbstractTraction):
     eqs. (82)-(83).
     """
 
-    viscous: AbstractViscousFunction = ReeEyring()
+    viscous: AbstractViscousFunction | None = None
     elastic: bool = eqx.field(static=True, default=True)
 
     def force(
@@ -96,19 +101,26 @@ class MeanPressureTraction(AbstractTraction):
             log_elastic = log_mean_speed - log_modulus - jnp.log(half_width)
             log_viscosity = -log_add(-log_viscosity, log_elastic)
         log_scale = log_viscosity - jnp.log(film) - log_stress
-        stress_ratio = self.viscous.stress_ratio_of_scaled(log_scale, sliding_speed)
+        viscous = viscous_function_for(self.viscous, lubricant)
+        stress_ratio = viscous.stress_ratio_of_scaled(log_scale, sliding_speed)
         pressed = jnp.exp(log_stress) * stress_ratio * 2.0 * half_width * contact.length
 
         return pressed + inlet_shear(contact, film, sliding_speed, viscosity_inlet)
 
+    def notes(self, lubricant: Lubricant) -> tuple[str, ...]:
+        return viscous_notes(self.viscous, lubricant)
+
 
 MeanPressureTraction.__init__.__doc__ = """**Arguments:**
-- `viscous`: the viscous function that the rheology's stress belongs to.
+- `viscous`: the viscous function; None: the one with which the oil's rheology was fitted (Ree and Eyring's where the
+  oil does not say).
 - `elastic`: whether the shear modulus limits the answer in transit.
 """
 
-MaxwellEyring = MeanPressureTraction
-"""The name of the default: Ree-Eyring flow with the Maxwell correction."""
+
+def MaxwellEyring(elastic: bool = True) -> MeanPressureTraction:
+    """Ree and Eyring's flow with the Maxwell correction, whatever the oil's rheology was fitted with."""
+    return MeanPressureTraction(ReeEyring(), elastic)
 
 
 def inlet_shear(contact: LineContact, film: Values, sliding_speed: Values, viscosity: Values) -> Float[Array, "..."]:

@@ -7,6 +7,7 @@ import jax.numpy as jnp
 from jaxtyping import Array, Float
 
 from .._types import Scalar, Values
+from ..lubricants import ExponentialRheology, Lubricant
 from ..numerics.checks import Checked, bounded
 from .relaxation import Slopes, limiting_root, sinh_root
 
@@ -185,6 +186,43 @@ class ElsharkawyHamrock(AbstractLimitingFunction):
 ElsharkawyHamrock.__init__.__doc__ = """**Arguments:**
 - `exponent`: n, > 0.
 """
+
+
+VISCOUS_LAWS: dict[str, type[AbstractViscousFunction]] = {
+    law.name: law for law in (ReeEyring, BairWiner, GecimWiner, ElsharkawyHamrock)
+}
+"""Viscous functions by name."""
+ASSUMED = ReeEyring
+"""Viscous function of a rheology that does not say with which one it was fitted."""
+
+
+def viscous_function(name: str, rheology: ExponentialRheology | None) -> AbstractViscousFunction:
+    """The viscous function of this name; that of Elsharkawy and Hamrock has the exponent with which the oil's data
+    were fitted, or 2."""
+    if name != ElsharkawyHamrock.name or rheology is None or rheology.exponent is None:
+        return VISCOUS_LAWS[name]()
+    return ElsharkawyHamrock(rheology.exponent)
+
+
+def viscous_function_for(given: AbstractViscousFunction | None, lubricant: Lubricant) -> AbstractViscousFunction:
+    """The viscous function that is given, or the one with which the oil's rheology was fitted: Ree and Eyring's where
+    the oil does not say."""
+    if given is not None:
+        return given
+    fitted = None if lubricant.rheology is None else lubricant.rheology.viscous_function
+    return ASSUMED() if fitted is None else viscous_function(fitted, lubricant.rheology)
+
+
+def viscous_notes(given: AbstractViscousFunction | None, lubricant: Lubricant) -> tuple[str, ...]:
+    """What a user should know of a traction law with this viscous function (None: the oil's own) and this oil, a
+    sentence each: that another one was fitted, or that none is known."""
+    if lubricant.rheology is None:
+        return ()
+    if given is not None:
+        return lubricant.rheology.misfit(given.name, getattr(given, "exponent", None))
+    if lubricant.rheology.viscous_function is not None:
+        return ()
+    return (f"oil.rheology does not name the viscous function that it was fitted with: {ASSUMED.name} is assumed",)
 
 
 def _same_shape(trial: Values, relaxation: Values) -> tuple[Array, Array]:

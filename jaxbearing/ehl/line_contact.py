@@ -185,7 +185,11 @@ class EHLLineContact(AbstractScene):
 
     def solvable(self, scales: Scales, speed: Any) -> Bool[Array, ""]:
         """Whether there is a film at this speed that this model describes."""
-        return existing(scales.wedge, speed) & (scales.moes_load >= SMALLEST_MOES_LOAD)
+        return existing(scales.wedge, speed) & self.described(scales)
+
+    def described(self, scales: Scales) -> Bool[Array, ""]:
+        """Whether the cylinders are soft enough for this model."""
+        return scales.moes_load >= SMALLEST_MOES_LOAD
 
     @property
     def steady_mesh(self) -> MeshKey:

@@ -19,7 +19,7 @@ from .line_contact import SMALLEST_MOES_LOAD, EHLLineContact, Scales
 from .mesh import MeshKey, mesh
 from .simulation import FilmSimulation
 from .solution import HertzResult, central_value, range_checks
-from .steady import SteadyRoot, existing, no_film, steady_root
+from .steady import SteadyRoot, existing, judged, steady_root
 from .stepping import SEGMENT, Advanced, Drive, Motion, advance, at_rest
 
 LOOKS = 2_001
@@ -60,7 +60,8 @@ def _steady_start(scene: EHLLineContact, simulation: FilmSimulation, key: MeshKe
     drive = drive_of(scene, simulation, scales)
     problem = scene.steady(scales, drive.speed_at(jnp.zeros(())))
     root = steady_root(problem, key=key)
-    root = root._replace(status=no_film(root.status, existing(scales.wedge, problem.speed)))
+    status = judged(root.status, existing(scales.wedge, problem.speed), scene.described(scales))
+    root = root._replace(status=status)
     return Begun(scales, drive, at_rest(root.point, drive.fluid, mesh(key)), root)
 
 
@@ -146,7 +147,7 @@ def simulate_film(
         key = scene.run_mesh(enters_behind(scene, simulation, began, stop))
         begun = _begin(scene, simulation, key)
         if int(begun.root.status) != Status.CONVERGED:
-            raise SolveError(_no_start(begun))
+            raise SolveError(_no_start(begun), Status(int(begun.root.status)))
         scales, drive, motion = begun.scales, begun.drive, begun.motion
     else:
         key = check_restart(scene, simulation, start, duration)

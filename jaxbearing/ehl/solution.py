@@ -14,7 +14,7 @@ from ..numerics.status import Status
 from .equations import film_shape
 from .line_contact import SMALLEST_MOES_LOAD, ContactOperation, EHLLineContact, Scales
 from .mesh import Mesh, mesh
-from .steady import SMALLEST_WEDGE, no_film, steady_root
+from .steady import SMALLEST_WEDGE, judged, steady_root
 
 THIN = "minimum film below contact.film_limit: a continuum means little"
 
@@ -145,7 +145,7 @@ def solve_line_contact(scene: EHLLineContact, options: Any = None) -> LineContac
     exists = scales.wedge * speed >= SMALLEST_WEDGE
     x = jnp.asarray(grid.x)
     return LineContactSolution(
-        status=no_film(root.status, exists),
+        status=judged(root.status, exists, scene.described(scales)),
         iterations=root.iterations,
         residual_norm=root.residual,
         last_step=root.step,

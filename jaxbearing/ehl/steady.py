@@ -129,6 +129,8 @@ def existing(wedge: Scalar, speed: Scalar) -> Bool[Array, ""]:
     return jnp.asarray(wedge * jnp.abs(speed) >= SMALLEST_WEDGE)
 
 
-def no_film(status: Int[Array, ""], exists: Bool[Array, ""]) -> Int[Array, ""]:
-    """The status, `NO_EQUILIBRIUM` where there is no film to be found."""
+def judged(status: Int[Array, ""], exists: Bool[Array, ""], described: Bool[Array, ""]) -> Int[Array, ""]:
+    """The status, `NO_EQUILIBRIUM` where there is no film to be found, `OUTSIDE_VALIDITY` where it is none that the
+    model describes."""
+    status = jnp.where(described, status, int(Status.OUTSIDE_VALIDITY))
     return jnp.where(exists, status, int(Status.NO_EQUILIBRIUM))

@@ -16,17 +16,15 @@ MARTIN_SHEAR = 2.01435066101268
 """Gs at s = 0."""
 MARTIN_ROLLING = 6.506905317803327
 """Gr at s = 0."""
-SQUEEZE_LIMIT = 300.0
-"""|s| beyond which the factors are frozen."""
 SPEED_WIDTH = 1e-9
 """Smoothing of the entrainment speed at rest, m/s: relative error 5e-13 at 1 mm/s."""
 _EXIT_START = (
-    *(0.4751299201, -1.357426819, -0.5429352885, 1.330782101, 0.7815948016, -1.342554611, -0.7451212471),
-    *(1.354788518, 0.6822743833, -1.288243853, -0.6949712586, 1.135702876, 0.6591891282, -0.8812806909),
-    *(-0.4797652198, 0.5235568072, 0.2402137388, -0.1963834168, -0.07347032474, 0.03355913735, 0.01036137303),
+    *(0.4751299201, -1.357426789, -0.5429352829, 1.330780164, 0.7815944628, -1.342517866, -0.7451151103),
+    *(1.354473076, 0.682223562, -1.286782901, -0.6947424993, 1.131742606, 0.6585831024, -0.874813446),
+    *(-0.478793966, 0.5172988587, 0.2392884099, -0.1930806543, -0.07298827808, 0.03282697006, 0.01025568186),
 )
-"""T/sqrt(1 + s^2) as a polynomial in s/(1 + sqrt(1 + s^2)): Chebyshev interpolation over |s| <= 300, right to 3e-8; one
-Newton step squares that."""
+"""T/sqrt(1 + s^2) as a polynomial in s/(1 + sqrt(1 + s^2)): Chebyshev interpolation over all s, pure squeeze (1, -3/8)
+included, right to 3e-8; one Newton step squares that."""
 _SERIES_BELOW = 0.8
 _SERIES = range(1, 14)
 _I2_SERIES = tuple((-1) ** (k + 1) * 4.0**k / (2 * math.factorial(2 * k + 1)) for k in _SERIES)
@@ -121,40 +119,44 @@ def martin_exit(s: Values) -> Batch:
     r"""Exit position T (in $\sqrt{2Rh_0}$) of a line film with squeeze number s, p = dp/dx = 0 there.
 
     Inverse of the explicit, decreasing $s(T) = -(I_2-(1+T^2)I_4)/(J_3-TI_4)$ by Newton, with the
-    derivative 1/s'(T). s is clipped to [-300, 300].
+    derivative 1/s'(T), for |s| < 1e60.
 
     **Limits:** 0.4751 at s = 0; -s as s -> -inf (pure squeeze); -3s/8 as s -> +inf.
     **Reference:** Martin (1916), Engineering 102, 119; Dowson, Markho and Jones (1976), ASME J.
     Lubr. Technol. 98, 509.
     """
-    return _exit(jnp.clip(jnp.asarray(s), -SQUEEZE_LIMIT, SQUEEZE_LIMIT)).position
+    return _exit(jnp.asarray(s)).position
 
 
-def martin_factors(s: Values) -> MartinFactors:
-    r"""Load, shear and rolling factors at the squeeze number $s = (\dot h/u)\sqrt{2R/h_0}$.
-
-    With $\beta = \pi/2+\arctan T$ (see `martin_exit`): $G_s = \beta$, $G_w = 6(\sin^2\beta - sI_2)$,
-    $G_r = 12[\beta - I_2/\sin^2\beta - s(\sin^2\beta/2 + TI_2)]$.
-
-    **Limits:** s = 0: `MARTIN_LOAD`, `MARTIN_SHEAR`, `MARTIN_ROLLING`; s -> -inf: $G_w\to-3\pi s$; s -> +inf:
-    $G_w\to128/(27s^2)$: the film never pulls. Frozen beyond |s| = 300.
-    """
-    s = jnp.clip(jnp.asarray(s), -SQUEEZE_LIMIT, SQUEEZE_LIMIT)
-    found = _exit(s)
+def _factors(speed: Values, squeeze: Values) -> MartinFactors:
+    """u Gw, Gs and u Gr at u and $\\dot h\\sqrt{2R/h_0}$, m/s: finite as u -> 0, where Gw is not."""
+    speed, squeeze = jnp.asarray(speed), jnp.asarray(squeeze)
+    found = _exit(squeeze / speed)
     t, beta, sin, i2, _ = found
     sin2 = sin * sin
     excess, _ = _excess_and_slope(found)  # T + s without cancellation at s << 0
     return MartinFactors(
-        load=6.0 * (sin2 - s * i2),
+        load=6.0 * (speed * sin2 - squeeze * i2),
         shear=beta,
-        rolling=12.0 * (beta - i2 * (1.0 + t * excess) - 0.5 * s * sin2),
+        rolling=12.0 * (speed * (beta - i2 * (1.0 + t * excess)) - 0.5 * squeeze * sin2),
     )
 
 
-def squeeze_number(entrainment_speed: Values, radius: Values, film: Values, squeeze_rate: Values) -> Batch:
-    r"""$s = (\dot h/u)\sqrt{2R/h_0}$, u smoothed at rest by 1e-9 m/s; s < 0 when approaching."""
-    u = smooth_abs(entrainment_speed, SPEED_WIDTH)
-    return squeeze_rate / u * jnp.sqrt(2.0 * jnp.asarray(radius) / film)
+def martin_factors(s: Values) -> MartinFactors:
+    r"""Load, shear and rolling factors at the squeeze number $s = (\dot h/u)\sqrt{2R/h_0}$, |s| < 1e60.
+
+    With $\beta = \pi/2+\arctan T$ (see `martin_exit`): $G_s = \beta$, $G_w = 6(\sin^2\beta - sI_2)$,
+    $G_r = 12[\beta - I_2/\sin^2\beta - s(\sin^2\beta/2 + TI_2)]$.
+
+    **Limits:** s = 0: `MARTIN_LOAD`, `MARTIN_SHEAR`, `MARTIN_ROLLING`; s -> -inf: $G_w\to-3\pi s$, $G_s\to\pi$,
+    $G_r\to4\pi$; s -> +inf: $G_w\to128/(27s^2)$, $G_s\to8/(3s)$, $G_r\to64/(9s)$: the film never pulls.
+    """
+    return _factors(1.0, s)
+
+
+def _speeds(entrainment_speed: Values, radius: Values, film: Values, squeeze_rate: Values) -> tuple[Batch, Batch]:
+    r"""Entrainment speed, smoothed at rest by 1e-9 m/s, and $\dot h\sqrt{2R/h_0}$, m/s."""
+    return smooth_abs(entrainment_speed, SPEED_WIDTH), squeeze_rate * jnp.sqrt(2.0 * jnp.asarray(radius) / film)
 
 
 def martin_load(
@@ -162,13 +164,14 @@ def martin_load(
 ) -> Batch:
     r"""Normal load $W = \mu uRL/h_0\,G_w(s)$, N, >= 0.
 
+    **Limits:** as u -> 0 that of pure squeeze, $3\sqrt2\pi\mu L(R/h_0)^{3/2}(-\dot h)$ on approach, 0 on separation.
+
     **Arguments:** `viscosity`, Pa s; `entrainment_speed` u = |u1 + u2|/2 relative to the contact,
     m/s; `radius`, equivalent, m; `length`, m; `film`, minimum film h0, m, > 0; `squeeze_rate`,
     dh0/dt, m/s, negative when approaching.
     """
-    u = smooth_abs(entrainment_speed, SPEED_WIDTH)
-    s = squeeze_number(entrainment_speed, radius, film, squeeze_rate)
-    return viscosity * u * radius * length / film * martin_factors(s).load
+    factors = _factors(*_speeds(entrainment_speed, radius, film, squeeze_rate))
+    return viscosity * jnp.asarray(radius) * length / film * factors.load
 
 
 def martin_shear(
@@ -180,19 +183,18 @@ def martin_shear(
     film: Values,
     squeeze_rate: Values,
 ) -> Batch:
-    r"""Couette force $F_s = \mu(u_1-u_2)L\sqrt{2R/h_0}\,G_s(s)$, N, signed as u1 - u2."""
-    s = squeeze_number(entrainment_speed, radius, film, squeeze_rate)
-    return viscosity * sliding_speed * length * jnp.sqrt(2.0 * jnp.asarray(radius) / film) * martin_factors(s).shear
+    r"""Couette force $F_s = \mu(u_1-u_2)L\sqrt{2R/h_0}\,G_s(s)$, N, signed as u1 - u2. Arguments of `martin_load`."""
+    factors = _factors(*_speeds(entrainment_speed, radius, film, squeeze_rate))
+    return viscosity * sliding_speed * length * jnp.sqrt(2.0 * jnp.asarray(radius) / film) * factors.shear
 
 
 def martin_rolling(
     viscosity: Values, entrainment_speed: Values, radius: Values, length: Values, film: Values, squeeze_rate: Values
 ) -> Batch:
-    r"""Pressure-flow (rolling) force $P = \mu uL\sqrt{2R/h_0}\,G_r(s)$, N: the integral of h dp/dx.
+    r"""Pressure-flow (rolling) force $P = \mu uL\sqrt{2R/h_0}\,G_r(s)$, N: the integral of h dp/dx. 0 in pure squeeze.
 
     With u1 > u2 >= 0, entrainment along body 1: shear on body 1 is -(Fs + P/2), on body 2 Fs - P/2;
-    pressure adds +P R/R_k along the motion on body k of radius R_k.
+    pressure adds +P R/R_k along the motion on body k of radius R_k. Arguments of `martin_load`.
     """
-    u = smooth_abs(entrainment_speed, SPEED_WIDTH)
-    s = squeeze_number(entrainment_speed, radius, film, squeeze_rate)
-    return viscosity * u * length * jnp.sqrt(2.0 * jnp.asarray(radius) / film) * martin_factors(s).rolling
+    factors = _factors(*_speeds(entrainment_speed, radius, film, squeeze_rate))
+    return viscosity * length * jnp.sqrt(2.0 * jnp.asarray(radius) / film) * factors.rolling

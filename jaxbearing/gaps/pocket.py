@@ -104,7 +104,7 @@ class CompliantPocketFace(eqx.Module):
     $h_M = \mu uRLG_w(s)/Q$, Dowson and Higginson's elastic film
     $h_E = 2.65R(\mu u/E'R)^{0.7}(\alpha E')^{0.54}(Q/E'RL)^{-0.13}$ and Palmgren's flattening
     $\delta = 0.39(8/E')^{0.9}L^{-0.8}Q^{0.9}$. $u = \sqrt{U^2+U_{min}^2}/2$ and
-    $s = (\dot H/u)\sqrt{2R/h_s}$ with $h_s = (H+\sqrt{H^2+4h_{min}^2})/2$, clipped to +-300.
+    $s = (\dot H/u)\sqrt{2R/h_s}$ with $h_s = (H+\sqrt{H^2+4h_{min}^2})/2$.
 
     **Limits:** wide gap: Martin; deep overlap: Hertz-like flattening. The blend exceeds the larger
     of the two films by at most 26 %.

@@ -6,7 +6,7 @@ import equinox as eqx
 import jax.numpy as jnp
 
 from .._types import Batch, Scalar, Values
-from ..numerics.checks import Checked, bounded
+from ..numerics.checks import Checked, bounded, known
 
 EXPONENT_CAP = 60.0
 """Exponents are clipped to +-60 (26 decades): beyond, the law is constant and its gradient 0."""
@@ -47,12 +47,21 @@ class ExponentialRheology(Checked):
         if self.viscous_function is not None and self.viscous_function not in VISCOUS_FUNCTIONS:
             raise ValueError(f"viscous_function: found {self.viscous_function!r}, expected one of {VISCOUS_FUNCTIONS}")
 
-    def misfit(self, viscous_function: str) -> tuple[str, ...]:
+    def misfit(self, viscous_function: str, exponent: Values | None = None) -> tuple[str, ...]:
         """What a user should know of a traction law with this viscous function: nothing, or that the data were fitted
-        with another one (a limiting stress is no Eyring stress)."""
-        if self.viscous_function in (None, viscous_function):
+        with another one (a limiting stress is no Eyring stress).
+
+        **Arguments:** `viscous_function`, its name; `exponent`, that of "elsharkawy_hamrock".
+        """
+        if self.viscous_function is None:
             return ()
-        return (f"contact.traction is {viscous_function}, the oil's rheology was fitted with {self.viscous_function}",)
+        if self.viscous_function != viscous_function:
+            fitted = self.viscous_function
+            return (f"contact.traction is {viscous_function}, the oil's rheology was fitted with {fitted}",)
+        given = None if exponent is None else known(exponent)
+        if given is None or self.exponent in (None, given[0]):
+            return ()
+        return (f"contact.traction has the exponent {given[0]:g}, the oil's rheology {self.exponent:g}",)
 
     def log_shear_modulus(self, pressure: Values, temperature: Values) -> Batch:
         """ln of the shear modulus in Pa. **Arguments:** `pressure`, Pa; `temperature`, K, > 0."""

@@ -210,6 +210,8 @@ class TwoDiskSolution(AbstractSolution):
         residual = np.where(np.isfinite(residual), residual, np.inf)
         worst = np.unravel_index(np.argmax(np.where(failed, residual, -1.0)), residual.shape)
         reason = f"nested solve (temperature of inlet or film), residual {residual[worst]:.3g}"
+        if status[worst] == Status.OUTSIDE_VALIDITY:
+            reason = "no inlet up to 500 K warmer has a film as thin as the thermal law's, which does not apply there"
         if residual[worst] <= INNER_TOLERANCE:
             reason = "no finite number"
         text = f"{Status(int(status.max())).text}: {int(failed.sum())} of {status.size} points"
@@ -281,9 +283,7 @@ class TwoDisk(AbstractScene):
 
     def assumptions(self) -> tuple[str, ...]:
         """What the scene's data were not made for or leave open; for the user."""
-        rheology = self.oil.rheology
-        misfit = () if rheology is None else rheology.misfit(self.contact.traction.viscous.name)
-        return (*(f"oil: {note}" for note in self.oil.notes), *misfit)
+        return (*(f"oil: {note}" for note in self.oil.notes), *self.contact.traction.notes(self.oil))
 
     def state(
         self,
@@ -335,6 +335,7 @@ def solve_two_disk(scene: TwoDisk, options: Any = None) -> TwoDiskSolution:
         return state.film, state.temperature, state.inner_residual, scene.traction(state), deborah
 
     film, temperature, residual, traction, deborah = _in_batches(point, grid)
+    cool = residual <= INNER_TOLERANCE
     if traction.inner_residual is not None:
         residual = jnp.maximum(residual, traction.inner_residual)
     coefficient = traction.rolling / grid[2]
@@ -348,7 +349,7 @@ def solve_two_disk(scene: TwoDisk, options: Any = None) -> TwoDiskSolution:
         )
     }
     return TwoDiskSolution(
-        status=jnp.where(good, np.int64(Status.CONVERGED), np.int64(Status.NOT_CONVERGED)),
+        status=_status(good, cool | ~jnp.isfinite(residual)),
         operation=operation,
         pressure=contact.hertz_pressure(load),
         load=jnp.asarray(load),
@@ -363,6 +364,12 @@ def solve_two_disk(scene: TwoDisk, options: Any = None) -> TwoDiskSolution:
         checks={text: value > 0 for text, value in excess.items()},
         notes=scene.assumptions(),
     )
+
+
+def _status(good: Array, explained: Array) -> Array:
+    """Of each point; `explained`: whether an inlet temperature within its bounds explains the thermal reduction."""
+    failed = jnp.where(explained, np.int64(Status.NOT_CONVERGED), np.int64(Status.OUTSIDE_VALIDITY))
+    return jnp.where(good, np.int64(Status.CONVERGED), failed)
 
 
 def _in_batches(function: Any, grid: Sequence[Array]) -> Any:

@@ -11,13 +11,19 @@ class Status(enum.IntEnum):
     DIVERGED = 2
     NO_EQUILIBRIUM = 3
     INVALID_INPUT = 4
-    """A traced number is outside of its bound: `checks` names it."""
+    """A traced number is out of its bound: `checks` names the rule."""
+    OUTSIDE_VALIDITY = 5
+    THERMAL_RUNAWAY = 6
 
     @property
     def text(self) -> str:
-        """The name in small letters, `converged` for example."""
+        """The name in lower case, e.g. `not_converged`."""
         return self.name.lower()
 
 
 class SolveError(RuntimeError):
     """A solve that did not converge; the message names status, residual and worst equation."""
+
+    def __init__(self, message: str, status: Status = Status.NOT_CONVERGED):
+        super().__init__(message)
+        self.status = status

@@ -10,12 +10,9 @@ from ..contacts import (
     AbstractPointFilm,
     AbstractThermalFactor,
     AbstractViscousFunction,
-    BairWiner,
     DistributedTraction,
     DowsonHigginson,
     DowsonToyoda,
-    ElsharkawyHamrock,
-    GecimWiner,
     Grubin,
     Gupta,
     HamrockDowsonCentral,
@@ -27,6 +24,7 @@ from ..contacts import (
     ReeEyring,
     Resolution,
 )
+from ..contacts import viscous_function as viscous_function_named
 from ..lubricants import Lubricant
 from . import units
 
@@ -42,14 +40,8 @@ POINT_FILMS: dict[str, type[AbstractPointFilm]] = {
     "hamrock_dowson": HamrockDowsonCentral,
 }
 THERMAL: dict[str, type[AbstractThermalFactor]] = {"gupta": Gupta, "hsu_lee": HsuLee}
-VISCOUS: dict[str, type[AbstractViscousFunction]] = {
-    "ree_eyring": ReeEyring,
-    "bair_winer": BairWiner,
-    "gecim_winer": GecimWiner,
-    # the Maxwell-Eyring law is Ree and Eyring's flow with the Maxwell element that every law here has
-    "maxwell_eyring": ReeEyring,
-}
-"""Besides Elsharkawy and Hamrock's, which has an exponent."""
+MAXWELL_EYRING = "maxwell_eyring"
+"""Ree and Eyring's flow with the Maxwell element that every law here has."""
 
 DISTRIBUTED_ACCURACY = 1e-3
 """Of the distributed traction where a scene does not say."""
@@ -61,10 +53,8 @@ def thermal_factor(name: str | None) -> AbstractThermalFactor:
 
 def viscous_function(name: str, oil: Lubricant | None) -> AbstractViscousFunction:
     """The flow law of this name, with the exponent with which the oil's data were fitted."""
-    if name != "elsharkawy_hamrock":
-        return VISCOUS[name]()
-    fitted = None if oil is None or oil.rheology is None else oil.rheology.exponent
-    return ElsharkawyHamrock() if fitted is None else ElsharkawyHamrock(fitted)
+    name = ReeEyring.name if name == MAXWELL_EYRING else name
+    return viscous_function_named(name, None if oil is None else oil.rheology)
 
 
 def distributed_traction(name: str, accuracy: float | None, oil: Lubricant | None) -> DistributedTraction:

@@ -18,7 +18,7 @@ STEPS = (1e-5, 1e-4)
 the difference itself is off."""
 FINER_STEPS = (1e-7, 1e-6)
 """Those of two more where both are off."""
-HONEST = (Status.NOT_CONVERGED, Status.DIVERGED, Status.NO_EQUILIBRIUM)
+HONEST = (Status.NOT_CONVERGED, Status.DIVERGED, Status.NO_EQUILIBRIUM, Status.OUTSIDE_VALIDITY)
 HIDDEN = ("elements.", "ring.", "cage.", "power_loss.", "stiffness", "film", "profile.pressure", "traction_coefficient")
 """How the paths of results begin that a solve that failed must not show."""
 

@@ -115,8 +115,8 @@ def test_check_values_spin(row):
 def test_check_values_thermal():
     rows = PUBLISHED["thermal"]
     conductivity = jnp.asarray(rows[0]["conductivity"])
-    # an odd number of strips: the temperatures are those at y = 0
-    law = DistributedTraction(BY_NAME["elsharkawy_hamrock"], Resolution(100, 17), heating=FilmHeating(conductivity))
+    # the temperatures are those at y = 0, which no Gauss point of an even number is: they were 2 to 6 % low
+    law = DistributedTraction(BY_NAME["elsharkawy_hamrock"], Resolution(100, 16), heating=FilmHeating(conductivity))
     isothermal = DistributedTraction(law.viscous, Resolution(256, 64, extrapolate=True))  # the kinks across strips
     patch = ContactPatch(*(column(rows, key) for key in ("pressure", "half_width", "half_length")))
     film, speed, sliding, temperature = (column(rows, key) for key in ("film", "speed", "sliding", "temperature"))
@@ -222,17 +222,18 @@ def check_error_estimate(name, line, resolution):
 
 
 @SLOW
-def test_error_estimate_thermal():
+@pytest.mark.parametrize("line", [True, False], ids=["line", "point"])
+def test_error_estimate_thermal(line):
     row = PUBLISHED["thermal"][1]
     film, speed, sliding, temperature = numbers(*(row[key] for key in ("film", "speed", "sliding", "temperature")))
     arguments = (
-        patch_of(row["pressure"], row["half_width"], 1.0, line=True),
+        patch_of(row["pressure"], row["half_width"], 1.0 if line else row["half_width"], line=line),
         film,
         speed,
         Sliding(sliding),
         temperature,
     )
-    heated = lambda n: DistributedTraction(VISCOUS[3], Resolution(n, 1), heating=FilmHeating())
+    heated = lambda n: DistributedTraction(VISCOUS[3], Resolution(n, 1 if line else 16), heating=FilmHeating())
     found, exact = (traction(heated(n), *arguments, PENNZANE) for n in (24, 192))
     errors = estimate(heated(24), *arguments, PENNZANE)
     for field in ("rolling", "film_rise", "surface_rise"):

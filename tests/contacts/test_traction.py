@@ -1,5 +1,7 @@
 """Traction at the mean pressure: an independent transcription, limits, hard cases, gradients."""
 
+import dataclasses
+
 import equinox as eqx
 import jax
 import jax.numpy as jnp
@@ -9,12 +11,14 @@ from reference_oils import mobil_jet_ii, nye_186a
 
 from jaxbearing.contacts import (
     BairWiner,
+    DistributedTraction,
     ElsharkawyHamrock,
     GecimWiner,
     LineContact,
     MaxwellEyring,
     MeanPressureTraction,
     ReeEyring,
+    Resolution,
 )
 
 # new law: add a line, get the general tests
@@ -179,7 +183,44 @@ def test_viscous_limit_between_newton_and_the_limiting_stress(viscous):
     assert force(load, h, u, unit, temperature, MeanPressureTraction(viscous)) < elastic  # a soft oil gives less
 
 
-def test_default_is_maxwell_eyring():
-    assert MaxwellEyring is MeanPressureTraction
+def test_maxwell_eyring_whatever_the_oil():
     assert isinstance(MaxwellEyring().viscous, ReeEyring)
     assert MaxwellEyring().elastic
+
+
+OWN = [("ree_eyring", None, ReeEyring()), ("bair_winer", None, BairWiner()), ("gecim_winer", None, GecimWiner())]
+OWN += [("elsharkawy_hamrock", n, ElsharkawyHamrock(n)) for n in (1.5, 2.0)]
+ANY = {
+    "mean pressure": MeanPressureTraction,
+    "distributed": lambda viscous=None: DistributedTraction(viscous, Resolution(8, 4)),
+}
+
+
+@pytest.mark.parametrize("make", ANY.values(), ids=ANY)
+@pytest.mark.parametrize("fitted", OWN, ids=lambda row: f"{row[0]}-{row[1]}")
+def test_default_is_the_viscous_function_of_the_oil(make, fitted):
+    name, exponent, viscous = fitted
+    oil = with_rheology(viscous_function=name, exponent=exponent)
+    np.testing.assert_array_equal(force(*NOMINAL, make(), oil), force(*NOMINAL, make(viscous), oil))
+    assert make().notes(oil) == make(viscous).notes(oil) == ()
+    for other, n, law in OWN:
+        if other != name:
+            said = (f"contact.traction is {other}, the oil's rheology was fitted with {name}",)
+        else:
+            said = (
+                () if n == exponent else (f"contact.traction has the exponent {n:g}, the oil's rheology {exponent:g}",)
+            )
+        assert make(law).notes(oil) == said
+
+
+@pytest.mark.parametrize("make", ANY.values(), ids=ANY)
+def test_unknown_viscous_function_is_ree_and_eyrings_with_a_note(make):
+    oil = with_rheology(viscous_function=None, exponent=None)
+    assert force(*NOMINAL, make(), oil) == force(*NOMINAL, make(ReeEyring()), oil)
+    assert make(BairWiner()).notes(oil) == ()
+    (note,) = make().notes(oil)
+    assert "ree_eyring is assumed" in note
+
+
+def with_rheology(**changes):
+    return dataclasses.replace(OIL, rheology=dataclasses.replace(OIL.rheology, **changes))

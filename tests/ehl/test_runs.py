@@ -12,7 +12,7 @@ from numpy.testing import assert_allclose
 import jaxbearing as jb
 from jaxbearing.ehl import FilmSimulation
 from jaxbearing.ehl.stepping import SEGMENT
-from jaxbearing.numerics.status import SolveError
+from jaxbearing.numerics.status import SolveError, Status
 from jaxbearing.time_laws import LinearRamp, Ramp, Sinusoidal, Tabulated
 
 STOP = tomllib.loads((Path(__file__).parents[1] / "published" / "line_contact_field.toml").read_text())["stop"]
@@ -156,8 +156,9 @@ def test_progress_and_interrupt():
 
 def test_a_light_load_has_no_start_either():
     scene, _ = by_moes(2.0, 5.0, 101)
-    with pytest.raises(SolveError, match=r"not_converged: load number M = 2 is below 3.*rigid"):
+    with pytest.raises(SolveError, match=r"outside_validity: load number M = 2 is below 3.*rigid") as raised:
         run(scene, 1e-3, AT_ONCE)
+    assert raised.value.status == Status.OUTSIDE_VALIDITY
 
 
 def test_refusals():

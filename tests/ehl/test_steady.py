@@ -193,8 +193,11 @@ def test_at_rest_there_is_no_steady_film(speed):
 
 def test_light_loads_are_refused():
     scene, _ = by_moes(2.0, 5.0, 101)
-    with pytest.raises(SolveError, match=r"M = 2 is below 3.*rigid"):
+    assert int(jb.solve(scene, throw=False).status) == Status.OUTSIDE_VALIDITY
+    with pytest.raises(SolveError, match=r"outside_validity: load number M = 2 is below 3.*rigid"):
         jb.solve(scene)
+    still = scene.at_operation(entrainment_speed=0.0)  # no film at all is said first
+    assert int(jb.solve(still, throw=False).status) == Status.NO_EQUILIBRIUM
     scene, _ = by_moes(5.0, 5.0, 101, 4.0)
     assert any("contact.inlet" in text for text in jb.solve(scene).warnings)
 

@@ -10,6 +10,7 @@ from traction_curves import mobil_curves, mobil_scene, wrong_start
 import fitting
 import fitting.comparison
 from fitting.parameters import NAMES
+from fitting.viscous import held_misfit, with_viscous_function
 
 ERRORS = fitting.Errors(relative=0.02, floor=2e-5)
 SLOPES = [name for name in NAMES if "_" in name.removeprefix("shear_")]
@@ -211,6 +212,17 @@ def test_lack_of_fit_is_said(curves):
     result = fitted(noisy(curves, noise=2e-3), scene, model="gecim_winer")
     assert any(note.startswith("Lack of fit") for note in result.notes)
     assert not any(note.startswith("Lack of fit") for note in fitted(noisy(curves), scene).notes)
+
+
+def test_stress_held_at_the_numbers_of_another_viscous_function_is_said():
+    scene, model = with_viscous_function(mobil_scene(), "gecim_winer")
+    assert model == "gecim_winer"
+    assert held_misfit(scene, NAMES) == ()
+    (note,) = held_misfit(scene, NAMES[:4])
+    assert note.startswith("alpha_tau, beta_tau held at the oil's own: contact.traction is gecim_winer")
+    own, model = with_viscous_function(eqx.tree_at(lambda s: s.contact.traction.viscous, scene, None), None)
+    assert model == own.contact.traction.viscous.name == "ree_eyring"
+    assert held_misfit(own, ()) == ()
 
 
 @pytest.mark.slow

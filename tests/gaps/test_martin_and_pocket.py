@@ -16,7 +16,9 @@ from jaxbearing.gaps import (
     MARTIN_ROLLING,
     MARTIN_SHEAR,
     CompliantPocketFace,
+    LongJournal,
     Pocket,
+    ShortJournal,
     martin_exit,
     martin_factors,
     martin_load,
@@ -67,13 +69,13 @@ def reference_factors(s):
         slope = 12.0 * (x - t) * (x + t + s) * np.sin(b) ** 6
         return np.sum(weights * weight(x) * slope / np.sin(b) ** 2) * 0.5 * end
 
-    t = brentq(integrate, -200.0, 400.0, args=(np.ones_like,), xtol=1e-13, rtol=1e-14)
+    t = brentq(integrate, -0.5 * abs(s) - 1.0, abs(s) + 1.0, args=(np.ones_like,), xtol=1e-13, rtol=1e-14)
     # W = integral of 2 p dX in units of mu u R L/h0, by parts
     load = -2.0 * integrate(t, lambda x: x)
     return t, load, np.arctan(t) + 0.5 * np.pi, integrate(t, lambda x: 1.0 + x * x)
 
 
-@pytest.mark.parametrize("s", [0.0, -0.7, 1.3, -40.0, 25.0, -299.0, 299.0])
+@pytest.mark.parametrize("s", [0.0, -0.7, 1.3, -40.0, 25.0, -299.0, 299.0, -1e3, 1e3])
 def test_factors_against_quadrature_of_reynolds(s):
     t, load, shear, rolling = reference_factors(s)
     # round-off of the reference: at s = -299 its rolling integral cancels terms 1e4 times larger
@@ -81,10 +83,19 @@ def test_factors_against_quadrature_of_reynolds(s):
     np.testing.assert_allclose(martin_factors(s), [load, shear, rolling], rtol=1e-10)
 
 
-def test_martin_limits():
-    np.testing.assert_allclose(martin_factors(-300.0).load, 3 * np.pi * 300.0, rtol=1e-4)  # next term 1/s^2
-    np.testing.assert_allclose(martin_factors(300.0).load, 128 / (27 * 300.0**2), rtol=1e-4)
-    s = jnp.concatenate([-jnp.geomspace(400.0, 1e-6, 300), jnp.geomspace(1e-6, 400.0, 300)])
+@pytest.mark.parametrize("size", [1e4, 1e8, 1e18])
+def test_martin_limits(size):
+    # next terms 1/s^2 of the loads and 1/s of the others, with factors below 2
+    approach, apart = martin_factors(-size), martin_factors(size)
+    np.testing.assert_allclose([martin_exit(-size), martin_exit(size)], [size, -0.375 * size], rtol=2 / size + 1e-14)
+    limits = [3 * np.pi * size, 128 / (27 * size**2)]
+    np.testing.assert_allclose([approach.load, apart.load], limits, rtol=1e3 / size**2 + 1e-12)
+    np.testing.assert_allclose([approach.shear, apart.shear * size], [np.pi, 8 / 3], rtol=2 / size + 1e-12)
+    np.testing.assert_allclose([approach.rolling, apart.rolling * size], [4 * np.pi, 64 / 9], rtol=2 / size + 1e-12)
+
+
+def test_martin_is_monotone():
+    s = jnp.concatenate([-jnp.geomspace(1e6, 1e-6, 300), jnp.geomspace(1e-6, 1e6, 300)])
     load = np.asarray(martin_factors(s).load)
     assert np.all(load > 0)
     assert np.all(np.diff(load) <= 0)
@@ -124,6 +135,50 @@ def test_wall_hard_cases():
     assert all_finite(f(*cases, film))
     for mode in (jax.jacfwd, jax.jacrev):
         assert all_finite(jax.jit(jax.vmap(mode(f, argnums=(0, 1, 2))))(*cases, film))
+
+
+def test_pure_squeeze_of_a_line_contact():
+    r"""u = 0: Reynolds' equation integrates to $W = 3\sqrt2\pi\mu L(R/h)^{3/2}(-\dot h)$, 40.76 N here."""
+    film, rate = 1e-6, -0.1
+    load = lambda u, h, v: martin_load(MU, u, R, LENGTH, h, v)
+    exact = 3 * np.sqrt(2) * np.pi * MU * LENGTH * (R / film) ** 1.5 * -rate
+    np.testing.assert_allclose(exact, 40.760443, rtol=1e-8)
+    # the next term is of order (u/w)^2 of it, w = hdot sqrt(2R/h) = 11 m/s
+    for u in (0.0, 1e-6, 1e-3):
+        np.testing.assert_allclose(load(u, film, rate), exact, rtol=1e-14 + u**2 / 50)
+        slopes = jax.grad(load, (0, 1, 2))(u, film, rate)
+        np.testing.assert_allclose(slopes[1:], [-1.5 * exact / film, exact / rate], rtol=1e-13 + u**2 / 10)
+        np.testing.assert_allclose(slopes[0], 0.0, atol=10 * u)
+    assert 0 < load(0.0, film, -rate) < 1e-20  # separating: (128/27) mu u L R/h (u/w)^2
+    np.testing.assert_allclose(load(0.1, film, -rate) / load(0.05, film, -rate), 8.0, rtol=1e-3)
+    side = MU * LENGTH * np.sqrt(2 * R / film)
+    np.testing.assert_allclose(martin_shear(MU, 1.0, 0.0, R, LENGTH, film, rate), np.pi * side, rtol=1e-9)
+    for other in (martin_shear(MU, 1.0, 0.0, R, LENGTH, film, -rate), martin_rolling(MU, 0.0, R, LENGTH, film, rate)):
+        np.testing.assert_allclose(other, 0.0, atol=2e-8 * side)  # u is 1e-9 m/s at rest
+
+
+LAND, BALL_POCKET = ShortJournal(0.0675, 3.98e-3, 1.2e-4), LongJournal(0.01, 0.01, 1e-4)
+AT_REST = {
+    "line film": lambda speed, rate: martin_load(MU, speed, R, LENGTH, 1e-6, rate),
+    "line shear": lambda speed, rate: martin_shear(MU, 1.0, speed, R, LENGTH, 1e-6, rate),
+    "pocket face": lambda speed, rate: FACE.face(2e-6, rate, speed, MU).load,
+    "cage land": lambda speed, rate: LAND.force_on_journal(6e-5, 0.0, -rate, 0.0, speed, speed, MU, 12.0)[0],
+    "ball pocket": lambda speed, rate: BALL_POCKET.force_on_journal(0.5, -rate, speed, 0.0, 0.0, MU)[0],
+}
+
+
+@pytest.mark.parametrize("name", AT_REST)
+@pytest.mark.parametrize("rate", [-0.1, -10.0])
+def test_squeeze_film_has_a_limit_at_rest(name, rate):
+    """What a film carries by squeeze is there at every speed of the surfaces: no floor of the speed may take it."""
+    law = jax.jit(jax.value_and_grad(AT_REST[name], (0, 1)))
+    rest, slopes = law(0.0, rate)
+    assert abs(rest) > 0
+    assert all_finite(slopes)
+    for speed in (1e-9, 1e-6, 1e-4):
+        value, along = law(speed, rate)
+        np.testing.assert_allclose(value, rest, rtol=1e-3 * speed / 1e-4 + 1e-9)
+        np.testing.assert_allclose(along[1], slopes[1], rtol=1e-3, atol=1e-3 * abs(rest / rate))
 
 
 @settings(deadline=None, derandomize=True, max_examples=40)

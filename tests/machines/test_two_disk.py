@@ -223,6 +223,18 @@ def test_thermal_loading_beyond_the_factors_range_is_said():
     assert broken == ["thermal loading beyond 20: Gupta's factor is extrapolated"]
 
 
+def test_a_film_that_no_inlet_temperature_explains_is_outside_the_thermal_law():
+    scene = small(entrainment_speed=[20.0, 3000.0]).replace({"contact.thermal": Gupta()})
+    solution = jb.solve(scene, throw=False)
+    status = np.asarray(solution.status)[0, :, 0]
+    assert np.all(status[0] == Status.CONVERGED)
+    assert np.all(status[1] == Status.OUTSIDE_VALIDITY)
+    assert np.all(np.isnan(np.asarray(solution.traction_coefficient)[0, 1]))
+    with pytest.raises(SolveError, match="outside_validity: 5 of 10 points.*thermal law's") as raised:
+        solution.raise_if_failed()
+    assert raised.value.status == Status.OUTSIDE_VALIDITY
+
+
 def test_a_failed_point_is_named_and_has_no_result():
     """A slide whose shear rate overflows, beside those that do not."""
     whole, scene = jb.solve(small()), small(slide_to_roll=[-0.05, 0.0, 0.002, 0.01, 1e308])

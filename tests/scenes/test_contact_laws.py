@@ -192,6 +192,18 @@ def test_misfit_of_traction_law_and_data_is_said():
     ]
 
 
+@pytest.mark.parametrize(
+    "name", ["turbine_ball", "turbine_roller", "tapered_example", "two_disk_mobil_jet_ii", "two_disk_pennzane"]
+)
+def test_every_machine_says_which_viscous_function_does_not_fit_its_oil(name):
+    base = {} if name.startswith("two_disk") else {"oil.name": "pennzane_x2000"}
+    fitted = load_scene(name, base).oil.rheology.viscous_function
+    assert mentioned(load_scene(name, base | {"contact.traction": fitted}), "was fitted with") == []
+    assert mentioned(load_scene(name, base | {"contact.traction": "gecim_winer"}), "was fitted with") == [
+        f"contact.traction is gecim_winer, the oil's rheology was fitted with {fitted}"
+    ]
+
+
 def contact_scene(traction):
     return load_scene("turbine_roller", {"contact.traction": traction})
 

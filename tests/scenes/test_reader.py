@@ -14,7 +14,7 @@ from jaxbearing.contacts import (
     DowsonHigginson,
     Gupta,
     MartinBlend,
-    MaxwellEyring,
+    MeanPressureTraction,
     Moes,
     NoThermalReduction,
     ReeEyring,
@@ -150,7 +150,7 @@ def test_set_material_by_name_that_is_a_number():
 
 def test_traction_alias():
     mean = {"contact.traction": "ree_eyring", "contact.traction_model": "mean_pressure"}
-    assert isinstance(load_scene("turbine_roller", mean).contact.traction, MaxwellEyring)
+    assert isinstance(load_scene("turbine_roller", mean).contact.traction, MeanPressureTraction)
 
 
 @pytest.mark.parametrize(
