@@ -1,6 +1,7 @@
 """Geometry of a ball bearing: grooves, contact angle, centres of curvature."""
 
 import math
+from collections.abc import Iterator
 
 import equinox as eqx
 import jax.numpy as jnp
@@ -9,7 +10,7 @@ from jaxtyping import Array, Float
 from .._scene import number, optional_number
 from .._types import Scalar, Values
 from ..contacts import PointContact
-from ..numerics.checks import known, require
+from ..numerics.checks import known, refusals_of, refuse_all, require
 from .parts import check_row_fits
 
 
@@ -47,19 +48,22 @@ class BallGeometry(eqx.Module):
             shoulder_angle_inner=(self.shoulder_angle_inner, "> 0"),
             shoulder_angle_outer=(self.shoulder_angle_outer, "> 0"),
         )
-        check_row_fits(self.n_balls, self.ball_diameter, self.pitch_diameter, "ball")
+        refuse_all(self._problems())
+
+    def _problems(self) -> Iterator[str | ValueError]:
+        yield from refusals_of(check_row_fits, self.n_balls, self.ball_diameter, self.pitch_diameter, "ball")
         if (self.contact_angle is None) == (self.diametral_clearance is None):
-            raise ValueError("geometry.contact_angle: give it or geometry.diametral_clearance, one of the two")
+            yield "geometry.contact_angle: give it or geometry.diametral_clearance, one of the two"
         for name in ("conformity_inner", "conformity_outer"):
             conformity = known(getattr(self, name))
             if conformity is not None and not 0.5 < conformity[0] <= 1.0:
-                raise ValueError(f"geometry.{name} must lie between 0.5 and 1, got {conformity[0]:g}")
+                yield f"geometry.{name} must lie between 0.5 and 1, got {conformity[0]:g}"
         angle = known(self.contact_angle)
         if angle is not None and not angle[0] < 0.5 * math.pi:
-            raise ValueError(f"geometry.contact_angle must be below 90 degrees, got {math.degrees(angle[0]):g} degrees")
+            yield f"geometry.contact_angle must be below 90 degrees, got {math.degrees(angle[0]):g} degrees"
         sizes = known(self.diametral_clearance, self.ball_diameter, self.conformity_inner, self.conformity_outer)
         if sizes is not None and not sizes[0] < 2.0 * (sizes[2] + sizes[3] - 1.0) * sizes[1]:
-            raise ValueError(f"geometry.diametral_clearance: {sizes[0]:g} m is more than the grooves hold")
+            yield f"geometry.diametral_clearance: {sizes[0]:g} m is more than the grooves hold"
 
     @property
     def centre_distance(self) -> Array:

@@ -10,7 +10,7 @@ import jax.numpy as jnp
 from .._scene import number, optional_number
 from .._types import Scalar
 from ..gaps import AbstractTurbulence, BlendedTurbulence, ShortJournal
-from ..numerics.checks import known, require
+from ..numerics.checks import known, refusals_of, refuse_all, require
 from .parts import check_between
 
 ASSUMED_LANDS = 2
@@ -120,7 +120,10 @@ class AbstractCage(eqx.Module):
         pitch, element, bore, outside, pocket, guiding = sizes
         gap = pitch * math.sin(math.pi / max(count, 2)) - element
         neighbours = f"gap between neighbouring {self.element}s"
-        check_between("cage.inner_diameter", bore, pitch - element, outside, "inner raceway", "cage outside diameter")
-        check_between("cage.outer_diameter", outside, bore, pitch + element, "cage bore", "outer raceway")
-        check_between("cage.pocket_clearance", pocket, 0.0, gap, "nothing", neighbours)
-        check_between("cage.guiding_clearance", guiding, 0.0, 0.05 * bore, "nothing", "5 % of the land diameter")
+        limits = (
+            ("inner_diameter", bore, pitch - element, outside, "inner raceway", "cage outside diameter"),
+            ("outer_diameter", outside, bore, pitch + element, "cage bore", "outer raceway"),
+            ("pocket_clearance", pocket, 0.0, gap, "nothing", neighbours),
+            ("guiding_clearance", guiding, 0.0, 0.05 * bore, "nothing", "5 % of the land diameter"),
+        )
+        refuse_all(error for name, *limit in limits for error in refusals_of(check_between, f"cage.{name}", *limit))

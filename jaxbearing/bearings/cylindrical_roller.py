@@ -8,6 +8,7 @@ running (a roller between a turning inner and a fixed outer ring spins clockwise
 """
 
 import math
+from collections.abc import Iterator
 from typing import ClassVar, Literal
 
 import equinox as eqx
@@ -15,7 +16,7 @@ import equinox as eqx
 from .._types import Scalar
 from ..contacts import DistributedTraction, MeanPressureTraction
 from ..lubricants import Lubricant, NoPressureViscosity
-from ..numerics.checks import known, require
+from ..numerics.checks import known, refusals_of, refuse_all, require
 from .cage import ASSUMED_LANDS as ASSUMED_LANDS
 from .cage import AbstractCage
 from .parts import (
@@ -188,34 +189,38 @@ class CylindricalRollerBearing(AbstractScene):
     profile: RollerProfile | None = None
 
     def __check_init__(self):
+        refuse_all(self._problems())
+
+    def _problems(self) -> Iterator[str | ValueError]:
         if not self.ring_freedom or self.ring_freedom[0] != "radial" or set(self.ring_freedom) - {"radial", "lateral"}:
-            raise ValueError(f"ring_freedom must be ('radial',) or ('radial', 'lateral'), got {self.ring_freedom!r}")
+            yield f"ring_freedom must be ('radial',) or ('radial', 'lateral'), got {self.ring_freedom!r}"
         if self.contact is None:
             return
         if self.tilts and self.slips:
-            raise ValueError(
+            yield (
                 "contact.traction: tilting or profiled rollers (profile, operation.misalignment, operation.moment) "
                 "roll without sliding in this version; leave out contact.traction"
             )
         if self.cage is not None:
-            self.cage.check_fits(self.geometry)
+            yield from refusals_of(self.cage.check_fits, self.geometry)
         if self.flange is not None:
-            _check_height(self.flange, self.geometry)
-        self.operation.check_rings_turn()
-        if self.oil is None:
-            raise ValueError("oil: a scene with a [contact] table needs an oil")
+            yield from refusals_of(_check_height, self.flange, self.geometry)
+        yield from refusals_of(self.operation.check_rings_turn)
         if self.slips and self.cage is None and self.simulation is None:
-            raise ValueError(
+            yield (
                 "cage: a lubricated bearing with traction and without a cage has no steady state (a roller outside the "
                 "loaded zone slows down for ever); give it a cage, leave out contact.traction, or use simulate"
             )
+        if self.oil is None:
+            yield "oil: a scene with a [contact] table needs an oil"
+            return
         if self.slips and (self.oil.density is None):
-            raise ValueError("oil.density: the cage land and the drag need it")
+            yield "oil.density: the cage land and the drag need it"
         if isinstance(self.oil.pressure_viscosity, NoPressureViscosity):
             laws = {"film": self.contact.film, "rolling_resistance": self.contact.rolling}
             for name, law in laws.items():
                 if law is not None and law.piezoviscous_only:
-                    raise ValueError(
+                    yield (
                         f"contact.{name}: {type(law).__name__} holds for oils whose viscosity rises with pressure, not "
                         "for an isoviscous one; film = 'moes' and rolling_resistance = 'rigid_isoviscous' do"
                     )

@@ -1,7 +1,7 @@
 """The two-disk machine: two bodies that roll and slide on each other under load, and the traction between them."""
 
 import dataclasses
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from typing import Any, NamedTuple
 
 import equinox as eqx
@@ -33,7 +33,7 @@ from ..contacts.warm_film import warm_film
 from ..lubricants import Lubricant, NoPressureViscosity
 from ..lubricants.ranges import FITTED_PRESSURE, FITTED_TEMPERATURES
 from ..materials import Material, reduced_modulus
-from ..numerics.checks import RANGES, require
+from ..numerics.checks import RANGES, refuse_all, require
 from ..numerics.precision import as_float
 from ..numerics.status import Status
 
@@ -245,24 +245,27 @@ class TwoDisk(AbstractScene):
     operation: DiskOperation
 
     def __check_init__(self):
+        refuse_all(self._problems())
+
+    def _problems(self) -> Iterator[str | ValueError]:
         laws, oil = self.contact, self.oil
         line = self.geometry.contact_length is not None
         if line != isinstance(laws.film, AbstractLineFilm):
             kind = "line" if line else "point"
-            raise ValueError(f"contact.film: found {type(laws.film).__name__}, expected a film of a {kind} contact")
+            yield f"contact.film: found {type(laws.film).__name__}, expected a film of a {kind} contact"
         if isinstance(oil.pressure_viscosity, NoPressureViscosity) and laws.film.piezoviscous_only:
-            raise ValueError(
+            yield (
                 f"contact.film: {type(laws.film).__name__} holds for oils whose viscosity rises with pressure, not for "
                 "an isoviscous one"
             )
         if oil.rheology is None:
-            raise ValueError("oil.rheology: the traction needs it")
+            yield "oil.rheology: the traction needs it"
         heating = laws.traction.heating
         warms = not isinstance(laws.thermal, NoThermalReduction) or (
             heating is not None and heating.conductivity is None
         )
         if warms and oil.conductivity is None:
-            raise ValueError("oil.conductivity: the thermal reduction of the film, and its heating, need it")
+            yield "oil.conductivity: the thermal reduction of the film, and its heating, need it"
 
     @property
     def hertz(self) -> LineContact | PointContact:

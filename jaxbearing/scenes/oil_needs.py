@@ -12,6 +12,9 @@ def require_laws(oil: OilTable, needs: Mapping[str, str]) -> Problems:
 
     **Arguments:** `needs`: name of a law of the oil -> the field that needs it, in words; "" where none does.
     """
+    if oil.viscosity is None:
+        # it is refused as a whole, and whatever is meant may have these laws
+        return
     for law, user in needs.items():
         if user and getattr(oil, law) is None:
             yield refusal_at(f"oil.{law}", f"the law of {law}, which {user} needs", "nothing")
