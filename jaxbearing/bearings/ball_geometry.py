@@ -11,6 +11,7 @@ from .._scene import number, optional_number
 from .._types import Scalar, Values
 from ..contacts import PointContact
 from ..numerics.checks import known, refusals_of, refuse_all, require
+from ..numerics.structure import count
 from .parts import check_row_fits
 
 
@@ -26,7 +27,7 @@ class BallGeometry(eqx.Module):
     - `shoulder_angle_inner`, `shoulder_angle_outer`: angle at which the groove ends, rad; not given: no check.
     """
 
-    n_balls: int = eqx.field(static=True)
+    n_balls: int = count("geometry.n_balls")
     pitch_diameter: Scalar = number()
     ball_diameter: Scalar = number()
     conformity_inner: Scalar = number()

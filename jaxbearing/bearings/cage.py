@@ -11,6 +11,7 @@ from .._scene import number, optional_number
 from .._types import Scalar
 from ..gaps import AbstractTurbulence, BlendedTurbulence, ShortJournal
 from ..numerics.checks import known, refusals_of, refuse_all, require
+from ..numerics.structure import count
 from .parts import check_between
 
 ASSUMED_LANDS = 2
@@ -44,7 +45,7 @@ class AbstractCage(eqx.Module):
     land_width: Scalar = number()
     inner_diameter: Scalar | None = optional_number()
     outer_diameter: Scalar | None = optional_number()
-    n_lands: int | None = eqx.field(static=True, default=None)
+    n_lands: int | None = count("cage.n_lands", None)
     turbulence: AbstractTurbulence = BlendedTurbulence()
 
     def __check_init__(self):

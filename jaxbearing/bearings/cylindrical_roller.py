@@ -17,6 +17,7 @@ from .._types import Scalar
 from ..contacts import DistributedTraction, MeanPressureTraction
 from ..lubricants import Lubricant, NoPressureViscosity
 from ..numerics.checks import known, refusals_of, refuse_all, require
+from ..numerics.structure import count
 from .cage import ASSUMED_LANDS as ASSUMED_LANDS
 from .cage import AbstractCage
 from .parts import (
@@ -52,7 +53,7 @@ class RollerGeometry(eqx.Module):
     - `diametral_clearance`: of the assembled bearing, m.
     """
 
-    n_rollers: int = eqx.field(static=True)
+    n_rollers: int = count("geometry.n_rollers")
     pitch_diameter: Scalar = number()
     roller_diameter: Scalar = number()
     roller_length: Scalar = number()

@@ -7,6 +7,7 @@ import equinox as eqx
 from .._scene import optional_number
 from .._types import Scalar
 from ..numerics.checks import require
+from ..numerics.structure import constant, count
 
 CATALOGUE_CONFORMITY = 0.52
 """Groove radius over ball diameter for which ISO 281 and catalogues rate ball bearings."""
@@ -38,9 +39,9 @@ class Rating(eqx.Module):
     viscosity_ratio: Scalar | None = optional_number()
     roughness_rings: Scalar | None = optional_number()
     roughness_elements: Scalar | None = optional_number()
-    reliability: float = eqx.field(static=True, default=0.90)
+    reliability: float = constant("rating.reliability", 0.90)
     cleanliness: str | None = eqx.field(static=True, default=None)
-    n_laminae: int = eqx.field(static=True, default=LAMINAE)
+    n_laminae: int = count("rating.n_laminae", LAMINAE)
     edge_factor: bool | None = eqx.field(static=True, default=None)
     grooves: Literal["catalogue", "scene"] = eqx.field(static=True, default="catalogue")
 

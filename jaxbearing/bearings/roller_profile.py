@@ -5,6 +5,7 @@ import equinox as eqx
 from .._types import Scalar
 from ..contacts import AbstractTiltedLine, SlicedLine
 from ..contacts.profile import AbstractProfile
+from ..numerics.structure import count
 from .rating import LAMINAE
 
 
@@ -16,7 +17,7 @@ class RollerProfile(eqx.Module):
     """
 
     shape: AbstractProfile | None = None
-    n_laminae: int = eqx.field(static=True, default=LAMINAE)
+    n_laminae: int = count("profile.n_laminae", LAMINAE)
 
     def __check_init__(self):
         if self.n_laminae < 1:

@@ -17,6 +17,7 @@ from .._scene import number
 from .._types import Scalar
 from ..contacts import PointContact
 from ..numerics.checks import known, require
+from ..numerics.structure import count
 
 LEAST_HALF_ANGLE = math.radians(0.3)
 """Of the rollers: below, the apex goes to infinity and the bearing is a cylindrical one."""
@@ -37,7 +38,7 @@ class TaperedGeometry(eqx.Module):
     **Raises:** `ValueError` naming the field that makes the bearing impossible.
     """
 
-    n_rollers: int = eqx.field(static=True)
+    n_rollers: int = count("geometry.n_rollers")
     roller_diameter: Scalar = number()
     roller_length: Scalar = number()
     contact_angle: Scalar = number()

@@ -16,6 +16,7 @@ from jaxtyping import Array, Float
 from .._types import Scalar, Values
 from ..numerics.quadrature import gauss_legendre
 from ..numerics.safe import positive_power
+from ..numerics.structure import count as whole
 from .profile import AbstractProfile
 
 EXPONENT = 10.0 / 9.0
@@ -158,7 +159,7 @@ class SlicedLine(AbstractTiltedLine):
     stiffness: Scalar
     length: Scalar
     profile: AbstractProfile | None = None
-    count: int = eqx.field(static=True, default=30)
+    count: int = whole("count", 30)
 
     def drop(self, position: Values) -> Float[Array, "..."]:
         if self.profile is None:

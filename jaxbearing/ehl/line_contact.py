@@ -12,6 +12,7 @@ from ..contacts import AbstractLineFilm, DowsonHigginson, DowsonToyoda, LineCont
 from ..lubricants import Lubricant
 from ..materials import Material, reduced_modulus
 from ..numerics.checks import require
+from ..numerics.structure import constant, count
 from .equations import Fluid
 from .mesh import INLET, OUTLET, STOP_OUTLET, MeshKey
 from .simulation import FilmSimulation
@@ -50,8 +51,8 @@ class FilmModel(eqx.Module):
     """
 
     compressible: bool = eqx.field(static=True, default=True)
-    nodes: int = eqx.field(static=True, default=501)
-    inlet: float = eqx.field(static=True, default=INLET)
+    nodes: int = count("contact.nodes", 501)
+    inlet: float = constant("contact.inlet", INLET)
     film_limit: Scalar = number(0.5e-9)
 
     def __check_init__(self):

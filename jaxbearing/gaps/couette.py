@@ -8,6 +8,7 @@ import jax.numpy as jnp
 from .._types import Batch, Scalar, Values
 from ..numerics.quadrature import gauss_legendre
 from ..numerics.safe import softplus_floor
+from ..numerics.structure import count
 
 FILM_FLOOR = 0.5e-6
 """Least end film, m."""
@@ -112,7 +113,7 @@ class Flange(eqx.Module):
     roller_radius: Scalar
     side_clearance: Scalar
     angle: Scalar
-    n_sides: int = eqx.field(static=True, default=2)
+    n_sides: int = count("n_sides", 2)
 
     def coefficients(self, viscosity: Values) -> FlangeCoefficients:
         """Integrals at a viscosity (Pa s), to be evaluated at many speeds."""
@@ -164,7 +165,7 @@ class PocketEdge(eqx.Module):
     pitch_radius: Scalar
     roller_radius: Scalar
     side_clearance: Scalar
-    n_sides: int = eqx.field(static=True, default=2)
+    n_sides: int = count("n_sides", 2)
 
     def _integrals(self) -> tuple[Batch, Batch, Batch]:
         r_m = self.pitch_radius

@@ -9,6 +9,7 @@ from jaxtyping import Array
 from .._types import Batch, Scalar, Values
 from ..numerics.roots import monotone_root
 from ..numerics.safe import log_add, safe_norm, smooth_abs
+from ..numerics.structure import count
 from .turbulence import AbstractTurbulence, BlendedTurbulence
 
 ECCENTRICITY_LIMIT = 0.995
@@ -85,7 +86,7 @@ class ShortJournal(eqx.Module):
     width: Scalar
     clearance: Scalar
     turbulence: AbstractTurbulence = eqx.field(default_factory=BlendedTurbulence)
-    n_lands: int = eqx.field(static=True, default=2)
+    n_lands: int = count("n_lands", 2)
 
     def __check_init__(self):
         if self.n_lands < 1:

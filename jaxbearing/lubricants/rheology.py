@@ -4,6 +4,7 @@ import equinox as eqx
 import jax.numpy as jnp
 
 from .._types import Batch, Scalar, Values
+from ..numerics.structure import constant
 
 EXPONENT_CAP = 60.0
 """Exponents are clipped to +-60 (26 decades): beyond, the law is constant and its gradient 0."""
@@ -35,7 +36,7 @@ class ExponentialRheology(eqx.Module):
     stress_pressure: Scalar
     stress_temperature: Scalar
     viscous_function: str | None = eqx.field(static=True, default=None)
-    exponent: float | None = eqx.field(static=True, default=None)
+    exponent: float | None = constant("rheology.exponent", None)
 
     def __check_init__(self):
         if self.viscous_function is not None and self.viscous_function not in VISCOUS_FUNCTIONS:

@@ -1,4 +1,4 @@
-"""All problems of a scene are said at once: two faults are refused together as each is by itself, and nothing else is."""
+"""All problems of a scene are said at once: two faults are refused together as each is by itself, and no more."""
 
 import itertools
 
