@@ -7,7 +7,7 @@ import equinox as eqx
 from .._scene import optional_number
 from .._types import Scalar
 from ..numerics.checks import require
-from ..numerics.structure import constant, count
+from ..numerics.structure import constant, count, switch
 
 CATALOGUE_CONFORMITY = 0.52
 """Groove radius over ball diameter for which ISO 281 and catalogues rate ball bearings."""
@@ -42,7 +42,7 @@ class Rating(eqx.Module):
     reliability: float = constant("rating.reliability", 0.90)
     cleanliness: str | None = eqx.field(static=True, default=None)
     n_laminae: int = count("rating.n_laminae", LAMINAE)
-    edge_factor: bool | None = eqx.field(static=True, default=None)
+    edge_factor: bool | None = switch("rating.edge_factor", None)
     grooves: Literal["catalogue", "scene"] = eqx.field(static=True, default="catalogue")
 
     def __check_init__(self):

@@ -12,7 +12,7 @@ from ..contacts import AbstractLineFilm, DowsonHigginson, DowsonToyoda, LineCont
 from ..lubricants import Lubricant
 from ..materials import Material, reduced_modulus
 from ..numerics.checks import require
-from ..numerics.structure import constant, count
+from ..numerics.structure import constant, count, switch
 from .equations import Fluid
 from .mesh import INLET, OUTLET, STOP_OUTLET, MeshKey
 from .simulation import FilmSimulation
@@ -50,7 +50,7 @@ class FilmModel(eqx.Module):
     - `film_limit`: a run in time ends where the film is thinner, m: below about 0.5 nm a continuum means nothing.
     """
 
-    compressible: bool = eqx.field(static=True, default=True)
+    compressible: bool = switch("contact.compressible", True)
     nodes: int = count("contact.nodes", 501)
     inlet: float = constant("contact.inlet", INLET)
     film_limit: Scalar = number(0.5e-9)

@@ -9,6 +9,7 @@ from jaxtyping import Array
 from .._types import Batch, Scalar, Values
 from ..numerics.roots import monotone_root
 from ..numerics.safe import log_add
+from ..numerics.structure import switch
 from .martin import MARTIN_LOAD, MARTIN_ROLLING, MARTIN_SHEAR, martin_factors
 
 SPIN_FLOOR = 1.0
@@ -49,7 +50,7 @@ class Pocket(eqx.Module):
     clearance: Scalar
     length: Scalar
     roller_radius: Scalar
-    rolling: bool = eqx.field(static=True, default=False)
+    rolling: bool = switch("rolling", False)
 
     def balance(self, net_load: Values, spin_speed: Values, viscosity: Values) -> PocketFilm:
         r"""Films that carry a given net load, closed form.

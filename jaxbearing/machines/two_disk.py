@@ -36,6 +36,7 @@ from ..materials import Material, reduced_modulus
 from ..numerics.checks import RANGES, refuse_all, require
 from ..numerics.precision import as_float
 from ..numerics.status import Status
+from ..numerics.structure import switch
 
 INNER_TOLERANCE = 1e-6
 """Largest residual of a nested solve: ln(film) of the inlet's rise, K of the film's."""
@@ -98,8 +99,8 @@ class TwoDiskLaws(eqx.Module):
     film: AbstractPointFilm | AbstractLineFilm
     traction: DistributedTraction
     thermal: AbstractThermalFactor = NoThermalReduction()
-    warm_inlet: bool = eqx.field(static=True, default=True)
-    half_space_compliance: bool = eqx.field(static=True, default=False)
+    warm_inlet: bool = switch("contact.warm_inlet", True)
+    half_space_compliance: bool = switch("contact.half_space_compliance", False)
 
     def __check_init__(self):
         if self.half_space_compliance and self.traction.compliance is not None:
