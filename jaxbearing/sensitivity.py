@@ -26,7 +26,7 @@ class NoSensitivities(ValueError):
 
 
 class Sensitivities(eqx.Module):
-    """Sensitivities to every number of a scene, by dotted path; dimensionless. Of a result that the scene does not
+    """Sensitivities to every number of a scene, by dotted path, dimensionless. Of a result that the scene does not
     have, `None`.
 
     - `power_loss`: d ln(total power loss) / d ln(input): per cent of power for one per cent of the input.

@@ -102,7 +102,7 @@ class BallCage(AbstractCage):
     """One-piece cage with cylindrical pockets, guided by one ring on `n_lands` lands.
 
     **Arguments:** those of `AbstractCage`, and
-    - `pocket_clearance`: pocket diameter minus ball diameter, m.
+    - `pocket_clearance`: DIAMETRAL: pocket diameter minus ball diameter, m, > 0.
     """
 
     element: ClassVar[str] = "ball"

@@ -23,7 +23,7 @@ class BallGeometry(eqx.Module):
     - `pitch_diameter`, `ball_diameter`: m, > 0.
     - `conformity_inner`, `conformity_outer`: groove radius over ball diameter, > 0.5.
     - `contact_angle`: of the unloaded bearing, rad, at least 0 and below pi/2.
-    - `diametral_clearance`: of the unloaded bearing, m, >= 0.
+    - `diametral_clearance`: DIAMETRAL internal clearance of the unloaded bearing, m, >= 0.
     - `shoulder_angle_inner`, `shoulder_angle_outer`: angle at which the groove ends, rad; not given: no check.
     """
 

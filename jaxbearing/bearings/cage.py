@@ -24,8 +24,9 @@ class AbstractCage(eqx.Module):
 
     **Arguments:**
     - `guidance`: "inner_ring" or "outer_ring".
-    - `guiding_clearance`: DIAMETRAL clearance of the lands, m.
-    - `pocket_clearance`: of a rolling element in its pocket, m; the cage of each kind of bearing says which.
+    - `guiding_clearance`: DIAMETRAL clearance of the lands, m, > 0.
+    - `pocket_clearance`: of a rolling element in its pocket, m, > 0: of balls DIAMETRAL, of rollers TOTAL
+      circumferential.
     - `land_width`: of ONE land, m.
     - `inner_diameter`, `outer_diameter`: of the cage, m; assumed from the size of the elements where not given.
     - `n_lands`: number of lands; 2 where not given.

@@ -48,9 +48,9 @@ class RollerGeometry(eqx.Module):
 
     **Arguments:**
     - `n_rollers`: number of rollers (structure: another number recompiles).
-    - `pitch_diameter`, `roller_diameter`, `roller_length` (total): > 0.
-    - `contact_length`: cylindrical length that carries load; `roller_length` where not given.
-    - `diametral_clearance`: of the assembled bearing, m.
+    - `pitch_diameter`, `roller_diameter`, `roller_length` (of the whole roller): m, > 0.
+    - `contact_length`: cylindrical length that carries load, m, > 0; `roller_length` where not given.
+    - `diametral_clearance`: DIAMETRAL internal clearance of the assembled bearing, m; negative: preload.
     """
 
     n_rollers: int = count("geometry.n_rollers")
@@ -99,8 +99,8 @@ class RollerCage(AbstractCage):
     """One-piece cage, guided by one ring on `n_lands` lands, with a pocket film in front of and behind each roller.
 
     **Arguments:** those of `AbstractCage`, and
-    - `pocket_clearance`: total circumferential clearance of a roller in its pocket, m.
-    - `pocket_axial_clearance`: total axial clearance of a roller between the cage rails, m; not given: the films
+    - `pocket_clearance`: TOTAL circumferential clearance of a roller in its pocket, m, > 0.
+    - `pocket_axial_clearance`: TOTAL axial clearance of a roller between the cage rails, m; not given: the films
       between roller ends and rails are not modelled.
     """
 

@@ -13,7 +13,9 @@ class RollerProfile(eqx.Module):
     """Laminae of the rollers, with or without a profile; without this part contacts are straight and integrated in
     closed form.
 
-    **Arguments:** `shape`: `None`: straight; `n_laminae`: structure.
+    **Arguments:**
+    - `shape`: `None`: straight.
+    - `n_laminae`: number of laminae of a roller; structure.
     """
 
     shape: AbstractProfile | None = None

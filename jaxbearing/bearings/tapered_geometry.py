@@ -27,7 +27,7 @@ class TaperedGeometry(eqx.Module):
     """Main dimensions; the pitch diameter follows from them.
 
     **Arguments:**
-    - `n_rollers`: structure.
+    - `n_rollers`: number of rollers (structure).
     - `roller_diameter`: D_w, of the big end, m.
     - `roller_length`: l_w, of contact, along the generator, m.
     - `contact_angle`: half angle of the cup, alpha_o, rad.

@@ -36,7 +36,12 @@ def palmgren_stiffness(length: Scalar, reduced_modulus: Scalar) -> Float[Array, 
 
 
 class AbstractTiltedLine(eqx.Module):
-    """Load of a contact whose approach is f + g s, m; s from one end of the roller, m."""
+    """Load of a contact whose approach is f + g s, m; s from one end of the roller, m.
+
+    **Arguments:**
+    - `stiffness`: K of the line load by the approach, N/m^(19/9), > 0.
+    - `length`: of the contact, m, > 0.
+    """
 
     stiffness: eqx.AbstractVar[Scalar]
     length: eqx.AbstractVar[Scalar]

@@ -25,7 +25,11 @@ FEWEST_NODES, MOST_NODES = 51, 3201
 
 
 class ContactGeometry(eqx.Module):
-    """**Arguments:** `reduced_radius_rolling`: R', m, 1/R' = 1/R1 + 1/R2 in the plane of rolling, > 0."""
+    """Shape of the contact.
+
+    **Arguments:**
+    - `reduced_radius_rolling`: R', m, 1/R' = 1/R1 + 1/R2 in the plane of rolling, > 0.
+    """
 
     reduced_radius_rolling: Scalar = number()
 
@@ -45,7 +49,7 @@ class FilmModel(eqx.Module):
 
     **Arguments:**
     - `compressible`: whether the density follows Dowson and Higginson; else it is constant.
-    - `nodes`: of the mesh; error of the film about 0.9 % at 201, a quarter of that for each doubling.
+    - `nodes`: number of nodes of the mesh; error of the film about 0.9 % at 201, a quarter of that for each doubling.
     - `inlet`: length of the domain upstream of the centre, half widths; light loads (M < 25) need more than 4.
     - `film_limit`: a run in time ends where the film is thinner, m: below about 0.5 nm a continuum means nothing.
     """
@@ -64,10 +68,13 @@ class FilmModel(eqx.Module):
 
 
 class ContactOperation(eqx.Module):
-    """**Arguments:**
+    """Operating point of a line contact.
+
+    **Arguments:**
     - `entrainment_speed`: (u1 + u2)/2, m/s, any sign: a negative one enters the contact from the other side.
     - `oil_temperature`: of the contact, K, > 0.
-    - `load_per_length`: N/m, or `pressure`: Hertz (peak) pressure, Pa; one of the two.
+    - `load_per_length`: N/m, > 0, or `pressure`; one of the two.
+    - `pressure`: Hertz (peak) pressure, Pa, > 0.
     """
 
     entrainment_speed: Scalar = number()

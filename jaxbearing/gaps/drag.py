@@ -149,6 +149,10 @@ class RollerDrag(eqx.Module):
     The force has the sign of the speed; it acts *against* the orbital motion. V|V| has slope 0 at
     rest, value and gradient are exact there. The source gives no Cd for rollers: 1.2 is an
     isolated cylinder, neighbours in a row shield each other.
+
+    **Arguments:**
+    - `coefficient`: Cd of one rolling element in its row, a number >= 0.
+    - `area`: S across the stream, m^2, >= 0.
     """
 
     coefficient: Scalar

@@ -80,6 +80,13 @@ class ShortJournal(eqx.Module):
     (a decision: a half-dry land would have about half of it).
     **Reference:** Ocvirk (1953), NACA TN 2808 (pressure); Booker (1965), ASME J. Basic Eng. 87,
     537 (moving film); the source names the contact in Table 3 without a formula.
+
+    **Arguments:**
+    - `radius`: of the journal, R, m, > 0.
+    - `width`: L of ONE land, m, > 0.
+    - `clearance`: c, RADIAL: half of the diametral clearance, m, > 0.
+    - `turbulence`: flow regime of the film.
+    - `n_lands`: number of lands; structure.
     """
 
     radius: Scalar

@@ -96,7 +96,7 @@ class Roelands(AbstractViscosity):
 Roelands.__init__.__doc__ = """**Arguments:**
 - `reference_viscosity`: mu_0, Pa s, > 6.3e-5.
 - `reference_temperature`: T_0, K, > 138.
-- `pressure_exponent`: Z, > 0, about 0.4 to 0.8.
+- `pressure_exponent`: Z, a number > 0, about 0.4 to 0.8.
 - `temperature_exponent`: S_0, >= 0, about 1 to 1.5.
 """
 

@@ -152,8 +152,8 @@ ModifiedWLF.__init__.__doc__ = """**Arguments:**
 - `glass_temperature`: Tg0 at ambient pressure, K.
 - `glass_shift`: A1, K, > 0.
 - `glass_shift_rate`: A2, 1/Pa, > 0.
-- `expansion_factor`: B1, > 0.
+- `expansion_factor`: B1, a number > 0.
 - `expansion_rate`: B2, 1/Pa, > 0.
-- `c1`: C1, of the decimal logarithm (2.3 times smaller than that of a law written in ln), > 0.
+- `c1`: C1, a number, of the decimal logarithm (2.3 times smaller than that of a law written in ln), > 0.
 - `c2`: C2, K, > 0.
 """

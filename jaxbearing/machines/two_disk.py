@@ -48,9 +48,9 @@ class DiskGeometry(eqx.Module):
     """Reduced radii of the contact, m: 1/R = 1/R1 + 1/R2, convex > 0. A ball on a flat disc has its own radius twice.
 
     **Arguments:**
-    - `reduced_radius_rolling`: in the plane of rolling.
-    - `reduced_radius_transverse`: across; not given: as along rolling, a circular contact.
-    - `contact_length`: of a line contact between cylinders; then there is no transverse radius.
+    - `reduced_radius_rolling`: in the plane of rolling, m, > 0.
+    - `reduced_radius_transverse`: across, m, > 0; not given: as along rolling, a circular contact.
+    - `contact_length`: of a line contact between cylinders, m, > 0; then there is no transverse radius.
     """
 
     reduced_radius_rolling: Scalar = number()
