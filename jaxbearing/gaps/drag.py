@@ -6,6 +6,7 @@ import equinox as eqx
 import jax.numpy as jnp
 
 from .._types import Batch, Scalar, Values
+from ..numerics.checks import require_temperature
 from ..numerics.safe import regular_power, smooth_abs, softplus_floor
 
 PARKER_CONSTANT = 1e5
@@ -64,6 +65,7 @@ def saturated_oil_fraction(
 
 def air_density(temperature: Values, pressure: Values = 101325.0) -> Batch:
     """Ideal gas, 0.029 kg/mol: kg/m^3. **Arguments:** `temperature`, K, > 0; `pressure`, Pa."""
+    require_temperature(temperature)
     return pressure * MOLAR_MASS_AIR / (GAS_CONSTANT * jnp.asarray(temperature))
 
 

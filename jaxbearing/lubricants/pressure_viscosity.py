@@ -10,6 +10,7 @@ import equinox as eqx
 import jax.numpy as jnp
 
 from .._types import Batch, Scalar, Values
+from ..numerics.checks import require_temperature
 from ..numerics.quadrature import gauss_legendre
 from ..numerics.safe import softplus_floor
 from .simple_viscosity import ConstantViscosity
@@ -46,6 +47,7 @@ class ConstantPressureViscosity(AbstractPressureViscosity):
     value: Scalar
 
     def coefficient(self, temperature: Values) -> Batch:
+        require_temperature(temperature)
         return jnp.full(jnp.shape(temperature), self.value, dtype=float)
 
 
@@ -73,6 +75,7 @@ class FittedPressureViscosity(AbstractPressureViscosity):
     a11: Scalar
 
     def coefficient(self, temperature: Values) -> Batch:
+        require_temperature(temperature)
         t = softplus_floor(temperature, self.pole_temperature + FIT_MARGIN, FIT_WIDTH)
         above_pole = t - self.pole_temperature
         regular = self.offset + (self.a00 + self.a01 / t) / t
@@ -93,6 +96,7 @@ class NoPressureViscosity(AbstractPressureViscosity):
     """Coefficient 0, exactly: the isoviscous fluid (water, kerosene)."""
 
     def coefficient(self, temperature: Values) -> Batch:
+        require_temperature(temperature)
         return jnp.zeros(jnp.shape(temperature))
 
 
@@ -118,6 +122,7 @@ class IntegratedPressureViscosity(AbstractPressureViscosity):
             )
 
     def coefficient(self, temperature: Values) -> Batch:
+        require_temperature(temperature)
         temperature = jnp.asarray(temperature, dtype=float)
         limit = self.viscosity.pressure_limit(temperature)
         scale = SUBSTITUTION_SCALES * self.viscosity.pressure_scale(temperature)

@@ -4,6 +4,7 @@ import equinox as eqx
 import jax.numpy as jnp
 
 from .._types import Batch, Scalar, Values
+from ..numerics.checks import require_temperature
 from ..numerics.structure import constant
 
 EXPONENT_CAP = 60.0
@@ -51,12 +52,14 @@ class ExponentialRheology(eqx.Module):
 
     def log_shear_modulus(self, pressure: Values, temperature: Values) -> Batch:
         """ln of the shear modulus in Pa. **Arguments:** `pressure`, Pa; `temperature`, K, > 0."""
+        require_temperature(temperature)
         inverse = 1.0 / temperature - 1.0 / self.reference_temperature
         exponent = self.shear_modulus_pressure * pressure + self.shear_modulus_temperature * inverse
         return jnp.log(self.shear_modulus) + jnp.clip(exponent, -EXPONENT_CAP, EXPONENT_CAP)
 
     def log_stress(self, pressure: Values, temperature: Values) -> Batch:
         """ln of the characteristic stress in Pa. **Arguments:** `pressure`, Pa; `temperature`, K, > 0."""
+        require_temperature(temperature)
         inverse = 1.0 / temperature - 1.0 / self.reference_temperature
         exponent = self.stress_pressure * pressure + self.stress_temperature * inverse
         return jnp.log(self.stress) + jnp.clip(exponent, -EXPONENT_CAP, EXPONENT_CAP)

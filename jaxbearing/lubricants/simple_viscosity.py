@@ -3,6 +3,7 @@
 import jax.numpy as jnp
 
 from .._types import Batch, Scalar, Values
+from ..numerics.checks import require_temperature
 from ..numerics.safe import nonnegative_pressure, softplus_floor
 from .viscosity import AbstractViscosity, capped
 
@@ -27,6 +28,7 @@ class ConstantViscosity(AbstractViscosity):
     value: Scalar
 
     def log_viscosity(self, pressure: Values, temperature: Values) -> Batch:
+        require_temperature(temperature)
         shape = jnp.broadcast_shapes(jnp.shape(pressure), jnp.shape(temperature))
         return jnp.broadcast_to(jnp.log(self.value), shape)
 
@@ -53,6 +55,7 @@ class Barus(AbstractViscosity):
     temperature_viscosity: Scalar
 
     def log_viscosity(self, pressure: Values, temperature: Values) -> Batch:
+        require_temperature(temperature)
         inverse = 1.0 / jnp.asarray(temperature, dtype=float) - 1.0 / self.reference_temperature
         exponent = self.pressure_viscosity * nonnegative_pressure(pressure) + self.temperature_viscosity * inverse
         return capped(jnp.log(self.reference_viscosity) + exponent)
@@ -85,6 +88,7 @@ class Roelands(AbstractViscosity):
     temperature_exponent: Scalar
 
     def log_viscosity(self, pressure: Values, temperature: Values) -> Batch:
+        require_temperature(temperature)
         log_reference = jnp.log(self.reference_viscosity)
         above_pole = softplus_floor(temperature, ROELANDS_POLE + ROELANDS_MARGIN, ROELANDS_WIDTH) - ROELANDS_POLE
         log_ratio = jnp.log(above_pole) - jnp.log(self.reference_temperature - ROELANDS_POLE)

@@ -4,6 +4,7 @@ import equinox as eqx
 import jax.numpy as jnp
 
 from .._types import Batch, Scalar, Values
+from ..numerics.checks import require_temperature
 from ..numerics.safe import softplus_floor
 
 CONDUCTIVITY_FLOOR = 0.05
@@ -25,6 +26,7 @@ class LinearDensity(eqx.Module):
 
     def density(self, temperature: Values) -> Batch:
         """Density, kg/m^3. **Arguments:** `temperature`, K."""
+        require_temperature(temperature)
         return jnp.asarray(self.value + self.slope * jnp.subtract(temperature, self.reference_temperature))
 
 
@@ -49,6 +51,7 @@ class LinearConductivity(eqx.Module):
 
     def conductivity(self, temperature: Values) -> Batch:
         """Thermal conductivity, W/(m K). **Arguments:** `temperature`, K."""
+        require_temperature(temperature)
         plain = self.value + self.slope * jnp.subtract(temperature, self.reference_temperature)
         return softplus_floor(plain, CONDUCTIVITY_FLOOR, CONDUCTIVITY_WIDTH)
 

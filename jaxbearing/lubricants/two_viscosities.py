@@ -3,6 +3,7 @@
 import jax.numpy as jnp
 
 from .._types import Batch, Scalar, Values
+from ..numerics.checks import require_temperature
 from ..numerics.safe import softplus_floor
 from .simple_viscosity import LOG_ROELANDS_VISCOSITY, ROELANDS_RATE, log_compression
 from .thermal import LinearDensity
@@ -68,6 +69,7 @@ class WaltherRoelands(AbstractViscosity):
                 raise ValueError(f"viscosity: the kinematic viscosities must be above 0.3 cSt, found {given:g} m^2/s")
 
     def log_viscosity(self, pressure: Values, temperature: Values) -> Batch:
+        require_temperature(temperature)
         log_ambient = self._log_ambient(jnp.asarray(temperature, dtype=float))
         slope_1 = ROELANDS_RATE * (self._log_ambient(jnp.asarray(self.temperature_1)) - LOG_ROELANDS_VISCOSITY)
         growth = jnp.expm1(self.coefficient_1() / slope_1 * log_compression(pressure))

@@ -9,6 +9,7 @@ import jax.numpy as jnp
 import numpy as np
 
 from .._types import Batch, Scalar, Values
+from ..numerics.checks import require_temperature
 from ..numerics.safe import log_add, nonnegative_pressure, softplus_floor
 
 LN10 = math.log(10.0)
@@ -56,6 +57,7 @@ class AbstractViscosity(eqx.Module):
 
     def log_slope(self, temperature: Values) -> Batch:
         r"""$\partial\ln\mu/\partial T$ at ambient pressure, 1/K: negative for a liquid lubricant, 0 for a constant."""
+        require_temperature(temperature)
         temperature = jnp.asarray(temperature, dtype=float)
         at_ambient = lambda t: self.log_viscosity(0.0, t)
         return jax.jvp(at_ambient, (temperature,), (jnp.ones_like(temperature),))[1]
@@ -113,6 +115,7 @@ class ModifiedWLF(AbstractViscosity):
     c2: Scalar
 
     def log_viscosity(self, pressure: Values, temperature: Values) -> Batch:
+        require_temperature(temperature)
         log10_glass = jnp.log10(self.glass_viscosity)
         glass, expansion = self._glass_and_expansion(nonnegative_pressure(pressure))
         expansion = softplus_floor(expansion, EXPANSION_FLOOR, EXPANSION_WIDTH)

@@ -16,7 +16,8 @@ _FALSE_ALARMS = (
 )
 """Loading a cached program complains about the tuning flags prefer-no-gather and prefer-no-scatter, which no processor
 lists (jax issue 38445, openxla/xla issue 44565). The program is sound: the cache is kept apart by processor. The
-simplifier says that it stopped rewriting one form into another and back; both are right. The alarm of a slow compilation is framed by lines of stars."""
+simplifier says that it stopped rewriting one form into another and back; both are right. The alarm of a slow
+compilation is framed by lines of stars."""
 
 
 _HOLDING = threading.Lock()
