@@ -26,7 +26,7 @@ class Material(Checked):
 
 Material.__init__.__doc__ = """**Arguments:**
 - `youngs_modulus`: Pa, > 0.
-- `poisson_ratio`: between 0 and 0.5.
+- `poisson_ratio`: Poisson's ratio, between 0 and 0.5.
 - `density`: kg/m^3, > 0.
 """
 

@@ -1,5 +1,6 @@
-"""Which inputs decide the power loss and the slip: logarithmic sensitivities, all from one solve."""
+"""Which inputs decide the results of a scene: logarithmic sensitivities, all from one solve."""
 
+import dataclasses
 from collections.abc import Mapping
 from typing import Any
 
@@ -8,70 +9,128 @@ import jax
 import jax.numpy as jnp
 from jaxtyping import Array, Float
 
-from .bearings.parts import AbstractScene
+from ._scene import AbstractScene
 from .bearings.solution import Solution
+from .ehl import LineContactSolution
+from .machines import TwoDiskSolution
 from .numerics.compiling import collecting_rarely, quickly_compiled
 from .numerics.newton import NewtonOptions
 from .numerics.precision import as_float, require_x64
-from .solve import steady_function
+from .solve import _solve_any, steady_function
+
+_Slopes = dict[str, Float[Array, ""]]
+
+
+class NoSensitivities(ValueError):
+    """The scene models none of the results that have sensitivities."""
 
 
 class Sensitivities(eqx.Module):
-    """Sensitivities to every number of a scene, by dotted path; dimensionless.
+    """Sensitivities to every number of a scene, by dotted path, dimensionless. Of a result that the scene does not
+    have, `None`.
 
     - `power_loss`: d ln(total power loss) / d ln(input): per cent of power for one per cent of the input.
     - `slip`: d(cage slip) / d ln(input).
+    - `life`, `modified_life`: d ln(L10r) / d ln(input) and d ln(Lnmr) / d ln(input), of a bearing with a rating.
+    - `film`: d ln(central film) / d ln(input), of a line contact.
+    - `traction`: d ln(traction coefficient) / d ln(input), of a two-disk machine at one operating point.
 
-    Temperatures count in kelvin. An input that is 0 has 0 here, whatever its derivative.
+    Temperatures count in kelvin. An input that is 0 has 0 here, whatever its derivative. An input with several values
+    counts as one: all of them change by the same factor.
     """
 
-    power_loss: dict[str, Float[Array, ""]]
-    slip: dict[str, Float[Array, ""]]
+    power_loss: _Slopes | None = None
+    slip: _Slopes | None = None
+    life: _Slopes | None = None
+    modified_life: _Slopes | None = None
+    film: _Slopes | None = None
+    traction: _Slopes | None = None
+
+    def modelled(self) -> dict[str, _Slopes]:
+        """Those that the scene has, by field name."""
+        fields = {field.name: getattr(self, field.name) for field in dataclasses.fields(self)}
+        return {name: slopes for name, slopes in fields.items() if slopes is not None}
 
 
 def sensitivities(
     scene: AbstractScene, *, throw: bool = True, options: NewtonOptions | None = None
-) -> tuple[Solution, Sensitivities]:
-    """Solve a scene and differentiate its power loss and cage slip with respect to every number in it.
+) -> tuple[Any, Sensitivities]:
+    """Solve a scene and differentiate its main results with respect to every number in it.
 
-    One solve and one reverse pass through the implicit function theorem: the cost does not grow with the number of
-    inputs. May be called inside `jax.jit` and `jax.vmap`.
+    The results are those of `Sensitivities` that the scene models. One solve and one reverse pass through the implicit
+    function theorem: the cost does not grow with the number of inputs. May be called inside `jax.jit` and `jax.vmap`.
 
-    **Raises:** `ValueError` for a scene without power loss (dry, or rolling without slip); as `solve` otherwise.
+    Returns the solution, that of `solve`, and the sensitivities; those of a solve that failed are NaN.
+
+    **Raises:** `ValueError` for a scene with none of these results; as `solve` otherwise.
     """
     return _run(scene, throw, NewtonOptions() if options is None else options, _ordinary)
 
 
-def sensitivities_once(scene: AbstractScene) -> tuple[Solution, Sensitivities]:
+def sensitivities_once(scene: AbstractScene) -> tuple[Any, Sensitivities]:
     """What `sensitivities(scene, throw=False)` returns, for a process that asks once and ends."""
     return _run(scene, False, NewtonOptions(), _once)
 
 
 @collecting_rarely()
-def _run(scene: AbstractScene, throw: bool, options: NewtonOptions, function: Any) -> tuple[Solution, Sensitivities]:
+def _run(scene: AbstractScene, throw: bool, options: NewtonOptions, function: Any) -> tuple[Any, Sensitivities]:
     require_x64()
     steady_function(scene)
-    solution, power_loss, slip = function(jax.tree.map(as_float, scene), options)
+    solution, slopes = function(jax.tree.map(as_float, scene), options)
     if throw:
         solution.raise_if_failed()
-    return solution, Sensitivities(_by_path(power_loss), _by_path(slip))
+    return solution, Sensitivities(**{name: _by_path(tree) for name, tree in slopes.items()})
 
 
-def _differentiated(scene: AbstractScene, options: NewtonOptions) -> tuple[Solution, Any, Any]:
+def _results(solution: Any) -> dict[str, Array]:
+    """The results of a solution that have sensitivities, by field of `Sensitivities`. **Raises:** `NoSensitivities`."""
+    if isinstance(solution, Solution):
+        power, cage, life = solution.power_loss, solution.cage, solution.life
+        # a total of no part at all is no result
+        parts = [name for name, value in vars(power).items() if value is not None and name != "total"] if power else []
+        found = {
+            "power_loss": power.total if parts else None,
+            "slip": None if cage is None else cage.slip,
+            "life": None if life is None else life.L10r,
+            "modified_life": None if life is None else life.Lnmr,
+        }
+        found = {name: value for name, value in found.items() if value is not None}
+        if not found:
+            raise NoSensitivities(
+                "found a bearing that models neither power loss nor cage slip nor life; expected one with losses (an "
+                "oil, and contact.traction or contact.rolling_resistance) or with a rating"
+            )
+        return found
+    if isinstance(solution, LineContactSolution):
+        return {"film": solution.film.central}
+    if isinstance(solution, TwoDiskSolution):
+        points = solution.traction_coefficient.size
+        if points != 1:
+            raise NoSensitivities(
+                f"found traction curves of {points} points; expected one point: one value each of "
+                "operation.slide_to_roll, entrainment_speed, temperature and load or pressure"
+            )
+        return {"traction": solution.traction_coefficient.reshape(())}
+    raise NoSensitivities(f"found a {type(solution).__name__}, which has no sensitivities; expected a bearing")
+
+
+def _differentiated(scene: AbstractScene, options: NewtonOptions) -> tuple[Any, dict[str, Any]]:
     numbers, rest = eqx.partition(scene, eqx.is_inexact_array)
 
-    def outputs(numbers_: Any) -> tuple[Array, Solution]:
-        solution = steady_function(scene)(eqx.combine(numbers_, rest), options)
-        if solution.cage is None:
-            raise ValueError("sensitivities need a scene with power loss: one with contact.traction and a cage")
-        return jnp.stack([solution.power_loss.total, solution.cage.slip]), solution
+    def outputs(numbers_: Any) -> tuple[dict[str, Array], Any]:
+        solution = _solve_any(eqx.combine(numbers_, rest), options)
+        return _results(solution), solution
 
     values, pull_back, solution = jax.vjp(outputs, numbers, has_aux=True)
-    (rows,) = jax.vmap(pull_back)(jnp.eye(2))
-    power, slip = (jax.tree.map(lambda leaf, i=i: leaf[i], rows) for i in (0, 1))
-    scaled = lambda slopes, scale: jax.tree.map(lambda x, slope: x * slope / scale, numbers, slopes)
-    mask = lambda tree: jax.tree.map(lambda leaf: jnp.where(solution.converged, leaf, jnp.nan), tree)
-    return solution, mask(scaled(power, values[0])), mask(scaled(slip, 1.0))
+    unit = jnp.eye(len(values))
+    (rows,) = jax.vmap(pull_back)({name: unit[:, i] for i, name in enumerate(values)})
+
+    def scaled(i: int, name: str) -> Any:
+        scale = 1.0 if name == "slip" else values[name]
+        slope = lambda x, rows_: jnp.where(solution.converged, jnp.sum(x * rows_[i]) / scale, jnp.nan)
+        return jax.tree.map(slope, numbers, rows)
+
+    return solution, {name: scaled(i, name) for i, name in enumerate(values)}
 
 
 _ordinary = eqx.filter_jit(_differentiated)

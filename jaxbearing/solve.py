@@ -2,6 +2,7 @@
 
 import dataclasses
 from collections.abc import Callable
+from contextlib import nullcontext
 from typing import Any, overload
 
 import equinox as eqx
@@ -26,6 +27,7 @@ from .numerics.checks import check_inputs, void
 from .numerics.compiling import collecting_rarely, quickly_compiled
 from .numerics.newton import NewtonOptions
 from .numerics.precision import as_float, require_x64
+from .numerics.quiet import compiler_is_loud, without_false_alarms
 from .numerics.status import Status
 
 
@@ -67,6 +69,8 @@ def _solve_any(scene: AbstractScene, options: NewtonOptions) -> Any:
 
 
 _solve = eqx.filter_jit(_solve_any)
+_SOLVED: set[Any] = set()
+"""Structures of scenes that were solved outside of other programs."""
 _solve_once = quickly_compiled(_solve_any)
 
 
@@ -103,9 +107,15 @@ def solve(scene: AbstractScene, *, throw: bool = True, options: NewtonOptions | 
     """
     require_x64()
     steady_function(scene)
-    solution = _solve(jax.tree.map(as_float, scene), NewtonOptions() if options is None else options)
-    if throw:
-        solution.raise_if_failed()
+    leaves, structure = jax.tree.flatten(scene)
+    first = structure not in _SOLVED and not any(isinstance(leaf, Tracer) for leaf in leaves)
+    # a program is compiled, and the compiler may raise false alarms
+    with without_false_alarms() if first and compiler_is_loud() else nullcontext():
+        solution = _solve(jax.tree.map(as_float, scene), NewtonOptions() if options is None else options)
+        if throw:
+            solution.raise_if_failed()
+    if first:
+        _SOLVED.add(structure)
     return solution
 
 

@@ -67,7 +67,7 @@ class Ramp(AbstractTimeFactor):
     r"""From `start` to `stop` between the times `begin` and `begin + duration`, as the quintic that begins and ends
     without slope and curvature: a jump of the acceleration would be a shock of its own.
 
-    **Arguments:** `start`, `stop`, factors; `duration`, s, > 0; `begin`, s.
+    **Arguments:** `start`, `stop`: each a factor; `duration`, s, > 0; `begin`, s.
     """
 
     part: ClassVar[str] = "ramp"
@@ -92,7 +92,7 @@ class LinearRamp(AbstractTimeFactor):
     """Straight from `start` to `stop` between the times `begin` and `begin + duration`; at once (just after `begin`)
     for a duration of 0.
 
-    **Arguments:** `start`, `stop`, factors; `duration`, s, >= 0; `begin`, s.
+    **Arguments:** `start`, `stop`: each a factor; `duration`, s, >= 0; `begin`, s.
     """
 
     part: ClassVar[str] = "ramp"

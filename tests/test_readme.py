@@ -54,6 +54,7 @@ def test_oil_table_is_a_scene(tmp_path):
 
 def test_curve_file_is_read(tmp_path):
     (block,) = re.findall(r"```csv\n(.*?)```", README, flags=re.DOTALL)
+    assert block in (Path(__file__).parents[1] / "docs" / "fitting.md").read_text(encoding="utf-8")
     file = tmp_path / "curves.csv"
     file.write_text(block, encoding="utf-8")
     changes = re.findall(r"jaxbearing fit .*? --scene (\w+) --set ([\w.]+)=\"(.*?)\"", README)
@@ -63,6 +64,11 @@ def test_curve_file_is_read(tmp_path):
     result = fit(measured, jb.load_scene(scene, {path: value}))
     assert result.converged
     assert result.fitted == ("shear_modulus", "stress")
+    # the points are those of the scene's own oil: the fit finds it, and has nothing to remark on its values
+    assert not [note for note in result.notes if "not that of an oil" in note or "stands for something else" in note]
+    oil = jb.load_scene(scene).oil.rheology
+    for name in result.fitted:
+        assert float(getattr(result.oil.rheology, name)) == pytest.approx(float(getattr(oil, name)), rel=0.1)
 
 
 def test_commands_are_one_line_each():

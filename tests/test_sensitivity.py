@@ -1,4 +1,7 @@
-"""Sensitivities of power loss and slip: against differences of `solve`, failed lanes, `jit` and `vmap`."""
+"""Sensitivities of each family's results: against differences of `solve`, failed lanes, `jit` and `vmap`."""
+
+import ast
+from pathlib import Path
 
 import jax
 import jax.numpy as jnp
@@ -9,6 +12,7 @@ from roller_cases import dry_roller, reference_roller
 import jaxbearing as jb
 from jaxbearing.numerics.status import Status
 from jaxbearing.sensitivity import largest
+from jaxbearing.solve import _STEADY as STEADY
 
 # input: relative step of the central difference; it balances truncation and rounding
 INPUTS = {
@@ -40,9 +44,106 @@ def test_largest():
     assert largest(values, 9, ("oil.",)) == ["d", "g", "a.b"]
 
 
-def test_scenes_without_power_loss_are_refused():
-    with pytest.raises(ValueError, match=r"scene with power loss: one with contact\.traction and a cage"):
+def test_scenes_without_any_of_the_results_are_refused():
+    with pytest.raises(ValueError, match=r"neither power loss nor cage slip nor life.*contact\.traction.*rating"):
         jb.sensitivities(dry_roller())
+    with pytest.raises(ValueError, match=r"31 points; expected one point.*slide_to_roll"):
+        jb.sensitivities(jb.load_scene("two_disk_etm"))
+
+
+def test_one_function_from_scene_to_solution():
+    """The families' own solves give no life: nothing but `solve` may call them."""
+    own = {"solve_ball", "solve_steady", "solve_tilting", "solve_tapered", "solve_two_disk", "solve_line_contact"}
+    package = Path(jb.__file__).parent
+    assert own == {function.__name__ for function in STEADY.values()} - {"_solve_cylindrical"} | {
+        "solve_steady",
+        "solve_tilting",
+    }
+    for folder in (package, package.parent / "fitting"):
+        for path in folder.rglob("*.py"):
+            called = {
+                node.func.id
+                for node in ast.walk(ast.parse(path.read_text(encoding="utf-8")))
+                if isinstance(node, ast.Call) and isinstance(node.func, ast.Name)
+            }
+            assert path == package / "solve.py" or not called & (own | {"with_life"}), path
+
+
+RESULTS = {
+    "power_loss": lambda solution: solution.power_loss.total,
+    "slip": lambda solution: solution.cage.slip,
+    "life": lambda solution: solution.life.L10r,
+    "modified_life": lambda solution: solution.life.Lnmr,
+    "film": lambda solution: solution.film.central,
+    "traction": lambda solution: solution.traction_coefficient.reshape(()),
+}
+DRY_BALL = ("deep_groove_6205", {"rating.viscosity_ratio": 1.5, "rating.cleanliness": "grease_normal"})
+TAPERED = ("tapered_example", {"contact.traction_accuracy": 1e-2})
+NO_CAGE = ("turbine_ball", {"cage": "none", "contact.traction_accuracy": 1e-2})
+TILTED = ("turbine_roller", {"contact": "none", "operation.misalignment": "1 mrad", "rating.grooves": "scene"})
+ONE = {"slide_to_roll": 0.02, "entrainment_speed": "20 m/s", "temperature": "373 K", "pressure": "1.05 GPa"}
+POINT = ("two_disk_mobil_jet_ii", {f"operation.{name}": value for name, value in ONE.items()})
+FILM = ("satellite_contact_1", {"contact.accuracy": 1e-2})
+FAMILIES = [
+    # scene, results that it has, inputs with the relative step of their difference
+    pytest.param(
+        DRY_BALL,
+        {"life", "modified_life"},
+        {"operation.radial_load": 1e-3, "geometry.ball_diameter": 1e-5, "rating.viscosity_ratio": 1e-3},
+        id="ball-dry",
+    ),
+    pytest.param(POINT, {"traction"}, {"operation.slide_to_roll": 1e-3, "oil.rheology.stress": 1e-3}, id="two-disk"),
+    pytest.param(
+        TILTED,
+        {"life"},
+        {"operation.misalignment": 1e-3, "geometry.roller_diameter": 1e-5},
+        id="roller-tilted",
+        marks=pytest.mark.slow,
+    ),
+    pytest.param(
+        FILM,
+        {"film"},
+        {"operation.load_per_length": 1e-3, "operation.oil_temperature": 1e-5},
+        id="line-contact",
+        marks=pytest.mark.slow,
+    ),
+    pytest.param(
+        TAPERED,
+        {"power_loss", "life", "modified_life"},
+        {"operation.axial_load": 1e-3, "operation.oil_temperature": 1e-5, "geometry.roller_diameter": 1e-5},
+        id="tapered",
+        marks=pytest.mark.slow,
+    ),
+    pytest.param(
+        NO_CAGE,
+        {"power_loss"},
+        {"operation.inner_speed": 1e-4, "operation.oil_temperature": 1e-5, "geometry.ball_diameter": 1e-5},
+        id="ball-without-cage",
+        marks=pytest.mark.slow,
+    ),
+]
+
+
+@pytest.mark.parametrize(("scene", "results", "inputs"), FAMILIES)
+def test_of_every_family(scene, results, inputs):
+    scene = jb.load_scene(*scene)
+    fast = jb.jit_solver(scene)
+    solution, slopes = jb.sensitivities(scene)
+    assert set(slopes.modelled()) == results
+    value = lambda name, found: float(RESULTS[name](found))
+    plain = fast()
+    for name, found in slopes.modelled().items():
+        # two programs of the same equations: round-off of a converged solve
+        np.testing.assert_allclose(value(name, solution), value(name, plain), rtol=1e-9)
+        assert all(np.isfinite(slope) for slope in found.values())
+    for path, step in inputs.items():
+        start = input_value(scene, path)
+        solved = {k: fast(scene.replace({path: start * (1.0 + k * step)})) for k in (-2, -1, 1, 2)}
+        for name, found in slopes.modelled().items():
+            at = {k: np.log(value(name, one)) for k, one in solved.items()}
+            difference = (8.0 * (at[1] - at[-1]) - (at[2] - at[-2])) / (12.0 * step)
+            # as below; what does not depend on the input at all is 0 here and round-off over the step there
+            np.testing.assert_allclose(found[path], difference, rtol=1e-5, atol=1e-7, err_msg=f"{name}, {path}")
 
 
 @pytest.fixture(scope="module")
@@ -60,7 +161,7 @@ def fast():
 def input_value(scene, path):
     for name in path.split("."):
         scene = getattr(scene, name)
-    return float(scene)
+    return np.asarray(scene)
 
 
 @pytest.mark.slow

@@ -8,6 +8,7 @@ along $+e_x$. The groove is taken as a full circle: `geometry.shoulder_angle_*` 
 
 import functools
 import operator
+from collections.abc import Iterator
 from typing import ClassVar, Literal
 
 import equinox as eqx
@@ -18,6 +19,7 @@ from ..contacts.point_laws import PointLaws
 from ..lubricants import Lubricant, NoPressureViscosity
 from ..materials import Material
 from ..numerics.checks import demand, given
+from ..numerics.refusals import refusals_of, refuse_all
 from .ball_geometry import BallGeometry
 from .cage import ASSUMED_LANDS as ASSUMED_LANDS
 from .cage import AbstractCage
@@ -106,7 +108,7 @@ class BallCage(AbstractCage):
     """One-piece cage with cylindrical pockets, guided by one ring on `n_lands` lands.
 
     **Arguments:** those of `AbstractCage`, and
-    - `pocket_clearance`: pocket diameter minus ball diameter, m.
+    - `pocket_clearance`: DIAMETRAL: pocket diameter minus ball diameter, m, > 0.
     """
 
     element: ClassVar[str] = "ball"
@@ -143,30 +145,34 @@ class BallBearing(AbstractScene):
     rating: Rating | None = None
 
     def __check_init__(self):
+        refuse_all(self._problems())
+
+    def _problems(self) -> Iterator[str | ValueError]:
         if not self.slips and self.kinematics.attitude not in ("outer", "inner"):
-            raise ValueError(
+            yield (
                 f"kinematics.attitude: '{self.kinematics.attitude}' needs traction (contact.traction); without "
                 "friction the attitude is that of 'outer' or 'inner' race control"
             )
         if self.slips and self.kinematics.orbit == "common":
-            raise ValueError(
+            yield (
                 "kinematics.orbit: 'common' is for balls that roll without sliding; with contact.traction they orbit "
                 "with the cage, or without one each by its own balance of forces"
             )
         if self.contact is None:
             return
+        if self.cage is not None:
+            yield from refusals_of(self.cage.check_fits, self.geometry)
         if self.oil is None:
-            raise ValueError("oil: a scene with a [contact] table needs an oil")
-        self.operation.check_rings_turn()
+            yield "oil: a scene with a [contact] table needs an oil"
+            return
+        yield from refusals_of(self.operation.check_rings_turn)
         if self.slips and self.cage is not None and self.oil.density is None:
-            raise ValueError("oil.density: the cage land and the drag need it")
+            yield "oil.density: the cage land and the drag need it"
         if isinstance(self.oil.pressure_viscosity, NoPressureViscosity) and self.contact.film.piezoviscous_only:
-            raise ValueError(
+            yield (
                 f"contact.film: {type(self.contact.film).__name__} holds for oils whose viscosity rises with pressure, "
                 "not for an isoviscous one"
             )
-        if self.cage is not None:
-            self.cage.check_fits(self.geometry)
 
     @property
     def slips(self) -> bool:

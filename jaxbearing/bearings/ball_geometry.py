@@ -1,8 +1,8 @@
 """Geometry of a ball bearing: grooves, contact angle, centres of curvature."""
 
+from collections.abc import Iterator
 from typing import ClassVar
 
-import equinox as eqx
 import jax.numpy as jnp
 from jaxtyping import Array, Float
 
@@ -10,6 +10,8 @@ from .._scene import number, optional_number
 from .._types import Scalar, Values
 from ..contacts import PointContact
 from ..numerics.checks import Checked, demand, given
+from ..numerics.refusals import refusals_of, refuse_all
+from ..numerics.structure import count
 from .parts import check_row_fits
 
 
@@ -21,13 +23,13 @@ class BallGeometry(Checked):
     - `pitch_diameter`, `ball_diameter`: m, > 0.
     - `conformity_inner`, `conformity_outer`: groove radius over ball diameter, > 0.5.
     - `contact_angle`: of the unloaded bearing, rad, at least 0 and below pi/2.
-    - `diametral_clearance`: of the unloaded bearing, m, >= 0.
+    - `diametral_clearance`: DIAMETRAL internal clearance of the unloaded bearing, m, >= 0.
     - `shoulder_angle_inner`, `shoulder_angle_outer`: angle at which the groove ends, rad; not given: no check.
     """
 
     part: ClassVar[str] = "geometry"
 
-    n_balls: int = eqx.field(static=True)
+    n_balls: int = count("geometry.n_balls")
     pitch_diameter: Scalar = number(bound="> 0")
     ball_diameter: Scalar = number(bound="> 0")
     conformity_inner: Scalar = number(bound="between 0.5 and 1, and not 0.5")
@@ -39,12 +41,16 @@ class BallGeometry(Checked):
 
     def __check_init__(self):
         super().__check_init__()
-        check_row_fits(self.n_balls, self.ball_diameter, self.pitch_diameter, "ball")
+        refuse_all(self._problems())
+
+    def _problems(self) -> Iterator[str | ValueError]:
+        yield from refusals_of(check_row_fits, self.n_balls, self.ball_diameter, self.pitch_diameter, "ball")
         if (self.contact_angle is None) == (self.diametral_clearance is None):
-            raise ValueError("geometry.contact_angle: give it or geometry.diametral_clearance, one of the two")
+            yield "geometry.contact_angle: give it or geometry.diametral_clearance, one of the two"
         sizes = given(self.diametral_clearance, self.ball_diameter, self.conformity_inner, self.conformity_outer)
         if sizes is not None:
-            demand(
+            yield from refusals_of(
+                demand,
                 "geometry.diametral_clearance must be less than the grooves hold",
                 sizes[0] < 2.0 * (sizes[2] + sizes[3] - 1.0) * sizes[1],
                 lambda: f"geometry.diametral_clearance: {float(sizes[0]):g} m is more than the grooves hold",

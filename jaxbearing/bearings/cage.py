@@ -11,6 +11,8 @@ from .._scene import number, optional_number
 from .._types import Scalar
 from ..gaps import AbstractTurbulence, BlendedTurbulence, ShortJournal
 from ..numerics.checks import Checked, given, require
+from ..numerics.refusals import refusals_of, refuse_all
+from ..numerics.structure import count
 from .parts import check_between
 
 ASSUMED_LANDS = 2
@@ -23,8 +25,9 @@ class AbstractCage(Checked):
 
     **Arguments:**
     - `guidance`: "inner_ring" or "outer_ring".
-    - `guiding_clearance`: DIAMETRAL clearance of the lands, m.
-    - `pocket_clearance`: of a rolling element in its pocket, m; the cage of each kind of bearing says which.
+    - `guiding_clearance`: DIAMETRAL clearance of the lands, m, > 0.
+    - `pocket_clearance`: of a rolling element in its pocket, m, > 0: of balls DIAMETRAL, of rollers TOTAL
+      circumferential.
     - `land_width`: of ONE land, m.
     - `inner_diameter`, `outer_diameter`: of the cage, m; assumed from the size of the elements where not given.
     - `n_lands`: number of lands; 2 where not given.
@@ -45,7 +48,7 @@ class AbstractCage(Checked):
     land_width: Scalar = number(bound="> 0")
     inner_diameter: Scalar | None = optional_number(bound="> 0")
     outer_diameter: Scalar | None = optional_number(bound="> 0")
-    n_lands: int | None = eqx.field(static=True, default=None)
+    n_lands: int | None = count("cage.n_lands", None)
     turbulence: AbstractTurbulence = BlendedTurbulence()
 
     def __check_init__(self):
@@ -114,7 +117,10 @@ class AbstractCage(Checked):
         pitch, element, bore, outside, pocket, guiding = sizes
         gap = pitch * math.sin(math.pi / max(count, 2)) - element
         neighbours = f"gap between neighbouring {self.element}s"
-        check_between("cage.inner_diameter", bore, pitch - element, outside, "inner raceway", "cage outside diameter")
-        check_between("cage.outer_diameter", outside, bore, pitch + element, "cage bore", "outer raceway")
-        check_between("cage.pocket_clearance", pocket, 0.0, gap, "nothing", neighbours)
-        check_between("cage.guiding_clearance", guiding, 0.0, 0.05 * bore, "nothing", "5 % of the land diameter")
+        limits = (
+            ("inner_diameter", bore, pitch - element, outside, "inner raceway", "cage outside diameter"),
+            ("outer_diameter", outside, bore, pitch + element, "cage bore", "outer raceway"),
+            ("pocket_clearance", pocket, 0.0, gap, "nothing", neighbours),
+            ("guiding_clearance", guiding, 0.0, 0.05 * bore, "nothing", "5 % of the land diameter"),
+        )
+        refuse_all(error for name, *limit in limits for error in refusals_of(check_between, f"cage.{name}", *limit))

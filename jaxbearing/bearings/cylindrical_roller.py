@@ -8,6 +8,7 @@ running (a roller between a turning inner and a fixed outer ring spins clockwise
 """
 
 import math
+from collections.abc import Iterator
 from typing import ClassVar, Literal
 
 import equinox as eqx
@@ -15,6 +16,8 @@ import equinox as eqx
 from .._types import Scalar
 from ..lubricants import Lubricant, NoPressureViscosity
 from ..numerics.checks import Checked, demand, given
+from ..numerics.refusals import refusals_of, refuse_all
+from ..numerics.structure import count
 from .cage import ASSUMED_LANDS as ASSUMED_LANDS
 from .cage import AbstractCage
 from .parts import (
@@ -45,14 +48,14 @@ class RollerGeometry(Checked):
 
     **Arguments:**
     - `n_rollers`: number of rollers (structure: another number recompiles).
-    - `pitch_diameter`, `roller_diameter`, `roller_length` (total): > 0.
-    - `contact_length`: cylindrical length that carries load; `roller_length` where not given.
-    - `diametral_clearance`: of the assembled bearing, m.
+    - `pitch_diameter`, `roller_diameter`, `roller_length` (of the whole roller): m, > 0.
+    - `contact_length`: cylindrical length that carries load, m, > 0; `roller_length` where not given.
+    - `diametral_clearance`: DIAMETRAL internal clearance of the assembled bearing, m; negative: preload.
     """
 
     part: ClassVar[str] = "geometry"
 
-    n_rollers: int = eqx.field(static=True)
+    n_rollers: int = count("geometry.n_rollers")
     pitch_diameter: Scalar = number(bound="> 0")
     roller_diameter: Scalar = number(bound="> 0")
     roller_length: Scalar = number(bound="> 0")
@@ -101,8 +104,8 @@ class RollerCage(AbstractCage):
     """One-piece cage, guided by one ring on `n_lands` lands, with a pocket film in front of and behind each roller.
 
     **Arguments:** those of `AbstractCage`, and
-    - `pocket_clearance`: total circumferential clearance of a roller in its pocket, m.
-    - `pocket_axial_clearance`: total axial clearance of a roller between the cage rails, m; not given: the films
+    - `pocket_clearance`: TOTAL circumferential clearance of a roller in its pocket, m, > 0.
+    - `pocket_axial_clearance`: TOTAL axial clearance of a roller between the cage rails, m; not given: the films
       between roller ends and rails are not modelled.
     """
 
@@ -186,34 +189,38 @@ class CylindricalRollerBearing(AbstractScene):
     profile: RollerProfile | None = None
 
     def __check_init__(self):
+        refuse_all(self._problems())
+
+    def _problems(self) -> Iterator[str | ValueError]:
         if not self.ring_freedom or self.ring_freedom[0] != "radial" or set(self.ring_freedom) - {"radial", "lateral"}:
-            raise ValueError(f"ring_freedom must be ('radial',) or ('radial', 'lateral'), got {self.ring_freedom!r}")
+            yield f"ring_freedom must be ('radial',) or ('radial', 'lateral'), got {self.ring_freedom!r}"
         if self.contact is None:
             return
         if self.tilts and self.slips:
-            raise ValueError(
+            yield (
                 "contact.traction: tilting or profiled rollers (profile, operation.misalignment, operation.moment) "
                 "roll without sliding in this version; leave out contact.traction"
             )
         if self.cage is not None:
-            self.cage.check_fits(self.geometry)
+            yield from refusals_of(self.cage.check_fits, self.geometry)
         if self.flange is not None:
-            _check_height(self.flange, self.geometry)
-        self.operation.check_rings_turn()
-        if self.oil is None:
-            raise ValueError("oil: a scene with a [contact] table needs an oil")
+            yield from refusals_of(_check_height, self.flange, self.geometry)
+        yield from refusals_of(self.operation.check_rings_turn)
         if self.slips and self.cage is None and self.simulation is None:
-            raise ValueError(
+            yield (
                 "cage: a lubricated bearing with traction and without a cage has no steady state (a roller outside the "
                 "loaded zone slows down for ever); give it a cage, leave out contact.traction, or use simulate"
             )
+        if self.oil is None:
+            yield "oil: a scene with a [contact] table needs an oil"
+            return
         if self.slips and (self.oil.density is None):
-            raise ValueError("oil.density: the cage land and the drag need it")
+            yield "oil.density: the cage land and the drag need it"
         if isinstance(self.oil.pressure_viscosity, NoPressureViscosity):
             laws = {"film": self.contact.film, "rolling_resistance": self.contact.rolling}
             for name, law in laws.items():
                 if law is not None and law.piezoviscous_only:
-                    raise ValueError(
+                    yield (
                         f"contact.{name}: {type(law).__name__} holds for oils whose viscosity rises with pressure, not "
                         "for an isoviscous one; film = 'moes' and rolling_resistance = 'rigid_isoviscous' do"
                     )

@@ -46,6 +46,10 @@ class SharedCouple(AbstractGyroscopic):
     r"""$T_k = \lambda_kM_g/D$ with given shares: (0, 2) under outer race control, (1, 1) else (source eqs. (14)-(15)).
 
     **Limits:** asks an unloaded inner contact for friction: at light load and high speed no equilibrium exists.
+
+    **Arguments:**
+    - `inner_share`, `outer_share`: lambda_i and lambda_o, each a part of the couple in units of half of it; together 2.
+    - `sign`: of the force pair, 1 or -1.
     """
 
     inner_share: Scalar = bounded("finite", converter=as_float, default=1.0)
@@ -61,6 +65,10 @@ class CappedCouple(AbstractGyroscopic):
 
     **Limits:** the whole couple for small $M_g$; $\mu Q_k$ for a large one: the rest of the couple is not carried, and
     the ball would start to turn about $e_t$, which this law leaves out.
+
+    **Arguments:**
+    - `friction_coefficient`: coefficient mu, > 0.
+    - `sign`: of the force pair, 1 or -1.
     """
 
     friction_coefficient: Scalar = bounded("> 0", name="gyroscopic_friction", converter=as_float, default=0.05)

@@ -70,9 +70,14 @@ class Instant(eqx.Module):
 class LastState(eqx.Module):
     """From where another run can go on: `History.last_state`, or that of a file.
 
-    **Arguments:** `time`, s; `rollers`: q, m, v and u, m/s; `cage`: X, Y, q, m, and their rates; angle, rad, and speed,
-    rad/s, of the frame in which they are counted; `reference_speed` of that frame at the operating point, rad/s;
-    `azimuth` of the rollers, rad; whether there is a cage.
+    **Arguments:**
+    - `time`: s.
+    - `rollers`: rows q, m, v and u, m/s, of each roller.
+    - `cage`: X, Y, q, m, and their rates, m/s.
+    - `frame_angle`, `frame_speed`: of the frame in which they are counted, rad and rad/s.
+    - `reference_speed`: of that frame at the operating point, rad/s.
+    - `azimuth`: of the rollers, rad.
+    - `has_cage`: whether there is a cage.
     """
 
     time: Float[Array | np.ndarray, ""]

@@ -6,6 +6,7 @@ import jax.numpy as jnp
 
 from ..ehl import ContactBodies, ContactGeometry, ContactOperation, EHLLineContact, FilmModel, FilmSimulation
 from ..materials import reduced_modulus
+from ..numerics.arguments import require_choice
 from ..numerics.checks import known
 from .ball_bearing import BallBearing
 from .ball_kinematics import BallKinematics, BallMotion
@@ -40,6 +41,7 @@ def line_contact_of(
 
     **Raises:** `ValueError` for a scene without an oil, a solve that failed, or a ball that is not there or not loaded.
     """
+    require_choice("race", race, ("inner", "outer"))
     if scene.oil is None:
         raise ValueError("oil: found nothing, expected the oil of the line contact")
     solution.raise_if_failed()

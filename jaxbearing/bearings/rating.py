@@ -7,6 +7,7 @@ import equinox as eqx
 from .._scene import optional_number
 from .._types import Scalar
 from ..numerics.checks import Checked
+from ..numerics.structure import constant, count, switch
 
 CATALOGUE_CONFORMITY = 0.52
 """Groove radius over ball diameter for which ISO 281 and catalogues rate ball bearings."""
@@ -23,11 +24,13 @@ class Rating(Checked):
     - `grooves`: of ball bearings, for which conformities C and C0 are computed: "catalogue", 0.52 of both races, which
       ratings of catalogues are made with, whatever the grooves; or "scene" (structure). ISO 281 gives no higher rating
       to closer grooves, and a closer one of the inner race alone adds 9 %.
-    - `reliability`: 0.90, 0.95, 0.96, 0.97, 0.98 or 0.99 (structure: another one recompiles).
+    - `reliability`: fraction of bearings that live longer, 0.90, 0.95, 0.96, 0.97, 0.98 or 0.99 (structure: another one
+      recompiles).
     - `cleanliness`: name of a contamination class; with it, and with a viscosity ratio, the life is modified (a_ISO).
-    - `viscosity_ratio`: kappa; not given: from the oil, its temperature and the speed, where the scene has them.
+    - `viscosity_ratio`: the ratio kappa, > 0; not given: from the oil, its temperature and the speed, where the scene
+      has them.
     - `roughness_rings`, `roughness_elements`: root mean square, m; with them and films: the lambda ratio.
-    - `n_laminae`: of each roller (structure).
+    - `n_laminae`: number of laminae of each roller (structure).
     - `edge_factor`: whether the load of laminae near the ends counts more, as the standard estimates where no pressure
       is computed; not given: yes for straight rollers, no for rollers with a profile.
     """
@@ -40,10 +43,10 @@ class Rating(Checked):
     viscosity_ratio: Scalar | None = optional_number(bound="> 0")
     roughness_rings: Scalar | None = optional_number(bound="> 0")
     roughness_elements: Scalar | None = optional_number(bound="> 0")
-    reliability: float = eqx.field(static=True, default=0.90)
+    reliability: float = constant("rating.reliability", 0.90)
     cleanliness: str | None = eqx.field(static=True, default=None)
-    n_laminae: int = eqx.field(static=True, default=LAMINAE)
-    edge_factor: bool | None = eqx.field(static=True, default=None)
+    n_laminae: int = count("rating.n_laminae", LAMINAE)
+    edge_factor: bool | None = switch("rating.edge_factor", None)
     grooves: Literal["catalogue", "scene"] = eqx.field(static=True, default="catalogue")
 
     def __check_init__(self):

@@ -5,6 +5,7 @@ import equinox as eqx
 from .._types import Scalar
 from ..contacts import AbstractTiltedLine, SlicedLine
 from ..contacts.profile import AbstractProfile
+from ..numerics.structure import count
 from .rating import LAMINAE
 
 
@@ -12,11 +13,13 @@ class RollerProfile(eqx.Module):
     """Laminae of the rollers, with or without a profile; without this part contacts are straight and integrated in
     closed form.
 
-    **Arguments:** `shape`: `None`: straight; `n_laminae`: structure.
+    **Arguments:**
+    - `shape`: `None`: straight.
+    - `n_laminae`: number of laminae of a roller; structure.
     """
 
     shape: AbstractProfile | None = None
-    n_laminae: int = eqx.field(static=True, default=LAMINAE)
+    n_laminae: int = count("profile.n_laminae", LAMINAE)
 
     def __check_init__(self):
         if self.n_laminae < 1:

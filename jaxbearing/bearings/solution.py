@@ -132,8 +132,8 @@ class LaminaLoads(eqx.Module):
     """Loads of the laminae into which rollers are cut along their length, N, from the end s = 0; `profiled`: whether
     the rollers have a profile, which spreads the load near the ends."""
 
-    inner: Float[Array, "element lamina"]
-    outer: Float[Array, "element lamina"]
+    inner: Float[Array, "element lamina"] = eqx.field(metadata=label("N", "load of the lamina on the inner raceway"))
+    outer: Float[Array, "element lamina"] = eqx.field(metadata=label("N", "load of the lamina on the outer raceway"))
     profiled: bool = eqx.field(static=True, default=False)
 
 
@@ -167,7 +167,7 @@ class Solution(AbstractSolution):
     checks: Mapping[str, Bool[Array, ""]]
     ring_freedom: tuple[str, ...] = eqx.field(static=True)
     equation_names: tuple[str, ...] = eqx.field(static=True)
-    global_equations: int = eqx.field(static=True)
+    global_equations: int = eqx.field(static=True, metadata=label("1", "equations of no single rolling element"))
     unknowns: int = eqx.field(static=True, metadata=label("1", "unknowns of the equations"))
     notes: tuple[str, ...] = eqx.field(static=True, default=())
     stiffness_freedom: tuple[str, ...] | None = eqx.field(static=True, default=None)

@@ -10,7 +10,6 @@ reconstructed.
 import math
 from typing import Any, ClassVar
 
-import equinox as eqx
 import jax.numpy as jnp
 from jaxtyping import Array
 
@@ -18,6 +17,7 @@ from .._scene import number
 from .._types import Scalar
 from ..contacts import PointContact
 from ..numerics.checks import Checked, demand, functions, given
+from ..numerics.structure import count
 
 LEAST_HALF_ANGLE = math.radians(0.3)
 """Of the rollers: below, the apex goes to infinity and the bearing is a cylindrical one."""
@@ -27,7 +27,7 @@ class TaperedGeometry(Checked):
     """Main dimensions; the pitch diameter follows from them.
 
     **Arguments:**
-    - `n_rollers`: structure.
+    - `n_rollers`: number of rollers (structure).
     - `roller_diameter`: D_w, of the big end, m.
     - `roller_length`: l_w, of contact, along the generator, m.
     - `contact_angle`: half angle of the cup, alpha_o, rad.
@@ -40,7 +40,7 @@ class TaperedGeometry(Checked):
 
     part: ClassVar[str] = "geometry"
 
-    n_rollers: int = eqx.field(static=True)
+    n_rollers: int = count("geometry.n_rollers")
     roller_diameter: Scalar = number(bound="> 0")
     roller_length: Scalar = number(bound="> 0")
     contact_angle: Scalar = number(bound="above 0 and below 90 degrees")

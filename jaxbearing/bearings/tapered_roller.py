@@ -7,11 +7,14 @@ Loads and displacements are those of the *reference point* on the axis, `operati
 default the apex itself. (The source's tilt t and moment M_1 have the opposite sense: $t = -$tilt.)
 """
 
+from collections.abc import Iterator
+
 from .._scene import AbstractScene, label, number, optional_number
 from .._types import Scalar
 from ..contacts.laws import ContactLaws
 from ..contacts.point_laws import PointLaws
 from ..lubricants import Lubricant
+from ..numerics.refusals import refusals_of, refuse_all
 from .parts import AbstractOperation, Drag, Materials
 from .rating import Rating
 from .roller_profile import RollerProfile
@@ -78,17 +81,20 @@ class TaperedRollerBearing(AbstractScene):
     drag: Drag | None = None
 
     def __check_init__(self):
+        refuse_all(self._problems())
+
+    def _problems(self) -> Iterator[str | ValueError]:
         if self.contact is None:
             if self.rib is not None:
-                raise ValueError("contact: a scene with laws of the rib needs those of the raceways")
+                yield "contact: a scene with laws of the rib needs those of the raceways"
             return
         if self.oil is None:
-            raise ValueError("oil: a scene with a [contact] table needs an oil")
-        if self.drag is not None and self.oil.density is None:
-            raise ValueError("oil.density: the drag needs it")
+            yield "oil: a scene with a [contact] table needs an oil"
+        if self.drag is not None and self.oil is not None and self.oil.density is None:
+            yield "oil.density: the drag needs it"
         if self.rib is not None and self.rib.rolling_resistance:
-            raise ValueError("rib.rolling_resistance: the rib has none, the roller ends slide on it")
-        self.operation.check_rings_turn()
+            yield "rib.rolling_resistance: the rib has none, the roller ends slide on it"
+        yield from refusals_of(self.operation.check_rings_turn)
 
     @property
     def slips(self) -> bool:

@@ -26,8 +26,8 @@ SensitivitiesOption = Annotated[
     bool,
     typer.Option(
         "--sensitivities",
-        help="Also by how much each input moves power loss and cage slip (the first time, this compiles for about a "
-        "minute).",
+        help="Also by how much each input moves power loss, cage slip and life, as far as the scene models them; of a "
+        "line contact its film (the first time, this compiles for about a minute).",
     ),
 ]
 
@@ -62,11 +62,6 @@ def solve(
         race, contact = _line_contact(line_contact, model, scene)
         files = (("--plot", plot, PICTURES), ("--out", out, (".nc",)), ("--line-contact", contact, (".toml",)))
         check_files(files)
-        if sensitivities and not getattr(model, "slips", False):
-            refuse(
-                "--sensitivities: found a scene without power loss; expected a bearing with contact.traction (and a "
-                "cage, if it is of rollers)"
-            )
 
     from .cache import enable_compilation_cache
     from .interrupt import prompt_interrupt
@@ -135,9 +130,12 @@ def _write_line_contact(
 
 def _solved(model: Any, sensitivities: bool) -> tuple[Any, Any]:
     if sensitivities:
-        from ..sensitivity import sensitivities_once
+        from ..sensitivity import NoSensitivities, sensitivities_once
 
-        return sensitivities_once(model)
+        try:
+            return sensitivities_once(model)
+        except NoSensitivities as error:  # raised while the program is traced, before it is compiled
+            refuse(f"--sensitivities: {error}")
     from ..solve import solve_once
 
     return solve_once(model), None

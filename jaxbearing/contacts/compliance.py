@@ -44,7 +44,7 @@ class HalfSpaceCompliance(AbstractTangentialCompliance):
 
     **Arguments:**
     - `reduced_modulus`: E', Pa.
-    - `poisson_ratio`: of both bodies; an ellipse needs it.
+    - `poisson_ratio`: Poisson's ratio of both bodies; an ellipse needs it.
     """
 
     reduced_modulus: Values

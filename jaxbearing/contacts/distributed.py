@@ -15,6 +15,7 @@ from ..lubricants import Lubricant
 from ..numerics.peak import peak
 from ..numerics.roots import monotone_root
 from ..numerics.safe import smooth_abs
+from ..numerics.structure import switch
 from .compliance import AbstractTangentialCompliance
 from .heating import COLDEST, LARGEST_RISE, FilmHeating, HeatFlow, limited_rise
 from .line import LineContact
@@ -82,7 +83,7 @@ class DistributedTraction(AbstractTraction):
     resolution: Resolution = eqx.field(static=True, default=Resolution.for_accuracy(1e-3))
     compliance: AbstractTangentialCompliance | None = None
     heating: FilmHeating | None = None
-    elastic: bool = eqx.field(static=True, default=True)
+    elastic: bool = switch("elastic", True)
 
     def __check_init__(self):
         steps, strips, extrapolate = self.resolution

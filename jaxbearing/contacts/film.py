@@ -274,5 +274,5 @@ class MartinBlend(AbstractLineFilm):
 
 MartinBlend.__init__.__doc__ = """**Arguments:**
 - `film`: the film at high load.
-- `exponent`: n, > 0.
+- `exponent`: n, a number > 0.
 """

@@ -9,6 +9,7 @@ from jaxtyping import Array, Float
 from .._types import Values
 from ..lubricants import InletOil, Lubricant
 from ..numerics.safe import smooth_abs
+from ..numerics.structure import switch
 from .distributed import DistributedTraction, Traction
 from .laws import SPEED_SMOOTHING
 from .patch import contact_patch
@@ -46,8 +47,8 @@ class PointLaws(eqx.Module):
     film: AbstractPointFilm
     thermal: AbstractThermalFactor = NoThermalReduction()
     traction: DistributedTraction | None = None
-    rolling_resistance: bool = eqx.field(static=True, default=False)
-    heathcote: bool = eqx.field(static=True, default=False)
+    rolling_resistance: bool = switch("contact.rolling_resistance", False)
+    heathcote: bool = switch("contact.heathcote", False)
 
     def __check_init__(self):
         if self.heathcote and self.traction is None:

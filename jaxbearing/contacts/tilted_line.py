@@ -16,6 +16,7 @@ from jaxtyping import Array, Float
 from .._types import Scalar, Values
 from ..numerics.quadrature import gauss_legendre
 from ..numerics.safe import positive_power
+from ..numerics.structure import count as whole
 from .profile import AbstractProfile
 
 EXPONENT = 10.0 / 9.0
@@ -35,7 +36,12 @@ def palmgren_stiffness(length: Scalar, reduced_modulus: Scalar) -> Float[Array, 
 
 
 class AbstractTiltedLine(eqx.Module):
-    """Load of a contact whose approach is f + g s, m; s from one end of the roller, m."""
+    """Load of a contact whose approach is f + g s, m; s from one end of the roller, m.
+
+    **Arguments:**
+    - `stiffness`: K of the line load by the approach, N/m^(19/9), > 0.
+    - `length`: of the contact, m, > 0.
+    """
 
     stiffness: eqx.AbstractVar[Scalar]
     length: eqx.AbstractVar[Scalar]
@@ -158,7 +164,7 @@ class SlicedLine(AbstractTiltedLine):
     stiffness: Scalar
     length: Scalar
     profile: AbstractProfile | None = None
-    count: int = eqx.field(static=True, default=30)
+    count: int = whole("count", 30)
 
     def drop(self, position: Values) -> Float[Array, "..."]:
         if self.profile is None:

@@ -9,6 +9,7 @@ from jaxtyping import Array, Float
 from .._types import Values
 from ..lubricants import Lubricant
 from ..numerics.safe import log_add
+from ..numerics.structure import switch
 from .film import LOG_2
 from .line import LineContact, log_entrainment_sum
 from .viscous import AbstractViscousFunction, ReeEyring, viscous_function_for, viscous_notes
@@ -73,7 +74,7 @@ class MeanPressureTraction(AbstractTraction):
     """
 
     viscous: AbstractViscousFunction | None = None
-    elastic: bool = eqx.field(static=True, default=True)
+    elastic: bool = switch("elastic", True)
 
     def force(
         self,

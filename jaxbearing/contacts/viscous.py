@@ -184,7 +184,7 @@ class ElsharkawyHamrock(AbstractLimitingFunction):
 
 
 ElsharkawyHamrock.__init__.__doc__ = """**Arguments:**
-- `exponent`: n, > 0.
+- `exponent`: n, a number > 0.
 """
 
 

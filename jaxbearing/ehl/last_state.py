@@ -21,12 +21,12 @@ _SAME_PLACE = 1e-9
 class FilmState(eqx.Module):
     """From where another run can go on: `LineContactHistory.last_state`, or that of a file.
 
-    **Arguments:** `x`: the nodes, m; values at the last three times, newest first: `pressure`, `offset` of the film and
-    `mass`, density over that at ambient pressure times film; `steps` between these times; `known`: how many of them are
-    there; `proposal`: the step to try next.
+    **Arguments:** `x`: places of the nodes, m; values at the last three times, newest first: `pressure`, Pa, `offset`
+    of the film, m, and `mass`, density over that at ambient pressure times film, m; `steps` between these times, s;
+    `known`: how many of them are there; `proposal`: the step to try next, s.
     """
 
-    x: Float[Array | np.ndarray, " node"]
+    x: Float[Array | np.ndarray, " node"] = eqx.field(metadata=label("m", "place of the node along rolling"))
     time: Float[Array | np.ndarray, ""] = eqx.field(metadata=label("s", "time from which a run can go on"))
     pressure: Float[Array | np.ndarray, "3 node"] = eqx.field(metadata=label("Pa", "pressure at the last three times"))
     offset: Float[Array | np.ndarray, "3"] = eqx.field(metadata=label("m", "constant of the film at these times"))

@@ -12,6 +12,7 @@ from ..contacts import AbstractLineFilm, DowsonHigginson, DowsonToyoda, LineCont
 from ..lubricants import Lubricant
 from ..materials import Material, reduced_modulus
 from ..numerics.checks import Checked
+from ..numerics.structure import constant, count, switch
 from .equations import Fluid
 from .mesh import INLET, OUTLET, STOP_OUTLET, MeshKey
 from .simulation import FilmSimulation
@@ -24,7 +25,11 @@ FEWEST_NODES, MOST_NODES = 51, 3201
 
 
 class ContactGeometry(Checked):
-    """**Arguments:** `reduced_radius_rolling`: R', m, 1/R' = 1/R1 + 1/R2 in the plane of rolling, > 0."""
+    """Shape of the contact.
+
+    **Arguments:**
+    - `reduced_radius_rolling`: R', m, 1/R' = 1/R1 + 1/R2 in the plane of rolling, > 0.
+    """
 
     part: ClassVar[str] = "geometry"
 
@@ -43,16 +48,16 @@ class FilmModel(Checked):
 
     **Arguments:**
     - `compressible`: whether the density follows Dowson and Higginson; else it is constant.
-    - `nodes`: of the mesh; error of the film about 0.9 % at 201, a quarter of that for each doubling.
+    - `nodes`: number of nodes of the mesh; error of the film about 0.9 % at 201, a quarter of that for each doubling.
     - `inlet`: length of the domain upstream of the centre, half widths; light loads (M < 25) need more than 4.
     - `film_limit`: a run in time ends where the film is thinner, m: below about 0.5 nm a continuum means nothing.
     """
 
     part: ClassVar[str] = "contact"
 
-    compressible: bool = eqx.field(static=True, default=True)
-    nodes: int = eqx.field(static=True, default=501)
-    inlet: float = eqx.field(static=True, default=INLET)
+    compressible: bool = switch("contact.compressible", True)
+    nodes: int = count("contact.nodes", 501)
+    inlet: float = constant("contact.inlet", INLET)
     film_limit: Scalar = number(0.5e-9, bound=">= 0")
 
     def __check_init__(self):
@@ -64,10 +69,13 @@ class FilmModel(Checked):
 
 
 class ContactOperation(Checked):
-    """**Arguments:**
+    """Operating point of a line contact.
+
+    **Arguments:**
     - `entrainment_speed`: (u1 + u2)/2, m/s, any sign: a negative one enters the contact from the other side.
     - `oil_temperature`: of the contact, K, > 0.
-    - `load_per_length`: N/m, or `pressure`: Hertz (peak) pressure, Pa; one of the two.
+    - `load_per_length`: N/m, > 0, or `pressure`; one of the two.
+    - `pressure`: Hertz (peak) pressure, Pa, > 0.
     """
 
     part: ClassVar[str] = "operation"

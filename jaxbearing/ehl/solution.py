@@ -70,7 +70,7 @@ class LineContactSolution(AbstractSolution):
     speed_number: Float[Array, ""] = eqx.field(metadata=label("1", "lambda = 12 eta u R'^2/(a^3 p_h)"))
     operation: ContactOperation
     checks: Mapping[str, Bool[Array, ""]]
-    unknowns: int = eqx.field(static=True, default=0)
+    unknowns: int = eqx.field(static=True, default=0, metadata=label("1", "unknowns of the equations"))
     compressible: bool = eqx.field(static=True, default=True)
     notes: tuple[str, ...] = eqx.field(static=True, default=())
 

@@ -51,7 +51,9 @@ class BallPocket(eqx.Module):
     bearing of lengths it does not give; these are the classical forms in their place.
     **Reference:** Kapitza (1955), Zh. Tekh. Fiz. 25, 747; source, Table 1.
 
-    **Arguments:** `clearance`: pocket diameter minus ball diameter, m; `ball_radius`, m.
+    **Arguments:**
+    - `clearance`: J_p, DIAMETRAL: pocket diameter minus ball diameter, m, > 0.
+    - `ball_radius`: m, > 0.
     """
 
     clearance: Scalar

@@ -8,6 +8,7 @@ import jax.numpy as jnp
 from .._types import Batch, Scalar, Values
 from ..numerics.quadrature import gauss_legendre
 from ..numerics.safe import softplus_floor
+from ..numerics.structure import count
 
 FILM_FLOOR = 0.5e-6
 """Least end film, m."""
@@ -67,6 +68,10 @@ class FlangeCoefficients(eqx.Module):
 
     `first` = n int (mu/h) 2 r phi dr; `second` = n int (mu/h) 2 r^2 sin(phi) dr;
     `third` = n int (mu/h) 2 r^3 phi dr.
+
+    **Arguments:**
+    - `first`, `second`, `third`: the integrals, N s/m, N s and N m s.
+    - `pitch_radius`: of the circle of roller centres, m.
     """
 
     first: Batch
@@ -103,7 +108,12 @@ class Flange(eqx.Module):
     **Validity:** laminar plane Couette flow, no normal load, corner chamfers ignored.
     **Reference:** classical Couette shear; the source names it in Table 3 row 6, without a formula.
 
-    `side_clearance` is the film at the race per side (half the axial guiding clearance: decision).
+    **Arguments:**
+    - `race_radius`, `rim_radius`: of raceway and rim of the flange about the bearing axis, m, > 0.
+    - `pitch_radius`, `roller_radius`: of the circle of roller centres, and of a roller, m, > 0.
+    - `side_clearance`: film at the race, AXIAL, on ONE side: half of the total axial guiding clearance (decision), m.
+    - `angle`: flange opening angle, rad.
+    - `n_sides`: number of roller ends that touch flanges of this ring; structure.
     """
 
     race_radius: Scalar
@@ -112,7 +122,7 @@ class Flange(eqx.Module):
     roller_radius: Scalar
     side_clearance: Scalar
     angle: Scalar
-    n_sides: int = eqx.field(static=True, default=2)
+    n_sides: int = count("n_sides", 2)
 
     def coefficients(self, viscosity: Values) -> FlangeCoefficients:
         """Integrals at a viscosity (Pa s), to be evaluated at many speeds."""
@@ -130,7 +140,12 @@ class Flange(eqx.Module):
 
 
 class PocketEdgeCoefficients(eqx.Module):
-    """Pocket-edge integrals: n mu/j times int rho^2 dA (`polar`) and int (y - R_m) dA (`first`)."""
+    """Pocket-edge integrals: n mu/j times int rho^2 dA (`polar`) and int (y - R_m) dA (`first`).
+
+    **Arguments:**
+    - `polar`: N m s.
+    - `first`: N s.
+    """
 
     polar: Batch
     first: Batch
@@ -156,7 +171,11 @@ class PocketEdge(eqx.Module):
     **Validity:** laminar plane Couette flow, no normal load.
     **Reference:** classical Couette shear; the source names it in Table 3 row 5, without a formula.
 
-    `side_clearance` is the film j per side: half the axial pocket clearance.
+    **Arguments:**
+    - `inner_radius`, `outer_radius`: of the rails about the bearing axis, m, > 0.
+    - `pitch_radius`, `roller_radius`: of the circle of roller centres, and of a roller, m, > 0.
+    - `side_clearance`: film j, AXIAL, on ONE side: half of the total axial pocket clearance, m.
+    - `n_sides`: number of roller ends beside rails; structure.
     """
 
     inner_radius: Scalar
@@ -164,7 +183,7 @@ class PocketEdge(eqx.Module):
     pitch_radius: Scalar
     roller_radius: Scalar
     side_clearance: Scalar
-    n_sides: int = eqx.field(static=True, default=2)
+    n_sides: int = count("n_sides", 2)
 
     def _integrals(self) -> tuple[Batch, Batch, Batch]:
         r_m = self.pitch_radius

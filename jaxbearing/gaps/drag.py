@@ -6,6 +6,7 @@ import equinox as eqx
 import jax.numpy as jnp
 
 from .._types import Batch, Scalar, Values
+from ..numerics.arguments import require_temperature
 from ..numerics.safe import regular_power, smooth_abs, softplus_floor
 
 PARKER_CONSTANT = 1e5
@@ -65,6 +66,7 @@ def saturated_oil_fraction(
 
 def air_density(temperature: Values, pressure: Values = 101325.0) -> Batch:
     """Ideal gas, 0.029 kg/mol: kg/m^3. **Arguments:** `temperature`, K, > 0; `pressure`, Pa."""
+    require_temperature(temperature)
     return pressure * MOLAR_MASS_AIR / (GAS_CONSTANT * jnp.asarray(temperature))
 
 
@@ -150,6 +152,10 @@ class RollerDrag(eqx.Module):
     The force has the sign of the speed; it acts *against* the orbital motion. V|V| has slope 0 at
     rest, value and gradient are exact there. The source gives no Cd for rollers: 1.2 is an
     isolated cylinder, neighbours in a row shield each other.
+
+    **Arguments:**
+    - `coefficient`: Cd of one rolling element in its row, a number >= 0.
+    - `area`: S across the stream, m^2, >= 0.
     """
 
     coefficient: Scalar

@@ -9,6 +9,7 @@ from jaxtyping import Array
 from .._types import Batch, Scalar, Values
 from ..numerics.roots import monotone_root
 from ..numerics.safe import log_add, safe_norm, smooth_abs
+from ..numerics.structure import count
 from .turbulence import AbstractTurbulence, BlendedTurbulence
 
 ECCENTRICITY_LIMIT = 0.995
@@ -79,13 +80,20 @@ class ShortJournal(eqx.Module):
     (a decision: a half-dry land would have about half of it).
     **Reference:** Ocvirk (1953), NACA TN 2808 (pressure); Booker (1965), ASME J. Basic Eng. 87,
     537 (moving film); the source names the contact in Table 3 without a formula.
+
+    **Arguments:**
+    - `radius`: of the journal, R, m, > 0.
+    - `width`: L of ONE land, m, > 0.
+    - `clearance`: c, RADIAL: half of the diametral clearance, m, > 0.
+    - `turbulence`: flow regime of the film.
+    - `n_lands`: number of lands; structure.
     """
 
     radius: Scalar
     width: Scalar
     clearance: Scalar
     turbulence: AbstractTurbulence = eqx.field(default_factory=BlendedTurbulence)
-    n_lands: int = eqx.field(static=True, default=2)
+    n_lands: int = count("n_lands", 2)
 
     def __check_init__(self):
         if self.n_lands < 1:

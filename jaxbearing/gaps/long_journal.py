@@ -21,6 +21,11 @@ class LongJournal(eqx.Module):
     small approach speeds only, so steady use takes the wedge part alone (rate 0).
     **Reference:** Sommerfeld (1904); Pinkus and Sternlicht (1961), *Theory of Hydrodynamic
     Lubrication*; the source names the contact in Table 3 without a formula.
+
+    **Arguments:**
+    - `radius`: of the journal, R, m, > 0.
+    - `width`: L, m, > 0.
+    - `clearance`: c, RADIAL: half of the diametral clearance, m, > 0.
     """
 
     radius: Scalar

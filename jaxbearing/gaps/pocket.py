@@ -9,6 +9,7 @@ from jaxtyping import Array
 from .._types import Batch, Scalar, Values
 from ..numerics.roots import monotone_root
 from ..numerics.safe import log_add
+from ..numerics.structure import switch
 from .martin import MARTIN_LOAD, MARTIN_ROLLING, MARTIN_SHEAR, martin_factors
 
 SPIN_FLOOR = 1.0
@@ -44,12 +45,18 @@ class Pocket(eqx.Module):
     **Validity:** rigid, isoviscous, no side leakage (`side_leakage_factor`), light loads: at shocks
     use `CompliantPocketFace`.
     **Reference:** Martin (1916); Dowson, Markho and Jones (1976); source, Table 3 row 2.
+
+    **Arguments:**
+    - `clearance`: J_p, TOTAL circumferential clearance of the roller, front and rear together, m, > 0.
+    - `length`: L of the roller along the walls, m, > 0.
+    - `roller_radius`: R_R, m, > 0.
+    - `rolling`: whether half of the pressure-flow force counts as friction; structure.
     """
 
     clearance: Scalar
     length: Scalar
     roller_radius: Scalar
-    rolling: bool = eqx.field(static=True, default=False)
+    rolling: bool = switch("rolling", False)
 
     def balance(self, net_load: Values, spin_speed: Values, viscosity: Values) -> PocketFilm:
         r"""Films that carry a given net load, closed form.
@@ -111,6 +118,14 @@ class CompliantPocketFace(eqx.Module):
     **Validity:** E' is 2/[(1-v1^2)/E1 + (1-v2^2)/E2]; no side leakage.
     **Reference:** Martin (1916); Dowson, Markho and Jones (1976); Dowson and Higginson (1966);
     Palmgren (1959), source eq. (41).
+
+    **Arguments:**
+    - `roller_radius`: R, m, > 0.
+    - `length`: L along the wall, m, > 0.
+    - `reduced_modulus`: E', Pa, > 0.
+    - `pressure_viscosity`: alpha, 1/Pa, >= 0.
+    - `minimum_speed`: U_min, m/s, > 0.
+    - `minimum_film`: h_min of the squeeze number, m, > 0.
     """
 
     roller_radius: Scalar

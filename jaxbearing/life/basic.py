@@ -5,6 +5,7 @@ import numpy as np
 from jaxtyping import Array, Float
 
 from .._types import Scalar, Values
+from ..numerics.arguments import require_angle
 
 RELIABILITY_FACTORS = {0.90: 1.0, 0.95: 0.64, 0.96: 0.55, 0.97: 0.47, 0.98: 0.37, 0.99: 0.25}
 """a_1 of ISO 281:2007 by reliability [M]; the edition before had 0.62, 0.53, 0.44, 0.33, 0.21."""
@@ -33,6 +34,7 @@ def basic_life(capacity: Values, equivalent_load: Values, exponent: float) -> Fl
 
 def tapered_equivalent_load(radial: Values, axial: Values, contact_angle: Values) -> Float[Array, "..."]:
     """P = Fr where Fa/Fr <= e = 1.5 tan(alpha), else 0.4 Fr + 0.4 cot(alpha) Fa, N [M]."""
+    require_angle("contact_angle", contact_angle)
     tangent = jnp.tan(contact_angle)
     combined = 0.4 * radial + 0.4 / tangent * axial
     return jnp.where(axial <= 1.5 * tangent * radial, radial * jnp.ones_like(combined), combined)

@@ -4,6 +4,7 @@ import jax.numpy as jnp
 from jaxtyping import Array, Float
 
 from .._types import Scalar
+from ..numerics.arguments import require_angle, require_count
 
 MILLIMETRE = 1e-3
 LARGE_BALL = 25.4
@@ -14,6 +15,7 @@ POLE = 0.505
 
 def ball_size_ratio(ball_diameter: Scalar, pitch_diameter: Scalar, contact_angle: Scalar) -> Float[Array, ""]:
     """gamma = D cos(alpha)/d_m of balls or rollers."""
+    require_angle("contact_angle", contact_angle)
     return jnp.asarray(ball_diameter * jnp.cos(contact_angle) / pitch_diameter)
 
 
@@ -65,6 +67,7 @@ def ball_capacity(
 
     **Arguments:** diameters, m; `contact_angle`, rad: the nominal one, 0 of a deep-groove bearing.
     """
+    require_count("n_balls", n_balls)
     gamma = ball_size_ratio(ball_diameter, pitch_diameter, contact_angle)
     diameter = jnp.asarray(ball_diameter) / MILLIMETRE
     size = jnp.where(diameter > LARGE_BALL, 3.647 * diameter**1.4, diameter**1.8)
@@ -97,6 +100,7 @@ def roller_capacity(
     **Arguments:** `roller_diameter`, at mid length, `pitch_diameter`, that of the rollers' middles, `length`, the
     effective one, m; `contact_angle`, rad: that of the outer raceway.
     """
+    require_count("n_rollers", n_rollers)
     gamma = ball_size_ratio(roller_diameter, pitch_diameter, contact_angle)
     length, diameter = jnp.asarray(length) / MILLIMETRE, jnp.asarray(roller_diameter) / MILLIMETRE
     size = (length * jnp.cos(contact_angle)) ** (7.0 / 9.0) * diameter ** (29.0 / 27.0)

@@ -6,6 +6,7 @@ import jax.numpy as jnp
 from jaxtyping import Array, Float
 
 from .._types import Scalar, Values
+from ..numerics.arguments import require_choice
 from .capacity import MILLIMETRE
 
 Family = Literal["ball", "roller"]
@@ -48,6 +49,7 @@ def modification_factor(kappa: Values, load_ratio: Values, family: Family) -> Fl
     **Validity:** kappa between 0.1 and 4 (outside: those of the ends).
     **Evidence:** [C] the three branches in kappa join; constants otherwise [M].
     """
+    require_choice("family", family, _CONSTANTS)
     kappa = jnp.clip(kappa, *KAPPA_RANGE)
     constant, scales, power, exponent, outer = _CONSTANTS[family]
     low, high = (kappa < end for end in _BRANCH_ENDS)
@@ -75,6 +77,7 @@ def contamination_factor(kappa: Values, pitch_diameter: Scalar, cleanliness: str
 
     **Evidence:** [M]. **Arguments:** `pitch_diameter`, m; `cleanliness`: one of `CLEANLINESS`.
     """
+    require_choice("cleanliness", cleanliness, CLEANLINESS)
     k, c = CLEANLINESS[cleanliness]
     diameter = jnp.asarray(pitch_diameter) / MILLIMETRE
     if cleanliness == "grease_typical":
@@ -88,6 +91,7 @@ def fatigue_load_limit(static_capacity: Scalar, pitch_diameter: Scalar, family: 
 
     **Evidence:** [M], the simplified way of ISO 281. **Arguments:** N, m.
     """
+    require_choice("family", family, _CONSTANTS)
     divisor, power = (22.0, 0.5) if family == "ball" else (8.2, 0.3)
     large = jnp.maximum(jnp.asarray(pitch_diameter) / MILLIMETRE, 100.0)
     return static_capacity / divisor * (100.0 / large) ** power

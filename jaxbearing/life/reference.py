@@ -12,6 +12,7 @@ import numpy as np
 from jaxtyping import Array, Bool, Float
 
 from .._types import Scalar
+from ..numerics.arguments import require_count
 from .capacity import ball_size_ratio, groove_ratio, roller_ratio
 
 TINY = 1e-40
@@ -43,6 +44,7 @@ def ball_contact_capacities(
     the life is 0.999; $Q_{ci}$ is Lundberg and Palmgren's contact capacity within 0.8 %.
     **Arguments:** as `capacity.ball_capacity`; `capacity` C, N.
     """
+    require_count("n_balls", n_balls)
     gamma = ball_size_ratio(ball_diameter, pitch_diameter, contact_angle)
     ratio = groove_ratio(gamma, conformity_inner, conformity_outer, 1.044)
     share = capacity / (n_balls * jnp.cos(contact_angle))
@@ -59,6 +61,7 @@ def roller_contact_capacities(
     **Evidence:** [D] line-contact integrals give 0.376 and 0.363; [C] within 0.4 % of Lundberg and Palmgren's form.
     **Arguments:** as `capacity.roller_capacity`; `capacity` C, N.
     """
+    require_count("n_rollers", n_rollers)
     gamma = ball_size_ratio(roller_diameter, pitch_diameter, contact_angle)
     ratio = roller_ratio(gamma, 1.038)
     share = capacity / (REDUCTION * n_rollers * jnp.cos(contact_angle))
@@ -96,6 +99,7 @@ def edge_factors(n_laminae: int) -> np.ndarray:
 
     **Evidence:** [M] plausible: 30 laminae give 1.2414 at the end, 1.0886 beside it, 1.0029 in the middle.
     """
+    require_count("n_laminae", n_laminae)
     k = np.arange(1, n_laminae + 1)
     distance = np.abs(2 * k - n_laminae - 1)
     inside = distance > 0

@@ -5,6 +5,7 @@ from jaxtyping import Array, Float
 
 from .._types import Scalar
 from ..contacts import LineContact, PointContact
+from ..numerics.arguments import require_angle, require_count
 
 BALL_PRESSURE, ROLLER_PRESSURE = 4.2e9, 4.0e9
 """Hertz pressure of the most loaded contact at the static rating, Pa (ISO 76, [M])."""
@@ -25,6 +26,8 @@ def ball_static_capacity(
 
     **Evidence:** [D] from Hertz and Stribeck's number. **Arguments:** as `capacity.ball_capacity`.
     """
+    require_count("n_balls", n_balls)
+    require_angle("contact_angle", contact_angle)
     gamma = ball_diameter * jnp.cos(contact_angle) / pitch_diameter
     rolling = 0.5 * ball_diameter * (1.0 - gamma)
     transverse = conformity_inner * ball_diameter / (2.0 * conformity_inner - 1.0)
@@ -39,6 +42,8 @@ def roller_static_capacity(
 
     **Evidence:** [D]; ISO 76 prints 44 ([M]). **Arguments:** as `capacity.roller_capacity`.
     """
+    require_count("n_rollers", n_rollers)
+    require_angle("contact_angle", contact_angle)
     gamma = roller_diameter * jnp.cos(contact_angle) / pitch_diameter
     radius = 0.5 * jnp.asarray(roller_diameter) * (1.0 - gamma)
     load = LineContact(radius, length, STEEL_MODULUS).load_at_pressure(ROLLER_PRESSURE)

@@ -4,6 +4,7 @@ import equinox as eqx
 import jax.numpy as jnp
 
 from .._types import Values
+from ..numerics.arguments import require_temperature
 from .pressure_viscosity import AbstractPressureViscosity
 from .rheology import ExponentialRheology
 from .thermal import LinearConductivity, LinearDensity
@@ -43,6 +44,7 @@ class Lubricant(eqx.Module):
 
     def at(self, temperature: Values) -> InletOil:
         """The oil at a contact inlet. **Arguments:** `temperature`, K, > 0."""
+        require_temperature(temperature)
         temperature = jnp.asarray(temperature, dtype=float)
         return InletOil(
             temperature=temperature,

@@ -10,6 +10,7 @@ from typing import ClassVar
 import jax.numpy as jnp
 
 from .._types import Batch, Scalar, Values
+from ..numerics.arguments import require_temperature
 from ..numerics.checks import Checked, bounded
 from ..numerics.quadrature import gauss_legendre
 from ..numerics.safe import softplus_floor
@@ -49,6 +50,7 @@ class ConstantPressureViscosity(AbstractPressureViscosity):
     value: Scalar = bounded("> 0")
 
     def coefficient(self, temperature: Values) -> Batch:
+        require_temperature(temperature)
         return jnp.full(jnp.shape(temperature), self.value, dtype=float)
 
 
@@ -76,6 +78,7 @@ class FittedPressureViscosity(AbstractPressureViscosity):
     a11: Scalar = bounded("finite")
 
     def coefficient(self, temperature: Values) -> Batch:
+        require_temperature(temperature)
         t = softplus_floor(temperature, self.pole_temperature + FIT_MARGIN, FIT_WIDTH)
         above_pole = t - self.pole_temperature
         regular = self.offset + (self.a00 + self.a01 / t) / t
@@ -96,6 +99,7 @@ class NoPressureViscosity(AbstractPressureViscosity):
     """Coefficient 0, exactly: the isoviscous fluid (water, kerosene)."""
 
     def coefficient(self, temperature: Values) -> Batch:
+        require_temperature(temperature)
         return jnp.zeros(jnp.shape(temperature))
 
 
@@ -122,6 +126,7 @@ class IntegratedPressureViscosity(AbstractPressureViscosity):
             )
 
     def coefficient(self, temperature: Values) -> Batch:
+        require_temperature(temperature)
         temperature = jnp.asarray(temperature, dtype=float)
         limit = self.viscosity.pressure_limit(temperature)
         scale = SUBSTITUTION_SCALES * self.viscosity.pressure_scale(temperature)

@@ -6,7 +6,9 @@ import equinox as eqx
 import jax.numpy as jnp
 
 from .._types import Batch, Scalar, Values
+from ..numerics.arguments import require_temperature
 from ..numerics.checks import Checked, bounded, known
+from ..numerics.structure import constant
 
 EXPONENT_CAP = 60.0
 """Exponents are clipped to +-60 (26 decades): beyond, the law is constant and its gradient 0."""
@@ -40,7 +42,7 @@ class ExponentialRheology(Checked):
     stress_pressure: Scalar = bounded("finite")
     stress_temperature: Scalar = bounded("finite")
     viscous_function: str | None = eqx.field(static=True, default=None)
-    exponent: float | None = eqx.field(static=True, default=None)
+    exponent: float | None = constant("rheology.exponent", None)
 
     def __check_init__(self):
         super().__check_init__()
@@ -65,12 +67,14 @@ class ExponentialRheology(Checked):
 
     def log_shear_modulus(self, pressure: Values, temperature: Values) -> Batch:
         """ln of the shear modulus in Pa. **Arguments:** `pressure`, Pa; `temperature`, K, > 0."""
+        require_temperature(temperature)
         inverse = 1.0 / temperature - 1.0 / self.reference_temperature
         exponent = self.shear_modulus_pressure * pressure + self.shear_modulus_temperature * inverse
         return jnp.log(self.shear_modulus) + jnp.clip(exponent, -EXPONENT_CAP, EXPONENT_CAP)
 
     def log_stress(self, pressure: Values, temperature: Values) -> Batch:
         """ln of the characteristic stress in Pa. **Arguments:** `pressure`, Pa; `temperature`, K, > 0."""
+        require_temperature(temperature)
         inverse = 1.0 / temperature - 1.0 / self.reference_temperature
         exponent = self.stress_pressure * pressure + self.stress_temperature * inverse
         return jnp.log(self.stress) + jnp.clip(exponent, -EXPONENT_CAP, EXPONENT_CAP)

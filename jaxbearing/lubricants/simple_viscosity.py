@@ -3,6 +3,7 @@
 import jax.numpy as jnp
 
 from .._types import Batch, Scalar, Values
+from ..numerics.arguments import require_temperature
 from ..numerics.checks import bounded
 from ..numerics.safe import nonnegative_pressure, softplus_floor
 from .viscosity import AbstractViscosity, capped
@@ -28,6 +29,7 @@ class ConstantViscosity(AbstractViscosity):
     value: Scalar = bounded("> 0")
 
     def log_viscosity(self, pressure: Values, temperature: Values) -> Batch:
+        require_temperature(temperature)
         shape = jnp.broadcast_shapes(jnp.shape(pressure), jnp.shape(temperature))
         return jnp.broadcast_to(jnp.log(self.value), shape)
 
@@ -54,6 +56,7 @@ class Barus(AbstractViscosity):
     temperature_viscosity: Scalar = bounded(">= 0")
 
     def log_viscosity(self, pressure: Values, temperature: Values) -> Batch:
+        require_temperature(temperature)
         inverse = 1.0 / jnp.asarray(temperature, dtype=float) - 1.0 / self.reference_temperature
         exponent = self.pressure_viscosity * nonnegative_pressure(pressure) + self.temperature_viscosity * inverse
         return capped(jnp.log(self.reference_viscosity) + exponent)
@@ -86,6 +89,7 @@ class Roelands(AbstractViscosity):
     temperature_exponent: Scalar = bounded(">= 0")
 
     def log_viscosity(self, pressure: Values, temperature: Values) -> Batch:
+        require_temperature(temperature)
         log_reference = jnp.log(self.reference_viscosity)
         above_pole = softplus_floor(temperature, ROELANDS_POLE + ROELANDS_MARGIN, ROELANDS_WIDTH) - ROELANDS_POLE
         log_ratio = jnp.log(above_pole) - jnp.log(self.reference_temperature - ROELANDS_POLE)
@@ -97,7 +101,7 @@ class Roelands(AbstractViscosity):
 Roelands.__init__.__doc__ = """**Arguments:**
 - `reference_viscosity`: mu_0, Pa s, > 6.3e-5.
 - `reference_temperature`: T_0, K, > 138.
-- `pressure_exponent`: Z, > 0, about 0.4 to 0.8.
+- `pressure_exponent`: Z, a number > 0, about 0.4 to 0.8.
 - `temperature_exponent`: S_0, >= 0, about 1 to 1.5.
 """
 

@@ -5,6 +5,7 @@ from typing import ClassVar
 import jax.numpy as jnp
 
 from .._types import Batch, Scalar, Values
+from ..numerics.arguments import require_temperature
 from ..numerics.checks import Checked, bounded
 from ..numerics.safe import softplus_floor
 
@@ -29,6 +30,7 @@ class LinearDensity(Checked):
 
     def density(self, temperature: Values) -> Batch:
         """Density, kg/m^3. **Arguments:** `temperature`, K."""
+        require_temperature(temperature)
         return jnp.asarray(self.value + self.slope * jnp.subtract(temperature, self.reference_temperature))
 
 
@@ -55,6 +57,7 @@ class LinearConductivity(Checked):
 
     def conductivity(self, temperature: Values) -> Batch:
         """Thermal conductivity, W/(m K). **Arguments:** `temperature`, K."""
+        require_temperature(temperature)
         plain = self.value + self.slope * jnp.subtract(temperature, self.reference_temperature)
         return softplus_floor(plain, CONDUCTIVITY_FLOOR, CONDUCTIVITY_WIDTH)
 

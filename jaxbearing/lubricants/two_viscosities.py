@@ -3,6 +3,7 @@
 import jax.numpy as jnp
 
 from .._types import Batch, Scalar, Values
+from ..numerics.arguments import require_temperature
 from ..numerics.checks import bounded, demand, given
 from ..numerics.safe import softplus_floor
 from .simple_viscosity import LOG_ROELANDS_VISCOSITY, ROELANDS_RATE, log_compression
@@ -76,6 +77,7 @@ class WaltherRoelands(AbstractViscosity):
             )
 
     def log_viscosity(self, pressure: Values, temperature: Values) -> Batch:
+        require_temperature(temperature)
         log_ambient = self._log_ambient(jnp.asarray(temperature, dtype=float))
         slope_1 = ROELANDS_RATE * (self._log_ambient(jnp.asarray(self.temperature_1)) - LOG_ROELANDS_VISCOSITY)
         growth = jnp.expm1(self.coefficient_1() / slope_1 * log_compression(pressure))

@@ -9,6 +9,7 @@ import jax.numpy as jnp
 import numpy as np
 
 from .._types import Batch, Scalar, Values
+from ..numerics.arguments import require_temperature
 from ..numerics.checks import Checked, bounded
 from ..numerics.safe import log_add, nonnegative_pressure, softplus_floor
 
@@ -59,6 +60,7 @@ class AbstractViscosity(Checked):
 
     def log_slope(self, temperature: Values) -> Batch:
         r"""$\partial\ln\mu/\partial T$ at ambient pressure, 1/K: negative for a liquid lubricant, 0 for a constant."""
+        require_temperature(temperature)
         temperature = jnp.asarray(temperature, dtype=float)
         at_ambient = lambda t: self.log_viscosity(0.0, t)
         return jax.jvp(at_ambient, (temperature,), (jnp.ones_like(temperature),))[1]
@@ -116,6 +118,7 @@ class ModifiedWLF(AbstractViscosity):
     c2: Scalar = bounded("> 0")
 
     def log_viscosity(self, pressure: Values, temperature: Values) -> Batch:
+        require_temperature(temperature)
         log10_glass = jnp.log10(self.glass_viscosity)
         glass, expansion = self._glass_and_expansion(nonnegative_pressure(pressure))
         expansion = softplus_floor(expansion, EXPANSION_FLOOR, EXPANSION_WIDTH)
@@ -155,8 +158,8 @@ ModifiedWLF.__init__.__doc__ = """**Arguments:**
 - `glass_temperature`: Tg0 at ambient pressure, K.
 - `glass_shift`: A1, K, > 0.
 - `glass_shift_rate`: A2, 1/Pa, > 0.
-- `expansion_factor`: B1, > 0.
+- `expansion_factor`: B1, a number > 0.
 - `expansion_rate`: B2, 1/Pa, > 0.
-- `c1`: C1, of the decimal logarithm (2.3 times smaller than that of a law written in ln), > 0.
+- `c1`: C1, a number, of the decimal logarithm (2.3 times smaller than that of a law written in ln), > 0.
 - `c2`: C2, K, > 0.
 """

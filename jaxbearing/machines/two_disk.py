@@ -1,7 +1,7 @@
 """The two-disk machine: two bodies that roll and slide on each other under load, and the traction between them."""
 
 import dataclasses
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Any, ClassVar, NamedTuple
 
 import equinox as eqx
@@ -34,7 +34,9 @@ from ..lubricants.ranges import FITTED_PRESSURE, FITTED_TEMPERATURES
 from ..materials import Material, reduced_modulus
 from ..numerics.checks import RANGES, Checked, demand, functions
 from ..numerics.precision import as_float
+from ..numerics.refusals import refuse_all
 from ..numerics.status import Status
+from ..numerics.structure import switch
 
 INNER_TOLERANCE = 1e-6
 """Largest residual of a nested solve: ln(film) of the inlet's rise, K of the film's."""
@@ -46,9 +48,9 @@ class DiskGeometry(Checked):
     """Reduced radii of the contact, m: 1/R = 1/R1 + 1/R2, convex > 0. A ball on a flat disc has its own radius twice.
 
     **Arguments:**
-    - `reduced_radius_rolling`: in the plane of rolling.
-    - `reduced_radius_transverse`: across; not given: as along rolling, a circular contact.
-    - `contact_length`: of a line contact between cylinders; then there is no transverse radius.
+    - `reduced_radius_rolling`: in the plane of rolling, m, > 0.
+    - `reduced_radius_transverse`: across, m, > 0; not given: as along rolling, a circular contact.
+    - `contact_length`: of a line contact between cylinders, m, > 0; then there is no transverse radius.
     """
 
     part: ClassVar[str] = "geometry"
@@ -94,8 +96,8 @@ class TwoDiskLaws(eqx.Module):
     film: AbstractPointFilm | AbstractLineFilm
     traction: DistributedTraction
     thermal: AbstractThermalFactor = NoThermalReduction()
-    warm_inlet: bool = eqx.field(static=True, default=True)
-    half_space_compliance: bool = eqx.field(static=True, default=False)
+    warm_inlet: bool = switch("contact.warm_inlet", True)
+    half_space_compliance: bool = switch("contact.half_space_compliance", False)
 
     def __check_init__(self):
         if self.half_space_compliance and self.traction.compliance is not None:
@@ -244,24 +246,27 @@ class TwoDisk(AbstractScene):
     operation: DiskOperation
 
     def __check_init__(self):
+        refuse_all(self._problems())
+
+    def _problems(self) -> Iterator[str | ValueError]:
         laws, oil = self.contact, self.oil
         line = self.geometry.contact_length is not None
         if line != isinstance(laws.film, AbstractLineFilm):
             kind = "line" if line else "point"
-            raise ValueError(f"contact.film: found {type(laws.film).__name__}, expected a film of a {kind} contact")
+            yield f"contact.film: found {type(laws.film).__name__}, expected a film of a {kind} contact"
         if isinstance(oil.pressure_viscosity, NoPressureViscosity) and laws.film.piezoviscous_only:
-            raise ValueError(
+            yield (
                 f"contact.film: {type(laws.film).__name__} holds for oils whose viscosity rises with pressure, not for "
                 "an isoviscous one"
             )
         if oil.rheology is None:
-            raise ValueError("oil.rheology: the traction needs it")
+            yield "oil.rheology: the traction needs it"
         heating = laws.traction.heating
         warms = not isinstance(laws.thermal, NoThermalReduction) or (
             heating is not None and heating.conductivity is None
         )
         if warms and oil.conductivity is None:
-            raise ValueError("oil.conductivity: the thermal reduction of the film, and its heating, need it")
+            yield "oil.conductivity: the thermal reduction of the film, and its heating, need it"
 
     @property
     def hertz(self) -> LineContact | PointContact:

@@ -19,6 +19,7 @@ from jax.core import Tracer
 from jaxtyping import Array, Bool
 
 from .precision import as_float
+from .refusals import refuse_all
 
 
 class Interval(NamedTuple):
@@ -86,15 +87,16 @@ class Checked(eqx.Module):
 
     def __check_init__(self):
         record = _RECORD.get()
-        part = self.part if record is None else record.path
+        part, checks = self.part if record is None else record.path, {}
         for field in dataclasses.fields(self):
             bound, value = field.metadata.get("bound"), getattr(self, field.name)
             if bound is None:
                 continue
-            if value is None and field.default is not None:
-                raise ValueError(f"{part}.{field.name} must be one number, got None")
             name = field.name if record is not None else field.metadata["name"] or field.name
-            require(part, **{name: (value, bound)})
+            if value is None and field.default is not None:
+                raise ValueError(f"{part}.{name} must be one number, got None")
+            checks[name] = (value, bound)
+        require(part, **checks)
 
 
 def _is_number(value: Any) -> bool:
@@ -122,8 +124,13 @@ def require(part: str, **checks: tuple[Any, str]) -> None:
     """`checks` maps a field name to (value, range), the range one of `RANGES`; `None` passes, and a traced value is
     judged by `check_inputs`.
 
-    **Raises:** `ValueError` naming part, field, the value and what is allowed.
+    **Raises:** `ValueError` naming part, field, the value and what is allowed; `Refusals` of several.
     """
+    refuse_all(_refused(part, checks))
+
+
+def _refused(part: str, checks: dict[str, tuple[Any, str]]) -> Iterator[str]:
+    """What is wrong with known values; traced ones are recorded."""
     record = _RECORD.get()
     for name, (value, allowed) in checks.items():
         field = f"{part}.{name}" if part else name
@@ -131,14 +138,15 @@ def require(part: str, **checks: tuple[Any, str]) -> None:
             continue
         # what has a dtype and is no array stands in for a number (`jax.ShapeDtypeStruct`)
         if not (_is_number(value) or hasattr(value, "dtype")) or (np.ndim(value) and not isinstance(value, Tracer)):
-            raise ValueError(f"{field} must be one number, got {value!r}")
+            yield f"{field} must be one number, got {value!r}"
+            continue
         if isinstance(value, Tracer):
             if record is not None:
                 record.numbers[f"{field} must be {allowed}"] = (value, RANGES[allowed])
             continue
         number = known(value)
         if number is not None and not RANGES[allowed].holds(number[0]):
-            raise ValueError(f"{field} must be {allowed}, got {number[0]:g}")
+            yield f"{field} must be {allowed}, got {number[0]:g}"
 
 
 def demand(rule: str, fine: Any, message: Callable[[], str]) -> None:

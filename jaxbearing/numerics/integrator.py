@@ -9,6 +9,7 @@ from jaxtyping import Array, Float, Int
 from .._types import Scalar
 from .arrow import ArrowPoint
 from .precision import as_float
+from .structure import count
 
 Solver = Literal["tsit5", "dopri8", "kvaerno3", "kvaerno4", "kvaerno5", "implicit_euler"]
 SOLVERS: tuple[str, ...] = get_args(Solver)
@@ -46,7 +47,7 @@ class IntegratorOptions(eqx.Module):
 
     solver: str = eqx.field(static=True, default="tsit5")
     tolerance: Scalar = eqx.field(converter=as_float, default=1e-5)
-    max_steps: int = eqx.field(static=True, default=100_000)
+    max_steps: int = count("max_steps", 100_000)
     elimination: str = eqx.field(static=True, default="arrow")
     shortest_step: Scalar = eqx.field(converter=as_float, default=1e-14)
 

@@ -21,6 +21,7 @@ from .arrow import (
     uphill_step,
 )
 from .status import Status
+from .structure import constant, count, switch
 
 BACKTRACK = (1.0, 0.3, 0.05)
 """Fractions of the Newton step that are tried, in this order; the last is taken in any case."""
@@ -69,11 +70,11 @@ class NewtonOptions(eqx.Module):
       lane; without further tries it waits for `max_steps` at most.
     """
 
-    residual_tolerance: float = eqx.field(static=True, default=1e-10)
-    step_tolerance: float = eqx.field(static=True, default=1e-7)
-    inner_tolerance: float = eqx.field(static=True, default=1e-8)
-    max_steps: int = eqx.field(static=True, default=200)
-    further_tries: bool = eqx.field(static=True, default=True)
+    residual_tolerance: float = constant("residual_tolerance", 1e-10)
+    step_tolerance: float = constant("step_tolerance", 1e-7)
+    inner_tolerance: float = constant("inner_tolerance", 1e-8)
+    max_steps: int = count("max_steps", 200)
+    further_tries: bool = switch("further_tries", True)
 
 
 class NewtonResult(NamedTuple):

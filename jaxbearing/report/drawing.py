@@ -6,11 +6,13 @@ usual proportions.
 """
 
 import math
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Protocol
 
 import numpy as np
 
+from ..bearings.ball_bearing import BallBearing
 from ..bearings.cylindrical_roller import CylindricalRollerBearing
+from ..bearings.tapered_roller import TaperedRollerBearing
 from .display import displayed
 
 if TYPE_CHECKING:
@@ -30,21 +32,27 @@ _CAPTION = (
 )
 
 
-def draw_bearing(scene: CylindricalRollerBearing) -> "matplotlib.figure.Figure":
-    """The bearing seen along its axis, one roller and its pocket, and the upper half of a section through the axis.
+def draw_bearing(scene: Any) -> "matplotlib.figure.Figure":
+    """A bearing seen along its axis and in a section through the axis; of a cylindrical roller bearing one roller and
+    its pocket too.
 
-    Every dimension that the scene has is marked with its field name and value.
+    Every dimension that the scene has is marked, or listed beside the drawing, with its field name and value.
 
-    **Raises:** `TypeError` for another kind of scene.
+    **Raises:** `TypeError` for something else than a bearing.
     """
     from .page import Page
 
+    if isinstance(scene, BallBearing | TaperedRollerBearing):
+        from .section_drawing import draw_in_section
+
+        return draw_in_section(scene)
     if not isinstance(scene, CylindricalRollerBearing):
-        raise TypeError(f"draw_bearing draws a CylindricalRollerBearing, got a {type(scene).__name__}")
+        kinds = "BallBearing, CylindricalRollerBearing or TaperedRollerBearing"
+        raise TypeError(f"draw_bearing draws a {kinds}, got a {type(scene).__name__}")
     figure = Page()
     size = _Size(scene)
     for draw, title, place in (
-        (_draw_front, "Seen along the axis", (0.01, 0.09, 0.47, 0.85)),
+        (draw_front, "Seen along the axis", (0.01, 0.09, 0.47, 0.85)),
         (_draw_pocket, "One roller outside the loaded zone", (0.50, 0.54, 0.49, 0.40)),
         (_draw_section, "Section through the axis, upper half", (0.478, 0.07, 0.50, 0.42)),
     ):
@@ -55,6 +63,21 @@ def draw_bearing(scene: CylindricalRollerBearing) -> "matplotlib.figure.Figure":
         draw(axes, scene, size)
     figure.text(0.02, 0.02, _CAPTION, fontsize=8, color=INK, linespacing=1.4)
     return figure
+
+
+class FrontSize(Protocol):
+    """Dimensions of a bearing seen along its axis, mm, and how many elements it has."""
+
+    pitch: float
+    diameter: float
+    inner: float
+    outer: float
+    ring: float
+    step: float
+    pocket: float
+    cage: tuple[float, float] | None
+    count: int
+    counted: str
 
 
 class _Size:
@@ -80,9 +103,10 @@ class _Size:
         self.half_width = self.length / 2.0 + max(0.35 * self.length, 2.0 * self.gap + self.land)
         flange = scene.flange
         self.rim = 0.0 if flange is None else mm(flange.rim_height(geometry))
+        self.count, self.counted = geometry.n_rollers, "n_rollers"
 
 
-def _length(value: Any) -> str:
+def length_text(value: Any) -> str:
     metres = float(value)
     return f"{1e3 * metres:.6g} mm" if abs(metres) >= 1e-3 else f"{1e6 * metres:.4g} µm"
 
@@ -98,7 +122,7 @@ def _ring_outline(axes: Any, inside: float, outside: float, colour: str) -> None
     axes.add_patch(Annulus((0.0, 0.0), outside, outside - inside, facecolor=colour, edgecolor=INK, linewidth=0.9))
 
 
-def _draw_bars(axes: Any, size: _Size, indices: Any) -> None:
+def _draw_bars(axes: Any, size: FrontSize, indices: Any) -> None:
     """Cage bars between the pockets, after rollers of these numbers."""
     if size.cage is None:
         return
@@ -110,7 +134,7 @@ def _draw_bars(axes: Any, size: _Size, indices: Any) -> None:
         axes.fill(x, y, facecolor=CAGE, edgecolor=INK, linewidth=0.6, zorder=2)
 
 
-def _draw_rollers(axes: Any, size: _Size, indices: Any) -> None:
+def _draw_rollers(axes: Any, size: FrontSize, indices: Any) -> None:
     from matplotlib.patches import Circle
 
     for i in indices:
@@ -118,7 +142,7 @@ def _draw_rollers(axes: Any, size: _Size, indices: Any) -> None:
         axes.add_patch(Circle(centre, size.diameter / 2.0, facecolor=ROLLER, edgecolor=INK, linewidth=0.9, zorder=3))
 
 
-def _dimension(axes: Any, start: Any, end: Any) -> None:
+def dimension(axes: Any, start: Any, end: Any) -> None:
     style = {"arrowstyle": "<|-|>,head_width=0.18,head_length=0.42", "color": DIMENSION, "linewidth": 1.0}
     axes.annotate("", xy=end, xytext=start, arrowprops=style | {"shrinkA": 0, "shrinkB": 0}, zorder=6)
 
@@ -133,18 +157,18 @@ def _text(axes: Any, place: Any, text: str, **style: Any) -> None:
     axes.text(*place, text, linespacing=1.25, **style)
 
 
-def _leader(axes: Any, place: Any, text: str, target: Any, **style: Any) -> None:
+def leader(axes: Any, place: Any, text: str, target: Any, **style: Any) -> None:
     _text(axes, place, text, **style)
     arrow = {"arrowstyle": "-|>,head_width=0.16,head_length=0.38", "color": DIMENSION, "linewidth": 0.9, "shrinkB": 0}
     axes.annotate("", xy=target, xytext=place, arrowprops=arrow | {"shrinkA": 3}, zorder=6)
 
 
-def _draw_front(axes: Any, scene: CylindricalRollerBearing, size: _Size) -> None:
+def draw_front(axes: Any, scene: Any, size: FrontSize) -> None:
     from matplotlib.patches import Circle
 
     outside = size.outer + size.ring
     bore = size.inner - size.ring
-    everyone = range(scene.geometry.n_rollers)
+    everyone = range(size.count)
     _ring_outline(axes, size.outer, outside, RING)
     _ring_outline(axes, bore, size.inner, RING)
     _draw_bars(axes, size, everyone)
@@ -152,14 +176,15 @@ def _draw_front(axes: Any, scene: CylindricalRollerBearing, size: _Size) -> None
     centre_line = {"edgecolor": FAINT, "linestyle": (0, (6, 3, 1, 3)), "linewidth": 0.8}
     axes.add_patch(Circle((0.0, 0.0), size.pitch, fill=False, zorder=4, **centre_line))
     left, right = _point(-0.5 * math.pi, size.pitch), _point(0.5 * math.pi, size.pitch)
-    _dimension(axes, left, right)
-    _text(axes, (0.0, 0.0), f"pitch_diameter {_length(scene.geometry.pitch_diameter)}")
-    _text(axes, (0.0, 0.33 * bore), f"n_rollers {scene.geometry.n_rollers}")
+    dimension(axes, left, right)
+    _text(axes, (0.0, 0.0), f"pitch_diameter {length_text(scene.geometry.pitch_diameter)}")
+    _text(axes, (0.0, 0.33 * bore), f"{size.counted} {size.count}")
 
     style = {"color": LOAD, "linewidth": 2.4, "arrowstyle": "-|>,head_width=0.4,head_length=0.8"}
-    load = f"operation.radial_load\n{1e-3 * float(scene.operation.radial_load):.6g} kN, on the inner ring"
-    axes.annotate("", xy=(0.0, -0.97 * bore), xytext=(0.0, -0.5 * bore), arrowprops=style, zorder=6)
-    _text(axes, (0.0, -0.33 * bore), load, color=LOAD)
+    if scene.operation.radial_load is not None:
+        load = f"operation.radial_load\n{1e-3 * float(scene.operation.radial_load):.6g} kN, on the inner ring"
+        axes.annotate("", xy=(0.0, -0.97 * bore), xytext=(0.0, -0.5 * bore), arrowprops=style, zorder=6)
+        _text(axes, (0.0, -0.33 * bore), load, color=LOAD)
     speed = f"operation.inner_speed\n{displayed(float(scene.operation.inner_speed), 'rad/s'):.6g} rpm"
     _text(axes, (0.0, 0.68 * bore), speed)
     _arc(axes, size.inner - 0.5 * size.ring, math.radians(135.0), math.radians(225.0))
@@ -191,22 +216,22 @@ def _draw_pocket(axes: Any, scene: CylindricalRollerBearing, size: _Size) -> Non
     axes.set_ylim(-(size.inner - size.gap - 0.55 * diameter), -(size.outer + 0.55 * diameter))
     axes.set_xlim(1.75 * diameter, -1.75 * diameter)
     pitch = -size.pitch
-    _dimension(axes, (-diameter / 2.0, pitch), (diameter / 2.0, pitch))
-    _text(axes, (0.0, pitch + 0.17 * diameter), f"roller_diameter\n{_length(geometry.roller_diameter)}")
+    dimension(axes, (-diameter / 2.0, pitch), (diameter / 2.0, pitch))
+    _text(axes, (0.0, pitch + 0.17 * diameter), f"roller_diameter\n{length_text(geometry.roller_diameter)}")
     below = -(size.inner - size.gap - 0.3 * diameter)
-    clearance = f"diametral_clearance {_length(geometry.diametral_clearance)}\n(of the bearing; half of it here)"
-    _leader(axes, (0.0, below), clearance, (0.0, -(size.inner - 0.5 * size.gap)))
+    clearance = f"diametral_clearance {length_text(geometry.diametral_clearance)}\n(of the bearing; half of it here)"
+    leader(axes, (0.0, below), clearance, (0.0, -(size.inner - 0.5 * size.gap)))
     above = -(size.outer + 0.28 * diameter)
     _text(axes, (1.45 * diameter, above), "outer ring", color=INK, bbox=None)
     _text(axes, (0.85 * diameter, below), "inner ring", color=INK, bbox=None)
     if scene.cage is not None:
         assert size.cage is not None
         gap = diameter / 2.0 + 0.5 * size.pocket
-        text = f"cage.pocket_clearance {_length(scene.cage.pocket_clearance)}\n(front and rear together)"
+        text = f"cage.pocket_clearance {length_text(scene.cage.pocket_clearance)}\n(front and rear together)"
         place = (-0.75 * diameter, above)
-        _leader(axes, place, text, (-gap, -0.5 * (size.cage[1] + size.pitch)))
+        leader(axes, place, text, (-gap, -0.5 * (size.cage[1] + size.pitch)))
         place, bar = (0.75 * diameter, above), _point(0.5 * size.step, 0.5 * size.cage[1] + 0.5 * size.pitch)
-        _leader(axes, place, "cage", bar, color=INK)
+        leader(axes, place, "cage", bar, color=INK)
 
 
 def _draw_section(axes: Any, scene: CylindricalRollerBearing, size: _Size) -> None:
@@ -257,11 +282,11 @@ def _label_section(axes: Any, scene: CylindricalRollerBearing, size: _Size, inne
     low = size.inner - size.ring - 0.25 * diameter
     for x in (-half, half):
         _extension(axes, (x, size.pitch - 0.4 * diameter), (x, low - 0.06 * diameter))
-    _dimension(axes, (-half, low), (half, low))
-    _text(axes, (0.0, low - 0.2 * diameter), f"roller_length {_length(geometry.roller_length)}")
+    dimension(axes, (-half, low), (half, low))
+    _text(axes, (0.0, low - 0.2 * diameter), f"roller_length {length_text(geometry.roller_length)}")
     if geometry.contact_length is not None:
-        _dimension(axes, (-size.loaded / 2.0, size.pitch), (size.loaded / 2.0, size.pitch))
-        _text(axes, (0.0, size.pitch + 0.19 * diameter), f"contact_length\n{_length(geometry.contact_length)}")
+        dimension(axes, (-size.loaded / 2.0, size.pitch), (size.loaded / 2.0, size.pitch))
+        _text(axes, (0.0, size.pitch + 0.19 * diameter), f"contact_length\n{length_text(geometry.contact_length)}")
     left: list[tuple[str, tuple[float, float]]] = []
     right: list[tuple[str, tuple[float, float]]] = []
     if flange is not None:
@@ -270,13 +295,13 @@ def _label_section(axes: Any, scene: CylindricalRollerBearing, size: _Size, inne
         said = "" if flange.height is not None else " (assumed)"
         left += [
             (
-                f"flange.axial_clearance {_length(flange.axial_clearance)}\n(both ends together)",
+                f"flange.axial_clearance {length_text(flange.axial_clearance)}\n(both ends together)",
                 (-half - 0.5 * size.gap, 0.6 * race + 0.4 * top),
             ),
-            (f"flange.height {_length(flange.rim_height(geometry))}{said}", (x, 0.5 * (race + top))),
+            (f"flange.height {length_text(flange.rim_height(geometry))}{said}", (x, 0.5 * (race + top))),
         ]
         _extension(axes, (x - 0.05 * diameter, race), (-half - size.gap, race))
-        _dimension(axes, (x, race), (x, top))
+        dimension(axes, (x, race), (x, top))
         if float(flange.angle) > 0.0:
             angle = f"flange.angle {displayed(float(flange.angle), 'rad'):.4g} deg\n(of its face)"
             left.append((angle, (-half - size.gap, race)))
@@ -285,20 +310,27 @@ def _label_section(axes: Any, scene: CylindricalRollerBearing, size: _Size, inne
         end = half + size.gap + size.land
         inside = cage.guidance == "inner_ring"
         land = 0.5 * (inner_top + size.cage[0]) if inside else 0.5 * (outer_top + size.cage[1])
+        bore, outside = (length_text(2e-3 * radius) for radius in size.cage)
         given = lambda value: "" if value is not None else " (assumed)"
         right += [
-            (f"cage.guiding_clearance {_length(cage.guiding_clearance)}\n(on the diameter)", (end, land)),
-            (f"cage.outer_diameter {_length(2e-3 * size.cage[1])}{given(cage.outer_diameter)}", (middle, size.cage[1])),
-            (f"cage.inner_diameter {_length(2e-3 * size.cage[0])}{given(cage.inner_diameter)}", (middle, size.cage[0])),
+            (f"cage.guiding_clearance {length_text(cage.guiding_clearance)}\n(on the diameter)", (end, land)),
+            (
+                f"cage.outer_diameter {outside}{given(cage.outer_diameter)}",
+                (middle, size.cage[1]),
+            ),
+            (
+                f"cage.inner_diameter {bore}{given(cage.inner_diameter)}",
+                (middle, size.cage[0]),
+            ),
         ]
         if cage.pocket_axial_clearance is not None:
-            text = f"cage.pocket_axial_clearance\n{_length(cage.pocket_axial_clearance)} (both ends together)"
+            text = f"cage.pocket_axial_clearance\n{length_text(cage.pocket_axial_clearance)} (both ends together)"
             left.append((text, (-half - 0.5 * size.gap, size.pitch)))
         high = size.outer + size.ring + 0.2 * diameter
         for x in (half + size.gap, end):
             _extension(axes, (x, size.cage[1]), (x, high + 0.06 * diameter))
-        _dimension(axes, (half + size.gap, high), (end, high))
-        _text(axes, (end + 0.08 * diameter, high), f"cage.land_width {_length(cage.land_width)}", ha="left")
+        dimension(axes, (half + size.gap, high), (end, high))
+        _text(axes, (end + 0.08 * diameter, high), f"cage.land_width {length_text(cage.land_width)}", ha="left")
     for labels, side in ((left, -1.0), (right, 1.0)):
         _stack(axes, size, labels, side)
 
@@ -310,4 +342,4 @@ def _stack(axes: Any, size: _Size, labels: list[tuple[str, tuple[float, float]]]
     places = np.linspace(low, high, len(labels)) if len(labels) > 1 else np.full(len(labels), size.pitch)
     x = side * (size.half_width + 0.12 * size.diameter)
     for (text, target), y in zip(labels, places, strict=True):
-        _leader(axes, (x, float(y)), text, target, ha="left" if side > 0.0 else "right")
+        leader(axes, (x, float(y)), text, target, ha="left" if side > 0.0 else "right")

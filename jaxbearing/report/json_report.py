@@ -27,10 +27,21 @@ solution_to_dict.register(TwoDiskSolution, two_disk_to_dict)
 solution_to_dict.register(LineContactSolution, line_contact_to_dict)
 
 
+RESULTS = {
+    "power_loss": "power_loss.total",
+    "slip": "cage.slip",
+    "life": "life.L10r",
+    "modified_life": "life.Lnmr",
+    "film": "film.central",
+    "traction": "traction_coefficient",
+}
+"""Fields of `Sensitivities` and the results that they are about."""
+
+
 def sensitivities_to_dict(sensitivities: Sensitivities) -> dict[str, Any]:
-    """Sensitivities of the two results to every input, largest modulus first; those that are not finite are `None`."""
-    named = {"power_loss.total": sensitivities.power_loss, "cage.slip": sensitivities.slip}
+    """Sensitivities of each result to every input, largest modulus first; those that are not finite are `None`.
+    Results that the scene does not have are left out."""
     return {
-        result: {path: plain(values[path]) for path in dict.fromkeys([*largest(values, len(values)), *values])}
-        for result, values in named.items()
+        RESULTS[name]: {path: plain(values[path]) for path in dict.fromkeys([*largest(values, len(values)), *values])}
+        for name, values in sensitivities.modelled().items()
     }

@@ -1,4 +1,4 @@
-"""Sensitivities on the screen: the inputs that decide power loss and slip."""
+"""Sensitivities on the screen: the inputs that decide each result."""
 
 from collections.abc import Mapping
 
@@ -21,20 +21,38 @@ LAW_CONSTANTS = ("oil.", "contact.")
 """Constants of laws: an engineer does not choose them one by one; the oil's temperature stands for them here."""
 
 
+TITLES = {
+    "power_loss": "d ln(power) / d ln(input)",
+    "slip": "d(slip) / d ln(input)",
+    "life": "d ln(L10r) / d ln(input)",
+    "modified_life": "d ln(Lnmr) / d ln(input)",
+    "film": "d ln(central film) / d ln(input)",
+    "traction": "d ln(traction coefficient) / d ln(input)",
+}
+ABREAST = 2
+"""Results side by side: more do not fit into the width of a terminal."""
+
+
 def print_sensitivities(sensitivities: Sensitivities, console: Console) -> None:
     """The five largest of each result, and always the inputs that nobody knows well."""
     console.print(Rule("Sensitivities", align="left", style="dim"))
+    modelled = list(sensitivities.modelled().items())
+    for first in range(0, len(modelled), ABREAST):
+        console.print(Padding(_table(modelled[first : first + ABREAST]), (0, 1)))
+    text = "Per cent for one per cent of the input (slip: absolute). Temperatures in K. More: --json."
+    console.print(Padding(Text(text, style="dim"), (0, 2)))
+
+
+def _table(results: list[tuple[str, dict[str, Array]]]) -> Table:
     table = Table(box=box.SIMPLE_HEAD, pad_edge=False, padding=(0, 1), header_style="")
-    rows = [_rows(sensitivities.power_loss), _rows(sensitivities.slip)]
-    for title in ("d ln(power) / d ln(input)", "d(slip) / d ln(input)"):
-        table.add_column(title, no_wrap=True)
+    rows = [_rows(values) for _, values in results]
+    for name, _ in results:
+        table.add_column(TITLES[name], no_wrap=True)
         table.add_column("", justify="right", no_wrap=True)
     for i in range(max(map(len, rows))):
         cells = (row[i] if i < len(row) else ("", "") for row in rows)
         table.add_row(*(text for cell in cells for text in cell))
-    console.print(Padding(table, (0, 1)))
-    text = "Power: per cent for one per cent of the input. Slip: absolute. Temperatures in K. More: --json."
-    console.print(Padding(Text(text, style="dim"), (0, 2)))
+    return table
 
 
 def _rows(values: Mapping[str, Array]) -> list[tuple[str, str]]:

@@ -1,6 +1,8 @@
 """From a valid table of a ball bearing to the scene of the library. Only Python and numpy numbers enter the
 constructors: nothing runs on JAX."""
 
+from functools import cache
+
 from ..bearings.ball_bearing import (
     BallAttitude,
     BallBearing,
@@ -15,7 +17,7 @@ from ..bearings.rating import Rating
 from ..contacts import PointLaws
 from ..lubricants import Lubricant
 from .ball_schema import BallBearingTable, BallContactTable, KinematicsTable
-from .bearing_build import cage, part
+from .bearing_build import built, cage, part
 from .laws import POINT_FILMS, distributed_traction, thermal_factor
 from .materials import material
 from .oils import lubricant
@@ -26,19 +28,19 @@ def ball_bearing(table: BallBearingTable) -> BallBearing:
 
     **Raises:** `ValueError` for combinations that the classes refuse.
     """
-    oil = None if table.oil is None else lubricant(table.oil)
-    contact = None if table.contact is None else _laws(table.contact, oil)
-    slips = contact is not None and contact.traction is not None
-    return BallBearing(
-        geometry=BallGeometry(**table.geometry.model_dump()),
-        materials=BallMaterials(rings=material(table.materials.rings), balls=material(table.materials.balls)),
-        operation=BallOperation(**table.operation.model_dump(exclude_none=True)),
-        kinematics=_kinematics(table.kinematics, slips),
+    oil = cache(lambda: None if table.oil is None else lubricant(table.oil))
+    slips = lambda: table.contact is not None and table.contact.traction is not None
+    return built(
+        BallBearing,
+        geometry=lambda: BallGeometry(**table.geometry.model_dump()),
+        materials=lambda: BallMaterials(rings=material(table.materials.rings), balls=material(table.materials.balls)),
+        operation=lambda: BallOperation(**table.operation.model_dump(exclude_none=True)),
+        kinematics=lambda: _kinematics(table.kinematics, slips()),
         oil=oil,
-        contact=contact,
-        cage=cage(BallCage, table.cage),
-        drag=part(BallDragSettings, table.drag),
-        rating=part(Rating, table.rating),
+        contact=lambda: None if table.contact is None else _laws(table.contact, oil()),
+        cage=lambda: cage(BallCage, table.cage),
+        drag=lambda: part(BallDragSettings, table.drag),
+        rating=lambda: part(Rating, table.rating),
     )
 
 

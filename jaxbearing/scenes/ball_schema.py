@@ -2,9 +2,9 @@
 
 import math
 from collections.abc import Mapping
-from typing import Annotated, Any, ClassVar, Literal, Self
+from typing import Annotated, Any, ClassVar, Literal
 
-from pydantic import BeforeValidator, model_validator
+from pydantic import BeforeValidator
 
 from . import units
 from .bearing_schema import BearingCageTable as BallCageTable
@@ -12,7 +12,7 @@ from .bearing_schema import BearingOperationTable, RatingTable, require_oil, req
 from .laws import TractionAccuracy
 from .materials import MaterialField
 from .oil_schema import OilTable
-from .table import Table, refusal_at
+from .table import Problems, Table, check, refusal_at
 
 
 class BallGeometryTable(Table):
@@ -30,13 +30,12 @@ class BallGeometryTable(Table):
     shoulder_angle_inner: units.FlangeAngle | None = None
     shoulder_angle_outer: units.FlangeAngle | None = None
 
-    @model_validator(mode="after")
-    def _one_of_both(self) -> Self:
+    @check
+    def _one_of_both(self) -> Problems:
         if (self.contact_angle is None) == (self.diametral_clearance is None):
             both = "both 'contact_angle' and 'diametral_clearance'"
             found = both if self.contact_angle is not None else "neither 'contact_angle' nor 'diametral_clearance'"
-            raise refusal_at("contact_angle", "one of the two: each follows from the other", found)
-        return self
+            yield refusal_at("contact_angle", "one of the two: each follows from the other", found)
 
 
 class BallMaterialsTable(Table):
@@ -58,12 +57,12 @@ class BallContactTable(Table):
     rolling_resistance: Literal["houpert"] | None = None
     heathcote: units.Switch = False
 
-    @model_validator(mode="after")
-    def _consistent(self) -> Self:
-        for name in ("traction_accuracy", "rolling_resistance", "heathcote"):
-            if getattr(self, name) and self.traction is None:
-                raise refusal_at("traction", f"a law, without which {name} has no meaning", "nothing")
-        return self
+    @check
+    def _consistent(self) -> Problems:
+        given = [name for name in ("traction_accuracy", "rolling_resistance", "heathcote") if getattr(self, name)]
+        if given and self.traction is None:
+            has = "has" if len(given) == 1 else "have"
+            yield refusal_at("traction", f"a law, without which {' and '.join(given)} {has} no meaning", "nothing")
 
 
 ISOVISCOUS = {"film": ("nijenbanning",)}
@@ -112,19 +111,18 @@ class KinematicsTable(Table):
     outer_share: Annotated[float, BeforeValidator(_share)] | None = None
     orbit: Literal["own", "common"] = "own"
 
-    @model_validator(mode="after")
-    def _of_the_law(self) -> Self:
+    @check
+    def _of_the_law(self) -> Problems:
         for name, laws in OF_COUPLE.items():
             given = getattr(self, name)
             if given is not None and self.gyroscopic not in laws:
                 wanted = " or ".join(f"'{law}'" for law in laws)
                 expected = f"none with gyroscopic = '{self.gyroscopic}': it is about {wanted}"
-                raise refusal_at(name, expected, f"the number {given:g}")
+                yield refusal_at(name, expected, f"the number {given:g}")
         inner, outer = self.inner_share, self.outer_share
         if inner is not None and outer is not None and not math.isclose(inner + outer, 2.0, rel_tol=1e-9):
             expected = f"{2.0 - inner:g}, or leave it out: the shares add up to 2"
-            raise refusal_at("outer_share", expected, f"the number {outer:g}")
-        return self
+            yield refusal_at("outer_share", expected, f"the number {outer:g}")
 
 
 class BallDragTable(Table):
@@ -138,12 +136,11 @@ class BallOperationTable(BearingOperationTable):
     moment: units.Moment | None = None
     misalignment: units.Angle | None = None
 
-    @model_validator(mode="after")
-    def _tilt(self) -> Self:
+    @check
+    def _tilt(self) -> Problems:
         if self.moment is not None and self.misalignment is not None:
             expected = "none beside operation.moment, which sets the tilt free"
-            raise refusal_at("misalignment", expected, f"{self.misalignment:g} rad")
-        return self
+            yield refusal_at("misalignment", expected, f"{self.misalignment:g} rad")
 
 
 class BallBearingTable(Table):
@@ -160,14 +157,16 @@ class BallBearingTable(Table):
     drag: BallDragTable | None = None
     rating: RatingTable | None = None
 
-    @model_validator(mode="after")
-    def _complete(self) -> Self:
+    @check
+    def _flow(self) -> Problems:
         """What one table needs of another. The classes check the rest when they are built."""
-        slips = self.contact is not None and self.contact.traction is not None
-        if slips:
-            require_oil_flow(self.drag, self.operation)
+        if self.contact is not None and self.contact.traction is not None:
+            yield from require_oil_flow(self.drag, self.operation)
+
+    @check
+    def _oil(self) -> Problems:
         if self.contact is None:
-            return self
+            return
+        slips = self.contact.traction is not None
         density = "the cage or the drag" if slips and (self.cage is not None or self.drag is not None) else ""
-        require_oil(self.oil, self.operation, self.contact, density, ISOVISCOUS)
-        return self
+        yield from require_oil(self.oil, self.operation, self.contact, density, ISOVISCOUS)

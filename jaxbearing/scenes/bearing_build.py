@@ -1,14 +1,37 @@
 """From the tables that all bearings have to the parts of the library."""
 
-from typing import TypeVar
+from collections.abc import Callable
+from typing import Any, TypeVar
 
 from ..bearings.cage import AbstractCage
+from ..numerics.refusals import refusals_of, refuse_all
 from .bearing_schema import BearingCageTable
+from .drafts import Unreadable
 from .table import Table
 from .turbulence import TURBULENCE
 
 Cage = TypeVar("Cage", bound=AbstractCage)
 Part = TypeVar("Part")
+
+
+def built(kind: type[Part], **parts: Callable[[], Any]) -> Part:
+    """The scene of these parts, each made by its function; all are tried before one is refused.
+
+    **Raises:** `ValueError` with everything that the classes refuse; `Unreadable` for a part of a table that is refused
+    already.
+    """
+    made: dict[str, Any] = {}
+    problems: list[ValueError] = []
+    unreadable: Unreadable | None = None
+    for name, make in parts.items():
+        try:
+            problems += refusals_of(lambda name=name, make=make: made.update({name: make()}))
+        except Unreadable as error:
+            unreadable = error
+    refuse_all(problems)
+    if unreadable is not None:
+        raise unreadable
+    return kind(**made)
 
 
 def part(kind: type[Part], table: Table | None) -> Part | None:

@@ -1,9 +1,9 @@
 """What the scene files of all bearings have in common: cage, operating point, and what these need of the oil."""
 
 from collections.abc import Mapping
-from typing import Annotated, Any, Literal, Self
+from typing import Annotated, Any, Literal
 
-from pydantic import BeforeValidator, model_validator
+from pydantic import BeforeValidator
 
 from ..bearings.rating import LAMINAE
 from ..life.basic import RELIABILITY_FACTORS
@@ -11,7 +11,7 @@ from ..life.modification import CLEANLINESS
 from . import units
 from .oil_needs import require_laws, require_piezoviscous
 from .oil_schema import OilTable
-from .table import Table, refusal_at
+from .table import Problems, Table, check, refusal_at
 
 
 class BearingCageTable(Table):
@@ -24,12 +24,11 @@ class BearingCageTable(Table):
     n_lands: units.Count | None = None
     turbulence: Literal["laminar", "blend", "pure"] = "blend"
 
-    @model_validator(mode="after")
-    def _consistent(self) -> Self:
+    @check
+    def _consistent(self) -> Problems:
         bore, outside = self.inner_diameter, self.outer_diameter
         if bore is not None and outside is not None and bore >= outside:
-            raise refusal_at("inner_diameter", f"less than the outer diameter, {in_mm(outside)}", in_mm(bore))
-        return self
+            yield refusal_at("inner_diameter", f"less than the outer diameter, {in_mm(outside)}", in_mm(bore))
 
 
 class BearingOperationTable(Table):
@@ -64,19 +63,18 @@ class RatingTable(Table):
     edge_factor: units.Switch | None = None
     grooves: Literal["catalogue", "scene"] = "catalogue"
 
-    @model_validator(mode="after")
-    def _both_roughnesses(self) -> Self:
+    @check
+    def _both_roughnesses(self) -> Problems:
         if (self.roughness_rings is None) != (self.roughness_elements is None):
             given = "roughness_rings" if self.roughness_elements is None else "roughness_elements"
             missing = "roughness_elements" if self.roughness_elements is None else "roughness_rings"
-            raise refusal_at(missing, f"a length, which '{given}' needs beside it", "nothing")
-        return self
+            yield refusal_at(missing, f"a length, which '{given}' needs beside it", "nothing")
 
 
-def require_oil_flow(drag: Table | None, operation: BearingOperationTable) -> None:
-    """**Raises:** the refusal of a scene with drag that does not say how much oil flows."""
+def require_oil_flow(drag: Table | None, operation: BearingOperationTable) -> Problems:
+    """Refusal of a scene with drag that does not say how much oil flows."""
     if drag is not None and operation.oil_flow is None:
-        raise refusal_at("operation.oil_flow", "a volume flow, which [drag] needs, e.g. '150 l/h'", "nothing")
+        yield refusal_at("operation.oil_flow", "a volume flow, which [drag] needs, e.g. '150 l/h'", "nothing")
 
 
 def require_oil(
@@ -85,24 +83,23 @@ def require_oil(
     contact: Table,
     density: str,
     isoviscous: Mapping[str, tuple[str, ...]],
-) -> None:
-    """What the laws of the raceway contacts need.
+) -> Problems:
+    """Refusals of a scene that lacks what the laws of the raceway contacts need.
 
     **Arguments:**
     - `contact`: with the fields `thermal` and `traction`.
     - `density`: what needs the density of the oil, in words; "" where nothing does.
     - `isoviscous`: fields of `contact` -> the laws that hold for an oil of the same viscosity at every pressure.
-
-    **Raises:** the refusal of a scene that lacks it.
     """
     if operation.oil_temperature is None:
         expected = "a temperature, which [contact] needs, e.g. '100 degC'"
-        raise refusal_at("operation.oil_temperature", expected, "nothing")
+        yield refusal_at("operation.oil_temperature", expected, "nothing")
     if oil is None:
-        raise refusal_at("oil", "an oil, which [contact] needs: a table [oil] with a 'name'", "nothing")
+        yield refusal_at("oil", "an oil, which [contact] needs: a table [oil] with a 'name'", "nothing")
+        return
     thermal, traction = law_in_words(contact, "thermal"), law_in_words(contact, "traction")
-    require_laws(oil, {"conductivity": thermal, "rheology": traction, "density": density})
-    require_piezoviscous(oil, contact, isoviscous)
+    yield from require_laws(oil, {"conductivity": thermal, "rheology": traction, "density": density})
+    yield from require_piezoviscous(oil, contact, isoviscous)
 
 
 def law_in_words(contact: Table, name: str) -> str:

@@ -1,12 +1,14 @@
-"""The one error of the edge: what is wrong in which file and field, what was found, what is expected, what is near."""
+"""The one error of the edge: what is wrong in which file and field, what was found, what is expected, what is near; all
+problems of a file at once."""
 
 import difflib
 import re
 from collections.abc import Iterable, Mapping, Sequence
-from typing import Any, Self
+from typing import Any
 
 from pydantic import BaseModel, TypeAdapter, ValidationError
 
+from ..numerics.refusals import Refusals
 from .fields import is_optional, names_at, path_of, required_names, type_at
 from .units import describe, shortened
 
@@ -14,37 +16,66 @@ _CLASS_MESSAGE = re.compile(r"([a-z_]+(?:\.[a-z_]+)*)(?::| must)")
 
 
 class SceneError(ValueError):
-    """A scene that cannot be read or does not make sense; the message is one paragraph for a person.
+    """A scene that cannot be read or does not make sense; the message is for a person: one line a problem.
 
     **Arguments:**
     - `file`: the file, or the built-in scene.
     - `path`: dotted path of the field; empty where the file as a whole is meant.
     - `found`, `expected`: in words.
     - `suggestion`: nearest valid name.
-    - `others`: how many other problems the file has.
+    - `others`: the other problems, each a `SceneError`.
+
+    `problems` holds all of them, this one first.
     """
 
     def __init__(
-        self, file: str, path: str, found: str, expected: str, suggestion: str = "", others: int = 0, reason: str = ""
+        self,
+        file: str,
+        path: str,
+        found: str,
+        expected: str,
+        suggestion: str = "",
+        reason: str = "",
+        others: Iterable["SceneError"] = (),
     ):
         self.file, self.path, self.found, self.expected = file, path, found, expected
-        self.suggestion, self.others, self.reason = suggestion, others, reason
+        self.suggestion, self.reason, self.others = suggestion, reason, tuple(others)
         super().__init__(self._message())
 
-    def of(self, file: str) -> Self:
+    @staticmethod
+    def of_all(problems: Sequence["SceneError"]) -> "SceneError":
+        """One error of one or more problems, the most telling one first."""
+        every = [one for problem in problems for one in problem.problems]
+        return every[0]._with(every[1:])
+
+    @property
+    def problems(self) -> tuple["SceneError", ...]:
+        return (self._with(()), *self.others)
+
+    def of(self, file: str) -> "SceneError":
         """The same problem under another name of the file."""
-        return type(self)(
-            file, self.path, self.found, self.expected, self.suggestion, others=self.others, reason=self.reason
-        )
+        words = (self.path, self.found, self.expected, self.suggestion, self.reason)
+        return SceneError(file, *words, others=self.others)
+
+    def _with(self, others: Iterable["SceneError"]) -> "SceneError":
+        words = (self.file, self.path, self.found, self.expected, self.suggestion, self.reason)
+        return SceneError(*words, others=others)
 
     def _message(self) -> str:
+        if not self.others:
+            return self._sentence()
+        problems = self.problems
+        # the name of the file once, where it is one
+        name = f"{printable(self.file)}: " if len({one.file for one in problems}) == 1 else ""
+        lines = [one._sentence().removeprefix(name) for one in problems]
+        return "\n  - ".join([f"{name}{len(lines)} problems:", *lines])
+
+    def _sentence(self) -> str:
         place = f"{self.file}: {shortened(self.path)}" if self.path else self.file
         text = f"{place}: found {self.found}; expected {self.expected}"
         text += f" ({self.reason})." if self.reason else "."
         if self.suggestion:
             text += f" Did you mean '{self.suggestion}'?"
-        if self.others:
-            text += f" ({self.others} more problem{'s' if self.others > 1 else ''} in this scene.)"
         return printable(" ".join(text.split()))
 
 
@@ -61,19 +92,30 @@ def nearest(name: str, valid: Iterable[str]) -> str:
 
 
 def from_validation(error: ValidationError, model: type[BaseModel], file: str) -> SceneError:
-    """The most telling problem of a validation.
+    """All problems of a validation.
 
-    An unknown name goes first, since it often is the misspelt name of a field that is then missing; a missing field
-    goes last.
+    An unknown name goes first, a missing field last, and not at all where an unknown name beside it is meant for it.
     """
     details = sorted(_causes(error.errors(include_url=False)), key=_rank)
-    first = details[0]
-    path, words = _in_words(first, model)
-    return SceneError(file, path, others=len(details) - 1, **words)
+    problems = [in_words(file, *_in_words(one, model)) for one in details]
+    meant = {".".join([*one.path.split(".")[:-1], one.suggestion]) for one in problems if one.suggestion}
+    missing = [detail["type"] == "missing" for detail in details]
+    kept = [one for one, absent in zip(problems, missing, strict=True) if not (absent and one.path in meant)]
+    return SceneError.of_all(kept)
+
+
+def in_words(file: str, path: str, words: Mapping[str, str]) -> SceneError:
+    """A problem whose `found`, `expected` and, where there is one, `suggestion` are these."""
+    return SceneError(file, path, words["found"], words["expected"], words.get("suggestion", ""))
 
 
 def from_class(error: ValueError, raw: Mapping[str, Any], file: str) -> SceneError:
-    """The refusal by a class of the library ("table.field: ..." or "table.field must be ...")."""
+    """The refusals by classes of the library ("table.field: ..." or "table.field must ...")."""
+    if isinstance(error, SceneError):
+        # of another file
+        return error
+    if isinstance(error, Refusals):
+        return SceneError.of_all([from_class(one, raw, file) for one in error.refusals])
     text = str(error)
     match = _CLASS_MESSAGE.match(text)
     if match is None:

@@ -75,6 +75,12 @@ def type_at(model: type[BaseModel], location: Sequence[int | str]) -> Any:
     return None
 
 
+def plain_table_at(model: type[BaseModel], name: str) -> Any:
+    """The table of a field that holds one kind of table and nothing else; `None` for any other field."""
+    models = _models_of_field(model, name)
+    return models[0] if len(models) == 1 and not getattr(models[0], "tag", "") else None
+
+
 def required_names(model: type[BaseModel]) -> tuple[str, ...]:
     """Names of the fields of a table that may not be left out."""
     return tuple(name for name, info in model.model_fields.items() if info.is_required())

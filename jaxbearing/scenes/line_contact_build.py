@@ -5,6 +5,7 @@ import numpy as np
 from ..ehl import ContactBodies, ContactGeometry, ContactOperation, EHLLineContact, FilmModel, FilmSimulation
 from ..ehl.mesh import INLET
 from ..time_laws import AbstractTimeFactor, LinearRamp, Ramp, Sinusoidal, Steady, Tabulated
+from .bearing_build import built
 from .line_contact_schema import ACCURACIES, FilmModelTable, FilmSimulationTable, LineContactTable, SpeedRampTable
 from .materials import material
 from .oils import lubricant
@@ -20,13 +21,14 @@ def line_contact(table: LineContactTable) -> EHLLineContact:
 
     **Raises:** `ValueError` for combinations that the classes refuse.
     """
-    scene = EHLLineContact(
-        geometry=ContactGeometry(**table.geometry.model_dump()),
-        materials=ContactBodies(material(table.materials.body_1), material(table.materials.body_2)),
-        oil=lubricant(table.oil),
-        contact=_model(table.contact, INLET),
-        operation=ContactOperation(**table.operation.model_dump()),
-        simulation=None if table.simulation is None else _simulation(table.simulation),
+    scene = built(
+        EHLLineContact,
+        geometry=lambda: ContactGeometry(**table.geometry.model_dump()),
+        materials=lambda: ContactBodies(material(table.materials.body_1), material(table.materials.body_2)),
+        oil=lambda: lubricant(table.oil),
+        contact=lambda: _model(table.contact, INLET),
+        operation=lambda: ContactOperation(**table.operation.model_dump()),
+        simulation=lambda: None if table.simulation is None else _simulation(table.simulation),
     )
     if table.contact.inlet is not None:
         return scene

@@ -3,16 +3,16 @@ accuracy chooses the mesh (see `line_contact_build`)."""
 
 import itertools
 from collections.abc import Mapping
-from typing import Annotated, Any, ClassVar, Literal, Self
+from typing import Annotated, Any, ClassVar, Literal
 
-from pydantic import BeforeValidator, model_validator
+from pydantic import BeforeValidator
 
 from ..ehl.simulation import DEFAULT_TOLERANCE
 from . import units
 from .materials import MaterialField
 from .oil_schema import OilTable
 from .simulation_schema import PerturbationTable
-from .table import Table, refusal_at
+from .table import Problems, Table, check, refusal_at
 
 ACCURACIES: dict[float, int] = {1e-2: 201, 2e-3: 501, 1e-3: 801, 3e-4: 1601}
 """Relative error of the films -> nodes of the mesh: measured at both satellite contacts, the worse of the two."""
@@ -52,11 +52,10 @@ class FilmModelTable(Table):
     inlet: units.PositiveNumber | None = None
     film_limit: units.NonNegativeLength = 0.5e-9
 
-    @model_validator(mode="after")
-    def _one_of_both(self) -> Self:
+    @check
+    def _one_of_both(self) -> Problems:
         if self.accuracy is not None and self.nodes is not None:
-            raise refusal_at("nodes", "none beside 'accuracy': one of the two", f"the number {self.nodes}")
-        return self
+            yield refusal_at("nodes", "none beside 'accuracy': one of the two", f"the number {self.nodes}")
 
 
 class ContactOperationTable(Table):
@@ -69,14 +68,13 @@ class ContactOperationTable(Table):
     load_per_length: units.PositiveLineLoad | None = None
     pressure: units.PositivePressure | None = None
 
-    @model_validator(mode="after")
-    def _one_of_both(self) -> Self:
+    @check
+    def _one_of_both(self) -> Problems:
         if (self.load_per_length is None) == (self.pressure is None):
             names = "'load_per_length' and 'pressure'"
             found = f"neither of {names}" if self.pressure is None else f"both {names}"
             expected = "one of the two: a load per length or a Hertz (peak) pressure"
-            raise refusal_at("load_per_length", expected, found)
-        return self
+            yield refusal_at("load_per_length", expected, found)
 
 
 class SpeedRampTable(Table):
@@ -88,13 +86,12 @@ class SpeedRampTable(Table):
     begin: units.NonNegativeTime = 0.0
     shape: Literal["linear", "smooth"] = "linear"
 
-    @model_validator(mode="after")
-    def _moves_at_first(self) -> Self:
+    @check
+    def _moves_at_first(self) -> Problems:
         if self.start == 0.0:
-            raise refusal_at("start", "a number other than 0: at rest there is no film to begin with", "the number 0")
+            yield refusal_at("start", "a number other than 0: at rest there is no film to begin with", "the number 0")
         if self.shape == "smooth" and self.duration == 0.0:
-            raise refusal_at("duration", "a time > 0, or shape = 'linear'", "0 s")
-        return self
+            yield refusal_at("duration", "a time > 0, or shape = 'linear'", "0 s")
 
 
 class SpeedTable(Table):
@@ -103,17 +100,16 @@ class SpeedTable(Table):
     times: units.Times
     factors: units.Numbers
 
-    @model_validator(mode="after")
-    def _fits(self) -> Self:
+    @check
+    def _fits(self) -> Problems:
         times = self.times
         if len(times) < 2 or len(times) != len(self.factors):
             expected = "as many factors as times, two or more"
-            raise refusal_at("factors", expected, f"{len(self.factors)} factors and {len(times)} times")
+            yield refusal_at("factors", expected, f"{len(self.factors)} factors and {len(times)} times")
         if any(b <= a for a, b in itertools.pairwise(times)):
-            raise refusal_at("times", "times that increase", "some that do not")
+            yield refusal_at("times", "times that increase", "some that do not")
         if self.factors[0] == 0.0:
-            raise refusal_at("factors", "a first number other than 0: at rest there is no film to begin with", "0")
-        return self
+            yield refusal_at("factors", "a first number other than 0: at rest there is no film to begin with", "0")
 
 
 class FilmPerturbationTable(PerturbationTable):
@@ -134,12 +130,11 @@ class FilmSimulationTable(Table):
     speed_perturbation: FilmPerturbationTable | None = None
     speed_table: SpeedTable | None = None
 
-    @model_validator(mode="after")
-    def _one_law(self) -> Self:
+    @check
+    def _one_law(self) -> Problems:
         given = [name for name in self.instead if getattr(self, name) is not None]
         if len(given) > 1:
-            raise refusal_at(given[1], f"none beside {given[0]}: one of them", "both")
-        return self
+            yield refusal_at(given[1], f"none beside {given[0]}: one of them", "both")
 
 
 class LineContactTable(Table):

@@ -3,10 +3,9 @@
 from collections.abc import Mapping
 from typing import Any, NamedTuple
 
-from pydantic import ValidationError
-
 from .data_files import oil_names, oil_text
-from .errors import SceneError, from_validation
+from .drafts import read_table
+from .errors import SceneError
 from .oil_schema import DOCUMENTATION, OilTable
 from .toml_files import parse_toml, read_text
 
@@ -31,10 +30,7 @@ def read_oil(path: str) -> dict[str, Any]:
     if "file" in data:
         raise SceneError(path, "file", "another file", "the laws themselves: an oil file stands alone")
     tables = {key: value for key, value in data.items() if key != "name"}
-    try:
-        OilTable.model_validate(tables)
-    except ValidationError as error:
-        raise from_validation(error, OilTable, path) from None
+    read_table(OilTable, tables, path)
     return tables
 
 

@@ -4,24 +4,26 @@ from collections.abc import Mapping
 
 from .errors import one_of
 from .oil_schema import ConstantViscosityTable, OilTable
-from .table import Table, refusal_at
+from .table import Problems, Table, refusal_at
 
 
-def require_laws(oil: OilTable, needs: Mapping[str, str]) -> None:
-    """**Arguments:** `needs`: name of a law of the oil -> the field that needs it, in words; "" where none does.
+def require_laws(oil: OilTable, needs: Mapping[str, str]) -> Problems:
+    """Refusals of a scene whose oil lacks a law.
 
-    **Raises:** the refusal of a scene whose oil lacks one.
+    **Arguments:** `needs`: name of a law of the oil -> the field that needs it, in words; "" where none does.
     """
+    if oil.viscosity is None:
+        # it is refused as a whole, and whatever is meant may have these laws
+        return
     for law, user in needs.items():
         if user and getattr(oil, law) is None:
-            raise refusal_at(f"oil.{law}", f"the law of {law}, which {user} needs", "nothing")
+            yield refusal_at(f"oil.{law}", f"the law of {law}, which {user} needs", "nothing")
 
 
-def require_piezoviscous(oil: OilTable, contact: Table, isoviscous: Mapping[str, tuple[str, ...]]) -> None:
-    """**Arguments:** `isoviscous`: fields of `contact` -> the laws that hold for an oil of the same viscosity at every
-    pressure.
+def require_piezoviscous(oil: OilTable, contact: Table, isoviscous: Mapping[str, tuple[str, ...]]) -> Problems:
+    """Refusals of a scene that names another law for an oil of the same viscosity at every pressure.
 
-    **Raises:** the refusal of a scene that names another law for such an oil.
+    **Arguments:** `isoviscous`: fields of `contact` -> the laws that hold for such an oil.
     """
     if not isinstance(oil.viscosity, ConstantViscosityTable) or oil.pressure_viscosity is not None:
         return
@@ -29,4 +31,4 @@ def require_piezoviscous(oil: OilTable, contact: Table, isoviscous: Mapping[str,
         given = getattr(contact, name)
         if given is not None and given not in holds:
             expected = f"{one_of(holds)}: the other laws are for oils whose viscosity rises with pressure"
-            raise refusal_at(f"contact.{name}", expected, f"'{given}'")
+            yield refusal_at(f"contact.{name}", expected, f"'{given}'")

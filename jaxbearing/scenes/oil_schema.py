@@ -1,14 +1,14 @@
 """The oil of a scene file: one table a law, each with `law = "..."`; the parameters are those of the classes."""
 
 from collections.abc import Callable, Mapping, Sequence
-from typing import Annotated, Any, ClassVar, Literal, Self
+from typing import Annotated, Any, ClassVar, Literal
 
-from pydantic import BeforeValidator, ConfigDict, Discriminator, Tag, model_validator
+from pydantic import BeforeValidator, ConfigDict, Discriminator, Tag
 
 from . import units
 from .data_files import oil_names
 from .errors import nearest, one_of
-from .table import Table, refusal_at
+from .table import Problems, Table, check, refusal_at
 
 VISCOSITY_LAWS = ("modified_wlf", "barus", "roelands", "constant", "two_viscosities")
 PRESSURE_VISCOSITY_LAWS = ("constant", "fitted", "integrated")
@@ -63,14 +63,13 @@ class RoelandsTable(Law):
     pressure_exponent: units.PositiveNumber
     temperature_exponent: units.NonNegativeNumber
 
-    @model_validator(mode="after")
-    def _within_the_law(self) -> Self:
+    @check
+    def _within_the_law(self) -> Problems:
         if self.reference_viscosity <= SMALLEST_ROELANDS_VISCOSITY:
             found = f"{1e3 * self.reference_viscosity:g} mPa*s"
-            raise refusal_at("reference_viscosity", "more than 0.063 mPa*s, Roelands' smallest viscosity", found)
+            yield refusal_at("reference_viscosity", "more than 0.063 mPa*s, Roelands' smallest viscosity", found)
         if self.reference_temperature <= ROELANDS_POLE:
-            raise refusal_at("reference_temperature", "more than 138 K", f"{self.reference_temperature:g} K")
-        return self
+            yield refusal_at("reference_temperature", "more than 138 K", f"{self.reference_temperature:g} K")
 
 
 class ConstantViscosityTable(Law):
@@ -97,17 +96,16 @@ class TwoViscositiesTable(Law):
     temperature_2: units.Temperature
     pressure_viscosity: units.PositiveInversePressure | None = None
 
-    @model_validator(mode="after")
-    def _falls_with_temperature(self) -> Self:
+    @check
+    def _falls_with_temperature(self) -> Problems:
         if self.temperature_2 <= self.temperature_1:
             expected = f"a temperature above temperature_1, {_celsius(self.temperature_1)}"
-            raise refusal_at("temperature_2", expected, _celsius(self.temperature_2))
+            yield refusal_at("temperature_2", expected, _celsius(self.temperature_2))
         if self.viscosity_2 >= self.viscosity_1:
             expected = f"less than viscosity_1, {_cst(self.viscosity_1)}: viscosity falls with temperature"
-            raise refusal_at("viscosity_2", expected, _cst(self.viscosity_2))
+            yield refusal_at("viscosity_2", expected, _cst(self.viscosity_2))
         if self.viscosity_2 <= SMALLEST_WALTHER_VISCOSITY:
-            raise refusal_at("viscosity_2", "more than 0.3 cSt, the limit of the law", _cst(self.viscosity_2))
-        return self
+            yield refusal_at("viscosity_2", "more than 0.3 cSt, the limit of the law", _cst(self.viscosity_2))
 
 
 class UnknownViscosityTable(Law):
@@ -164,15 +162,14 @@ class ExponentialRheologyTable(Law):
     stress_pressure: units.InversePressure
     stress_temperature: units.TemperatureDifference
 
-    @model_validator(mode="after")
-    def _exponent_where_there_is_one(self) -> Self:
+    @check
+    def _exponent_where_there_is_one(self) -> Problems:
         needed = self.viscous_function == "elsharkawy_hamrock"
         if needed and self.exponent is None:
-            raise refusal_at("exponent", "the exponent of 'elsharkawy_hamrock', e.g. 2", "nothing")
+            yield refusal_at("exponent", "the exponent of 'elsharkawy_hamrock', e.g. 2", "nothing")
         if not needed and self.exponent is not None:
             expected = "no exponent: only the viscous_function 'elsharkawy_hamrock' has one"
-            raise refusal_at("exponent", expected, f"the number {self.exponent:g}")
-        return self
+            yield refusal_at("exponent", expected, f"the number {self.exponent:g}")
 
 
 class LinearDensityTable(Law):
@@ -283,19 +280,19 @@ class OilTable(Table):
     density: Density | None = None
     conductivity: Conductivity | None = None
 
-    @model_validator(mode="after")
-    def _complete(self) -> Self:
+    @check
+    def _complete(self) -> Problems:
         if self.name is not None and self.file is not None:
-            raise refusal_at("file", "none beside 'name': one of the two", units.describe(self.file))
+            yield refusal_at("file", "none beside 'name': one of the two", units.describe(self.file))
+            return
         if self.viscosity is None:
             expected = "the law of viscosity, the 'name' of an oil of the catalogue, or the 'file' of an oil"
-            raise refusal_at("viscosity", expected, "nothing")
+            yield refusal_at("viscosity", expected, "nothing")
         if isinstance(self.viscosity, TwoViscositiesTable) and self.density is None:
             expected = "a density, which makes the kinematic viscosities of 'two_viscosities' dynamic ones, e.g. "
-            raise refusal_at("density", expected + "density = '870 kg/m^3'", "nothing")
+            yield refusal_at("density", expected + "density = '870 kg/m^3'", "nothing")
         if isinstance(self.viscosity, ConstantViscosityTable) and isinstance(
             self.pressure_viscosity, IntegratedPressureViscosityTable
         ):
             expected = "a law other than 'integrated' (left out: 0), the viscosity being constant"
-            raise refusal_at("pressure_viscosity.law", expected, "'integrated'")
-        return self
+            yield refusal_at("pressure_viscosity.law", expected, "'integrated'")

@@ -5,7 +5,6 @@ from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
-from pydantic import ValidationError
 
 from ..lubricants import (
     AbstractPressureViscosity,
@@ -25,7 +24,8 @@ from ..lubricants import (
     WaltherRoelands,
 )
 from .data_files import oil_names, oil_text
-from .errors import SceneError, from_validation, nearest, one_of
+from .drafts import read_table
+from .errors import SceneError, nearest, one_of
 from .oil_files import base_of
 from .oil_schema import (
     DOCUMENTATION,
@@ -60,10 +60,7 @@ def load_oil(name: str) -> Lubricant:
     if name not in oil_names():
         near = nearest(name, oil_names())
         raise SceneError(name, "name", f"'{name}'", f"an oil of the catalogue: {one_of(oil_names())}", near)
-    try:
-        return lubricant(OilTable.model_validate(with_catalogue({"name": name})))
-    except ValidationError as error:
-        raise from_validation(error, OilTable, f"{name}.toml") from None
+    return lubricant(read_table(OilTable, with_catalogue({"name": name}), f"{name}.toml"))
 
 
 def oil_data(name: str) -> dict[str, Any]:

@@ -7,7 +7,7 @@ from typing import Any
 
 from pydantic import BaseModel
 
-from .errors import SceneError, describe_at, unknown_name
+from .errors import SceneError, describe_at, in_words, unknown_name
 from .fields import is_known, names_at
 from .oil_files import base_of
 
@@ -22,13 +22,16 @@ def split_assignments(assignments: Iterable[str]) -> dict[str, str]:
     **Raises:** `SceneError` for a text of another form.
     """
     overrides: dict[str, str] = {}
+    problems = []
     for text in assignments:
         path, equals, value = text.partition("=")
         path, value = path.strip(), value.strip()
         if not (equals and value and all(path.split("."))):
             expected = "path=value, e.g. operation.inner_speed='12000 rpm'"
-            raise SceneError("--set", path, f"'{text}'", expected)
+            problems.append(SceneError("--set", path, f"'{text}'", expected))
         overrides[path] = value
+    if problems:
+        raise SceneError.of_all(problems)
     return overrides
 
 
@@ -69,7 +72,18 @@ def apply(raw: Mapping[str, Any], overrides: Mapping[str, str], model: type[Base
     **Raises:** `SceneError` where a path goes through something that is not a table, or where an unknown name is to be
     taken out.
     """
+    changed, problems = applied(raw, overrides, model, file)
+    if problems:
+        raise SceneError.of_all(problems)
+    return changed
+
+
+def applied(
+    raw: Mapping[str, Any], overrides: Mapping[str, str], model: type[BaseModel], file: str
+) -> tuple[dict[str, Any], list[SceneError]]:
+    """A copy of the tables with the overrides that can be applied, and what is wrong with the others; see `apply`."""
     changed = _copy(raw)
+    problems = []
     for path, text in overrides.items():
         keys = path.split(".")
         names = names_at(model, keys[:-1])
@@ -77,14 +91,17 @@ def apply(raw: Mapping[str, Any], overrides: Mapping[str, str], model: type[Base
         _take_out(changed, keys[:-1], others.get(keys[-1], ()))
     for path, text in overrides.items():
         keys = path.split(".")
-        if text == REMOVE:
-            _remove(changed, keys, path, model, file)
-            continue
-        table = changed
-        for depth, key in enumerate(keys[:-1]):
-            table = _table(table.setdefault(key, {}), changed, keys[: depth + 1], path, file)
-        table[keys[-1]] = parse_value(text)
-    return changed
+        try:
+            if text == REMOVE:
+                _remove(changed, keys, path, model, file)
+                continue
+            table = changed
+            for depth, key in enumerate(keys[:-1]):
+                table = _table(table.setdefault(key, {}), changed, keys[: depth + 1], path, file)
+            table[keys[-1]] = parse_value(text)
+        except SceneError as error:
+            problems.append(error)
+    return changed, problems
 
 
 def _take_out(changed: dict[str, Any], inside: list[str], names: Iterable[str]) -> None:
@@ -105,7 +122,7 @@ def _remove(changed: dict[str, Any], keys: list[str], path: str, model: type[Bas
         if key not in table:
             wrong = next((n for n in range(depth + 1, len(keys) + 1) if not is_known(model, keys[:n])), None)
             if wrong is not None:
-                raise SceneError(file, ".".join(keys[:wrong]), others=0, **unknown_name(keys[:wrong], model))
+                raise in_words(file, ".".join(keys[:wrong]), unknown_name(keys[:wrong], model))
             return
         if depth == len(keys) - 1:
             del table[key]

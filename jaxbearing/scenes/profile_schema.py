@@ -1,15 +1,13 @@
 """The table [profile] of a scene file: the rollers' generators, and the laminae into which they are cut."""
 
 from collections.abc import Mapping
-from typing import ClassVar, Literal, Self
-
-from pydantic import model_validator
+from typing import ClassVar, Literal
 
 from ..bearings.rating import LAMINAE
 from ..bearings.roller_profile import RollerProfile
 from ..contacts.profile import CrownedProfile, LogarithmicProfile
 from . import units
-from .table import Table, refusal_at
+from .table import Problems, Table, check, refusal_at
 
 _OF_LAW = {"drop": ("crowned", "logarithmic"), "straight_fraction": ("crowned",), "end_ratio": ("logarithmic",)}
 """Field -> the shapes that it is about."""
@@ -32,21 +30,20 @@ class ProfileTable(Table):
     end_ratio: units.Fraction | None = None
     n_laminae: units.Count = LAMINAE
 
-    @model_validator(mode="after")
-    def _of_the_shape(self) -> Self:
+    @check
+    def _of_the_shape(self) -> Problems:
         for name, shapes in _OF_LAW.items():
             given = getattr(self, name)
             if given is not None and self.shape not in shapes:
                 wanted = " or ".join(f"'{shape}'" for shape in shapes)
-                raise refusal_at(name, f"none with shape = '{self.shape}': it is about {wanted}", f"{given:g}")
+                yield refusal_at(name, f"none with shape = '{self.shape}': it is about {wanted}", f"{given:g}")
         if self.shape != "straight" and self.drop is None:
-            raise refusal_at(
+            yield refusal_at(
                 "drop", f"a length, the drop at the ends of shape = '{self.shape}', e.g. '8 um'", "nothing"
             )
         for name in ("straight_fraction", "end_ratio"):
             if getattr(self, name) == 1.0 or (name == "end_ratio" and self.end_ratio == 0.0):
-                raise refusal_at(name, "a number between 0 and 1", f"the number {getattr(self, name):g}")
-        return self
+                yield refusal_at(name, "a number between 0 and 1", f"the number {getattr(self, name):g}")
 
 
 def roller_profile(table: ProfileTable | None) -> RollerProfile | None:

@@ -5,20 +5,22 @@ from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any
 
-from pydantic import BaseModel, ValidationError
+from pydantic import BaseModel
 
 from .._scene import AbstractScene
 from .ball_build import ball_bearing
 from .ball_schema import BallBearingTable
 from .data_files import builtin_names, builtin_summary, builtin_text
-from .errors import SceneError, from_class, from_validation, nearest, one_of
+from .drafts import Unreadable, draft
+from .errors import SceneError, from_class, nearest, one_of
 from .line_contact_build import line_contact
 from .line_contact_schema import LineContactTable
 from .oil_files import Origin, origins
 from .oils import with_catalogue
-from .overrides import REMOVE, apply, as_texts, parse_value
+from .overrides import REMOVE, applied, apply, as_texts, parse_value
 from .roller_build import cylindrical_roller_bearing
 from .roller_schema import CylindricalRollerTable
+from .table import Table
 from .tapered_build import tapered_roller_bearing
 from .tapered_schema import TaperedRollerTable
 from .toml_files import parse_toml, read_text
@@ -29,7 +31,7 @@ from .units import describe, shortened
 __all__ = ["builtin_names", "builtin_summary", "builtin_text", "load_scene", "scene_from_mapping"]
 
 _KIND_EXAMPLE = 'kind = "cylindrical_roller_bearing"'
-_SCHEMAS: dict[str, tuple[type[BaseModel], Callable[[Any], AbstractScene]]] = {
+_SCHEMAS: dict[str, tuple[type[Table], Callable[[Any], AbstractScene]]] = {
     "ball_bearing": (BallBearingTable, ball_bearing),
     "cylindrical_roller_bearing": (CylindricalRollerTable, cylindrical_roller_bearing),
     "tapered_roller_bearing": (TaperedRollerTable, tapered_roller_bearing),
@@ -79,12 +81,10 @@ def scene_from_mapping(
     overrides = as_texts(overrides)
     try:
         model, build = _schema(mapping, overrides, origin)
-        return _build(apply(mapping, overrides, model, origin), model, build, origin)
+        raw, problems = applied(mapping, overrides, model, origin)
+        return _build(raw, model, build, origin, problems)
     except SceneError as error:
-        culprit = next((path for path in overrides if _related(path, error.path)), None)
-        if culprit is None or error.file != origin:
-            raise
-        raise error.of(f"{origin} with --set {culprit}={shortened(overrides[culprit])}") from None
+        raise SceneError.of_all([_with_culprit(one, overrides, origin) for one in error.problems]) from None
 
 
 def scene_model(mapping: Mapping[str, Any], overrides: Mapping[str, str], origin: str) -> type[BaseModel]:
@@ -100,28 +100,50 @@ def model_of(scene: AbstractScene) -> type[BaseModel] | None:
 
 def _schema(
     mapping: Mapping[str, Any], overrides: Mapping[str, str], origin: str
-) -> tuple[type[BaseModel], Callable[[Any], AbstractScene]]:
+) -> tuple[type[Table], Callable[[Any], AbstractScene]]:
     kind = mapping.get("kind")
     if "kind" in overrides:
         kind = None if overrides["kind"] == REMOVE else parse_value(overrides["kind"])
     return _SCHEMAS[_known_kind(kind, mapping, origin)]
 
 
+def _with_culprit(problem: SceneError, overrides: Mapping[str, str], origin: str) -> SceneError:
+    """The problem with the `--set` that is to blame for it beside the name of the file, where there is one."""
+    culprit = next((path for path in overrides if _related(path, problem.path)), None)
+    if culprit is None or problem.file != origin:
+        return problem
+    return problem.of(f"{origin} with --set {culprit}={shortened(overrides[culprit])}")
+
+
 def _build(
-    raw: Mapping[str, Any], model: type[BaseModel], build: Callable[[Any], AbstractScene], origin: str
+    raw: Mapping[str, Any],
+    model: type[Table],
+    build: Callable[[Any], AbstractScene],
+    origin: str,
+    problems: list[SceneError],
 ) -> AbstractScene:
-    complete = {**raw, "oil": with_catalogue(raw["oil"])} if isinstance(raw.get("oil"), Mapping) else raw
+    """**Raises:** `SceneError` with these problems and all that the schema and the classes refuse."""
+    complete, refused = dict(raw), []
+    if isinstance(raw.get("oil"), Mapping):
+        try:
+            complete["oil"] = with_catalogue(raw["oil"])
+        except SceneError as error:
+            problems, refused = [*problems, error], ["oil"]
+    table, found = draft(model, complete, origin, refused)
+    problems = [*problems, *found]
     try:
-        table = model.model_validate(complete)
-    except ValidationError as error:
-        raise from_validation(error, model, origin) from None
-    try:
-        return build(table)
-    except SceneError:
-        # of another file
-        raise
+        scene = build(table)
+    except Unreadable:
+        pass
     except ValueError as error:
-        raise from_class(error, raw, origin) from None
+        said = [one.path for one in problems]
+        # the classes repeat some checks of the tables
+        found = from_class(error, raw, origin).problems
+        problems += [one for one in found if not any(one.path and _related(one.path, path) for path in said)]
+    else:
+        if not problems:
+            return scene
+    raise SceneError.of_all(problems)
 
 
 def _related(a: str, b: str) -> bool:

@@ -1,10 +1,13 @@
 """From a valid table of a cylindrical roller bearing to the scene of the library. Only Python and numpy numbers enter
 the constructors: nothing runs on JAX."""
 
+from functools import cache
+
 from ..bearings.cylindrical_roller import CylindricalRollerBearing, RollerCage, RollerFlange, RollerGeometry
 from ..bearings.parts import Drag, Materials, Operation
 from ..bearings.rating import Rating
-from .bearing_build import cage, part
+from ..bearings.simulation import Simulation
+from .bearing_build import built, cage, part
 from .contact_laws import contact_laws
 from .materials import material
 from .oils import lubricant
@@ -18,22 +21,28 @@ def cylindrical_roller_bearing(table: CylindricalRollerTable) -> CylindricalRoll
 
     **Raises:** `ValueError` for combinations that the classes refuse.
     """
-    oil = None if table.oil is None else lubricant(table.oil)
-    speed, load = table.operation.inner_speed, table.operation.radial_load
-    return CylindricalRollerBearing(
-        geometry=RollerGeometry(**table.geometry.model_dump()),
-        materials=Materials(
+    oil = cache(lambda: None if table.oil is None else lubricant(table.oil))
+    return built(
+        CylindricalRollerBearing,
+        geometry=lambda: RollerGeometry(**table.geometry.model_dump()),
+        materials=lambda: Materials(
             rings=material(table.materials.rings),
             rollers=material(table.materials.rollers),
             cage=None if table.materials.cage is None else material(table.materials.cage),
         ),
-        operation=Operation(**table.operation.model_dump(exclude_none=True)),
+        operation=lambda: Operation(**table.operation.model_dump(exclude_none=True)),
         oil=oil,
-        contact=None if table.contact is None else contact_laws(table.contact, oil),
-        cage=cage(RollerCage, table.cage),
-        flange=part(RollerFlange, table.flange),
-        drag=part(Drag, table.drag),
-        simulation=None if table.simulation is None else simulation(table.simulation, speed, load),
-        rating=part(Rating, table.rating),
-        profile=roller_profile(table.profile),
+        contact=lambda: None if table.contact is None else contact_laws(table.contact, oil()),
+        cage=lambda: cage(RollerCage, table.cage),
+        flange=lambda: part(RollerFlange, table.flange),
+        drag=lambda: part(Drag, table.drag),
+        simulation=lambda: _run(table),
+        rating=lambda: part(Rating, table.rating),
+        profile=lambda: roller_profile(table.profile),
     )
+
+
+def _run(table: CylindricalRollerTable) -> Simulation | None:
+    if table.simulation is None:
+        return None
+    return simulation(table.simulation, table.operation.inner_speed, table.operation.radial_load)

@@ -1,9 +1,7 @@
 """The scene file of a cylindrical roller bearing. Names are the attribute names of the classes that it builds."""
 
 from collections.abc import Mapping
-from typing import ClassVar, Literal, Self
-
-from pydantic import model_validator
+from typing import ClassVar, Literal
 
 from . import units
 from .bearing_schema import (
@@ -20,7 +18,7 @@ from .materials import MaterialField
 from .oil_schema import OilTable
 from .profile_schema import ProfileTable
 from .simulation_schema import SimulationTable
-from .table import Table, refusal_at
+from .table import Problems, Table, check, refusal_at
 
 
 class GeometryTable(Table):
@@ -31,12 +29,11 @@ class GeometryTable(Table):
     diametral_clearance: units.Length
     contact_length: units.PositiveLength | None = None
 
-    @model_validator(mode="after")
-    def _consistent(self) -> Self:
+    @check
+    def _consistent(self) -> Problems:
         if self.contact_length is not None and self.contact_length > self.roller_length:
             limit = f"at most the roller length, {in_mm(self.roller_length)}"
-            raise refusal_at("contact_length", limit, in_mm(self.contact_length))
-        return self
+            yield refusal_at("contact_length", limit, in_mm(self.contact_length))
 
 
 class MaterialsTable(Table):
@@ -66,15 +63,14 @@ class ContactTable(Table):
     rolling_resistance: Literal["rigid_isoviscous", "ertel_grubin"] | None = None
     entrainment_offset: units.NonNegativeSurfaceSpeed = 0.0
 
-    @model_validator(mode="after")
-    def _consistent(self) -> Self:
+    @check
+    def _consistent(self) -> Problems:
         distributed = self.traction_model == "distributed"
         if distributed and self.traction is None:
-            raise refusal_at("traction", "the law that traction_model = 'distributed' is about", "nothing")
+            yield refusal_at("traction", "the law that traction_model = 'distributed' is about", "nothing")
         if self.traction_accuracy is not None and not distributed:
             expected = "none: only traction_model = 'distributed' is computed to an accuracy"
-            raise refusal_at("traction_accuracy", expected, f"the number {self.traction_accuracy:g}")
-        return self
+            yield refusal_at("traction_accuracy", expected, f"the number {self.traction_accuracy:g}")
 
 
 ISOVISCOUS = {"film": ("moes",), "rolling_resistance": ("rigid_isoviscous",)}
@@ -109,12 +105,11 @@ class OperationTable(BearingOperationTable):
     moment: units.Moment | None = None
     misalignment: units.Angle | None = None
 
-    @model_validator(mode="after")
-    def _tilt(self) -> Self:
+    @check
+    def _tilt(self) -> Problems:
         if self.moment is not None and self.misalignment is not None:
             expected = "none beside operation.moment, which sets the tilt free"
-            raise refusal_at("misalignment", expected, f"{self.misalignment:g} rad")
-        return self
+            yield refusal_at("misalignment", expected, f"{self.misalignment:g} rad")
 
 
 class CylindricalRollerTable(Table):
@@ -136,21 +131,27 @@ class CylindricalRollerTable(Table):
     rating: RatingTable | None = None
     profile: ProfileTable | None = None
 
-    @model_validator(mode="after")
-    def _complete(self) -> Self:
+    @check
+    def _flow(self) -> Problems:
         """What one table needs of another. The classes check the rest when they are built."""
         slips = self.contact is not None and self.contact.traction is not None
         if slips and (self.cage is not None or self.simulation is not None):
-            require_oil_flow(self.drag, self.operation)
-        if self.contact is None:
-            return self
+            yield from require_oil_flow(self.drag, self.operation)
+
+    @check
+    def _cage(self) -> Problems:
+        slips = self.contact is not None and self.contact.traction is not None
         if slips and self.cage is None and self.simulation is None:
             expected = (
                 "a table [cage], which contact.traction needs: without one a roller outside the loaded zone slows "
             )
-            raise refusal_at(
+            yield refusal_at(
                 "cage", expected + "down for ever (leave out contact.traction, or use simulate)", "nothing"
             )
+
+    @check
+    def _oil(self) -> Problems:
+        if self.contact is None:
+            return
         density = law_in_words(self.contact, "traction")
-        require_oil(self.oil, self.operation, self.contact, density, ISOVISCOUS)
-        return self
+        yield from require_oil(self.oil, self.operation, self.contact, density, ISOVISCOUS)

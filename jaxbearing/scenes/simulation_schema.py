@@ -1,14 +1,12 @@
 """The table [simulation] of a scene file: what a run in time does beyond the operating point."""
 
-from typing import Literal, Self
-
-from pydantic import model_validator
+from typing import Literal
 
 from ..bearings.simulation import DEFAULT_SOLVER, DEFAULT_TOLERANCE, Simulation
 from ..time_laws import AbstractTimeFactor, Ramp, RotatingLoad, Sinusoidal, Steady, Tabulated
 from . import units
 from .errors import SceneError
-from .table import Table, refusal_at
+from .table import Problems, Table, check, refusal_at
 from .time_tables import read_time_table
 
 _LAWS = ("perturbation", "ramp", "table")
@@ -73,17 +71,16 @@ class SimulationTable(Table):
     load_table: FileTable | None = None
     rotating_load: RotatingLoadTable | None = None
 
-    @model_validator(mode="after")
-    def _consistent(self) -> Self:
+    @check
+    def _consistent(self) -> Problems:
         for name in ("speed", "load"):
             given = [field for field in (f"{name}_{law}" for law in _LAWS) if getattr(self, field) is not None]
             if len(given) > 1:
-                raise refusal_at(given[1], f"one of {' and '.join(given)}", "both")
+                yield refusal_at(given[1], f"one of {' and '.join(given)}", "both")
         if self.speed_ramp is not None and self.speed_ramp.start == 0.0:
-            raise refusal_at("speed_ramp.start", "a number > 0: at rest the films vanish", "the number 0")
+            yield refusal_at("speed_ramp.start", "a number > 0: at rest the films vanish", "the number 0")
         if self.load_ramp is not None and self.load_ramp.start == 0.0:
-            raise refusal_at("load_ramp.start", "a number > 0: a run begins with a loaded bearing", "the number 0")
-        return self
+            yield refusal_at("load_ramp.start", "a number > 0: a run begins with a loaded bearing", "the number 0")
 
 
 def simulation(table: SimulationTable, inner_speed: float, radial_load: float) -> Simulation:

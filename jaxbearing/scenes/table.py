@@ -1,10 +1,24 @@
 """What all tables of a scene file have in common."""
 
-from collections.abc import Mapping
-from typing import ClassVar
+from collections.abc import Callable, Iterator, Mapping
+from typing import Any, ClassVar, Self
 
-from pydantic import BaseModel, ConfigDict
+from pydantic import BaseModel, ConfigDict, model_validator
 from pydantic_core import PydanticCustomError
+
+Problems = Iterator[PydanticCustomError]
+"""What the checks of a table find, as `refusal_at` words it."""
+_IS_CHECK = "is_check"
+
+
+def check(method: Callable[[Any], Problems]) -> Callable[[Any], Problems]:
+    """Marks a method of a table that yields what is wrong with several of its fields together.
+
+    A check reads only what it needs: it ends where it meets a field that is refused already (`drafts.Draft`), and what
+    depends on other fields belongs into a check of its own.
+    """
+    setattr(method, _IS_CHECK, True)
+    return method
 
 
 class Table(BaseModel):
@@ -20,6 +34,20 @@ class Table(BaseModel):
     not_yet: ClassVar[Mapping[str, str]] = {}
     instead: ClassVar[Mapping[str, tuple[str, ...]]] = {}
     about: ClassVar[Mapping[str, tuple[str, ...]]] = {}
+
+    @classmethod
+    def checks(cls) -> Iterator[Callable[[Any], Problems]]:
+        """The methods marked with `check`, those of the parents first."""
+        for owner in reversed(cls.__mro__):
+            yield from (method for method in vars(owner).values() if getattr(method, _IS_CHECK, False))
+
+    @model_validator(mode="after")
+    def _checked(self) -> Self:
+        """**Raises:** the first problem; `drafts` finds all of them."""
+        for method in self.checks():
+            for problem in method(self):
+                raise problem
+        return self
 
 
 def refusal_at(field: str, expected: str, found: str) -> PydanticCustomError:

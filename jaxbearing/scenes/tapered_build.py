@@ -1,6 +1,8 @@
 """From a valid table of a tapered roller bearing to the scene of the library. Only Python and numpy numbers enter the
 constructors: nothing runs on JAX."""
 
+from functools import cache
+
 from ..bearings.parts import ContactLaws, Drag, Materials
 from ..bearings.rating import Rating
 from ..bearings.tapered_geometry import TaperedGeometry
@@ -8,7 +10,7 @@ from ..bearings.tapered_roller import TaperedOperation, TaperedRollerBearing
 from ..contacts import ChittendenCentral, Gupta, MeanPressureTraction, NijenbanningVennerMoes, NoThermalReduction
 from ..contacts.point_laws import PointLaws
 from ..lubricants import Lubricant, NoPressureViscosity
-from .bearing_build import part
+from .bearing_build import built, part
 from .contact_laws import FILMS, ROLLING
 from .laws import POINT_FILMS, distributed_traction, thermal_factor, viscous_function
 from .materials import material
@@ -25,17 +27,18 @@ def tapered_roller_bearing(table: TaperedRollerTable) -> TaperedRollerBearing:
 
     **Raises:** `ValueError` for combinations that the classes refuse.
     """
-    oil = None if table.oil is None else lubricant(table.oil)
-    return TaperedRollerBearing(
-        geometry=TaperedGeometry(**table.geometry.model_dump()),
-        materials=Materials(rings=material(table.materials.rings), rollers=material(table.materials.rollers)),
-        operation=TaperedOperation(**table.operation.model_dump(exclude_none=True)),
+    oil = cache(lambda: None if table.oil is None else lubricant(table.oil))
+    return built(
+        TaperedRollerBearing,
+        geometry=lambda: TaperedGeometry(**table.geometry.model_dump()),
+        materials=lambda: Materials(rings=material(table.materials.rings), rollers=material(table.materials.rollers)),
+        operation=lambda: TaperedOperation(**table.operation.model_dump(exclude_none=True)),
         oil=oil,
-        contact=None if table.contact is None else _laws(table.contact, oil),
-        rib=None if table.contact is None else _rib_laws(table.contact, oil),
-        drag=part(Drag, table.drag),
-        profile=roller_profile(table.profile),
-        rating=part(Rating, table.rating),
+        contact=lambda: None if table.contact is None else _laws(table.contact, oil()),
+        rib=lambda: None if table.contact is None else _rib_laws(table.contact, oil()),
+        drag=lambda: part(Drag, table.drag),
+        profile=lambda: roller_profile(table.profile),
+        rating=lambda: part(Rating, table.rating),
     )
 
 

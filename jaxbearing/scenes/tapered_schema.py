@@ -1,9 +1,7 @@
 """The scene file of a tapered roller bearing. Names are the attribute names of the classes that it builds."""
 
 from collections.abc import Mapping
-from typing import ClassVar, Literal, Self
-
-from pydantic import model_validator
+from typing import ClassVar, Literal
 
 from . import units
 from .bearing_schema import BearingOperationTable, RatingTable, require_oil, require_oil_flow
@@ -12,7 +10,7 @@ from .materials import MaterialField
 from .oil_schema import OilTable
 from .profile_schema import ProfileTable
 from .roller_schema import DragTable
-from .table import Table, refusal_at
+from .table import Problems, Table, check, refusal_at
 
 
 class TaperedGeometryTable(Table):
@@ -48,11 +46,10 @@ class TaperedContactTable(Table):
     traction: Literal["maxwell_eyring", "ree_eyring", "bair_winer", "gecim_winer", "elsharkawy_hamrock"] | None = None
     traction_accuracy: TractionAccuracy | None = None
 
-    @model_validator(mode="after")
-    def _consistent(self) -> Self:
+    @check
+    def _consistent(self) -> Problems:
         if self.traction_accuracy is not None and self.traction is None:
-            raise refusal_at("traction", "a law, without which traction_accuracy has no meaning", "nothing")
-        return self
+            yield refusal_at("traction", "a law, without which traction_accuracy has no meaning", "nothing")
 
 
 ISOVISCOUS = {
@@ -70,12 +67,11 @@ class TaperedOperationTable(BearingOperationTable):
     misalignment: units.Angle | None = None
     load_position: units.Length = 0.0
 
-    @model_validator(mode="after")
-    def _tilt(self) -> Self:
+    @check
+    def _tilt(self) -> Problems:
         if self.moment is not None and self.misalignment is not None:
             expected = "none beside operation.moment, which sets the tilt free"
-            raise refusal_at("misalignment", expected, f"{self.misalignment:g} rad")
-        return self
+            yield refusal_at("misalignment", expected, f"{self.misalignment:g} rad")
 
 
 class TaperedRollerTable(Table):
@@ -91,10 +87,13 @@ class TaperedRollerTable(Table):
     profile: ProfileTable | None = None
     rating: RatingTable | None = None
 
-    @model_validator(mode="after")
-    def _complete(self) -> Self:
+    @check
+    def _flow(self) -> Problems:
         if self.contact is not None:
-            require_oil_flow(self.drag, self.operation)
+            yield from require_oil_flow(self.drag, self.operation)
+
+    @check
+    def _oil(self) -> Problems:
+        if self.contact is not None:
             density = "" if self.drag is None else "the drag"
-            require_oil(self.oil, self.operation, self.contact, density, ISOVISCOUS)
-        return self
+            yield from require_oil(self.oil, self.operation, self.contact, density, ISOVISCOUS)

@@ -1,11 +1,13 @@
 """From a valid table of a two-disk machine to the scene of the library. Only Python and numpy numbers enter the
 constructors: nothing runs on JAX."""
 
+from functools import cache
 from typing import Any
 
 from ..contacts import DistributedTraction, FilmHeating, GivenCompliance, Resolution
 from ..lubricants import Lubricant
 from ..machines import DiskGeometry, DiskMaterials, DiskOperation, TwoDisk, TwoDiskLaws
+from .bearing_build import built
 from .laws import LINE_FILMS, POINT_FILMS, thermal_factor, viscous_function
 from .materials import material
 from .oils import lubricant
@@ -17,13 +19,14 @@ def two_disk(table: TwoDiskTable) -> TwoDisk:
 
     **Raises:** `ValueError` for combinations that the classes refuse.
     """
-    oil = lubricant(table.oil)
-    return TwoDisk(
-        geometry=DiskGeometry(**table.geometry.model_dump()),
-        materials=DiskMaterials(material(table.materials.body_1), material(table.materials.body_2)),
+    oil = cache(lambda: lubricant(table.oil))
+    return built(
+        TwoDisk,
+        geometry=lambda: DiskGeometry(**table.geometry.model_dump()),
+        materials=lambda: DiskMaterials(material(table.materials.body_1), material(table.materials.body_2)),
         oil=oil,
-        contact=_laws(table.contact, oil),
-        operation=_operation(table.operation),
+        contact=lambda: _laws(table.contact, oil()),
+        operation=lambda: _operation(table.operation),
     )
 
 
@@ -47,6 +50,6 @@ def _laws(table: TwoDiskContactTable, oil: Lubricant) -> TwoDiskLaws:
 
 def _operation(table: DiskOperationTable) -> DiskOperation:
     slide = table.slide_to_roll
-    values: dict[str, Any] = dict(table)
+    values: dict[str, Any] = {name: getattr(table, name) for name in DiskOperationTable.model_fields}
     values["slide_to_roll"] = slide.values() if isinstance(slide, SlideRange) else slide
     return DiskOperation(**values)

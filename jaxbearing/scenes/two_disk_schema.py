@@ -2,10 +2,10 @@
 [contact] puts its laws together (see `two_disk_build`)."""
 
 from collections.abc import Mapping
-from typing import Annotated, Any, ClassVar, Literal, Self
+from typing import Annotated, Any, ClassVar, Literal
 
 import numpy as np
-from pydantic import BeforeValidator, Discriminator, Tag, model_validator
+from pydantic import BeforeValidator, Discriminator, Tag
 from pydantic_core import PydanticCustomError
 
 from . import units
@@ -14,7 +14,7 @@ from .laws import LINE_FILMS, POINT_FILMS, TractionAccuracy
 from .materials import MaterialField
 from .oil_needs import require_laws, require_piezoviscous
 from .oil_schema import OilTable
-from .table import Table, refusal_at
+from .table import Problems, Table, check, refusal_at
 
 HALF_SPACE = "half_space"
 _SLIDE = "a number (a ratio, 0.05) or a text in per cent ('5 %')"
@@ -50,12 +50,11 @@ class SlideRange(Table):
     count: units.Count
     spacing: Literal["linear", "log"] = "linear"
 
-    @model_validator(mode="after")
-    def _logarithms_exist(self) -> Self:
+    @check
+    def _logarithms_exist(self) -> Problems:
         if self.spacing == "log" and self.start * self.stop <= 0.0:
             expected = "ends other than 0 and of one sign, which spacing = 'log' needs"
-            raise refusal_at("start", expected, f"{self.start:g} to {self.stop:g}")
-        return self
+            yield refusal_at("start", expected, f"{self.start:g} to {self.stop:g}")
 
     def values(self) -> np.ndarray:
         space = np.geomspace if self.spacing == "log" else np.linspace
@@ -86,12 +85,11 @@ class DiskGeometryTable(Table):
     reduced_radius_transverse: units.PositiveLength | None = None
     contact_length: units.PositiveLength | None = None
 
-    @model_validator(mode="after")
-    def _point_or_line(self) -> Self:
+    @check
+    def _point_or_line(self) -> Problems:
         if self.contact_length is not None and self.reduced_radius_transverse is not None:
             expected = "none beside contact_length: a line contact is straight across"
-            raise refusal_at("reduced_radius_transverse", expected, f"{1e3 * self.reduced_radius_transverse:g} mm")
-        return self
+            yield refusal_at("reduced_radius_transverse", expected, f"{1e3 * self.reduced_radius_transverse:g} mm")
 
 
 class DiskMaterialsTable(Table):
@@ -133,12 +131,11 @@ class DiskOperationTable(Table):
     pressure: units.PositivePressures | None = None
     load: units.PositiveForces | None = None
 
-    @model_validator(mode="after")
-    def _one_of_both(self) -> Self:
+    @check
+    def _one_of_both(self) -> Problems:
         if (self.pressure is None) == (self.load is None):
             found = "neither of 'pressure' and 'load'" if self.pressure is None else "both 'pressure' and 'load'"
-            raise refusal_at("pressure", "one of the two: a Hertz (peak) pressure or a normal load", found)
-        return self
+            yield refusal_at("pressure", "one of the two: a Hertz (peak) pressure or a normal load", found)
 
 
 class TwoDiskTable(Table):
@@ -151,8 +148,8 @@ class TwoDiskTable(Table):
     contact: TwoDiskContactTable
     operation: DiskOperationTable
 
-    @model_validator(mode="after")
-    def _fits_together(self) -> Self:
+    @check
+    def _fits_together(self) -> Problems:
         contact = self.contact
         line = self.geometry.contact_length is not None
         shape = (
@@ -160,12 +157,17 @@ class TwoDiskTable(Table):
         )
         films = LINE_FILMS if line else POINT_FILMS
         if contact.film not in films:
-            raise refusal_at("contact.film", f"a film of a {shape}: {one_of(films)}", f"'{contact.film}'")
+            yield refusal_at("contact.film", f"a film of a {shape}: {one_of(films)}", f"'{contact.film}'")
         if contact.thermal == "hsu_lee" and not line:
             expected = f"'gupta', or leave it out: Hsu and Lee's factor is not for a {shape}"
-            raise refusal_at("contact.thermal", expected, "'hsu_lee'")
+            yield refusal_at("contact.thermal", expected, "'hsu_lee'")
+
+    @check
+    def _oil(self) -> Problems:
+        contact = self.contact
         thermal = "contact.film_heating" if contact.film_heating else ""
         thermal = f"contact.thermal = '{contact.thermal}'" if contact.thermal else thermal
-        require_laws(self.oil, {"rheology": f"contact.traction = '{contact.traction}'", "conductivity": thermal})
-        require_piezoviscous(self.oil, contact, ISOVISCOUS)
-        return self
+        yield from require_laws(
+            self.oil, {"rheology": f"contact.traction = '{contact.traction}'", "conductivity": thermal}
+        )
+        yield from require_piezoviscous(self.oil, contact, ISOVISCOUS)

@@ -12,7 +12,7 @@ from pydantic import BaseModel, TypeAdapter, ValidationError
 
 from .._scene import AbstractScene
 from ..report.labelled import udunits
-from ..scenes.errors import SceneError, unknown_name
+from ..scenes.errors import SceneError, in_words, unknown_name
 from ..scenes.fields import is_known, type_at
 from ..scenes.overrides import REMOVE, parse_value
 from ..scenes.reader import read_tables, scene_from_mapping, scene_model
@@ -82,7 +82,7 @@ class SceneSource:
         names = path.split(".")
         if not all(names) or not is_known(self.model, names):
             known = next((n for n in range(1, len(names) + 1) if not is_known(self.model, names[:n])), len(names))
-            raise SceneError(where, ".".join(names[:known]), others=0, **unknown_name(names[:known], self.model))
+            raise in_words(where, ".".join(names[:known]), unknown_name(names[:known], self.model))
         kind = type_at(self.model, names)
         what = _no_number(kind)
         if what:

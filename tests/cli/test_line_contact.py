@@ -176,7 +176,6 @@ def test_at_rest(jaxbearing_command, folder):
         (("solve", NAME, "--set", "contact.accuracy=0.05"), ["contact.accuracy", "0.002"]),
         (("solve", NAME, "--set", "contact.nodes=7"), ["contact.nodes", "51"]),
         (("solve", NAME, "--set", "contact.film=moes"), ["contact.film", "film_limit"]),
-        (("solve", NAME, "--sensitivities"), ["--sensitivities"]),
         ((*SIMULATE, "--interval", "1 us"), ["--interval", "every step"]),
         (("solve", NAME, "--line-contact", "inner", "a.toml"), ["--line-contact", "ball_bearing"]),
         (("solve", "turbine_roller", "--line-contact", "inner", "a.toml"), ["--line-contact", "ball_bearing"]),

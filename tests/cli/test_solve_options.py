@@ -15,6 +15,7 @@ import xarray as xr
 
 import jaxbearing
 from jaxbearing.cli.main import main
+from jaxbearing.report.json_report import solution_to_dict
 from jaxbearing.sensitivity import Sensitivities
 
 DRY = ("solve", "reference_roller", "--set", "contact=none")
@@ -83,7 +84,7 @@ def test_files_are_overwritten_and_both_can_be_wanted(jaxbearing_command, folder
         (("--out", "scene.toml/a.nc"), ["--out", "existing folder"]),
         (("--plot", "a.png", "--out", "a.png"), ["--out", "'.nc'"]),
         (("--plot", "\x1b[31m.jpg"), ["--plot", "ends in"]),
-        (("--sensitivities",), ["--sensitivities", "without power loss", "contact.traction", "a cage"]),
+        (("--sensitivities",), ["--sensitivities", "neither power loss", "contact.traction", "a rating"]),
         (("--sensitivities", "--set", "contact.film=moes", "--json"), ["--sensitivities", "contact.traction"]),
         (("--sensitivities", "--out", "a.nc"), ["--sensitivities"]),
     ],
@@ -219,6 +220,33 @@ def shown(screen):
         found = [number.search(line[part]) for line in lines]
         columns.append({match[1]: float(match[2]) for match in found if match})
     return columns
+
+
+def test_same_results_with_sensitivities_and_without(jaxbearing_command, folder):
+    """All verbs and `jb.solve` give one result, its life too."""
+    rated = ("reference_roller", "--set", "contact=none", "--set", "rating={}")
+    plain = json.loads(jaxbearing_command("solve", *rated, "--json").out)
+    differentiated = json.loads(jaxbearing_command("solve", *rated, "--sensitivities", "--json").out)
+    slopes = differentiated.pop("sensitivities")
+    assert list(slopes) == ["life.L10r"]
+    assert differentiated["life"]["L10r_hours"] > 0.0
+    reported = json.loads(jaxbearing_command("report", *rated, "--json", "--out", "a.html").out)
+    scene = jaxbearing.load_scene("reference_roller", {"contact": "none", "rating": "{}"})
+    fast = solution_to_dict(jaxbearing.jit_solver(scene)())
+    for other in (differentiated, reported, fast):
+        assert numbers(other).keys() == numbers(plain).keys()
+        for path, value in numbers(plain).items():
+            # other programs of the same equations; residuals and what is 0 are round-off themselves
+            if "residual" not in path and path != "iterations":
+                np.testing.assert_allclose(numbers(other)[path], value, rtol=1e-9, atol=1e-12, err_msg=path)
+
+
+def numbers(results, above=""):
+    """All numbers of a JSON object by path."""
+    if isinstance(results, dict | list):
+        items = results.items() if isinstance(results, dict) else enumerate(results)
+        return {path: x for key, value in items for path, x in numbers(value, f"{above}.{key}").items()}
+    return {above.lstrip("."): results} if isinstance(results, int | float) else {}
 
 
 @pytest.fixture(scope="module")

@@ -74,7 +74,7 @@ def test_not_converged(jaxbearing_command, folder):
 @pytest.mark.parametrize(
     ("arguments", "words"),
     [
-        (("--sensitivities",), ["--sensitivities", "without power loss", "expected a bearing"]),
+        (("--sensitivities",), ["--sensitivities", "8 points", "expected one point"]),
         (("--set", "operation.pressure=none"), ["operation.pressure", "neither"]),
         (("--set", "contact.film=moes"), ["contact.film", "point contact"]),
         (("--set", "operation.temperature=[297]"), ["operation.temperature", "bare number 297"]),

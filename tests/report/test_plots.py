@@ -188,5 +188,28 @@ def test_drawing_says_values_and_assumptions():
 
 
 def test_drawing_refuses_other_things():
-    with pytest.raises(TypeError, match="CylindricalRollerBearing"):
+    with pytest.raises(TypeError, match="BallBearing, CylindricalRollerBearing or TaperedRollerBearing"):
         draw_bearing(reference_roller().geometry)
+
+
+@pytest.mark.parametrize(
+    ("name", "said"),
+    [
+        ("turbine_ball", ["n_balls 20", "contact_angle 30 deg", "ball_diameter 20.638 mm", "cage.n_lands 2"]),
+        ("deep_groove_6205", ["diametral_clearance 12 µm", "1.5 kN, on the inner ring"]),
+        ("tapered_example", ["roller_half_angle 2 deg", "end_radius 108 mm", "n_rollers 17"]),
+    ],
+)
+def test_drawings_of_the_other_families(name, said, tmp_path):
+    """Each number of geometry and cage stands once on the page."""
+    scene = jb.load_scene(name)
+    figure = draw_bearing(scene)
+    save_plot(figure, tmp_path / "drawing.svg")
+    text = words(figure)
+    assert all(one in text for one in said)
+    for table in ("geometry", "cage"):
+        part = getattr(scene, table, None)
+        numbers = [] if part is None else [n for n, v in vars(part).items() if isinstance(v, int | np.ndarray)]
+        for field in numbers:
+            label = field if table == "geometry" else f"{table}.{field}"
+            assert text.count(f"{label} ") == 1, label

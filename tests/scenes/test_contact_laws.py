@@ -162,7 +162,7 @@ def test_film_of_an_isoviscous_oil(name):
     message = str(caught.value)
     assert message.startswith(f"turbine_roller with --set contact.film={name}: contact.film: found '{name}'; ")
     assert "expected 'moes': the other laws are for oils whose viscosity rises with pressure." in message
-    assert "more problem" not in message
+    assert "problems" not in message
 
 
 def test_rolling_resistance_of_an_isoviscous_oil():

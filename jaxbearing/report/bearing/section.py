@@ -38,7 +38,7 @@ def section(scene: Any, solution: Solution) -> str:
     diameter = _diameter(scene)
     name = solution.element_name
     drawing = Drawing(f"Section through the axis and the most loaded {name}", _WIDTH / diameter)
-    contacts = _draw(scene, drawing, of)
+    contacts = draw_element(scene, drawing, of)
     loads = {side: of(f"load_{side}") for side in contacts}
     largest, lowest = max(loads.values()), 0.0
     for side, (place, direction) in contacts.items():
@@ -81,12 +81,17 @@ def _moved(place: Point, direction: Point, length: float) -> Point:
 
 
 @functools.singledispatch
-def _draw(scene: Any, drawing: Drawing, of: Callable[[str], float]) -> Contacts:
-    """Draws rings and element, and says where it touches them."""
+def draw_element(scene: Any, drawing: Any, of: Callable[[str], float]) -> Contacts:
+    """Draws rings and element, and says where it touches them.
+
+    **Arguments:**
+    - `drawing`: takes polygons, circles and lines, as `svg.Drawing` does.
+    - `of`: from the name of a result to its value for this element: contact angles of a ball.
+    """
     raise TypeError(f"no section of a {type(scene).__name__}")
 
 
-@_draw.register
+@draw_element.register
 def _cylindrical(scene: CylindricalRollerBearing, drawing: Drawing, of: Callable[[str], float]) -> Contacts:
     diameter, length = _diameter(scene), 1e3 * float(scene.geometry.roller_length)
     half, end = 0.5 * diameter, 0.5 * length + _SIDE * diameter
@@ -101,7 +106,7 @@ def _cylindrical(scene: CylindricalRollerBearing, drawing: Drawing, of: Callable
     return {"outer": ((0.0, half), (0.0, 1.0)), "inner": ((0.0, -half), (0.0, -1.0))}
 
 
-@_draw.register
+@draw_element.register
 def _ball(scene: BallBearing, drawing: Drawing, of: Callable[[str], float]) -> Contacts:
     diameter = _diameter(scene)
     contacts: Contacts = {}
@@ -130,7 +135,7 @@ def _groove(drawing: Drawing, diameter: float, conformity: float, direction: Poi
     drawing.polygon(corners, fill=RING, **_EDGE)
 
 
-@_draw.register
+@draw_element.register
 def _tapered(scene: TaperedRollerBearing, drawing: Drawing, of: Callable[[str], float]) -> Contacts:
     """The common apex of the cones lies to the right, on the axis."""
     geometry, diameter = scene.geometry, _diameter(scene)

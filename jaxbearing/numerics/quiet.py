@@ -1,0 +1,81 @@
+"""Keeps false alarms of the compiler off stderr."""
+
+import os
+import sys
+import tempfile
+import threading
+from collections.abc import Iterator
+from contextlib import contextmanager
+
+_FALSE_ALARMS = (
+    b"cpu_aot_loader",
+    b"Algebraic simplifier is likely stuck",
+    b"slow_operation_alarm",
+    b"Very slow compile",
+    b"*" * 32,
+)
+"""Loading a cached program complains about the tuning flags prefer-no-gather and prefer-no-scatter, which no processor
+lists (jax issue 38445, openxla/xla issue 44565). The program is sound: the cache is kept apart by processor. The
+simplifier says that it stopped rewriting one form into another and back; both are right. The alarm of a slow
+compilation is framed by lines of stars."""
+
+
+_HOLDING = threading.Lock()
+_LEVEL = "TF_CPP_MIN_LOG_LEVEL"
+
+
+def silence_compiler() -> None:
+    """Lets the compiler say fatal errors only, unless the user has set its level; for a process in which nothing has
+    imported JAX yet, which reads the level once."""
+    if "jax" not in sys.modules:
+        os.environ.setdefault(_LEVEL, "3")
+        _State.silent = True
+
+
+class _State:
+    silent = False
+    """Whether the compiler's level is as we or the user want it."""
+
+
+def compiler_is_loud() -> bool:
+    """Whether JAX was there before its level could be set, and the user does not ask for all of its lines."""
+    return not _State.silent and os.environ.get(_LEVEL) != "0"
+
+
+@contextmanager
+def without_false_alarms() -> Iterator[None]:
+    """Holds back what anyone writes to stderr, compiled libraries too; passes it on at the end, less the alarms. Does
+    nothing where another thread does it already."""
+    if not _HOLDING.acquire(blocking=False):
+        yield
+        return
+    try:
+        with _held_back():
+            yield
+    finally:
+        _HOLDING.release()
+
+
+@contextmanager
+def _held_back() -> Iterator[None]:
+    try:
+        sys.stderr.flush()
+        held = tempfile.TemporaryFile()  # noqa: SIM115 (closed below, where the body's own errors pass)
+        real = os.dup(2)
+    except (OSError, ValueError, AttributeError):
+        # no stderr, so that nothing is to be kept clean; or no place to hold anything back
+        yield
+        return
+    with held:
+        os.dup2(held.fileno(), 2)
+        try:
+            yield
+        finally:
+            sys.stderr.flush()
+            os.dup2(real, 2)
+            os.close(real)
+            held.seek(0)
+            for line in held:
+                if not any(alarm in line for alarm in _FALSE_ALARMS):
+                    sys.stderr.write(line.decode(errors="replace"))
+            sys.stderr.flush()

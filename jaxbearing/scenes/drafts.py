@@ -1,0 +1,97 @@
+"""A table of a file as far as it is sound: so that one look at a file finds everything that is wrong with it."""
+
+import inspect
+from collections.abc import Collection, Iterator, Mapping
+from typing import Any, TypeVar
+
+from pydantic import TypeAdapter, ValidationError
+
+from .errors import SceneError, from_validation, in_words, nearest
+from .fields import plain_table_at, type_at
+from .table import Table
+
+AnyTable = TypeVar("AnyTable", bound=Table)
+
+
+class Unreadable(Exception):
+    """A field of a draft was asked for that is refused already."""
+
+
+class Draft:
+    """Stands for a table that is refused somewhere: gives the fields that are sound as the table would.
+
+    A field that is refused raises `Unreadable`, so that what depends on it is left undecided. So does a field that the
+    file does not have while it has an unknown name that may be meant for it. A table inside that is refused somewhere
+    is a draft itself if `nested` (for checks), otherwise `Unreadable` as a whole (for building parts).
+    """
+
+    def __init__(self, model: type[Table], raw: Mapping[str, Any], refused: Collection[str] = (), nested: bool = False):
+        self._model, self._raw, self._nested = model, raw, nested
+        absent = [name for name in model.model_fields if name not in raw]
+        near = [nearest(str(name), model.model_fields) for name in raw if name not in model.model_fields]
+        self._refused = {*refused, *(absent if "" in near else near)}
+
+    def __getattr__(self, name: str) -> Any:
+        info = self._model.model_fields.get(name)
+        if info is None:
+            found = inspect.getattr_static(self._model, name)
+            return found.__get__(self, self._model) if inspect.isfunction(found) else getattr(self._model, name)
+        if name in self._refused or (name not in self._raw and info.is_required()):
+            raise Unreadable(name)
+        if name not in self._raw:
+            return info.get_default(call_default_factory=True)
+        try:
+            return TypeAdapter(type_at(self._model, [name])).validate_python(self._raw[name], strict=True)
+        except ValidationError:
+            inner = plain_table_at(self._model, name)
+            if not self._nested or inner is None or not isinstance(self._raw[name], Mapping):
+                raise Unreadable(name) from None
+            return Draft(inner, self._raw[name], nested=True)
+
+    def problems(self, inside: str = "") -> Iterator[tuple[str, Mapping[str, str]]]:
+        """Dotted path, and the words, of what the checks of this table and of those in it find."""
+        for method in self._model.checks():
+            try:
+                for problem in method(self):
+                    context = problem.context or {}
+                    yield inside + context["field"], context
+            except Unreadable:
+                continue
+        for name in self._model.model_fields:
+            try:
+                value = getattr(self, name)
+            except Unreadable:
+                continue
+            if isinstance(value, Draft):
+                yield from value.problems(f"{inside}{name}.")
+
+
+def read_table(model: type[AnyTable], raw: Mapping[str, Any], file: str) -> AnyTable:
+    """The table of a file, validated. **Raises:** `SceneError` with all that is wrong with it."""
+    table, problems = draft(model, raw, file)
+    if problems:
+        raise SceneError.of_all(problems)
+    return table
+
+
+def draft(
+    model: type[Any], raw: Mapping[str, Any], file: str, refused: Collection[str] = ()
+) -> tuple[Any, list[SceneError]]:
+    """The table of a file, or a draft of it with everything that its fields and checks refuse.
+
+    **Arguments:** `refused`: names in the table that are refused already, and said to be.
+    """
+    problems: list[SceneError] = []
+    try:
+        table = model.model_validate(raw)
+        if not refused:
+            return table, []
+    except ValidationError as error:
+        found = from_validation(error, model, file).problems
+        problems = [one for one in found if one.path.partition(".")[0] not in refused]
+    said = {(one.path, one.expected) for one in problems}
+    for path, words in Draft(model, raw, refused, nested=True).problems():
+        if (path, words["expected"]) not in said:
+            said.add((path, words["expected"]))
+            problems.append(in_words(file, path, words))
+    return Draft(model, raw, refused), problems

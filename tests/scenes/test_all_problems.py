@@ -1,0 +1,117 @@
+"""All problems of a scene are said at once: two faults are refused together as each is by itself, and no more."""
+
+import itertools
+
+import pytest
+
+import jaxbearing as jb
+
+# one fault each, by the path that is refused
+ROLLER = {
+    "geometry.pitch_diameter": "142 N",
+    "geometry.contact_length": "15 mm",
+    "materials.rings": "M51",
+    "oil.name": "mobil_jet_2",
+    "contact.film": "mos",
+    "contact.thermal": "gupt",
+    "contact.traction_accuracy": "1e-2",
+    "cage.guidence": "inner_ring",
+    "cage.inner_diameter": "147 mm",
+    "flange.angle": "90 deg",
+    "drag.coefficient": "-1",
+    "drag.through_flow_fraction": "2",
+    "operation.oil_flow": "none",
+    "operation.inner_speed": "175 Hz",
+    "profile.drop": "3 um",
+    "rating.roughness_elements": "none",
+    "simulation.solver": "tsit",
+    "simulation.rotating_load.load": "-1 N",
+}
+BASE = {
+    "rating.roughness_rings": "0.1 um",
+    "rating.roughness_elements": "0.1 um",
+    "simulation.solver": "tsit5",
+    "simulation.rotating_load.load": "1 N",
+    "simulation.rotating_load.speed": "1 rpm",
+    "contact.traction_model": "mean_pressure",
+}
+BALL = {
+    "geometry.n_balls": "0",
+    "geometry.contact_angel": "30 deg",
+    "materials.balls.density": "7 kg",
+    "kinematics.gyroscopic_sign": "-1",
+    "kinematics.attitude": "middle",
+    "contact.heathcote": "1",
+    "operation.misalignment": "1 mrad",
+    "oil.viscosity.law": "constnt",
+    "cage.n_lands": "0",
+}
+LINE = {
+    "geometry.reduced_radius_rolling": "0 mm",
+    "materials.body_1.poisson_ratio": "0.7",
+    "contact.nodes": "7",
+    "operation.load_per_length": "none",
+    "simulation.speed_ramp.start": "0",
+    "simulation.tolerance": "-1",
+}
+# what the classes refuse when the parts, or the bearing from its parts, are built
+CLASSES = {
+    "cage.inner_diameter": "120 mm",
+    "cage.pocket_clearance": "10 mm",
+    "flange.height": "20 mm",
+    "operation.inner_speed": "0 rpm",
+}
+
+
+def refused(name, overrides):
+    """Paths that are refused, in the order of the message."""
+    with pytest.raises(jb.SceneError) as caught:
+        jb.load_scene(name, overrides)
+    for one in caught.value.problems:
+        assert one.found
+        assert one.expected
+        assert str(one).partition(": ")[2] in str(caught.value)
+    return [one.path or one.file for one in caught.value.problems]
+
+
+def together(name, faults, base):
+    alone = {path: refused(name, {**base, path: value}) for path, value in faults.items()}
+    for path, found in alone.items():
+        assert len(found) == 1, path
+        assert found[0].startswith(path.rpartition(".")[0]), path
+    for pair in [*itertools.combinations(faults, 2), tuple(faults)]:
+        found = refused(name, {**base, **{path: faults[path] for path in pair}})
+        assert sorted(found) == sorted({one for path in pair for one in alone[path]}), pair
+
+
+@pytest.mark.parametrize(
+    ("name", "faults", "base"),
+    [
+        ("turbine_roller", ROLLER, BASE),
+        ("turbine_ball", BALL, {"operation.moment": "0 N*m"}),
+        ("satellite_contact_1", LINE, {}),
+    ],
+    ids=["roller", "ball", "line"],
+)
+def test_of_the_file(name, faults, base):
+    together(name, faults, base)
+
+
+def test_of_the_classes():
+    together("turbine_roller", CLASSES, {})
+
+
+def test_what_depends_on_a_refused_field_is_left_undecided():
+    # a contact_length that is longer than the roller, whose length is not known
+    faults = {"geometry.contact_length": "15 mm", "geometry.roller_length": "14 N"}
+    assert refused("turbine_roller", faults) == ["geometry.roller_length"]
+    # a name that is probably meant for the missing field is one problem
+    assert refused("turbine_roller", {"cage.guidance": "none", "cage.guidence": "inner_ring"}) == ["cage.guidence"]
+    # neither of two, if one of them is wrong
+    assert refused("deep_groove_6205", {"geometry.diametral_clearance": "3"}) == ["geometry.diametral_clearance"]
+
+
+def test_of_the_changes():
+    changes = {"geometry.n_rolers": "none", "contact.film.order": "3", "cagee": "none", "drag.coefficient": "-1"}
+    expected = ["geometry.n_rolers", "contact.film.order", "cagee", "drag.coefficient"]
+    assert sorted(refused("turbine_roller", changes)) == sorted(expected)

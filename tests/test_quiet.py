@@ -1,0 +1,52 @@
+"""`jb.solve` says nothing on stderr, whatever the compiler of JAX finds remarkable."""
+
+import os
+import subprocess
+import sys
+
+import pytest
+
+SOLVE = """
+import jaxbearing as jb
+
+scene = jb.load_scene("reference_roller", {"contact": "none"})
+assert bool(jb.solve(scene).converged)
+assert bool(jb.solve(scene.at_operation(radial_load=1e3)).converged)
+print("done", file=sys.stderr)
+"""
+
+
+def stderr_of(order, cache, **environment):
+    """Standard error of a process that imports these modules in this order and loads compiled programs from a cache:
+    then jaxlib complains on each of them about the processor (jax issue 38445)."""
+    settings = {"JAX_COMPILATION_CACHE_DIR": str(cache), "JAX_PERSISTENT_CACHE_MIN_COMPILE_TIME_SECS": "0"}
+    inherited = {name: value for name, value in os.environ.items() if name != "TF_CPP_MIN_LOG_LEVEL"}
+    paths = {"PYTHONPATH": os.pathsep.join(sys.path), "JAX_ENABLE_COMPILATION_CACHE": "true"}
+    code = f"import sys\nimport {order}\n{SOLVE}"
+    done = subprocess.run(
+        [sys.executable, "-c", code],
+        env={**inherited, **paths, **settings, **environment},
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert done.returncode == 0, done.stderr
+    return done.stderr
+
+
+@pytest.fixture(scope="module")
+def cache(tmp_path_factory):
+    """Compiled programs of a first process."""
+    folder = tmp_path_factory.mktemp("cache")
+    assert stderr_of("jaxbearing", folder) == "done\n"
+    return folder
+
+
+@pytest.mark.parametrize("order", ["jaxbearing", "jax, jaxbearing"])
+def test_nothing_but_what_the_program_itself_says(order, cache):
+    assert stderr_of(order, cache) == "done\n"
+
+
+def test_the_level_of_the_user_stands(cache):
+    """And shows that there is something to hold back."""
+    assert "cpu_aot_loader" in stderr_of("jaxbearing", cache, TF_CPP_MIN_LOG_LEVEL="0")
