@@ -86,7 +86,7 @@ class AbstractSolution(eqx.Module):
         return [rule for rule, flag in zip(self.checks.rules, np.asarray(self.checks.broken), strict=True) if flag]
 
     @property
-    def range_checks(self) -> Mapping[str, Bool[Array, ""]]:
+    def range_checks(self) -> Mapping[str, Any]:
         """Those of `checks` that are about the ranges of laws."""
         return self.checks.ranges if isinstance(self.checks, Checks) else self.checks
 

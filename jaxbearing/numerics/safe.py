@@ -58,13 +58,15 @@ def power(x: Values, exponent: float) -> Batch:
     return jnp.exp(exponent * jnp.log(x))
 
 
-def regular_power(x: Values, exponent: float, width: float) -> Batch:
-    r"""$x\,(x^2 + w^2)^{(m-1)/2}$: $x^m$ for 0 < m < 1 with a finite slope at 0 (x >= 0).
+def regular_power(x: Values, exponent: float, width: float, order: int = 2) -> Batch:
+    r"""$x\,(x^n + w^n)^{(m-1)/n}$: $x^m$ for 0 < m < 1 with a finite slope at 0 (x >= 0).
 
-    Zero at zero, slope $w^{m-1}$ there; relative error $(1-m) w^2/(2x^2)$ for x >> w. (Subtracting
+    Zero at zero, slope $w^{m-1}$ there; relative error $(1-m) w^n/(n x^n)$ for x >> w. (Subtracting
     an offset, $(x^2+w^2)^{m/2} - w^m$, would keep the offset $w^m$ at every x.)
+
+    **Arguments:** `order`: n, even; 2 or 4.
     """
-    return x * power(jnp.square(x) + width**2, (exponent - 1.0) / 2.0)
+    return x * power(jax.lax.integer_pow(jnp.asarray(x, dtype=float), order) + width**order, (exponent - 1.0) / order)
 
 
 def safe_norm(x: Values, y: Values, floor: float = NORM_FLOOR) -> Batch:

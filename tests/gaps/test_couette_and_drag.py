@@ -296,3 +296,12 @@ def test_reynolds_drag_hard_cases_and_gradients():
 def test_ball_frontal_area():
     np.testing.assert_allclose(ball_frontal_area(0.02, 0.005), np.pi * 1e-4 - 1e-4, rtol=1e-14)
     assert ball_frontal_area(0.02, 0.03) == 0  # a cage thicker than the ball covers it
+
+
+@pytest.mark.parametrize(("litres", "error"), [(0.1, 0.104), (1.0, 1.6e-5), (10.0, 1.6e-9), (150.0, 1e-13)])
+def test_parkers_law_is_met_above_the_width_of_its_linear_part(litres, error):
+    """The regularised law is too low, by no more than its docstring says."""
+    flow = litres * 1e-3 / 3600.0
+    exact = 1e5 * (flow * 6e7) ** 0.37 / (10500.0 * 142.0**1.7)
+    low = 1.0 - float(parker_oil_fraction(flow, SPEED, 0.142)) / exact
+    assert -1e-13 < low <= error
