@@ -26,8 +26,8 @@ def test_choice_follows_the_load(accuracy):
 
 
 def test_promise_holds_under_a_heavy_load():
-    """M = 100, L = 10: 201 nodes, once the mesh for 1e-2, are 1.3 % low (3 % at M = 200). Order 2: four thirds of the change with half the
-    step is the error."""
+    """M = 100, L = 10: 201 nodes, once the mesh for 1e-2, are 1.3 % low (3 % at M = 200). Order 2: four thirds of the
+    change with half the step is the error."""
     scene, _ = by_moes(100.0, 10.0)
     scales = scene.scales()
     ratio, material = float(scene.film_ratio(scales)), float(scales.moes_material)
