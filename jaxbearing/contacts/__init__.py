@@ -30,6 +30,7 @@ from .profile import AbstractProfile as AbstractProfile
 from .profile import CrownedProfile as CrownedProfile
 from .profile import LogarithmicProfile as LogarithmicProfile
 from .resolution import PRESETS as PRESETS
+from .resolution import SPIN_PRESETS as SPIN_PRESETS
 from .resolution import Resolution as Resolution
 from .rolling import AbstractRollingResistance as AbstractRollingResistance
 from .rolling import ErtelGrubinRollingResistance as ErtelGrubinRollingResistance

@@ -18,11 +18,28 @@ first the bound of 95 % of the errors, then the largest.
 - A limiting stress has kinks across strips: 95 % of the errors of point contacts are below 2e-4 to 3e-4 with 16 strips
   however many steps, 7e-5 with 24, 3e-5 with 32, 6e-6 with 48, 2e-6 with 64, and 8e-7 with 80.
 - Strips go through the machine in fours (twice as many, of which half are computed): multiples of 8 are fastest.
-- Spin is outside the promise: the stress nearly jumps where the shear rate changes sign. An ellipse of 0.3 x 2.4 mm at
-  1.5 to 2 GPa that slides at 0.2 m/s needs 24 strips for 1e-4 with 100 rad/s (no change of sign). With 2000 rad/s and
-  Ree-Eyring, 48, 96 and 192 strips have errors of 12, 2.4 and 0.6 % of what force along rolling is left, 0.4, 0.2 and
-  0.1 % of the side force and 8e-4, 3e-4 and 9e-5 of the moment; Elsharkawy-Hamrock is two to five times worse in the
-  forces (25, 6 and 0.9 % along rolling). Ask `error_estimate`.
+- With spin the stress nearly jumps where the shear rate changes sign, and strips, not steps, make the error: such
+  contacts have presets of their own.
+
+Measured with spin (`tests/benchmarks/accuracy.py`): 40 random ellipses of 0.7 to 2.2 GPa, c/a up to 12, the sliding
+along rolling changing sign inside or near the contact. 95 % of the errors are below the first number, all below the
+second: of the force in units of the larger one of force and moment over sqrt(ac), of the moment, of the power.
+
+| accuracy | steps, strips | viscous function | force | moment | power |
+|---|---|---|---|---|---|
+| none with spin | 40, 16 | Ree-Eyring | 2.7e-2, 7.6e-2 | 5.3e-2, 6.9e-2 | 4.8e-3, 8.3e-3 |
+| | | Elsharkawy-Hamrock | 3.4e-3, 2.0e-2 | 6.5e-3, 4.6e-2 | 8.0e-4, 3.5e-3 |
+| 1e-2 | 14, 24 | Ree-Eyring | 8.9e-3, 3.3e-2 | 8.9e-3, 4.2e-2 | 4.9e-3, 6.9e-3 |
+| | | Elsharkawy-Hamrock | 4.3e-3, 6.2e-3 | 6.6e-3, 8.1e-3 | 4.5e-3, 4.9e-3 |
+| 1e-3 | 40, 48 | Ree-Eyring | 9.4e-4, 2.1e-3 | 1.6e-3, 4.1e-3 | 6.3e-4, 8.4e-4 |
+| | | Elsharkawy-Hamrock | 5.2e-4, 1.5e-3 | 9.7e-4, 1.8e-3 | 5.3e-4, 5.9e-4 |
+| 1e-4 | 128, 160 | Ree-Eyring | 8.3e-5, 1.3e-4 | 6.2e-5, 1.0e-4 | 5.5e-5, 8.1e-5 |
+| | | Elsharkawy-Hamrock | 5.0e-5, 6.0e-5 | 6.5e-5, 9.6e-5 | 5.2e-5, 5.7e-5 |
+| 1e-6 | 1200, 192 | Ree-Eyring | 1.9e-5, 5.5e-5 | 1.2e-5, 9.3e-5 | 9.6e-7, 3.3e-6 |
+| | | Elsharkawy-Hamrock | 9.4e-7, 3.3e-6 | 1.8e-6, 5.0e-6 | 6.6e-7, 3.4e-6 |
+
+With spin 1e-6 is reached in the power only: Ree and Eyring's forces would take some 600 strips. `error_estimate` tells
+the error of one contact.
 """
 
 from typing import NamedTuple
@@ -44,15 +61,16 @@ class Resolution(NamedTuple):
     extrapolate: bool = False
 
     @classmethod
-    def for_accuracy(cls, accuracy: float) -> "Resolution":
-        """The cheapest measured preset whose forces are as accurate as asked, in 95 % of the contacts without spin.
+    def for_accuracy(cls, accuracy: float, spin: bool = False) -> "Resolution":
+        """The cheapest measured preset whose forces are as accurate as asked in 95 % of the contacts.
 
-        **Arguments:** `accuracy`: relative error of the forces, one of the keys of `PRESETS`.
+        **Arguments:** `accuracy`: relative error of the forces, one of the keys of `PRESETS`; with spin 1e-6 stands for
+        2e-5. `spin`: whether the bodies spin against each other (`SPIN_PRESETS`).
 
         **Raises:** `ValueError` for another number.
         """
         try:
-            return PRESETS[float(accuracy)]
+            return (SPIN_PRESETS if spin else PRESETS)[float(accuracy)]
         except KeyError:
             known = ", ".join(f"{key:g}" for key in PRESETS)
             raise ValueError(f"accuracy: found {accuracy!r}, expected one of {known}") from None
@@ -65,3 +83,11 @@ PRESETS = {
     1e-6: Resolution(1200, 80),
 }
 """Relative error of the forces -> resolution; see the table above."""
+
+SPIN_PRESETS = {
+    1e-2: Resolution(14, 24),
+    1e-3: Resolution(40, 48),
+    1e-4: Resolution(128, 160),
+    1e-6: Resolution(1200, 192),
+}
+"""The same for contacts that spin; see the second table."""

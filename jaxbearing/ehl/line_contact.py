@@ -48,8 +48,10 @@ class FilmModel(Checked):
 
     **Arguments:**
     - `compressible`: whether the density follows Dowson and Higginson; else it is constant.
-    - `nodes`: number of nodes of the mesh; error of the film about 0.9 % at 201, a quarter of that for each doubling.
-    - `inlet`: length of the domain upstream of the centre, half widths; light loads (M < 25) need more than 4.
+    - `nodes`: number of nodes of the mesh; error of the film about 0.9 % at 201 and M < 50, a quarter of that for each
+      doubling, and more under heavier loads (`resolution.mesh_error`).
+    - `inlet`: length of the domain upstream of the centre, half widths; light loads need more than 4
+      (`resolution.cut_error`).
     - `film_limit`: a run in time ends where the film is thinner, m: below about 0.5 nm a continuum means nothing.
     """
 
@@ -190,6 +192,10 @@ class EHLLineContact(AbstractScene):
         speed = jnp.asarray(speed, dtype=float)
         guess = self.formulas(speed * scales.reference_speed)["moes_central"] / scales.film
         return Steady(self.fluid(scales), scales.wedge, speed, guess, self.solvable(scales, speed))
+
+    def film_ratio(self, scales: Scales) -> Float[Array, ""]:
+        """M/H of Moes' numbers, by which the errors of mesh and inlet go (`resolution`)."""
+        return 0.125 * jnp.pi * scales.film / self.formulas()["moes_central"]
 
     def solvable(self, scales: Scales, speed: Any) -> Bool[Array, ""]:
         """Whether there is a film at this speed that this model describes."""

@@ -14,9 +14,13 @@ from ..numerics.status import Status
 from .equations import film_shape
 from .line_contact import SMALLEST_MOES_LOAD, ContactOperation, EHLLineContact, Scales
 from .mesh import Mesh, mesh
+from .resolution import cut_error, mesh_error
 from .steady import SMALLEST_WEDGE, judged, steady_root
 
 THIN = "minimum film below contact.film_limit: a continuum means little"
+
+LARGEST_MESH_ERROR, LARGEST_CUT_ERROR = 0.05, 0.005
+"""Relative errors of the films by mesh and inlet beyond which a warning says so."""
 
 
 class FilmResult(eqx.Module):
@@ -177,11 +181,14 @@ def solve_line_contact(scene: EHLLineContact, options: Any = None) -> LineContac
 def range_checks(scene: EHLLineContact, scales: Scales) -> dict[str, Bool[Array, ""]]:
     """Which ranges are left."""
     temperature, (low, high) = jnp.asarray(scene.operation.oil_temperature), FITTED_TEMPERATURES
-    load, inlet = scales.moes_load, scene.contact.inlet
-    short = ((load < 25.0) & (inlet < 8.0)) | ((load < 8.0) & (inlet < 16.0))
+    ratio, model = scene.film_ratio(scales), scene.contact
+    coarse = mesh_error(model.nodes, ratio, scales.moes_material) > LARGEST_MESH_ERROR
     return {
         "oil beyond 200 degC: the oil laws are extrapolated": temperature > high,
         "oil below -20 degC: the oil laws are extrapolated": temperature < low,
         "Hertz pressure beyond 4.2 GPa: the bodies would yield": scales.hertz_pressure > 4.2e9,
-        "contact.inlet is too short for this light load: take 8 half widths for M < 25, 16 for M < 8": short,
+        "contact.inlet is too short for this light load: the films are more than 0.5 % low": (
+            jnp.asarray(cut_error(model.inlet, ratio) > LARGEST_CUT_ERROR)
+        ),
+        "contact.nodes are too few for this heavy load: the films are more than 5 % low": jnp.asarray(coarse),
     }

@@ -78,7 +78,7 @@ def _gyroscopic(table: KinematicsTable, attitude: str) -> AbstractGyroscopic | R
 def _laws(table: BallContactTable, oil: Lubricant | None) -> PointLaws:
     traction = None
     if table.traction is not None:
-        traction = distributed_traction(table.traction, table.traction_accuracy, oil)
+        traction = distributed_traction(table.traction, table.traction_accuracy, oil, spin=True)
     return PointLaws(
         film=POINT_FILMS[table.film](),
         thermal=thermal_factor(table.thermal),

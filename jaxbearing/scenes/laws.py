@@ -57,9 +57,12 @@ def viscous_function(name: str, oil: Lubricant | None) -> AbstractViscousFunctio
     return viscous_function_named(name, None if oil is None else oil.rheology)
 
 
-def distributed_traction(name: str, accuracy: float | None, oil: Lubricant | None) -> DistributedTraction:
-    """The traction of a bearing's contact with the flow law of this name, to this or the assumed accuracy."""
-    resolution = Resolution.for_accuracy(DISTRIBUTED_ACCURACY if accuracy is None else accuracy)
+def distributed_traction(
+    name: str, accuracy: float | None, oil: Lubricant | None, spin: bool = False
+) -> DistributedTraction:
+    """The traction of a bearing's contact with the flow law of this name, to this or the assumed accuracy; `spin`:
+    whether the bodies spin against each other."""
+    resolution = Resolution.for_accuracy(DISTRIBUTED_ACCURACY if accuracy is None else accuracy, spin)
     return DistributedTraction(viscous_function(name, oil), resolution)
 
 

@@ -1,19 +1,24 @@
 """From a valid table of a line contact to the scene of the library."""
 
+import dataclasses
+
 import numpy as np
 
 from ..ehl import ContactBodies, ContactGeometry, ContactOperation, EHLLineContact, FilmModel, FilmSimulation
 from ..ehl.mesh import INLET
+from ..ehl.resolution import chosen
 from ..time_laws import AbstractTimeFactor, LinearRamp, Ramp, Sinusoidal, Steady, Tabulated
 from .bearing_build import built
-from .line_contact_schema import ACCURACIES, FilmModelTable, FilmSimulationTable, LineContactTable, SpeedRampTable
+from .line_contact_schema import (
+    ACCURACIES,
+    DEFAULT_ACCURACY,
+    FilmModelTable,
+    FilmSimulationTable,
+    LineContactTable,
+    SpeedRampTable,
+)
 from .materials import material
 from .oils import lubricant
-
-DEFAULT_ACCURACY = 2e-3
-LONG_INLETS = ((8.0, 16.0), (25.0, 8.0))
-"""Moes load numbers M, and the inlet in half widths that a lighter load than that needs: its film reaches further out
-than its Hertz width."""
 
 
 def line_contact(table: LineContactTable) -> EHLLineContact:
@@ -26,24 +31,29 @@ def line_contact(table: LineContactTable) -> EHLLineContact:
         geometry=lambda: ContactGeometry(**table.geometry.model_dump()),
         materials=lambda: ContactBodies(material(table.materials.body_1), material(table.materials.body_2)),
         oil=lambda: lubricant(table.oil),
-        contact=lambda: _model(table.contact, INLET),
+        contact=lambda: _model(table.contact),
         operation=lambda: ContactOperation(**table.operation.model_dump()),
         simulation=lambda: None if table.simulation is None else _simulation(table.simulation),
     )
-    if table.contact.inlet is not None:
-        return scene
-    return scene.replace({"contact": _model(table.contact, _inlet(scene))})
+    return scene.replace({"contact": _fine_enough(scene, table.contact)})
 
 
-def _model(table: FilmModelTable, inlet: float) -> FilmModel:
+def _model(table: FilmModelTable) -> FilmModel:
+    """Before the load is known that says how finely it must be cut."""
     nodes = table.nodes if table.nodes is not None else ACCURACIES[table.accuracy or DEFAULT_ACCURACY]
-    inlet = inlet if table.inlet is None else table.inlet
+    inlet = INLET if table.inlet is None else table.inlet
     return FilmModel(compressible=table.compressible, nodes=nodes, inlet=inlet, film_limit=table.film_limit)
 
 
-def _inlet(scene: EHLLineContact) -> float:
-    load = float(scene.scales().moes_load)
-    return next((inlet for limit, inlet in LONG_INLETS if load < limit), INLET)
+def _fine_enough(scene: EHLLineContact, table: FilmModelTable) -> FilmModel:
+    """Nodes and inlet that the load needs, where the table leaves them open."""
+    scales, model = scene.scales(), scene.contact
+    if not bool(scene.solvable(scales, scene.operation.entrainment_speed / scales.reference_speed)):
+        return model
+    accuracy = table.accuracy or DEFAULT_ACCURACY
+    numbers = float(scene.film_ratio(scales)), float(scales.moes_material)
+    nodes, inlet = chosen(accuracy, ACCURACIES[accuracy], *numbers, table.inlet)
+    return dataclasses.replace(model, nodes=nodes if table.nodes is None else model.nodes, inlet=inlet)
 
 
 def _simulation(table: FilmSimulationTable) -> FilmSimulation:

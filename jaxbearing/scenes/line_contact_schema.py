@@ -15,7 +15,9 @@ from .simulation_schema import PerturbationTable
 from .table import Problems, Table, check, refusal_at
 
 ACCURACIES: dict[float, int] = {1e-2: 201, 2e-3: 501, 1e-3: 801, 3e-4: 1601}
-"""Relative error of the films -> nodes of the mesh: measured at both satellite contacts, the worse of the two."""
+"""Relative error of the steady films -> fewest nodes of the mesh, enough at moderate loads; heavy ones take more (see
+`ehl.resolution`)."""
+DEFAULT_ACCURACY = 2e-3
 
 
 def _accuracy(value: Any) -> float:
@@ -38,7 +40,7 @@ class ContactBodiesTable(Table):
 class FilmModelTable(Table):
     """How the contact is solved.
 
-    - `accuracy`: relative error of the films for which the mesh is chosen
+    - `accuracy`: relative error of the steady films for which mesh and inlet are chosen, by the load of the scene
     - `compressible`: density by Dowson and Higginson; false: constant
     - `nodes`: of the mesh
     - `inlet`: length of the inlet, in half widths of the Hertz contact

@@ -9,7 +9,7 @@ from ..ehl import EHLLineContact
 from ..ehl.mesh import INLET
 from . import units
 from .errors import printable
-from .line_contact_schema import ACCURACIES
+from .line_contact_schema import ACCURACIES, DEFAULT_ACCURACY
 from .oil_files import Origin
 from .oil_writer import law_lines, quantity_text
 
@@ -32,10 +32,11 @@ def line_contact_text(scene: EHLLineContact, header: Iterable[str], origins: Map
     lines += law_lines(scene.oil, origins, "oil.")
     model, operation = scene.contact, scene.operation
     lines += ["", "[contact]", f"compressible = {str(model.compressible).lower()}"]
-    accuracy = next((accuracy for accuracy, nodes in ACCURACIES.items() if nodes == model.nodes), None)
-    lines += [f"nodes = {model.nodes}" if accuracy is None else f"accuracy = {accuracy!r}"]
-    # else it is chosen by the load
-    lines += [] if model.inlet == INLET else [f"inlet = {model.inlet!r}"]
+    # the default is left to the load
+    cut = {"nodes": model.nodes, "inlet": model.inlet}
+    default = cut == {"nodes": ACCURACIES[DEFAULT_ACCURACY], "inlet": INLET}
+    given = {"accuracy": DEFAULT_ACCURACY} if default else cut
+    lines += [f"{name} = {value!r}" for name, value in given.items()]
     lines += [_quantity("film_limit", model.film_limit, units.LENGTH), "", "[operation]"]
     load = ("pressure", units.PRESSURE) if operation.load_per_length is None else ("load_per_length", units.LINE_LOAD)
     lines += [_quantity(load[0], getattr(operation, load[0]), load[1])]

@@ -58,7 +58,7 @@ def _rib_laws(table: TaperedContactTable, oil: Lubricant | None) -> PointLaws:
     film = NijenbanningVennerMoes if isoviscous else ChittendenCentral
     traction = None
     if table.traction is not None:
-        traction = distributed_traction(table.traction, table.traction_accuracy, oil)
+        traction = distributed_traction(table.traction, table.traction_accuracy, oil, spin=True)
     return PointLaws(
         film=film() if table.flange_film is None else FLANGE_FILMS[table.flange_film](),
         thermal=NoThermalReduction() if table.thermal is None else Gupta(),
