@@ -1,8 +1,8 @@
 """The steady verb: a scene in, a solution out."""
 
 import dataclasses
-from collections.abc import Callable
-from contextlib import nullcontext
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from typing import Any, overload
 
 import equinox as eqx
@@ -107,16 +107,25 @@ def solve(scene: AbstractScene, *, throw: bool = True, options: NewtonOptions | 
     """
     require_x64()
     steady_function(scene)
-    leaves, structure = jax.tree.flatten(scene)
-    first = structure not in _SOLVED and not any(isinstance(leaf, Tracer) for leaf in leaves)
-    # a program is compiled, and the compiler may raise false alarms
-    with without_false_alarms() if first and compiler_is_loud() else nullcontext():
+    with _compiling_quietly(scene):
         solution = _solve(jax.tree.map(as_float, scene), NewtonOptions() if options is None else options)
         if throw:
             solution.raise_if_failed()
-    if first:
-        _SOLVED.add(structure)
     return solution
+
+
+@contextmanager
+def _compiling_quietly(scene: AbstractScene) -> Iterator[None]:
+    """Holds back the false alarms of a compiler that is loud, where a program is compiled: the first time that a scene
+    of this structure is solved, and not inside of another program."""
+    if compiler_is_loud():
+        leaves, structure = jax.tree.flatten(scene)
+        if structure not in _SOLVED and not any(isinstance(leaf, Tracer) for leaf in leaves):
+            with without_false_alarms():
+                yield
+            _SOLVED.add(structure)
+            return
+    yield
 
 
 def solve_once(scene: AbstractScene) -> Any:

@@ -66,10 +66,9 @@ CHOICES = {
 def test_temperatures_in_degrees_celsius(name):
     function = TEMPERATURES[name]
     for wrong in (40.0, np.float64(40.0), jnp.asarray([313.15, 40.0])):
-        with pytest.raises(ValueError, match=r"must be in K, from 150 to 700, got 40 \(40 degC are 313\.15 K"):
+        with pytest.raises(ValueError, match=r"must be in K, at least 150, got 40 \(40 degC are 313\.15 K"):
             function(wrong)
-    with pytest.raises(ValueError, match=r"temperature must be in K, from 150 to 700, got 1000"):
-        function(1000.0)
+    assert np.isfinite(function(1000.0))
     right = function(313.15)
     assert np.isfinite(right)
     # traced, the same number as eager

@@ -8,8 +8,9 @@ import jax
 import numpy as np
 from jax.core import Tracer
 
-LIQUID = (150.0, 700.0)
-"""K; no lubricant is a liquid film far outside: what lies there is in another unit."""
+COLDEST = 150.0
+"""K; every lubricant is a solid there: a lower number is in another unit. There is no such limit above: the laws say
+how they go on."""
 
 
 def _numbers(value: Any) -> np.ndarray | None:
@@ -40,14 +41,14 @@ def require_angle(name: str, value: Any) -> None:
 
 
 def require_temperature(value: Any, name: str = "temperature") -> None:
-    """**Raises:** `ValueError` for an absolute temperature, K, at which no lubricant is a liquid; degrees Celsius are
-    not absolute. A NaN of a failed solve passes."""
+    """**Raises:** `ValueError` for a temperature below `COLDEST`, as one in degrees Celsius is. A NaN of a failed solve
+    passes, and so do traced values, such as the trial values of a solver."""
     given = _numbers(value)
-    wrong = [] if given is None else given[(given < LIQUID[0]) | (given > LIQUID[1])].ravel()
+    wrong = [] if given is None else given[given < COLDEST].ravel()
     if len(wrong):
         first = float(wrong[0])
-        hint = f" ({first:g} degC are {first + 273.15:g} K)" if -100.0 < first < LIQUID[0] else ""
-        raise ValueError(f"{name} must be in K, from {LIQUID[0]:g} to {LIQUID[1]:g}, got {first:g}{hint}")
+        hint = f" ({first:g} degC are {first + 273.15:g} K)" if first > -100.0 else ""
+        raise ValueError(f"{name} must be in K, at least {COLDEST:g}, got {first:g}{hint}")
 
 
 def require_count(name: str, value: Any, least: int = 1) -> None:

@@ -90,7 +90,8 @@ def test_hard_cases_value_and_gradient(name):
 def test_at_the_pole_of_the_printed_law():
     law = OILS["mobil_jet_ii"].viscosity
     pole = jnp.asarray(165.75 - 29.406)
-    np.testing.assert_allclose(law.log_viscosity(0.0, pole), 15 * np.log(10), rtol=1e-2)
+    # as a solver tries it: a person's 136 K is refused
+    np.testing.assert_allclose(jax.jit(law.log_viscosity)(0.0, pole), 15 * np.log(10), rtol=1e-2)
     assert jnp.isfinite(jax.grad(law.log_viscosity, argnums=1)(0.0, pole))
 
 
