@@ -14,7 +14,7 @@ from ..numerics.arrow import ArrowPoint, linearize, schur_complement
 from ..numerics.newton import NewtonOptions, NewtonResult, newton_solve
 from ..numerics.status import Status
 from .lamina_checks import EDGE_WARNING, edge_excess
-from .rating import LAMINAE
+from .rating import LAMINAE, rated_laminae
 from .roller_loads import LENGTH_UNIT
 from .roller_steady import SLOWEST
 from .solution import RING_FREEDOMS, CageState, LaminaLoads, RingDisplacement, Solution
@@ -183,9 +183,7 @@ def _results(
         roller_tilt=every(place[2]),
         **{name: every(values) for name, values in more.items()},
     )
-    laminae = LAMINAE if scene.rating is None else scene.rating.n_laminae
-    if scene.profile is not None:
-        laminae = scene.profile.n_laminae
+    laminae = rated_laminae(scene.rating, LAMINAE if scene.profile is None else scene.profile.n_laminae)
     cut = lambda side: jnp.broadcast_to(
         system.line.laminae(state.approach[side], state.slope[side], laminae), (count, laminae)
     )

@@ -20,6 +20,7 @@ from ..numerics.status import Status
 from .cylindrical_roller import CylindricalRollerBearing
 from .kinematics import RollerKinematics
 from .lamina_checks import EDGE_WARNING, edge_excess
+from .rating import rated_laminae
 from .roller_forces import ring_torques, rolling_lean
 from .roller_loads import LENGTH_UNIT
 from .roller_profile import RollerProfile
@@ -128,7 +129,12 @@ def _results(
 ) -> _Results:
     motion, zero, ones = _motion(scene), jnp.zeros(()), jnp.ones_like(system.azimuth)
     count = RollerProfile().n_laminae if scene.profile is None else scene.profile.n_laminae
-    laminae = jnp.stack([system.line.laminae(state.approach[side], state.slope[side], count) for side in (0, 1)])
+    cut = lambda number: jnp.stack(
+        [system.line.laminae(state.approach[side], state.slope[side], number) for side in (0, 1)]
+    )
+    laminae = cut(count)
+    rated = rated_laminae(scene.rating, count)
+    inner_laminae, outer_laminae = laminae if rated == count else cut(rated)
     curvatures = jnp.stack([1.0 / motion.inner_radius, -1.0 / motion.outer_radius])
     contact = LineContact(
         (1.0 / (1.0 / motion.roller_radius + curvatures))[:, None],
@@ -162,7 +168,7 @@ def _results(
         drive,
         inner,
         outer,
-        LaminaLoads(laminae[0], laminae[1], profiled),
+        LaminaLoads(inner_laminae, outer_laminae, profiled),
         _range_excess(scene, system, state, laminae, peaks, tilt),
     )
 

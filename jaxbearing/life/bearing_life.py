@@ -11,7 +11,7 @@ from jaxtyping import Array, Bool, Float
 
 from ..bearings.ball_bearing import BallBearing
 from ..bearings.cylindrical_roller import CylindricalRollerBearing
-from ..bearings.rating import CATALOGUE_CONFORMITY, Rating
+from ..bearings.rating import CATALOGUE_CONFORMITY, Rating, rated_laminae
 from ..bearings.solution import Solution
 from ..bearings.tapered_roller import TaperedRollerBearing
 from ..lubricants import Lubricant
@@ -67,13 +67,20 @@ def with_life(scene: Any, solution: Any) -> Any:
     checks = dict(solution.checks)
     if life.modification_factor is not None and life.viscosity_ratio is not None:
         checks[THIN_WARNING] = life.viscosity_ratio < KAPPA_RANGE[0]
-    notes = (*solution.notes, *_without_effect(rating, life))
+    notes = (*solution.notes, *without_effect(scene, life))
     return dataclasses.replace(solution, life=life, checks=checks, notes=notes)
 
 
-def _without_effect(rating: Rating, life: Life) -> list[str]:
-    """What the scene says about the life and lacks something else for."""
-    found = []
+def without_effect(scene: Any, life: Life) -> list[str]:
+    """What the scene says about the life and lacks something else for, or that is of another kind of bearing."""
+    rating: Rating = scene.rating
+    if isinstance(scene, BallBearing):
+        others = {"n_laminae": rating.n_laminae, "edge_factor": rating.edge_factor}
+        found = [
+            f"rating.{name} has no effect: it is about rollers" for name, value in others.items() if value is not None
+        ]
+    else:
+        found = ["rating.grooves has no effect: it is about balls"] if rating.grooves != "catalogue" else []
     if rating.cleanliness is not None and life.viscosity_ratio is None:
         lacking = "a viscosity ratio: rating.viscosity_ratio, or an oil with a density"
         found.append(f"rating.cleanliness has no effect without {lacking}")
@@ -203,7 +210,8 @@ def _cylindrical(scene: CylindricalRollerBearing, elements: Any, laminae: Any, t
     static = _given(rating.static_capacity, lambda: roller_static_capacity(*sizes, length))
     limits = roller_contact_capacities(capacity, *sizes)
     if laminae is None:
-        inner, outer = (even_laminae(load, rating.n_laminae) for load in (elements.load_inner, elements.load_outer))
+        count = rated_laminae(rating)
+        inner, outer = (even_laminae(load, count) for load in (elements.load_inner, elements.load_outer))
     else:
         inner, outer = laminae.inner, laminae.outer
     profiled = laminae is not None and laminae.profiled
