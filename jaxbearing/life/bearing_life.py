@@ -35,7 +35,7 @@ from .reference import (
     roller_damage_rate,
 )
 from .result import Life
-from .static import ball_static_capacity, roller_static_capacity
+from .static import ball_static_capacity, rated_modulus, roller_static_capacity
 
 _HOURS = 1e6 * 2.0 * np.pi / 3600.0
 """Hours of a million revolutions at 1 rad/s."""
@@ -98,7 +98,7 @@ def bearing_life(scene: Any, solution: Solution) -> Life:
     **Raises:** `TypeError` for a kind of bearing without a life.
     """
     try:
-        rated_by = _RATED[type(scene)]
+        rated_by = RATED[type(scene)]
     except KeyError:
         raise TypeError(f"no life of a {type(scene).__name__}") from None
     rating: Rating = scene.rating
@@ -178,10 +178,11 @@ def _ball(scene: BallBearing, elements: Any, laminae: Any, turns: Any) -> Rated:
     angle = jnp.asarray(0.0 if geometry.contact_angle is None else geometry.contact_angle)
     sizes = (geometry.n_balls, geometry.ball_diameter, geometry.pitch_diameter, angle)
     grooves = (geometry.conformity_inner, geometry.conformity_outer)
+    modulus = rated_modulus(scene.materials.rings, scene.materials.balls)
     # the ratings' grooves; those that share the damage between the races are the bearing's own
     rated = grooves if rating.grooves == "scene" else (CATALOGUE_CONFORMITY,) * 2
     capacity = _given(rating.dynamic_capacity, lambda: ball_capacity(*sizes, *rated))
-    static = _given(rating.static_capacity, lambda: ball_static_capacity(*sizes, rated[0]))
+    static = _given(rating.static_capacity, lambda: ball_static_capacity(*sizes, rated[0], modulus))
     limits = ball_contact_capacities(capacity, *sizes, *grooves)
     rate = ball_damage_rate(elements.load_inner, elements.load_outer, limits, *turns)
     operation = scene.operation
@@ -206,8 +207,9 @@ def _cylindrical(scene: CylindricalRollerBearing, elements: Any, laminae: Any, t
     assert rating is not None
     sizes = (geometry.n_rollers, geometry.roller_diameter, geometry.pitch_diameter)
     length = geometry.loaded_length
+    modulus = rated_modulus(scene.materials.rings, scene.materials.rollers)
     capacity = _given(rating.dynamic_capacity, lambda: roller_capacity(*sizes, length))
-    static = _given(rating.static_capacity, lambda: roller_static_capacity(*sizes, length))
+    static = _given(rating.static_capacity, lambda: roller_static_capacity(*sizes, length, modulus=modulus))
     limits = roller_contact_capacities(capacity, *sizes)
     if laminae is None:
         count = rated_laminae(rating)
@@ -228,8 +230,9 @@ def _tapered(scene: TaperedRollerBearing, elements: Any, laminae: Any, turns: An
     angle = jnp.asarray(geometry.contact_angle)
     pitch, length = geometry.pitch_diameter, geometry.roller_length
     sizes = (geometry.n_rollers, geometry.mean_roller_diameter, pitch)
+    modulus = rated_modulus(scene.materials.rings, scene.materials.rollers)
     capacity = _given(rating.dynamic_capacity, lambda: roller_capacity(*sizes, length, angle))
-    static = _given(rating.static_capacity, lambda: roller_static_capacity(*sizes, length, angle))
+    static = _given(rating.static_capacity, lambda: roller_static_capacity(*sizes, length, angle, modulus))
     limits = roller_contact_capacities(capacity, *sizes, angle)
     weights = edge_weights(rating, laminae.profiled, laminae.inner.shape[1])
     rate = roller_damage_rate(laminae.inner, laminae.outer, limits, *turns, factors=weights)
@@ -240,7 +243,7 @@ def _tapered(scene: TaperedRollerBearing, elements: Any, laminae: Any, turns: An
     return Rated("roller", pitch, capacity, static, rate, load)
 
 
-_RATED: dict[type, Callable[..., Rated]] = {
+RATED: dict[type, Callable[..., Rated]] = {
     BallBearing: _ball,
     CylindricalRollerBearing: _cylindrical,
     TaperedRollerBearing: _tapered,

@@ -91,8 +91,8 @@ def ball_damage_rate(
 
 
 def edge_factors(n_laminae: int) -> np.ndarray:
-    r"""$f_k = 1 - 0.01/\ln(1.985|2k - n_s - 1|/(2n_s - 2))$ of the laminae of a roller whose profile is not modelled: the
-    stress concentration at its ends; 1 in the exact middle; shape (n_laminae,).
+    r"""$f_k = 1 - 0.01/\ln(1.985|2k - n_s - 1|/(2n_s - 2))$ of the laminae of a roller whose profile is not modelled:
+    the stress concentration at its ends; 1 in the exact middle; shape (n_laminae,).
 
     **Evidence:** as read in one public transcription of ISO 16281; [C] the end laminae have 2.3283 for every n_s. With
     30 laminae: 2.3283 at the end, 1.1266 beside it, 1.0030 in the middle.

@@ -24,7 +24,9 @@ class Life(eqx.Module):
     L10r: _Number = _result("1", "basic reference rating life, million revolutions")
     L10r_hours: _Number = _result("h", "basic reference rating life")
     dynamic_capacity: _Number = _result("N", "basic dynamic load rating C")
-    static_capacity: _Number = _result("N", "basic static load rating C0")
+    static_capacity: _Number = _result(
+        "N", "basic static load rating C0, at the pressures of ISO 76: 4.2 GPa of balls, 4.0 GPa of rollers"
+    )
     equivalent_load: _Number = _result("N", "load P at which ISO 281 gives the reference life")
     reliability_factor: _Number = _result("1", "a_1")
     L10: _Number | None = _optional("1", "basic rating life of ISO 281 by catalogue formulas, million revolutions")

@@ -1,5 +1,7 @@
 """Life of solved scenes: the reference case, what modifies it, who has one, failed lanes, gradients."""
 
+from types import SimpleNamespace
+
 import equinox as eqx
 import jax
 import jax.numpy as jnp
@@ -12,10 +14,10 @@ from jaxbearing.bearings.ball_geometry import BallGeometry
 from jaxbearing.bearings.rating import Rating
 from jaxbearing.bearings.roller_profile import RollerProfile
 from jaxbearing.contacts import CrownedProfile
-from jaxbearing.life.bearing_life import without_effect
+from jaxbearing.life.bearing_life import RATED, without_effect
 from jaxbearing.life.reference import roller_damage_rate
 from jaxbearing.life.result import Life
-from jaxbearing.materials import CATALOGUE
+from jaxbearing.materials import CATALOGUE, reduced_modulus
 
 STEEL = CATALOGUE["52100"]
 
@@ -78,6 +80,27 @@ def test_laminae_of_the_rating_are_those_asked_for(case, asked, monkeypatch):
     monkeypatch.setattr("jaxbearing.life.bearing_life.roller_damage_rate", seen)
     eqx.filter_eval_shape(lambda: jb.solve(scene, throw=False))
     assert counts == [(asked or own,) * 3]
+
+
+@pytest.mark.parametrize(
+    ("name", "elements", "power"),
+    [("deep_groove_6205", "balls", 2), ("reference_roller", "rollers", 1), ("tapered_example", "rollers", 1)],
+)
+def test_static_rating_of_ceramic_elements_in_every_kind_of_bearing(name, elements, power):
+    """C0 at the same Hertz pressure: (E' of steel / E' of the pair)^2 of points, ^1 of lines; C is not concerned."""
+    scene = jb.load_scene(name).replace({"materials.rings": STEEL, "rating": Rating()})
+    solid = SimpleNamespace(load_inner=jnp.ones(4), load_outer=jnp.ones(4))
+    laminae = SimpleNamespace(inner=jnp.ones((4, 30)), outer=jnp.ones((4, 30)), profiled=False)
+
+    def rated(material):
+        return RATED[type(scene)](
+            scene.replace({f"materials.{elements}": material}), solid, laminae, (jnp.asarray(True), jnp.asarray(False))
+        )
+
+    steel, ceramic = rated(STEEL), rated(CATALOGUE["Si3N4"])
+    ratio = float(reduced_modulus(STEEL, STEEL) / reduced_modulus(STEEL, CATALOGUE["Si3N4"]))
+    np.testing.assert_allclose(ceramic.static_capacity / steel.static_capacity, ratio**power, rtol=1e-14)
+    assert ceramic.dynamic_capacity == steel.dynamic_capacity
 
 
 def test_settings_of_other_kinds_of_bearings_are_said_to_have_no_effect():
