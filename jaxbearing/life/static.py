@@ -9,11 +9,10 @@ import jax.numpy as jnp
 from jaxtyping import Array, Float
 
 from .._types import Scalar
+from ..bearings.range_checks import BALL_PRESSURE, ROLLER_PRESSURE
 from ..contacts import LineContact, PointContact
 from ..materials import Material, reduced_modulus
 
-BALL_PRESSURE, ROLLER_PRESSURE = 4.2e9, 4.0e9
-"""Hertz pressure of the most loaded contact at the static rating, Pa (ISO 76, [M])."""
 MOST_LOADED = 5.0
 """Load of the most loaded element over the mean, 5 F/(Z cos(alpha)): Stribeck's number for a little clearance."""
 STEEL_MODULUS = 2.2747252747252747e11
