@@ -121,7 +121,7 @@ class BallBearing(AbstractScene):
 
     - `contact=None`: dry and frictionless: loads, contact angles and motion without sliding, with `kinematics.attitude`
       "outer" or "inner".
-    - `contact.traction=None`: films too, still without friction.
+    - `contact.traction=None`: films too, and where named the rolling resistance; balls roll without sliding.
     - with traction the balls slide and spin; without a `cage` every ball has its own orbital speed.
 
     **Raises:** `ValueError` for combinations that have no steady state or lack what they need.
@@ -150,6 +150,11 @@ class BallBearing(AbstractScene):
             )
         if self.contact is None:
             return
+        if self.contact.rolling_resistance and not self.slips and self.kinematics.orbit == "common":
+            raise ValueError(
+                "kinematics.orbit: with 'common' balls slide a little, and contact.rolling_resistance without "
+                "contact.traction is for balls that do not; take 'own', or name a contact.traction"
+            )
         if self.oil is None:
             raise ValueError("oil: a scene with a [contact] table needs an oil")
         self.operation.check_rings_turn()

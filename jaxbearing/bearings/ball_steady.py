@@ -17,6 +17,7 @@ from .ball_build import ball_row, build_core, build_lubricated, ring_directions
 from .ball_core import BallCore
 from .ball_equations import BallsState, LubricatedBallSystem
 from .ball_kinematics import BallMotion
+from .ball_rolling import rolling_balance
 from .ball_solution import BallPowerLoss, BallResults, RacewayPower
 from .ball_system import LENGTH_UNIT
 from .land import LandState
@@ -74,9 +75,9 @@ class _Results(NamedTuple):
     elements: BallResults
     power_loss: BallPowerLoss
     raceway_power: RacewayPower | None
-    drive_power: Array
-    inner_torque: Array
-    outer_torque: Array
+    drive_power: Array | None
+    inner_torque: Array | None
+    outer_torque: Array | None
     facts: Facts
 
 
@@ -148,8 +149,7 @@ def _contact(scene: BallBearing, cosine: Array) -> PointContact:
 def _dry_results(scene: BallBearing, system: BallCore, result: NewtonResult) -> _Results:
     state = system.at(result.point)
     elements, contacts = _ball_results(scene, system, state.load, state.angle, state.motion)
-    zero = jnp.zeros(())
-    return _Results(None, elements, BallPowerLoss(total=zero), None, zero, zero, zero, Facts((contacts,)))
+    return _Results(None, elements, BallPowerLoss(), None, None, None, None, Facts((contacts,)))
 
 
 def _lubricated(scene: BallBearing, system: LubricatedBallSystem, result: NewtonResult) -> _Results:
@@ -177,9 +177,8 @@ def _lubricated(scene: BallBearing, system: LubricatedBallSystem, result: Newton
     )
     facts = Facts((contacts,), inlet=system.inlet)
     land = None if system.cage is None else system.land_at(result.point, state)
-    zero = jnp.zeros(())
     if shear is None:
-        return _Results(None, elements, BallPowerLoss(total=zero), None, zero, zero, zero, facts)
+        return _rolling_alone(system, state, elements, facts)
     cage = None
     if land is not None:
         orbit = system.orbit(result.point.globals[-1])
@@ -196,6 +195,18 @@ def _lubricated(scene: BallBearing, system: LubricatedBallSystem, result: Newton
     inner, outer = _ring_torques(system, state, land)
     drive = motion.inner_speed * inner + motion.outer_speed * outer
     return _Results(cage, elements, losses, parts, drive, inner, outer, facts)
+
+
+def _rolling_alone(system: LubricatedBallSystem, state: BallsState, elements: BallResults, facts: Facts) -> _Results:
+    """Results of balls that roll without sliding: what rolling costs, where the scene models it."""
+    balance = rolling_balance(system, state)
+    if balance is None:
+        return _Results(None, elements, BallPowerLoss(), None, None, None, None, facts)
+    power = system.multiplicity * jnp.sum(SIDES * balance.resistance * state.races.roll)
+    inner, outer = _ball_torques(system, state, balance.forward, balance.about, (balance.resistance,))
+    drive = system.kinematics.inner_speed * inner + system.kinematics.outer_speed * outer
+    losses = BallPowerLoss(total=power, rolling_resistance=power)
+    return _Results(None, elements, losses, None, drive, inner, outer, facts)
 
 
 def _raceway_power(system: LubricatedBallSystem, state: BallsState) -> RacewayPower:
@@ -233,23 +244,33 @@ def _losses(system: LubricatedBallSystem, state: BallsState, land: LandState | N
 
 def _ring_torques(system: LubricatedBallSystem, state: BallsState, land: LandState | None) -> tuple[Array, Array]:
     """Torques that must be applied to the inner and the outer ring to keep them turning, N m, from the forces and
-    couples of the balls on the rings: independent of the dissipations."""
-    shear, motion = state.traction, system.kinematics
+    couples of balls and land on the rings: independent of the dissipations."""
+    shear = state.traction
     assert shear is not None
-    forward, about = -SIDES * shear.rolling, -shear.moment
-    sine, cosine = jnp.sin(state.angle), jnp.cos(state.angle)
-    radius = 0.5 * motion.pitch_diameter * (1.0 - SIDES * motion.ratio * cosine)
-    # n_i . e_x = -sin, n_o . e_x = sin; b_i . e_x = -cos, b_o . e_x = cos
-    torque = forward * radius - SIDES * about * sine
-    for resistance in (state.rolling, state.curvature):
-        if resistance is not None:
-            torque = torque + SIDES * (SIDES * resistance) * cosine
-    inner, outer = system.multiplicity * jnp.sum(torque, axis=1)
+    resistances = tuple(moment for moment in (state.rolling, state.curvature) if moment is not None)
+    forward = jnp.asarray(-SIDES * shear.rolling)
+    inner, outer = _ball_torques(system, state, forward, -shear.moment, resistances)
     if land is not None and system.cage is not None:
         if system.cage.guidance == "inner_ring":
             inner = inner - land.ring_torque
         else:
             outer = outer - land.ring_torque
+    return inner, outer
+
+
+def _ball_torques(
+    system: LubricatedBallSystem, state: BallsState, forward: Array, about: Array, resistances: tuple[Array, ...]
+) -> tuple[Array, Array]:
+    """Torques on the rings against the balls, N m. **Arguments:** on each ball, races first: force along the orbit, N,
+    moments about the normals and against the roll, N m."""
+    motion = system.kinematics
+    sine, cosine = jnp.sin(state.angle), jnp.cos(state.angle)
+    radius = 0.5 * motion.pitch_diameter * (1.0 - SIDES * motion.ratio * cosine)
+    # n_i . e_x = -sin, n_o . e_x = sin; b_i . e_x = -cos, b_o . e_x = cos
+    torque = forward * radius - SIDES * about * sine
+    for resistance in resistances:
+        torque = torque + SIDES * (SIDES * resistance) * cosine
+    inner, outer = system.multiplicity * jnp.sum(torque, axis=1)
     return inner, outer
 
 

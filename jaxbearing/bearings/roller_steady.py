@@ -17,7 +17,7 @@ from .land import LandState
 from .parts import drag_density
 from .range_checks import MEAN_OF_LINE, RACEWAYS, Contacts, Facts
 from .roller_equations import DryRollerSystem, LubricatedRollerSystem, RollerState
-from .roller_forces import CageParts, ring_torques
+from .roller_forces import CageParts, ring_torques, rolling_alone
 from .roller_loads import LENGTH_UNIT
 from .solution import RING_FREEDOMS, CageState, PowerLoss, RingDisplacement, RollerResults, Solution
 from .steady import assemble
@@ -157,9 +157,9 @@ class _Results(NamedTuple):
     cage: CageState | None
     elements: RollerResults
     power_loss: PowerLoss
-    drive_power: Array
-    inner_torque: Array
-    outer_torque: Array
+    drive_power: Array | None
+    inner_torque: Array | None
+    outer_torque: Array | None
     facts: Facts
 
 
@@ -175,7 +175,7 @@ def _ring_stiffness(system: DryRollerSystem | LubricatedRollerSystem, result: Ne
 
 def _dry_results(system: DryRollerSystem, result: NewtonResult) -> _Results:
     load, _ = system.loads(system.inward_shift(result.point))
-    motion, zero, ones = system.kinematics, jnp.zeros(()), jnp.ones_like(system.azimuth)
+    motion, ones = system.kinematics, jnp.ones_like(system.azimuth)
     pressure = jnp.where(load > 0, system.contact.hertz_pressure(load), 0.0)
     elements = RollerResults(
         azimuth=system.azimuth,
@@ -186,15 +186,8 @@ def _dry_results(system: DryRollerSystem, result: NewtonResult) -> _Results:
         orbital_speed=motion.free_orbit * ones,
         spin_speed=motion.free_spin * ones,
     )
-    return _Results(
-        None,
-        elements,
-        PowerLoss(total=zero),
-        zero,
-        zero,
-        zero,
-        Facts((Contacts(RACEWAYS, load, pressure, MEAN_OF_LINE),)),
-    )
+    facts = Facts((Contacts(RACEWAYS, load, pressure, MEAN_OF_LINE),))
+    return _Results(None, elements, PowerLoss(), None, None, None, facts)
 
 
 def _lubricated(system: LubricatedRollerSystem, result: NewtonResult) -> _Results:
@@ -234,8 +227,7 @@ def _lubricated(system: LubricatedRollerSystem, result: NewtonResult) -> _Result
     )
     facts = Facts((contacts,), inlet=system.inlet)
     if system.cage is None:
-        zero = jnp.zeros(())
-        return _Results(None, elements, PowerLoss(total=zero), zero, zero, zero, facts)
+        return _Results(None, elements, *rolling_alone(system.contact, motion, contact.rolling_force), facts)
 
     land = system.land_at(result.point, state)
     losses = _losses(system, state, land)

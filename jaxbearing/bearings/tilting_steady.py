@@ -21,7 +21,7 @@ from .cylindrical_roller import CylindricalRollerBearing
 from .kinematics import RollerKinematics, roller_kinematics
 from .range_checks import MEAN_OF_LINE, RACEWAYS, Contacts, Facts
 from .rating import rated_laminae
-from .roller_forces import ring_torques, rolling_lean
+from .roller_forces import rolling_alone
 from .roller_loads import LENGTH_UNIT
 from .roller_profile import RollerProfile
 from .solution import CageState, LaminaLoads, PowerLoss, RingDisplacement, RollerResults, Solution
@@ -149,12 +149,7 @@ def _results(scene: CylindricalRollerBearing, system: TiltingRollers, state: Til
         **more,
     )
     profiled = scene.profile is not None and scene.profile.shape is not None
-    losses, drive, inner, outer = PowerLoss(total=None), None, None, None
-    if rolling is not None:
-        power = jnp.sum(rolling) * motion.surface_speeds(zero, zero)[0][0]
-        losses = PowerLoss(total=power, rolling_resistance=power)
-        inner, outer = ring_torques(motion, _without_sliding(contact, motion, rolling), None, None)
-        drive = motion.inner_speed * inner + motion.outer_speed * outer
+    costs = rolling_alone(contact, motion, rolling)
     contacts = Contacts(RACEWAYS, state.load, peaks, MEAN_OF_LINE, laminae=laminae)
     facts = Facts((contacts,))
     if scene.contact is not None and scene.oil is not None:
@@ -167,10 +162,7 @@ def _results(scene: CylindricalRollerBearing, system: TiltingRollers, state: Til
     return _Results(
         None,
         elements,
-        losses,
-        drive,
-        inner,
-        outer,
+        *costs,
         LaminaLoads(inner_laminae, outer_laminae, profiled),
         facts,
     )
@@ -210,16 +202,6 @@ def _films(
     if parts.rolling_force is None:
         return more, None
     return more, jnp.sum(jnp.where(carried, parts.rolling_force, 0.0), axis=2)
-
-
-def _without_sliding(contact: LineContact, motion: RollerKinematics, rolling: Float[Array, "2 roller"]) -> ContactState:
-    r"""The tractions that balance each roller against its rolling resistances R: $T_i + T_o = (R_i + R_o)/2$ (moment),
-    $T_i - T_o = \lambda_oR_o - \lambda_iR_i$, $\lambda$ as in `roller_forces.rolling_lean` (tangential force)."""
-    lean = rolling_lean(contact, motion)
-    total = 0.5 * (rolling[0] + rolling[1])
-    difference = lean[1] * rolling[1] - lean[0] * rolling[0]
-    traction = 0.5 * jnp.stack([total + difference, total - difference])
-    return ContactState(jnp.ones_like(rolling), None, traction, rolling, jnp.zeros(()))
 
 
 def _stiffness(scene: CylindricalRollerBearing, system: TiltingRollers, point: ArrowPoint) -> Float[Array, "4 4"]:

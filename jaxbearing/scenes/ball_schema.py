@@ -60,7 +60,7 @@ class BallContactTable(Table):
 
     @model_validator(mode="after")
     def _consistent(self) -> Self:
-        for name in ("traction_accuracy", "rolling_resistance", "heathcote"):
+        for name in ("traction_accuracy", "heathcote"):
             if getattr(self, name) and self.traction is None:
                 raise refusal_at("traction", f"a law, without which {name} has no meaning", "nothing")
         return self

@@ -1,5 +1,6 @@
 """Life of solved scenes: the reference case, what modifies it, who has one, failed lanes, gradients."""
 
+import dataclasses
 from types import SimpleNamespace
 
 import equinox as eqx
@@ -104,7 +105,8 @@ def test_static_rating_of_ceramic_elements_in_every_kind_of_bearing(name, elemen
 
 
 def test_settings_of_other_kinds_of_bearings_are_said_to_have_no_effect():
-    life = Life(*[jnp.ones(())] * 7)
+    names = [field.name for field in dataclasses.fields(Life) if field.default is dataclasses.MISSING]
+    life = Life(**dict.fromkeys(names, jnp.ones(())))
     for name, rating, expected in (
         ("deep_groove_6205", Rating(n_laminae=40, edge_factor=True), ["n_laminae", "edge_factor"]),
         ("reference_roller", Rating(grooves="scene"), ["grooves"]),
