@@ -58,6 +58,7 @@ def test_every_variable_is_labelled_and_written_to_the_bit(solution, tmp_path):
             assert variable.values.tobytes() == dataset[name].values.tobytes()
     assert back.attrs == dataset.attrs
     assert back.attrs["jaxbearing_version"] == jb.__version__
+    assert back.attrs["not_modelled"] == ", ".join(solution.not_modelled) == "rolling_resistance"
     assert back.attrs["Conventions"].startswith("CF-")
 
 
