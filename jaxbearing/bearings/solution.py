@@ -128,6 +128,15 @@ class PowerLoss(eqx.Module):
     drag: Float[Array, ""] | None = eqx.field(default=None, metadata=label("W", "oil drag on the orbiting rollers"))
 
 
+def losses_not_modelled(loss: Any) -> tuple[str, ...]:
+    """Names of the losses that are `None`, and of those that no scene of this kind models.
+
+    **Arguments:** `loss`: a `PowerLoss`, `BallPowerLoss` or `TaperedPowerLoss`.
+    """
+    absent = [field.name for field in dataclasses.fields(loss) if getattr(loss, field.name) is None]
+    return (*(name for name in absent if name != "total"), *getattr(loss, "never", ()))
+
+
 class LaminaLoads(eqx.Module):
     """Loads of the laminae into which rollers are cut along their length, N, from the end s = 0; `profiled`: whether
     the rollers have a profile, which spreads the load near the ends."""
@@ -186,9 +195,7 @@ class Solution(AbstractSolution):
     @property
     def not_modelled(self) -> tuple[str, ...]:
         """Losses that the scene does not model, by their names in `power_loss`."""
-        loss = self.power_loss
-        absent = [field.name for field in dataclasses.fields(loss) if getattr(loss, field.name) is None]
-        return (*(name for name in absent if name != "total"), *getattr(loss, "never", ()))
+        return losses_not_modelled(self.power_loss)
 
     @property
     def converged(self) -> Bool[Array, "*batch"]:
