@@ -110,7 +110,14 @@ def test_status_and_checks_have_their_meanings(solution):
 def test_what_is_not_modelled_is_left_out(dry, tmp_path):
     back = written(solution_to_dataset(dry), tmp_path / "dry.nc")
     assert "load_inner" in back
-    for name in ("film_inner", "cage_speed", "power_loss_drag", "operation_oil_flow", "out_of_range"):
+    for name in (
+        "film_inner",
+        "cage_speed",
+        "power_loss_drag",
+        "power_loss_total",
+        "drive_power",
+        "operation_oil_flow",
+    ):
         assert name not in back.variables
 
 

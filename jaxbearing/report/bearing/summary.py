@@ -68,7 +68,6 @@ def _print_losses(solution: Solution, console: Console) -> None:
         if getattr(loss, field.name) is not None
     }
     total, drive = entries.pop("total", None), solution.drive_power
-    print_rule("Power", console)
     if not entries or total is None or drive is None:
         print_line("Not modelled:", not_modelled(solution), console)
         return
@@ -82,6 +81,7 @@ def _print_losses(solution: Solution, console: Console) -> None:
         "%": [f"{100.0 * value / total:.1f}" if total else "-" for value in entries.values()] + ["100.0"],
     }
     fractions = [value / (largest or 1.0) for value in entries.values()]
+    print_rule("Power", console)
     print_table(columns, fractions, _LOSS_BAR, "red", console)
     torque = lambda ring: f"{digits(float(np.asarray(getattr(solution, f'{ring}_torque'))))} N m on the {ring} ring"
     torques = [torque("inner")]
