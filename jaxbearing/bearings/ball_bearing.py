@@ -150,11 +150,6 @@ class BallBearing(AbstractScene):
             )
         if self.contact is None:
             return
-        if self.contact.rolling_resistance and not self.slips and self.kinematics.orbit == "common":
-            raise ValueError(
-                "kinematics.orbit: with 'common' balls slide a little, and contact.rolling_resistance without "
-                "contact.traction is for balls that do not; take 'own', or name a contact.traction"
-            )
         if self.oil is None:
             raise ValueError("oil: a scene with a [contact] table needs an oil")
         self.operation.check_rings_turn()

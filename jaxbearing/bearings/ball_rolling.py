@@ -10,17 +10,23 @@ $c = \cos(\alpha_o - \alpha_i)$, $s = \sin(\alpha_o - \alpha_i)$:
 - inner control: $F_{ti} = \frac2D\frac{M_{ri} + cM_{ro}}{1 + c}$, $M_{si} = \frac{s}{1 + c}(M_{ri} - M_{ro})$.
 
 The torques of the rings are assembled from them and from the resistances, so that the drive power is the power of the
-resistances alone.
+resistances alone. Balls with one orbital speed for all (`kinematics.orbit` "common") slide a little on frictionless
+races, and no balance of a single ball says what holds it: there the torques are those of ideal constraints,
+$T_i = \sum M_r\,\partial\omega_r/\partial\omega_i$ and $T_o$ alike (virtual work; the rates of roll are linear in the
+speeds of the rings).
 
 **Validity:** as the law of the resistance, which moves nothing: loads, angles and speeds are those without it.
 **Reference:** own derivation.
 """
 
+import dataclasses
 from typing import NamedTuple
 
+import jax
 import jax.numpy as jnp
 from jaxtyping import Array, Float
 
+from .ball_core import orbit_totals
 from .ball_equations import BallsState, LubricatedBallSystem
 
 
@@ -54,3 +60,24 @@ def rolling_balance(system: LubricatedBallSystem, state: BallsState) -> RollingB
         push = arm * (inner + cosine * outer) / (1.0 + cosine)
         about = jnp.stack([sine * (inner - outer) / (1.0 + cosine), zero])
     return RollingBalance(resistance, jnp.stack([push, -push]), about)
+
+
+def common_orbit_torques(
+    system: LubricatedBallSystem, state: BallsState, resistance: Float[Array, "2 ball"]
+) -> tuple[Float[Array, ""], Float[Array, ""]]:
+    """Torques on the rings where all balls orbit at one speed, N m; see the module. **Arguments:** `resistance`: of
+    each ball, N m."""
+    inner_angle, outer_angle = state.angle
+
+    def power(inner_speed: Array, outer_speed: Array) -> Array:
+        """Of the given resistances, W, as the rings turn."""
+        motion = dataclasses.replace(system.kinematics, inner_speed=inner_speed, outer_speed=outer_speed)
+        rolling = motion.rolling(inner_angle, outer_angle, state.motion.attitude)
+        own = rolling.orbital_speed
+        less, weight = jnp.sum(orbit_totals(state.load[0], own, jnp.zeros_like(own)), axis=1)
+        together = rolling._replace(orbital_speed=jnp.full_like(own, -less / weight))
+        rolls = motion.inner_race(together, inner_angle).roll, motion.outer_race(together, outer_angle).roll
+        return system.multiplicity * jnp.sum(resistance[0] * rolls[0] - resistance[1] * rolls[1])
+
+    inner, outer = jax.grad(power, argnums=(0, 1))(system.kinematics.inner_speed, system.kinematics.outer_speed)
+    return inner, outer

@@ -17,7 +17,7 @@ from .ball_build import ball_row, build_core, build_lubricated, ring_directions
 from .ball_core import BallCore
 from .ball_equations import BallsState, LubricatedBallSystem
 from .ball_kinematics import BallMotion
-from .ball_rolling import rolling_balance
+from .ball_rolling import common_orbit_torques, rolling_balance
 from .ball_solution import BallPowerLoss, BallResults, RacewayPower
 from .ball_system import LENGTH_UNIT
 from .land import LandState
@@ -203,7 +203,10 @@ def _rolling_alone(system: LubricatedBallSystem, state: BallsState, elements: Ba
     if balance is None:
         return _Results(None, elements, BallPowerLoss(), None, None, None, None, facts)
     power = system.multiplicity * jnp.sum(SIDES * balance.resistance * state.races.roll)
-    inner, outer = _ball_torques(system, state, balance.forward, balance.about, (balance.resistance,))
+    if system.common_orbit:
+        inner, outer = common_orbit_torques(system, state, balance.resistance)
+    else:
+        inner, outer = _ball_torques(system, state, balance.forward, balance.about, (balance.resistance,))
     drive = system.kinematics.inner_speed * inner + system.kinematics.outer_speed * outer
     losses = BallPowerLoss(total=power, rolling_resistance=power)
     return _Results(None, elements, losses, None, drive, inner, outer, facts)

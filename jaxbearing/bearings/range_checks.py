@@ -284,8 +284,8 @@ def _tilted(result: _Result) -> Excess:
     if roller is not None:
         tilt = jnp.maximum(tilt, jnp.max(jnp.abs(roller)))
     text = (
-        "tilt of the inner ring or of a rolling element beyond 10 mrad: no bearing of this kind is made for it "
-        "(cylindrical rollers bear 1 to 2 mrad), and the equations are those of small tilts"
+        "the inner ring or a rolling element tilts by more than 10 mrad: far beyond what bearings of this kind bear "
+        "(cylindrical rollers 1 to 2 mrad), and the equations are those of small tilts"
     )
     return {text: tilt - LARGEST_TILT}
 

@@ -36,7 +36,7 @@ KINDS = {
     "behind": "beyond 90°",
     "other shoulder": "the other shoulder",
     "cut off": "contact ellipse cut off",
-    "tilt": "beyond 10 mrad",
+    "tilt": "by more than 10 mrad",
     "edge": "loaded on an edge",
     "squeezed": "takes up the whole clearance",
     "hot": "oil in the contacts",

@@ -10,7 +10,6 @@ import pytest
 import jaxbearing as jb
 from jaxbearing.bearings.ball_build import build_core, build_lubricated
 from jaxbearing.bearings.ball_rolling import rolling_balance
-from jaxbearing.scenes.errors import SceneError
 
 ROLLING_BALLS = {
     "contact.traction": "none",
@@ -93,8 +92,3 @@ def test_rollers_that_roll_alone_cost_what_they_do_under_a_misalignment_of_zero(
     # the plane model has films, and with them a little resistance, on the rollers that the ring does not load
     ratio = solve().power_loss.total / straight.power_loss.total
     assert 1.0 < ratio < 1.25
-
-
-def test_what_cannot_roll_alone_is_refused():
-    with pytest.raises(SceneError, match=r"kinematics\.orbit"):
-        balls(**{"kinematics.orbit": "common"})
