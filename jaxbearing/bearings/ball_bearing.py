@@ -128,7 +128,7 @@ class BallBearing(AbstractScene):
 
     - `contact=None`: dry and frictionless: loads, contact angles and motion without sliding, with `kinematics.attitude`
       "outer" or "inner".
-    - `contact.traction=None`: films too, still without friction.
+    - `contact.traction=None`: films too, and where named the rolling resistance; balls roll without sliding.
     - with traction the balls slide and spin; without a `cage` every ball has its own orbital speed.
 
     **Raises:** `ValueError` for combinations that have no steady state or lack what they need.

@@ -57,9 +57,10 @@ _Power = Float[Array, ""]
 
 
 class BallPowerLoss(eqx.Module):
-    """Dissipated power by location, W; what a scene does not model is `None`. The entries add up to `total`."""
+    """Dissipated power by location, W; the entries add up to `total`. Losses that a scene does not model are `None`,
+    and `total` is `None` where it models none."""
 
-    total: _Power = _result("W", "total")
+    total: _Power | None = _optional("W", "total")
     inner_raceway: _Power | None = _optional("W", "sliding and spin on the inner raceway")
     outer_raceway: _Power | None = _optional("W", "sliding and spin on the outer raceway")
     rolling_resistance: _Power | None = _optional("W", "rolling resistance of the raceways")

@@ -9,31 +9,24 @@ import numpy as np
 from jaxtyping import Array, Float
 
 from ..contacts import PointContact
-from ..contacts.laws import SPEED_SMOOTHING
-from ..lubricants.ranges import FITTED_PRESSURE, FITTED_TEMPERATURES
 from ..materials import reduced_modulus
 from ..numerics.arrow import ArrowJacobian, ArrowPoint, linearize, schur_complement
 from ..numerics.newton import NewtonOptions, NewtonResult, newton_solve
-from ..numerics.safe import smooth_abs
 from .ball_bearing import BallBearing
 from .ball_build import ball_row, build_core, build_lubricated, ring_directions
 from .ball_core import BallCore
 from .ball_equations import BallsState, LubricatedBallSystem
 from .ball_kinematics import BallMotion
+from .ball_rolling import common_orbit_torques, rolling_balance
 from .ball_solution import BallPowerLoss, BallResults, RacewayPower
 from .ball_system import LENGTH_UNIT
 from .land import LandState
+from .range_checks import MEAN_OF_POINT, RACEWAYS, Contacts, Facts
 from .solution import RING_FREEDOMS, CageState, RingDisplacement, Solution
 from .steady import assemble
 
 SIDES = np.array([[1.0], [-1.0]])
 """Inner, outer: the sense of the contact's x axis along the orbit."""
-YIELD_PRESSURE = 4.2e9
-"""Pa: that of the basic static load rating of ball bearings in ISO 76."""
-SKIDDING = 0.1
-"""Sliding along rolling over the rolling speed, from which on the laws made for rolling are extrapolated."""
-LOADED = 0.01
-"""Part of the largest load from which on a contact counts in what is said about ranges."""
 
 
 def solve_ball(scene: BallBearing, options: NewtonOptions) -> Solution:
@@ -76,16 +69,16 @@ def _ring_names(scene: BallBearing) -> tuple[str, ...]:
 
 
 class _Results(NamedTuple):
-    """Results before masking; `range_excess` maps a warning to a number that is positive where it applies."""
+    """Results before masking; `facts`: what the range checks look at."""
 
     cage: CageState | None
     elements: BallResults
     power_loss: BallPowerLoss
     raceway_power: RacewayPower | None
-    drive_power: Array
-    inner_torque: Array
-    outer_torque: Array
-    range_excess: dict[str, Array]
+    drive_power: Array | None
+    inner_torque: Array | None
+    outer_torque: Array | None
+    facts: Facts
 
 
 def _every(scene: BallBearing, values: Array) -> Float[Array, " ball"]:
@@ -100,8 +93,8 @@ def _ball_results(
     angle: Array,
     motion: BallMotion,
     **more: Array | None,
-) -> tuple[BallResults, dict[str, Array]]:
-    """Loads, angles and motion; and what leaves the geometry."""
+) -> tuple[BallResults, Contacts]:
+    """Loads, angles and motion; and the contacts for the checks, as far as geometry goes."""
     geometry, kinematics = scene.geometry, system.kinematics
     cosine = jnp.cos(angle)
     ellipse = _contact(scene, cosine).ellipse(load)
@@ -127,28 +120,21 @@ def _ball_results(
         spin_to_roll_outer=_every(scene, jnp.abs(ratios[1])),
         **{name: every(values) for name, values in more.items()},
     )
-    loaded = load >= LOADED * jnp.max(load)
-    most = lambda values: jnp.max(jnp.where(loaded, values, -jnp.inf))
-    excess = {
-        "a loaded ball leans on the other shoulder: an angular-contact bearing has none there": most(-angle) - 1e-9
-    }
-    if geometry.contact_angle is None:
-        excess = {}
-    # the groove of the model is a full circle
-    excess["a loaded ball touches the groove beyond 90°, where no groove is: it cannot run so"] = (
-        most(jnp.abs(angle)) - 0.5 * np.pi
-    )
-    excess["contact pressure beyond 4.2 GPa: balls and races yield (static rating of ISO 76)"] = (
-        jnp.max(pressure) - YIELD_PRESSURE
-    )
+    contacts = Contacts(RACEWAYS, load, pressure, MEAN_OF_POINT, angle=angle)
+    return elements, _at_shoulders(scene, contacts, jnp.abs(angle), ellipse.transverse)
+
+
+def _at_shoulders(scene: BallBearing, contacts: Contacts, angle: Array, transverse: Array) -> Contacts:
+    """The contacts, with how far they pass the shoulders that the scene gives."""
+    geometry = scene.geometry
+    limits = (geometry.shoulder_angle_inner, geometry.shoulder_angle_outer)
+    if limits == (None, None):
+        return contacts
     radius = jnp.stack([jnp.asarray(f * geometry.ball_diameter) for f in _conformities(scene)])[:, None]
-    reach = jnp.abs(angle) + ellipse.transverse / radius
-    shoulders = {"inner": geometry.shoulder_angle_inner, "outer": geometry.shoulder_angle_outer}
-    for side, (name, limit) in enumerate(shoulders.items()):
-        if limit is not None:
-            beyond = jnp.max(jnp.where(loaded[side], reach[side], -jnp.inf)) - limit
-            excess[f"contact ellipse cut off at the {name} ring's shoulder: pressure and losses are too low"] = beyond
-    return elements, excess
+    limit = jnp.stack([jnp.asarray(0.0 if value is None else value) for value in limits])[:, None]
+    names = ("the inner ring's shoulder", "the outer ring's shoulder")
+    edges = tuple(None if value is None else name for value, name in zip(limits, names, strict=True))
+    return contacts._replace(past_edge=angle + transverse / radius - limit, edges=edges)
 
 
 def _conformities(scene: BallBearing) -> tuple[Any, Any]:
@@ -162,9 +148,8 @@ def _contact(scene: BallBearing, cosine: Array) -> PointContact:
 
 def _dry_results(scene: BallBearing, system: BallCore, result: NewtonResult) -> _Results:
     state = system.at(result.point)
-    elements, excess = _ball_results(scene, system, state.load, state.angle, state.motion)
-    zero = jnp.zeros(())
-    return _Results(None, elements, BallPowerLoss(total=zero), None, zero, zero, zero, excess)
+    elements, contacts = _ball_results(scene, system, state.load, state.angle, state.motion)
+    return _Results(None, elements, BallPowerLoss(), None, None, None, None, Facts((contacts,)))
 
 
 def _lubricated(scene: BallBearing, system: LubricatedBallSystem, result: NewtonResult) -> _Results:
@@ -183,13 +168,17 @@ def _lubricated(scene: BallBearing, system: LubricatedBallSystem, result: Newton
     if pocket is not None:
         more |= {"pocket_film_front": pocket.film_front, "pocket_film_rear": pocket.film_rear}
         more |= {"pocket_load_front": pocket.load_front, "pocket_load_rear": pocket.load_rear}
-    elements, excess = _ball_results(scene, system, state.load, state.angle, state.motion, **more)
+    elements, contacts = _ball_results(scene, system, state.load, state.angle, state.motion, **more)
+    contacts = contacts._replace(
+        laws=system.laws,
+        mean_speed=state.races.mean_speed,
+        sliding=state.races.rolling,
+        temperature=film.temperature,
+    )
+    facts = Facts((contacts,), inlet=system.inlet)
     land = None if system.cage is None else system.land_at(result.point, state)
-    pressure = jnp.stack([elements.pressure_inner, elements.pressure_outer])[:, : state.load.shape[1]]
-    excess |= _law_excess(scene, system, state, pressure, land)
-    zero = jnp.zeros(())
     if shear is None:
-        return _Results(None, elements, BallPowerLoss(total=zero), None, zero, zero, zero, excess)
+        return _rolling_alone(system, state, elements, facts)
     cage = None
     if land is not None:
         orbit = system.orbit(result.point.globals[-1])
@@ -205,7 +194,22 @@ def _lubricated(scene: BallBearing, system: LubricatedBallSystem, result: Newton
     losses = _losses(system, state, land)
     inner, outer = _ring_torques(system, state, land)
     drive = motion.inner_speed * inner + motion.outer_speed * outer
-    return _Results(cage, elements, losses, parts, drive, inner, outer, excess)
+    return _Results(cage, elements, losses, parts, drive, inner, outer, facts)
+
+
+def _rolling_alone(system: LubricatedBallSystem, state: BallsState, elements: BallResults, facts: Facts) -> _Results:
+    """Results of balls that roll without sliding: what rolling costs, where the scene models it."""
+    balance = rolling_balance(system, state)
+    if balance is None:
+        return _Results(None, elements, BallPowerLoss(), None, None, None, None, facts)
+    power = system.multiplicity * jnp.sum(SIDES * balance.resistance * state.races.roll)
+    if system.common_orbit:
+        inner, outer = common_orbit_torques(system, state, balance.resistance)
+    else:
+        inner, outer = _ball_torques(system, state, balance.forward, balance.about, (balance.resistance,))
+    drive = system.kinematics.inner_speed * inner + system.kinematics.outer_speed * outer
+    losses = BallPowerLoss(total=power, rolling_resistance=power)
+    return _Results(None, elements, losses, None, drive, inner, outer, facts)
 
 
 def _raceway_power(system: LubricatedBallSystem, state: BallsState) -> RacewayPower:
@@ -243,18 +247,12 @@ def _losses(system: LubricatedBallSystem, state: BallsState, land: LandState | N
 
 def _ring_torques(system: LubricatedBallSystem, state: BallsState, land: LandState | None) -> tuple[Array, Array]:
     """Torques that must be applied to the inner and the outer ring to keep them turning, N m, from the forces and
-    couples of the balls on the rings: independent of the dissipations."""
-    shear, motion = state.traction, system.kinematics
+    couples of balls and land on the rings: independent of the dissipations."""
+    shear = state.traction
     assert shear is not None
-    forward, about = -SIDES * shear.rolling, -shear.moment
-    sine, cosine = jnp.sin(state.angle), jnp.cos(state.angle)
-    radius = 0.5 * motion.pitch_diameter * (1.0 - SIDES * motion.ratio * cosine)
-    # n_i . e_x = -sin, n_o . e_x = sin; b_i . e_x = -cos, b_o . e_x = cos
-    torque = forward * radius - SIDES * about * sine
-    for resistance in (state.rolling, state.curvature):
-        if resistance is not None:
-            torque = torque + SIDES * (SIDES * resistance) * cosine
-    inner, outer = system.multiplicity * jnp.sum(torque, axis=1)
+    resistances = tuple(moment for moment in (state.rolling, state.curvature) if moment is not None)
+    forward = jnp.asarray(-SIDES * shear.rolling)
+    inner, outer = _ball_torques(system, state, forward, -shear.moment, resistances)
     if land is not None and system.cage is not None:
         if system.cage.guidance == "inner_ring":
             inner = inner - land.ring_torque
@@ -263,29 +261,20 @@ def _ring_torques(system: LubricatedBallSystem, state: BallsState, land: LandSta
     return inner, outer
 
 
-def _law_excess(
-    scene: BallBearing, system: LubricatedBallSystem, state: BallsState, pressure: Array, land: LandState | None
-) -> dict[str, Array]:
-    """By how much the results leave the ranges for which the laws were made."""
-    loaded = state.load >= LOADED * jnp.max(state.load)
-    most = lambda values: jnp.max(jnp.where(loaded, values, -jnp.inf))
-    low, high = FITTED_TEMPERATURES
-    excess = {
-        "inlet oil below -20 degC: the oil laws are extrapolated": low - system.inlet.temperature,
-        "oil in the contacts beyond 200 degC: the oil laws are extrapolated": most(state.film.temperature) - high,
-    }
-    if scene.slips:
-        sliding = jnp.abs(state.races.rolling / smooth_abs(state.races.mean_speed, SPEED_SMOOTHING))
-        skidding = "balls skid (sliding above a tenth of rolling): film and rolling resistance are laws for rolling"
-        excess[skidding] = most(sliding) - SKIDDING
-        excess["mean contact pressure beyond 1.8 GPa: the traction rheology is extrapolated"] = (
-            2.0 / 3.0 * most(pressure) - FITTED_PRESSURE
-        )
-    if land is not None:
-        excess["cage eccentricity beyond 0.98: the land nearly touches, its film law saturates"] = (
-            land.eccentricity_ratio - 0.98
-        )
-    return excess
+def _ball_torques(
+    system: LubricatedBallSystem, state: BallsState, forward: Array, about: Array, resistances: tuple[Array, ...]
+) -> tuple[Array, Array]:
+    """Torques on the rings against the balls, N m. **Arguments:** on each ball, races first: force along the orbit, N,
+    moments about the normals and against the roll, N m."""
+    motion = system.kinematics
+    sine, cosine = jnp.sin(state.angle), jnp.cos(state.angle)
+    radius = 0.5 * motion.pitch_diameter * (1.0 - SIDES * motion.ratio * cosine)
+    # n_i . e_x = -sin, n_o . e_x = sin; b_i . e_x = -cos, b_o . e_x = cos
+    torque = forward * radius - SIDES * about * sine
+    for resistance in resistances:
+        torque = torque + SIDES * (SIDES * resistance) * cosine
+    inner, outer = system.multiplicity * jnp.sum(torque, axis=1)
+    return inner, outer
 
 
 def _stiffness(

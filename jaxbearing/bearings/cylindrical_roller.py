@@ -165,7 +165,8 @@ class CylindricalRollerBearing(AbstractScene):
     be `None`, and is then not modelled: no unknown, no equation, no run time.
 
     - `contact=None`: dry and frictionless; only the load distribution is solved, rollers orbit without slip.
-    - `contact.traction=None`: films, but no friction on the raceways; rollers orbit without slip.
+    - `contact.traction=None`: films, and where named the rolling resistance, but no sliding friction on the raceways;
+      rollers orbit without slip.
     - with traction a `cage` is needed: without one a roller outside the loaded zone has no steady state, and the scene
       must have a `simulation`.
     - `profile`, or `operation.misalignment` or `operation.moment`: rollers that tilt, in laminae; with a
@@ -240,8 +241,7 @@ class CylindricalRollerBearing(AbstractScene):
         """Tables that the scene names but that have no effect without traction on the raceways."""
         if self.slips:
             return ()
-        rolling = None if self.contact is None or self.tilts else self.contact.rolling
-        named = {"cage": self.cage, "flange": self.flange, "drag": self.drag, "contact.rolling_resistance": rolling}
+        named = {"cage": self.cage, "flange": self.flange, "drag": self.drag}
         if self.contact is None:
             named["oil"] = None if self.rating is not None else self.oil
         return tuple(name for name, part in named.items() if part is not None)

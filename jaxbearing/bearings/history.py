@@ -14,7 +14,7 @@ from jaxtyping import Array, Bool, Float, Int
 
 from .._scene import AbstractSolution
 from ..numerics.status import Status
-from .solution import PowerLoss, RingDisplacement, RollerResults, label
+from .solution import PowerLoss, RingDisplacement, RollerResults, label, losses_not_modelled
 
 
 class CageMotion(eqx.Module):
@@ -138,6 +138,11 @@ class History(AbstractSolution):
     def converged(self) -> Bool[Array, "*batch"]:
         """Whether the run reached its end."""
         return jnp.asarray(self.status) == Status.CONVERGED
+
+    @property
+    def not_modelled(self) -> tuple[str, ...]:
+        """Losses that the scene does not model, by their names in `instants.power_loss`."""
+        return losses_not_modelled(self.instants.power_loss)
 
     @property
     def completed(self) -> bool:

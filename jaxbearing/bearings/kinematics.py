@@ -1,5 +1,7 @@
 """Kinematics of rollers between two rings."""
 
+from typing import Any
+
 import equinox as eqx
 import jax.numpy as jnp
 from jaxtyping import Array, Float
@@ -66,3 +68,9 @@ class RollerKinematics(eqx.Module):
         outer = orbit_change * self.outer_radius
         mean = free + 0.5 * jnp.stack([inner + roller, outer + roller])
         return mean, jnp.stack([inner - roller, outer - roller])
+
+
+def roller_kinematics(geometry: Any, operation: Any) -> RollerKinematics:
+    """Speeds of the rollers of a scene. **Arguments:** its `RollerGeometry` and its `Operation`."""
+    sizes = (operation.inner_speed, operation.outer_speed, geometry.pitch_radius, geometry.roller_radius)
+    return RollerKinematics(*(jnp.asarray(value) for value in sizes))

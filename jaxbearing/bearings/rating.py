@@ -30,7 +30,8 @@ class Rating(Checked):
     - `viscosity_ratio`: the ratio kappa, > 0; not given: from the oil, its temperature and the speed, where the scene
       has them.
     - `roughness_rings`, `roughness_elements`: root mean square, m; with them and films: the lambda ratio.
-    - `n_laminae`: number of laminae of each roller (structure).
+    - `n_laminae`: number of laminae of each roller in the reference life (structure); not given: those of the profile,
+      or 30.
     - `edge_factor`: whether the load of laminae near the ends counts more, as the standard estimates where no pressure
       is computed; not given: yes for straight rollers, no for rollers with a profile.
     """
@@ -45,7 +46,7 @@ class Rating(Checked):
     roughness_elements: Scalar | None = optional_number(bound="> 0")
     reliability: float = constant("rating.reliability", 0.90)
     cleanliness: str | None = eqx.field(static=True, default=None)
-    n_laminae: int = count("rating.n_laminae", LAMINAE)
+    n_laminae: int | None = count("rating.n_laminae", None)
     edge_factor: bool | None = switch("rating.edge_factor", None)
     grooves: Literal["catalogue", "scene"] = eqx.field(static=True, default="catalogue")
 
@@ -55,7 +56,7 @@ class Rating(Checked):
             raise ValueError("rating.roughness_rings: give it and rating.roughness_elements, or neither")
         if self.grooves not in ("catalogue", "scene"):
             raise ValueError(f"rating.grooves must be 'catalogue' or 'scene', got {self.grooves!r}")
-        if self.n_laminae < 1:
+        if self.n_laminae is not None and self.n_laminae < 1:
             raise ValueError(f"rating.n_laminae must be >= 1, got {self.n_laminae}")
 
     def groove_assumptions(self) -> tuple[str, ...]:
@@ -68,3 +69,8 @@ class Rating(Checked):
             grooves = "grooves of conformity 0.52, as catalogues do (rating.grooves = 'scene' takes the scene's)"
         names = " and ".join(f"rating.{name}" for name in missing)
         return (f"{names} not given: computed with {grooves}",)
+
+
+def rated_laminae(rating: Rating | None, own: int = LAMINAE) -> int:
+    """Number of laminae of a roller in the reference life: as the rating says, else `own`, that of its contacts."""
+    return own if rating is None or rating.n_laminae is None else rating.n_laminae

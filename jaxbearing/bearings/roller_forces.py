@@ -13,6 +13,7 @@ from ..gaps import EndForces, FlangeCoefficients, Pocket, PocketEdgeCoefficients
 from ..numerics.series import cosine_and_sine
 from .kinematics import RollerKinematics
 from .roller_loads import per_race
+from .solution import PowerLoss
 
 
 class CageParts(eqx.Module):
@@ -124,3 +125,34 @@ def ring_torques(
     if outer_flange is not None:
         outer = outer - jnp.sum(outer_flange.ring_moment)
     return inner, outer
+
+
+class RollingAlone(NamedTuple):
+    """What rolling without sliding costs: losses and drive power, W, torques on the rings, N m; None: not modelled."""
+
+    power_loss: PowerLoss
+    drive_power: Float[Array, ""] | None
+    inner_torque: Float[Array, ""] | None
+    outer_torque: Float[Array, ""] | None
+
+
+def rolling_alone(
+    contact: LineContact, motion: RollerKinematics, rolling: Float[Array, "2 roller"] | None
+) -> RollingAlone:
+    r"""Power and ring torques of rollers that roll without sliding against their rolling resistances R, N.
+
+    The tractions that balance each roller do no work: $T_i + T_o = (R_i + R_o)/2$ (moment), $T_i - T_o = \lambda_oR_o -
+    \lambda_iR_i$ (tangential force), $\lambda$ as in `rolling_lean`.
+    """
+    if rolling is None:
+        return RollingAlone(PowerLoss(), None, None, None)
+    lean = rolling_lean(contact, motion)
+    total = 0.5 * (rolling[0] + rolling[1])
+    difference = lean[1] * rolling[1] - lean[0] * rolling[0]
+    traction = 0.5 * jnp.stack([total + difference, total - difference])
+    state = ContactState(jnp.ones_like(rolling), None, traction, rolling, jnp.zeros(()))
+    inner, outer = ring_torques(motion, state, None, None)
+    still = jnp.zeros(())
+    power = jnp.sum(rolling) * motion.surface_speeds(still, still)[0][0]
+    drive = motion.inner_speed * inner + motion.outer_speed * outer
+    return RollingAlone(PowerLoss(total=power, rolling_resistance=power), drive, inner, outer)

@@ -6,24 +6,21 @@ import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Array
 
-from ..contacts import Gupta, LineContact
+from ..contacts import LineContact
 from ..gaps import Flange, Pocket, PocketEdge, RollerDrag
-from ..lubricants.ranges import FITTED_PRESSURE, FITTED_TEMPERATURES
 from ..materials import reduced_modulus
 from ..numerics.arrow import schur_complement
 from ..numerics.newton import NewtonOptions, NewtonResult, newton_solve
 from .cylindrical_roller import CylindricalRollerBearing, RollerCage, RollerGeometry
-from .kinematics import RollerKinematics
+from .kinematics import RollerKinematics, roller_kinematics
 from .land import LandState
 from .parts import drag_density
+from .range_checks import MEAN_OF_LINE, RACEWAYS, Contacts, Facts
 from .roller_equations import DryRollerSystem, LubricatedRollerSystem, RollerState
-from .roller_forces import CageParts, ring_torques
+from .roller_forces import CageParts, ring_torques, rolling_alone
 from .roller_loads import LENGTH_UNIT
 from .solution import RING_FREEDOMS, CageState, PowerLoss, RingDisplacement, RollerResults, Solution
 from .steady import assemble
-
-SLOWEST = 99.9 * 2.0 * np.pi / 60.0
-"""Speed of the rings against each other below which the lubricated model has no meaning, rad/s (100 rpm)."""
 
 
 def build_system(scene: CylindricalRollerBearing) -> DryRollerSystem | LubricatedRollerSystem:
@@ -32,12 +29,7 @@ def build_system(scene: CylindricalRollerBearing) -> DryRollerSystem | Lubricate
     azimuth = jnp.asarray(2.0 * np.pi * np.arange(geometry.n_rollers) / geometry.n_rollers)
     # outward unit vector at each roller, along the load line and along azimuth 90 degrees
     cosines = {"radial": jnp.cos(azimuth), "lateral": jnp.sin(azimuth)}
-    motion = RollerKinematics(
-        jnp.asarray(operation.inner_speed),
-        jnp.asarray(operation.outer_speed),
-        jnp.asarray(geometry.pitch_radius),
-        jnp.asarray(geometry.roller_radius),
-    )
+    motion = roller_kinematics(geometry, operation)
     radii = jnp.stack(
         [
             1.0 / (1.0 / motion.roller_radius + 1.0 / motion.inner_radius),
@@ -154,22 +146,21 @@ def solve_steady(scene: CylindricalRollerBearing, options: NewtonOptions) -> Sol
         results,
         displacement,
         stiffness,
-        input_excess=_input_excess(system),
         ring_freedom=scene.ring_freedom,
         equation_names=system.equation_names(),
     )
 
 
 class _Results(NamedTuple):
-    """Results before masking; `range_excess` maps a warning to a number that is positive where it applies."""
+    """Results before masking; `facts`: what the range checks look at."""
 
     cage: CageState | None
     elements: RollerResults
     power_loss: PowerLoss
-    drive_power: Array
-    inner_torque: Array
-    outer_torque: Array
-    range_excess: dict[str, Array]
+    drive_power: Array | None
+    inner_torque: Array | None
+    outer_torque: Array | None
+    facts: Facts
 
 
 def _ring_stiffness(system: DryRollerSystem | LubricatedRollerSystem, result: NewtonResult, freedoms: int) -> Array:
@@ -184,18 +175,19 @@ def _ring_stiffness(system: DryRollerSystem | LubricatedRollerSystem, result: Ne
 
 def _dry_results(system: DryRollerSystem, result: NewtonResult) -> _Results:
     load, _ = system.loads(system.inward_shift(result.point))
-    motion, zero, ones = system.kinematics, jnp.zeros(()), jnp.ones_like(system.azimuth)
-    pressure = system.contact.hertz_pressure(load)
+    motion, ones = system.kinematics, jnp.ones_like(system.azimuth)
+    pressure = jnp.where(load > 0, system.contact.hertz_pressure(load), 0.0)
     elements = RollerResults(
         azimuth=system.azimuth,
         load_inner=load[0],
         load_outer=load[1],
-        pressure_inner=jnp.where(load[0] > 0, pressure[0], 0.0),
-        pressure_outer=jnp.where(load[1] > 0, pressure[1], 0.0),
+        pressure_inner=pressure[0],
+        pressure_outer=pressure[1],
         orbital_speed=motion.free_orbit * ones,
         spin_speed=motion.free_spin * ones,
     )
-    return _Results(None, elements, PowerLoss(total=zero), zero, zero, zero, {})
+    facts = Facts((Contacts(RACEWAYS, load, pressure, MEAN_OF_LINE),))
+    return _Results(None, elements, PowerLoss(), None, None, None, facts)
 
 
 def _lubricated(system: LubricatedRollerSystem, result: NewtonResult) -> _Results:
@@ -223,9 +215,19 @@ def _lubricated(system: LubricatedRollerSystem, result: NewtonResult) -> _Result
         pocket_load_front=None if pocket is None else pocket.load_front,
         pocket_load_rear=None if pocket is None else pocket.load_rear,
     )
+    contacts = Contacts(
+        RACEWAYS,
+        state.load,
+        pressure,
+        MEAN_OF_LINE,
+        laws=system.laws,
+        mean_speed=state.mean_speed,
+        sliding=state.sliding_speed,
+        temperature=None if rise is None else system.inlet.temperature + rise,
+    )
+    facts = Facts((contacts,), inlet=system.inlet)
     if system.cage is None:
-        zero = jnp.zeros(())
-        return _Results(None, elements, PowerLoss(total=zero), zero, zero, zero, _range_excess(system, state, None))
+        return _Results(None, elements, *rolling_alone(system.contact, motion, contact.rolling_force), facts)
 
     land = system.land_at(result.point, state)
     losses = _losses(system, state, land)
@@ -238,7 +240,7 @@ def _lubricated(system: LubricatedRollerSystem, result: NewtonResult) -> _Result
         attitude_angle=land.attitude_angle,
     )
     drive = motion.inner_speed * inner + motion.outer_speed * outer
-    return _Results(cage, elements, losses, drive, inner, outer, _range_excess(system, state, land))
+    return _Results(cage, elements, losses, drive, inner, outer, facts)
 
 
 def cage_slip(orbit: Array, motion: RollerKinematics) -> Array:
@@ -287,48 +289,3 @@ def _ring_torques(system: LubricatedRollerSystem, state: RollerState, land: Land
     if cage.guidance == "inner_ring":
         return inner - land.ring_torque, outer
     return inner, outer - land.ring_torque
-
-
-def _input_excess(system: DryRollerSystem | LubricatedRollerSystem) -> dict[str, Array]:
-    """By how much the scene itself leaves the ranges for which the laws were made; said of failed solves too."""
-    if isinstance(system, DryRollerSystem):
-        return {}
-    motion, (low, high) = system.kinematics, FITTED_TEMPERATURES
-    excess = {
-        "inlet oil beyond 200 degC: the oil laws are extrapolated": system.inlet.temperature - high,
-        "inlet oil below -20 degC: the oil laws are extrapolated": low - system.inlet.temperature,
-        "rolling without slip would nearly hold the cage still: its slip has no meaning": 0.01 * motion.orbit_unit
-        - jnp.abs(motion.free_orbit),
-        "rings turn against each other at less than 100 rpm: the films vanish, consider a dry scene": SLOWEST
-        - jnp.abs(motion.inner_speed - motion.outer_speed),
-    }
-    if system.cage is not None and system.cage.land is not None:
-        land = system.cage.land
-        excess["land wider than a third of its radius: the short journal film overestimates"] = (
-            land.width - land.radius / 3.0
-        )
-    return excess
-
-
-def _range_excess(system: LubricatedRollerSystem, state: RollerState, land: LandState | None) -> dict[str, Array]:
-    """By how much the results leave the ranges for which the laws were made."""
-    loaded = state.load >= 0.01 * jnp.max(state.load)
-    most = lambda values: jnp.max(jnp.where(loaded, values, 0.0))
-    rise = state.contact.temperature_rise
-    hottest = system.inlet.temperature + (jnp.zeros(()) if rise is None else most(rise))
-    excess = {"oil in the contacts beyond 200 degC: the oil laws are extrapolated": hottest - FITTED_TEMPERATURES[1]}
-    if system.laws.traction is not None:
-        excess["mean contact pressure beyond 1.8 GPa: the traction rheology is extrapolated"] = (
-            most(system.contact.mean_pressure(state.load)) - FITTED_PRESSURE
-        )
-    thermal = system.laws.thermal
-    if isinstance(thermal, Gupta):
-        loading = most(thermal.thermal_loading(state.mean_speed, system.inlet))
-        slide = most(thermal.slide_ratio(state.mean_speed, state.sliding_speed))
-        excess["thermal loading beyond 20: Gupta's factor is extrapolated"] = loading - 20.0
-        excess["slide ratio of a loaded contact beyond 2: Gupta's factor is extrapolated"] = slide - 2.0
-    if land is not None and system.cage is not None:
-        excess["cage eccentricity beyond 0.98: the land nearly touches, its film law saturates"] = (
-            land.eccentricity_ratio - 0.98
-        )
-    return excess

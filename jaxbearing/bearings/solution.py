@@ -3,6 +3,7 @@
 The command line, JSON, files and pages read this metadata; nothing keeps a second list.
 """
 
+import dataclasses
 from collections.abc import Mapping
 from typing import Any
 
@@ -102,10 +103,10 @@ class RollerResults(eqx.Module):
 
 
 class PowerLoss(eqx.Module):
-    """Dissipated power by location, W; what a scene does not model is `None`, and `total` of rollers that tilt where
-    that is everything. The entries add up to `total`."""
+    """Dissipated power by location, W; the entries add up to `total`. Losses that a scene does not model are `None`,
+    and `total` is `None` where it models none."""
 
-    total: Float[Array, ""] | None = eqx.field(metadata=label("W", "total"))
+    total: Float[Array, ""] | None = eqx.field(default=None, metadata=label("W", "total"))
     inner_raceway: Float[Array, ""] | None = eqx.field(
         default=None, metadata=label("W", "sliding on the inner raceway")
     )
@@ -128,6 +129,15 @@ class PowerLoss(eqx.Module):
     drag: Float[Array, ""] | None = eqx.field(default=None, metadata=label("W", "oil drag on the orbiting rollers"))
 
 
+def losses_not_modelled(loss: Any) -> tuple[str, ...]:
+    """Names of the losses that are `None`, and of those that no scene of this kind models.
+
+    **Arguments:** `loss`: a `PowerLoss`, `BallPowerLoss` or `TaperedPowerLoss`.
+    """
+    absent = [field.name for field in dataclasses.fields(loss) if getattr(loss, field.name) is None]
+    return (*(name for name in absent if name != "total"), *getattr(loss, "never", ()))
+
+
 class LaminaLoads(eqx.Module):
     """Loads of the laminae into which rollers are cut along their length, N, from the end s = 0; `profiled`: whether
     the rollers have a profile, which spreads the load near the ends."""
@@ -142,7 +152,7 @@ class Solution(AbstractSolution):
 
     `operation`, `elements` and `power_loss` are those of the kind of bearing: `Operation`, `RollerResults`,
     `PowerLoss`, or `BallOperation`, `BallResults`, `BallPowerLoss` and `RacewayPower`, or `TaperedOperation`,
-    `TaperedResults`, `TaperedPowerLoss`; a tapered bearing without friction has no drive power and torques.
+    `TaperedResults`, `TaperedPowerLoss`. Where the scene models no loss there is no drive power and no torque.
     """
 
     status: Int[Array, ""] = eqx.field(metadata=label("1", "how the solve ended"))
@@ -182,6 +192,11 @@ class Solution(AbstractSolution):
     def freedoms_of_stiffness(self) -> tuple[str, ...]:
         """Names of the rows and columns of `stiffness`."""
         return self.ring_freedom if self.stiffness_freedom is None else self.stiffness_freedom
+
+    @property
+    def not_modelled(self) -> tuple[str, ...]:
+        """Losses that the scene does not model, by their names in `power_loss`."""
+        return losses_not_modelled(self.power_loss)
 
     @property
     def converged(self) -> Bool[Array, "*batch"]:

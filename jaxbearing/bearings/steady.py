@@ -9,6 +9,7 @@ from jaxtyping import Array, Float, Int
 from ..numerics.newton import NewtonResult
 from .ball_bearing import BallBearing
 from .cylindrical_roller import CylindricalRollerBearing
+from .range_checks import input_excess, result_excess
 from .solution import RingDisplacement, Solution
 from .tapered_roller import TaperedRollerBearing
 
@@ -20,23 +21,20 @@ def assemble(
     ring: RingDisplacement,
     stiffness: Float[Array, "freedom freedom"],
     iterations: Int[Array, ""] | None = None,
-    input_excess: dict[str, Array] | None = None,
     **names: Any,
 ) -> Solution:
     """The `Solution` of a solve: how it ended, and NaN for every result where it failed.
 
     **Arguments:**
-    - `results`: a named tuple of further fields of the `Solution`, and `range_excess`: text of a warning -> a number
-      that is positive where it applies.
+    - `results`: a named tuple of further fields of the `Solution`, and `facts`, what the range checks look at.
     - `iterations`: of all solves together; those of `result` where not given.
-    - `input_excess`: like `range_excess`, but about the scene: said of failed solves too.
     - `names`: static fields of the `Solution`.
     """
     good = result.converged
     shown = {**results._asdict(), "ring": ring, "stiffness": stiffness}
-    range_excess = shown.pop("range_excess")
-    checks = {text: value > 0 for text, value in (input_excess or {}).items()}
-    checks |= {text: good & (value > 0) for text, value in range_excess.items()}
+    facts = shown.pop("facts")
+    checks = {text: value > 0 for text, value in input_excess(scene).items()}
+    checks |= {text: good & (value > 0) for text, value in result_excess(scene, facts, ring, results.cage).items()}
     notes = scene.assumptions()
     if scene.unused_parts():
         unused = ", ".join(scene.unused_parts())

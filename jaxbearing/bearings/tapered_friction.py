@@ -159,8 +159,7 @@ def tapered_friction(scene: TaperedRollerBearing, state: TaperedState) -> Tapere
     inner, outer = total(torques)
     losses: dict[str, Array] = {}
     if races.rolling is not None:
-        power = total(races.rolling * races.speed)
-        losses |= {"inner_raceway": power[0], "outer_raceway": power[1]}
+        losses["rolling_resistance"] = jnp.sum(total(races.rolling * races.speed))
     if traction is not None:
         losses["flange"] = total(traction.power)
     if drag is not None:

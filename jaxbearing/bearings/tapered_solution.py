@@ -1,6 +1,6 @@
 """Results of a tapered roller bearing, labelled (see `solution`)."""
 
-from typing import Any
+from typing import Any, ClassVar
 
 import equinox as eqx
 from jaxtyping import Array, Float
@@ -53,11 +53,12 @@ _Power = Float[Array, ""]
 
 
 class TaperedPowerLoss(eqx.Module):
-    """Dissipated power by location, W; what a scene does not model is `None`, and `total` where that is everything. The
-    entries add up to `total`."""
+    """Dissipated power by location, W; the entries add up to `total`. Losses that a scene does not model are `None`,
+    and `total` is `None` where it models none. `never`: losses that no scene of this kind models."""
+
+    never: ClassVar[tuple[str, ...]] = ("inner_raceway", "outer_raceway", "cage")
 
     total: _Power | None = _optional("W", "total")
-    inner_raceway: _Power | None = _optional("W", "rolling resistance of the inner raceway")
-    outer_raceway: _Power | None = _optional("W", "rolling resistance of the outer raceway")
+    rolling_resistance: _Power | None = _optional("W", "rolling resistance of the raceways")
     flange: _Power | None = _optional("W", "roller ends sliding on the rib")
     drag: _Power | None = _optional("W", "oil drag on the orbiting rollers")

@@ -7,16 +7,14 @@ import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Array, Bool, Float
 
-from ..contacts import Gupta, LineContact, lamina_points
-from ..lubricants.ranges import FITTED_PRESSURE, FITTED_TEMPERATURES
+from ..contacts import LineContact, lamina_points
 from ..materials import reduced_modulus
 from ..numerics.arrow import ArrowPoint, linearize, schur_complement
 from ..numerics.newton import NewtonOptions, NewtonResult, newton_solve
 from ..numerics.status import Status
-from .lamina_checks import EDGE_WARNING, edge_excess
-from .rating import LAMINAE
+from .range_checks import MEAN_OF_LINE, MEAN_OF_POINT, RACEWAYS, Contacts, Facts
+from .rating import LAMINAE, rated_laminae
 from .roller_loads import LENGTH_UNIT
-from .roller_steady import SLOWEST
 from .solution import RING_FREEDOMS, CageState, LaminaLoads, RingDisplacement, Solution
 from .steady import assemble
 from .tapered_build import build_tapered, rolling_motion
@@ -27,14 +25,8 @@ from .tapered_system import Inertia, TaperedState, TaperedSystem
 
 ROUNDING = 1e-9
 """Of the moments that a bound compares: what lies closer is left to the solve."""
-YIELD_PRESSURE = 4.0e9
-"""Pa: that of the basic static load rating of roller bearings in ISO 76."""
 HIGHEST = 9.0
 """1/(10/9 - 1): see `line_pressure`."""
-LARGEST_TILT = 10e-3
-"""Of cone and rollers, rad: the approaches are linear in it; the square of 10 mrad moves 100 mm by 5 um."""
-LOADED = 0.1
-"""Rollers above this part of the largest load on the cone roll by themselves; a cage takes the others along."""
 
 
 def solve_tapered(scene: TaperedRollerBearing, options: NewtonOptions) -> Solution:
@@ -70,10 +62,9 @@ def solve_tapered(scene: TaperedRollerBearing, options: NewtonOptions) -> Soluti
     return assemble(
         scene,
         result,
-        _results(scene, system, result, friction, displacement),
+        _results(scene, system, result, friction),
         displacement,
         _stiffness(scene, system, result),
-        input_excess=_input_excess(scene),
         iterations=jnp.where(sliding, 0, minimum.steps + result.iterations),
         ring_freedom=(*scene.ring_freedom, "tilt") if tilted else scene.ring_freedom,
         stiffness_freedom=RING_FREEDOMS,
@@ -137,7 +128,7 @@ def _with_nested(result: NewtonResult, friction: TaperedFriction, options: Newto
 
 
 class _Results(NamedTuple):
-    """Results before masking; `range_excess` maps a warning to a number that is positive where it applies."""
+    """Results before masking; `facts`: what the range checks look at."""
 
     cage: CageState | None
     elements: TaperedResults
@@ -146,7 +137,7 @@ class _Results(NamedTuple):
     inner_torque: Array | None
     outer_torque: Array | None
     laminae: LaminaLoads
-    range_excess: dict[str, Array]
+    facts: Facts
 
 
 def _results(
@@ -154,7 +145,6 @@ def _results(
     system: TaperedSystem,
     result: NewtonResult,
     friction: TaperedFriction | None,
-    ring: RingDisplacement,
 ) -> _Results:
     geometry, state = scene.geometry, system.at(result.point)
     count = geometry.n_rollers
@@ -183,26 +173,17 @@ def _results(
         roller_tilt=every(place[2]),
         **{name: every(values) for name, values in more.items()},
     )
-    laminae = LAMINAE if scene.rating is None else scene.rating.n_laminae
-    if scene.profile is not None:
-        laminae = scene.profile.n_laminae
-    cut = lambda side: jnp.broadcast_to(
-        system.line.laminae(state.approach[side], state.slope[side], laminae), (count, laminae)
+    own = LAMINAE if scene.profile is None else scene.profile.n_laminae
+    rated = rated_laminae(scene.rating, own)
+    cut = lambda number: jnp.stack(
+        [system.line.laminae(state.approach[side], state.slope[side], number) for side in (0, 1)]
     )
-    excess = {
-        "contact pressure beyond 4 GPa: rollers and races yield (static rating of ISO 76)": jnp.max(pressure),
-        "pressure on the rib beyond 4 GPa: it yields (static rating of ISO 76)": jnp.max(elements.pressure_flange),
-    }
-    excess = {text: value - YIELD_PRESSURE for text, value in excess.items()}
-    tilted = jnp.maximum(jnp.max(jnp.abs(place[2])), jnp.maximum(jnp.abs(ring.tilt), jnp.abs(ring.tilt_lateral)))
-    excess["tilt of the inner ring or of a roller beyond 10 mrad: the model is linear in it"] = tilted - LARGEST_TILT
-    end = jnp.max(jnp.where(state.flange_load > 0, _end_reach(scene, state), 0.0))
-    laminae_both = jnp.stack([cut(0), cut(1)])
-    excess[EDGE_WARNING] = edge_excess(laminae_both, jnp.broadcast_to(state.load, laminae_both.shape[:2]))
-    excess["contact ellipse on the rib cut off at the edge of the roller's end face"] = end
+    laminae = cut(own)
+    inner_laminae, outer_laminae = (
+        jnp.broadcast_to(side, (count, rated)) for side in (laminae if rated == own else cut(rated))
+    )
     losses, drive, inner, outer = TaperedPowerLoss(), None, None, None
     if friction is not None:
-        excess |= _law_excess(scene, friction, state, elements)
         losses, inner, outer = friction.losses, friction.inner_torque, friction.outer_torque
     if inner is not None and outer is not None:
         drive = scene.operation.inner_speed * inner + scene.operation.outer_speed * outer
@@ -213,8 +194,10 @@ def _results(
         drive_power=drive,
         inner_torque=inner,
         outer_torque=outer,
-        laminae=LaminaLoads(cut(0), cut(1), scene.profile is not None and scene.profile.shape is not None),
-        range_excess=excess,
+        laminae=LaminaLoads(
+            inner_laminae, outer_laminae, scene.profile is not None and scene.profile.shape is not None
+        ),
+        facts=_facts(scene, state, friction, pressure, flange, laminae, place[2]),
     )
 
 
@@ -241,63 +224,37 @@ def _of_friction(friction: TaperedFriction, state: TaperedState) -> dict[str, Ar
     return more
 
 
-def _input_excess(scene: TaperedRollerBearing) -> dict[str, Array]:
-    """By how much the scene itself leaves the ranges for which the laws were made; said of failed solves too."""
-    operation, (low, high) = scene.operation, FITTED_TEMPERATURES
-    excess = {}
-    if operation.moment is not None:
-        text = (
-            "operation.load_position is 0: radial load and moment act at the common apex of the cones, not at the "
-            "bearing's middle"
-        )
-        excess[text] = jnp.where(jnp.asarray(operation.load_position) == 0.0, 1.0, -1.0)
-    if scene.contact is None:
-        return excess
-    temperature = jnp.asarray(operation.oil_temperature)
-    return excess | {
-        "inlet oil beyond 200 degC: the oil laws are extrapolated": temperature - high,
-        "inlet oil below -20 degC: the oil laws are extrapolated": low - temperature,
-        "rings turn against each other at less than 100 rpm: the films vanish, consider a dry scene": SLOWEST
-        - jnp.abs(jnp.asarray(operation.inner_speed) - operation.outer_speed),
-    }
-
-
-def _law_excess(
-    scene: TaperedRollerBearing, friction: TaperedFriction, state: TaperedState, elements: TaperedResults
-) -> dict[str, Array]:
-    """By how much the results leave the ranges for which the laws were made."""
-    assert scene.contact is not None
-    assert scene.oil is not None
-    races, rib = friction.races, friction.rib
-    loaded = (state.load[0] > 0) & (state.load[0] >= LOADED * jnp.max(state.load[0]))
-    most = lambda values, where: jnp.max(jnp.where(where, values, -jnp.inf))
-    excess = {}
-    inlet = scene.oil.at(scene.operation.oil_temperature)
-    hottest = [most(rise, loaded[None]) for rise in (races.temperature_rise,) if rise is not None]
-    if rib is not None and rib.temperature_rise is not None:
-        hottest.append(most(rib.temperature_rise, state.flange_load > 0))
-    for rise in hottest:
-        beyond = inlet.temperature + rise - FITTED_TEMPERATURES[1]
-        text = "oil in the contacts beyond 200 degC: the oil laws are extrapolated"
-        excess[text] = jnp.maximum(excess.get(text, -jnp.inf), beyond)
-    if isinstance(scene.contact.thermal, Gupta):
-        loading = jnp.max(scene.contact.thermal.thermal_loading(races.speed, inlet))
-        excess["thermal loading beyond 20: Gupta's factor is extrapolated"] = loading - 20.0
-    if races.capacity is not None and friction.balance is not None:
-        # each of those that roll by themselves, and, since a cage hands on what others lack, all together
-        slack = races.capacity - jnp.abs(friction.balance.traction)
-        least = jnp.minimum(-most(-slack, loaded[None]), jnp.min(jnp.sum(slack, axis=1)))
-        text = (
-            "rollers would skid (to keep them rolling takes more traction than the raceway films have at 10 % "
-            "sliding): speeds and losses are those of pure rolling"
-        )
-        excess[text] = -least
-    if rib is not None and rib.traction is not None:
-        pressure = 2.0 / 3.0 * jnp.max(elements.pressure_flange)
-        excess["mean pressure on the rib beyond 1.8 GPa: the traction rheology is extrapolated"] = (
-            pressure - FITTED_PRESSURE
-        )
-    return excess
+def _facts(
+    scene: TaperedRollerBearing,
+    state: TaperedState,
+    friction: TaperedFriction | None,
+    pressure: Float[Array, "2 roller"],
+    flange: Float[Array, " roller"],
+    laminae: Float[Array, "2 roller lamina"],
+    tilt: Float[Array, " roller"],
+) -> Facts:
+    """What the range checks look at: raceways and rib."""
+    races = Contacts(RACEWAYS, state.load, pressure, MEAN_OF_LINE, laminae=laminae)
+    rib = Contacts(
+        ("the rib",),
+        state.flange_load[None],
+        flange[None],
+        MEAN_OF_POINT,
+        past_edge=_end_reach(scene, state)[None],
+        edges=("the edge of the roller's end face, on the rib",),
+    )
+    if friction is None or scene.contact is None or scene.oil is None:
+        return Facts((races, rib), roller_tilt=tilt)
+    inlet, of_races, of_rib = scene.oil.at(scene.operation.oil_temperature), friction.races, friction.rib
+    warm = lambda rise: None if rise is None else inlet.temperature + rise
+    races = races._replace(laws=scene.contact, mean_speed=of_races.speed, temperature=warm(of_races.temperature_rise))
+    if of_rib is not None:
+        rise = of_rib.temperature_rise
+        rib = rib._replace(laws=scene.rib, temperature=warm(None if rise is None else rise[None]))
+    reserve = None
+    if of_races.capacity is not None and friction.balance is not None:
+        reserve = of_races.capacity - jnp.abs(friction.balance.traction)
+    return Facts((races, rib), inlet=inlet, traction_reserve=reserve, roller_tilt=tilt)
 
 
 def line_pressure(scene: TaperedRollerBearing, system: TaperedSystem, state: TaperedState) -> Float[Array, "2 roller"]:

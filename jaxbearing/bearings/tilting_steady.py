@@ -18,17 +18,16 @@ from ..numerics.arrow import ArrowPoint, linearize, schur_complement
 from ..numerics.newton import NewtonOptions, newton_solve
 from ..numerics.status import Status
 from .cylindrical_roller import CylindricalRollerBearing
-from .kinematics import RollerKinematics
-from .lamina_checks import EDGE_WARNING, edge_excess
-from .roller_forces import ring_torques, rolling_lean
+from .kinematics import RollerKinematics, roller_kinematics
+from .range_checks import MEAN_OF_LINE, RACEWAYS, Contacts, Facts
+from .rating import rated_laminae
+from .roller_forces import rolling_alone
 from .roller_loads import LENGTH_UNIT
 from .roller_profile import RollerProfile
 from .solution import CageState, LaminaLoads, PowerLoss, RingDisplacement, RollerResults, Solution
 from .steady import assemble
-from .tapered_steady import YIELD_PRESSURE
 from .tilting_roller import TiltingRollers, TiltingState
 
-LARGEST_TILT = 0.01
 FREEDOMS = ("radial", "lateral", "tilt", "tilt_lateral")
 """Of the inner ring, those that the model has: nothing holds it axially."""
 
@@ -45,7 +44,7 @@ def build_tilting(scene: CylindricalRollerBearing, freedoms: tuple[str, ...] | N
     radial = jnp.where(jnp.asarray(operation.radial_load) > 0, operation.radial_load, jnp.nan)
     loads = {"radial": radial, "tilt": number(operation.moment) / length}
     stiffness = palmgren_stiffness(length, reduced_modulus(scene.materials.rings, scene.materials.rollers))
-    motion = _motion(scene)
+    motion = roller_kinematics(scene.geometry, scene.operation)
     mass = scene.materials.rollers.density * jnp.pi * motion.roller_radius**2 * geometry.roller_length
     profile = RollerProfile() if scene.profile is None else scene.profile
     return TiltingRollers(
@@ -72,12 +71,6 @@ def _columns(azimuth: Float[Array, " roller"], lever: Array) -> dict[str, Float[
     }
 
 
-def _motion(scene: CylindricalRollerBearing) -> RollerKinematics:
-    geometry, operation = scene.geometry, scene.operation
-    sizes = (operation.inner_speed, operation.outer_speed, geometry.pitch_radius, geometry.roller_radius)
-    return RollerKinematics(*(jnp.asarray(value) for value in sizes))
-
-
 def solve_tilting(scene: CylindricalRollerBearing, options: NewtonOptions) -> Solution:
     """Steady state: pure, jit-able, vmap-able, differentiable; never raises for a failed solve."""
     started, minimum = build_tilting(scene).started()
@@ -100,7 +93,7 @@ def solve_tilting(scene: CylindricalRollerBearing, options: NewtonOptions) -> So
     return assemble(
         scene,
         result,
-        _results(scene, system, system.at(result.point), place("tilt") / length),
+        _results(scene, system, system.at(result.point)),
         displacement,
         _stiffness(scene, system, result.point),
         iterations=minimum.steps + result.iterations,
@@ -111,7 +104,7 @@ def solve_tilting(scene: CylindricalRollerBearing, options: NewtonOptions) -> So
 
 
 class _Results(NamedTuple):
-    """Results before masking."""
+    """Results before masking; `facts`: what the range checks look at."""
 
     cage: CageState | None
     elements: RollerResults
@@ -120,15 +113,22 @@ class _Results(NamedTuple):
     inner_torque: Array | None
     outer_torque: Array | None
     laminae: LaminaLoads
-    range_excess: dict[str, Array]
+    facts: Facts
 
 
-def _results(
-    scene: CylindricalRollerBearing, system: TiltingRollers, state: TiltingState, tilt: Float[Array, ""]
-) -> _Results:
-    motion, zero, ones = _motion(scene), jnp.zeros(()), jnp.ones_like(system.azimuth)
+def _results(scene: CylindricalRollerBearing, system: TiltingRollers, state: TiltingState) -> _Results:
+    motion, zero, ones = (
+        roller_kinematics(scene.geometry, scene.operation),
+        jnp.zeros(()),
+        jnp.ones_like(system.azimuth),
+    )
     count = RollerProfile().n_laminae if scene.profile is None else scene.profile.n_laminae
-    laminae = jnp.stack([system.line.laminae(state.approach[side], state.slope[side], count) for side in (0, 1)])
+    cut = lambda number: jnp.stack(
+        [system.line.laminae(state.approach[side], state.slope[side], number) for side in (0, 1)]
+    )
+    laminae = cut(count)
+    rated = rated_laminae(scene.rating, count)
+    inner_laminae, outer_laminae = laminae if rated == count else cut(rated)
     curvatures = jnp.stack([1.0 / motion.inner_radius, -1.0 / motion.outer_radius])
     contact = LineContact(
         (1.0 / (1.0 / motion.roller_radius + curvatures))[:, None],
@@ -149,21 +149,22 @@ def _results(
         **more,
     )
     profiled = scene.profile is not None and scene.profile.shape is not None
-    losses, drive, inner, outer = PowerLoss(total=None), None, None, None
-    if rolling is not None:
-        power = jnp.sum(rolling) * motion.surface_speeds(zero, zero)[0][0]
-        losses = PowerLoss(total=power, rolling_resistance=power)
-        inner, outer = ring_torques(motion, _without_sliding(contact, motion, rolling), None, None)
-        drive = motion.inner_speed * inner + motion.outer_speed * outer
+    costs = rolling_alone(contact, motion, rolling)
+    contacts = Contacts(RACEWAYS, state.load, peaks, MEAN_OF_LINE, laminae=laminae)
+    facts = Facts((contacts,))
+    if scene.contact is not None and scene.oil is not None:
+        rises = [more[name] for name in ("temperature_rise_inner", "temperature_rise_outer") if name in more]
+        inlet = scene.oil.at(scene.operation.oil_temperature)
+        speed = motion.surface_speeds(zero, zero)[0][:, None]
+        temperature = inlet.temperature + jnp.stack(rises) if rises else None
+        contacts = contacts._replace(laws=scene.contact, mean_speed=speed, temperature=temperature)
+        facts = facts._replace(contacts=(contacts,), inlet=inlet)
     return _Results(
         None,
         elements,
-        losses,
-        drive,
-        inner,
-        outer,
-        LaminaLoads(laminae[0], laminae[1], profiled),
-        _range_excess(scene, system, state, laminae, peaks, tilt),
+        *costs,
+        LaminaLoads(inner_laminae, outer_laminae, profiled),
+        facts,
     )
 
 
@@ -201,38 +202,6 @@ def _films(
     if parts.rolling_force is None:
         return more, None
     return more, jnp.sum(jnp.where(carried, parts.rolling_force, 0.0), axis=2)
-
-
-def _without_sliding(contact: LineContact, motion: RollerKinematics, rolling: Float[Array, "2 roller"]) -> ContactState:
-    r"""The tractions that balance each roller against its rolling resistances R: $T_i + T_o = (R_i + R_o)/2$ (moment),
-    $T_i - T_o = \lambda_oR_o - \lambda_iR_i$, $\lambda$ as in `roller_forces.rolling_lean` (tangential force)."""
-    lean = rolling_lean(contact, motion)
-    total = 0.5 * (rolling[0] + rolling[1])
-    difference = lean[1] * rolling[1] - lean[0] * rolling[0]
-    traction = 0.5 * jnp.stack([total + difference, total - difference])
-    return ContactState(jnp.ones_like(rolling), None, traction, rolling, jnp.zeros(()))
-
-
-def _range_excess(
-    scene: CylindricalRollerBearing,
-    system: TiltingRollers,
-    state: TiltingState,
-    laminae: Float[Array, "2 roller lamina"],
-    peaks: Float[Array, "2 roller"],
-    tilt: Float[Array, ""],
-) -> dict[str, Array]:
-    """By how much the results leave what the model, or a bearing, is made for."""
-    most = jnp.max(state.load)
-    behind = jnp.max(jnp.where(jnp.cos(system.azimuth) < -0.5, state.load[0], 0.0))
-    squeezed = jnp.where(system.radial_clearance > 0, behind - 0.01 * most, -1.0)
-    return {
-        "contact pressure beyond 4 GPa: rollers and races yield (static rating of ISO 76)": jnp.max(peaks)
-        - YIELD_PRESSURE,
-        "the inner ring tilts by more than 10 mrad: far beyond what cylindrical roller bearings bear (1 to 2 mrad), "
-        "and the equations are those of small tilts": jnp.abs(tilt) - LARGEST_TILT,
-        EDGE_WARNING: edge_excess(laminae, state.load),
-        "the tilt takes up the whole clearance: rollers opposite the load are squeezed": squeezed,
-    }
 
 
 def _stiffness(scene: CylindricalRollerBearing, system: TiltingRollers, point: ArrowPoint) -> Float[Array, "4 4"]:

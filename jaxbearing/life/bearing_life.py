@@ -11,7 +11,7 @@ from jaxtyping import Array, Bool, Float
 
 from ..bearings.ball_bearing import BallBearing
 from ..bearings.cylindrical_roller import CylindricalRollerBearing
-from ..bearings.rating import CATALOGUE_CONFORMITY, Rating
+from ..bearings.rating import CATALOGUE_CONFORMITY, Rating, rated_laminae
 from ..bearings.solution import Solution
 from ..bearings.tapered_roller import TaperedRollerBearing
 from ..lubricants import Lubricant
@@ -35,7 +35,7 @@ from .reference import (
     roller_damage_rate,
 )
 from .result import Life
-from .static import ball_static_capacity, roller_static_capacity
+from .static import ball_static_capacity, rated_modulus, roller_static_capacity
 
 _HOURS = 1e6 * 2.0 * np.pi / 3600.0
 """Hours of a million revolutions at 1 rad/s."""
@@ -67,13 +67,20 @@ def with_life(scene: Any, solution: Any) -> Any:
     checks = dict(solution.checks)
     if life.modification_factor is not None and life.viscosity_ratio is not None:
         checks[THIN_WARNING] = life.viscosity_ratio < KAPPA_RANGE[0]
-    notes = (*solution.notes, *_without_effect(rating, life))
+    notes = (*solution.notes, *without_effect(scene, life))
     return dataclasses.replace(solution, life=life, checks=checks, notes=notes)
 
 
-def _without_effect(rating: Rating, life: Life) -> list[str]:
-    """What the scene says about the life and lacks something else for."""
-    found = []
+def without_effect(scene: Any, life: Life) -> list[str]:
+    """What the scene says about the life and lacks something else for, or that is of another kind of bearing."""
+    rating: Rating = scene.rating
+    if isinstance(scene, BallBearing):
+        others = {"n_laminae": rating.n_laminae, "edge_factor": rating.edge_factor}
+        found = [
+            f"rating.{name} has no effect: it is about rollers" for name, value in others.items() if value is not None
+        ]
+    else:
+        found = ["rating.grooves has no effect: it is about balls"] if rating.grooves != "catalogue" else []
     if rating.cleanliness is not None and life.viscosity_ratio is None:
         lacking = "a viscosity ratio: rating.viscosity_ratio, or an oil with a density"
         found.append(f"rating.cleanliness has no effect without {lacking}")
@@ -91,7 +98,7 @@ def bearing_life(scene: Any, solution: Solution) -> Life:
     **Raises:** `TypeError` for a kind of bearing without a life.
     """
     try:
-        rated_by = _RATED[type(scene)]
+        rated_by = RATED[type(scene)]
     except KeyError:
         raise TypeError(f"no life of a {type(scene).__name__}") from None
     rating: Rating = scene.rating
@@ -129,6 +136,7 @@ def bearing_life(scene: Any, solution: Solution) -> Life:
         more |= {"film_ratio_inner": film_ratio(inner, *rough), "film_ratio_outer": film_ratio(outer, *rough)}
     if rated.catalogue_load is not None:
         more["L10"] = basic_life(rated.dynamic_capacity, rated.catalogue_load, exponent)
+        more["L10_hours"] = hours(more["L10"])
     life = Life(
         damage_rate=rate,
         L10r=reference,
@@ -171,10 +179,11 @@ def _ball(scene: BallBearing, elements: Any, laminae: Any, turns: Any) -> Rated:
     angle = jnp.asarray(0.0 if geometry.contact_angle is None else geometry.contact_angle)
     sizes = (geometry.n_balls, geometry.ball_diameter, geometry.pitch_diameter, angle)
     grooves = (geometry.conformity_inner, geometry.conformity_outer)
+    modulus = rated_modulus(scene.materials.rings, scene.materials.balls)
     # the ratings' grooves; those that share the damage between the races are the bearing's own
     rated = grooves if rating.grooves == "scene" else (CATALOGUE_CONFORMITY,) * 2
     capacity = _given(rating.dynamic_capacity, lambda: ball_capacity(*sizes, *rated))
-    static = _given(rating.static_capacity, lambda: ball_static_capacity(*sizes, rated[0]))
+    static = _given(rating.static_capacity, lambda: ball_static_capacity(*sizes, rated[0], modulus))
     limits = ball_contact_capacities(capacity, *sizes, *grooves)
     rate = ball_damage_rate(elements.load_inner, elements.load_outer, limits, *turns)
     operation = scene.operation
@@ -199,11 +208,13 @@ def _cylindrical(scene: CylindricalRollerBearing, elements: Any, laminae: Any, t
     assert rating is not None
     sizes = (geometry.n_rollers, geometry.roller_diameter, geometry.pitch_diameter)
     length = geometry.loaded_length
+    modulus = rated_modulus(scene.materials.rings, scene.materials.rollers)
     capacity = _given(rating.dynamic_capacity, lambda: roller_capacity(*sizes, length))
-    static = _given(rating.static_capacity, lambda: roller_static_capacity(*sizes, length))
+    static = _given(rating.static_capacity, lambda: roller_static_capacity(*sizes, length, modulus=modulus))
     limits = roller_contact_capacities(capacity, *sizes)
     if laminae is None:
-        inner, outer = (even_laminae(load, rating.n_laminae) for load in (elements.load_inner, elements.load_outer))
+        count = rated_laminae(rating)
+        inner, outer = (even_laminae(load, count) for load in (elements.load_inner, elements.load_outer))
     else:
         inner, outer = laminae.inner, laminae.outer
     profiled = laminae is not None and laminae.profiled
@@ -220,8 +231,9 @@ def _tapered(scene: TaperedRollerBearing, elements: Any, laminae: Any, turns: An
     angle = jnp.asarray(geometry.contact_angle)
     pitch, length = geometry.pitch_diameter, geometry.roller_length
     sizes = (geometry.n_rollers, geometry.mean_roller_diameter, pitch)
+    modulus = rated_modulus(scene.materials.rings, scene.materials.rollers)
     capacity = _given(rating.dynamic_capacity, lambda: roller_capacity(*sizes, length, angle))
-    static = _given(rating.static_capacity, lambda: roller_static_capacity(*sizes, length, angle))
+    static = _given(rating.static_capacity, lambda: roller_static_capacity(*sizes, length, angle, modulus))
     limits = roller_contact_capacities(capacity, *sizes, angle)
     weights = edge_weights(rating, laminae.profiled, laminae.inner.shape[1])
     rate = roller_damage_rate(laminae.inner, laminae.outer, limits, *turns, factors=weights)
@@ -232,7 +244,7 @@ def _tapered(scene: TaperedRollerBearing, elements: Any, laminae: Any, turns: An
     return Rated("roller", pitch, capacity, static, rate, load)
 
 
-_RATED: dict[type, Callable[..., Rated]] = {
+RATED: dict[type, Callable[..., Rated]] = {
     BallBearing: _ball,
     CylindricalRollerBearing: _cylindrical,
     TaperedRollerBearing: _tapered,

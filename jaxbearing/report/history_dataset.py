@@ -26,6 +26,7 @@ def history_to_dataset(history: History) -> xr.Dataset:
     """All results of a run with `units`, `long_name` and `path` on every variable."""
     dataset = xr.Dataset(attrs=attributes(history, "Motion of a rolling bearing"))
     dataset.attrs |= {"solver": history.solver, "completed": int(history.completed)}
+    dataset.attrs["not_modelled"] = ", ".join(history.not_modelled)
     for path, value, metadata in _labels(history):
         values = np.asarray(value)
         name, dims = path.removeprefix("elements.").replace(".", "_"), ("time",)

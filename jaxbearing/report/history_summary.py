@@ -88,6 +88,7 @@ def history_to_dict(history: History) -> dict[str, Any]:
         "status": Status(int(history.status)).text,
         "interrupted": history.interrupted,
         "warnings": list(history.warnings),
+        "not_modelled": list(history.not_modelled),
         "time": {"start": ends[0], "stop": ends[1], "wanted": float(history.stop)},
         "steps": {"accepted": int(history.accepted), "rejected": int(history.rejected)},
         "solver": history.solver,
@@ -141,6 +142,8 @@ def print_history(history: History, label: str, console: "Console") -> None:
         table.add_row(name, with_unit(found["power"][key], "W"))
     table.add_row("drive power", with_unit(found["drive_power"], "W"))
     console.print(table)
+    if history.not_modelled:
+        console.print("Not modelled: " + ", ".join(history.not_modelled).replace("_", " "))
     console.print(
         f"\nThe energy balance leaves {float(history.energy.error):.1e} of the drive work open. Shocks are not "
         "repeatable turn by turn: compare statistics, to 10-20 %."

@@ -23,7 +23,7 @@ class Content:
     - `operation`: the operating point in words.
     - `headlines`: name, value of the few results at the top.
     - `facts`: name, text of further results in words, under `facts_title`.
-    - `losses`: power loss by location: name, W, share.
+    - `losses`: power loss by location: name, W, share; `not_modelled`: those that the scene leaves out, in words.
     - `convergence`: name, text on how the solve ended.
     - `checks`: text of each check of the laws' ranges, whether it was left.
     - `stiffness`: names of the rows and columns, texts of the rows.
@@ -37,6 +37,7 @@ class Content:
     facts_title: str = "Motion, films and stiffness"
     life: Sequence[Row] = ()
     losses: Sequence[tuple[str, str, str]] = ()
+    not_modelled: str = ""
     charts: Sequence[Chart] = ()
     convergence: Sequence[tuple[str, str]] = ()
     checks: Sequence[tuple[str, bool]] = ()

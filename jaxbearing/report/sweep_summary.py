@@ -22,6 +22,7 @@ _MAIN = (
     "ring_axial",
     "film_central",
     "film_minimum",
+    "life_Lnmr_hours",
     "life_L10r_hours",
 )
 """Results that are shown, where the scene has them."""
@@ -48,6 +49,8 @@ def print_sweep(file: str | os.PathLike[str], label: str, kept: int, seconds: fl
             for name in _MAIN
             if name in dataset and np.nansum(np.abs(dataset[name].values))
         }
+        if dataset.attrs.get("not_modelled"):
+            rows["Not modelled:"] = dataset.attrs["not_modelled"].replace("_", " ")
         grid = Table.grid(padding=(0, 2, 0, 0))
         for name, text in rows.items():
             grid.add_row(Text(f"  {name}"), Text(text))

@@ -59,7 +59,7 @@ class BallContactTable(Table):
 
     @check
     def _consistent(self) -> Problems:
-        given = [name for name in ("traction_accuracy", "rolling_resistance", "heathcote") if getattr(self, name)]
+        given = [name for name in ("traction_accuracy", "heathcote") if getattr(self, name)]
         if given and self.traction is None:
             has = "has" if len(given) == 1 else "have"
             yield refusal_at("traction", f"a law, without which {' and '.join(given)} {has} no meaning", "nothing")

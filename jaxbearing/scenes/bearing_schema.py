@@ -5,7 +5,6 @@ from typing import Annotated, Any, Literal
 
 from pydantic import BeforeValidator
 
-from ..bearings.rating import LAMINAE
 from ..life.basic import RELIABILITY_FACTORS
 from ..life.modification import CLEANLINESS
 from . import units
@@ -59,7 +58,7 @@ class RatingTable(Table):
     roughness_elements: units.PositiveLength | None = None
     reliability: Annotated[float, BeforeValidator(_reliability)] = 0.90
     cleanliness: Literal[tuple(CLEANLINESS)] | None = None  # pyright: ignore[reportInvalidTypeForm]
-    n_laminae: units.Count = LAMINAE
+    n_laminae: units.Count | None = None
     edge_factor: units.Switch | None = None
     grooves: Literal["catalogue", "scene"] = "catalogue"
 

@@ -275,6 +275,9 @@ def test_common_orbit_under_axial_load_changes_nothing(model):
         np.testing.assert_allclose(getattr(common.elements, name), getattr(own.elements, name), rtol=1e-10)
     np.testing.assert_allclose(common.ring.axial, own.ring.axial, rtol=1e-10)
     np.testing.assert_allclose(common.stiffness[0, 0], own.stiffness[0, 0], rtol=1e-9)
+    if model is FILMS:  # rolling resistance: by virtual work, and by the forces on each ball
+        np.testing.assert_allclose(common.inner_torque, own.inner_torque, rtol=1e-9)
+        np.testing.assert_allclose(common.outer_torque, own.outer_torque, rtol=1e-9)
 
 
 @pytest.mark.parametrize("model", [DRY, FILMS], ids=["dry", "films"])
@@ -295,6 +298,11 @@ def test_common_orbit_under_combined_load(model):
     np.testing.assert_allclose(jnp.sum(e.load_inner * jnp.sin(inner)), 20e3, rtol=1e-9)
     np.testing.assert_allclose(jnp.sum(e.load_inner * jnp.cos(inner) * jnp.cos(e.azimuth)), 8e3, rtol=1e-9)
     assert any("kinematics.orbit" in note for note in common.notes)
+    if model is FILMS:
+        for found in (own, common):
+            np.testing.assert_allclose(found.drive_power, found.power_loss.total, rtol=1e-9)
+            assert found.power_loss.total == found.power_loss.rolling_resistance
+        np.testing.assert_allclose(common.power_loss.total, own.power_loss.total, rtol=0.01)
 
 
 def test_common_orbit_gradients_against_differences():

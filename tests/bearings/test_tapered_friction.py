@@ -130,7 +130,7 @@ def test_balances_in_space_and_energy(name, friction):
     parts = inner * float(found.inner_torque), outer * float(found.outer_torque)
     size = np.abs(parts).sum()
     np.testing.assert_allclose(sum(parts), found.losses.total, rtol=1e-12, atol=1e-13 * size)
-    entries = [found.losses.inner_raceway, found.losses.outer_raceway, found.losses.flange, found.losses.drag]
+    entries = [found.losses.rolling_resistance, found.losses.flange, found.losses.drag]
     np.testing.assert_allclose(sum(entries), found.losses.total, rtol=1e-14)
     assert all(entry > 0 for entry in entries)
 
@@ -142,7 +142,7 @@ def test_the_rolling_resistance_alone_in_closed_form(friction):
     assert found.losses.flange == 0.0
     assert np.all(np.isnan(found.rib.film))
     speed = float(motion.spin_speed) * (DIAMETER / 2 - LENGTH / 2 * np.sin(HALF))
-    np.testing.assert_allclose(found.losses.inner_raceway, speed * np.sum(found.races.rolling[0]), rtol=1e-13)
+    np.testing.assert_allclose(found.losses.rolling_resistance, speed * np.sum(found.races.rolling), rtol=1e-13)
     np.testing.assert_allclose(found.races.speed, speed, rtol=1e-13)
 
 

@@ -41,7 +41,7 @@ def test_json(jaxbearing_command, folder):
     assert found["life"]["L10r"] > 0
     assert found["life"]["L10r_hours"] > 0
     losses = found["power_loss"]
-    assert set(losses) == {"total", "inner_raceway", "outer_raceway", "flange", "drag"}
+    assert set(losses) == {"total", "rolling_resistance", "flange", "drag"}
     assert min(losses.values()) > 0
     np.testing.assert_allclose(sum(losses.values()), 2 * losses["total"], rtol=1e-12)
     np.testing.assert_allclose(found["drive_power"], losses["total"], rtol=1e-12)

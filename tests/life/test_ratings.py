@@ -5,6 +5,7 @@ import jax.numpy as jnp
 import numpy as np
 import pytest
 
+from jaxbearing.contacts import PointContact
 from jaxbearing.life.basic import basic_life, deep_groove_equivalent_load, tapered_equivalent_load
 from jaxbearing.life.capacity import ball_capacity, ball_factor, roller_capacity, roller_factor
 from jaxbearing.life.modification import (
@@ -15,7 +16,8 @@ from jaxbearing.life.modification import (
     modification_factor,
     reference_viscosity,
 )
-from jaxbearing.life.static import ball_static_capacity, roller_static_capacity
+from jaxbearing.life.static import STEEL_MODULUS, ball_static_capacity, rated_modulus, roller_static_capacity
+from jaxbearing.materials import CATALOGUE
 
 RPM = 2.0 * np.pi / 60.0
 CUP = np.radians(14.036)
@@ -55,6 +57,42 @@ def test_static_ratings():
     np.testing.assert_allclose(roller_static_capacity(16, 11e-3, 70.5e-3, 11e-3), expected, rtol=6e-3)
     # catalogues: 7.8 kN of a 6205
     np.testing.assert_allclose(ball_static_capacity(9, 7.94e-3, 39.04e-3, 0.0), 7.8e3, rtol=0.05)
+
+
+HYBRID = [
+    # name, balls, ball diameter, pitch diameter (mm), contact angle (deg), C0, C0 with silicon nitride balls (N)
+    ("SM 6016 C TA", 20, 13.494, 102.5, 15.0, 31000.0, 21600.0),
+    ("KH 6014 C TA", 24, 9.525, 90.0, 17.0, 17200.0, 12100.0),
+    ("S 6020 C TA", 22, 15.081, 125.0, 15.0, 83000.0, 58000.0),
+    ("S 6022 C TA", 21, 17.462, 140.0, 15.0, 105000.0, 73500.0),
+    ("S 6024 E TA", 23, 17.462, 150.0, 25.0, 110000.0, 78000.0),
+]
+"""GMN Paul Mueller Industrie, catalogue of spindle bearings; all its 257 rows have a ratio of 0.690 to 0.713."""
+
+
+@pytest.mark.parametrize("row", HYBRID, ids=lambda row: row[0])
+def test_static_rating_of_hybrid_bearings(row):
+    _, balls, diameter, pitch, angle, steel, hybrid = row
+    sizes = (balls, 1e-3 * diameter, 1e-3 * pitch, np.radians(angle), 0.52)
+    modulus = {name: rated_modulus(CATALOGUE["52100"], CATALOGUE[name]) for name in ("52100", "Si3N4")}
+    own = [float(ball_static_capacity(*sizes, modulus[name])) for name in ("52100", "Si3N4")]
+    np.testing.assert_allclose(own[1] / own[0], hybrid / steel, rtol=0.025)  # printed to three digits, E of the ceramic
+
+
+@pytest.mark.parametrize("steel", ["52100", "M50", "steel"])
+def test_grades_of_steel_have_one_static_rating(steel):
+    np.testing.assert_allclose(rated_modulus(CATALOGUE[steel], CATALOGUE[steel]), STEEL_MODULUS, rtol=1e-15)
+
+
+def test_static_rating_is_the_load_at_the_limit_of_pressure():
+    """Q of one contact at the limit, whatever the element is made of; a line's load at a pressure goes with 1/E'."""
+    modulus = float(rated_modulus(CATALOGUE["52100"], CATALOGUE["Si3N4"]))
+    share = [float(roller_static_capacity(*G1[:4], G1[4], m)) for m in (STEEL_MODULUS, modulus)]
+    np.testing.assert_allclose(share[1] / share[0], STEEL_MODULUS / modulus, rtol=1e-14)
+    load = 5.0 * float(ball_static_capacity(9, 7.94e-3, 39.04e-3, 0.0, 0.52, modulus)) / 9
+    gamma = 7.94 / 39.04
+    contact = PointContact(0.5 * 7.94e-3 * (1.0 - gamma), 0.52 * 7.94e-3 / 0.04, modulus)
+    np.testing.assert_allclose(contact.ellipse(load).pressure, 4.2e9, rtol=1e-12)
 
 
 @pytest.mark.parametrize(

@@ -58,6 +58,7 @@ def test_every_variable_is_labelled_and_written_to_the_bit(solution, tmp_path):
             assert variable.values.tobytes() == dataset[name].values.tobytes()
     assert back.attrs == dataset.attrs
     assert back.attrs["jaxbearing_version"] == jb.__version__
+    assert back.attrs["not_modelled"] == ", ".join(solution.not_modelled) == "rolling_resistance"
     assert back.attrs["Conventions"].startswith("CF-")
 
 
@@ -109,7 +110,14 @@ def test_status_and_checks_have_their_meanings(solution):
 def test_what_is_not_modelled_is_left_out(dry, tmp_path):
     back = written(solution_to_dataset(dry), tmp_path / "dry.nc")
     assert "load_inner" in back
-    for name in ("film_inner", "cage_speed", "power_loss_drag", "operation_oil_flow", "out_of_range"):
+    for name in (
+        "film_inner",
+        "cage_speed",
+        "power_loss_drag",
+        "power_loss_total",
+        "drive_power",
+        "operation_oil_flow",
+    ):
         assert name not in back.variables
 
 

@@ -112,6 +112,8 @@ def test_statistics(whole):
     assert np.all(peaks >= now * (1.0 - 1e-9))
     found = history_to_dict(whole)
     json.dumps(found, allow_nan=False)
+    assert found["not_modelled"] == list(whole.not_modelled)
+    assert "rolling_resistance" in whole.not_modelled
     summary = found["summary"]
     assert summary["pocket_load"]["front"]["max"] == peaks[0].max()
     shocks = summary["shocks"]
@@ -132,6 +134,7 @@ def test_every_variable_of_the_file_has_its_unit(whole):
     np.testing.assert_array_equal(dataset["turn_peak"].max("turn")[1], dataset["pocket_peaks_rear"].max("time"))
     assert int(dataset["shock_count"].sum()) > 0
     assert dataset["power_loss_total"].dims == ("time",)
+    assert dataset.attrs["not_modelled"] == ", ".join(whole.not_modelled)
     np.testing.assert_allclose(dataset["energy_error"], whole.energy.error)
 
 

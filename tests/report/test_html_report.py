@@ -47,6 +47,7 @@ def test_all_kinds(name, solved):
     assert page.data("solution") == results
     for word in ("converged", "Convergence and validity", "Inputs", "2026-01-02 03:04 UTC", jb.__version__, "Python"):
         assert word in page.text
+    assert ("Not modelled:" in page.text) == bool(results["not_modelled"])
     charts = [attributes["id"].removeprefix("chart-") for attributes in page.attributes("div") if "id" in attributes]
     assert {"load", "pressure"} <= set(charts)
     assert set(page.scripts) == {"solution", "code", *(f"data-{chart}" for chart in charts)}

@@ -9,11 +9,15 @@ import numpy as np
 import pytest
 from rich.console import Console
 
+from jaxbearing.bearings.ball_solution import BallPowerLoss
 from jaxbearing.bearings.parts import Operation
 from jaxbearing.bearings.solution import CageState, PowerLoss, RingDisplacement, RollerResults, Solution
+from jaxbearing.bearings.tapered_solution import TaperedPowerLoss
+from jaxbearing.life.result import Life
 from jaxbearing.numerics.status import Status
 from jaxbearing.report.display import bar, digits, with_unit
 from jaxbearing.report.json_report import solution_to_dict
+from jaxbearing.report.result_tables import result_rows
 from jaxbearing.report.summary import print_summary
 
 N = 8
@@ -118,15 +122,65 @@ def test_what_is_not_modelled():
             for field in dataclasses.fields(RollerResults)
         }
     )
-    result = solution_to_dict(solution(cage=None, elements=dry, power_loss=PowerLoss(total=jnp.asarray(0.0))))
+    result = solution_to_dict(solution(cage=None, elements=dry, power_loss=PowerLoss()))
     assert result["cage"] is None
     assert "film_inner" not in result["elements"]
-    assert result["power_loss"] == {"total": 0.0}
+    assert result["power_loss"] == {"total": None}
     assert (result["operation"]["oil_temperature"], result["operation"]["oil_flow"]) == (None, None)
     assert result["operation"]["radial_load"] == 25e3
-    text = text_of(solution(cage=None, elements=dry, power_loss=PowerLoss(total=jnp.asarray(0.0))))
+    text = text_of(solution(cage=None, elements=dry, power_loss=PowerLoss()))
     assert "Cage" not in text
     assert "film" not in text.replace("Motion and films", "")
+
+
+NOT_MODELLED = ["inner_raceway", "outer_raceway", "rolling_resistance", "element_ends", "flange", "cage_pilot"]
+
+
+def test_losses_that_are_not_modelled_are_said():
+    """A small loss and one that leaves out most of it look alike: what is left out is named, and nothing is not 0."""
+    partly = solution()
+    assert solution_to_dict(partly)["not_modelled"] == NOT_MODELLED
+    (line,) = [line for line in text_of(partly, width=200).splitlines() if "Not modelled:" in line]
+    assert line.split("Not modelled:")[1].strip() == ", ".join(NOT_MODELLED).replace("_", " ")
+    nothing = solution(power_loss=PowerLoss(), drive_power=None, inner_torque=None, outer_torque=None)
+    found = solution_to_dict(nothing)
+    assert found["power_loss"] == {"total": None}
+    assert found["drive_power"] is None
+    assert set(found["not_modelled"]) == {*NOT_MODELLED, "drag", "pocket"}
+    assert "Not modelled:" in text_of(nothing)
+    assert "all power losses" in text_of(nothing)
+    names = [field.name for field in dataclasses.fields(PowerLoss)]
+    full = solution(power_loss=PowerLoss(**dict.fromkeys(names, jnp.ones(()))))
+    assert solution_to_dict(full)["not_modelled"] == []
+    assert "Not modelled" not in text_of(full)
+
+
+@pytest.mark.parametrize("loss", [PowerLoss, BallPowerLoss, TaperedPowerLoss])
+def test_every_kind_of_loss_may_be_left_out(loss):
+    names = {field.name for field in dataclasses.fields(loss)} - {"total"}
+    never = set(getattr(loss, "never", ()))
+    assert set(solution(power_loss=loss()).not_modelled) == names | never
+    for name in names:
+        one = loss(total=jnp.ones(()), **{name: jnp.ones(())})
+        assert set(solution(power_loss=one).not_modelled) == (names | never) - {name}
+
+
+def test_the_life_to_design_by_comes_first():
+    """The modified life where it is known, and hours before revolutions, in every output."""
+    numbers = {field.name: jnp.ones(()) for field in dataclasses.fields(Life)}
+    numbers |= {"Lnmr_hours": jnp.asarray(570.0), "L10r_hours": jnp.asarray(1912.0), "L10_hours": jnp.asarray(700.0)}
+    numbers |= {name: jnp.ones(N) for name in ("film_ratio_inner", "film_ratio_outer")}
+    lasting = ["Lnmr_hours", "Lnmr", "L10r_hours", "L10r", "L10_hours", "L10"]
+    known = solution(life=Life(**numbers))
+    assert list(solution_to_dict(known)["life"])[:6] == lasting
+    assert [row.path for row in result_rows(known) if row.path.startswith("life.")][:6] == [
+        f"life.{n}" for n in lasting
+    ]
+    text = " ".join(text_of(known, width=300).split())
+    assert text.index("570.0 h (1.000 million revolutions)") < text.index("1912 h") < text.index("700.0 h")
+    plain = solution(life=Life(**numbers | {"Lnmr_hours": None, "Lnmr": None, "modification_factor": None}))
+    assert "570" not in text_of(plain)
+    assert next(iter(solution_to_dict(plain)["life"])) == "L10r_hours"
 
 
 @pytest.mark.parametrize("number", [np.nan, np.inf])

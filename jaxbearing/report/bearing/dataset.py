@@ -28,8 +28,8 @@ def bearing_to_dataset(solution: Solution, dims: Sequence[str] = ()) -> xr.Datas
 
     The operating point and the azimuths are coordinates. `status` has its meanings in the attributes `flag_values`
     and `flag_meanings`; `out_of_range` says which checks of the laws' ranges were left. The attributes of the data
-    set hold the same warnings and notes in words, and the version. What the scene does not model, or does not use,
-    is left out.
+    set hold the same warnings and notes in words, the losses that are not modelled, and the version. What the scene
+    does not model, or does not use, is left out.
 
     **Arguments:**
     - `solution`: one solution, or a batch of them from `jax.vmap` or `jax.lax.map`; the failed lanes of a batch are
@@ -46,7 +46,8 @@ def bearing_to_dataset(solution: Solution, dims: Sequence[str] = ()) -> xr.Datas
         raise ValueError(f"dims: got {len(dims)} names {dims}; the solution has {found}")
     if not dims and not bool(solution.converged):
         raise ValueError(f"a solve that failed has no results: {solution.failure()}")
-    dataset = xr.Dataset(attrs=attributes(solution, "Steady state of a rolling bearing"))
+    words = attributes(solution, "Steady state of a rolling bearing")
+    dataset = xr.Dataset(attrs=words | {"not_modelled": ", ".join(solution.not_modelled)})
     unused = {f"operation.{name}" for name in unused_operation(solution)}
     for path, value, metadata in labelled(solution):
         if path not in unused:

@@ -26,12 +26,13 @@ def bearing_to_dict(solution: Solution) -> dict[str, Any]:
         "converged": converged,
         "status": Status(int(solution.status)).text,
         "warnings": list(solution.warnings),
+        "not_modelled": list(solution.not_modelled),
     }
     for name in field_names(solution):
         if name not in (*_INSIDE, *_NAMES) and not name.startswith("global_"):
             results[name] = plain(getattr(solution, name))
     results["operation"] |= dict.fromkeys(unused_operation(solution))
-    # fixed keys, also where the scene models no friction
+    # fixed keys, also where the scene models no friction: `None` then, which is not a loss of 0
     results["power_loss"].setdefault("total", None)
     results["stiffness"] = _embedded(np.asarray(solution.stiffness), solution.freedoms_of_stiffness)
     results["worst_equation"] = solution.equation_names[int(solution.worst_equation)]

@@ -18,7 +18,7 @@ from .operation import operating_point, unused_operation
 from .plots import power_losses
 from .section import section
 from .sketch import front_view
-from .summary import facts
+from .summary import facts, not_modelled
 
 _KINDS = {BallBearing: "ball bearing", TaperedRollerBearing: "tapered roller bearing"}
 _SOLVER = ("status", "iterations", "residual_norm", "inner_residual", "worst_equation", "worst_element", "unknowns")
@@ -58,6 +58,7 @@ def bearing_content(scene: Any, solution: Solution) -> Content:
         facts=[fact for fact in facts(solution) if fact[0] not in _LIFE],
         life=[row for row in results if row.path.startswith("life.")],
         losses=[*rows, ("total", digits(total), "100")] if rows else [],
+        not_modelled=not_modelled(solution) if solution.not_modelled else "",
         charts=bearing_charts(solution),
         convergence=list(_convergence(solution, total if losses else None)),
         checks=[(text, bool(broken)) for text, broken in solution.range_checks.items()],
@@ -95,8 +96,10 @@ def _headlines(solution: Solution, total: float | None) -> Iterator[tuple[str, s
         yield "thinnest film", with_unit(min(float(np.nanmin(film)) for film in found), "m")
     if solution.cage is not None:
         yield "cage slip", f"{digits(100.0 * float(solution.cage.slip), 3)} %"
+    if life is not None and life.Lnmr_hours is not None:
+        yield "modified life Lnmr", f"{digits(float(life.Lnmr_hours))} h"
     if life is not None:
-        yield "life L10r", f"{digits(float(life.L10r_hours))} h"
+        yield "basic life L10r", f"{digits(float(life.L10r_hours))} h"
 
 
 def _convergence(solution: Solution, total: float | None) -> Iterator[tuple[str, str]]:

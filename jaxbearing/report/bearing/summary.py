@@ -69,6 +69,7 @@ def _print_losses(solution: Solution, console: Console) -> None:
     }
     total, drive = entries.pop("total", None), solution.drive_power
     if not entries or total is None or drive is None:
+        print_line("Not modelled:", not_modelled(solution), console)
         return
     drive = float(drive)
     largest = max(abs(watts) for watts in entries.values())
@@ -90,6 +91,14 @@ def _print_losses(solution: Solution, console: Console) -> None:
     if abs(drive - total) > OPEN_BALANCE * abs(total):
         says = f"the drive power is {100.0 * (drive / total - 1.0):+.3g} % off the sum of the losses"
         print_line("Not balanced", f"{says}: the attitude of the balls is a hypothesis", console)
+    if solution.not_modelled:
+        print_line("Not modelled:", not_modelled(solution), console)
+
+
+def not_modelled(solution: Solution) -> str:
+    """Losses that the scene does not model, in words."""
+    names = ", ".join(name.replace("_", " ") for name in solution.not_modelled)
+    return f"all power losses ({names})" if solution.power_loss.total is None else names
 
 
 def _watts(values: list[float]) -> list[str]:
@@ -178,10 +187,10 @@ def _life(solution: Solution) -> Iterator[tuple[str, str]]:
         return
     of = lambda name: float(np.asarray(getattr(life, name)))
     kilonewton = lambda name: f"{digits(1e-3 * of(name))} kN"
-    lives = f"L10r {_revolutions(of('L10r'))}, {digits(of('L10r_hours'))} h"
-    if life.L10 is not None:
-        lives += f"; ISO 281 L10 {_revolutions(of('L10'))}"
-    yield "Life", lives
+    lasting = lambda name: f"{digits(of(f'{name}_hours'))} h ({_revolutions(of(name))})"
+    lives = {"Lnmr": "modified life Lnmr", "L10r": "basic reference life L10r", "L10": "ISO 281 L10"}
+    known = {name: words for name, words in lives.items() if getattr(life, name) is not None}
+    yield "Life", "; ".join(f"{words} {lasting(name)}" for name, words in known.items())
     yield "Rating", f"C {kilonewton('dynamic_capacity')}, C0 {kilonewton('static_capacity')}"
     said = [] if life.viscosity_ratio is None else [f"kappa {digits(of('viscosity_ratio'), 3)}"]
     if life.film_ratio_inner is not None:
@@ -189,7 +198,7 @@ def _life(solution: Solution) -> Iterator[tuple[str, str]]:
         thinnest = float(np.nanmin(ratios))  # NaN: a roller that touches nothing
         said.append(f"smallest lambda ratio {digits(thinnest, 3)}")
     if life.Lnmr is not None:
-        said.append(f"a_ISO {digits(of('modification_factor'), 3)}, modified life {_revolutions(of('Lnmr'))}")
+        said.append(f"a_ISO {digits(of('modification_factor'), 3)}")
     if said:
         yield "Lubrication", ", ".join(said)
 
