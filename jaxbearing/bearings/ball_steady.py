@@ -301,13 +301,14 @@ def _stiffness(
     full = dataclasses.replace(
         system,
         directions=jnp.stack([directions[name] for name in RING_FREEDOMS]),
-        held=wide(ball_row(scene).held),
+        azimuth=azimuth,
+        exact=True,
         ring_load=jnp.full(5, 1.0 / jnp.sqrt(5.0)) * system.load_scale(),
         freedoms=RING_FREEDOMS,
         multiplicity=1,
-        **({"azimuth": azimuth} if isinstance(system, LubricatedBallSystem) else {}),
     )
-    ring = jnp.stack([place.get(name, jnp.zeros(())) for name in RING_FREEDOMS])
+    held = {"tilt": system.held_tilt / LENGTH_UNIT}
+    ring = jnp.stack([place.get(name, held.get(name, jnp.zeros(()))) for name in RING_FREEDOMS])
     point = ArrowPoint(
         wide(result.point.elements), jnp.concatenate([ring, result.point.globals[len(system.freedoms) :]])
     )
@@ -326,8 +327,9 @@ def _stiffness(
 def _all_freedoms(
     full: LubricatedBallSystem, point: ArrowPoint, solved: ArrowJacobian, freedoms: int, multiplicity: int
 ) -> ArrowJacobian:
-    """The Jacobian with all five freedoms of the ring, from that of the solve: the ring moves the grooves only, and
-    friction, whose derivatives are the dear ones, does not see it.
+    """The Jacobian with all five freedoms of the ring, from that of the solve. Ring displacements only move the groove
+    centres, so the expensive friction derivatives of the solve can be reused; that a tilt also turns the inner race
+    under the sliding ball is left out here.
 
     **Arguments:** `full`: the equations of all balls with five freedoms; `solved`: of the solve, with this many
     `freedoms`, every ball of it standing for `multiplicity`.
@@ -338,7 +340,7 @@ def _all_freedoms(
 
     def light(v):
         state = full.frictionless(v[:m], v[m:])[0]
-        return jnp.concatenate([state.fit, full.contributions(state.ring_force, state.ring_moment)])
+        return jnp.concatenate([state.fit, full.contributions(v[m : m + 5], state.centre, state.ring_force, state.ring_moment)])
 
     v = jnp.concatenate([point.elements, shared])
     seeds = jnp.broadcast_to(jnp.eye(m + g)[:, :, None], (m + g, m + g, count))

@@ -3,11 +3,13 @@
 from typing import Any, Literal, NamedTuple
 
 import equinox as eqx
+import jax
 import jax.numpy as jnp
 from jaxtyping import Array, Float
 
 from ..numerics.arrow import AbstractArrowSystem
 from .ball_kinematics import BallKinematics, BallMotion
+from .groove_motion import InnerArm, inner_arm, ring_axis, turned_angle
 from .gyroscopic import AbstractGyroscopic
 
 LENGTH_UNIT = 1e-5
@@ -42,15 +44,17 @@ class Grooves(NamedTuple):
 class AbstractBallSystem(AbstractArrowSystem):
     """Balls between two grooved rings; globals: first the displacements of the inner ring.
 
-    `directions[f]` are the changes of the inner groove centre (axial, radial) at every ball for a unit of freedom f;
-    tilts are multiplied by R_i, so that every unknown of the ring is a length. `held` displaces these centres beside
-    that (misalignment).
+    `directions[f]` are the changes of the inner groove centre (axial, radial) at every ball for a unit of freedom f, to
+    first order; tilts are multiplied by R_i, so that every unknown of the ring is a length. `held_tilt` is the
+    misalignment of a ring that does not tilt freely, times R_i. `exact`: whether the grooves move with the exact
+    rotation of the ring (`groove_motion`).
     """
 
     kinematics: BallKinematics
     grooves: Grooves
     directions: Float[Array, "freedom 2 ball"]
-    held: Float[Array, "2 ball"]
+    azimuth: Float[Array, " ball"]
+    held_tilt: Float[Array, ""]
     ring_load: Float[Array, " freedom"]
     mass: Float[Array, ""]
     inertia: Float[Array, ""]
@@ -61,19 +65,50 @@ class AbstractBallSystem(AbstractArrowSystem):
     multiplicity: int = eqx.field(static=True)
     """Balls that each ball stands for."""
     attitude: Attitude = eqx.field(static=True)
+    exact: bool = eqx.field(static=True)
 
     @property
     def ball_count(self) -> int:
-        return self.multiplicity * self.held.shape[1]
+        return self.multiplicity * self.azimuth.shape[0]
 
     def ring_equation_names(self) -> tuple[str, ...]:
         return tuple(f"{name} load balance of the ring" for name in self.freedoms)
 
     def groove_centres(self, shift: Float[Array, "freedom ball"]) -> Float[Array, "2 ball"]:
         """Of the inner groove at every ball, (axial, radial) from those of the outer one, m, for displacements of the
-        ring in units of `LENGTH_UNIT`."""
+        ring in units of `LENGTH_UNIT`; to first order."""
         moved = LENGTH_UNIT * jnp.einsum("fn,fcn->cn", shift, self.directions)
-        return self.grooves.centre_distance * self.grooves.free_normal + self.held + moved
+        rest = self.grooves.centre_distance * self.grooves.free_normal + moved
+        return rest.at[0].add(self.held_tilt * jnp.cos(self.azimuth))
+
+    def ring_tilt(self, shift: Float[Array, "freedom ball"]) -> tuple[Array, Array, Array]:
+        """Axis of the ring, seen from every ball (`groove_motion.ring_axis`)."""
+        place = dict(zip(self.freedoms, LENGTH_UNIT * shift, strict=True))
+        still = jnp.zeros_like(self.azimuth)
+        tilts = place.get("tilt", self.held_tilt + still), place.get("tilt_lateral", still)
+        return ring_axis((tilts[0] / self.grooves.lever, tilts[1] / self.grooves.lever), self.azimuth)
+
+    def inner_arm(self, shift: Float[Array, "freedom ball"], centre: Float[Array, "2 ball"]) -> InnerArm:
+        """From ball centres, counted from the outer groove centre (axial, radial), m, to the inner groove centres."""
+        if not self.exact:
+            return InnerArm(*(self.groove_centres(shift) - centre), jnp.zeros_like(self.azimuth))
+        place = dict(zip(self.freedoms, LENGTH_UNIT * shift, strict=True))
+        still = jnp.zeros_like(self.azimuth)
+        axial, radial, lateral = (place.get(name, still) for name in ("axial", "radial", "lateral"))
+        grooves = self.grooves
+        away = grooves.centre_distance * grooves.free_normal[:, 0]
+        return inner_arm(
+            (axial + away[0], radial, lateral),
+            self.ring_tilt(shift),
+            self.azimuth,
+            (centre[0], grooves.lever - away[1] + centre[1]),
+            grooves.lever,
+        )
+
+    def turned(self, shift: Float[Array, "freedom ball"]) -> Float[Array, " ball"] | None:
+        """Angle of the inner groove against its untilted place in the half-plane of each ball, rad (None: not
+        turned)."""
+        return turned_angle(self.ring_tilt(shift)) if self.exact else None
 
     def centrifugal(self, orbital_speed: Array) -> Array:
         """N, of balls on the pitch circle."""
@@ -97,12 +132,31 @@ class AbstractBallSystem(AbstractArrowSystem):
         return axial + friction * cosine, radial - friction * sine, moment
 
     def contributions(
-        self, ring_force: Float[Array, "2 ball"], ring_moment: Float[Array, " ball"]
+        self,
+        shift: Float[Array, "freedom ball"],
+        centre: Float[Array, "2 ball"],
+        ring_force: Float[Array, "3 ball"],
+        ring_moment: Float[Array, " ball"],
     ) -> Float[Array, "freedom ball"]:
-        """Of every ball to the forces on the ring's freedoms, N; the moments in units of R_i."""
+        """Of every ball to the forces on the ring's freedoms, N; the moments in units of R_i.
+
+        They are conjugate to the displacements: force times the motion of the nearest groove centre, moment times the
+        turning of the groove. To second order the moment is $R_i(p_x\\cos t\\cos\\psi + p_r\\sin t\\cos^2\\psi)$.
+
+        **Arguments:** `shift`: of the ring, in units of `LENGTH_UNIT`; `centre`: of the balls, from the outer groove
+        centre, m; `ring_force`: (axial, outward, along the orbit), N; `ring_moment`: in the half-plane, N m.
+        """
+        if self.exact:
+
+            def move(shift: Array) -> Array:
+                arm, turned = self.inner_arm(shift, centre), turned_angle(self.ring_tilt(shift))
+                return jnp.stack([*arm, turned])
+
+            work = jnp.concatenate([ring_force, ring_moment[None]])
+            return (self.multiplicity / LENGTH_UNIT) * jax.vjp(move, shift)[1](work)[0]
         rows = []
         for direction, name in zip(self.directions, self.freedoms, strict=True):
-            force = jnp.sum(ring_force * direction, axis=0)
+            force = jnp.sum(ring_force[:2] * direction, axis=0)
             if name.startswith("tilt"):
                 # the tilt turns the axial direction of the groove's centre
                 force = force + ring_moment * direction[0] / self.grooves.lever
