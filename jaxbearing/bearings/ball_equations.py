@@ -490,11 +490,11 @@ class LubricatedBallSystem(AbstractBallSystem):
         grooves = self.grooves
         compression = jnp.cbrt(jnp.square(load / grooves.stiffness[:, None]))
         reach = grooves.offset[1] + compression[1] - film[1]
-        centre = reach * jnp.stack([jnp.sin(angle[1]), jnp.cos(angle[1])])
+        centre = reach[None] * jnp.stack([jnp.sin(angle[1]), jnp.cos(angle[1])])
         arm = self.inner_arm(shift, centre)
         groove = centre + jnp.stack(arm[:2])
         if self.exact:  # the arm laid into the half-plane
-            groove = centre + jnp.stack(arm[:2]) * (arm.length / arm.in_plane)
+            groove = centre + jnp.stack(arm[:2]) * (arm.length / arm.in_plane)[None]
         turned = angle[1] - angle[0]
         cosine, sine = jnp.cos(turned), jnp.sin(turned)
         along = groove[0] * jnp.sin(angle[0]) + groove[1] * jnp.cos(angle[0])

@@ -302,7 +302,7 @@ def _stiffness(
         system,
         directions=jnp.stack([directions[name] for name in RING_FREEDOMS]),
         azimuth=azimuth,
-        exact=True,
+        held_tilt=jnp.zeros(()),  # an unknown here
         ring_load=jnp.full(5, 1.0 / jnp.sqrt(5.0)) * system.load_scale(),
         freedoms=RING_FREEDOMS,
         multiplicity=1,
