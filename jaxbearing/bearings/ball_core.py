@@ -183,7 +183,7 @@ class BallCore(AbstractBallSystem):
         if not self.exact:
             return self.groove_centres(shift)
         centre = jnp.broadcast_to(self.free_centre(), (2, self.azimuth.shape[0]))
-        return centre + jnp.stack(self.inner_arm(shift, centre)[:2])
+        return centre + self.inner_arm(shift, centre).in_plane
 
     @property
     def paths(self) -> int:
@@ -233,10 +233,9 @@ class BallCore(AbstractBallSystem):
         shift = shared[: len(self.freedoms)]
         arm = self.inner_arm(shift, centre)
         apart = jnp.stack([arm.length, safe_norm(centre[0], centre[1])])
-        direction = angle = jnp.stack([jnp.arctan2(arm.axial, arm.radial), jnp.arctan2(centre[0], centre[1])])
-        turned = self.turned(shift)
-        if turned is not None:
-            angle = direction.at[0].add(-turned)
+        direction = angle = jnp.stack([jnp.arctan2(*arm.in_plane), jnp.arctan2(centre[0], centre[1])])
+        if arm.turned is not None:
+            angle = direction.at[0].add(-arm.turned)
         load = self.loads(apart)
         motion = self.motion(angle, load[0] > 0)
         own_orbit = motion.orbital_speed
@@ -246,7 +245,7 @@ class BallCore(AbstractBallSystem):
         if self.gyroscopic is not None:
             parts = self.gyroscopic.friction(self.couple(motion), self.kinematics.ball_diameter, load[0], load[1])
             friction = self.gyroscopic.sign * jnp.stack(parts)
-        pressing = load.at[0].multiply(arm.in_plane / arm.length) if self.exact else load
+        pressing = load.at[0].multiply(arm.share) if self.exact else load
         axial, radial, moment = self.with_friction(pressing, direction, friction)
         return BallState(
             load=load,

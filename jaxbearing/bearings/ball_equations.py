@@ -66,8 +66,7 @@ from ..numerics.safe import safe_norm
 from .ball_core import orbit_row, orbit_totals
 from .ball_geometry import BallGeometry
 from .ball_kinematics import BallMotion, RaceMotion
-from .ball_system import LENGTH_UNIT, AbstractBallSystem
-from .groove_motion import InnerArm
+from .ball_system import LENGTH_UNIT, AbstractBallSystem, InnerArm
 from .land import LandState, guided_land
 
 LOG_LOAD_RANGE = (-200.0, 18.0)
@@ -361,7 +360,7 @@ class LubricatedBallSystem(AbstractBallSystem):
         if self.slips or self.common_orbit:
             orbit = self.orbit(shared[d] if self.global_orbit else own["orbit"])
         pocket = self.friction_scale() * own["outward"] if "outward" in own else None
-        turned = self.turned(shared[:d])
+        turned = self.ring_frame(shared[:d]).turned if self.exact else None
         seen = inner if turned is None else inner - turned  # by the tilted race
         load, outer, motion, friction = self._contacts(log_load, inner, seen, orbit, own, pocket)
         angle, direction = jnp.stack([seen, outer]), jnp.stack([inner, outer])
@@ -492,9 +491,8 @@ class LubricatedBallSystem(AbstractBallSystem):
         reach = grooves.offset[1] + compression[1] - film[1]
         centre = reach[None] * jnp.stack([jnp.sin(angle[1]), jnp.cos(angle[1])])
         arm = self.inner_arm(shift, centre)
-        groove = centre + jnp.stack(arm[:2])
-        if self.exact:  # the arm laid into the half-plane
-            groove = centre + jnp.stack(arm[:2]) * (arm.length / arm.in_plane)[None]
+        # the arm laid into the half-plane
+        groove = centre + (arm.in_plane / arm.share[None] if self.exact else arm.in_plane)
         turned = angle[1] - angle[0]
         cosine, sine = jnp.cos(turned), jnp.sin(turned)
         along = groove[0] * jnp.sin(angle[0]) + groove[1] * jnp.cos(angle[0])

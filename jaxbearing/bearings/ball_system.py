@@ -8,9 +8,11 @@ import jax.numpy as jnp
 from jaxtyping import Array, Float
 
 from ..numerics.arrow import AbstractArrowSystem
+from ..numerics.safe import safe_norm
 from .ball_kinematics import BallKinematics, BallMotion
-from .groove_motion import InnerArm, inner_arm, ring_axis, turned_angle
+from .groove_motion import RingFrame, inner_arm, length_of, ring_frame
 from .gyroscopic import AbstractGyroscopic
+from .solution import RING_FREEDOMS
 
 LENGTH_UNIT = 1e-5
 """Scale of displacements, m."""
@@ -39,6 +41,21 @@ class Grooves(NamedTuple):
     def free_normal(self) -> Float[Array, "2 1"]:
         """Direction (axial, radial) from the outer to the inner groove centre of the unloaded bearing."""
         return jnp.stack([self.free_sine, self.free_cosine])[:, None]
+
+
+class InnerArm(NamedTuple):
+    """From ball centres to the nearest inner groove centres: components in the half-plane of the ball (axial, outward)
+    and along the orbit, distance, m; `turned`: of the groove by the tilt (`RingFrame.turned`; None: untilted)."""
+
+    in_plane: Float[Array, "2 ball"]
+    along: Float[Array, " ball"]
+    length: Float[Array, " ball"]
+    turned: Float[Array, " ball"] | None
+
+    @property
+    def share(self) -> Float[Array, " ball"]:
+        """Part of the distance that lies in the half-plane."""
+        return length_of(self.in_plane) / self.length
 
 
 class AbstractBallSystem(AbstractArrowSystem):
@@ -81,34 +98,25 @@ class AbstractBallSystem(AbstractArrowSystem):
         rest = self.grooves.centre_distance * self.grooves.free_normal + moved
         return rest.at[0].add(self.held_tilt * jnp.cos(self.azimuth))
 
-    def ring_tilt(self, shift: Float[Array, "freedom ball"]) -> tuple[Array, Array, Array]:
-        """Axis of the ring, seen from every ball (`groove_motion.ring_axis`)."""
-        place = dict(zip(self.freedoms, LENGTH_UNIT * shift, strict=True))
-        still = jnp.zeros_like(self.azimuth)
-        tilts = place.get("tilt", self.held_tilt + still), place.get("tilt_lateral", still)
-        return ring_axis((tilts[0] / self.grooves.lever, tilts[1] / self.grooves.lever), self.azimuth)
+    def ring_frame(self, shift: Float[Array, "freedom ball"]) -> RingFrame:
+        """The displaced ring of an `exact` system, for displacements in units of `LENGTH_UNIT`."""
+        rows = list(jnp.zeros((5, self.azimuth.shape[0])).at[3].set(self.held_tilt))
+        for name, moved in zip(self.freedoms, LENGTH_UNIT * shift, strict=True):
+            rows[RING_FREEDOMS.index(name)] = moved
+        lever = self.grooves.lever
+        unit = jnp.stack([*[jnp.ones(())] * 3, 1.0 / lever, 1.0 / lever])
+        return ring_frame(jnp.stack(rows) * unit[:, None], self.azimuth)
 
     def inner_arm(self, shift: Float[Array, "freedom ball"], centre: Float[Array, "2 ball"]) -> InnerArm:
         """From ball centres, counted from the outer groove centre (axial, radial), m, to the inner groove centres."""
         if not self.exact:
-            return InnerArm(*(self.groove_centres(shift) - centre), jnp.zeros_like(self.azimuth))
-        place = dict(zip(self.freedoms, LENGTH_UNIT * shift, strict=True))
-        still = jnp.zeros_like(self.azimuth)
-        axial, radial, lateral = (place.get(name, still) for name in ("axial", "radial", "lateral"))
-        grooves = self.grooves
-        away = grooves.centre_distance * grooves.free_normal[:, 0]
-        return inner_arm(
-            (axial + away[0], radial, lateral),
-            self.ring_tilt(shift),
-            self.azimuth,
-            (centre[0], grooves.lever - away[1] + centre[1]),
-            grooves.lever,
-        )
-
-    def turned(self, shift: Float[Array, "freedom ball"]) -> Float[Array, " ball"] | None:
-        """Angle of the inner groove against its untilted place in the half-plane of each ball, rad (None: not
-        turned)."""
-        return turned_angle(self.ring_tilt(shift)) if self.exact else None
+            arm = self.groove_centres(shift) - centre
+            return InnerArm(arm, jnp.zeros_like(centre[0]), safe_norm(arm[0], arm[1]), None)
+        grooves, frame = self.grooves, self.ring_frame(shift)
+        away = grooves.centre_distance * grooves.free_normal
+        start = jnp.stack([-away[0], grooves.lever - away[1]])
+        arm = inner_arm(frame, start + centre, grooves.lever)
+        return InnerArm(arm[:2], arm[2], length_of(arm), frame.turned)
 
     def centrifugal(self, orbital_speed: Array) -> Array:
         """N, of balls on the pitch circle."""
@@ -149,8 +157,8 @@ class AbstractBallSystem(AbstractArrowSystem):
         if self.exact:
 
             def move(shift: Array) -> Array:
-                arm, turned = self.inner_arm(shift, centre), turned_angle(self.ring_tilt(shift))
-                return jnp.stack([*arm, turned])
+                arm = self.inner_arm(shift, centre)
+                return jnp.concatenate([arm.in_plane, jnp.stack([arm.along, arm.turned])])
 
             work = jnp.concatenate([ring_force, ring_moment[None]])
             return (self.multiplicity / LENGTH_UNIT) * jax.vjp(move, shift)[1](work)[0]

@@ -20,81 +20,67 @@ import jax.numpy as jnp
 from jaxtyping import Array, Float
 
 from .._types import Values
-from ..numerics.safe import safe_norm
+from ..numerics.safe import NORM_FLOOR, safe_norm
 
 TILT_FLOOR = 1e-9
 """Added to the tilt in squares, rad: its direction then has a slope at 0, and its sine and cosine are exact to 1e-17."""
 
 
 
-class InnerArm(NamedTuple):
-    """From ball centres to the nearest inner groove centres: components along the bearing axis, outward and along the
-    orbit, m."""
+class RingFrame(NamedTuple):
+    """The displaced inner ring, seen from every ball: components along the bearing axis, outward and along the orbit.
 
-    axial: Float[Array, "..."]
-    radial: Float[Array, "..."]
-    along: Float[Array, "..."]
-
-    @property
-    def in_plane(self) -> Float[Array, "..."]:
-        """Length of the part in the half-plane of the ball, m."""
-        return safe_norm(self.axial, self.radial)
-
-    @property
-    def length(self) -> Float[Array, "..."]:
-        """Distance of the ball centre from the circle of groove centres, m."""
-        return safe_norm(self.in_plane, self.along)
-
-
-def ring_axis(tilt: tuple[Values, Values], azimuth: Values) -> tuple[Array, Array, Array]:
-    """Direction n' of the tilted axis, seen from each ball: components along the bearing axis, outward, along the
-    orbit. **Arguments:** as in `inner_arm`."""
-    cosine, sine = jnp.cos(azimuth), jnp.sin(azimuth)
-    size = safe_norm(*tilt, TILT_FLOOR)
-    part = jnp.sin(size) / size
-    outward = -part * (tilt[0] * cosine + tilt[1] * sine)
-    return jnp.cos(size), outward, -part * (tilt[1] * cosine - tilt[0] * sine)
-
-
-def turned_angle(axis: tuple[Array, Array, Array]) -> Float[Array, "..."]:
-    """Angle by which the inner groove turns in the half-plane of each ball, rad.
-
-    The contact angle on the tilted race is that in the fixed frame minus this one; where the ring is displaced by
-    $d_t$ along the orbit, within $t\\,d_t/R_i$, below 1e-5 rad. **Arguments:** `axis`: of `ring_axis`.
+    `shift`: of the centre of the circle of groove centres, m; `axis`: direction n' of the tilted axis.
     """
-    return jnp.arctan2(-axis[1], axis[0])
+
+    shift: Float[Array, "3 ball"]
+    axis: Float[Array, "3 ball"]
+
+    @property
+    def turned(self) -> Float[Array, " ball"]:
+        """Angle by which the inner groove turns in the half-plane of each ball, rad.
+
+        The contact angle on the tilted race is that in the fixed frame minus this one; where the ring is displaced by
+        $d_t$ along the orbit, within $t\\,d_t/R_i$, below 1e-5 rad.
+        """
+        return jnp.arctan2(-self.axis[1], self.axis[0])
+
+
+def length_of(vector: Float[Array, "component *batch"]) -> Float[Array, "*batch"]:
+    """Length over the first axis, with gradient 0 at the origin."""
+    return jnp.sqrt(jnp.sum(jnp.square(vector), axis=0) + NORM_FLOOR**2)
+
+
+def ring_frame(ring: Float[Array, "5 ball"], azimuth: Float[Array, " ball"]) -> RingFrame:
+    r"""The ring from its displacements.
+
+    **Arguments:** `ring`: $\delta_a, \delta_r, \delta_l$, m, and $\theta_1, \theta_2$, rad, which move azimuth 0 and
+    90 degrees along $+e_x$; `azimuth`: $\psi$ of the balls, rad.
+    """
+    cosine, sine = jnp.cos(azimuth), jnp.sin(azimuth)
+    outward, along = jnp.stack([cosine, sine]), jnp.stack([-sine, cosine])
+    # of (radial, lateral) and of the two tilts
+    planes = jnp.stack([outward, along])
+    shift = jnp.concatenate([ring[:1], jnp.sum(planes * ring[None, 1:3], axis=1)])
+    size = safe_norm(ring[3], ring[4], TILT_FLOOR)
+    side = -(jnp.sin(size) / size)[None] * jnp.sum(planes * ring[None, 3:], axis=1)
+    return RingFrame(shift, jnp.concatenate([jnp.cos(size)[None], side]))
 
 
 def inner_arm(
-    shift: tuple[Values, Values, Values],
-    axis: tuple[Array, Array, Array],
-    azimuth: Values,
-    centre: tuple[Values, Values],
-    lever: Values,
-    side: Values = 0.0,
-) -> InnerArm:
-    r"""The arms from ball centres to the inner grooves of a displaced and tilted ring; exact.
+    frame: RingFrame, centre: Float[Array, "2 ball"], lever: Values, side: Values = 0.0
+) -> Float[Array, "3 ball"]:
+    r"""The arms from ball centres to the nearest inner groove centres of a displaced and tilted ring, m: components
+    along the bearing axis, outward and along the orbit; exact.
 
     **Arguments:**
-    - `shift`: $\delta_a, \delta_r, \delta_l$ of the centre of the circle of groove centres from the plane and axis in
-      which ball centres are counted, m.
-    - `axis`: of `ring_axis`, for the tilt $\theta_1, \theta_2$, rad; positive values move azimuth 0 and 90 degrees
-      along $+e_x$.
-    - `azimuth`: $\psi$ of the balls, rad.
-    - `centre`: of the balls along the axis, and distance from the axis, m.
+    - `centre`: of the balls along the axis, from the plane in which the ring's axial displacement counts, and distance
+      from the axis, m.
     - `lever`: $R_i$, m.
-    - `side`: distance of the circle along $n'$ from the centre that `shift` moves, m: of the arcs of a ring that has
-      two.
+    - `side`: distance of the circle along $n'$ from the centre that moves by `frame.shift`, m: of the arcs of a ring
+      that has two.
     """
-    cosine, sine = jnp.cos(azimuth), jnp.sin(azimuth)
-    # the ball from the displaced centre
-    ball = (
-        centre[0] - shift[0],
-        centre[1] - (shift[1] * cosine + shift[2] * sine),
-        shift[1] * sine - shift[2] * cosine,
-    )
-    height = ball[0] * axis[0] + ball[1] * axis[1] + ball[2] * axis[2]
-    flat = [p - height * n for p, n in zip(ball, axis, strict=True)]
-    radius = safe_norm(safe_norm(flat[0], flat[1]), flat[2])
-    reach, lift = (lever - radius) / radius, side - height
-    return InnerArm(*(lift * n + reach * u for n, u in zip(axis, flat, strict=True)))
+    ball = jnp.concatenate([centre, jnp.zeros_like(centre[:1])]) - frame.shift
+    height = jnp.sum(ball * frame.axis, axis=0)[None]
+    flat = ball - height * frame.axis
+    return (side - height) * frame.axis + (lever / length_of(flat)[None] - 1.0) * flat
