@@ -81,6 +81,7 @@ def ball_grooves(scene: BallBearing) -> Grooves:
         centre_distance=jnp.asarray(geometry.centre_distance),
         free_cosine=jnp.asarray(geometry.free_cosine),
         free_sine=jnp.asarray(geometry.free_sine),
+        aligned=jnp.asarray(geometry.aligned),
         lever=jnp.asarray(geometry.groove_circle_radius),
         groove_arm=jnp.asarray(geometry.conformity_inner * geometry.ball_diameter),
     )

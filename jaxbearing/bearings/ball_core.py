@@ -174,6 +174,7 @@ class BallCore(AbstractBallSystem):
             multiplicity=self.multiplicity,
             centre_distance=self.grooves.centre_distance,
             free_cosine=self.grooves.free_cosine,
+            aligned=self.grooves.aligned,
             freedoms=self.freedoms,
         )
 

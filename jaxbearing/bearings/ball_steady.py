@@ -30,6 +30,8 @@ SIDES = np.array([[1.0], [-1.0]])
 """Inner, outer: the sense of the contact's x axis along the orbit."""
 YIELD_PRESSURE = 4.2e9
 """Pa: that of the basic static load rating of ball bearings in ISO 76."""
+LARGEST_TILT = 10e-3
+"""Of the inner ring, rad: more than ball bearings are made for."""
 SKIDDING = 0.1
 """Sliding along rolling over the rolling speed, from which on the laws made for rolling are extrapolated."""
 LOADED = 0.01
@@ -54,6 +56,10 @@ def solve_ball(scene: BallBearing, options: NewtonOptions) -> Solution:
     displacement = RingDisplacement(
         **{name: ring.get(name, jnp.zeros(())) / scale.get(name, 1.0) for name in RING_FREEDOMS}
     )
+    if scene.operation.tilts:
+        tilt = jnp.hypot(displacement.tilt, displacement.tilt_lateral)
+        excess = {"tilt of the inner ring beyond 10 mrad: more than ball bearings are made for": tilt - LARGEST_TILT}
+        results = results._replace(range_excess=results.range_excess | excess)
     stiffness = _stiffness(scene, system, result)
     return assemble(
         scene,

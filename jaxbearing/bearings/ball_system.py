@@ -27,6 +27,9 @@ class Grooves(NamedTuple):
     centre_distance: Float[Array, ""]
     free_cosine: Float[Array, ""]
     free_sine: Float[Array, ""]
+    aligned: Float[Array, ""]
+    """Axial displacement of the ring at which the planes of the grooves coincide, m: 0, or less than 0 where
+    displacements count from first contact."""
     lever: Float[Array, ""]
     """Radius of the circle of inner groove centres, R_i."""
     groove_arm: Float[Array, ""]
@@ -39,8 +42,13 @@ class Grooves(NamedTuple):
 
     @property
     def free_normal(self) -> Float[Array, "2 1"]:
-        """Direction (axial, radial) from the outer to the inner groove centre of the unloaded bearing."""
-        return jnp.stack([self.free_sine, self.free_cosine])[:, None]
+        """Direction (axial, radial) from the outer to the inner groove centre of the ring without displacement."""
+        return self.rest / safe_norm(self.rest[0], self.rest[1])
+
+    @property
+    def rest(self) -> Float[Array, "2 1"]:
+        """Inner groove centre (axial, radial) from the outer one, of the ring without displacement, m."""
+        return jnp.stack([-self.aligned, self.centre_distance * self.free_cosine])[:, None]
 
 
 class InnerArm(NamedTuple):
@@ -95,8 +103,7 @@ class AbstractBallSystem(AbstractArrowSystem):
         """Of the inner groove at every ball, (axial, radial) from those of the outer one, m, for displacements of the
         ring in units of `LENGTH_UNIT`; to first order."""
         moved = LENGTH_UNIT * jnp.einsum("fn,fcn->cn", shift, self.directions)
-        rest = self.grooves.centre_distance * self.grooves.free_normal + moved
-        return rest.at[0].add(self.held_tilt * jnp.cos(self.azimuth))
+        return (self.grooves.rest + moved).at[0].add(self.held_tilt * jnp.cos(self.azimuth))
 
     def ring_frame(self, shift: Float[Array, "freedom ball"]) -> RingFrame:
         """The displaced ring of an `exact` system, for displacements in units of `LENGTH_UNIT`."""
@@ -113,7 +120,7 @@ class AbstractBallSystem(AbstractArrowSystem):
             arm = self.groove_centres(shift) - centre
             return InnerArm(arm, jnp.zeros_like(centre[0]), safe_norm(arm[0], arm[1]), None)
         grooves, frame = self.grooves, self.ring_frame(shift)
-        away = grooves.centre_distance * grooves.free_normal
+        away = grooves.rest
         start = jnp.stack([-away[0], grooves.lever - away[1]])
         arm = inner_arm(frame, start + centre, grooves.lever)
         return InnerArm(arm[:2], arm[2], length_of(arm), frame.turned)

@@ -10,6 +10,7 @@ import numpy as np
 from jaxtyping import Array, Bool, Float
 
 from ..bearings.ball_bearing import BallBearing
+from ..bearings.ball_rating import linear_tilt_loads
 from ..bearings.cylindrical_roller import CylindricalRollerBearing
 from ..bearings.rating import CATALOGUE_CONFORMITY, Rating
 from ..bearings.solution import Solution
@@ -67,13 +68,15 @@ def with_life(scene: Any, solution: Any) -> Any:
     checks = dict(solution.checks)
     if life.modification_factor is not None and life.viscosity_ratio is not None:
         checks[THIN_WARNING] = life.viscosity_ratio < KAPPA_RANGE[0]
-    notes = (*solution.notes, *_without_effect(rating, life))
+    notes = (*solution.notes, *_without_effect(scene, life))
     return dataclasses.replace(solution, life=life, checks=checks, notes=notes)
 
 
-def _without_effect(rating: Rating, life: Life) -> list[str]:
+def _without_effect(scene: Any, life: Life) -> list[str]:
     """What the scene says about the life and lacks something else for."""
-    found = []
+    found, rating = [], scene.rating
+    if rating.tilt == "iso" and not _tilts_linearly(scene):
+        found.append("rating.tilt = 'iso' has no effect: it is about ball bearings with a moment or a misalignment")
     if rating.cleanliness is not None and life.viscosity_ratio is None:
         lacking = "a viscosity ratio: rating.viscosity_ratio, or an oil with a density"
         found.append(f"rating.cleanliness has no effect without {lacking}")
@@ -176,11 +179,19 @@ def _ball(scene: BallBearing, elements: Any, laminae: Any, turns: Any) -> Rated:
     capacity = _given(rating.dynamic_capacity, lambda: ball_capacity(*sizes, *rated))
     static = _given(rating.static_capacity, lambda: ball_static_capacity(*sizes, rated[0]))
     limits = ball_contact_capacities(capacity, *sizes, *grooves)
-    rate = ball_damage_rate(elements.load_inner, elements.load_outer, limits, *turns)
+    loads = (elements.load_inner, elements.load_outer)
+    if _tilts_linearly(scene):
+        loads = tuple(linear_tilt_loads(scene))
+    rate = ball_damage_rate(*loads, limits, *turns)
     operation = scene.operation
     radial_only = operation.axial_load is None and operation.moment is None and operation.radial_load is not None
     load = jnp.abs(jnp.asarray(operation.radial_load)) if radial_only else None
     return Rated("ball", jnp.asarray(geometry.pitch_diameter), capacity, static, rate, load)
+
+
+def _tilts_linearly(scene: Any) -> bool:
+    """Whether the loads for the life are those of the first-order motion of a tilted ring."""
+    return isinstance(scene, BallBearing) and scene.operation.tilts and scene.rating.tilt == "iso"
 
 
 def edge_weights(rating: Rating, profiled: bool, count: int) -> np.ndarray:

@@ -63,6 +63,7 @@ class RatingTable(Table):
     n_laminae: units.Count = LAMINAE
     edge_factor: units.Switch | None = None
     grooves: Literal["catalogue", "scene"] = "catalogue"
+    tilt: Literal["exact", "iso"] = "exact"
 
     @model_validator(mode="after")
     def _both_roughnesses(self) -> Self:
