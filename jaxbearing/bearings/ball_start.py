@@ -267,9 +267,7 @@ def _ring_estimate(problem: CentrifugalProblem, total: Array, count: int) -> Flo
     pushed = jnp.where(axial < 0, -1.0, 1.0)
     mixed = 1.0 - 0.6 * jnp.minimum(1.0, radial * tangent / jnp.maximum(jnp.abs(axial), 1e-3))
     alone = (jnp.abs(axial) + tilting) <= 1e-9 * total
-    inward = jnp.where(
-        alone, problem.aligned, problem.aligned + pushed * (distance * sine + depth * mixed)
-    )
+    inward = jnp.where(alone, problem.aligned, problem.aligned + pushed * (distance * sine + depth * mixed))
     across = (5.0 * radial / (count * cosine * together)) ** (2.0 / 3.0)
     across = across + jnp.where(alone, distance * (1.0 - cosine), 0.0)
     guesses = {"axial": inward, "radial": jnp.sign(load.get("radial", zero)) * across}

@@ -16,7 +16,7 @@ from ..numerics.arrow import ArrowJacobian, ArrowPoint, linearize, schur_complem
 from ..numerics.newton import NewtonOptions, NewtonResult, newton_solve
 from ..numerics.safe import smooth_abs
 from .ball_bearing import BallBearing
-from .ball_build import ball_row, build_core, build_lubricated, ring_directions
+from .ball_build import build_core, build_lubricated, ring_directions
 from .ball_core import BallCore
 from .ball_equations import BallsState, LubricatedBallSystem
 from .ball_kinematics import BallMotion
@@ -346,7 +346,8 @@ def _all_freedoms(
 
     def light(v):
         state = full.frictionless(v[:m], v[m:])[0]
-        return jnp.concatenate([state.fit, full.contributions(v[m : m + 5], state.centre, state.ring_force, state.ring_moment)])
+        on_ring = full.contributions(v[m : m + 5], state.centre, state.ring_force, state.ring_moment)
+        return jnp.concatenate([state.fit, on_ring])
 
     v = jnp.concatenate([point.elements, shared])
     seeds = jnp.broadcast_to(jnp.eye(m + g)[:, :, None], (m + g, m + g, count))

@@ -23,8 +23,7 @@ from .._types import Values
 from ..numerics.safe import NORM_FLOOR, safe_norm
 
 TILT_FLOOR = 1e-9
-"""Added to the tilt in squares, rad: its direction then has a slope at 0, and its sine and cosine are exact to 1e-17."""
-
+"""Added to the tilt in squares, rad: its direction then has a slope at 0, and sine and cosine are exact to 1e-17."""
 
 
 class RingFrame(NamedTuple):
@@ -46,7 +45,7 @@ class RingFrame(NamedTuple):
         return jnp.arctan2(-self.axis[1], self.axis[0])
 
 
-def length_of(vector: Float[Array, "component *batch"]) -> Float[Array, "*batch"]:
+def length_of(vector: Float[Array, "component ball"]) -> Float[Array, " ball"]:
     """Length over the first axis, with gradient 0 at the origin."""
     return jnp.sqrt(jnp.sum(jnp.square(vector), axis=0) + NORM_FLOOR**2)
 
