@@ -193,9 +193,9 @@ class RigidBlend(AbstractPointFilm):
     `NijenbanningVennerMoes`; n = 3 by default.
 
     **Limits:** the wrapped film at high load: higher than that by $r^n/n$, r the ratio of the two films; for Hamrock
-    and Dowson's, L = 10 and a circle this is 2e-10 at M = 100, 3e-7 at M = 30 and 2e-4 at M = 10. $h_{RI}$ as Q -> 0:
-    the film then grows as $Q^{-2}$, so a ball in any clearance carries a small positive load and has a place of its own,
-    where the wrapped law, with $Q^{-0.067}$, has no film that fills the clearance.
+    and Dowson's, L = 10 and a circle this is 4e-10 at M = 100, 4e-7 at M = 30 and 3e-4 at M = 10. $h_{RI}$ as Q -> 0:
+    the film then grows as $Q^{-2}$, so a ball in any clearance carries a small positive load and has a place of its
+    own, where the wrapped law, with $Q^{-0.067}$, has no film that fills the clearance.
     **Validity:** an interpolation; at equal films the sum is 26 % above either (n = 3). The plateau of a
     rigid-piezoviscous contact between the two is left out; `NijenbanningVennerMoes` has it. M is floored as there. Do
     not wrap that law, which contains $h_{RI}$ already.
