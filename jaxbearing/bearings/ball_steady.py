@@ -69,10 +69,53 @@ def solve_ball(scene: BallBearing, options: NewtonOptions) -> Solution:
         stiffness,
         iterations=steps,
         ring_freedom=_ring_names(scene),
+        input_excess=_input_excess(scene),
+        reasons={
+            "the load is {:.3g} times that at which the most loaded ball reaches 4.2 GPa, the limit of the static load "
+            "rating: balls and races would yield": jnp.where(overload(scene) > 1.0, overload(scene), jnp.nan)
+        },
         stiffness_freedom=RING_FREEDOMS,
         equation_names=system.equation_names(),
         element_name="ball",
     )
+
+
+def overload(scene: BallBearing) -> Float[Array, ""]:
+    r"""Load over the static load rating of the scene's own grooves and materials, by the definition of ISO 76:
+    $P_0/C_0$, $C_0 = \frac15Z\cos\alpha\,Q(4.2\,GPa)$ of the inner contact.
+
+    $P_0 = \max(F_r, X_0F_r + Y_0F_a)$, X_0 = 0.6 (deep groove) or 0.5, $Y_0 = 0.58 - 0.008\alpha$/1°, at most 0.5: a
+    line through ISO 76's table ([M], from memory). A moment counts as the axial load $2M/d_m$.
+    """
+    geometry, operation = scene.geometry, scene.operation
+    size = lambda value: jnp.abs(jnp.asarray(0.0 if value is None else value))
+    angle = jnp.asarray(0.0 if geometry.contact_angle is None else geometry.contact_angle)
+    radial = size(operation.radial_load)
+    axial = size(operation.axial_load) + 2.0 * size(operation.moment) / geometry.pitch_diameter
+    share = 0.6 if geometry.contact_angle is None else 0.5
+    equivalent = jnp.maximum(radial, share * radial + jnp.minimum(0.58 - 0.008 * jnp.degrees(angle), 0.5) * axial)
+    cosine = jnp.broadcast_to(jnp.cos(angle), (2,))
+    ball = _contact(scene, cosine).load_at_pressure(YIELD_PRESSURE)[0]
+    return equivalent / (0.2 * geometry.n_balls * cosine[0] * ball)
+
+
+def missing_thrust(scene: BallBearing) -> Float[Array, ""]:
+    r"""$1.22F_r\tan\alpha - F_a$, N: > 0 where fewer than half of the balls of an angular contact bearing are loaded
+    (Harris, *Rolling Bearing Analysis*)."""
+    operation, angle = scene.operation, jnp.asarray(scene.geometry.contact_angle)
+    size = lambda value: jnp.abs(jnp.asarray(0.0 if value is None else value))
+    return 1.22 * size(operation.radial_load) * jnp.tan(angle) - size(operation.axial_load)
+
+
+def _input_excess(scene: BallBearing) -> dict[str, Array]:
+    """By how much the loads leave what the bearing is made for; said of failed solves too."""
+    if scene.geometry.contact_angle is None or scene.operation.radial_load is None:
+        return {}
+    text = (
+        "axial load below 1.22 F_r tan(contact angle): fewer than half of the balls of this angular contact bearing "
+        "carry load; it needs an axial load or a second bearing that preloads it"
+    )
+    return {text: missing_thrust(scene)}
 
 
 def _ring_names(scene: BallBearing) -> tuple[str, ...]:

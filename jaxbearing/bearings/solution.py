@@ -6,6 +6,7 @@ The command line, JSON, files and pages read this metadata; nothing keeps a seco
 from typing import Any
 
 import equinox as eqx
+import numpy as np
 from jaxtyping import Array, Bool, Float, Int
 
 from .._scene import AbstractSolution
@@ -174,6 +175,9 @@ class Solution(AbstractSolution):
     element_name: str = eqx.field(static=True, default="roller")
     raceway_power: Any = None
     laminae: LaminaLoads | None = None
+    reasons: dict[str, Array] = eqx.field(default_factory=dict)
+    """What may have made a solve fail: a sentence with places for numbers, `{:.3g}` -> the numbers; NaN where it does
+    not apply."""
     life: Any = None
     """`life.result.Life`, where the scene has a rating."""
 
@@ -187,7 +191,16 @@ class Solution(AbstractSolution):
         return self.status == Status.CONVERGED
 
     def failure(self) -> str:
-        """One sentence on a solve that failed: status, residual, worst equation."""
+        """One sentence on a solve that failed: status, residual, worst equation, and what may have caused it."""
+        found = [
+            text.format(*np.atleast_1d(np.asarray(numbers)).tolist())
+            for text, numbers in self.reasons.items()
+            if np.all(np.isfinite(np.asarray(numbers)))
+        ]
+        return "; ".join([self._ending(), *found])
+
+    def _ending(self) -> str:
+        """How the solve ended."""
         local_equations = len(self.equation_names) - self.global_equations
         worst = int(self.worst_equation)
         name = self.equation_names[worst]
