@@ -43,7 +43,7 @@ class Grooves(NamedTuple):
     @property
     def free_normal(self) -> Float[Array, "2 1"]:
         """Direction (axial, radial) from the outer to the inner groove centre of the ring without displacement."""
-        return self.rest / safe_norm(self.rest[0], self.rest[1])
+        return self.rest / safe_norm(self.rest[0], self.rest[1])[None]
 
     @property
     def rest(self) -> Float[Array, "2 1"]:
@@ -156,7 +156,7 @@ class AbstractBallSystem(AbstractArrowSystem):
         """Of every ball to the forces on the ring's freedoms, N; the moments in units of R_i.
 
         They are conjugate to the displacements: force times the motion of the nearest groove centre, moment times the
-        turning of the groove. To second order the moment is $R_i(p_x\\cos t\\cos\\psi + p_r\\sin t\\cos^2\\psi)$.
+        turning of the groove. To second order the moment is $R_i(p_x\\cos t\\cos\\psi - p_r\\sin t\\cos^2\\psi)$.
 
         **Arguments:** `shift`: of the ring, in units of `LENGTH_UNIT`; `centre`: of the balls, from the outer groove
         centre, m; `ring_force`: (axial, outward, along the orbit), N; `ring_moment`: in the half-plane, N m.
