@@ -23,7 +23,7 @@ from .ball_kinematics import BallMotion
 from .ball_solution import BallPowerLoss, BallResults, RacewayPower
 from .ball_system import LENGTH_UNIT
 from .land import LandState
-from .solution import RING_FREEDOMS, CageState, RingDisplacement, Solution
+from .solution import RING_FREEDOMS, CageState, Reason, RingDisplacement, Solution
 from .steady import assemble
 
 SIDES = np.array([[1.0], [-1.0]])
@@ -72,7 +72,7 @@ def solve_ball(scene: BallBearing, options: NewtonOptions) -> Solution:
         input_excess=_input_excess(scene),
         reasons={
             "the load is {:.3g} times that at which the most loaded ball reaches 4.2 GPa, the limit of the static load "
-            "rating: balls and races would yield": jnp.where(overload(scene) > 1.0, overload(scene), jnp.nan)
+            "rating: balls and races would yield": Reason(overload(scene) > 1.0, overload(scene))
         },
         stiffness_freedom=RING_FREEDOMS,
         equation_names=system.equation_names(),

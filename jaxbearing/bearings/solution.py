@@ -3,7 +3,7 @@
 The command line, JSON, files and pages read this metadata; nothing keeps a second list.
 """
 
-from typing import Any
+from typing import Any, NamedTuple
 
 import equinox as eqx
 import numpy as np
@@ -137,6 +137,13 @@ class LaminaLoads(eqx.Module):
     profiled: bool = eqx.field(static=True, default=False)
 
 
+class Reason(NamedTuple):
+    """Whether it applies, and the numbers that belong to it."""
+
+    applies: Bool[Array, ""]
+    numbers: Float[Array, "..."]
+
+
 class Solution(AbstractSolution):
     """Result of a steady solve. Where `status` is not converged every result is NaN, never the last iterate.
 
@@ -175,9 +182,8 @@ class Solution(AbstractSolution):
     element_name: str = eqx.field(static=True, default="roller")
     raceway_power: Any = None
     laminae: LaminaLoads | None = None
-    reasons: dict[str, Array] = eqx.field(default_factory=dict)
-    """What may have made a solve fail: a sentence with places for numbers, `{:.3g}` -> the numbers; NaN where it does
-    not apply."""
+    reasons: dict[str, Reason] = eqx.field(default_factory=dict)
+    """What may have made the solve fail: a sentence with places for numbers, such as `{:.3g}` -> the numbers."""
     life: Any = None
     """`life.result.Life`, where the scene has a rating."""
 
@@ -193,9 +199,9 @@ class Solution(AbstractSolution):
     def failure(self) -> str:
         """One sentence on a solve that failed: status, residual, worst equation, and what may have caused it."""
         found = [
-            text.format(*np.atleast_1d(np.asarray(numbers)).tolist())
-            for text, numbers in self.reasons.items()
-            if np.all(np.isfinite(np.asarray(numbers)))
+            text.format(*np.atleast_1d(np.asarray(reason.numbers)).tolist())
+            for text, reason in self.reasons.items()
+            if bool(reason.applies)
         ]
         return "; ".join([self._ending(), *found])
 

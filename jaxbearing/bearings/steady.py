@@ -9,7 +9,7 @@ from jaxtyping import Array, Float, Int
 from ..numerics.newton import NewtonResult
 from .ball_bearing import BallBearing
 from .cylindrical_roller import CylindricalRollerBearing
-from .solution import RingDisplacement, Solution
+from .solution import Reason, RingDisplacement, Solution
 from .tapered_roller import TaperedRollerBearing
 
 
@@ -21,7 +21,7 @@ def assemble(
     stiffness: Float[Array, "freedom freedom"],
     iterations: Int[Array, ""] | None = None,
     input_excess: dict[str, Array] | None = None,
-    reasons: dict[str, Array] | None = None,
+    reasons: dict[str, Reason] | None = None,
     **names: Any,
 ) -> Solution:
     """The `Solution` of a solve: how it ended, and NaN for every result where it failed.
@@ -31,7 +31,7 @@ def assemble(
       that is positive where it applies.
     - `iterations`: of all solves together; those of `result` where not given.
     - `input_excess`: like `range_excess`, but about the scene: said of failed solves too.
-    - `reasons`: of `Solution`; dropped where the solve converged.
+    - `reasons`: of `Solution`; none applies where the solve converged.
     - `names`: static fields of the `Solution`.
     """
     good = result.converged
@@ -56,7 +56,7 @@ def assemble(
         global_equations=result.point.globals.shape[0],
         unknowns=result.point.elements.size + result.point.globals.size,
         notes=notes,
-        reasons={text: jnp.where(good, jnp.nan, numbers) for text, numbers in (reasons or {}).items()},
+        reasons={text: Reason(~good & one.applies, one.numbers) for text, one in (reasons or {}).items()},
         **jax.tree.map(lambda leaf: jnp.where(good, leaf, jnp.nan), shown),
         **names,
     )

@@ -17,7 +17,7 @@ from .lamina_checks import EDGE_WARNING, edge_excess
 from .rating import LAMINAE
 from .roller_loads import LENGTH_UNIT
 from .roller_steady import SLOWEST
-from .solution import RING_FREEDOMS, CageState, LaminaLoads, RingDisplacement, Solution
+from .solution import RING_FREEDOMS, CageState, LaminaLoads, Reason, RingDisplacement, Solution
 from .steady import assemble
 from .tapered_build import build_tapered, rolling_motion
 from .tapered_friction import TaperedFriction, tapered_friction
@@ -126,13 +126,13 @@ def _moment_range(scene: TaperedRollerBearing) -> tuple[Array, Array, Array]:
     return moment, middle, 0.5 * length * jnp.asarray(operation.axial_load) / jnp.sin(cup)
 
 
-def _reasons(scene: TaperedRollerBearing, inertia: Inertia) -> dict[str, Array]:
+def _reasons(scene: TaperedRollerBearing, inertia: Inertia) -> dict[str, Reason]:
     """Of a failed solve: loads beyond the static bounds, and what they would have to be."""
     sliding, least = slides_out(scene, inertia), least_axial_load(scene, inertia)
     given = jnp.asarray(scene.operation.axial_load)
     found = {
-        "the axial load of {:.4g} N must be at least {:.4g} N to hold the cone in the cup": jnp.where(
-            sliding, jnp.stack([given, least]), jnp.nan
+        "the axial load of {:.4g} N must be at least {:.4g} N to hold the cone in the cup": Reason(
+            sliding, jnp.stack([given, least])
         )
     }
     if scene.operation.moment is not None:
@@ -140,7 +140,7 @@ def _reasons(scene: TaperedRollerBearing, inertia: Inertia) -> dict[str, Array]:
         shift = jnp.asarray(scene.operation.moment) - moment
         ends = jnp.stack([jnp.asarray(scene.operation.moment), middle - most + shift, middle + most + shift])
         text = "the moment of {:.4g} N m must lie between {:.4g} and {:.4g} N m"
-        found[text] = jnp.where(tips_over(scene) & ~sliding, ends, jnp.nan)
+        found[text] = Reason(tips_over(scene) & ~sliding, ends)
     return found
 
 

@@ -7,7 +7,7 @@ is drawn to it from any side; no certificate is accepted. Left out:
 - shares of the gyroscopic couple that an unloaded contact cannot carry (`kinematics.gyroscopic` = shared);
 - angular contact bearings under less axial load than the 1.22 F_r tan(alpha) that keeps half of the balls loaded: on
   the far side the inner ring lifts off by more than its groove is deep, and the full circle of the model is no groove;
-- lubricated bearings below the least load of makers' catalogues, a hundredth of the capacity, or below the
+- balls that slide, below the least load of makers' catalogues, a hundredth of the capacity, or below the
   centrifugal force of the balls, which are then thrown off the inner race and skid: every third of those fails, and
   says so.
 """
@@ -42,7 +42,7 @@ import jaxbearing as jb
 STATIC = 6e6
 """Largest load over the number of balls and the square of their diameter, N/m^2: half of ISO 76 for radial loads."""
 LEAST_LOAD = 0.02
-"""Of lubricated bearings, over the largest, which is half of the capacity."""
+"""Of balls that slide, over the largest, which is half of the capacity."""
 FASTEST = {False: 2.5e6, True: 1.5e6}
 """Speed times pitch diameter, rpm mm, of dry and lubricated bearings."""
 DIMENSIONS: dict[str, Range] = {
@@ -74,8 +74,9 @@ def ball_numbers(v: Numbers, scene: Any) -> Numbers:
     most = np.maximum(STATIC * n * diameter**2, 2.0)
     lubricated = scene.contact is not None
     turning = speeds(v, pitch, 100.0 if lubricated else 1e-2, FASTEST[lubricated], rest=0.0 if lubricated else 0.1)
+    # balls that roll without sliding do not skid: any load
     least = np.ones_like(most)
-    if lubricated:
+    if scene.slips:
         fastest = np.maximum(*(np.abs(turning[name]) for name in SPEEDS))
         # of the common orbit at a ratio of diameters of the usual 0.2; with both rings turning, of the faster one
         orbit = 0.4 * fastest + 0.6 * np.abs(turning["operation.outer_speed"])
@@ -313,6 +314,29 @@ STRUCTURES = [
         },
         OIL,
         twins=(MIRROR, HOTTER),
+    ),
+    structure(
+        "films, Hamrock-Dowson, tilt free",
+        "deep_groove_6205",
+        9,
+        {"oil.name": "mobil_jet_ii", "operation.oil_temperature": "60 degC", "contact.film": "hamrock_dowson"},
+        OIL,
+        twins=(MIRROR, HOTTER),
+    ),
+    structure(
+        "films, Hamrock-Dowson, radial, held",
+        "deep_groove_6205",
+        8,
+        {
+            "oil.name": "mobil_jet_ii",
+            "operation.oil_temperature": "60 degC",
+            "operation.moment": "none",
+            "operation.axial_load": "none",
+            "contact.film": "hamrock_dowson",
+            "contact.thermal": "gupta",
+        },
+        OIL,
+        twins=(MIRROR,),
     ),
     structure("sliding, axial", "turbine_ball", 14, {"drag": "none", **NO_CAGE}, OIL),
     structure("sliding, axial, cage and drag", "turbine_ball", 12, {}, {**OIL, **CAGE}),
