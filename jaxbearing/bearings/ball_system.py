@@ -165,6 +165,7 @@ class AbstractBallSystem(AbstractArrowSystem):
 
             def move(shift: Array) -> Array:
                 arm = self.inner_arm(shift, centre)
+                assert arm.turned is not None
                 return jnp.concatenate([arm.in_plane, jnp.stack([arm.along, arm.turned])])
 
             work = jnp.concatenate([ring_force, ring_moment[None]])

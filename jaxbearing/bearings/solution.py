@@ -21,9 +21,15 @@ RING_FREEDOMS = ("axial", "radial", "lateral", "tilt", "tilt_lateral")
 
 
 class RingDisplacement(eqx.Module):
-    """Displacement of the inner ring; a degree of freedom that the family does not activate is held at 0."""
+    """Displacement of the inner ring; a degree of freedom that the family does not activate is held at 0.
 
-    axial: Float[Array, ""] = eqx.field(metadata=label("m", "axial displacement"))
+    `axial` is 0 in the middle of the play for ball bearings given by their clearance, where the planes of the grooves
+    coincide, and at first contact of elements and races for those given by their contact angle and for tapered bearings.
+    """
+
+    axial: Float[Array, ""] = eqx.field(
+        metadata=label("m", "axial displacement (zero: middle of the play, or first contact if given by contact angle)")
+    )
     radial: Float[Array, ""] = eqx.field(metadata=label("m", "displacement along the load line"))
     lateral: Float[Array, ""] = eqx.field(metadata=label("m", "displacement across the load line"))
     tilt: Float[Array, ""] = eqx.field(metadata=label("rad", "tilt that moves azimuth 0 axially"))

@@ -179,10 +179,10 @@ def _ball(scene: BallBearing, elements: Any, laminae: Any, turns: Any) -> Rated:
     capacity = _given(rating.dynamic_capacity, lambda: ball_capacity(*sizes, *rated))
     static = _given(rating.static_capacity, lambda: ball_static_capacity(*sizes, rated[0]))
     limits = ball_contact_capacities(capacity, *sizes, *grooves)
-    loads = (elements.load_inner, elements.load_outer)
+    inner, outer = elements.load_inner, elements.load_outer
     if _tilts_linearly(scene):
-        loads = tuple(linear_tilt_loads(scene))
-    rate = ball_damage_rate(*loads, limits, *turns)
+        inner, outer = linear_tilt_loads(scene)
+    rate = ball_damage_rate(inner, outer, limits, *turns)
     operation = scene.operation
     radial_only = operation.axial_load is None and operation.moment is None and operation.radial_load is not None
     load = jnp.abs(jnp.asarray(operation.radial_load)) if radial_only else None
@@ -191,7 +191,9 @@ def _ball(scene: BallBearing, elements: Any, laminae: Any, turns: Any) -> Rated:
 
 def _tilts_linearly(scene: Any) -> bool:
     """Whether the loads for the life are those of the first-order motion of a tilted ring."""
-    return isinstance(scene, BallBearing) and scene.operation.tilts and scene.rating.tilt == "iso"
+    if not isinstance(scene, BallBearing) or scene.rating is None:
+        return False
+    return scene.operation.tilts and scene.rating.tilt == "iso"
 
 
 def edge_weights(rating: Rating, profiled: bool, count: int) -> np.ndarray:
