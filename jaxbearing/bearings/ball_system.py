@@ -120,9 +120,7 @@ class AbstractBallSystem(AbstractArrowSystem):
             arm = self.groove_centres(shift) - centre
             return InnerArm(arm, jnp.zeros_like(centre[0]), safe_norm(arm[0], arm[1]), None)
         grooves, frame = self.grooves, self.ring_frame(shift)
-        away = grooves.rest
-        start = jnp.stack([-away[0], grooves.lever - away[1]])
-        arm = inner_arm(frame, start + centre, grooves.lever)
+        arm = inner_arm(frame, centre - grooves.rest, grooves.lever)
         return InnerArm(arm[:2], arm[2], length_of(arm), frame.turned)
 
     def centrifugal(self, orbital_speed: Array) -> Array:

@@ -74,12 +74,16 @@ def inner_arm(
 
     **Arguments:**
     - `centre`: of the balls along the axis, from the plane in which the ring's axial displacement counts, and distance
-      from the axis, m.
+      from the axis less $R_i$, m: small numbers, and nothing here subtracts large ones.
     - `lever`: $R_i$, m.
     - `side`: distance of the circle along $n'$ from the centre that moves by `frame.shift`, m: of the arcs of a ring
       that has two.
     """
+    # R_i e_r is taken out of p and of u, and R_i - rho is (R_i^2 - rho^2)/(R_i + rho)
     ball = jnp.concatenate([centre, jnp.zeros_like(centre[:1])]) - frame.shift
-    height = jnp.sum(ball * frame.axis, axis=0)[None]
+    height = (jnp.sum(ball * frame.axis, axis=0) + lever * frame.axis[1])[None]
     flat = ball - height * frame.axis
-    return (side - height) * frame.axis + (lever / length_of(flat)[None] - 1.0) * flat
+    inward = -(2.0 * lever * flat[1] + jnp.sum(jnp.square(flat), axis=0))
+    flat = flat.at[1].add(lever)
+    radius = length_of(flat)
+    return (side - height) * frame.axis + (inward / ((lever + radius) * radius))[None] * flat

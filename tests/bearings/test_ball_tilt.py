@@ -48,10 +48,10 @@ ARMS = [
 
 @pytest.mark.parametrize(("azimuth", "side", "expected"), ARMS)
 def test_exact_arms_of_five_freedoms(azimuth, side, expected):
-    lever, apart, arc = 0.03661272600, 7.254519940e-4, 2.313428788e-4
+    lever, arc = 0.03661272600, 2.313428788e-4
     ring = jnp.asarray([20e-6, 30e-6, -15e-6, 4e-3, -2.5e-3])[:, None]
-    # ball centre along the axis and from the axis
-    centre = jnp.asarray([[3e-6], [lever - apart + apart - 3.6e-4]])
+    # ball centre along the axis, and from the axis less R_i
+    centre = jnp.asarray([[3e-6], [-3.6e-4]])
     frame = ring_frame(ring, jnp.asarray([azimuth]))
     found = length_of(inner_arm(frame, centre, lever, side * arc))
     # R_i is printed to 1e-12 m
@@ -64,7 +64,7 @@ def test_arm_is_the_least_distance_from_the_circle():
     shift, tilt = np.array([5e-5, -3e-5, 4e-5]), np.array([0.03, -0.05])
     centre = np.array([[1e-5, -2e-5], [0.0199, 0.0198]])
     frame = ring_frame(jnp.asarray([*shift, *tilt])[:, None] * jnp.ones((1, 2)), jnp.asarray(azimuth))
-    found = length_of(inner_arm(frame, jnp.asarray(centre), lever))
+    found = length_of(inner_arm(frame, jnp.asarray(centre - np.array([[0.0], [lever]])), lever))
     # rotation vector tilt[1] Y - tilt[0] Z, by Rodrigues
     size = np.hypot(*tilt)
     about = np.array([0.0, tilt[1], -tilt[0]]) / size
@@ -84,7 +84,7 @@ def test_closed_form_in_the_plane_of_the_moment(tilt):
     lever, apart = 0.0194, 3.2e-4
     outer = lever - apart
     frame = ring_frame(jnp.asarray([0.0, 0.0, 0.0, tilt, 0.0])[:, None], jnp.zeros(1))
-    found = length_of(inner_arm(frame, jnp.asarray([[0.0], [outer]]), lever)) - apart
+    found = length_of(inner_arm(frame, jnp.asarray([[0.0], [-apart]]), lever)) - apart
     expected = np.sqrt(apart**2 + 4.0 * lever * outer * np.sin(0.5 * tilt) ** 2) - apart
     np.testing.assert_allclose(found, [expected], rtol=1e-11, atol=1e-17)
 
@@ -133,12 +133,12 @@ def test_forces_and_moments_balance(any_load):
     cosine, sine = np.cos(e.azimuth), np.sin(e.azimuth)
     contact = GROOVE.free_contacts(reduced_modulus(STEEL.rings, STEEL.balls))
     reach = GROOVE.outer_offset + (e.load_outer / contact.stiffness_constant()[1]) ** (2.0 / 3.0)
-    outer_circle = lever - GROOVE.centre_distance * GROOVE.free_cosine
+    outer_circle = lever - float(GROOVE.centre_distance * GROOVE.free_cosine)
     angle = np.asarray(e.contact_angle_outer)
     centre = np.stack([reach * np.sin(angle), outer_circle + reach * np.cos(angle)])
     moved = jnp.asarray([ring.axial, ring.radial, 0.0, tilt, 0.0])[:, None] * jnp.ones((1, 9))
     frame = ring_frame(moved, e.azimuth)
-    arm = inner_arm(frame, jnp.asarray(centre), lever)
+    arm = inner_arm(frame, jnp.asarray(centre - np.array([[0.0], [lever]])), lever)
     force = np.asarray(e.load_inner) * np.asarray(arm) / np.asarray(length_of(arm))
     close = lambda found, given: np.testing.assert_allclose(found, given, rtol=0, atol=1e-8 * radial)
     close(np.sum(force[0]), axial)
