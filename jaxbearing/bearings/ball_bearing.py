@@ -69,7 +69,12 @@ class BallOperation(AbstractOperation):
     @property
     def symmetric(self) -> bool:
         """Whether all balls are alike."""
-        return self.radial_load is None and self.moment is None and self.misalignment is None
+        return self.radial_load is None and not self.tilts
+
+    @property
+    def tilts(self) -> bool:
+        """Whether the inner ring can be tilted."""
+        return self.moment is not None or self.misalignment is not None
 
 
 class BallMaterials(eqx.Module):

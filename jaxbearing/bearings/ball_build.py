@@ -30,7 +30,8 @@ class Row(NamedTuple):
 
     azimuth: Float[Array, " ball"]
     directions: Float[Array, "freedom 2 ball"]
-    held: Float[Array, "2 ball"]
+    held_tilt: Float[Array, ""]
+    """Misalignment of a ring that does not tilt freely, times R_i, m."""
     load: Float[Array, " freedom"]
     freedoms: tuple[str, ...]
     multiplicity: int
@@ -64,7 +65,7 @@ def ball_row(scene: BallBearing) -> Row:
     return Row(
         azimuth=azimuth,
         directions=jnp.stack([directions[name] for name in freedoms]),
-        held=tilt * lever * directions["tilt"],
+        held_tilt=tilt * lever,
         load=jnp.stack([loads[name] for name in freedoms]),
         freedoms=freedoms,
         multiplicity=geometry.n_balls // count,
@@ -80,13 +81,15 @@ def ball_grooves(scene: BallBearing) -> Grooves:
         centre_distance=jnp.asarray(geometry.centre_distance),
         free_cosine=jnp.asarray(geometry.free_cosine),
         free_sine=jnp.asarray(geometry.free_sine),
+        aligned=jnp.asarray(geometry.aligned),
         lever=jnp.asarray(geometry.groove_circle_radius),
         groove_arm=jnp.asarray(geometry.conformity_inner * geometry.ball_diameter),
     )
 
 
-def build_core(scene: BallBearing) -> BallCore:
-    """The bearing without friction on the raceways and without films."""
+def build_core(scene: BallBearing, exact: bool | None = None) -> BallCore:
+    """The bearing without friction on the raceways and without films; `exact`: whether the grooves move with the exact
+    rotation of the ring; not given: where the ring can tilt."""
     geometry, operation, row = scene.geometry, scene.operation, ball_row(scene)
     density = jnp.asarray(scene.materials.balls.density)
     attitude, gyroscopic = scene.kinematics.attitude, scene.kinematics.gyroscopic
@@ -99,7 +102,8 @@ def build_core(scene: BallBearing) -> BallCore:
         ),
         grooves=ball_grooves(scene),
         directions=row.directions,
-        held=row.held,
+        azimuth=row.azimuth,
+        held_tilt=row.held_tilt,
         ring_load=row.load,
         mass=geometry.mass(density),
         inertia=geometry.inertia(density),
@@ -108,6 +112,7 @@ def build_core(scene: BallBearing) -> BallCore:
         freedoms=row.freedoms,
         multiplicity=row.multiplicity,
         attitude="inner" if attitude == "inner" else "outer",
+        exact=scene.operation.tilts if exact is None else exact,
         common_orbit=scene.kinematics.orbit == "common",
     )
 
@@ -123,7 +128,6 @@ def build_lubricated(scene: BallBearing, core: BallCore) -> LubricatedBallSystem
         laws=scene.contact,
         oil=scene.oil,
         inlet=scene.oil.at(scene.operation.oil_temperature),
-        azimuth=ball_row(scene).azimuth,
         guess=_guess(core),
         resolved=isinstance(scene.kinematics.gyroscopic, ResolvedCouple),
         cage=_cage_parts(scene) if scene.slips and scene.cage is not None else None,
@@ -135,7 +139,7 @@ def build_lubricated(scene: BallBearing, core: BallCore) -> LubricatedBallSystem
 def _guess(core: BallCore) -> BallGuess:
     point = core.initial()
     state = core.at(point)
-    inner, outer = state.angle
+    inner, outer = state.direction
     least = SMALLEST_GUESS * core.ball_scale()
     log_load = jnp.log(jnp.maximum(state.load, least))
     control = jax.nn.sigmoid(CONTROL_AT_EQUAL_LOADS + CONTROL_BY_LOAD * (log_load[1] - log_load[0]))

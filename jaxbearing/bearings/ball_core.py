@@ -62,13 +62,18 @@ class BallState(NamedTuple):
 
     load: Float[Array, "2 ball"]
     angle: Float[Array, "2 ball"]
+    """Contact angles on the races: of the inner one against the tilted ring."""
+    direction: Float[Array, "2 ball"]
+    """Of the normal forces on the ball, from the radius towards the axis, in the fixed frame, rad."""
+    centre: Float[Array, "2 ball"]
+    """Of the ball, from the outer groove centre, m."""
     motion: BallMotion
     own_orbit: Float[Array, " ball"]
     """Orbital speed of rolling without sliding at the ball's own angles, rad/s; `motion` may have the common one."""
     balance: Float[Array, "2 ball"]
     """Left side minus right side of the ball's two force balances, N."""
-    ring_force: Float[Array, "2 ball"]
-    """p_x, p_r: of the balls on the inner ring, N."""
+    ring_force: Float[Array, "3 ball"]
+    """p_x, p_r and along the orbit: of the balls on the inner ring, N."""
     ring_moment: Float[Array, " ball"]
     """Of a ball on the inner ring about the tangent of the circle of groove centres, N m."""
 
@@ -149,7 +154,7 @@ class BallCore(AbstractBallSystem):
 
     def _frozen(self) -> CentrifugalProblem:
         """The convex problem at the centrifugal forces of the estimated contact angles."""
-        angle = jnp.broadcast_to(self.grooves.free_angle, (2, self.held.shape[1]))
+        angle = jnp.broadcast_to(self.grooves.free_angle, (2, self.azimuth.shape[0]))
         problem = self._frozen_at(angle)
         for _ in range(ESTIMATES):
             first = estimate(problem)
@@ -162,15 +167,24 @@ class BallCore(AbstractBallSystem):
         return CentrifugalProblem(
             offset=self.grooves.offset,
             stiffness=self.grooves.stiffness,
-            groove=self.groove_centres(jnp.zeros((len(self.freedoms), self.held.shape[1]))),
+            groove=self._groove_at_rest(),
             directions=self.directions,
             ring_load=self.ring_load,
             centrifugal=self.outward_force(self.motion(angle)),
             multiplicity=self.multiplicity,
             centre_distance=self.grooves.centre_distance,
             free_cosine=self.grooves.free_cosine,
+            aligned=self.grooves.aligned,
             freedoms=self.freedoms,
         )
+
+    def _groove_at_rest(self) -> Float[Array, "2 ball"]:
+        """Inner groove centres of the ring without displacement, at its misalignment, m."""
+        shift = jnp.zeros((len(self.freedoms), self.azimuth.shape[0]))
+        if not self.exact:
+            return self.groove_centres(shift)
+        centre = jnp.broadcast_to(self.free_centre(), (2, self.azimuth.shape[0]))
+        return centre + self.inner_arm(shift, centre).in_plane
 
     @property
     def paths(self) -> int:
@@ -188,7 +202,7 @@ class BallCore(AbstractBallSystem):
 
     def element(self, unknowns, shared):
         state = self.balls(unknowns, shared)
-        totals = self.contributions(state.ring_force, state.ring_moment)
+        totals = self.contributions(shared[: len(self.freedoms)], state.centre, state.ring_force, state.ring_moment)
         if self.common_orbit:
             speeds = orbit_totals(state.load[0], state.own_orbit, state.motion.orbital_speed)
             totals = jnp.concatenate([totals, self.multiplicity * speeds])
@@ -217,9 +231,12 @@ class BallCore(AbstractBallSystem):
 
     def balls(self, unknowns: Float[Array, "2 ball"], shared: Float[Array, "g ball"]) -> BallState:
         centre = self.free_centre() + LENGTH_UNIT * unknowns[:2]
-        inner = self.groove_centres(shared[: len(self.freedoms)]) - centre
-        apart = jnp.stack([safe_norm(inner[0], inner[1]), safe_norm(centre[0], centre[1])])
-        angle = jnp.stack([jnp.arctan2(inner[0], inner[1]), jnp.arctan2(centre[0], centre[1])])
+        shift = shared[: len(self.freedoms)]
+        arm = self.inner_arm(shift, centre)
+        apart = jnp.stack([arm.length, safe_norm(centre[0], centre[1])])
+        direction = angle = jnp.stack([jnp.arctan2(*arm.in_plane), jnp.arctan2(centre[0], centre[1])])
+        if arm.turned is not None:
+            angle = direction.at[0].add(-arm.turned)
         load = self.loads(apart)
         motion = self.motion(angle, load[0] > 0)
         own_orbit = motion.orbital_speed
@@ -229,14 +246,17 @@ class BallCore(AbstractBallSystem):
         if self.gyroscopic is not None:
             parts = self.gyroscopic.friction(self.couple(motion), self.kinematics.ball_diameter, load[0], load[1])
             friction = self.gyroscopic.sign * jnp.stack(parts)
-        axial, radial, moment = self.with_friction(load, angle, friction)
+        pressing = load.at[0].multiply(arm.share) if self.exact else load
+        axial, radial, moment = self.with_friction(pressing, direction, friction)
         return BallState(
             load=load,
             angle=angle,
+            direction=direction,
+            centre=centre,
             motion=motion,
             own_orbit=own_orbit,
             balance=jnp.stack([axial[1] - axial[0], radial[1] - radial[0] - self.outward_force(motion)]),
-            ring_force=jnp.stack([axial[0], radial[0]]),
+            ring_force=jnp.stack([axial[0], radial[0], load[0] * arm.along / arm.length]),
             ring_moment=moment,
         )
 

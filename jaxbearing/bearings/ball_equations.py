@@ -66,7 +66,7 @@ from ..numerics.safe import safe_norm
 from .ball_core import orbit_row, orbit_totals
 from .ball_geometry import BallGeometry
 from .ball_kinematics import BallMotion, RaceMotion
-from .ball_system import LENGTH_UNIT, AbstractBallSystem
+from .ball_system import LENGTH_UNIT, AbstractBallSystem, InnerArm
 from .land import LandState, guided_land
 
 LOG_LOAD_RANGE = (-200.0, 18.0)
@@ -117,6 +117,9 @@ class BallsState(NamedTuple):
 
     load: Float[Array, "2 ball"]
     angle: Float[Array, "2 ball"]
+    """Contact angles on the races: of the inner one against the tilted ring."""
+    centre: Float[Array, "2 ball"]
+    """Of the ball, from the outer groove centre, m."""
     motion: BallMotion
     races: RaceMotion
     friction: Float[Array, "2 ball"] | None
@@ -133,7 +136,8 @@ class BallsState(NamedTuple):
     fit: Float[Array, "2 ball"]
     rows: tuple[Array, ...]
     """Residuals of the ball's motion, in the order of its unknowns."""
-    ring_force: Float[Array, "2 ball"]
+    ring_force: Float[Array, "3 ball"]
+    """On the inner ring: axial, outward, along the orbit, N."""
     ring_moment: Float[Array, " ball"]
     cage_moment: Float[Array, " ball"] | None
     cage_force: Float[Array, "2 ball"] | None
@@ -147,7 +151,6 @@ class LubricatedBallSystem(AbstractBallSystem):
     laws: PointLaws
     oil: Lubricant
     inlet: InletOil
-    azimuth: Float[Array, " ball"]
     guess: BallGuess
     resolved: bool = eqx.field(static=True, default=False)
     cage: BallCageParts | None = None
@@ -298,7 +301,8 @@ class LubricatedBallSystem(AbstractBallSystem):
 
     def element(self, unknowns, shared):
         state = self.balls(unknowns, shared)
-        totals = [self.contributions(state.ring_force, state.ring_moment)]
+        shift = shared[: len(self.freedoms)]
+        totals = [self.contributions(shift, state.centre, state.ring_force, state.ring_moment)]
         if state.cage_moment is not None and state.cage_force is not None:
             totals += [self.multiplicity * state.cage_moment[None, :], state.cage_force]
         if self.common_orbit:
@@ -356,24 +360,27 @@ class LubricatedBallSystem(AbstractBallSystem):
         if self.slips or self.common_orbit:
             orbit = self.orbit(shared[d] if self.global_orbit else own["orbit"])
         pocket = self.friction_scale() * own["outward"] if "outward" in own else None
-        load, outer, motion, friction = self._contacts(log_load, inner, orbit, own, pocket)
-        angle = jnp.stack([inner, outer])
+        turned = self.ring_frame(shared[:d]).turned if self.exact else None
+        seen = inner if turned is None else inner - turned  # by the tilted race
+        load, outer, motion, friction = self._contacts(log_load, inner, seen, orbit, own, pocket)
+        angle, direction = jnp.stack([seen, outer]), jnp.stack([inner, outer])
         races = jax.tree.map(
             lambda a, b: jnp.stack([a, b]),
-            self.kinematics.inner_race(motion, inner),
+            self.kinematics.inner_race(motion, seen),
             self.kinematics.outer_race(motion, outer),
         )
         cosine = jnp.cos(angle)
         contact = self.geometry.contacts(cosine[0], cosine[1], self.reduced_modulus)
         film = self.laws.film_state(contact, load, races.mean_speed, races.rolling, self.oil, self.inlet)
-        fit = self._fit(load, angle, film.film, shared[:d])
-        axial, radial, moment = self.with_friction(load, angle, friction)
+        fit, centre, arm = self._fit(load, direction, film.film, shared[:d])
+        axial, radial, moment = self.with_friction(load, direction, friction)
         from_ring = radial[0]
         if pocket is not None and self.cage is not None and self.cage.guidance == "inner_ring":
             from_ring = from_ring + pocket  # through cage and land
         state = BallsState(
             load=load,
             angle=angle,
+            centre=centre,
             motion=motion,
             races=races,
             friction=friction,
@@ -386,7 +393,7 @@ class LubricatedBallSystem(AbstractBallSystem):
             drag_force=None,
             fit=fit,
             rows=(),
-            ring_force=jnp.stack([axial[0], from_ring]),
+            ring_force=jnp.stack([axial[0], from_ring, load[0] * arm.along / arm.length]),
             ring_moment=moment,
             cage_moment=None,
             cage_force=None,
@@ -408,11 +415,12 @@ class LubricatedBallSystem(AbstractBallSystem):
         outer = jnp.sqrt(jnp.maximum(total - jnp.square(friction[1]), 1e-6 * total))
         return outer, jnp.arctan2(axial, radial) - jnp.arctan2(friction[1], outer)
 
-    def _contacts(self, log_load, inner, orbit, own, pocket):
-        """Loads, outer angle, motion of the ball and friction that carries the couple; `pocket`: its force outward."""
-        motion_at = lambda angle, orbital: self._motion(inner, angle, orbital, own)
+    def _contacts(self, log_load, inner, seen, orbit, own, pocket):
+        """Loads, outer angle, motion of the ball and friction that carries the couple; `inner`: direction of the inner
+        normal force, `seen`: contact angle on the inner race, rad; `pocket`: its force outward."""
+        motion_at = lambda angle, orbital: self._motion(seen, angle, orbital, own)
         if orbit is None:
-            orbit = self._rolling_orbit(log_load, inner, own)
+            orbit = self._rolling_orbit(log_load, inner, seen, own)
         friction = None
         outward = self.centrifugal(orbit) if pocket is None else self.centrifugal(orbit) + pocket
         load, outer = self._outer_contact(log_load, inner, outward, None)
@@ -430,12 +438,12 @@ class LubricatedBallSystem(AbstractBallSystem):
             motion = motion_at(outer, orbit)
         return jnp.stack([jnp.exp(log_load), load]), outer, motion, friction
 
-    def _rolling_orbit(self, log_load: Array, inner: Array, own: dict[str, Array]) -> Array:
+    def _rolling_orbit(self, log_load: Array, inner: Array, seen: Array, own: dict[str, Array]) -> Array:
         """Orbital speed without sliding, rad/s: it needs the outer angle, which needs the centrifugal force."""
 
         def next_orbit(orbit: Array) -> Array:
             angle = self._outer_contact(log_load, inner, self.centrifugal(orbit), None)[1]
-            return jnp.broadcast_to(self._motion(inner, angle, None, own).orbital_speed, inner.shape)
+            return jnp.broadcast_to(self._motion(seen, angle, None, own).orbital_speed, inner.shape)
 
         orbit = jnp.broadcast_to(self.reference().orbital_speed, inner.shape)
         for _ in range(ROLLING_PASSES):
@@ -473,11 +481,18 @@ class LubricatedBallSystem(AbstractBallSystem):
             return self.kinematics.inner_control(inner)
         return own["attitude"]
 
-    def _fit(self, load: Array, angle: Array, film: Array, shift: Array) -> Float[Array, "2 ball"]:
-        """Whether the centres fit: along the inner contact's normal, as a logarithm, and across it."""
+    def _fit(
+        self, load: Array, angle: Array, film: Array, shift: Array
+    ) -> tuple[Float[Array, "2 ball"], Float[Array, "2 ball"], InnerArm]:
+        """Whether the centres fit: along the inner contact's normal, as a logarithm, and across it; ball centres, from
+        the outer groove centre, m, and the arms from them to the inner groove. `angle`: of the normal forces."""
         grooves = self.grooves
-        groove = self.groove_centres(shift)
         compression = jnp.cbrt(jnp.square(load / grooves.stiffness[:, None]))
+        reach = grooves.offset[1] + compression[1] - film[1]
+        centre = reach[None] * jnp.stack([jnp.sin(angle[1]), jnp.cos(angle[1])])
+        arm = self.inner_arm(shift, centre)
+        # the arm laid into the half-plane
+        groove = centre + (arm.in_plane / arm.share[None] if self.exact else arm.in_plane)
         turned = angle[1] - angle[0]
         cosine, sine = jnp.cos(turned), jnp.sin(turned)
         along = groove[0] * jnp.sin(angle[0]) + groove[1] * jnp.cos(angle[0])
@@ -485,8 +500,8 @@ class LubricatedBallSystem(AbstractBallSystem):
         opening = grooves.offset[0] + grooves.offset[1] * cosine - along
         apart = compression[0] + compression[1] * cosine + jnp.maximum(opening, 0.0)
         together = film[0] + film[1] * cosine + jnp.maximum(-opening, 0.0)
-        reach = grooves.offset[1] + compression[1] - film[1]
-        return jnp.stack([jnp.log(apart / together), (reach * sine - across) / grooves.centre_distance])
+        fit = jnp.stack([jnp.log(apart / together), (reach * sine - across) / grooves.centre_distance])
+        return fit, centre, arm
 
     def _with_traction(self, state: BallsState, contact: PointContact) -> BallsState:
         motion, races, angle = state.motion, state.races, state.angle

@@ -90,6 +90,17 @@ class BallGeometry(Checked):
         return jnp.where(open_, jnp.sqrt(jnp.where(open_, lift * (2.0 - lift), 1.0)), 0.0)
 
     @property
+    def aligned(self) -> Array:
+        """Axial displacement of the inner ring at which the planes of the grooves coincide, m.
+
+        A bearing given by its clearance has its zero there, in the middle of the play. One given by its contact angle
+        has its zero at first contact of balls and races, with the inner ring pushed along $+e_x$.
+        """
+        if self.contact_angle is None:
+            return jnp.zeros(())
+        return -self.centre_distance * self.free_sine
+
+    @property
     def groove_circle_radius(self) -> Array:
         """R_i: of the circle of the inner groove's centres, m."""
         return 0.5 * self.pitch_diameter + self.inner_offset * self.free_cosine

@@ -34,7 +34,8 @@ class CentrifugalProblem(eqx.Module):
     """Balls between two grooves under given forces. Units m, N; (inner, outer) or (axial, radial) first.
 
     `groove`: inner groove centre of every ball with the ring at rest; `directions`: its change for a unit of every
-    ring freedom (a length each); `ring_load`: on them; `multiplicity`: balls that each ball stands for.
+    ring freedom (a length each); `ring_load`: on them; `aligned`: axial displacement at which the planes of the grooves
+    coincide; `multiplicity`: balls that each ball stands for.
     """
 
     offset: Float[Array, "2"]
@@ -45,6 +46,7 @@ class CentrifugalProblem(eqx.Module):
     centrifugal: Float[Array, " ball"]
     centre_distance: Float[Array, ""]
     free_cosine: Float[Array, ""]
+    aligned: Float[Array, ""]
     multiplicity: int = eqx.field(static=True)
     freedoms: tuple[str, ...] = eqx.field(static=True)
 
@@ -265,9 +267,7 @@ def _ring_estimate(problem: CentrifugalProblem, total: Array, count: int) -> Flo
     pushed = jnp.where(axial < 0, -1.0, 1.0)
     mixed = 1.0 - 0.6 * jnp.minimum(1.0, radial * tangent / jnp.maximum(jnp.abs(axial), 1e-3))
     alone = (jnp.abs(axial) + tilting) <= 1e-9 * total
-    inward = jnp.where(
-        alone, -distance * sine, jnp.where(axial < 0, -2.0 * distance * sine, 0.0) + pushed * depth * mixed
-    )
+    inward = jnp.where(alone, problem.aligned, problem.aligned + pushed * (distance * sine + depth * mixed))
     across = (5.0 * radial / (count * cosine * together)) ** (2.0 / 3.0)
     across = across + jnp.where(alone, distance * (1.0 - cosine), 0.0)
     guesses = {"axial": inward, "radial": jnp.sign(load.get("radial", zero)) * across}

@@ -13,7 +13,7 @@ from ..materials import reduced_modulus
 from ..numerics.arrow import ArrowJacobian, ArrowPoint, linearize, schur_complement
 from ..numerics.newton import NewtonOptions, NewtonResult, newton_solve
 from .ball_bearing import BallBearing
-from .ball_build import ball_row, build_core, build_lubricated, ring_directions
+from .ball_build import build_core, build_lubricated, ring_directions
 from .ball_core import BallCore
 from .ball_equations import BallsState, LubricatedBallSystem
 from .ball_kinematics import BallMotion
@@ -21,8 +21,8 @@ from .ball_rolling import common_orbit_torques, rolling_balance
 from .ball_solution import BallPowerLoss, BallResults, RacewayPower
 from .ball_system import LENGTH_UNIT
 from .land import LandState
-from .range_checks import MEAN_OF_POINT, RACEWAYS, Contacts, Facts
-from .solution import RING_FREEDOMS, CageState, RingDisplacement, Solution
+from .range_checks import BALL_PRESSURE, MEAN_OF_POINT, RACEWAYS, Contacts, Facts
+from .solution import RING_FREEDOMS, CageState, Reason, RingDisplacement, Solution
 from .steady import assemble
 
 SIDES = np.array([[1.0], [-1.0]])
@@ -56,10 +56,33 @@ def solve_ball(scene: BallBearing, options: NewtonOptions) -> Solution:
         stiffness,
         iterations=steps,
         ring_freedom=_ring_names(scene),
+        reasons={
+            "the load is {:.3g} times that at which the most loaded ball reaches 4.2 GPa, the limit of the static load "
+            "rating: balls and races would yield": Reason(overload(scene) > 1.0, overload(scene))
+        },
         stiffness_freedom=RING_FREEDOMS,
         equation_names=system.equation_names(),
         element_name="ball",
     )
+
+
+def overload(scene: BallBearing) -> Float[Array, ""]:
+    r"""Load over the static load rating of the scene's own grooves and materials, by the definition of ISO 76:
+    $P_0/C_0$, $C_0 = \frac15Z\cos\alpha\,Q(4.2\,GPa)$ of the inner contact.
+
+    $P_0 = \max(F_r, X_0F_r + Y_0F_a)$, X_0 = 0.6 (deep groove) or 0.5, $Y_0 = 0.58 - 0.008\alpha$/1°, at most 0.5: a
+    line through ISO 76's table ([M], from memory). A moment counts as the axial load $2M/d_m$.
+    """
+    geometry, operation = scene.geometry, scene.operation
+    size = lambda value: jnp.abs(jnp.asarray(0.0 if value is None else value))
+    angle = jnp.asarray(0.0 if geometry.contact_angle is None else geometry.contact_angle)
+    radial = size(operation.radial_load)
+    axial = size(operation.axial_load) + 2.0 * size(operation.moment) / geometry.pitch_diameter
+    share = 0.6 if geometry.contact_angle is None else 0.5
+    equivalent = jnp.maximum(radial, share * radial + jnp.minimum(0.58 - 0.008 * jnp.degrees(angle), 0.5) * axial)
+    cosine = jnp.broadcast_to(jnp.cos(angle), (2,))
+    ball = _contact(scene, cosine).load_at_pressure(BALL_PRESSURE)[0]
+    return equivalent / (0.2 * geometry.n_balls * cosine[0] * ball)
 
 
 def _ring_names(scene: BallBearing) -> tuple[str, ...]:
@@ -290,13 +313,14 @@ def _stiffness(
     full = dataclasses.replace(
         system,
         directions=jnp.stack([directions[name] for name in RING_FREEDOMS]),
-        held=wide(ball_row(scene).held),
+        azimuth=azimuth,
+        held_tilt=jnp.zeros(()),  # an unknown here
         ring_load=jnp.full(5, 1.0 / jnp.sqrt(5.0)) * system.load_scale(),
         freedoms=RING_FREEDOMS,
         multiplicity=1,
-        **({"azimuth": azimuth} if isinstance(system, LubricatedBallSystem) else {}),
     )
-    ring = jnp.stack([place.get(name, jnp.zeros(())) for name in RING_FREEDOMS])
+    held = {"tilt": system.held_tilt / LENGTH_UNIT}
+    ring = jnp.stack([place.get(name, held.get(name, jnp.zeros(()))) for name in RING_FREEDOMS])
     point = ArrowPoint(
         wide(result.point.elements), jnp.concatenate([ring, result.point.globals[len(system.freedoms) :]])
     )
@@ -315,8 +339,9 @@ def _stiffness(
 def _all_freedoms(
     full: LubricatedBallSystem, point: ArrowPoint, solved: ArrowJacobian, freedoms: int, multiplicity: int
 ) -> ArrowJacobian:
-    """The Jacobian with all five freedoms of the ring, from that of the solve: the ring moves the grooves only, and
-    friction, whose derivatives are the dear ones, does not see it.
+    """The Jacobian with all five freedoms of the ring, from that of the solve. Ring displacements only move the groove
+    centres, so the expensive friction derivatives of the solve can be reused; that a tilt also turns the inner race
+    under the sliding ball is left out here.
 
     **Arguments:** `full`: the equations of all balls with five freedoms; `solved`: of the solve, with this many
     `freedoms`, every ball of it standing for `multiplicity`.
@@ -327,7 +352,8 @@ def _all_freedoms(
 
     def light(v):
         state = full.frictionless(v[:m], v[m:])[0]
-        return jnp.concatenate([state.fit, full.contributions(state.ring_force, state.ring_moment)])
+        on_ring = full.contributions(v[m : m + 5], state.centre, state.ring_force, state.ring_moment)
+        return jnp.concatenate([state.fit, on_ring])
 
     v = jnp.concatenate([point.elements, shared])
     seeds = jnp.broadcast_to(jnp.eye(m + g)[:, :, None], (m + g, m + g, count))

@@ -3,12 +3,16 @@
 from typing import Any, Literal, NamedTuple
 
 import equinox as eqx
+import jax
 import jax.numpy as jnp
 from jaxtyping import Array, Float
 
 from ..numerics.arrow import AbstractArrowSystem
+from ..numerics.safe import safe_norm
 from .ball_kinematics import BallKinematics, BallMotion
+from .groove_motion import RingFrame, inner_arm, length_of, ring_frame
 from .gyroscopic import AbstractGyroscopic
+from .solution import RING_FREEDOMS
 
 LENGTH_UNIT = 1e-5
 """Scale of displacements, m."""
@@ -23,6 +27,9 @@ class Grooves(NamedTuple):
     centre_distance: Float[Array, ""]
     free_cosine: Float[Array, ""]
     free_sine: Float[Array, ""]
+    aligned: Float[Array, ""]
+    """Axial displacement of the ring at which the planes of the grooves coincide, m: 0, or less than 0 where
+    displacements count from first contact."""
     lever: Float[Array, ""]
     """Radius of the circle of inner groove centres, R_i."""
     groove_arm: Float[Array, ""]
@@ -35,22 +42,44 @@ class Grooves(NamedTuple):
 
     @property
     def free_normal(self) -> Float[Array, "2 1"]:
-        """Direction (axial, radial) from the outer to the inner groove centre of the unloaded bearing."""
-        return jnp.stack([self.free_sine, self.free_cosine])[:, None]
+        """Direction (axial, radial) from the outer to the inner groove centre of the ring without displacement."""
+        return self.rest / safe_norm(self.rest[0], self.rest[1])[None]
+
+    @property
+    def rest(self) -> Float[Array, "2 1"]:
+        """Inner groove centre (axial, radial) from the outer one, of the ring without displacement, m."""
+        return jnp.stack([-self.aligned, self.centre_distance * self.free_cosine])[:, None]
+
+
+class InnerArm(NamedTuple):
+    """From ball centres to the nearest inner groove centres: components in the half-plane of the ball (axial, outward)
+    and along the orbit, distance, m; `turned`: of the groove by the tilt (`RingFrame.turned`; None: untilted)."""
+
+    in_plane: Float[Array, "2 ball"]
+    along: Float[Array, " ball"]
+    length: Float[Array, " ball"]
+    turned: Float[Array, " ball"] | None
+
+    @property
+    def share(self) -> Float[Array, " ball"]:
+        """Part of the distance that lies in the half-plane."""
+        return length_of(self.in_plane) / self.length
 
 
 class AbstractBallSystem(AbstractArrowSystem):
     """Balls between two grooved rings; globals: first the displacements of the inner ring.
 
-    `directions[f]` are the changes of the inner groove centre (axial, radial) at every ball for a unit of freedom f;
-    tilts are multiplied by R_i, so that every unknown of the ring is a length. `held` displaces these centres beside
-    that (misalignment).
+    `directions[f]` are the changes of the inner groove centre (axial, radial) at every ball for a unit of freedom f, to
+    first order; tilts are multiplied by R_i, so that every unknown of the ring is a length. `held_tilt` is the
+    misalignment of a ring that does not tilt freely, times R_i. `exact`: whether the grooves move with the exact
+    rotation of the ring (`groove_motion`).
     """
 
     kinematics: BallKinematics
     grooves: Grooves
     directions: Float[Array, "freedom 2 ball"]
-    held: Float[Array, "2 ball"]
+    azimuth: Float[Array, " ball"]
+    held_tilt: Float[Array, ""]
     ring_load: Float[Array, " freedom"]
     mass: Float[Array, ""]
     inertia: Float[Array, ""]
@@ -61,19 +90,38 @@ class AbstractBallSystem(AbstractArrowSystem):
     multiplicity: int = eqx.field(static=True)
     """Balls that each ball stands for."""
     attitude: Attitude = eqx.field(static=True)
+    exact: bool = eqx.field(static=True)
 
     @property
     def ball_count(self) -> int:
-        return self.multiplicity * self.held.shape[1]
+        return self.multiplicity * self.azimuth.shape[0]
 
     def ring_equation_names(self) -> tuple[str, ...]:
         return tuple(f"{name} load balance of the ring" for name in self.freedoms)
 
     def groove_centres(self, shift: Float[Array, "freedom ball"]) -> Float[Array, "2 ball"]:
         """Of the inner groove at every ball, (axial, radial) from those of the outer one, m, for displacements of the
-        ring in units of `LENGTH_UNIT`."""
+        ring in units of `LENGTH_UNIT`; to first order."""
         moved = LENGTH_UNIT * jnp.einsum("fn,fcn->cn", shift, self.directions)
-        return self.grooves.centre_distance * self.grooves.free_normal + self.held + moved
+        return (self.grooves.rest + moved).at[0].add(self.held_tilt * jnp.cos(self.azimuth))
+
+    def ring_frame(self, shift: Float[Array, "freedom ball"]) -> RingFrame:
+        """The displaced ring of an `exact` system, for displacements in units of `LENGTH_UNIT`."""
+        rows = list(jnp.zeros((5, self.azimuth.shape[0])).at[3].set(self.held_tilt))
+        for name, moved in zip(self.freedoms, LENGTH_UNIT * shift, strict=True):
+            rows[RING_FREEDOMS.index(name)] = moved
+        lever = self.grooves.lever
+        unit = jnp.stack([*[jnp.ones(())] * 3, 1.0 / lever, 1.0 / lever])
+        return ring_frame(jnp.stack(rows) * unit[:, None], self.azimuth)
+
+    def inner_arm(self, shift: Float[Array, "freedom ball"], centre: Float[Array, "2 ball"]) -> InnerArm:
+        """From ball centres, counted from the outer groove centre (axial, radial), m, to the inner groove centres."""
+        if not self.exact:
+            arm = self.groove_centres(shift) - centre
+            return InnerArm(arm, jnp.zeros_like(centre[0]), safe_norm(arm[0], arm[1]), None)
+        grooves, frame = self.grooves, self.ring_frame(shift)
+        arm = inner_arm(frame, centre - grooves.rest, grooves.lever)
+        return InnerArm(arm[:2], arm[2], length_of(arm), frame.turned)
 
     def centrifugal(self, orbital_speed: Array) -> Array:
         """N, of balls on the pitch circle."""
@@ -97,12 +145,32 @@ class AbstractBallSystem(AbstractArrowSystem):
         return axial + friction * cosine, radial - friction * sine, moment
 
     def contributions(
-        self, ring_force: Float[Array, "2 ball"], ring_moment: Float[Array, " ball"]
+        self,
+        shift: Float[Array, "freedom ball"],
+        centre: Float[Array, "2 ball"],
+        ring_force: Float[Array, "3 ball"],
+        ring_moment: Float[Array, " ball"],
     ) -> Float[Array, "freedom ball"]:
-        """Of every ball to the forces on the ring's freedoms, N; the moments in units of R_i."""
+        """Of every ball to the forces on the ring's freedoms, N; the moments in units of R_i.
+
+        They are conjugate to the displacements: force times the motion of the nearest groove centre, moment times the
+        turning of the groove. To second order the moment is $R_i(p_x\\cos t\\cos\\psi - p_r\\sin t\\cos^2\\psi)$.
+
+        **Arguments:** `shift`: of the ring, in units of `LENGTH_UNIT`; `centre`: of the balls, from the outer groove
+        centre, m; `ring_force`: (axial, outward, along the orbit), N; `ring_moment`: in the half-plane, N m.
+        """
+        if self.exact:
+
+            def move(shift: Array) -> Array:
+                arm = self.inner_arm(shift, centre)
+                assert arm.turned is not None
+                return jnp.concatenate([arm.in_plane, jnp.stack([arm.along, arm.turned])])
+
+            work = jnp.concatenate([ring_force, ring_moment[None]])
+            return (self.multiplicity / LENGTH_UNIT) * jax.vjp(move, shift)[1](work)[0]
         rows = []
         for direction, name in zip(self.directions, self.freedoms, strict=True):
-            force = jnp.sum(ring_force * direction, axis=0)
+            force = jnp.sum(ring_force[:2] * direction, axis=0)
             if name.startswith("tilt"):
                 # the tilt turns the axial direction of the groove's centre
                 force = force + ring_moment * direction[0] / self.grooves.lever

@@ -283,10 +283,13 @@ def _tilted(result: _Result) -> Excess:
     tilt = jnp.maximum(jnp.abs(result.ring.tilt), jnp.abs(result.ring.tilt_lateral))
     if roller is not None:
         tilt = jnp.maximum(tilt, jnp.max(jnp.abs(roller)))
-    text = (
-        "the inner ring or a rolling element tilts by more than 10 mrad: far beyond what bearings of this kind bear "
-        "(cylindrical rollers 1 to 2 mrad), and the equations are those of small tilts"
-    )
+    if isinstance(result.scene, BallBearing):
+        text = "the inner ring tilts by more than 10 mrad: more than ball bearings are made for"
+    else:
+        text = (
+            "the inner ring or a rolling element tilts by more than 10 mrad: far beyond what bearings of this kind "
+            "bear (cylindrical rollers 1 to 2 mrad), and the equations are those of small tilts"
+        )
     return {text: tilt - LARGEST_TILT}
 
 
@@ -330,6 +333,26 @@ def _interference(scene: Scene) -> Excess:
         "sign and unit of geometry.diametral_clearance"
     )
     return {text: -jnp.asarray(clearance) - LARGEST_INTERFERENCE * scene.geometry.pitch_diameter}
+
+
+def missing_thrust(scene: BallBearing) -> Float[Array, ""]:
+    r"""$1.22F_r\tan\alpha - F_a$, N, of an angular contact bearing: positive where fewer than half of its balls are
+    loaded (Harris, *Rolling Bearing Analysis*)."""
+    operation, angle = scene.operation, jnp.asarray(scene.geometry.contact_angle)
+    size = lambda value: jnp.abs(jnp.asarray(0.0 if value is None else value))
+    return 1.22 * size(operation.radial_load) * jnp.tan(angle) - size(operation.axial_load)
+
+
+def _thrust(scene: Scene) -> Excess:
+    if not isinstance(scene, BallBearing):
+        return {}
+    if scene.geometry.contact_angle is None or scene.operation.radial_load is None:
+        return {}
+    text = (
+        "axial load below 1.22 F_r tan(contact angle): fewer than half of the balls of this angular contact bearing "
+        "carry load; it needs an axial load or a second bearing that preloads it"
+    )
+    return {text: missing_thrust(scene)}
 
 
 def _inlet(scene: Scene) -> Excess:
@@ -378,6 +401,7 @@ def _at_apex(scene: Scene) -> Excess:
 
 INPUT_CHECKS: tuple[Callable[[Scene], Excess], ...] = (
     _interference,
+    _thrust,
     _inlet,
     _slow,
     _standing_cage,

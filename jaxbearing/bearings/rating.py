@@ -24,6 +24,10 @@ class Rating(Checked):
     - `grooves`: of ball bearings, for which conformities C and C0 are computed: "catalogue", 0.52 of both races, which
       ratings of catalogues are made with, whatever the grooves; or "scene" (structure). ISO 281 gives no higher rating
       to closer grooves, and a closer one of the inner race alone adds 9 %.
+    - `tilt`: of ball bearings, the motion of a tilted inner ring behind the loads that the life is computed from:
+      "exact", that of the solution; or "iso", the first-order one of ISO 16281, which leaves out the motion of the
+      grooves towards the axis, to compare with software built on the standard. The loads of "iso" are solved for
+      without films and friction, and only the life uses them (structure).
     - `reliability`: fraction of bearings that live longer, 0.90, 0.95, 0.96, 0.97, 0.98 or 0.99 (structure: another one
       recompiles).
     - `cleanliness`: name of a contamination class; with it, and with a viscosity ratio, the life is modified (a_ISO).
@@ -49,6 +53,7 @@ class Rating(Checked):
     n_laminae: int | None = count("rating.n_laminae", None)
     edge_factor: bool | None = switch("rating.edge_factor", None)
     grooves: Literal["catalogue", "scene"] = eqx.field(static=True, default="catalogue")
+    tilt: Literal["exact", "iso"] = eqx.field(static=True, default="exact")
 
     def __check_init__(self):
         super().__check_init__()
@@ -56,6 +61,8 @@ class Rating(Checked):
             raise ValueError("rating.roughness_rings: give it and rating.roughness_elements, or neither")
         if self.grooves not in ("catalogue", "scene"):
             raise ValueError(f"rating.grooves must be 'catalogue' or 'scene', got {self.grooves!r}")
+        if self.tilt not in ("exact", "iso"):
+            raise ValueError(f"rating.tilt must be 'exact' or 'iso', got {self.tilt!r}")
         if self.n_laminae is not None and self.n_laminae < 1:
             raise ValueError(f"rating.n_laminae must be >= 1, got {self.n_laminae}")
 

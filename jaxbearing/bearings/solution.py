@@ -5,9 +5,10 @@ The command line, JSON, files and pages read this metadata; nothing keeps a seco
 
 import dataclasses
 from collections.abc import Mapping
-from typing import Any
+from typing import Any, NamedTuple
 
 import equinox as eqx
+import numpy as np
 from jaxtyping import Array, Bool, Float, Int
 
 from .._scene import AbstractSolution
@@ -22,9 +23,16 @@ RING_FREEDOMS = ("axial", "radial", "lateral", "tilt", "tilt_lateral")
 
 
 class RingDisplacement(eqx.Module):
-    """Displacement of the inner ring; a degree of freedom that the family does not activate is held at 0."""
+    """Displacement of the inner ring; a degree of freedom that the family does not activate is held at 0.
 
-    axial: Float[Array, ""] = eqx.field(metadata=label("m", "axial displacement"))
+    `axial` is 0 in the middle of the play for ball bearings given by their clearance, where the planes of the grooves
+    coincide, and at first contact of elements and races for those given by their contact angle and for tapered
+    bearings.
+    """
+
+    axial: Float[Array, ""] = eqx.field(
+        metadata=label("m", "axial displacement (zero: middle of the play, or first contact if given by contact angle)")
+    )
     radial: Float[Array, ""] = eqx.field(metadata=label("m", "displacement along the load line"))
     lateral: Float[Array, ""] = eqx.field(metadata=label("m", "displacement across the load line"))
     tilt: Float[Array, ""] = eqx.field(metadata=label("rad", "tilt that moves azimuth 0 axially"))
@@ -147,6 +155,13 @@ class LaminaLoads(eqx.Module):
     profiled: bool = eqx.field(static=True, default=False)
 
 
+class Reason(NamedTuple):
+    """Whether it applies, and the numbers that belong to it."""
+
+    applies: Bool[Array, ""]
+    numbers: Float[Array, "..."]
+
+
 class Solution(AbstractSolution):
     """Result of a steady solve. Where `status` is not converged every result is NaN, never the last iterate.
 
@@ -185,6 +200,8 @@ class Solution(AbstractSolution):
     element_name: str = eqx.field(static=True, default="roller")
     raceway_power: Any = None
     laminae: LaminaLoads | None = None
+    reasons: dict[str, Reason] = eqx.field(default_factory=dict)
+    """What may have made the solve fail: a sentence with places for numbers, such as `{:.3g}` -> the numbers."""
     life: Any = None
     """`life.result.Life`, where the scene has a rating."""
 
@@ -203,7 +220,16 @@ class Solution(AbstractSolution):
         return self.status == Status.CONVERGED
 
     def solver_failure(self) -> str:
-        """One sentence on a solve that failed: status, residual, worst equation."""
+        """One sentence on a solve that failed: status, residual, worst equation, and what may have caused it."""
+        found = [
+            text.format(*np.atleast_1d(np.asarray(reason.numbers)).tolist())
+            for text, reason in self.reasons.items()
+            if bool(reason.applies)
+        ]
+        return "; ".join([self._ending(), *found])
+
+    def _ending(self) -> str:
+        """How the solve ended."""
         local_equations = len(self.equation_names) - self.global_equations
         worst = int(self.worst_equation)
         name = self.equation_names[worst]

@@ -10,7 +10,7 @@ from ..numerics.newton import NewtonResult
 from .ball_bearing import BallBearing
 from .cylindrical_roller import CylindricalRollerBearing
 from .range_checks import input_excess, result_excess
-from .solution import RingDisplacement, Solution
+from .solution import Reason, RingDisplacement, Solution
 from .tapered_roller import TaperedRollerBearing
 
 
@@ -21,6 +21,7 @@ def assemble(
     ring: RingDisplacement,
     stiffness: Float[Array, "freedom freedom"],
     iterations: Int[Array, ""] | None = None,
+    reasons: dict[str, Reason] | None = None,
     **names: Any,
 ) -> Solution:
     """The `Solution` of a solve: how it ended, and NaN for every result where it failed.
@@ -28,6 +29,7 @@ def assemble(
     **Arguments:**
     - `results`: a named tuple of further fields of the `Solution`, and `facts`, what the range checks look at.
     - `iterations`: of all solves together; those of `result` where not given.
+    - `reasons`: of `Solution`; none applies where the solve converged.
     - `names`: static fields of the `Solution`.
     """
     good = result.converged
@@ -52,6 +54,7 @@ def assemble(
         global_equations=result.point.globals.shape[0],
         unknowns=result.point.elements.size + result.point.globals.size,
         notes=notes,
+        reasons={text: Reason(~good & one.applies, one.numbers) for text, one in (reasons or {}).items()},
         **jax.tree.map(lambda leaf: jnp.where(good, leaf, jnp.nan), shown),
         **names,
     )

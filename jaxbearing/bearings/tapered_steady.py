@@ -15,7 +15,7 @@ from ..numerics.status import Status
 from .range_checks import MEAN_OF_LINE, MEAN_OF_POINT, RACEWAYS, Contacts, Facts
 from .rating import LAMINAE, rated_laminae
 from .roller_loads import LENGTH_UNIT
-from .solution import RING_FREEDOMS, CageState, LaminaLoads, RingDisplacement, Solution
+from .solution import RING_FREEDOMS, CageState, LaminaLoads, Reason, RingDisplacement, Solution
 from .steady import assemble
 from .tapered_build import build_tapered, rolling_motion
 from .tapered_friction import TaperedFriction, tapered_friction
@@ -65,6 +65,7 @@ def solve_tapered(scene: TaperedRollerBearing, options: NewtonOptions) -> Soluti
         _results(scene, system, result, friction),
         displacement,
         _stiffness(scene, system, result),
+        reasons=_reasons(scene, posed.inertia),
         iterations=jnp.where(sliding, 0, minimum.steps + result.iterations),
         ring_freedom=(*scene.ring_freedom, "tilt") if tilted else scene.ring_freedom,
         stiffness_freedom=RING_FREEDOMS,
@@ -80,13 +81,17 @@ def slides_out(scene: TaperedRollerBearing, inertia: Inertia) -> Bool[Array, ""]
     nothing): $F_a - F_r\tan\alpha_o = \sin\alpha_o\sum Q_o(1 - \cos\psi)$; and $Q_c$ is the least that a roller leans
     on the cup with, its centrifugal force carried by cup and rib alone.
     """
-    operation, geometry = scene.operation, scene.geometry
-    if geometry.n_rollers < 2:
+    if scene.geometry.n_rollers < 2:
         return jnp.asarray(False)
-    radial = jnp.abs(_radial(scene))
+    return jnp.asarray(scene.operation.axial_load) < least_axial_load(scene, inertia)
+
+
+def least_axial_load(scene: TaperedRollerBearing, inertia: Inertia) -> Float[Array, ""]:
+    """The bound of `slides_out`, N: less does not hold the cone in the cup."""
+    geometry = scene.geometry
     cup, rib = jnp.asarray(geometry.contact_angle), jnp.asarray(geometry.flange_angle)
     least = inertia.force * jnp.cos(rib) / jnp.cos(cup - rib)
-    return jnp.asarray(operation.axial_load) < radial * jnp.tan(cup) + geometry.n_rollers * least * jnp.sin(cup)
+    return jnp.abs(_radial(scene)) * jnp.tan(cup) + geometry.n_rollers * least * jnp.sin(cup)
 
 
 def tips_over(scene: TaperedRollerBearing) -> Bool[Array, ""]:
@@ -97,14 +102,37 @@ def tips_over(scene: TaperedRollerBearing) -> Bool[Array, ""]:
     \sin\alpha_o\sum Q_o$; so $|M - (d - l/2)F_r/\cos\alpha_o| \le (l/2)F_a/\sin\alpha_o$. What rotation adds cancels
     round two or more rollers.
     """
-    operation, geometry = scene.operation, scene.geometry
-    if operation.moment is None or geometry.n_rollers < 2:
+    if scene.operation.moment is None or scene.geometry.n_rollers < 2:
         return jnp.asarray(False)
+    moment, middle, most = _moment_range(scene)
+    return jnp.abs(moment - middle) > most + ROUNDING * (jnp.abs(moment) + jnp.abs(middle))
+
+
+def _moment_range(scene: TaperedRollerBearing) -> tuple[Array, Array, Array]:
+    """Moment about the apex, N m, and the middle and half width of the range of `tips_over`."""
+    operation, geometry = scene.operation, scene.geometry
     cup, length = jnp.asarray(geometry.contact_angle), jnp.asarray(geometry.roller_length)
     moment = jnp.asarray(operation.moment) - jnp.asarray(operation.load_position) * _radial(scene)
     middle = (geometry.apex_distance - 0.5 * length) * _radial(scene) / jnp.cos(cup)
-    most = 0.5 * length * jnp.asarray(operation.axial_load) / jnp.sin(cup)
-    return jnp.abs(moment - middle) > most + ROUNDING * (jnp.abs(moment) + jnp.abs(middle))
+    return moment, middle, 0.5 * length * jnp.asarray(operation.axial_load) / jnp.sin(cup)
+
+
+def _reasons(scene: TaperedRollerBearing, inertia: Inertia) -> dict[str, Reason]:
+    """Of a failed solve: loads beyond the static bounds, and what they would have to be."""
+    sliding, least = slides_out(scene, inertia), least_axial_load(scene, inertia)
+    given = jnp.asarray(scene.operation.axial_load)
+    found = {
+        "the axial load of {:.4g} N must be at least {:.4g} N to hold the cone in the cup": Reason(
+            sliding, jnp.stack([given, least])
+        )
+    }
+    if scene.operation.moment is not None:
+        moment, middle, most = _moment_range(scene)
+        shift = jnp.asarray(scene.operation.moment) - moment
+        ends = jnp.stack([jnp.asarray(scene.operation.moment), middle - most + shift, middle + most + shift])
+        text = "the moment of {:.4g} N m must lie between {:.4g} and {:.4g} N m"
+        found[text] = Reason(tips_over(scene) & ~sliding, ends)
+    return found
 
 
 def _radial(scene: TaperedRollerBearing) -> Float[Array, ""]:

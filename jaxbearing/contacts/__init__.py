@@ -25,6 +25,7 @@ from .point_film import ChittendenCentral as ChittendenCentral
 from .point_film import HamrockDowsonCentral as HamrockDowsonCentral
 from .point_film import HamrockDowsonMinimum as HamrockDowsonMinimum
 from .point_film import NijenbanningVennerMoes as NijenbanningVennerMoes
+from .point_film import RigidBlend as RigidBlend
 from .point_laws import PointLaws as PointLaws
 from .profile import AbstractProfile as AbstractProfile
 from .profile import CrownedProfile as CrownedProfile

@@ -7,7 +7,7 @@ import equinox as eqx
 import jax.numpy as jnp
 from jaxtyping import Array, Float
 
-from .._types import Values
+from .._types import Scalar, Values
 from ..numerics.safe import log_add, smooth_abs
 from .film import LOG_2
 from .line import LOAD_FLOOR, log_entrainment_sum, log_material_number
@@ -83,8 +83,7 @@ class NijenbanningVennerMoes(AbstractPointFilm):
         log_ratio = jnp.log(ratio)
         log_c = jnp.log(1.0 + 0.006 * log_ratio + 0.63 * jnp.exp(4.0 / 7.0 * log_ratio))
 
-        side_flow = jnp.log1p(0.796 * jnp.exp(14.0 / 15.0 * log_ratio))
-        rigid_isoviscous = jnp.log(145.0) - 15.0 / 7.0 * side_flow - log_ratio - 2.0 * log_m
+        rigid_isoviscous = _log_rigid_isoviscous(log_ratio, log_m)
         rigid_piezoviscous = jnp.log(1.29) - 2.0 / 3.0 * jnp.log1p(0.691 * ratio) + 2.0 / 3.0 * log_l
         elastic_isoviscous = jnp.log(3.18) - 14.0 / 25.0 * log_c - log_ratio / 15.0 - 2.0 / 15.0 * log_m
         elastic_piezoviscous = jnp.log(1.48) - 0.35 * log_c - log_ratio / 24.0 - log_m / 12.0 + 0.75 * log_l
@@ -98,14 +97,20 @@ class NijenbanningVennerMoes(AbstractPointFilm):
         return log_h + 0.5 * log_u + jnp.log(radius)
 
 
+def _log_rigid_isoviscous(log_ratio: Array, log_m: Array) -> Array:
+    """ln H_RI of `NijenbanningVennerMoes`, from the logarithms of Rx/Ry and M."""
+    side_flow = jnp.log1p(0.796 * jnp.exp(14.0 / 15.0 * log_ratio))
+    return jnp.log(145.0) - 15.0 / 7.0 * side_flow - log_ratio - 2.0 * log_m
+
+
 class HamrockDowsonCentral(AbstractPointFilm):
     r"""Central film of an elastohydrodynamic point contact.
 
     $h_c/R_x = 2.69\,U^{0.67}G^{0.53}W^{-0.067}(1 - 0.61e^{-0.73k})$, $U = \mu u/(E'R_x)$ with u the *mean* speed,
     $G = \alpha E'$, $W = Q/(E'R_x^2)$, $k = 1.03(R_y/R_x)^{0.64}$.
 
-    **Validity:** the elastic-piezoviscous regime only; fitted for k >= 1, below it extrapolates. The load levels off
-    at 1e-9 N, the speed at 0.5e-6 m/s, alpha at 1e-25 1/Pa.
+    **Validity:** the elastic-piezoviscous regime only; fitted for k >= 1, below it extrapolates; without the film of
+    light loads (see `RigidBlend`). The load levels off at 1e-9 N, the speed at 0.5e-6 m/s, alpha at 1e-25 1/Pa.
     **Reference:** Hamrock and Dowson (1977), ASME J. Lubr. Technol. 99, 264; source eqs. (59)-(60), whose factor
     1.691 belongs to the sum speed.
     """
@@ -179,6 +184,53 @@ class ChittendenCentral(AbstractPointFilm):
         shape = jnp.log(-jnp.expm1(-1.23 * jnp.exp(2.0 / 3.0 * log_ratio)))
         log_film = jnp.log(4.31) + 0.68 * log_speed + 0.49 * log_material - 0.073 * log_load + shape
         return log_film + jnp.log(contact.reduced_radius_rolling)
+
+
+class RigidBlend(AbstractPointFilm):
+    r"""An elastohydrodynamic film joined to the rigid isoviscous one: $h^n = h_{film}^n + h_{RI}^n$.
+
+    $h_{RI} = R_xU^{1/2}H_{RI}$, $H_{RI} = 145(1 + 0.796\lambda^{14/15})^{-15/7}\lambda^{-1}M^{-2}$, groups as in
+    `NijenbanningVennerMoes`; n = 3 by default.
+
+    **Limits:** the wrapped film at high load: higher than that by $r^n/n$, r the ratio of the two films; for Hamrock
+    and Dowson's, L = 10 and a circle this is 4e-10 at M = 100, 4e-7 at M = 30 and 3e-4 at M = 10. $h_{RI}$ as Q -> 0:
+    the film then grows as $Q^{-2}$, so a ball in any clearance carries a small positive load and has a place of its
+    own, where the wrapped law, with $Q^{-0.067}$, has no film that fills the clearance.
+    **Validity:** an interpolation; at equal films the sum is 26 % above either (n = 3). The plateau of a
+    rigid-piezoviscous contact between the two is left out; `NijenbanningVennerMoes` has it. M is floored as there. Do
+    not wrap that law, which contains $h_{RI}$ already.
+    **Reference:** Nijenbanning, Venner and Moes (1994), Wear 176, 217, for $h_{RI}$; the blend is ours.
+    """
+
+    film: AbstractPointFilm
+    exponent: Scalar = 3.0
+
+    @property
+    def piezoviscous_only(self) -> bool:  # pyright: ignore[reportIncompatibleVariableOverride]  (the wrapped film's)
+        return self.film.piezoviscous_only
+
+    def log_thickness(
+        self,
+        contact: PointContact,
+        load: Values,
+        entrainment_speed: Values,
+        viscosity: Values,
+        pressure_viscosity: Values,
+    ) -> Float[Array, "..."]:
+        elastic = self.film.log_thickness(contact, load, entrainment_speed, viscosity, pressure_viscosity)
+        radius, stiffness = contact.reduced_radius_rolling, contact.reduced_modulus * contact.reduced_radius_rolling
+        log_u = log_entrainment_sum(entrainment_speed) + jnp.log(viscosity) - jnp.log(stiffness)
+        m = load / (stiffness * radius) * jnp.exp(-0.75 * log_u)
+        log_ratio = jnp.log(radius) - jnp.log(contact.reduced_radius_transverse)
+        rigid = _log_rigid_isoviscous(log_ratio, jnp.log(smooth_abs(m, POINT_LOAD_FLOOR)))
+        rigid = rigid + 0.5 * log_u + jnp.log(radius)
+        return log_add(self.exponent * elastic, self.exponent * rigid) / self.exponent
+
+
+RigidBlend.__init__.__doc__ = """**Arguments:**
+- `film`: the film at high load.
+- `exponent`: n, > 0.
+"""
 
 
 def _fitted_ellipticity(contact: PointContact) -> Array:

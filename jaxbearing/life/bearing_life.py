@@ -10,6 +10,7 @@ import numpy as np
 from jaxtyping import Array, Bool, Float
 
 from ..bearings.ball_bearing import BallBearing
+from ..bearings.ball_rating import linear_tilt_loads
 from ..bearings.cylindrical_roller import CylindricalRollerBearing
 from ..bearings.rating import CATALOGUE_CONFORMITY, Rating, rated_laminae
 from ..bearings.solution import Solution
@@ -81,6 +82,8 @@ def without_effect(scene: Any, life: Life) -> list[str]:
         ]
     else:
         found = ["rating.grooves has no effect: it is about balls"] if rating.grooves != "catalogue" else []
+    if rating.tilt == "iso" and not _tilts_linearly(scene):
+        found.append("rating.tilt = 'iso' has no effect: it is about ball bearings with a moment or a misalignment")
     if rating.cleanliness is not None and life.viscosity_ratio is None:
         lacking = "a viscosity ratio: rating.viscosity_ratio, or an oil with a density"
         found.append(f"rating.cleanliness has no effect without {lacking}")
@@ -185,11 +188,21 @@ def _ball(scene: BallBearing, elements: Any, laminae: Any, turns: Any) -> Rated:
     capacity = _given(rating.dynamic_capacity, lambda: ball_capacity(*sizes, *rated))
     static = _given(rating.static_capacity, lambda: ball_static_capacity(*sizes, rated[0], modulus))
     limits = ball_contact_capacities(capacity, *sizes, *grooves)
-    rate = ball_damage_rate(elements.load_inner, elements.load_outer, limits, *turns)
+    inner, outer = elements.load_inner, elements.load_outer
+    if _tilts_linearly(scene):
+        inner, outer = linear_tilt_loads(scene)
+    rate = ball_damage_rate(inner, outer, limits, *turns)
     operation = scene.operation
     radial_only = operation.axial_load is None and operation.moment is None and operation.radial_load is not None
     load = jnp.abs(jnp.asarray(operation.radial_load)) if radial_only else None
     return Rated("ball", jnp.asarray(geometry.pitch_diameter), capacity, static, rate, load)
+
+
+def _tilts_linearly(scene: Any) -> bool:
+    """Whether the loads for the life are those of the first-order motion of a tilted ring."""
+    if not isinstance(scene, BallBearing) or scene.rating is None:
+        return False
+    return scene.operation.tilts and scene.rating.tilt == "iso"
 
 
 def edge_weights(rating: Rating, profiled: bool, count: int) -> np.ndarray:

@@ -13,6 +13,7 @@ from ..contacts import (
     HamrockDowsonMinimum,
     MartinBlend,
     PanHamrockMinimum,
+    RigidBlend,
 )
 from ..materials import reduced_modulus
 
@@ -29,7 +30,9 @@ def minimum_films(scene: Any, elements: Any) -> tuple[Float[Array, " element"], 
     contacts: the ratio of Hamrock and Dowson's two laws, at most 1, at the mean speed of the pitch circle (it goes with
     its power 0.01).
     """
-    if isinstance(scene.contact.film, HamrockDowsonMinimum):
+    film = scene.contact.film
+    film = film.film if isinstance(film, RigidBlend) else film
+    if isinstance(film, HamrockDowsonMinimum):
         share = jnp.ones((2, 1))
     else:
         share = _point_share(scene, elements) if isinstance(scene, BallBearing) else _line_share(scene.contact.film)

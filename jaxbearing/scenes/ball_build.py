@@ -18,7 +18,7 @@ from ..contacts import PointLaws
 from ..lubricants import Lubricant
 from .ball_schema import BallBearingTable, BallContactTable, KinematicsTable
 from .bearing_build import built, cage, part
-from .laws import POINT_FILMS, distributed_traction, thermal_factor
+from .laws import BALL_FILMS, distributed_traction, thermal_factor
 from .materials import material
 from .oils import lubricant
 
@@ -80,7 +80,7 @@ def _laws(table: BallContactTable, oil: Lubricant | None) -> PointLaws:
     if table.traction is not None:
         traction = distributed_traction(table.traction, table.traction_accuracy, oil, spin=True)
     return PointLaws(
-        film=POINT_FILMS[table.film](),
+        film=BALL_FILMS[table.film](),
         thermal=thermal_factor(table.thermal),
         traction=traction,
         rolling_resistance=table.rolling_resistance is not None,

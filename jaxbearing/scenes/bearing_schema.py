@@ -61,6 +61,7 @@ class RatingTable(Table):
     n_laminae: units.Count | None = None
     edge_factor: units.Switch | None = None
     grooves: Literal["catalogue", "scene"] = "catalogue"
+    tilt: Literal["exact", "iso"] = "exact"
 
     @check
     def _both_roughnesses(self) -> Problems:

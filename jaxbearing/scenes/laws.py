@@ -1,5 +1,6 @@
 """What the names of contact laws in scene files stand for, whatever the kind of scene."""
 
+from collections.abc import Callable
 from typing import Annotated, Any
 
 from pydantic import BeforeValidator
@@ -23,6 +24,7 @@ from ..contacts import (
     PanHamrockCentral,
     ReeEyring,
     Resolution,
+    RigidBlend,
 )
 from ..contacts import viscous_function as viscous_function_named
 from ..lubricants import Lubricant
@@ -39,6 +41,12 @@ POINT_FILMS: dict[str, type[AbstractPointFilm]] = {
     "nijenbanning": NijenbanningVennerMoes,
     "hamrock_dowson": HamrockDowsonCentral,
 }
+BALL_FILMS: dict[str, Callable[[], AbstractPointFilm]] = {
+    "nijenbanning": NijenbanningVennerMoes,
+    # an unloaded ball needs the rigid film of light loads
+    "hamrock_dowson": lambda: RigidBlend(HamrockDowsonCentral()),
+}
+"""Of balls, some of which may carry nothing."""
 THERMAL: dict[str, type[AbstractThermalFactor]] = {"gupta": Gupta, "hsu_lee": HsuLee}
 MAXWELL_EYRING = "maxwell_eyring"
 """Ree and Eyring's flow with the Maxwell element that every law here has."""

@@ -191,13 +191,12 @@ def test_hard_cases_have_finite_results_and_derivatives(name):
 
 
 def test_balances():
-    """Loads of the ring from the balls' loads, to round-off."""
-    solution = jb.solve(bearing(T15, 10000, 20e3, 8e3, moment=50.0))
+    """Loads of a ring that does not tilt from the balls' loads, to round-off; `test_ball_tilt` has the tilted one."""
+    solution = jb.solve(bearing(T15, 10000, 20e3, 8e3))
     e = solution.elements
     axial, radial = e.load_inner * jnp.sin(e.contact_angle_inner), e.load_inner * jnp.cos(e.contact_angle_inner)
     np.testing.assert_allclose(jnp.sum(axial), 20e3, rtol=1e-9)
     np.testing.assert_allclose(jnp.sum(radial * jnp.cos(e.azimuth)), 8e3, rtol=1e-9)
-    np.testing.assert_allclose(T15.groove_circle_radius * jnp.sum(axial * jnp.cos(e.azimuth)), 50.0, rtol=1e-7)
 
 
 @pytest.mark.slow

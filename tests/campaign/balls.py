@@ -7,13 +7,13 @@ is drawn to it from any side; no certificate is accepted. Left out:
 - shares of the gyroscopic couple that an unloaded contact cannot carry (`kinematics.gyroscopic` = shared);
 - angular contact bearings under less axial load than the 1.22 F_r tan(alpha) that keeps half of the balls loaded: on
   the far side the inner ring lifts off by more than its groove is deep, and the full circle of the model is no groove;
-- lubricated bearings below the least load of makers' catalogues, a hundredth of the capacity, or below the
+- balls that slide, below the least load of makers' catalogues, a hundredth of the capacity, or below the
   centrifugal force of the balls, which are then thrown off the inner race and skid: every third of those fails, and
   says so.
 """
 
 import functools
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from campaign import elastic
@@ -42,7 +42,7 @@ import jaxbearing as jb
 STATIC = 6e6
 """Largest load over the number of balls and the square of their diameter, N/m^2: half of ISO 76 for radial loads."""
 LEAST_LOAD = 0.02
-"""Of lubricated bearings, over the largest, which is half of the capacity."""
+"""Of balls that slide, over the largest, which is half of the capacity."""
 FASTEST = {False: 2.5e6, True: 1.5e6}
 """Speed times pitch diameter, rpm mm, of dry and lubricated bearings."""
 DIMENSIONS: dict[str, Range] = {
@@ -74,8 +74,9 @@ def ball_numbers(v: Numbers, scene: Any) -> Numbers:
     most = np.maximum(STATIC * n * diameter**2, 2.0)
     lubricated = scene.contact is not None
     turning = speeds(v, pitch, 100.0 if lubricated else 1e-2, FASTEST[lubricated], rest=0.0 if lubricated else 0.1)
+    # balls that roll without sliding do not skid: any load
     least = np.ones_like(most)
-    if lubricated:
+    if scene.slips:
         fastest = np.maximum(*(np.abs(turning[name]) for name in SPEEDS))
         # of the common orbit at a ratio of diameters of the usual 0.2; with both rings turning, of the faster one
         orbit = 0.4 * fastest + 0.6 * np.abs(turning["operation.outer_speed"])
@@ -124,8 +125,7 @@ def ball_numbers(v: Numbers, scene: Any) -> Numbers:
 
 def ball_balances(scene: Any, n: Numbers, r: Results) -> dict[str, tuple[np.ndarray, float]]:
     inner, outer = r["elements.load_inner"], r["elements.load_outer"]
-    at_inner, at_outer = r["elements.contact_angle_inner"], r["elements.contact_angle_outer"]
-    cosine = np.cos(r["elements.azimuth"])
+    cosine, sine = np.cos(r["elements.azimuth"]), np.sin(r["elements.azimuth"])
     mass = n["materials.balls.density"] * np.pi / 6.0 * n["geometry.ball_diameter"] ** 3
     outward = 0.5 * mass[:, None] * n["geometry.pitch_diameter"][:, None] * r["elements.orbital_speed"] ** 2
     number = lambda name: n.get(f"operation.{name}", np.zeros(len(inner)))
@@ -137,50 +137,64 @@ def ball_balances(scene: Any, n: Numbers, r: Results) -> dict[str, tuple[np.ndar
     if scene.kinematics.gyroscopic is not None:
         # its friction stands in all balances of forces
         return found
+    place, fits = _placed(scene, n, r)
+    pushed = inner * place.arm / np.linalg.norm(place.arm, axis=0)
+    # a tilted ring is displaced along the orbit too, and films are computed with the load in the ball's half-plane
+    within = 1e-6 if scene.operation.tilts else 1e-8
     total = np.hypot(axial, radial) + np.max(inner, axis=1) * 1e-3
     # the floor of 1 mN on the centrifugal force, which holds a ball that nothing loads
     floor = 1.1e-3
-    error = lambda value, scale: (np.maximum(np.abs(value) - floor, 0.0) / scale, 1e-8)
-    found["ring carries the axial load"] = error(np.sum(inner * np.sin(at_inner), axis=1) - axial, total)
-    if scene.operation.symmetric:
-        radial_error = np.sum(inner * np.cos(at_inner) * cosine, axis=1)
-    else:
-        radial_error = np.sum(inner * np.cos(at_inner) * cosine, axis=1) - radial
+    error = lambda value, scale: (np.maximum(np.abs(value) - floor, 0.0) / scale, within)
+    found["ring carries the axial load"] = error(np.sum(pushed[0], axis=1) - axial, total)
+    on_line = pushed[1] * cosine - pushed[2] * sine
+    radial_error = np.sum(on_line, axis=1) - (0.0 if scene.operation.symmetric else radial)
     caged = scene.slips and scene.cage is not None
+    at_outer = r["elements.contact_angle_outer"]
     if not caged:
         # with a cage the pockets' friction stands in the radial balances too
         found["ring carries the radial load"] = error(radial_error, total)
-        across = outer * np.cos(at_outer) - inner * np.cos(at_inner) - outward
+        across = outer * np.cos(at_outer) - pushed[1] - outward
         found["a ball is in radial balance"] = error(np.max(np.abs(across), axis=1), total + largest_of(outer))
-    along = outer * np.sin(at_outer) - inner * np.sin(at_inner)
+    along = outer * np.sin(at_outer) - pushed[0]
     found["a ball is in axial balance"] = error(np.max(np.abs(along), axis=1), total + largest_of(outer))
-    return found | _fit(scene, n, r, moment)
+    if "operation.moment" in n and scene.operation.radial_load is not None:
+        turned = np.sum(pushed[0] * place.from_centre[1] - on_line * place.from_centre[0], axis=1)
+        scale = np.abs(moment) + place.lever * np.max(inner, axis=1)
+        found["ring carries the moment"] = (np.abs(turned - moment) / scale, 1e-6)
+    return found | fits
 
 
 def largest_of(values: np.ndarray) -> np.ndarray:
     return np.max(np.abs(values), axis=1)
 
 
-def _fit(scene: Any, n: Numbers, r: Results, moment: np.ndarray) -> dict[str, tuple[np.ndarray, float]]:
-    """Groove centres, balls and elastic approaches close at every loaded ball; the moment on the ring."""
+class Placed(NamedTuple):
+    """`arm`: from the balls to the nearest inner groove centres (axial, outward, along the orbit); `from_centre`: to
+    these from the displaced centre of the ring (axial, along the load line); R_i; m."""
+
+    arm: np.ndarray
+    from_centre: np.ndarray
+    lever: np.ndarray
+
+
+def _placed(scene: Any, n: Numbers, r: Results) -> tuple[Placed, dict[str, tuple[np.ndarray, float]]]:
+    """Where the inner grooves are, seen from the balls; groove centres, balls and elastic approaches close at every
+    loaded ball; Hertz's pressures."""
     diameter, pitch = n["geometry.ball_diameter"], n["geometry.pitch_diameter"]
     f_inner, f_outer = n["geometry.conformity_inner"], n["geometry.conformity_outer"]
     distance = (f_inner + f_outer - 1.0) * diameter
     if "geometry.contact_angle" in n:
         free = np.cos(n["geometry.contact_angle"])
+        aligned = -distance * np.sin(n["geometry.contact_angle"])
     else:
         free = 1.0 - n["geometry.diametral_clearance"] / (2.0 * distance)
+        aligned = np.zeros_like(distance)
     rings = float(scene.materials.rings.poisson_ratio)
     modulus = elastic.reduced_modulus(
         (n["materials.rings.youngs_modulus"], rings),
         (n["materials.balls.youngs_modulus"], n["materials.balls.poisson_ratio"]),
     )
     lever = pitch / 2.0 + (f_inner - 0.5) * diameter * free
-    tilt = r["ring.tilt"]
-    cosine = np.cos(r["elements.azimuth"])
-    # A: of the inner groove's centre from the outer one's
-    axial = (distance * np.sqrt(1.0 - free**2) + r["ring.axial"])[:, None] + (lever * tilt)[:, None] * cosine
-    radial = (distance * free)[:, None] + r["ring.radial"][:, None] * cosine
     reach = {}
     found: dict[str, tuple[np.ndarray, float]] = {}
     for name, groove, side in (("inner", f_inner, -1.0), ("outer", f_outer, 1.0)):
@@ -198,20 +212,32 @@ def _fit(scene: Any, n: Numbers, r: Results, moment: np.ndarray) -> dict[str, tu
         pressure = elastic.point_pressure(largest_of(load), rolling, across, modulus)
         error = np.abs(r[f"elements.pressure_{name}"][rows, heaviest] / pressure - 1.0)
         found[f"Hertz, {name}"] = (np.where(largest_of(load) > 1.0, error, 0.0), 1e-6)
-    angle = {name: r[f"elements.contact_angle_{name}"] for name in reach}
+    at_outer = r["elements.contact_angle_outer"]
+    # the ball: along the axis from the middle plane of the outer groove, and from the axis
+    ball = reach["outer"] * np.sin(at_outer), (lever - distance * free)[:, None] + reach["outer"] * np.cos(at_outer)
+    axial, radial, tilt = (r[f"ring.{name}"][:, None] for name in ("axial", "radial", "tilt"))
+    cosine, sine = np.cos(r["elements.azimuth"]), np.sin(r["elements.azimuth"])
+    middle = axial - aligned[:, None]
+    if scene.operation.tilts:
+        # the nearest point of the tilted circle, in the fixed frame: along the axis, the load line, across it
+        centre = np.stack([middle + 0.0 * cosine, radial + 0.0 * cosine, 0.0 * cosine])
+        normal = np.stack([np.cos(tilt) + 0.0 * cosine, -np.sin(tilt) + 0.0 * cosine, 0.0 * cosine])
+        away = np.stack([ball[0], ball[1] * cosine, ball[1] * sine]) - centre
+        flat = away - np.sum(away * normal, axis=0) * normal
+        nearest = centre + lever[:, None] * flat / np.linalg.norm(flat, axis=0)
+        arm = nearest - np.stack([ball[0], ball[1] * cosine, ball[1] * sine])
+        arm = np.stack([arm[0], arm[1] * cosine + arm[2] * sine, arm[2] * cosine - arm[1] * sine])
+    else:
+        arm = np.stack([middle - ball[0], lever[:, None] + radial * cosine - ball[1], 0.0 * cosine])
+    # the contact angle is that on the tilted race
+    turned = np.arctan2(np.sin(tilt) * cosine, np.cos(tilt))
+    seen = np.arctan2(arm[0], arm[1]) - turned
+    length = np.linalg.norm(arm, axis=0)
     loaded = np.minimum(r["elements.load_inner"], r["elements.load_outer"]) > 1e-3
-    closes = [
-        sum(reach[name] * function(angle[name]) for name in reach) - target
-        for function, target in ((np.sin, axial), (np.cos, radial))
-    ]
-    gap = np.max(np.where(loaded, np.hypot(*closes), 0.0), axis=1)
-    found["rings and balls fit"] = (gap / 1e-6, 1e-4)
-    if "operation.moment" in n and scene.operation.radial_load is not None:
-        load = r["elements.load_inner"]
-        carried = np.sum(lever[:, None] * load * np.sin(angle["inner"]) * cosine, axis=1)
-        scale = np.abs(moment) + lever * np.max(load, axis=1)
-        found["ring carries the moment"] = (np.abs(carried - moment) / scale, 1e-7)
-    return found
+    gap = np.hypot(length - reach["inner"], length * (seen - r["elements.contact_angle_inner"]))
+    found["rings and balls fit"] = (np.max(np.where(loaded, gap, 0.0), axis=1) / 1e-6, 1e-4)
+    nearest = np.stack([ball[0] + arm[0] - middle, (ball[1] + arm[1]) * cosine - arm[2] * sine - radial])
+    return Placed(arm, nearest, lever), found
 
 
 def structure(
@@ -288,6 +314,29 @@ STRUCTURES = [
         },
         OIL,
         twins=(MIRROR, HOTTER),
+    ),
+    structure(
+        "films, Hamrock-Dowson, tilt free",
+        "deep_groove_6205",
+        9,
+        {"oil.name": "mobil_jet_ii", "operation.oil_temperature": "60 degC", "contact.film": "hamrock_dowson"},
+        OIL,
+        twins=(MIRROR, HOTTER),
+    ),
+    structure(
+        "films, Hamrock-Dowson, radial, held",
+        "deep_groove_6205",
+        8,
+        {
+            "oil.name": "mobil_jet_ii",
+            "operation.oil_temperature": "60 degC",
+            "operation.moment": "none",
+            "operation.axial_load": "none",
+            "contact.film": "hamrock_dowson",
+            "contact.thermal": "gupta",
+        },
+        OIL,
+        twins=(MIRROR,),
     ),
     structure("sliding, axial", "turbine_ball", 14, {"drag": "none", **NO_CAGE}, OIL),
     structure("sliding, axial, cage and drag", "turbine_ball", 12, {}, {**OIL, **CAGE}),

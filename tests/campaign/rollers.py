@@ -224,7 +224,7 @@ STRUCTURES = [
         without=("cage", "flange", "drag"),
         twins=(MIRROR, HOTTER),
     ),
-    structure("skidding, Ree-Eyring", 9, MEAN, LUBRICATED),
+    structure("skidding, Ree-Eyring, Dowson-Toyoda", 9, {**MEAN, "contact.film": "dowson_toyoda"}, LUBRICATED),
     structure(
         "outer guided, flanges, rails",
         15,
@@ -232,9 +232,14 @@ STRUCTURES = [
         {**LUBRICATED, **FLANGE},
     ),
     structure(
-        "rolling resistance, Bair-Winer",
+        "rolling resistance, Bair-Winer, Pan-Hamrock",
         12,
-        {**MEAN, "contact.rolling_resistance": "ertel_grubin", "contact.traction": "bair_winer"},
+        {
+            **MEAN,
+            "contact.film": "pan_hamrock",
+            "contact.rolling_resistance": "ertel_grubin",
+            "contact.traction": "bair_winer",
+        },
         LUBRICATED,
     ),
     structure(

@@ -194,7 +194,24 @@ STRUCTURES = [
         {},
         twins=ELASTIC,
     ),
-    structure("lubricated, radial", 11, {}, OIL),
+    structure(
+        "lubricated, radial, Dowson-Toyoda",
+        11,
+        {"contact.film": "dowson_toyoda", "contact.flange_film": "hamrock_dowson"},
+        OIL,
+    ),
+    structure(
+        "lubricated, axial, Grubin",
+        17,
+        {"operation.radial_load": "none", "contact.film": "grubin", "contact.flange_film": "chittenden"},
+        OIL,
+    ),
+    structure(
+        "lubricated, misaligned, Dowson-Higginson",
+        13,
+        {"operation.misalignment": "0.2 mrad", "contact.film": "dowson_higginson"},
+        OIL,
+    ),
     structure(
         "lubricated, moment, crowned, Pennzane",
         12,

@@ -18,6 +18,7 @@ from jaxbearing.contacts import (
     NijenbanningVennerMoes,
     NoThermalReduction,
     PointContact,
+    RigidBlend,
     inlet_temperature_rise,
     point_rolling_moment,
 )
@@ -27,7 +28,13 @@ from jaxbearing.lubricants import IntegratedPressureViscosity
 PUBLISHED = tomllib.loads((Path(__file__).parents[1] / "published" / "point_contact.toml").read_text())
 STEEL = 2.2747252747e11
 # new law: add it, get every test
-FILMS = [NijenbanningVennerMoes(), HamrockDowsonCentral(), HamrockDowsonMinimum(), ChittendenCentral()]
+FILMS = [
+    NijenbanningVennerMoes(),
+    HamrockDowsonCentral(),
+    HamrockDowsonMinimum(),
+    ChittendenCentral(),
+    RigidBlend(HamrockDowsonCentral()),
+]
 NAMES = lambda film: type(film).__name__
 JITTED = {film: jax.jit(film.log_thickness) for film in FILMS}
 MOMENT = jax.jit(point_rolling_moment)
@@ -190,7 +197,7 @@ def test_isoviscous_oil():
     ri, ei = 145 * 1.796 ** (-15 / 7) / 25.0, 3.18 * 1.63**-0.56 * 5 ** (-2 / 15)
     h = (ri**1.5 + (ei**-4 + 1.8**-4) ** (-3 / 8)) ** (2 / 3)
     np.testing.assert_allclose(nijenbanning_h(5.0, 0.0), h, rtol=1e-9)
-    assert [film.piezoviscous_only for film in FILMS] == [False, True, True, True]
+    assert [film.piezoviscous_only for film in FILMS] == [False, True, True, True, True]
 
 
 def test_the_two_central_films_agree():
@@ -214,6 +221,20 @@ def test_chittenden_s_film():
 FILM_SLOPES = {
     f: jax.jit(jax.grad(lambda *a, f=f: jnp.sum(f.log_thickness(*a)), argnums=(0, 1, 2, 3, 4))) for f in FILMS
 }
+
+
+def test_film_of_light_loads():
+    """Joined to the rigid film: at most r^3/3 above the wrapped law, r the ratio of both, and the rigid film of the
+    other law as the load vanishes."""
+    circle, speed = PointContact(0.01, 0.01, 2.3e11), 2e-11
+    at = lambda film, m: of_groups(JITTED[film], circle, speed, 10.0 * speed**-0.25, m * speed**0.75)
+    for m in (10.0, 30.0, 100.0):
+        plain, rigid = at(FILMS[1], m), np.log(0.01 * speed**0.5 * 145.0 * 1.796 ** (-15 / 7) / m**2)
+        excess = np.exp(3.0 * (rigid - plain)) / 3.0
+        np.testing.assert_allclose(np.expm1(at(FILMS[4], m) - plain), excess, rtol=1e-3, atol=1e-14)
+        assert excess < {10.0: 3e-4, 30.0: 4e-7, 100.0: 4e-10}[m]
+    for m, within in ((1e-2, 1e-8), (1e-4, 1e-12), (0.0, 1e-12)):
+        np.testing.assert_allclose(at(FILMS[4], m), at(FILMS[0], m), rtol=0, atol=within)
 
 
 @pytest.mark.parametrize("film", FILMS, ids=NAMES)

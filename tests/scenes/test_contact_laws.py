@@ -3,6 +3,8 @@
 import tomllib
 from typing import get_args
 
+import jax
+import jax.numpy as jnp
 import numpy as np
 import pytest
 
@@ -18,11 +20,13 @@ from jaxbearing.contacts import (
     Gupta,
     HsuLee,
     JoinedRollingResistance,
+    LineContact,
     MartinBlend,
     MeanPressureTraction,
     Moes,
     NoThermalReduction,
     PanHamrockCentral,
+    PointContact,
     ReeEyring,
     Resolution,
     RigidRollingResistance,
@@ -30,9 +34,10 @@ from jaxbearing.contacts import (
 from jaxbearing.lubricants import NoPressureViscosity, WaltherRoelands
 from jaxbearing.scenes.contact_laws import FILMS, ROLLING
 from jaxbearing.scenes.errors import SceneError
-from jaxbearing.scenes.laws import THERMAL
+from jaxbearing.scenes.laws import BALL_FILMS, THERMAL
 from jaxbearing.scenes.reader import builtin_text, load_scene, scene_from_mapping
 from jaxbearing.scenes.roller_schema import ISOVISCOUS, ContactTable
+from jaxbearing.scenes.tapered_build import FLANGE_FILMS
 
 FILM = {
     "moes": Moes,
@@ -80,6 +85,34 @@ def test_film(name):
         # joined to Martin's rigid film, which an unloaded roller needs
         assert isinstance(film, MartinBlend)
         assert isinstance(film.film, FILM[name])
+
+
+RACE = LineContact(5e-3, 0.014, 2.27e11)
+BALL = PointContact(4e-3, 0.12, 2.27e11)
+NAMED_FILMS = {f"line, {name}": (film, RACE) for name, film in FILMS.items()}
+NAMED_FILMS |= {f"ball, {name}": (film, BALL) for name, film in BALL_FILMS.items()}
+NAMED_FILMS |= {f"rib, {name}": (film, PointContact(0.2, 0.02, 2.27e11)) for name, film in FLANGE_FILMS.items()}
+
+
+@pytest.mark.parametrize("name", NAMED_FILMS)
+def test_films_that_scenes_name_from_no_load_to_full(name):
+    """Finite with finite slopes at every load and at rest, thinner with more load; and an unloaded raceway contact has
+    a film that fills any clearance, so that each of its rolling elements has a place."""
+    film, contact = NAMED_FILMS[name][0](), NAMED_FILMS[name][1]
+    loads = jnp.asarray([0.0, 1e-12, 1e-9, 1e-6, 1e-3, 1.0, 1e3, 1e5])
+    law = lambda load, speed: film.log_thickness(contact, load, speed, 0.01, 1.5e-8)
+    slopes = jax.jit(jax.vmap(jax.value_and_grad(law, (0, 1)), (0, None)))
+    for speed in (0.0, 1e-3, 10.0, -100.0):
+        value, slope = slopes(loads, speed)
+        assert all(np.all(np.isfinite(part)) for part in (value, *slope))
+        assert np.all(np.diff(value) <= 0.0)
+        assert np.all(slope[0] <= 0.0)
+    if not name.startswith("rib"):
+        assert np.exp(law(jnp.asarray(0.0), 10.0)) > 1e-2
+        # half of the load, twice (line) or four times (point) the film
+        light = 0.1
+        ratio = np.exp(law(jnp.asarray(0.5 * light), 10.0) - law(jnp.asarray(light), 10.0))
+        np.testing.assert_allclose(ratio, 2.0 if name.startswith("line") else 4.0, rtol=1e-3)
 
 
 @pytest.mark.parametrize(("name", "law"), [("gupta", Gupta), ("hsu_lee", HsuLee), ("none", NoThermalReduction)])

@@ -10,7 +10,17 @@ from ...numerics.status import Status
 from ..plain import field_names, finite, plain
 from .operation import unused_operation
 
-_INSIDE = ("status", "worst_equation", "stiffness", "checks", "ring_freedom", "equation_names", "notes", "laminae")
+_INSIDE = (
+    "status",
+    "worst_equation",
+    "stiffness",
+    "checks",
+    "ring_freedom",
+    "equation_names",
+    "notes",
+    "laminae",
+    "reasons",
+)
 _NAMES = ("stiffness_freedom", "element_name")
 """Fields that are not written as they are, but in words or in another order, or not at all."""
 

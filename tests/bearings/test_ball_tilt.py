@@ -1,0 +1,241 @@
+"""Tilted inner ring of a ball bearing: exact motion of the grooves, work-conjugate moment, rating by ISO's linear form.
+
+Check values: model sheet "Four-point contact, exact ring tilt, flexible and out-of-round rings", sections A2 and A7
+(computed there by a second route: brute-force minimum over the circle of groove centres), rtol 1e-6 where nothing else
+is said.
+"""
+
+import jax
+import jax.numpy as jnp
+import numpy as np
+import pytest
+
+import jaxbearing as jb
+from jaxbearing.bearings.ball_bearing import BallAttitude, BallBearing, BallMaterials, BallOperation
+from jaxbearing.bearings.ball_geometry import BallGeometry
+from jaxbearing.bearings.ball_rating import linear_tilt_loads
+from jaxbearing.bearings.ball_steady import overload
+from jaxbearing.bearings.groove_motion import inner_arm, length_of, ring_frame
+from jaxbearing.bearings.range_checks import missing_thrust
+from jaxbearing.bearings.rating import Rating
+from jaxbearing.materials import Material, reduced_modulus
+
+STEEL = BallMaterials(*(Material(np.float64(207e9), np.float64(0.3), np.float64(7850.0)),) * 2)
+GROOVE = BallGeometry(9, 38.5e-3, 7.938e-3, 0.515, 0.525, diametral_clearance=12e-6)
+SCENE = BallBearing(
+    geometry=GROOVE,
+    materials=STEEL,
+    operation=BallOperation(0.0, axial_load=0.0, radial_load=0.0, moment=10.0),
+    kinematics=BallAttitude("outer"),
+    rating=Rating(grooves="scene"),
+)
+"""Of the sheet; compiled once for the module."""
+
+
+@pytest.fixture(scope="module")
+def any_load():
+    return jb.jit_solver(SCENE)
+
+
+# azimuth, side, arm from the ball to the inner groove; G4: two arcs, shims of 32 degrees
+ARMS = [
+    (0.0, 1.0, 5.540572052836e-4),
+    (0.0, -1.0, 3.964915246640e-4),
+    (1.1, 1.0, 4.291109442666e-4),
+    (2.5, -1.0, 5.052632053157e-4),
+    (4.0, 1.0, 4.159211445325e-4),
+]
+
+
+@pytest.mark.parametrize(("azimuth", "side", "expected"), ARMS)
+def test_exact_arms_of_five_freedoms(azimuth, side, expected):
+    lever, arc = 0.03661272600, 2.313428788e-4
+    ring = jnp.asarray([20e-6, 30e-6, -15e-6, 4e-3, -2.5e-3])[:, None]
+    # ball centre along the axis, and from the axis less R_i
+    centre = jnp.asarray([[3e-6], [-3.6e-4]])
+    frame = ring_frame(ring, jnp.asarray([azimuth]))
+    found = length_of(inner_arm(frame, centre, lever, side * arc))
+    # R_i is printed to 1e-12 m
+    np.testing.assert_allclose(found, expected, rtol=1e-8)
+
+
+def test_arm_is_the_least_distance_from_the_circle():
+    """Against the distance minimised over a dense circle, at a large tilt and displacement."""
+    lever, azimuth = 0.02, np.array([0.4, 2.0])
+    shift, tilt = np.array([5e-5, -3e-5, 4e-5]), np.array([0.03, -0.05])
+    centre = np.array([[1e-5, -2e-5], [0.0199, 0.0198]])
+    frame = ring_frame(jnp.asarray([*shift, *tilt])[:, None] * jnp.ones((1, 2)), jnp.asarray(azimuth))
+    found = length_of(inner_arm(frame, jnp.asarray(centre - np.array([[0.0], [lever]])), lever))
+    # rotation vector tilt[1] Y - tilt[0] Z, by Rodrigues
+    size = np.hypot(*tilt)
+    about = np.array([0.0, tilt[1], -tilt[0]]) / size
+    cross = np.array([[0.0, -about[2], about[1]], [about[2], 0.0, -about[0]], [-about[1], about[0], 0.0]])
+    turn = np.eye(3) + np.sin(size) * cross + (1.0 - np.cos(size)) * cross @ cross
+    for j in range(2):
+        ball = np.array([centre[0, j], *(centre[1, j] * np.array([np.cos(azimuth[j]), np.sin(azimuth[j])]))])
+        around = azimuth[j] + np.linspace(-0.02, 0.02, 40001)
+        circle = turn @ (lever * np.array([0.0 * around, np.cos(around), np.sin(around)])) + shift[:, None]
+        least = np.min(np.linalg.norm(circle - ball[:, None], axis=0))
+        np.testing.assert_allclose(found[j], least, rtol=1e-6)
+
+
+@pytest.mark.parametrize("tilt", [0.0, 1e-4, 8e-3, -0.1])
+def test_closed_form_in_the_plane_of_the_moment(tilt):
+    """No clearance: the groove centres come apart by sqrt(A^2 + 4 R_i R_e sin^2(t/2)) - A, R_e = R_i - A."""
+    lever, apart = 0.0194, 3.2e-4
+    outer = lever - apart
+    frame = ring_frame(jnp.asarray([0.0, 0.0, 0.0, tilt, 0.0])[:, None], jnp.zeros(1))
+    found = length_of(inner_arm(frame, jnp.asarray([[0.0], [-apart]]), lever)) - apart
+    expected = np.sqrt(apart**2 + 4.0 * lever * outer * np.sin(0.5 * tilt) ** 2) - apart
+    np.testing.assert_allclose(found, [expected], rtol=1e-11, atol=1e-17)
+
+
+# moment, N m: tilt and largest load, exact and to first order
+ROWS = {
+    10.0: ((6.061637263e-3, 549.32494), (6.003441636e-3, 545.99015)),
+    20.0: ((6.961239413e-3, 928.74601), (6.893337361e-3, 922.99914)),
+}
+
+
+@pytest.mark.parametrize("moment", ROWS)
+def test_pure_moment_on_a_deep_groove_bearing(any_load, moment):
+    solution = any_load(moment=moment)
+    assert bool(solution.converged)
+    tilt, largest = ROWS[moment][0]
+    np.testing.assert_allclose(solution.ring.tilt, tilt, rtol=1e-6)
+    np.testing.assert_allclose(jnp.max(solution.elements.load_inner), largest, rtol=1e-6)
+    stiffness = np.asarray(solution.stiffness)
+    size = np.sqrt(np.outer(np.diag(stiffness), np.diag(stiffness)))
+    assert np.max(np.abs(stiffness - stiffness.T) / size) < 1e-12
+    # the exact potential is not convex by construction, and is at its solutions
+    assert np.min(np.linalg.eigvalsh(stiffness / size)) > 0.05
+
+
+def test_loads_of_the_linear_form():
+    np.testing.assert_allclose(jnp.max(jax.jit(linear_tilt_loads)(SCENE)[0]), ROWS[10.0][1][1], rtol=1e-6)
+
+
+@pytest.mark.slow
+def test_rating_by_the_linear_form(any_load):
+    """`rating.tilt = "iso"`: the loads stay exact, and the life is 1.96 % longer (sheet: 1.0196)."""
+    linear, exact = jb.solve(SCENE.replace({"rating.tilt": "iso"})), any_load(moment=10.0)
+    np.testing.assert_allclose(linear.elements.load_inner, exact.elements.load_inner, rtol=1e-12)
+    np.testing.assert_allclose(linear.life.L10r / exact.life.L10r, 1.0196, rtol=2e-4)
+
+
+def test_forces_and_moments_balance(any_load):
+    """In vectors, from the places of the balls: forces along the arms carry the loads of the ring."""
+    axial, radial, moment = 300.0, 1500.0, 6.0
+    solution = any_load(axial_load=axial, radial_load=radial, moment=moment)
+    assert bool(solution.converged)
+    e, ring = solution.elements, solution.ring
+    tilt, lever = float(ring.tilt), float(GROOVE.groove_circle_radius)
+    assert abs(tilt) > 2e-3
+    cosine, sine = np.cos(e.azimuth), np.sin(e.azimuth)
+    contact = GROOVE.free_contacts(reduced_modulus(STEEL.rings, STEEL.balls))
+    reach = GROOVE.outer_offset + (e.load_outer / contact.stiffness_constant()[1]) ** (2.0 / 3.0)
+    outer_circle = lever - float(GROOVE.centre_distance * GROOVE.free_cosine)
+    angle = np.asarray(e.contact_angle_outer)
+    centre = np.stack([reach * np.sin(angle), outer_circle + reach * np.cos(angle)])
+    moved = jnp.asarray([ring.axial, ring.radial, 0.0, tilt, 0.0])[:, None] * jnp.ones((1, 9))
+    frame = ring_frame(moved, e.azimuth)
+    arm = inner_arm(frame, jnp.asarray(centre - np.array([[0.0], [lever]])), lever)
+    force = np.asarray(e.load_inner) * np.asarray(arm) / np.asarray(length_of(arm))
+    close = lambda found, given: np.testing.assert_allclose(found, given, rtol=0, atol=1e-8 * radial)
+    close(np.sum(force[0]), axial)
+    close(np.sum(force[1] * cosine - force[2] * sine), radial)
+    # about the lateral axis through the displaced centre, from the nearest groove centres
+    on_line = force[1] * cosine - force[2] * sine
+    nearest = centre + np.asarray(arm[:2])
+    turned = force[0] * (nearest[1] * cosine - arm[2] * sine - float(ring.radial))
+    turned = turned - on_line * (nearest[0] - float(ring.axial))
+    np.testing.assert_allclose(np.sum(turned), moment, rtol=0, atol=1e-8 * lever * radial)
+    # the balls, and the contact angle on the tilted race
+    loaded = np.asarray(e.load_inner) > 1.0
+    close(force[0], e.load_outer * np.sin(angle))
+    in_ring = np.arctan2(arm[0], arm[1]) - np.arctan2(np.sin(tilt) * cosine, np.cos(tilt))
+    np.testing.assert_allclose(e.contact_angle_inner[loaded], in_ring[loaded], rtol=0, atol=1e-5)
+
+
+@pytest.mark.slow
+def test_held_tilt_is_the_free_one(any_load):
+    """Held at the tilt that a moment makes, the ring finds the same place, with the same loads."""
+    free = any_load(axial_load=300.0, radial_load=1500.0, moment=6.0)
+    operation = BallOperation(0.0, axial_load=300.0, radial_load=1500.0, misalignment=free.ring.tilt)
+    held = jb.solve(SCENE.replace({"operation": operation}))
+    np.testing.assert_allclose(held.ring.axial, free.ring.axial, rtol=1e-8)
+    np.testing.assert_allclose(held.elements.load_inner, free.elements.load_inner, rtol=1e-7, atol=1e-6)
+    np.testing.assert_allclose(held.stiffness, free.stiffness, rtol=1e-6, atol=1e-6 * float(free.stiffness[1, 1]))
+
+
+@pytest.mark.slow
+def test_slope_of_the_tilt(any_load):
+    """Derivative of the tilt with respect to the moment and to the clearance, against differences."""
+
+    def tilt(moment, clearance):
+        changed = SCENE.replace({"geometry.diametral_clearance": clearance, "rating": None})
+        return jb.solve(changed.at_operation(moment=moment), throw=False).ring.tilt
+
+    slopes = jax.jit(jax.grad(tilt, (0, 1)))(10.0, 12e-6)
+    steps = (1e-3, 1e-9)
+    for i, step in enumerate(steps):
+        ends = []
+        for sign in (1.0, -1.0):
+            moment, clearance = (10.0 + sign * step, 12e-6) if i == 0 else (10.0, 12e-6 + sign * step)
+            scene = SCENE.replace({"geometry.diametral_clearance": clearance})
+            ends.append(float(any_load(scene, moment=moment).ring.tilt))
+        np.testing.assert_allclose(slopes[i], (ends[0] - ends[1]) / (2.0 * step), rtol=1e-6)
+
+
+def test_large_tilt_is_warned_of(any_load):
+    wide = any_load(SCENE.replace({"geometry.diametral_clearance": 100e-6}), moment=20.0)
+    assert abs(float(wide.ring.tilt)) > 10e-3
+    assert any("10 mrad" in text for text in wide.warnings)
+    assert not any("10 mrad" in text for text in any_load(moment=10.0).warnings)
+
+
+# -- zero of the axial displacement
+
+
+def test_axial_displacement_counts_from_the_middle_of_the_play(any_load):
+    """Bearings given by their clearance: 0 under radial load, and the same both ways under thrust, beginning with half
+    of the play BD sin(alpha0)."""
+    assert float(any_load(radial_load=1500.0, moment=0.0).ring.axial) == 0.0
+    there, back = (any_load(axial_load=sign * 1.0, radial_load=0.0, moment=0.0).ring.axial for sign in (1.0, -1.0))
+    np.testing.assert_allclose(there, -back, rtol=1e-12)
+    np.testing.assert_allclose(there, GROOVE.centre_distance * GROOVE.free_sine, rtol=3e-2)
+    contact = BallGeometry(9, 38.5e-3, 7.938e-3, 0.515, 0.525, contact_angle=0.4)
+    assert float(GROOVE.aligned) == 0.0
+    np.testing.assert_allclose(contact.aligned, -contact.centre_distance * np.sin(0.4), rtol=1e-14)
+
+
+@pytest.mark.parametrize("clearance", [2e-6, 12e-6, 100e-6])
+def test_any_radial_load_finds_the_untilted_ring(any_load, clearance):
+    """By symmetry the ring stays untilted in the middle of its play, however light the load and free the tilt."""
+    scene = SCENE.replace({"geometry.diametral_clearance": clearance, "operation.inner_speed": 600.0})
+    for load in (0.1, 1.0, 20.0, 300.0, 2e4):
+        solution = any_load(scene, radial_load=load, moment=0.0)
+        assert bool(solution.converged), load
+        assert (float(solution.ring.axial), float(solution.ring.tilt)) == (0.0, 0.0)
+
+
+# -- loads that the bearing is not made for
+
+
+def test_overload_says_by_how_much(any_load):
+    solution = any_load(radial_load=2e5, moment=0.0)
+    assert not bool(solution.converged)
+    assert "times that at which the most loaded ball reaches 4.2 GPa" in solution.failure()
+    assert "times that" not in any_load(radial_load=1500.0, moment=0.0).failure()
+
+
+def test_thrust_that_an_angular_contact_bearing_needs():
+    scene = jb.load_scene("angular_contact_218", {"operation.radial_load": "1 kN", "operation.axial_load": "1 kN"})
+    least = 1.22 * 1000.0 * np.tan(np.radians(40.0))
+    for thrust, missing in ((0.0, least), (-0.9 * least, 0.1 * least), (1.1 * least, -0.1 * least)):
+        np.testing.assert_allclose(missing_thrust(scene.at_operation(axial_load=thrust)), missing, rtol=1e-12)
+    # the static rating by its definition: 4.2 GPa where the mean load of the balls is a fifth of the largest
+    contact = scene.geometry.free_contacts(reduced_modulus(scene.materials.rings, scene.materials.balls))
+    largest = float(overload(scene.at_operation(radial_load=1e5, axial_load=0.0)))
+    load = 1e5 / largest * 5.0 / (16 * np.cos(np.radians(40.0)))
+    np.testing.assert_allclose(contact.hertz_pressure(load)[0], 4.2e9, rtol=1e-9)
