@@ -12,7 +12,11 @@ Importing the package switches JAX to 64-bit floats: the tolerances of its solve
 import importlib
 from typing import TYPE_CHECKING, Any
 
-import jax
+from .numerics.interrupts import end_command_at_interrupt
+
+end_command_at_interrupt()  # before anything large is imported
+
+import jax  # noqa: E402
 
 jax.config.update("jax_enable_x64", True)
 

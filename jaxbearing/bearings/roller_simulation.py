@@ -1,5 +1,6 @@
 """Runs in time of a moving cylindrical roller bearing: one at a time, many at once, and as a pure function."""
 
+import contextlib
 import dataclasses
 from collections.abc import Callable, Mapping
 from typing import Any, Literal
@@ -13,6 +14,7 @@ from jaxtyping import Array, Float
 from ..numerics.compiling import quickly_compiled
 from ..numerics.devices import may_be_shared_out, shared_out
 from ..numerics.integrator import Segment
+from ..numerics.interrupts import Deferral, deferred_interrupts
 from ..numerics.precision import as_float
 from ..numerics.status import SolveError, Status
 from .cylindrical_roller import CylindricalRollerBearing
@@ -136,27 +138,52 @@ def simulate_rollers(
     else:
         dynamics, state = _resume(scene, chosen, last)
     done: list[tuple[np.ndarray, Any, Segment]] = []
-    interrupted = False
-    try:
-        for piece in range(pieces):
-            here = times[piece * SEGMENT : (piece + 1) * SEGMENT + 1]
-            found = _advance(dynamics, state, jnp.asarray(here[0]), jnp.asarray(here[1:]), chosen.options, step)
-            state, step = found.segment.last, found.segment.step
-            done.append(_kept(found, here, first=piece == 0))
-            if int(found.segment.status) != Status.CONVERGED:
-                break
-            if progress is not None:
-                progress(float(found.segment.last_time), stop)
-    except KeyboardInterrupt:
-        if not done:
-            raise
-        interrupted = len(done) < pieces
+    with contextlib.ExitStack() as stack:
+        interrupt = Deferral()
+        try:
+            for piece in range(pieces):
+                here = times[piece * SEGMENT : (piece + 1) * SEGMENT + 1]
+                found = _advance(dynamics, state, jnp.asarray(here[0]), jnp.asarray(here[1:]), chosen.options, step)
+                state, step = found.segment.last, found.segment.step
+                done.append(_kept(found, here, first=piece == 0))
+                if piece == 0:
+                    # from now on there is something to keep
+                    interrupt = stack.enter_context(deferred_interrupts())
+                if int(found.segment.status) != Status.CONVERGED:
+                    break
+                if progress is not None:
+                    progress(float(found.segment.last_time), stop)
+                if interrupt.seen:
+                    break
+        except KeyboardInterrupt:
+            # of `progress`, or of a second Ctrl-C
+            if not done:
+                raise
+            interrupt.seen = True
+        interrupted = interrupt.seen and len(done) < pieces
+        history = _history(scene, chosen, dynamics, done, stop, interrupted)
+        interrupt.taken()
+    # who interrupts a run wants what there is
+    if throw and not interrupted:
+        history.raise_if_failed()
+    return history
+
+
+def _history(
+    scene: CylindricalRollerBearing,
+    chosen: Simulation,
+    dynamics: Any,
+    done: list[tuple[np.ndarray, Any, Segment]],
+    stop: float,
+    interrupted: bool,
+) -> History:
+    """From the pieces of a run to the whole."""
     kept_times, kept, segments = zip(*done, strict=True)
     instants = jax.tree.map(lambda *leaves: np.concatenate(leaves), *kept)
     ends = [jax.tree.map(lambda leaf, at=at: leaf[at], instants) for at in (0, -1)]
     found_energy = _energy(dynamics, segments[-1].last, *ends)
     status = Status.NOT_CONVERGED if interrupted else Status(int(segments[-1].status))
-    history = History(
+    return History(
         status=jnp.asarray(int(status)),
         time=jnp.asarray(np.concatenate(kept_times)),
         stop=jnp.asarray(stop),
@@ -171,10 +198,6 @@ def simulate_rollers(
         interrupted=interrupted,
         notes=scene.assumptions(),
     )
-    # who interrupts a run wants what there is
-    if throw and not interrupted:
-        history.raise_if_failed()
-    return history
 
 
 def _checks(scene: CylindricalRollerBearing, energy: Energy) -> dict[str, Any]:

@@ -13,6 +13,7 @@ import typer
 
 from ..numerics.compiling import collecting_rarely
 from .fit_verb import fit
+from .interrupt import prompt_interrupt
 from .messages import BAD_INPUT, INTERRUPTED, NO_OUTPUT, say
 from .quiet import only_news
 from .report_verb import report
@@ -45,7 +46,9 @@ app = typer.Typer(
 
 def main() -> None:
     """Entry point of the console script."""
-    sys.exit(_run())
+    with prompt_interrupt():
+        code = _run()
+    sys.exit(code)
 
 
 def _run() -> int:
@@ -62,6 +65,8 @@ def _run() -> int:
     except _UsageError as error:
         return _usage(error)
     except KeyboardInterrupt:
+        # where Ctrl-C had been deferred, or comes as an exception
+        typer.echo("interrupted", err=True)
         return INTERRUPTED
     except SystemExit as ended:
         # the command line's and rich's way to say that the reader of a pipe has gone

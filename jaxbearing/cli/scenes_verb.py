@@ -42,7 +42,7 @@ def _list() -> None:
 
 
 def _copy(name: str, to: Path | None, force: bool) -> None:
-    from ..report.files import appearing_whole
+    from ..report.files import write_whole
     from ..scenes.data_files import builtin_names, builtin_text
     from ..scenes.errors import SceneError, nearest, one_of
 
@@ -56,8 +56,7 @@ def _copy(name: str, to: Path | None, force: bool) -> None:
         if target.exists() and not force:
             found, expected = "a file that exists already", "a new file (--to FILE), or --force to overwrite it"
             raise SceneError(str(target), "", found, expected)
-        with appearing_whole(target) as temporary:
-            temporary.write_text(builtin_text(name), encoding="utf-8")
+        write_whole(target, builtin_text(name))
     except SceneError:
         raise
     except (OSError, ValueError) as error:

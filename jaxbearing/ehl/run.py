@@ -1,5 +1,6 @@
 """A run in time of a line contact: from the steady film, segment after segment."""
 
+import contextlib
 from collections.abc import Callable
 from typing import NamedTuple
 
@@ -10,6 +11,7 @@ import numpy as np
 from jaxtyping import Array, Float
 
 from ..numerics.compiling import quickly_compiled
+from ..numerics.interrupts import Deferral, deferred_interrupts
 from ..numerics.precision import as_float
 from ..numerics.status import SolveError, Status
 from .equations import Point, film_shape
@@ -159,26 +161,37 @@ def simulate_film(
     times, speeds = [np.asarray([began])], [np.asarray([float(drive.speed_at(motion.time))])]
     taken = refused = newton_steps = 0
     balance, status, thin, interrupted = 0.0, Status.CONVERGED, False, False
-    try:
-        while True:
-            found = _advance(drive, motion, end, key)
-            count = int(found.taken)
-            seen = jax.tree.map(
-                lambda leaf, count=count: np.asarray(leaf)[:count], _see(found.record.point, scales, key)
-            )
-            motion, kept = found.motion, [*kept, seen]
-            times.append(np.asarray(found.record.time)[:count] * unit)
-            speeds.append(np.asarray(found.record.speed)[:count])
-            taken, refused = taken + count, refused + int(found.rejected)
-            newton_steps += int(found.newton_steps)
-            balance = max(balance, float(np.max(np.asarray(found.record.balance)[:count], initial=0.0)))
-            if progress is not None:
-                progress(float(times[-1][-1]) if count else began, stop)
-            if int(found.status) >= 0:
-                status, thin = Status(int(found.status)), bool(found.thin)
-                break
-    except KeyboardInterrupt:
-        status, interrupted = Status.NOT_CONVERGED, True
+    with contextlib.ExitStack() as stack:
+        interrupt = Deferral()
+        try:
+            while True:
+                found = _advance(drive, motion, end, key)
+                count = int(found.taken)
+                seen = jax.tree.map(
+                    lambda leaf, count=count: np.asarray(leaf)[:count], _see(found.record.point, scales, key)
+                )
+                motion, kept = found.motion, [*kept, seen]
+                times.append(np.asarray(found.record.time)[:count] * unit)
+                speeds.append(np.asarray(found.record.speed)[:count])
+                taken, refused = taken + count, refused + int(found.rejected)
+                newton_steps += int(found.newton_steps)
+                balance = max(balance, float(np.max(np.asarray(found.record.balance)[:count], initial=0.0)))
+                if len(kept) == 2:
+                    # from now on there is something to keep
+                    interrupt = stack.enter_context(deferred_interrupts())
+                if progress is not None:
+                    progress(float(times[-1][-1]) if count else began, stop)
+                if int(found.status) >= 0:
+                    status, thin = Status(int(found.status)), bool(found.thin)
+                    break
+                if interrupt.seen:
+                    raise KeyboardInterrupt
+        except KeyboardInterrupt:
+            # also of `progress`, or of a second Ctrl-C
+            if len(kept) < 2:
+                raise
+            status, interrupted = Status.NOT_CONVERGED, True
+        interrupt.taken()
     all_times = np.concatenate(times)
     if status == Status.CONVERGED and not thin:
         all_times[-1] = stop
