@@ -127,7 +127,8 @@ def simulate_rollers(
     pieces = max(1, round(length / (SEGMENT * interval)))
     times = np.linspace(begin_time, stop, pieces * SEGMENT + 1)
     scene, chosen = (jax.tree.map(as_float, tree) for tree in (scene, chosen))
-    step = jnp.asarray(FIRST_STEP)
+    # a weak type, as that of a Python number, would have the program compiled again for the second piece
+    step = jnp.asarray(FIRST_STEP, dtype=float)
 
     if last is None:
         found = _quasi_static(at_start(scene, chosen))

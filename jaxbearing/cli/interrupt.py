@@ -14,7 +14,7 @@ import threading
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 
-from ..numerics.interrupts import end_now, note_interrupt
+from ..numerics.interrupts import end_now, listening, note_interrupt
 
 NOTHING = "nothing was computed"
 _SHOW_CURSOR = b"\r\x1b[2K\x1b[?25h"
@@ -45,14 +45,12 @@ def prompt_interrupt() -> Iterator[None]:
     # stderr may be held back
     stream = _duplicate(2)
     wakeup = signal.set_wakeup_fd(writer, warn_on_full_buffer=False)
-    # the thread does it all
-    previous = signal.signal(signal.SIGINT, lambda number, frame: None)
     watcher = threading.Thread(target=_watch, args=(reader, stream), daemon=True)
     watcher.start()
     try:
-        yield
+        with listening():
+            yield
     finally:
-        signal.signal(signal.SIGINT, previous)
         signal.set_wakeup_fd(wakeup)
         os.close(writer)
         watcher.join()

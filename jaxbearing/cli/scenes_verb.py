@@ -6,6 +6,7 @@ from typing import Annotated
 import typer
 
 from .messages import bad_input, refuse
+from .output_files import unwritten
 from .terminal import console
 
 
@@ -59,8 +60,10 @@ def _copy(name: str, to: Path | None, force: bool) -> None:
         write_whole(target, builtin_text(name))
     except SceneError:
         raise
-    except (OSError, ValueError) as error:
+    except (FileNotFoundError, NotADirectoryError, IsADirectoryError, PermissionError, ValueError) as error:
         # ValueError: a path with a null byte
         found = f"a place that cannot be written: {getattr(error, 'strerror', None) or error}"
         raise SceneError(str(target), "", found, "a file in an existing folder") from None
+    except OSError as error:
+        raise typer.Exit(unwritten(target, error)) from None
     typer.echo(f"wrote {target}")

@@ -36,6 +36,8 @@ class Deferral:
 
 _blocks: list[Deferral] = []
 """The blocks that wait, the innermost last."""
+_listening: list[bool] = []
+"""Not empty while another thread hears of Ctrl-C."""
 
 
 @contextmanager
@@ -50,6 +52,8 @@ def deferred_interrupts() -> Iterator[Deferral]:
         return
 
     def note(number: int, frame: object) -> None:
+        if _listening:
+            return
         if found.seen:
             previous(number, frame)  # pyright: ignore[reportCallIssue, reportArgumentType]
         found.seen = True
@@ -65,8 +69,21 @@ def deferred_interrupts() -> Iterator[Deferral]:
         raise KeyboardInterrupt
 
 
+@contextmanager
+def listening() -> Iterator[None]:
+    """Inside this block another thread hears of Ctrl-C, before Python's handlers do, and tells by `note_interrupt`;
+    Python's handlers do nothing."""
+    previous = signal.signal(signal.SIGINT, lambda number, frame: None)
+    _listening.append(True)
+    try:
+        yield
+    finally:
+        _listening.pop()
+        signal.signal(signal.SIGINT, previous)
+
+
 def note_interrupt() -> bool:
-    """For another thread that hears of Ctrl-C before Python's handlers do: whether a block has taken note of it."""
+    """Ctrl-C was pressed: whether a block takes note of it, for the first time."""
     if not _blocks or _blocks[-1].seen:
         return False
     _blocks[-1].seen = True

@@ -23,7 +23,7 @@ def write_whole(path: str | os.PathLike[str], content: str | bytes | memoryview)
     there before.
     """
     data = content.encode("utf-8") if isinstance(content, str) else content
-    with appearing_whole(path) as temporary, temporary.open("wb") as file:
+    with appearing_whole(path) as temporary, _named(path), temporary.open("wb") as file:
         file.write(data)
 
 
@@ -42,22 +42,30 @@ def appearing_whole(path: str | os.PathLike[str]) -> Iterator[Path]:
     temporary = target.with_name(f".{target.name[:60]}.{secrets.token_hex(4)}.part")
     _unfinished.add(temporary)
     try:
-        try:
+        with _named(path):
             temporary.open("xb").close()
-        except OSError as error:
-            # the user knows the place by the name given, not by that of the temporary file
-            raise OSError(error.errno, error.strerror, os.fspath(path)) from None
         yield temporary
-        if target.exists():
-            shutil.copymode(target, temporary)
-        # some file systems tell only now that they have no room
-        with temporary.open("rb") as file:
-            os.fsync(file.fileno())
-        os.replace(temporary, target)
+        with _named(path):
+            if target.exists():
+                shutil.copymode(target, temporary)
+            # some file systems tell only now that they have no room
+            with temporary.open("rb") as file:
+                os.fsync(file.fileno())
+            os.replace(temporary, target)
     finally:
-        with suppress(FileNotFoundError):
+        # it may not have been made, or is in its place
+        with suppress(OSError):
             temporary.unlink()
         _unfinished.discard(temporary)
+
+
+@contextmanager
+def _named(path: str | os.PathLike[str]) -> Iterator[None]:
+    """The user knows the place by the name given, not by that of the temporary file."""
+    try:
+        yield
+    except OSError as error:
+        raise OSError(error.errno, error.strerror or str(error), os.fspath(path)) from None
 
 
 def check_place(path: str | os.PathLike[str]) -> None:

@@ -95,14 +95,16 @@ def run(
         there = _there_already(plan, target, overwrite, watcher)
         if there is not None:
             return there
-        _claim(plan, folder, target, overwrite)
         tally = _Tally()
         try:
+            _claim(plan, folder, target, overwrite)
             _compute(plan, folder, runner or in_process(), watcher, tally)
             watcher.stage("writing")
             store(plan, folder, target)
         except OSError as error:
             kept = kept_words(plan, target)
+            if not tally.computed:
+                shutil.rmtree(folder, ignore_errors=True)
             raise StoppedError(error, len(plan.cases), tally.computed, tally.converged, kept) from error
         shutil.rmtree(folder, ignore_errors=True)
     return Outcome(len(plan.cases), tally.converged, tally.kept)
