@@ -14,6 +14,7 @@ FITTING = ROOT / "fitting"
 RANK = {
     "_types": 0,
     "_scene": 2,
+    "_identity": 2,
     "time_laws": 2,
     "numerics": 1,
     "materials": 2,

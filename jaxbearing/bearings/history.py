@@ -11,6 +11,7 @@ import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Array, Bool, Float, Int
 
+from .._identity import Identity
 from .._scene import AbstractSolution
 from ..numerics.status import Status
 from .solution import PowerLoss, RingDisplacement, RollerResults, label
@@ -71,7 +72,8 @@ class LastState(eqx.Module):
 
     **Arguments:** `time`, s; `rollers`: q, m, v and u, m/s; `cage`: X, Y, q, m, and their rates; angle, rad, and speed,
     rad/s, of the frame in which they are counted; `reference_speed` of that frame at the operating point, rad/s;
-    `azimuth` of the rollers, rad; whether there is a cage.
+    `azimuth` of the rollers, rad; whether there is a cage; `identity`: which bearing it is (`None`: not known, as in
+    files of earlier versions).
     """
 
     time: Float[Array | np.ndarray, ""]
@@ -82,6 +84,7 @@ class LastState(eqx.Module):
     reference_speed: Float[Array | np.ndarray, ""]
     azimuth: Float[Array | np.ndarray, " roller"]
     has_cage: bool = eqx.field(static=True)
+    identity: Identity | None = None
 
 
 class Energy(eqx.Module):
@@ -127,6 +130,7 @@ class History(AbstractSolution):
     interrupted: bool = eqx.field(static=True, default=False)
     element_name: str = eqx.field(static=True, default="roller")
     notes: tuple[str, ...] = eqx.field(static=True, default=())
+    identity: Identity | None = None
 
     @property
     def converged(self) -> Bool[Array, "*batch"]:
@@ -154,6 +158,7 @@ class History(AbstractSolution):
             reference_speed=np.asarray(self.reference_speed),
             azimuth=last.elements.azimuth,
             has_cage=last.cage is not None,
+            identity=self.identity,
         )
 
     def lane(self, index: int) -> "History":

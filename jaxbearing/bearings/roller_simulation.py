@@ -21,7 +21,7 @@ from .cylindrical_roller import CylindricalRollerBearing
 from .history import Energy, History, LastState
 from .roller_dynamics import WORKS
 from .roller_motion import IMMOBILE, QuasiStatic, Start, at_start, begin, quasi_static, quasi_static_start
-from .roller_run import FIELD, Advanced, Resumed, advance, check_fits, energy_of, resume
+from .roller_run import FIELD, UNKNOWN, Advanced, Resumed, advance, check_fits, energy_of, identity, resume
 from .simulation import Simulation
 
 INTERVAL = 20e-6
@@ -137,7 +137,8 @@ def simulate_rollers(
         begun = _begin(scene, chosen, found)
         dynamics, state = begun.dynamics, begun.state
     else:
-        dynamics, state = _resume(scene, chosen, last)
+        # which bearing it is has been compared, and is no part of the program
+        dynamics, state = _resume(scene, chosen, dataclasses.replace(last, identity=None))
     done: list[tuple[np.ndarray, Any, Segment]] = []
     with contextlib.ExitStack() as stack:
         interrupt = Deferral()
@@ -162,7 +163,9 @@ def simulate_rollers(
                 raise
             interrupt.seen = True
         interrupted = interrupt.seen and len(done) < pieces
-        history = _history(scene, chosen, dynamics, done, stop, interrupted)
+        unknown = last is not None and last.identity is None
+        notes = (*((UNKNOWN,) if unknown else ()), *scene.assumptions())
+        history = _history(scene, chosen, dynamics, done, stop, interrupted, notes)
         interrupt.taken()
     # who interrupts a run wants what there is
     if throw and not interrupted:
@@ -177,6 +180,7 @@ def _history(
     done: list[tuple[np.ndarray, Any, Segment]],
     stop: float,
     interrupted: bool,
+    notes: tuple[str, ...],
 ) -> History:
     """From the pieces of a run to the whole."""
     kept_times, kept, segments = zip(*done, strict=True)
@@ -197,7 +201,8 @@ def _history(
         checks=_checks(scene, found_energy),
         solver=chosen.solver,
         interrupted=interrupted,
-        notes=scene.assumptions(),
+        notes=notes,
+        identity=identity(scene),
     )
 
 
@@ -297,4 +302,5 @@ def _lane(scene: CylindricalRollerBearing, simulation: Simulation | None, times:
         checks=_checks(scene, energy),
         solver=simulation.solver,
         notes=scene.assumptions(),
+        identity=jax.tree.map(jnp.asarray, identity(scene)),
     )

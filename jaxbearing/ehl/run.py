@@ -16,7 +16,7 @@ from ..numerics.precision import as_float
 from ..numerics.status import SolveError, Status
 from .equations import Point, film_shape
 from .history import FilmHistory, LineContactHistory, PressureHistory, ProfileHistory, thin_note
-from .last_state import FilmState, mesh_of_state, motion_of, state_of
+from .last_state import UNKNOWN, FilmState, mesh_of_state, motion_of, state_of
 from .line_contact import SMALLEST_MOES_LOAD, EHLLineContact, Scales
 from .mesh import MeshKey, mesh
 from .simulation import FilmSimulation
@@ -196,7 +196,8 @@ def simulate_film(
     if status == Status.CONVERGED and not thin:
         all_times[-1] = stop
     seen = jax.tree.map(lambda *leaves: jnp.asarray(np.concatenate(leaves)), *kept)
-    notes = scene.assumptions()
+    unknown = start is not None and start.identity is None
+    notes = (*((UNKNOWN,) if unknown else ()), *scene.assumptions())
     if thin:
         notes = (thin_note(float(all_times[-1]), scene.contact.film_limit), *notes)
     return LineContactHistory(
@@ -213,7 +214,7 @@ def simulate_film(
         profile=ProfileHistory(jnp.asarray(mesh(key).x) * scales.half_width, seen.pressure, seen.film),
         hertz=HertzResult(scales.half_width, scales.hertz_pressure),
         operation=scene.operation,
-        last_state=state_of(motion, scales, key),
+        last_state=state_of(motion, scales, key, scene),
         checks=range_checks(scene, scales),
         ended_thin=thin,
         interrupted=interrupted,
