@@ -1,5 +1,6 @@
 """`jaxbearing scenes`: what comes with the package."""
 
+import errno
 from pathlib import Path
 from typing import Annotated
 
@@ -8,6 +9,9 @@ import typer
 from .messages import bad_input, refuse
 from .output_files import unwritten
 from .terminal import console
+
+_FULL = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EIO)
+"""What a disk says that takes no more: not the fault of the name."""
 
 
 def scenes(
@@ -60,10 +64,10 @@ def _copy(name: str, to: Path | None, force: bool) -> None:
         write_whole(target, builtin_text(name))
     except SceneError:
         raise
-    except (FileNotFoundError, NotADirectoryError, IsADirectoryError, PermissionError, ValueError) as error:
+    except (OSError, ValueError) as error:
+        if isinstance(error, OSError) and error.errno in _FULL:
+            raise typer.Exit(unwritten(target, error)) from None
         # ValueError: a path with a null byte
         found = f"a place that cannot be written: {getattr(error, 'strerror', None) or error}"
         raise SceneError(str(target), "", found, "a file in an existing folder") from None
-    except OSError as error:
-        raise typer.Exit(unwritten(target, error)) from None
     typer.echo(f"wrote {target}")

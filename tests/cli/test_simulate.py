@@ -68,6 +68,12 @@ def test_restart_goes_on(run):
     [
         (("--set", "geometry.n_rollers=28"), "30 rollers, for a scene with 28"),
         (("--set", "cage=none"), "a state with a cage"),
+        (
+            ("--set", "geometry.diametral_clearance=31 um"),
+            "geometry.diametral_clearance is 3e-05 there and 3.1e-05 here",
+        ),
+        (("--set", "geometry.roller_diameter=12.1 mm"), "geometry.roller_diameter is 0.012 there and 0.0121 here"),
+        (("--set", "flange=none"), "flange is RollerFlange there and none here"),
         (("--restart", "run.png"), "not a NetCDF file"),
         (("--restart", "gone.nc"), "cannot be read"),
         (("--restart", "."), "cannot be read"),
