@@ -14,6 +14,8 @@ import threading
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 
+import typer
+
 from ..numerics.interrupts import end_now, listening, note_interrupt
 
 NOTHING = "nothing was computed"
@@ -23,12 +25,22 @@ _SHOW_CURSOR = b"\r\x1b[2K\x1b[?25h"
 
 _words: list[Callable[[], str]] = [lambda: NOTHING]
 """Its only entry: what would be said now."""
+_told: list[bool] = []
+"""Not empty where the user has been told that the command was interrupted."""
 
 
 def if_interrupted(words: str | Callable[[], str]) -> None:
     """What is said from now on when Ctrl-C ends the command, after "interrupted: ". **Arguments:** `words`, or what
     makes them, which is called in another thread."""
     _words[0] = (lambda: words) if isinstance(words, str) else words
+
+
+def tell(elsewhere: bool = False) -> None:
+    """Say on stderr that the command was interrupted, in the words of `if_interrupted`; once. **Arguments:**
+    `elsewhere`: whether the results themselves say so."""
+    if not _told and not elsewhere:
+        typer.echo(f"interrupted: {_words[0]()}", err=True)
+    _told.append(True)
 
 
 @contextmanager
@@ -40,6 +52,7 @@ def prompt_interrupt() -> Iterator[None]:
         yield
         return
     if_interrupted(NOTHING)
+    _told.clear()
     reader, writer = os.pipe()
     os.set_blocking(writer, False)
     # stderr may be held back

@@ -13,7 +13,7 @@ import typer
 
 from ..numerics.compiling import collecting_rarely
 from .fit_verb import fit
-from .interrupt import prompt_interrupt
+from .interrupt import prompt_interrupt, tell
 from .messages import BAD_INPUT, INTERRUPTED, NO_OUTPUT, say
 from .quiet import only_news
 from .report_verb import report
@@ -62,11 +62,13 @@ def _run() -> int:
         with collecting_rarely():
             code = app(standalone_mode=False)
         sys.stdout.flush()
+        if code == INTERRUPTED:
+            # Ctrl-C that was deferred comes as an exception, of which the parser makes a code
+            tell()
     except _UsageError as error:
         return _usage(error)
     except KeyboardInterrupt:
-        # where Ctrl-C had been deferred, or comes as an exception
-        typer.echo("interrupted", err=True)
+        tell()
         return INTERRUPTED
     except SystemExit as ended:
         # the command line's and rich's way to say that the reader of a pipe has gone

@@ -10,7 +10,7 @@ from typing import NamedTuple
 import typer
 
 from ..numerics.interrupts import INTERRUPTED, deferred_interrupts
-from .interrupt import if_interrupted
+from .interrupt import if_interrupted, tell
 from .messages import NO_OUTPUT, refuse, say
 
 PICTURES = (".png", ".svg", ".pdf")
@@ -86,8 +86,8 @@ def deliver(show: Callable[[], None], files: Sequence[Output] = (), notes_to_std
         while left:
             code = max(code, _write(left, written))
     except KeyboardInterrupt:
-        not_written = f": not written: {_named(left)}" if left else ""
-        typer.echo(f"interrupted{not_written}", err=True)
+        if_interrupted(f"not written: {_named(left)}" if left else "all results are there")
+        tell()
         code = INTERRUPTED
     for file in written:
         if file.done:

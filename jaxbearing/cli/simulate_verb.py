@@ -10,6 +10,7 @@ from typing import Annotated, Any
 
 import typer
 
+from .interrupt import tell
 from .messages import INTERRUPTED, NOT_CONVERGED, bad_input, refuse
 from .options import JsonOption, SceneArgument, SetOption, labelled, option_quantity
 from .output_files import PICTURES, Output, check_files, deliver
@@ -120,6 +121,8 @@ def simulate(
         )
         deliver(lambda: _print(history, label, as_json), outputs)
     if not history.completed:
+        if history.interrupted:
+            tell(elsewhere=True)
         raise typer.Exit(INTERRUPTED if history.interrupted else NOT_CONVERGED)
 
 

@@ -106,7 +106,7 @@ def test_interrupt(jaxbearing_command, monkeypatch):
     monkeypatch.setattr(sys.modules["jaxbearing.solve"], "solve_once", interrupted)
     result = jaxbearing_command("solve", *DRY)
     assert result.code == 130
-    assert result.err == "interrupted\n"
+    assert result.err == "interrupted: nothing was computed\n"
 
 
 def test_interrupt_does_not_wait_for_compiled_code(folder):
