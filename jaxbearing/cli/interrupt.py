@@ -21,6 +21,7 @@ from ..numerics.interrupts import end_now, listening, note_interrupt
 NOTHING = "nothing was computed"
 _SHOW_CURSOR = b"\r\x1b[2K\x1b[?25h"
 """A bar that is being drawn hides it."""
+_WAIT = b"\r\ninterrupted: what is under way is finished first; Ctrl-C again ends it at once\r\n"
 
 
 _words: list[Callable[[], str]] = [lambda: NOTHING]
@@ -84,6 +85,9 @@ def _watch(reader: int, stream: int | None) -> None:
         for _ in range(signals.count(signal.SIGINT)):
             if not note_interrupt():
                 _end(stream)
+            if stream is not None and os.isatty(stream):
+                with contextlib.suppress(OSError):
+                    os.write(stream, _WAIT)
 
 
 def _end(stream: int | None) -> None:

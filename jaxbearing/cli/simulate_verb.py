@@ -10,7 +10,7 @@ from typing import Annotated, Any
 
 import typer
 
-from .interrupt import tell
+from .interrupt import if_interrupted, tell
 from .messages import INTERRUPTED, NOT_CONVERGED, bad_input, refuse
 from .options import JsonOption, SceneArgument, SetOption, labelled, option_quantity
 from .output_files import PICTURES, Output, check_files, deliver
@@ -108,7 +108,14 @@ def simulate(
         from ..simulate import simulate as run
 
         try:
-            with _progress(as_json, "start and compilation") as progress:
+            with _progress(as_json, "start and compilation") as shown:
+
+                def progress(reached: float, stop: float) -> None:
+                    # for a second Ctrl-C
+                    if_interrupted("what was computed is not kept")
+                    if shown is not None:
+                        shown(reached, stop)
+
                 more: Any = {} if every is None else {"interval": every}
                 history = run(model, length, throw=False, progress=progress, restart=last, **more)
         except SolveError as error:

@@ -2,11 +2,13 @@
 behind, and one sentence says so."""
 
 import json
+import subprocess
 import sys
 from types import SimpleNamespace
 
 import pytest
 import xarray as xr
+from command_process import environment
 from fit_results import MEDIAN, made_up
 from full_places import REASONS, left, no_room, small_folder
 from matplotlib.figure import Figure
@@ -103,3 +105,11 @@ def test_a_sweep_that_has_no_room_at_all(suffix, jaxbearing_command, tmp_path, m
         result = jaxbearing_command(*SWEEP, "--out", str(place / f"a.{suffix}"))
         assert (result.code, left(place)) == (1, [])
         assert result.err.count("\n") == 1
+
+
+def test_files_are_written_although_nobody_reads_the_screen(tmp_path):
+    """As of `jaxbearing solve ... | head -1`."""
+    line = f"'{sys.executable}' -m jaxbearing solve {' '.join(DRY)} --json --out a.nc | true; exit ${{PIPESTATUS[0]}}"
+    done = subprocess.run(["bash", "-c", line], cwd=tmp_path, env=environment(), capture_output=True, check=False)
+    assert (done.returncode, done.stdout, done.stderr) == (1, b"", b"")
+    assert left(tmp_path) == ["a.nc"]

@@ -5,7 +5,7 @@ import threading
 
 import pytest
 
-from jaxbearing.numerics.interrupts import deferred_interrupts, is_the_command
+from jaxbearing.numerics.interrupts import deferred_interrupts, is_the_command, listening, note_interrupt
 
 
 @pytest.fixture(autouse=True)
@@ -76,6 +76,23 @@ def test_other_threads_and_ignored_signals_are_left_alone():
         signal.raise_signal(signal.SIGINT)
     assert not interrupt.seen
     signal.signal(signal.SIGINT, signal.default_int_handler)
+
+
+def test_another_thread_that_hears_it_first():
+    """What it tells counts once; Python's handler, which comes later, changes nothing."""
+    assert not note_interrupt()
+
+    def block():
+        with listening(), deferred_interrupts() as interrupt:
+            signal.raise_signal(signal.SIGINT)
+            assert not interrupt.seen
+            assert note_interrupt()
+            assert interrupt.seen
+            # the second one is not waited with
+            assert not note_interrupt()
+
+    with pytest.raises(KeyboardInterrupt):
+        block()
 
 
 @pytest.mark.parametrize(
