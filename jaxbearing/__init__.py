@@ -12,8 +12,10 @@ Importing the package switches JAX to 64-bit floats: the tolerances of its solve
 import importlib
 from typing import TYPE_CHECKING, Any
 
+from .numerics.interrupts import end_command_at_interrupt
 from .numerics.quiet import silence_compiler
 
+end_command_at_interrupt()  # before anything large is imported
 silence_compiler()
 
 import jax  # noqa: E402

@@ -67,12 +67,15 @@ def simulate(
     - `throw`: raise where the run stops early.
     - `progress`: called with the time reached and the time of the end, s.
     - `restart`: an earlier run, or its last state (`jaxbearing.read_last_state` of a NetCDF file): it goes on from
-      there by `duration`. The clock and with it speeds and loads over time go on too; the scene may have another
-      operating point, oil or drag, but must be the same bearing; of a line contact another speed or viscosity, but not
-      another load or mesh.
+      there by `duration`. The clock and with it speeds and loads over time go on too. The scene may have another
+      `operation`, `oil`, `contact` (laws), `drag`, `simulation` or `rating`; all that describes the bearing (geometry,
+      materials, cage, flanges, profile) must be the same to 1e-9. Of a line contact `oil`, `simulation`,
+      `contact.film_limit`, speed and temperature may differ; load, mesh and all else may not. A file of an earlier
+      version, which does not say what it is of, is taken, and a note of the history says so.
 
     **Raises:** `SolveError` where the quasi-static start is not found or (with `throw`) the run stops early;
-    `ValueError` without a duration, for a scene that does not move, or a `restart` from another bearing; `TypeError`
+    `ValueError` without a duration, for a scene that does not move, or a `restart` from another bearing (the fields
+    that differ are named, with both values); `TypeError`
     for another kind of scene.
     """
     require_x64()

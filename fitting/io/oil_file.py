@@ -5,7 +5,7 @@ from collections.abc import Mapping
 from pathlib import Path
 
 from jaxbearing import __version__
-from jaxbearing.report.files import appearing_whole
+from jaxbearing.report.files import write_whole
 from jaxbearing.report.screen import counted
 from jaxbearing.scenes.oil_files import Origin
 from jaxbearing.scenes.oil_writer import oil_text
@@ -29,8 +29,7 @@ def write_oil(
     **Raises:** `ValueError` for a fit that did not converge; `OSError` where the place cannot be written.
     """
     text = fitted_oil_text(result, Path(path).stem, data, scene, origins)
-    with appearing_whole(path) as temporary:
-        temporary.write_text(text, encoding="utf-8")
+    write_whole(path, text)
 
 
 def fitted_oil_text(

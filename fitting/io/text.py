@@ -3,6 +3,8 @@
 from pathlib import Path
 
 from jaxbearing.scenes.csv_files import numbered_lines
+from jaxbearing.scenes.input_files import LARGEST_TABLE, UnfitFileError
+from jaxbearing.scenes.input_files import read_bytes as read_at_most
 
 from .errors import CurveError
 
@@ -12,19 +14,12 @@ _EXPECTED = "a file with traction curves"
 def read_bytes(path: Path) -> bytes:
     """The content of a file.
 
-    **Raises:** `CurveError` for a file that is missing, a folder or unreadable.
+    **Raises:** `CurveError` for a file that is missing, a folder, a device, too large or unreadable.
     """
-    label = str(path)
     try:
-        return path.read_bytes()
-    except FileNotFoundError:
-        raise CurveError(label, None, "", "no such file", _EXPECTED) from None
-    except IsADirectoryError:
-        raise CurveError(label, None, "", "a folder", _EXPECTED) from None
-    except (OSError, ValueError) as error:
-        # ValueError: a path with a null byte
-        reason = getattr(error, "strerror", None) or str(error)
-        raise CurveError(label, None, "", f"a file that cannot be read: {reason}", _EXPECTED) from None
+        return read_at_most(path, LARGEST_TABLE)
+    except UnfitFileError as error:
+        raise CurveError(str(path), None, "", error.found, _EXPECTED) from None
 
 
 def decode(raw: bytes, path: Path) -> str:

@@ -12,6 +12,7 @@ import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Array, Bool, Float, Int
 
+from .._identity import Identity
 from .._scene import AbstractSolution
 from ..numerics.status import Status
 from .solution import PowerLoss, RingDisplacement, RollerResults, label, losses_not_modelled
@@ -78,6 +79,7 @@ class LastState(eqx.Module):
     - `reference_speed`: of that frame at the operating point, rad/s.
     - `azimuth`: of the rollers, rad.
     - `has_cage`: whether there is a cage.
+    - `identity`: which bearing it is (`None`: not known, as in files of earlier versions).
     """
 
     time: Float[Array | np.ndarray, ""]
@@ -88,6 +90,7 @@ class LastState(eqx.Module):
     reference_speed: Float[Array | np.ndarray, ""]
     azimuth: Float[Array | np.ndarray, " roller"]
     has_cage: bool = eqx.field(static=True)
+    identity: Identity | None = None
 
 
 class Energy(eqx.Module):
@@ -133,6 +136,7 @@ class History(AbstractSolution):
     interrupted: bool = eqx.field(static=True, default=False)
     element_name: str = eqx.field(static=True, default="roller")
     notes: tuple[str, ...] = eqx.field(static=True, default=())
+    identity: Identity | None = None
 
     @property
     def converged(self) -> Bool[Array, "*batch"]:
@@ -165,6 +169,7 @@ class History(AbstractSolution):
             reference_speed=np.asarray(self.reference_speed),
             azimuth=last.elements.azimuth,
             has_cage=last.cage is not None,
+            identity=self.identity,
         )
 
     def lane(self, index: int) -> "History":

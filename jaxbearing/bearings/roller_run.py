@@ -8,6 +8,7 @@ import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Array, Float
 
+from .._identity import Identity, identity_of, require_same
 from ..numerics.arrow import ArrowPoint
 from ..numerics.integrator import IntegratorOptions, NestedField, Segment
 from .cylindrical_roller import CylindricalRollerBearing
@@ -101,6 +102,20 @@ def resume(scene: CylindricalRollerBearing, simulation: Simulation, last: LastSt
     return Resumed(dynamics, dynamics.scaled(rollers, cage))
 
 
+MAY_CHANGE = ("operation", "oil", "contact", "drag", "simulation", "ring_freedom", "rating")
+"""Parts of a scene that may be others than those of the run from whose end another one goes on."""
+UNKNOWN = (
+    "restart: the state does not say of which bearing it is (an earlier version wrote it); only the number of rollers, "
+    "the pitch circle and whether there is a cage have been compared"
+)
+"""What is said of such a run."""
+
+
+def identity(scene: CylindricalRollerBearing) -> Identity:
+    """What makes it the same bearing: geometry, materials, cage, flanges, profile."""
+    return identity_of(scene, MAY_CHANGE)
+
+
 def check_fits(scene: CylindricalRollerBearing, last: LastState) -> None:
     """**Raises:** `ValueError` where a state is not one of this bearing."""
     count, found = scene.geometry.n_rollers, np.shape(last.rollers)[-1]
@@ -112,6 +127,8 @@ def check_fits(scene: CylindricalRollerBearing, last: LastState) -> None:
     values = (last.time, last.rollers, last.cage, last.frame_angle, last.frame_speed, last.reference_speed)
     if not all(np.all(np.isfinite(value)) for value in values):
         raise ValueError("restart: a state with numbers that are not finite")
+    if last.identity is not None:
+        require_same(last.identity, identity(scene), "bearing")
     places = 2.0 * np.pi * np.arange(count) / count + np.asarray(last.rollers)[0] / float(scene.geometry.pitch_radius)
     apart = np.abs(np.asarray(last.azimuth) - places - float(last.frame_angle)).max()
     if apart > 1e-7:

@@ -1,5 +1,6 @@
 """Runs in time of a moving cylindrical roller bearing: one at a time, many at once, and as a pure function."""
 
+import contextlib
 import dataclasses
 from collections.abc import Callable, Mapping
 from typing import Any, Literal
@@ -15,6 +16,7 @@ from ..numerics.checks import check_inputs
 from ..numerics.compiling import quickly_compiled
 from ..numerics.devices import may_be_shared_out, shared_out
 from ..numerics.integrator import Segment
+from ..numerics.interrupts import Deferral, deferred_interrupts
 from ..numerics.precision import as_float
 from ..numerics.status import SolveError, Status
 from .cylindrical_roller import CylindricalRollerBearing
@@ -22,7 +24,7 @@ from .history import Energy, History, LastState
 from .range_checks import input_excess
 from .roller_dynamics import WORKS
 from .roller_motion import IMMOBILE, QuasiStatic, Start, at_start, begin, checked_lane, quasi_static
-from .roller_run import FIELD, Advanced, Resumed, advance, check_fits, energy_of, resume
+from .roller_run import FIELD, UNKNOWN, Advanced, Resumed, advance, check_fits, energy_of, identity, resume
 from .simulation import Simulation
 
 INTERVAL = 20e-6
@@ -134,7 +136,8 @@ def simulate_rollers(
     pieces = max(1, round(length / (SEGMENT * interval)))
     times = np.linspace(begin_time, stop, pieces * SEGMENT + 1)
     scene, chosen = (jax.tree.map(as_float, tree) for tree in (scene, chosen))
-    step = jnp.asarray(FIRST_STEP)
+    # a weak type, as that of a Python number, would have the program compiled again for the second piece
+    step = jnp.asarray(FIRST_STEP, dtype=float)
 
     if last is None:
         found = _quasi_static(at_start(scene, chosen))
@@ -144,29 +147,58 @@ def simulate_rollers(
         begun = _begin(scene, chosen, found)
         dynamics, state = begun.dynamics, begun.state
     else:
-        dynamics, state = _resume(scene, chosen, last)
+        # which bearing it is has been compared, and is no part of the program
+        dynamics, state = _resume(scene, chosen, dataclasses.replace(last, identity=None))
     done: list[tuple[np.ndarray, Any, Segment]] = []
-    interrupted = False
-    try:
-        for piece in range(pieces):
-            here = times[piece * SEGMENT : (piece + 1) * SEGMENT + 1]
-            found = _advance(dynamics, state, jnp.asarray(here[0]), jnp.asarray(here[1:]), chosen.options, step)
-            state, step = found.segment.last, found.segment.step
-            done.append(_kept(found, here, first=piece == 0))
-            if int(found.segment.status) != Status.CONVERGED:
-                break
-            if progress is not None:
-                progress(float(found.segment.last_time), stop)
-    except KeyboardInterrupt:
-        if not done:
-            raise
-        interrupted = len(done) < pieces
+    with contextlib.ExitStack() as stack:
+        interrupt = Deferral()
+        try:
+            for piece in range(pieces):
+                here = times[piece * SEGMENT : (piece + 1) * SEGMENT + 1]
+                found = _advance(dynamics, state, jnp.asarray(here[0]), jnp.asarray(here[1:]), chosen.options, step)
+                state, step = found.segment.last, found.segment.step
+                done.append(_kept(found, here, first=piece == 0))
+                if piece == 0:
+                    # from now on there is something to keep
+                    interrupt = stack.enter_context(deferred_interrupts())
+                if int(found.segment.status) != Status.CONVERGED:
+                    break
+                if progress is not None:
+                    progress(float(found.segment.last_time), stop)
+                if interrupt.seen:
+                    break
+        except KeyboardInterrupt:
+            # of `progress`, or of a second Ctrl-C
+            if not done:
+                raise
+            interrupt.seen = True
+        interrupted = interrupt.seen and len(done) < pieces
+        unknown = last is not None and last.identity is None
+        notes = (*((UNKNOWN,) if unknown else ()), *scene.assumptions())
+        history = _history(scene, chosen, dynamics, done, stop, interrupted, notes)
+        interrupt.taken()
+    # who interrupts a run wants what there is
+    if throw and not interrupted:
+        history.raise_if_failed()
+    return history
+
+
+def _history(
+    scene: CylindricalRollerBearing,
+    chosen: Simulation,
+    dynamics: Any,
+    done: list[tuple[np.ndarray, Any, Segment]],
+    stop: float,
+    interrupted: bool,
+    notes: tuple[str, ...],
+) -> History:
+    """From the pieces of a run to the whole."""
     kept_times, kept, segments = zip(*done, strict=True)
     instants = jax.tree.map(lambda *leaves: np.concatenate(leaves), *kept)
     ends = [jax.tree.map(lambda leaf, at=at: leaf[at], instants) for at in (0, -1)]
     found_energy = _energy(dynamics, segments[-1].last, *ends)
     status = Status.NOT_CONVERGED if interrupted else Status(int(segments[-1].status))
-    history = History(
+    return History(
         status=jnp.asarray(int(status)),
         time=jnp.asarray(np.concatenate(kept_times)),
         stop=jnp.asarray(stop),
@@ -179,12 +211,9 @@ def simulate_rollers(
         checks=_checks(scene, found_energy),
         solver=chosen.solver,
         interrupted=interrupted,
-        notes=scene.assumptions(),
+        notes=notes,
+        identity=identity(scene),
     )
-    # who interrupts a run wants what there is
-    if throw and not interrupted:
-        history.raise_if_failed()
-    return history
 
 
 def _checks(scene: CylindricalRollerBearing, energy: Energy) -> dict[str, Any]:
@@ -282,4 +311,5 @@ def _lane(scene: CylindricalRollerBearing, simulation: Simulation | None, times:
         checks=Checks(_checks(scene, energy), inputs.broken, inputs.rules),
         solver=simulation.solver,
         notes=scene.assumptions(),
+        identity=jax.tree.map(jnp.asarray, identity(scene)),
     )

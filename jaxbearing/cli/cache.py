@@ -13,6 +13,7 @@ VARIABLE = "JAXBEARING_CACHE"
 """Environment variable: `off`, `on` (as without it: the user's cache folder), or a folder."""
 _OFF = ("off", "0", "no", "false")
 _ON = ("", "on", "1", "yes", "true")
+_UNWRITTEN = re.compile(r"Error writing persistent compilation cache entry for '\w+': (?:\w+: )?(.*)")
 _DAMAGED = re.compile(r"Error reading persistent compilation cache entry for '(\w+)'")
 
 
@@ -75,15 +76,23 @@ def enable_compilation_cache() -> Path | None:
     # the default keeps only programs that compiled for a second
     jax.config.update("jax_persistent_cache_min_compile_time_secs", 0.0)
     jax.config.update("jax_persistent_cache_min_entry_size_bytes", -1)
-    warnings.showwarning = _drop_damaged(folder, warnings.showwarning)
+    warnings.showwarning = _in_words(folder, warnings.showwarning)
     return folder
 
 
-def _drop_damaged(folder: Path, show: Any) -> Any:
+def _in_words(folder: Path, show: Any) -> Any:
     """Instead of JAX's warning of an entry that it cannot read, as one that a killed run was writing: the entry goes.
-    JAX never writes over one, and would compile and warn in every run that follows."""
+    JAX never writes over one, and would compile and warn in every run that follows. Of entries that cannot be written,
+    as on a full disk, one sentence is said."""
+    said: set[str] = set()
 
     def showwarning(message: Any, *where: Any, **options: Any) -> None:
+        unwritten = _UNWRITTEN.match(str(message))
+        if unwritten is not None:
+            if not said:
+                print(f"warning: compiled programs are not kept in {folder}: {unwritten[1]}", file=sys.stderr)
+            said.add(unwritten[1])
+            return None
         found = _DAMAGED.match(str(message))
         if found is None:
             return show(message, *where, **options)

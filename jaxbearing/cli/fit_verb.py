@@ -10,7 +10,7 @@ import typer
 
 from .messages import BAD_INPUT, NOT_CONVERGED, bad_input, refuse, say
 from .options import SCENE_HELP, JsonOption, SetOption, labelled
-from .output_files import PICTURES, check_files, writing
+from .output_files import PICTURES, Output, check_files, deliver
 from .terminal import console
 
 ALL = "all"
@@ -132,20 +132,19 @@ def fit(
         check_files((("--plot", plot, PICTURES), ("--out", out, (".toml",))))
 
     from .cache import enable_compilation_cache
-    from .interrupt import prompt_interrupt
     from .quiet import without_false_alarms
 
     label = labelled(scene, changes)
     enable_compilation_cache()
-    with prompt_interrupt(), without_false_alarms():
+    with without_false_alarms():
         result, rows = _fitted(measurements, machine, models, options, _silent if as_json else _tell)
-        if result.converged:
-            # files first: what cannot be written is said before results scroll by
-            if out is not None:
-                _write_oil(result, out, data, scene, changes)
-            if plot is not None:
-                _write_plot(result, plot, data, label, notes)
-        _print(result, rows, data, label, notes, out, as_json)
+        wrote = "" if as_json else f"wrote {out}: use it with [oil] file = ... or --set oil.file={out}"
+        outputs = (
+            Output(out, lambda path: _write_oil(result, path, data, scene, changes), wrote),
+            Output(plot, lambda path: _write_plot(result, path, data, label, notes), long=True),
+        )
+        show = lambda: _print(result, rows, data, label, notes, out, as_json)
+        deliver(show, outputs if result.converged else ())
     if not result.converged:
         left_out = [str(path) for path in (plot, out) if path is not None]
         if left_out:
@@ -240,8 +239,7 @@ def _write_oil(result: Any, out: Path, data: Path, scene: str, changes: list[str
 
     label = labelled(Path(scene).name, changes)
     origins = oil_origins(scene, split_assignments(changes or []))
-    with writing(out):
-        write_oil(result, out, data.name, label, origins)
+    write_oil(result, out, data.name, label, origins)
 
 
 def _write_plot(result: Any, plot: Path, data: Path, label: str, notes: list[str]) -> None:
@@ -249,8 +247,7 @@ def _write_plot(result: Any, plot: Path, data: Path, label: str, notes: list[str
 
     from ..report.plots import save_plot
 
-    with writing(plot):
-        save_plot(plot_fit(result, data.name, label, notes), plot)
+    save_plot(plot_fit(result, data.name, label, notes), plot)
 
 
 def _print(
@@ -269,5 +266,3 @@ def _print(
     print_fit(result, str(data), label, notes, screen)
     if rows:
         print_comparison(rows, screen)
-    if out is not None and result.converged:
-        typer.echo(f"wrote {out}: use it with [oil] file = ... or --set oil.file={out}")

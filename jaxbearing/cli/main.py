@@ -13,6 +13,7 @@ import typer
 
 from ..numerics.compiling import collecting_rarely
 from .fit_verb import fit
+from .interrupt import prompt_interrupt, tell
 from .messages import BAD_INPUT, INTERRUPTED, NO_OUTPUT, say
 from .quiet import only_news
 from .report_verb import report
@@ -45,7 +46,9 @@ app = typer.Typer(
 
 def main() -> None:
     """Entry point of the console script."""
-    sys.exit(_run())
+    with prompt_interrupt():
+        code = _run()
+    sys.exit(code)
 
 
 def _run() -> int:
@@ -59,9 +62,13 @@ def _run() -> int:
         with collecting_rarely():
             code = app(standalone_mode=False)
         sys.stdout.flush()
+        if code == INTERRUPTED:
+            # Ctrl-C that was deferred comes as an exception, of which the parser makes a code
+            tell()
     except _UsageError as error:
         return _usage(error)
     except KeyboardInterrupt:
+        tell()
         return INTERRUPTED
     except SystemExit as ended:
         # the command line's and rich's way to say that the reader of a pipe has gone

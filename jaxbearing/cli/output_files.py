@@ -1,16 +1,29 @@
-"""Files that a verb writes: checked before the work begins, written after it."""
+"""Files that a verb writes: checked before the work begins, written after the results have been shown."""
 
 import os
+import sys
 import tempfile
-from collections.abc import Iterable, Iterator
-from contextlib import contextmanager
+from collections.abc import Callable, Iterable, Sequence
 from pathlib import Path
+from typing import NamedTuple
 
 import typer
 
+from ..numerics.interrupts import INTERRUPTED, deferred_interrupts
+from .interrupt import if_interrupted, tell
 from .messages import NO_OUTPUT, refuse, say
 
 PICTURES = (".png", ".svg", ".pdf")
+
+
+class Output(NamedTuple):
+    """A file to write: where (`None`: nowhere), how, what to say when it is there, and whether it takes so long that
+    Ctrl-C leaves it out instead of waiting for it."""
+
+    path: Path | None
+    write: Callable[[Path], None]
+    done: str = ""
+    long: bool = False
 
 
 def check_files(wanted: Iterable[tuple[str, Path | None, tuple[str, ...]]]) -> None:
@@ -18,6 +31,7 @@ def check_files(wanted: Iterable[tuple[str, Path | None, tuple[str, ...]]]) -> N
 
     **Arguments:** option, path (`None`: nothing is written) and the suffixes that it may have, of each file.
     """
+    from ..report.files import check_place
     from ..scenes.errors import one_of
 
     for option, path, suffixes in wanted:
@@ -27,8 +41,11 @@ def check_files(wanted: Iterable[tuple[str, Path | None, tuple[str, ...]]]) -> N
             refuse(f"{option}: found '{path}'; expected a file name that ends in {one_of(suffixes)}")
         if not path.parent.is_dir() or path.is_dir():
             refuse(f"{option}: found '{path}'; expected a file in an existing folder")
-        with writing(path):
+        try:
+            check_place(path)
             try_to_write(path)
+        except OSError as error:
+            raise typer.Exit(unwritten(path, error)) from None
 
 
 def try_to_write(path: Path) -> None:
@@ -38,11 +55,65 @@ def try_to_write(path: Path) -> None:
     tempfile.TemporaryFile(dir=path.parent).close()
 
 
-@contextmanager
-def writing(path: Path) -> Iterator[None]:
-    """Turns what keeps a file from being written into one message and exit code 1."""
+def unwritten(path: Path, error: Exception) -> int:
+    """One message for what keeps a file from being written; returns the exit code."""
+    reason = getattr(error, "strerror", None) or str(error) or type(error).__name__
+    return say(f"the output cannot be written: {path}: {reason}", NO_OUTPUT)
+
+
+def deliver(show: Callable[[], None], files: Sequence[Output] = (), notes_to_stderr: bool = False) -> None:
+    """Show the results, then write the files. What goes wrong with one costs neither the results nor the other files,
+    and is said in one sentence each. Ctrl-C does not stop what is under way, but for a `long` file, and leaves out the
+    files that come after it.
+
+    **Arguments:** `show`: prints the results; `files`: the long ones last; `notes_to_stderr`: whether stdout is for
+    the results alone.
+
+    **Raises:** `typer.Exit` with the code for a file that is not there; what `show` raises, with the files written.
+    """
+    left = [file for file in files if file.path is not None]
+    written: list[Output] = []
+    code = 0
     try:
-        yield
-    except OSError as error:
-        message = f"the output cannot be written: {path}: {error.strerror or error}"
-        raise typer.Exit(say(message, NO_OUTPUT)) from None
+        with deferred_interrupts() as interrupt:
+            _if_ended(left)
+            try:
+                show()
+                sys.stdout.flush()
+            finally:
+                while left and not left[0].long and not interrupt.seen:
+                    code = max(code, _write(left, written))
+        while left:
+            code = max(code, _write(left, written))
+    except KeyboardInterrupt:
+        if_interrupted(f"not written: {_named(left)}" if left else "all results are there")
+        tell()
+        code = INTERRUPTED
+    for file in written:
+        if file.done:
+            typer.echo(file.done, err=notes_to_stderr)
+    if code:
+        raise typer.Exit(code)
+
+
+def _write(left: list[Output], written: list[Output]) -> int:
+    """Write the first of the files that are left; returns the exit code."""
+    _if_ended(left)
+    file = left[0]
+    code = 0
+    try:
+        if file.path is not None:
+            file.write(file.path)
+        written.append(file)
+    except (OSError, MemoryError) as error:
+        code = unwritten(file.path or Path(), error)
+    del left[0]
+    return code
+
+
+def _if_ended(left: Sequence[Output]) -> None:
+    if_interrupted(f"not written: {_named(left)}" if left else "while the results were printed")
+
+
+def _named(files: Sequence[Output]) -> str:
+    return ", ".join(str(file.path) for file in files)

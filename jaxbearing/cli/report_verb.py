@@ -8,7 +8,7 @@ import typer
 
 from .messages import NOT_CONVERGED, bad_input
 from .options import JsonOption, SceneArgument, SetOption, labelled
-from .output_files import check_files, writing
+from .output_files import Output, check_files, deliver
 from .terminal import console
 
 OutOption = Annotated[
@@ -33,37 +33,54 @@ def report(scene: SceneArgument, changes: SetOption = None, out: OutOption = Non
         check_files([("--out", target, SUFFIXES)])
 
     from .cache import enable_compilation_cache
-    from .interrupt import prompt_interrupt
     from .quiet import without_false_alarms
 
     label = labelled(scene, changes)
     enable_compilation_cache()
-    with prompt_interrupt(), without_false_alarms():
+    with without_false_alarms():
         from ..solve import solve_once
 
         solution = solve_once(model)
-        if bool(solution.converged):
-            _write(model, solution, labelled(Path(scene).name, changes), inputs, target)
-            typer.echo(f"wrote {target}: open it in a browser", err=as_json)
-        if as_json:
-            from ..report.json_report import solution_to_dict
-
-            typer.echo(json.dumps(solution_to_dict(solution), allow_nan=False))
-        elif not bool(solution.converged):
-            from ..report.summary import print_summary
-
-            print_summary(solution, label, console())
-    if not bool(solution.converged):
+        converged = bool(solution.converged)
+        title = labelled(Path(scene).name, changes)
+        page = Output(
+            target,
+            lambda path: _write(model, solution, title, inputs, path),
+            f"wrote {target}: open it in a browser",
+        )
+        try:
+            deliver(lambda: _show(solution, label, as_json), (page,) if converged else (), notes_to_stderr=as_json)
+        except typer.Exit:
+            if not as_json:
+                # the results are not lost with the page
+                _print_summary(solution, label)
+            raise
+    if not converged:
         typer.echo(f"not written: {target}", err=True)
         raise typer.Exit(NOT_CONVERGED)
+
+
+def _show(solution: Any, label: str, as_json: bool) -> None:
+    """The object; of a solve that failed what `solve` prints: the page, which has it otherwise, is not written then."""
+    if as_json:
+        from ..report.json_report import solution_to_dict
+
+        typer.echo(json.dumps(solution_to_dict(solution), allow_nan=False))
+    elif not bool(solution.converged):
+        _print_summary(solution, label)
+
+
+def _print_summary(solution: Any, label: str) -> None:
+    from ..report.summary import print_summary
+
+    print_summary(solution, label, console())
 
 
 def _write(model: Any, solution: Any, title: str, inputs: Any, target: Path) -> None:
     from datetime import UTC, datetime
 
-    from ..report.files import appearing_whole
+    from ..report.files import write_whole
     from ..report.html_report import html_report
 
     text = html_report(model, solution, title, inputs, datetime.now(UTC))
-    with writing(target), appearing_whole(target) as temporary:
-        temporary.write_text(text, encoding="utf-8")
+    write_whole(target, text)

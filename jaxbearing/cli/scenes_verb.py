@@ -1,12 +1,17 @@
 """`jaxbearing scenes`: what comes with the package."""
 
+import errno
 from pathlib import Path
 from typing import Annotated
 
 import typer
 
 from .messages import bad_input, refuse
+from .output_files import unwritten
 from .terminal import console
+
+_FULL = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EIO)
+"""What a disk says that takes no more: not the fault of the name."""
 
 
 def scenes(
@@ -42,7 +47,7 @@ def _list() -> None:
 
 
 def _copy(name: str, to: Path | None, force: bool) -> None:
-    from ..report.files import appearing_whole
+    from ..report.files import write_whole
     from ..scenes.data_files import builtin_names, builtin_text
     from ..scenes.errors import SceneError, nearest, one_of
 
@@ -56,11 +61,12 @@ def _copy(name: str, to: Path | None, force: bool) -> None:
         if target.exists() and not force:
             found, expected = "a file that exists already", "a new file (--to FILE), or --force to overwrite it"
             raise SceneError(str(target), "", found, expected)
-        with appearing_whole(target) as temporary:
-            temporary.write_text(builtin_text(name), encoding="utf-8")
+        write_whole(target, builtin_text(name))
     except SceneError:
         raise
     except (OSError, ValueError) as error:
+        if isinstance(error, OSError) and error.errno in _FULL:
+            raise typer.Exit(unwritten(target, error)) from None
         # ValueError: a path with a null byte
         found = f"a place that cannot be written: {getattr(error, 'strerror', None) or error}"
         raise SceneError(str(target), "", found, "a file in an existing folder") from None

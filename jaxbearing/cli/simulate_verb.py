@@ -10,9 +10,10 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from .interrupt import if_interrupted, tell
 from .messages import INTERRUPTED, NOT_CONVERGED, bad_input, refuse
 from .options import JsonOption, SceneArgument, SetOption, labelled, option_quantity
-from .output_files import PICTURES, check_files, writing
+from .output_files import PICTURES, Output, check_files, deliver
 from .terminal import console
 
 if TYPE_CHECKING:
@@ -110,17 +111,28 @@ def simulate(
         from ..simulate import simulate as run
 
         try:
-            with _progress(as_json, "start and compilation") as progress:
+            with _progress(as_json, "start and compilation") as shown:
+
+                def progress(reached: float, stop: float) -> None:
+                    # for a second Ctrl-C
+                    if_interrupted("what was computed is not kept")
+                    if shown is not None:
+                        shown(reached, stop)
+
                 more: Any = {} if every is None else {"interval": every}
                 history = run(model, length, throw=False, progress=progress, restart=last, **more)
         except SolveError as error:
             _no_start(error, label, as_json)
             raise typer.Exit(NOT_CONVERGED) from None
-        _write_files(history, label, plot, out)
-        if animation is not None:
-            _animate(history, model, label, animation, as_json)
-        _print(history, label, as_json)
+        outputs = (
+            Output(out, lambda path: _write_data(history, path)),
+            Output(plot, lambda path: _write_plot(history, label, path), long=True),
+            Output(animation, lambda path: _animate(history, model, label, path, as_json), long=True),
+        )
+        deliver(lambda: _print(history, label, as_json), outputs)
     if not history.completed:
+        if history.interrupted:
+            tell(elsewhere=True)
         raise typer.Exit(INTERRUPTED if history.interrupted else NOT_CONVERGED)
 
 
@@ -181,23 +193,22 @@ def _animate(history: Any, model: Any, label: str, path: Path, as_json: bool) ->
     from ..report.animations import save_animation
     from ..report.histories import animate_history
 
-    with writing(path), _progress(as_json, "drawing", "pictures", 1.0) as progress:
+    with _progress(as_json, "drawing", "pictures", 1.0) as progress:
         save_animation(animate_history(history, model, label), path, progress)
 
 
-def _write_files(history: Any, label: str, plot: Path | None, out: Path | None) -> None:
-    if out is not None:
-        from ..report.dataset import write_netcdf
-        from ..report.histories import history_to_dataset
+def _write_data(history: Any, out: Path) -> None:
+    from ..report.dataset import write_netcdf
+    from ..report.histories import history_to_dataset
 
-        with writing(out):
-            write_netcdf(history_to_dataset(history), out)
-    if plot is not None:
-        from ..report.histories import plot_history
-        from ..report.plots import save_plot
+    write_netcdf(history_to_dataset(history), out)
 
-        with writing(plot):
-            save_plot(plot_history(history, label), plot)
+
+def _write_plot(history: Any, label: str, plot: Path) -> None:
+    from ..report.histories import plot_history
+    from ..report.plots import save_plot
+
+    save_plot(plot_history(history, label), plot)
 
 
 def _print(history: Any, label: str, as_json: bool) -> None:

@@ -8,7 +8,7 @@ import typer
 
 from .messages import NOT_CONVERGED, bad_input, refuse
 from .options import JsonOption, SceneArgument, SetOption, labelled
-from .output_files import PICTURES, check_files, writing
+from .output_files import PICTURES, Output, check_files, deliver
 from .terminal import console
 
 OutOption = Annotated[
@@ -64,22 +64,22 @@ def solve(
         check_files(files)
 
     from .cache import enable_compilation_cache
-    from .interrupt import prompt_interrupt
     from .quiet import without_false_alarms
 
     label = labelled(scene, changes)
     enable_compilation_cache()
-    with prompt_interrupt(), without_false_alarms():
+    with without_false_alarms():
         solution, slopes = _solved(model, sensitivities)
         failure = "" if bool(solution.converged) else solution.failure()
-        if not failure:
-            # files first: what cannot be written is said before results scroll by
-            _write_files(solution, label, plot, out)
-            if contact is not None:
-                _write_line_contact(model, solution, race, contact, scene, changes)
-        _print_json(solution, slopes) if as_json else _print_screen(solution, slopes, label)
-    if not failure and contact is not None and not as_json:
-        typer.echo(f"wrote {contact}: take it as a scene, jaxbearing solve {contact}")
+        show = lambda: _print_json(solution, slopes) if as_json else _print_screen(solution, slopes, label)
+        bridge = lambda path: _write_line_contact(model, solution, race, path, scene, changes)
+        taken = "" if as_json else f"wrote {contact}: take it as a scene, jaxbearing solve {contact}"
+        outputs = (
+            Output(out, lambda path: _write_data(solution, path)),
+            Output(contact, bridge, taken),
+            Output(plot, lambda path: _write_plot(solution, label, path), long=True),
+        )
+        deliver(show, () if failure else outputs)
     if failure:
         left_out = [str(path) for path in (plot, out, contact) if path is not None]
         if left_out:
@@ -111,7 +111,7 @@ def _write_line_contact(
     import numpy as np
 
     from ..bearings.line_contact_bridge import line_contact_of
-    from ..report.files import appearing_whole
+    from ..report.files import write_whole
     from ..scenes.line_contact_writer import line_contact_text
     from ..scenes.overrides import split_assignments
     from ..scenes.reader import oil_origins
@@ -124,8 +124,7 @@ def _write_line_contact(
         "Same Hertz pressure and half width along rolling; mean of both surfaces' speeds; no side leakage, no spin.",
     ]
     text = line_contact_text(contact, header, oil_origins(scene, split_assignments(changes or [])))
-    with writing(path), appearing_whole(path) as temporary:
-        temporary.write_text(text, encoding="utf-8")
+    write_whole(path, text)
 
 
 def _solved(model: Any, sensitivities: bool) -> tuple[Any, Any]:
@@ -141,17 +140,16 @@ def _solved(model: Any, sensitivities: bool) -> tuple[Any, Any]:
     return solve_once(model), None
 
 
-def _write_files(solution: Any, label: str, plot: Path | None, out: Path | None) -> None:
-    if out is not None:
-        from ..report.dataset import solution_to_dataset, write_netcdf
+def _write_data(solution: Any, out: Path) -> None:
+    from ..report.dataset import solution_to_dataset, write_netcdf
 
-        with writing(out):
-            write_netcdf(solution_to_dataset(solution), out)
-    if plot is not None:
-        from ..report.plots import plot_solution, save_plot
+    write_netcdf(solution_to_dataset(solution), out)
 
-        with writing(plot):
-            save_plot(plot_solution(solution, label), plot)
+
+def _write_plot(solution: Any, label: str, plot: Path) -> None:
+    from ..report.plots import plot_solution, save_plot
+
+    save_plot(plot_solution(solution, label), plot)
 
 
 def _print_json(solution: Any, slopes: Any) -> None:

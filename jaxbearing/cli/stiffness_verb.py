@@ -9,7 +9,7 @@ import typer
 
 from .messages import NOT_CONVERGED, bad_input, refuse
 from .options import JsonOption, SceneArgument, SetOption, labelled, option_quantity
-from .output_files import check_files, writing
+from .output_files import Output, check_files, deliver
 from .terminal import console
 
 MOST_SPEEDS = 10_000
@@ -60,13 +60,12 @@ def stiffness(
         check_files((("--ross", ross, (".toml",)),))
 
     from .cache import enable_compilation_cache
-    from .interrupt import prompt_interrupt
     from .quiet import without_false_alarms
 
     label = labelled(scene, changes)
     enable_compilation_cache()
     failure = ""
-    with prompt_interrupt(), without_false_alarms():
+    with without_false_alarms():
         from ..numerics.status import SolveError
         from ..report.stiffness import stiffness_over_speed
         from ..solve import solve_once
@@ -76,10 +75,9 @@ def stiffness(
         except SolveError as error:
             failure = str(error)
         else:
-            # the file first: what cannot be written is said before results scroll by
-            if ross is not None:
-                _write(table, ross, scene, changes, angle)
-            _print(table, label, ross, as_json)
+            wrote = "" if as_json else f"wrote {ross}: read it with ross.BearingElement.load"
+            output = Output(ross, lambda path: _write(table, path, scene, changes, angle), wrote)
+            deliver(lambda: _print(table, label, as_json), (output,))
     if failure:
         _print_failure(failure, label, ross, as_json)
         raise typer.Exit(NOT_CONVERGED)
@@ -119,11 +117,10 @@ def _write(table: Any, file: Path, scene: str, changes: list[str] | None, angle:
 
     name = Path(scene).stem
     tag = re.sub(r"[^A-Za-z0-9_-]+", "_", name) or "bearing"
-    with writing(file):
-        write_ross(table, file, labelled(Path(scene).name, changes), load_direction=angle, tag=tag)
+    write_ross(table, file, labelled(Path(scene).name, changes), load_direction=angle, tag=tag)
 
 
-def _print(table: Any, label: str, ross: Path | None, as_json: bool) -> None:
+def _print(table: Any, label: str, as_json: bool) -> None:
     from ..report.stiffness import print_stiffness, stiffness_to_dict
 
     if as_json:
@@ -131,8 +128,6 @@ def _print(table: Any, label: str, ross: Path | None, as_json: bool) -> None:
         typer.echo(json.dumps(found, allow_nan=False))
         return
     print_stiffness(table, label, console())
-    if ross is not None:
-        typer.echo(f"wrote {ross}: read it with ross.BearingElement.load")
 
 
 def _print_failure(failure: str, label: str, ross: Path | None, as_json: bool) -> None:

@@ -9,7 +9,7 @@ import typer
 
 from .messages import NOT_CONVERGED, bad_input, refuse
 from .options import SCENE_HELP, JsonOption, SetOption, labelled
-from .output_files import PICTURES, check_files, writing
+from .output_files import PICTURES, Output, check_files, deliver
 from .terminal import console
 
 SceneArgument = Annotated[str, typer.Argument(metavar="[SCENE]", help=SCENE_HELP)]
@@ -49,13 +49,12 @@ def study(
 
     from .cache import enable_compilation_cache
     from .devices import cores, use_cores
-    from .interrupt import prompt_interrupt
     from .quiet import without_false_alarms
 
     label = labelled(scene, changes)
     enable_compilation_cache()
     use_cores(cores())
-    with prompt_interrupt(), without_false_alarms():
+    with without_false_alarms():
         from ..studies import claims_of, power_loss_study
 
         try:
@@ -64,9 +63,12 @@ def study(
             refuse(str(error))
         failed = found.failed == found.cases
         claims = [] if failed else claims_of(found)
-        if not failed:
-            _write_files(found, label, plot, out)
-        _print(found, claims, label, time.monotonic() - begin, as_json)
+        seconds = time.monotonic() - begin
+        outputs = (
+            Output(out, lambda path: _write_data(found, path)),
+            Output(plot, lambda path: _write_plot(found, label, path), long=True),
+        )
+        deliver(lambda: _print(found, claims, label, seconds, as_json), () if failed else outputs)
     if failed:
         left_out = [str(path) for path in (plot, out) if path is not None]
         if left_out:
@@ -75,18 +77,17 @@ def study(
         raise typer.Exit(NOT_CONVERGED)
 
 
-def _write_files(found: Any, label: str, plot: Path | None, out: Path | None) -> None:
-    from ..report.files import appearing_whole
+def _write_data(found: Any, out: Path) -> None:
+    from ..report.dataset import write_netcdf
 
-    if out is not None:
-        with writing(out), appearing_whole(out) as temporary:
-            found.tree().to_netcdf(temporary, engine="h5netcdf")
-    if plot is not None:
-        from ..report.plots import save_plot
-        from ..studies.pictures import study_page
+    write_netcdf(found.tree(), out)
 
-        with writing(plot):
-            save_plot(study_page(found, label), plot)
+
+def _write_plot(found: Any, label: str, plot: Path) -> None:
+    from ..report.plots import save_plot
+    from ..studies.pictures import study_page
+
+    save_plot(study_page(found, label), plot)
 
 
 def _print(found: Any, claims: Any, label: str, seconds: float, as_json: bool) -> None:

@@ -4,7 +4,7 @@ from pathlib import Path
 from typing import Any
 
 from .messages import refuse
-from .output_files import PICTURES, check_files, writing
+from .output_files import PICTURES, check_files
 
 MAIN = ("power_loss_total", "film_central", "ring_radial", "ring_axial")
 """Results of which the first that a sweep has is drawn."""
@@ -45,5 +45,4 @@ def write_plot(plot: Path, target: Path, label: str) -> None:
         else:
             figure = power_loss_against(found) if main == MAIN[0] else result_against(found, main)
     figure.suptitle(label, fontsize=10, parse_math=False)
-    with writing(plot):
-        save_plot(figure, plot)
+    save_plot(figure, plot)

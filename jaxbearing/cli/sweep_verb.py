@@ -10,9 +10,10 @@ from typing import Annotated, Any
 
 import typer
 
-from .messages import NOT_CONVERGED, bad_input, refuse
+from .interrupt import if_interrupted
+from .messages import NO_OUTPUT, NOT_CONVERGED, bad_input, refuse, say
 from .options import JsonOption, SceneArgument, SetOption, labelled
-from .output_files import writing
+from .output_files import Output, deliver, unwritten
 from .sweep_plot import check_plot, write_plot
 from .terminal import console
 
@@ -120,14 +121,13 @@ def sweep(
 
     from .cache import enable_compilation_cache
     from .devices import cores, use_cores
-    from .interrupt import prompt_interrupt
     from .quiet import without_false_alarms
 
     label = labelled(scene, changes)
     enable_compilation_cache()
     use_cores((devices or cores()) if workers is None and scheduler is None else 1)
-    with prompt_interrupt(), without_false_alarms():
-        from ..sweeps.engine import SweepError, run
+    with without_false_alarms():
+        from ..sweeps.engine import StoppedError, SweepError, kept_words, run
         from ..sweeps.fields import described_fields
         from ..sweeps.verb import make_plan, runner_of
 
@@ -135,16 +135,22 @@ def sweep(
             runner = runner_of(devices, workers, scheduler)
             metadata = described_fields(fields, recipe.example_scene)
             plan = make_plan(recipe, cases, metadata, label, elements=not without_elements, chunk=chunk)
-            with writing(target), _watcher(len(cases), as_json) as watcher:
+            if_interrupted(lambda: kept_words(plan, target))
+            with _watcher(len(cases), as_json) as watcher:
                 outcome = run(plan, target, runner=runner, overwrite=overwrite, watcher=watcher)
+        except StoppedError as stopped:
+            _print_stopped(stopped, label, time.monotonic() - begin, as_json)
+            said = f"the output cannot be written: {target}: {stopped.strerror}; {stopped.kept}"
+            raise typer.Exit(say(said, NO_OUTPUT)) from None
+        except OSError as error:
+            raise typer.Exit(unwritten(target, error)) from None
         except SweepError as error:
             refuse(f"--out: {error}")
         except ValueError as error:
             refuse(str(error))
-        if plot is not None and outcome.converged > 0:
-            write_plot(plot, target, label)
         seconds = time.monotonic() - begin
-        _print(outcome, label, target, seconds, as_json)
+        picture = Output(plot, lambda path: write_plot(path, target, label), long=True)
+        deliver(lambda: _print(outcome, label, target, seconds, as_json), (picture,) if outcome.converged > 0 else ())
     if outcome.converged == 0:
         if plot is not None:
             typer.echo(f"not written: {plot}", err=True)
@@ -204,8 +210,10 @@ def _check_target(target: Path) -> None:
         refuse(f"--out: found '{target}', which needs the extra 'cluster'; expected .nc, or {_EXTRA}")
     if not target.parent.is_dir():
         refuse(f"--out: found '{target}'; expected a file in an existing folder")
-    with writing(target):
+    try:
         try_to_write(target)
+    except OSError as error:
+        raise typer.Exit(unwritten(target, error)) from None
 
 
 def _check_extra(workers: int | None, scheduler: str | None) -> None:
@@ -247,6 +255,18 @@ def _watcher(cases: int, as_json: bool) -> Iterator[Any]:
         yield Watcher(
             done, lambda text: bar.update(task, description=text), lambda text: bar.console.print(f"note: {text}")
         )
+
+
+def _print_stopped(stopped: Any, label: str, seconds: float, as_json: bool) -> None:
+    """What has been computed; the file is not there."""
+    if as_json:
+        found = {"cases": stopped.cases, "converged": stopped.converged, "failed": stopped.computed - stopped.converged}
+        typer.echo(json.dumps(found | {"file": None, "seconds": round(seconds, 3)}))
+        return
+    from ..report.screen import headline
+
+    words = f"{stopped.computed} of {stopped.cases} cases computed, {stopped.converged} converged, in {seconds:.1f} s"
+    headline(label, "NOT WRITTEN", "bold red", words, console())
 
 
 def _print(outcome: Any, label: str, target: Path, seconds: float, as_json: bool) -> None:

@@ -6,6 +6,7 @@ import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Array, Float, Int
 
+from .._identity import Identity, identity_of, require_same
 from .._scene import label
 from .equations import Point, film_shape, mass
 from .line_contact import EHLLineContact, Scales
@@ -23,7 +24,8 @@ class FilmState(eqx.Module):
 
     **Arguments:** `x`: places of the nodes, m; values at the last three times, newest first: `pressure`, Pa, `offset`
     of the film, m, and `mass`, density over that at ambient pressure times film, m; `steps` between these times, s;
-    `known`: how many of them are there; `proposal`: the step to try next, s.
+    `known`: how many of them are there; `proposal`: the step to try next, s; `identity`: which contact it is (`None`:
+    not known, as in files of earlier versions).
     """
 
     x: Float[Array | np.ndarray, " node"] = eqx.field(metadata=label("m", "place of the node along rolling"))
@@ -36,9 +38,20 @@ class FilmState(eqx.Module):
     steps: Float[Array | np.ndarray, "2"] = eqx.field(metadata=label("s", "steps between these times"))
     known: Int[Array | np.ndarray, ""] = eqx.field(metadata=label("1", "how many of these times there are"))
     proposal: Float[Array | np.ndarray, ""] = eqx.field(metadata=label("s", "step to try next"))
+    identity: Identity | None = None
 
 
-def state_of(motion: Motion, scales: Scales, key: MeshKey) -> FilmState:
+MAY_CHANGE = ("operation", "oil", "simulation", "contact.film_limit")
+"""Parts of a scene that may be others than those of the run from whose end another one goes on; a state itself tells
+whether the load is the same."""
+UNKNOWN = (
+    "restart: the state does not say of which contact it is (an earlier version wrote it); only its mesh, its load and "
+    "its film have been compared"
+)
+"""What is said of such a run."""
+
+
+def state_of(motion: Motion, scales: Scales, key: MeshKey, scene: EHLLineContact) -> FilmState:
     """A motion in SI units."""
     unit = scales.half_width / scales.reference_speed
     return FilmState(
@@ -50,6 +63,7 @@ def state_of(motion: Motion, scales: Scales, key: MeshKey) -> FilmState:
         steps=motion.steps * unit,
         known=motion.known,
         proposal=motion.proposal * unit,
+        identity=identity_of(scene, MAY_CHANGE),
     )
 
 
@@ -76,6 +90,8 @@ def mesh_of_state(scene: EHLLineContact, state: FilmState, backwards: bool) -> M
         raise ValueError("restart: a state with numbers that are not finite")
     if not (1 <= int(state.known) <= 3 and np.all(np.asarray(state.steps) > 0) and float(state.proposal) > 0):
         raise ValueError("restart: a state whose steps are not > 0 s")
+    if state.identity is not None:
+        require_same(state.identity, identity_of(scene, MAY_CHANGE), "contact")
     nodes, scales = np.size(state.x), scene.scales()
     if nodes != scene.contact.nodes:
         raise ValueError(f"restart: a state on another mesh: {nodes} nodes, for contact.nodes = {scene.contact.nodes}")

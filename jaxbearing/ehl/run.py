@@ -1,5 +1,6 @@
 """A run in time of a line contact: from the steady film, segment after segment."""
 
+import contextlib
 from collections.abc import Callable
 from typing import NamedTuple
 
@@ -10,11 +11,12 @@ import numpy as np
 from jaxtyping import Array, Float
 
 from ..numerics.compiling import quickly_compiled
+from ..numerics.interrupts import Deferral, deferred_interrupts
 from ..numerics.precision import as_float
 from ..numerics.status import SolveError, Status
 from .equations import Point, film_shape
 from .history import FilmHistory, LineContactHistory, PressureHistory, ProfileHistory, thin_note
-from .last_state import FilmState, mesh_of_state, motion_of, state_of
+from .last_state import UNKNOWN, FilmState, mesh_of_state, motion_of, state_of
 from .line_contact import SMALLEST_MOES_LOAD, EHLLineContact, Scales
 from .mesh import MeshKey, mesh
 from .simulation import FilmSimulation
@@ -160,31 +162,43 @@ def simulate_film(
     times, speeds = [np.asarray([began])], [np.asarray([float(drive.speed_at(motion.time))])]
     taken = refused = newton_steps = 0
     balance, status, thin, interrupted = 0.0, Status.CONVERGED, False, False
-    try:
-        while True:
-            found = _advance(drive, motion, end, key)
-            count = int(found.taken)
-            seen = jax.tree.map(
-                lambda leaf, count=count: np.asarray(leaf)[:count], _see(found.record.point, scales, key)
-            )
-            motion, kept = found.motion, [*kept, seen]
-            times.append(np.asarray(found.record.time)[:count] * unit)
-            speeds.append(np.asarray(found.record.speed)[:count])
-            taken, refused = taken + count, refused + int(found.rejected)
-            newton_steps += int(found.newton_steps)
-            balance = max(balance, float(np.max(np.asarray(found.record.balance)[:count], initial=0.0)))
-            if progress is not None:
-                progress(float(times[-1][-1]) if count else began, stop)
-            if int(found.status) >= 0:
-                status, thin = Status(int(found.status)), bool(found.thin)
-                break
-    except KeyboardInterrupt:
-        status, interrupted = Status.NOT_CONVERGED, True
+    with contextlib.ExitStack() as stack:
+        interrupt = Deferral()
+        try:
+            while True:
+                found = _advance(drive, motion, end, key)
+                count = int(found.taken)
+                seen = jax.tree.map(
+                    lambda leaf, count=count: np.asarray(leaf)[:count], _see(found.record.point, scales, key)
+                )
+                motion, kept = found.motion, [*kept, seen]
+                times.append(np.asarray(found.record.time)[:count] * unit)
+                speeds.append(np.asarray(found.record.speed)[:count])
+                taken, refused = taken + count, refused + int(found.rejected)
+                newton_steps += int(found.newton_steps)
+                balance = max(balance, float(np.max(np.asarray(found.record.balance)[:count], initial=0.0)))
+                if len(kept) == 2:
+                    # from now on there is something to keep
+                    interrupt = stack.enter_context(deferred_interrupts())
+                if progress is not None:
+                    progress(float(times[-1][-1]) if count else began, stop)
+                if int(found.status) >= 0:
+                    status, thin = Status(int(found.status)), bool(found.thin)
+                    break
+                if interrupt.seen:
+                    raise KeyboardInterrupt
+        except KeyboardInterrupt:
+            # also of `progress`, or of a second Ctrl-C
+            if len(kept) < 2:
+                raise
+            status, interrupted = Status.NOT_CONVERGED, True
+        interrupt.taken()
     all_times = np.concatenate(times)
     if status == Status.CONVERGED and not thin:
         all_times[-1] = stop
     seen = jax.tree.map(lambda *leaves: jnp.asarray(np.concatenate(leaves)), *kept)
-    notes = scene.assumptions()
+    unknown = start is not None and start.identity is None
+    notes = (*((UNKNOWN,) if unknown else ()), *scene.assumptions())
     if thin:
         notes = (thin_note(float(all_times[-1]), scene.contact.film_limit), *notes)
     return LineContactHistory(
@@ -201,7 +215,7 @@ def simulate_film(
         profile=ProfileHistory(jnp.asarray(mesh(key).x) * scales.half_width, seen.pressure, seen.film),
         hertz=HertzResult(scales.half_width, scales.hertz_pressure),
         operation=scene.operation,
-        last_state=state_of(motion, scales, key),
+        last_state=state_of(motion, scales, key, scene),
         checks=range_checks(scene, scales),
         ended_thin=thin,
         interrupted=interrupted,

@@ -2,14 +2,14 @@
 
 import os
 import shutil
-import tempfile
+import subprocess
 from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from .files import appearing_whole
+from .files import check_place, temporary_folder, write_whole
 from .sheet import FAINT, INK
 
 if TYPE_CHECKING:
@@ -61,9 +61,19 @@ def save_animation(
     kinds: dict[str, Any] = {".gif": PillowWriter, ".mp4": FFMpegWriter}
     writer = kinds[suffix](fps=PER_SECOND) if suffix in kinds else HTMLWriter(fps=PER_SECOND, embed_frames=True)
     told = None if progress is None else lambda number, count: progress(float(number + 1), float(count))
+    check_place(path)
     # the writers go by the suffix, and leave further files behind where they fail
-    with appearing_whole(path) as temporary, tempfile.TemporaryDirectory() as folder, mpl.rc_context():
-        mpl.rcParams["animation.embed_limit"] = 100.0
-        made = Path(folder) / f"animation{suffix}"
-        animation.save(made, writer=writer, dpi=_DOTS, progress_callback=told)
-        shutil.copyfile(made, temporary)
+    with temporary_folder() as folder:
+        made = folder / f"animation{suffix}"
+        try:
+            with mpl.rc_context():
+                mpl.rcParams["animation.embed_limit"] = 100.0
+                animation.save(made, writer=writer, dpi=_DOTS, progress_callback=told)
+            content = made.read_bytes()
+        except OSError as error:
+            reason = f"{error.strerror or error} (in the folder for temporary files, {folder.parent})"
+            raise OSError(error.errno or 5, reason, os.fspath(path)) from None
+        except subprocess.CalledProcessError as error:
+            said = (error.stderr or b"").decode(errors="replace").strip().splitlines()
+            raise OSError(5, f"ffmpeg failed: {said[-1] if said else error}", os.fspath(path)) from None
+        write_whole(path, content)

@@ -11,9 +11,10 @@ from ..bearings.solution import Solution
 from ..ehl import LineContactSolution
 from ..machines import TwoDiskSolution
 from .bearing.dataset import bearing_to_dataset
-from .files import appearing_whole
+from .files import write_whole
 from .labelled import udunits as udunits
 from .line_contact.dataset import line_contact_to_dataset
+from .netcdf import netcdf_image
 from .two_disk.dataset import two_disk_to_dataset
 
 
@@ -39,15 +40,11 @@ solution_to_dataset.register(TwoDiskSolution, two_disk_to_dataset)
 solution_to_dataset.register(LineContactSolution, line_contact_to_dataset)
 
 
-def write_netcdf(dataset: xr.Dataset, path: str | os.PathLike[str]) -> None:
-    """Write a NetCDF-4 file that appears whole or not at all, with checksums: damage to its arrays is an error for who
-    reads them.
+def write_netcdf(dataset: xr.Dataset | xr.DataTree, path: str | os.PathLike[str]) -> None:
+    """Write a NetCDF-4 file, of a tree one group a node, that appears whole or not at all, with checksums: damage to
+    its arrays is an error for who reads them. The file is built in memory.
 
     **Raises:** `OSError` where the place cannot be written; nothing is there then, or what was there before.
     """
-    checked = dataset.copy()
-    for variable in checked.variables.values():
-        if variable.ndim and variable.size and variable.dtype.kind in "fiu":
-            variable.encoding["fletcher32"] = True
-    with appearing_whole(path) as temporary:
-        checked.to_netcdf(temporary, engine="h5netcdf")
+    tree = xr.DataTree(dataset) if isinstance(dataset, xr.Dataset) else dataset
+    write_whole(path, netcdf_image({node.path: node.to_dataset(inherit=False) for node in tree.subtree}))

@@ -14,7 +14,7 @@ import xarray as xr
 from ..bearings.history import History
 from ..numerics.status import Status
 from .history_shocks import FACES, SHOCK, peaks_by_turn, sectors, whirl_ratio
-from .labelled import attributes, described, flags, labelled, without_fill
+from .labelled import attributes, described, flags, identity_text, labelled, without_fill
 
 _STATES = {
     "state_rollers": ("roller_state", ("q", "v", "u")),
@@ -25,7 +25,7 @@ _STATES = {
 def history_to_dataset(history: History) -> xr.Dataset:
     """All results of a run with `units`, `long_name` and `path` on every variable."""
     dataset = xr.Dataset(attrs=attributes(history, "Motion of a rolling bearing"))
-    dataset.attrs |= {"solver": history.solver, "completed": int(history.completed)}
+    dataset.attrs |= {"solver": history.solver, "completed": int(history.completed)} | identity_text(history.identity)
     dataset.attrs["not_modelled"] = ", ".join(history.not_modelled)
     for path, value, metadata in _labels(history):
         values = np.asarray(value)

@@ -1,13 +1,17 @@
 """The last state of a run from its NetCDF file, to go on from."""
 
+import json
 import os
 from collections.abc import Sequence
 
 import numpy as np
 import xarray as xr
 
+from .._identity import Identity, identity_from
 from ..bearings.history import LastState
 from ..ehl import FilmState
+from ..scenes.input_files import check_regular
+from .labelled import IDENTITY
 
 _NEEDED = ("time", "state_rollers", "state_cage", "frame_angle", "frame_speed", "reference_speed", "azimuth")
 _OF_A_FILM = ("time", "pressure", "offset", "mass", "steps", "known", "proposal")
@@ -23,6 +27,7 @@ def read_last_state(path: str | os.PathLike[str]) -> LastState | FilmState:
     """
     name = os.fspath(path)
     # the reader's own message for a missing file is a guess at engines
+    check_regular(path)
     with open(path, "rb"):
         pass
     try:
@@ -54,6 +59,7 @@ def _bearing_state(dataset: xr.Dataset) -> LastState:
         reference_speed=values["reference_speed"],
         azimuth=values["azimuth"],
         has_cage="cage_speed" in dataset.variables,
+        identity=_identity(dataset),
     )
 
 
@@ -67,13 +73,32 @@ def _film_state(dataset: xr.Dataset) -> FilmState:
     if any(values[field].shape != shapes.get(field, ()) for field in _OF_A_FILM):
         raise _Other("its state has another shape")
     known = values.pop("known").astype(int)
-    return FilmState(x=x, known=known, **{field: value.astype(float) for field, value in values.items()})
+    numbers = {field: value.astype(float) for field, value in values.items()}
+    return FilmState(x=x, known=known, identity=_identity(dataset), **numbers)
+
+
+def _identity(dataset: xr.Dataset) -> Identity | None:
+    """Which bearing or contact it is; `None` in files of earlier versions."""
+    text = dataset.attrs.get(IDENTITY)
+    if text is None:
+        return None
+    try:
+        return identity_from(dict(json.loads(text)))
+    except (TypeError, ValueError) as error:
+        raise _Other(f"its attribute {IDENTITY} cannot be read ({error})") from None
+
+
+_MOST = 1_000_000
+"""Rolling elements or nodes of a state."""
 
 
 def _require(dataset: xr.Dataset, fields: Sequence[str]) -> None:
     missing = [field for field in fields if field not in dataset.variables]
     if missing:
         raise _Other(f"it has no {', '.join(missing)}")
+    # of a damaged or malicious file; the number of instants does not count, of which one is read
+    if any(size > _MOST for name, size in dataset.sizes.items() if name != "time"):
+        raise _Other("its dimensions are too large")
 
 
 class _Other(Exception):

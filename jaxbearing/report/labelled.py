@@ -1,6 +1,7 @@
 """From fields with labels to variables of a data set: units, meanings, names, attributes."""
 
 import dataclasses
+import json
 import re
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
@@ -99,6 +100,15 @@ def attributes(solution: Any, title: str) -> dict[str, str]:
         "warnings": "\n".join(_broken_checks(solution)),
         "notes": "\n".join(solution.notes),
     }
+
+
+IDENTITY = "scene_identity"
+"""Attribute of the file of a run in time: which bearing or contact it is, as JSON."""
+
+
+def identity_text(identity: Any) -> dict[str, str]:
+    """As an attribute of a data set."""
+    return {} if identity is None else {IDENTITY: json.dumps(identity.told())}
 
 
 def _broken_checks(solution: Any) -> Iterator[str]:

@@ -1,6 +1,7 @@
 """Pictures of a solution, whatever its kind, and the files they are written to."""
 
 import functools
+import io
 import os
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -9,7 +10,7 @@ from ..bearings.solution import Solution
 from ..ehl import LineContactSolution
 from ..machines import TwoDiskSolution
 from .bearing.plots import plot_bearing
-from .files import appearing_whole
+from .files import write_whole
 from .line_contact.plots import plot_line_contact
 from .two_disk.plots import plot_two_disk
 
@@ -47,8 +48,9 @@ def save_plot(figure: Any, path: str | os.PathLike[str]) -> None:
     """
     suffix = Path(path).suffix.lower()
     check_suffix(path)
-    with appearing_whole(path) as temporary:
-        figure.savefig(temporary, format=suffix.removeprefix("."), dpi=150)
+    made = io.BytesIO()
+    figure.savefig(made, format=suffix.removeprefix("."), dpi=150)
+    write_whole(path, made.getbuffer())
 
 
 def check_suffix(path: str | os.PathLike[str]) -> None:

@@ -23,7 +23,7 @@ import numpy as np
 import tomli_w
 
 from .. import __version__
-from .files import appearing_whole
+from .files import write_whole
 from .stiffness import StiffnessTable
 
 WEIGHT_DIRECTION = -math.pi / 2
@@ -112,8 +112,7 @@ def write_ross(
     if not os.fspath(file).lower().endswith(".toml"):
         raise ValueError(f"the file must end in .toml, got {os.fspath(file)!r}")
     text = ross_text(table, scene_label, load_direction=load_direction, node=node, tag=tag)
-    with appearing_whole(file) as temporary:
-        temporary.write_text(text, encoding="utf-8")
+    write_whole(file, text)
 
 
 def _line(text: str) -> str:

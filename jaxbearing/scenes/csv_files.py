@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import NamedTuple, NoReturn
 
 from .errors import SceneError
+from .input_files import LARGEST_TABLE
 from .toml_files import read_text
 from .units import describe
 
@@ -136,7 +137,7 @@ class CsvTable:
         **Raises:** `SceneError` that names file and line.
         """
         label = str(file)
-        lines = telling_lines(read_text(file, expected))
+        lines = telling_lines(read_text(file, expected, largest=LARGEST_TABLE))
         if not lines:
             raise SceneError(label, "", "no lines", expected)
         separator = max(SEPARATORS, key=lines[0].text.count)

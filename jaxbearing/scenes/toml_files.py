@@ -7,30 +7,26 @@ from pathlib import Path
 from typing import Any
 
 from .errors import SceneError, nearest
+from .input_files import LARGEST_TEXT, UnfitFileError, read_bytes
 
 
-def read_text(path: str | Path, expected: str, near: Iterable[str] = ()) -> str:
+def read_text(path: str | Path, expected: str, near: Iterable[str] = (), largest: int = LARGEST_TEXT) -> str:
     """Text of a file in UTF-8.
 
     **Arguments:** `expected`: what should be there, for messages; `near`: names that may be meant by that of a file
-    that does not exist.
+    that does not exist; `largest`: number of bytes that it may have.
 
     **Raises:** `SceneError`.
     """
-    path, label = Path(path), str(path)
+    label = str(path)
     try:
-        return path.read_bytes().decode("utf-8-sig")
-    except FileNotFoundError:
-        raise SceneError(label, "", "no such file", expected, nearest(path.name.removesuffix(".toml"), near)) from None
-    except IsADirectoryError:
-        raise SceneError(label, "", "a folder", expected) from None
+        return read_bytes(path, largest).decode("utf-8-sig")
+    except UnfitFileError as error:
+        suggestion = nearest(Path(path).name.removesuffix(".toml"), near) if error.missing else ""
+        raise SceneError(label, "", error.found, expected, suggestion) from None
     except UnicodeDecodeError as error:
         found = f"bytes that are not UTF-8 text (at byte {error.start})"
         raise SceneError(label, "", found, "a file in UTF-8") from None
-    except (OSError, ValueError) as error:
-        # ValueError: a path with a null byte
-        reason = getattr(error, "strerror", None) or str(error)
-        raise SceneError(label, "", f"a file that cannot be read: {reason}", expected) from None
 
 
 def parse_toml(text: str, label: str, expected: str) -> dict[str, Any]:

@@ -241,10 +241,14 @@ def number(given: Any, bound: str = "") -> float:
     return float(given)
 
 
+LARGEST_COUNT = 1_000_000
+"""Of whatever is counted in a scene: more would only fill the memory."""
+
+
 def count(value: Any) -> int:
-    """A whole number >= 1."""
-    if isinstance(value, bool) or not isinstance(value, int) or value < 1:
-        raise refusal("a whole number >= 1, without quotes", describe(value))
+    """A whole number from 1 to `LARGEST_COUNT`."""
+    if isinstance(value, bool) or not isinstance(value, int) or not 1 <= value <= LARGEST_COUNT:
+        raise refusal(f"a whole number >= 1 and <= {LARGEST_COUNT}, without quotes", describe(value))
     return value
 
 

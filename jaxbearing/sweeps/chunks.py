@@ -1,6 +1,7 @@
 """Chunks of a sweep: computed one by one, each in a file that appears whole or not at all."""
 
 import functools
+import io
 import os
 import zipfile
 import zlib
@@ -12,7 +13,7 @@ import numpy as np
 import xarray as xr
 
 from ..lanes import LaneProgram
-from ..report.files import appearing_whole
+from ..report.files import write_whole
 from .labels import FAILURE, columns, converged, failures, template
 from .plan import Plan, read_plan
 
@@ -56,9 +57,10 @@ def run_chunk(
     solution = program(inputs, active, progress)
     good = converged(solution)
     kept = columns(solution, labels) | {FAILURE: failures(solution, _said(plan, reasons, good, start))}
-    with appearing_whole(chunk_path(Path(folder), index)) as temporary, temporary.open("wb") as file:
-        arrays: dict[str, Any] = {**kept, KEY: np.asarray(key), GOOD: np.asarray(good.sum())}
-        np.savez(file, **arrays)
+    arrays: dict[str, Any] = {**kept, KEY: np.asarray(key), GOOD: np.asarray(good.sum())}
+    made = io.BytesIO()
+    np.savez(made, **arrays)
+    write_whole(chunk_path(Path(folder), index), made.getbuffer())
     return int(good.sum()), stop - start
 
 

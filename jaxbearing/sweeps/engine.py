@@ -10,7 +10,7 @@ from typing import IO
 
 import xarray as xr
 
-from .chunks import GOOD, KEY, DamagedChunkError, read_chunk, run_chunk
+from .chunks import GOOD, KEY, DamagedChunkError, chunk_path, read_chunk, run_chunk
 from .gather import STORES, store
 from .plan import PLAN, Plan, read_plan, write_plan
 
@@ -20,6 +20,24 @@ Runner = Callable[[Path, str, list[int], Callable[[int], None]], Iterator[tuple[
 
 class SweepError(ValueError):
     """A sweep that cannot be begun where it was asked for: something else is there."""
+
+
+class StoppedError(OSError):
+    """A sweep that could not write a chunk or the whole. **Attributes:** `cases`; how many of them were `computed`, now
+    or earlier, and `converged`; what of that is `kept`, in words."""
+
+    def __init__(self, cause: OSError, cases: int, computed: int, converged: int, kept: str):
+        super().__init__(cause.errno, cause.strerror or str(cause), cause.filename)
+        self.cases, self.computed, self.converged, self.kept = cases, computed, converged, kept
+
+
+@dataclass
+class _Tally:
+    """Cases of the chunks that are there; `kept`: from an earlier run."""
+
+    computed: int = 0
+    converged: int = 0
+    kept: int = 0
 
 
 @dataclass(frozen=True)
@@ -64,7 +82,7 @@ def run(
     not computed again, and the store appears whole. Afterwards the chunks are removed.
 
     **Raises:** `SweepError` where another sweep or another file is in the way (`overwrite` removes them), or another
-    process is at this one; `OSError` for what cannot be written: the chunks stay.
+    process is at this one; `StoppedError` for what cannot be written: the chunks stay.
     """
     check_target(target)
     watcher = watcher or Watcher()
@@ -77,16 +95,35 @@ def run(
         there = _there_already(plan, target, overwrite, watcher)
         if there is not None:
             return there
-        _claim(plan, folder, target, overwrite)
-        outcome = _computed(plan, folder, runner or in_process(), watcher)
-        watcher.stage("writing")
-        store(plan, folder, target)
+        tally = _Tally()
+        try:
+            _claim(plan, folder, target, overwrite)
+            _compute(plan, folder, runner or in_process(), watcher, tally)
+            watcher.stage("writing")
+            store(plan, folder, target)
+        except OSError as error:
+            kept = kept_words(plan, target)
+            if not tally.computed:
+                shutil.rmtree(folder, ignore_errors=True)
+            raise StoppedError(error, len(plan.cases), tally.computed, tally.converged, kept) from error
         shutil.rmtree(folder, ignore_errors=True)
-    return outcome
+    return Outcome(len(plan.cases), tally.converged, tally.kept)
+
+
+def kept_words(plan: Plan, target: Path) -> str:
+    """How many cases of a sweep that has been stopped need not be computed again, in words."""
+    folder = chunk_folder(target)
+    ranges = [plan.range_of(index) for index in range(plan.chunks) if chunk_path(folder, index).exists()]
+    kept = sum(stop - start for start, stop in ranges)
+    if not kept:
+        return "no case is kept"
+    return f"{kept} of {len(plan.cases)} cases are kept in '{folder}': the same command goes on there"
 
 
 def _there_already(plan: Plan, target: Path, overwrite: bool, watcher: Watcher) -> Outcome | None:
     """How the sweep ended, where its store is there. **Raises:** `SweepError` where something else is."""
+    if target.exists() and not (target.is_file() or target.is_dir()):
+        raise SweepError(f"found '{target}', no ordinary file; expected a new name")
     found = _finished(target)
     if found is not None and found[0] == plan.key:
         shutil.rmtree(chunk_folder(target), ignore_errors=True)
@@ -121,26 +158,27 @@ def _claim(plan: Plan, folder: Path, target: Path, overwrite: bool) -> None:
     write_plan(plan, folder)
 
 
-def _computed(plan: Plan, folder: Path, runner: Runner, watcher: Watcher) -> Outcome:
-    converged, kept, missing = 0, 0, []
+def _compute(plan: Plan, folder: Path, runner: Runner, watcher: Watcher, tally: _Tally) -> None:
+    missing = []
     for index in range(plan.chunks):
         start, stop = plan.range_of(index)
         try:
-            converged += int(read_chunk(folder, index, plan.key)[GOOD])
+            tally.converged += int(read_chunk(folder, index, plan.key)[GOOD])
         except FileNotFoundError:
             missing.append(index)
         except DamagedChunkError as error:
             watcher.note(f"a damaged chunk is computed again: {error}")
             missing.append(index)
         else:
-            kept += stop - start
-    if kept:
-        watcher.note(f"{kept} of {len(plan.cases)} cases are there from an earlier run")
-        watcher.cases(kept)
+            tally.kept += stop - start
+    tally.computed = tally.kept
+    if tally.kept:
+        watcher.note(f"{tally.kept} of {len(plan.cases)} cases are there from an earlier run")
+        watcher.cases(tally.kept)
     if missing:
-        for good, _ in runner(folder, plan.key, missing, watcher.cases):
-            converged += good
-    return Outcome(len(plan.cases), converged, kept)
+        for good, cases in runner(folder, plan.key, missing, watcher.cases):
+            tally.converged += good
+            tally.computed += cases
 
 
 def in_process(devices: int | None = None) -> Runner:

@@ -1,15 +1,17 @@
 """From the chunks of a sweep to one labelled store, variable by variable: memory holds one of them at a time."""
 
+import contextlib
 import math
 import shutil
 from collections.abc import Callable, Iterator
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import xarray as xr
 
+from ..numerics.interrupts import deferred_interrupts
 from ..report.labelled import CHECK, without_fill
+from ..report.netcdf import NetcdfStream
 from .chunks import KEY, read_chunk
 from .labels import CASE, FAILURE, per_case, template
 from .plan import Plan
@@ -31,11 +33,15 @@ def store(
     _require_space(plan, labels, folder)
     temporary = folder / f"gathered{target.suffix.lower()}"
     _remove(temporary)
-    write = _to_zarr if target.suffix.lower() == ".zarr" else _to_netcdf
-    for done, (dataset, total) in enumerate(_pieces(plan, folder, labels)):
-        write(dataset, temporary, "w" if done == 0 else "a")
-        progress(done + 1, total)
-    _replace(temporary, target)
+    try:
+        with deferred_interrupts(), (_Zarr if target.suffix.lower() == ".zarr" else _Netcdf)(temporary) as made:
+            for done, (dataset, total) in enumerate(_pieces(plan, folder, labels)):
+                made.add(dataset)
+                progress(done + 1, total)
+        _replace(temporary, target)
+    except BaseException:
+        _remove(temporary)
+        raise
 
 
 def _labels(plan: Plan) -> xr.Dataset:
@@ -126,10 +132,7 @@ def _warnings(broken: np.ndarray, texts: list[str]) -> Iterator[str]:
 
 
 def _require_space(plan: Plan, labels: xr.Dataset, folder: Path) -> None:
-    """A NetCDF library that runs out of space may bring the process down, so it is not let.
-
-    **Raises:** `OSError`.
-    """
+    """Said before the work of writing, which would end in the same. **Raises:** `OSError`."""
     each = sum(v.dtype.itemsize * math.prod(v.shape) for v in labels.variables.values() if CASE in v.dims)
     needed = int(1.02 * each * len(plan.cases)) + 2_000_000
     free = shutil.disk_usage(folder).free
@@ -137,19 +140,23 @@ def _require_space(plan: Plan, labels: xr.Dataset, folder: Path) -> None:
         raise OSError(28, f"No space left on device (the whole sweep needs {needed >> 20} MiB, {free >> 20} are free)")
 
 
-def _to_netcdf(dataset: xr.Dataset, path: Path, mode: Any) -> None:
-    # Zarr's coordinates keep their mark: without one their zeros would be taken for it
-    dataset = without_fill(dataset)
-    try:
-        dataset.to_netcdf(path, mode=mode, engine="h5netcdf")
-    except RuntimeError as error:
-        # so does HDF5 say some of what it cannot write
-        raise OSError(5, f"the NetCDF library: {str(error).splitlines()[0]}") from None
+class _Netcdf(NetcdfStream):
+    def add(self, dataset: xr.Dataset) -> None:
+        # Zarr's coordinates keep their mark: without one their zeros would be taken for it
+        super().add(without_fill(dataset))
 
 
-def _to_zarr(dataset: xr.Dataset, path: Path, mode: Any) -> None:
-    # format 3 has no settled way to write texts
-    dataset.drop_encoding().to_zarr(path, mode=mode, consolidated=True, zarr_format=2)
+class _Zarr(contextlib.AbstractContextManager["_Zarr", None]):
+    def __init__(self, path: Path):
+        self._path = path
+
+    def __exit__(self, *error: object) -> None:
+        pass
+
+    def add(self, dataset: xr.Dataset) -> None:
+        mode = "a" if self._path.exists() else "w"
+        # format 3 has no settled way to write texts
+        dataset.drop_encoding().to_zarr(self._path, mode=mode, consolidated=True, zarr_format=2)
 
 
 def _replace(temporary: Path, target: Path) -> None:

@@ -191,10 +191,10 @@ def test_unreadable_file(jaxbearing_command, folder, monkeypatch):
     # the permission bits do not stop root, so the refusal is made here
     (folder / "scene.toml").write_text(TEXT, encoding="utf-8")
 
-    def refuse(path):
-        raise PermissionError(13, "Permission denied", str(path))
+    def refuse(*_):
+        raise PermissionError(13, "Permission denied")
 
-    monkeypatch.setattr("pathlib.Path.read_bytes", refuse)
+    monkeypatch.setattr("jaxbearing.scenes.input_files._check", refuse)
     check(jaxbearing_command("solve", "scene.toml"), folder, "scene.toml", "", ["Permission denied"])
 
 

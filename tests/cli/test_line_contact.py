@@ -102,9 +102,10 @@ def test_restart_from_something_else_is_refused(jaxbearing_command, folder):
     cases = [
         (SIMULATE, "bearing.nc", "a state of a bearing, for a scene of a line contact"),
         (("simulate", "turbine_roller_dynamic", "--duration", "1 ms"), "a.nc", "a state of a line contact"),
-        ((*SIMULATE, "--set", "contact.nodes=201"), "a.nc", "101 nodes, for contact.nodes = 201"),
+        ((*SIMULATE, "--set", "contact.nodes=201"), "a.nc", "contact.nodes is 101 there and 201 here"),
         ((*SIMULATE, "--set", "operation.load_per_length=80 N/mm"), "a.nc", "Hertz half width"),
         ((*SIMULATE, "--set", "contact.compressible=true"), "a.nc", "contact.compressible"),
+        ((*SIMULATE, "--set", "materials.body_2.density=8 g/cm^3"), "a.nc", "materials.body_2.density is 7850 there"),
         (SIMULATE, "half.nc", "not a NetCDF file that can be read"),
         (SIMULATE, "gone.nc", "cannot be read"),
         (SIMULATE, "steady.nc", "not a run in time"),

@@ -1,20 +1,12 @@
 """`jaxbearing simulate`: JSON, NetCDF, picture, exit codes."""
 
-import contextlib
 import json
-import os
-import pty
-import signal
-import subprocess
-import sys
 
 import numpy as np
 import pytest
 import xarray as xr
-from command_process import environment
 from typer.testing import CliRunner
 
-import jaxbearing as jb
 from jaxbearing.cli.main import app
 
 BASE = ("simulate", "turbine_roller_dynamic", "--set", "contact.thermal=none")
@@ -76,6 +68,12 @@ def test_restart_goes_on(run):
     [
         (("--set", "geometry.n_rollers=28"), "30 rollers, for a scene with 28"),
         (("--set", "cage=none"), "a state with a cage"),
+        (
+            ("--set", "geometry.diametral_clearance=31 um"),
+            "geometry.diametral_clearance is 3e-05 there and 3.1e-05 here",
+        ),
+        (("--set", "geometry.roller_diameter=12.1 mm"), "geometry.roller_diameter is 0.012 there and 0.0121 here"),
+        (("--set", "flange=none"), "flange is RollerFlange there and none here"),
         (("--restart", "run.png"), "not a NetCDF file"),
         (("--restart", "gone.nc"), "cannot be read"),
         (("--restart", "."), "cannot be read"),
@@ -90,36 +88,6 @@ def test_restart_from_something_else_is_refused(run, changes, reason, monkeypatc
     assert result.stderr.startswith("error: --restart")
     assert result.stderr.count("\n") == 1
     assert result.stdout == ""
-
-
-@pytest.mark.slow
-def test_interrupted_run_keeps_what_it_has(tmp_path):
-    """A process on a terminal, and Ctrl-C when its bar shows that it moves."""
-    out, (reader, terminal) = tmp_path / "run.nc", pty.openpty()
-    # tests started in the background of a shell may ignore Ctrl-C, and so would what they start
-    listening = "import runpy, signal; signal.signal(signal.SIGINT, signal.default_int_handler); "
-    listening += "runpy.run_module('jaxbearing', run_name='__main__')"
-    command = [sys.executable, "-c", listening, *BASE, "--duration", "10 s", "--out", str(out)]
-    with subprocess.Popen(command, stdout=terminal, stderr=subprocess.PIPE, env=environment(TERM="xterm")) as run:
-        os.close(terminal)
-        shown = b""
-        while b"of 1e+04 ms" not in shown:
-            shown += os.read(reader, 4096)
-        run.send_signal(signal.SIGINT)
-        with contextlib.suppress(OSError):  # the end of a terminal
-            while part := os.read(reader, 4096):
-                shown += part
-        assert run.wait() == 130
-    os.close(reader)
-    assert b"interrupted" in shown
-    with xr.open_dataset(out, engine="h5netcdf") as dataset:
-        assert dataset.attrs["completed"] == 0
-        reached = float(dataset["time"][-1])
-        assert 0.0 < reached < 1.0
-    assert jb.read_last_state(out).time == reached
-    result = CliRunner().invoke(app, [*BASE, "--duration", "0.5 ms", "--json", "--restart", str(out)])
-    assert result.exit_code == 0
-    np.testing.assert_allclose(json.loads(result.stdout)["time"]["stop"], reached + 0.5e-3)
 
 
 DRY = {

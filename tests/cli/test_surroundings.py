@@ -2,6 +2,7 @@
 
 import json
 import os
+import re
 import warnings
 
 import numpy as np
@@ -9,8 +10,9 @@ import pytest
 import xarray as xr
 from command_process import DRY, run, start
 from fit_results import MEDIAN
+from full_places import small_folder
 
-from jaxbearing.cli.cache import _drop_damaged
+from jaxbearing.cli.cache import _in_words
 from jaxbearing.cli.options import labelled
 
 
@@ -24,7 +26,7 @@ def test_damaged_entries_of_the_cache_go(tmp_path):
     for name in ("jit_solve-a1-cache", "jit_solve-b2-cache", "jit_solve_any-c3-cache"):
         (tmp_path / name).write_bytes(b"cut")
     shown = []
-    show = _drop_damaged(tmp_path, lambda message, *where: shown.append(str(message)))
+    show = _in_words(tmp_path, lambda message, *where: shown.append(str(message)))
     error = "Error reading persistent compilation cache entry for 'jit_solve': error: Error -5"
     show(UserWarning(error), UserWarning, "compiler.py", 1)
     show(UserWarning("something else"), UserWarning, "compiler.py", 2)
@@ -159,3 +161,13 @@ def test_runs_at_once_and_a_cache_that_a_kill_damaged(tmp_path):
 def test_warnings_are_python_s_own_again():
     """The command changes how warnings are shown in its own process only: tests run in one."""
     assert warnings.showwarning.__module__ in ("warnings", "_pytest.recwarn", "_pytest.warnings")
+
+
+def test_a_full_cache_is_said_in_one_line(tmp_path):
+    """The cache is a convenience: the results are the same."""
+    with small_folder(tmp_path / "cache") as place:
+        (place / "filler").write_bytes(bytes(12_288))
+        code, out, err = run(tmp_path, "solve", "reference_roller", *DRY, JAXBEARING_CACHE=str(place))
+    assert code == 0
+    assert "CONVERGED" in out
+    assert re.fullmatch(r"warning: compiled programs are not kept in .*No space left on device.*\n", err)

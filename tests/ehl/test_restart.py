@@ -74,8 +74,8 @@ def test_another_speed_and_viscosity_go_on_without_a_jump(first):
 def test_other_contacts_are_refused(first):
     other = lambda **changes: SCENE.at_operation(**changes)
     cases = [
-        (satellite(1, 201), "101 nodes, for contact.nodes = 201"),
-        (satellite(1, 101, inlet=5.0), "contact.inlet or the Hertz half width"),
+        (satellite(1, 201), "contact.nodes is 101 there and 201 here"),
+        (satellite(1, 101, inlet=5.0), "contact.inlet is 4 there and 5 here"),
         (other(load_per_length=80e3), "Hertz half width"),
         (satellite(1, 101, compressible=True), "contact.compressible"),
         (other(entrainment_speed=-0.02), "no inlet on that side"),

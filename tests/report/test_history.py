@@ -1,5 +1,6 @@
 """A run in time as file, statistics, plots, moving pictures, and as the begin of another run; one compiled program."""
 
+import dataclasses
 import json
 import math
 import shutil
@@ -86,10 +87,15 @@ def test_other_bearings_and_other_files_are_refused(scene, file, tmp_path):
     for changes, reason in (
         ({"geometry.n_rollers": 28}, "30 rollers, for a scene with 28"),
         ({"cage": None, "simulation": TIGHT}, "without a cage"),
-        ({"geometry.pitch_diameter": 0.1425}, "pitch circle"),
+        ({"geometry.pitch_diameter": 0.1425}, "geometry.pitch_diameter is 0.142 there and 0.1425 here"),
+        ({"cage.pocket_clearance": 290e-6}, "cage.pocket_clearance is .* there and 0.00029 here"),
     ):
         with pytest.raises(ValueError, match=reason):
             jb.simulate(scene.replace(changes), SHORT, restart=last)
+    with pytest.raises(ValueError, match="pitch circle"):
+        jb.simulate(
+            scene.replace_geometry(pitch_diameter=0.1425), SHORT, restart=dataclasses.replace(last, identity=None)
+        )
     broken = eqx.tree_at(lambda s: s.rollers, last, np.full((3, 30), np.nan))
     with pytest.raises(ValueError, match="not finite"):
         jb.simulate(scene, SHORT, restart=broken)
@@ -104,6 +110,24 @@ def test_other_bearings_and_other_files_are_refused(scene, file, tmp_path):
     write_netcdf(xr.Dataset({"time": ("time", np.zeros(3), {"units": "s"})}), other)
     with pytest.raises(ValueError, match="it has no state_rollers"):
         jb.read_last_state(other)
+
+
+def test_a_file_of_an_earlier_version(scene, file, tmp_path):
+    """It does not say which bearing it is of: it is gone on from, and the run says so."""
+    with xr.open_dataset(file, engine="h5netcdf", decode_times=False) as dataset:
+        old = dataset.load()
+    told = json.loads(old.attrs.pop("scene_identity"))
+    assert told["geometry.roller_diameter"] == scene.geometry.roller_diameter
+    old.to_netcdf(tmp_path / "old.nc", engine="h5netcdf")
+    history = jb.simulate(scene, SHORT, simulation=TIGHT, restart=jb.read_last_state(tmp_path / "old.nc"))
+    assert history.completed
+    assert history.warnings[0].startswith("restart: the state does not say of which bearing")
+    # from then on it does
+    assert history.last_state().identity is not None
+    old.attrs["scene_identity"] = "[1, 2"
+    old.to_netcdf(tmp_path / "damaged.nc", engine="h5netcdf")
+    with pytest.raises(ValueError, match="scene_identity cannot be read"):
+        jb.read_last_state(tmp_path / "damaged.nc")
 
 
 def test_statistics(whole):

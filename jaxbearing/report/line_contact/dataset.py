@@ -8,7 +8,7 @@ import xarray as xr
 
 from ...ehl import LineContactHistory, LineContactSolution
 from ...numerics.status import Status
-from ..labelled import CHECK, attributes, checks, described, flags, labelled, without_fill
+from ..labelled import CHECK, attributes, checks, described, flags, identity_text, labelled, without_fill
 
 
 def line_contact_to_dataset(solution: LineContactSolution, dims: Sequence[str] = ()) -> xr.Dataset:
@@ -33,6 +33,7 @@ def film_history_to_dataset(history: LineContactHistory) -> xr.Dataset:
     """All results of a run: dimensions `time` (every step) and `x`."""
     dataset = _variables(history, "Film and pressure of a line contact over time", ("time",))
     dataset.attrs |= {"solver": history.solver, "completed": int(history.completed)}
+    dataset.attrs |= identity_text(history.last_state.identity)
     return without_fill(dataset)
 
 

@@ -1,0 +1,95 @@
+"""What makes a scene the same thing as another one: the parts that it has and the numbers that describe them, by the
+dotted paths of scene files, in SI units. A state of a run in time carries it, so that no other bearing goes on from
+there."""
+
+import dataclasses
+from collections.abc import Collection, Iterator
+from typing import Any
+
+import equinox as eqx
+import numpy as np
+
+ALIKE = 1e-9
+"""Relative difference up to which two numbers are the same: the same length written in other units."""
+_SHOWN = 3
+"""Differences that a message names."""
+NOTHING = "none"
+"""The word for a part or a number that a scene does not have."""
+
+
+class Identity(eqx.Module):
+    """**Arguments:** `numbers`: path -> value or values; `words`: path, and kind of a part, setting, or `NOTHING`."""
+
+    numbers: dict[str, Any]
+    words: tuple[tuple[str, str], ...] = eqx.field(static=True)
+
+    def told(self) -> dict[str, Any]:
+        """All of it as plain numbers, lists and texts."""
+        return dict(self.words) | {path: np.asarray(value).tolist() for path, value in self.numbers.items()}
+
+
+def identity_of(scene: Any, free: Collection[str]) -> Identity:
+    """Of a scene. **Arguments:** `free`: paths that are no part of it."""
+    numbers: dict[str, Any] = {}
+    words: list[tuple[str, str]] = []
+    for path, value in _fields(scene, "", free):
+        if value is None:
+            words.append((path, NOTHING))
+        elif isinstance(value, eqx.Module):
+            words.append((path, type(value).__name__))
+        elif eqx.is_array_like(value) and not isinstance(value, bool):
+            numbers[path] = np.asarray(value, dtype=float) if isinstance(value, int | float) else value
+        else:
+            words.append((path, str(value)))
+    return Identity(numbers, tuple(words))
+
+
+def identity_from(told: dict[str, Any]) -> Identity:
+    """The way back from `Identity.told`. **Raises:** `ValueError` for something else."""
+    words = tuple((path, value) for path, value in told.items() if isinstance(value, str))
+    numbers = {path: np.asarray(value, dtype=float) for path, value in told.items() if not isinstance(value, str)}
+    return Identity(numbers, words)
+
+
+def _fields(part: Any, above: str, free: Collection[str]) -> Iterator[tuple[str, Any]]:
+    for field in dataclasses.fields(part):
+        path, value = f"{above}{field.name}", getattr(part, field.name)
+        if path in free:
+            continue
+        yield path, value
+        if isinstance(value, eqx.Module):
+            yield from _fields(value, f"{path}.", free)
+
+
+def differences(there: Identity, here: Identity) -> list[str]:
+    """What differs, in words: "geometry.roller_diameter is 0.012 there and 0.0125 here". What only one of the two knows
+    is not compared: another version may have written it."""
+    one, other = there.told(), here.told()
+    return [
+        f"{path} is {_shown(one[path])} there and {_shown(other[path])} here"
+        for path in one
+        if path in other and not _same(one[path], other[path])
+    ]
+
+
+def require_same(there: Identity, here: Identity, kind: str) -> None:
+    """Whether a state is one of this thing. **Arguments:** `kind`: what it is, "bearing".
+
+    **Raises:** `ValueError` that names the fields, with both values.
+    """
+    found = differences(there, here)
+    if found:
+        more = f", and {len(found) - _SHOWN} more" if len(found) > _SHOWN else ""
+        raise ValueError(f"restart: a state of another {kind}: {', '.join(found[:_SHOWN])}{more} (in SI units)")
+
+
+def _same(one: Any, other: Any) -> bool:
+    if isinstance(one, str) or isinstance(other, str):
+        return one == other
+    return np.shape(one) == np.shape(other) and bool(np.allclose(one, other, rtol=ALIKE, atol=0.0, equal_nan=True))
+
+
+def _shown(value: Any) -> str:
+    if isinstance(value, str):
+        return value
+    return f"{value:.10g}" if np.ndim(value) == 0 else "a table of numbers"

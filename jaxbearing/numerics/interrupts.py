@@ -1,0 +1,121 @@
+"""Ctrl-C while compiled programs run, and while files are written.
+
+Python's own way, an exception at any place, does not suit a process with XLA in it: the exception leaves the call, a
+thread goes on compiling or computing, and where the interpreter then ends the program is taken from under that thread
+(signal 11). An extension module that was being loaded ends in the same way. So a command ends at once, without
+unwinding (`end_command_at_interrupt`), and what has results to keep is told, and stops where nothing is under way
+(`deferred_interrupts`).
+"""
+
+import os
+import signal
+import sys
+import threading
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import NoReturn
+
+INTERRUPTED = 130
+
+
+class Deferral:
+    """**Attribute:** `seen`: whether Ctrl-C was pressed since the block began. Who has dealt with it calls `taken`."""
+
+    def __init__(self):
+        self.seen, self._dealt_with = False, False
+
+    def taken(self) -> None:
+        """What Ctrl-C asks for has been done: no `KeyboardInterrupt` is raised at the end of the block."""
+        self._dealt_with = True
+
+    @property
+    def pending(self) -> bool:
+        return self.seen and not self._dealt_with
+
+
+_blocks: list[Deferral] = []
+"""The blocks that wait, the innermost last."""
+_listening: list[bool] = []
+"""Not empty while another thread hears of Ctrl-C."""
+
+
+@contextmanager
+def deferred_interrupts() -> Iterator[Deferral]:
+    """The first Ctrl-C inside the block is noted, and raised as `KeyboardInterrupt` at its end unless it was dealt
+    with; the second one has its usual effect at once. In another thread than the main one, and where Ctrl-C is ignored,
+    it changes nothing."""
+    found = Deferral()
+    previous = signal.getsignal(signal.SIGINT)
+    if threading.current_thread() is not threading.main_thread() or not callable(previous):
+        yield found
+        return
+
+    def note(number: int, frame: object) -> None:
+        if _listening:
+            return
+        if found.seen:
+            previous(number, frame)  # pyright: ignore[reportCallIssue, reportArgumentType]
+        found.seen = True
+
+    _blocks.append(found)
+    signal.signal(signal.SIGINT, note)
+    try:
+        yield found
+    finally:
+        signal.signal(signal.SIGINT, previous)
+        _blocks.remove(found)
+    if found.pending:
+        raise KeyboardInterrupt
+
+
+@contextmanager
+def listening() -> Iterator[None]:
+    """Inside this block another thread hears of Ctrl-C, before Python's handlers do, and tells by `note_interrupt`;
+    Python's handlers do nothing."""
+    previous = signal.signal(signal.SIGINT, lambda number, frame: None)
+    _listening.append(True)
+    try:
+        yield
+    finally:
+        _listening.pop()
+        signal.signal(signal.SIGINT, previous)
+
+
+def note_interrupt() -> bool:
+    """Ctrl-C was pressed: whether a block takes note of it, for the first time."""
+    if not _blocks or _blocks[-1].seen:
+        return False
+    _blocks[-1].seen = True
+    return True
+
+
+def end_command_at_interrupt() -> None:
+    """Where this process is the command `jaxbearing`: Ctrl-C ends it with code 130, from now on until it is gone. To be
+    called before anything large is imported. A program that imports the package keeps its own way."""
+    main_thread = threading.current_thread() is threading.main_thread()
+    if main_thread and is_the_command() and signal.getsignal(signal.SIGINT) is signal.default_int_handler:
+        signal.signal(signal.SIGINT, lambda number, frame: end_now(b"interrupted\n"))
+
+
+def is_the_command() -> bool:
+    """Whether this process was started as `jaxbearing ...` or `python -m jaxbearing ...`."""
+    words = iter(sys.orig_argv[1:])
+    for word in words:
+        if word in ("-X", "-W"):
+            next(words, None)
+        elif word == "-m":
+            return next(words, "") == "jaxbearing"
+        elif word == "-c" or not word.startswith("-"):
+            return word != "-c" and Path(word).stem == "jaxbearing"
+    return False
+
+
+def end_now(message: bytes, stream: int = 2) -> NoReturn:
+    """End the process with code 130, without unwinding. **Arguments:** `stream`: descriptor for the message."""
+    try:
+        os.write(stream, message)
+    except OSError:
+        pass
+    finally:
+        os._exit(INTERRUPTED)

@@ -1,0 +1,91 @@
+"""Reading the files that a user names: regular files of sane size, and nothing else.
+
+A device may have no end, a named pipe nobody who writes to it; neither is waited for. A pipe that the shell has opened
+for this process, as `<(command)` and `/dev/stdin` do, is read, up to the same size: whoever types it means it.
+"""
+
+import os
+import stat
+from pathlib import Path
+
+LARGEST_TEXT = 4 * 2**20
+"""Of a scene or an oil, bytes: a thousand times what one needs."""
+LARGEST_TABLE = 32 * 2**20
+"""Of a table of numbers, bytes: about a million rows."""
+_PIPES = ("/dev/fd/", "/dev/stdin", "/proc/self/fd/")
+_read_pipes: dict[tuple[int, int], bytes] = {}
+"""What came out of a pipe, by device and number: it comes only once, and some files are looked at twice."""
+
+
+class UnfitFileError(ValueError):
+    """A file that is not to be read. **Attributes:** `found`: what is there, in words; `missing`: whether nothing is
+    there."""
+
+    def __init__(self, found: str, missing: bool = False):
+        super().__init__(found)
+        self.found, self.missing = found, missing
+
+
+def read_bytes(path: str | os.PathLike[str], largest: int = LARGEST_TEXT) -> bytes:
+    """The content of a file of at most so many bytes.
+
+    **Raises:** `UnfitFileError` for a file that is missing, too large, unreadable, or not regular (see above).
+    """
+    try:
+        status = os.stat(path)
+        if stat.S_ISFIFO(status.st_mode) and os.fspath(path).startswith(_PIPES):
+            return _of_pipe(path, status, largest)
+        _check(status, largest)
+        # not to be waited for, should it have become a pipe since
+        descriptor = os.open(path, os.O_RDONLY | getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_BINARY", 0))
+        with open(descriptor, "rb") as file:
+            _check(os.fstat(descriptor), largest)
+            # some regular files, in /proc, do not tell their size
+            return _bounded(file.read(largest + 1), largest)
+    except FileNotFoundError:
+        raise UnfitFileError("no such file", missing=True) from None
+    except OSError as error:
+        raise UnfitFileError(f"a file that cannot be read: {error.strerror or error}") from None
+    except UnfitFileError:
+        raise
+    except ValueError as error:
+        # a path with a null byte
+        raise UnfitFileError(f"a file that cannot be read: {error}") from None
+
+
+def check_regular(path: str | os.PathLike[str]) -> None:
+    """For readers that open a file themselves. **Raises:** `OSError` where there is none, or none that is regular."""
+    try:
+        _check(os.stat(path))
+    except UnfitFileError as error:
+        raise OSError(22, f"it is {error.found}", os.fspath(path)) from None
+
+
+_KINDS = (
+    (stat.S_ISDIR, "a folder"),
+    (stat.S_ISFIFO, "a pipe"),
+    (stat.S_ISSOCK, "a socket"),
+    (stat.S_ISCHR, "a device"),
+    (stat.S_ISBLK, "a device"),
+)
+
+
+def _check(status: os.stat_result, largest: int | None = None) -> None:
+    if not stat.S_ISREG(status.st_mode):
+        raise UnfitFileError(next((words for is_kind, words in _KINDS if is_kind(status.st_mode)), "no regular file"))
+    if largest is not None and status.st_size > largest:
+        raise UnfitFileError(f"a file of {status.st_size / 2**20:.4g} MiB, more than {largest >> 20} MiB")
+
+
+def _of_pipe(path: str | os.PathLike[str], status: os.stat_result, largest: int) -> bytes:
+    key = status.st_dev, status.st_ino
+    if key not in _read_pipes:
+        with Path(path).open("rb") as file:
+            _read_pipes[key] = _bounded(file.read(largest + 1), largest)
+    return _read_pipes[key]
+
+
+def _bounded(content: bytes, largest: int) -> bytes:
+    if len(content) > largest:
+        raise UnfitFileError(f"more than {largest >> 20} MiB")
+    return content

@@ -1,0 +1,168 @@
+"""Ctrl-C, to any verb at any moment: exit code 130 at once, one line, no crash of the ending process; what was computed
+is kept."""
+
+import contextlib
+import os
+import pty
+import re
+import signal
+import subprocess
+import sys
+import time
+
+import numpy as np
+import pytest
+import xarray as xr
+from command_process import environment
+from fit_results import MEDIAN
+
+import jaxbearing as jb
+
+DRY = ("reference_roller", "--set", "contact=none")
+BALL = ("deep_groove_6205", "--set", "contact=none")
+LINE = ("satellite_contact_1", "--set", "contact.nodes=101")
+SWEEP = ("sweep", *DRY, "--over", "operation.radial_load=5 kN:9 kN:4", "--chunk", "2", "--out", "a.nc")
+SWINGING = ("--set", "simulation.speed_ramp=none", "--set", "simulation.speed_perturbation.frequency=1 kHz")
+SWINGING = (*SWINGING, "--set", "simulation.speed_perturbation.amplitude=0.5")
+BEARING = ("turbine_roller_dynamic", "--set", "contact.thermal=none")
+_AT_IMPORT = """
+import os, signal, sys, threading, time
+# tests started in the background of a shell may ignore Ctrl-C, and so would what they start
+signal.signal(signal.SIGINT, signal.default_int_handler)
+reached = []
+def press():
+    with open("pressed", "w") as file:
+        file.write(repr(time.time()))
+    os.kill(os.getpid(), signal.SIGINT)
+def hook(event, arguments):
+    if event == "import" and arguments[0] == {module!r} and not reached:
+        reached.append(True)
+        threading.Timer({delay}, press).start() if {delay} else press()
+sys.addaudithook(hook)
+"""
+"""Python runs it before anything else: Ctrl-C comes when a module is imported, or so many seconds later."""
+MOMENTS = {
+    "the first import": (("scenes",), "jax", 0),
+    "an extension that is being loaded": (("solve", *DRY), "jaxlib._jax", 0),
+    "the scene that is being read": (("solve", *DRY), "pint", 0),
+    "the program that is being traced or compiled": (("solve", *BALL), "jaxbearing.solve", 0.7),
+    "a run that begins": (
+        ("simulate", *LINE, "--duration", "2 ms", "--json", "--out", "a.nc"),
+        "jaxbearing.cli.quiet",
+        0.5,
+    ),
+    "a sweep": (SWEEP, "jaxbearing.sweeps.engine", 0.5),
+    "a picture that is being drawn": (("solve", *DRY, "--out", "a.nc", "--plot", "a.png"), "matplotlib.figure", 0),
+}
+DEAR = {
+    "a fit": (("fit", str(MEDIAN), "--scene", "two_disk_etm", "--out", "a.toml"), "fitting.fit", 3.0),
+    "a study": (("study", "reference_roller", "--out", "a.nc"), "jaxbearing.studies", 4.0),
+    "stiffness": (("stiffness", *BALL, "--speeds", "1 rpm:9 rpm:2", "--ross", "a.toml"), "jaxbearing.solve", 3.0),
+    "a report": (("report", "turbine_ball", "--out", "a.html"), "jaxbearing.solve", 4.0),
+    "sensitivities": (("solve", "turbine_roller", "--sensitivities"), "jaxbearing.sensitivity", 6.0),
+    "compilation of a run": (("simulate", *BEARING, "--duration", "5 ms", "--out", "a.nc"), "diffrax", 5.0),
+}
+PROMPT = 20.0
+"""Longest time from Ctrl-C to the end, s: on a machine that is busy with other tests. Alone it takes 0.1 s."""
+
+
+def pressed(folder, arguments, module, delay):
+    """Exit code, stdout, stderr and seconds after Ctrl-C of a command."""
+    (folder / "hook").mkdir()
+    (folder / "hook" / "sitecustomize.py").write_text(_AT_IMPORT.format(module=module, delay=delay), encoding="utf-8")
+    place = folder / "work"
+    place.mkdir()
+    variables = environment()
+    variables["PYTHONPATH"] = f"{folder / 'hook'}{os.pathsep}{variables['PYTHONPATH']}"
+    command = [sys.executable, "-m", "jaxbearing", *arguments]
+    done = subprocess.run(command, cwd=place, env=variables, capture_output=True, text=True, timeout=300, check=False)
+    end = time.time()
+    mark = place / "pressed"
+    assert mark.exists(), f"Ctrl-C never came: {done.stderr}"
+    seconds = end - float(mark.read_text(encoding="utf-8"))
+    mark.unlink()
+    return done, seconds, place
+
+
+def check(done, seconds):
+    assert done.returncode == 130, done.stderr
+    assert seconds < PROMPT
+    assert re.fullmatch(r"interrupted(: .*)?\n", done.stderr)
+
+
+@pytest.mark.parametrize("moment", MOMENTS)
+def test_any_moment(moment, tmp_path):
+    done, seconds, place = pressed(tmp_path, *MOMENTS[moment])
+    check(done, seconds)
+    if moment == "a picture that is being drawn":
+        assert "CONVERGED" in done.stdout
+        assert done.stderr == "interrupted: not written: a.png\n"
+        assert os.listdir(place) == ["a.nc"]
+    elif moment == "a sweep":
+        assert re.fullmatch(r"interrupted: (no case is|[24] of 4 cases are) kept.*\n", done.stderr)
+    else:
+        assert (done.stdout, os.listdir(place)) == ("", [])
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("moment", DEAR)
+def test_any_moment_of_long_work(moment, tmp_path):
+    done, seconds, place = pressed(tmp_path, *DEAR[moment])
+    check(done, seconds)
+    assert done.stderr == "interrupted: nothing was computed\n"
+    assert (done.stdout, os.listdir(place)) == ("", [])
+
+
+def test_data_that_are_being_written_are_written(tmp_path):
+    """Ctrl-C during a short file lets it be finished and leaves out the next."""
+    arguments = ("solve", *DRY, "--out", "a.nc", "--plot", "a.png")
+    done, _, place = pressed(tmp_path, arguments, "h5netcdf", 0)
+    assert done.returncode == 130
+    assert "CONVERGED" in done.stdout
+    assert done.stderr == "interrupted: not written: a.png\n"
+    assert os.listdir(place) == ["a.nc"]
+    with xr.open_dataset(place / "a.nc", engine="h5netcdf") as found:
+        assert "ring_radial" in found
+
+
+def on_a_terminal(command, out):
+    """Code, and what was shown, of a run of 10 s with Ctrl-C when its bar shows that it moves."""
+    reader, terminal = pty.openpty()
+    listening = "import runpy, signal; signal.signal(signal.SIGINT, signal.default_int_handler); "
+    listening += "runpy.run_module('jaxbearing', run_name='__main__')"
+    program = [sys.executable, "-c", listening, *command, "--duration", "10 s", "--out", str(out)]
+    with subprocess.Popen(program, stdout=terminal, stderr=subprocess.PIPE, env=environment(TERM="xterm")) as run:
+        os.close(terminal)
+        shown = b""
+        while b"of 1e+04 ms" not in shown:
+            shown += os.read(reader, 4096)
+        run.send_signal(signal.SIGINT)
+        with contextlib.suppress(OSError):  # the end of a terminal
+            while part := os.read(reader, 4096):
+                shown += part
+        assert run.stderr is not None
+        assert b"Traceback" not in run.stderr.read()
+        code = run.wait()
+    os.close(reader)
+    return code, shown
+
+
+@pytest.mark.parametrize(
+    "scene", [pytest.param(BEARING, marks=pytest.mark.slow, id="bearing"), pytest.param(LINE, id="line contact")]
+)
+def test_interrupted_run_keeps_what_it_has(scene, tmp_path):
+    """A process on a terminal, and Ctrl-C when its bar shows that it moves."""
+    out = tmp_path / "run.nc"
+    code, shown = on_a_terminal(("simulate", *scene, *(SWINGING if scene == LINE else ())), out)
+    assert code == 130, shown
+    assert b"interrupted" in shown
+    with xr.open_dataset(out, engine="h5netcdf") as dataset:
+        assert dataset.attrs["completed"] == 0
+        reached = float(dataset["time"][-1])
+        assert 0.0 < reached < 10.0
+    last = jb.read_last_state(out)
+    assert last.time == reached
+    model = jb.load_scene(scene[0], {"contact.thermal": "none"} if scene == BEARING else {"contact.nodes": "101"})
+    if scene == BEARING:
+        again = jb.simulate(model, 0.5e-3, restart=last)
+        np.testing.assert_allclose(float(again.stop), reached + 0.5e-3)
