@@ -14,7 +14,7 @@ import numpy as np
 from life_page import page_scene
 
 import jaxbearing as jb
-from jaxbearing.bearings.roller_simulation import _lane
+from jaxbearing.bearings.history import History, Instant
 from jaxbearing.ehl import LineContactHistory
 from jaxbearing.numerics.newton import NewtonOptions
 from jaxbearing.numerics.precision import as_float
@@ -30,17 +30,14 @@ _RATING = {
 }
 
 SCENES = {
-    "ball": lambda: jb.load_scene("turbine_ball", _RATING),
-    "ball with all of its motion": lambda: jb.load_scene(
-        "turbine_ball", {"kinematics.gyroscopic": "resolved", "contact.heathcote": "true"}
+    "ball": lambda: jb.load_scene(
+        "turbine_ball", {"kinematics.gyroscopic": "resolved", "contact.heathcote": "true", **_RATING}
     ),
-    "radial ball": lambda: jb.load_scene("deep_groove_6205", {"operation.axial_load": "none", **_RATING}),
+    "dry ball": lambda: jb.load_scene("deep_groove_6205", {"operation.axial_load": "none"}),
     "roller": lambda: jb.load_scene("turbine_roller", {"contact.rolling_resistance": "ertel_grubin", **_RATING}),
     "dry roller": lambda: jb.load_scene("turbine_roller", dict.fromkeys(("contact", "cage", "flange", "drag"), "none")),
     "misaligned roller": lambda: page_scene(),
-    "tilting roller": lambda: page_scene({"operation.misalignment": "none", "operation.moment": "0 N*m"}),
     "tapered": lambda: jb.load_scene("tapered_example", _RATING),
-    "dry tapered": lambda: jb.load_scene("tapered_example", {"contact": "none", "rating": "none", "drag": "none"}),
     "two-disk": lambda: jb.load_scene("two_disk_etm"),
     "warm two-disk": lambda: jb.load_scene("two_disk_mobil_jet_ii", {"contact.film_heating": "true"}),
     "line contact": lambda: jb.load_scene("satellite_contact_1"),
@@ -96,37 +93,40 @@ def solution_of(scene, lanes=()):
 
 
 def history_of(scene, duration=1e-3):
-    """A run of a scene."""
+    """A run of a scene, with every field that its classes have."""
     if isinstance(scene, jb.CylindricalRollerBearing):
-        times = jnp.linspace(0.0, duration, INSTANTS)
-        structure = jax.eval_shape(lambda one: _lane(one, None, times), jax.tree.map(as_float, scene))
+        sizes = {"element": scene.geometry.n_rollers, "roller_state": 3, "cage_state": 6}
+        instants = filled(_by_annotation(Instant, sizes), (INSTANTS,))
+        found = filled(_by_annotation(History, sizes | {"time": INSTANTS}, instants=None, solver="dopri5"))
+        found = eqx.tree_at(lambda run: run.instants, found, instants, is_leaf=lambda leaf: leaf is None)
     else:
-        structure = _by_annotation(LineContactHistory)
-    time = jnp.linspace(0.0, duration, structure.time.shape[0])
-    where = lambda run: (run.time, run.stop, run.operation)
-    return eqx.tree_at(where, filled(structure), (time, time[-1], scene.operation))
+        sizes = {"time": INSTANTS, "node": NODES, "last_time": 3, "last_step": 2}
+        found = filled(_by_annotation(LineContactHistory, sizes))
+    time = jnp.linspace(0.0, duration, INSTANTS)
+    return eqx.tree_at(
+        lambda run: (run.time, run.stop, run.operation),
+        found,
+        (time, time[-1], scene.operation),
+        is_leaf=lambda leaf: leaf is None,
+    )
 
 
-def _by_annotation(annotation):
+def _by_annotation(kind, sizes, **given):
     """A part of a result with shapes for arrays, as the annotations of its fields say."""
-    sizes = {"time": INSTANTS, "node": NODES, "last_time": 3, "last_step": 2}
-    fields = {}
-    for field in dataclasses.fields(annotation):
-        if dataclasses.is_dataclass(field.type):
-            fields[field.name] = _by_annotation(field.type)
-        elif field.name == "checks":
-            fields[field.name] = {"beyond a range": jax.ShapeDtypeStruct((), bool)}
-        elif not field.metadata.get("static", False):
-            whole = field.name in ("status", "accepted", "rejected", "newton_steps", "known")
-            shape = tuple(sizes[name] for name in dimensions(field.type))
-            fields[field.name] = jax.ShapeDtypeStruct(shape, jnp.int64 if whole else jnp.float64)
-    return _unchecked(annotation, fields)
-
-
-def _unchecked(kind, fields):
-    """An instance that holds shapes where its class wants numbers."""
-    made = object.__new__(kind)
+    made = object.__new__(kind)  # its own checks would want numbers
     for field in dataclasses.fields(kind):
-        default = None if field.default is dataclasses.MISSING else field.default
-        object.__setattr__(made, field.name, fields.get(field.name, default))
+        object.__setattr__(made, field.name, given[field.name] if field.name in given else _field(field, sizes))
     return made
+
+
+def _field(field, sizes):
+    parts = [one for one in (field.type, *typing.get_args(field.type)) if dataclasses.is_dataclass(one)]
+    if parts:
+        return _by_annotation(parts[0], sizes)
+    if field.name == "checks":
+        return {"beyond a range": jax.ShapeDtypeStruct((), bool)}
+    if field.metadata.get("static", False) or field.type is typing.Any:
+        return None if field.default is dataclasses.MISSING else field.default
+    whole = "int64" in getattr(field.type, "dtypes", ())
+    shape = tuple(sizes[name] for name in dimensions(field.type))
+    return jax.ShapeDtypeStruct(shape, jnp.int64 if whole else jnp.float64)

@@ -1,4 +1,4 @@
-"""Every command line of README and docs runs as it is printed, page by page in one folder, as a reader would type it.
+"""Every command line of README and docs runs as it is printed, page by page, as a reader would type it.
 
 With made up results (`filled_results`) all but the solvers is real: reading, `--set` paths, options, files, pictures,
 screen. The slow test has the solvers too; it shortens runs in time and sweeps.
@@ -8,6 +8,7 @@ import dataclasses
 import json
 import re
 import shlex
+import shutil
 import sys
 from pathlib import Path
 
@@ -51,7 +52,6 @@ def _programs(line):
 
 
 COMMANDS = {page.relative_to(ROOT).as_posix(): commands_of(page.read_text(encoding="utf-8")) for page in PAGES}
-WITH_COMMANDS = [page for page, commands in COMMANDS.items() if commands]
 
 
 def test_commands_are_found():
@@ -62,7 +62,7 @@ def test_commands_are_found():
 
 @pytest.fixture
 def folder(tmp_path, monkeypatch):
-    """Where a reader works, with the files that the pages show or describe."""
+    """Where a reader works; in `given` the files that the pages show or describe."""
     readme, life = (ROOT / name for name in ("README.md", "docs/life.md"))
     (curves,) = re.findall(r"```csv\n(.*?)```", readme.read_text(encoding="utf-8"), flags=re.DOTALL)
     (scene,) = re.findall(r"```toml\n(.*?)```", life.read_text(encoding="utf-8"), flags=re.DOTALL)
@@ -72,9 +72,9 @@ def folder(tmp_path, monkeypatch):
         "cases.csv": "operation.inner_speed [rpm],operation.radial_load [kN]\n8000,20\n10000,25\n",
         "run_up.csv": "time [ms],speed [rpm]\n0,8000\n10,9000\n50,10500\n",
     }
+    (tmp_path / "given").mkdir()
     for name, text in files.items():
-        (tmp_path / name).write_text(text, encoding="utf-8")
-    monkeypatch.chdir(tmp_path)
+        (tmp_path / "given" / name).write_text(text, encoding="utf-8")
     monkeypatch.setenv("JAXBEARING_CACHE", "off")
     return tmp_path
 
@@ -133,36 +133,44 @@ def shortened(monkeypatch, one_process):
     monkeypatch.setattr(sys.modules["jaxbearing.simulate"], "simulate", short)
 
 
-def run_page(page, folder, monkeypatch, capfd, without=()):
-    for arguments in COMMANDS[page]:
-        if arguments[0] in without:
-            continue
-        command = shlex.join(["jaxbearing", *arguments])
-        monkeypatch.setattr("sys.argv", ["jaxbearing", *arguments])
-        capfd.readouterr()
-        with pytest.raises(SystemExit) as ended:
-            main()
-        out, err = capfd.readouterr()
-        assert not ended.value.code, f"{page}: {command}\n{err}{out}"
-        if "--json" in arguments:
-            assert json.loads(out)["converged"] is True, command
-        for option in ("--out", "--plot", "--ross", "--animation"):
-            if option in arguments:
-                assert (folder / arguments[arguments.index(option) + 1]).stat().st_size > 0, command
+def run_all(folder, monkeypatch, capfd, without=()):
+    """Each command once, in the order of the pages, each page in a folder of its own."""
+    done = []
+    for page, commands in COMMANDS.items():
+        here = folder / page.replace("/", "_")
+        shutil.copytree(folder / "given", here)
+        monkeypatch.chdir(here)
+        for arguments in commands:
+            if arguments not in done and arguments[0] not in without:
+                run_one(page, arguments, here, monkeypatch, capfd)
+                done.append(arguments)
+
+
+def run_one(page, arguments, folder, monkeypatch, capfd):
+    command = shlex.join(["jaxbearing", *arguments])
+    monkeypatch.setattr("sys.argv", ["jaxbearing", *arguments])
+    capfd.readouterr()
+    with pytest.raises(SystemExit) as ended:
+        main()
+    out, err = capfd.readouterr()
+    assert not ended.value.code, f"{page}: {command}\n{err}{out}"
+    if "--json" in arguments:
+        assert json.loads(out)["converged"] is True, command
+    for option in ("--out", "--plot", "--ross", "--animation"):
+        if option in arguments:
+            assert (folder / arguments[arguments.index(option) + 1]).stat().st_size > 0, command
 
 
 @pytest.mark.usefixtures("made_up")
-@pytest.mark.parametrize("page", WITH_COMMANDS)
-def test_commands_run(page, folder, monkeypatch, capfd):
-    run_page(page, folder, monkeypatch, capfd)
+def test_commands_run(folder, monkeypatch, capfd):
+    run_all(folder, monkeypatch, capfd)
 
 
 @pytest.mark.slow
 @pytest.mark.usefixtures("shortened")
-@pytest.mark.parametrize("page", WITH_COMMANDS)
-def test_commands_run_with_their_solvers(page, folder, monkeypatch, capfd):
+def test_commands_run_with_their_solvers(folder, monkeypatch, capfd):
     # the study, of 100 solves, has a test of its own
-    run_page(page, folder, monkeypatch, capfd, without=("study",))
+    run_all(folder, monkeypatch, capfd, without=("study",))
 
 
 def test_scripts_and_tests_that_are_named_are_there():
