@@ -9,14 +9,14 @@ from pathlib import Path
 import jaxbearing as jb
 
 PAGE = (Path(__file__).parents[1] / "docs" / "life.md").read_text(encoding="utf-8")
+(PAGE_SCENE,) = re.findall(r"```toml\n(.*?)```", PAGE, flags=re.DOTALL)
 
 
 def page_scene(changes=None):
     """The scene file of the page, with other values."""
-    (text,) = re.findall(r"```toml\n(.*?)```", PAGE, flags=re.DOTALL)
     with tempfile.TemporaryDirectory() as folder:
         file = Path(folder) / "misaligned.toml"
-        file.write_text(text, encoding="utf-8")
+        file.write_text(PAGE_SCENE, encoding="utf-8")
         return jb.load_scene(str(file), changes or {})
 
 
