@@ -152,7 +152,8 @@ def check_row_fits(count: int, diameter: Any, pitch_diameter: Any, element: str 
         return
     chord = sizes[1] * math.sin(math.pi / max(count, 2))
     if sizes[0] >= chord:
+        most = math.ceil(math.pi / math.asin(sizes[0] / sizes[1])) - 1 if sizes[0] < sizes[1] else 0
         raise ValueError(
             f"{name}: {count} {element}s of diameter {sizes[0]:g} m do not fit on a pitch "
-            f"circle of {sizes[1]:g} m: their centres are {chord:g} m apart"
+            f"circle of {sizes[1]:g} m: their centres are {chord:g} m apart; at most {most} fit"
         )

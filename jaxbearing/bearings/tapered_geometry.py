@@ -136,36 +136,45 @@ def _check(
     if cone <= 0.0:
         raise ValueError(f"geometry.roller_half_angle must be below half the contact_angle, got {degrees(half)}")
     if length * math.sin(half) >= 0.5 * diameter:
-        raise ValueError(f"geometry.roller_length: {length:g} m reaches beyond the tip of the roller's cone")
-    if end_radius <= 0.5 * diameter:
-        raise ValueError(f"geometry.end_radius must be above half the roller_diameter, got {end_radius:g} m")
+        raise ValueError(
+            f"geometry.roller_length must be below {0.5 * diameter / math.sin(half):g} m (the roller's cone ends "
+            f"there), got {length:g} m"
+        )
+    # a longer radius than the cone is fits the rib closer than a sphere can: Hertz's contact does not hold
+    slant = 0.5 * diameter / math.sin(half)
+    if not 0.5 * diameter < end_radius < slant:
+        raise ValueError(
+            f"geometry.end_radius must be above {0.5 * diameter:g} m (half the roller_diameter) and below {slant:g} m "
+            f"(from the apex of the roller's cone to its big end), got {end_radius:g} m"
+        )
     radius = 0.5 * diameter * math.sin(gamma) / math.tan(half)
     # rollers are nearest where they touch their neighbours: the plane of two axes through the apex
     if math.sin(half) >= math.sin(gamma) * math.sin(math.pi / max(n_rollers, 2)):
+        most = math.ceil(math.pi / math.asin(math.sin(half) / math.sin(gamma))) - 1
         raise ValueError(
             f"geometry.n_rollers: {n_rollers} rollers of big-end diameter {diameter:g} m do not fit on a circle of "
-            f"radius {radius:g} m"
-        )
-    theta = gamma - flange
-    if theta <= 0.0:
-        raise ValueError(
-            f"geometry.flange_angle must be below {degrees(gamma)} (the roller axis), got {degrees(flange)}: the "
-            "roller end would not touch the rib below its axis"
-        )
-    if end_radius * math.sin(theta) >= 0.5 * diameter:
-        raise ValueError(
-            f"geometry.flange_angle: with {degrees(flange)} and an end_radius of {end_radius:g} m the contact lies "
-            "beyond the roller's end face"
+            f"radius {radius:g} m, at most {most}"
         )
     height = math.sqrt(end_radius**2 - 0.25 * diameter**2)
     contact_radius = radius + end_radius * math.sin(flange) - height * math.sin(gamma)
     cone_big_end = diameter / (2.0 * math.sin(half)) * math.sin(cone)
-    if contact_radius <= cone_big_end:
+    # at the rim of the end face, and where the rib ends at the cone
+    rim = gamma - math.asin(0.5 * diameter / end_radius)
+    foot = (cone_big_end - radius + height * math.sin(gamma)) / end_radius
+    lowest = max(rim, math.asin(max(foot, 0.0))) if foot < math.sin(gamma) else math.inf
+    if lowest >= gamma:
         raise ValueError(
-            f"geometry.flange_angle: the contact with the rib at radius {contact_radius:g} m lies below the cone's big "
-            f"end, {cone_big_end:g} m"
+            f"geometry.flange_angle: no angle puts the contact of the rib on the roller's end face; an end_radius of "
+            f"{end_radius:g} m does not fit the other sizes"
         )
-    if 1.0 / end_radius <= math.sin(flange) / contact_radius:
+    if not lowest < flange < gamma:
+        if flange >= gamma:
+            why = "from the roller axis on, the rib would touch the end on the far side of the axis"
+        elif flange <= rim:
+            why = "the contact lies beyond the roller's end face"
+        else:
+            why = f"the contact, at radius {contact_radius:g} m, lies below the cone's big end, {cone_big_end:g} m"
         raise ValueError(
-            f"geometry.end_radius: {end_radius:g} m fits the rib closer than a sphere can: Hertz does not hold"
+            f"geometry.flange_angle must be above {degrees(lowest)} and below {degrees(gamma)} (the roller axis) with "
+            f"an end_radius of {end_radius:g} m, got {degrees(flange)}: {why}"
         )

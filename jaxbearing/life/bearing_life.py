@@ -128,7 +128,8 @@ def bearing_life(scene: Any, solution: Solution) -> Life:
         inner, outer = minimum_films(scene, solid[0])
         more |= {"film_ratio_inner": film_ratio(inner, *rough), "film_ratio_outer": film_ratio(outer, *rough)}
     if rated.catalogue_load is not None:
-        more["L10"] = basic_life(rated.dynamic_capacity, rated.catalogue_load, exponent)
+        basic = basic_life(rated.dynamic_capacity, rated.catalogue_load, exponent)
+        more |= {"L10": basic, "L10h": hours(basic)}
     life = Life(
         damage_rate=rate,
         L10r=reference,

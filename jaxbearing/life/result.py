@@ -28,6 +28,7 @@ class Life(eqx.Module):
     equivalent_load: _Number = _result("N", "load P at which ISO 281 gives the reference life")
     reliability_factor: _Number = _result("1", "a_1")
     L10: _Number | None = _optional("1", "basic rating life of ISO 281 by catalogue formulas, million revolutions")
+    L10h: _Number | None = _optional("h", "basic rating life of ISO 281 by catalogue formulas")
     viscosity_ratio: _Number | None = _optional("1", "kappa, viscosity over that of an adequate film")
     modification_factor: _Number | None = _optional("1", "a_ISO")
     Lnmr: _Number | None = _optional("1", "modified reference rating life a_1 a_ISO L10r, million revolutions")

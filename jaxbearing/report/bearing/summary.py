@@ -173,7 +173,7 @@ def _life(solution: Solution) -> Iterator[tuple[str, str]]:
     kilonewton = lambda name: f"{digits(1e-3 * of(name))} kN"
     lives = f"L10r {_revolutions(of('L10r'))}, {digits(of('L10r_hours'))} h"
     if life.L10 is not None:
-        lives += f"; ISO 281 L10 {_revolutions(of('L10'))}"
+        lives += f"; ISO 281 L10 {_revolutions(of('L10'))}, {digits(of('L10h'))} h"
     yield "Life", lives
     yield "Rating", f"C {kilonewton('dynamic_capacity')}, C0 {kilonewton('static_capacity')}"
     said = [] if life.viscosity_ratio is None else [f"kappa {digits(of('viscosity_ratio'), 3)}"]
@@ -182,7 +182,8 @@ def _life(solution: Solution) -> Iterator[tuple[str, str]]:
         thinnest = float(np.nanmin(ratios))  # NaN: a roller that touches nothing
         said.append(f"smallest lambda ratio {digits(thinnest, 3)}")
     if life.Lnmr is not None:
-        said.append(f"a_ISO {digits(of('modification_factor'), 3)}, modified life {_revolutions(of('Lnmr'))}")
+        modified = f"modified life {_revolutions(of('Lnmr'))}, {digits(of('Lnmr_hours'))} h"
+        said.append(f"a_ISO {digits(of('modification_factor'), 3)}, {modified}")
     if said:
         yield "Lubrication", ", ".join(said)
 
