@@ -31,6 +31,7 @@ from jaxbearing.report.json_report import solution_to_dict
 from jaxbearing.report.labelled import labelled, udunits
 from jaxbearing.report.plots import plot_solution, save_plot
 from jaxbearing.report.summary import print_summary
+from jaxbearing.report.sweep_summary import print_sweep
 from jaxbearing.sweeps import labels
 
 WHEN = datetime(2026, 1, 1, tzinfo=UTC)
@@ -38,6 +39,8 @@ OTHERS = ("two-disk", "warm two-disk", "line contact")
 """Scenes that are no bearings."""
 IN_OTHER_WORDS = ("status", "worst_equation", "stiffness", "deborah_number", "inner_residual")
 """Fields of the JSON that are texts, of a part of the numbers, or of the largest."""
+DRAWN = {"power_loss_total", "life_L10h", "film_central", "ring_radial", "cage_slip"}
+"""Results with one number a case of which some are drawn."""
 HISTORIES = ("roller", "line contact")
 PARTS = (
     Solution,
@@ -198,6 +201,9 @@ def test_sweep(kind, tmp_path, monkeypatch):
             dims = there[path].dims
             assert len(dims) in (value.ndim, value.ndim + 1)
             assert dims[: len(dims) - value.ndim] in ((), (axis.replace(".", "_"),)), path
+        print_sweep(tmp_path / f"a.{suffix}", "a sweep", 0, 1.0, Console(file=io.StringIO(), width=80))
+    for name in DRAWN & set(found):
+        plots.result_against(found, name)
 
 
 @kinds
