@@ -169,7 +169,7 @@ def _check(
         )
     if not lowest < flange < gamma:
         if flange >= gamma:
-            why = "from the roller axis on, the rib would touch the end on the far side of the axis"
+            why = "the roller end would not touch the rib below its axis"
         elif flange <= rim:
             why = "the contact lies beyond the roller's end face"
         else:
