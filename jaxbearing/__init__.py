@@ -30,9 +30,13 @@ from .sweep import sweep as sweep  # noqa: E402
 
 if TYPE_CHECKING:
     from . import plots as plots
+    from . import sweeps as sweeps
     from .bearings.ball_bearing import BallBearing as BallBearing
     from .bearings.cylindrical_roller import CylindricalRollerBearing as CylindricalRollerBearing
     from .bearings.history import History as History
+    from .bearings.roller_instants import pocket_loads as pocket_loads
+    from .bearings.roller_motion import quasi_static_start as quasi_static_start
+    from .bearings.roller_simulation import trajectory as trajectory
     from .bearings.simulation import Simulation as Simulation
     from .bearings.solution import Solution as Solution
     from .numerics.newton import NewtonOptions as NewtonOptions
@@ -58,19 +62,24 @@ _LAZY = {
     "Status": ".numerics.status",
     "builtin_names": ".scenes.reader",
     "load_scene": ".scenes.reader",
+    "pocket_loads": ".bearings.roller_instants",
+    "quasi_static_start": ".bearings.roller_motion",
     "read_last_state": ".report.history_file",
     "sensitivities": ".sensitivity",
+    "trajectory": ".bearings.roller_simulation",
 }
 """Public names that pull in the edge (units, validation) or are only needed by some; imported on first use."""
+_MODULES = ("plots", "sweeps")
+"""Modules that are public as such."""
 
 
 def __getattr__(name: str) -> Any:
-    if name == "plots":
-        return importlib.import_module(".plots", __name__)
+    if name in _MODULES:
+        return importlib.import_module(f".{name}", __name__)
     if name in _LAZY:
         return getattr(importlib.import_module(_LAZY[name], __name__), name)
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
 
 
 def __dir__() -> list[str]:
-    return sorted([*globals(), *_LAZY, "plots"])
+    return sorted([*globals(), *_LAZY, *_MODULES])

@@ -56,10 +56,10 @@ class Instant(eqx.Module):
     kinetic_energy: Float[Array, ""] = eqx.field(metadata=label("J", "kinetic energy of rolling elements and cage"))
     pocket_energy: Float[Array, ""] = eqx.field(metadata=label("J", "elastic energy of the pocket films"))
     raceway_energy: Float[Array, ""] = eqx.field(metadata=label("J", "elastic energy of the raceway contacts"))
-    state_rollers: Float[Array, "component element"] = eqx.field(
+    state_rollers: Float[Array, "roller_state element"] = eqx.field(
         metadata=label("1", "state of the rolling elements: position, orbital and spin speed in the frame of the run")
     )
-    state_cage: Float[Array, " cage_component"] = eqx.field(
+    state_cage: Float[Array, " cage_state"] = eqx.field(
         metadata=label(
             "1", "state of the cage: x, y, angle times pitch radius in the frame of the run, and their rates"
         )

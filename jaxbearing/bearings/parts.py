@@ -142,11 +142,12 @@ def check_row_fits(count: int, diameter: Any, pitch_diameter: Any, element: str 
     if sizes is None:
         return
     chord = sizes[1] * math.sin(math.pi / max(count, 2))
+    most = lambda: math.ceil(math.pi / math.asin(sizes[0] / sizes[1])) - 1 if sizes[0] < sizes[1] else 0
     demand(
         f"{name} {element}s must fit on the pitch circle beside each other",
         sizes[0] < chord,
         lambda: (
             f"{name}: {count} {element}s of diameter {float(sizes[0]):g} m do not fit on a pitch "
-            f"circle of {float(sizes[1]):g} m: their centres are {float(chord):g} m apart"
+            f"circle of {float(sizes[1]):g} m: their centres are {float(chord):g} m apart; at most {most()} fit"
         ),
     )

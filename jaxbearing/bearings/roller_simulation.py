@@ -47,16 +47,19 @@ def trajectory(start: Start, times: Float[Array, " time"], simulation: Simulatio
     checkpoints, explicit solvers only:
 
         def mean_load(clearance):
-            start = quasi_static_start(scene.replace({"cage.pocket_clearance": clearance}), simulation)
-            run = trajectory(start, times, simulation)
-            load = lambda given: pocket_loads(start.dynamics, *given)[0]
+            start = jb.quasi_static_start(scene.replace({"cage.pocket_clearance": clearance}), simulation)
+            run = jb.trajectory(start, times, simulation)
+            load = lambda given: jb.pocket_loads(start.dynamics, *given)[0]
             return jnp.mean(jax.lax.map(load, (times, run.states)))
 
         jax.jit(jax.grad(mean_load))(300e-6)  # N per m
 
     A start that was not found takes no steps: its status is that of the trajectory, whose states are NaN.
 
-    **Arguments:** `adjoint`: of diffrax, e.g. `diffrax.ForwardMode()`; reverse mode with checkpoints where not given.
+    **Arguments:**
+    - `start`: from `quasi_static_start`.
+    - `times`: s, shape (time,).
+    - `adjoint`: of diffrax, e.g. `diffrax.ForwardMode()`; reverse mode with checkpoints where not given.
     """
     from ..numerics.integrate import integrate_segment  # diffrax, which nothing else needs, takes a second to import
 

@@ -21,6 +21,9 @@ INNER_TOLERANCE = 1e-8
 RING_FREEDOMS = ("axial", "radial", "lateral", "tilt", "tilt_lateral")
 """Degrees of freedom of the inner ring, in the order of `ring` and `stiffness`."""
 
+_CONJUGATE = {"m": "N", "rad": "N m"}
+"""Unit of a displacement of the ring -> that of its load."""
+
 
 class RingDisplacement(eqx.Module):
     """Displacement of the inner ring; a degree of freedom that the family does not activate is held at 0.
@@ -37,6 +40,13 @@ class RingDisplacement(eqx.Module):
     lateral: Float[Array, ""] = eqx.field(metadata=label("m", "displacement across the load line"))
     tilt: Float[Array, ""] = eqx.field(metadata=label("rad", "tilt that moves azimuth 0 axially"))
     tilt_lateral: Float[Array, ""] = eqx.field(metadata=label("rad", "tilt about the load line"))
+
+
+def stiffness_units() -> tuple[tuple[str, ...], ...]:
+    """Units of the entries of `Solution.stiffness`: N/m, N/rad, N m/m and N m/rad."""
+    fields = {field.name: field for field in dataclasses.fields(RingDisplacement)}
+    units = [fields[name].metadata["unit"] for name in RING_FREEDOMS]
+    return tuple(tuple(f"{_CONJUGATE[row]}/{column}" for column in units) for row in units)
 
 
 class CageState(eqx.Module):
@@ -186,8 +196,12 @@ class Solution(AbstractSolution):
     drive_power: Float[Array, ""] | None = eqx.field(metadata=label("W", "sum over both rings of torque times speed"))
     inner_torque: Float[Array, ""] | None = eqx.field(metadata=label("N m", "torque that drives the inner ring"))
     outer_torque: Float[Array, ""] | None = eqx.field(metadata=label("N m", "torque that drives the outer ring"))
-    stiffness: Float[Array, "freedom freedom"] = eqx.field(
-        metadata=label("N/m", "d load / d displacement, active freedoms")
+    stiffness: Float[Array, "freedom freedom_displaced"] = eqx.field(
+        metadata=label(
+            "mixed",
+            "d load / d displacement of the inner ring: rows and columns axial, radial, lateral, tilt, tilt_lateral, "
+            "in N/m, N/rad, N m/m and N m/rad; freedoms that are not modelled are 0",
+        )
     )
     checks: Mapping[str, Bool[Array, ""]]
     ring_freedom: tuple[str, ...] = eqx.field(static=True)
@@ -196,7 +210,7 @@ class Solution(AbstractSolution):
     unknowns: int = eqx.field(static=True, metadata=label("1", "unknowns of the equations"))
     notes: tuple[str, ...] = eqx.field(static=True, default=())
     stiffness_freedom: tuple[str, ...] | None = eqx.field(static=True, default=None)
-    """Rows and columns of `stiffness`; `None`: those of `ring_freedom`."""
+    """Rows and columns of `stiffness` that are modelled; `None`: those of `ring_freedom`. The others are 0."""
     element_name: str = eqx.field(static=True, default="roller")
     raceway_power: Any = None
     laminae: LaminaLoads | None = None
@@ -207,8 +221,10 @@ class Solution(AbstractSolution):
 
     @property
     def freedoms_of_stiffness(self) -> tuple[str, ...]:
-        """Names of the rows and columns of `stiffness`."""
-        return self.ring_freedom if self.stiffness_freedom is None else self.stiffness_freedom
+        """Names of the rows and columns of `stiffness` that the model has, in the order of `RING_FREEDOMS`; entries of
+        the others are 0 and say nothing about the bearing."""
+        found = self.ring_freedom if self.stiffness_freedom is None else self.stiffness_freedom
+        return tuple(name for name in RING_FREEDOMS if name in found)
 
     @property
     def not_modelled(self) -> tuple[str, ...]:

@@ -142,57 +142,64 @@ def _check(n_rollers: int, diameter: Any, length: Any, cup: Any, half: Any, flan
         cone > 0.0,
         lambda: f"geometry.roller_half_angle must be below half the contact_angle, got {degrees(half)}",
     )
+    # from the apex of the roller's cone to its big end
+    slant = 0.5 * diameter / xp.sin(half)
     demand(
         "geometry.roller_length must end before the tip of the roller's cone",
-        length * xp.sin(half) < 0.5 * diameter,
-        lambda: f"geometry.roller_length: {metres(length)} reaches beyond the tip of the roller's cone",
+        length < slant,
+        lambda: (
+            f"geometry.roller_length must be below {metres(slant)} (the roller's cone ends there), got {metres(length)}"
+        ),
     )
-    wide = end_radius > 0.5 * diameter
+    # a longer radius than the cone is fits the rib closer than a sphere can: Hertz's contact does not hold
+    fits = (end_radius > 0.5 * diameter) & (end_radius < slant)
     demand(
-        "geometry.end_radius must be above half the roller_diameter",
-        wide,
-        lambda: f"geometry.end_radius must be above half the roller_diameter, got {metres(end_radius)}",
+        "geometry.end_radius must be above half the roller_diameter and below the length of the roller's cone",
+        fits,
+        lambda: (
+            f"geometry.end_radius must be above {metres(0.5 * diameter)} (half the roller_diameter) and below "
+            f"{metres(slant)} (from the apex of the roller's cone to its big end), got {metres(end_radius)}"
+        ),
     )
     radius = 0.5 * diameter * xp.sin(gamma) / xp.tan(half)
     # rollers are nearest where they touch their neighbours: the plane of two axes through the apex
+    most = lambda: math.ceil(math.pi / math.asin(math.sin(half) / math.sin(gamma))) - 1
     demand(
         "geometry.n_rollers rollers must fit beside each other",
         xp.sin(half) < xp.sin(gamma) * math.sin(math.pi / max(n_rollers, 2)),
         lambda: (
             f"geometry.n_rollers: {n_rollers} rollers of big-end diameter {metres(diameter)} do not fit on a circle of "
-            f"radius {metres(radius)}"
+            f"radius {metres(radius)}, at most {most()}"
         ),
     )
-    theta = gamma - flange
-    demand(
-        "geometry.flange_angle must be below the angle of the roller axis",
-        theta > 0.0,
-        lambda: (
-            f"geometry.flange_angle must be above 0 degrees and below {degrees(gamma)} (the roller axis), got "
-            f"{degrees(flange)}: the roller end would not touch the rib below its axis"
-        ),
-    )
-    demand(
-        "geometry.flange_angle must put the contact on the roller's end face",
-        end_radius * xp.sin(theta) < 0.5 * diameter,
-        lambda: (
-            f"geometry.flange_angle: with {degrees(flange)} and an end_radius of {metres(end_radius)} the contact lies "
-            "beyond the roller's end face"
-        ),
-    )
-    height = xp.sqrt(xp.where(wide, end_radius**2 - 0.25 * diameter**2, 0.0))
+    height = xp.sqrt(xp.where(fits, end_radius**2 - 0.25 * diameter**2, 0.0))
     contact_radius = radius + end_radius * xp.sin(flange) - height * xp.sin(gamma)
     cone_big_end = diameter / (2.0 * xp.sin(half)) * xp.sin(cone)
+    # at the rim of the end face, and where the rib ends at the cone
+    rim = gamma - xp.arcsin(0.5 * diameter / end_radius)
+    foot = (cone_big_end - radius + height * xp.sin(gamma)) / end_radius
+    lowest = xp.where(foot < xp.sin(gamma), xp.maximum(rim, xp.arcsin(xp.clip(foot, 0.0, 1.0))), math.inf)
     demand(
-        "geometry.flange_angle must put the contact with the rib above the cone's big end",
-        contact_radius > cone_big_end,
+        "geometry.flange_angle: an angle must exist that puts the contact of the rib on the roller's end face",
+        lowest < gamma,
         lambda: (
-            f"geometry.flange_angle: the contact with the rib at radius {metres(contact_radius)} lies below the cone's "
-            f"big end, {metres(cone_big_end)}"
+            f"geometry.flange_angle: no angle puts the contact of the rib on the roller's end face; an end_radius of "
+            f"{metres(end_radius)} does not fit the other sizes"
         ),
     )
+
+    def why() -> str:
+        if flange >= gamma:
+            return "the roller end would not touch the rib below its axis"
+        if flange <= rim:
+            return "the contact lies beyond the roller's end face"
+        return f"the contact, at radius {metres(contact_radius)}, lies below the cone's big end, {metres(cone_big_end)}"
+
     demand(
-        "geometry.end_radius must fit the rib less closely than a sphere can",
-        1.0 / end_radius > xp.sin(flange) / contact_radius,
-        lambda: f"geometry.end_radius: {metres(end_radius)} fits the rib closer than a sphere can: Hertz does not hold",
+        "geometry.flange_angle must put the contact of the rib on the roller's end face, below its axis",
+        (lowest < flange) & (flange < gamma),
+        lambda: (
+            f"geometry.flange_angle must be above {degrees(lowest)} and below {degrees(gamma)} (the roller axis) with "
+            f"an end_radius of {metres(end_radius)}, got {degrees(flange)}: {why()}"
+        ),
     )

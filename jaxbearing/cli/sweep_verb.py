@@ -61,7 +61,7 @@ OverwriteOption = Annotated[
     bool, typer.Option("--overwrite", help="Replace the file, and drop what is there of another sweep.")
 ]
 NoElementsOption = Annotated[
-    bool, typer.Option("--without-elements", help="Leave out the results of each rolling element: a tenth of the file.")
+    bool, typer.Option("--without-elements", help="Leave out the results of each rolling element, most of the file.")
 ]
 ChunkOption = Annotated[
     int | None,

@@ -30,12 +30,16 @@ class FilmState(eqx.Module):
 
     x: Float[Array | np.ndarray, " node"] = eqx.field(metadata=label("m", "place of the node along rolling"))
     time: Float[Array | np.ndarray, ""] = eqx.field(metadata=label("s", "time from which a run can go on"))
-    pressure: Float[Array | np.ndarray, "3 node"] = eqx.field(metadata=label("Pa", "pressure at the last three times"))
-    offset: Float[Array | np.ndarray, "3"] = eqx.field(metadata=label("m", "constant of the film at these times"))
-    mass: Float[Array | np.ndarray, "3 node"] = eqx.field(
+    pressure: Float[Array | np.ndarray, "last_time=3 node"] = eqx.field(
+        metadata=label("Pa", "pressure at the last three times")
+    )
+    offset: Float[Array | np.ndarray, "last_time=3"] = eqx.field(
+        metadata=label("m", "constant of the film at these times")
+    )
+    mass: Float[Array | np.ndarray, "last_time=3 node"] = eqx.field(
         metadata=label("m", "density over that at ambient pressure times film, at these times")
     )
-    steps: Float[Array | np.ndarray, "2"] = eqx.field(metadata=label("s", "steps between these times"))
+    steps: Float[Array | np.ndarray, "last_step=2"] = eqx.field(metadata=label("s", "steps between these times"))
     known: Int[Array | np.ndarray, ""] = eqx.field(metadata=label("1", "how many of these times there are"))
     proposal: Float[Array | np.ndarray, ""] = eqx.field(metadata=label("s", "step to try next"))
     identity: Identity | None = None

@@ -139,7 +139,7 @@ def bearing_life(scene: Any, solution: Solution) -> Life:
         more |= {"film_ratio_inner": film_ratio(inner, *rough), "film_ratio_outer": film_ratio(outer, *rough)}
     if rated.catalogue_load is not None:
         more["L10"] = basic_life(rated.dynamic_capacity, rated.catalogue_load, exponent)
-        more["L10_hours"] = hours(more["L10"])
+        more["L10h"] = hours(more["L10"])
     life = Life(
         damage_rate=rate,
         L10r=reference,

@@ -24,7 +24,7 @@ class Life(eqx.Module):
     Lnmr: _Number | None = _optional("1", "modified reference rating life a_1 a_ISO L10r, million revolutions")
     L10r_hours: _Number = _result("h", "basic reference rating life")
     L10r: _Number = _result("1", "basic reference rating life, million revolutions")
-    L10_hours: _Number | None = _optional("h", "basic rating life of ISO 281 by catalogue formulas")
+    L10h: _Number | None = _optional("h", "basic rating life of ISO 281 by catalogue formulas")
     L10: _Number | None = _optional("1", "basic rating life of ISO 281 by catalogue formulas, million revolutions")
     reliability_factor: _Number = _result("1", "a_1")
     modification_factor: _Number | None = _optional("1", "a_ISO")

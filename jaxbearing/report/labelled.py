@@ -1,8 +1,9 @@
-"""From fields with labels to variables of a data set: units, meanings, names, attributes."""
+"""From fields with labels to variables of a data set: units, meanings, dimensions, names, attributes."""
 
 import dataclasses
 import json
 import re
+import typing
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
@@ -43,13 +44,44 @@ def label_unit(units: str) -> str:
 
 
 def labelled(part: Any, above: str = "") -> Iterator[tuple[str, Any, Any]]:
-    """Path, value and label of every field that has a label, at any depth."""
+    """Path, value and label of every field that has a label, at any depth.
+
+    The label is the field's metadata with `dims`, names of the dimensions of one result (see `dimensions`).
+    """
     for field in dataclasses.fields(part):
         value = getattr(part, field.name)
         if dataclasses.is_dataclass(value):
             yield from labelled(value, f"{above}{field.name}.")
         elif value is not None and "unit" in field.metadata:
-            yield above + field.name, value, field.metadata
+            yield above + field.name, value, {**field.metadata, "dims": dimensions(field.type)}
+
+
+def dimensions(annotation: Any) -> tuple[str, ...]:
+    """Names of the dimensions that the annotation of a field says: of `Float[Array, "time node"] | None` they are
+    `time` and `node`; none of a number."""
+    shape = getattr(annotation, "dim_str", None)
+    if shape is not None:
+        return tuple(name.partition("=")[0] for name in shape.split())
+    return next((found for one in typing.get_args(annotation) if (found := dimensions(one))), ())
+
+
+def variable(
+    value: Any,
+    metadata: Mapping[str, Any],
+    path: str,
+    leading: Sequence[str] = (),
+    names: Mapping[str, str] | None = None,
+) -> xr.Variable:
+    """A result as a variable, with the dimensions of its label.
+
+    **Arguments:**
+    - `leading`: dimensions of a batch; a number that the whole batch shares, such as the number of unknowns, has none
+      of them.
+    - `names`: other names for dimensions of the label.
+    """
+    values, renamed = np.asarray(value), names or {}
+    own = [renamed.get(name, name) for name in metadata["dims"]]
+    return xr.Variable((*(leading if values.ndim > len(own) else ()), *own), values, described(metadata, path))
 
 
 def described(metadata: Mapping[str, str], path: str) -> dict[str, str]:

@@ -26,7 +26,7 @@ class Content:
     - `losses`: power loss by location: name, W, share; `not_modelled`: those that the scene leaves out, in words.
     - `convergence`: name, text on how the solve ended.
     - `checks`: text of each check of the laws' ranges, whether it was left.
-    - `stiffness`: names of the rows and columns, texts of the rows.
+    - `stiffness`: names of the rows and columns, texts of the rows; "-" where the model has none.
     """
 
     kind: str

@@ -47,15 +47,17 @@ def _row(path: str, value: np.ndarray, metadata: Any) -> Row:
     return Row(path, shown, display_unit(unit), metadata["description"])
 
 
-def element_columns(elements: Any) -> list[Column]:
-    """All results of the rolling elements."""
-    return list(_columns(elements))
+def element_columns(solution: Any) -> list[Column]:
+    """All results that have one value for each rolling element, whichever part of the solution they are in."""
+    return list(_columns(solution))
 
 
-def _columns(elements: Any) -> Iterator[Column]:
-    for path, value, metadata in labelled(elements):
+def _columns(solution: Any) -> Iterator[Column]:
+    for path, value, metadata in labelled(solution):
+        if metadata["dims"] != ("element",):
+            continue
         array, unit = np.asarray(value), metadata["unit"]
         texts = column(np.where(np.isfinite(array), array, 0.0), unit)
         # a roller that touches nothing has no film
         shown = [text if np.isfinite(one) else "-" for text, one in zip(texts, array, strict=True)]
-        yield Column(path, display_unit(unit), metadata["description"], shown)
+        yield Column(path.removeprefix("elements."), display_unit(unit), metadata["description"], shown)

@@ -49,8 +49,8 @@ def ross_bearing(
         raise ValueError(f"a table over speed needs at least {FEWEST_SPEEDS} speeds, got {len(table.speed)}")
     if not np.all(np.isfinite(table.stiffness)):
         raise ValueError("the stiffness is not finite: a solve failed, or the ring is free")
-    if not {"radial", "lateral"} <= set(table.freedom):
-        raise ValueError(f"ROSS needs the radial and the lateral stiffness, got {', '.join(table.freedom)}")
+    if not {"radial", "lateral"} <= set(table.modelled):
+        raise ValueError(f"ROSS needs the radial and the lateral stiffness, got {', '.join(table.modelled)}")
     if not _TAG.fullmatch(tag):
         raise ValueError(f"tag must be of letters, digits, _ and -, got {tag!r}")
     place = {name: table.freedom.index(name) for name in table.freedom}
@@ -60,8 +60,8 @@ def ross_bearing(
     turn = np.array([[cosine, -sine], [sine, cosine]])
     plane = turn @ table.stiffness[:, across][:, :, across] @ turn.T
     zero = np.zeros(len(table.speed))
-    # rollers between cylinders carry nothing along the axis
-    axial = table.stiffness[:, place["axial"], place["axial"]] if "axial" in place else zero
+    # 0 of rollers between cylinders, which carry nothing along the axis
+    axial = table.stiffness[:, place["axial"], place["axial"]]
     coefficients = {f"k{a}{b}": plane[:, i, j] for i, a in enumerate("xy") for j, b in enumerate("xy")}
     coefficients |= {"kzz": axial} | dict.fromkeys(_ZERO, zero)
     lists = {name: values.tolist() for name, values in coefficients.items()}

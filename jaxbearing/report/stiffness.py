@@ -9,10 +9,11 @@ from rich.console import Console
 from .._scene import AbstractScene
 from ..bearings.ball_bearing import BallBearing
 from ..bearings.cylindrical_roller import CylindricalRollerBearing
-from ..bearings.solution import Solution
+from ..bearings.solution import RING_FREEDOMS, Solution, stiffness_units
 from ..bearings.tapered_roller import TaperedRollerBearing
 from ..numerics.status import SolveError
 from ..solve import jit_solver
+from .bearing.json_report import modelled_only
 from .display import display_unit, with_unit
 from .plain import plain
 from .screen import column, counted, headline, pieces, print_line, print_table, print_warnings
@@ -24,14 +25,17 @@ class StiffnessTable(NamedTuple):
     """Tangent stiffness of the inner ring at each shaft speed, everything inside the bearing in equilibrium.
 
     - `speed`: of the inner ring, rad/s.
-    - `stiffness`: d load / d displacement, N/m (of tilts N m/rad); axes: speed, row, column.
+    - `stiffness`: d load / d displacement of all five freedoms, N/m, N/rad, N m/m and N m/rad; axes: speed, row,
+      column. Entries of a freedom that the model does not have are 0.
     - `freedom`: names of its rows and columns.
+    - `modelled`: those that the model has.
     - `warnings`: what left the range of a law at some speed, and what the model assumed.
     """
 
     speed: np.ndarray
     stiffness: np.ndarray
     freedom: tuple[str, ...]
+    modelled: tuple[str, ...]
     warnings: tuple[str, ...]
 
 
@@ -85,35 +89,42 @@ def stiffness_over_speed(
     return StiffnessTable(
         speed=np.asarray(speeds, dtype=np.float64),
         stiffness=np.stack([np.asarray(solution.stiffness) for solution in solutions]),
-        freedom=solutions[0].freedoms_of_stiffness,
+        freedom=RING_FREEDOMS,
+        modelled=solutions[0].freedoms_of_stiffness,
         warnings=tuple(dict.fromkeys(text for solution in solutions for text in solution.warnings)),
     )
 
 
 def stiffness_to_dict(table: StiffnessTable) -> dict[str, Any]:
-    """The table as JSON has it: SI units and radians; numbers that are not finite are `None`."""
-    return {name: plain(value) for name, value in table._asdict().items()}
+    """The table as JSON has it: SI units and radians; numbers that are not finite, and entries of freedoms that are not
+    modelled, are `None`."""
+    found = {name: plain(value) for name, value in table._asdict().items()}
+    return found | {"stiffness": modelled_only(table.stiffness, table.modelled)}
 
 
 def print_stiffness(table: StiffnessTable, scene_label: str, console: Console) -> None:
     """The diagonal of the stiffness against speed."""
     state = f"{counted(len(table.speed), 'speed')} solved; entries off the diagonal: --json"
     headline(scene_label, "CONVERGED", "bold green", state, console)
-    units = ["N m/rad" if name.startswith("tilt") else "N/m" for name in table.freedom]
+    units = stiffness_units()
     columns = {
-        f"{name}\n{display_unit(unit)}": column(table.stiffness[:, i, i], unit)
-        for i, (name, unit) in enumerate(zip(table.freedom, units, strict=True))
+        f"{name}\n{display_unit(units[i][i])}": column(table.stiffness[:, i, i], units[i][i])
+        for i, name in enumerate(table.freedom)
+        if name in table.modelled
     }
     first = {f"speed\n{display_unit('rad/s')}": column(table.speed, "rad/s")}
     for piece in pieces(first, columns, console.width):
         print_table(piece, [0.0] * len(table.speed), 0, "", console)
-    for name, text in _meanings(table.freedom):
+    for name, text in _meanings(table):
         print_line(name, text, console)
     print_warnings(table.warnings, console)
 
 
-def _meanings(freedom: tuple[str, ...]) -> Iterable[tuple[str, str]]:
+def _meanings(table: StiffnessTable) -> Iterable[tuple[str, str]]:
     yield "Stiffness", "d load / d displacement of the inner ring, its other freedoms held"
     yield "Radial, lateral", "along the load line (azimuth 0), and 90 deg on in the sense of rotation"
-    if "tilt" in freedom:
+    if "tilt" in table.modelled:
         yield "Tilt", "moves azimuth 0 along the axis; tilt_lateral turns about the load line"
+    others = [name for name in table.freedom if name not in table.modelled]
+    if others:
+        yield "Not modelled", ", ".join(others)

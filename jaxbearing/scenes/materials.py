@@ -18,6 +18,16 @@ class MaterialTable(Table):
     density: units.PositiveDensity
 
 
+def catalogue_table(name: str) -> dict[str, str]:
+    """A material of the catalogue as the fields of a table."""
+    one = CATALOGUE[name]
+    return {
+        "youngs_modulus": f"{float(one.youngs_modulus) * 1e-9:.6g} GPa",
+        "poisson_ratio": f"{float(one.poisson_ratio):.6g}",
+        "density": f"{float(one.density):.6g} kg/m^3",
+    }
+
+
 def _material_name(value: Any) -> str:
     # --set materials.rings=52100 arrives as a number
     name = str(value) if isinstance(value, int) and not isinstance(value, bool) else value

@@ -9,6 +9,7 @@ from pydantic import BaseModel
 
 from .errors import SceneError, describe_at, in_words, unknown_name
 from .fields import is_known, names_at
+from .materials import CATALOGUE, MaterialTable, catalogue_table
 from .oil_files import base_of
 
 REMOVE = "none"
@@ -97,7 +98,7 @@ def applied(
                 continue
             table = changed
             for depth, key in enumerate(keys[:-1]):
-                table = _table(table.setdefault(key, {}), changed, keys[: depth + 1], path, file)
+                table = _table(table.setdefault(key, {}), changed, keys[: depth + 1], path, file, text)
             table[keys[-1]] = parse_value(text)
         except SceneError as error:
             problems.append(error)
@@ -144,11 +145,24 @@ def _keep_catalogue(changed: dict[str, Any], keys: list[str], path: str, file: s
         raise SceneError(file, path, f"'{REMOVE}'", expected)
 
 
-def _table(value: Any, changed: dict[str, Any], inside: list[str], path: str, file: str) -> dict[str, Any]:
+def _table(
+    value: Any, changed: dict[str, Any], inside: list[str], path: str, file: str, text: str = ""
+) -> dict[str, Any]:
     if isinstance(value, dict):
         return value
     place = ".".join(inside)
-    raise SceneError(file, path, f"{describe_at(changed, place)} at {place}", "a table, to set a value in it")
+    expected = "a table, to set a value in it"
+    name, last = str(value), path.removeprefix(f"{place}.")
+    if name in CATALOGUE and last in MaterialTable.model_fields and text:
+        changes = catalogue_table(name) | {last: text}
+        entries = ", ".join(f"{field} = {_as_toml(given)}" for field, given in changes.items())
+        expected = f"a table: {place}={{{entries}}} is {name} with this value"
+    raise SceneError(file, path, f"{describe_at(changed, place)} at {place}", expected)
+
+
+def _as_toml(text: str) -> str:
+    """A value as it stands in a TOML file: a number, or a text in quotes."""
+    return text if isinstance(parse_value(text), int | float) else f'"{text}"'
 
 
 def _copy(table: Mapping[str, Any]) -> dict[str, Any]:

@@ -48,29 +48,57 @@ def run_chunk(
 
     **Returns:** how many cases converged and how many there are.
 
-    **Raises:** `OSError`; `ValueError` where this process has another version than the one that made the plan.
+    **Raises:** `OSError`; `ValueError` where this process has another version than the one that made the plan, and
+    for a plan that cannot be read.
     """
-    plan, program, labels = _opened(str(folder), key, devices)
+    return compute_chunk(Path(folder), index, _plan_in(str(folder), key), devices, progress)
+
+
+def compute_chunk(
+    folder: Path,
+    index: int,
+    plan: Plan,
+    devices: int | None = None,
+    progress: Callable[[int], None] = lambda lanes: None,
+) -> tuple[int, int]:
+    """As `run_chunk`, of a plan that is at hand."""
+    program, labels = _program(plan, devices)
     start, stop = plan.range_of(index)
     inputs, reasons = plan.recipe.inputs(plan.cases.part(start, stop))
     active = np.asarray([not reason for reason in reasons])
     solution = program(inputs, active, progress)
     good = converged(solution)
     kept = columns(solution, labels) | {FAILURE: failures(solution, _said(plan, reasons, good, start))}
-    arrays: dict[str, Any] = {**kept, KEY: np.asarray(key), GOOD: np.asarray(good.sum())}
+    arrays: dict[str, Any] = {**kept, KEY: np.asarray(plan.key), GOOD: np.asarray(good.sum())}
     made = io.BytesIO()
     np.savez(made, **arrays)
-    write_whole(chunk_path(Path(folder), index), made.getbuffer())
+    write_whole(chunk_path(folder, index), made.getbuffer())
     return int(good.sum()), stop - start
 
 
 @functools.lru_cache(maxsize=1)
-def _opened(folder: str, key: str, devices: int | None) -> tuple[Plan, LaneProgram, xr.Dataset]:
+def _plan_in(folder: str, key: str) -> Plan:
     _, plan = read_plan(folder)
+    require_key(plan, key)
+    return plan
+
+
+def require_key(plan: Plan, key: str) -> None:
+    """**Raises:** `ValueError` where a plan has another hash in this process than where the sweep began."""
     if plan.key != key:
         raise ValueError("this process has another version of jaxbearing or JAX than the one that began the sweep")
-    program = plan.program(devices)
-    return plan, program, template(program.structure, plan.elements)
+
+
+_compiled: dict[tuple[str, int | None], tuple[LaneProgram, xr.Dataset]] = {}
+"""The program of this process, of one sweep."""
+
+
+def _program(plan: Plan, devices: int | None) -> tuple[LaneProgram, xr.Dataset]:
+    if (plan.key, devices) not in _compiled:
+        program = plan.program(devices)
+        _compiled.clear()
+        _compiled[plan.key, devices] = program, template(program.structure, plan.elements)
+    return _compiled[plan.key, devices]
 
 
 def _said(plan: Plan, reasons: list[str], good: np.ndarray, start: int) -> list[str]:

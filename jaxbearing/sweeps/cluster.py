@@ -8,9 +8,10 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
-from .chunks import GOOD, read_chunk, run_chunk
+from .chunks import GOOD, compute_chunk, read_chunk, require_key
 from .engine import Runner, SweepError
 from .labels import FAILURE
+from .plan import Plan, compilation_cache
 
 CONNECT = 15
 """Time that a scheduler has to answer, s."""
@@ -28,14 +29,16 @@ def on_workers(count: int | None = None, scheduler: str | None = None) -> Runner
     import dask.distributed  # noqa: F401  (said before the work begins)
 
     def runner(
-        folder: Path, key: str, missing: list[int], progress: Callable[[int], None]
+        folder: Path, plan: Plan, missing: list[int], progress: Callable[[int], None]
     ) -> Iterator[tuple[int, int]]:
         from dask.distributed import KilledWorker, as_completed
 
         with _client(count, scheduler) as client:
+            # over the cluster's own wire: of the folder's plan a worker would have no law of the user's own
+            sent = client.scatter(plan, broadcast=True)
             # `pure=False`: a chunk that was damaged must be computed, whatever the scheduler remembers
             tasks = as_completed(
-                client.submit(_run_remotely, str(folder.resolve()), index, key, pure=False, retries=2)
+                client.submit(_run_remotely, str(folder.resolve()), index, sent, plan.key, pure=False, retries=2)
                 for index in missing
             )
             for done in tasks:
@@ -51,22 +54,20 @@ def on_workers(count: int | None = None, scheduler: str | None = None) -> Runner
     return runner
 
 
-def _run_remotely(folder: str, index: int, key: str) -> tuple[int, int]:
+def _run_remotely(folder: str, index: int, plan: Plan, key: str) -> tuple[int, int]:
     """In a worker: JAX keeps its compiled programs where those of the sweep are."""
     import jax
 
-    from .plan import compilation_cache, read_plan
-
-    cache = read_plan(folder)[1].cache
-    if cache is not None and compilation_cache() is None:
-        jax.config.update("jax_compilation_cache_dir", cache)
+    require_key(plan, key)
+    if plan.cache is not None and compilation_cache() is None:
+        jax.config.update("jax_compilation_cache_dir", plan.cache)
         jax.config.update("jax_persistent_cache_min_compile_time_secs", 0.0)
         jax.config.update("jax_persistent_cache_min_entry_size_bytes", -1)
     with contextlib.suppress(OSError):
         # of a worker that died after it had written it
         found = read_chunk(Path(folder), index, key)
         return int(found[GOOD]), len(found[FAILURE])
-    return run_chunk(folder, index, key)
+    return compute_chunk(Path(folder), index, plan)
 
 
 @contextlib.contextmanager

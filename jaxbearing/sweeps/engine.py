@@ -10,12 +10,12 @@ from typing import IO
 
 import xarray as xr
 
-from .chunks import GOOD, KEY, DamagedChunkError, chunk_path, read_chunk, run_chunk
+from .chunks import GOOD, KEY, DamagedChunkError, chunk_path, compute_chunk, read_chunk
 from .gather import STORES, store
-from .plan import PLAN, Plan, read_plan, write_plan
+from .plan import PLAN, Plan, read_key, write_plan
 
-Runner = Callable[[Path, str, list[int], Callable[[int], None]], Iterator[tuple[int, int]]]
-"""Computes chunks: folder, key, numbers of the chunks, progress -> converged cases and cases of each."""
+Runner = Callable[[Path, Plan, list[int], Callable[[int], None]], Iterator[tuple[int, int]]]
+"""Computes chunks: folder, plan, numbers of the chunks, progress -> converged cases and cases of each."""
 
 
 class SweepError(ValueError):
@@ -142,7 +142,7 @@ def _claim(plan: Plan, folder: Path, target: Path, overwrite: bool) -> None:
     """The folder becomes this plan's, or is so already."""
     there = [path for path in folder.iterdir() if path.name != _LOCK]
     try:
-        known = read_plan(folder)[0] if (folder / PLAN).exists() else None
+        known = read_key(folder) if (folder / PLAN).exists() else None
     except ValueError:
         known = None
     if known == plan.key:
@@ -176,7 +176,7 @@ def _compute(plan: Plan, folder: Path, runner: Runner, watcher: Watcher, tally: 
         watcher.note(f"{tally.kept} of {len(plan.cases)} cases are there from an earlier run")
         watcher.cases(tally.kept)
     if missing:
-        for good, cases in runner(folder, plan.key, missing, watcher.cases):
+        for good, cases in runner(folder, plan, missing, watcher.cases):
             tally.converged += good
             tally.computed += cases
 
@@ -185,10 +185,10 @@ def in_process(devices: int | None = None) -> Runner:
     """Chunk by chunk, on the local devices."""
 
     def runner(
-        folder: Path, key: str, missing: list[int], progress: Callable[[int], None]
+        folder: Path, plan: Plan, missing: list[int], progress: Callable[[int], None]
     ) -> Iterator[tuple[int, int]]:
         for index in missing:
-            yield run_chunk(folder, index, key, devices, progress)
+            yield compute_chunk(folder, index, plan, devices, progress)
 
     return runner
 

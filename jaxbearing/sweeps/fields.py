@@ -103,6 +103,14 @@ class _Reader:
         texts = {path: self.fields[path].text(value) for path, value in values.items()}
         return scene_from_mapping(self.source.tables, self.source.label, {**self.source.overrides, **texts})
 
+    def as_data(self) -> dict[str, Any]:
+        return {
+            "label": self.source.label,
+            "tables": self.source.tables,
+            "overrides": self.source.overrides,
+            "paths": tuple(self.fields),
+        }
+
 
 def _parts(kind: Any) -> list[Any]:
     """A type without what may be left out, and all that annotates it."""

@@ -2,8 +2,8 @@
 
 import functools
 import hashlib
+import json
 import os
-import pickle
 import re
 from dataclasses import dataclass
 from pathlib import Path
@@ -16,10 +16,14 @@ from .. import __version__
 from ..lanes import LaneProgram, Method
 from ..numerics.newton import NewtonOptions
 from ..report.files import appearing_whole
+from .as_data import ForeignPartError, decoded, encoded
 from .cases import Cases
 from .recipe import Recipe
+from .stored_recipe import recipe_of_data
 
-PLAN = "plan.pickle"
+PLAN = "plan.data"
+FORMAT = 1
+"""Of the file of a plan."""
 CHUNK, LANES = 1000, 125
 """Cases of a chunk, and those of them that a device solves in one call: eight devices can share one."""
 VMAP_LANES = 1000
@@ -39,7 +43,7 @@ class Plan:
     - `platform`: "cpu", "gpu"; `method`: how a device goes through its lanes.
     - `label`: the scene as it was named, for messages and titles.
     - `metadata`: unit and description of each swept field.
-    - `cache`: folder of JAX's compilation cache, for other processes; not part of the hash.
+    - `cache`: folder of JAX's compilation cache, for workers of the sweep; not part of the hash, nor of the file.
     """
 
     recipe: Recipe
@@ -117,23 +121,75 @@ def compilation_cache() -> str | None:
 
 
 def write_plan(plan: Plan, folder: Path) -> None:
-    """**Raises:** `OSError`."""
-    with appearing_whole(folder / PLAN) as temporary:
-        temporary.write_bytes(pickle.dumps((plan.key, plan)))
+    """The plan as data for other processes. **Raises:** `OSError`."""
+    said: dict[str, Any] = {"format": FORMAT, "key": plan.key, "version": __version__, "plan": None, "lacking": None}
+    arrays: dict[str, np.ndarray] = {}
+    try:
+        said["plan"], arrays = encoded(_as_fields(plan))
+    except ForeignPartError as error:
+        said["lacking"] = str(error)
+    with appearing_whole(folder / PLAN) as temporary, temporary.open("wb") as file:
+        kept: dict[str, Any] = {"said": np.asarray(json.dumps(said)), **arrays}
+        np.savez(file, **kept)
+
+
+def read_key(folder: str | os.PathLike[str]) -> str:
+    """The hash of the sweep whose plan is in a folder. **Raises:** as `read_plan`."""
+    return str(_read(folder)[0]["key"])
 
 
 def read_plan(folder: str | os.PathLike[str]) -> tuple[str, Plan]:
     """The plan of a sweep, which other processes read, and the hash that it had where it was made: `plan.key` is that
-    of this process, which may have another version. As any pickle, from folders of your own only.
+    of this process, which may have another version. The file is data: reading it runs nothing that is in it.
 
-    **Raises:** `OSError`; `ValueError` for a damaged file.
+    **Raises:** `OSError`; `ValueError` for a damaged file, that of another version, or the plan of a scene that has
+    parts of the user's own, which data cannot hold.
     """
+    said, arrays = _read(folder)
+    path = Path(folder) / PLAN
+    if said["plan"] is None:
+        raise ValueError(
+            f"{path} holds no scene, because the scene has {said['lacking']}, no part of this package; expected "
+            "workers of the same sweep (--workers, --scheduler), which are sent the scene"
+        )
     try:
-        key, plan = pickle.loads((Path(folder) / PLAN).read_bytes())
+        return str(said["key"]), _of_fields(decoded(said["plan"], arrays))
+    except (ValueError, KeyError, TypeError, AttributeError) as error:
+        raise ValueError(f"{path} is no plan of this version: {error}") from None
+
+
+def _read(folder: str | os.PathLike[str]) -> tuple[dict[str, Any], dict[str, np.ndarray]]:
+    path = Path(folder) / PLAN
+    try:
+        # opened here: numpy leaves a file open that it cannot read
+        with path.open("rb") as raw, np.load(raw, allow_pickle=False) as file:
+            arrays = {name: file[name] for name in file.files}
+        said = json.loads(str(arrays.pop("said")))
     except OSError:
         raise
     except Exception as error:
-        raise ValueError(f"{Path(folder) / PLAN} cannot be read: {error}") from None
-    if not isinstance(plan, Plan):
-        raise ValueError(f"{Path(folder) / PLAN} is no plan of a sweep")
-    return str(key), plan
+        raise ValueError(f"{path} cannot be read: {error}") from None
+    if not isinstance(said, dict) or said.get("format") != FORMAT or not isinstance(said.get("key"), str):
+        raise ValueError(f"{path} is no plan of this version")
+    return said, arrays
+
+
+_PLAIN = ("chunk", "lanes", "elements", "platform", "method", "label", "metadata", "options")
+"""Fields of a plan that are written as they are. The compilation cache is not among them: JAX runs what lies there."""
+
+
+def _as_fields(plan: Plan) -> dict[str, Any]:
+    cases = {"kind": plan.cases.kind, "paths": plan.cases.paths, "values": plan.cases.values}
+    return {name: getattr(plan, name) for name in _PLAIN} | {"cases": cases, "recipe": plan.recipe.as_data()}
+
+
+def _of_fields(fields: dict[str, Any]) -> Plan:
+    """**Raises:** `ValueError`, `KeyError` or `TypeError` for what is no plan."""
+    cases = Cases(**fields["cases"])
+    chunk, lanes = fields["chunk"], fields["lanes"]
+    if not all(isinstance(count, int) and count >= 1 for count in (chunk, lanes)):
+        raise ValueError(f"chunks of {chunk!r} cases, {lanes!r} lanes")
+    if not isinstance(fields["options"], NewtonOptions):
+        raise ValueError("no options of the solver")
+    recipe = recipe_of_data(fields["recipe"], cases)
+    return Plan(recipe=recipe, cases=cases, **{name: fields[name] for name in _PLAIN})

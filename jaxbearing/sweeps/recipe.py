@@ -17,7 +17,7 @@ Inputs = tuple[Any, list[str]]
 
 
 class Recipe(Protocol):
-    """How the cases of a sweep become scenes. Can be pickled."""
+    """How the cases of a sweep become scenes. Can be sent to workers."""
 
     @property
     def base(self) -> Any:
@@ -39,6 +39,10 @@ class Recipe(Protocol):
 
     def scene(self, values: dict[str, float]) -> AbstractScene:
         """Scene of one case. **Raises:** `ValueError` where its values do not fit together."""
+        ...
+
+    def as_data(self) -> dict[str, Any]:
+        """What `stored_recipe.recipe_of_data` makes the same recipe of."""
         ...
 
 
@@ -69,6 +73,9 @@ class Direct:
             return values, [""] * count
         return values, [self._refusal({path: float(v[i]) for path, v in values.items()}) for i in range(count)]
 
+    def as_data(self) -> dict[str, Any]:
+        return {"kind": "direct", "base": self.base, "checked": self.checked}
+
     def _refusal(self, values: dict[str, float]) -> str:
         try:
             self.scene(values)
@@ -77,11 +84,21 @@ class Direct:
         return ""
 
 
+class Reader(Protocol):
+    """Makes scenes of the values of fields, in SI."""
+
+    def __call__(self, values: dict[str, float], /) -> AbstractScene: ...
+
+    def as_data(self) -> dict[str, Any]:
+        """What the reader reads from: texts."""
+        ...
+
+
 @dataclasses.dataclass(frozen=True)
 class Read:
     """Values that the scene does not hold as they are: each case is read like a scene file (5 to 10 ms)."""
 
-    read: Callable[[dict[str, float]], AbstractScene]
+    read: Reader
     example_scene: Any
     base: Any = None
 
@@ -104,6 +121,9 @@ class Read:
                 rows.append(jax.tree.leaves(self.example_scene))
                 reasons.append(str(error))
         return [np.stack([np.asarray(leaf) for leaf in leaves]) for leaves in zip(*rows, strict=True)], reasons
+
+    def as_data(self) -> dict[str, Any]:
+        return {"kind": "read", **self.read.as_data()}
 
 
 def in_scene(scene: AbstractScene, cases: Cases) -> Direct:
@@ -167,7 +187,7 @@ def structural(path: str, what: str = "a field that shapes the equations") -> st
     )
 
 
-def from_reader(read: Callable[[dict[str, float]], AbstractScene], cases: Cases) -> Direct | Read:
+def from_reader(read: Reader, cases: Cases) -> Direct | Read:
     """The recipe of a scene file: `Direct` where its values are numbers of the scene as they are.
 
     **Arguments:** `read`: from values of the fields in SI to a scene.

@@ -117,9 +117,9 @@ def with_files(scene, cases):
 def _again(warm):
     """A runner whose chunks come from the program that is compiled already, written where they belong."""
 
-    def runner(folder, key, missing, progress):
+    def runner(folder, plan, missing, progress):
         for index in missing:
-            yield run_chunk(warm, index, key, None, progress)
+            yield run_chunk(warm, index, plan.key, None, progress)
             (warm / f"chunk-{index:06d}.npz").replace(folder / f"chunk-{index:06d}.npz")
 
     return runner

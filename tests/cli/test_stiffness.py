@@ -32,7 +32,7 @@ def test_json_and_load_direction(jaxbearing_command, folder):
         result = jaxbearing_command(*arguments, "--load-direction", direction)
         assert (result.code, result.err) == (0, "")
         found = json.loads(result.out)
-        assert set(found) == {"converged", "failure", "speed", "stiffness", "freedom", "warnings"}
+        assert set(found) == {"converged", "failure", "speed", "stiffness", "freedom", "modelled", "warnings"}
         assert found["converged"] is True
         stiffness = np.array(found["stiffness"], dtype=float)
         assert stiffness.shape == (3, 5, 5)

@@ -18,11 +18,11 @@ def plane(element, i=0):
     return np.array([[element["kxx"][i], element["kxy"][i]], [element["kyx"][i], element["kyy"][i]]])
 
 
-def made_up(speeds=(100.0, 200.0), freedom=FREEDOM):
+def made_up(speeds=(100.0, 200.0), modelled=FREEDOM):
     """A table with a different number in every place."""
-    size = len(freedom)
+    size = len(FREEDOM)
     matrices = 1e8 * np.arange(1.0, 1.0 + len(speeds) * size**2).reshape(len(speeds), size, size)
-    return StiffnessTable(np.array(speeds), matrices, freedom, ())
+    return StiffnessTable(np.array(speeds), matrices, FREEDOM, modelled, ())
 
 
 @pytest.fixture(scope="module")
@@ -33,8 +33,9 @@ def axial():
 
 def test_turned_by_hand():
     radial, lateral, along, across = 4e8, 1e8, 3e7, 2e7
-    matrix = np.array([[radial, along], [across, lateral]])
-    table = StiffnessTable(np.array([0.0, 1.0]), np.stack([matrix, 2.0 * matrix]), ("radial", "lateral"), ())
+    matrix = np.zeros((5, 5))
+    matrix[1:3, 1:3] = [[radial, along], [across, lateral]]
+    table = StiffnessTable(np.array([0.0, 1.0]), np.stack([matrix, 2.0 * matrix]), FREEDOM, ("radial", "lateral"), ())
     cases = {
         0.0: [[radial, along], [across, lateral]],
         # the load line on y, lateral on -x: x x = lateral lateral, x y = -(lateral radial)
@@ -105,12 +106,14 @@ def test_roller_bearing_has_both_directions_and_nothing_along_the_axis():
     scene = jb.load_scene("reference_roller", {"contact": "none"})
     assert scene.ring_freedom == ("radial",)
     table = stiffness_over_speed(scene, SPEEDS[1:3])
-    assert table.freedom == ("radial", "lateral")
+    assert (table.freedom, table.modelled) == (FREEDOM, ("radial", "lateral"))
+    told = np.array(stiffness_to_dict(table)["stiffness"], dtype=object)
+    assert [place.tolist() for place in np.nonzero(told[0] != None)] == [[1, 1, 2, 2], [1, 2, 1, 2]]  # noqa: E711
     element = ross_bearing(table)
     assert element["kzz"] == [0.0, 0.0]
     # the load is along -y: stiffer there
-    np.testing.assert_allclose(element["kyy"], table.stiffness[:, 0, 0], rtol=1e-12)
-    np.testing.assert_allclose(element["kxx"], table.stiffness[:, 1, 1], rtol=1e-12)
+    np.testing.assert_allclose(element["kyy"], table.stiffness[:, 1, 1], rtol=1e-12)
+    np.testing.assert_allclose(element["kxx"], table.stiffness[:, 2, 2], rtol=1e-12)
     assert np.all(np.array(element["kyy"]) > np.array(element["kxx"]))
     assert min(element["kxx"]) > 0.0
 
@@ -139,7 +142,7 @@ def test_what_cannot_be_written_is_refused(tmp_path):
     cases = [
         ("at least 2 speeds, got 1", made_up((100.0,)), {}),
         ("not finite", free, {}),
-        ("radial and the lateral", made_up(freedom=("radial",)), {}),
+        ("radial and the lateral", made_up(modelled=("radial",)), {}),
         ("tag", made_up(), {"tag": "a]b"}),
     ]
     for message, table, changes in cases:

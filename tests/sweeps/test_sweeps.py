@@ -62,8 +62,8 @@ def stopped_after(plan, target, chunks):
     """A run that ends in the middle."""
     from jaxbearing.sweeps.engine import in_process
 
-    def runner(folder, key, missing, progress):
-        for number, done in enumerate(in_process()(folder, key, missing, progress)):
+    def runner(folder, plan, missing, progress):
+        for number, done in enumerate(in_process()(folder, plan, missing, progress)):
             yield done
             if number + 1 == chunks:
                 raise StoppedError
@@ -204,7 +204,7 @@ def test_no_space_left(scene, whole, tmp_path, monkeypatch):
 
     def full(*args, **kwargs):
         calls.append(None)
-        if len(calls) == 3:
+        if len(calls) == 4:  # the plan, and two chunks
             raise OSError(28, "No space left on device")
         return save(*args, **kwargs)
 

@@ -1,26 +1,28 @@
 """A bearing's solution as a labelled xarray data set.
 
-Every field that carries a label in the result classes becomes one variable: a new result appears here without a
-change. Names are the paths of the Python result with `_` for the dot (`power_loss_total`, `ring_radial`), also kept in
-the attribute `path`; arrays over the rolling elements have their own name (`load_inner`) and the dimension `element`.
+Every field that carries a label in the result classes becomes one variable, with the dimensions that its annotation
+says: a new result appears here without a change. Names are the paths of the Python result with `_` for the dot
+(`power_loss_total`, `ring_radial`), also kept in the attribute `path`; results of the rolling elements go without the
+prefix `elements_` (`load_inner`).
+
+The stiffness has all five freedoms of the ring in each kind of bearing. Its entries have four units, of which a
+variable can name one only: they stand in the coordinate `stiffness_units`. Freedoms that the model does not have are 0
+there, and `freedom_modelled` says which they are.
 """
 
 from collections.abc import Sequence
-from typing import Any
 
 import numpy as np
 import xarray as xr
 
-from ...bearings.solution import Solution
+from ...bearings.solution import RING_FREEDOMS, Solution, stiffness_units
 from ...numerics.status import Status
-from ..labelled import CHECK, attributes, checks, common, described, flags, labelled, without_fill
+from ..labelled import CHECK, attributes, checks, common, flags, labelled, udunits, variable, without_fill
 from .operation import unused_operation
 
 _ELEMENT = "element"
 _FREEDOMS = ("freedom", "freedom_displaced")
 """Rows and columns of the stiffness: the load along the first by a displacement along the second."""
-_OWN = {"elements": (_ELEMENT,), "stiffness": _FREEDOMS}
-"""Dimensions of a field of the solution, or of all that is in it, besides those of a batch."""
 
 
 def bearing_to_dataset(solution: Solution, dims: Sequence[str] = ()) -> xr.Dataset:
@@ -51,22 +53,12 @@ def bearing_to_dataset(solution: Solution, dims: Sequence[str] = ()) -> xr.Datas
     unused = {f"operation.{name}" for name in unused_operation(solution)}
     for path, value, metadata in labelled(solution):
         if path not in unused:
-            name, variable = _variable(path, np.asarray(value), metadata, dims)
-            dataset[name] = variable
+            dataset[path.removeprefix("elements.").replace(".", "_")] = variable(value, metadata, path, dims)
     dataset["status"].attrs |= flags(dataset["status"].dtype, [status.text for status in Status])
     dataset["worst_equation"].attrs |= flags(dataset["worst_equation"].dtype, solution.equation_names)
     if solution.range_checks:
         dataset["out_of_range"] = checks(solution, dims)
     return _with_coordinates(dataset, solution, dims)
-
-
-def _variable(path: str, value: np.ndarray, metadata: Any, dims: tuple[str, ...]) -> tuple[str, xr.Variable]:
-    top, _, rest = path.partition(".")
-    own = _OWN.get(top, ())
-    # one number for the whole batch, such as the number of unknowns
-    leading = dims if value.ndim > len(own) else ()
-    name = rest if own and rest else path.replace(".", "_")
-    return name, xr.Variable((*leading, *own), value, described(metadata, path))
 
 
 def _with_coordinates(dataset: xr.Dataset, solution: Solution, dims: tuple[str, ...]) -> xr.Dataset:
@@ -76,8 +68,8 @@ def _with_coordinates(dataset: xr.Dataset, solution: Solution, dims: tuple[str, 
         azimuth = xr.DataArray(common(azimuth.values, 1, "azimuth"), dims=(_ELEMENT,), attrs=azimuth.attrs)
     names = {
         _ELEMENT: (np.arange(azimuth.size), "number of the rolling element, 0 on the load line"),
-        _FREEDOMS[0]: (list(solution.freedoms_of_stiffness), "freedom of the inner ring along which the load acts"),
-        _FREEDOMS[1]: (list(solution.freedoms_of_stiffness), "freedom of the inner ring that is displaced"),
+        _FREEDOMS[0]: (list(RING_FREEDOMS), "freedom of the inner ring along which the load acts"),
+        _FREEDOMS[1]: (list(RING_FREEDOMS), "freedom of the inner ring that is displaced"),
     }
     if solution.range_checks:
         names[CHECK] = (list(solution.range_checks), "what is checked")
@@ -85,5 +77,18 @@ def _with_coordinates(dataset: xr.Dataset, solution: Solution, dims: tuple[str, 
         name: xr.Variable((name,), values, {"units": "1", "long_name": long_name})
         for name, (values, long_name) in names.items()
     }
+    coordinates |= _of_stiffness(solution)
     dataset = dataset.drop_vars("azimuth").assign_coords(coordinates | {"azimuth": azimuth})
     return without_fill(dataset.set_coords([n for n in dataset.data_vars if str(n).startswith("operation_")]))
+
+
+def _of_stiffness(solution: Solution) -> dict[str, xr.Variable]:
+    """Units of the entries of the stiffness, and which freedoms the model has."""
+    units = [[udunits(unit) for unit in row] for row in stiffness_units()]
+    modelled = np.asarray([name in solution.freedoms_of_stiffness for name in RING_FREEDOMS], dtype=np.int8)
+    words = {"units": "1", "long_name": "whether the model has this freedom; entries of the stiffness are 0 where not"}
+    meanings = flags(modelled.dtype, ("not modelled", "modelled"))
+    return {
+        "stiffness_units": xr.Variable(_FREEDOMS, units, {"units": "1", "long_name": "unit of an entry of stiffness"}),
+        "freedom_modelled": xr.Variable(_FREEDOMS[:1], modelled, words | meanings),
+    }

@@ -44,17 +44,13 @@ def bearing_to_dict(solution: Solution) -> dict[str, Any]:
     results["operation"] |= dict.fromkeys(unused_operation(solution))
     # fixed keys, also where the scene models no friction: `None` then, which is not a loss of 0
     results["power_loss"].setdefault("total", None)
-    results["stiffness"] = _embedded(np.asarray(solution.stiffness), solution.freedoms_of_stiffness)
+    results["stiffness"] = modelled_only(np.asarray(solution.stiffness), solution.freedoms_of_stiffness)
     results["worst_equation"] = solution.equation_names[int(solution.worst_equation)]
     results.setdefault("life", None)
     return results
 
 
-def _embedded(stiffness: np.ndarray, freedoms: tuple[str, ...]) -> list[list[float | None]]:
-    """The stiffness of the active freedoms inside that of all five, `None` where the model has none."""
-    full: list[list[float | None]] = [[None] * len(RING_FREEDOMS) for _ in RING_FREEDOMS]
-    places = [RING_FREEDOMS.index(name) for name in freedoms]
-    for row, i in zip(stiffness.tolist(), places, strict=True):
-        for entry, j in zip(row, places, strict=True):
-            full[i][j] = finite(entry)
-    return full
+def modelled_only(stiffness: np.ndarray, freedoms: tuple[str, ...]) -> list[Any]:
+    """The stiffness of all five freedoms, of any number of bearings, `None` for those that the model does not have."""
+    modelled = np.asarray([name in freedoms for name in RING_FREEDOMS])
+    return finite(np.where(modelled[:, None] & modelled, stiffness, np.nan).tolist())

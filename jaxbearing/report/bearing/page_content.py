@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 
 from ...bearings.ball_bearing import BallBearing
-from ...bearings.solution import Solution
+from ...bearings.solution import RING_FREEDOMS, Solution
 from ...bearings.tapered_roller import TaperedRollerBearing
 from ...numerics.status import Status
 from ..display import digits, with_unit
@@ -45,8 +45,6 @@ def bearing_content(scene: Any, solution: Solution) -> Content:
     unused = {f"operation.{name}" for name in unused_operation(solution)}
     results = [row for row in result_rows(solution, unused | set(_SOLVER)) if not row.path.startswith("operation.")]
     name = solution.element_name
-    freedoms = solution.freedoms_of_stiffness
-    stiffness = [[digits(float(value), 5) for value in row] for row in np.asarray(solution.stiffness)]
     return Content(
         kind=_KINDS.get(type(scene), "cylindrical roller bearing"),
         operation=pretty(operating_point(solution)),
@@ -64,10 +62,20 @@ def bearing_content(scene: Any, solution: Solution) -> Content:
         checks=[(text, bool(broken)) for text, broken in solution.range_checks.items()],
         notes=solution.notes,
         results=[row for row in results if not row.path.startswith(("life.", "power_loss."))],
-        elements=element_columns(solution.elements),
+        elements=element_columns(solution),
         element_name=name,
-        stiffness=(freedoms, stiffness),
+        stiffness=_stiffness(solution),
     )
+
+
+def _stiffness(solution: Solution) -> tuple[list[str], list[list[str]]]:
+    """Headings with the unit of a displacement, and rows; "-" for what the model does not have."""
+    modelled = [name in solution.freedoms_of_stiffness for name in RING_FREEDOMS]
+    rows = [
+        [digits(float(value), 5) if modelled[i] and modelled[j] else "-" for j, value in enumerate(row)]
+        for i, row in enumerate(np.asarray(solution.stiffness))
+    ]
+    return [name.replace("_", " ") for name in RING_FREEDOMS], rows
 
 
 def _front_caption(scene: Any, name: str) -> str:

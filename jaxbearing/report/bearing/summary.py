@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from rich.console import Console
 
-from ...bearings.solution import Solution
+from ...bearings.solution import RING_FREEDOMS, Solution, stiffness_units
 from ...numerics.status import Status
 from ..display import digits, display_unit, displayed, with_unit
 from ..screen import (
@@ -165,14 +165,7 @@ def facts(solution: Solution) -> Iterator[tuple[str, str]]:
     yield "Inner ring", ", ".join(_ring(solution))
     yield from _ball_facts(solution)
     yield from _tapered_facts(solution)
-    stiffness = np.diagonal(np.asarray(solution.stiffness))
-    entries = [
-        f"{freedom} {with_unit(float(value), 'N/m')}"
-        for freedom, value in zip(solution.freedoms_of_stiffness, stiffness, strict=True)
-        if not freedom.startswith("tilt")
-    ]
-    if entries:
-        yield "Stiffness", ", ".join(entries)
+    yield "Stiffness", ", ".join(_stiffness(solution))
     for title, name, pick in (("Thinnest film", "film", np.nanargmin), ("Highest pressure", "pressure", np.argmax)):
         text = ", ".join(_extremes(solution.elements, name, pick))
         if text:
@@ -187,10 +180,14 @@ def _life(solution: Solution) -> Iterator[tuple[str, str]]:
         return
     of = lambda name: float(np.asarray(getattr(life, name)))
     kilonewton = lambda name: f"{digits(1e-3 * of(name))} kN"
-    lasting = lambda name: f"{digits(of(f'{name}_hours'))} h ({_revolutions(of(name))})"
-    lives = {"Lnmr": "modified life Lnmr", "L10r": "basic reference life L10r", "L10": "ISO 281 L10"}
-    known = {name: words for name, words in lives.items() if getattr(life, name) is not None}
-    yield "Life", "; ".join(f"{words} {lasting(name)}" for name, words in known.items())
+    lasting = lambda name, hours: f"{digits(of(hours))} h ({_revolutions(of(name))})"
+    lives = (
+        ("Lnmr", "Lnmr_hours", "modified life Lnmr"),
+        ("L10r", "L10r_hours", "basic reference life L10r"),
+        ("L10", "L10h", "ISO 281 L10"),
+    )
+    known = [f"{words} {lasting(name, hours)}" for name, hours, words in lives if getattr(life, name) is not None]
+    yield "Life", "; ".join(known)
     yield "Rating", f"C {kilonewton('dynamic_capacity')}, C0 {kilonewton('static_capacity')}"
     said = [] if life.viscosity_ratio is None else [f"kappa {digits(of('viscosity_ratio'), 3)}"]
     if life.film_ratio_inner is not None:
@@ -264,6 +261,17 @@ def _ring(solution: Solution) -> Iterator[str]:
         if field.name in solution.ring_freedom:
             value = float(getattr(solution.ring, field.name))
             yield f"{field.metadata['description']} {with_unit(value, field.metadata['unit'])}"
+
+
+def _stiffness(solution: Solution) -> Iterator[str]:
+    """The diagonal: of each freedom that the model has, the others held."""
+    matrix, units = np.asarray(solution.stiffness), stiffness_units()
+    for i, name in enumerate(RING_FREEDOMS):
+        if name in solution.freedoms_of_stiffness:
+            yield f"{name.replace('_', ' ')} {with_unit(float(matrix[i, i]), units[i][i])}"
+    others = [name.replace("_", " ") for name in RING_FREEDOMS if name not in solution.freedoms_of_stiffness]
+    if others:
+        yield f"not modelled: {', '.join(others)}"
 
 
 def _extremes(elements: Any, name: str, pick: Any) -> Iterator[str]:

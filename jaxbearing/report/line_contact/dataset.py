@@ -8,7 +8,10 @@ import xarray as xr
 
 from ...ehl import LineContactHistory, LineContactSolution
 from ...numerics.status import Status
-from ..labelled import CHECK, attributes, checks, described, flags, identity_text, labelled, without_fill
+from ..labelled import CHECK, attributes, checks, flags, identity_text, labelled, variable, without_fill
+
+_ALONG_X = {"node": "x"}
+"""Where all profiles have the same nodes, their places are the dimension."""
 
 
 def line_contact_to_dataset(solution: LineContactSolution, dims: Sequence[str] = ()) -> xr.Dataset:
@@ -20,7 +23,7 @@ def line_contact_to_dataset(solution: LineContactSolution, dims: Sequence[str] =
         raise ValueError(f"dims: got {len(dims)} names {dims}; the solution is a batch of {batch} dimensions")
     if not dims and not bool(solution.converged):
         raise ValueError(f"a solve that failed has no results: {solution.failure()}")
-    dataset = _variables(solution, "Film and pressure of a line contact", dims, "node" if dims else "x")
+    dataset = _variables(solution, "Film and pressure of a line contact", dims, {} if dims else _ALONG_X)
     if dims:
         dataset = dataset.set_coords("x")
         dataset["out_of_range"] = checks(solution, dims)
@@ -31,25 +34,17 @@ def line_contact_to_dataset(solution: LineContactSolution, dims: Sequence[str] =
 
 def film_history_to_dataset(history: LineContactHistory) -> xr.Dataset:
     """All results of a run: dimensions `time` (every step) and `x`."""
-    dataset = _variables(history, "Film and pressure of a line contact over time", ("time",))
+    dataset = _variables(history, "Film and pressure of a line contact over time", (), _ALONG_X)
     dataset.attrs |= {"solver": history.solver, "completed": int(history.completed)}
     dataset.attrs |= identity_text(history.last_state.identity)
     return without_fill(dataset)
 
 
-def _variables(result: Any, title: str, along: tuple[str, ...], node: str = "x") -> xr.Dataset:
+def _variables(result: Any, title: str, along: tuple[str, ...], names: dict[str, str]) -> xr.Dataset:
     dataset = xr.Dataset(attrs=attributes(result, title))
     for path, value, metadata in labelled(result):
-        name, values = path.removeprefix("profile.").replace(".", "_"), np.asarray(value)
-        if path.startswith("profile."):
-            dims = (node,) if values.ndim == 1 else (*along, node)
-            name = "x" if name == "x" else f"profile_{name}"
-        elif path.startswith("last_state."):
-            # values of the last three times, and the two steps between them
-            dims = (("last_step",) if name.endswith("steps") else ("last_time", "x"))[: values.ndim]
-        else:
-            dims = along if values.ndim else ()
-        dataset[name] = xr.Variable(dims, values, described(metadata, path))
+        name = "x" if path == "profile.x" else path.replace(".", "_")
+        dataset[name] = variable(value, metadata, path, along, names)
     for name, unit, text in (
         ("entrainment_speed", "m s-1", "mean surface speed"),
         ("oil_temperature", "K", "oil temperature"),

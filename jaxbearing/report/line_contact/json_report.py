@@ -6,13 +6,13 @@ import numpy as np
 
 from ...ehl import LineContactHistory, LineContactSolution
 from ...numerics.status import Status
+from ..labelled import labelled
 from ..plain import finite, plain
 
 
 def line_contact_to_dict(solution: LineContactSolution) -> dict[str, Any]:
     """See `report.json_report.solution_to_dict`."""
-    numbers = ("load_per_length", "central_pressure", "moes_load", "moes_material", "speed_number")
-    return {
+    results = {
         "converged": bool(solution.converged),
         "status": Status(int(solution.status)).text,
         "warnings": list(solution.warnings),
@@ -25,7 +25,9 @@ def line_contact_to_dict(solution: LineContactSolution) -> dict[str, Any]:
         "hertz": plain(solution.hertz),
         "profile": plain(solution.profile),
         "formulas": plain(solution.formulas),
-    } | {name: finite(float(getattr(solution, name))) for name in numbers}
+    }
+    others = {path: plain(value) for path, value, _ in labelled(solution) if path not in results and "." not in path}
+    return results | others
 
 
 def film_statistics(history: LineContactHistory) -> dict[str, Any]:

@@ -7,7 +7,7 @@ import xarray as xr
 
 from ...machines import TwoDiskSolution
 from ...numerics.status import Status
-from ..labelled import CHECK, attributes, checks, common, described, flags, labelled, without_fill
+from ..labelled import CHECK, attributes, checks, common, flags, labelled, variable, without_fill
 
 
 def two_disk_to_dataset(solution: TwoDiskSolution, dims: Sequence[str] = ()) -> xr.Dataset:
@@ -25,22 +25,19 @@ def two_disk_to_dataset(solution: TwoDiskSolution, dims: Sequence[str] = ()) -> 
         raise ValueError(f"a solve that failed has no results: {solution.failure()}")
     loaded = "load" if solution.operation.pressure is None else "pressure"
     axes = ("temperature", "entrainment_speed", loaded, "slide_to_roll")
-    own = {"pressure": (loaded,), "load": (loaded,)}
+    names = {"speed": "entrainment_speed", "load": loaded, "slide": "slide_to_roll"}
     dataset = xr.Dataset(attrs=attributes(solution, "Traction curves of a two-disk machine"))
     for path, value, metadata in labelled(solution):
         name = path.removeprefix("operation.")
         if name in dataset:
             # pressure or load: as asked, and as they are on both sides of Hertz's law
             continue
-        dims_of = own.get(name, (name,) if path != name else axes)
-        values = np.asarray(value)
-        if path != name and dims:
-            # an axis is that of all lanes
-            values = common(values, 1, path)
-        dataset[name] = xr.Variable((*dims, *dims_of)[-values.ndim :], values, described(metadata, path))
+        # an axis is that of all lanes
+        values = common(np.asarray(value), 1, path) if path != name and dims else value
+        dataset[name] = variable(values, metadata, path, dims, names)
     dataset["status"].attrs |= flags(dataset["status"].dtype, [status.text for status in Status])
     if solution.range_checks:
         dataset["out_of_range"] = checks(solution, dims)
         words = {"units": "1", "long_name": "what is checked"}
         dataset = dataset.assign_coords({CHECK: xr.Variable((CHECK,), list(solution.range_checks), words)})
-    return without_fill(dataset.set_coords([name for name in (*axes, *own) if name in dataset]))
+    return without_fill(dataset.set_coords([name for name in (*axes, "pressure", "load") if name in dataset]))

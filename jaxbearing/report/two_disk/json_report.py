@@ -6,11 +6,12 @@ import numpy as np
 
 from ...machines import TwoDiskSolution
 from ...numerics.status import Status
+from ..labelled import labelled
 from ..plain import finite, plain
 from .curves import curves_of
 
-_ALONG = ("traction_coefficient", "film", "inlet_temperature", "power", "film_rise", "surface_rise")
-"""Results that a curve has for each slide-to-roll ratio."""
+_ONCE = ("status", "inner_residual", "deborah_number")
+"""Results of each point of which a curve, or the whole family, has one number."""
 
 
 def two_disk_to_dict(solution: TwoDiskSolution) -> dict[str, Any]:
@@ -20,20 +21,19 @@ def two_disk_to_dict(solution: TwoDiskSolution) -> dict[str, Any]:
     all points are there.
     """
     slide = plain(solution.operation.slide_to_roll)
-    curves = []
-    for curve in curves_of(solution):
-        known = [name for name in _ALONG if getattr(solution, name) is not None]
-        curves.append(
-            {"slide_to_roll": slide}
-            | {name: plain(curve.of(getattr(solution, name))) for name in known}
-            | {
-                "pressure": finite(curve.pressure),
-                "load": finite(curve.load),
-                "entrainment_speed": finite(curve.entrainment_speed),
-                "temperature": finite(curve.temperature),
-                "deborah_number": finite(float(curve.of(solution.deborah_number)[curve.slowest])),
-            }
-        )
+    along = {name: value for name, value, found in labelled(solution) if "slide" in found["dims"] and "." not in name}
+    curves = [
+        {"slide_to_roll": slide}
+        | {name: plain(curve.of(values)) for name, values in along.items() if name not in _ONCE}
+        | {
+            "pressure": finite(curve.pressure),
+            "load": finite(curve.load),
+            "entrainment_speed": finite(curve.entrainment_speed),
+            "temperature": finite(curve.temperature),
+            "deborah_number": finite(float(curve.of(solution.deborah_number)[curve.slowest])),
+        }
+        for curve in curves_of(solution)
+    ]
     return {
         "converged": bool(solution.converged),
         "status": Status(int(np.max(np.asarray(solution.status)))).text,

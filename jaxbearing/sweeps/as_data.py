@@ -1,0 +1,112 @@
+"""Scenes and plans as data: a text of JSON, and arrays. Reading them makes parts of this package and runs nothing.
+
+A part is its class, named as `jaxbearing.bearings.ball_bearing:BallBearing`, and its fields. Only classes of this
+package that are imported already are known by name. Their constructors are not called, no module is imported for a
+file, and arrays are read without pickles.
+"""
+
+import dataclasses
+import functools
+import json
+import sys
+from collections.abc import Mapping
+from typing import Any
+
+import equinox as eqx
+import numpy as np
+
+_PACKAGE = __name__.partition(".")[0]
+
+
+class ForeignPartError(TypeError):
+    """Something that is no part of this package, such as a law of the user's own: it cannot be written as data."""
+
+
+def encoded(part: Any) -> tuple[str, dict[str, np.ndarray]]:
+    """A part as a text and named arrays, which `decoded` reads.
+
+    **Raises:** `ForeignPartError`.
+    """
+    arrays: dict[str, np.ndarray] = {}
+    return json.dumps(_encode(part, arrays)), arrays
+
+
+def decoded(text: str, arrays: Mapping[str, np.ndarray]) -> Any:
+    """The way back. **Raises:** `ValueError` for what no part of this package was written as."""
+    try:
+        return _decode(json.loads(text), arrays)
+    except (KeyError, TypeError, AttributeError, RecursionError) as error:
+        raise ValueError(f"not the data of a part: {type(error).__name__}: {error}") from None
+
+
+def _encode(part: Any, arrays: dict[str, np.ndarray]) -> Any:
+    if part is None or type(part) in (bool, int, float, str):
+        return part
+    if isinstance(part, np.ndarray | np.generic) or hasattr(part, "__jax_array__") or eqx.is_array(part):
+        values = np.asarray(part)
+        if values.dtype.kind not in "biuf":
+            raise ForeignPartError(f"an array of {values.dtype}")
+        name = f"array_{len(arrays)}"
+        arrays[name] = values
+        return {"array": name}
+    each = lambda values: [_encode(value, arrays) for value in values]
+    if type(part) in (list, tuple):
+        return {type(part).__name__: each(part)}
+    if type(part) is dict and all(type(key) is str for key in part):
+        return {"dict": {key: _encode(value, arrays) for key, value in part.items()}}
+    kind = type(part)
+    name = f"{kind.__module__}:{kind.__qualname__}"
+    if _kind(name) is not kind:
+        raise ForeignPartError(f"a {kind.__module__}.{kind.__qualname__}")
+    values = {field: _encode(getattr(part, field), arrays) for field in _fields(kind)}
+    return {"class": name, "fields": values}
+
+
+def _decode(data: Any, arrays: Mapping[str, np.ndarray]) -> Any:
+    if not isinstance(data, dict):
+        if isinstance(data, list):
+            raise ValueError("not the data of a part: a list without its kind")
+        return data
+    if set(data) == {"array"}:
+        return arrays[data["array"]]
+    if set(data) == {"list"}:
+        return [_decode(value, arrays) for value in data["list"]]
+    if set(data) == {"tuple"}:
+        return tuple(_decode(value, arrays) for value in data["tuple"])
+    if set(data) == {"dict"}:
+        return {key: _decode(value, arrays) for key, value in data["dict"].items()}
+    if set(data) != {"class", "fields"}:
+        raise ValueError(f"not the data of a part: {', '.join(sorted(data))[:80]}")
+    kind, given = _kind(data["class"]), data["fields"]
+    if kind is None:
+        raise ValueError(f"no class of this package: {data['class']!r}"[:160])
+    if set(given) != set(_fields(kind)):
+        raise ValueError(f"{data['class']} of another version: its fields differ")
+    values = {field: _decode(given[field], arrays) for field in _fields(kind)}
+    if issubclass(kind, tuple):
+        return tuple.__new__(kind, values.values())
+    made = object.__new__(kind)
+    for field, value in values.items():
+        object.__setattr__(made, field, value)
+    return made
+
+
+@functools.cache
+def _fields(kind: type) -> tuple[str, ...]:
+    if issubclass(kind, tuple):
+        return getattr(kind, "_fields")  # noqa: B009  (of a named tuple, which has no class of its own)
+    return tuple(field.name for field in dataclasses.fields(kind))
+
+
+def _kind(name: str) -> type | None:
+    """The class of the package with this name, if it is one that holds nothing but its fields."""
+    module, _, path = name.partition(":")
+    if module.partition(".")[0] != _PACKAGE or not path:
+        return None
+    found: Any = sys.modules.get(module)
+    for part in path.split("."):
+        found = None if found is None else vars(found).get(part)
+    if not isinstance(found, type) or found.__module__ != module:
+        return None
+    named_tuple = issubclass(found, tuple) and hasattr(found, "_fields")
+    return found if named_tuple or (issubclass(found, eqx.Module) and dataclasses.is_dataclass(found)) else None

@@ -1,0 +1,181 @@
+"""Every command line of README and docs runs as it is printed, page by page, as a reader would type it.
+
+With made up results (`filled_results`) all but the solvers is real: reading, `--set` paths, options, files, pictures,
+screen. The slow test has the solvers too; it shortens runs in time and sweeps.
+"""
+
+import dataclasses
+import json
+import re
+import shlex
+import shutil
+import sys
+from pathlib import Path
+
+import fit_results
+import jax.numpy as jnp
+import pytest
+from filled_results import history_of, solution_of, structure_of
+
+from fitting import fit as _fit  # noqa: F401  (the module of this name is in sys.modules)
+from jaxbearing.cli.main import main
+from jaxbearing.sensitivity import Sensitivities
+from jaxbearing.sweeps import engine
+from jaxbearing.sweeps.cases import Cases
+
+ROOT = Path(__file__).parents[2]
+PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md"))]
+FEW = 12
+"""Cases of a sweep that are solved here, at most; of a grid so many along each axis that it has not more."""
+SHORT = 2e-5
+"""Duration of a run in time with its solver, s."""
+
+
+def commands_of(text):
+    """Arguments of all commands of a page: lines of shell blocks, and code spans that name a scene or a file."""
+    found = []
+    for language, block in re.findall(r"^```(\w*)\n(.*?)^```", text, flags=re.MULTILINE | re.DOTALL):
+        if language in ("", "sh", "bash", "console"):
+            found += [part for line in block.splitlines() for part in _programs(line)]
+    prose = re.sub(r"^```.*?^```", "", text, flags=re.MULTILINE | re.DOTALL)
+    spans = (" ".join(span.split()) for span in re.findall(r"`([^`]+)`", prose))
+    return found + [part for span in spans if re.match(r"jaxbearing \w+ [^-\s]", span) for part in _programs(span)]
+
+
+def _programs(line):
+    """Arguments of `jaxbearing` in a shell line, without what is set or run before it."""
+    words = shlex.split(line, comments=True)
+    while "&&" in words:
+        words = words[words.index("&&") + 1 :]
+    words = words[next((i for i, word in enumerate(words) if not re.match(r"[A-Z_]+=", word)), 0) :]
+    return [words[1:]] if words and Path(words[0]).name == "jaxbearing" and words[1:] else []
+
+
+COMMANDS = {page.relative_to(ROOT).as_posix(): commands_of(page.read_text(encoding="utf-8")) for page in PAGES}
+
+
+def test_commands_are_found():
+    assert len(COMMANDS["README.md"]) > 20
+    assert ["solve", "misaligned.toml"] in COMMANDS["docs/life.md"]
+    assert sum(map(len, COMMANDS.values())) > 35
+
+
+@pytest.fixture
+def folder(tmp_path, monkeypatch):
+    """Where a reader works; in `given` the files that the pages show or describe."""
+    readme, life = (ROOT / name for name in ("README.md", "docs/life.md"))
+    (curves,) = re.findall(r"```csv\n(.*?)```", readme.read_text(encoding="utf-8"), flags=re.DOTALL)
+    (scene,) = re.findall(r"```toml\n(.*?)```", life.read_text(encoding="utf-8"), flags=re.DOTALL)
+    files = {
+        "curves.csv": curves,
+        "misaligned.toml": scene,
+        "cases.csv": "operation.inner_speed [rpm],operation.radial_load [kN]\n8000,20\n10000,25\n",
+        "run_up.csv": "time [ms],speed [rpm]\n0,8000\n10,9000\n50,10500\n",
+    }
+    (tmp_path / "given").mkdir()
+    for name, text in files.items():
+        (tmp_path / "given" / name).write_text(text, encoding="utf-8")
+    monkeypatch.setenv("JAXBEARING_CACHE", "off")
+    return tmp_path
+
+
+@pytest.fixture
+def one_process(monkeypatch):
+    """No other processes, and few cases of grids and samples: the plan is made as the command says, then cut."""
+    run = engine.run
+    few = lambda plan, *given, **more: run(dataclasses.replace(plan, cases=_few(plan.cases)), *given, **more)
+    monkeypatch.setattr(engine, "run", few)
+    monkeypatch.setattr("jaxbearing.sweeps.verb.on_workers", lambda *_: engine.in_process())
+
+
+def _few(cases):
+    if cases.kind == "list":
+        return cases
+    if cases.kind == "grid":
+        along = max(1, round(FEW ** (1.0 / len(cases.paths))))
+        return Cases(cases.kind, cases.paths, tuple(values[:along] for values in cases.values))
+    return Cases(cases.kind, cases.paths, tuple(values[:FEW] for values in cases.values))
+
+
+@pytest.fixture
+def made_up(monkeypatch, one_process):
+    """Results of every solver without a solve."""
+
+    class Program:
+        def __init__(self, make, base, example, **_):
+            self.scene = make(base, example)
+            self.structure = structure_of(self.scene)
+
+        def __call__(self, inputs, active, progress):
+            progress(len(active))
+            return solution_of(self.scene, (len(active),))
+
+    def slopes(scene):
+        numbers = {"operation.inner_speed": jnp.asarray(1.0), "geometry.pitch_diameter": jnp.asarray(-0.5)}
+        return solution_of(scene), Sensitivities(numbers, numbers)
+
+    run = lambda scene, duration, **_: history_of(scene, duration or scene.simulation.duration)
+    monkeypatch.setattr(sys.modules["jaxbearing.solve"], "solve_once", solution_of)
+    monkeypatch.setattr(sys.modules["jaxbearing.sensitivity"], "sensitivities_once", slopes)
+    monkeypatch.setattr(sys.modules["jaxbearing.simulate"], "simulate", run)
+    # a made up state is that of no bearing
+    monkeypatch.setattr(sys.modules["jaxbearing.simulate"], "check_restart", lambda *_: None)
+    monkeypatch.setattr("jaxbearing.sweeps.plan.LaneProgram", Program)
+    fit = lambda measurements, machine, options: fit_results.made_up(machine, "curves.csv")
+    monkeypatch.setattr(sys.modules["fitting.fit"], "fit", fit)
+
+
+@pytest.fixture
+def shortened(monkeypatch, one_process):
+    """Solvers as they are; runs in time are short."""
+    simulate = sys.modules["jaxbearing.simulate"].simulate
+    short = lambda scene, duration, **more: simulate(scene, min(duration or SHORT, SHORT), **more)
+    monkeypatch.setattr(sys.modules["jaxbearing.simulate"], "simulate", short)
+
+
+def run_all(folder, monkeypatch, capfd, without=()):
+    """Each command once, in the order of the pages, each page in a folder of its own."""
+    done = []
+    for page, commands in COMMANDS.items():
+        here = folder / page.replace("/", "_")
+        shutil.copytree(folder / "given", here)
+        monkeypatch.chdir(here)
+        for arguments in commands:
+            if arguments not in done and arguments[0] not in without:
+                run_one(page, arguments, here, monkeypatch, capfd)
+                done.append(arguments)
+
+
+def run_one(page, arguments, folder, monkeypatch, capfd):
+    command = shlex.join(["jaxbearing", *arguments])
+    monkeypatch.setattr("sys.argv", ["jaxbearing", *arguments])
+    capfd.readouterr()
+    with pytest.raises(SystemExit) as ended:
+        main()
+    out, err = capfd.readouterr()
+    assert not ended.value.code, f"{page}: {command}\n{err}{out}"
+    if "--json" in arguments:
+        assert json.loads(out)["converged"] is True, command
+    for option in ("--out", "--plot", "--ross", "--animation"):
+        if option in arguments:
+            assert (folder / arguments[arguments.index(option) + 1]).stat().st_size > 0, command
+
+
+@pytest.mark.usefixtures("made_up")
+def test_commands_run(folder, monkeypatch, capfd):
+    run_all(folder, monkeypatch, capfd)
+
+
+@pytest.mark.slow
+@pytest.mark.usefixtures("shortened")
+def test_commands_run_with_their_solvers(folder, monkeypatch, capfd):
+    # the study, of 100 solves, has a test of its own
+    run_all(folder, monkeypatch, capfd, without=("study",))
+
+
+def test_scripts_and_tests_that_are_named_are_there():
+    """Other programs of shell blocks: their files."""
+    for page in PAGES:
+        for block in re.findall(r"^```sh\n(.*?)^```", page.read_text(encoding="utf-8"), flags=re.MULTILINE | re.DOTALL):
+            for path in re.findall(r"(?<![\w/.])((?:tests|docs|notebooks)/[\w./-]+)", block):
+                assert (ROOT / path).exists(), f"{page.name}: {path}"

@@ -1,0 +1,78 @@
+"""Every dotted name of the package that README, docs and changelog mention is there, where a reader looks for it."""
+
+import importlib
+import json
+import re
+import subprocess
+import sys
+import types
+from pathlib import Path
+
+import pytest
+from command_process import environment
+
+import fitting
+import jaxbearing
+
+ROOT = Path(__file__).parents[2]
+PAGES = [ROOT / "README.md", ROOT / "CHANGELOG.md", *sorted((ROOT / "docs").rglob("*.md"))]
+NAME = re.compile(r"(?<![\w./'\"-])(jb|jaxbearing|fitting)((?:\.[A-Za-z_]\w*)+)(?![\w/-])")
+IMPORT = re.compile(r"^\s*from ((?:jaxbearing|fitting)[\w.]*) import ([\w, ]+)$", flags=re.MULTILINE)
+NO_NAMES = {"py", "toml", "md", "html", "nc"}
+"""Endings of files."""
+MOVED = {"jaxbearing.simulate.FIELD": "jaxbearing.bearings.roller_run.FIELD"}
+"""Names of old entries of the changelog, and where they are now."""
+
+
+def mentioned():
+    found = {}
+    for page in PAGES:
+        text, where = page.read_text(encoding="utf-8"), page.relative_to(ROOT).as_posix()
+        names = [package + path for package, path in NAME.findall(text) if path.rpartition(".")[2] not in NO_NAMES]
+        names += [
+            f"{module}.{name.split()[0]}" for module, listed in IMPORT.findall(text) for name in listed.split(",")
+        ]
+        for name in names:
+            found.setdefault(name, where)
+    return found
+
+
+MENTIONED = mentioned()
+
+
+def resolved(name):
+    """As Python resolves the name: an attribute, or a module that can be imported, of what is before the dot."""
+    package, *parts = name.split(".")
+    at = fitting if package == "fitting" else jaxbearing
+    for part in parts:
+        if isinstance(at, types.ModuleType) and not hasattr(at, part):
+            importlib.import_module(f"{at.__name__}.{part}")
+        at = getattr(at, part)
+    return at
+
+
+@pytest.fixture(scope="module")
+def at_once():
+    """What `import jaxbearing as jb` offers before anything else is imported."""
+    program = "import json, jaxbearing as jb; print(json.dumps([name for name in dir(jb) if hasattr(jb, name)]))"
+    done = subprocess.run(
+        [sys.executable, "-c", program], env=environment(), capture_output=True, text=True, check=True
+    )
+    return set(json.loads(done.stdout))
+
+
+def test_names_are_found():
+    assert {"jb.solve", "jb.trajectory", "jaxbearing.contacts.film.Moes", "fitting.fit"} <= set(MENTIONED)
+
+
+@pytest.mark.parametrize("name", sorted(MENTIONED))
+def test_name_is_there(name, at_once):
+    if MENTIONED[name] == "CHANGELOG.md":
+        name = MOVED.get(name, name)
+    assert resolved(name) is not None
+    package, first = name.split(".")[:2]
+    assert package != "jb" or first in at_once, f"{name} is there only after another import"
+
+
+def test_all_that_is_offered_is_there(at_once):
+    assert {"sweeps", "plots", "trajectory", "quasi_static_start", "pocket_loads", *jaxbearing._LAZY} <= at_once
