@@ -230,7 +230,7 @@ def test_a_film_that_no_inlet_temperature_explains_is_outside_the_thermal_law():
     assert np.all(status[0] == Status.CONVERGED)
     assert np.all(status[1] == Status.OUTSIDE_VALIDITY)
     assert np.all(np.isnan(np.asarray(solution.traction_coefficient)[0, 1]))
-    with pytest.raises(SolveError, match="outside_validity: 5 of 10 points.*thermal law's") as raised:
+    with pytest.raises(SolveError, match=r"outside_validity: 5 of 10 points.*thermal law's") as raised:
         solution.raise_if_failed()
     assert raised.value.status == Status.OUTSIDE_VALIDITY
 
