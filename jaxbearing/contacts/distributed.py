@@ -299,10 +299,8 @@ class _Problem(eqx.Module):
     def highest(self, field: Float[Array, "step ... strip"]) -> Array:
         """Peak over the contact of what is known in the middle of each step of each strip."""
         offset, strips = self.strips.offset, peak(np.arange(float(len(field))), jnp.moveaxis(field, 0, -1))
-        if self.half:
-            # the first strip is in the middle, the second one has a twin beyond
-            offset = jnp.concatenate([-offset[..., 1:2], offset], axis=-1)
-            strips = jnp.concatenate([strips[..., 1:2], strips], axis=-1)
+        if self.half:  # the first strip is in the middle, the second one has a twin beyond
+            offset, strips = (jnp.append(s * v[..., 1:2], v, axis=-1) for s, v in ((-1.0, offset), (1.0, strips)))
         return peak(offset, strips)
 
     def conductivity(self, heating: FilmHeating) -> Array:

@@ -193,9 +193,11 @@ class EHLLineContact(AbstractScene):
         guess = self.formulas(speed * scales.reference_speed)["moes_central"] / scales.film
         return Steady(self.fluid(scales), scales.wedge, speed, guess, self.solvable(scales, speed))
 
-    def film_ratio(self, scales: Scales) -> Float[Array, ""]:
-        """M/H of Moes' numbers, by which the errors of mesh and inlet go (`resolution`)."""
-        return 0.125 * jnp.pi * scales.film / self.formulas()["moes_central"]
+    def film_ratio(self, scales: Scales, film: Any = None) -> Float[Array, ""]:
+        """M/H of Moes' numbers, by which the errors of mesh and inlet go (`resolution`). **Arguments:** `film`: Moes'
+        central one, m, where it is known."""
+        film = self.formulas()["moes_central"] if film is None else film
+        return 0.125 * jnp.pi * scales.film / film
 
     def solvable(self, scales: Scales, speed: Any) -> Bool[Array, ""]:
         """Whether there is a film at this speed that this model describes."""

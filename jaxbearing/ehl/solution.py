@@ -147,7 +147,7 @@ def solve_line_contact(scene: EHLLineContact, options: Any = None) -> LineContac
     turned = lambda values: jnp.where(backwards, values[::-1], values)
     sign = jnp.where(backwards, -1.0, 1.0)
     exists = scales.wedge * speed >= SMALLEST_WEDGE
-    x = jnp.asarray(grid.x)
+    x, formulas = jnp.asarray(grid.x), scene.formulas()
     return LineContactSolution(
         status=judged(root.status, exists, scene.described(scales)),
         iterations=root.iterations,
@@ -164,24 +164,25 @@ def solve_line_contact(scene: EHLLineContact, options: Any = None) -> LineContac
             shown(turned(root.point.pressure) * scales.hertz_pressure),
             shown(turned(shape) * scales.film),
         ),
-        formulas=FormulaResult(**scene.formulas()),
+        formulas=FormulaResult(**formulas),
         load_per_length=scales.load_per_length,
         central_pressure=shown(central_value(root.point.pressure, grid) * scales.hertz_pressure),
         moes_load=scales.moes_load,
         moes_material=scales.moes_material,
         speed_number=scales.wedge * speed,
         operation=scene.operation,
-        checks=range_checks(scene, scales) | {THIN: shown(minimum * scales.film) < scene.contact.film_limit},
+        checks=range_checks(scene, scales, formulas["moes_central"])
+        | {THIN: shown(minimum * scales.film) < scene.contact.film_limit},
         unknowns=key.nodes - 1,
         compressible=scene.contact.compressible,
         notes=scene.assumptions(),
     )
 
 
-def range_checks(scene: EHLLineContact, scales: Scales) -> dict[str, Bool[Array, ""]]:
-    """Which ranges are left."""
+def range_checks(scene: EHLLineContact, scales: Scales, film: Any = None) -> dict[str, Bool[Array, ""]]:
+    """Which ranges are left. **Arguments:** `film`: by Moes' formula, where it is known."""
     temperature, (low, high) = jnp.asarray(scene.operation.oil_temperature), FITTED_TEMPERATURES
-    ratio, model = scene.film_ratio(scales), scene.contact
+    ratio, model = scene.film_ratio(scales, film), scene.contact
     coarse = mesh_error(model.nodes, ratio, scales.moes_material) > LARGEST_MESH_ERROR
     return {
         "oil beyond 200 degC: the oil laws are extrapolated": temperature > high,

@@ -234,8 +234,8 @@ def test_error_estimate_thermal(line):
         temperature,
     )
     heated = lambda n: DistributedTraction(VISCOUS[3], Resolution(n, 1 if line else 16), heating=FilmHeating())
-    found, exact = (traction(heated(n), *arguments, PENNZANE) for n in (24, 192))
-    errors = estimate(heated(24), *arguments, PENNZANE)
+    found, exact = (traction(heated(n), *arguments, PENNZANE) for n in (48, 384))
+    errors = estimate(heated(48), *arguments, PENNZANE)
     for field in ("rolling", "film_rise", "surface_rise"):
         ratio = getattr(errors, field) / jnp.abs(getattr(found, field) - getattr(exact, field))
         assert 1 / 3 < ratio < 3, field
