@@ -10,6 +10,7 @@ from full_places import limited
 
 from jaxbearing.report.netcdf import NetcdfStream, netcdf_image
 
+SLOW = pytest.mark.slow
 DATA = xr.Dataset({"a": ("x", np.arange(5_000.0), {"units": "m"}), "b": ("word", ["one", "other"])})
 MORE = xr.Dataset({f"c{i}": ("x", np.full(5_000, float(i))) for i in range(3)})
 _IN_A_PROCESS = """
@@ -27,7 +28,7 @@ except OSError as error:
 """
 
 
-@pytest.mark.parametrize("limit", [0, 100, 45_000, 100_000])
+@pytest.mark.parametrize("limit", [0, pytest.param(100, marks=SLOW), 45_000, pytest.param(100_000, marks=SLOW)])
 def test_a_limit_at_any_place_is_an_error(limit, tmp_path):
     """At once, in the middle of the first or of the second data set; both the writing and the end of the process."""
     command = [sys.executable, "-B", "-c", _IN_A_PROCESS, str(tmp_path / "a.nc"), str(limit)]
