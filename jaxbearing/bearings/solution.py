@@ -157,11 +157,15 @@ def losses_not_modelled(loss: Any) -> tuple[str, ...]:
 
 
 class LaminaLoads(eqx.Module):
-    """Loads of the laminae into which rollers are cut along their length, N, from the end s = 0; `profiled`: whether
-    the rollers have a profile, which spreads the load near the ends."""
+    """Loads of the laminae into which rollers are cut along their length, from the end s = 0.
 
-    inner: Float[Array, "element lamina"] = eqx.field(metadata=label("N", "load of the lamina on the inner raceway"))
-    outer: Float[Array, "element lamina"] = eqx.field(metadata=label("N", "load of the lamina on the outer raceway"))
+    **Arguments:**
+    - `inner`, `outer`: on the raceways, N.
+    - `profiled`: whether the rollers have a profile, which spreads the load near the ends.
+    """
+
+    inner: Float[Array, "element lamina"]
+    outer: Float[Array, "element lamina"]
     profiled: bool = eqx.field(static=True, default=False)
 
 
