@@ -229,14 +229,16 @@ def _placed(scene: Any, n: Numbers, r: Results) -> tuple[Placed, dict[str, tuple
         arm = np.stack([arm[0], arm[1] * cosine + arm[2] * sine, arm[2] * cosine - arm[1] * sine])
     else:
         arm = np.stack([middle - ball[0], lever[:, None] + radial * cosine - ball[1], 0.0 * cosine])
+    nearest = np.stack([ball[0] + arm[0] - middle, (ball[1] + arm[1]) * cosine - arm[2] * sine - radial])
+    # a film thicker than the groove's radius is larger than the ball's puts the ball beyond the groove centre
+    arm = arm * np.where(reach["inner"] < 0.0, -1.0, 1.0)
     # the contact angle is that on the tilted race
     turned = np.arctan2(np.sin(tilt) * cosine, np.cos(tilt))
     seen = np.arctan2(arm[0], arm[1]) - turned
     length = np.linalg.norm(arm, axis=0)
     loaded = np.minimum(r["elements.load_inner"], r["elements.load_outer"]) > 1e-3
-    gap = np.hypot(length - reach["inner"], length * (seen - r["elements.contact_angle_inner"]))
+    gap = np.hypot(length - np.abs(reach["inner"]), length * (seen - r["elements.contact_angle_inner"]))
     found["rings and balls fit"] = (np.max(np.where(loaded, gap, 0.0), axis=1) / 1e-6, 1e-4)
-    nearest = np.stack([ball[0] + arm[0] - middle, (ball[1] + arm[1]) * cosine - arm[2] * sine - radial])
     return Placed(arm, nearest, lever), found
 
 
