@@ -107,7 +107,7 @@ def kind_and_place(text):
 def test_every_kind_of_bearing_has_its_checks(name):
     """Traced, not compiled: the texts that a solve of this kind may say."""
     solution = eqx.filter_eval_shape(lambda scene: jb.solve(scene, throw=False), family(name))
-    found = sorted(map(kind_and_place, solution.checks), key=str)
+    found = sorted(map(kind_and_place, solution.range_checks), key=str)
     words = lambda text: [word.replace("_", " ") for word in text.split()]
     races, rib, whole = FAMILIES[name][2:]
     expected = [(kind, place) for kind in words(races) for place in RACEWAYS]
@@ -255,4 +255,4 @@ def test_rollers_that_yield_are_said():
     ):
         found = solve(dry.replace(change))
         assert bool(found.converged)
-        assert {kind_and_place(text)[0] for text, broken in found.checks.items() if broken} == expected
+        assert {kind_and_place(text)[0] for text, broken in found.range_checks.items() if broken} == expected
