@@ -49,7 +49,7 @@ def public_classes():
     for package in PACKAGES:
         path = importlib.import_module(f"jaxbearing.{package}").__path__
         names += [f"jaxbearing.{package}.{module.name}" for module in pkgutil.iter_modules(path)]
-    for name in set(names) - set(INSIDE):
+    for name in sorted(set(names) - set(INSIDE)):
         for kind in vars(importlib.import_module(name)).values():
             own = isinstance(kind, type) and issubclass(kind, eqx.Module) and kind.__module__ == name
             if own and not kind.__name__.startswith("_"):

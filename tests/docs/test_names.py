@@ -20,8 +20,6 @@ NAME = re.compile(r"(?<![\w./'\"-])(jb|jaxbearing|fitting)((?:\.[A-Za-z_]\w*)+)(
 IMPORT = re.compile(r"^\s*from ((?:jaxbearing|fitting)[\w.]*) import ([\w, ]+)$", flags=re.MULTILINE)
 NO_NAMES = {"py", "toml", "md", "html", "nc"}
 """Endings of files."""
-MOVED = {"jaxbearing.simulate.FIELD": "jaxbearing.bearings.roller_run.FIELD"}
-"""Names of old entries of the changelog, and where they are now."""
 
 
 def mentioned():
@@ -67,8 +65,6 @@ def test_names_are_found():
 
 @pytest.mark.parametrize("name", sorted(MENTIONED))
 def test_name_is_there(name, at_once):
-    if MENTIONED[name] == "CHANGELOG.md":
-        name = MOVED.get(name, name)
     assert resolved(name) is not None
     package, first = name.split(".")[:2]
     assert package != "jb" or first in at_once, f"{name} is there only after another import"
