@@ -182,6 +182,9 @@ class Solution(AbstractSolution):
     `operation`, `elements` and `power_loss` are those of the kind of bearing: `Operation`, `RollerResults`,
     `PowerLoss`, or `BallOperation`, `BallResults`, `BallPowerLoss` and `RacewayPower`, or `TaperedOperation`,
     `TaperedResults`, `TaperedPowerLoss`. Where the scene models no loss there is no drive power and no torque.
+
+    **Arguments:** the labels of the fields say what they are, and
+    - `global_equations`: number of equations that belong to no single rolling element.
     """
 
     status: Int[Array, ""] = eqx.field(metadata=label("1", "how the solve ended"))
@@ -210,7 +213,7 @@ class Solution(AbstractSolution):
     checks: Mapping[str, Bool[Array, ""]]
     ring_freedom: tuple[str, ...] = eqx.field(static=True)
     equation_names: tuple[str, ...] = eqx.field(static=True)
-    global_equations: int = eqx.field(static=True, metadata=label("1", "equations of no single rolling element"))
+    global_equations: int = eqx.field(static=True)
     unknowns: int = eqx.field(static=True, metadata=label("1", "unknowns of the equations"))
     notes: tuple[str, ...] = eqx.field(static=True, default=())
     stiffness_freedom: tuple[str, ...] | None = eqx.field(static=True, default=None)

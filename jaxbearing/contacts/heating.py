@@ -48,7 +48,7 @@ class FilmHeating(Checked):
     solid_density: Scalar = bounded("> 0", converter=as_float, default=7800.0)
     solid_heat_capacity: Scalar = bounded("> 0", converter=as_float, default=460.0)
     solid_conductivity: Scalar = bounded("> 0", converter=as_float, default=46.0)
-    film_heat_capacity: Scalar | None = bounded("> 0", default=None)
+    film_heat_capacity: Scalar | None = bounded(">= 0", default=None)
 
     def peclet_number(self, half_width: Values, film: Values, speed: Values, conductivity: Values) -> Array:
         """rho c u h^2/(12 k a): heat carried along by the film over heat led across it."""

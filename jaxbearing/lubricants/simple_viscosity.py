@@ -52,7 +52,7 @@ class Barus(AbstractViscosity):
 
     reference_viscosity: Scalar = bounded("> 0")
     reference_temperature: Scalar = bounded("> 0")
-    pressure_viscosity: Scalar = bounded("> 0")
+    pressure_viscosity: Scalar = bounded(">= 0")
     temperature_viscosity: Scalar = bounded(">= 0")
 
     def log_viscosity(self, pressure: Values, temperature: Values) -> Batch:
@@ -65,7 +65,7 @@ class Barus(AbstractViscosity):
 Barus.__init__.__doc__ = """**Arguments:**
 - `reference_viscosity`: mu_0, Pa s, > 0.
 - `reference_temperature`: T_0, K, > 0.
-- `pressure_viscosity`: alpha, 1/Pa, > 0.
+- `pressure_viscosity`: alpha, 1/Pa, >= 0; 0 is an isoviscous oil.
 - `temperature_viscosity`: beta, K, >= 0; 0 is a viscosity that does not depend on temperature.
 """
 

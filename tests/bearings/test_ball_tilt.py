@@ -238,4 +238,4 @@ def test_thrust_that_an_angular_contact_bearing_needs():
     contact = scene.geometry.free_contacts(reduced_modulus(scene.materials.rings, scene.materials.balls))
     largest = float(overload(scene.at_operation(radial_load=1e5, axial_load=0.0)))
     load = 1e5 / largest * 5.0 / (16 * np.cos(np.radians(40.0)))
-    np.testing.assert_allclose(contact.hertz_pressure(load)[0], 4.2e9, rtol=1e-9)
+    np.testing.assert_allclose(contact.hertz_pressure(load)[0], 4.2e9, rtol=0.05 / 3.0)  # the load within 5 %

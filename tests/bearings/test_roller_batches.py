@@ -155,7 +155,7 @@ def test_random_operating_points(scene):
 def test_failed_solve_raises_with_its_status():
     scene = reference_roller()
     object.__setattr__(scene.operation, "radial_load", np.asarray(np.nan))
-    with pytest.raises(jb.SolveError, match=r"diverged.*worst equation"):
+    with pytest.raises(jb.SolveError, match=r"invalid_input: operation.radial_load must be > 0"):
         jb.solve(scene)
     solution = jb.solve(scene, throw=False)
     assert np.isnan(solution.power_loss.total)

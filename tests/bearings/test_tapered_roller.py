@@ -222,7 +222,13 @@ def test_no_equilibrium(ratio):
     """Below the static bound no distribution of loads balances; above it, however near, one does."""
     radial = 10e3
     fast = jit_solver(tapered(5e3, radial, 3000))
-    assert int(fast(axial_load=ratio * radial * np.tan(CUP)).status) == Status.NO_EQUILIBRIUM
+    short = fast(axial_load=ratio * radial * np.tan(CUP))
+    assert int(short.status) == Status.NO_EQUILIBRIUM
+    # the bound, with the little that holds the centrifugal forces
+    (needed,) = [float(reason.numbers[1]) for reason in short.reasons.values() if bool(reason.applies)]
+    assert radial * np.tan(CUP) <= needed < 1.01 * radial * np.tan(CUP)
+    assert f"must be at least {needed:.4g} N" in short.failure()
+    assert bool(fast(axial_load=1.01 * needed).converged)
     near = fast(axial_load=1.02 * radial * np.tan(CUP))
     assert bool(near.converged)
     assert int(np.sum(near.elements.load_inner > 0)) < 17
