@@ -47,7 +47,7 @@ class ConstantPressureViscosity(AbstractPressureViscosity):
     **Validity:** a baseline; the coefficient of real oils halves between 0 and 100 C.
     """
 
-    value: Scalar = bounded("> 0")
+    value: Scalar = bounded(">= 0")
 
     def coefficient(self, temperature: Values) -> Batch:
         require_temperature(temperature)
@@ -55,7 +55,7 @@ class ConstantPressureViscosity(AbstractPressureViscosity):
 
 
 ConstantPressureViscosity.__init__.__doc__ = """**Arguments:**
-- `value`: 1/Pa, > 0.
+- `value`: 1/Pa, >= 0.
 """
 
 
