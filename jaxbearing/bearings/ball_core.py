@@ -72,8 +72,8 @@ class BallState(NamedTuple):
     """Orbital speed of rolling without sliding at the ball's own angles, rad/s; `motion` may have the common one."""
     balance: Float[Array, "2 ball"]
     """Left side minus right side of the ball's two force balances, N."""
-    ring_force: Float[Array, "3 ball"]
-    """p_x, p_r and along the orbit: of the balls on the inner ring, N."""
+    ring_force: Float[Array, "component ball"]
+    """p_x, p_r and, where the ring may tilt, along the orbit: of the balls on the inner ring, N."""
     ring_moment: Float[Array, " ball"]
     """Of a ball on the inner ring about the tangent of the circle of groove centres, N m."""
 
@@ -248,6 +248,7 @@ class BallCore(AbstractBallSystem):
             friction = self.gyroscopic.sign * jnp.stack(parts)
         pressing = load.at[0].multiply(arm.share) if self.exact else load
         axial, radial, moment = self.with_friction(pressing, direction, friction)
+        sideways = () if arm.along is None else (load[0] * arm.along / arm.length,)
         return BallState(
             load=load,
             angle=angle,
@@ -256,7 +257,7 @@ class BallCore(AbstractBallSystem):
             motion=motion,
             own_orbit=own_orbit,
             balance=jnp.stack([axial[1] - axial[0], radial[1] - radial[0] - self.outward_force(motion)]),
-            ring_force=jnp.stack([axial[0], radial[0], load[0] * arm.along / arm.length]),
+            ring_force=jnp.stack([axial[0], radial[0], *sideways]),
             ring_moment=moment,
         )
 

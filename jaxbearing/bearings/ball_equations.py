@@ -136,8 +136,8 @@ class BallsState(NamedTuple):
     fit: Float[Array, "2 ball"]
     rows: tuple[Array, ...]
     """Residuals of the ball's motion, in the order of its unknowns."""
-    ring_force: Float[Array, "3 ball"]
-    """On the inner ring: axial, outward, along the orbit, N."""
+    ring_force: Float[Array, "component ball"]
+    """On the inner ring: axial, outward and, where it may tilt, along the orbit, N."""
     ring_moment: Float[Array, " ball"]
     cage_moment: Float[Array, " ball"] | None
     cage_force: Float[Array, "2 ball"] | None
@@ -375,9 +375,11 @@ class LubricatedBallSystem(AbstractBallSystem):
         fit, centre, arm = self._fit(load, direction, film.film, shared[:d])
         axial, radial, moment = self.with_friction(load, direction, friction)
         from_ring = radial[0]
-        # a film thicker than the groove's radius is larger than the ball's puts the ball beyond the groove centre
-        forward = arm.in_plane[0] * jnp.sin(inner) + arm.in_plane[1] * jnp.cos(inner) > 0
-        sideways = load[0] * arm.along / jnp.where(forward, arm.length, -arm.length)
+        sideways = ()
+        if arm.along is not None:
+            # a film thicker than the groove's radius is larger than the ball's puts the ball beyond the groove centre
+            forward = arm.in_plane[0] * jnp.sin(inner) + arm.in_plane[1] * jnp.cos(inner) > 0
+            sideways = (load[0] * arm.along / jnp.where(forward, arm.length, -arm.length),)
         if pocket is not None and self.cage is not None and self.cage.guidance == "inner_ring":
             from_ring = from_ring + pocket  # through cage and land
         state = BallsState(
@@ -396,7 +398,7 @@ class LubricatedBallSystem(AbstractBallSystem):
             drag_force=None,
             fit=fit,
             rows=(),
-            ring_force=jnp.stack([axial[0], from_ring, sideways]),
+            ring_force=jnp.stack([axial[0], from_ring, *sideways]),
             ring_moment=moment,
             cage_moment=None,
             cage_force=None,

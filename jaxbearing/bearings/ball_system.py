@@ -53,10 +53,11 @@ class Grooves(NamedTuple):
 
 class InnerArm(NamedTuple):
     """From ball centres to the nearest inner groove centres: components in the half-plane of the ball (axial, outward)
-    and along the orbit, distance, m; `turned`: of the groove by the tilt (`RingFrame.turned`; None: untilted)."""
+    and along the orbit, distance, m; `turned`: of the groove by the tilt (`RingFrame.turned`). Both are None where the
+    ring cannot tilt."""
 
     in_plane: Float[Array, "2 ball"]
-    along: Float[Array, " ball"]
+    along: Float[Array, " ball"] | None
     length: Float[Array, " ball"]
     turned: Float[Array, " ball"] | None
 
@@ -118,7 +119,7 @@ class AbstractBallSystem(AbstractArrowSystem):
         """From ball centres, counted from the outer groove centre (axial, radial), m, to the inner groove centres."""
         if not self.exact:
             arm = self.groove_centres(shift) - centre
-            return InnerArm(arm, jnp.zeros_like(centre[0]), safe_norm(arm[0], arm[1]), None)
+            return InnerArm(arm, None, safe_norm(arm[0], arm[1]), None)
         grooves, frame = self.grooves, self.ring_frame(shift)
         arm = inner_arm(frame, centre - grooves.rest, grooves.lever)
         return InnerArm(arm[:2], arm[2], length_of(arm), frame.turned)
@@ -148,7 +149,7 @@ class AbstractBallSystem(AbstractArrowSystem):
         self,
         shift: Float[Array, "freedom ball"],
         centre: Float[Array, "2 ball"],
-        ring_force: Float[Array, "3 ball"],
+        ring_force: Float[Array, "component ball"],
         ring_moment: Float[Array, " ball"],
     ) -> Float[Array, "freedom ball"]:
         """Of every ball to the forces on the ring's freedoms, N; the moments in units of R_i.
@@ -157,13 +158,15 @@ class AbstractBallSystem(AbstractArrowSystem):
         turning of the groove. To second order the moment is $R_i(p_x\\cos t\\cos\\psi - p_r\\sin t\\cos^2\\psi)$.
 
         **Arguments:** `shift`: of the ring, in units of `LENGTH_UNIT`; `centre`: of the balls, from the outer groove
-        centre, m; `ring_force`: (axial, outward, along the orbit), N; `ring_moment`: in the half-plane, N m.
+        centre, m; `ring_force`: axial, outward and, of an `exact` system, along the orbit, N; `ring_moment`: in the
+        half-plane, N m.
         """
         if self.exact:
 
             def move(shift: Array) -> Array:
                 arm = self.inner_arm(shift, centre)
                 assert arm.turned is not None
+                assert arm.along is not None
                 return jnp.concatenate([arm.in_plane, jnp.stack([arm.along, arm.turned])])
 
             work = jnp.concatenate([ring_force, ring_moment[None]])

@@ -267,7 +267,7 @@ COMMON = {"kinematics.orbit": "common"}
 STRONG = {"operation.axial_load": 5e3, "operation.radial_load": 6e3}
 
 
-@pytest.mark.parametrize("model", [DRY, FILMS], ids=["dry", "films"])
+@pytest.mark.parametrize("model", [DRY, pytest.param(FILMS, marks=pytest.mark.slow)], ids=["dry", "films"])
 def test_common_orbit_under_axial_load_changes_nothing(model):
     own, common = jb.solve(turbine(**model)), jb.solve(turbine(**model, **COMMON))
     assert common.unknowns == own.unknowns + 1
@@ -280,7 +280,7 @@ def test_common_orbit_under_axial_load_changes_nothing(model):
         np.testing.assert_allclose(common.outer_torque, own.outer_torque, rtol=1e-9)
 
 
-@pytest.mark.parametrize("model", [DRY, FILMS], ids=["dry", "films"])
+@pytest.mark.parametrize("model", [DRY, pytest.param(FILMS, marks=pytest.mark.slow)], ids=["dry", "films"])
 def test_common_orbit_under_combined_load(model):
     scene = turbine(**model, **{"operation.axial_load": 20e3, "operation.radial_load": 8e3})
     own, common = jb.solve(scene), jb.solve(scene.replace(COMMON))
