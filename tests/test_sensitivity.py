@@ -77,7 +77,10 @@ RESULTS = {
     "film": lambda solution: solution.film.central,
     "traction": lambda solution: solution.traction_coefficient.reshape(()),
 }
-DRY_BALL = ("deep_groove_6205", {"rating.viscosity_ratio": 1.5, "rating.cleanliness": "grease_normal"})
+DRY_BALL = (
+    "deep_groove_6205",
+    {"operation.moment": "none", "rating.viscosity_ratio": 1.5, "rating.cleanliness": "grease_normal"},
+)
 TAPERED = ("tapered_example", {"contact.traction_accuracy": 1e-2})
 NO_CAGE = ("turbine_ball", {"cage": "none", "contact.traction_accuracy": 1e-2})
 TILTED = ("turbine_roller", {"contact": "none", "operation.misalignment": "1 mrad", "rating.grooves": "scene"})
