@@ -1,4 +1,4 @@
-"""What a result says of its own validity: which laws left their range, and which inputs were invalid."""
+"""Validity of a result: the ranges of laws that it left, and the inputs that were invalid."""
 
 from collections.abc import Iterator, Mapping
 

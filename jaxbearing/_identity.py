@@ -1,4 +1,4 @@
-"""What makes a scene the same thing as another one: the parts that it has and the numbers that describe them, by the
+"""Identity of a scene: the parts that it has and the numbers that describe them, by the
 dotted paths of scene files, in SI units. A state of a run in time carries it, so that no other bearing goes on from
 there."""
 
@@ -29,7 +29,7 @@ class Identity(eqx.Module):
 
 
 def identity_of(scene: Any, free: Collection[str]) -> Identity:
-    """Of a scene. **Arguments:** `free`: paths that are no part of it."""
+    """The identity of a scene. **Arguments:** `free`: paths that are no part of it."""
     numbers: dict[str, Any] = {}
     words: list[tuple[str, str]] = []
     for path, value in _fields(scene, "", free):
@@ -62,8 +62,8 @@ def _fields(part: Any, above: str, free: Collection[str]) -> Iterator[tuple[str,
 
 
 def differences(there: Identity, here: Identity) -> list[str]:
-    """What differs, in words: "geometry.roller_diameter is 0.012 there and 0.0125 here". What only one of the two knows
-    is not compared: another version may have written it."""
+    """Differences in words: "geometry.roller_diameter is 0.012 there and 0.0125 here". A path that only one of the two
+    knows is not compared: another version may have written it."""
     one, other = there.told(), here.told()
     return [
         f"{path} is {_shown(one[path])} there and {_shown(other[path])} here"
@@ -73,7 +73,7 @@ def differences(there: Identity, here: Identity) -> list[str]:
 
 
 def require_same(there: Identity, here: Identity, kind: str) -> None:
-    """Whether a state is one of this thing. **Arguments:** `kind`: what it is, "bearing".
+    """Requires that a state belongs to this scene. **Arguments:** `kind`: name of the thing in messages, "bearing".
 
     **Raises:** `ValueError` that names the fields, with both values.
     """

@@ -55,7 +55,7 @@ class AbstractScene(eqx.Module):
 
 
 class AbstractSolution(eqx.Module):
-    """What every result of a solve can say about itself: `status`; `checks`, text -> whether an input is out of its
+    """Interface of all results of a solve: `status`; `checks`, text -> True if an input is out of its
     bound or a law is used beyond its range; `notes`, what the model assumed or left out."""
 
     status: eqx.AbstractVar[Any]
@@ -87,7 +87,7 @@ class AbstractSolution(eqx.Module):
 
     @property
     def range_checks(self) -> Mapping[str, Any]:
-        """Those of `checks` that are about the ranges of laws."""
+        """The entries of `checks` about the ranges of laws."""
         return self.checks.ranges if isinstance(self.checks, Checks) else self.checks
 
     @property

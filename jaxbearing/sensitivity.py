@@ -47,7 +47,7 @@ class Sensitivities(eqx.Module):
     traction: _Slopes | None = None
 
     def modelled(self) -> dict[str, _Slopes]:
-        """Those that the scene has, by field name."""
+        """The sensitivities that the scene has, by field name."""
         fields = {field.name: getattr(self, field.name) for field in dataclasses.fields(self)}
         return {name: slopes for name, slopes in fields.items() if slopes is not None}
 

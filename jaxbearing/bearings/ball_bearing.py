@@ -73,7 +73,7 @@ class BallOperation(AbstractOperation):
 
     @property
     def tilts(self) -> bool:
-        """Whether the inner ring can be tilted."""
+        """True if the inner ring can tilt."""
         return self.moment is not None or self.misalignment is not None
 
 

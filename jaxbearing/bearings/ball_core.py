@@ -64,9 +64,9 @@ class BallState(NamedTuple):
     angle: Float[Array, "2 ball"]
     """Contact angles on the races: of the inner one against the tilted ring."""
     direction: Float[Array, "2 ball"]
-    """Of the normal forces on the ball, from the radius towards the axis, in the fixed frame, rad."""
+    """Direction of the normal forces on the ball, from the radius towards the axis, in the fixed frame, rad."""
     centre: Float[Array, "2 ball"]
-    """Of the ball, from the outer groove centre, m."""
+    """Centre of the ball, from the outer groove centre, m."""
     motion: BallMotion
     own_orbit: Float[Array, " ball"]
     """Orbital speed of rolling without sliding at the ball's own angles, rad/s; `motion` may have the common one."""

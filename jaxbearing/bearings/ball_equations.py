@@ -119,7 +119,7 @@ class BallsState(NamedTuple):
     angle: Float[Array, "2 ball"]
     """Contact angles on the races: of the inner one against the tilted ring."""
     centre: Float[Array, "2 ball"]
-    """Of the ball, from the outer groove centre, m."""
+    """Centre of the ball, from the outer groove centre, m."""
     motion: BallMotion
     races: RaceMotion
     friction: Float[Array, "2 ball"] | None

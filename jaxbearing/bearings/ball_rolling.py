@@ -31,7 +31,7 @@ from .ball_equations import BallsState, LubricatedBallSystem
 
 
 class RollingBalance(NamedTuple):
-    """Of each ball, races first: the resistances M_r against the roll, N m, of the sign that `ball_equations` gives
+    """Resistances of each ball, races first: M_r against the roll, N m, of the sign that `ball_equations` gives
     them, and the constraint forces F_t along the orbit, N, and moments M_s about the normals, N m."""
 
     resistance: Float[Array, "2 ball"]
@@ -70,7 +70,7 @@ def common_orbit_torques(
     inner_angle, outer_angle = state.angle
 
     def power(inner_speed: Array, outer_speed: Array) -> Array:
-        """Of the given resistances, W, as the rings turn."""
+        """Power of the given resistances, W, as the rings turn."""
         motion = dataclasses.replace(system.kinematics, inner_speed=inner_speed, outer_speed=outer_speed)
         rolling = motion.rolling(inner_angle, outer_angle, state.motion.attitude)
         own = rolling.orbital_speed

@@ -152,7 +152,7 @@ class AbstractBallSystem(AbstractArrowSystem):
         ring_force: Float[Array, "component ball"],
         ring_moment: Float[Array, " ball"],
     ) -> Float[Array, "freedom ball"]:
-        """Of every ball to the forces on the ring's freedoms, N; the moments in units of R_i.
+        """Contributions of every ball to the forces on the ring's freedoms, N; moments are in units of R_i.
 
         They are conjugate to the displacements: force times the motion of the nearest groove centre, moment times the
         turning of the groove. To second order the moment is $R_i(p_x\\cos t\\cos\\psi - p_r\\sin t\\cos^2\\psi)$.

@@ -41,7 +41,7 @@ EDGE_LOADED = 1.5
 LARGEST_TILT = 10e-3
 """rad; the square of 10 mrad moves 100 mm by 5 um."""
 LARGEST_INTERFERENCE = 1e-3
-"""Of the pitch diameter: rings that are stretched so much carry 0.2 GPa."""
+"""Largest interference over the pitch diameter: rings that are stretched so much carry 0.2 GPa."""
 SLOWEST = 99.9 * 2.0 * np.pi / 60.0
 """Speed of the rings against each other below which the lubricated models have no meaning, rad/s (100 rpm)."""
 
@@ -91,7 +91,7 @@ RACEWAYS = ("the inner raceway", "the outer raceway")
 
 
 class Facts(NamedTuple):
-    """What a steady solve states for the checks.
+    """Facts that a steady solve states for the checks.
 
     - `contacts`: kinds of contacts.
     - `inlet`: the oil that enters the bearing.

@@ -128,7 +128,7 @@ def ring_torques(
 
 
 class RollingAlone(NamedTuple):
-    """What rolling without sliding costs: losses and drive power, W, torques on the rings, N m; None: not modelled."""
+    """Cost of rolling without sliding: losses and drive power, W, torques on the rings, N m; None: not modelled."""
 
     power_loss: PowerLoss
     drive_power: Float[Array, ""] | None

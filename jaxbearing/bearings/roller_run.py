@@ -108,11 +108,11 @@ UNKNOWN = (
     "restart: the state does not say of which bearing it is (an earlier version wrote it); only the number of rollers, "
     "the pitch circle and whether there is a cage have been compared"
 )
-"""What is said of such a run."""
+"""The note of such a run."""
 
 
 def identity(scene: CylindricalRollerBearing) -> Identity:
-    """What makes it the same bearing: geometry, materials, cage, flanges, profile."""
+    """The identity of the bearing: geometry, materials, cage, flanges, profile."""
     return identity_of(scene, MAY_CHANGE)
 
 

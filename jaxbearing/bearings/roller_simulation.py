@@ -220,7 +220,7 @@ def _history(
 
 
 def _checks(scene: CylindricalRollerBearing, energy: Energy) -> dict[str, Any]:
-    """What to warn of: the energy balance, and what a steady solve says of the same scene before it solves."""
+    """Warnings of a run: its energy balance, and the input checks that a steady solve makes of the same scene."""
     text = f"the energy balance leaves more than {ENERGY_LIMIT:g} of the drive work open: choose a smaller tolerance"
     return {text: jnp.abs(energy.error) > ENERGY_LIMIT} | {
         said: value > 0 for said, value in input_excess(scene).items()

@@ -170,7 +170,7 @@ class LaminaLoads(eqx.Module):
 
 
 class Reason(NamedTuple):
-    """Whether it applies, and the numbers that belong to it."""
+    """A possible cause of a failure: a flag that says that it applies, and the numbers of its text."""
 
     applies: Bool[Array, ""]
     numbers: Float[Array, "..."]
@@ -222,7 +222,7 @@ class Solution(AbstractSolution):
     raceway_power: Any = None
     laminae: LaminaLoads | None = None
     reasons: dict[str, Reason] = eqx.field(default_factory=dict)
-    """What may have made the solve fail: a sentence with places for numbers, such as `{:.3g}` -> the numbers."""
+    """Possible causes of a failed solve: a sentence with places for numbers, such as `{:.3g}` -> the numbers."""
     life: Any = None
     """`life.result.Life`, where the scene has a rating."""
 
@@ -252,7 +252,7 @@ class Solution(AbstractSolution):
         return "; ".join([self._ending(), *found])
 
     def _ending(self) -> str:
-        """How the solve ended."""
+        """One sentence: status, residual, worst equation."""
         local_equations = len(self.equation_names) - self.global_equations
         worst = int(self.worst_equation)
         name = self.equation_names[worst]

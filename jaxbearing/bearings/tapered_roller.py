@@ -116,7 +116,7 @@ class TaperedRollerBearing(AbstractScene):
         return tuple(name for name, part in named.items() if part is not None)
 
     def assumptions(self) -> tuple[str, ...]:
-        """What the model assumed, and what its data were not made for; for the user."""
+        """Notes for the user: assumptions of the model, and uses for which its data were not made."""
         said = []
         if self.contact is not None and self.oil is not None:
             said += [f"oil: {note}" for note in self.oil.notes]

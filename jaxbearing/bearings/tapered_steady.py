@@ -118,7 +118,7 @@ def _moment_range(scene: TaperedRollerBearing) -> tuple[Array, Array, Array]:
 
 
 def _reasons(scene: TaperedRollerBearing, inertia: Inertia) -> dict[str, Reason]:
-    """Of a failed solve: loads beyond the static bounds, and what they would have to be."""
+    """Possible causes of a failed solve: loads beyond the static bounds, with the bounds."""
     sliding, least = slides_out(scene, inertia), least_axial_load(scene, inertia)
     given = jnp.asarray(scene.operation.axial_load)
     found = {
@@ -261,7 +261,7 @@ def _facts(
     laminae: Float[Array, "2 roller lamina"],
     tilt: Float[Array, " roller"],
 ) -> Facts:
-    """What the range checks look at: raceways and rib."""
+    """The facts that the range checks need, of raceways and rib."""
     races = Contacts(RACEWAYS, state.load, pressure, MEAN_OF_LINE, laminae=laminae)
     rib = Contacts(
         ("the rib",),

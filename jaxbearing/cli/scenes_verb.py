@@ -11,7 +11,7 @@ from .output_files import unwritten
 from .terminal import console
 
 _FULL = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EIO)
-"""What a disk says that takes no more: not the fault of the name."""
+"""Error numbers of a full disk, which is not the fault of the file name."""
 
 
 def scenes(

@@ -258,7 +258,7 @@ def _watcher(cases: int, as_json: bool) -> Iterator[Any]:
 
 
 def _print_stopped(stopped: Any, label: str, seconds: float, as_json: bool) -> None:
-    """What has been computed; the file is not there."""
+    """Shows the counts of a sweep whose file could not be written."""
     if as_json:
         found = {"cases": stopped.cases, "converged": stopped.converged, "failed": stopped.computed - stopped.converged}
         typer.echo(json.dumps(found | {"file": None, "seconds": round(seconds, 3)}))

@@ -186,7 +186,7 @@ class _Problem(eqx.Module):
     rate_slope: Array | None
     """Its change over one half-width, of spin."""
     half: bool = eqx.field(static=True)
-    """Whether the strips are those of one half, the other being alike."""
+    """True if the strips cover one half of the contact, the other half being alike."""
     curved: bool = eqx.field(static=True)
     """Whether the sliding changes with the square of the distance from the middle."""
 

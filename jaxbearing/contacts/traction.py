@@ -48,7 +48,7 @@ class AbstractTraction(eqx.Module):
         """
 
     def notes(self, lubricant: Lubricant) -> tuple[str, ...]:
-        """What a user should know of this law with this oil, a sentence each."""
+        """Notes for the user about this law with this oil, a sentence each."""
         return ()
 
 

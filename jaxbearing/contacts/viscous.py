@@ -214,7 +214,7 @@ def viscous_function_for(given: AbstractViscousFunction | None, lubricant: Lubri
 
 
 def viscous_notes(given: AbstractViscousFunction | None, lubricant: Lubricant) -> tuple[str, ...]:
-    """What a user should know of a traction law with this viscous function (None: the oil's own) and this oil, a
+    """Notes for the user about a traction law with this viscous function (None: the oil's own) and this oil, a
     sentence each: that another one was fitted, or that none is known."""
     if lubricant.rheology is None:
         return ()

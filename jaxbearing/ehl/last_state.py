@@ -52,7 +52,7 @@ UNKNOWN = (
     "restart: the state does not say of which contact it is (an earlier version wrote it); only its mesh, its load and "
     "its film have been compared"
 )
-"""What is said of such a run."""
+"""The note of such a run."""
 
 
 def state_of(motion: Motion, scales: Scales, key: MeshKey, scene: EHLLineContact) -> FilmState:

@@ -204,7 +204,7 @@ class EHLLineContact(AbstractScene):
         return existing(scales.wedge, speed) & self.described(scales)
 
     def described(self, scales: Scales) -> Bool[Array, ""]:
-        """Whether the cylinders are soft enough for this model."""
+        """True if the cylinders are soft enough for this model."""
         return scales.moes_load >= SMALLEST_MOES_LOAD
 
     @property

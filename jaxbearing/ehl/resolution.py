@@ -14,7 +14,7 @@ from .mesh import INLET
 INLETS = (INLET, 6.0, 8.0, 12.0, 16.0, 24.0, 32.0)
 NODES = (201, 301, 401, 501, 651, 801, 1101, 1601, 2201, 3201)
 FILM_SHARE = 0.5
-"""Of the accuracy that the cut inlet may take."""
+"""Share of the accuracy that the cut inlet may take."""
 
 
 def mesh_error(nodes: int, ratio: Values, material: Values) -> Values:

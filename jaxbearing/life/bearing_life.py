@@ -73,7 +73,7 @@ def with_life(scene: Any, solution: Any) -> Any:
 
 
 def without_effect(scene: Any, life: Life) -> list[str]:
-    """What the scene says about the life and lacks something else for, or that is of another kind of bearing."""
+    """Notes on fields of the rating without effect: they need what the scene lacks, or belong to another kind."""
     rating: Rating = scene.rating
     if isinstance(scene, BallBearing):
         others = {"n_laminae": rating.n_laminae, "edge_factor": rating.edge_factor}
@@ -199,7 +199,7 @@ def _ball(scene: BallBearing, elements: Any, laminae: Any, turns: Any) -> Rated:
 
 
 def _tilts_linearly(scene: Any) -> bool:
-    """Whether the loads for the life are those of the first-order motion of a tilted ring."""
+    """True if the life takes the loads of the first-order motion of a tilted ring."""
     if not isinstance(scene, BallBearing) or scene.rating is None:
         return False
     return scene.operation.tilts and scene.rating.tilt == "iso"

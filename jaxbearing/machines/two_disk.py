@@ -372,7 +372,7 @@ def solve_two_disk(scene: TwoDisk, options: Any = None) -> TwoDiskSolution:
 
 
 def _status(good: Array, explained: Array) -> Array:
-    """Of each point; `explained`: whether an inlet temperature within its bounds explains the thermal reduction."""
+    """Status of each point; `explained`: True if an inlet temperature in bounds explains the thermal reduction."""
     failed = jnp.where(explained, np.int64(Status.NOT_CONVERGED), np.int64(Status.OUTSIDE_VALIDITY))
     return jnp.where(good, np.int64(Status.CONVERGED), failed)
 

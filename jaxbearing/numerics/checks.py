@@ -31,7 +31,7 @@ class Interval(NamedTuple):
     high_allowed: bool = False
 
     def holds(self, value: Any) -> Any:
-        """Whether a number, or each of an array, lies inside."""
+        """True if a number, or each of an array, lies inside."""
         above = value >= self.low if self.low_allowed else value > self.low
         return above & (value <= self.high if self.high_allowed else value < self.high)
 
@@ -51,7 +51,7 @@ RANGES = {
     "> 138 (the pole of Roelands' law)": Interval(138.0, np.inf),
     "> 0.3e-6 (0.3 cSt)": Interval(0.3e-6, np.inf),
 }
-"""What a field may be bounded by, as messages say it."""
+"""Bounds of fields, by the words of messages."""
 
 
 class _Record:
@@ -130,7 +130,7 @@ def require(part: str, **checks: tuple[Any, str]) -> None:
 
 
 def _refused(part: str, checks: dict[str, tuple[Any, str]]) -> Iterator[str]:
-    """What is wrong with known values; traced ones are recorded."""
+    """Problems of known values, a sentence each; traced ones are recorded."""
     record = _RECORD.get()
     for name, (value, allowed) in checks.items():
         field = f"{part}.{name}" if part else name

@@ -26,7 +26,7 @@ class Deferral:
         self.seen, self._dealt_with = False, False
 
     def taken(self) -> None:
-        """What Ctrl-C asks for has been done: no `KeyboardInterrupt` is raised at the end of the block."""
+        """Says that the interrupt has been dealt with: no `KeyboardInterrupt` is raised at the end of the block."""
         self._dealt_with = True
 
     @property
@@ -91,7 +91,7 @@ def note_interrupt() -> bool:
 
 
 def end_command_at_interrupt() -> None:
-    """Where this process is the command `jaxbearing`: Ctrl-C ends it with code 130, from now on until it is gone. To be
+    """Makes Ctrl-C end the process with code 130 from now on, if it is the command `jaxbearing`. To be
     called before anything large is imported. A program that imports the package keeps its own way."""
     main_thread = threading.current_thread() is threading.main_thread()
     if main_thread and is_the_command() and signal.getsignal(signal.SIGINT) is signal.default_int_handler:
@@ -99,7 +99,7 @@ def end_command_at_interrupt() -> None:
 
 
 def is_the_command() -> bool:
-    """Whether this process was started as `jaxbearing ...` or `python -m jaxbearing ...`."""
+    """True if this process was started as `jaxbearing ...` or `python -m jaxbearing ...`."""
     words = iter(sys.orig_argv[1:])
     for word in words:
         if word in ("-X", "-W"):

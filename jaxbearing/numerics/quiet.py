@@ -34,11 +34,11 @@ def silence_compiler() -> None:
 
 class _State:
     silent = False
-    """Whether the compiler's level is as we or the user want it."""
+    """True if the compiler's level of messages has been set, by the package or by the user."""
 
 
 def compiler_is_loud() -> bool:
-    """Whether JAX was there before its level could be set, and the user does not ask for all of its lines."""
+    """True if JAX was imported before its level could be set, and the user does not ask for all of its lines."""
     return not _State.silent and os.environ.get(_LEVEL) != "0"
 
 

@@ -22,7 +22,7 @@ def refuse_all(problems: Iterable[str | ValueError]) -> None:
 
 
 def refusals_of(check: Callable[..., Any], *args: Any) -> Iterator[ValueError]:
-    """What a check raises, each problem by itself."""
+    """The problems that a check raises, one by one."""
     try:
         check(*args)
     except Refusals as several:

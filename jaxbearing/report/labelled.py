@@ -139,7 +139,7 @@ IDENTITY = "scene_identity"
 
 
 def identity_text(identity: Any) -> dict[str, str]:
-    """As an attribute of a data set."""
+    """The identity as an attribute of a data set."""
     return {} if identity is None else {IDENTITY: json.dumps(identity.told())}
 
 

@@ -103,7 +103,7 @@ def _beside(axes: Any, points: np.ndarray, labels: list[Label]) -> None:
 
 
 def _unloaded_angle(geometry: Any) -> float:
-    """Of the unloaded contacts, rad; 0 of a bearing with clearance, whose rings stand in the middle of their play."""
+    """Angle of the unloaded contacts, rad; 0 for a bearing with clearance, in the middle of its play."""
     return 0.0 if geometry.contact_angle is None else float(geometry.contact_angle)
 
 

@@ -9,12 +9,12 @@ import stat
 from pathlib import Path
 
 LARGEST_TEXT = 4 * 2**20
-"""Of a scene or an oil, bytes: a thousand times what one needs."""
+"""Largest scene or oil file, bytes: a thousand times what one needs."""
 LARGEST_TABLE = 32 * 2**20
-"""Of a table of numbers, bytes: about a million rows."""
+"""Largest table of numbers, bytes: about a million rows."""
 _PIPES = ("/dev/fd/", "/dev/stdin", "/proc/self/fd/")
 _read_pipes: dict[tuple[int, int], bytes] = {}
-"""What came out of a pipe, by device and number: it comes only once, and some files are looked at twice."""
+"""Contents of pipes, by device and number: a pipe can be read once only, and some files are looked at twice."""
 
 
 class UnfitFileError(ValueError):

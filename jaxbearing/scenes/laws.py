@@ -46,7 +46,7 @@ BALL_FILMS: dict[str, Callable[[], AbstractPointFilm]] = {
     # an unloaded ball needs the rigid film of light loads
     "hamrock_dowson": lambda: RigidBlend(HamrockDowsonCentral()),
 }
-"""Of balls, some of which may carry nothing."""
+"""Film laws of ball bearings, in which some balls may carry nothing."""
 THERMAL: dict[str, type[AbstractThermalFactor]] = {"gupta": Gupta, "hsu_lee": HsuLee}
 MAXWELL_EYRING = "maxwell_eyring"
 """Ree and Eyring's flow with the Maxwell element that every law here has."""

@@ -7,7 +7,7 @@ from pydantic import BaseModel, ConfigDict, model_validator
 from pydantic_core import PydanticCustomError
 
 Problems = Iterator[PydanticCustomError]
-"""What the checks of a table find, as `refusal_at` words it."""
+"""Problems that the checks of a table find, in the words of `refusal_at`."""
 _IS_CHECK = "is_check"
 
 

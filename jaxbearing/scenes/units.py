@@ -242,7 +242,7 @@ def number(given: Any, bound: str = "") -> float:
 
 
 LARGEST_COUNT = 1_000_000
-"""Of whatever is counted in a scene: more would only fill the memory."""
+"""Largest count in a scene: more would only fill the memory."""
 
 
 def count(value: Any) -> int:

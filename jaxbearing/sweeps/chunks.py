@@ -61,7 +61,7 @@ def compute_chunk(
     devices: int | None = None,
     progress: Callable[[int], None] = lambda lanes: None,
 ) -> tuple[int, int]:
-    """As `run_chunk`, of a plan that is at hand."""
+    """Like `run_chunk`, for a plan that is at hand."""
     program, labels = _program(plan, devices)
     start, stop = plan.range_of(index)
     inputs, reasons = plan.recipe.inputs(plan.cases.part(start, stop))

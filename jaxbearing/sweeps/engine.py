@@ -111,7 +111,7 @@ def run(
 
 
 def kept_words(plan: Plan, target: Path) -> str:
-    """How many cases of a sweep that has been stopped need not be computed again, in words."""
+    """Says how many cases of a sweep that has been stopped need not be computed again."""
     folder = chunk_folder(target)
     ranges = [plan.range_of(index) for index in range(plan.chunks) if chunk_path(folder, index).exists()]
     kept = sum(stop - start for start, stop in ranges)

@@ -23,7 +23,7 @@ from .stored_recipe import recipe_of_data
 
 PLAN = "plan.data"
 FORMAT = 1
-"""Of the file of a plan."""
+"""Name of the file of a plan."""
 CHUNK, LANES = 1000, 125
 """Cases of a chunk, and those of them that a device solves in one call: eight devices can share one."""
 VMAP_LANES = 1000

@@ -17,7 +17,7 @@ Inputs = tuple[Any, list[str]]
 
 
 class Recipe(Protocol):
-    """How the cases of a sweep become scenes. Can be sent to workers."""
+    """A recipe that makes scenes of the cases of a sweep. It can be sent to workers."""
 
     @property
     def base(self) -> Any:
@@ -42,7 +42,7 @@ class Recipe(Protocol):
         ...
 
     def as_data(self) -> dict[str, Any]:
-        """What `stored_recipe.recipe_of_data` makes the same recipe of."""
+        """The data from which `stored_recipe.recipe_of_data` makes the same recipe."""
         ...
 
 
@@ -90,7 +90,7 @@ class Reader(Protocol):
     def __call__(self, values: dict[str, float], /) -> AbstractScene: ...
 
     def as_data(self) -> dict[str, Any]:
-        """What the reader reads from: texts."""
+        """The texts that the reader reads."""
         ...
 
 

@@ -12,7 +12,7 @@ _WHERE = "plan of a sweep"
 
 
 def recipe_of_data(data: Mapping[str, Any], cases: Cases) -> Recipe:
-    """What `Recipe.as_data` wrote, as a recipe.
+    """The recipe that `Recipe.as_data` wrote.
 
     **Raises:** `ValueError` for something else, `KeyError` for data that lack a part, `SceneError` for texts that are
     no scene.

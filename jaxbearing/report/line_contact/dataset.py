@@ -11,7 +11,7 @@ from ...numerics.status import Status
 from ..labelled import CHECK, attributes, checks, flags, identity_text, labelled, variable, without_fill
 
 _ALONG_X = {"node": "x"}
-"""Where all profiles have the same nodes, their places are the dimension."""
+"""Name of the dimension of profiles that all have the same nodes: their places."""
 
 
 def line_contact_to_dataset(solution: LineContactSolution, dims: Sequence[str] = ()) -> xr.Dataset:
