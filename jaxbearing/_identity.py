@@ -48,6 +48,8 @@ def identity_from(told: dict[str, Any]) -> Identity:
     """The way back from `Identity.told`. **Raises:** `ValueError` for something else."""
     words = tuple((path, value) for path, value in told.items() if isinstance(value, str))
     numbers = {path: np.asarray(value, dtype=float) for path, value in told.items() if not isinstance(value, str)}
+    if not numbers or not words:
+        raise ValueError("it says nothing of what the run is of")
     return Identity(numbers, words)
 
 

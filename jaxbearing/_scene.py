@@ -16,6 +16,7 @@ from .numerics.precision import as_float
 from .numerics.status import SolveError, Status
 
 Scene = TypeVar("Scene", bound="AbstractScene")
+OF_A_BATCH = "this is a batch of solutions: take one lane of it first, jax.tree.map(lambda leaf: leaf[lane], solution)"
 
 
 def label(unit: str, description: str) -> dict[str, str]:
@@ -83,6 +84,8 @@ class AbstractSolution(eqx.Module):
         """The rules that inputs break (one solution only)."""
         if not isinstance(self.checks, Checks):
             return []
+        if np.ndim(self.checks.broken) > 1:
+            raise ValueError(OF_A_BATCH)
         return [rule for rule, flag in zip(self.checks.rules, np.asarray(self.checks.broken), strict=True) if flag]
 
     @property
@@ -92,7 +95,12 @@ class AbstractSolution(eqx.Module):
 
     @property
     def warnings(self) -> list[str]:
-        """What left the range of a law, and what the model assumed or left out, in words (one solution only)."""
+        """What left the range of a law, and what the model assumed or left out, in words (one solution only).
+
+        **Raises:** `ValueError` for a batch of solutions, as do `failure` and `broken_rules`.
+        """
+        if any(np.ndim(broken) for broken in self.range_checks.values()):
+            raise ValueError(OF_A_BATCH)
         left = [text for text, broken in self.range_checks.items() if bool(broken)]
         return [*self.broken_rules, *left, *self.notes]
 
@@ -122,6 +130,11 @@ def _replaced(part: Any, changes: dict[tuple[str, ...], Any], above: str = "") -
             new[path[0]] = value
         else:
             inner.setdefault(path[0], {})[path[1:]] = value
+    for name, value in new.items():
+        old = getattr(part, name)
+        if isinstance(old, eqx.Module) and not (value is None or isinstance(value, eqx.Module)):
+            whole = ".".join([*filter(None, [above.rstrip(".")]), name])
+            raise TypeError(f"{whole} must be a part such as {type(old).__name__}, got {value!r}")
     for name, deeper in inner.items():
         new[name] = _replaced(new.get(name, getattr(part, name)), deeper, f"{above}{name}.")
     return dataclasses.replace(part, **new) if isinstance(part, eqx.Module) else part

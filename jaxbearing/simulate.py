@@ -13,6 +13,7 @@ from .bearings.roller_simulation import FIELD, INTERVAL, simulate_roller_batch, 
 from .bearings.simulation import Simulation
 from .ehl import EHLLineContact, FilmSimulation, FilmState, LineContactHistory, simulate_film
 from .ehl import check_restart as check_film_restart
+from .numerics.arguments import require_choice
 from .numerics.checks import check_inputs
 from .numerics.compiling import collecting_rarely
 from .numerics.precision import require_x64
@@ -86,6 +87,10 @@ def simulate(
         raise TypeError(f"cannot simulate a {type(scene).__name__}; simulate takes: {taken}")
     if isinstance(restart, LineContactHistory | FilmState):
         raise ValueError(_OTHER_KIND.format("line contact", "bearing"))
+    if not isinstance(restart, History | LastState | None):
+        raise TypeError(f"restart must be a History or a LastState (jb.read_last_state of a file), got {restart!r}")
+    if not isinstance(simulation, Simulation | None):
+        raise TypeError(f"simulation must be a Simulation, got {simulation!r}")
     return simulate_rollers(
         scene, duration, simulation=simulation, interval=interval, throw=throw, progress=progress, restart=restart
     )
@@ -177,4 +182,5 @@ def simulate_batch(
     require_x64()
     if not isinstance(scene, CylindricalRollerBearing):
         raise TypeError(f"cannot simulate a {type(scene).__name__}; simulate_batch takes: CylindricalRollerBearing")
+    require_choice("method", method, ("map", "vmap"))
     return simulate_roller_batch(scene, duration, over, simulation=simulation, interval=interval, method=method)

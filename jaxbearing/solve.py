@@ -108,10 +108,17 @@ def solve(scene: AbstractScene, *, throw: bool = True, options: NewtonOptions | 
     require_x64()
     steady_function(scene)
     with _compiling_quietly(scene):
-        solution = _solve(jax.tree.map(as_float, scene), NewtonOptions() if options is None else options)
+        solution = _solve(jax.tree.map(as_float, scene), chosen_options(options))
         if throw:
             solution.raise_if_failed()
     return solution
+
+
+def chosen_options(options: NewtonOptions | None) -> NewtonOptions:
+    """The given options or the usual ones. **Raises:** `TypeError` for something else."""
+    if not isinstance(options, NewtonOptions | None):
+        raise TypeError(f"options must be NewtonOptions, got {options!r}")
+    return NewtonOptions() if options is None else options
 
 
 @contextmanager
@@ -143,7 +150,7 @@ def jit_solver(scene: AbstractScene, *, options: NewtonOptions | None = None) ->
     `fast(inner_speed=1100.0)`. It never raises for a failed solve (look at `status`) and never recompiles when only
     numbers change.
     """
-    chosen = NewtonOptions() if options is None else options
+    chosen = chosen_options(options)
     require_x64()
     steady_function(scene)
     given, structure = jax.tree.flatten(jax.tree.map(as_float, scene))

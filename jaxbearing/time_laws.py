@@ -140,7 +140,7 @@ class Tabulated(AbstractTimeFactor):
         if given(self.times, self.factors) is not None:
             xp = functions(self.times, self.factors)
             demand(
-                "a table's times must increase, and all its numbers be finite",
+                "{path}.times must increase, and all numbers of the table be finite",
                 xp.all(xp.diff(self.times) > 0) & xp.all(xp.isfinite(self.times)) & xp.all(xp.isfinite(self.factors)),
                 lambda: "a table's times must increase, and all its numbers be finite",
             )

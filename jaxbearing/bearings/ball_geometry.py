@@ -51,7 +51,7 @@ class BallGeometry(Checked):
         if sizes is not None:
             yield from refusals_of(
                 demand,
-                "geometry.diametral_clearance must be less than the grooves hold",
+                "geometry.diametral_clearance must be less than that of balls that leave the grooves",
                 sizes[0] < 2.0 * (sizes[2] + sizes[3] - 1.0) * sizes[1],
                 lambda: f"geometry.diametral_clearance: {float(sizes[0]):g} m is more than the grooves hold",
             )

@@ -48,6 +48,8 @@ def solve_ball(scene: BallBearing, options: NewtonOptions) -> Solution:
         **{name: ring.get(name, jnp.zeros(())) / scale.get(name, 1.0) for name in RING_FREEDOMS}
     )
     stiffness = _stiffness(scene, system, result)
+    if scene.operation.moment is not None:
+        results = results._replace(facts=results.facts._replace(stiffness=_of_lengths(stiffness, lever)))
     times = overload(scene)
     return assemble(
         scene,
@@ -57,7 +59,8 @@ def solve_ball(scene: BallBearing, options: NewtonOptions) -> Solution:
         stiffness,
         iterations=steps,
         ring_freedom=_ring_names(scene),
-        reasons={
+        reasons=_without_cage(scene)
+        | {
             "the load is {:.3g} times that at which the most loaded ball reaches 4.2 GPa, the limit of the static load "
             "rating: balls and races would yield": Reason(times > 1.0, times)
         },
@@ -65,6 +68,23 @@ def solve_ball(scene: BallBearing, options: NewtonOptions) -> Solution:
         equation_names=system.equation_names(),
         element_name="ball",
     )
+
+
+def _of_lengths(stiffness: Float[Array, "5 5"], lever: Array) -> Float[Array, "3 3"]:
+    """The stiffness of the freedoms of a ring that may tilt, all displacements counted as lengths, N/m."""
+    free = np.asarray([RING_FREEDOMS.index(name) for name in ("axial", "radial", "tilt")])
+    unit = jnp.stack([jnp.ones(()), jnp.ones(()), 1.0 / lever])
+    return stiffness[free][:, free] * unit[:, None] * unit[None]
+
+
+def _without_cage(scene: BallBearing) -> dict[str, Reason]:
+    if not scene.slips or scene.cage is not None:
+        return {}
+    text = (
+        "balls that slide have no cage here: where the load lets some of them skid, no steady state is found; give the "
+        "scene a [cage], a larger thrust, or leave out contact.traction"
+    )
+    return {text: Reason(jnp.asarray(True), jnp.zeros(0))}
 
 
 def overload(scene: BallBearing) -> Float[Array, ""]:

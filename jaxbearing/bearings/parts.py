@@ -127,7 +127,7 @@ def check_between(name: str, value: Any, low: Any, high: Any, below: str, above:
     """
     ends = f"{float(low):.6g} m ({below}) and {float(high):.6g} m ({above})" if known(low, high) is not None else ""
     demand(
-        f"{name} must lie between {below} and {above}",
+        f"{name} must lie between its limits, {below} and {above}",
         (low < value) & (value < high),
         lambda: f"{name} must lie between {ends}, got {float(value):.6g} m",
     )
@@ -144,7 +144,7 @@ def check_row_fits(count: int, diameter: Any, pitch_diameter: Any, element: str 
     chord = sizes[1] * math.sin(math.pi / max(count, 2))
     most = lambda: math.ceil(math.pi / math.asin(sizes[0] / sizes[1])) - 1 if sizes[0] < sizes[1] else 0
     demand(
-        f"{name} {element}s must fit on the pitch circle beside each other",
+        f"{name} must be so small that the {element}s fit beside each other on the pitch circle",
         sizes[0] < chord,
         lambda: (
             f"{name}: {count} {element}s of diameter {float(sizes[0]):g} m do not fit on a pitch "

@@ -97,12 +97,14 @@ class Facts(NamedTuple):
     - `inlet`: the oil that enters the bearing.
     - `traction_reserve`: of tapered rollers that roll by constraint, what the films could carry less what it takes, N.
     - `roller_tilt`: of rollers that may tilt, rad.
+    - `stiffness`: tangent stiffness of a ring that is free to tilt, of its freedoms counted as lengths, N/m.
     """
 
     contacts: tuple[Contacts, ...]
     inlet: InletOil | None = None
     traction_reserve: Float[Array, "2 roller"] | None = None
     roller_tilt: Float[Array, " roller"] | None = None
+    stiffness: Float[Array, "freedom freedom"] | None = None
 
 
 class _Result(NamedTuple):
@@ -293,6 +295,17 @@ def _tilted(result: _Result) -> Excess:
     return {text: tilt - LARGEST_TILT}
 
 
+def _unstable(result: _Result) -> Excess:
+    stiffness = result.facts.stiffness
+    if stiffness is None:
+        return {}
+    text = (
+        "the equilibrium is unstable: the ring is free to tilt, and the least thrust or moment tips it into another "
+        "one; give it a small axial load, or hold its tilt (leave out operation.moment)"
+    )
+    return {text: -jnp.linalg.eigvalsh(0.5 * (stiffness + stiffness.T))[0]}
+
+
 def _squeezed(result: _Result) -> Excess:
     scene = result.scene
     if not isinstance(scene, CylindricalRollerBearing) or not scene.tilts:
@@ -312,6 +325,7 @@ RESULT_CHECKS: tuple[Callable[[_Result], Excess], ...] = (
     _angles,
     _cut_off,
     _tilted,
+    _unstable,
     _on_edge,
     _squeezed,
     _hot,

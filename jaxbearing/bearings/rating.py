@@ -6,11 +6,19 @@ import equinox as eqx
 
 from .._scene import optional_number
 from .._types import Scalar
+from ..numerics.arguments import require_choice
 from ..numerics.checks import Checked
 from ..numerics.structure import constant, count, switch
 
 CATALOGUE_CONFORMITY = 0.52
 """Groove radius over ball diameter for which ISO 281 and catalogues rate ball bearings."""
+RELIABILITIES = (0.90, 0.95, 0.96, 0.97, 0.98, 0.99)
+"""Reliabilities for which ISO 281 gives a factor."""
+CLEANLINESS_CLASSES = (
+    *(f"online_filter_{code}" for code in (13, 15, 17, 19)),
+    *(f"grease_{word}" for word in ("high", "normal", "typical", "severe", "very_severe")),
+)
+"""Contamination classes of ISO 281: circulating oil by the code of its filter, and grease."""
 LAMINAE = 30
 """Laminae of a roller in the reference life where a scene does not say."""
 
@@ -59,6 +67,10 @@ class Rating(Checked):
         super().__check_init__()
         if (self.roughness_rings is None) != (self.roughness_elements is None):
             raise ValueError("rating.roughness_rings: give it and rating.roughness_elements, or neither")
+        if self.reliability not in RELIABILITIES:
+            raise ValueError(f"rating.reliability must be one of {RELIABILITIES}, got {self.reliability!r}")
+        if self.cleanliness is not None:
+            require_choice("rating.cleanliness", self.cleanliness, CLEANLINESS_CLASSES)
         if self.grooves not in ("catalogue", "scene"):
             raise ValueError(f"rating.grooves must be 'catalogue' or 'scene', got {self.grooves!r}")
         if self.tilt not in ("exact", "iso"):

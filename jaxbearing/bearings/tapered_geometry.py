@@ -165,7 +165,7 @@ def _check(n_rollers: int, diameter: Any, length: Any, cup: Any, half: Any, flan
     # rollers are nearest where they touch their neighbours: the plane of two axes through the apex
     most = lambda: math.ceil(math.pi / math.asin(math.sin(half) / math.sin(gamma))) - 1
     demand(
-        "geometry.n_rollers rollers must fit beside each other",
+        "geometry.n_rollers must be so small that the rollers fit beside each other",
         xp.sin(half) < xp.sin(gamma) * math.sin(math.pi / max(n_rollers, 2)),
         lambda: (
             f"geometry.n_rollers: {n_rollers} rollers of big-end diameter {metres(diameter)} do not fit on a circle of "

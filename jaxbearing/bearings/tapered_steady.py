@@ -23,6 +23,8 @@ from .tapered_roller import TaperedRollerBearing
 from .tapered_solution import TaperedPowerLoss, TaperedResults
 from .tapered_system import Inertia, TaperedState, TaperedSystem
 
+ROUNDED_UP = 2e-6
+"""Added to a bound, of itself, so that its six printed digits are on the right side of it."""
 ROUNDING = 1e-9
 """Of the moments that a bound compares: what lies closer is left to the solve."""
 HIGHEST = 9.0
@@ -122,8 +124,8 @@ def _reasons(scene: TaperedRollerBearing, inertia: Inertia) -> dict[str, Reason]
     sliding, least = slides_out(scene, inertia), least_axial_load(scene, inertia)
     given = jnp.asarray(scene.operation.axial_load)
     found = {
-        "the axial load of {:.4g} N must be at least {:.4g} N to hold the cone in the cup": Reason(
-            sliding, jnp.stack([given, least])
+        "the axial load of {:.6g} N must be at least {:.6g} N to hold the cone in the cup": Reason(
+            sliding, jnp.stack([given, least * (1.0 + ROUNDED_UP)])
         )
     }
     if scene.operation.moment is not None:

@@ -40,8 +40,9 @@ def parker_oil_fraction(
     $X = 10^5\,Q^{0.37}/(N d_m^{1.7})$ with Q in cm^3/min, N in rpm, d_m in mm (converted here).
 
     **Limits:** no flow: 0, with the finite slope of `regular_power`: w^(-0.63) with w = 0.1 l/h. Relative error
-    0.158 (w/Q)^4, that is 10 % at 0.1 l/h, 1.6e-5 at 1 l/h, 1.6e-9 at 10 l/h, always too low; |N| below 100 rpm counts
-    as 100 rpm, smoothly (the law diverges at rest). Use `saturated_oil_fraction` for a density.
+    0.158 (w/Q)^4, that is 10 % at 0.1 l/h, 1.6e-5 at 1 l/h, 1.6e-9 at 10 l/h, always too low; below w the fraction is
+    linear, (Q/w)^0.63 of the law: 23 % of it at 0.01 l/h, far below the flows that Parker measured. |N| below 100 rpm
+    counts as 100 rpm, smoothly (the law diverges at rest). Use `saturated_oil_fraction` for a density.
     **Validity:** measured at high speed, fractions of a few per cent.
     **Reference:** Parker (1982), NASA TP-1982; source eq. (89), whose printed exponents are
     scrambled: the constant that gives per cent is 1e7 (3.78 % at 150 l/h, 10500 rpm, 142 mm).

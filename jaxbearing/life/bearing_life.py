@@ -38,10 +38,16 @@ from .reference import (
 from .result import Life
 from .static import ball_static_capacity, rated_modulus, roller_static_capacity
 
+FEWEST_LAMINAE = 30
+"""Laminae that ISO 16281 asks for at least."""
 _HOURS = 1e6 * 2.0 * np.pi / 3600.0
 """Hours of a million revolutions at 1 rad/s."""
 
 
+NO_LINEAR_LOADS = (
+    "rating.tilt = 'iso': the loads of the first-order motion of the ring were not found, and there is no life; "
+    "rating.tilt = 'exact' takes the loads of the solution"
+)
 THIN_WARNING = (
     "viscosity ratio kappa below 0.1: ISO 281 gives no a_ISO there, that of kappa = 0.1 is used; boundary lubrication"
 )
@@ -68,6 +74,8 @@ def with_life(scene: Any, solution: Any) -> Any:
     checks = dict(solution.checks)
     if life.modification_factor is not None and life.viscosity_ratio is not None:
         checks[THIN_WARNING] = life.viscosity_ratio < KAPPA_RANGE[0]
+    if _tilts_linearly(scene):
+        checks[NO_LINEAR_LOADS] = solution.converged & ~jnp.isfinite(life.damage_rate)
     notes = (*solution.notes, *without_effect(scene, life))
     return dataclasses.replace(solution, life=life, checks=checks, notes=notes)
 
@@ -84,6 +92,11 @@ def without_effect(scene: Any, life: Life) -> list[str]:
         found = ["rating.grooves has no effect: it is about balls"] if rating.grooves != "catalogue" else []
     if rating.tilt == "iso" and not _tilts_linearly(scene):
         found.append("rating.tilt = 'iso' has no effect: it is about ball bearings with a moment or a misalignment")
+    if rating.n_laminae is not None and rating.n_laminae < FEWEST_LAMINAE and not isinstance(scene, BallBearing):
+        found.append(
+            f"rating.n_laminae = {rating.n_laminae}: ISO 16281 asks for at least {FEWEST_LAMINAE}; with edge factors "
+            "the life of straight rollers grows with the number of laminae"
+        )
     if rating.cleanliness is not None and life.viscosity_ratio is None:
         lacking = "a viscosity ratio: rating.viscosity_ratio, or an oil with a density"
         found.append(f"rating.cleanliness has no effect without {lacking}")
@@ -116,8 +129,9 @@ def bearing_life(scene: Any, solution: Solution) -> Life:
     rate = rated.damage_rate
     loaded = rate > 0
     safe_rate = jnp.where(loaded, rate, 1.0)
-    reference = jnp.where(loaded, 1.0 / safe_rate, jnp.inf)
-    equivalent = jnp.where(loaded, rated.dynamic_capacity * safe_rate ** (1.0 / exponent), 0.0)
+    # a rate that is NaN (loads that were not found) has no life, not an endless one
+    reference = jnp.where(loaded, 1.0 / safe_rate, jnp.where(rate == 0, jnp.inf, jnp.nan))
+    equivalent = jnp.where(loaded, rated.dynamic_capacity * safe_rate ** (1.0 / exponent), 0.0 * rate)
     hours = lambda revolutions: revolutions * _HOURS / jnp.abs(speed)
     reliability = RELIABILITY_FACTORS[rating.reliability]
     kappa = _viscosity_ratio(scene, rated.pitch_diameter, speed)

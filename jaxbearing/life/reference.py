@@ -136,6 +136,6 @@ def roller_damage_rate(
 
 
 def _power(damage: Array, exponent: float) -> Array:
-    """damage^exponent with a finite slope at 0: the value there is 0."""
+    """damage^exponent with a finite slope at 0: the value there is 0. A damage that is NaN stays so."""
     positive = damage > 0
-    return jnp.where(positive, jnp.where(positive, damage, 1.0) ** exponent, 0.0)
+    return jnp.where(positive, jnp.where(positive, damage, 1.0) ** exponent, 0.0 * damage)

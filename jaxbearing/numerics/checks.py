@@ -136,8 +136,12 @@ def _refused(part: str, checks: dict[str, tuple[Any, str]]) -> Iterator[str]:
         field = f"{part}.{name}" if part else name
         if value is None:
             continue
+        if np.ndim(value):
+            found = f"an array of shape {np.shape(value)}" if isinstance(value, Tracer) else repr(value)
+            yield f"{field} must be one number, got {found}"
+            continue
         # what has a dtype and is no array stands in for a number (`jax.ShapeDtypeStruct`)
-        if not (_is_number(value) or hasattr(value, "dtype")) or (np.ndim(value) and not isinstance(value, Tracer)):
+        if not (_is_number(value) or hasattr(value, "dtype")):
             yield f"{field} must be one number, got {value!r}"
             continue
         if isinstance(value, Tracer):
@@ -153,7 +157,7 @@ def demand(rule: str, fine: Any, message: Callable[[], str]) -> None:
     """A rule about several numbers.
 
     **Arguments:**
-    - `rule`: it in words, beginning with the dotted path of a field.
+    - `rule`: it in words, beginning with the dotted path of a field; `{path}` stands for that of the part.
     - `fine`: whether it holds: a bool, or a traced one, which `check_inputs` collects; False where a number is NaN.
     - `message`: what to say of known numbers that break it.
 
@@ -162,7 +166,8 @@ def demand(rule: str, fine: Any, message: Callable[[], str]) -> None:
     if isinstance(fine, Tracer):
         record = _RECORD.get()
         if record is not None:
-            record.rules[rule] = fine
+            told = rule.format(path=record.path or "the part")
+            record.rules[told] = record.rules[told] & fine if told in record.rules else fine
     elif not bool(fine):
         raise ValueError(message())
 
@@ -214,7 +219,6 @@ def void(tree: Any, valid: Bool[Array, ""]) -> Any:
 def _parts(node: Any, path: str) -> Iterator[tuple[str, eqx.Module]]:
     """Every module of a tree with its dotted path."""
     if isinstance(node, eqx.Module):
-        yield path, node
         inner = [(field.name, getattr(node, field.name, None)) for field in dataclasses.fields(node)]
     elif isinstance(node, dict):
         inner = list(node.items())
@@ -224,3 +228,6 @@ def _parts(node: Any, path: str) -> Iterator[tuple[str, eqx.Module]]:
         return
     for name, value in inner:
         yield from _parts(value, f"{path}.{name}" if path else str(name))
+    # what is inside first: a part that looks at numbers of its own parts would name a consequence
+    if isinstance(node, eqx.Module):
+        yield path, node

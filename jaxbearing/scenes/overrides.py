@@ -83,7 +83,7 @@ def applied(
     raw: Mapping[str, Any], overrides: Mapping[str, str], model: type[BaseModel], file: str
 ) -> tuple[dict[str, Any], list[SceneError]]:
     """A copy of the tables with the overrides that can be applied, and what is wrong with the others; see `apply`."""
-    changed = _copy(raw)
+    changed = _copy(raw, file)
     problems = []
     for path, text in overrides.items():
         keys = path.split(".")
@@ -165,5 +165,15 @@ def _as_toml(text: str) -> str:
     return text if isinstance(parse_value(text), int | float) else f'"{text}"'
 
 
-def _copy(table: Mapping[str, Any]) -> dict[str, Any]:
-    return {key: _copy(value) if isinstance(value, Mapping) else value for key, value in table.items()}
+MOST_DEEP = 20
+"""Levels of tables in a scene; the deepest of a scene has five."""
+
+
+def _copy(table: Mapping[str, Any], file: str, above: tuple[str, ...] = ()) -> dict[str, Any]:
+    """**Raises:** `SceneError` for tables inside tables without end."""
+    if len(above) > MOST_DEEP:
+        raise SceneError(file, ".".join(above), "a table nested too deeply", f"at most {MOST_DEEP} levels of tables")
+    return {
+        key: _copy(value, file, (*above, str(key))) if isinstance(value, Mapping) else value
+        for key, value in table.items()
+    }

@@ -14,6 +14,7 @@ import xarray as xr
 
 from ..lanes import LaneProgram
 from ..report.files import write_whole
+from ..scenes.input_files import check_regular
 from .labels import FAILURE, columns, converged, failures, template
 from .plan import Plan, read_plan
 
@@ -121,6 +122,7 @@ def read_chunk(folder: Path, index: int, key: str, names: list[str] | None = Non
     """
     path = chunk_path(folder, index)
     try:
+        check_regular(path)
         # opened here: numpy leaves a file open that it cannot read
         with path.open("rb") as raw, np.load(raw, allow_pickle=False) as file:
             found = {name: file[name] for name in (file.files if names is None else [KEY, *names])}

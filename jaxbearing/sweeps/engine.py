@@ -95,15 +95,17 @@ def run(
         there = _there_already(plan, target, overwrite, watcher)
         if there is not None:
             return there
-        tally = _Tally()
+        tally, ours = _Tally(), False
         try:
             _claim(plan, folder, target, overwrite)
+            ours = True
             _compute(plan, folder, runner or in_process(), watcher, tally)
             watcher.stage("writing")
             store(plan, folder, target)
         except OSError as error:
             kept = kept_words(plan, target)
-            if not tally.computed:
+            # what another run or another program left there is not this run's to remove
+            if ours and not tally.computed:
                 shutil.rmtree(folder, ignore_errors=True)
             raise StoppedError(error, len(plan.cases), tally.computed, tally.converged, kept) from error
         shutil.rmtree(folder, ignore_errors=True)

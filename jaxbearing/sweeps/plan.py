@@ -16,6 +16,7 @@ from .. import __version__
 from ..lanes import LaneProgram, Method
 from ..numerics.newton import NewtonOptions
 from ..report.files import appearing_whole
+from ..scenes.input_files import check_regular
 from .as_data import ForeignPartError, decoded, encoded
 from .cases import Cases
 from .recipe import Recipe
@@ -23,7 +24,7 @@ from .stored_recipe import recipe_of_data
 
 PLAN = "plan.data"
 FORMAT = 1
-"""Name of the file of a plan."""
+"""Version of the format of that file."""
 CHUNK, LANES = 1000, 125
 """Cases of a chunk, and those of them that a device solves in one call: eight devices can share one."""
 VMAP_LANES = 1000
@@ -160,6 +161,7 @@ def read_plan(folder: str | os.PathLike[str]) -> tuple[str, Plan]:
 
 def _read(folder: str | os.PathLike[str]) -> tuple[dict[str, Any], dict[str, np.ndarray]]:
     path = Path(folder) / PLAN
+    check_regular(path)
     try:
         # opened here: numpy leaves a file open that it cannot read
         with path.open("rb") as raw, np.load(raw, allow_pickle=False) as file:

@@ -219,6 +219,17 @@ def test_any_radial_load_finds_the_untilted_ring(any_load, clearance):
         assert (float(solution.ring.axial), float(solution.ring.tilt)) == (0.0, 0.0)
 
 
+def test_an_untilted_ring_that_the_least_thrust_tips_is_called_unstable(any_load):
+    """A load through the middle of the ring that few balls carry: an inverted pendulum, as the tangent stiffness and a
+    thrust of 1 uN show."""
+    unstable = lambda solution: any("unstable" in text for text in solution.warnings)
+    alone, beside = (any_load(radial_load=20.0, axial_load=axial, moment=0.0) for axial in (0.0, 1e-6))
+    assert unstable(alone)
+    assert not unstable(beside)
+    assert abs(float(beside.ring.tilt)) > 1e-3
+    assert not unstable(any_load(radial_load=1500.0, axial_load=200.0, moment=0.0))
+
+
 # -- loads that the bearing is not made for
 
 

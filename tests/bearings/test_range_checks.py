@@ -37,6 +37,7 @@ KINDS = {
     "other shoulder": "the other shoulder",
     "cut off": "contact ellipse cut off",
     "tilt": "by more than 10 mrad",
+    "unstable": "equilibrium is unstable",
     "edge": "loaded on an edge",
     "squeezed": "takes up the whole clearance",
     "hot": "oil in the contacts",
@@ -57,7 +58,7 @@ OF_RACES = {"yield", "skid", "behind", "other shoulder", "cut off", "edge", "hot
 OF_RACES |= {"slide ratio"}
 
 FAMILIES = {
-    "dry balls": ("deep_groove_6205", {}, "yield behind", "", "tilt"),
+    "dry balls": ("deep_groove_6205", {}, "yield behind", "", "tilt unstable"),
     "balls": (
         "turbine_ball",
         SHOULDERS,

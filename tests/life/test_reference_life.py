@@ -102,3 +102,10 @@ def test_rates_have_finite_gradients(scale, turns):
     assert np.isfinite(value)
     assert np.all(np.isfinite(slope))
     assert (value == 0.0) == (scale == 0.0)
+
+
+def test_loads_that_were_not_found_have_no_life():
+    """A NaN of a solve that failed must not end as no damage, which is an endless life."""
+    missing = jnp.full(3, jnp.nan)
+    balls = ball_contact_capacities(14e3, 9, 7.94e-3, 39.04e-3, 0.0, 0.52, 0.52)
+    assert bool(jnp.isnan(ball_damage_rate(missing, missing, balls, YES, NO)))

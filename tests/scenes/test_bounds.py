@@ -1,7 +1,6 @@
 """Every number of every scene has a bound: eager copies beyond it are refused, traced ones end as `invalid_input`."""
 
 import functools
-import operator
 
 import equinox as eqx
 import jax
@@ -15,13 +14,17 @@ from roller_cases import reference_roller
 
 import jaxbearing as jb
 from jaxbearing.bearings.parts import Drag
-from jaxbearing.bearings.rating import Rating
+from jaxbearing.bearings.rating import CLEANLINESS_CLASSES, RELIABILITIES, Rating
+from jaxbearing.bearings.simulation import Simulation
+from jaxbearing.life.basic import RELIABILITY_FACTORS
+from jaxbearing.life.modification import CLEANLINESS
 from jaxbearing.numerics.checks import RANGES, check_inputs
 from jaxbearing.numerics.precision import as_float
 from jaxbearing.numerics.status import Status
 from jaxbearing.scenes.fields import type_at
 from jaxbearing.scenes.reader import builtin_names, load_scene
 from jaxbearing.sweeps.fields import SceneSource, dimension_of
+from jaxbearing.time_laws import Tabulated
 
 SCENES = [*builtin_names(), "rated", "rotating load", "capped couple"]
 RATED = {
@@ -94,8 +97,8 @@ def outside(interval):
 def test_every_number_has_a_bound(name):
     rules = traced_checks(name)[0]
     named = {rule.split(" ")[0] for rule in rules}
-    # numbers of tables that stand side by side, judged together; the table of a run's speed over time
-    together = {"simulation.speed.times", "simulation.speed.factors"}
+    # the rule of a table over time is about both of its columns
+    together = {"simulation.speed.factors"}
     # reduced moduli and the like are given by the package, not by a user
     assert set(paths(scene(name))) - named - together == set()
 
@@ -176,7 +179,7 @@ LANES = {
         rated_ball,
         {
             "operation.radial_load": ([1.0e3, np.nan, 1e3, 1e3], "operation.radial_load must be finite"),
-            "geometry.ball_diameter": ([7.94e-3, 7.94e-3, 20e-3, 7.94e-3], "geometry.n_balls balls must fit"),
+            "geometry.ball_diameter": ([7.94e-3, 7.94e-3, 20e-3, 7.94e-3], "geometry.n_balls must be so small"),
             "rating.dynamic_capacity": ([14e3, 14e3, 14e3, -1.0], "rating.dynamic_capacity must be > 0"),
         },
     ),
@@ -184,15 +187,18 @@ LANES = {
         reference_roller,
         {
             "operation.oil_flow": ([4e-5, -4e-5, 4e-5, 4e-5], "operation.oil_flow must be >= 0"),
-            "geometry.roller_diameter": ([12e-3, 12e-3, 20e-3, 12e-3], "geometry.n_rollers rollers must fit"),
+            "geometry.roller_diameter": ([12e-3, 12e-3, 20e-3, 12e-3], "geometry.n_rollers must be so small"),
             "drag.coefficient": ([1.2, 1.2, 1.2, -1.0], "drag.coefficient must be >= 0"),
         },
     ),
     "tapered": (
         lambda: tapered_cases.tapered(2e3),
         {
-            "geometry.flange_angle": ([np.radians(10.35), -0.1], "geometry.flange_angle must be > 0"),
-            "geometry.end_radius": ([108e-3, 108e-3], ""),
+            "geometry.flange_angle": (
+                [np.radians(10.35), -0.1, np.radians(10.35)],
+                "geometry.flange_angle must be > 0",
+            ),
+            "geometry.end_radius": ([108e-3, 108e-3, 3e-3], "geometry.end_radius must be above half"),
         },
     ),
     "disks": (
@@ -245,6 +251,35 @@ def test_invalid_lanes_reach_no_derivative():
     np.testing.assert_allclose(2.0 * beside, alone, rtol=1e-12)
 
 
+def test_two_tables_are_judged_apart():
+    """One of them alone breaks the rule; both have the same one."""
+    good, bad = (Tabulated(np.asarray([0.0, second, 2e-5]), np.ones(3)) for second in (1e-5, 1.5e-5))
+    bad = eqx.tree_at(lambda table: table.times, bad, np.asarray([0.0, 3e-5, 2e-5]))
+    judged = jax.jit(lambda simulation: check_inputs(simulation).valid)
+    for speed, load, valid in ((good, good, True), (bad, good, False), (good, bad, False)):
+        run = eqx.tree_at(lambda s: (s.speed, s.load), Simulation(speed=good, load=good), (speed, load))
+        assert bool(judged(jax.tree.map(jnp.asarray, run))) is valid
+
+
+def test_arrays_for_one_number_are_refused_by_name():
+    given = numbers(load_scene("deep_groove_6205", HELD))
+    with pytest.raises(ValueError, match=r"operation\.inner_speed must be one number, got an array of shape \(2,\)"):
+        jax.eval_shape(lambda x: jb.solve(given.replace({"operation.inner_speed": x}), throw=False), jnp.ones(2))
+
+
+def test_ratings_that_no_standard_has_are_refused():
+    for change, words in ({"reliability": 2.0}, "reliability"), ({"cleanliness": "clean"}, "cleanliness"):
+        with pytest.raises(ValueError, match=rf"rating\.{words} must be one of"):
+            Rating(**change)
+    assert set(CLEANLINESS_CLASSES) == set(CLEANLINESS)
+    assert set(RELIABILITIES) == set(RELIABILITY_FACTORS)
+
+
+def test_a_part_is_not_replaced_by_a_word():
+    with pytest.raises(TypeError, match=r"materials\.balls must be a part such as Material, got 'Si3N4'"):
+        load_scene("deep_groove_6205").replace({"materials.balls": "Si3N4"})
+
+
 def test_a_scene_that_was_changed_behind_the_checks_is_refused_by_name():
     broken = eqx.tree_at(lambda s: s.geometry.ball_diameter, load_scene("deep_groove_6205"), np.float64(-1.0))
     with pytest.raises(jb.SolveError, match=r"invalid_input: geometry\.ball_diameter must be > 0"):
@@ -278,4 +313,4 @@ def test_the_loss_at_no_flow_has_a_slope_that_foretells_a_step():
     at_rest, slope = jax.jit(lambda flow: jax.jvp(loss, (flow,), (1.0,)))(0.0)
     few = 0.01 * litre
     np.testing.assert_allclose(slope * few, jax.jit(loss)(few) - at_rest, rtol=5e-3)
-    assert operator.lt(0.0, slope * 0.1 * litre)
+    assert slope * 0.1 * litre > 0.0

@@ -208,3 +208,15 @@ def test_nothing_in_the_packages_reads_what_can_run():
                     called == "load" and isinstance(node.func, ast.Attribute) and ast.unparse(node.func) == "np.load"
                 )
                 assert not loads or allowed, f"{path}: np.load without allow_pickle=False"
+
+
+def test_what_others_left_in_the_folder_stays_when_it_cannot_be_read(tmp_path):
+    """Only a folder that this run has claimed is removed: an error before that says nothing about what is in it."""
+    target = tmp_path / "x.nc"
+    folder = chunk_folder(target)
+    (folder / PLAN).mkdir(parents=True)
+    precious = folder / "precious.txt"
+    precious.write_text("of somebody")
+    with pytest.raises(OSError, match="folder"):
+        run(plan_in_scene(dry_roller(), LOADS), target)
+    assert precious.read_text() == "of somebody"
