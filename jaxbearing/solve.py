@@ -23,7 +23,7 @@ from .bearings.tilting_steady import solve_tilting
 from .ehl import EHLLineContact, LineContactSolution, solve_line_contact
 from .life.bearing_life import with_life
 from .machines import TwoDisk, TwoDiskSolution, solve_two_disk
-from .numerics.checks import check_inputs, void
+from .numerics.checks import check_inputs, gate, void
 from .numerics.compiling import collecting_rarely, quickly_compiled
 from .numerics.newton import NewtonOptions
 from .numerics.precision import as_float, require_x64
@@ -57,7 +57,7 @@ def steady_function(scene: AbstractScene) -> Callable[..., Any]:
 def _solve_any(scene: AbstractScene, options: NewtonOptions) -> Any:
     """The whole way from a scene to its solution. Where an input is invalid the solve ends at once, in NaN."""
     inputs = check_inputs(scene)
-    given: Any = scene
+    given: Any = gate(scene, inputs.valid)
     lane = dataclasses.replace(given, operation=void(given.operation, inputs.valid))
     solution = with_life(lane, steady_function(scene)(lane, options))
     return dataclasses.replace(

@@ -10,7 +10,7 @@ from jaxtyping import Array, Float, Int
 from ..gaps import CompliantPocketFace
 from ..materials import CATALOGUE, reduced_modulus
 from ..numerics.arrow import ArrowPoint
-from ..numerics.checks import InputChecks, check_inputs, void
+from ..numerics.checks import InputChecks, check_inputs, gate, void
 from ..numerics.newton import NewtonOptions, newton_solve
 from ..numerics.status import Status
 from .cylindrical_roller import CylindricalRollerBearing
@@ -169,4 +169,5 @@ def checked_lane(
 ) -> tuple[CylindricalRollerBearing, InputChecks]:
     """The checks of traced inputs, and the scene with an operation that is NaN where they are invalid."""
     inputs = check_inputs(dataclasses.replace(scene, simulation=simulation))
-    return dataclasses.replace(scene, operation=void(scene.operation, inputs.valid)), inputs
+    lane = gate(scene, inputs.valid)
+    return dataclasses.replace(lane, operation=void(lane.operation, inputs.valid)), inputs

@@ -216,6 +216,28 @@ def void(tree: Any, valid: Bool[Array, ""]) -> Any:
     return jax.tree.map(lambda leaf: jnp.where(valid, as_float(leaf), jnp.nan), tree)
 
 
+def gate(tree: Any, valid: Bool[Array, ""]) -> Any:
+    """The tree, whose traced numbers pass no derivative where the inputs are not valid: what is computed from them is
+    NaN, and NaN times zero must not reach a number that lanes share."""
+    leaves, structure = jax.tree.flatten(tree)
+    traced = [isinstance(leaf, Tracer) for leaf in leaves]
+    passed = iter(_gated([leaf for leaf, is_traced in zip(leaves, traced, strict=True) if is_traced], valid))
+    return jax.tree.unflatten(
+        structure, [next(passed) if is_traced else leaf for leaf, is_traced in zip(leaves, traced, strict=True)]
+    )
+
+
+@jax.custom_jvp
+def _gated(numbers: list[Array], valid: Bool[Array, ""]) -> list[Array]:
+    return numbers
+
+
+@_gated.defjvp
+def _gated_jvp(primals, tangents):
+    numbers, valid = primals
+    return numbers, [jnp.where(valid, tangent, 0.0) for tangent in tangents[0]]
+
+
 def _parts(node: Any, path: str) -> Iterator[tuple[str, eqx.Module]]:
     """Every module of a tree with its dotted path."""
     if isinstance(node, eqx.Module):

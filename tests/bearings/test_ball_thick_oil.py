@@ -10,6 +10,8 @@ import pytest
 import jaxbearing as jb
 
 SMALL = {
+    "cage.inner_diameter": "none",
+    "cage.outer_diameter": "none",
     "geometry.n_balls": "8",
     "operation.radial_load": "1 kN",
     "operation.moment": "0 N*m",

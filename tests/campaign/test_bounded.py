@@ -108,7 +108,7 @@ def _roller_system(scene):
 
 
 def _ball_system(scene):
-    return build_core(scene), ("directions", "held")
+    return build_core(scene), ("directions", "azimuth")
 
 
 def _tapered_system(scene):
@@ -117,7 +117,7 @@ def _tapered_system(scene):
 
 ROTATED = {
     "roller: dry": _roller_system,
-    "roller: skidding, Ree-Eyring": _roller_system,
+    "roller: skidding, Ree-Eyring, Dowson-Toyoda": _roller_system,
     "ball: dry, combined, tilt free": _ball_system,
     "tapered: dry, radial, held": _tapered_system,
 }
