@@ -90,12 +90,13 @@ def run(
     if there is not None:
         return there
     folder = chunk_folder(target)
+    fresh = not os.path.lexists(folder)
     with _locked(folder):
         # another process may have finished it while this one was at the door
         there = _there_already(plan, target, overwrite, watcher)
         if there is not None:
             return there
-        tally, ours = _Tally(), False
+        tally, ours = _Tally(), fresh
         try:
             _claim(plan, folder, target, overwrite)
             ours = True
