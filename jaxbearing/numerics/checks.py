@@ -219,23 +219,11 @@ def void(tree: Any, valid: Bool[Array, ""]) -> Any:
 def gate(tree: Any, valid: Bool[Array, ""]) -> Any:
     """The tree, whose traced numbers pass no derivative where the inputs are not valid: what is computed from them is
     NaN, and NaN times zero must not reach a number that lanes share."""
-    leaves, structure = jax.tree.flatten(tree)
-    traced = [isinstance(leaf, Tracer) for leaf in leaves]
-    passed = iter(_gated([leaf for leaf, is_traced in zip(leaves, traced, strict=True) if is_traced], valid))
-    return jax.tree.unflatten(
-        structure, [next(passed) if is_traced else leaf for leaf, is_traced in zip(leaves, traced, strict=True)]
-    )
 
+    def passed(leaf: Any) -> Any:
+        return jnp.where(valid, leaf, jax.lax.stop_gradient(leaf)) if isinstance(leaf, Tracer) else leaf
 
-@jax.custom_jvp
-def _gated(numbers: list[Array], valid: Bool[Array, ""]) -> list[Array]:
-    return numbers
-
-
-@_gated.defjvp
-def _gated_jvp(primals, tangents):
-    numbers, valid = primals
-    return numbers, [jnp.where(valid, tangent, 0.0) for tangent in tangents[0]]
+    return jax.tree.map(passed, tree)
 
 
 def _parts(node: Any, path: str) -> Iterator[tuple[str, eqx.Module]]:
