@@ -95,7 +95,7 @@ class AbstractSolution(eqx.Module):
 
     @property
     def warnings(self) -> list[str]:
-        """What left the range of a law, and what the model assumed or left out, in words (one solution only).
+        """The warnings in words: broken rules and ranges, and the assumptions of the model (one solution only).
 
         **Raises:** `ValueError` for a batch of solutions, as do `failure` and `broken_rules`.
         """

@@ -489,7 +489,7 @@ class LubricatedBallSystem(AbstractBallSystem):
     def _fit(
         self, load: Array, angle: Array, film: Array, shift: Array
     ) -> tuple[Float[Array, "2 ball"], Float[Array, "2 ball"], InnerArm]:
-        """Whether the centres fit: along the inner contact's normal, as a logarithm, and across it; ball centres, from
+        """Misfit of the centres, along the inner contact's normal, as a logarithm, and across it; ball centres, from
         the outer groove centre, m, and the arms from them to the inner groove. `angle`: of the normal forces."""
         grooves = self.grooves
         compression = jnp.cbrt(jnp.square(load / grooves.stiffness[:, None]))

@@ -31,8 +31,8 @@ _told: list[bool] = []
 
 
 def if_interrupted(words: str | Callable[[], str]) -> None:
-    """What is said from now on when Ctrl-C ends the command, after "interrupted: ". **Arguments:** `words`, or what
-    makes them, which is called in another thread."""
+    """Sets the text that follows "interrupted: " when Ctrl-C ends the command. **Arguments:** `words`, or a function
+    that makes them, which is called in another thread."""
     _words[0] = (lambda: words) if isinstance(words, str) else words
 
 
