@@ -17,8 +17,11 @@ from fitting.options import FitOptions
 from fitting.search import Search
 from jaxbearing.scenes.data_files import builtin_names
 
-LIBRARIES = {"cu_lu_pivots_to_permutation", "cusolver_getrf_ffi", "cusolver_geqrf_ffi", "cusolver_ormqr_ffi"}
-"""What is taken from CUDA's libraries: LU factorizations, and in fits QR."""
+LIBRARIES = {
+    *("cu_lu_pivots_to_permutation", "cusolver_getrf_ffi"),
+    *("cusolver_geqrf_ffi", "cusolver_ormqr_ffi", "cusolver_syevd_ffi"),
+}
+"""What is taken from CUDA's libraries: LU factorizations, in fits QR, and the eigenvalues of a free ring's stiffness."""
 
 
 def program(function, arguments):

@@ -95,7 +95,7 @@ def end_command_at_interrupt() -> None:
     called before anything large is imported. A program that imports the package keeps its own way."""
     main_thread = threading.current_thread() is threading.main_thread()
     if main_thread and is_the_command() and signal.getsignal(signal.SIGINT) is signal.default_int_handler:
-        signal.signal(signal.SIGINT, lambda number, frame: end_now(b"interrupted\n"))
+        signal.signal(signal.SIGINT, lambda number, frame: end_now(b"interrupted: nothing was computed\n"))
 
 
 def is_the_command() -> bool:
