@@ -21,7 +21,7 @@ LIBRARIES = {
     *("cu_lu_pivots_to_permutation", "cusolver_getrf_ffi"),
     *("cusolver_geqrf_ffi", "cusolver_ormqr_ffi", "cusolver_syevd_ffi"),
 }
-"""What is taken from CUDA's libraries: LU factorizations, in fits QR, and the eigenvalues of a free ring's stiffness."""
+"""What is taken from CUDA's libraries: LU factors, in fits QR, eigenvalues of a free ring's stiffness."""
 
 
 def program(function, arguments):

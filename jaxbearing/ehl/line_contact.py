@@ -53,6 +53,8 @@ class FilmModel(Checked):
     - `inlet`: length of the domain upstream of the centre, half widths; light loads need more than 4
       (`resolution.cut_error`).
     - `film_limit`: a run in time ends where the film is thinner, m: below about 0.5 nm a continuum means nothing.
+    - `accuracy`: relative error of the steady films that was asked for, > 0: where mesh or inlet leave more, a warning
+      says so. `None`: it warns from 5 % by the mesh, and from 0.5 % by the inlet.
     """
 
     part: ClassVar[str] = "contact"
@@ -61,9 +63,12 @@ class FilmModel(Checked):
     nodes: int = count("contact.nodes", 501)
     inlet: float = constant("contact.inlet", INLET)
     film_limit: Scalar = number(0.5e-9, bound=">= 0")
+    accuracy: float | None = constant("contact.accuracy", None)
 
     def __check_init__(self):
         super().__check_init__()
+        if self.accuracy is not None and self.accuracy <= 0.0:
+            raise ValueError(f"contact.accuracy must be > 0, got {self.accuracy:g}")
         if not FEWEST_NODES <= self.nodes <= MOST_NODES:
             raise ValueError(f"contact.nodes must be from {FEWEST_NODES} to {MOST_NODES}, got {self.nodes}")
         if not 2.0 <= self.inlet <= 64.0:

@@ -183,13 +183,22 @@ def range_checks(scene: EHLLineContact, scales: Scales, film: Any = None) -> dic
     """Which ranges are left. **Arguments:** `film`: by Moes' formula, where it is known."""
     temperature, (low, high) = jnp.asarray(scene.operation.oil_temperature), FITTED_TEMPERATURES
     ratio, model = scene.film_ratio(scales, film), scene.contact
-    coarse = mesh_error(model.nodes, ratio, scales.moes_material) > LARGEST_MESH_ERROR
-    return {
+    by_mesh, by_inlet = mesh_error(model.nodes, ratio, scales.moes_material), cut_error(model.inlet, ratio)
+    missed = {}
+    if model.accuracy is not None:
+        text = (
+            f"contact.accuracy of {model.accuracy:g} is missed under this load: by the mesh, or by a cut inlet, "
+            "the films are lower by more; build the scene for this load, or give contact.nodes and contact.inlet"
+        )
+        missed = {text: jnp.asarray(jnp.maximum(by_mesh, by_inlet) > model.accuracy)}
+    return missed | {
         "oil beyond 200 degC: the oil laws are extrapolated": temperature > high,
         "oil below -20 degC: the oil laws are extrapolated": temperature < low,
         "Hertz pressure beyond 4.2 GPa: the bodies would yield": scales.hertz_pressure > 4.2e9,
         "contact.inlet is too short for this light load: the films are more than 0.5 % low": (
-            jnp.asarray(cut_error(model.inlet, ratio) > LARGEST_CUT_ERROR)
+            jnp.asarray(by_inlet > LARGEST_CUT_ERROR)
         ),
-        "contact.nodes are too few for this heavy load: the films are more than 5 % low": jnp.asarray(coarse),
+        "contact.nodes are too few for this heavy load: the films are more than 5 % low": (
+            jnp.asarray(by_mesh > LARGEST_MESH_ERROR)
+        ),
     }
