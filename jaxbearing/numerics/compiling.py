@@ -1,4 +1,4 @@
-"""Programs that run once: compile time counts, run time does not."""
+"""Programs that run a few times: compile time counts, run time does not."""
 
 import functools
 import gc
@@ -9,6 +9,8 @@ from typing import Any
 
 import equinox as eqx
 import jax
+import jax.numpy as jnp
+from jax.core import Tracer
 
 IDLE_PASSES = (
     "reshape-mover",
@@ -79,11 +81,14 @@ def _known() -> dict[str, Any]:
     return _QUICK if known(_QUICK) else {name: value for name, value in _QUICK.items() if known({name: value})}
 
 
-def quickly_compiled(function: Callable[..., Any]) -> Callable[..., Any]:
-    """`equinox.filter_jit(function)`, on a CPU compiled fast for a process that calls it once and ends.
+def inside_a_program(arguments: Any) -> bool:
+    """True while a program is being traced, or where one of the arguments is differentiated or batched: JAX takes
+    options of the compiler only from the outermost call, which is then not ours."""
+    return any(isinstance(leaf, Tracer) for leaf in jax.tree.leaves(arguments)) or isinstance(jnp.zeros(()), Tracer)
 
-    Not to be called inside another `jax.jit`, which allows compiler options on the outside only.
-    """
+
+def quickly_compiled(function: Callable[..., Any]) -> Callable[..., Any]:
+    """`equinox.filter_jit(function)`, on a CPU compiled fast. Not to be called where `inside_a_program`."""
     ordinary = eqx.filter_jit(function)
 
     @functools.cache
