@@ -10,13 +10,17 @@ Importing the package switches JAX to 64-bit floats: the tolerances of its solve
 """
 
 import importlib
+import os
 from typing import TYPE_CHECKING, Any
 
-from .numerics.interrupts import end_command_at_interrupt
+from .numerics.interrupts import end_command_at_interrupt, is_the_command
 from .numerics.quiet import silence_compiler
 
 end_command_at_interrupt()  # before anything large is imported
 silence_compiler()
+if is_the_command():
+    # statuses say what went wrong: a program that calls Python to raise an error of its own could not be kept
+    os.environ.setdefault("EQX_ON_ERROR", "nan")
 
 import jax  # noqa: E402
 

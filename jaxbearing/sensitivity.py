@@ -13,9 +13,10 @@ from ._scene import AbstractScene
 from .bearings.solution import Solution
 from .ehl import LineContactSolution
 from .machines import TwoDiskSolution
-from .numerics.compiling import collecting_rarely, quickly_compiled
+from .numerics.compiling import collecting_rarely
 from .numerics.newton import NewtonOptions
 from .numerics.precision import as_float, require_x64
+from .programs import KeptProgram
 from .solve import _solve_any, steady_function
 
 _Slopes = dict[str, Float[Array, ""]]
@@ -134,7 +135,7 @@ def _differentiated(scene: AbstractScene, options: NewtonOptions) -> tuple[Any, 
 
 
 _ordinary = eqx.filter_jit(_differentiated)
-_once = quickly_compiled(_differentiated)
+_once = KeptProgram(_differentiated, quick=True)
 
 
 def _by_path(tree: Any) -> dict[str, Float[Array, ""]]:

@@ -24,11 +24,12 @@ from .ehl import EHLLineContact, LineContactSolution, solve_line_contact
 from .life.bearing_life import with_life
 from .machines import TwoDisk, TwoDiskSolution, solve_two_disk
 from .numerics.checks import check_inputs, gate, void
-from .numerics.compiling import collecting_rarely, inside_a_program, quickly_compiled
+from .numerics.compiling import collecting_rarely, inside_a_program
 from .numerics.newton import NewtonOptions
 from .numerics.precision import as_float, require_x64
 from .numerics.quiet import compiler_is_loud, without_false_alarms
 from .numerics.status import Status
+from .programs import KeptProgram
 
 
 def _solve_cylindrical(scene: CylindricalRollerBearing, options: NewtonOptions) -> Solution:
@@ -69,9 +70,10 @@ def _solve_any(scene: AbstractScene, options: NewtonOptions) -> Any:
 
 
 _solve = eqx.filter_jit(_solve_any)
+_solve_optimised = KeptProgram(_solve_any, quick=False)
 _SOLVED: set[Any] = set()
 """Structures of scenes that were solved outside of other programs."""
-_solve_quickly = quickly_compiled(_solve_any)
+_solve_quickly = KeptProgram(_solve_any, quick=True)
 
 
 @overload
@@ -120,8 +122,9 @@ def solve(
     require_x64()
     steady_function(scene)
     with _compiling_quietly(scene):
-        quick = not optimised and not inside_a_program(scene)
-        solution = (_solve_quickly if quick else _solve)(jax.tree.map(as_float, scene), chosen_options(options))
+        function = _solve_optimised if optimised else _solve_quickly
+        function = _solve if inside_a_program(scene) else function
+        solution = function(jax.tree.map(as_float, scene), chosen_options(options))
         if throw:
             solution.raise_if_failed()
     return solution
@@ -163,7 +166,9 @@ def jit_solver(scene: AbstractScene, *, options: NewtonOptions | None = None) ->
     chosen = chosen_options(options)
     require_x64()
     steady_function(scene)
-    given, structure = jax.tree.flatten(jax.tree.map(as_float, scene))
+    own_numbers = jax.tree.map(as_float, scene)
+    given, structure = jax.tree.flatten(own_numbers)
+    arguments = jax.tree.structure((own_numbers, chosen))
     # on the device once, and flat: less to do at each call
     numbers = [value if isinstance(value, Tracer) else jax.device_put(value) for value in given]
 
@@ -171,12 +176,20 @@ def jit_solver(scene: AbstractScene, *, options: NewtonOptions | None = None) ->
     def compiled(numbers: list[Any]) -> Any:
         return _solve_any(jax.tree.unflatten(structure, numbers), chosen)
 
+    def answer(numbers: list[Any]) -> Any:
+        """Of the kept program; of one of JAX's where something is traced, or where programs are not kept."""
+        if not any(isinstance(number, Tracer) for number in numbers):
+            kept = _solve_optimised.ready(arguments, numbers)
+            if kept is not None:
+                return kept(numbers)
+        return compiled(numbers)
+
     # of leaves that a changed copy has in common with it
     own = jax.tree.unflatten(structure, given)
 
     def fast(other: AbstractScene | None = None, /, **operation: Any) -> Any:
         if other is None and not operation:
-            return compiled(numbers)
+            return answer(numbers)
         if not isinstance(other, AbstractScene | None):
             raise TypeError(f"expected a scene, or keywords of the operating point, got {type(other).__name__}")
         changed = own if other is None else other
@@ -185,7 +198,7 @@ def jit_solver(scene: AbstractScene, *, options: NewtonOptions | None = None) ->
         others, kind = jax.tree.flatten(changed)
         if kind == structure:
             leaves = zip(others, given, numbers, strict=True)
-            return compiled([kept if new is old else as_float(new) for new, old, kept in leaves])
+            return answer([kept if new is old else as_float(new) for new, old, kept in leaves])
         return _solve(jax.tree.map(as_float, changed), chosen)
 
     return fast

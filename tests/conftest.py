@@ -8,6 +8,8 @@ import os
 from pathlib import Path
 
 os.environ.setdefault("JAX_PLATFORMS", "cpu")
+# programs of the package are compiled from what is here, and not loaded
+os.environ.setdefault("JAXBEARING_CACHE", "off")
 # the commands that tests start share a GPU with them
 os.environ.setdefault("XLA_PYTHON_CLIENT_PREALLOCATE", "false")
 

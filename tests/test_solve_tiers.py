@@ -27,7 +27,7 @@ def unvarying(speed):
 def calls(monkeypatch):
     """Names of the programs that answered."""
     made = []
-    for name in ("_solve", "_solve_quickly"):
+    for name in ("_solve", "_solve_quickly", "_solve_optimised"):
         real = getattr(SOLVE, name)
         monkeypatch.setattr(SOLVE, name, lambda *args, real=real, name=name: (made.append(name), real(*args))[1])
     return made
@@ -36,7 +36,7 @@ def calls(monkeypatch):
 def test_which_program_answers(calls):
     for call, program in (
         (lambda: jb.solve(SCENE), "_solve_quickly"),
-        (lambda: jb.solve(SCENE, optimised=True), "_solve"),
+        (lambda: jb.solve(SCENE, optimised=True), "_solve_optimised"),
         (lambda: jax.jit(loss)(900.0), "_solve"),
         (lambda: jax.jit(unvarying)(900.0), "_solve"),
         (lambda: jax.vmap(loss)(jnp.array([900.0, 950.0])), "_solve"),

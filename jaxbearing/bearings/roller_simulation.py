@@ -13,18 +13,18 @@ from jaxtyping import Array, Float
 
 from .._checks import Checks
 from ..numerics.checks import check_inputs
-from ..numerics.compiling import quickly_compiled
 from ..numerics.devices import may_be_shared_out, shared_out
 from ..numerics.integrator import Segment
 from ..numerics.interrupts import Deferral, deferred_interrupts
 from ..numerics.precision import as_float
 from ..numerics.status import SolveError, Status
+from ..programs import KeptProgram
 from .cylindrical_roller import CylindricalRollerBearing
 from .history import Energy, History, LastState
 from .range_checks import input_excess
 from .roller_dynamics import WORKS
-from .roller_motion import IMMOBILE, QuasiStatic, Start, at_start, begin, checked_lane, quasi_static
-from .roller_run import FIELD, UNKNOWN, Advanced, Resumed, advance, check_fits, energy_of, identity, resume
+from .roller_motion import IMMOBILE, Start, at_start, begin, checked_lane, quasi_static
+from .roller_run import FIELD, UNKNOWN, Advanced, advance, check_fits, energy_of, identity, resume
 from .simulation import Simulation
 
 INTERVAL = 20e-6
@@ -78,21 +78,11 @@ def trajectory(start: Start, times: Float[Array, " time"], simulation: Simulatio
 
 
 # solved once a run: to compile takes longer than to run
-_quasi_static = quickly_compiled(quasi_static)
-
-
-@eqx.filter_jit
-def _begin(scene: CylindricalRollerBearing, simulation: Simulation, found: QuasiStatic) -> Start:
-    return begin(scene, simulation, found)
-
-
-@eqx.filter_jit
-def _resume(scene: CylindricalRollerBearing, simulation: Simulation, last: LastState) -> Resumed:
-    return resume(scene, simulation, last)
-
-
-_advance = eqx.filter_jit(advance)
-_energy = eqx.filter_jit(energy_of)
+_quasi_static = KeptProgram(quasi_static, quick=True)
+_begin = KeptProgram(begin, quick=True)
+_resume = KeptProgram(resume, quick=True)
+_advance = KeptProgram(advance, quick=False)
+_energy = KeptProgram(energy_of, quick=True)
 
 
 def _request(

@@ -65,8 +65,10 @@ def collecting_rarely() -> Iterator[None]:
                 gc.set_threshold(*_Depth.before)
 
 
-def _known() -> dict[str, Any]:
-    """Those of the quick options that this jaxlib knows: jaxlib 0.12 has dropped the older way to emit loops."""
+@functools.cache
+def quick_options() -> dict[str, Any]:
+    """Options of XLA for quick compilation, those that this jaxlib knows: jaxlib 0.12 has dropped the older way to emit
+    loops."""
     nothing = jax.jit(lambda: None).lower()
 
     def known(options: dict[str, Any]) -> bool:
@@ -93,7 +95,7 @@ def quickly_compiled(function: Callable[..., Any]) -> Callable[..., Any]:
 
     @functools.cache
     def quick() -> Callable[..., Any]:
-        return eqx.filter_jit(function, compiler_options=_known())  # pyright: ignore[reportCallIssue]
+        return eqx.filter_jit(function, compiler_options=quick_options())  # pyright: ignore[reportCallIssue]
 
     @collecting_rarely()
     def call(*args: Any, **kwargs: Any) -> Any:

@@ -9,8 +9,9 @@ import tomllib
 import jax
 import pytest
 
-from jaxbearing.cli.cache import cache_folder, enable_compilation_cache
+from jaxbearing.cli.cache import enable_compilation_cache
 from jaxbearing.cli.quiet import without_false_alarms
+from jaxbearing.programs import cache_folder
 from jaxbearing.scenes.data_files import builtin_names, builtin_text
 
 DRY = ("reference_roller", "--set", "contact=none")

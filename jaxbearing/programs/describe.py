@@ -1,0 +1,79 @@
+"""What a program is made from, in words that are the same in every process."""
+
+import dataclasses
+import enum
+import types
+from collections.abc import Iterator, Mapping
+from typing import Any
+
+import equinox as eqx
+import jax
+
+OWN = ("jaxbearing", "fitting")
+_KNOWN = (*OWN, "equinox", "jax", "jaxlib", "numpy", "builtins")
+"""Packages whose code is part of the key of a kept program, by their versions or their files."""
+
+
+class NotKept(Exception):
+    """A program depends on code that is not known here, such as a law of the user's own."""
+
+
+def description(structure: Any) -> str:
+    """A pytree's structure, with all that is static in it.
+
+    **Raises:** `NotKept` where a class or a function is from elsewhere, or has no name that another process knows.
+    """
+    return "".join(_structure(structure))
+
+
+def _structure(structure: Any) -> Iterator[str]:
+    found = structure.node_data()
+    if found is None:
+        # a leaf, or nothing at all
+        yield "*" if structure.num_leaves else "-"
+        return
+    kind, static = found
+    yield f"{_named(kind)}({static_description(static)}"
+    for child in structure.children():
+        yield ","
+        yield from _structure(child)
+    yield ")"
+
+
+def static_description(value: Any) -> str:
+    """A value that is no array. **Raises:** as `description`."""
+    if value is None or isinstance(value, bool | int | float | complex | str | bytes):
+        # repr of a float is exact; a subclass is told from its base
+        return f"{type(value).__name__}:{value!r}" if type(value).__module__ == "builtins" else _of_a_class(value)
+    if isinstance(value, enum.Enum):
+        return f"{_named(type(value))}.{value.name}"
+    if isinstance(value, type | types.FunctionType | types.BuiltinFunctionType):
+        return _named(value)
+    if isinstance(value, Mapping):
+        entries = (f"{static_description(key)}:{static_description(one)}" for key, one in value.items())
+        return f"{_named(type(value))}{{{','.join(entries)}}}"
+    if isinstance(value, tuple | list | frozenset | set):
+        parts = [static_description(one) for one in value]
+        parts = sorted(parts) if isinstance(value, frozenset | set) else parts
+        return f"{_named(type(value))}[{','.join(parts)}]"
+    return _of_a_class(value)
+
+
+def _of_a_class(value: Any) -> str:
+    if isinstance(value, eqx.Module):
+        leaves, structure = jax.tree.flatten(value)
+        return f"{description(structure)}<{','.join(static_description(leaf) for leaf in leaves)}>"
+    if dataclasses.is_dataclass(value):
+        fields = {field.name: getattr(value, field.name) for field in dataclasses.fields(value)}
+        return f"{_named(type(value))}({static_description(fields)})"
+    # one of a kind: equinox' mark of a field that is not there
+    if type(value).__module__.split(".")[0] == "equinox":
+        return _named(type(value))
+    raise NotKept(f"{value!r} of {type(value)}")
+
+
+def _named(thing: Any) -> str:
+    module, name = getattr(thing, "__module__", None) or "", getattr(thing, "__qualname__", "")
+    if module.split(".")[0] not in _KNOWN or "<" in name or not name:
+        raise NotKept(f"{module}.{name}")
+    return f"{module}.{name}"

@@ -1,0 +1,314 @@
+"""Programs that are traced and compiled once, and loaded by the processes that follow.
+
+JAX's own cache keeps what the compiler made, but a program must be traced and lowered to be found there, which takes
+longer than all the rest of a solve. Here the key is what the program is made from: the structure of the arguments with
+all that is static, shapes and types, the files of this package, the versions of the libraries, the processor and what
+the compiler was told. No setting of JAX is changed. What is kept and what is loaded are the same bits.
+
+A file is built aside and appears whole; one that is damaged, foreign or of another version is compiled anew and written
+over. Files hold pickled data, so only those are read that belong to the user and that nobody else may write.
+"""
+
+import dataclasses
+import functools
+import hashlib
+import importlib.metadata
+import os
+import pickle
+import tempfile
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager, nullcontext, suppress
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import equinox as eqx
+import jax
+import numpy as np
+from jax.experimental.compilation_cache.compilation_cache import reset_cache
+
+from ..numerics.compiling import collecting_rarely, quick_options, quickly_compiled
+from ..numerics.quiet import compiler_is_loud, without_false_alarms
+from .describe import OWN, NotKept, description, static_description
+from .folder import VARIABLE, cache_folder
+
+SUFFIX = ".program"
+ROOT = Path(__file__).parents[2]
+"""Folder of the packages."""
+MOST_BYTES = 500_000_000
+"""Size of all files together from which on those that were used longest ago are removed."""
+_LIBRARIES = ("jax", "jaxlib", "equinox", "optimistix", "lineax", "diffrax", "numpy")
+_MAGIC = b"jaxbearing program 1\n"
+_SETTINGS = ("jax_enable_x64", "jax_default_matmul_precision", "jax_disable_most_optimizations")
+_ENVIRONMENT = ("XLA_FLAGS", "EQX_ON_ERROR", "JAX_DISABLE_MOST_OPTIMIZATIONS")
+
+
+class _Slot(NamedTuple):
+    """Stands for an array of the result."""
+
+    place: int
+
+
+@dataclasses.dataclass
+class _Ready:
+    """A program and the structure of its result.
+
+    `others`: leaves of the result that are no arrays, `_Slot`s where one is; `instead`: makes the program anew, of one
+    that was loaded and has not run yet.
+    """
+
+    compiled: Any
+    structure: Any
+    others: list[Any]
+    instead: Callable[[], "_Ready"] | None = None
+
+    def __call__(self, leaves: list[Any]) -> Any:
+        arrays = self._run(_arrays(leaves)) if self.instead is None else self._first_run(_arrays(leaves))
+        filled = [arrays[one.place] if isinstance(one, _Slot) else one for one in self.others]
+        return jax.tree.unflatten(self.structure, filled)
+
+    def _run(self, arrays: list[Any]) -> list[Any]:
+        return self.compiled(arrays)
+
+    def _first_run(self, arrays: list[Any]) -> list[Any]:
+        """A file may be whole and of no use all the same: its program is then compiled."""
+        instead, self.instead = self.instead, None
+        try:
+            return jax.block_until_ready(self._run(arrays))
+        except jax.errors.JaxRuntimeError:
+            if instead is not None:
+                self.compiled = instead().compiled
+            return self._run(arrays)
+
+
+def _is_array(leaf: Any) -> bool:
+    return isinstance(leaf, jax.Array | np.ndarray | np.generic)
+
+
+def _arrays(leaves: list[Any]) -> list[Any]:
+    return [leaf for leaf in leaves if _is_array(leaf)]
+
+
+class KeptProgram:
+    """`equinox.filter_jit(function)`, whose programs are kept between processes.
+
+    Not to be called where `numerics.compiling.inside_a_program`. Kept are programs of one CPU whose arguments are
+    arrays and objects of this package, and that do not call back to the host; others are compiled in each process, as
+    `filter_jit` does.
+
+    **Arguments:** `function`: of a module, pure; `quick`: compile quickly (see `numerics.compiling`).
+    """
+
+    def __init__(self, function: Callable[..., Any], quick: bool):
+        self._function, self._quick = function, quick
+        self._plain = quickly_compiled(function) if quick else eqx.filter_jit(function)
+        self._ready: dict[Any, _Ready] = {}
+
+    def __call__(self, *args: Any) -> Any:
+        leaves, structure = jax.tree.flatten(args)
+        ready = self.ready(structure, leaves)
+        return self._plain(*args) if ready is None else ready(leaves)
+
+    @collecting_rarely()
+    def ready(self, structure: Any, leaves: list[Any]) -> Callable[[list[Any]], Any] | None:
+        """The program for arguments of this structure: a function of their leaves, arrays of the same shapes and equal
+        others; loaded, or made and kept. `None` where programs like it are not kept."""
+        key = (structure, tuple((leaf.shape, leaf.dtype) if _is_array(leaf) else leaf for leaf in leaves))
+        found = self._ready.get(key)
+        if found is None:
+            found = self._prepared(structure, leaves)
+            if found is not None:
+                self._ready[key] = found
+        return found
+
+    def _prepared(self, structure: Any, leaves: list[Any]) -> _Ready | None:
+        """The program, loaded or made and kept; `None` where programs like it are not kept."""
+        folder = _folder()
+        if folder is None:
+            return None
+        try:
+            path = folder / self._name(structure, leaves)
+        except NotKept:
+            return None
+        with without_false_alarms() if compiler_is_loud() else nullcontext():
+            ready = _loaded(path)
+            if ready is None:
+                return self._made(structure, leaves, path)
+        ready.instead = lambda: self._made(structure, leaves, path)
+        return ready
+
+    def _name(self, structure: Any, leaves: list[Any]) -> str:
+        """Of the file: a hash of all that the program depends on."""
+        function = f"{self._function.__module__}.{self._function.__qualname__}"
+        shapes = [(leaf.shape, str(leaf.dtype)) if _is_array(leaf) else static_description(leaf) for leaf in leaves]
+        parts = (function, self._quick, description(structure), shapes, _surroundings(), _files())
+        return hashlib.sha256(repr(parts).encode()).hexdigest()[:40] + SUFFIX
+
+    def _made(self, structure: Any, leaves: list[Any], path: Path) -> _Ready:
+        found: list[tuple[Any, list[Any]]] = []
+
+        def flat(given: list[Any]) -> list[Any]:
+            arrays = iter(given)
+            filled = [next(arrays) if _is_array(leaf) else leaf for leaf in leaves]
+            others, whole = jax.tree.flatten(self._function(*jax.tree.unflatten(structure, filled)))
+            arrays = [leaf for leaf in others if eqx.is_array(leaf)]
+            places = iter(range(len(arrays)))
+            found.append((whole, [_Slot(next(places)) if eqx.is_array(leaf) else leaf for leaf in others]))
+            return arrays
+
+        options = quick_options() if self._quick else None
+        traced = jax.jit(flat, compiler_options=options).trace(_arrays(leaves))
+        with _without_jax_cache():
+            compiled = traced.lower().compile()
+        ready = _Ready(compiled, *found[-1])
+        if not _calls_host(traced.jaxpr.jaxpr):
+            _keep(path, ready)
+        return ready
+
+
+def _setting(name: str) -> Any:
+    return getattr(jax.config, name, None)
+
+
+@contextmanager
+def _without_jax_cache() -> Iterator[None]:
+    """Compiles inside the block are neither read from JAX's own cache nor written to it: a program that was loaded
+    from there cannot be serialised again (its functions are then not found), and would be kept twice."""
+    if not _setting("jax_compilation_cache_dir") or not _setting("jax_enable_compilation_cache"):
+        yield
+        return
+    jax.config.update("jax_enable_compilation_cache", False)
+    reset_cache()
+    try:
+        yield
+    finally:
+        jax.config.update("jax_enable_compilation_cache", True)
+        reset_cache()
+
+
+def _calls_host(jaxpr: Any) -> bool:
+    """True if a program calls a function of the process that compiled it, which no other process has."""
+    for equation in jaxpr.eqns:
+        if "callback" in equation.primitive.name:
+            return True
+        parts = jax.tree.leaves(list(equation.params.values()), is_leaf=lambda part: hasattr(part, "eqns"))
+        if any(_calls_host(getattr(part, "jaxpr", part)) for part in parts if hasattr(part, "eqns")):
+            return True
+    return False
+
+
+def _folder() -> Path | None:
+    """Where programs are kept, or `None`: switched off, or not a matter of one CPU."""
+    given = os.environ.get(VARIABLE, "")
+    try:
+        folder = _known_folder(given)
+    except ValueError:
+        return None
+    alone = jax.default_backend() == "cpu" and len(jax.devices()) == 1
+    return folder if alone and not _setting("jax_disable_jit") and not _setting("jax_debug_nans") else None
+
+
+@functools.cache
+def _known_folder(given: str) -> Path | None:
+    folder = cache_folder()
+    if folder is not None:
+        with suppress(OSError, ValueError):
+            folder.mkdir(parents=True, exist_ok=True)
+    return folder
+
+
+@functools.cache
+def _files() -> str:
+    """Names, sizes and times of the files of the package: whoever changes one gets new programs."""
+    found = hashlib.sha256()
+    for package in OWN:
+        for path in sorted(_below(ROOT / package)):
+            about = path.stat()
+            found.update(f"{path.relative_to(ROOT)} {about.st_size} {about.st_mtime_ns}\n".encode())
+    return found.hexdigest()
+
+
+def _below(folder: Path) -> Iterator[Path]:
+    for root, folders, names in os.walk(folder):
+        folders[:] = [name for name in folders if name != "__pycache__"]
+        yield from (Path(root) / name for name in names)
+
+
+def _surroundings() -> tuple[Any, ...]:
+    """Versions of the libraries, settings of JAX, variables that its compiler reads."""
+    return (
+        _versions(),
+        [str(_setting(name)) for name in _SETTINGS],
+        [os.environ.get(name) for name in _ENVIRONMENT],
+    )
+
+
+@functools.cache
+def _versions() -> list[str | None]:
+    found: list[str | None] = []
+    for name in _LIBRARIES:
+        try:
+            found.append(importlib.metadata.version(name))
+        except importlib.metadata.PackageNotFoundError:
+            found.append(None)
+    return found
+
+
+def _keep(path: Path, ready: _Ready) -> None:
+    """Write a program; where that fails, as on a full disk, nothing is left behind and nothing is said: it is a
+    convenience."""
+    from jax.experimental.serialize_executable import serialize
+
+    with suppress(Exception):
+        program, _, _ = serialize(ready.compiled)
+        skeleton = jax.tree.unflatten(ready.structure, ready.others)
+        content = pickle.dumps((program, ready.compiled.in_tree.num_leaves, skeleton))
+        _make_room(path.parent, len(content))
+        handle, name = tempfile.mkstemp(suffix=".part", dir=path.parent)
+        try:
+            with os.fdopen(handle, "wb") as file:
+                file.write(_MAGIC + hashlib.sha256(content).digest() + content)
+            os.replace(name, path)
+        except BaseException:
+            Path(name).unlink(missing_ok=True)
+            raise
+
+
+def _make_room(folder: Path, size: int) -> None:
+    files = sorted((path.stat().st_mtime, path.stat().st_size, path) for path in folder.glob(f"*{SUFFIX}"))
+    excess = sum(size for _, size, _ in files) + size - MOST_BYTES
+    for _, size, path in files:
+        if excess <= 0:
+            return
+        path.unlink(missing_ok=True)
+        excess -= size
+
+
+def _loaded(path: Path) -> _Ready | None:
+    """The program of a file, or `None`: there is none, or it is damaged or not the user's own."""
+    from jax.experimental.serialize_executable import deserialize_and_load
+
+    try:
+        about = path.stat()
+        if about.st_mode & 0o022 or (hasattr(os, "geteuid") and about.st_uid != os.geteuid()):
+            return None
+        content = path.read_bytes()
+        body = content[len(_MAGIC) + 32 :]
+        if content[: len(_MAGIC) + 32] != _MAGIC + hashlib.sha256(body).digest():
+            return None
+        program, count, skeleton = pickle.loads(body)
+        others, structure = jax.tree.flatten(skeleton, is_leaf=lambda leaf: isinstance(leaf, _Slot))
+        arrays = sum(isinstance(leaf, _Slot) for leaf in others)
+        _initialise_lapack()
+        given, result = jax.tree.structure((([0] * count,), {})), jax.tree.structure([0] * arrays)
+        ready = _Ready(deserialize_and_load(program, given, result), structure, others)
+        os.utime(path)
+    except Exception:
+        return None
+    return ready
+
+
+@functools.cache
+def _initialise_lapack() -> None:
+    """JAX finds the functions of LAPACK when it lowers a program that calls one; a program that was loaded calls what
+    was not found, and ends the process."""
+    jax.jit(jax.lax.linalg.cholesky).lower(jax.ShapeDtypeStruct((2, 2), np.float64))

@@ -1,0 +1,203 @@
+"""Programs that are kept: the same bits from the next process, whatever happens to the files; none that is stale."""
+
+import os
+import subprocess
+import sys
+
+import jax
+import jax.numpy as jnp
+import numpy as np
+import pytest
+from command_process import environment
+
+import jaxbearing as jb
+from jaxbearing.programs import KeptProgram, kept
+from jaxbearing.programs.kept import SUFFIX
+
+FACTOR = {"now": 2.0}
+
+
+def doubled(x, y):
+    """The factor stands for code: where a program is loaded, another one changes nothing."""
+    return {"sum": FACTOR["now"] * jnp.linalg.solve(x, y), "words": "kept"}
+
+
+@pytest.fixture
+def folder(tmp_path, monkeypatch):
+    monkeypatch.setenv("JAXBEARING_CACHE", str(tmp_path / "cache"))
+    monkeypatch.setattr("jaxbearing.programs.describe._KNOWN", ("programs", "test_kept", "builtins", "jaxbearing"))
+    monkeypatch.setitem(FACTOR, "now", 2.0)
+    return lambda: sorted((tmp_path / "cache").rglob(f"*{SUFFIX}"))
+
+
+def ask(right=(1.0, 2.0), quick=True):
+    """The answer of a process that begins, as far as one process can."""
+    answer = KeptProgram(doubled, quick)(jnp.eye(2), jnp.asarray(right))
+    assert answer["words"] == "kept"
+    return list(np.asarray(answer["sum"]))
+
+
+def test_a_program_is_made_once(folder):
+    assert ask() == [2.0, 4.0]
+    (file,) = folder()
+    assert file.stat().st_mode & 0o777 == 0o600
+    FACTOR["now"] = 3.0
+    assert ask() == [2.0, 4.0]
+    assert ask((5.0, 1.0)) == [10.0, 2.0]
+    assert len(folder()) == 1
+
+
+def test_what_a_program_depends_on(folder, monkeypatch):
+    """Shapes, types, options of the compiler, versions, files of the package, variables: each has its own program."""
+    ask()
+    changes = [
+        lambda: KeptProgram(doubled, True)(jnp.eye(3), jnp.ones(3)),
+        lambda: KeptProgram(doubled, True)(jnp.eye(2), jnp.ones((2, 1))),
+        lambda: ask(quick=False),
+        lambda: (monkeypatch.setattr(kept, "_versions", lambda: ["next"]), ask()),
+        lambda: (monkeypatch.setattr(kept, "_files", lambda: "changed"), ask()),
+        lambda: (monkeypatch.setenv("EQX_ON_ERROR", "off"), ask()),
+    ]
+    for count, change in enumerate(changes, start=2):
+        change()
+        assert len(folder()) == count
+
+
+def test_a_changed_file_of_the_package_is_seen(tmp_path):
+    before = kept._files.__wrapped__()
+    file = next(path for path in kept._below(kept.ROOT / "jaxbearing") if path.name == "roots.py")
+    about = file.stat()
+    try:
+        os.utime(file, ns=(about.st_atime_ns, about.st_mtime_ns + 1))
+        assert kept._files.__wrapped__() != before
+    finally:
+        os.utime(file, ns=(about.st_atime_ns, about.st_mtime_ns))
+    assert kept._files.__wrapped__() == before
+
+
+ACCIDENTS = {
+    "empty": lambda file: file.write_bytes(b""),
+    "cut short": lambda file: file.write_bytes(file.read_bytes()[:-100]),
+    "a flipped bit": lambda file: file.write_bytes(file.read_bytes()[:-9] + b"\x00" + file.read_bytes()[-8:]),
+    "something else": lambda file: file.write_bytes(b"#!/bin/sh\nexit 1\n"),
+    "writable for others": lambda file: file.chmod(0o666),
+}
+
+
+@pytest.mark.parametrize("accident", ACCIDENTS)
+def test_a_file_that_is_no_good_is_made_anew(accident, folder):
+    ask()
+    (file,) = folder()
+    ACCIDENTS[accident](file)
+    FACTOR["now"] = 3.0
+    assert ask() == [3.0, 6.0]
+    FACTOR["now"] = 4.0
+    assert ask() == [3.0, 6.0]
+    assert len(folder()) == 1
+
+
+def test_a_program_that_does_not_run_is_made_anew(folder, monkeypatch):
+    ask()
+
+    def broken(self, arrays, real=kept._Ready._run):
+        if self.compiled is not FACTOR.get("made"):
+            raise jax.errors.JaxRuntimeError("NOT_FOUND: Function iota.1_kernel not found")
+        return real(self, arrays)
+
+    def made(self, *args, real=KeptProgram._made):
+        found = real(self, *args)
+        FACTOR["made"] = found.compiled
+        return found
+
+    monkeypatch.setattr(kept._Ready, "_run", broken)
+    monkeypatch.setattr(KeptProgram, "_made", made)
+    FACTOR["now"] = 3.0
+    assert ask() == [3.0, 6.0]
+
+
+def test_off(folder, monkeypatch):
+    monkeypatch.setenv("JAXBEARING_CACHE", "off")
+    assert ask() == [2.0, 4.0]
+    assert folder() == []
+
+
+def test_a_folder_that_cannot_be_written(folder, monkeypatch):
+    monkeypatch.setenv("JAXBEARING_CACHE", "/proc/none")
+    assert ask() == [2.0, 4.0]
+
+
+def test_a_disk_that_is_full(folder, monkeypatch):
+    def full(*_):
+        raise OSError("No space left on device")
+
+    monkeypatch.setattr("os.replace", full)
+    assert ask() == [2.0, 4.0]
+    assert folder() == []
+
+
+def test_the_oldest_go(folder, monkeypatch):
+    ask()
+    (first,) = folder()
+    os.utime(first, (1.0, 1.0))
+    monkeypatch.setattr(kept, "MOST_BYTES", first.stat().st_size + 100)
+    ask(quick=False)
+    assert len(folder()) == 1
+    assert not first.exists()
+
+
+def test_programs_that_call_python_are_not_kept(folder):
+    assert float(KeptProgram(called, True)(jnp.asarray(3.0))) == 6.0
+    assert folder() == []
+
+
+def called(x):
+    return jax.lax.cond(x > 0, lambda: jax.pure_callback(lambda y: 2.0 * y, x, x), lambda: x)
+
+
+def test_code_from_elsewhere_is_not_kept(folder, monkeypatch):
+    """A law of the user's own may change without anything that is known here."""
+    monkeypatch.setattr("jaxbearing.programs.describe._KNOWN", ("jaxbearing", "builtins", "equinox"))
+    scene = jb.load_scene("reference_roller", {"contact": "none"})
+    program = KeptProgram(radius, True)
+    monkeypatch.setattr("jaxbearing.programs.describe._KNOWN", ("jaxbearing", "builtins", "equinox", "test_kept"))
+    program(scene)
+    assert len(folder()) == 1
+
+    class OwnGeometry(type(scene.geometry)):
+        pass
+
+    own = scene.replace({"geometry": OwnGeometry(**vars(scene.geometry))})
+    assert float(program(own)) == float(scene.geometry.roller_diameter)
+    assert len(folder()) == 1
+
+
+def radius(scene):
+    return jnp.asarray(scene.geometry.roller_diameter) * 1.0
+
+
+WARM = """
+import sys
+import jaxbearing as jb
+from jaxbearing.programs.kept import KeptProgram
+if "warm" in sys.argv:
+    def made(*_):
+        raise AssertionError("traced and compiled again")
+    KeptProgram._made = KeptProgram._plain = made
+scene = jb.load_scene("deep_groove_6205", {"operation.moment": "none"})
+for solution in (jb.solve(scene), jb.jit_solver(scene)(), jb.solve(scene, optimised=True)):
+    print(solution.ring.radial.tobytes().hex(), solution.status, sorted(solution.warnings), solution.not_modelled)
+"""
+
+
+@pytest.mark.slow
+def test_the_next_process_answers_without_tracing(tmp_path):
+    """Also where JAX was loaded first and says what it thinks of loaded programs; with factors by LAPACK."""
+    variables = environment(JAXBEARING_CACHE=str(tmp_path), JAX_DISABLE_MOST_OPTIMIZATIONS=None, XLA_FLAGS=None)
+    run = lambda *words, before="": subprocess.run(
+        [sys.executable, "-c", before + WARM, *words], env=variables, capture_output=True, text=True, check=True
+    )
+    cold = run()
+    assert cold.stdout.count("\n") == 3
+    for before in ("", "import jax\n"):
+        warm = run("warm", before=before)
+        assert (warm.stdout, warm.stderr) == (cold.stdout, "")
