@@ -12,6 +12,7 @@ from jaxtyping import Array, Float
 
 from .._types import Values
 from ..lubricants import Lubricant
+from ..numerics.compiling import compiled_by_hand
 from ..numerics.peak import peak
 from ..numerics.roots import monotone_root
 from ..numerics.safe import smooth_abs
@@ -110,6 +111,7 @@ class DistributedTraction(AbstractTraction):
     def notes(self, lubricant: Lubricant) -> tuple[str, ...]:
         return viscous_notes(self.viscous, lubricant)
 
+    @compiled_by_hand
     def traction(
         self,
         patch: ContactPatch,

@@ -8,6 +8,7 @@ import jax.numpy as jnp
 from jaxtyping import Array, Float
 
 from .._types import Values
+from ..numerics.compiling import compiled_by_hand
 from ..numerics.safe import smooth_abs
 
 LOAD_WIDTH = 1e-3
@@ -142,6 +143,7 @@ def _log_ratio_and_slope(log_k: Array) -> tuple[Array, Array]:
 
 
 @jax.custom_jvp
+@compiled_by_hand
 def log_ellipticity(log_ratio: Array) -> Array:
     """ln(c/a) of the Hertz ellipse from ln(Ry/Rx): odd, slope 2/3 at 0.
 

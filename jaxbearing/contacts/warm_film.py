@@ -7,6 +7,7 @@ from jaxtyping import Array, Float
 
 from .._types import Values
 from ..lubricants import InletOil, Lubricant
+from ..numerics.compiling import compiled_by_hand
 from .film import AbstractLineFilm
 from .line import LineContact
 from .point import PointContact
@@ -23,6 +24,7 @@ class WarmFilm(NamedTuple):
     residual: Float[Array, "..."]
 
 
+@compiled_by_hand
 def warm_film(
     film: AbstractLineFilm | AbstractPointFilm,
     thermal: AbstractThermalFactor,

@@ -7,6 +7,7 @@ import jax.numpy as jnp
 from jaxtyping import Array
 
 from .._types import Batch, Scalar, Values
+from ..numerics.compiling import compiled_by_hand
 from ..numerics.roots import monotone_root
 from ..numerics.safe import log_add, safe_norm, smooth_abs
 from ..numerics.structure import count
@@ -199,6 +200,7 @@ class ShortJournal(eqx.Module):
         r"""$-T_j\omega_j - T_b\omega_b$, W: shear heat plus the pumping of the offset film, >= 0 at steady state."""
         return -(jnp.asarray(T_journal) * journal_speed + jnp.asarray(T_bush) * bush_speed)
 
+    @compiled_by_hand
     def static_equilibrium(
         self, load: Values, journal_speed: Values, bush_speed: Values, viscosity: Values, k_z: Values
     ) -> StaticFilm:

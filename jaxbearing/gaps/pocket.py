@@ -7,6 +7,7 @@ import jax.numpy as jnp
 from jaxtyping import Array
 
 from .._types import Batch, Scalar, Values
+from ..numerics.compiling import compiled_by_hand
 from ..numerics.roots import monotone_root
 from ..numerics.safe import log_add
 from ..numerics.structure import switch
@@ -144,6 +145,7 @@ class CompliantPocketFace(eqx.Module):
         r"""Elastic energy of the flattening, J: $\int Q\,d\delta = \tfrac{0.9}{1.9}kQ^{1.9}$, Q the `load`, N."""
         return 0.9 / 1.9 * self.compliance * jnp.asarray(load) ** 1.9
 
+    @compiled_by_hand
     def face(self, gap: Values, gap_rate: Values, surface_speed: Values, viscosity: Values) -> PocketFace:
         """Load, film and friction at a rigid gap.
 

@@ -10,6 +10,7 @@ from typing import Any
 import equinox as eqx
 import jax
 import jax.numpy as jnp
+import numpy as np
 from jax.core import Tracer
 
 IDLE_PASSES = (
@@ -87,6 +88,24 @@ def inside_a_program(arguments: Any) -> bool:
     """True while a program is being traced, or where one of the arguments is differentiated or batched: JAX takes
     options of the compiler only from the outermost call, which is then not ours."""
     return any(isinstance(leaf, Tracer) for leaf in jax.tree.leaves(arguments)) or isinstance(jnp.zeros(()), Tracer)
+
+
+def compiled_by_hand(function: Callable[..., Any]) -> Callable[..., Any]:
+    """A law with a loop inside, compiled once for each shape where it is called by hand: JAX would compile the loop at
+    every call. Plain numbers are arrays then. Inside a program nothing changes."""
+    compiled = eqx.filter_jit(function)
+
+    def number(leaf: Any) -> Any:
+        return np.float64(leaf) if isinstance(leaf, int | float) and not isinstance(leaf, bool) else leaf
+
+    @functools.wraps(function)
+    def call(*args: Any, **kwargs: Any) -> Any:
+        if isinstance(jnp.zeros(()), Tracer):
+            return function(*args, **kwargs)
+        args, kwargs = jax.tree.map(number, (args, kwargs))
+        return compiled(*args, **kwargs)
+
+    return call
 
 
 def quickly_compiled(function: Callable[..., Any]) -> Callable[..., Any]:
