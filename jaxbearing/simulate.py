@@ -75,9 +75,8 @@ def simulate(
 
     **Raises:** `SolveError` where the quasi-static start is not found or (with `throw`) the run stops early;
     `ValueError` without a duration, for a scene that does not move, inside of `jax.jit`, `jax.vmap` and `jax.grad`
-    (`simulate_batch`, or `quasi_static_start` and `trajectory`, are for them), or for a `restart` from another bearing (the fields
-    that differ are named, with both values); `TypeError`
-    for another kind of scene.
+    (`simulate_batch`, or `quasi_static_start` and `trajectory`, are for them), or for a `restart` from another bearing
+    (the fields that differ are named, with both values); `TypeError` for another kind of scene.
     """
     require_x64()
     instead = "" if isinstance(scene, EHLLineContact) else f"use {_PURE} there, or "

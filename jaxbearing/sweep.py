@@ -58,8 +58,8 @@ def sweep(
     - `overwrite`: whether another file at `out` may be replaced.
     - `progress`: called with the number of cases that were just done.
 
-    **Raises:** `ValueError` for values that the scene refuses, inside of `jax.jit` (`solve` is for it), or where something else is at `out`; `AttributeError`
-    for a field that is not there; `OSError` where `out` cannot be written.
+    **Raises:** `ValueError` for values that the scene refuses, inside of `jax.jit` (`solve` is for it), or where
+    something else is at `out`; `AttributeError` for a field that is not there; `OSError` where `out` cannot be written.
     """
     import xarray as xr
 

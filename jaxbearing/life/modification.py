@@ -57,7 +57,7 @@ def modification_factor(kappa: Values, load_ratio: Values, family: Family) -> Fl
     pick = lambda values: jnp.where(low, values[0], jnp.where(high, values[1], values[2]))
     film = jnp.maximum(constant - pick(scales) * kappa ** -pick(_EXPONENTS), 0.0)
     positive = load_ratio > 0
-    x = jnp.where(positive, jnp.where(positive, load_ratio, 1.0) ** exponent, 0.0)
+    x = jnp.where(positive, jnp.where(positive, load_ratio, 1.0) ** exponent, 0.0 * load_ratio)
     bracket = jnp.maximum(1.0 - film**power * x, LEAST_BRACKET)
     return jnp.minimum(0.1 * bracket**outer, LARGEST)
 

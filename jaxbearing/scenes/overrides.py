@@ -5,6 +5,8 @@ import tomllib
 from collections.abc import Iterable, Mapping
 from typing import Any
 
+import jax
+import numpy as np
 from jax.core import Tracer
 from pydantic import BaseModel
 
@@ -15,6 +17,8 @@ from .materials import CATALOGUE, MaterialTable, catalogue_table
 from .oil_files import base_of
 from .units import describe
 
+Overrides = Mapping[str, str | float | np.generic | np.ndarray | jax.Array]
+"""Dotted path of a field -> value as it would be typed, or a number or truth value of Python, numpy or JAX."""
 REMOVE = "none"
 """The value that takes an optional table or field out of the scene."""
 _NOT_QUITE_TOML = re.compile(r"[+-]?(?:\.[0-9]+|[0-9]+\.)(?:[eE][+-]?[0-9]+)?")
@@ -39,7 +43,7 @@ def split_assignments(assignments: Iterable[str]) -> dict[str, str]:
     return overrides
 
 
-def as_texts(overrides: Mapping[str, str | float] | None) -> dict[str, str]:
+def as_texts(overrides: Overrides | None) -> dict[str, str]:
     """Changes as they would be typed: a plain number or a truth value, from Python, numpy or JAX, as well.
 
     **Raises:** `SceneError` for a value of another kind.

@@ -20,9 +20,9 @@ def read_text(path: str | Path, expected: str, near: Iterable[str] = (), largest
 
     **Raises:** `SceneError`.
     """
-    label = shortened(str(path))
+    label = str(path)
     if not isinstance(path, str | os.PathLike):
-        raise SceneError(label, "", describe(path), f"the path of {expected}")
+        raise SceneError(shortened(label), "", describe(path), f"the path of {expected}")
     try:
         return read_bytes(path, largest).decode("utf-8-sig")
     except UnfitFileError as error:
