@@ -409,6 +409,7 @@ def test_runs_in_time_are_no_part_of_a_program():
 
 OF_ANOTHER_TYPE = """
 import jaxbearing, sys
+from jaxbearing.contacts import DistributedTraction
 from jaxbearing.life.bearing_life import bearing_life
 sys.path.insert(0, {folder!r})
 import test_wrong_arguments as cases
@@ -445,7 +446,7 @@ said(lambda none: bearing_life(scene, none), None)
 said(cases.jax.jit(lambda x: jaxbearing.simulate(scene, x).time), 1e-4)
 said(cases.jax.jit(lambda x: jaxbearing.simulate_batch(scene, x, {{"operation.inner_speed": [1e3, 2e3]}}).time), 1e-4)
 said(lambda x: jaxbearing.simulate(scene, x), "1 ms")
-said(lambda resolution: cases.DistributedTraction(resolution=resolution), None, (40, 16))
+said(lambda resolution: DistributedTraction(resolution=resolution), None, (40, 16))
 """
 
 
