@@ -4,8 +4,6 @@ import dataclasses
 from collections.abc import Callable, Mapping
 from typing import Any, Literal, overload
 
-import numpy as np
-
 from .bearings.cylindrical_roller import CylindricalRollerBearing
 from .bearings.history import History, LastState
 from .bearings.roller_run import check_fits
@@ -13,10 +11,11 @@ from .bearings.roller_simulation import FIELD, INTERVAL, simulate_roller_batch, 
 from .bearings.simulation import Simulation
 from .ehl import EHLLineContact, FilmSimulation, FilmState, LineContactHistory, simulate_film
 from .ehl import check_restart as check_film_restart
-from .numerics.arguments import require_choice
+from .numerics.arguments import require_choice, require_outside
 from .numerics.checks import check_inputs
 from .numerics.compiling import collecting_rarely
 from .numerics.precision import require_x64
+from .numerics.structure import static_number
 
 __all__ = ["FIELD", "INTERVAL", "check_restart", "simulate", "simulate_batch", "trajectory"]
 
@@ -75,11 +74,17 @@ def simulate(
       version, which does not say what it is of, is taken, and a note of the history says so.
 
     **Raises:** `SolveError` where the quasi-static start is not found or (with `throw`) the run stops early;
-    `ValueError` without a duration, for a scene that does not move, or a `restart` from another bearing (the fields
-    that differ are named, with both values); `TypeError`
-    for another kind of scene.
+    `ValueError` without a duration, for a scene that does not move, inside of `jax.jit`, `jax.vmap` and `jax.grad`
+    (`simulate_batch`, or `quasi_static_start` and `trajectory`, are for them), or for a `restart` from another bearing
+    (the fields that differ are named, with both values); `TypeError` for another kind of scene.
     """
     require_x64()
+    instead = "" if isinstance(scene, EHLLineContact) else f"use {_PURE} there, or "
+    require_outside(
+        "simulate",
+        f"a run in time goes on piece by piece, by what it finds; {instead}call simulate outside, with plain numbers",
+        (scene, duration, simulation, interval, restart),
+    )
     if isinstance(scene, EHLLineContact):
         return _run_film(scene, duration, simulation, restart, throw, progress)
     if not isinstance(scene, CylindricalRollerBearing):
@@ -96,6 +101,7 @@ def simulate(
     )
 
 
+_PURE = "simulate_batch, or quasi_static_start and trajectory,"
 _OTHER_KIND = "restart: a state of a {}, for a scene of a {}"
 
 
@@ -119,9 +125,10 @@ def _length(
     duration = duration if duration is not None else chosen.duration
     if duration is None:
         raise ValueError("simulate needs a duration: give it, or name it in the scene's simulation")
-    if not (duration > 0 and np.isfinite(duration)):
-        raise ValueError(f"duration must be > 0 s, got {float(duration):g}")
-    return chosen, float(duration)
+    length = static_number("duration", duration, float)
+    if not length > 0:
+        raise ValueError(f"duration must be > 0 s, got {length:g}")
+    return chosen, length
 
 
 def _run_film(

@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ._scene import AbstractScene
+from .numerics.arguments import require_outside
 from .numerics.compiling import collecting_rarely
 from .numerics.newton import NewtonOptions
 from .numerics.precision import require_x64
@@ -57,8 +58,8 @@ def sweep(
     - `overwrite`: whether another file at `out` may be replaced.
     - `progress`: called with the number of cases that were just done.
 
-    **Raises:** `ValueError` for values that the scene refuses, or where something else is at `out`; `AttributeError`
-    for a field that is not there; `OSError` where `out` cannot be written.
+    **Raises:** `ValueError` for values that the scene refuses, inside of `jax.jit` (`solve` is for it), or where
+    something else is at `out`; `AttributeError` for a field that is not there; `OSError` where `out` cannot be written.
     """
     import xarray as xr
 
@@ -66,6 +67,8 @@ def sweep(
     from .sweeps.verb import plan_in_scene, runner_of
 
     require_x64()
+    instead = "it writes files and looks at the numbers; solve can, under vmap or lax.map too"
+    require_outside("sweep", instead, scene, over if isinstance(over, Mapping) else None)
     plan = plan_in_scene(scene, over, options=options, elements=elements, chunk=chunk)
     runner = runner_of(devices, workers, scheduler)
     watcher = Watcher() if progress is None else Watcher(cases=progress)

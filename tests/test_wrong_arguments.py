@@ -12,13 +12,53 @@ import pytest
 
 import jaxbearing as jb
 from jaxbearing.bearings.line_contact_bridge import line_contact_of
+from jaxbearing.contacts import (
+    ContactPatch,
+    HalfSpaceCompliance,
+    HamrockDowsonCentral,
+    LineContact,
+    PointContact,
+    Resolution,
+    RigidBlend,
+    SlicedLine,
+    StraightLine,
+    palmgren_stiffness,
+)
+from jaxbearing.gaps import (
+    BallPocket,
+    CompliantPocketFace,
+    Flange,
+    LongJournal,
+    Pocket,
+    PocketEdge,
+    ReynoldsDrag,
+    RollerDrag,
+    ShortJournal,
+    ball_frontal_area,
+    mixture_density,
+    parker_oil_fraction,
+    side_leakage_factor,
+)
 from jaxbearing.gaps.drag import air_density
-from jaxbearing.life.basic import tapered_equivalent_load
-from jaxbearing.life.capacity import ball_capacity, roller_capacity
-from jaxbearing.life.modification import contamination_factor, fatigue_load_limit, modification_factor
-from jaxbearing.life.reference import ball_contact_capacities, edge_factors, roller_contact_capacities
+from jaxbearing.life.basic import basic_life, deep_groove_equivalent_load, tapered_equivalent_load
+from jaxbearing.life.capacity import ball_capacity, ball_factor, roller_capacity, roller_factor
+from jaxbearing.life.modification import (
+    contamination_factor,
+    fatigue_load_limit,
+    film_ratio,
+    modification_factor,
+    reference_viscosity,
+)
+from jaxbearing.life.reference import (
+    ball_contact_capacities,
+    ball_damage_rate,
+    edge_factors,
+    roller_contact_capacities,
+    roller_damage_rate,
+)
 from jaxbearing.life.static import ball_static_capacity, roller_static_capacity
 from jaxbearing.lubricants import Barus, ConstantViscosity, Roelands
+from jaxbearing.numerics.integrator import IntegratorOptions
 from jaxbearing.scenes.oils import load_oil
 
 OIL = load_oil("mobil_jet_ii")
@@ -61,6 +101,167 @@ CHOICES = {
     "contamination_factor": (lambda name: contamination_factor(1.0, 0.06, name), "normal", "'grease_normal'"),
 }
 
+BATCH = jnp.asarray([[1e3, 2e3], [0.0, 4e3]])
+LIMITS = ball_contact_capacities(1.4e4, 9, 7.94e-3, 39.04e-3, 0.0, 0.52, 0.52)
+RUNNING = (jnp.asarray(True), jnp.asarray(False))
+FORMULAS = {
+    # function, its numbers by name, and how many of them, from the first on, may not be 0
+    "basic_life": (lambda **loads: basic_life(exponent=3.0, **loads), {"capacity": 1e4, "equivalent_load": 5e3}, 1),
+    "tapered_equivalent_load": (tapered_equivalent_load, {"contact_angle": 0.2, "radial": 1e3, "axial": 2e3}, 1),
+    "deep_groove_equivalent_load": (
+        deep_groove_equivalent_load,
+        {"static_capacity": 8e3, "load_factor": 14.0, "radial": 1e3, "axial": 500.0},
+        2,
+    ),
+    "ball_factor": (ball_factor, {"conformity_inner": 0.52, "conformity_outer": 0.53, "gamma": 0.2}, 2),
+    "roller_factor": (roller_factor, {"gamma": 0.2}, 0),
+    "ball_capacity": (
+        lambda **sizes: ball_capacity(9, contact_angle=0.0, **sizes),
+        {
+            "ball_diameter": 8e-3,
+            "pitch_diameter": 0.04,
+            "conformity_inner": 0.52,
+            "conformity_outer": 0.52,
+            "material_factor": 1.3,
+        },
+        5,
+    ),
+    "roller_capacity": (
+        lambda **sizes: roller_capacity(9, **sizes),
+        {"roller_diameter": 8e-3, "pitch_diameter": 0.04, "length": 8e-3, "material_factor": 1.1},
+        4,
+    ),
+    "ball_contact_capacities": (
+        lambda **sizes: (
+            ball_contact_capacities(
+                n_balls=9, contact_angle=0.0, conformity_inner=0.52, conformity_outer=0.52, **sizes
+            ).inner
+        ),
+        {"capacity": 1e4, "ball_diameter": 8e-3, "pitch_diameter": 0.04},
+        3,
+    ),
+    "roller_contact_capacities": (
+        lambda **sizes: roller_contact_capacities(n_rollers=9, **sizes).outer,
+        {"capacity": 1e4, "roller_diameter": 8e-3, "pitch_diameter": 0.04},
+        3,
+    ),
+    "ball_static_capacity": (
+        lambda **sizes: ball_static_capacity(9, contact_angle=0.0, **sizes),
+        {"ball_diameter": 8e-3, "pitch_diameter": 0.04, "conformity_inner": 0.52, "modulus": 2.3e11},
+        4,
+    ),
+    "roller_static_capacity": (
+        lambda **sizes: roller_static_capacity(9, **sizes),
+        {"roller_diameter": 8e-3, "pitch_diameter": 0.04, "length": 8e-3, "modulus": 2.3e11},
+        4,
+    ),
+    "reference_viscosity": (lambda **sizes: reference_viscosity(100.0, **sizes), {"pitch_diameter": 0.04}, 1),
+    "modification_factor": (
+        lambda **sizes: modification_factor(family="ball", **sizes),
+        {"kappa": 1.0, "load_ratio": 0.5},
+        0,
+    ),
+    "contamination_factor": (
+        lambda **sizes: contamination_factor(cleanliness="grease_high", **sizes),
+        {"pitch_diameter": 0.04, "kappa": 1.0},
+        1,
+    ),
+    "fatigue_load_limit": (
+        lambda **sizes: fatigue_load_limit(family="ball", **sizes),
+        {"static_capacity": 8e3, "pitch_diameter": 0.04},
+        2,
+    ),
+    "film_ratio": (film_ratio, {"film": 5e-7, "roughness_a": 3e-7, "roughness_b": 4e-7}, 0),
+    "parker_oil_fraction": (
+        parker_oil_fraction,
+        {"pitch_diameter": 0.14, "oil_flow": 4e-5, "shaft_speed": 1e3, "through_flow_fraction": 0.5},
+        1,
+    ),
+    "air_density": (lambda pressure: air_density(300.0, pressure), {"pressure": 1e5}, 0),
+    "mixture_density": (mixture_density, {"oil_fraction": 0.02, "oil_density": 900.0, "gas_density": 1.2}, 0),
+    "ball_frontal_area": (ball_frontal_area, {"diameter": 0.02, "cage_thickness": 5e-3}, 1),
+    "side_leakage_factor": (side_leakage_factor, {"length": 0.01, "radius": 5e-3, "film": 1e-6}, 3),
+    "palmgren_stiffness": (palmgren_stiffness, {"length": 0.01, "reduced_modulus": 2.3e11}, 2),
+    "PointContact": (
+        lambda **sizes: PointContact(**sizes).semi_axis_rolling(100.0),
+        {"reduced_radius_rolling": 0.01, "reduced_radius_transverse": 0.1, "reduced_modulus": 2.3e11},
+        3,
+    ),
+    "LineContact": (
+        lambda **sizes: LineContact(**sizes).half_width(100.0),
+        {"reduced_radius": 0.01, "length": 0.01, "reduced_modulus": 2.3e11},
+        3,
+    ),
+    "ContactPatch": (
+        lambda **sizes: ContactPatch(**sizes).load,
+        {"pressure": 1e9, "half_width": 1e-4, "half_length": 1e-3},
+        3,
+    ),
+    "HalfSpaceCompliance": (
+        lambda reduced_modulus: HalfSpaceCompliance(reduced_modulus).compliance(ContactPatch(1e9, 1e-4, 1e-3)),
+        {"reduced_modulus": 2.3e11},
+        1,
+    ),
+}
+ANY_SIGN = ("shaft_speed",)
+PARTS = {
+    # class, its numbers by name, and how many of them, from the first on, may not be 0
+    "ShortJournal": (ShortJournal, {"radius": 0.07, "width": 4e-3, "clearance": 1e-4}, 3),
+    "LongJournal": (LongJournal, {"radius": 0.07, "width": 4e-3, "clearance": 1e-4}, 3),
+    "Pocket": (Pocket, {"clearance": 3e-4, "length": 0.01, "roller_radius": 6e-3}, 3),
+    "CompliantPocketFace": (
+        CompliantPocketFace,
+        {
+            "roller_radius": 6e-3,
+            "length": 0.01,
+            "reduced_modulus": 2.3e11,
+            "minimum_speed": 0.5,
+            "minimum_film": 1e-7,
+            "pressure_viscosity": 1e-8,
+        },
+        5,
+    ),
+    "BallPocket": (BallPocket, {"clearance": 3e-4, "ball_radius": 5e-3}, 2),
+    "Flange": (
+        Flange,
+        {
+            "race_radius": 65e-3,
+            "rim_radius": 67e-3,
+            "pitch_radius": 71e-3,
+            "roller_radius": 6e-3,
+            "side_clearance": 15e-6,
+            "angle": 0.005,
+        },
+        4,
+    ),
+    "PocketEdge": (
+        PocketEdge,
+        {
+            "inner_radius": 65e-3,
+            "outer_radius": 73e-3,
+            "pitch_radius": 71e-3,
+            "roller_radius": 6e-3,
+            "side_clearance": 15e-6,
+        },
+        4,
+    ),
+    "ReynoldsDrag": (ReynoldsDrag, {"diameter": 0.01, "area": 1e-4}, 1),
+    "RollerDrag": (RollerDrag, {"coefficient": 1.2, "area": 1e-4}, 0),
+    "StraightLine": (StraightLine, {"stiffness": 1e10, "length": 0.01}, 2),
+    "SlicedLine": (SlicedLine, {"stiffness": 1e10, "length": 0.01}, 2),
+    "RigidBlend": (lambda exponent: RigidBlend(HamrockDowsonCentral(), exponent), {"exponent": 3.0}, 1),
+}
+COUNTED = {
+    "ShortJournal": lambda n: ShortJournal(0.07, 4e-3, 1e-4, n_lands=n),
+    "Flange": lambda n: Flange(65e-3, 67e-3, 71e-3, 6e-3, 15e-6, 0.005, n_sides=n),
+    "PocketEdge": lambda n: PocketEdge(65e-3, 73e-3, 71e-3, 6e-3, 15e-6, n_sides=n),
+    "SlicedLine": lambda n: SlicedLine(1e10, 0.01, count=n),
+    "Resolution, steps": lambda n: Resolution(n, 2),
+    "Resolution, strips": lambda n: Resolution(2, n),
+    "NewtonOptions": lambda n: jb.NewtonOptions(max_steps=n),
+    "IntegratorOptions": lambda n: IntegratorOptions(max_steps=n),
+}
+
 
 @pytest.mark.parametrize("name", TEMPERATURES)
 def test_temperatures_in_degrees_celsius(name):
@@ -96,8 +297,120 @@ def test_numbers_of_elements(name):
     assert np.all(np.isfinite(COUNTS[name](16)))
 
 
+@pytest.mark.parametrize("name", FORMULAS)
+def test_numbers_of_formulas(name):
+    function, right, positive = FORMULAS[name]
+    found = function(**right)
+    assert np.all(np.isfinite(found))
+    np.testing.assert_allclose(jax.jit(function)(**right), found, rtol=1e-12)
+    for place, field in enumerate(right):
+        wrong = () if field in ANY_SIGN else (-1e-9, -1.0, np.float64(-1.0), jnp.asarray(-1.0), -np.inf)
+        for value in (*wrong, 0.0) if place < positive else wrong:
+            with pytest.raises(ValueError, match=rf"{field} must be .*, got -?(\d|inf)"):
+                function(**{**right, field: value})
+            # where it is traced it is a number like any other
+            jax.jit(function)(**{**right, field: value})
+        if field != "contact_angle":
+            # as that of a failed solve
+            assert np.all(np.isnan(function(**{**right, field: np.nan})))
+
+
+def test_numbers_of_batches():
+    """One wrong number among right ones is enough; batches, 0 and infinite loads are as before."""
+    np.testing.assert_allclose(basic_life(1e4, BATCH, 3.0), [[1e3, 125.0], [np.inf, 15.625]])
+    assert basic_life(1e4, 0.0, 3.0) == np.inf
+    assert modification_factor(1.0, np.inf, "ball") == 50.0
+    assert film_ratio(BATCH, 1.0, 0.0).shape == (2, 2)
+    assert PointContact(jnp.asarray([[1e-2], [2e-2]]), jnp.ones((1, 3)), 2.3e11).ellipticity().shape == (2, 3)
+    assert float(HalfSpaceCompliance(np.inf).compliance(ContactPatch(1e9, 1e-4, 1e-3))) == 0.0
+    with pytest.raises(ValueError, match="equivalent_load must be >= 0, got -2000"):
+        basic_life(1e4, BATCH.at[0, 1].set(-2e3), 3.0)
+    with pytest.raises(ValueError, match=r"reduced_radius_rolling must be > 0, got -0\.5"):
+        PointContact(jnp.asarray([1e-2, -0.5]), 0.1, 2.3e11)
+    with pytest.raises(ValueError, match="exponent must be > 0, got 0"):
+        basic_life(1e4, 5e3, 0.0)
+    for smooth in (0.0, np.zeros(2)):
+        with pytest.raises(ValueError, match="roughness must be > 0, got 0"):
+            film_ratio(5e-7, smooth, smooth)
+
+
+def test_loads_of_contacts():
+    load = jnp.asarray([1e3, -1.0, 0.0])
+    with pytest.raises(ValueError, match="outer must be >= 0, got -1"):
+        ball_damage_rate(jnp.abs(load), load, LIMITS, *RUNNING)
+    with pytest.raises(ValueError, match="inner must be >= 0, got -1"):
+        roller_damage_rate(load[:, None], load[:, None], LIMITS, *RUNNING, factors=np.ones(1))
+    with pytest.raises(ValueError, match=r"capacities\.inner must be > 0, got 0"):
+        ball_damage_rate(jnp.abs(load), jnp.abs(load), LIMITS._replace(inner=jnp.asarray(0.0)), *RUNNING)
+
+
+def test_elements_that_are_larger_than_the_pitch_circle():
+    for capacity in (ball_capacity, ball_static_capacity):
+        with pytest.raises(ValueError, match=r"gamma must be >= 0 and below 1, got 1\.5"):
+            capacity(9, 0.06, 0.04, 0.0)
+    for conformity in (0.5, 0.4, 1.1):
+        with pytest.raises(ValueError, match=r"conformity_inner must be between 0\.5 and 1, and not 0\.5, got"):
+            ball_static_capacity(9, 8e-3, 0.04, 0.0, conformity)
+
+
+@pytest.mark.parametrize("name", PARTS)
+def test_numbers_of_parts(name):
+    kind, right, positive = PARTS[name]
+    kind(**right)
+    for place, field in enumerate(right):
+        for value in (-1e-9, np.nan, np.inf, *([0.0] if place < positive else [])):
+            with pytest.raises(ValueError, match=rf"{field} must be .*, got"):
+                kind(**{**right, field: value})
+            jax.jit(lambda value, field=field: jax.tree.leaves(kind(**{**right, field: value})))(value)
+
+
+@pytest.mark.parametrize("name", COUNTED)
+def test_counts_of_parts(name):
+    COUNTED[name](2)
+    for wrong in (0, -1):
+        with pytest.raises(ValueError, match=rf"must be >= 1, got {wrong}"):
+            COUNTED[name](wrong)
+
+
+def test_options_of_solvers():
+    for name in ("residual_tolerance", "step_tolerance", "inner_tolerance"):
+        for wrong in (0.0, -1e-9):
+            with pytest.raises(ValueError, match=rf"{name} must be > 0, got"):
+                jb.NewtonOptions(**{name: wrong})
+    for name in ("tolerance", "shortest_step"):
+        with pytest.raises(ValueError, match=rf"{name} must be > 0, got -1"):
+            IntegratorOptions(**{name: -1.0})
+
+
+def test_runs_in_time_are_no_part_of_a_program():
+    scene, film = jb.load_scene("turbine_roller"), jb.load_scene("satellite_contact_1")
+    at = lambda speed: scene.replace({"operation.inner_speed": speed})
+    bearing = r"simulate was called inside of jit, .*use simulate_batch, or quasi_static_start and trajectory"
+    contact = r"simulate was called inside of jit, (?!.*simulate_batch).*call simulate outside"
+    calls = {
+        bearing: [
+            lambda x: jb.simulate(at(x), 1e-4).time,
+            # of a scene that is known
+            lambda x: jb.simulate(scene, 1e-4).time * x,
+        ],
+        contact: [lambda x: jb.simulate(film.replace({"operation.entrainment_speed": x}), 1e-4).time],
+        "sweep was called inside of jit, .*solve": [
+            lambda x: jb.sweep(at(x), {"operation.radial_load": [1e3]}),
+            lambda x: jb.sweep(scene, {"operation.radial_load": [x]}),
+        ],
+    }
+    for words, functions in calls.items():
+        for function in functions:
+            with pytest.raises(ValueError, match=words):
+                jax.jit(function)(1000.0)
+    with pytest.raises(ValueError, match=bearing):
+        jax.grad(lambda x: jb.simulate(at(x), 1e-4).time[-1])(1000.0)
+
+
 OF_ANOTHER_TYPE = """
 import jaxbearing, sys
+from jaxbearing.contacts import DistributedTraction
+from jaxbearing.life.bearing_life import bearing_life
 sys.path.insert(0, {folder!r})
 import test_wrong_arguments as cases
 
@@ -113,7 +426,33 @@ for name, (function, wrong, near) in cases.CHOICES.items():
 for function in cases.COUNTS.values():
     said(function, 16.0, "16", None, True)
 said(cases.race, "iner")
+for function, right, _ in cases.FORMULAS.values():
+    for field in right:
+        said(lambda value: function(**{{**right, field: value}}), *cases.NO_NUMBERS)
+for function in (*cases.TEMPERATURES.values(), *cases.ANGLES.values()):
+    said(function, *cases.NO_NUMBERS)
+for kind, right, _ in cases.PARTS.values():
+    for field in right:
+        said(lambda value: kind(**{{**right, field: value}}), "a", None, [1.0])
+for function in cases.COUNTED.values():
+    said(function, 1.5, "2", None, True)
+said(jaxbearing.load_scene, *cases.NO_PATHS)
+said(cases.load_oil, *cases.NO_PATHS)
+said(lambda overrides: jaxbearing.load_scene("turbine_ball", overrides), 3, ["a"], "geometry.n_balls=3", {{3: 3}})
+same = cases.Resolution(cases.np.int64(4), 2, cases.np.bool_(True)), cases.Resolution(4, 2, True)
+assert same[0] == same[1] and hash(same[0]) == hash(same[1])
+scene = jaxbearing.load_scene("turbine_roller")
+said(lambda none: bearing_life(scene, none), None)
+said(cases.jax.jit(lambda x: jaxbearing.simulate(scene, x).time), 1e-4)
+said(cases.jax.jit(lambda x: jaxbearing.simulate_batch(scene, x, {{"operation.inner_speed": [1e3, 2e3]}}).time), 1e-4)
+said(lambda x: jaxbearing.simulate(scene, x), "1 ms")
+said(lambda resolution: DistributedTraction(resolution=resolution), None, (40, 16))
 """
+
+
+NO_NUMBERS = ("a", None, [300.0], True, 1j)
+
+NO_PATHS = (3, None, b"turbine_ball", ["turbine_ball"], {"kind": "ball_bearing"}, 3.5)
 
 
 def race(name):
@@ -132,3 +471,20 @@ def test_arguments_of_another_type():
     assert sum("must be one of" in line for line in lines) == 4 * len(CHOICES) + 1
     assert "race must be one of 'inner', 'outer', got 'iner'; did you mean 'inner'?" in lines
     assert sum("must be a whole number >= 1, got" in line for line in lines) == 4 * len(COUNTS)
+    numbers = sum(len(right) for _, right, _ in FORMULAS.values()) + len(TEMPERATURES) + len(ANGLES)
+    assert sum("must be a number or an array of numbers, got" in line for line in lines) == len(NO_NUMBERS) * numbers
+    parts = sum(len(right) for _, right, _ in PARTS.values())
+    assert sum("must be one number, got" in line for line in lines) == 3 * parts
+    assert sum("must be a whole number, got" in line for line in lines) == 4 * len(COUNTED)
+    assert sum("expected the path of a scene file, or a built-in scene (" in line for line in lines) == len(NO_PATHS)
+    assert sum("expected an oil of the catalogue" in line for line in lines) == len(NO_PATHS)
+    assert sum("overrides: found" in line and "expected dotted paths with" in line for line in lines) == 3
+    assert sum("overrides: 3: found the number 3; expected a dotted path" in line for line in lines) == 1
+    for words in (
+        "bearing_life needs a scene with a rating",
+        "simulate was called inside of jit",
+        "duration: got a traced value",
+        "duration must be one finite number, got '1 ms'",
+    ):
+        assert sum(words in line for line in lines) == 1, words
+    assert sum("resolution must be a Resolution, got" in line for line in lines) == 2

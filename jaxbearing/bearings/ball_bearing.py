@@ -20,6 +20,7 @@ from ..lubricants import Lubricant, NoPressureViscosity
 from ..materials import Material
 from ..numerics.checks import demand, given
 from ..numerics.refusals import refusals_of, refuse_all
+from ..numerics.structure import choice
 from .ball_geometry import BallGeometry
 from .cage import ASSUMED_LANDS as ASSUMED_LANDS
 from .cage import AbstractCage
@@ -95,18 +96,15 @@ class BallAttitude(eqx.Module):
       angles, or "common", the mean of these weighted by the inner loads.
     """
 
-    attitude: Literal["outer", "inner", "min_power", "equilibrium"] = eqx.field(static=True, default="equilibrium")
+    attitude: Literal["outer", "inner", "min_power", "equilibrium"] = choice(
+        "kinematics.attitude", ("outer", "inner", "min_power", "equilibrium"), "equilibrium"
+    )
     gyroscopic: AbstractGyroscopic | ResolvedCouple | None = None
-    orbit: Literal["own", "common"] = eqx.field(static=True, default="own")
+    orbit: Literal["own", "common"] = choice("kinematics.orbit", ("own", "common"), "own")
 
     def __check_init__(self):
-        known_names = ("outer", "inner", "min_power", "equilibrium")
-        if self.attitude not in known_names:
-            raise ValueError(f"kinematics.attitude must be one of {', '.join(known_names)}, got {self.attitude!r}")
         if isinstance(self.gyroscopic, ResolvedCouple) and self.attitude != "equilibrium":
             raise ValueError("kinematics.gyroscopic: 'resolved' needs kinematics.attitude = 'equilibrium'")
-        if self.orbit not in ("own", "common"):
-            raise ValueError(f"kinematics.orbit must be own or common, got {self.orbit!r}")
 
 
 class BallCage(AbstractCage):

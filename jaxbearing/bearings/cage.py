@@ -4,7 +4,6 @@ import abc
 import math
 from typing import Any, ClassVar, Literal
 
-import equinox as eqx
 import jax.numpy as jnp
 
 from .._scene import number, optional_number
@@ -12,7 +11,7 @@ from .._types import Scalar
 from ..gaps import AbstractTurbulence, BlendedTurbulence, ShortJournal
 from ..numerics.checks import Checked, given, require
 from ..numerics.refusals import refusals_of, refuse_all
-from ..numerics.structure import count
+from ..numerics.structure import choice, count
 from .parts import check_between
 
 ASSUMED_LANDS = 2
@@ -42,7 +41,7 @@ class AbstractCage(Checked):
     assumed_outer: ClassVar[float]
     """Outside diameter = pitch diameter plus this times the element's diameter, where a scene does not give it."""
 
-    guidance: Literal["inner_ring", "outer_ring"] = eqx.field(static=True)
+    guidance: Literal["inner_ring", "outer_ring"] = choice("cage.guidance", ("inner_ring", "outer_ring"))
     guiding_clearance: Scalar = number(bound="> 0")
     pocket_clearance: Scalar = number(bound="> 0")
     land_width: Scalar = number(bound="> 0")
@@ -53,8 +52,6 @@ class AbstractCage(Checked):
 
     def __check_init__(self):
         super().__check_init__()
-        if self.guidance not in ("inner_ring", "outer_ring"):
-            raise ValueError(f"cage.guidance must be 'inner_ring' or 'outer_ring', got {self.guidance!r}")
         require("cage", n_lands=(self.n_lands, "> 0"))
 
     @abc.abstractmethod

@@ -9,7 +9,7 @@ running (a roller between a turning inner and a fixed outer ring spins clockwise
 
 import math
 from collections.abc import Iterator
-from typing import ClassVar, Literal
+from typing import Any, ClassVar, Literal
 
 import equinox as eqx
 
@@ -17,7 +17,7 @@ from .._types import Scalar
 from ..lubricants import Lubricant, NoPressureViscosity
 from ..numerics.checks import Checked, demand, given
 from ..numerics.refusals import refusals_of, refuse_all
-from ..numerics.structure import count
+from ..numerics.structure import choice, count
 from .cage import ASSUMED_LANDS as ASSUMED_LANDS
 from .cage import AbstractCage
 from .parts import (
@@ -146,18 +146,20 @@ class RollerFlange(Checked):
 
     part: ClassVar[str] = "flange"
 
-    ring: Literal["inner", "outer", "both"] = eqx.field(static=True)
+    ring: Literal["inner", "outer", "both"] = choice("flange.ring", ("inner", "outer", "both"))
     axial_clearance: Scalar = number(bound="> 0")
     angle: Scalar = number(0.0, bound=">= 0 and below 90 degrees")
     height: Scalar | None = optional_number(bound="> 0")
 
-    def __check_init__(self):
-        super().__check_init__()
-        if self.ring not in ("inner", "outer", "both"):
-            raise ValueError(f"flange.ring must be 'inner', 'outer' or 'both', got {self.ring!r}")
-
     def rim_height(self, geometry: RollerGeometry) -> Scalar:
         return ASSUMED_FLANGE_HEIGHT * geometry.roller_diameter if self.height is None else self.height
+
+
+def _freedoms(value: Any) -> tuple[str, ...]:
+    """**Raises:** `ValueError` for what are no freedoms of the ring."""
+    if isinstance(value, list | tuple) and tuple(map(str, value)) in (("radial",), ("radial", "lateral")):
+        return tuple(map(str, value))
+    raise ValueError(f"ring_freedom must be ('radial',) or ('radial', 'lateral'), got {value!r}")
 
 
 class CylindricalRollerBearing(AbstractScene):
@@ -185,7 +187,7 @@ class CylindricalRollerBearing(AbstractScene):
     flange: RollerFlange | None = None
     drag: Drag | None = None
     simulation: Simulation | None = None
-    ring_freedom: tuple[str, ...] = eqx.field(static=True, default=("radial",))
+    ring_freedom: tuple[str, ...] = eqx.field(static=True, converter=_freedoms, default=("radial",))
     rating: Rating | None = None
     profile: RollerProfile | None = None
 
@@ -193,8 +195,6 @@ class CylindricalRollerBearing(AbstractScene):
         refuse_all(self._problems())
 
     def _problems(self) -> Iterator[str | ValueError]:
-        if not self.ring_freedom or self.ring_freedom[0] != "radial" or set(self.ring_freedom) - {"radial", "lateral"}:
-            yield f"ring_freedom must be ('radial',) or ('radial', 'lateral'), got {self.ring_freedom!r}"
         if self.contact is None:
             return
         if self.tilts and self.slips:

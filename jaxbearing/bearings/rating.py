@@ -2,13 +2,10 @@
 
 from typing import ClassVar, Literal
 
-import equinox as eqx
-
 from .._scene import optional_number
 from .._types import Scalar
-from ..numerics.arguments import require_choice
 from ..numerics.checks import Checked
-from ..numerics.structure import constant, count, switch
+from ..numerics.structure import choice, constant, count, switch
 
 CATALOGUE_CONFORMITY = 0.52
 """Groove radius over ball diameter for which ISO 281 and catalogues rate ball bearings."""
@@ -57,11 +54,11 @@ class Rating(Checked):
     roughness_rings: Scalar | None = optional_number(bound="> 0")
     roughness_elements: Scalar | None = optional_number(bound="> 0")
     reliability: float = constant("rating.reliability", 0.90)
-    cleanliness: str | None = eqx.field(static=True, default=None)
+    cleanliness: str | None = choice("rating.cleanliness", CLEANLINESS_CLASSES, None)
     n_laminae: int | None = count("rating.n_laminae", None)
     edge_factor: bool | None = switch("rating.edge_factor", None)
-    grooves: Literal["catalogue", "scene"] = eqx.field(static=True, default="catalogue")
-    tilt: Literal["exact", "iso"] = eqx.field(static=True, default="exact")
+    grooves: Literal["catalogue", "scene"] = choice("rating.grooves", ("catalogue", "scene"), "catalogue")
+    tilt: Literal["exact", "iso"] = choice("rating.tilt", ("exact", "iso"), "exact")
 
     def __check_init__(self):
         super().__check_init__()
@@ -69,12 +66,6 @@ class Rating(Checked):
             raise ValueError("rating.roughness_rings: give it and rating.roughness_elements, or neither")
         if self.reliability not in RELIABILITIES:
             raise ValueError(f"rating.reliability must be one of {RELIABILITIES}, got {self.reliability!r}")
-        if self.cleanliness is not None:
-            require_choice("rating.cleanliness", self.cleanliness, CLEANLINESS_CLASSES)
-        if self.grooves not in ("catalogue", "scene"):
-            raise ValueError(f"rating.grooves must be 'catalogue' or 'scene', got {self.grooves!r}")
-        if self.tilt not in ("exact", "iso"):
-            raise ValueError(f"rating.tilt must be 'exact' or 'iso', got {self.tilt!r}")
         if self.n_laminae is not None and self.n_laminae < 1:
             raise ValueError(f"rating.n_laminae must be >= 1, got {self.n_laminae}")
 

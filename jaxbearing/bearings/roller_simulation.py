@@ -18,6 +18,7 @@ from ..numerics.integrator import Segment
 from ..numerics.interrupts import Deferral, deferred_interrupts
 from ..numerics.precision import as_float
 from ..numerics.status import SolveError, Status
+from ..numerics.structure import static_number
 from ..programs import KeptProgram
 from .cylindrical_roller import CylindricalRollerBearing
 from .history import Energy, History, LastState
@@ -97,8 +98,8 @@ def _request(
     duration = duration if duration is not None else chosen.duration
     if duration is None:
         raise ValueError("simulate needs a duration: give it, or name it in the scene's simulation")
-    length = float(duration)
-    if not (length > 0 and np.isfinite(length) and interval > 0):
+    length, interval = static_number("duration", duration, float), static_number("interval", interval, float)
+    if not (length > 0 and interval > 0):
         raise ValueError(f"duration and interval must be > 0 s, got {length:g} and {interval:g}")
     if length / interval > MOST_INSTANTS:
         raise ValueError(

@@ -2,12 +2,11 @@
 
 from typing import ClassVar
 
-import equinox as eqx
-
 from .._scene import number, optional_number
 from .._types import Scalar
 from ..numerics.checks import Checked
-from ..numerics.integrator import IntegratorOptions, check_solver
+from ..numerics.integrator import SOLVERS, IntegratorOptions
+from ..numerics.structure import choice
 from ..time_laws import AbstractTimeFactor, RotatingLoad, Steady
 
 DEFAULT_SOLVER = "tsit5"
@@ -34,13 +33,9 @@ class Simulation(Checked):
     speed: AbstractTimeFactor = Steady()
     load: AbstractTimeFactor = Steady()
     rotating_load: RotatingLoad | None = None
-    solver: str = eqx.field(static=True, default=DEFAULT_SOLVER)
+    solver: str = choice("simulation.solver", SOLVERS, DEFAULT_SOLVER)
     tolerance: Scalar = number(DEFAULT_TOLERANCE, bound="> 0")
     entrainment_smoothing: Scalar = number(0.05, bound="> 0")
-
-    def __check_init__(self):
-        super().__check_init__()
-        check_solver(self.solver)
 
     @property
     def options(self) -> IntegratorOptions:

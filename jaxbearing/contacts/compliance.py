@@ -7,6 +7,7 @@ import jax.numpy as jnp
 from jaxtyping import Array, Float
 
 from .._types import Scalar, Values
+from ..numerics.arguments import require_numbers
 from ..numerics.checks import Checked, bounded
 from ..numerics.precision import as_float
 from .patch import ContactPatch
@@ -50,6 +51,10 @@ class HalfSpaceCompliance(AbstractTangentialCompliance):
     reduced_modulus: Values
     poisson_ratio: Scalar = bounded("between 0 and 0.5", converter=as_float, default=0.3)
 
+    def __check_init__(self):
+        super().__check_init__()
+        require_numbers("> 0 or infinite", reduced_modulus=self.reduced_modulus)
+
     def compliance(self, patch: ContactPatch) -> Float[Array, "..."]:
         if patch.line:
             return jnp.asarray(8.0 * patch.half_width / (jnp.pi * self.reduced_modulus))
@@ -65,6 +70,8 @@ _C11 = ((2.51, 3.31, 4.85), (2.88, 3.62, 4.83), (3.40, 4.12, 5.20))
 
 def creep_coefficient(ratio: Values, poisson_ratio: Values) -> Float[Array, "..."]:
     """Kalker's C11. **Arguments:** `ratio`: a/c, semi-axis along over across rolling; `poisson_ratio`."""
+    require_numbers("> 0", ratio=ratio)
+    require_numbers("between 0 and 0.5", poisson_ratio=poisson_ratio)
     quadratic = [
         jnp.prod(jnp.stack([(poisson_ratio - n) / (m - n) for n in _POISSON if n != m]), axis=0) for m in _POISSON
     ]

@@ -87,11 +87,8 @@ class DistributedTraction(AbstractTraction):
     elastic: bool = switch("elastic", True)
 
     def __check_init__(self):
-        steps, strips, extrapolate = self.resolution
-        if steps < 1 or strips < 1:
-            raise ValueError(f"resolution: found {steps} steps and {strips} strips, expected at least 1 of each")
-        if extrapolate and steps % 2:
-            raise ValueError(f"resolution: found {steps} steps, expected an even number where extrapolate is set")
+        if not isinstance(self.resolution, Resolution):
+            raise ValueError(f"resolution must be a Resolution, got {self.resolution!r}")
 
     def force(
         self,
@@ -149,7 +146,7 @@ class DistributedTraction(AbstractTraction):
         `inner_residual` is the largest one of the runs.
         """
         arguments = (patch, film, entrainment_speed, sliding, temperature, lubricant)
-        steps, strips, extrapolate = self.resolution
+        steps, strips, extrapolate = dataclasses.astuple(self.resolution)
         run = lambda *resolution: dataclasses.replace(self, resolution=Resolution(*resolution)).traction(*arguments)
         found = self.traction(*arguments)
         finer, shares = [run(2 * steps, strips, extrapolate)], [16.0 / 15.0 if extrapolate else 4.0 / 3.0]

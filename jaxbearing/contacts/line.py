@@ -1,10 +1,13 @@
 """Line contact of two parallel cylinders: Hertz size and pressure, Palmgren approach."""
 
+import dataclasses
+
 import equinox as eqx
 import jax.numpy as jnp
 from jaxtyping import Array, Float
 
 from .._types import Values
+from ..numerics.arguments import require_numbers
 from ..numerics.safe import positive_power, regular_power, smooth_abs
 
 LOAD_FLOOR = 1e-9
@@ -36,6 +39,10 @@ class LineContact(eqx.Module):
     reduced_radius: Values
     length: Values
     reduced_modulus: Values
+
+    def __check_init__(self):
+        for field in dataclasses.fields(self):
+            require_numbers("> 0", **{field.name: getattr(self, field.name)})
 
     def half_width(self, load: Values) -> Float[Array, "..."]:
         """Half-width b along rolling, m. **Arguments:** `load`, N, >= 0."""

@@ -8,7 +8,9 @@ import numpy as np
 from jaxtyping import Array, Float
 
 from .._types import Values
+from ..numerics.arguments import require_numbers
 from ..numerics.quadrature import gauss_legendre
+from ..numerics.structure import switch
 from .line import LineContact
 from .point import PointContact
 
@@ -38,7 +40,10 @@ class ContactPatch(eqx.Module):
     pressure: Values
     half_width: Values
     half_length: Values
-    line: bool = eqx.field(static=True, default=False)
+    line: bool = switch("line", False)
+
+    def __check_init__(self):
+        require_numbers("> 0", pressure=self.pressure, half_width=self.half_width, half_length=self.half_length)
 
     @property
     def load(self) -> Float[Array, "..."]:

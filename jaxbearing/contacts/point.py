@@ -1,5 +1,6 @@
 """Point contact of two curved bodies: exact Hertz ellipse and pressure."""
 
+import dataclasses
 from typing import NamedTuple
 
 import equinox as eqx
@@ -8,6 +9,7 @@ import jax.numpy as jnp
 from jaxtyping import Array, Float
 
 from .._types import Values
+from ..numerics.arguments import require_numbers
 from ..numerics.compiling import compiled_by_hand
 from ..numerics.safe import smooth_abs
 
@@ -34,6 +36,10 @@ class PointContact(eqx.Module):
     reduced_radius_rolling: Values
     reduced_radius_transverse: Values
     reduced_modulus: Values
+
+    def __check_init__(self):
+        for field in dataclasses.fields(self):
+            require_numbers("> 0", **{field.name: getattr(self, field.name)})
 
     def ellipticity(self) -> Float[Array, "..."]:
         """k = c/a, semi-axis across over semi-axis along rolling."""

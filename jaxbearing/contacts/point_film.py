@@ -3,11 +3,11 @@
 import abc
 from typing import ClassVar
 
-import equinox as eqx
 import jax.numpy as jnp
 from jaxtyping import Array, Float
 
 from .._types import Scalar, Values
+from ..numerics.checks import Checked, bounded
 from ..numerics.safe import log_add, smooth_abs
 from .film import LOG_2
 from .line import LOAD_FLOOR, log_entrainment_sum, log_material_number
@@ -19,9 +19,10 @@ RADIUS_RATIO_FLOOR = 1e-4
 """Smallest Rx/Ry: there the contact is a line."""
 
 
-class AbstractPointFilm(eqx.Module):
+class AbstractPointFilm(Checked):
     """Film thickness of a point contact from load, speed and the oil at the inlet."""
 
+    part: ClassVar[str] = "contact.film"
     piezoviscous_only: ClassVar[bool]
     """Whether the law holds only for an oil whose viscosity rises with pressure: for others its film is about 0."""
 
@@ -203,7 +204,7 @@ class RigidBlend(AbstractPointFilm):
     """
 
     film: AbstractPointFilm
-    exponent: Scalar = 3.0
+    exponent: Scalar = bounded("> 0", default=3.0)
 
     @property
     def piezoviscous_only(self) -> bool:  # pyright: ignore[reportIncompatibleVariableOverride]  (the wrapped film's)

@@ -8,6 +8,7 @@ import jax.numpy as jnp
 from jaxtyping import Array, Float
 
 from .._types import Scalar, Values
+from ..numerics.arguments import require_numbers
 from ..numerics.checks import Checked, bounded
 from ..numerics.precision import as_float
 
@@ -61,4 +62,6 @@ class LogarithmicProfile(AbstractProfile):
 
 def lundberg_drop(amplitude: float, end_ratio: float) -> float:
     """Drop at the ends of the `LogarithmicProfile` that follows A ln[1/(1 - x^2)] away from them, m."""
+    require_numbers(">= 0", amplitude=amplitude)
+    require_numbers("above 0 and below 1", end_ratio=end_ratio)
     return amplitude * math.log(1.0 / end_ratio)

@@ -42,23 +42,36 @@ With spin 1e-6 is reached in the power only: Ree and Eyring's forces would take 
 the error of one contact.
 """
 
-from typing import NamedTuple
+import dataclasses
+
+from ..numerics.structure import static_count, static_number
 
 
-class Resolution(NamedTuple):
+@dataclasses.dataclass(frozen=True)
+class Resolution:
     """Steps and strips of the traction integral.
 
     **Arguments:**
-    - `steps`: of the march along each strip, even where `extrapolate`.
-    - `strips`: Gauss points across the whole contact; a contact without spin computes half of them, a line contact
-      one.
+    - `steps`: of the march along each strip, >= 1, even where `extrapolate`.
+    - `strips`: Gauss points across the whole contact, >= 1; a contact without spin computes half of them, a line
+      contact one.
     - `extrapolate`: whether the march is repeated with half the steps and the leading error, of second order in the
       step, taken out (Richardson); half as much work again.
+
+    **Raises:** `ValueError` for other numbers.
     """
 
     steps: int
     strips: int
     extrapolate: bool = False
+
+    def __post_init__(self):
+        for name in ("steps", "strips"):
+            object.__setattr__(self, name, static_count(f"resolution.{name}", getattr(self, name), least=1))
+        extrapolate = static_number("resolution.extrapolate", self.extrapolate, bool)
+        object.__setattr__(self, "extrapolate", extrapolate)
+        if extrapolate and self.steps % 2:
+            raise ValueError(f"resolution.steps must be even where extrapolate is set, got {self.steps}")
 
     @classmethod
     def for_accuracy(cls, accuracy: float, spin: bool = False) -> "Resolution":

@@ -14,6 +14,8 @@ import numpy as np
 from jaxtyping import Array, Float
 
 from .._types import Scalar, Values
+from ..numerics.arguments import require_numbers
+from ..numerics.checks import Checked, bounded
 from ..numerics.quadrature import gauss_legendre
 from ..numerics.safe import positive_power
 from ..numerics.structure import count as whole
@@ -32,10 +34,11 @@ POINTS = 2
 
 def palmgren_stiffness(length: Scalar, reduced_modulus: Scalar) -> Float[Array, ""]:
     """K, N/m^(19/9), of a contact of this length, m, and modulus E', Pa."""
+    require_numbers("> 0", length=length, reduced_modulus=reduced_modulus)
     return jnp.asarray(reduced_modulus / (8.0 * 0.39**EXPONENT) * length ** (-1.0 / 9.0))
 
 
-class AbstractTiltedLine(eqx.Module):
+class AbstractTiltedLine(Checked):
     """Load of a contact whose approach is f + g s, m; s from one end of the roller, m.
 
     **Arguments:**
@@ -80,8 +83,8 @@ class StraightLine(AbstractTiltedLine):
     **Arguments:** `stiffness` K, N/m^(19/9), `length`, m.
     """
 
-    stiffness: Scalar
-    length: Scalar
+    stiffness: Scalar = bounded("> 0")
+    length: Scalar = bounded("> 0")
 
     def drop(self, position: Values) -> Float[Array, "..."]:
         return jnp.zeros_like(jnp.asarray(position, dtype=float))
@@ -161,10 +164,10 @@ class SlicedLine(AbstractTiltedLine):
     - `count`: laminae (structure).
     """
 
-    stiffness: Scalar
-    length: Scalar
+    stiffness: Scalar = bounded("> 0")
+    length: Scalar = bounded("> 0")
     profile: AbstractProfile | None = None
-    count: int = whole("count", 30)
+    count: int = whole("count", 30, least=1)
 
     def drop(self, position: Values) -> Float[Array, "..."]:
         if self.profile is None:

@@ -2,10 +2,10 @@
 
 from typing import NamedTuple
 
-import equinox as eqx
 import jax.numpy as jnp
 
 from .._types import Batch, Scalar, Values
+from ..numerics.checks import Checked, bounded
 from ..numerics.safe import smooth_abs
 
 SPIN_FLOOR = 1.0
@@ -39,7 +39,7 @@ class BallPocketFilm(NamedTuple):
         return self.transverse_front + self.transverse_rear
 
 
-class BallPocket(eqx.Module):
+class BallPocket(Checked):
     r"""A ball floating in a cylindrical pocket whose axis is radial, two elliptical rigid isoviscous films.
 
     On each side $W(h) = 6\sqrt2\,\pi\mu uR_1\sqrt{R_2/h}/(3 + 2R_1/R_2)$ for the entrainment along the pocket's axis
@@ -56,8 +56,8 @@ class BallPocket(eqx.Module):
     - `ball_radius`: m, > 0.
     """
 
-    clearance: Scalar
-    ball_radius: Scalar
+    clearance: Scalar = bounded("> 0")
+    ball_radius: Scalar = bounded("> 0")
 
     def balance(self, net_load: Values, axial_spin: Values, radial_spin: Values, viscosity: Values) -> BallPocketFilm:
         r"""Films that carry a given net load, in closed form: both loads go as $h^{-1/2}$.

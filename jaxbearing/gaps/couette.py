@@ -6,6 +6,7 @@ import equinox as eqx
 import jax.numpy as jnp
 
 from .._types import Batch, Scalar, Values
+from ..numerics.checks import Checked, bounded
 from ..numerics.quadrature import gauss_legendre
 from ..numerics.safe import softplus_floor
 from ..numerics.structure import count
@@ -93,7 +94,7 @@ class FlangeCoefficients(eqx.Module):
         return EndForces(force, moment, ring_moment, -spin * moment - ring * ring_moment)
 
 
-class Flange(eqx.Module):
+class Flange(Checked):
     r"""Roller ends against the flanges of one ring; works for either ring.
 
     Integrals over the lens between the roller circle and the flange annulus from `race_radius` to
@@ -116,13 +117,13 @@ class Flange(eqx.Module):
     - `n_sides`: number of roller ends that touch flanges of this ring; structure.
     """
 
-    race_radius: Scalar
-    rim_radius: Scalar
-    pitch_radius: Scalar
-    roller_radius: Scalar
-    side_clearance: Scalar
-    angle: Scalar
-    n_sides: int = count("n_sides", 2)
+    race_radius: Scalar = bounded("> 0")
+    rim_radius: Scalar = bounded("> 0")
+    pitch_radius: Scalar = bounded("> 0")
+    roller_radius: Scalar = bounded("> 0")
+    side_clearance: Scalar = bounded(">= 0")
+    angle: Scalar = bounded(">= 0 and below 90 degrees")
+    n_sides: int = count("n_sides", 2, least=1)
 
     def coefficients(self, viscosity: Values) -> FlangeCoefficients:
         """Integrals at a viscosity (Pa s), to be evaluated at many speeds."""
@@ -160,7 +161,7 @@ class PocketEdgeCoefficients(eqx.Module):
         return EndForces(force, moment, jnp.zeros_like(moment), -spin * moment)
 
 
-class PocketEdge(eqx.Module):
+class PocketEdge(Checked):
     r"""Roller ends against the side rails of the cage, at rest in the orbiting frame.
 
     $M = -n\mu w/j\int\rho^2dA$, $F_t = -n\mu w/j\int(y-R_m)dA$ over the lens of the roller circle and
@@ -178,12 +179,12 @@ class PocketEdge(eqx.Module):
     - `n_sides`: number of roller ends beside rails; structure.
     """
 
-    inner_radius: Scalar
-    outer_radius: Scalar
-    pitch_radius: Scalar
-    roller_radius: Scalar
-    side_clearance: Scalar
-    n_sides: int = count("n_sides", 2)
+    inner_radius: Scalar = bounded("> 0")
+    outer_radius: Scalar = bounded("> 0")
+    pitch_radius: Scalar = bounded("> 0")
+    roller_radius: Scalar = bounded("> 0")
+    side_clearance: Scalar = bounded(">= 0")
+    n_sides: int = count("n_sides", 2, least=1)
 
     def _integrals(self) -> tuple[Batch, Batch, Batch]:
         r_m = self.pitch_radius

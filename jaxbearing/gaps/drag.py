@@ -2,12 +2,13 @@
 
 from typing import Literal
 
-import equinox as eqx
 import jax.numpy as jnp
 
 from .._types import Batch, Scalar, Values
-from ..numerics.arguments import require_temperature
+from ..numerics.arguments import require_numbers, require_temperature
+from ..numerics.checks import Checked, bounded
 from ..numerics.safe import regular_power, smooth_abs, softplus_floor
+from ..numerics.structure import choice
 
 PARKER_CONSTANT = 1e5
 """Parker's constant for a fraction, with flow in cm^3/min, speed in rpm, diameter in mm."""
@@ -50,6 +51,10 @@ def parker_oil_fraction(
     **Arguments:** `oil_flow`, m^3/s, >= 0; `shaft_speed`, rad/s; `pitch_diameter`, m;
     `through_flow_fraction`: share of the flow that crosses the bearing, 0 to 1.
     """
+    require_numbers(">= 0", oil_flow=oil_flow)
+    require_numbers("finite", shaft_speed=shaft_speed)
+    require_numbers("> 0", pitch_diameter=pitch_diameter)
+    require_numbers("between 0 and 1", through_flow_fraction=through_flow_fraction)
     flow = oil_flow * through_flow_fraction * CM3_PER_MINUTE
     rpm = smooth_abs(shaft_speed * (30.0 / jnp.pi), SPEED_WIDTH)
     rpm = softplus_floor(rpm, SPEED_FLOOR, SPEED_FLOOR_WIDTH)
@@ -68,11 +73,13 @@ def saturated_oil_fraction(
 def air_density(temperature: Values, pressure: Values = 101325.0) -> Batch:
     """Ideal gas, 0.029 kg/mol: kg/m^3. **Arguments:** `temperature`, K, > 0; `pressure`, Pa."""
     require_temperature(temperature)
+    require_numbers(">= 0", pressure=pressure)
     return pressure * MOLAR_MASS_AIR / (GAS_CONSTANT * jnp.asarray(temperature))
 
 
 def mixture_density(oil_fraction: Values, oil_density: Values, gas_density: Values) -> Batch:
     """X rho_oil + (1 - X) rho_air, kg/m^3 (source eq. (88))."""
+    require_numbers(">= 0", oil_fraction=oil_fraction, oil_density=oil_density, gas_density=gas_density)
     return jnp.asarray(oil_fraction) * oil_density + (1.0 - oil_fraction) * gas_density
 
 
@@ -102,10 +109,12 @@ def cylinder_drag_coefficient(reynolds: Values) -> Batch:
 
 def ball_frontal_area(diameter: Values, cage_thickness: Values) -> Batch:
     r"""$\pi D^2/4 - L_cD$, m^2, floored at 0: what the cage does not cover. **Arguments:** m."""
+    require_numbers("> 0", diameter=diameter)
+    require_numbers(">= 0", cage_thickness=cage_thickness)
     return jnp.maximum(diameter * (0.25 * jnp.pi * jnp.asarray(diameter) - cage_thickness), 0.0)
 
 
-class ReynoldsDrag(eqx.Module):
+class ReynoldsDrag(Checked):
     r"""Drag of one rolling element, with the coefficient of an isolated sphere or cylinder at its Reynolds number.
 
     $F = \tfrac12\rho C_d(Re)SV|V|$, $Re = \rho|V|D/\mu$, formed as $\tfrac12 S(\mu/D)V\,(Re\,C_d)$. The density is that
@@ -117,13 +126,9 @@ class ReynoldsDrag(eqx.Module):
     **Reference:** source eq. (88).
     """
 
-    diameter: Scalar
-    area: Scalar
-    shape: Literal["sphere", "cylinder"] = eqx.field(static=True, default="sphere")
-
-    def __check_init__(self):
-        if self.shape not in ("sphere", "cylinder"):
-            raise ValueError(f"shape must be 'sphere' or 'cylinder', got {self.shape!r}")
+    diameter: Scalar = bounded("> 0")
+    area: Scalar = bounded(">= 0")
+    shape: Literal["sphere", "cylinder"] = choice("shape", ("sphere", "cylinder"), "sphere")
 
     def force(self, speed: Values, density: Values, viscosity: Values) -> Batch:
         """N, of the sign of the speed; it acts *against* the motion.
@@ -147,7 +152,7 @@ ReynoldsDrag.__init__.__doc__ = """**Arguments:**
 """
 
 
-class RollerDrag(eqx.Module):
+class RollerDrag(Checked):
     """Drag of one rolling element in the oil-air mixture: 1/2 rho Cd S V|V| (source eq. (88)).
 
     The force has the sign of the speed; it acts *against* the orbital motion. V|V| has slope 0 at
@@ -159,8 +164,8 @@ class RollerDrag(eqx.Module):
     - `area`: S across the stream, m^2, >= 0.
     """
 
-    coefficient: Scalar
-    area: Scalar
+    coefficient: Scalar = bounded(">= 0")
+    area: Scalar = bounded(">= 0")
 
     def force(self, speed: Values, density: Values) -> Batch:
         """N. **Arguments:** `speed`, orbital, m/s, signed; `density` of the mixture, kg/m^3."""

@@ -7,6 +7,7 @@ import jax.numpy as jnp
 from jaxtyping import Array
 
 from .._types import Batch, Scalar, Values
+from ..numerics.checks import Checked, bounded
 from ..numerics.compiling import compiled_by_hand
 from ..numerics.roots import monotone_root
 from ..numerics.safe import log_add, safe_norm, smooth_abs
@@ -69,7 +70,7 @@ class LineOfCentres(NamedTuple):
     direction: tuple[Batch, Batch]
 
 
-class ShortJournal(eqx.Module):
+class ShortJournal(Checked):
     r"""Short (narrow) journal film, isoviscous and rigid, cavitated: p = max(p, 0) (pi film).
 
     The journal is the inner body. Its offset is $e = x_{journal} - x_{bush}$, $\epsilon = |e|/c$;
@@ -90,15 +91,11 @@ class ShortJournal(eqx.Module):
     - `n_lands`: number of lands; structure.
     """
 
-    radius: Scalar
-    width: Scalar
-    clearance: Scalar
+    radius: Scalar = bounded("> 0")
+    width: Scalar = bounded("> 0")
+    clearance: Scalar = bounded("> 0")
     turbulence: AbstractTurbulence = eqx.field(default_factory=BlendedTurbulence)
-    n_lands: int = count("n_lands", 2)
-
-    def __check_init__(self):
-        if self.n_lands < 1:
-            raise ValueError(f"n_lands must be at least 1, got {self.n_lands}")
+    n_lands: int = count("n_lands", 2, least=1)
 
     def film_factors(self, density: Values, viscosity: Values, relative_speed: Values) -> tuple[Batch, Batch]:
         r"""Flow factor k_z and friction factor C_f at $Re = \rho R|\Delta\omega|c/\mu$, $Re_c = 41.2\sqrt{R/c}$.

@@ -1,13 +1,13 @@
 """Long journal bearing, half Sommerfeld: the ball in its cage pocket."""
 
-import equinox as eqx
 import jax.numpy as jnp
 
 from .._types import Batch, Scalar, Values
+from ..numerics.checks import Checked, bounded
 from .journal import saturated_eccentricity
 
 
-class LongJournal(eqx.Module):
+class LongJournal(Checked):
     r"""Long journal film with pressure on the fixed arc 0..pi (half Sommerfeld), isoviscous, rigid.
 
     Signs as in `ShortJournal`; $k = 1-\epsilon^2$, $K = \mu R^3L/c^2$,
@@ -28,9 +28,9 @@ class LongJournal(eqx.Module):
     - `clearance`: c, RADIAL: half of the diametral clearance, m, > 0.
     """
 
-    radius: Scalar
-    width: Scalar
-    clearance: Scalar
+    radius: Scalar = bounded("> 0")
+    width: Scalar = bounded("> 0")
+    clearance: Scalar = bounded("> 0")
 
     def force_on_journal(
         self,

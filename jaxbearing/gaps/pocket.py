@@ -2,11 +2,12 @@
 
 from typing import NamedTuple
 
-import equinox as eqx
 import jax.numpy as jnp
 from jaxtyping import Array
 
 from .._types import Batch, Scalar, Values
+from ..numerics.arguments import require_numbers
+from ..numerics.checks import Checked, bounded
 from ..numerics.compiling import compiled_by_hand
 from ..numerics.roots import monotone_root
 from ..numerics.safe import log_add
@@ -32,7 +33,7 @@ class PocketFilm(NamedTuple):
     friction_rear: Batch
 
 
-class Pocket(eqx.Module):
+class Pocket(Checked):
     r"""A roller floating between two flat parallel walls, rigid Martin films, no squeeze.
 
     Front is the wall ahead of the roller in the sense of orbit. Loads are >= 0 and
@@ -54,9 +55,9 @@ class Pocket(eqx.Module):
     - `rolling`: whether half of the pressure-flow force counts as friction; structure.
     """
 
-    clearance: Scalar
-    length: Scalar
-    roller_radius: Scalar
+    clearance: Scalar = bounded("> 0")
+    length: Scalar = bounded("> 0")
+    roller_radius: Scalar = bounded("> 0")
     rolling: bool = switch("rolling", False)
 
     def balance(self, net_load: Values, spin_speed: Values, viscosity: Values) -> PocketFilm:
@@ -105,7 +106,7 @@ class PocketFace(NamedTuple):
     residual: Batch
 
 
-class CompliantPocketFace(eqx.Module):
+class CompliantPocketFace(Checked):
     r"""Squeeze film between roller and one flat wall that gives way: any rigid gap, also negative.
 
     Load Q from $h(Q) - \delta(Q) = H$ with $h = (h_M^3 + h_E^3)^{1/3}$: Martin's film with squeeze
@@ -129,12 +130,12 @@ class CompliantPocketFace(eqx.Module):
     - `minimum_film`: h_min of the squeeze number, m, > 0.
     """
 
-    roller_radius: Scalar
-    length: Scalar
-    reduced_modulus: Scalar
-    pressure_viscosity: Scalar
-    minimum_speed: Scalar = 0.5
-    minimum_film: Scalar = 0.3e-6
+    roller_radius: Scalar = bounded("> 0")
+    length: Scalar = bounded("> 0")
+    reduced_modulus: Scalar = bounded("> 0")
+    pressure_viscosity: Scalar = bounded(">= 0")
+    minimum_speed: Scalar = bounded("> 0", default=0.5)
+    minimum_film: Scalar = bounded("> 0", default=0.3e-6)
 
     @property
     def compliance(self) -> Scalar:
@@ -229,5 +230,6 @@ def side_leakage_factor(length: Values, radius: Values, film: Values) -> Batch:
 
     **Arguments:** `length`, `radius` (equivalent), `film` > 0, m.
     """
+    require_numbers("> 0", length=length, radius=radius, film=film)
     inverse = jnp.sqrt(2.0 * jnp.asarray(radius) * film) / length
     return 1.0 / (1.0 + 1.58 * inverse + 3.3 * jnp.square(inverse))

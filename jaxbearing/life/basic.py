@@ -5,7 +5,7 @@ import numpy as np
 from jaxtyping import Array, Float
 
 from .._types import Scalar, Values
-from ..numerics.arguments import require_angle
+from ..numerics.arguments import require_angle, require_numbers
 
 RELIABILITY_FACTORS = {0.90: 1.0, 0.95: 0.64, 0.96: 0.55, 0.97: 0.47, 0.98: 0.37, 0.99: 0.25}
 """a_1 of ISO 281:2007 by reliability [M]; the edition before had 0.62, 0.53, 0.44, 0.33, 0.21."""
@@ -29,12 +29,16 @@ _GROOVE = np.array(
 
 def basic_life(capacity: Values, equivalent_load: Values, exponent: float) -> Float[Array, "..."]:
     """L10 = (C/P)^p, 10^6 revolutions; infinite at no load. **Arguments:** N; `exponent` 3 (balls), 10/3 (rollers)."""
-    return jnp.asarray(capacity / equivalent_load) ** exponent
+    require_numbers("> 0", capacity=capacity, exponent=exponent)
+    require_numbers(">= 0", equivalent_load=equivalent_load)
+    return jnp.asarray(capacity / jnp.asarray(equivalent_load)) ** exponent
 
 
 def tapered_equivalent_load(radial: Values, axial: Values, contact_angle: Values) -> Float[Array, "..."]:
     """P = Fr where Fa/Fr <= e = 1.5 tan(alpha), else 0.4 Fr + 0.4 cot(alpha) Fa, N [M]."""
     require_angle("contact_angle", contact_angle)
+    require_numbers("above 0 and below 90 degrees", contact_angle=contact_angle)
+    require_numbers(">= 0", radial=radial, axial=axial)
     tangent = jnp.tan(contact_angle)
     combined = 0.4 * radial + 0.4 / tangent * axial
     return jnp.where(axial <= 1.5 * tangent * radial, radial * jnp.ones_like(combined), combined)
@@ -47,6 +51,8 @@ def deep_groove_equivalent_load(
 
     **Arguments:** `load_factor` f0 of the bearing, about 14.
     """
+    require_numbers(">= 0", radial=radial, axial=axial)
+    require_numbers("> 0", static_capacity=static_capacity, load_factor=load_factor)
     relative = load_factor * axial / static_capacity
     e, y = (jnp.interp(relative, jnp.asarray(_GROOVE[:, 0]), jnp.asarray(_GROOVE[:, i])) for i in (1, 2))
     return jnp.where(axial <= e * radial, radial, 0.56 * radial + y * axial)

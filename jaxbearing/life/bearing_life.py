@@ -111,12 +111,14 @@ def bearing_life(scene: Any, solution: Solution) -> Life:
     Needs `scene.rating`. The modified life takes the viscosity ratio, and the load ratio at `equivalent_load`, for the
     bearing as a whole ([M]: the standard does so contact by contact).
 
-    **Raises:** `TypeError` for a kind of bearing without a life.
+    **Raises:** `TypeError` for a kind of bearing without a life; `ValueError` for a scene without a rating.
     """
     try:
         rated_by = RATED[type(scene)]
     except KeyError:
         raise TypeError(f"no life of a {type(scene).__name__}") from None
+    if scene.rating is None:
+        raise ValueError("bearing_life needs a scene with a rating, got one without")
     rating: Rating = scene.rating
     good = solution.converged
     # a lane that failed has finite numbers in the formulas, so that its NaN reaches no derivative of another

@@ -4,11 +4,12 @@ import jax.numpy as jnp
 from jaxtyping import Array, Float
 
 from .._types import Scalar
-from ..numerics.arguments import require_angle, require_count
+from ..numerics.arguments import require_angle, require_count, require_numbers
 
 MILLIMETRE = 1e-3
 LARGE_BALL = 25.4
 """Ball diameter, mm, from which on the rating grows with D^1.4 instead of D^1.8."""
+CONFORMITIES, SIZE_RATIOS = "between 0.5 and 1, and not 0.5", ">= 0 and below 1"
 POLE = 0.505
 """Conformity below which the rating of a groove is not used: it has a pole at 0.5."""
 
@@ -16,7 +17,10 @@ POLE = 0.505
 def ball_size_ratio(ball_diameter: Scalar, pitch_diameter: Scalar, contact_angle: Scalar) -> Float[Array, ""]:
     """gamma = D cos(alpha)/d_m of balls or rollers."""
     require_angle("contact_angle", contact_angle)
-    return jnp.asarray(ball_diameter * jnp.cos(contact_angle) / pitch_diameter)
+    require_numbers("> 0", ball_diameter=ball_diameter, pitch_diameter=pitch_diameter)
+    gamma = jnp.asarray(ball_diameter * jnp.cos(contact_angle) / pitch_diameter)
+    require_numbers(SIZE_RATIOS, gamma=gamma)
+    return gamma
 
 
 def groove_ratio(
@@ -24,6 +28,8 @@ def groove_ratio(
 ) -> Float[Array, ""]:
     """Capacity of the inner contact over that of the outer one, Lundberg and Palmgren; `constant`: 1.04 in ISO 281,
     1.044 in ISO 16281."""
+    require_numbers(SIZE_RATIOS, gamma=gamma)
+    require_numbers(CONFORMITIES, conformity_inner=conformity_inner, conformity_outer=conformity_outer)
     f_i, f_e = jnp.maximum(conformity_inner, POLE), jnp.maximum(conformity_outer, POLE)
     grooves = f_i * (2.0 * f_e - 1.0) / (f_e * (2.0 * f_i - 1.0))
     return jnp.asarray(constant * ((1.0 - gamma) / (1.0 + gamma)) ** 1.72 * grooves**0.41)
@@ -31,6 +37,7 @@ def groove_ratio(
 
 def roller_ratio(gamma: Scalar, constant: float) -> Float[Array, ""]:
     """As `groove_ratio`, for rollers: `constant` 1.04 in ISO 281, 1.038 in ISO 16281."""
+    require_numbers(SIZE_RATIOS, gamma=gamma)
     return jnp.asarray(constant * ((1.0 - gamma) / (1.0 + gamma)) ** (143.0 / 108.0))
 
 
@@ -43,8 +50,8 @@ def ball_factor(gamma: Scalar, conformity_inner: Scalar, conformity_outer: Scala
     **Evidence:** [T] with $f_i = f_e$ = 0.52: 46.7, 55.5, 59.6, 59.9, 56 at gamma 0.05, 0.10, 0.16, 0.20, 0.30.
     **Validity:** conformities above 0.505 (below, those of 0.505 are used).
     """
-    f_i = jnp.maximum(conformity_inner, POLE)
     ratio = groove_ratio(gamma, conformity_inner, conformity_outer, 1.04)
+    f_i = jnp.maximum(conformity_inner, POLE)
     shape = gamma**0.3 * (1.0 - gamma) ** 1.39 / (1.0 + gamma) ** (1.0 / 3.0)
     groove = (2.0 * f_i / (2.0 * f_i - 1.0)) ** 0.41
     return 0.41 * 98.0665 * 0.95 * (1.0 + ratio ** (10.0 / 3.0)) ** -0.3 * shape * groove
@@ -68,6 +75,7 @@ def ball_capacity(
     **Arguments:** diameters, m; `contact_angle`, rad: the nominal one, 0 of a deep-groove bearing.
     """
     require_count("n_balls", n_balls)
+    require_numbers("> 0", material_factor=material_factor)
     gamma = ball_size_ratio(ball_diameter, pitch_diameter, contact_angle)
     diameter = jnp.asarray(ball_diameter) / MILLIMETRE
     size = jnp.where(diameter > LARGE_BALL, 3.647 * diameter**1.4, diameter**1.8)
@@ -81,6 +89,7 @@ def roller_factor(gamma: Scalar) -> Float[Array, ""]:
 
     **Evidence:** [T] 74.1, 84.2, 88.8, 83.8 at gamma 0.05, 0.10, 0.18, 0.30.
     """
+    require_numbers(SIZE_RATIOS, gamma=gamma)
     shape = gamma ** (2.0 / 9.0) * (1.0 - gamma) ** (29.0 / 27.0) / (1.0 + gamma) ** 0.25
     return 207.9 * 0.83 * shape * (1.0 + roller_ratio(gamma, 1.04) ** 4.5) ** (-2.0 / 9.0)
 
@@ -101,6 +110,7 @@ def roller_capacity(
     effective one, m; `contact_angle`, rad: that of the outer raceway.
     """
     require_count("n_rollers", n_rollers)
+    require_numbers("> 0", roller_diameter=roller_diameter, length=length, material_factor=material_factor)
     gamma = ball_size_ratio(roller_diameter, pitch_diameter, contact_angle)
     length, diameter = jnp.asarray(length) / MILLIMETRE, jnp.asarray(roller_diameter) / MILLIMETRE
     size = (length * jnp.cos(contact_angle)) ** (7.0 / 9.0) * diameter ** (29.0 / 27.0)

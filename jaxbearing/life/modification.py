@@ -6,7 +6,7 @@ import jax.numpy as jnp
 from jaxtyping import Array, Float
 
 from .._types import Scalar, Values
-from ..numerics.arguments import require_choice
+from ..numerics.arguments import require_choice, require_numbers
 from .capacity import MILLIMETRE
 
 Family = Literal["ball", "roller"]
@@ -50,13 +50,14 @@ def modification_factor(kappa: Values, load_ratio: Values, family: Family) -> Fl
     **Evidence:** [C] the three branches in kappa join; constants otherwise [M].
     """
     require_choice("family", family, _CONSTANTS)
+    require_numbers(">= 0 or infinite", kappa=kappa, load_ratio=load_ratio)
     kappa = jnp.clip(kappa, *KAPPA_RANGE)
     constant, scales, power, exponent, outer = _CONSTANTS[family]
     low, high = (kappa < end for end in _BRANCH_ENDS)
     pick = lambda values: jnp.where(low, values[0], jnp.where(high, values[1], values[2]))
     film = jnp.maximum(constant - pick(scales) * kappa ** -pick(_EXPONENTS), 0.0)
     positive = load_ratio > 0
-    x = jnp.where(positive, jnp.where(positive, load_ratio, 1.0) ** exponent, 0.0)
+    x = jnp.where(positive, jnp.where(positive, load_ratio, 1.0) ** exponent, 0.0 * load_ratio)
     bracket = jnp.maximum(1.0 - film**power * x, LEAST_BRACKET)
     return jnp.minimum(0.1 * bracket**outer, LARGEST)
 
@@ -67,6 +68,8 @@ def reference_viscosity(speed: Scalar, pitch_diameter: Scalar) -> Float[Array, "
     **Evidence:** [M]; the branches differ by 2.3 % at 1000 r/min. **Arguments:** `speed` of the rings against each
     other, rad/s (held at 1 r/min and above); `pitch_diameter`, m.
     """
+    require_numbers("finite", speed=speed)
+    require_numbers("> 0", pitch_diameter=pitch_diameter)
     turns = jnp.maximum(jnp.abs(speed) * 30.0 / jnp.pi, 1.0)
     factor = jnp.where(turns < 1000.0, 45000.0 * turns**-0.83, 4500.0 * turns**-0.5)
     return 1e-6 * factor * (jnp.asarray(pitch_diameter) / MILLIMETRE) ** -0.5
@@ -78,6 +81,8 @@ def contamination_factor(kappa: Values, pitch_diameter: Scalar, cleanliness: str
     **Evidence:** [M]. **Arguments:** `pitch_diameter`, m; `cleanliness`: one of `CLEANLINESS`.
     """
     require_choice("cleanliness", cleanliness, CLEANLINESS)
+    require_numbers(">= 0 or infinite", kappa=kappa)
+    require_numbers("> 0", pitch_diameter=pitch_diameter)
     k, c = CLEANLINESS[cleanliness]
     diameter = jnp.asarray(pitch_diameter) / MILLIMETRE
     if cleanliness == "grease_typical":
@@ -92,6 +97,7 @@ def fatigue_load_limit(static_capacity: Scalar, pitch_diameter: Scalar, family: 
     **Evidence:** [M], the simplified way of ISO 281. **Arguments:** N, m.
     """
     require_choice("family", family, _CONSTANTS)
+    require_numbers("> 0", static_capacity=static_capacity, pitch_diameter=pitch_diameter)
     divisor, power = (22.0, 0.5) if family == "ball" else (8.2, 0.3)
     large = jnp.maximum(jnp.asarray(pitch_diameter) / MILLIMETRE, 100.0)
     return static_capacity / divisor * (100.0 / large) ** power
@@ -100,4 +106,7 @@ def fatigue_load_limit(static_capacity: Scalar, pitch_diameter: Scalar, family: 
 def film_ratio(film: Values, roughness_a: Values, roughness_b: Values) -> Float[Array, "..."]:
     r"""$\Lambda = h/\sqrt{R_{q1}^2 + R_{q2}^2}$: below 1 mixed, above 3 full film. **Arguments:**
     `film`, the minimum one, m."""
-    return film / jnp.sqrt(jnp.square(roughness_a) + jnp.square(roughness_b))
+    require_numbers(">= 0", film=film, roughness_a=roughness_a, roughness_b=roughness_b)
+    roughness = jnp.sqrt(jnp.square(roughness_a) + jnp.square(roughness_b))
+    require_numbers("> 0", roughness=roughness)
+    return film / roughness

@@ -12,7 +12,7 @@ import numpy as np
 from jaxtyping import Array, Bool, Float
 
 from .._types import Scalar
-from ..numerics.arguments import require_count
+from ..numerics.arguments import require_count, require_numbers
 from .capacity import ball_size_ratio, groove_ratio, roller_ratio
 
 TINY = 1e-40
@@ -45,6 +45,7 @@ def ball_contact_capacities(
     **Arguments:** as `capacity.ball_capacity`; `capacity` C, N.
     """
     require_count("n_balls", n_balls)
+    require_numbers("> 0", capacity=capacity)
     gamma = ball_size_ratio(ball_diameter, pitch_diameter, contact_angle)
     ratio = groove_ratio(gamma, conformity_inner, conformity_outer, 1.044)
     share = capacity / (n_balls * jnp.cos(contact_angle))
@@ -62,6 +63,7 @@ def roller_contact_capacities(
     **Arguments:** as `capacity.roller_capacity`; `capacity` C, N.
     """
     require_count("n_rollers", n_rollers)
+    require_numbers("> 0", capacity=capacity, roller_diameter=roller_diameter)
     gamma = ball_size_ratio(roller_diameter, pitch_diameter, contact_angle)
     ratio = roller_ratio(gamma, 1.038)
     share = capacity / (REDUCTION * n_rollers * jnp.cos(contact_angle))
@@ -76,6 +78,12 @@ def _mean_power(relative: Array, turns: Bool[Array, ""], turning: float, resting
     return jnp.where(turns, rolled, jnp.mean(relative**resting, axis=0))
 
 
+def _require_loads(inner: Array, outer: Array, capacities: ContactCapacities) -> None:
+    """**Raises:** `ValueError` for negative loads, and for capacities that are not positive."""
+    require_numbers(">= 0", inner=inner, outer=outer)
+    require_numbers("> 0", **{f"capacities.{name}": value for name, value in capacities._asdict().items()})
+
+
 def ball_damage_rate(
     inner: Float[Array, " element"],
     outer: Float[Array, " element"],
@@ -88,6 +96,7 @@ def ball_damage_rate(
     **Evidence:** [C], see `ball_contact_capacities`. **Arguments:** loads of all contacts, N, zeros included; whether
     each ring turns against the load.
     """
+    _require_loads(inner, outer, capacities)
     rings = ((inner, capacities.inner, inner_turns), (outer, capacities.outer, outer_turns))
     each = [_mean_power(load / limit, turns, 3.0, 10.0 / 3.0) for load, limit, turns in rings]
     return _power(each[0] + each[1], 0.9)
@@ -125,6 +134,8 @@ def roller_damage_rate(
 
     **Arguments:** loads of all laminae, N; `factors` f_k on them.
     """
+    _require_loads(inner, outer, capacities)
+    require_numbers(">= 0", factors=factors)
     count = inner.shape[1]
     factor = jnp.asarray(factors)[None, :]
     rings = ((inner, capacities.inner, inner_turns), (outer, capacities.outer, outer_turns))

@@ -12,7 +12,8 @@ from .._types import Scalar
 from ..bearings.range_checks import BALL_PRESSURE, ROLLER_PRESSURE
 from ..contacts import LineContact, PointContact
 from ..materials import Material, reduced_modulus
-from ..numerics.arguments import require_angle, require_count
+from ..numerics.arguments import require_count, require_numbers
+from .capacity import CONFORMITIES, ball_size_ratio
 
 MOST_LOADED = 5.0
 """Load of the most loaded element over the mean, 5 F/(Z cos(alpha)): Stribeck's number for a little clearance."""
@@ -43,8 +44,9 @@ def ball_static_capacity(
     of the rating of steel. **Arguments:** as `capacity.ball_capacity`; `modulus` E' (`rated_modulus`), Pa.
     """
     require_count("n_balls", n_balls)
-    require_angle("contact_angle", contact_angle)
-    gamma = ball_diameter * jnp.cos(contact_angle) / pitch_diameter
+    require_numbers("> 0", modulus=modulus)
+    require_numbers(CONFORMITIES, conformity_inner=conformity_inner)
+    gamma = ball_size_ratio(ball_diameter, pitch_diameter, contact_angle)
     rolling = 0.5 * ball_diameter * (1.0 - gamma)
     transverse = conformity_inner * ball_diameter / (2.0 * conformity_inner - 1.0)
     load = PointContact(rolling, transverse, modulus).load_at_pressure(BALL_PRESSURE)
@@ -65,8 +67,8 @@ def roller_static_capacity(
     (`rated_modulus`), Pa.
     """
     require_count("n_rollers", n_rollers)
-    require_angle("contact_angle", contact_angle)
-    gamma = roller_diameter * jnp.cos(contact_angle) / pitch_diameter
+    require_numbers("> 0", roller_diameter=roller_diameter, length=length, modulus=modulus)
+    gamma = ball_size_ratio(roller_diameter, pitch_diameter, contact_angle)
     radius = 0.5 * jnp.asarray(roller_diameter) * (1.0 - gamma)
     load = LineContact(radius, length, modulus).load_at_pressure(ROLLER_PRESSURE)
     return n_rollers * jnp.cos(contact_angle) / MOST_LOADED * load

@@ -2,13 +2,12 @@
 
 from typing import ClassVar
 
-import equinox as eqx
 import jax.numpy as jnp
 
 from .._types import Batch, Scalar, Values
 from ..numerics.arguments import require_temperature
 from ..numerics.checks import Checked, bounded, known
-from ..numerics.structure import constant
+from ..numerics.structure import choice, constant
 
 EXPONENT_CAP = 60.0
 """Exponents are clipped to +-60 (26 decades): beyond, the law is constant and its gradient 0."""
@@ -41,13 +40,8 @@ class ExponentialRheology(Checked):
     stress: Scalar = bounded("> 0")
     stress_pressure: Scalar = bounded("finite")
     stress_temperature: Scalar = bounded("finite")
-    viscous_function: str | None = eqx.field(static=True, default=None)
+    viscous_function: str | None = choice("rheology.viscous_function", VISCOUS_FUNCTIONS, None)
     exponent: float | None = constant("rheology.exponent", None)
-
-    def __check_init__(self):
-        super().__check_init__()
-        if self.viscous_function is not None and self.viscous_function not in VISCOUS_FUNCTIONS:
-            raise ValueError(f"viscous_function: found {self.viscous_function!r}, expected one of {VISCOUS_FUNCTIONS}")
 
     def misfit(self, viscous_function: str, exponent: Values | None = None) -> tuple[str, ...]:
         """What a user should know of a traction law with this viscous function: nothing, or that the data were fitted

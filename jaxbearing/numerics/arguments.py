@@ -1,23 +1,64 @@
-"""Checks of the arguments of public functions, where they are known: choices, angles, temperatures, counts."""
+"""Checks of the arguments of public functions, where they are known: choices, numbers, angles, temperatures, counts."""
 
 import difflib
 from collections.abc import Iterable
 from typing import Any
 
 import jax
+import jax.numpy as jnp
 import numpy as np
 from jax.core import Tracer
+
+from .checks import RANGES
 
 COLDEST = 150.0
 """K; every lubricant is a solid there: a lower number is in another unit. There is no such limit above: the laws say
 how they go on."""
 
 
+_ARRAYS = np.generic | np.ndarray | jax.Array
+
+
 def _numbers(value: Any) -> np.ndarray | None:
     """The numbers of an argument; `None` where they are traced, or none of these."""
-    if isinstance(value, Tracer) or not isinstance(value, int | float | np.generic | np.ndarray | jax.Array):
+    if isinstance(value, Tracer) or not isinstance(value, int | float | _ARRAYS):
         return None
     return np.asarray(value)
+
+
+def _judged(name: str, value: Any) -> np.ndarray:
+    """The numbers of an argument; none of them where they are traced.
+
+    **Raises:** `ValueError` for what is no number, nor an array of numbers.
+    """
+    if isinstance(value, Tracer) or (hasattr(value, "dtype") and not isinstance(value, _ARRAYS)):
+        # what has a dtype and is no array stands in for a number (`jax.ShapeDtypeStruct`)
+        return np.empty(0)
+    numbers = _numbers(value)
+    if numbers is None or numbers.dtype.kind not in "iuf":
+        raise ValueError(f"{name} must be a number or an array of numbers, got {value!r}")
+    return numbers
+
+
+def require_numbers(bound: str, **values: Any) -> None:
+    """**Raises:** `ValueError` for what is no number, nor an array of numbers, within a bound of `checks.RANGES`. A NaN
+    of a failed solve passes, and so do traced values."""
+    for name, value in values.items():
+        numbers = _judged(name, value)
+        wrong = numbers[~(RANGES[bound].holds(numbers) | np.isnan(numbers))].ravel()
+        if len(wrong):
+            raise ValueError(f"{name} must be {bound}, got {float(wrong[0]):g}")
+
+
+def require_outside(verb: str, instead: str, *values: Any) -> None:
+    """Check of a function that cannot be part of a program of JAX. **Arguments:** `instead`: what to use there.
+
+    **Raises:** `ValueError` where JAX traces, as inside of `jax.jit`, and for traced values.
+    """
+    # inside of a program every new array is traced
+    traced = isinstance(jnp.zeros(()), Tracer) or any(isinstance(leaf, Tracer) for leaf in jax.tree.leaves(values))
+    if traced:
+        raise ValueError(f"{verb} was called inside of jit, vmap or grad, which it cannot be part of: {instead}")
 
 
 def require_choice(name: str, value: Any, choices: Iterable[str]) -> None:
@@ -32,8 +73,8 @@ def require_choice(name: str, value: Any, choices: Iterable[str]) -> None:
 
 def require_angle(name: str, value: Any) -> None:
     """**Raises:** `ValueError` for an angle, rad, that is not from 0 to below a right angle; degrees are not."""
-    angles = _numbers(value)
-    wrong = [] if angles is None else angles[~((angles >= 0.0) & (angles < 0.5 * np.pi))].ravel()
+    angles = _judged(name, value)
+    wrong = angles[~((angles >= 0.0) & (angles < 0.5 * np.pi))].ravel()
     if len(wrong):
         given = float(wrong[0])
         hint = f" ({given:g} degrees are {np.radians(given):.4g} rad)" if 0.0 < given < 90.0 else ""
@@ -43,8 +84,8 @@ def require_angle(name: str, value: Any) -> None:
 def require_temperature(value: Any, name: str = "temperature") -> None:
     """**Raises:** `ValueError` for a temperature below `COLDEST`, as one in degrees Celsius is. A NaN of a failed solve
     passes, and so do traced values, such as the trial values of a solver."""
-    given = _numbers(value)
-    wrong = [] if given is None else given[given < COLDEST].ravel()
+    given = _judged(name, value)
+    wrong = given[given < COLDEST].ravel()
     if len(wrong):
         first = float(wrong[0])
         hint = f" ({first:g} degC are {first + 273.15:g} K)" if first > -100.0 else ""

@@ -40,6 +40,8 @@ RANGES = {
     "finite": Interval(-np.inf, np.inf),
     "> 0": Interval(0.0, np.inf),
     ">= 0": Interval(0.0, np.inf, low_allowed=True),
+    "> 0 or infinite": Interval(0.0, np.inf, high_allowed=True),
+    ">= 0 or infinite": Interval(0.0, np.inf, True, True),
     "between 0 and 1": Interval(0.0, 1.0, True, True),
     "above 0 and below 1": Interval(0.0, 1.0),
     ">= 0 and below 1": Interval(0.0, 1.0, low_allowed=True),
@@ -94,7 +96,7 @@ class Checked(eqx.Module):
                 continue
             name = field.name if record is not None else field.metadata["name"] or field.name
             if value is None and field.default is not None:
-                raise ValueError(f"{part}.{name} must be one number, got None")
+                raise ValueError(f"{part}.{name}".lstrip(".") + " must be one number, got None")
             checks[name] = (value, bound)
         require(part, **checks)
 

@@ -3,13 +3,13 @@
 from collections.abc import Callable
 from typing import Any, Literal, NamedTuple, get_args
 
-import equinox as eqx
 from jaxtyping import Array, Float, Int
 
 from .._types import Scalar
 from .arrow import ArrowPoint
+from .checks import Checked, bounded
 from .precision import as_float
-from .structure import count
+from .structure import choice, count
 
 Solver = Literal["tsit5", "dopri8", "kvaerno3", "kvaerno4", "kvaerno5", "implicit_euler"]
 SOLVERS: tuple[str, ...] = get_args(Solver)
@@ -28,13 +28,7 @@ class NestedField(NamedTuple):
     guess: Callable[[Any, ArrowPoint, Any], ArrowPoint]
 
 
-def check_solver(name: str) -> None:
-    """**Raises:** `ValueError` for a name that is none of `SOLVERS`."""
-    if name not in SOLVERS:
-        raise ValueError(f"solver must be one of {', '.join(SOLVERS)}, got {name!r}")
-
-
-class IntegratorOptions(eqx.Module):
+class IntegratorOptions(Checked):
     """How to integrate.
 
     **Arguments:**
@@ -45,16 +39,11 @@ class IntegratorOptions(eqx.Module):
     - `shortest_step`: s; a run whose steps would have to be shorter has failed.
     """
 
-    solver: str = eqx.field(static=True, default="tsit5")
-    tolerance: Scalar = eqx.field(converter=as_float, default=1e-5)
-    max_steps: int = count("max_steps", 100_000)
-    elimination: str = eqx.field(static=True, default="arrow")
-    shortest_step: Scalar = eqx.field(converter=as_float, default=1e-14)
-
-    def __check_init__(self):
-        check_solver(self.solver)
-        if self.elimination not in ("arrow", "dense"):
-            raise ValueError(f"elimination must be 'arrow' or 'dense', got {self.elimination!r}")
+    solver: str = choice("solver", SOLVERS, "tsit5")
+    tolerance: Scalar = bounded("> 0", converter=as_float, default=1e-5)
+    max_steps: int = count("max_steps", 100_000, least=1)
+    elimination: str = choice("elimination", ("arrow", "dense"), "arrow")
+    shortest_step: Scalar = bounded("> 0", converter=as_float, default=1e-14)
 
 
 class Segment(NamedTuple):

@@ -70,10 +70,10 @@ class NewtonOptions(eqx.Module):
       lane; without further tries it waits for `max_steps` at most.
     """
 
-    residual_tolerance: float = constant("residual_tolerance", 1e-10)
-    step_tolerance: float = constant("step_tolerance", 1e-7)
-    inner_tolerance: float = constant("inner_tolerance", 1e-8)
-    max_steps: int = count("max_steps", 200)
+    residual_tolerance: float = constant("residual_tolerance", 1e-10, bound="> 0")
+    step_tolerance: float = constant("step_tolerance", 1e-7, bound="> 0")
+    inner_tolerance: float = constant("inner_tolerance", 1e-8, bound="> 0")
+    max_steps: int = count("max_steps", 200, least=1)
     further_tries: bool = switch("further_tries", True)
 
 

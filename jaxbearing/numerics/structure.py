@@ -1,7 +1,8 @@
-"""Fields that shape a program: plain Python numbers and truth values, static, never traced."""
+"""Fields that shape a program: plain Python numbers, truth values and words, static, never traced."""
 
 import dataclasses
 import math
+from collections.abc import Callable, Iterable
 from typing import Any
 
 import equinox as eqx
@@ -9,32 +10,68 @@ import jax
 import numpy as np
 from jax.core import Tracer
 
+from .arguments import require_choice
+from .checks import RANGES
+
 _WORDS = {int: "a whole number", float: "one finite number", bool: "True or False"}
 
 
-def count(name: str, default: Any = dataclasses.MISSING, **kwargs: Any) -> Any:
-    """Static field that holds a whole number; `name` as messages have it. `None` passes where it is the default."""
-    return _field(name, int, default, kwargs)
+def count(name: str, default: Any = dataclasses.MISSING, *, least: int | None = None, **kwargs: Any) -> Any:
+    """Static field that holds a whole number, not below `least`; `name` as messages have it. `None` passes where it is
+    the default."""
+
+    def read(value: Any) -> int:
+        return static_count(name, value, least)
+
+    return _field(read, default, kwargs)
 
 
-def constant(name: str, default: Any = dataclasses.MISSING, **kwargs: Any) -> Any:
-    """Static field that holds one finite number; `name` as messages have it. `None` passes where it is the default."""
-    return _field(name, float, default, kwargs)
+def constant(name: str, default: Any = dataclasses.MISSING, *, bound: str = "finite", **kwargs: Any) -> Any:
+    """Static field that holds one finite number within a bound of `checks.RANGES`; `name` as messages have it. `None`
+    passes where it is the default."""
+
+    def read(value: Any) -> float:
+        number = static_number(name, value, float)
+        if not RANGES[bound].holds(number):
+            raise ValueError(f"{name} must be {bound}, got {number:g}")
+        return number
+
+    return _field(read, default, kwargs)
 
 
 def switch(name: str, default: Any = dataclasses.MISSING, **kwargs: Any) -> Any:
     """Static field that holds `True` or `False`; `name` as messages have it. `None` passes where it is the default."""
-    return _field(name, bool, default, kwargs)
+    return _field(lambda value: static_number(name, value, bool), default, kwargs)
 
 
-def _field(name: str, kind: type, default: Any, kwargs: dict[str, Any]) -> Any:
+def choice(name: str, choices: Iterable[str], default: Any = dataclasses.MISSING, **kwargs: Any) -> Any:
+    """Static field that holds one of some words; `name` as messages have it. `None` passes where it is the default."""
+    words = tuple(choices)
+
+    def read(value: Any) -> str:
+        value = _untraced(name, value)
+        require_choice(name, value, words)
+        return str(value)
+
+    return _field(read, default, kwargs)
+
+
+def _field(read: Callable[[Any], Any], default: Any, kwargs: dict[str, Any]) -> Any:
     if default is not dataclasses.MISSING:
         kwargs["default"] = default
 
     def converter(value: Any) -> Any:
-        return None if value is None and default is None else static_number(name, value, kind)
+        return None if value is None and default is None else read(value)
 
     return eqx.field(static=True, converter=converter, **kwargs)
+
+
+def static_count(name: str, value: Any, least: int | None = None) -> int:
+    """The value as a Python `int`. **Raises:** `ValueError` as `static_number`, and below `least`."""
+    number = static_number(name, value, int)
+    if least is not None and number < least:
+        raise ValueError(f"{name} must be >= {least}, got {number}")
+    return number
 
 
 def static_number(name: str, value: Any, kind: type) -> Any:
@@ -42,15 +79,26 @@ def static_number(name: str, value: Any, kind: type) -> Any:
 
     **Raises:** `ValueError` for a traced value, and for a value of another kind.
     """
-    if isinstance(value, Tracer):
-        raise ValueError(
-            f"{name}: got a traced value, but it is structure: the program that JAX compiles depends on it. Give a "
-            "plain Python value, outside of jit, vmap and grad; each value compiles a program of its own"
-        )
-    if isinstance(value, np.generic | np.ndarray | jax.Array) and np.ndim(value) == 0:
-        value = np.asarray(value).item()
+    value = _untraced(name, value)
     is_bool = isinstance(value, bool)
     good = is_bool if kind is bool else not is_bool and isinstance(value, int if kind is int else int | float)
     if not good or not math.isfinite(value):
         raise ValueError(f"{name} must be {_WORDS[kind]}, got {value!r}")
     return kind(value)
+
+
+def _untraced(name: str, value: Any) -> Any:
+    """A numpy or JAX scalar as the Python value; any other as it is. **Raises:** `ValueError` for a traced value."""
+    if isinstance(value, Tracer):
+        raise ValueError(
+            f"{name}: got a traced value, but it is structure: the program that JAX compiles depends on it. Give a "
+            "plain Python value, outside of jit, vmap and grad; each value compiles a program of its own"
+        )
+    return plain(value)
+
+
+def plain(value: Any) -> Any:
+    """A numpy or JAX scalar as the Python value; any other as it is, a traced value too."""
+    if isinstance(value, np.generic | np.ndarray | jax.Array) and not isinstance(value, Tracer) and value.ndim == 0:
+        return np.asarray(value).item()
+    return value

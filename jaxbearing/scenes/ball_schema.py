@@ -23,8 +23,8 @@ class BallGeometryTable(Table):
     n_balls: units.Count
     pitch_diameter: units.PositiveLength
     ball_diameter: units.PositiveLength
-    conformity_inner: units.PositiveNumber
-    conformity_outer: units.PositiveNumber
+    conformity_inner: units.Conformity
+    conformity_outer: units.Conformity
     contact_angle: units.FlangeAngle | None = None
     diametral_clearance: units.NonNegativeLength | None = None
     shoulder_angle_inner: units.FlangeAngle | None = None

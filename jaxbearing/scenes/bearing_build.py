@@ -3,10 +3,12 @@
 from collections.abc import Callable
 from typing import Any, TypeVar
 
+import jax
+
 from ..bearings.cage import AbstractCage
 from ..numerics.refusals import refusals_of, refuse_all
 from .bearing_schema import BearingCageTable
-from .drafts import Unreadable
+from .drafts import STAND_IN, Unreadable
 from .table import Table
 from .turbulence import TURBULENCE
 
@@ -29,8 +31,8 @@ def built(kind: type[Part], **parts: Callable[[], Any]) -> Part:
         except Unreadable as error:
             unreadable = error
     refuse_all(problems)
-    if unreadable is not None:
-        raise unreadable
+    if unreadable is not None or any(leaf is STAND_IN for leaf in jax.tree.leaves(made)):
+        raise unreadable or Unreadable(kind.__name__)
     return kind(**made)
 
 

@@ -1,9 +1,12 @@
 """A table of a file as far as it is sound: so that one look at a file finds everything that is wrong with it."""
 
 import inspect
+import typing
 from collections.abc import Collection, Iterator, Mapping
 from typing import Any, TypeVar
 
+import jax
+import numpy as np
 from pydantic import TypeAdapter, ValidationError
 
 from .errors import SceneError, from_validation, in_words, nearest
@@ -11,6 +14,10 @@ from .fields import plain_table_at, type_at
 from .table import Table
 
 AnyTable = TypeVar("AnyTable", bound=Table)
+
+
+STAND_IN = jax.ShapeDtypeStruct((), np.dtype(np.float64))
+"""In the place of a number that is refused."""
 
 
 class Unreadable(Exception):
@@ -22,7 +29,7 @@ class Draft:
 
     A field that is refused raises `Unreadable`, so that what depends on it is left undecided. So does a field that the
     file does not have while it has an unknown name that may be meant for it. A table inside that is refused somewhere
-    is a draft itself if `nested` (for checks), otherwise `Unreadable` as a whole (for building parts).
+    is a draft itself if `nested` (for checks), otherwise `PartFields` (for building parts).
     """
 
     def __init__(self, model: type[Table], raw: Mapping[str, Any], refused: Collection[str] = (), nested: bool = False):
@@ -44,9 +51,15 @@ class Draft:
             return TypeAdapter(type_at(self._model, [name])).validate_python(self._raw[name], strict=True)
         except ValidationError:
             inner = plain_table_at(self._model, name)
-            if not self._nested or inner is None or not isinstance(self._raw[name], Mapping):
+            if inner is None or not isinstance(self._raw[name], Mapping):
                 raise Unreadable(name) from None
-            return Draft(inner, self._raw[name], nested=True)
+            inside = Draft(inner, self._raw[name], nested=True)
+            if self._nested:
+                return inside
+            if any(inside.problems()):
+                # the classes repeat some checks of the tables
+                raise Unreadable(name) from None
+            return PartFields(inner, inside)
 
     def problems(self, inside: str = "") -> Iterator[tuple[str, Mapping[str, str]]]:
         """Dotted path, and the words, of what the checks of this table and of those in it find."""
@@ -64,6 +77,34 @@ class Draft:
                 continue
             if isinstance(value, Draft):
                 yield from value.problems(f"{inside}{name}.")
+
+
+class PartFields:
+    """Stands for a table that is refused somewhere, for a part whose attributes are its fields: `STAND_IN` is in the
+    place of a number that is refused, so that the rules of the class that do not need it are checked all the same.
+    """
+
+    def __init__(self, model: type[Table], fields: Draft):
+        self._model, self._fields = model, fields
+
+    def __getattr__(self, name: str) -> Any:
+        raise Unreadable(name)
+
+    def model_dump(
+        self, include: Collection[str] | None = None, exclude: Collection[str] = (), exclude_none: bool = False
+    ) -> dict[str, Any]:
+        """The fields as those of a table. **Raises:** `Unreadable` where something else than a number is refused."""
+        fields: dict[str, Any] = {}
+        for name, info in self._model.model_fields.items():
+            if name in exclude or (include is not None and name not in include):
+                continue
+            try:
+                fields[name] = getattr(self._fields, name)
+            except Unreadable:
+                if float not in (info.annotation, *typing.get_args(info.annotation)):
+                    raise
+                fields[name] = STAND_IN
+        return {name: value for name, value in fields.items() if value is not None or not exclude_none}
 
 
 def read_table(model: type[AnyTable], raw: Mapping[str, Any], file: str) -> AnyTable:

@@ -58,8 +58,8 @@ def load_oil(name: str) -> Lubricant:
     **Raises:** `SceneError` for a name that the catalogue does not have.
     """
     if name not in oil_names():
-        near = nearest(name, oil_names())
-        raise SceneError(name, "name", f"'{name}'", f"an oil of the catalogue: {one_of(oil_names())}", near)
+        near = nearest(name, oil_names()) if isinstance(name, str) else ""
+        raise SceneError(str(name), "name", f"'{name}'", f"an oil of the catalogue: {one_of(oil_names())}", near)
     return lubricant(read_table(OilTable, with_catalogue({"name": name}), f"{name}.toml"))
 
 

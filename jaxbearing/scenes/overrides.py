@@ -5,13 +5,20 @@ import tomllib
 from collections.abc import Iterable, Mapping
 from typing import Any
 
+import jax
+import numpy as np
+from jax.core import Tracer
 from pydantic import BaseModel
 
+from ..numerics.structure import plain
 from .errors import SceneError, describe_at, in_words, unknown_name
 from .fields import is_known, names_at
 from .materials import CATALOGUE, MaterialTable, catalogue_table
 from .oil_files import base_of
+from .units import describe
 
+Overrides = Mapping[str, str | float | np.generic | np.ndarray | jax.Array]
+"""Dotted path of a field -> value as it would be typed, or a number or truth value of Python, numpy or JAX."""
 REMOVE = "none"
 """The value that takes an optional table or field out of the scene."""
 _NOT_QUITE_TOML = re.compile(r"[+-]?(?:\.[0-9]+|[0-9]+\.)(?:[eE][+-]?[0-9]+)?")
@@ -36,20 +43,27 @@ def split_assignments(assignments: Iterable[str]) -> dict[str, str]:
     return overrides
 
 
-def as_texts(overrides: Mapping[str, str | float] | None) -> dict[str, str]:
-    """Changes as they would be typed: a plain number or a truth value, from Python, as well.
+def as_texts(overrides: Overrides | None) -> dict[str, str]:
+    """Changes as they would be typed: a plain number or a truth value, from Python, numpy or JAX, as well.
 
     **Raises:** `SceneError` for a value of another kind.
     """
     texts = {}
+    if not isinstance(overrides, Mapping | None):
+        expected = "dotted paths with their values, e.g. {'operation.inner_speed': '12000 rpm'}"
+        raise SceneError("overrides", "", describe(overrides), expected)
     for path, value in (overrides or {}).items():
+        if not isinstance(path, str):
+            raise SceneError("overrides", str(path), describe(path), "a dotted path, e.g. 'operation.inner_speed'")
+        value = plain(value)
         if isinstance(value, bool):
             texts[path] = str(value).lower()
         elif isinstance(value, str | int | float):
             texts[path] = str(value)
         else:
             expected = "text as it would be typed ('12000 rpm'), or a plain number"
-            raise SceneError("overrides", path, f"a {type(value).__name__}", expected)
+            found = "a traced value" if isinstance(value, Tracer) else f"a {type(value).__name__}"
+            raise SceneError("overrides", path, found, expected)
     return texts
 
 
@@ -174,6 +188,11 @@ def _copy(table: Mapping[str, Any], file: str, above: tuple[str, ...] = ()) -> d
     if len(above) > MOST_DEEP:
         raise SceneError(file, ".".join(above), "a table nested too deeply", f"at most {MOST_DEEP} levels of tables")
     return {
-        key: _copy(value, file, (*above, str(key))) if isinstance(value, Mapping) else value
+        key: _copy(value, file, (*above, str(key))) if isinstance(value, Mapping) else _plain(value)
         for key, value in table.items()
     }
+
+
+def _plain(value: Any) -> Any:
+    """A value of a table, or a list of them, whose numbers may be numpy's or JAX's, with Python's."""
+    return [plain(one) for one in value] if isinstance(value, list) else plain(value)

@@ -17,7 +17,7 @@ from .line_contact_build import line_contact
 from .line_contact_schema import LineContactTable
 from .oil_files import Origin, origins
 from .oils import with_catalogue
-from .overrides import REMOVE, applied, apply, as_texts, parse_value
+from .overrides import REMOVE, Overrides, applied, apply, as_texts, parse_value
 from .roller_build import cylindrical_roller_bearing
 from .roller_schema import CylindricalRollerTable
 from .table import Table
@@ -47,7 +47,7 @@ def schema_of_kind(kind: str) -> tuple[type[BaseModel], type]:
     return model, typing.get_type_hints(build)["return"]
 
 
-def load_scene(source: str | Path, overrides: Mapping[str, str | float] | None = None) -> AbstractScene:
+def load_scene(source: str | Path, overrides: Overrides | None = None) -> AbstractScene:
     """A scene from a file or by the name of a built-in scene.
 
     **Arguments:**
@@ -63,7 +63,7 @@ def load_scene(source: str | Path, overrides: Mapping[str, str | float] | None =
     return scene_from_mapping(mapping, label, overrides)
 
 
-def oil_origins(source: str | Path, overrides: Mapping[str, str | float] | None = None) -> dict[str, Origin]:
+def oil_origins(source: str | Path, overrides: Overrides | None = None) -> dict[str, Origin]:
     """Where the laws of the oil come from, for a scene that `load_scene` takes with the same arguments."""
     label, mapping = read_tables(source)
     overrides = as_texts(overrides)
@@ -72,7 +72,7 @@ def oil_origins(source: str | Path, overrides: Mapping[str, str | float] | None 
 
 
 def scene_from_mapping(
-    mapping: Mapping[str, Any], origin: str = "scene", overrides: Mapping[str, str | float] | None = None
+    mapping: Mapping[str, Any], origin: str = "scene", overrides: Overrides | None = None
 ) -> AbstractScene:
     """A scene from the tables of a scene file, {"kind": ..., "geometry": {...}, ...}; `origin` names it in messages.
 

@@ -17,9 +17,9 @@ class TaperedGeometryTable(Table):
     n_rollers: units.Count
     roller_diameter: units.PositiveLength
     roller_length: units.PositiveLength
-    contact_angle: units.FlangeAngle
-    roller_half_angle: units.FlangeAngle
-    flange_angle: units.FlangeAngle
+    contact_angle: units.AcuteAngle
+    roller_half_angle: units.AcuteAngle
+    flange_angle: units.AcuteAngle
     end_radius: units.PositiveLength
 
 

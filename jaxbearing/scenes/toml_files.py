@@ -1,5 +1,6 @@
 """TOML files that a user names: whatever is wrong with one is a single `SceneError`."""
 
+import os
 import re
 import tomllib
 from collections.abc import Iterable
@@ -8,6 +9,7 @@ from typing import Any
 
 from .errors import SceneError, nearest
 from .input_files import LARGEST_TEXT, UnfitFileError, read_bytes
+from .units import describe, shortened
 
 
 def read_text(path: str | Path, expected: str, near: Iterable[str] = (), largest: int = LARGEST_TEXT) -> str:
@@ -19,6 +21,8 @@ def read_text(path: str | Path, expected: str, near: Iterable[str] = (), largest
     **Raises:** `SceneError`.
     """
     label = str(path)
+    if not isinstance(path, str | os.PathLike):
+        raise SceneError(shortened(label), "", describe(path), f"the path of {expected}")
     try:
         return read_bytes(path, largest).decode("utf-8-sig")
     except UnfitFileError as error:

@@ -259,6 +259,20 @@ def _flange_angle(value: Any) -> float:
     return angle
 
 
+def _acute_angle(value: Any) -> float:
+    angle = parse(value, ANGLE)
+    if not 0.0 < angle < math.pi / 2:
+        raise refusal("an angle above 0 deg and below 90 deg, e.g. '12.5 deg'", describe(value))
+    return angle
+
+
+def _conformity(given: Any) -> float:
+    value = number(given)
+    if not 0.5 < value <= 1.0:
+        raise refusal("a groove radius over ball diameter, above 0.5 and at most 1, without a unit", describe(given))
+    return value
+
+
 def _between(low: float, high: float) -> Callable[[Any], float]:
     def read(given: Any) -> float:
         value = number(given)
@@ -282,12 +296,15 @@ Numbers = Annotated[
     tuple[float, ...], BeforeValidator(lambda given: several(given, number, "a number, or a list of them"))
 ]
 PoissonRatio = Annotated[float, BeforeValidator(_between(0.0, 0.5))]
+Conformity = Annotated[float, BeforeValidator(_conformity)]
 Fraction = Annotated[float, BeforeValidator(_between(0.0, 1.0))]
 
 Length = Annotated[float, _quantity(LENGTH)]
 PositiveLength = Annotated[float, _quantity(LENGTH, "> 0")]
 FlangeAngle = Annotated[float, QuantityValidator(_flange_angle, dimension=ANGLE)]
 """From 0 to below 90 degrees."""
+AcuteAngle = Annotated[float, QuantityValidator(_acute_angle, dimension=ANGLE)]
+"""Above 0 and below 90 degrees."""
 NonNegativeLength = Annotated[float, _quantity(LENGTH, ">= 0")]
 Speed = Annotated[float, _quantity(SPEED)]
 SurfaceSpeed = Annotated[float, _quantity(SURFACE_SPEED)]

@@ -71,7 +71,7 @@ def test_inlet_oil():
 
 
 def test_rheology_refuses_an_unknown_viscous_function():
-    with pytest.raises(ValueError, match="viscous_function: found 'eyring'"):
+    with pytest.raises(ValueError, match=r"rheology\.viscous_function must be one of .*, got 'eyring'"):
         ExponentialRheology(300.0, 1e5, 0.0, 0.0, 1e6, 0.0, 0.0, viscous_function="eyring")
 
 

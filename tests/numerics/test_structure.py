@@ -3,7 +3,10 @@
 import dataclasses
 import importlib
 import pkgutil
+import types
+import typing
 import warnings
+from typing import Literal
 
 import equinox as eqx
 import jax
@@ -61,13 +64,47 @@ def test_other_kinds():
         FilmModel(inlet=np.inf)
 
 
+WORDS = [
+    ("turbine_ball", "kinematics.attitude", "inner"),
+    ("turbine_ball", "kinematics.orbit", "own"),
+    ("turbine_ball", "cage.guidance", "inner_ring"),
+    ("turbine_roller", "flange.ring", "both"),
+    ("turbine_roller", "ring_freedom", ("radial", "lateral")),
+    ("turbine_roller_dynamic", "simulation.solver", "dopri8"),
+    ("turbine_ball", "oil.rheology.viscous_function", "bair_winer"),
+    ("deep_groove_6205", "rating.cleanliness", "grease_high"),
+    ("deep_groove_6205", "rating.grooves", "scene"),
+    ("deep_groove_6205", "rating.tilt", "iso"),
+]
+
+
+@pytest.mark.parametrize(("name", "path", "word"), WORDS)
+def test_words(name, path, word):
+    """What is none of the words is refused by the name of the field, before it is looked at as a constant."""
+    scene = jb.load_scene(name, {"rating.cleanliness": "grease_normal"} if path.startswith("rating") else None)
+    field = path.removeprefix("oil.")
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        same = (word, np.str_(word), np.asarray(word)) if isinstance(word, str) else (word, list(word))
+        for given in same:
+            found = value_at(scene.replace({path: given}), path)
+            assert type(found) is type(word)
+            assert found == word
+        for wrong in (jnp.ones(2), jnp.asarray(1.0), np.ones(2), 3, True, [1.0], "", "innr", ("lateral",)):
+            with pytest.raises(ValueError, match=rf"{field} must be .*, got"):
+                scene.replace({path: wrong})
+        for transformed in (jax.jit, jax.vmap):
+            with pytest.raises(ValueError, match=rf"{field}(: got a traced value| must be)"):
+                transformed(lambda x: scene.replace({path: x}))(jnp.ones(2))
+
+
 PARTS = ("lubricants", "contacts", "gaps", "bearings", "machines", "ehl")
 INSIDE = ("System", "Core", "Problem", "Patch", "Fluid", "History", "State", "Solution", "Loads")
 """What the solvers make of a scene: their static numbers follow from fields that were checked."""
 
 
-def static_numbers():
-    """(class, field) of static fields annotated as a number or truth value, in what scenes are made of."""
+def static_fields():
+    """(class, field) of static fields in what scenes are made of."""
     for package in PARTS:
         folder = importlib.import_module(f"jaxbearing.{package}")
         for module in pkgutil.iter_modules(folder.__path__):
@@ -75,8 +112,33 @@ def static_numbers():
             for kind in vars(found).values():
                 if isinstance(kind, type) and issubclass(kind, eqx.Module) and kind.__module__ == found.__name__:
                     for field in dataclasses.fields(kind):
-                        if field.metadata.get("static") and field.type in (int, float, bool, int | None, float | None):
+                        if field.metadata.get("static"):
                             yield kind, field
+
+
+def static_numbers():
+    """(class, field) of those annotated as a number or truth value."""
+    for kind, field in static_fields():
+        if field.type in (int, float, bool, int | None, float | None):
+            yield kind, field
+
+
+def static_words():
+    """(class, field) of static fields that hold a word, in what scenes are made of."""
+    for kind in {kind for kind, _ in static_fields()}:
+        hints = typing.get_type_hints(kind)
+        for field in dataclasses.fields(kind):
+            hint = hints[field.name]
+            words = typing.get_args(hint) if isinstance(hint, types.UnionType) else (hint,)
+            if field.metadata.get("static") and (str in words or typing.get_origin(hint) is Literal):
+                yield kind, field
+
+
+def test_every_static_word_is_checked():
+    found = [(kind, field) for kind, field in static_words() if not kind.__name__.endswith((*INSIDE, "Parts"))]
+    unchecked = {f"{kind.__name__}.{field.name}" for kind, field in found if "converter" not in field.metadata}
+    assert not unchecked
+    assert len(found) > 8
 
 
 def test_every_static_number_is_checked():

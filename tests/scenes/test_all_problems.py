@@ -101,6 +101,28 @@ def test_of_the_classes():
     together("turbine_roller", CLASSES, {})
 
 
+@pytest.mark.parametrize(
+    ("name", "number", "rule"),
+    [
+        ("turbine_ball", {"geometry.conformity_inner": "0.4"}, {"geometry.n_balls": "40"}),
+        ("turbine_ball", {"geometry.conformity_outer": "wide"}, {"geometry.n_balls": "40"}),
+        ("turbine_roller", {"geometry.diametral_clearance": "9"}, {"geometry.n_rollers": "60"}),
+        ("deep_groove_6205", {"operation.inner_speed": "3"}, {"operation.radial_load": "0 N"}),
+    ],
+)
+def test_rules_of_a_class_that_do_not_need_the_number_that_is_refused(name, number, rule):
+    base = {"operation.axial_load": "none"} if name == "deep_groove_6205" else {}
+    alone = {path for fault in (number, rule) for path in refused(name, base | fault)}
+    found = refused(name, base | number | rule)
+    assert len(found) == len(alone)
+    assert set(found) == alone
+
+
+def test_rules_of_a_class_that_need_the_number_that_is_refused():
+    faults = {"geometry.ball_diameter": "9", "geometry.n_balls": "40"}
+    assert refused("turbine_ball", faults) == ["geometry.ball_diameter"]
+
+
 def test_what_depends_on_a_refused_field_is_left_undecided():
     # a contact_length that is longer than the roller, whose length is not known
     faults = {"geometry.contact_length": "15 mm", "geometry.roller_length": "14 N"}

@@ -147,6 +147,22 @@ def test_files_have_the_bounds_of_the_classes(name):
     assert checked > 5
 
 
+@pytest.mark.parametrize("name", ["turbine_roller_dynamic", "turbine_ball", "tapered_example", "satellite_contact_1"])
+def test_files_say_the_bounds(name):
+    """A number beyond its bound is refused by its own field, with its range: not as values that do not fit together."""
+    source = SceneSource.of(name)
+    for path, bound in bounds(name):
+        kind = type_at(source.model, path.split("."))
+        if kind is None or np.ndim(paths(scene(name))[path]):
+            continue
+        dimension = dimension_of(kind)
+        unit = "" if dimension is None else f" {dimension.si}"
+        for value in outside(RANGES[bound]):
+            with pytest.raises(jb.SceneError) as caught:
+                load_scene(name, {path: f"{float(value)!r}{unit}"})
+            assert all("fit together" not in one.expected for one in caught.value.problems), (path, value)
+
+
 def refuses(error, make):
     try:
         make()

@@ -3,6 +3,8 @@
 import dataclasses
 import tomllib
 
+import jax
+import jax.numpy as jnp
 import numpy as np
 import pytest
 
@@ -243,3 +245,25 @@ def test_numbers_from_python_stand_for_what_would_be_typed():
         load_scene("turbine_roller", {"contact.traction_model": ["mean_pressure"]})
     with pytest.raises(SceneError, match=r"operation\.inner_speed"):
         load_scene("turbine_roller", {"operation.inner_speed": 12000})
+
+
+def test_numbers_of_numpy_and_jax():
+    """They are the same numbers; arrays and traced values are no numbers of a file."""
+    mapping = {"geometry.n_balls": 12, "geometry.conformity_inner": 0.515625, "contact.heathcote": True}
+    plain = load_scene("turbine_ball", mapping)
+    for make in (np.asarray, jnp.asarray, lambda value: np.asarray(value)[()], lambda value: np.float32(value)):
+        changes = {path: make(value) if value == 0.515625 else np.asarray(value)[()] for path, value in mapping.items()}
+        found = load_scene("turbine_ball", changes)
+        assert found.geometry.n_balls == plain.geometry.n_balls
+        assert type(found.geometry.n_balls) is int
+        assert found.geometry.conformity_inner == plain.geometry.conformity_inner
+        assert found.contact.heathcote is True
+        assert found.replace(changes if make is np.asarray else {}).geometry.n_balls == 12
+    with pytest.raises(SceneError, match=r"geometry\.conformity_inner: found a ndarray; expected text"):
+        load_scene("turbine_ball", {"geometry.conformity_inner": np.ones(1)})
+    with pytest.raises(SceneError, match=r"geometry\.conformity_inner: found a traced value; expected text"):
+        jax.jit(lambda x: load_scene("turbine_ball", {"geometry.conformity_inner": x}).geometry.conformity_inner)(0.52)
+    # in the tables themselves, and in lists of them
+    tables = tomllib.loads(builtin_text("two_disk_etm"))
+    tables["operation"]["slide_to_roll"] = [np.int64(0), np.float32(0.25)]
+    assert list(scene_from_mapping(tables).operation.slide_to_roll) == [0.0, 0.25]
