@@ -150,3 +150,12 @@ def test_misaligned_roller():
     for errors in (errors for n, errors in module.laminae_errors().items() if n >= 30):
         assert np.max(errors) < 1e-8  # asked: 1e-4 of 30 laminae
     assert all(error < 1e-4 for n, (_, error) in module.solve_rows().items() if n != 10)
+
+
+@pytest.mark.usefixtures("optimized")
+def test_first_answer():
+    """Both programs of a solve agree, and a kept one answers the next process."""
+    module = script("first_answer")
+    assert module.program(module.SCENES[-1], 1).difference < 1e-9
+    (arguments, *_) = module.processes(quick=True).values()
+    assert all(one.well for one in module.cold_and_warm(arguments))

@@ -99,6 +99,8 @@ def test_the_whole_report(request):
     assert facts["fit: largest loss over the least, ours"] < 1e-6
     assert facts["sweep: same bits on any number of devices"] == 1.0
     assert facts["sweep: largest error"] < 1e-9
+    assert facts["first_answer: quick and optimised differ by"] < 1e-6
+    assert facts["first_answer: processes that failed"] == 0
     # times, but of one machine over its own: growth, not speed
     for kind in ("lubricated roller bearing", "core of a ball bearing"):
         assert facts[f"scaling: exponent over elements, {kind}"] < 1.15
