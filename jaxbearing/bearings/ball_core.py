@@ -187,6 +187,10 @@ class BallCore(AbstractBallSystem):
         return centre + self.inner_arm(shift, centre).in_plane
 
     @property
+    def side_by_side(self) -> bool:
+        return True
+
+    @property
     def paths(self) -> int:
         return 1 if self.gyroscopic is None else 2
 

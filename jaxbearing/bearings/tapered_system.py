@@ -30,6 +30,7 @@ from jaxtyping import Array, Bool, Float
 
 from ..contacts import AbstractTiltedLine
 from ..numerics.arrow import ArrowPoint
+from ..numerics.batching import in_turn
 from ..numerics.convex import AbstractConvexArrow, Minimum, anchored, find_minimum
 from ..numerics.safe import positive_power
 from .roller_loads import LENGTH_UNIT
@@ -207,17 +208,7 @@ class TaperedSystem(AbstractConvexArrow):
     def started(self, hopeless: Bool[Array, ""]) -> tuple["TaperedSystem", Minimum]:
         """These equations with the minimum of the potential as first guess, that with more inertia as another one, and
         how the first was found; `hopeless`: known to have none."""
-        posed = jax.lax.stop_gradient(self)
-        start = posed.initial()
-        nothing = Minimum(start, jnp.asarray(0), jnp.asarray(False))
-
-        def search(ease: Array) -> Minimum:
-            # where it is fast enough the second one is the first
-            there = dataclasses.replace(posed.eased(ease, jnp.asarray(0)), guess=start)
-            find = lambda: find_minimum(there, tolerance=START_TOLERANCE, hopeless=hopeless)
-            return jax.lax.cond((ease > 0.0) & ((posed._slowness() <= 1.0) | hopeless), lambda: nothing, find)
-
-        both = jax.lax.map(search, jnp.asarray([0.0, 1.0]))
+        both = in_turn(_minima, jax.lax.stop_gradient((self, hopeless)))
         found, seated = (jax.tree.map(lambda leaf, i=i: leaf[i], both) for i in (0, 1))
         system = dataclasses.replace(self, guess=found.point, seated=seated.point)
         return system, found._replace(steps=found.steps + seated.steps)
@@ -275,3 +266,18 @@ class TaperedSystem(AbstractConvexArrow):
         form, outer = self.form, state.load[1]
         axial, radial = outer * jnp.sin(form.cup_angle), outer * jnp.cos(form.cup_angle)
         return jnp.stack([axial, radial, state.moment[1] - form.apex_distance * outer])
+
+
+def _minima(given: tuple[TaperedSystem, Bool[Array, ""]]) -> Minimum:
+    """Of a system, and of the one with more inertia, along a first axis."""
+    posed, hopeless = given
+    start = posed.initial()
+    nothing = Minimum(start, jnp.asarray(0), jnp.asarray(False))
+
+    def search(ease: Array) -> Minimum:
+        # where it is fast enough the second one is the first
+        there = dataclasses.replace(posed.eased(ease, jnp.asarray(0)), guess=start)
+        find = lambda: find_minimum(there, tolerance=START_TOLERANCE, hopeless=hopeless)
+        return jax.lax.cond((ease > 0.0) & ((posed._slowness() <= 1.0) | hopeless), lambda: nothing, find)
+
+    return jax.lax.map(search, jnp.asarray([0.0, 1.0]))

@@ -21,6 +21,7 @@ from jaxtyping import Array, Float
 
 from ..contacts import AbstractTiltedLine
 from ..numerics.arrow import ArrowPoint
+from ..numerics.batching import in_turn
 from ..numerics.convex import AbstractConvexArrow, Minimum, anchored, find_minimum
 from .roller_loads import LENGTH_UNIT
 from .tapered_system import ANCHOR, FARTHEST, LOAD_FLOOR, LONGEST_STEP, MOST_TILT, START_TOLERANCE
@@ -119,23 +120,7 @@ class TiltingRollers(AbstractConvexArrow):
         there seated on the outer race: a centrifugal force that is next to nothing asks for approaches that are, and
         the search does not find such a place from afar.
         """
-        posed = jax.lax.stop_gradient(self)
-        slow = posed.centrifugal < SLOW * posed.load_scale() / posed.azimuth.size
-        resting = dataclasses.replace(posed, centrifugal=jnp.where(slow, 0.0, posed.centrifugal))
-
-        def search(carry: tuple[ArrowPoint, Array], centrifugal: Array) -> tuple[tuple[ArrowPoint, Array], Minimum]:
-            guess, steps = carry
-            found = find_minimum(
-                dataclasses.replace(posed, guess=guess, centrifugal=centrifugal), tolerance=START_TOLERANCE
-            )
-            seated = posed.seated(found.point)
-            guess = ArrowPoint(*(jnp.where(slow, new, old) for new, old in zip(seated, found.point, strict=True)))
-            return (guess, steps + found.steps), found
-
-        first = (resting.initial(), jnp.asarray(0))
-        both = jnp.stack([resting.centrifugal, posed.centrifugal])
-        (_, steps), founds = jax.lax.scan(search, first, both)
-        found = jax.tree.map(lambda leaf: leaf[-1], founds)._replace(steps=steps)
+        found = in_turn(_minimum, jax.lax.stop_gradient(self))
         return dataclasses.replace(self, guess=found.point), found
 
     def seated(self, point: ArrowPoint) -> ArrowPoint:
@@ -176,3 +161,23 @@ class TiltingRollers(AbstractConvexArrow):
     def ring_force(self, state: TiltingState) -> Float[Array, "2 roller"]:
         """Force on each roller, N, and moment about its middle, N m, conjugate to (towards the roller, slope)."""
         return jnp.stack([state.load[0], state.moment[0] - 0.5 * self.line.length * state.load[0]])
+
+
+def _minimum(posed: TiltingRollers) -> Minimum:
+    """See `TiltingRollers.started`."""
+    slow = posed.centrifugal < SLOW * posed.load_scale() / posed.azimuth.size
+    resting = dataclasses.replace(posed, centrifugal=jnp.where(slow, 0.0, posed.centrifugal))
+
+    def search(carry: tuple[ArrowPoint, Array], centrifugal: Array) -> tuple[tuple[ArrowPoint, Array], Minimum]:
+        guess, steps = carry
+        found = find_minimum(
+            dataclasses.replace(posed, guess=guess, centrifugal=centrifugal), tolerance=START_TOLERANCE
+        )
+        seated = posed.seated(found.point)
+        guess = ArrowPoint(*(jnp.where(slow, new, old) for new, old in zip(seated, found.point, strict=True)))
+        return (guess, steps + found.steps), found
+
+    first = (resting.initial(), jnp.asarray(0))
+    both = jnp.stack([resting.centrifugal, posed.centrifugal])
+    (_, steps), founds = jax.lax.scan(search, first, both)
+    return jax.tree.map(lambda leaf: leaf[-1], founds)._replace(steps=steps)

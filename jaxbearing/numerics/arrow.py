@@ -54,6 +54,11 @@ class AbstractArrowSystem(eqx.Module):
         return True
 
     @property
+    def side_by_side(self) -> bool:
+        """Whether the lanes of a batch are better solved all at once on a CPU: a small program without branches."""
+        return False
+
+    @property
     def rounding(self) -> float:
         """Factor by which rounding may keep the scaled residual above its tolerance at a root."""
         return 1.0

@@ -20,6 +20,7 @@ from .arrow import (
     solve_arrow,
     uphill_step,
 )
+from .batching import in_turn
 from .status import Status
 from .structure import constant, count, switch
 
@@ -358,17 +359,35 @@ def _advance_path(
     return new, restart, _choose(begin, first, solved), ended
 
 
+class _End(NamedTuple):
+    """What is kept of where an iteration ended."""
+
+    trial: ArrowPoint
+    equations: Equations
+    jacobian: ArrowJacobian
+    status: Int[Array, ""]
+    iterations: Int[Array, ""]
+
+
+def _ended(system: AbstractArrowSystem, options: NewtonOptions) -> _End:
+    def search(system: AbstractArrowSystem) -> _End:
+        end = _iterate(system, options)
+        return _End(end.trial, end.equations, end.jacobian, end.status, end.iterations)
+
+    return search(system) if system.side_by_side else in_turn(search, system)
+
+
 class _Root(NamedTuple):
     point: ArrowPoint
     jacobian: ArrowJacobian
     solved: Bool[Array, ""]
-    end: _Iterate
+    end: _End
 
 
 @eqx.filter_custom_jvp
 def _root(system: AbstractArrowSystem, *, options: NewtonOptions) -> _Root:
     """The root with the Jacobian there; of a lane that failed, a finite point and where the iteration gave up."""
-    end = _iterate(system, options)
+    end = _ended(system, options)
     solved = end.status == Status.CONVERGED
     # The last Newton step is taken, not only measured: it squares the remaining error.
     step = solve_arrow(end.jacobian, end.equations.residual)

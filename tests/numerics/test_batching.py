@@ -1,0 +1,108 @@
+"""Lanes of a search one after the other under every combination of `vmap` and derivatives, with right values."""
+
+import jax
+import jax.numpy as jnp
+import numpy as np
+import pytest
+from springs import Springs, flat, springs
+
+from jaxbearing.numerics.batching import in_turn
+from jaxbearing.numerics.newton import newton_solve
+
+SCALES = jnp.array([0.5, 1.0, 2.0])
+STIFFNESS = jnp.array([1.0, 1.2, 1.5])
+
+
+def size(scale, stiffness=1.0):
+    """Of the root of a system: a sum of squares."""
+    plain = springs(m=2, g=2, n=4)
+    system = Springs(stiffness * plain.stiffness, scale * plain.load, m=2)
+    return jnp.sum(jnp.square(flat(newton_solve(system)[1].point)))
+
+
+def one_by_one(function, *batches):
+    return jnp.stack([function(*lane) for lane in zip(*batches, strict=True)])
+
+
+CASES = {
+    "vmap": (lambda: jax.vmap(size)(SCALES), lambda: one_by_one(size, SCALES)),
+    "jit(vmap)": (lambda: jax.jit(jax.vmap(size))(SCALES), lambda: one_by_one(size, SCALES)),
+    "nested": (
+        lambda: jax.vmap(lambda k: jax.vmap(lambda s: size(s, k))(SCALES))(STIFFNESS),
+        lambda: jnp.stack([one_by_one(lambda s, k=k: size(s, k), SCALES) for k in STIFFNESS]),
+    ),
+    "vmap(grad)": (lambda: jax.vmap(jax.grad(size))(SCALES), lambda: one_by_one(jax.grad(size), SCALES)),
+    "grad(vmap)": (
+        lambda: jax.grad(lambda s: jnp.sum(jax.vmap(size)(s)))(SCALES),
+        lambda: one_by_one(jax.grad(size), SCALES),
+    ),
+    "grad(vmap), shared": (
+        lambda: jax.grad(lambda k: jnp.sum(jax.vmap(size, (0, None))(SCALES, k)))(1.2),
+        lambda: jnp.sum(one_by_one(lambda s: jax.grad(size, 1)(s, 1.2), SCALES)),
+    ),
+    "vmap(jit(grad))": (
+        lambda: jax.vmap(jax.jit(jax.grad(size, 1)))(SCALES, STIFFNESS),
+        lambda: one_by_one(jax.grad(size, 1), SCALES, STIFFNESS),
+    ),
+    "jacfwd(vmap)": (
+        lambda: jnp.diagonal(jax.jacfwd(jax.vmap(size))(SCALES)),
+        lambda: one_by_one(jax.grad(size), SCALES),
+    ),
+    "vmap(hessian)": (lambda: jax.vmap(jax.hessian(size))(SCALES), lambda: one_by_one(jax.hessian(size), SCALES)),
+}
+
+
+@pytest.mark.parametrize("case", CASES)
+def test_combinations(case):
+    batched, single = CASES[case]
+    np.testing.assert_allclose(batched(), single(), rtol=1e-10)
+
+
+def test_slopes_are_those_of_differences():
+    step = 1e-5
+    found = jax.vmap(jax.grad(size))(SCALES)
+    np.testing.assert_allclose(
+        found, (jax.vmap(size)(SCALES + step) - jax.vmap(size)(SCALES - step)) / (2 * step), 1e-7
+    )
+
+
+def test_lanes_take_turns():
+    """A lane that needs many steps keeps no other waiting: each body of the loop runs as often as its lane asks."""
+    counted = []
+
+    def search(limit):
+        def step(state):
+            jax.debug.callback(lambda: counted.append(1))
+            return state + 1.0
+
+        return jax.lax.while_loop(lambda state: state < limit, step, 0.0)
+
+    limits = jnp.array([1.0, 2.0, 30.0])
+    np.testing.assert_array_equal(jax.vmap(lambda limit: in_turn(search, limit))(limits), limits)
+    jax.effects_barrier()
+    assert len(counted) == 33
+    counted.clear()
+    jax.vmap(search)(limits)
+    jax.effects_barrier()
+    assert len(counted) > 33
+
+
+def test_on_other_devices_lanes_go_side_by_side(monkeypatch):
+    monkeypatch.setattr(jax, "default_backend", lambda: "gpu")
+    text = jax.make_jaxpr(jax.vmap(size))(SCALES)
+    monkeypatch.undo()
+    mapped = jax.make_jaxpr(jax.vmap(size))(SCALES)
+    loops = lambda program: str(program).count("scan[")
+    assert loops(mapped) == loops(text) + 1
+
+
+def test_a_lane_that_fails_harms_no_other():
+    def solved(flaw, scale):
+        _, result = newton_solve(springs(m=2, g=2, n=4, scale=scale, flaw=flaw))
+        return result.status, flat(result.point)
+
+    status, points = jax.vmap(solved)(jnp.array([0.0, 1.0, 0.0]), SCALES)
+    assert list(status == 0) == [True, False, True]
+    np.testing.assert_allclose(points[2], solved(0.0, 2.0)[1], rtol=1e-12)
+    slope = jax.vmap(jax.grad(lambda scale, flaw: jnp.sum(solved(flaw, scale)[1])))(SCALES, jnp.array([0.0, 1.0, 0.0]))
+    assert np.all(np.isfinite(slope))
