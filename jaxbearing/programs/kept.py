@@ -16,6 +16,8 @@ import importlib.metadata
 import os
 import pickle
 import tempfile
+import threading
+import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, nullcontext, suppress
 from pathlib import Path
@@ -36,6 +38,8 @@ ROOT = Path(__file__).parents[2]
 """Folder of the packages."""
 MOST_BYTES = 500_000_000
 """Size of all files together from which on those that were used longest ago are removed."""
+ABANDONED = 3600.0
+"""Age from which on a file that is still being written belongs to a process that was killed, s."""
 _LIBRARIES = ("jax", "jaxlib", "equinox", "optimistix", "lineax", "diffrax", "numpy")
 _MAGIC = b"jaxbearing program 1\n"
 _SETTINGS = ("jax_enable_x64", "jax_default_matmul_precision", "jax_disable_most_optimizations")
@@ -169,20 +173,25 @@ def _setting(name: str) -> Any:
     return getattr(jax.config, name, None)
 
 
+_COMPILING = threading.Lock()
+"""Held while JAX's cache is off: another thread must not switch it on."""
+
+
 @contextmanager
 def _without_jax_cache() -> Iterator[None]:
     """Compiles inside the block are neither read from JAX's own cache nor written to it: a program that was loaded
     from there cannot be serialised again (its functions are then not found), and would be kept twice."""
-    if not _setting("jax_compilation_cache_dir") or not _setting("jax_enable_compilation_cache"):
-        yield
-        return
-    jax.config.update("jax_enable_compilation_cache", False)
-    reset_cache()
-    try:
-        yield
-    finally:
-        jax.config.update("jax_enable_compilation_cache", True)
+    with _COMPILING:
+        if not _setting("jax_compilation_cache_dir") or not _setting("jax_enable_compilation_cache"):
+            yield
+            return
+        jax.config.update("jax_enable_compilation_cache", False)
         reset_cache()
+        try:
+            yield
+        finally:
+            jax.config.update("jax_enable_compilation_cache", True)
+            reset_cache()
 
 
 def _calls_host(jaxpr: Any) -> bool:
@@ -274,6 +283,10 @@ def _keep(path: Path, ready: _Ready) -> None:
 
 
 def _make_room(folder: Path, size: int) -> None:
+    """The files that were used longest ago go, and what killed processes left half written."""
+    for path in folder.glob("*.part"):
+        if path.stat().st_mtime < time.time() - ABANDONED:
+            path.unlink(missing_ok=True)
     files = sorted((path.stat().st_mtime, path.stat().st_size, path) for path in folder.glob(f"*{SUFFIX}"))
     excess = sum(size for _, size, _ in files) + size - MOST_BYTES
     for _, size, path in files:

@@ -145,6 +145,17 @@ def test_the_oldest_go(folder, monkeypatch):
     assert not first.exists()
 
 
+def test_what_a_killed_process_left_goes(folder):
+    ask()
+    (first,) = folder()
+    old, young = first.with_name("a.part"), first.with_name("b.part")
+    for file in (old, young):
+        file.write_bytes(b"half")
+    os.utime(old, (1.0, 1.0))
+    ask(quick=False)
+    assert (old.exists(), young.exists()) == (False, True)
+
+
 def test_programs_that_call_python_are_not_kept(folder):
     assert float(KeptProgram(called, True)(jnp.asarray(3.0))) == 6.0
     assert folder() == []
