@@ -68,7 +68,7 @@ def test_a_changed_file_of_the_package_is_seen(tmp_path):
     file = next(path for path in kept._below(kept.ROOT / "jaxbearing") if path.name == "roots.py")
     about = file.stat()
     try:
-        os.utime(file, ns=(about.st_atime_ns, about.st_mtime_ns + 1))
+        os.utime(file, ns=(about.st_atime_ns, about.st_mtime_ns + 10**7))
         assert kept._files.__wrapped__() != before
     finally:
         os.utime(file, ns=(about.st_atime_ns, about.st_mtime_ns))
