@@ -109,4 +109,6 @@ def _kind(name: str) -> type | None:
     if not isinstance(found, type) or found.__module__ != module:
         return None
     named_tuple = issubclass(found, tuple) and hasattr(found, "_fields")
-    return found if named_tuple or (issubclass(found, eqx.Module) and dataclasses.is_dataclass(found)) else None
+    parameters = vars(found).get("__dataclass_params__")
+    fields_alone = parameters is not None and (issubclass(found, eqx.Module) or parameters.frozen)
+    return found if named_tuple or fields_alone else None
