@@ -106,6 +106,7 @@ class KeptProgram:
         self._function, self._quick = function, quick
         self._plain = quickly_compiled(function) if quick else eqx.filter_jit(function)
         self._ready: dict[Any, _Ready] = {}
+        self._never: set[Any] = set()
 
     def __call__(self, *args: Any) -> Any:
         leaves, structure = jax.tree.flatten(args)
@@ -116,23 +117,23 @@ class KeptProgram:
     def ready(self, structure: Any, leaves: list[Any]) -> Callable[[list[Any]], Any] | None:
         """The program for arguments of this structure: a function of their leaves, arrays of the same shapes and equal
         others; loaded, or made and kept. `None` where programs like it are not kept."""
-        key = (structure, tuple((leaf.shape, leaf.dtype) if _is_array(leaf) else leaf for leaf in leaves))
+        key = (structure, tuple((leaf.shape, leaf.dtype) if _is_array(leaf) else (type(leaf), leaf) for leaf in leaves))
         found = self._ready.get(key)
-        if found is None:
-            found = self._prepared(structure, leaves)
+        if found is None and key not in self._never:
+            try:
+                found = self._prepared(structure, leaves)
+            except NotKept:
+                self._never.add(key)
             if found is not None:
                 self._ready[key] = found
         return found
 
     def _prepared(self, structure: Any, leaves: list[Any]) -> _Ready | None:
-        """The program, loaded or made and kept; `None` where programs like it are not kept."""
+        """The program, loaded or made and kept; `None` where none is. **Raises:** `NotKept`."""
         folder = _folder()
         if folder is None:
             return None
-        try:
-            path = folder / self._name(structure, leaves)
-        except NotKept:
-            return None
+        path = folder / self._name(structure, leaves)
         with without_false_alarms() if compiler_is_loud() else nullcontext():
             ready = _loaded(path)
             if ready is None:
