@@ -8,6 +8,7 @@ from typing import Any, overload
 import equinox as eqx
 import jax
 import jax.numpy as jnp
+import numpy as np
 from jax.core import Tracer
 
 from ._checks import Checks
@@ -152,7 +153,7 @@ def _compiling_quietly(scene: AbstractScene) -> Iterator[None]:
 
 
 def solve_once(scene: AbstractScene) -> Any:
-    """What the commands call: `solve` of a scene, which does not raise where the solve fails."""
+    """Solves a scene as the commands do: a solve that fails does not raise."""
     return solve(scene, throw=False)
 
 
@@ -176,13 +177,15 @@ def jit_solver(scene: AbstractScene, *, options: NewtonOptions | None = None) ->
     def compiled(numbers: list[Any]) -> Any:
         return _solve_any(jax.tree.unflatten(structure, numbers), chosen)
 
+    shapes, kept = [np.shape(number) for number in numbers], []
+
     def answer(numbers: list[Any]) -> Any:
-        """Of the kept program; of one of JAX's where something is traced, or where programs are not kept."""
-        if not any(isinstance(number, Tracer) for number in numbers):
-            kept = _solve_optimised.ready(arguments, numbers)
-            if kept is not None:
-                return kept(numbers)
-        return compiled(numbers)
+        """Asks the kept program, or JAX's own where a number is traced or batched and where programs are not kept."""
+        if any(isinstance(number, Tracer) for number in numbers) or [np.shape(one) for one in numbers] != shapes:
+            return compiled(numbers)
+        if not kept:  # looked for once, at the first call
+            kept.append(_solve_optimised.ready(arguments, numbers) or compiled)
+        return kept[0](numbers)
 
     # of leaves that a changed copy has in common with it
     own = jax.tree.unflatten(structure, given)

@@ -1,6 +1,7 @@
 """`jb.solve` says nothing on stderr, whatever the compiler of JAX finds remarkable."""
 
 import os
+import re
 import subprocess
 import sys
 
@@ -48,5 +49,8 @@ def test_nothing_but_what_the_program_itself_says(order, cache):
 
 
 def test_the_level_of_the_user_stands(cache):
-    """And shows that there is something to hold back."""
-    assert "cpu_aot_loader" in stderr_of("jaxbearing", cache, TF_CPP_MIN_LOG_LEVEL="0")
+    """XLA says what it does, whatever the processor; the loader complains on those only whose gathers LLVM tunes (the
+    complaint did not come on an older EPYC, with the package as it was either)."""
+    said = stderr_of("jaxbearing", cache, TF_CPP_MIN_LOG_LEVEL="0")
+    assert re.search(r"^I\d{4} .*\b(pjrt_client|cpu_aot_loader)\.cc:\d+\]", said, flags=re.MULTILINE), said
+    assert said.endswith("done\n")

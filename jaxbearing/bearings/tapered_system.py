@@ -269,7 +269,7 @@ class TaperedSystem(AbstractConvexArrow):
 
 
 def _minima(given: tuple[TaperedSystem, Bool[Array, ""]]) -> Minimum:
-    """Of a system, and of the one with more inertia, along a first axis."""
+    """Finds the minima of a system and of the one with more inertia, along a first axis."""
     posed, hopeless = given
     start = posed.initial()
     nothing = Minimum(start, jnp.asarray(0), jnp.asarray(False))

@@ -164,7 +164,7 @@ class TiltingRollers(AbstractConvexArrow):
 
 
 def _minimum(posed: TiltingRollers) -> Minimum:
-    """See `TiltingRollers.started`."""
+    """Finds the minimum that `TiltingRollers.started` begins with."""
     slow = posed.centrifugal < SLOW * posed.load_scale() / posed.azimuth.size
     resting = dataclasses.replace(posed, centrifugal=jnp.where(slow, 0.0, posed.centrifugal))
 

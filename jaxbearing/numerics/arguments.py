@@ -5,11 +5,11 @@ from collections.abc import Iterable
 from typing import Any
 
 import jax
-import jax.numpy as jnp
 import numpy as np
 from jax.core import Tracer
 
 from .checks import RANGES
+from .compiling import inside_a_program
 
 COLDEST = 150.0
 """K; every lubricant is a solid there: a lower number is in another unit. There is no such limit above: the laws say
@@ -55,9 +55,7 @@ def require_outside(verb: str, instead: str, *values: Any) -> None:
 
     **Raises:** `ValueError` where JAX traces, as inside of `jax.jit`, and for traced values.
     """
-    # inside of a program every new array is traced
-    traced = isinstance(jnp.zeros(()), Tracer) or any(isinstance(leaf, Tracer) for leaf in jax.tree.leaves(values))
-    if traced:
+    if inside_a_program(values):
         raise ValueError(f"{verb} was called inside of jit, vmap or grad, which it cannot be part of: {instead}")
 
 

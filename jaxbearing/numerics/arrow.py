@@ -55,7 +55,7 @@ class AbstractArrowSystem(eqx.Module):
 
     @property
     def side_by_side(self) -> bool:
-        """Whether the lanes of a batch are better solved all at once on a CPU: a small program without branches."""
+        """True if the lanes of a batch are better solved all at once on a CPU: small programs without branches are."""
         return False
 
     @property

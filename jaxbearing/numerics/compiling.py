@@ -84,14 +84,19 @@ def quick_options() -> dict[str, Any]:
     return _QUICK if known(_QUICK) else {name: value for name, value in _QUICK.items() if known({name: value})}
 
 
+def is_tracing() -> bool:
+    """True while JAX traces a program: every new array is traced then."""
+    return isinstance(jnp.zeros(()), Tracer)
+
+
 def inside_a_program(arguments: Any) -> bool:
     """True while a program is being traced, or where one of the arguments is differentiated or batched: JAX takes
     options of the compiler only from the outermost call, which is then not ours."""
-    return any(isinstance(leaf, Tracer) for leaf in jax.tree.leaves(arguments)) or isinstance(jnp.zeros(()), Tracer)
+    return any(isinstance(leaf, Tracer) for leaf in jax.tree.leaves(arguments)) or is_tracing()
 
 
 def compiled_by_hand(function: Callable[..., Any]) -> Callable[..., Any]:
-    """A law with a loop inside, compiled once for each shape where it is called by hand: JAX would compile the loop at
+    """Compiles a law with a loop inside once for each shape where it is called by hand: JAX would compile the loop at
     every call. Plain numbers are arrays then. Inside a program nothing changes."""
     compiled = eqx.filter_jit(function)
 
@@ -100,7 +105,7 @@ def compiled_by_hand(function: Callable[..., Any]) -> Callable[..., Any]:
 
     @functools.wraps(function)
     def call(*args: Any, **kwargs: Any) -> Any:
-        if isinstance(jnp.zeros(()), Tracer):
+        if is_tracing():
             return function(*args, **kwargs)
         args, kwargs = jax.tree.map(number, (args, kwargs))
         return compiled(*args, **kwargs)

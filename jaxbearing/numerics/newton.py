@@ -291,8 +291,9 @@ def _iterate(system: AbstractArrowSystem, options: NewtonOptions) -> _Iterate:
             jacobian=jacobian,
         )
 
-    start = easiest = system.initial()
-    if paths:
+    if not paths:
+        start = easiest = system.initial()
+    else:
         ease, way = jnp.asarray([0.0] + [1.0] * paths), jnp.asarray([0, *range(paths)])
         guesses = jax.vmap(lambda e, w: system.eased(e, w).initial())(ease, way)
         start, easiest = (jax.tree.map(lambda leaf, i=i: leaf[i], guesses) for i in (0, slice(1, None)))
@@ -360,7 +361,7 @@ def _advance_path(
 
 
 class _End(NamedTuple):
-    """What is kept of where an iteration ended."""
+    """The end of an iteration: only this is stacked over the lanes of a batch."""
 
     trial: ArrowPoint
     equations: Equations

@@ -1,14 +1,16 @@
-"""What a program is made from, in words that are the same in every process."""
+"""Describes what a program is made from, in words that are the same in every process."""
 
 import dataclasses
 import enum
 import types
 from collections.abc import Iterator, Mapping
-from typing import Any
+from typing import Any, TypeAlias
 
 import equinox as eqx
 import jax
 
+Structure: TypeAlias = Any
+"""A `PyTreeDef` of JAX, for which type checkers have no type."""
 OWN = ("jaxbearing", "fitting")
 _KNOWN = (*OWN, "equinox", "jax", "jaxlib", "numpy", "builtins")
 """Packages whose code is part of the key of a kept program, by their versions or their files."""
@@ -18,15 +20,15 @@ class NotKept(Exception):
     """A program depends on code that is not known here, such as a law of the user's own."""
 
 
-def description(structure: Any) -> str:
-    """A pytree's structure, with all that is static in it.
+def description(structure: Structure) -> str:
+    """Describes the structure of a pytree, with all that is static in it.
 
     **Raises:** `NotKept` where a class or a function is from elsewhere, or has no name that another process knows.
     """
     return "".join(_structure(structure))
 
 
-def _structure(structure: Any) -> Iterator[str]:
+def _structure(structure: Structure) -> Iterator[str]:
     found = structure.node_data()
     if found is None:
         # a leaf, or nothing at all
@@ -41,12 +43,12 @@ def _structure(structure: Any) -> Iterator[str]:
 
 
 def static_description(value: Any) -> str:
-    """A value that is no array. **Raises:** as `description`."""
+    """Describes a value that is no array. **Raises:** as `description`."""
+    if isinstance(value, enum.Enum):  # some are numbers besides
+        return f"{_named(type(value))}.{value.name}"
     if value is None or isinstance(value, bool | int | float | complex | str | bytes):
         # repr of a float is exact; a subclass is told from its base
         return f"{type(value).__name__}:{value!r}" if type(value).__module__ == "builtins" else _of_a_class(value)
-    if isinstance(value, enum.Enum):
-        return f"{_named(type(value))}.{value.name}"
     if isinstance(value, type | types.FunctionType | types.BuiltinFunctionType):
         return _named(value)
     if isinstance(value, Mapping):

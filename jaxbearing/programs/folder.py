@@ -1,4 +1,4 @@
-"""Where compiled programs are kept: the user's cache folder, one folder for each kind of processor."""
+"""The folder of compiled programs: it is in the user's cache folder, and each kind of processor has its own."""
 
 import hashlib
 import os
@@ -12,7 +12,7 @@ _ON = ("", "on", "1", "yes", "true")
 
 
 def cache_folder() -> Path | None:
-    """Where compiled programs are kept, or `None`: switched off, or there is no home folder to keep them in.
+    """The folder of compiled programs, or `None` where keeping is switched off or there is no home folder.
 
     **Raises:** `ValueError` where the variable names a home folder that does not exist.
     """

@@ -5,8 +5,8 @@ longer than all the rest of a solve. Here the key is what the program is made fr
 all that is static, shapes and types, the files of this package, the versions of the libraries, the processor and what
 the compiler was told. No setting of JAX is changed. What is kept and what is loaded are the same bits.
 
-A file is built aside and appears whole; one that is damaged, foreign or of another version is compiled anew and written
-over. Files hold pickled data, so only those are read that belong to the user and that nobody else may write.
+A file that is damaged, foreign or of another version is compiled anew and written over (`programs.files`). Files hold
+code and pickled data, so only those are read that belong to the user and that nobody else may write.
 """
 
 import dataclasses
@@ -15,9 +15,7 @@ import hashlib
 import importlib.metadata
 import os
 import pickle
-import tempfile
 import threading
-import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, nullcontext, suppress
 from pathlib import Path
@@ -27,21 +25,18 @@ import equinox as eqx
 import jax
 import numpy as np
 from jax.experimental.compilation_cache.compilation_cache import reset_cache
+from jax.extend.core import Jaxpr
+from jax.stages import Compiled
 
 from ..numerics.compiling import collecting_rarely, quick_options, quickly_compiled
 from ..numerics.quiet import compiler_is_loud, without_false_alarms
-from .describe import OWN, NotKept, description, static_description
+from . import files
+from .describe import OWN, NotKept, Structure, description, static_description
 from .folder import VARIABLE, cache_folder
 
-SUFFIX = ".program"
 ROOT = Path(__file__).parents[2]
 """Folder of the packages."""
-MOST_BYTES = 500_000_000
-"""Size of all files together from which on those that were used longest ago are removed."""
-ABANDONED = 3600.0
-"""Age from which on a file that is still being written belongs to a process that was killed, s."""
 _LIBRARIES = ("jax", "jaxlib", "equinox", "optimistix", "lineax", "diffrax", "numpy")
-_MAGIC = b"jaxbearing program 1\n"
 _SETTINGS = ("jax_enable_x64", "jax_default_matmul_precision", "jax_disable_most_optimizations")
 _ENVIRONMENT = ("XLA_FLAGS", "EQX_ON_ERROR", "JAX_DISABLE_MOST_OPTIMIZATIONS")
 
@@ -60,8 +55,8 @@ class _Ready:
     that was loaded and has not run yet.
     """
 
-    compiled: Any
-    structure: Any
+    compiled: Compiled
+    structure: Structure
     others: list[Any]
     instead: Callable[[], "_Ready"] | None = None
 
@@ -113,8 +108,7 @@ class KeptProgram:
         ready = self.ready(structure, leaves)
         return self._plain(*args) if ready is None else ready(leaves)
 
-    @collecting_rarely()
-    def ready(self, structure: Any, leaves: list[Any]) -> Callable[[list[Any]], Any] | None:
+    def ready(self, structure: Structure, leaves: list[Any]) -> Callable[[list[Any]], Any] | None:
         """The program for arguments of this structure: a function of their leaves, arrays of the same shapes and equal
         others; loaded, or made and kept. `None` where programs like it are not kept."""
         key = (structure, tuple((leaf.shape, leaf.dtype) if _is_array(leaf) else (type(leaf), leaf) for leaf in leaves))
@@ -128,7 +122,8 @@ class KeptProgram:
                 self._ready[key] = found
         return found
 
-    def _prepared(self, structure: Any, leaves: list[Any]) -> _Ready | None:
+    @collecting_rarely()
+    def _prepared(self, structure: Structure, leaves: list[Any]) -> _Ready | None:
         """The program, loaded or made and kept; `None` where none is. **Raises:** `NotKept`."""
         folder = _folder()
         if folder is None:
@@ -141,15 +136,15 @@ class KeptProgram:
         ready.instead = lambda: self._made(structure, leaves, path)
         return ready
 
-    def _name(self, structure: Any, leaves: list[Any]) -> str:
-        """Of the file: a hash of all that the program depends on."""
+    def _name(self, structure: Structure, leaves: list[Any]) -> str:
+        """The name of the file is a hash of all that the program depends on."""
         function = f"{self._function.__module__}.{self._function.__qualname__}"
         shapes = [(leaf.shape, str(leaf.dtype)) if _is_array(leaf) else static_description(leaf) for leaf in leaves]
         parts = (function, self._quick, description(structure), shapes, _surroundings(), _files())
-        return hashlib.sha256(repr(parts).encode()).hexdigest()[:40] + SUFFIX
+        return hashlib.sha256(repr(parts).encode()).hexdigest()[:40] + files.SUFFIX
 
-    def _made(self, structure: Any, leaves: list[Any], path: Path) -> _Ready:
-        found: list[tuple[Any, list[Any]]] = []
+    def _made(self, structure: Structure, leaves: list[Any], path: Path) -> _Ready:
+        found: list[tuple[Structure, list[Any]]] = []
 
         def flat(given: list[Any]) -> list[Any]:
             arrays = iter(given)
@@ -195,7 +190,7 @@ def _without_jax_cache() -> Iterator[None]:
             reset_cache()
 
 
-def _calls_host(jaxpr: Any) -> bool:
+def _calls_host(jaxpr: Jaxpr) -> bool:
     """True if a program calls a function of the process that compiled it, which no other process has."""
     for equation in jaxpr.eqns:
         if "callback" in equation.primitive.name:
@@ -207,7 +202,7 @@ def _calls_host(jaxpr: Any) -> bool:
 
 
 def _folder() -> Path | None:
-    """Where programs are kept, or `None`: switched off, or not a matter of one CPU."""
+    """The folder of the programs, or `None` where keeping is switched off or JAX has more than one CPU."""
     given = os.environ.get(VARIABLE, "")
     try:
         folder = _known_folder(given)
@@ -264,61 +259,30 @@ def _versions() -> list[str | None]:
 
 
 def _keep(path: Path, ready: _Ready) -> None:
-    """Write a program; where that fails, as on a full disk, nothing is left behind and nothing is said: it is a
-    convenience."""
+    """Writes a program. Where that fails, as on a full disk, nothing is said: keeping programs is a convenience."""
     from jax.experimental.serialize_executable import serialize
 
     with suppress(Exception):
         program, _, _ = serialize(ready.compiled)
         skeleton = jax.tree.unflatten(ready.structure, ready.others)
-        content = pickle.dumps((program, ready.compiled.in_tree.num_leaves, skeleton))
-        _make_room(path.parent, len(content))
-        handle, name = tempfile.mkstemp(suffix=".part", dir=path.parent)
-        try:
-            with os.fdopen(handle, "wb") as file:
-                file.write(_MAGIC + hashlib.sha256(content).digest() + content)
-            os.replace(name, path)
-        except BaseException:
-            Path(name).unlink(missing_ok=True)
-            raise
-
-
-def _make_room(folder: Path, size: int) -> None:
-    """The files that were used longest ago go, and what killed processes left half written."""
-    for path in folder.glob("*.part"):
-        if path.stat().st_mtime < time.time() - ABANDONED:
-            path.unlink(missing_ok=True)
-    files = sorted((path.stat().st_mtime, path.stat().st_size, path) for path in folder.glob(f"*{SUFFIX}"))
-    excess = sum(size for _, size, _ in files) + size - MOST_BYTES
-    for _, size, path in files:
-        if excess <= 0:
-            return
-        path.unlink(missing_ok=True)
-        excess -= size
+        files.write(path, pickle.dumps((program, ready.compiled.in_tree.num_leaves, skeleton)))
 
 
 def _loaded(path: Path) -> _Ready | None:
-    """The program of a file, or `None`: there is none, or it is damaged or not the user's own."""
+    """The program of a file, or `None` where there is none that can be used."""
     from jax.experimental.serialize_executable import deserialize_and_load
 
-    try:
-        about = path.stat()
-        if about.st_mode & 0o022 or (hasattr(os, "geteuid") and about.st_uid != os.geteuid()):
-            return None
-        content = path.read_bytes()
-        body = content[len(_MAGIC) + 32 :]
-        if content[: len(_MAGIC) + 32] != _MAGIC + hashlib.sha256(body).digest():
-            return None
-        program, count, skeleton = pickle.loads(body)
+    content = files.read(path)
+    if content is None:
+        return None
+    with suppress(Exception):
+        program, count, skeleton = pickle.loads(content)
         others, structure = jax.tree.flatten(skeleton, is_leaf=lambda leaf: isinstance(leaf, _Slot))
         arrays = sum(isinstance(leaf, _Slot) for leaf in others)
         _initialise_lapack()
         given, result = jax.tree.structure((([0] * count,), {})), jax.tree.structure([0] * arrays)
-        ready = _Ready(deserialize_and_load(program, given, result), structure, others)
-        os.utime(path)
-    except Exception:
-        return None
-    return ready
+        return _Ready(deserialize_and_load(program, given, result), structure, others)
+    return None
 
 
 @functools.cache

@@ -1,5 +1,6 @@
 """Where the command runs: other locales, names and folders, a damaged cache, several runs at once."""
 
+import itertools
 import json
 import os
 import re
@@ -149,13 +150,16 @@ def test_runs_at_once_and_a_cache_that_a_kill_damaged(tmp_path):
     said = [process.communicate(timeout=300) for process in runs]
     assert [process.returncode for process in runs] == [0, 0, 0]
     assert len({out for out, _ in said}) == 1
-    entries = list(cache.rglob("*-cache"))
-    assert entries
-    for path in entries:
+    # of JAX's own cache, and of the programs that are kept
+    entries = {kind: list(cache.rglob(kind)) for kind in ("*-cache", "*.program")}
+    assert all(entries.values())
+    for path in itertools.chain(*entries.values()):
         path.write_bytes(path.read_bytes()[:100])
     assert run(tmp_path, *command, JAXBEARING_CACHE=str(cache)) == (0, *said[0])
     # written anew
-    assert all(path.stat().st_size > 100 for path in cache.rglob("*-cache"))
+    for kind, paths in entries.items():
+        assert set(cache.rglob(kind)) >= set(paths)
+        assert all(path.stat().st_size > 100 for path in cache.rglob(kind))
 
 
 def test_warnings_are_python_s_own_again():

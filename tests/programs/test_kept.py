@@ -11,8 +11,8 @@ import pytest
 from command_process import environment
 
 import jaxbearing as jb
-from jaxbearing.programs import KeptProgram, kept
-from jaxbearing.programs.kept import SUFFIX
+from jaxbearing.programs import KeptProgram, files, kept
+from jaxbearing.programs.files import SUFFIX
 
 FACTOR = {"now": 2.0}
 
@@ -139,7 +139,7 @@ def test_the_oldest_go(folder, monkeypatch):
     ask()
     (first,) = folder()
     os.utime(first, (1.0, 1.0))
-    monkeypatch.setattr(kept, "MOST_BYTES", first.stat().st_size + 100)
+    monkeypatch.setattr(files, "MOST_BYTES", first.stat().st_size + 100)
     ask(quick=False)
     assert len(folder()) == 1
     assert not first.exists()

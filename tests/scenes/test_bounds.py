@@ -124,19 +124,24 @@ def test_eager_copies_are_refused_and_traced_ones_are_flagged(name):
             assert not bool(valid)
 
 
+def numbers_of_files(name):
+    """Path, bound and unit of every single number that a scene file may give."""
+    model = SceneSource.of(name).model
+    for path, bound in bounds(name):
+        kind = type_at(model, path.split("."))
+        if kind is None or np.ndim(paths(scene(name))[path]):
+            continue
+        dimension = dimension_of(kind)
+        yield path, bound, "" if dimension is None else f" {dimension.si}"
+
+
 @pytest.mark.parametrize(
     "name", ["turbine_roller_dynamic", "turbine_ball", "tapered_example", "two_disk_etm", "satellite_contact_1"]
 )
 def test_files_have_the_bounds_of_the_classes(name):
     """What a scene file refuses the class refuses, and the other way round."""
-    source = SceneSource.of(name)
     checked = 0
-    for path, bound in bounds(name):
-        kind = type_at(source.model, path.split("."))
-        if kind is None or np.ndim(paths(scene(name))[path]):
-            continue
-        dimension = dimension_of(kind)
-        unit = "" if dimension is None else f" {dimension.si}"
+    for path, bound, unit in numbers_of_files(name):
         in_file = lambda value, path=path, unit=unit: load_scene(name, {path: f"{float(value)!r}{unit}"})
         if refuses(jb.SceneError, lambda: in_file(paths(scene(name))[path])):  # noqa: B023  (called at once)
             continue  # one property of a material that has a name
@@ -150,13 +155,7 @@ def test_files_have_the_bounds_of_the_classes(name):
 @pytest.mark.parametrize("name", ["turbine_roller_dynamic", "turbine_ball", "tapered_example", "satellite_contact_1"])
 def test_files_say_the_bounds(name):
     """A number beyond its bound is refused by its own field, with its range: not as values that do not fit together."""
-    source = SceneSource.of(name)
-    for path, bound in bounds(name):
-        kind = type_at(source.model, path.split("."))
-        if kind is None or np.ndim(paths(scene(name))[path]):
-            continue
-        dimension = dimension_of(kind)
-        unit = "" if dimension is None else f" {dimension.si}"
+    for path, bound, unit in numbers_of_files(name):
         for value in outside(RANGES[bound]):
             with pytest.raises(jb.SceneError) as caught:
                 load_scene(name, {path: f"{float(value)!r}{unit}"})
