@@ -121,6 +121,9 @@ def build_lubricated(scene: BallBearing, core: BallCore) -> LubricatedBallSystem
     """The lubricated bearing of the same balls as `core`, to start from the first guess of that."""
     assert scene.contact is not None
     assert scene.oil is not None
+    motion, angle = core.kinematics, core.grooves.free_angle
+    reference = motion.rolling(angle, angle, 0.5 * (motion.outer_control(angle) + motion.inner_control(angle)))
+    free = reference.orbital_speed
     return LubricatedBallSystem(
         **{**core.shared_fields(), "attitude": scene.kinematics.attitude},
         geometry=scene.geometry,
@@ -129,6 +132,8 @@ def build_lubricated(scene: BallBearing, core: BallCore) -> LubricatedBallSystem
         oil=scene.oil,
         inlet=scene.oil.at(scene.operation.oil_temperature),
         guess=_guess(core),
+        reference=reference,
+        orbit_unit=jnp.sqrt(0.5 * (jnp.square(free) + jnp.square(free - motion.outer_speed))),
         resolved=isinstance(scene.kinematics.gyroscopic, ResolvedCouple),
         cage=_cage_parts(scene) if scene.slips and scene.cage is not None else None,
         drag=_drag(scene) if scene.slips and scene.drag is not None else None,

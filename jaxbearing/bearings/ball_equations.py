@@ -152,6 +152,10 @@ class LubricatedBallSystem(AbstractBallSystem):
     oil: Lubricant
     inlet: InletOil
     guess: BallGuess
+    reference: BallMotion
+    """Rolling at the free contact angle, half way between outer and inner control."""
+    orbit_unit: Float[Array, ""]
+    """Scale of orbital speeds, rad/s; not 0 while a ring turns."""
     resolved: bool = eqx.field(static=True, default=False)
     cage: BallCageParts | None = None
     drag: BallDrag | None = None
@@ -187,26 +191,15 @@ class LubricatedBallSystem(AbstractBallSystem):
 
     # -- scales ---------------------------------------------------------------------------------------------------
 
-    def reference(self) -> BallMotion:
-        """Rolling at the free contact angle, half way between outer and inner control."""
-        angle = self.grooves.free_angle
-        between = 0.5 * (self.kinematics.outer_control(angle) + self.kinematics.inner_control(angle))
-        return self.kinematics.rolling(angle, angle, between)
-
-    def orbit_unit(self) -> Array:
-        """Scale of orbital speeds, rad/s; not 0 while a ring turns."""
-        free = self.reference().orbital_speed
-        return jnp.sqrt(0.5 * (jnp.square(free) + jnp.square(free - self.kinematics.outer_speed)))
-
     def spin_unit(self) -> Array:
-        return self.orbit_unit() / self.kinematics.ratio
+        return self.orbit_unit / self.kinematics.ratio
 
     def load_scale(self) -> Array:
         return jnp.sqrt(jnp.sum(jnp.square(self.ring_load)))
 
     def friction_scale(self) -> Array:
         """Scale of a ball's friction forces, N: 1 % of its share of the load and of its centrifugal force."""
-        force = self.centrifugal(self.reference().orbital_speed)
+        force = self.centrifugal(self.reference.orbital_speed)
         return 0.01 * (self.load_scale() / self.ball_count + force)
 
     # -- solver contract ------------------------------------------------------------------------------------------
@@ -247,12 +240,12 @@ class LubricatedBallSystem(AbstractBallSystem):
         return ArrowPoint(jnp.asarray(lowest)[:, None], -ring), ArrowPoint(jnp.asarray(highest)[:, None], ring)
 
     def initial(self) -> ArrowPoint:
-        guess, reference = self.guess, self.reference()
+        guess, reference = self.guess, self.reference
         zeros = jnp.zeros_like(guess.log_load)
         inner = guess.angle
         outer = self._outer_contact(guess.log_load, inner, self.centrifugal(reference.orbital_speed), None)[1]
         rolling = self.kinematics.rolling(inner, outer, guess.attitude)
-        orbit = common = (rolling.orbital_speed - reference.orbital_speed) / self.orbit_unit()
+        orbit = common = (rolling.orbital_speed - reference.orbital_speed) / self.orbit_unit
         if self.global_orbit:
             weights = jnp.exp(guess.log_load)
             common = jnp.sum(weights * orbit) / jnp.sum(weights)
@@ -315,7 +308,7 @@ class LubricatedBallSystem(AbstractBallSystem):
         d = len(self.freedoms)
         ring = (totals[:d] - self.ring_load) / self.load_scale()
         if self.common_orbit:
-            return jnp.append(ring, orbit_row(totals[d:], self.orbit_unit())), jnp.zeros(())
+            return jnp.append(ring, orbit_row(totals[d:], self.orbit_unit)), jnp.zeros(())
         if self.cage is None:
             return ring, jnp.zeros(())
         land = self.land(self.orbit(globals_[d]), totals[d + 1], totals[d + 2])
@@ -326,7 +319,7 @@ class LubricatedBallSystem(AbstractBallSystem):
     # -- physics --------------------------------------------------------------------------------------------------
 
     def orbit(self, scaled: Array) -> Array:
-        return self.reference().orbital_speed + self.orbit_unit() * scaled
+        return self.reference.orbital_speed + self.orbit_unit * scaled
 
     def at(self, point: ArrowPoint) -> BallsState:
         shape = (point.globals.shape[0], point.elements.shape[1])
@@ -350,9 +343,9 @@ class LubricatedBallSystem(AbstractBallSystem):
         return self._with_traction(state, contact) if self.slips else state
 
     def frictionless(
-        self, unknowns: Float[Array, "m ball"], shared: Float[Array, "g ball"]
+        self, unknowns: Float[Array, "m ball"], shared: Float[Array, "g ball"], film: PointFilm | None = None
     ) -> tuple[BallsState, PointContact]:
-        """All but what traction does."""
+        """All but what traction does; `film`: where it is known and stays."""
         d = len(self.freedoms)
         own = dict(zip(self.own_unknowns, unknowns[2:], strict=True))
         log_load, inner = unknowns[0], unknowns[1]
@@ -370,8 +363,9 @@ class LubricatedBallSystem(AbstractBallSystem):
             self.kinematics.outer_race(motion, outer),
         )
         cosine = jnp.cos(angle)
-        contact = self.geometry.contacts(cosine[0], cosine[1], self.reduced_modulus)
-        film = self.laws.film_state(contact, load, races.mean_speed, races.rolling, self.oil, self.inlet)
+        contact = self.geometry.contacts(cosine[0], cosine[1], self.reduced_modulus).shaped()
+        if film is None:
+            film = self.laws.film_state(contact, load, races.mean_speed, races.rolling, self.oil, self.inlet)
         fit, centre, arm = self._fit(load, direction, film.film, shared[:d])
         axial, radial, moment = self.with_friction(load, direction, friction)
         from_ring = radial[0]
@@ -450,14 +444,14 @@ class LubricatedBallSystem(AbstractBallSystem):
             angle = self._outer_contact(log_load, inner, self.centrifugal(orbit), None)[1]
             return jnp.broadcast_to(self._motion(seen, angle, None, own).orbital_speed, inner.shape)
 
-        orbit = jnp.broadcast_to(self.reference().orbital_speed, inner.shape)
+        orbit = jnp.broadcast_to(self.reference.orbital_speed, inner.shape)
         for _ in range(ROLLING_PASSES):
             value, slope = jax.jvp(next_orbit, (orbit,), (jnp.ones_like(orbit),))
             orbit = orbit - (value - orbit) / (slope - 1.0)
         return orbit
 
     def _motion(self, inner: Array, outer: Array, orbit: Array | None, own: dict[str, Array]) -> BallMotion:
-        reference, unit = self.reference(), self.spin_unit()
+        reference, unit = self.reference, self.spin_unit()
         if self.attitude == "equilibrium":
             axial, radial = (ref + unit * own[name] for name, ref in self._spin_parts(reference))
             sense = jnp.where(reference.spin_speed < 0, -1.0, 1.0)

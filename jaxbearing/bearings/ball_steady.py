@@ -9,6 +9,7 @@ import numpy as np
 from jaxtyping import Array, Float
 
 from ..contacts import PointContact
+from ..contacts.point_laws import PointFilm
 from ..materials import reduced_modulus
 from ..numerics.arrow import ArrowJacobian, ArrowPoint, linearize, schur_complement
 from ..numerics.newton import NewtonOptions, NewtonResult, newton_solve
@@ -34,10 +35,11 @@ def solve_ball(scene: BallBearing, options: NewtonOptions) -> Solution:
     core, steps = build_core(scene).started()
     if scene.contact is None:
         system, result = newton_solve(core, options)
-        results = _dry_results(scene, system, result)
+        results, film = _dry_results(scene, system, result), None
     else:
         system, result = newton_solve(build_lubricated(scene, core), options)
-        results = _lubricated(scene, system, result)
+        state = system.at(result.point)
+        results, film = _lubricated(scene, system, result, state), state.film
     steps = steps + result.iterations
     lever = system.grooves.lever
     ring = {name: result.point.globals[i] * LENGTH_UNIT for i, name in enumerate(system.freedoms)}
@@ -47,7 +49,7 @@ def solve_ball(scene: BallBearing, options: NewtonOptions) -> Solution:
     displacement = RingDisplacement(
         **{name: ring.get(name, jnp.zeros(())) / scale.get(name, 1.0) for name in RING_FREEDOMS}
     )
-    stiffness = _stiffness(scene, system, result)
+    stiffness = _stiffness(scene, system, result, film)
     if scene.operation.moment is not None:
         results = results._replace(facts=results.facts._replace(stiffness=_of_lengths(stiffness, lever)))
     times = overload(scene)
@@ -202,8 +204,10 @@ def _dry_results(scene: BallBearing, system: BallCore, result: NewtonResult) -> 
     return _Results(None, elements, BallPowerLoss(), None, None, None, None, Facts((contacts,)))
 
 
-def _lubricated(scene: BallBearing, system: LubricatedBallSystem, result: NewtonResult) -> _Results:
-    state, motion = system.at(result.point), system.kinematics
+def _lubricated(
+    scene: BallBearing, system: LubricatedBallSystem, result: NewtonResult, state: BallsState
+) -> _Results:
+    motion = system.kinematics
     film, shear, pocket = state.film, state.traction, state.pocket
     more: dict[str, Array | None] = {"film_inner": film.film[0], "film_outer": film.film[1]}
     if film.rise is not None:
@@ -235,7 +239,7 @@ def _lubricated(scene: BallBearing, system: LubricatedBallSystem, result: Newton
         free = motion.rolling(state.angle[0], state.angle[1], state.motion.attitude).orbital_speed
         weight = state.load[0] / jnp.sum(state.load[0])
         mean = jnp.sum(weight * free)
-        unit = system.orbit_unit()
+        unit = system.orbit_unit
         slip = (mean - orbit) * mean / (jnp.square(mean) + jnp.square(1e-8 * unit))
         alone = system.multiplicity > 1  # all balls alike: the cage is concentric
         eccentricity = jnp.zeros(()) if alone else land.eccentricity_ratio
@@ -328,7 +332,7 @@ def _ball_torques(
 
 
 def _stiffness(
-    scene: BallBearing, system: BallCore | LubricatedBallSystem, result: NewtonResult
+    scene: BallBearing, system: BallCore | LubricatedBallSystem, result: NewtonResult, film: PointFilm | None
 ) -> Float[Array, "5 5"]:
     """d load / d displacement of all five freedoms of the ring with everything else in equilibrium; N/m, and N or
     N m for a rad; of all balls, also where one was solved for all."""
@@ -352,7 +356,9 @@ def _stiffness(
         wide(result.point.elements), jnp.concatenate([ring, result.point.globals[len(system.freedoms) :]])
     )
     if isinstance(full, LubricatedBallSystem):
-        jacobian = _all_freedoms(full, point, result.jacobian, len(system.freedoms), system.multiplicity)
+        # where a tilt does not turn the inner race under the ball, no displacement of the ring changes the films
+        film = None if full.exact else jax.tree.map(wide, film)
+        jacobian = _all_freedoms(full, point, result.jacobian, len(system.freedoms), system.multiplicity, film)
     else:
         jacobian = linearize(full, point)[1]
     schur = schur_complement(jacobian)
@@ -364,21 +370,26 @@ def _stiffness(
 
 
 def _all_freedoms(
-    full: LubricatedBallSystem, point: ArrowPoint, solved: ArrowJacobian, freedoms: int, multiplicity: int
+    full: LubricatedBallSystem,
+    point: ArrowPoint,
+    solved: ArrowJacobian,
+    freedoms: int,
+    multiplicity: int,
+    film: PointFilm | None,
 ) -> ArrowJacobian:
     """The Jacobian with all five freedoms of the ring, from that of the solve. Ring displacements only move the groove
     centres, so the expensive friction derivatives of the solve can be reused; that a tilt also turns the inner race
     under the sliding ball is left out here.
 
     **Arguments:** `full`: the equations of all balls with five freedoms; `solved`: of the solve, with this many
-    `freedoms`, every ball of it standing for `multiplicity`.
+    `freedoms`, every ball of it standing for `multiplicity`; `film`: where it does not depend on the ring.
     """
     m, count = point.elements.shape
     g = point.globals.shape[0]
     shared = jnp.broadcast_to(point.globals[:, None], (g, count))
 
     def light(v):
-        state = full.frictionless(v[:m], v[m:])[0]
+        state = full.frictionless(v[:m], v[m:], film)[0]
         on_ring = full.contributions(v[m : m + 5], state.centre, state.ring_force, state.ring_moment)
         return jnp.concatenate([state.fit, on_ring])
 

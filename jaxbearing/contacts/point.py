@@ -36,35 +36,37 @@ class PointContact(eqx.Module):
     reduced_radius_rolling: Values
     reduced_radius_transverse: Values
     reduced_modulus: Values
+    shape: "HertzShape | None" = None
 
     def __check_init__(self):
-        for field in dataclasses.fields(self):
-            require_numbers("> 0", **{field.name: getattr(self, field.name)})
+        for name in ("reduced_radius_rolling", "reduced_radius_transverse", "reduced_modulus"):
+            require_numbers("> 0", **{name: getattr(self, name)})
+
+    def shaped(self) -> "PointContact":
+        """The same contact with the shape of its ellipse, which is a root, found once for all laws that ask for it."""
+        return dataclasses.replace(self, shape=self._shape())
 
     def ellipticity(self) -> Float[Array, "..."]:
         """k = c/a, semi-axis across over semi-axis along rolling."""
-        return jnp.exp(self._log_ellipticity())
+        return jnp.exp(self._shape().log_ellipticity)
 
     def semi_axis_rolling(self, load: Values) -> Float[Array, "..."]:
         """a, m. **Arguments:** `load`, N, >= 0."""
-        log_k = self._log_ellipticity()
-        return jnp.exp(-0.5 * log_k) * self._mean_axis(log_k, load)
+        return self.ellipse(load).rolling
 
     def semi_axis_transverse(self, load: Values) -> Float[Array, "..."]:
         """c, m. **Arguments:** `load`, N, >= 0."""
-        log_k = self._log_ellipticity()
-        return jnp.exp(0.5 * log_k) * self._mean_axis(log_k, load)
+        return self.ellipse(load).transverse
 
     def hertz_pressure(self, load: Values) -> Float[Array, "..."]:
         """Peak pressure p0, Pa. **Arguments:** `load`, N, >= 0."""
-        mean_axis = self._mean_axis(self._log_ellipticity(), load)
-        return 1.5 / jnp.pi * smooth_abs(load, LOAD_WIDTH) / jnp.square(mean_axis)
+        return self.ellipse(load).pressure
 
     def ellipse(self, load: Values) -> "Ellipse":
         """Both semi-axes and the peak pressure at once. **Arguments:** `load`, N, >= 0."""
-        log_k = self._log_ellipticity()
-        mean_axis, stretch = self._mean_axis(log_k, load), jnp.exp(0.5 * log_k)
-        pressure = 1.5 / jnp.pi * smooth_abs(load, LOAD_WIDTH) / jnp.square(mean_axis)
+        shape, load = self._shape(), smooth_abs(load, LOAD_WIDTH)
+        mean_axis, stretch = jnp.cbrt(self._compliance(shape) * load), jnp.exp(0.5 * shape.log_ellipticity)
+        pressure = 1.5 / jnp.pi * load / jnp.square(mean_axis)
         return Ellipse(mean_axis / stretch, mean_axis * stretch, pressure)
 
     def mean_pressure(self, load: Values) -> Float[Array, "..."]:
@@ -73,31 +75,28 @@ class PointContact(eqx.Module):
 
     def load_at_pressure(self, pressure: Values) -> Float[Array, "..."]:
         """Load that gives a Hertz (peak) pressure, N. **Arguments:** `pressure`, Pa, > 0."""
-        return jnp.square(self._compliance(self._log_ellipticity())) * (jnp.pi / 1.5 * jnp.asarray(pressure)) ** 3
+        return jnp.square(self._compliance(self._shape())) * (jnp.pi / 1.5 * jnp.asarray(pressure)) ** 3
 
     def stiffness_constant(self) -> Float[Array, "..."]:
         r"""$K = Q/\delta^{3/2}$, N/m^(3/2), $\pi kE'\sqrt{2ER/(9K_1^3)}$ with the complete integrals E and $K_1$."""
-        log_k = jnp.abs(self._log_ellipticity())
+        log_k = jnp.abs(log_ellipticity(self._log_ratio()))
         integrals = _elliptic(log_k)
-        second_kind = integrals.b + integrals.d * jnp.exp(-2.0 * log_k)
-        curvature = 1.0 / self.reduced_radius_rolling + 1.0 / self.reduced_radius_transverse
-        root = jnp.sqrt(2.0 / 9.0 * second_kind / (curvature * integrals.k))
+        root = jnp.sqrt(2.0 / 9.0 * _second_kind(integrals, log_k) / (self._curvature() * integrals.k))
         return jnp.pi * jnp.exp(log_k) * self.reduced_modulus * root / integrals.k
 
-    def _log_ellipticity(self) -> Array:
-        return log_ellipticity(jnp.log(self.reduced_radius_transverse) - jnp.log(self.reduced_radius_rolling))
+    def _log_ratio(self) -> Array:
+        return jnp.log(self.reduced_radius_transverse) - jnp.log(self.reduced_radius_rolling)
 
-    def _mean_axis(self, log_k: Array, load: Values) -> Array:
-        """sqrt(a c), m."""
-        return jnp.cbrt(self._compliance(log_k) * smooth_abs(load, LOAD_WIDTH))
+    def _shape(self) -> "HertzShape":
+        return hertz_shape(self._log_ratio()) if self.shape is None else self.shape
 
-    def _compliance(self, log_k: Array) -> Array:
+    def _curvature(self) -> Array:
+        """1/R, 1/m."""
+        return jnp.asarray(1.0 / self.reduced_radius_rolling + 1.0 / self.reduced_radius_transverse)
+
+    def _compliance(self, shape: "HertzShape") -> Array:
         """sqrt(a c)^3 over the load, m^3/N."""
-        log_k = jnp.abs(log_k)
-        integrals = _elliptic(log_k)
-        second_kind = integrals.b + integrals.d * jnp.exp(-2.0 * log_k)
-        curvature = 1.0 / self.reduced_radius_rolling + 1.0 / self.reduced_radius_transverse
-        return 6.0 / jnp.pi * jnp.exp(0.5 * log_k) * second_kind / (curvature * self.reduced_modulus)
+        return 6.0 / jnp.pi * shape.size / (self._curvature() * self.reduced_modulus)
 
 
 class Ellipse(NamedTuple):
@@ -112,7 +111,16 @@ PointContact.__init__.__doc__ = """**Arguments:**
 - `reduced_radius_rolling`: Rx, m, 1/Rx = 1/Rx1 + 1/Rx2 in the plane of rolling, convex > 0.
 - `reduced_radius_transverse`: Ry, m, > 0.
 - `reduced_modulus`: E', Pa (see `materials.reduced_modulus`).
+- `shape`: of the ellipse of these radii, as `shaped` finds it; `None`: found where it is asked for.
 """
+
+
+class HertzShape(NamedTuple):
+    """What the radii alone make of the ellipse: ln(c/a), and $\\sqrt{k}\\,E(m)$ with k = c/a or a/c, whichever is
+    larger."""
+
+    log_ellipticity: Float[Array, "..."]
+    size: Float[Array, "..."]
 
 
 class _Elliptic(NamedTuple):
@@ -139,13 +147,21 @@ def _elliptic(log_k: Array) -> _Elliptic:
     return _Elliptic(first_kind, first_kind - d, d, 0.5 * first_kind * (0.5 * squared - (squared + 1.0) * excess))
 
 
-def _log_ratio_and_slope(log_k: Array) -> tuple[Array, Array]:
-    """ln(Ry/Rx) = 2 ln k + ln B - ln D and its slope in ln k, for ln k >= 0."""
-    integrals = _elliptic(log_k)
+def _second_kind(integrals: _Elliptic, log_k: Array) -> Array:
+    """E = B + (1 - m) D."""
+    return integrals.b + integrals.d * jnp.exp(-2.0 * log_k)
+
+
+def _log_ratio(integrals: _Elliptic, log_k: Array) -> Array:
+    """ln(Ry/Rx) = 2 ln k + ln B - ln D, for ln k >= 0."""
+    return 2.0 * log_k + jnp.log(integrals.b) - jnp.log(integrals.d)
+
+
+def _log_ratio_slope(integrals: _Elliptic, log_k: Array) -> Array:
+    """Slope of `_log_ratio` in ln k."""
     first_slope = 0.5 * jnp.exp(2.0 * log_k) * integrals.b  # dK/dm
     bracket = (first_slope - integrals.d_slope) / integrals.b - integrals.d_slope / integrals.d
-    log_ratio = 2.0 * log_k + jnp.log(integrals.b) - jnp.log(integrals.d)
-    return log_ratio, 2.0 + 2.0 * jnp.exp(-2.0 * log_k) * bracket
+    return 2.0 + 2.0 * jnp.exp(-2.0 * log_k) * bracket
 
 
 @jax.custom_jvp
@@ -159,8 +175,8 @@ def log_ellipticity(log_ratio: Array) -> Array:
     log_k = -jnp.expm1(-size) * jnp.log(1.0339) + 0.636 * size
 
     def newton(_, log_k: Array) -> Array:
-        value, slope = _log_ratio_and_slope(log_k)
-        return log_k - (value - size) / slope
+        integrals = _elliptic(log_k)
+        return log_k - (_log_ratio(integrals, log_k) - size) / _log_ratio_slope(integrals, log_k)
 
     # a loop, not four copies: they would be half of what a ball bearing takes to compile
     return jnp.sign(log_ratio) * jax.lax.fori_loop(0, NEWTON_STEPS, newton, log_k)
@@ -169,4 +185,28 @@ def log_ellipticity(log_ratio: Array) -> Array:
 @log_ellipticity.defjvp
 def _log_ellipticity_jvp(primals, tangents):
     log_k = log_ellipticity(primals[0])
-    return log_k, tangents[0] / _log_ratio_and_slope(jnp.abs(log_k))[1]
+    size = jnp.abs(log_k)
+    return log_k, tangents[0] / _log_ratio_slope(_elliptic(size), size)
+
+
+@jax.custom_jvp
+@compiled_by_hand
+def hertz_shape(log_ratio: Array) -> HertzShape:
+    """The shape of the ellipse from ln(Ry/Rx), with its slope in closed form: autodiff of the integrals would be most
+    of a ball's derivative."""
+    log_k = log_ellipticity(log_ratio)
+    size = jnp.abs(log_k)
+    return HertzShape(log_k, jnp.exp(0.5 * size) * _second_kind(_elliptic(size), size))
+
+
+@hertz_shape.defjvp
+def _hertz_shape_jvp(primals, tangents):
+    log_k = log_ellipticity(primals[0])
+    log_size = jnp.abs(log_k)
+    integrals = _elliptic(log_size)
+    second_kind, stretch = _second_kind(integrals, log_size), jnp.exp(0.5 * log_size)
+    log_k_dot = tangents[0] / _log_ratio_slope(integrals, log_size)
+    # dE/dm = -D/2
+    slope = stretch * (0.5 * second_kind - integrals.d * jnp.exp(-2.0 * log_size))
+    shape = HertzShape(log_k, stretch * second_kind)
+    return shape, HertzShape(log_k_dot, jnp.sign(log_k) * slope * log_k_dot)

@@ -10,7 +10,7 @@ from .._types import Batch, Scalar, Values
 from ..numerics.checks import Checked, bounded
 from ..numerics.compiling import compiled_by_hand
 from ..numerics.roots import monotone_root
-from ..numerics.safe import log_add, safe_norm, smooth_abs
+from ..numerics.safe import safe_norm, smooth_abs, softplus
 from ..numerics.structure import count
 from .turbulence import AbstractTurbulence, BlendedTurbulence
 
@@ -45,7 +45,7 @@ def saturated_eccentricity(eccentricity_ratio: Values) -> Batch:
 
 def eccentricity_overlap(eccentricity_ratio: Values) -> Batch:
     """Smooth max(eps - 0.995, 0), the complement of `saturated_eccentricity`."""
-    return ECCENTRICITY_WIDTH * log_add((eccentricity_ratio - ECCENTRICITY_LIMIT) / ECCENTRICITY_WIDTH, 0.0)
+    return ECCENTRICITY_WIDTH * softplus((eccentricity_ratio - ECCENTRICITY_LIMIT) / ECCENTRICITY_WIDTH)
 
 
 class StaticFilm(NamedTuple):

@@ -11,7 +11,7 @@ import numpy as np
 from .._types import Batch, Scalar, Values
 from ..numerics.arguments import require_temperature
 from ..numerics.checks import Checked, bounded
-from ..numerics.safe import log_add, nonnegative_pressure, softplus_floor
+from ..numerics.safe import nonnegative_pressure, softplus, softplus_floor
 
 LN10 = math.log(10.0)
 
@@ -89,7 +89,7 @@ class AbstractViscosity(Checked):
 def capped(log_viscosity: Values) -> Batch:
     r"""A smooth min(x, ln(1e15)) of x = ln(viscosity in Pa s), $x - w\ln(1 + e^{(x - x_{cap})/w})$ with w = 0.5."""
     excess = (log_viscosity - LN10 * LOG10_VISCOSITY_CAP) / CAP_WIDTH
-    return jnp.asarray(log_viscosity - CAP_WIDTH * log_add(excess, 0.0))
+    return jnp.asarray(log_viscosity - CAP_WIDTH * softplus(excess))
 
 
 class ModifiedWLF(AbstractViscosity):

@@ -137,8 +137,10 @@ def _root(
 def _root_jvp(primals, tangents, *, function, **options):
     (args,), (args_dot,) = primals, tangents
     x, residual, proper = _root(args, function=function, **options)
-    slope = _value_and_slope(function, x, args)[1]
-    _, value_dot = eqx.filter_jvp(lambda a: function(x, a), (args,), (args_dot,))
-    value_dot = jnp.zeros_like(x) if value_dot is None else value_dot
+    # one trace of the function for both directions, along x and along what it depends on
+    moved, fixed = eqx.partition(args, jax.tree.map(lambda dot: dot is not None, args_dot, is_leaf=lambda d: d is None))
+    push = jax.linearize(lambda x_, moved_: function(x_, eqx.combine(moved_, fixed)), x, moved)[1]
+    slope = push(jnp.ones_like(x), jax.tree.map(jnp.zeros_like, args_dot))
+    value_dot = push(jnp.zeros_like(x), args_dot)
     x_dot = jnp.where(proper, -value_dot / jnp.where(proper, slope, 1.0), 0.0)
     return (x, residual, proper), (x_dot, jnp.zeros_like(residual), None)

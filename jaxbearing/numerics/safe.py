@@ -31,6 +31,19 @@ def _log_add_jvp(primals, tangents):
     return value, jnp.exp(a - value) * a_dot + jnp.exp(b - value) * b_dot
 
 
+@jax.custom_jvp
+def softplus(x: Values) -> Batch:
+    """ln(1 + e^x), without overflow."""
+    return jnp.maximum(x, 0.0) + jnp.log1p(jnp.exp(-jnp.abs(jnp.asarray(x))))
+
+
+@softplus.defjvp
+def _softplus_jvp(primals, tangents):
+    (x,), (x_dot,) = primals, tangents
+    value = softplus(x)
+    return value, jnp.exp(x - value) * x_dot
+
+
 def softplus_floor(x: Values, floor: Values, width: Values) -> Batch:
     r"""$f + w\,\ln(1 + e^{(x - f)/w})$: a smooth max(x, floor).
 
@@ -39,7 +52,7 @@ def softplus_floor(x: Values, floor: Values, width: Values) -> Batch:
 
     **Arguments:** `x`; `floor`, the same unit; `width` > 0, the same unit: the smoothing width.
     """
-    return floor + width * log_add((x - floor) / width, 0.0)
+    return floor + width * softplus((x - floor) / width)
 
 
 def smooth_abs(x: Values, width: Values) -> Batch:
