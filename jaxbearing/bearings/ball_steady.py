@@ -204,9 +204,7 @@ def _dry_results(scene: BallBearing, system: BallCore, result: NewtonResult) -> 
     return _Results(None, elements, BallPowerLoss(), None, None, None, None, Facts((contacts,)))
 
 
-def _lubricated(
-    scene: BallBearing, system: LubricatedBallSystem, result: NewtonResult, state: BallsState
-) -> _Results:
+def _lubricated(scene: BallBearing, system: LubricatedBallSystem, result: NewtonResult, state: BallsState) -> _Results:
     motion = system.kinematics
     film, shear, pocket = state.film, state.traction, state.pocket
     more: dict[str, Array | None] = {"film_inner": film.film[0], "film_outer": film.film[1]}

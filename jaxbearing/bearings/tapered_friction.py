@@ -225,7 +225,7 @@ def _rib(
     laws, oil = scene.rib, scene.oil
     assert laws is not None
     assert oil is not None
-    contact: PointContact = scene.geometry.flange_contact(modulus)
+    contact: PointContact = scene.geometry.flange_contact(modulus).shaped()
     moving = rib_motion(scene.geometry, motion)
     loaded = load > 0
     pressing, ones = jnp.where(loaded, load, 1.0), jnp.ones_like(load)

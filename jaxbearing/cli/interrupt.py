@@ -49,11 +49,14 @@ def prompt_interrupt() -> Iterator[None]:
     """Ctrl-C works at once inside the block, also while a program is being compiled or runs: the signal wakes a thread
     that ends the process there and then, less its temporary files. Output that is being printed may stop anywhere. In
     another thread than the main one, and where Ctrl-C is ignored, it changes nothing."""
-    if threading.current_thread() is not threading.main_thread() or not callable(signal.getsignal(signal.SIGINT)):
+    if threading.current_thread() is not threading.main_thread():
         yield
         return
     if_interrupted(NOTHING)
     _told.clear()
+    if not callable(signal.getsignal(signal.SIGINT)):
+        yield
+        return
     reader, writer = os.pipe()
     os.set_blocking(writer, False)
     # stderr may be held back

@@ -120,11 +120,11 @@ def _sums(f: Array, g: Array, length: Array, power: int, orders: int) -> list[Ar
     density = weight * _ninth_power(jnp.where(even, f, 1.0)[None] + jnp.where(even, rise, 0.0)[None] * at, power)
     # not even, and hardly rising: an approach that is smaller still
     slope = jnp.where(even | (jnp.abs(rise) < LEAST_RISE), 1.0, g)
-    exponents = [power + m + 10.0 / 9.0 for m in range(orders)]
-    plain = [
-        (_ninth_power(last, power + m + 1) - _ninth_power(first, power + m + 1)) / (exponent * slope)
-        for m, exponent in enumerate(exponents)
-    ]
+    ends = jnp.stack([last, first])
+    ending, plain = _ninth_power(ends, power), []
+    for m in range(orders):
+        ending = ending * ends
+        plain.append((ending[0] - ending[1]) / ((power + m + 10.0 / 9.0) * slope))
     # s = (delta - f)/g
     steep = [plain[0]]
     if orders > 1:

@@ -271,7 +271,8 @@ class TwoDisk(AbstractScene):
     @property
     def hertz(self) -> LineContact | PointContact:
         """The dry contact."""
-        return self.geometry.contact(self._reduced_modulus)
+        contact = self.geometry.contact(self._reduced_modulus)
+        return contact.shaped() if isinstance(contact, PointContact) else contact
 
     @property
     def traction_law(self) -> DistributedTraction:

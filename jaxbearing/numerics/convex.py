@@ -97,14 +97,14 @@ def descend(system: AbstractConvexArrow, guess: ArrowPoint, *, tolerance: float,
     def advance(state: _State) -> _State:
         equations, jacobian = linearize(system, state.point)
         together, split = _capped(system, solve_arrow(jacobian, equations.residual))
-        residual, value = _largest(equations.residual), system.potential(state.point)
-        whole = jax.tree.map(jnp.subtract, state.point, together)
+        residual, whole = _largest(equations.residual), jax.tree.map(jnp.subtract, state.point, together)
+        value, at_whole = jax.vmap(system.potential)(_stacked(state.point, whole))
         gain = _largest(evaluate(system, whole).residual) <= FAST * residual
-        fast = gain & (system.potential(whole) < value)
+        fast = gain & (at_whole < value)
 
         def search(_):
             stiff, _ = _capped(system, solve_arrow(_stiffened(jacobian), equations.residual))
-            steps = jax.tree.map(lambda *leaves: jnp.stack(leaves), together, split, stiff)
+            steps = _stacked(together, split, stiff)
             move = lambda t, way: jax.tree.map(lambda y, s: y - t * s[way], state.point, steps)
             values = jax.vmap(lambda t, way: system.potential(move(t, way)))(fractions, way_of)
             values = jnp.where(jnp.isfinite(values), values, jnp.inf)
@@ -147,11 +147,10 @@ def settle(
         longest = FLIGHT * system.step_caps().elements[None]
         ways = ways / jnp.maximum(jnp.max(jnp.abs(ways) / longest, axis=1, keepdims=True), 1.0)
         trials = (state.elements[None, None] - fractions * ways[:, None]).reshape(-1, *state.elements.shape)
-        values = jax.vmap(lambda u: system.energies(u, shared))(trials)
-        values = jnp.where(jnp.isfinite(values), values, jnp.inf)
+        values = jax.vmap(lambda u: system.energies(u, shared))(jnp.append(state.elements[None], trials, 0))
+        here, values = values[0], jnp.where(jnp.isfinite(values), values, jnp.inf)[1:]
         best = jnp.argmin(values, axis=0)
-        pick = lambda array: jnp.take_along_axis(array, best[None], axis=0)[0]
-        lower = pick(values) < system.energies(state.elements, shared)
+        lower = jnp.take_along_axis(values, best[None], axis=0)[0] < here
         going = state.going & lower & (jnp.max(jnp.abs(residual), axis=0) > tolerance)
         moved = jnp.take_along_axis(trials, best[None, None, :], axis=0)[0]
         return _Settling(jnp.where(going, moved, state.elements), going, state.steps + 1)
@@ -191,10 +190,11 @@ def descend_settled(system: AbstractConvexArrow, guess: ArrowPoint, *, tolerance
             return settle(system, ArrowPoint(state.point.elements - follow, to))
 
         trials = jax.vmap(moved)(steps)
-        values = jax.vmap(system.potential)(trials)
-        values = jnp.where(jnp.isfinite(values), values, jnp.inf)
+        points = jax.tree.map(lambda here, there: jnp.append(here[None], there, 0), state.point, trials)
+        values = jax.vmap(system.potential)(points)
+        here, values = values[0], jnp.where(jnp.isfinite(values), values, jnp.inf)[1:]
         best = jnp.argmin(values)
-        go = (values[best] < system.potential(state.point)) & (size > tolerance)
+        go = (values[best] < here) & (size > tolerance)
         point = ArrowPoint(*(jnp.where(go, new[best], old) for new, old in zip(trials, state.point, strict=True)))
         return _State(point, size, state.steps + go.astype(int), go)
 
@@ -239,6 +239,10 @@ def pushed_out(system: AbstractConvexArrow, point: ArrowPoint, residual: ArrowPo
     low, high = (bound.globals for bound in system.bounds())
     ring, push = point.globals, residual.globals
     return ((ring >= high) & (push < 0)) | ((ring <= low) & (push > 0))
+
+
+def _stacked(*points: ArrowPoint) -> ArrowPoint:
+    return jax.tree.map(lambda *leaves: jnp.stack(leaves), *points)
 
 
 def _shared(point: ArrowPoint) -> Array:

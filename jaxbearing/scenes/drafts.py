@@ -1,5 +1,6 @@
 """A table of a file as far as it is sound: so that one look at a file finds everything that is wrong with it."""
 
+import functools
 import inspect
 import typing
 from collections.abc import Collection, Iterator, Mapping
@@ -48,7 +49,7 @@ class Draft:
         if name not in self._raw:
             return info.get_default(call_default_factory=True)
         try:
-            return TypeAdapter(type_at(self._model, [name])).validate_python(self._raw[name], strict=True)
+            return _reader(self._model, name).validate_python(self._raw[name], strict=True)
         except ValidationError:
             inner = plain_table_at(self._model, name)
             if inner is None or not isinstance(self._raw[name], Mapping):
@@ -77,6 +78,11 @@ class Draft:
                 continue
             if isinstance(value, Draft):
                 yield from value.problems(f"{inside}{name}.")
+
+
+@functools.cache
+def _reader(model: type[Table], name: str) -> TypeAdapter[Any]:
+    return TypeAdapter(type_at(model, [name]))
 
 
 class PartFields:

@@ -26,6 +26,8 @@ _WORDS = re.compile(r"\b(?:square|sq|squared|cubic|cubed|per)\b", re.IGNORECASE)
 _LONGEST_UNIT = 40
 _NON_FINITE = re.compile(r"\s*[+-]?(nan|inf|infinity)\b", re.IGNORECASE)
 _LONGEST = 60
+_REMEMBERED = 1024
+"""Units: pint takes a millisecond for each number, most of what reading a scene takes."""
 
 
 @dataclass(frozen=True)
@@ -144,18 +146,26 @@ def _unit(text: str, value: str, dimension: Dimension) -> Any:
     found = f"{describe(value)}, where {shortened(repr(text))} is not a unit"
     if len(text) > _LONGEST_UNIT or not _UNIT.fullmatch(text) or _WORDS.search(text):
         raise refusal(dimension.expected(), found)
+    unit = _read_unit(text)
+    if unit is None:
+        raise refusal(dimension.expected(), found)
+    return unit
+
+
+@functools.lru_cache(_REMEMBERED)
+def _read_unit(text: str) -> Any:
     try:
         unit = registry().Unit(text)
         # a factor beyond the range of numbers ("Gm^99") shows here
         _root(unit)
     # pint's reader of units lets many exception types through (tokenizer, arithmetic, attribute errors)
     except Exception:
-        raise refusal(dimension.expected(), found) from None
+        return None
     return unit
 
 
 def _in_si(number: float, unit: Any, value: str, dimension: Dimension) -> float:
-    target = registry().Unit(dimension.si)
+    target = _read_unit(dimension.si)
     # Root units and not dimensions are compared: an angle has no dimension for pint, which would take "100 Hz" or
     # "10500 1/min" as a speed in rad/s, a factor 2 pi from what was meant.
     if _root(unit) != _root(target):
@@ -169,6 +179,7 @@ def _in_si(number: float, unit: Any, value: str, dimension: Dimension) -> float:
     return float(quantity.to(target).magnitude)
 
 
+@functools.lru_cache(_REMEMBERED)
 def _root(unit: Any) -> Any:
     return registry().Quantity(1.0, unit).to_root_units().units
 
@@ -177,6 +188,7 @@ def _is_frequency(unit: Any, dimension: Dimension) -> bool:
     return dimension is SPEED and _root(unit) == registry().Unit("1/s")
 
 
+@functools.lru_cache(_REMEMBERED)
 def _is_proportional(unit: Any) -> bool:
     zero = registry().Quantity(0.0, unit).to_root_units().magnitude
     return zero == 0.0
