@@ -123,7 +123,6 @@ def build_lubricated(scene: BallBearing, core: BallCore) -> LubricatedBallSystem
     assert scene.oil is not None
     motion, angle = core.kinematics, core.grooves.free_angle
     reference = motion.rolling(angle, angle, 0.5 * (motion.outer_control(angle) + motion.inner_control(angle)))
-    free = reference.orbital_speed
     return LubricatedBallSystem(
         **{**core.shared_fields(), "attitude": scene.kinematics.attitude},
         geometry=scene.geometry,
@@ -133,7 +132,7 @@ def build_lubricated(scene: BallBearing, core: BallCore) -> LubricatedBallSystem
         inlet=scene.oil.at(scene.operation.oil_temperature),
         guess=_guess(core),
         reference=reference,
-        orbit_unit=jnp.sqrt(0.5 * (jnp.square(free) + jnp.square(free - motion.outer_speed))),
+        orbit_unit=motion.orbit_scale(reference.orbital_speed),
         resolved=isinstance(scene.kinematics.gyroscopic, ResolvedCouple),
         cage=_cage_parts(scene) if scene.slips and scene.cage is not None else None,
         drag=_drag(scene) if scene.slips and scene.drag is not None else None,

@@ -106,11 +106,10 @@ class BallCore(AbstractBallSystem):
         angle = self.grooves.free_angle
         return self.kinematics.rolling(angle, angle, angle).orbital_speed
 
+    @property
     def orbit_unit(self) -> Array:
         """Scale of orbital speeds, rad/s."""
-        free = self.free_orbit()
-        both = 0.5 * (jnp.square(free) + jnp.square(free - self.kinematics.outer_speed))
-        return jnp.sqrt(both + ORBIT_FLOOR**2)
+        return self.kinematics.orbit_scale(self.free_orbit(), ORBIT_FLOOR)
 
     # -- solver contract ------------------------------------------------------------------------------------------
 
@@ -150,7 +149,7 @@ class BallCore(AbstractBallSystem):
         at_rest = jnp.append(ring, 0.0)
         state = self.balls(elements, jnp.broadcast_to(at_rest[:, None], (at_rest.size, elements.shape[1])))
         away = orbit_totals(state.load[0], state.own_orbit, state.motion.orbital_speed)
-        return ArrowPoint(elements, at_rest.at[-1].set(-orbit_row(jnp.sum(away, axis=1), self.orbit_unit())))
+        return ArrowPoint(elements, at_rest.at[-1].set(-orbit_row(jnp.sum(away, axis=1), self.orbit_unit)))
 
     def _frozen(self) -> CentrifugalProblem:
         """The convex problem at the centrifugal forces of the estimated contact angles."""
@@ -216,7 +215,7 @@ class BallCore(AbstractBallSystem):
         d = len(self.freedoms)
         rows = (totals[:d] - self.ring_load) / self.load_scale()
         if self.common_orbit:
-            rows = jnp.append(rows, orbit_row(totals[d:], self.orbit_unit()))
+            rows = jnp.append(rows, orbit_row(totals[d:], self.orbit_unit))
         return rows, jnp.zeros(())
 
     # -- physics --------------------------------------------------------------------------------------------------
@@ -245,7 +244,7 @@ class BallCore(AbstractBallSystem):
         motion = self.motion(angle, load[0] > 0)
         own_orbit = motion.orbital_speed
         if self.common_orbit:
-            motion = motion._replace(orbital_speed=self.free_orbit() + self.orbit_unit() * shared[len(self.freedoms)])
+            motion = motion._replace(orbital_speed=self.free_orbit() + self.orbit_unit * shared[len(self.freedoms)])
         friction = None
         if self.gyroscopic is not None:
             parts = self.gyroscopic.friction(self.couple(motion), self.kinematics.ball_diameter, load[0], load[1])

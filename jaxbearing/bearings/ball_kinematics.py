@@ -94,6 +94,12 @@ class BallKinematics(eqx.Module):
         ones = jnp.ones_like(spin)
         return BallMotion(orbital_speed * ones, spin, attitude * ones, jnp.zeros_like(spin))
 
+    def orbit_scale(self, free: Array, floor: float = 0.0) -> Float[Array, ""]:
+        """Scale of orbital speeds, rad/s: not 0 while a ring turns. **Arguments:** `free`, rad/s, of a ball that rolls;
+        `floor`, rad/s, added in squares."""
+        both = 0.5 * (jnp.square(free) + jnp.square(free - self.outer_speed))
+        return jnp.sqrt(both + floor**2)
+
     def outer_control(self, outer_angle: Values) -> Float[Array, "..."]:
         """Attitude without spin on the outer race, rad (source eq. (10))."""
         return jnp.arctan2(jnp.sin(outer_angle), jnp.cos(outer_angle) + self.ratio)

@@ -354,7 +354,7 @@ def _stiffness(
         wide(result.point.elements), jnp.concatenate([ring, result.point.globals[len(system.freedoms) :]])
     )
     if isinstance(full, LubricatedBallSystem):
-        # where a tilt does not turn the inner race under the ball, no displacement of the ring changes the films
+        # a ring that cannot tilt moves the groove centres only: at given unknowns of the balls the films stay
         film = None if full.exact else jax.tree.map(wide, film)
         jacobian = _all_freedoms(full, point, result.jacobian, len(system.freedoms), system.multiplicity, film)
     else:

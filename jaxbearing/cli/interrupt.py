@@ -48,7 +48,7 @@ def tell(elsewhere: bool = False) -> None:
 def prompt_interrupt() -> Iterator[None]:
     """Ctrl-C works at once inside the block, also while a program is being compiled or runs: the signal wakes a thread
     that ends the process there and then, less its temporary files. Output that is being printed may stop anywhere. In
-    another thread than the main one, and where Ctrl-C is ignored, it changes nothing."""
+    another thread than the main one it changes nothing; where Ctrl-C is ignored it stays ignored."""
     if threading.current_thread() is not threading.main_thread():
         yield
         return

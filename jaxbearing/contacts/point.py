@@ -1,6 +1,5 @@
 """Point contact of two curved bodies: exact Hertz ellipse and pressure."""
 
-import dataclasses
 from typing import NamedTuple
 
 import equinox as eqx
@@ -36,15 +35,19 @@ class PointContact(eqx.Module):
     reduced_radius_rolling: Values
     reduced_radius_transverse: Values
     reduced_modulus: Values
-    shape: "HertzShape | None" = None
+    shape: "HertzShape | None" = eqx.field(init=False)
+
+    def __post_init__(self):
+        self.shape = None
 
     def __check_init__(self):
         for name in ("reduced_radius_rolling", "reduced_radius_transverse", "reduced_modulus"):
             require_numbers("> 0", **{name: getattr(self, name)})
 
     def shaped(self) -> "PointContact":
-        """The same contact with the shape of its ellipse, which is a root, found once for all laws that ask for it."""
-        return dataclasses.replace(self, shape=self._shape())
+        """The same contact that knows the shape of its ellipse, a root, which laws ask for again and again. Not to be
+        changed: `eqx.tree_at` would leave it the shape of the old radii; a `dataclasses.replace` forgets the shape."""
+        return eqx.tree_at(lambda c: c.shape, self, self._shape(), is_leaf=lambda leaf: leaf is None)
 
     def ellipticity(self) -> Float[Array, "..."]:
         """k = c/a, semi-axis across over semi-axis along rolling."""
@@ -79,16 +82,16 @@ class PointContact(eqx.Module):
 
     def stiffness_constant(self) -> Float[Array, "..."]:
         r"""$K = Q/\delta^{3/2}$, N/m^(3/2), $\pi kE'\sqrt{2ER/(9K_1^3)}$ with the complete integrals E and $K_1$."""
-        log_k = jnp.abs(log_ellipticity(self._log_ratio()))
+        log_k = jnp.abs(log_ellipticity(self._log_radius_ratio()))
         integrals = _elliptic(log_k)
         root = jnp.sqrt(2.0 / 9.0 * _second_kind(integrals, log_k) / (self._curvature() * integrals.k))
         return jnp.pi * jnp.exp(log_k) * self.reduced_modulus * root / integrals.k
 
-    def _log_ratio(self) -> Array:
+    def _log_radius_ratio(self) -> Array:
         return jnp.log(self.reduced_radius_transverse) - jnp.log(self.reduced_radius_rolling)
 
     def _shape(self) -> "HertzShape":
-        return hertz_shape(self._log_ratio()) if self.shape is None else self.shape
+        return hertz_shape(self._log_radius_ratio()) if self.shape is None else self.shape
 
     def _curvature(self) -> Array:
         """1/R, 1/m."""
@@ -111,7 +114,6 @@ PointContact.__init__.__doc__ = """**Arguments:**
 - `reduced_radius_rolling`: Rx, m, 1/Rx = 1/Rx1 + 1/Rx2 in the plane of rolling, convex > 0.
 - `reduced_radius_transverse`: Ry, m, > 0.
 - `reduced_modulus`: E', Pa (see `materials.reduced_modulus`).
-- `shape`: of the ellipse of these radii, as `shaped` finds it; `None`: found where it is asked for.
 """
 
 
@@ -190,23 +192,22 @@ def _log_ellipticity_jvp(primals, tangents):
 
 
 @jax.custom_jvp
+def _size(log_k: Array) -> Array:
+    """sqrt(k) E(m) for ln k >= 0; its slope in closed form: autodiff of the integrals would be most of a derivative."""
+    return jnp.exp(0.5 * log_k) * _second_kind(_elliptic(log_k), log_k)
+
+
+@_size.defjvp
+def _size_jvp(primals, tangents):
+    """dE/dm = -D/2."""
+    (log_k,), (log_k_dot,) = primals, tangents
+    size = _size(log_k)
+    return size, (0.5 * size - jnp.exp(-1.5 * log_k) * _elliptic(log_k).d) * log_k_dot
+
+
 @compiled_by_hand
 def hertz_shape(log_ratio: Array) -> HertzShape:
-    """The shape of the ellipse from ln(Ry/Rx), with its slope in closed form: autodiff of the integrals would be most
-    of a ball's derivative."""
+    """The shape of the ellipse from ln(Ry/Rx)."""
     log_k = log_ellipticity(log_ratio)
-    size = jnp.abs(log_k)
-    return HertzShape(log_k, jnp.exp(0.5 * size) * _second_kind(_elliptic(size), size))
-
-
-@hertz_shape.defjvp
-def _hertz_shape_jvp(primals, tangents):
-    log_k = log_ellipticity(primals[0])
-    log_size = jnp.abs(log_k)
-    integrals = _elliptic(log_size)
-    second_kind, stretch = _second_kind(integrals, log_size), jnp.exp(0.5 * log_size)
-    log_k_dot = tangents[0] / _log_ratio_slope(integrals, log_size)
-    # dE/dm = -D/2
-    slope = stretch * (0.5 * second_kind - integrals.d * jnp.exp(-2.0 * log_size))
-    shape = HertzShape(log_k, stretch * second_kind)
-    return shape, HertzShape(log_k_dot, jnp.sign(log_k) * slope * log_k_dot)
+    # even and smooth at 0, where the slope of |x| would hide the second derivative
+    return HertzShape(log_k, _size(jnp.where(log_k < 0, -log_k, log_k)))

@@ -271,8 +271,7 @@ class TwoDisk(AbstractScene):
     @property
     def hertz(self) -> LineContact | PointContact:
         """The dry contact."""
-        contact = self.geometry.contact(self._reduced_modulus)
-        return contact.shaped() if isinstance(contact, PointContact) else contact
+        return self.geometry.contact(self._reduced_modulus)
 
     @property
     def traction_law(self) -> DistributedTraction:
@@ -303,6 +302,7 @@ class TwoDisk(AbstractScene):
         oil's rheology. **Arguments:** as in `DiskOperation`."""
         # film and thermal factor fit the kind of contact: checked when the scene is made
         contact: Any = self.hertz
+        contact = contact.shaped() if isinstance(contact, PointContact) else contact
         load = contact.load_at_pressure(pressure) if load is None else load
         slide_to_roll, speed, temperature, load = jnp.broadcast_arrays(
             *(jnp.asarray(v, dtype=float) for v in (slide_to_roll, entrainment_speed, temperature, load))

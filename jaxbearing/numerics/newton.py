@@ -66,9 +66,10 @@ class NewtonOptions(eqx.Module):
       residual alone says nothing where the Jacobian is nearly singular.
     - `inner_tolerance`: largest scaled residual of solves nested in the equations.
     - `max_steps`: Newton steps of the first try, rejected trials counted; the others together may take four times as
-      many for each path of the system. What a batch may have to wait for, where a lane has no solution.
-    - `further_tries`: whether a solve that fails at once is tried again. A batch under `vmap` waits for its slowest
-      lane; without further tries it waits for `max_steps` at most.
+      many for each path of the system.
+    - `further_tries`: whether a solve that fails at once is tried again. Where all lanes of a batch are solved at once
+      (on a GPU, and systems that say `side_by_side`), a batch waits for its slowest lane: for `max_steps` at most
+      without further tries.
     """
 
     residual_tolerance: float = constant("residual_tolerance", 1e-10, bound="> 0")

@@ -33,7 +33,7 @@ def _log_add_jvp(primals, tangents):
 
 @jax.custom_jvp
 def softplus(x: Values) -> Batch:
-    """ln(1 + e^x), without overflow."""
+    """ln(1 + e^x) for finite x, without overflow: `log_add(x, 0)` without the derivative by the 0."""
     return jnp.maximum(x, 0.0) + jnp.log1p(jnp.exp(-jnp.abs(jnp.asarray(x))))
 
 

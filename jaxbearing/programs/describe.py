@@ -2,8 +2,12 @@
 
 import dataclasses
 import enum
+import functools
+import operator
+import sys
 import types
 from collections.abc import Iterator, Mapping
+from pathlib import Path
 from typing import Any, TypeAlias
 
 import equinox as eqx
@@ -11,6 +15,8 @@ import jax
 
 Structure: TypeAlias = Any
 """A `PyTreeDef` of JAX, for which type checkers have no type."""
+ROOT = Path(__file__).parents[2]
+"""Folder of the packages."""
 OWN = ("jaxbearing", "fitting")
 _KNOWN = (*OWN, "equinox", "jax", "jaxlib", "numpy", "builtins")
 """Packages whose code is part of the key of a kept program, by their versions or their files."""
@@ -78,4 +84,23 @@ def _named(thing: Any) -> str:
     module, name = getattr(thing, "__module__", None) or "", getattr(thing, "__qualname__", "")
     if module.split(".")[0] not in _KNOWN or "<" in name or not name:
         raise NotKept(f"{module}.{name}")
+    if module.split(".")[0] in OWN and not _is_of_these_files(thing, module, name):
+        raise NotKept(f"another {module}.{name}")
     return f"{module}.{name}"
+
+
+def _is_of_these_files(thing: Any, module: str, name: str) -> bool:
+    """Whether it is what its name says: a user's `fitting.py` hides the package, a wrapper bears the name of what it
+    wraps."""
+    origin = sys.modules.get(module)
+    if origin is None or not _below_root(getattr(origin, "__file__", None)):
+        return False
+    try:
+        return operator.attrgetter(name)(origin) is thing
+    except AttributeError:
+        return False
+
+
+@functools.cache
+def _below_root(file: str | None) -> bool:
+    return file is not None and any(Path(file).is_relative_to(ROOT / package) for package in OWN)

@@ -4,6 +4,7 @@ import hashlib
 import os
 import tempfile
 import time
+from collections.abc import Iterator
 from contextlib import suppress
 from pathlib import Path
 
@@ -12,22 +13,42 @@ MOST_BYTES = 500_000_000
 """Size of all files together from which on those that were used longest ago are removed."""
 ABANDONED = 3600.0
 """Age from which on a file that is still being written belongs to a process that was killed, s."""
-_MAGIC = b"jaxbearing program 1\n"
+_MAGIC = b"jaxbearing program 2\n"
 
 
 def read(path: Path) -> bytes | None:
     """The content that `write` was given, or `None` where the file is not there, is damaged, belongs to another user,
     or may be written by others. A file that is read counts as used."""
     with suppress(OSError):
-        about = path.stat()
-        if about.st_mode & 0o022 or (hasattr(os, "geteuid") and about.st_uid != os.geteuid()):
-            return None
-        whole = path.read_bytes()
+        # no link, and the file that is judged is the one that is read
+        with open(os.open(path, os.O_RDONLY | getattr(os, "O_NOFOLLOW", 0)), "rb") as file:
+            if not _is_own(os.fstat(file.fileno())):
+                return None
+            whole = file.read()
         head, content = whole[: len(_MAGIC) + 32], whole[len(_MAGIC) + 32 :]
-        if head == _head(content):
-            os.utime(path)
+        if head == _head(path, content):
+            with suppress(OSError):  # a disk that may only be read
+                os.utime(path)
             return content
     return None
+
+
+def own_folder(path: Path) -> bool:
+    """Makes a folder that only the user may write, and says whether it is one."""
+    with suppress(OSError):
+        path.mkdir(mode=0o700, parents=True, exist_ok=True)
+        if _is_own(os.stat(path), writable_for_others=True):
+            if not _is_own(os.stat(path)):
+                path.chmod(0o700)
+            return True
+    return False
+
+
+def _is_own(about: os.stat_result, writable_for_others: bool = False) -> bool:
+    """Whether a file belongs to the user and may not be written by others; Windows has other rights."""
+    if not hasattr(os, "geteuid"):
+        return True
+    return about.st_uid == os.geteuid() and (writable_for_others or not about.st_mode & 0o022)
 
 
 def write(path: Path, content: bytes) -> None:
@@ -39,26 +60,35 @@ def write(path: Path, content: bytes) -> None:
     handle, name = tempfile.mkstemp(suffix=".part", dir=path.parent)
     try:
         with os.fdopen(handle, "wb") as file:
-            file.write(_head(content) + content)
+            file.write(_head(path, content) + content)
         os.replace(name, path)
     except BaseException:
         Path(name).unlink(missing_ok=True)
         raise
 
 
-def _head(content: bytes) -> bytes:
-    return _MAGIC + hashlib.sha256(content).digest()
+def _head(path: Path, content: bytes) -> bytes:
+    """Of a file of this name: the name says what the content is."""
+    return _MAGIC + hashlib.sha256(path.name.encode() + b"\n" + content).digest()
 
 
 def _make_room(folder: Path, size: int) -> None:
     """Removes the files that were used longest ago, and what killed processes left half written."""
-    for path in folder.glob("*.part"):
-        if path.stat().st_mtime < time.time() - ABANDONED:
+    for used, _, path in _ages(folder, "*.part"):
+        if used < time.time() - ABANDONED:
             path.unlink(missing_ok=True)
-    files = sorted((path.stat().st_mtime, path.stat().st_size, path) for path in folder.glob(f"*{SUFFIX}"))
+    files = sorted(_ages(folder, f"*{SUFFIX}"))
     excess = sum(size for _, size, _ in files) + size - MOST_BYTES
     for _, size, path in files:
         if excess <= 0:
             return
         path.unlink(missing_ok=True)
         excess -= size
+
+
+def _ages(folder: Path, pattern: str) -> Iterator[tuple[float, int, Path]]:
+    """Time of the last use, size and path of the files that are there; another process may remove some meanwhile."""
+    for path in folder.glob(pattern):
+        with suppress(OSError):
+            about = path.stat()
+            yield about.st_mtime, about.st_size, path

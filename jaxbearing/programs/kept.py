@@ -3,7 +3,8 @@
 JAX's own cache keeps what the compiler made, but a program must be traced and lowered to be found there, which takes
 longer than all the rest of a solve. Here the key is what the program is made from: the structure of the arguments with
 all that is static, shapes and types, the files of this package, the versions of the libraries, the processor and what
-the compiler was told. No setting of JAX is changed. What is kept and what is loaded are the same bits.
+the compiler was told. What is kept and what is loaded are the same bits. No setting of JAX is changed, but for its own
+cache, which is off while a program that will be kept is compiled.
 
 A file that is damaged, foreign or of another version is compiled anew and written over (`programs.files`). Files hold
 code and pickled data, so only those are read that belong to the user and that nobody else may write.
@@ -31,13 +32,13 @@ from jax.stages import Compiled
 from ..numerics.compiling import collecting_rarely, quick_options, quickly_compiled
 from ..numerics.quiet import compiler_is_loud, without_false_alarms
 from . import files
-from .describe import OWN, NotKept, Structure, description, static_description
+from .describe import OWN, ROOT, NotKept, Structure, description, static_description
 from .folder import VARIABLE, cache_folder
 
-ROOT = Path(__file__).parents[2]
-"""Folder of the packages."""
-_LIBRARIES = ("jax", "jaxlib", "equinox", "optimistix", "lineax", "diffrax", "numpy")
+_LIBRARIES = ("jaxbearing", "jax", "jaxlib", "equinox", "optimistix", "lineax", "diffrax", "numpy")
 _SETTINGS = ("jax_enable_x64", "jax_default_matmul_precision", "jax_disable_most_optimizations")
+_FOR_DEBUGGING = ("jax_disable_jit", "jax_debug_nans", "jax_debug_infs")
+"""Settings with which nothing is kept."""
 _ENVIRONMENT = ("XLA_FLAGS", "EQX_ON_ERROR", "JAX_DISABLE_MOST_OPTIMIZATIONS")
 
 
@@ -70,13 +71,16 @@ class _Ready:
 
     def _first_run(self, arrays: list[Any]) -> list[Any]:
         """A file may be whole and of no use all the same: its program is then compiled."""
-        instead, self.instead = self.instead, None
+        instead = self.instead
         try:
-            return jax.block_until_ready(self._run(arrays))
-        except jax.errors.JaxRuntimeError:
+            found = jax.block_until_ready(self._run(arrays))
+        except (jax.errors.JaxRuntimeError, TypeError):
             if instead is not None:
-                self.compiled = instead().compiled
-            return self._run(arrays)
+                made = instead()
+                self.compiled, self.structure, self.others = made.compiled, made.structure, made.others
+            found = self._run(arrays)
+        self.instead = None
+        return found
 
 
 def _is_array(leaf: Any) -> bool:
@@ -111,11 +115,15 @@ class KeptProgram:
     def ready(self, structure: Structure, leaves: list[Any]) -> Callable[[list[Any]], Any] | None:
         """The program for arguments of this structure: a function of their leaves, arrays of the same shapes and equal
         others; loaded, or made and kept. `None` where programs like it are not kept."""
-        key = (structure, tuple((leaf.shape, leaf.dtype) if _is_array(leaf) else (type(leaf), leaf) for leaf in leaves))
+        folder = _folder()
+        if folder is None:
+            return None
+        about = tuple((leaf.shape, leaf.dtype) if _is_array(leaf) else (type(leaf), leaf) for leaf in leaves)
+        key = (structure, about, _told())
         found = self._ready.get(key)
         if found is None and key not in self._never:
             try:
-                found = self._prepared(structure, leaves)
+                found = self._prepared(structure, leaves, folder)
             except NotKept:
                 self._never.add(key)
             if found is not None:
@@ -123,11 +131,8 @@ class KeptProgram:
         return found
 
     @collecting_rarely()
-    def _prepared(self, structure: Structure, leaves: list[Any]) -> _Ready | None:
-        """The program, loaded or made and kept; `None` where none is. **Raises:** `NotKept`."""
-        folder = _folder()
-        if folder is None:
-            return None
+    def _prepared(self, structure: Structure, leaves: list[Any], folder: Path) -> _Ready:
+        """The program, loaded or made and kept. **Raises:** `NotKept`."""
         path = folder / self._name(structure, leaves)
         with without_false_alarms() if compiler_is_loud() else nullcontext():
             ready = _loaded(path)
@@ -140,7 +145,7 @@ class KeptProgram:
         """The name of the file is a hash of all that the program depends on."""
         function = f"{self._function.__module__}.{self._function.__qualname__}"
         shapes = [(leaf.shape, str(leaf.dtype)) if _is_array(leaf) else static_description(leaf) for leaf in leaves]
-        parts = (function, self._quick, description(structure), shapes, _surroundings(), _files())
+        parts = (function, self._quick, description(structure), shapes, _versions(), _told(), _files())
         return hashlib.sha256(repr(parts).encode()).hexdigest()[:40] + files.SUFFIX
 
     def _made(self, structure: Structure, leaves: list[Any], path: Path) -> _Ready:
@@ -209,42 +214,61 @@ def _folder() -> Path | None:
     except ValueError:
         return None
     alone = jax.default_backend() == "cpu" and len(jax.devices()) == 1
-    return folder if alone and not _setting("jax_disable_jit") and not _setting("jax_debug_nans") else None
+    return folder if alone and not any(_setting(name) for name in _FOR_DEBUGGING) else None
 
 
 @functools.cache
 def _known_folder(given: str) -> Path | None:
     folder = cache_folder()
-    if folder is not None:
-        with suppress(OSError, ValueError):
-            folder.mkdir(parents=True, exist_ok=True)
-    return folder
+    return folder if folder is not None and files.own_folder(folder) else None
+
+
+def _times() -> str | None:
+    """Names, sizes and times of the files of the packages; `None` where there are none, as in an archive."""
+    found = hashlib.sha256()
+    try:
+        paths = [path for package in OWN for path in sorted(_below(ROOT / package))]
+        for path in paths:
+            about = path.stat()
+            found.update(f"{path.relative_to(ROOT)} {about.st_size} {about.st_mtime_ns}\n".encode())
+    except OSError:
+        return None
+    return found.hexdigest() if any(path.suffix == ".py" for path in paths) else None
 
 
 @functools.cache
 def _files() -> str:
-    """Names, sizes and times of the files of the package: whoever changes one gets new programs."""
+    """The content of the files of the packages: whoever changes one gets new programs.
+
+    **Raises:** `NotKept` where they are not those that were imported.
+    """
     found = hashlib.sha256()
-    for package in OWN:
-        for path in sorted(_below(ROOT / package)):
-            about = path.stat()
-            found.update(f"{path.relative_to(ROOT)} {about.st_size} {about.st_mtime_ns}\n".encode())
+    try:
+        for package in OWN:
+            for path in sorted(_below(ROOT / package)):
+                found.update(f"{path.relative_to(ROOT)}\n".encode() + hashlib.sha256(path.read_bytes()).digest())
+    except OSError:
+        raise NotKept("files of the package") from None
+    if _TIMES is None or _times() != _TIMES:
+        raise NotKept("files that were changed after they were imported")
     return found.hexdigest()
 
 
 def _below(folder: Path) -> Iterator[Path]:
+    """All files but compiled ones and hidden ones, which editors make."""
     for root, folders, names in os.walk(folder):
-        folders[:] = [name for name in folders if name != "__pycache__"]
-        yield from (Path(root) / name for name in names)
+        folders[:] = [name for name in folders if name != "__pycache__" and not name.startswith(".")]
+        yield from (Path(root) / name for name in names if not name.startswith("."))
 
 
-def _surroundings() -> tuple[Any, ...]:
-    """Versions of the libraries, settings of JAX, variables that its compiler reads."""
-    return (
-        _versions(),
-        [str(_setting(name)) for name in _SETTINGS],
-        [os.environ.get(name) for name in _ENVIRONMENT],
-    )
+_TIMES = _times()
+"""When this package was imported: what is on the disk later may be other code than what runs."""
+
+
+def _told() -> tuple[str | None, ...]:
+    """Settings of JAX, and variables that its compiler reads."""
+    settings = (str(_setting(name)) for name in _SETTINGS)
+    return (*settings, *(os.environ.get(name) for name in _ENVIRONMENT))
 
 
 @functools.cache
@@ -262,6 +286,8 @@ def _keep(path: Path, ready: _Ready) -> None:
     """Writes a program. Where that fails, as on a full disk, nothing is said: keeping programs is a convenience."""
     from jax.experimental.serialize_executable import serialize
 
+    if _times() != _TIMES:
+        return
     with suppress(Exception):
         program, _, _ = serialize(ready.compiled)
         skeleton = jax.tree.unflatten(ready.structure, ready.others)

@@ -27,7 +27,7 @@ _LONGEST_UNIT = 40
 _NON_FINITE = re.compile(r"\s*[+-]?(nan|inf|infinity)\b", re.IGNORECASE)
 _LONGEST = 60
 _REMEMBERED = 1024
-"""Units: pint takes a millisecond for each number, most of what reading a scene takes."""
+"""Units that are remembered: pint takes a millisecond to read one, which was most of what a scene took."""
 
 
 @dataclass(frozen=True)
@@ -154,8 +154,10 @@ def _unit(text: str, value: str, dimension: Dimension) -> Any:
 
 @functools.lru_cache(_REMEMBERED)
 def _read_unit(text: str) -> Any:
+    """A unit, or `None`."""
+    read = registry().Unit
     try:
-        unit = registry().Unit(text)
+        unit = read(text)
         # a factor beyond the range of numbers ("Gm^99") shows here
         _root(unit)
     # pint's reader of units lets many exception types through (tokenizer, arithmetic, attribute errors)

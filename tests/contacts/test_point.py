@@ -1,5 +1,6 @@
 """Point contact: Hertz ellipse, film thickness, rolling moment: check values, limits, hard cases, gradients."""
 
+import dataclasses
 import tomllib
 from pathlib import Path
 
@@ -22,7 +23,7 @@ from jaxbearing.contacts import (
     inlet_temperature_rise,
     point_rolling_moment,
 )
-from jaxbearing.contacts.point import log_ellipticity
+from jaxbearing.contacts.point import hertz_shape, log_ellipticity
 from jaxbearing.lubricants import IntegratedPressureViscosity
 
 PUBLISHED = tomllib.loads((Path(__file__).parents[1] / "published" / "point_contact.toml").read_text())
@@ -118,6 +119,32 @@ def test_hertz_gradients(ratio):
         step = 1e-4 * value
         up, down = (hertz_sizes(*state[:i], value + s * step, *state[i + 1 :]) for s in (1, -1))
         np.testing.assert_allclose(gradient[i], (up - down) / (2 * step), rtol=1e-7)
+
+
+def test_second_derivatives_of_the_shape():
+    """Against differences of the first ones; at a circle by the series to second order in x = ln(Ry/Rx): ln k = 2x/3,
+    sqrt(k) E = (pi/2)(1 + 3 ln^2 k/16)."""
+    first = jax.jit(jax.vmap(jax.jacfwd(hertz_shape)))
+    second = jax.jit(jax.vmap(jax.jacrev(jax.jacfwd(hertz_shape))))
+    x, step = jnp.asarray([-3.0, -0.3, 0.2, 1.0, 8.0]), 1e-4
+    for slope, before, after in zip(second(x), first(x - step), first(x + step), strict=True):
+        np.testing.assert_allclose(slope, (after - before) / (2.0 * step), rtol=1e-6, atol=1e-9)
+    at_circle = second(jnp.zeros(1))
+    np.testing.assert_allclose(at_circle.log_ellipticity, 0.0, atol=1e-14)
+    np.testing.assert_allclose(at_circle.size, np.pi / 12.0, rtol=1e-13)
+
+
+def test_a_shaped_contact_is_the_same_and_forgets_its_shape_with_its_radii():
+    plain = PointContact(10e-3, 35e-3, 220e9)
+    shaped = plain.shaped()
+    for one, other in zip(plain.ellipse(500.0), shaped.ellipse(500.0), strict=True):
+        assert float(one) == float(other)
+    assert plain.shape is None
+    wider = dataclasses.replace(shaped, reduced_radius_transverse=70e-3)
+    assert wider.shape is None
+    assert float(wider.ellipticity()) == float(PointContact(10e-3, 70e-3, 220e9).ellipticity())
+    slope = lambda make: jax.grad(lambda r: make(PointContact(10e-3, r, 220e9)).semi_axis_transverse(500.0))(35e-3)
+    np.testing.assert_allclose(slope(lambda contact: contact.shaped()), slope(lambda contact: contact), rtol=1e-13)
 
 
 @pytest.mark.parametrize("load", [0.0, -1.0, 1e-300, 1e-3, 1e9])

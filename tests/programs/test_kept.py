@@ -1,5 +1,7 @@
 """Programs that are kept: the same bits from the next process, whatever happens to the files; none that is stale."""
 
+import functools
+import importlib.util
 import os
 import subprocess
 import sys
@@ -12,6 +14,7 @@ from command_process import environment
 
 import jaxbearing as jb
 from jaxbearing.programs import KeptProgram, files, kept
+from jaxbearing.programs.describe import NotKept, static_description
 from jaxbearing.programs.files import SUFFIX
 
 FACTOR = {"now": 2.0}
@@ -63,16 +66,66 @@ def test_what_a_program_depends_on(folder, monkeypatch):
         assert len(folder()) == count
 
 
-def test_a_changed_file_of_the_package_is_seen(tmp_path):
-    before = kept._files.__wrapped__()
-    file = next(path for path in kept._below(kept.ROOT / "jaxbearing") if path.name == "roots.py")
-    about = file.stat()
-    try:
-        os.utime(file, ns=(about.st_atime_ns, about.st_mtime_ns + 10**7))
-        assert kept._files.__wrapped__() != before
-    finally:
-        os.utime(file, ns=(about.st_atime_ns, about.st_mtime_ns))
-    assert kept._files.__wrapped__() == before
+def test_a_changed_file_of_the_package_is_seen(tmp_path, monkeypatch):
+    """By its content: sizes and times may be those of before."""
+    code = tmp_path / "jaxbearing" / "laws.py"
+    code.parent.mkdir()
+    monkeypatch.setattr(kept, "ROOT", tmp_path)
+    found = {}
+    for words in ("x = 1.0", "x = 2.0", "x = 1.0"):
+        code.write_text(words)
+        os.utime(code, ns=(10**18, 10**18))
+        monkeypatch.setattr(kept, "_TIMES", kept._times())
+        found.setdefault(words, set()).add(kept._files.__wrapped__())
+    assert len(found["x = 1.0"]) == 1
+    assert not found["x = 1.0"] & found["x = 2.0"]
+    # an editor's marks of a file that is open are not looked at
+    (code.parent / ".#laws.py").symlink_to("someone@somewhere")
+    assert {kept._files.__wrapped__()} == found["x = 1.0"]
+
+
+def test_code_that_was_changed_after_it_was_imported_is_not_kept(folder, tmp_path, monkeypatch):
+    """What runs is older than what the files say."""
+    monkeypatch.setattr(kept, "_files", kept._files.__wrapped__)
+    monkeypatch.setattr(kept, "_TIMES", "of another day")
+    assert ask() == [2.0, 4.0]
+    # in an archive there are no files
+    monkeypatch.setattr(kept, "ROOT", tmp_path)
+    monkeypatch.setattr(kept, "_TIMES", kept._times())
+    assert ask() == [2.0, 4.0]
+    assert folder() == []
+
+
+def test_names_are_not_taken_on_trust(tmp_path, monkeypatch):
+    """A module of the user's own that hides a package of this project, and what bears the name of something else."""
+    assert static_description(files.read) == "jaxbearing.programs.files.read"
+    file = tmp_path / "fitting.py"
+    file.write_text("def law(x):\n    return x\n")
+    spec = importlib.util.spec_from_file_location("fitting", file)
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    monkeypatch.setitem(sys.modules, "fitting", module)
+    for foreign in (module.law, functools.wraps(files.read)(lambda path: None)):
+        with pytest.raises(NotKept):
+            static_description(foreign)
+
+
+def test_settings_for_debugging_are_obeyed_at_once(folder):
+    program = KeptProgram(doubled, True)
+    program(jnp.eye(2), jnp.ones(2))
+    FACTOR["now"] = 3.0
+    with jax.disable_jit():
+        assert float(program(jnp.eye(2), jnp.ones(2))["sum"][0]) == 3.0
+    assert float(program(jnp.eye(2), jnp.ones(2))["sum"][0]) == 2.0
+
+
+def test_a_folder_that_others_may_write_is_closed(folder, tmp_path):
+    (tmp_path / "cache").mkdir()
+    ask()
+    (file,) = folder()
+    file.parent.chmod(0o777)
+    assert files.own_folder(file.parent)
+    assert file.parent.stat().st_mode & 0o777 == 0o700
 
 
 ACCIDENTS = {
@@ -81,6 +134,7 @@ ACCIDENTS = {
     "a flipped bit": lambda file: file.write_bytes(file.read_bytes()[:-9] + b"\x00" + file.read_bytes()[-8:]),
     "something else": lambda file: file.write_bytes(b"#!/bin/sh\nexit 1\n"),
     "writable for others": lambda file: file.chmod(0o666),
+    "a link": lambda file: file.symlink_to(file.rename(file.with_suffix(".moved"))),
 }
 
 
@@ -94,6 +148,16 @@ def test_a_file_that_is_no_good_is_made_anew(accident, folder):
     FACTOR["now"] = 4.0
     assert ask() == [3.0, 6.0]
     assert len(folder()) == 1
+
+
+def test_a_program_under_another_name_is_not_read(folder):
+    ask()
+    (file,) = folder()
+    FACTOR["now"] = 3.0
+    assert ask(quick=False) == [3.0, 6.0]
+    other = next(path for path in folder() if path != file)
+    other.write_bytes(file.read_bytes())
+    assert ask(quick=False) == [3.0, 6.0]
 
 
 def test_a_program_that_does_not_run_is_made_anew(folder, monkeypatch):
