@@ -38,7 +38,7 @@ M = Mutation
 MUTATIONS = (
     M("jaxbearing/contacts/line.py", "8.0 / jnp.pi * load", "4.0 / jnp.pi * load", "Hertz line contact: width with E* for E'", "contacts/test_line.py"),
     M("jaxbearing/contacts/line.py", "** 0.9 / self.length**0.8", "** 0.9 / self.length**0.9", "Palmgren: exponent of the length", "contacts/test_line.py"),
-    M("jaxbearing/contacts/point.py", "2.0 / 9.0 * second_kind", "4.0 / 9.0 * second_kind", "Hertz point contact: stiffness", "contacts/test_point.py"),
+    M("jaxbearing/contacts/point.py", "2.0 / 9.0 * _second_kind", "4.0 / 9.0 * _second_kind", "Hertz point contact: stiffness", "contacts/test_point.py"),
     M("jaxbearing/contacts/film.py", "jnp.log(2.621) - 0.2", "jnp.log(2.612) - 0.2", "Moes' film: digits of a constant swapped", "contacts/test_film.py"),
     M("jaxbearing/contacts/film.py", "3.06, 0.69, 0.56, -0.10", "3.06, 0.69, 0.56, -0.11", "Dowson-Toyoda film: exponent of the load", "contacts/test_film.py"),
     M("jaxbearing/contacts/thermal.py", "1.0 - 13.2 * severity", "1.0 - 12.3 * severity", "Gupta's thermal factor: digits swapped", "contacts/test_thermal.py"),
