@@ -21,6 +21,7 @@ import dataclasses
 from typing import NamedTuple
 
 import equinox as eqx
+import jax
 import jax.numpy as jnp
 from jaxtyping import Array, Bool, Float, Int
 
@@ -72,10 +73,9 @@ class BallState(NamedTuple):
     """Orbital speed of rolling without sliding at the ball's own angles, rad/s; `motion` may have the common one."""
     balance: Float[Array, "2 ball"]
     """Left side minus right side of the ball's two force balances, N."""
-    ring_force: Float[Array, "component ball"]
-    """p_x, p_r and, where the ring may tilt, along the orbit: of the balls on the inner ring, N."""
-    ring_moment: Float[Array, " ball"]
-    """Of a ball on the inner ring about the tangent of the circle of groove centres, N m."""
+    on_ring: Float[Array, "freedom ball"]
+    """What the forces p_x, p_r and, where the ring may tilt, along the orbit, and the moment about the tangent of the
+    circle of groove centres contribute to the forces on the ring's freedoms, N."""
 
 
 class BallCore(AbstractBallSystem):
@@ -152,21 +152,23 @@ class BallCore(AbstractBallSystem):
         return ArrowPoint(elements, at_rest.at[-1].set(-orbit_row(jnp.sum(away, axis=1), self.orbit_unit)))
 
     def _frozen(self) -> CentrifugalProblem:
-        """The convex problem at the centrifugal forces of the estimated contact angles."""
-        angle = jnp.broadcast_to(self.grooves.free_angle, (2, self.azimuth.shape[0]))
-        problem = self._frozen_at(angle)
-        for _ in range(ESTIMATES):
+        """The convex problem at the centrifugal forces of the estimated contact angles; not differentiated."""
+        core = jax.lax.stop_gradient(self)
+        rest, angle = core._groove_at_rest(), jnp.broadcast_to(core.grooves.free_angle, (2, core.azimuth.shape[0]))
+
+        def better(_, angle: Array) -> Array:
+            problem = core._frozen_at(angle, rest)
             first = estimate(problem)
             outer, inner = first.centre, problem.groove_at(first.ring) - first.centre
-            angle = jnp.stack([jnp.arctan2(inner[0], inner[1]), jnp.arctan2(outer[0], outer[1])])
-            problem = self._frozen_at(angle)
-        return problem
+            return jnp.stack([jnp.arctan2(inner[0], inner[1]), jnp.arctan2(outer[0], outer[1])])
 
-    def _frozen_at(self, angle: Float[Array, "2 ball"]) -> CentrifugalProblem:
+        return core._frozen_at(jax.lax.fori_loop(0, ESTIMATES, better, angle), rest)
+
+    def _frozen_at(self, angle: Float[Array, "2 ball"], rest: Float[Array, "2 ball"]) -> CentrifugalProblem:
         return CentrifugalProblem(
             offset=self.grooves.offset,
             stiffness=self.grooves.stiffness,
-            groove=self._groove_at_rest(),
+            groove=rest,
             directions=self.directions,
             ring_load=self.ring_load,
             centrifugal=self.outward_force(self.motion(angle)),
@@ -205,7 +207,7 @@ class BallCore(AbstractBallSystem):
 
     def element(self, unknowns, shared):
         state = self.balls(unknowns, shared)
-        totals = self.contributions(shared[: len(self.freedoms)], state.centre, state.ring_force, state.ring_moment)
+        totals = state.on_ring
         if self.common_orbit:
             speeds = orbit_totals(state.load[0], state.own_orbit, state.motion.orbital_speed)
             totals = jnp.concatenate([totals, self.multiplicity * speeds])
@@ -235,7 +237,7 @@ class BallCore(AbstractBallSystem):
     def balls(self, unknowns: Float[Array, "2 ball"], shared: Float[Array, "g ball"]) -> BallState:
         centre = self.free_centre() + LENGTH_UNIT * unknowns[:2]
         shift = shared[: len(self.freedoms)]
-        arm = self.inner_arm(shift, centre)
+        arm, on_ring = self.reach(shift, centre)
         apart = jnp.stack([arm.length, safe_norm(centre[0], centre[1])])
         direction = angle = jnp.stack([jnp.arctan2(*arm.in_plane), jnp.arctan2(centre[0], centre[1])])
         if arm.turned is not None:
@@ -260,8 +262,7 @@ class BallCore(AbstractBallSystem):
             motion=motion,
             own_orbit=own_orbit,
             balance=jnp.stack([axial[1] - axial[0], radial[1] - radial[0] - self.outward_force(motion)]),
-            ring_force=jnp.stack([axial[0], radial[0], *sideways]),
-            ring_moment=moment,
+            on_ring=on_ring(jnp.stack([axial[0], radial[0], *sideways]), moment),
         )
 
     def loads(self, apart: Float[Array, "2 ball"]) -> Float[Array, "2 ball"]:

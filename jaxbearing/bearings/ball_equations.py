@@ -66,7 +66,7 @@ from ..numerics.safe import safe_norm
 from .ball_core import orbit_row, orbit_totals
 from .ball_geometry import BallGeometry
 from .ball_kinematics import BallMotion, RaceMotion
-from .ball_system import LENGTH_UNIT, AbstractBallSystem, InnerArm
+from .ball_system import LENGTH_UNIT, AbstractBallSystem, InnerArm, OnRing
 from .land import LandState, guided_land
 
 LOG_LOAD_RANGE = (-200.0, 18.0)
@@ -136,9 +136,8 @@ class BallsState(NamedTuple):
     fit: Float[Array, "2 ball"]
     rows: tuple[Array, ...]
     """Residuals of the ball's motion, in the order of its unknowns."""
-    ring_force: Float[Array, "component ball"]
-    """On the inner ring: axial, outward and, where it may tilt, along the orbit, N."""
-    ring_moment: Float[Array, " ball"]
+    on_ring: Float[Array, "freedom ball"]
+    """What each ball contributes to the forces on the ring's freedoms, N."""
     cage_moment: Float[Array, " ball"] | None
     cage_force: Float[Array, "2 ball"] | None
 
@@ -294,8 +293,7 @@ class LubricatedBallSystem(AbstractBallSystem):
 
     def element(self, unknowns, shared):
         state = self.balls(unknowns, shared)
-        shift = shared[: len(self.freedoms)]
-        totals = [self.contributions(shift, state.centre, state.ring_force, state.ring_moment)]
+        totals = [state.on_ring]
         if state.cage_moment is not None and state.cage_force is not None:
             totals += [self.multiplicity * state.cage_moment[None, :], state.cage_force]
         if self.common_orbit:
@@ -366,7 +364,7 @@ class LubricatedBallSystem(AbstractBallSystem):
         contact = self.geometry.contacts(cosine[0], cosine[1], self.reduced_modulus).shaped()
         if film is None:
             film = self.laws.film_state(contact, load, races.mean_speed, races.rolling, self.oil, self.inlet)
-        fit, centre, arm = self._fit(load, direction, film.film, shared[:d])
+        fit, centre, arm, on_ring = self._fit(load, direction, film.film, shared[:d])
         axial, radial, moment = self.with_friction(load, direction, friction)
         from_ring = radial[0]
         sideways = ()
@@ -392,8 +390,7 @@ class LubricatedBallSystem(AbstractBallSystem):
             drag_force=None,
             fit=fit,
             rows=(),
-            ring_force=jnp.stack([axial[0], from_ring, *sideways]),
-            ring_moment=moment,
+            on_ring=on_ring(jnp.stack([axial[0], from_ring, *sideways]), moment),
             cage_moment=None,
             cage_force=None,
         )
@@ -482,14 +479,15 @@ class LubricatedBallSystem(AbstractBallSystem):
 
     def _fit(
         self, load: Array, angle: Array, film: Array, shift: Array
-    ) -> tuple[Float[Array, "2 ball"], Float[Array, "2 ball"], InnerArm]:
+    ) -> tuple[Float[Array, "2 ball"], Float[Array, "2 ball"], InnerArm, OnRing]:
         """Misfit of the centres, along the inner contact's normal, as a logarithm, and across it; ball centres, from
-        the outer groove centre, m, and the arms from them to the inner groove. `angle`: of the normal forces."""
+        the outer groove centre, m, the arms from them to the inner groove, and what forces there do. `angle`: of the
+        normal forces."""
         grooves = self.grooves
         compression = jnp.cbrt(jnp.square(load / grooves.stiffness[:, None]))
         reach = grooves.offset[1] + compression[1] - film[1]
         centre = reach[None] * jnp.stack([jnp.sin(angle[1]), jnp.cos(angle[1])])
-        arm = self.inner_arm(shift, centre)
+        arm, on_ring = self.reach(shift, centre)
         # the arm laid into the half-plane
         groove = centre + (arm.in_plane / arm.share[None] if self.exact else arm.in_plane)
         turned = angle[1] - angle[0]
@@ -500,7 +498,7 @@ class LubricatedBallSystem(AbstractBallSystem):
         apart = compression[0] + compression[1] * cosine + jnp.maximum(opening, 0.0)
         together = film[0] + film[1] * cosine + jnp.maximum(-opening, 0.0)
         fit = jnp.stack([jnp.log(apart / together), (reach * sine - across) / grooves.centre_distance])
-        return fit, centre, arm
+        return fit, centre, arm, on_ring
 
     def _with_traction(self, state: BallsState, contact: PointContact) -> BallsState:
         motion, races, angle = state.motion, state.races, state.angle

@@ -388,8 +388,7 @@ def _all_freedoms(
 
     def light(v):
         state = full.frictionless(v[:m], v[m:], film)[0]
-        on_ring = full.contributions(v[m : m + 5], state.centre, state.ring_force, state.ring_moment)
-        return jnp.concatenate([state.fit, on_ring])
+        return jnp.concatenate([state.fit, state.on_ring])
 
     v = jnp.concatenate([point.elements, shared])
     seeds = jnp.broadcast_to(jnp.eye(m + g)[:, :, None], (m + g, m + g, count))

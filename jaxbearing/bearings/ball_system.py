@@ -1,6 +1,7 @@
 """What the equations of ball bearings with and without films have in common: grooves, ring, centrifugal force."""
 
-from typing import Any, Literal, NamedTuple
+from collections.abc import Callable
+from typing import Any, Literal, NamedTuple, TypeAlias
 
 import equinox as eqx
 import jax
@@ -65,6 +66,11 @@ class InnerArm(NamedTuple):
     def share(self) -> Float[Array, " ball"]:
         """Part of the distance that lies in the half-plane."""
         return length_of(self.in_plane) / self.length
+
+
+OnRing: TypeAlias = Callable[[Float[Array, "component ball"], Float[Array, " ball"]], Float[Array, "freedom ball"]]
+"""Contributions of every ball to the forces on the ring's freedoms, N (moments in units of R_i), from its force on the
+ring, axial, outward and, of an `exact` system, along the orbit, N, and its moment in the half-plane, N m."""
 
 
 class AbstractBallSystem(AbstractArrowSystem):
@@ -145,39 +151,38 @@ class AbstractBallSystem(AbstractArrowSystem):
         moment = -friction[0] * self.grooves.groove_arm
         return axial + friction * cosine, radial - friction * sine, moment
 
-    def contributions(
-        self,
-        shift: Float[Array, "freedom ball"],
-        centre: Float[Array, "2 ball"],
-        ring_force: Float[Array, "component ball"],
-        ring_moment: Float[Array, " ball"],
-    ) -> Float[Array, "freedom ball"]:
-        """Contributions of every ball to the forces on the ring's freedoms, N; moments are in units of R_i.
+    def reach(self, shift: Float[Array, "freedom ball"], centre: Float[Array, "2 ball"]) -> tuple[InnerArm, OnRing]:
+        r"""From ball centres, counted from the outer groove centre (axial, radial), m, to the inner groove centres; and
+        what forces there contribute to those on the ring's freedoms.
 
-        They are conjugate to the displacements: force times the motion of the nearest groove centre, moment times the
-        turning of the groove. To second order the moment is $R_i(p_x\\cos t\\cos\\psi - p_r\\sin t\\cos^2\\psi)$.
-
-        **Arguments:** `shift`: of the ring, in units of `LENGTH_UNIT`; `centre`: of the balls, from the outer groove
-        centre, m; `ring_force`: axial, outward and, of an `exact` system, along the orbit, N; `ring_moment`: in the
-        half-plane, N m.
+        The contributions are conjugate to the displacements: force times the motion of the nearest groove centre,
+        moment times the turning of the groove. To second order the moment is
+        $R_i(p_x\cos t\cos\psi - p_r\sin t\cos^2\psi)$.
         """
-        if self.exact:
+        if not self.exact:
+            return self.inner_arm(shift, centre), self._to_first_order
 
-            def move(shift: Array) -> Array:
-                arm = self.inner_arm(shift, centre)
-                assert arm.turned is not None
-                assert arm.along is not None
-                return jnp.concatenate([arm.in_plane, jnp.stack([arm.along, arm.turned])])
+        def move(shift: Array) -> tuple[Array, InnerArm]:
+            arm = self.inner_arm(shift, centre)
+            assert arm.turned is not None
+            assert arm.along is not None
+            return jnp.concatenate([arm.in_plane, jnp.stack([arm.along, arm.turned])]), arm
 
-            work = jnp.concatenate([ring_force, ring_moment[None]])
-            return (self.multiplicity / LENGTH_UNIT) * jax.vjp(move, shift)[1](work)[0]
+        _, pull, arm = jax.vjp(move, shift, has_aux=True)
+
+        def on_ring(force: Array, moment: Array) -> Array:
+            return (self.multiplicity / LENGTH_UNIT) * pull(jnp.concatenate([force, moment[None]]))[0]
+
+        return arm, on_ring
+
+    def _to_first_order(self, force: Array, moment: Array) -> Array:
         rows = []
         for direction, name in zip(self.directions, self.freedoms, strict=True):
-            force = jnp.sum(ring_force[:2] * direction, axis=0)
+            row = jnp.sum(force * direction, axis=0)
             if name.startswith("tilt"):
                 # the tilt turns the axial direction of the groove's centre
-                force = force + ring_moment * direction[0] / self.grooves.lever
-            rows.append(self.multiplicity * force)
+                row = row + moment * direction[0] / self.grooves.lever
+            rows.append(self.multiplicity * row)
         return jnp.stack(rows)
 
     def shared_fields(self) -> dict[str, Any]:
