@@ -47,6 +47,7 @@ CAMPAIGNS = {
 
 
 @pytest.mark.slow
+@pytest.mark.usefixtures("optimized")  # a thousand steps and more: they take longer than the compiler
 @pytest.mark.parametrize("name", CAMPAIGNS)
 def test_random_lubricated_bearings_converge(name):
     changes, parts = CAMPAIGNS[name]
