@@ -74,8 +74,8 @@ class BallState(NamedTuple):
     balance: Float[Array, "2 ball"]
     """Left side minus right side of the ball's two force balances, N."""
     on_ring: Float[Array, "freedom ball"]
-    """What the forces p_x, p_r and, where the ring may tilt, along the orbit, and the moment about the tangent of the
-    circle of groove centres contribute to the forces on the ring's freedoms, N."""
+    """Contributions of each ball to the forces on the ring's freedoms, N: of p_x, p_r, the force along the orbit where
+    the ring may tilt, and the moment about the tangent of the circle of groove centres."""
 
 
 class BallCore(AbstractBallSystem):

@@ -137,7 +137,7 @@ class BallsState(NamedTuple):
     rows: tuple[Array, ...]
     """Residuals of the ball's motion, in the order of its unknowns."""
     on_ring: Float[Array, "freedom ball"]
-    """What each ball contributes to the forces on the ring's freedoms, N."""
+    """Contributions of each ball to the forces on the ring's freedoms, N."""
     cage_moment: Float[Array, " ball"] | None
     cage_force: Float[Array, "2 ball"] | None
 

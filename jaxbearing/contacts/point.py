@@ -118,8 +118,8 @@ PointContact.__init__.__doc__ = """**Arguments:**
 
 
 class HertzShape(NamedTuple):
-    """What the radii alone make of the ellipse: ln(c/a), and $\\sqrt{k}\\,E(m)$ with k = c/a or a/c, whichever is
-    larger."""
+    """Part of the ellipse that depends on the radii alone: ln(c/a), and $\\sqrt{k}\\,E(m)$ with k = c/a or a/c,
+    whichever is larger."""
 
     log_ellipticity: Float[Array, "..."]
     size: Float[Array, "..."]

@@ -90,8 +90,8 @@ def _named(thing: Any) -> str:
 
 
 def _is_of_these_files(thing: Any, module: str, name: str) -> bool:
-    """Whether it is what its name says: a user's `fitting.py` hides the package, a wrapper bears the name of what it
-    wraps."""
+    """True if the name leads to this very thing in a file of this project: a user's `fitting.py` may hide the package,
+    and a wrapper bears the name of what it wraps."""
     origin = sys.modules.get(module)
     if origin is None or not _below_root(getattr(origin, "__file__", None)):
         return False

@@ -45,7 +45,7 @@ def own_folder(path: Path) -> bool:
 
 
 def _is_own(about: os.stat_result, writable_for_others: bool = False) -> bool:
-    """Whether a file belongs to the user and may not be written by others; Windows has other rights."""
+    """True if a file belongs to the user and nobody else may write it; Windows has other rights."""
     if not hasattr(os, "geteuid"):
         return True
     return about.st_uid == os.geteuid() and (writable_for_others or not about.st_mode & 0o022)
@@ -68,7 +68,7 @@ def write(path: Path, content: bytes) -> None:
 
 
 def _head(path: Path, content: bytes) -> bytes:
-    """Of a file of this name: the name says what the content is."""
+    """The first bytes of a file; its name, which says what the content is, counts in the sum."""
     return _MAGIC + hashlib.sha256(path.name.encode() + b"\n" + content).digest()
 
 
