@@ -227,10 +227,10 @@ def _times() -> str | None:
     """Names, sizes and times of the files of the packages; `None` where there are none, as in an archive."""
     found = hashlib.sha256()
     try:
-        paths = [path for package in OWN for path in sorted(_below(ROOT / package))]
+        paths = _paths()
         for path in paths:
             about = path.stat()
-            found.update(f"{path.relative_to(ROOT)} {about.st_size} {about.st_mtime_ns}\n".encode())
+            found.update(f"{path} {about.st_size} {about.st_mtime_ns}\n".encode())
     except OSError:
         return None
     return found.hexdigest() if any(path.suffix == ".py" for path in paths) else None
@@ -244,9 +244,8 @@ def _files() -> str:
     """
     found = hashlib.sha256()
     try:
-        for package in OWN:
-            for path in sorted(_below(ROOT / package)):
-                found.update(f"{path.relative_to(ROOT)}\n".encode() + hashlib.sha256(path.read_bytes()).digest())
+        for path in _paths():
+            found.update(f"{path.relative_to(ROOT)}\n".encode() + hashlib.sha256(path.read_bytes()).digest())
     except OSError:
         raise NotKept("files of the package") from None
     if _TIMES is None or _times() != _TIMES:
@@ -254,11 +253,14 @@ def _files() -> str:
     return found.hexdigest()
 
 
-def _below(folder: Path) -> Iterator[Path]:
-    """All files but compiled ones and hidden ones, which editors make."""
-    for root, folders, names in os.walk(folder):
-        folders[:] = [name for name in folders if name != "__pycache__" and not name.startswith(".")]
-        yield from (Path(root) / name for name in names if not name.startswith("."))
+def _paths() -> list[Path]:
+    """All files of the packages but compiled ones and hidden ones, which editors make."""
+    found: list[Path] = []
+    for package in OWN:
+        for root, folders, names in os.walk(ROOT / package):
+            folders[:] = [name for name in folders if name != "__pycache__" and not name.startswith(".")]
+            found += (Path(root) / name for name in names if not name.startswith("."))
+    return sorted(found)
 
 
 _TIMES = _times()
