@@ -1,6 +1,7 @@
 """From a ball bearing scene to its equations, with everything prepared that does not depend on the unknowns."""
 
-from typing import NamedTuple
+import dataclasses
+from typing import Any, NamedTuple
 
 import jax
 import jax.numpy as jnp
@@ -10,6 +11,7 @@ from jaxtyping import Array, Float
 from ..gaps import ReynoldsDrag, RollerDrag, ball_frontal_area
 from ..gaps.ball_pocket import BallPocket
 from ..materials import reduced_modulus
+from ..numerics.arrow import ArrowPoint
 from .ball_bearing import BallBearing
 from .ball_core import BallCore
 from .ball_equations import BallCageParts, BallDrag, BallGuess, LubricatedBallSystem
@@ -18,6 +20,8 @@ from .ball_system import LENGTH_UNIT, Grooves
 from .gyroscopic import AbstractGyroscopic, ResolvedCouple
 from .parts import drag_density
 
+EASY_LOAD = 1e5
+"""Load of a ball over the square of its diameter, Pa: so loaded, its contacts are stiffer than their films."""
 SMALLEST_GUESS = 1e-3
 """Load of an inner contact that the frictionless bearing has lost, over a ball's load scale, where the films start."""
 CONTROL_AT_EQUAL_LOADS, CONTROL_BY_LOAD = -1.6, 8.0
@@ -130,7 +134,7 @@ def build_lubricated(scene: BallBearing, core: BallCore) -> LubricatedBallSystem
         laws=scene.contact,
         oil=scene.oil,
         inlet=scene.oil.at(scene.operation.oil_temperature),
-        guess=_guess(core),
+        **_guesses(core, scene.slips),
         reference=reference,
         orbit_unit=motion.orbit_scale(reference.orbital_speed),
         resolved=isinstance(scene.kinematics.gyroscopic, ResolvedCouple),
@@ -140,8 +144,25 @@ def build_lubricated(scene: BallBearing, core: BallCore) -> LubricatedBallSystem
     )
 
 
-def _guess(core: BallCore) -> BallGuess:
-    point = core.initial()
+def _guesses(core: BallCore, slips: bool) -> dict[str, Any]:
+    """Where the iteration starts; of balls that do not slide also the load of the easiest system and where that does.
+
+    That load is so much larger that contacts are stiffer than films, and centrifugal forces small.
+    """
+    if slips:
+        return {"guess": _guess(core, core.initial())}
+    force = core.ball_scale() + EASY_LOAD * jnp.square(core.kinematics.ball_diameter)
+    easiest = core.ring_load * (1.0 + force * core.ball_count / core.load_scale())
+    heavy = dataclasses.replace(core, ring_load=easiest, guess=None)
+    loads, points = jax.tree.map(
+        lambda a, b: jnp.stack([a, b]), (core.ring_load, core.initial()), (easiest, heavy.initial())
+    )
+    both = jax.vmap(lambda load, point: _guess(dataclasses.replace(core, ring_load=load), point))(loads, points)
+    guess, heavy_guess = (jax.tree.map(lambda leaf, i=i: leaf[i], both) for i in (0, 1))
+    return {"guess": guess, "heavy_guess": heavy_guess, "easiest_load": easiest}
+
+
+def _guess(core: BallCore, point: ArrowPoint) -> BallGuess:
     state = core.at(point)
     inner, outer = state.direction
     least = SMALLEST_GUESS * core.ball_scale()

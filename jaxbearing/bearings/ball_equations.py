@@ -26,7 +26,8 @@ of the traction law $F_{tk} = -sF_x(s\,u_t, s\,u_b, \omega_s)$, s = 1 inside, -1
 
 The massless cage hands the pocket forces on to its lands, and where the inner ring guides it they stand in that ring's
 balance, $F_r = \sum p_r\cos\psi + W_{FCi}\cos\chi$, $W_{FCi}\cos\chi = \sum(F_{C2} - F_{C1})\cos\psi$ (source eqs.
-(18)-(19), (22)): to the radial force of each ball on the ring comes the radial friction of its pocket. Tangential
+(18)-(19), (22)): to the radial force of each ball on the ring comes the radial friction of its pocket, which has no
+moment. Tangential
 forces, those of the pockets through the lands and $F_{ti}$ of the balls, have no sum along the load line, since balls
 on both sides of it run alike; the balances of the ring, and its stiffness, leave out both.
 
@@ -78,6 +79,8 @@ FRICTION_PASSES = 3
 """Load and angle of the outer contact under the friction that carries the couple: the error falls as fast."""
 EASIEST_SLIDE = 1e-3
 """Part of the sliding that the traction law of the easiest system sees."""
+THINNEST_FILM = 1e-3
+"""Part of the films that the easiest system has."""
 PART_TOLERANCE = 1e-12
 """Of the part of the way from outer to inner control at which the spin power is least."""
 
@@ -124,6 +127,8 @@ class BallsState(NamedTuple):
     races: RaceMotion
     friction: Float[Array, "2 ball"] | None
     film: PointFilm
+    orbit_residual: Float[Array, ""]
+    """Of the orbital speeds of balls that roll without sliding, scaled."""
     traction: Traction | None
     rolling: Float[Array, "2 ball"] | None
     """Moment of the film's pressure against the roll, N m."""
@@ -162,6 +167,12 @@ class LubricatedBallSystem(AbstractBallSystem):
     """Whether balls that roll without sliding have one orbital speed."""
     slide_share: Scalar = eqx.field(converter=as_float, default=1.0)
     """Part of the sliding that the traction law sees: 1, less in an eased system."""
+    heavy_guess: BallGuess | None = None
+    """Of balls that do not slide: where the easiest system starts."""
+    easiest_load: Float[Array, " load"] | None = None
+    """The load of that, N."""
+    film_share: Scalar = eqx.field(converter=as_float, default=1.0)
+    """Part of the films that keeps the surfaces apart: 1, less in an eased system."""
 
     # -- structure ------------------------------------------------------------------------------------------------
 
@@ -277,14 +288,18 @@ class LubricatedBallSystem(AbstractBallSystem):
 
     @property
     def paths(self) -> int:
-        return 2 if self.resolved else 1
+        return 2 if self.resolved or not self.slips else 1
 
     def eased(self, ease, path):
         """Slower sliding in the traction law, which then saturates less; first, where traction has to carry the
-        gyroscopic couple, a part of that. Without traction more load."""
-        if not self.slips:
-            force = 100.0 * self.friction_scale() * self.ball_count
-            return dataclasses.replace(self, ring_load=self.ring_load * (1.0 + force / self.load_scale()) ** ease)
+        gyroscopic couple, a part of that. Without traction more load first, as much as makes contacts stiffer than films,
+        and then thinner films: the lightest balls hang in films far thicker than their contacts are pressed in."""
+        if self.easiest_load is not None:
+            heavier, thinner = jnp.where(path == 0, ease, 0.0), THINNEST_FILM ** jnp.where(path == 0, 0.0, ease)
+            ratio = (jnp.linalg.norm(self.easiest_load) / self.load_scale()) ** heavier
+            heavy = heavier > 0
+            guess = jax.tree.map(lambda a, b: jnp.where(heavy, a, b), self.heavy_guess, self.guess)
+            return dataclasses.replace(self, ring_load=self.ring_load * ratio, film_share=thinner, guess=guess)
         slide = EASIEST_SLIDE**ease
         if not self.resolved:
             return dataclasses.replace(self, slide_share=slide)
@@ -300,7 +315,7 @@ class LubricatedBallSystem(AbstractBallSystem):
             own = self.kinematics.rolling(state.angle[0], state.angle[1], state.motion.attitude).orbital_speed
             totals.append(self.multiplicity * orbit_totals(state.load[0], own, state.motion.orbital_speed))
         local = jnp.concatenate([state.fit, *(row[None, :] for row in state.rows)])
-        return local, jnp.concatenate(totals), jnp.max(state.film.residual)
+        return local, jnp.concatenate(totals), jnp.maximum(jnp.max(state.film.residual), state.orbit_residual)
 
     def closure(self, globals_, totals):
         d = len(self.freedoms)
@@ -353,7 +368,7 @@ class LubricatedBallSystem(AbstractBallSystem):
         pocket = self.friction_scale() * own["outward"] if "outward" in own else None
         turned = self.ring_frame(shared[:d]).turned if self.exact else None
         seen = inner if turned is None else inner - turned  # by the tilted race
-        load, outer, motion, friction = self._contacts(log_load, inner, seen, orbit, own, pocket)
+        load, outer, motion, friction, orbit_residual = self._contacts(log_load, inner, seen, orbit, own, pocket)
         angle, direction = jnp.stack([seen, outer]), jnp.stack([inner, outer])
         races = jax.tree.map(
             lambda a, b: jnp.stack([a, b]),
@@ -366,14 +381,14 @@ class LubricatedBallSystem(AbstractBallSystem):
             film = self.laws.film_state(contact, load, races.mean_speed, races.rolling, self.oil, self.inlet)
         fit, centre, arm, on_ring = self._fit(load, direction, film.film, shared[:d])
         axial, radial, moment = self.with_friction(load, direction, friction)
-        from_ring = radial[0]
         sideways = ()
         if arm.along is not None:
             # a film thicker than the groove's radius is larger than the ball's puts the ball beyond the groove centre
             forward = arm.in_plane[0] * jnp.sin(inner) + arm.in_plane[1] * jnp.cos(inner) > 0
             sideways = (load[0] * arm.along / jnp.where(forward, arm.length, -arm.length),)
+        on_ring = on_ring(jnp.stack([axial[0], radial[0], *sideways]), moment)
         if pocket is not None and self.cage is not None and self.cage.guidance == "inner_ring":
-            from_ring = from_ring + pocket  # through cage and land
+            on_ring = on_ring + self._through_land(pocket)
         state = BallsState(
             load=load,
             angle=angle,
@@ -382,6 +397,7 @@ class LubricatedBallSystem(AbstractBallSystem):
             races=races,
             friction=friction,
             film=film,
+            orbit_residual=orbit_residual,
             traction=None,
             rolling=None,
             curvature=None,
@@ -390,11 +406,18 @@ class LubricatedBallSystem(AbstractBallSystem):
             drag_force=None,
             fit=fit,
             rows=(),
-            on_ring=on_ring(jnp.stack([axial[0], from_ring, *sideways]), moment),
+            on_ring=on_ring,
             cage_moment=None,
             cage_force=None,
         )
         return state, contact
+
+    def _through_land(self, pocket: Float[Array, " ball"]) -> Float[Array, "freedom ball"]:
+        """What the outward friction of the pockets, N, contributes to the forces on the ring through cage and land: in
+        the middle plane, hence no moment."""
+        along = {"radial": jnp.cos(self.azimuth), "lateral": jnp.sin(self.azimuth)}
+        zero = jnp.zeros_like(pocket)
+        return self.multiplicity * jnp.stack([along.get(name, zero) * pocket for name in self.freedoms])
 
     def _outer_contact(
         self, log_load: Array, inner: Array, outward: Array, friction: Array | None
@@ -412,11 +435,14 @@ class LubricatedBallSystem(AbstractBallSystem):
         return outer, jnp.arctan2(axial, radial) - jnp.arctan2(friction[1], outer)
 
     def _contacts(self, log_load, inner, seen, orbit, own, pocket):
-        """Loads, outer angle, motion of the ball and friction that carries the couple; `inner`: direction of the inner
-        normal force, `seen`: contact angle on the inner race, rad; `pocket`: its force outward."""
+        """Loads, outer angle, motion of the ball, friction that carries the couple, and the scaled residual of the
+        orbital speed; `inner`: direction of the inner normal force, `seen`: contact angle on the inner race, rad;
+        `pocket`: its force outward."""
         motion_at = lambda angle, orbital: self._motion(seen, angle, orbital, own)
+        residual = jnp.zeros(())
         if orbit is None:
-            orbit = self._rolling_orbit(log_load, inner, seen, own)
+            orbit, left = self._rolling_orbit(log_load, inner, seen, own)
+            residual = jnp.max(jnp.abs(left)) / self.orbit_unit
         friction = None
         outward = self.centrifugal(orbit) if pocket is None else self.centrifugal(orbit) + pocket
         load, outer = self._outer_contact(log_load, inner, outward, None)
@@ -432,20 +458,25 @@ class LubricatedBallSystem(AbstractBallSystem):
                 friction = self.gyroscopic.sign * jnp.stack(parts)
             load, outer = self._outer_contact(log_load, inner, outward, friction)
             motion = motion_at(outer, orbit)
-        return jnp.stack([jnp.exp(log_load), load]), outer, motion, friction
+        return jnp.stack([jnp.exp(log_load), load]), outer, motion, friction, residual
 
-    def _rolling_orbit(self, log_load: Array, inner: Array, seen: Array, own: dict[str, Array]) -> Array:
-        """Orbital speed without sliding, rad/s: it needs the outer angle, which needs the centrifugal force."""
+    def _rolling_orbit(
+        self, log_load: Array, inner: Array, seen: Array, own: dict[str, Array]
+    ) -> tuple[Float[Array, " ball"], Float[Array, " ball"]]:
+        """Orbital speed without sliding, rad/s: it needs the outer angle, which needs the centrifugal force; and by
+        how much the last but one pass missed it, in squares: Newton's iteration, near its root, is that good."""
 
         def next_orbit(orbit: Array) -> Array:
             angle = self._outer_contact(log_load, inner, self.centrifugal(orbit), None)[1]
             return jnp.broadcast_to(self._motion(seen, angle, None, own).orbital_speed, inner.shape)
 
         orbit = jnp.broadcast_to(self.reference.orbital_speed, inner.shape)
+        change = jnp.zeros_like(orbit)
         for _ in range(ROLLING_PASSES):
             value, slope = jax.jvp(next_orbit, (orbit,), (jnp.ones_like(orbit),))
-            orbit = orbit - (value - orbit) / (slope - 1.0)
-        return orbit
+            change = (value - orbit) / (slope - 1.0)
+            orbit = orbit - change
+        return orbit, jnp.square(change) / self.orbit_unit
 
     def _motion(self, inner: Array, outer: Array, orbit: Array | None, own: dict[str, Array]) -> BallMotion:
         reference, unit = self.reference, self.spin_unit()
@@ -484,6 +515,8 @@ class LubricatedBallSystem(AbstractBallSystem):
         the outer groove centre, m, the arms from them to the inner groove, and what forces there do. `angle`: of the
         normal forces."""
         grooves = self.grooves
+        if not self.slips:
+            film = self.film_share * film
         compression = jnp.cbrt(jnp.square(load / grooves.stiffness[:, None]))
         reach = grooves.offset[1] + compression[1] - film[1]
         centre = reach[None] * jnp.stack([jnp.sin(angle[1]), jnp.cos(angle[1])])

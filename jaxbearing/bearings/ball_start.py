@@ -104,7 +104,13 @@ def _free_centres(problem: CentrifugalProblem, groove: Array) -> tuple[Array, Bo
     axial, radial = load * groove[0] / length, load * groove[1] / length + problem.centrifugal
     outer = safe_norm(axial, radial, 1e-30)
     reach = problem.offset[1] + compliance[1] * outer ** (2.0 / 3.0)
-    centre = (reach / outer)[None] * jnp.stack([axial, radial])
+    # as far down the outer groove as the forces on the ball point, but not through the inner race
+    angle, side = jnp.arctan2(groove[0], groove[1]), jnp.where(groove[0] < 0, -1.0, 1.0)
+    inner, outer_offset = problem.offset
+    swing = (jnp.square(outer_offset) + jnp.square(length) - jnp.square(inner)) / (2.0 * outer_offset * length)
+    stopped = side * angle - jnp.arccos(jnp.clip(swing, -1.0, 1.0))
+    angle = side * jnp.maximum(side * jnp.arctan2(axial, radial), stopped)
+    centre = reach[None] * jnp.stack([jnp.sin(angle), jnp.cos(angle)])
     alone = problem.offset[1] + compliance[1] * problem.centrifugal ** (2.0 / 3.0)
     lost = safe_norm(groove[0], groove[1] - alone) <= problem.offset[0]
     resting = jnp.stack([jnp.zeros_like(length), alone])

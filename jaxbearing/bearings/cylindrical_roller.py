@@ -198,9 +198,11 @@ class CylindricalRollerBearing(AbstractScene):
         if self.contact is None:
             return
         if self.tilts and self.slips:
+            given = {"operation.misalignment": self.operation.misalignment, "operation.moment": self.operation.moment}
+            cause = next((path for path, value in given.items() if value is not None), "profile")
             yield (
-                "contact.traction: tilting or profiled rollers (profile, operation.misalignment, operation.moment) "
-                "roll without sliding in this version; leave out contact.traction"
+                f"{cause}: tilting or profiled rollers (profile, operation.misalignment, operation.moment) roll without "
+                f"sliding in this version; leave out {cause} or contact.traction"
             )
         if self.cage is not None:
             yield from refusals_of(self.cage.check_fits, self.geometry)

@@ -22,10 +22,11 @@ from ..numerics.structure import static_number
 from ..programs import KeptProgram
 from .cylindrical_roller import CylindricalRollerBearing
 from .history import Energy, History, LastState
-from .range_checks import input_excess
+from .range_checks import Excess, input_excess
 from .roller_dynamics import WORKS
 from .roller_motion import IMMOBILE, Start, at_start, begin, checked_lane, quasi_static
 from .roller_run import FIELD, UNKNOWN, Advanced, advance, check_fits, energy_of, identity, resume
+from .run_checks import largest, run_excess
 from .simulation import Simulation
 
 INTERVAL = 20e-6
@@ -84,6 +85,7 @@ _begin = KeptProgram(begin, quick=True)
 _resume = KeptProgram(resume, quick=True)
 _advance = KeptProgram(advance, quick=False)
 _energy = KeptProgram(energy_of, quick=True)
+_excess = KeptProgram(run_excess, quick=True)
 
 
 def _request(
@@ -143,7 +145,7 @@ def simulate_rollers(
     else:
         # which bearing it is has been compared, and is no part of the program
         dynamics, state = _resume(scene, chosen, dataclasses.replace(last, identity=None))
-    done: list[tuple[np.ndarray, Any, Segment]] = []
+    done: list[tuple[np.ndarray, Any, Segment, Excess]] = []
     with contextlib.ExitStack() as stack:
         interrupt = Deferral()
         try:
@@ -151,7 +153,7 @@ def simulate_rollers(
                 here = times[piece * SEGMENT : (piece + 1) * SEGMENT + 1]
                 found = _advance(dynamics, state, jnp.asarray(here[0]), jnp.asarray(here[1:]), chosen.options, step)
                 state, step = found.segment.last, found.segment.step
-                done.append(_kept(found, here, first=piece == 0))
+                done.append((*_kept(found, here, first=piece == 0), _excess(scene, found.instants)))
                 if piece == 0:
                     # from now on there is something to keep
                     interrupt = stack.enter_context(deferred_interrupts())
@@ -181,13 +183,13 @@ def _history(
     scene: CylindricalRollerBearing,
     chosen: Simulation,
     dynamics: Any,
-    done: list[tuple[np.ndarray, Any, Segment]],
+    done: list[tuple[np.ndarray, Any, Segment, Excess]],
     stop: float,
     interrupted: bool,
     notes: tuple[str, ...],
 ) -> History:
     """From the pieces of a run to the whole."""
-    kept_times, kept, segments = zip(*done, strict=True)
+    kept_times, kept, segments, excess = zip(*done, strict=True)
     instants = jax.tree.map(lambda *leaves: np.concatenate(leaves), *kept)
     ends = [jax.tree.map(lambda leaf, at=at: leaf[at], instants) for at in (0, -1)]
     found_energy = _energy(dynamics, segments[-1].last, *ends)
@@ -202,7 +204,7 @@ def _history(
         operation=scene.operation,
         instants=instants,
         energy=found_energy,
-        checks=_checks(scene, found_energy),
+        checks=_checks(scene, found_energy, largest(list(excess))),
         solver=chosen.solver,
         interrupted=interrupted,
         notes=notes,
@@ -210,11 +212,11 @@ def _history(
     )
 
 
-def _checks(scene: CylindricalRollerBearing, energy: Energy) -> dict[str, Any]:
-    """Warnings of a run: its energy balance, and the input checks that a steady solve makes of the same scene."""
+def _checks(scene: CylindricalRollerBearing, energy: Energy, excess: Excess) -> dict[str, Any]:
+    """Warnings of a run: its energy balance, and the range checks that a steady solve makes of the same scene."""
     text = f"the energy balance leaves more than {ENERGY_LIMIT:g} of the drive work open: choose a smaller tolerance"
     return {text: jnp.abs(energy.error) > ENERGY_LIMIT} | {
-        said: value > 0 for said, value in input_excess(scene).items()
+        said: value > 0 for said, value in (input_excess(scene) | excess).items()
     }
 
 
@@ -302,7 +304,7 @@ def _lane(scene: CylindricalRollerBearing, simulation: Simulation | None, times:
         operation=jax.tree.map(jnp.asarray, operation),
         instants=jax.tree.map(masked, found.instants),
         energy=energy,
-        checks=Checks(_checks(scene, energy), inputs.broken, inputs.rules),
+        checks=Checks(_checks(scene, energy, run_excess(scene, found.instants)), inputs.broken, inputs.rules),
         solver=simulation.solver,
         notes=scene.assumptions(),
         identity=jax.tree.map(jnp.asarray, identity(scene)),

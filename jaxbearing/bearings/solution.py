@@ -191,7 +191,7 @@ class Solution(AbstractSolution):
     iterations: Int[Array, ""] = eqx.field(metadata=label("1", "Newton steps"))
     residual_norm: Float[Array, ""] = eqx.field(metadata=label("1", "largest scaled residual"))
     inner_residual: Float[Array, ""] = eqx.field(
-        metadata=label("1", "largest residual of nested solves: inlet temperature, cage land")
+        metadata=label("1", "largest residual of nested solves: inlet temperature, cage land, orbital speed of balls")
     )
     worst_equation: Int[Array, ""] = eqx.field(metadata=label("1", "equation with the largest scaled residual"))
     worst_element: Int[Array, ""] = eqx.field(metadata=label("1", "rolling element with the largest scaled residual"))

@@ -122,7 +122,7 @@ def simulate(
                 more: Any = {} if every is None else {"interval": every}
                 history = run(model, length, throw=False, progress=progress, restart=last, **more)
         except SolveError as error:
-            _no_start(error, label, as_json)
+            _no_start(error, model, length, label, as_json)
             raise typer.Exit(NOT_CONVERGED) from None
         outputs = (
             Output(out, lambda path: _write_data(history, path)),
@@ -222,9 +222,9 @@ def _print(history: Any, label: str, as_json: bool) -> None:
         print_history(history, label, console())
 
 
-def _no_start(error: "SolveError", label: str, as_json: bool) -> None:
+def _no_start(error: "SolveError", model: Any, length: float | None, label: str, as_json: bool) -> None:
     if as_json:
-        none = {"time": {"start": None, "stop": None}, "steps": {"accepted": 0, "rejected": 0}, "energy_error": None}
-        empty = {"completed": False, "status": error.status.text, "warnings": [], "interrupted": False} | none
-        typer.echo(json.dumps(empty | {"failure": str(error), "summary": {}}))
+        from ..report.histories import not_begun_to_dict
+
+        typer.echo(json.dumps(not_begun_to_dict(model, length, error), allow_nan=False))
     typer.echo(f"not converged: {label}: {error}", err=True)

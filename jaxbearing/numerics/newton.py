@@ -253,7 +253,7 @@ def _iterate(system: AbstractArrowSystem, options: NewtonOptions) -> _Iterate:
         limit = options.max_steps
         if state.path is not None:
             limit = jnp.where(state.path.solved_ease <= 1.0, max(limit // STAGES_PER_TRY, 1), limit)
-        # settled with a nested solve that failed: neither another step nor another path changes that
+        # settled with a nested solve that failed: no other step changes that, nor does what is left of a path
         hopeless = settled & ~converged
         failed = (stuck | (steps >= limit) | hopeless) & ~converged
         trial = _move(system, base, next_step, fractions[attempt])
@@ -262,7 +262,7 @@ def _iterate(system: AbstractArrowSystem, options: NewtonOptions) -> _Iterate:
             status = jnp.where(converged, int(Status.CONVERGED), jnp.where(failed, _failure(stuck), status))
         else:
             asked = path.ease == 0.0
-            spent = (hopeless & asked) | (iterations >= (1 + MOST_STEPS * paths) * options.max_steps)
+            spent = (hopeless & asked & (path.tries > 1)) | (iterations >= (1 + MOST_STEPS * paths) * options.max_steps)
             path, restart, guess, ended = _advance_path(
                 path, steps, converged, failed, spent, state.trial, easiest, 1 + paths
             )

@@ -3,7 +3,8 @@
 from typing import TYPE_CHECKING, Any
 
 from ..bearings.history import History
-from ..ehl import LineContactHistory
+from ..ehl import EHLLineContact, LineContactHistory
+from ..numerics.status import SolveError
 
 if TYPE_CHECKING:
     import matplotlib.animation
@@ -23,6 +24,28 @@ def history_to_dict(history: Any) -> dict[str, Any]:
     from .history_summary import history_to_dict as bearing
 
     return bearing(_known(history))
+
+
+def not_begun_to_dict(scene: Any, duration: float | None, error: SolveError) -> dict[str, Any]:
+    """A run whose start was not found, with the keys that `history_to_dict` has and nothing in those of results."""
+    from .plain import plain
+
+    simulation = scene.simulation
+    wanted = duration if duration is not None else getattr(simulation, "duration", None)
+    common = {
+        "completed": False,
+        "status": error.status.text,
+        "interrupted": False,
+        "warnings": [],
+        "time": {"start": None, "stop": None, "wanted": None if wanted is None else float(wanted)},
+        "steps": {"accepted": 0, "rejected": 0},
+        "solver": getattr(simulation, "solver", None),
+        "energy_error": None,
+        "operation": plain(scene.operation),
+        "summary": {},
+        "failure": str(error),
+    }
+    return common if isinstance(scene, EHLLineContact) else common | {"not_modelled": None, "energy": None}
 
 
 def print_history(history: Any, label: str, console: "Console") -> None:

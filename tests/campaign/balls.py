@@ -138,29 +138,28 @@ def ball_balances(scene: Any, n: Numbers, r: Results) -> dict[str, tuple[np.ndar
         # its friction stands in all balances of forces
         return found
     place, fits = _placed(scene, n, r)
-    pushed = inner * place.arm / np.linalg.norm(place.arm, axis=0)
-    # a tilted ring is displaced along the orbit too, and films are computed with the load in the ball's half-plane
-    within = 1e-6 if scene.operation.tilts else 1e-8
+    # a tilted ring is displaced along the orbit too; the printed loads are those in the balls' half-planes
+    pushed = inner * place.arm / np.linalg.norm(place.arm[:2], axis=0)
     total = np.hypot(axial, radial) + np.max(inner, axis=1) * 1e-3
     # the floor of 1 mN on the centrifugal force, which holds a ball that nothing loads
     floor = 1.1e-3
-    error = lambda value, scale: (np.maximum(np.abs(value) - floor, 0.0) / scale, within)
+    error = lambda value, scale: (np.maximum(np.abs(value) - floor, 0.0) / scale, 1e-8)
     found["ring carries the axial load"] = error(np.sum(pushed[0], axis=1) - axial, total)
-    on_line = pushed[1] * cosine - pushed[2] * sine
-    radial_error = np.sum(on_line, axis=1) - (0.0 if scene.operation.symmetric else radial)
+    across = outer * np.cos(r["elements.contact_angle_outer"]) - pushed[1] - outward
     caged = scene.slips and scene.cage is not None
-    at_outer = r["elements.contact_angle_outer"]
     if not caged:
-        # with a cage the pockets' friction stands in the radial balances too
-        found["ring carries the radial load"] = error(radial_error, total)
-        across = outer * np.cos(at_outer) - pushed[1] - outward
-        found["a ball is in radial balance"] = error(np.max(np.abs(across), axis=1), total + largest_of(outer))
-    along = outer * np.sin(at_outer) - pushed[0]
+        found["a ball is in radial balance"] = error(largest_of(across), total + largest_of(outer))
+    # with a cage that is the friction of its pocket, which goes through cage and land to the ring that guides it
+    pocket = across if caged and scene.cage.guidance == "inner_ring" else np.zeros_like(across)
+    on_line = pushed[1] * cosine - pushed[2] * sine
+    radial_error = np.sum(on_line + pocket * cosine, axis=1) - (0.0 if scene.operation.symmetric else radial)
+    found["ring carries the radial load"] = error(radial_error, total)
+    along = outer * np.sin(r["elements.contact_angle_outer"]) - pushed[0]
     found["a ball is in axial balance"] = error(np.max(np.abs(along), axis=1), total + largest_of(outer))
     if "operation.moment" in n and scene.operation.radial_load is not None:
         turned = np.sum(pushed[0] * place.from_centre[1] - on_line * place.from_centre[0], axis=1)
         scale = np.abs(moment) + place.lever * np.max(inner, axis=1)
-        found["ring carries the moment"] = (np.abs(turned - moment) / scale, 1e-6)
+        found["ring carries the moment"] = (np.abs(turned - moment) / scale, 1e-8)
     return found | fits
 
 

@@ -9,11 +9,13 @@ import equinox as eqx
 import numpy as np
 import pytest
 import xarray as xr
+from filled_results import history_of
 from moving_roller import table_16
 
 import jaxbearing as jb
 from jaxbearing.bearings.roller_run import resume
-from jaxbearing.report import history_shocks
+from jaxbearing.numerics.status import SolveError, Status
+from jaxbearing.report import histories, history_shocks
 from jaxbearing.report.animations import save_animation
 from jaxbearing.report.dataset import write_netcdf
 from jaxbearing.report.histories import animate_history
@@ -206,3 +208,17 @@ def test_films_need_ffmpeg(tmp_path):
         save_animation(None, tmp_path / "run.mp4")
     with pytest.raises(ValueError, match=r"\.html or \.mp4"):
         save_animation(None, tmp_path / "run.avi")
+
+
+@pytest.mark.parametrize("name", ["turbine_roller_dynamic", "satellite_contact_1"])
+def test_a_run_that_does_not_begin_has_the_same_keys(name):
+    """Who reads the JSON of a run asks for the same names, whether it ran or not."""
+    scene = jb.load_scene(name)
+    begun = histories.history_to_dict(history_of(scene))
+    error = SolveError("no start", Status.DIVERGED)
+    found = json.loads(json.dumps(histories.not_begun_to_dict(scene, 1e-3, error), allow_nan=False))
+    assert set(found) == set(begun) | {"failure"}
+    assert set(found["time"]) == set(begun["time"])
+    assert (found["completed"], found["status"], found["failure"]) == (False, "diverged", str(error))
+    assert found["time"]["wanted"] == 1e-3
+    assert found["operation"].keys() == begun["operation"].keys()

@@ -1,0 +1,62 @@
+"""Range checks of a run in time of cylindrical rollers: those of `range_checks`, over all instants together."""
+
+from typing import Any
+
+import jax
+import jax.numpy as jnp
+from jaxtyping import Array
+
+from .cylindrical_roller import CylindricalRollerBearing
+from .history import Instant
+from .kinematics import RollerKinematics
+from .range_checks import MEAN_OF_LINE, RACEWAYS, Contacts, Excess, Facts, result_excess
+from .solution import RING_FREEDOMS, CageState, RingDisplacement
+
+AT_SOME_TIME = "at some time of the run: "
+
+
+def run_excess(scene: CylindricalRollerBearing, instants: Instant) -> Excess:
+    """By how much the results of a run leave what laws and bearings are made for: text -> the largest number of all
+    instants, positive where the check applies. Pure.
+
+    **Arguments:** `instants`, with the times in front of every array. All contacts of a raceway at all times are looked
+    at together: those count that carry a part of the largest load of the run.
+    """
+    oil, elements = scene.oil, instants.elements
+    assert oil is not None
+    geometry = scene.geometry
+
+    def at_once(inner_speed: Array, orbital_speed: Array, spin_speed: Array) -> tuple[Array, Array]:
+        motion = RollerKinematics(
+            inner_speed=inner_speed,
+            outer_speed=jnp.asarray(scene.operation.outer_speed),
+            pitch_radius=jnp.asarray(geometry.pitch_radius),
+            roller_radius=jnp.asarray(geometry.roller_radius),
+        )
+        return motion.surface_speeds(orbital_speed - motion.free_orbit, spin_speed - motion.free_spin)
+
+    moving = (instants.inner_speed, elements.orbital_speed, elements.spin_speed)
+    mean_speed, sliding = jax.vmap(at_once, out_axes=1)(*(jnp.asarray(speed) for speed in moving))
+    inlet = oil.at(jnp.asarray(scene.operation.oil_temperature))
+    together: Any = lambda *races: jnp.stack([jnp.reshape(jnp.asarray(race), -1) for race in races])
+    rise = (elements.temperature_rise_inner, elements.temperature_rise_outer)
+    contacts = Contacts(
+        RACEWAYS,
+        together(elements.load_inner, elements.load_outer),
+        together(elements.pressure_inner, elements.pressure_outer),
+        MEAN_OF_LINE,
+        laws=scene.contact,
+        mean_speed=together(*mean_speed),
+        sliding=together(*sliding),
+        temperature=None if rise[0] is None else inlet.temperature + together(*rise),
+    )
+    zero, own = jnp.zeros(()), instants.cage
+    ring = RingDisplacement(**dict.fromkeys(RING_FREEDOMS, zero))  # a ring that moves does not tilt
+    cage = None if own is None else CageState(zero, zero, jnp.max(jnp.asarray(own.eccentricity_ratio)), zero)
+    found = result_excess(scene, Facts((contacts,), inlet=inlet), ring, cage)
+    return {AT_SOME_TIME + text: value for text, value in found.items()}
+
+
+def largest(pieces: list[Excess]) -> Excess:
+    """Of the pieces of a run, the largest number of each check."""
+    return jax.tree.map(lambda *values: jnp.max(jnp.stack(values)), *pieces)
