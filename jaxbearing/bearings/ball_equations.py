@@ -292,8 +292,8 @@ class LubricatedBallSystem(AbstractBallSystem):
 
     def eased(self, ease, path):
         """Slower sliding in the traction law, which then saturates less; first, where traction has to carry the
-        gyroscopic couple, a part of that. Without traction more load first, as much as makes contacts stiffer than films,
-        and then thinner films: the lightest balls hang in films far thicker than their contacts are pressed in."""
+        gyroscopic couple, a part of that. Without traction more load first, as much as makes contacts stiffer than
+        films, and then thinner films: the lightest balls hang in films far thicker than their contacts give."""
         if self.easiest_load is not None:
             heavier, thinner = jnp.where(path == 0, ease, 0.0), THINNEST_FILM ** jnp.where(path == 0, 0.0, ease)
             ratio = (jnp.linalg.norm(self.easiest_load) / self.load_scale()) ** heavier

@@ -201,8 +201,8 @@ class CylindricalRollerBearing(AbstractScene):
             given = {"operation.misalignment": self.operation.misalignment, "operation.moment": self.operation.moment}
             cause = next((path for path, value in given.items() if value is not None), "profile")
             yield (
-                f"{cause}: tilting or profiled rollers (profile, operation.misalignment, operation.moment) roll without "
-                f"sliding in this version; leave out {cause} or contact.traction"
+                f"{cause}: tilting or profiled rollers (profile, operation.misalignment, operation.moment) roll "
+                f"without sliding in this version; leave out {cause} or contact.traction"
             )
         if self.cage is not None:
             yield from refusals_of(self.cage.check_fits, self.geometry)
