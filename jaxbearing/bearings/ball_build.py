@@ -20,8 +20,6 @@ from .ball_system import LENGTH_UNIT, Grooves
 from .gyroscopic import AbstractGyroscopic, ResolvedCouple
 from .parts import drag_density
 
-EASY_LOAD = 1e5
-"""Load of a ball over the square of its diameter, Pa: so loaded, its contacts are stiffer than their films."""
 SMALLEST_GUESS = 1e-3
 """Load of an inner contact that the frictionless bearing has lost, over a ball's load scale, where the films start."""
 CONTROL_AT_EQUAL_LOADS, CONTROL_BY_LOAD = -1.6, 8.0
@@ -145,21 +143,15 @@ def build_lubricated(scene: BallBearing, core: BallCore) -> LubricatedBallSystem
 
 
 def _guesses(core: BallCore, slips: bool) -> dict[str, Any]:
-    """Where the iteration starts; of balls that do not slide also the load of the easiest system and where that does.
-
-    That load is so much larger that contacts are stiffer than films, and centrifugal forces small.
-    """
+    """Where the iteration starts; of balls that do not slide also the load of the easiest system and where that does."""
+    guess, heavy = core.guesses()
     if slips:
-        return {"guess": _guess(core, core.initial())}
-    force = core.ball_scale() + EASY_LOAD * jnp.square(core.kinematics.ball_diameter)
-    easiest = core.ring_load * (1.0 + force * core.ball_count / core.load_scale())
-    heavy = dataclasses.replace(core, ring_load=easiest, guess=None)
-    loads, points = jax.tree.map(
-        lambda a, b: jnp.stack([a, b]), (core.ring_load, core.initial()), (easiest, heavy.initial())
-    )
+        return {"guess": _guess(core, guess)}
+    easiest = core.easiest_load
+    loads, points = jax.tree.map(lambda a, b: jnp.stack([a, b]), (core.ring_load, guess), (easiest, heavy))
     both = jax.vmap(lambda load, point: _guess(dataclasses.replace(core, ring_load=load), point))(loads, points)
-    guess, heavy_guess = (jax.tree.map(lambda leaf, i=i: leaf[i], both) for i in (0, 1))
-    return {"guess": guess, "heavy_guess": heavy_guess, "easiest_load": easiest}
+    own, easy = (jax.tree.map(lambda leaf, i=i: leaf[i], both) for i in (0, 1))
+    return {"guess": own, "heavy_guess": easy, "easiest_load": easiest}
 
 
 def _guess(core: BallCore, point: ArrowPoint) -> BallGuess:

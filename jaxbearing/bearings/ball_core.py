@@ -28,14 +28,17 @@ from jaxtyping import Array, Bool, Float, Int
 from ..numerics.arrow import ArrowPoint
 from ..numerics.safe import safe_norm
 from .ball_kinematics import BallMotion
-from .ball_start import CentrifugalProblem, Start, estimate, start
+from .ball_start import CentrifugalProblem, free_centres, ring_estimate, start
 from .ball_system import LENGTH_UNIT, AbstractBallSystem
 
 FORCE_FLOOR = 1e-3
 """Added to the centrifugal force, N: a ball that nothing loads stays in its outer groove (load error 1e-3 N)."""
 
-ESTIMATES = 2
-"""Passes from the contact angles to the centrifugal forces that the first guess is made with."""
+ESTIMATES = 3
+"""Passes from the centrifugal forces to the contact angles that give them, of the first guess."""
+
+EASY_LOAD = 1e5
+"""Load of a ball over the square of its diameter, Pa: so loaded, its contacts are stiffer than their films."""
 
 STEEPEST = 1.4
 """Contact angle, rad, up to which the direction of the inner groove gives the speed of a ball that does not touch it:
@@ -81,11 +84,12 @@ class BallState(NamedTuple):
 class BallCore(AbstractBallSystem):
     """Balls that roll without sliding, with the attitude of outer or inner race control.
 
-    Its iteration begins at `guess` (`started`); where that is `None`, and in an eased system (`ease` > 0), at the
-    estimate by formulas.
+    Its iteration begins at `guess`, and in an eased system (`ease` > 0) at `heavy_guess` (`started`); where these are
+    `None`, at estimates by formulas.
     """
 
     guess: ArrowPoint | None = None
+    heavy_guess: ArrowPoint | None = None
     ease: Float[Array, ""] | None = None
     common_orbit: bool = eqx.field(static=True, default=False)
 
@@ -129,21 +133,42 @@ class BallCore(AbstractBallSystem):
         elements, ring = jnp.full((2, 1), far), jnp.full(len(self.freedoms) + self.common_orbit, far)
         return ArrowPoint(-elements, -ring), ArrowPoint(elements, ring)
 
+    @property
+    def easiest_load(self) -> Array:
+        """The load on the ring, so much larger that centrifugal forces, and films, are small beside it, N."""
+        free = self.ball_scale() - self.load_scale() / self.ball_count
+        force = free + EASY_LOAD * jnp.square(self.kinematics.ball_diameter)
+        return self.ring_load * (1.0 + self.ball_count * force / self.load_scale())
+
+    def guesses(self) -> tuple[ArrowPoint, ArrowPoint]:
+        """Where the iteration starts under the load on the ring, and under the easiest one."""
+        if self.guess is not None and self.heavy_guess is not None:
+            return self.guess, self.heavy_guess
+        _, centres, rings = self._estimates()
+        return self._points(centres, rings)
+
     def initial(self) -> ArrowPoint:
-        if self.guess is not None and self.ease is None:
-            return self.guess
-        first = self._point(estimate(self._frozen()))
-        if self.guess is None:
-            return first
-        return ArrowPoint(*(jnp.where(self.ease == 0.0, x, y) for x, y in zip(self.guess, first, strict=True)))
+        guess, heavy = self.guesses()
+        if self.ease is None:
+            return guess
+        return ArrowPoint(*(jnp.where(self.ease == 0.0, x, y) for x, y in zip(guess, heavy, strict=True)))
 
     def started(self) -> tuple["BallCore", Int[Array, ""]]:
         """These equations with the minimum of the convex problem as first guess, and the Newton steps to that."""
-        found = start(self._frozen())
-        return dataclasses.replace(self, guess=self._point(found)), found.steps
+        problem, centres, rings = self._estimates()
+        found = start(problem, rings[0])
+        guess, heavy = self._points(centres.at[0].set(found.centre), rings.at[0].set(found.ring))
+        return dataclasses.replace(self, guess=guess, heavy_guess=heavy), found.steps
 
-    def _point(self, found: Start) -> ArrowPoint:
-        elements, ring = (found.centre - self.free_centre()) / LENGTH_UNIT, found.ring / LENGTH_UNIT
+    def _points(
+        self, centres: Float[Array, "case 2 ball"], rings: Float[Array, "case freedom"]
+    ) -> tuple[ArrowPoint, ...]:
+        """Unknowns at ball centres and displacements of the ring, m."""
+        points = jax.vmap(self._point)(centres, rings)
+        return tuple(jax.tree.map(lambda leaf, i=i: leaf[i], points) for i in range(rings.shape[0]))
+
+    def _point(self, centre: Float[Array, "2 ball"], moved: Float[Array, " freedom"]) -> ArrowPoint:
+        elements, ring = (centre - self.free_centre()) / LENGTH_UNIT, moved / LENGTH_UNIT
         if not self.common_orbit:
             return ArrowPoint(elements, ring)
         at_rest = jnp.append(ring, 0.0)
@@ -151,24 +176,35 @@ class BallCore(AbstractBallSystem):
         away = orbit_totals(state.load[0], state.own_orbit, state.motion.orbital_speed)
         return ArrowPoint(elements, at_rest.at[-1].set(-orbit_row(jnp.sum(away, axis=1), self.orbit_unit)))
 
-    def _frozen(self) -> CentrifugalProblem:
-        """The convex problem at the centrifugal forces of the estimated contact angles; not differentiated."""
+    def _estimates(self) -> tuple[CentrifugalProblem, Float[Array, "2 2 ball"], Float[Array, "2 freedom"]]:
+        """The convex problem at the centrifugal forces of the estimated contact angles, and estimates of ball centres
+        and displacements of the ring under its load and under the easiest one; not differentiated."""
         core = jax.lax.stop_gradient(self)
-        rest, angle = core._groove_at_rest(), jnp.broadcast_to(core.grooves.free_angle, (2, core.azimuth.shape[0]))
+        free = jnp.broadcast_to(core.grooves.free_angle, (2, core.azimuth.shape[0]))
+        first = core._frozen(free)
 
-        def better(_, angle: Array) -> Array:
-            problem = core._frozen_at(angle, rest)
-            first = estimate(problem)
-            outer, inner = first.centre, problem.groove_at(first.ring) - first.centre
-            return jnp.stack([jnp.arctan2(inner[0], inner[1]), jnp.arctan2(outer[0], outer[1])])
+        def under(load: Array) -> tuple[Array, Array, Array]:
+            problem = dataclasses.replace(first, ring_load=load)
+            ring = ring_estimate(problem)
+            groove = problem.groove_at(ring)
 
-        return core._frozen_at(jax.lax.fori_loop(0, ESTIMATES, better, angle), rest)
+            def better(_, last: tuple[Array, Array]) -> tuple[Array, Array]:
+                centre, _ = free_centres(dataclasses.replace(problem, centrifugal=last[1]), groove)
+                inner = groove - centre
+                angle = jnp.stack([jnp.arctan2(inner[0], inner[1]), jnp.arctan2(centre[0], centre[1])])
+                return centre, core.outward_force(core.motion(angle))
 
-    def _frozen_at(self, angle: Float[Array, "2 ball"], rest: Float[Array, "2 ball"]) -> CentrifugalProblem:
+            return *jax.lax.fori_loop(0, ESTIMATES, better, (groove, problem.centrifugal)), ring
+
+        centres, forces, rings = jax.vmap(under)(jnp.stack([core.ring_load, core.easiest_load]))
+        return dataclasses.replace(first, centrifugal=forces[0]), centres, rings
+
+    def _frozen(self, angle: Float[Array, "2 ball"]) -> CentrifugalProblem:
+        """The convex problem at the centrifugal forces of given contact angles."""
         return CentrifugalProblem(
             offset=self.grooves.offset,
             stiffness=self.grooves.stiffness,
-            groove=rest,
+            groove=self._groove_at_rest(),
             directions=self.directions,
             ring_load=self.ring_load,
             centrifugal=self.outward_force(self.motion(angle)),
@@ -197,13 +233,16 @@ class BallCore(AbstractBallSystem):
 
     def eased(self, ease, path):
         """More load: the inner contacts of a fast, lightly loaded bearing are nearly lost; or less of the couple."""
-        free = self.ball_count * (self.ball_scale() - self.load_scale() / self.ball_count)
-        heavier = self.ring_load * (1.0 + free / self.load_scale()) ** ease
+        ratio = jnp.linalg.norm(self.easiest_load) / jnp.maximum(jnp.linalg.norm(self.ring_load), FORCE_FLOOR)
+        guess, heavy = self.guesses()
         share = self.couple_share
         if self.gyroscopic is not None:
-            heavier = jnp.where(path == 0, heavier, self.ring_load)
+            ratio = jnp.where(path == 0, ratio, 1.0)
+            heavy = jax.tree.map(lambda a, b: jnp.where(path == 0, a, b), heavy, guess)
             share = share * jnp.where(path == 0, 1.0, 1.0 - ease)
-        return dataclasses.replace(self, ring_load=heavier, couple_share=share, ease=ease)
+        return dataclasses.replace(
+            self, ring_load=self.ring_load * ratio**ease, couple_share=share, guess=guess, heavy_guess=heavy, ease=ease
+        )
 
     def element(self, unknowns, shared):
         state = self.balls(unknowns, shared)

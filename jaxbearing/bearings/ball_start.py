@@ -95,7 +95,7 @@ def _forces(problem: CentrifugalProblem, centre: Array, groove: Array) -> _Force
     return _Forces(energy, outer - inner - push, inner, outer_stiffness, inner_stiffness)
 
 
-def _free_centres(problem: CentrifugalProblem, groove: Array) -> tuple[Array, Bool[Array, " ball"]]:
+def free_centres(problem: CentrifugalProblem, groove: Array) -> tuple[Array, Bool[Array, " ball"]]:
     """Ball centres for given inner grooves, near equilibrium; and which balls do not touch the inner race (exact)."""
     compliance = problem.stiffness ** (-2.0 / 3.0)
     together = jnp.sum(compliance) ** -1.5
@@ -129,7 +129,7 @@ class _Balls(NamedTuple):
 
 def _equilibrium(problem: CentrifugalProblem, groove: Array, scale: Array, cap: Array) -> Float[Array, "2 ball"]:
     """Ball centres that minimise each ball's potential for given inner grooves."""
-    first, lost = _free_centres(problem, groove)
+    first, lost = free_centres(problem, groove)
 
     def propose(centre: Array, forces: _Forces):
         matrix = forces.stiffness_outer + forces.stiffness_inner + SOFTEST * jnp.eye(2)[:, :, None]
@@ -175,8 +175,8 @@ class _Ring(NamedTuple):
     steps: Int[Array, ""]
 
 
-def start(problem: CentrifugalProblem) -> Start:
-    """The minimum of the potential to `RING_TOLERANCE`, from an estimate of the ring's displacement."""
+def start(problem: CentrifugalProblem, ring: Float[Array, " freedom"]) -> Start:
+    """The minimum of the potential to `RING_TOLERANCE`, from an estimate of the ring's displacement, `ring`, m."""
     problem = jax.lax.stop_gradient(problem)
     total, count = _scale(problem)
     scale = total / count + problem.centrifugal
@@ -218,7 +218,6 @@ def start(problem: CentrifugalProblem) -> Start:
             steps=state.steps + (accept & ~small).astype(int),
         )
 
-    ring = _ring_estimate(problem, total, count)
     none, one = jnp.asarray(0), jnp.ones(())
     begin = _Ring(
         ring, jnp.zeros_like(problem.groove), jnp.zeros_like(ring), one * jnp.inf, 0.0 * one, one, none > 0, none, none
@@ -228,26 +227,20 @@ def start(problem: CentrifugalProblem) -> Start:
     return Start(end.centre, end.ring, end.steps)
 
 
-def estimate(problem: CentrifugalProblem) -> Start:
-    """Where `start` begins: the ring pressed in by formulas, and the balls between its groove and the outer one."""
-    problem = jax.lax.stop_gradient(problem)
-    ring = _ring_estimate(problem, *_scale(problem))
-    return Start(_free_centres(problem, problem.groove_at(ring))[0], ring, jnp.asarray(0))
-
-
 def _scale(problem: CentrifugalProblem) -> tuple[Array, int]:
     """Size of the load on the ring, N, and the number of balls that carry it."""
     count = problem.groove.shape[1] * problem.multiplicity
     return jnp.sqrt(jnp.sum(jnp.square(problem.ring_load))) + 1e-3 * count, count
 
 
-def _ring_estimate(problem: CentrifugalProblem, total: Array, count: int) -> Float[Array, " freedom"]:
+def ring_estimate(problem: CentrifugalProblem) -> Float[Array, " freedom"]:
     """Ring displacements, pressed in rather too deep: Newton on a power 3/2 contracts from there, and a ring that
     touches no ball has no stiffness.
 
     Axially from $\\sin\\alpha(\\cos\\alpha_0/\\cos\\alpha - 1)^{3/2} = F/(NK_nBD^{3/2})$ with the axial force that
     would load half the balls (Harris), radially from Sjovall's load distribution.
     """
+    total, count = _scale(problem)
     load = dict(zip(problem.freedoms, problem.ring_load, strict=True))
     zero = jnp.zeros(())
     together = jnp.sum(problem.stiffness ** (-2.0 / 3.0)) ** -1.5
