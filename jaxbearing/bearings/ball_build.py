@@ -143,7 +143,7 @@ def build_lubricated(scene: BallBearing, core: BallCore) -> LubricatedBallSystem
 
 
 def _guesses(core: BallCore, slips: bool) -> dict[str, Any]:
-    """Where the iteration starts; of balls that do not slide also the load of the easiest system and where that does."""
+    """Where the iteration starts; of balls that do not slide also the easiest load, and where it starts under that."""
     guess, heavy = core.guesses()
     if slips:
         return {"guess": _guess(core, guess)}

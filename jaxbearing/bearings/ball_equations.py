@@ -447,17 +447,23 @@ class LubricatedBallSystem(AbstractBallSystem):
         outward = self.centrifugal(orbit) if pocket is None else self.centrifugal(orbit) + pocket
         load, outer = self._outer_contact(log_load, inner, outward, None)
         motion = motion_at(outer, orbit)
-        for _ in range(0 if self.gyroscopic is None and not self.resolved else FRICTION_PASSES):
-            couple = self.couple(motion)
-            if self.gyroscopic is None:
-                taken = 2.0 * couple / self.kinematics.ball_diameter
-                carried = self.friction_scale() * own["carried"]
-                friction = jnp.stack([carried, taken - carried])
-            else:
-                parts = self.gyroscopic.friction(couple, self.kinematics.ball_diameter, jnp.exp(log_load), load)
-                friction = self.gyroscopic.sign * jnp.stack(parts)
-            load, outer = self._outer_contact(log_load, inner, outward, friction)
-            motion = motion_at(outer, orbit)
+        if self.gyroscopic is not None or self.resolved:
+
+            def better(_, last: tuple[Array, Array, BallMotion, Array]) -> tuple[Array, Array, BallMotion, Array]:
+                load, _, motion, _ = last
+                couple = self.couple(motion)
+                if self.gyroscopic is None:
+                    taken = 2.0 * couple / self.kinematics.ball_diameter
+                    carried = self.friction_scale() * own["carried"]
+                    friction = jnp.stack([carried, taken - carried])
+                else:
+                    parts = self.gyroscopic.friction(couple, self.kinematics.ball_diameter, jnp.exp(log_load), load)
+                    friction = self.gyroscopic.sign * jnp.stack(parts)
+                load, outer = self._outer_contact(log_load, inner, outward, friction)
+                return load, outer, motion_at(outer, orbit), friction
+
+            first = (load, outer, motion, jnp.zeros((2, *inner.shape)))
+            load, outer, motion, friction = jax.lax.fori_loop(0, FRICTION_PASSES, better, first)
         return jnp.stack([jnp.exp(log_load), load]), outer, motion, friction, residual
 
     def _rolling_orbit(
@@ -470,12 +476,14 @@ class LubricatedBallSystem(AbstractBallSystem):
             angle = self._outer_contact(log_load, inner, self.centrifugal(orbit), None)[1]
             return jnp.broadcast_to(self._motion(seen, angle, None, own).orbital_speed, inner.shape)
 
-        orbit = jnp.broadcast_to(self.reference.orbital_speed, inner.shape)
-        change = jnp.zeros_like(orbit)
-        for _ in range(ROLLING_PASSES):
+        def better(_, last: tuple[Array, Array]) -> tuple[Array, Array]:
+            orbit, _ = last
             value, slope = jax.jvp(next_orbit, (orbit,), (jnp.ones_like(orbit),))
             change = (value - orbit) / (slope - 1.0)
-            orbit = orbit - change
+            return orbit - change, change
+
+        start = jnp.broadcast_to(self.reference.orbital_speed, inner.shape)
+        orbit, change = jax.lax.fori_loop(0, ROLLING_PASSES, better, (start, jnp.zeros_like(start)))
         return orbit, jnp.square(change) / self.orbit_unit
 
     def _motion(self, inner: Array, outer: Array, orbit: Array | None, own: dict[str, Array]) -> BallMotion:
