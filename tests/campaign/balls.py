@@ -138,8 +138,9 @@ def ball_balances(scene: Any, n: Numbers, r: Results) -> dict[str, tuple[np.ndar
         # its friction stands in all balances of forces
         return found
     place, fits = _placed(scene, n, r)
-    # a tilted ring is displaced along the orbit too; the printed loads are those in the balls' half-planes
-    pushed = inner * place.arm / np.linalg.norm(place.arm[:2], axis=0)
+    # a tilted ring is displaced along the orbit too; with films the printed loads are those in the balls' half-planes
+    length = np.linalg.norm(place.arm if scene.contact is None else place.arm[:2], axis=0)
+    pushed = inner * place.arm / length
     total = np.hypot(axial, radial) + np.max(inner, axis=1) * 1e-3
     # the floor of 1 mN on the centrifugal force, which holds a ball that nothing loads
     floor = 1.1e-3
