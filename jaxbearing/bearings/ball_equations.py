@@ -447,23 +447,17 @@ class LubricatedBallSystem(AbstractBallSystem):
         outward = self.centrifugal(orbit) if pocket is None else self.centrifugal(orbit) + pocket
         load, outer = self._outer_contact(log_load, inner, outward, None)
         motion = motion_at(outer, orbit)
-        if self.gyroscopic is not None or self.resolved:
-
-            def better(_, last: tuple[Array, Array, BallMotion, Array]) -> tuple[Array, Array, BallMotion, Array]:
-                load, _, motion, _ = last
-                couple = self.couple(motion)
-                if self.gyroscopic is None:
-                    taken = 2.0 * couple / self.kinematics.ball_diameter
-                    carried = self.friction_scale() * own["carried"]
-                    friction = jnp.stack([carried, taken - carried])
-                else:
-                    parts = self.gyroscopic.friction(couple, self.kinematics.ball_diameter, jnp.exp(log_load), load)
-                    friction = self.gyroscopic.sign * jnp.stack(parts)
-                load, outer = self._outer_contact(log_load, inner, outward, friction)
-                return load, outer, motion_at(outer, orbit), friction
-
-            first = (load, outer, motion, jnp.zeros((2, *inner.shape)))
-            load, outer, motion, friction = jax.lax.fori_loop(0, FRICTION_PASSES, better, first)
+        for _ in range(0 if self.gyroscopic is None and not self.resolved else FRICTION_PASSES):
+            couple = self.couple(motion)
+            if self.gyroscopic is None:
+                taken = 2.0 * couple / self.kinematics.ball_diameter
+                carried = self.friction_scale() * own["carried"]
+                friction = jnp.stack([carried, taken - carried])
+            else:
+                parts = self.gyroscopic.friction(couple, self.kinematics.ball_diameter, jnp.exp(log_load), load)
+                friction = self.gyroscopic.sign * jnp.stack(parts)
+            load, outer = self._outer_contact(log_load, inner, outward, friction)
+            motion = motion_at(outer, orbit)
         return jnp.stack([jnp.exp(log_load), load]), outer, motion, friction, residual
 
     def _rolling_orbit(
