@@ -72,7 +72,7 @@ def anchored(value: Array, stiffness: float) -> Array:
 
 
 class Descent(NamedTuple):
-    """Where the descent ended, its largest scaled residual, and the Newton steps taken."""
+    """Where the descent ended, its largest scaled residual where it was last looked at, and the Newton steps taken."""
 
     point: ArrowPoint
     residual: Float[Array, ""]
@@ -118,7 +118,8 @@ def descend(system: AbstractConvexArrow, guess: ArrowPoint, *, tolerance: float,
 
     start = _State(guess, jnp.asarray(jnp.inf), jnp.asarray(0), jnp.asarray(True))
     end = jax.lax.while_loop(lambda s: s.going & (s.steps < max_steps), advance, start)
-    return Descent(end.point, _largest(evaluate(system, end.point).residual), end.steps)
+    # that of a descent which was cut short is the one before its last step
+    return Descent(end.point, end.residual, end.steps)
 
 
 class _Settling(NamedTuple):
@@ -201,7 +202,7 @@ def descend_settled(system: AbstractConvexArrow, guess: ArrowPoint, *, tolerance
     inside = ArrowPoint(guess.elements, jnp.clip(guess.globals, low, high))
     start = _State(settle(system, inside), jnp.asarray(jnp.inf), jnp.asarray(0), jnp.asarray(max_steps > 0))
     end = jax.lax.while_loop(lambda s: s.going & (s.steps < max_steps), advance, start)
-    return Descent(end.point, _largest(evaluate(system, end.point).residual), end.steps)
+    return Descent(end.point, end.residual, end.steps)
 
 
 class Minimum(NamedTuple):
