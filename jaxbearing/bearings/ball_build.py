@@ -143,15 +143,16 @@ def build_lubricated(scene: BallBearing, core: BallCore) -> LubricatedBallSystem
 
 
 def _guesses(core: BallCore, slips: bool) -> dict[str, Any]:
-    """Where the iteration starts; of balls that do not slide also the easiest load, and where it starts under that."""
+    """Where the iteration starts; of balls that do not slide also how much heavier the easiest load is, and the
+    start under that."""
     guess, heavy = core.guesses()
     if slips:
         return {"guess": _guess(core, guess)}
-    easiest = core.easiest_load
+    easiest = core.ring_load * core.heavier
     loads, points = jax.tree.map(lambda a, b: jnp.stack([a, b]), (core.ring_load, guess), (easiest, heavy))
     both = jax.vmap(lambda load, point: _guess(dataclasses.replace(core, ring_load=load), point))(loads, points)
     own, easy = (jax.tree.map(lambda leaf, i=i: leaf[i], both) for i in (0, 1))
-    return {"guess": own, "heavy_guess": easy, "easiest_load": easiest}
+    return {"guess": own, "heavy_guess": easy, "heavier": core.heavier}
 
 
 def _guess(core: BallCore, point: ArrowPoint) -> BallGuess:

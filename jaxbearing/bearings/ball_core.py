@@ -35,7 +35,7 @@ FORCE_FLOOR = 1e-3
 """Added to the centrifugal force, N: a ball that nothing loads stays in its outer groove (load error 1e-3 N)."""
 
 ESTIMATES = 3
-"""Passes from the centrifugal forces to the contact angles that give them, of the first guess."""
+"""Passes between centrifugal forces and contact angles in the first guess."""
 
 EASY_LOAD = 1e5
 """Load of a ball over the square of its diameter, Pa: so loaded, its contacts are stiffer than their films."""
@@ -134,11 +134,12 @@ class BallCore(AbstractBallSystem):
         return ArrowPoint(-elements, -ring), ArrowPoint(elements, ring)
 
     @property
-    def easiest_load(self) -> Array:
-        """The load on the ring, so much larger that centrifugal forces, and films, are small beside it, N."""
-        free = self.ball_scale() - self.load_scale() / self.ball_count
-        force = free + EASY_LOAD * jnp.square(self.kinematics.ball_diameter)
-        return self.ring_load * (1.0 + self.ball_count * force / self.load_scale())
+    def heavier(self) -> Array:
+        """How many times the load on the ring the easiest load is: centrifugal forces, and films, are small beside it."""
+        angle = self.grooves.free_angle
+        force = self.outward_force(self.kinematics.rolling(angle, angle, angle))
+        force = force + EASY_LOAD * jnp.square(self.kinematics.ball_diameter)
+        return 1.0 + self.ball_count * force / self.load_scale()
 
     def guesses(self) -> tuple[ArrowPoint, ArrowPoint]:
         """Where the iteration starts under the load on the ring, and under the easiest one."""
@@ -164,7 +165,7 @@ class BallCore(AbstractBallSystem):
         self, centres: Float[Array, "case 2 ball"], rings: Float[Array, "case freedom"]
     ) -> tuple[ArrowPoint, ...]:
         """Unknowns at ball centres and displacements of the ring, m."""
-        points = jax.vmap(self._point)(centres, rings)
+        points = jax.lax.stop_gradient(jax.vmap(self._point)(centres, rings))
         return tuple(jax.tree.map(lambda leaf, i=i: leaf[i], points) for i in range(rings.shape[0]))
 
     def _point(self, centre: Float[Array, "2 ball"], moved: Float[Array, " freedom"]) -> ArrowPoint:
@@ -196,7 +197,7 @@ class BallCore(AbstractBallSystem):
 
             return *jax.lax.fori_loop(0, ESTIMATES, better, (groove, problem.centrifugal)), ring
 
-        centres, forces, rings = jax.vmap(under)(jnp.stack([core.ring_load, core.easiest_load]))
+        centres, forces, rings = jax.vmap(under)(jnp.stack([core.ring_load, core.heavier * core.ring_load]))
         return dataclasses.replace(first, centrifugal=forces[0]), centres, rings
 
     def _frozen(self, angle: Float[Array, "2 ball"]) -> CentrifugalProblem:
@@ -233,7 +234,7 @@ class BallCore(AbstractBallSystem):
 
     def eased(self, ease, path):
         """More load: the inner contacts of a fast, lightly loaded bearing are nearly lost; or less of the couple."""
-        ratio = jnp.linalg.norm(self.easiest_load) / jnp.maximum(jnp.linalg.norm(self.ring_load), FORCE_FLOOR)
+        ratio = self.heavier
         guess, heavy = self.guesses()
         share = self.couple_share
         if self.gyroscopic is not None:

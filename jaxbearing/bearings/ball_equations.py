@@ -128,7 +128,7 @@ class BallsState(NamedTuple):
     friction: Float[Array, "2 ball"] | None
     film: PointFilm
     orbit_residual: Float[Array, ""]
-    """Of the orbital speeds of balls that roll without sliding, scaled."""
+    """Of the centrifugal forces of balls that roll without sliding, over their loads."""
     traction: Traction | None
     rolling: Float[Array, "2 ball"] | None
     """Moment of the film's pressure against the roll, N m."""
@@ -169,8 +169,8 @@ class LubricatedBallSystem(AbstractBallSystem):
     """Part of the sliding that the traction law sees: 1, less in an eased system."""
     heavy_guess: BallGuess | None = None
     """Of balls that do not slide: where the easiest system starts."""
-    easiest_load: Float[Array, " load"] | None = None
-    """The load of that, N."""
+    heavier: Float[Array, ""] | None = None
+    """How many times the load that has."""
     film_share: Scalar = eqx.field(converter=as_float, default=1.0)
     """Part of the films that keeps the surfaces apart: 1, less in an eased system."""
 
@@ -288,18 +288,17 @@ class LubricatedBallSystem(AbstractBallSystem):
 
     @property
     def paths(self) -> int:
-        return 2 if self.resolved or not self.slips else 1
+        return 2 if self.resolved or self.heavier is not None else 1
 
     def eased(self, ease, path):
         """Slower sliding in the traction law, which then saturates less; first, where traction has to carry the
         gyroscopic couple, a part of that. Without traction more load first, as much as makes contacts stiffer than
         films, and then thinner films: the lightest balls hang in films far thicker than their contacts give."""
-        if self.easiest_load is not None:
-            heavier, thinner = jnp.where(path == 0, ease, 0.0), THINNEST_FILM ** jnp.where(path == 0, 0.0, ease)
-            ratio = (jnp.linalg.norm(self.easiest_load) / self.load_scale()) ** heavier
-            heavy = heavier > 0
-            guess = jax.tree.map(lambda a, b: jnp.where(heavy, a, b), self.heavy_guess, self.guess)
-            return dataclasses.replace(self, ring_load=self.ring_load * ratio, film_share=thinner, guess=guess)
+        if self.heavier is not None:
+            of_load, of_films = jnp.where(path == 0, ease, 0.0), jnp.where(path == 0, 0.0, ease)
+            guess = jax.tree.map(lambda a, b: jnp.where(of_load > 0, a, b), self.heavy_guess, self.guess)
+            load = self.ring_load * self.heavier**of_load
+            return dataclasses.replace(self, ring_load=load, film_share=THINNEST_FILM**of_films, guess=guess)
         slide = EASIEST_SLIDE**ease
         if not self.resolved:
             return dataclasses.replace(self, slide_share=slide)
@@ -385,7 +384,8 @@ class LubricatedBallSystem(AbstractBallSystem):
         if arm.along is not None:
             # a film thicker than the groove's radius is larger than the ball's puts the ball beyond the groove centre
             forward = arm.in_plane[0] * jnp.sin(inner) + arm.in_plane[1] * jnp.cos(inner) > 0
-            sideways = (load[0] * arm.along / jnp.where(forward, arm.length, -arm.length),)
+            within = arm.length * arm.share
+            sideways = (load[0] * arm.along / jnp.where(forward, within, -within),)
         on_ring = on_ring(jnp.stack([axial[0], radial[0], *sideways]), moment)
         if pocket is not None and self.cage is not None and self.cage.guidance == "inner_ring":
             on_ring = on_ring + self._through_land(pocket)
@@ -435,18 +435,20 @@ class LubricatedBallSystem(AbstractBallSystem):
         return outer, jnp.arctan2(axial, radial) - jnp.arctan2(friction[1], outer)
 
     def _contacts(self, log_load, inner, seen, orbit, own, pocket):
-        """Loads, outer angle, motion of the ball, friction that carries the couple, and the scaled residual of the
-        orbital speed; `inner`: direction of the inner normal force, `seen`: contact angle on the inner race, rad;
+        """Loads, outer angle, motion of the ball, friction that carries the couple, and by how much the centrifugal force
+        misses that of rolling, over the loads; `inner`: direction of the inner normal force, `seen`: contact angle on the inner race, rad;
         `pocket`: its force outward."""
         motion_at = lambda angle, orbital: self._motion(seen, angle, orbital, own)
-        residual = jnp.zeros(())
+        rolls, friction, residual = orbit is None, None, jnp.zeros(())
         if orbit is None:
-            orbit, left = self._rolling_orbit(log_load, inner, seen, own)
-            residual = jnp.max(jnp.abs(left)) / self.orbit_unit
-        friction = None
+            orbit = self._rolling_orbit(log_load, inner, seen, own)
         outward = self.centrifugal(orbit) if pocket is None else self.centrifugal(orbit) + pocket
         load, outer = self._outer_contact(log_load, inner, outward, None)
         motion = motion_at(outer, orbit)
+        if rolls:
+            # the motion is that of rolling at the angles which the orbital speed makes
+            missed = self.centrifugal(motion.orbital_speed) - self.centrifugal(orbit)
+            residual = jnp.max(jnp.abs(missed) / (jnp.exp(log_load) + self.centrifugal(orbit)))
         for _ in range(0 if self.gyroscopic is None and not self.resolved else FRICTION_PASSES):
             couple = self.couple(motion)
             if self.gyroscopic is None:
@@ -460,25 +462,19 @@ class LubricatedBallSystem(AbstractBallSystem):
             motion = motion_at(outer, orbit)
         return jnp.stack([jnp.exp(log_load), load]), outer, motion, friction, residual
 
-    def _rolling_orbit(
-        self, log_load: Array, inner: Array, seen: Array, own: dict[str, Array]
-    ) -> tuple[Float[Array, " ball"], Float[Array, " ball"]]:
-        """Orbital speed without sliding, rad/s: it needs the outer angle, which needs the centrifugal force; and by
-        how much the last but one pass missed it, in squares: Newton's iteration, near its root, is that good."""
+    def _rolling_orbit(self, log_load: Array, inner: Array, seen: Array, own: dict[str, Array]) -> Array:
+        """Orbital speed without sliding, rad/s: it needs the outer angle, which needs the centrifugal force."""
 
         def next_orbit(orbit: Array) -> Array:
             angle = self._outer_contact(log_load, inner, self.centrifugal(orbit), None)[1]
             return jnp.broadcast_to(self._motion(seen, angle, None, own).orbital_speed, inner.shape)
 
-        def better(_, last: tuple[Array, Array]) -> tuple[Array, Array]:
-            orbit, _ = last
+        def better(_, orbit: Array) -> Array:
             value, slope = jax.jvp(next_orbit, (orbit,), (jnp.ones_like(orbit),))
-            change = (value - orbit) / (slope - 1.0)
-            return orbit - change, change
+            return orbit - (value - orbit) / (slope - 1.0)
 
         start = jnp.broadcast_to(self.reference.orbital_speed, inner.shape)
-        orbit, change = jax.lax.fori_loop(0, ROLLING_PASSES, better, (start, jnp.zeros_like(start)))
-        return orbit, jnp.square(change) / self.orbit_unit
+        return jax.lax.fori_loop(0, ROLLING_PASSES, better, start)
 
     def _motion(self, inner: Array, outer: Array, orbit: Array | None, own: dict[str, Array]) -> BallMotion:
         reference, unit = self.reference, self.spin_unit()

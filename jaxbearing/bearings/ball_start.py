@@ -106,8 +106,8 @@ def free_centres(problem: CentrifugalProblem, groove: Array) -> tuple[Array, Boo
     reach = problem.offset[1] + compliance[1] * outer ** (2.0 / 3.0)
     # as far down the outer groove as the forces on the ball point, but not through the inner race
     angle, side = jnp.arctan2(groove[0], groove[1]), jnp.where(groove[0] < 0, -1.0, 1.0)
-    inner, outer_offset = problem.offset
-    swing = (jnp.square(outer_offset) + jnp.square(length) - jnp.square(inner)) / (2.0 * outer_offset * length)
+    inner = problem.offset[0] + compliance[0] * load ** (2.0 / 3.0)
+    swing = (jnp.square(reach) + jnp.square(length) - jnp.square(inner)) / (2.0 * reach * length)
     stopped = side * angle - jnp.arccos(jnp.clip(swing, -1.0, 1.0))
     angle = side * jnp.maximum(side * jnp.arctan2(axial, radial), stopped)
     centre = reach[None] * jnp.stack([jnp.sin(angle), jnp.cos(angle)])

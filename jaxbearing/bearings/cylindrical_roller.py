@@ -198,11 +198,16 @@ class CylindricalRollerBearing(AbstractScene):
         if self.contact is None:
             return
         if self.tilts and self.slips:
-            given = {"operation.misalignment": self.operation.misalignment, "operation.moment": self.operation.moment}
-            cause = next((path for path, value in given.items() if value is not None), "profile")
+            operation = self.operation
+            given = {
+                "operation.misalignment": operation.misalignment,
+                "operation.moment": operation.moment,
+                "profile": self.profile,
+            }
+            causes = [path for path, value in given.items() if value is not None]
             yield (
-                f"{cause}: tilting or profiled rollers (profile, operation.misalignment, operation.moment) roll "
-                f"without sliding in this version; leave out {cause} or contact.traction"
+                f"{causes[0]}: tilting or profiled rollers (profile, operation.misalignment, operation.moment) roll "
+                f"without sliding in this version; leave out {' and '.join(causes)}, or contact.traction"
             )
         if self.cage is not None:
             yield from refusals_of(self.cage.check_fits, self.geometry)

@@ -19,8 +19,9 @@ def run_excess(scene: CylindricalRollerBearing, instants: Instant) -> Excess:
     """By how much the results of a run leave what laws and bearings are made for: text -> the largest number of all
     instants, positive where the check applies. Pure.
 
-    **Arguments:** `instants`, with the times in front of every array. All contacts of a raceway at all times are looked
-    at together: those count that carry a part of the largest load of the run.
+    **Arguments:** `instants`, of a run or of a piece of it, with the times in front of every array. All contacts of a
+    raceway at all these times are looked at together: those count that carry a part of the largest load. Instants with
+    a load that is not finite, at which a run breaks off, count nothing.
     """
     oil, elements = scene.oil, instants.elements
     assert oil is not None
@@ -40,9 +41,10 @@ def run_excess(scene: CylindricalRollerBearing, instants: Instant) -> Excess:
     inlet = oil.at(jnp.asarray(scene.operation.oil_temperature))
     together: Any = lambda *races: jnp.stack([jnp.reshape(jnp.asarray(race), -1) for race in races])
     rise = (elements.temperature_rise_inner, elements.temperature_rise_outer)
+    load = together(elements.load_inner, elements.load_outer)
     contacts = Contacts(
         RACEWAYS,
-        together(elements.load_inner, elements.load_outer),
+        jnp.where(jnp.isfinite(load), load, 0.0),
         together(elements.pressure_inner, elements.pressure_outer),
         MEAN_OF_LINE,
         laws=scene.contact,
@@ -52,11 +54,11 @@ def run_excess(scene: CylindricalRollerBearing, instants: Instant) -> Excess:
     )
     zero, own = jnp.zeros(()), instants.cage
     ring = RingDisplacement(**dict.fromkeys(RING_FREEDOMS, zero))  # a ring that moves does not tilt
-    cage = None if own is None else CageState(zero, zero, jnp.max(jnp.asarray(own.eccentricity_ratio)), zero)
+    cage = None if own is None else CageState(zero, zero, jnp.nanmax(jnp.asarray(own.eccentricity_ratio)), zero)
     found = result_excess(scene, Facts((contacts,), inlet=inlet), ring, cage)
     return {AT_SOME_TIME + text: value for text, value in found.items()}
 
 
 def largest(pieces: list[Excess]) -> Excess:
-    """Of the pieces of a run, the largest number of each check."""
-    return jax.tree.map(lambda *values: jnp.max(jnp.stack(values)), *pieces)
+    """Of the pieces of a run, the largest number of each check; one that is not a number says nothing."""
+    return jax.tree.map(lambda *values: jnp.nanmax(jnp.stack([jnp.asarray(-jnp.inf), *values])), *pieces)

@@ -258,7 +258,7 @@ class Solution(AbstractSolution):
         name = self.equation_names[worst]
         place = f" of element {int(self.worst_element)}" if worst < local_equations else ""
         if float(self.inner_residual) > INNER_TOLERANCE:
-            name = "nested solve (inlet temperature rise of a contact, or cage land)"
+            name = "nested solve (inlet temperature rise of a contact, cage land, or orbital speed of a ball)"
             place = f", residual {float(self.inner_residual):.3g}"
         if int(self.status) == Status.NO_EQUILIBRIUM:
             steps = int(self.iterations)

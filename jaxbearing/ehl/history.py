@@ -12,6 +12,8 @@ from .last_state import FilmState
 from .line_contact import ContactOperation
 from .solution import HertzResult
 
+SOLVER = "bdf2"
+
 
 class FilmHistory(eqx.Module):
     """Film over time; the minimum is that of the nodes: a parabola may undershoot 0 at the kink of a stop."""
@@ -62,7 +64,7 @@ class LineContactHistory(AbstractSolution):
     checks: Mapping[str, Bool[Array, ""]]
     ended_thin: bool = eqx.field(static=True, default=False)
     interrupted: bool = eqx.field(static=True, default=False)
-    solver: str = eqx.field(static=True, default="bdf2")
+    solver: str = eqx.field(static=True, default=SOLVER)
     notes: tuple[str, ...] = eqx.field(static=True, default=())
 
     @property

@@ -72,7 +72,8 @@ def anchored(value: Array, stiffness: float) -> Array:
 
 
 class Descent(NamedTuple):
-    """Where the descent ended, its largest scaled residual where it was last looked at, and the Newton steps taken."""
+    """Where the descent ended, the largest scaled residual that it still had to bring down where it was last looked at
+    (with settled elements: of the globals), and the Newton steps taken."""
 
     point: ArrowPoint
     residual: Float[Array, ""]

@@ -253,7 +253,7 @@ def _iterate(system: AbstractArrowSystem, options: NewtonOptions) -> _Iterate:
         limit = options.max_steps
         if state.path is not None:
             limit = jnp.where(state.path.solved_ease <= 1.0, max(limit // STAGES_PER_TRY, 1), limit)
-        # settled with a nested solve that failed: no other step changes that, nor does what is left of a path
+        # settled with a nested solve that failed: no other step changes that
         hopeless = settled & ~converged
         failed = (stuck | (steps >= limit) | hopeless) & ~converged
         trial = _move(system, base, next_step, fractions[attempt])
@@ -262,9 +262,9 @@ def _iterate(system: AbstractArrowSystem, options: NewtonOptions) -> _Iterate:
             status = jnp.where(converged, int(Status.CONVERGED), jnp.where(failed, _failure(stuck), status))
         else:
             asked = path.ease == 0.0
-            spent = (hopeless & asked & (path.tries > 1)) | (iterations >= (1 + MOST_STEPS * paths) * options.max_steps)
+            spent = iterations >= (1 + MOST_STEPS * paths) * options.max_steps
             path, restart, guess, ended = _advance_path(
-                path, steps, converged, failed, spent, state.trial, easiest, 1 + paths
+                path, steps, converged, failed, hopeless & asked, spent, state.trial, easiest, 1 + paths
             )
             won = converged & asked
             status = jnp.where(won, int(Status.CONVERGED), jnp.where(ended, _failure(stuck), status))
@@ -326,6 +326,7 @@ def _advance_path(
     steps: Int[Array, ""],
     converged: Bool[Array, ""],
     failed: Bool[Array, ""],
+    hopeless: Bool[Array, ""],
     spent: Bool[Array, ""],
     trial: ArrowPoint,
     easiest: ArrowPoint,
@@ -334,12 +335,13 @@ def _advance_path(
     """The path after a Newton step, whether a stage begins anew, from which point, and whether all is lost.
 
     A stage that fails is tried again half as far from the last one that was solved, and so are those after it.
-    `easiest`: first guesses at ease 1, a leading axis over the ways; `spent`: no further stages.
+    `easiest`: first guesses at ease 1, a leading axis over the ways; `hopeless`: this path has come to its end, in a
+    place where a nested solve fails: another one may end elsewhere; `spent`: no further stages.
     """
     found = converged & (path.ease > 0.0)
     solved_ease = jnp.where(found, path.ease, path.solved_ease)
     shorter = 0.5 * path.length
-    broken = failed & ((path.tries == 1) | (solved_ease > 1.0) | (shorter < SHORTEST_STAGE))
+    broken = failed & ((path.tries == 1) | (solved_ease > 1.0) | (shorter < SHORTEST_STAGE) | hopeless)
     begin = broken & (path.tries < most_tries) & ~spent
     again = failed & ~broken
     ended = spent | (broken & ~begin)

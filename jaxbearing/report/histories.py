@@ -4,6 +4,7 @@ from typing import TYPE_CHECKING, Any
 
 from ..bearings.history import History
 from ..ehl import EHLLineContact, LineContactHistory
+from ..ehl.history import SOLVER
 from ..numerics.status import SolveError
 
 if TYPE_CHECKING:
@@ -28,24 +29,26 @@ def history_to_dict(history: Any) -> dict[str, Any]:
 
 def not_begun_to_dict(scene: Any, duration: float | None, error: SolveError) -> dict[str, Any]:
     """A run whose start was not found, with the keys that `history_to_dict` has and nothing in those of results."""
+    from ..bearings.range_checks import input_excess
+    from ..bearings.simulation import Simulation
     from .plain import plain
 
-    simulation = scene.simulation
+    film, simulation = isinstance(scene, EHLLineContact), scene.simulation
     wanted = duration if duration is not None else getattr(simulation, "duration", None)
     common = {
         "completed": False,
         "status": error.status.text,
         "interrupted": False,
-        "warnings": [],
+        "warnings": [] if film else [text for text, excess in input_excess(scene).items() if excess > 0],
         "time": {"start": None, "stop": None, "wanted": None if wanted is None else float(wanted)},
         "steps": {"accepted": 0, "rejected": 0},
-        "solver": getattr(simulation, "solver", None),
+        "solver": SOLVER if film else (simulation or Simulation()).solver,
         "energy_error": None,
         "operation": plain(scene.operation),
         "summary": {},
         "failure": str(error),
     }
-    return common if isinstance(scene, EHLLineContact) else common | {"not_modelled": None, "energy": None}
+    return common if film else common | {"not_modelled": None, "energy": None}
 
 
 def print_history(history: Any, label: str, console: "Console") -> None:

@@ -3,6 +3,7 @@
 import dataclasses
 
 import equinox as eqx
+import jax
 import jax.numpy as jnp
 import numpy as np
 import pytest
@@ -105,3 +106,15 @@ def test_pieces_of_a_run_are_one_run(calm):
     whole = largest(pieces)
     assert whole.keys() == pieces[0].keys()
     assert all(float(whole[text]) == max(float(piece[text]) for piece in pieces) for text in whole)
+
+
+def test_an_instant_at_which_a_run_breaks_off_silences_nothing(calm):
+    """Its last state may not be finite."""
+    broken = jax.tree.map(lambda leaf: jnp.full_like(leaf, jnp.nan), run_excess(SCENE, calm))
+    whole = largest([run_excess(SCENE, changed(calm, "pressure_inner", 4.1e9)), broken])
+    assert any("4 GPa on the inner raceway" in text for text, value in whole.items() if value > 0)
+    names = ("load_inner", "load_outer", "pressure_inner", "pressure_outer", "orbital_speed", "spin_speed")
+    last = lambda i: tuple(getattr(i.elements, name) for name in names)
+    hot = changed(calm, "pressure_outer", 4.1e9)
+    ends = eqx.tree_at(last, hot, tuple(leaf.at[-1].set(jnp.nan) for leaf in last(hot)))
+    assert any("4 GPa on the outer raceway" in text for text in said(ends))

@@ -160,8 +160,7 @@ def ball_balances(scene: Any, n: Numbers, r: Results) -> dict[str, tuple[np.ndar
     if "operation.moment" in n and scene.operation.radial_load is not None:
         turned = np.sum(pushed[0] * place.from_centre[1] - on_line * place.from_centre[0], axis=1)
         scale = np.abs(moment) + place.lever * np.max(inner, axis=1)
-        # 1e-8 but where a film is as thick as the gap between the centres: forces have no direction there
-        found["ring carries the moment"] = (np.abs(turned - moment) / scale, 1e-6)
+        found["ring carries the moment"] = (np.abs(turned - moment) / scale, 1e-8)
     return found | fits
 
 

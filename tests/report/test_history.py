@@ -221,4 +221,12 @@ def test_a_run_that_does_not_begin_has_the_same_keys(name):
     assert set(found["time"]) == set(begun["time"])
     assert (found["completed"], found["status"], found["failure"]) == (False, "diverged", str(error))
     assert found["time"]["wanted"] == 1e-3
+    assert found["solver"] in ("dopri5", "kvaerno5", "bdf2")
+    assert found["warnings"] == []
     assert found["operation"].keys() == begun["operation"].keys()
+
+
+def test_a_run_that_does_not_begin_warns_of_its_scene():
+    scene = jb.load_scene("turbine_roller_dynamic", {"operation.inner_speed": "50 rpm"})
+    found = histories.not_begun_to_dict(scene, 1e-3, SolveError("no start", Status.DIVERGED))
+    assert any("less than 100 rpm" in text for text in found["warnings"])
