@@ -435,9 +435,12 @@ class LubricatedBallSystem(AbstractBallSystem):
         return outer, jnp.arctan2(axial, radial) - jnp.arctan2(friction[1], outer)
 
     def _contacts(self, log_load, inner, seen, orbit, own, pocket):
-        """Loads, outer angle, motion of the ball, friction that carries the couple, and by how much the centrifugal force
-        misses that of rolling, over the loads; `inner`: direction of the inner normal force, `seen`: contact angle on the inner race, rad;
-        `pocket`: its force outward."""
+        """Loads, outer angle, motion of the ball, friction that carries the couple, and by how much the centrifugal
+        force misses that of rolling, over the loads.
+
+        `inner`: direction of the inner normal force, `seen`: contact angle on the inner race, rad; `pocket`: its force
+        outward.
+        """
         motion_at = lambda angle, orbital: self._motion(seen, angle, orbital, own)
         rolls, friction, residual = orbit is None, None, jnp.zeros(())
         if orbit is None:

@@ -10,7 +10,6 @@ import pytest
 import jaxbearing as jb
 from jaxbearing.bearings.ball_build import build_core
 from jaxbearing.bearings.ball_start import free_centres
-from jaxbearing.numerics.newton import newton_solve
 
 CORE = build_core(jb.load_scene("angular_contact_218", {"operation.axial_load": "10 N"}))
 PROBLEM = CORE._estimates()[0]
