@@ -135,7 +135,7 @@ class BallCore(AbstractBallSystem):
 
     @property
     def heavier(self) -> Array:
-        """How many times the load on the ring the easiest load is, beside which centrifugal forces and films are small."""
+        """How many times the load on the ring that load is, beside which centrifugal forces and films are small."""
         angle = self.grooves.free_angle
         force = self.outward_force(self.kinematics.rolling(angle, angle, angle))
         force = force + EASY_LOAD * jnp.square(self.kinematics.ball_diameter)

@@ -94,9 +94,8 @@ def measured(name: str, lanes: int, repeats: int = 3) -> Batch:
     slopes = [jax.jit(lambda p, over=over: over(slope, p)) for over in (_mapped, _batched)]
     reverse = np.asarray(slopes[1](points))
     forward = np.asarray(jax.jit(lambda p: _batched(push, p))(points))
-    shifted = [
-        jax.jit(lambda p: _batched(moved, p))(points | {"load": points["load"] * f}) for f in (1 + STEP, 1 - STEP)
-    ]
+    move = jax.jit(lambda p: _batched(moved, p))
+    shifted = [move(points | {"load": points["load"] * factor}) for factor in (1.0 + STEP, 1.0 - STEP)]
     central = (np.asarray(shifted[0]) - np.asarray(shifted[1])) / (2.0 * STEP * np.asarray(points["load"]))
     scale = np.maximum(np.abs(reverse), 1e-3 * np.nanmedian(np.abs(reverse)))
     times = _times([mapped, batched, *slopes], points, repeats)
