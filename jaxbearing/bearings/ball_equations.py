@@ -27,9 +27,8 @@ of the traction law $F_{tk} = -sF_x(s\,u_t, s\,u_b, \omega_s)$, s = 1 inside, -1
 The massless cage hands the pocket forces on to its lands, and where the inner ring guides it they stand in that ring's
 balance, $F_r = \sum p_r\cos\psi + W_{FCi}\cos\chi$, $W_{FCi}\cos\chi = \sum(F_{C2} - F_{C1})\cos\psi$ (source eqs.
 (18)-(19), (22)): to the radial force of each ball on the ring comes the radial friction of its pocket, which has no
-moment. Tangential
-forces, those of the pockets through the lands and $F_{ti}$ of the balls, have no sum along the load line, since balls
-on both sides of it run alike; the balances of the ring, and its stiffness, leave out both.
+moment. Tangential forces, those of the pockets through the lands and $F_{ti}$ of the balls, have no sum along the load
+line, since balls on both sides of it run alike; the balances of the ring, and its stiffness, leave out both.
 
 Heathcote slip (`PointLaws.heathcote`). Ball and race meet in a surface that bends around the ball across rolling, by
 $z = -y^2/(2R_k)$ along $n_k$, $1/R_k$ the mean of the curvatures $2/D$ and $1/(f_kD)$. The relative roll

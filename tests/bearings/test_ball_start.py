@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import jaxbearing as jb
-from jaxbearing.bearings.ball_build import build_core
+from jaxbearing.bearings.ball_build import build_core, build_lubricated
 from jaxbearing.bearings.ball_start import free_centres
 
 CORE = build_core(jb.load_scene("angular_contact_218", {"operation.axial_load": "10 N"}))
@@ -95,3 +95,18 @@ def test_an_orbital_speed_that_was_not_found_is_no_result():
     converged, left = (np.asarray(part) for part in jax.jit(lambda s: jax.lax.map(judged, s))(speeds))
     assert converged.any()
     assert left[converged].max() < 1e-5  # a ring that tilts is not in the half-plane of the ball
+
+
+@pytest.mark.parametrize("guidance", ["inner_ring", "outer_ring"])
+def test_friction_of_pockets_goes_through_the_land_without_a_moment(guidance):
+    scene = jb.load_scene("turbine_ball", COMBINED | {"cage.guidance": guidance})
+    system = build_lubricated(scene, build_core(scene))
+    pocket = jnp.linspace(-1.0, 3.0, scene.geometry.n_balls)
+    contributions = system._through_land(pocket)
+    found = dict(zip(system.freedoms, np.asarray(jnp.sum(contributions, axis=1)), strict=True))
+    radial = float(jnp.sum(pocket * jnp.cos(system.azimuth)))
+    assert found["radial"] == pytest.approx(radial, rel=1e-14)
+    assert all(value == 0.0 for name, value in found.items() if name != "radial")
+
+
+COMBINED = {"operation.radial_load": "5 kN", "operation.moment": "20 N m"}

@@ -82,6 +82,26 @@ class Far(Eased):
         return Far(self.root, self.steepness, start=jnp.where(ease > 0.0, 0.0, self.start))
 
 
+class TwoRoots(Eased):
+    """x^2 = a^2, and a nested solve that fails at the root -a; only the last way begins on the side of the other one."""
+
+    start: Array | float = -2.0
+    rising = False
+
+    def plateau(self, x):
+        return jnp.square(x) - jnp.square(self.root)
+
+    def initial(self):
+        return ArrowPoint(jnp.full((1, 2), self.start), jnp.full(1, self.start))
+
+    def element(self, unknowns, shared):
+        return self.plateau(unknowns), 0.0 * shared, jnp.where(jnp.min(unknowns) < 0.0, 1.0, 0.0)
+
+    def eased(self, ease, path):
+        other = (path == self.paths - 1) & (ease > 0.0) & self.reachable
+        return TwoRoots(self.root, self.steepness, self.reachable, start=jnp.where(other, 2.0, self.start))
+
+
 def parameters(root, steepness=1.0):
     return jnp.asarray(root), jnp.asarray(steepness)
 
@@ -156,3 +176,17 @@ def test_lanes_take_the_second_try_apart():
         alone = solve(root)
         assert int(alone.iterations) == int(batch.iterations[i])
         np.testing.assert_allclose(batch.point.globals[i], alone.point.globals, rtol=1e-14)
+
+
+def test_where_a_nested_solve_fails_every_way_is_tried():
+    """The root of the first ways is none, whatever the steps; the last way ends at another one."""
+    _, result = newton_solve(TwoRoots(*parameters(1.0)))
+    assert int(result.status) == Status.CONVERGED
+    np.testing.assert_allclose(result.point.elements, 1.0, rtol=1e-14)
+
+
+def test_where_a_nested_solve_fails_on_every_way_the_solve_fails_soon():
+    _, result = newton_solve(TwoRoots(*parameters(1.0), reachable=False))
+    assert int(result.status) == Status.NOT_CONVERGED
+    assert float(result.inner_residual) == 1.0
+    assert int(result.iterations) < 60
