@@ -83,7 +83,7 @@ class Far(Eased):
 
 
 class TwoRoots(Eased):
-    """x^2 = a^2, and a nested solve that fails at the root -a; only the last way begins on the side of the other one."""
+    """x^2 = a^2, and a nested solve that fails at the root -a; the last way alone begins beside the other one."""
 
     start: Array | float = -2.0
     rising = False
