@@ -162,11 +162,12 @@ class BallCore(AbstractBallSystem):
         return dataclasses.replace(self, guess=guess, heavy_guess=heavy), found.steps
 
     def _points(
-        self, centres: Float[Array, "case 2 ball"], rings: Float[Array, "case freedom"]
-    ) -> tuple[ArrowPoint, ...]:
-        """Unknowns at ball centres and displacements of the ring, m."""
+        self, centres: Float[Array, "2 2 ball"], rings: Float[Array, "2 freedom"]
+    ) -> tuple[ArrowPoint, ArrowPoint]:
+        """Unknowns at ball centres and displacements of the ring, m, under its load and under the easiest one."""
         points = jax.lax.stop_gradient(jax.vmap(self._point)(centres, rings))
-        return tuple(jax.tree.map(lambda leaf, i=i: leaf[i], points) for i in range(rings.shape[0]))
+        own, easiest = (jax.tree.map(lambda leaf, i=i: leaf[i], points) for i in (0, 1))
+        return own, easiest
 
     def _point(self, centre: Float[Array, "2 ball"], moved: Float[Array, " freedom"]) -> ArrowPoint:
         elements, ring = (centre - self.free_centre()) / LENGTH_UNIT, moved / LENGTH_UNIT
