@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 import jaxbearing as jb
+from jaxbearing.bearings import ball_start
 from jaxbearing.bearings.ball_build import build_core, build_lubricated
 from jaxbearing.bearings.ball_start import free_centres
 
@@ -95,6 +96,18 @@ def test_an_orbital_speed_that_was_not_found_is_no_result():
     converged, left = (np.asarray(part) for part in jax.jit(lambda s: jax.lax.map(judged, s))(speeds))
     assert converged.any()
     assert left[converged].max() < 1e-5  # a ring that tilts is not in the half-plane of the ball
+
+
+@pytest.mark.parametrize("load", [1000.0, np.nan])
+def test_a_lane_without_numbers_is_given_up_at_once(load, monkeypatch):
+    """Where lanes are solved at once, all wait for the slowest: one with an invalid input took 2 400 trials."""
+    forces, calls = ball_start._forces, []
+    monkeypatch.setattr(ball_start, "_forces", lambda *given: calls.append(None) or forces(*given))
+    problem = dataclasses.replace(PROBLEM, ring_load=load * jnp.ones_like(PROBLEM.ring_load))
+    with jax.disable_jit():
+        found = ball_start.start(problem, ball_start.ring_estimate(problem))
+    assert bool(jnp.all(jnp.isfinite(found.ring))) == np.isfinite(load)
+    assert len(calls) < (60 if np.isfinite(load) else 4)
 
 
 @pytest.mark.parametrize("guidance", ["inner_ring", "outer_ring"])
