@@ -147,14 +147,14 @@ def _equilibrium(problem: CentrifugalProblem, groove: Array, scale: Array, cap: 
         accept = (enough | near | (state.fraction < SHORTEST)) & ~state.done
         step, slope, small = propose(trial, forces)
         # a lane that begins without numbers has none later, and the others would wait for it
-        lost = (state.trials == 0) & jnp.isnan(forces.energy)
+        hopeless = (state.trials == 0) & jnp.isnan(forces.energy)
         return _Balls(
             centre=jnp.where(accept[None], trial, state.centre),
             step=jnp.where(accept[None], step, state.step),
             energy=jnp.where(accept, forces.energy, state.energy),
             slope=jnp.where(accept, slope, state.slope),
             fraction=jnp.where(accept, 1.0, jnp.where(state.done, state.fraction, 0.3 * state.fraction)),
-            done=state.done | (accept & small) | lost,
+            done=state.done | (accept & small) | hopeless,
             trials=state.trials + 1,
         )
 
@@ -208,7 +208,7 @@ def start(problem: CentrifugalProblem, ring: Float[Array, " freedom"]) -> Start:
         near = jnp.abs(state.slope) <= 1e-12 * jnp.abs(energy) + 1e-18
         accept = enough | near | (state.fraction < SHORTEST)
         pick = lambda new, old: jnp.where(accept, new, old)
-        lost = (state.trials == 0) & jnp.isnan(energy)
+        hopeless = (state.trials == 0) & jnp.isnan(energy)
         return _Ring(
             ring=pick(trial, state.ring),
             centre=pick(centre, state.centre),
@@ -216,7 +216,7 @@ def start(problem: CentrifugalProblem, ring: Float[Array, " freedom"]) -> Start:
             energy=pick(energy, state.energy),
             slope=pick(slope, state.slope),
             fraction=pick(1.0, 0.3 * state.fraction),
-            done=(accept & small) | lost,
+            done=(accept & small) | hopeless,
             trials=state.trials + 1,
             steps=state.steps + (accept & ~small).astype(int),
         )
