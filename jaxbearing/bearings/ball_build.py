@@ -143,8 +143,9 @@ def build_lubricated(scene: BallBearing, core: BallCore) -> LubricatedBallSystem
 
 
 def _guesses(core: BallCore, slips: bool) -> dict[str, Any]:
-    """Where the iteration starts; of balls that do not slide also how much heavier the easiest load is, and the
-    start under that."""
+    """Makes the fields that say where the iteration starts.
+
+    Balls that do not slide also get how much heavier the easiest load is, and the start under that."""
     guess, heavy = core.guesses()
     if slips:
         return {"guess": _guess(core, guess)}

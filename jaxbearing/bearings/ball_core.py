@@ -135,14 +135,14 @@ class BallCore(AbstractBallSystem):
 
     @property
     def heavier(self) -> Array:
-        """How many times the load on the ring that load is, beside which centrifugal forces and films are small."""
+        """The ratio of the easiest load to the load on the ring: centrifugal forces and films are small beside it."""
         angle = self.grooves.free_angle
         force = self.outward_force(self.kinematics.rolling(angle, angle, angle))
         force = force + EASY_LOAD * jnp.square(self.kinematics.ball_diameter)
         return 1.0 + self.ball_count * force / self.load_scale()
 
     def guesses(self) -> tuple[ArrowPoint, ArrowPoint]:
-        """Where the iteration starts under the load on the ring, and under the easiest one."""
+        """Gives the points where the iteration starts under the load on the ring, and under the easiest one."""
         if self.guess is not None and self.heavy_guess is not None:
             return self.guess, self.heavy_guess
         _, centres, rings = self._estimates()

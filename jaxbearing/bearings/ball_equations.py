@@ -127,7 +127,7 @@ class BallsState(NamedTuple):
     friction: Float[Array, "2 ball"] | None
     film: PointFilm
     orbit_residual: Float[Array, ""]
-    """Of the centrifugal forces of balls that roll without sliding, over their loads."""
+    """How far the centrifugal forces of balls that roll without sliding are off, over their loads; 0 for other balls."""
     traction: Traction | None
     rolling: Float[Array, "2 ball"] | None
     """Moment of the film's pressure against the roll, N m."""
@@ -167,9 +167,9 @@ class LubricatedBallSystem(AbstractBallSystem):
     slide_share: Scalar = eqx.field(converter=as_float, default=1.0)
     """Part of the sliding that the traction law sees: 1, less in an eased system."""
     heavy_guess: BallGuess | None = None
-    """Of balls that do not slide: where the easiest system starts."""
+    """The easiest system starts here; only balls that do not slide have it."""
     heavier: Float[Array, ""] | None = None
-    """How many times the load that has."""
+    """The easiest load over the load on the ring."""
     film_share: Scalar = eqx.field(converter=as_float, default=1.0)
     """Part of the films that keeps the surfaces apart: 1, less in an eased system."""
 
@@ -412,8 +412,9 @@ class LubricatedBallSystem(AbstractBallSystem):
         return state, contact
 
     def _through_land(self, pocket: Float[Array, " ball"]) -> Float[Array, "freedom ball"]:
-        """What the outward friction of the pockets, N, contributes to the forces on the ring through cage and land: in
-        the middle plane, hence no moment."""
+        """Gives the contributions of the pockets' outward friction, N, to the forces on the ring.
+
+        They go through cage and land and act in the middle plane, hence without a moment."""
         along = {"radial": jnp.cos(self.azimuth), "lateral": jnp.sin(self.azimuth)}
         zero = jnp.zeros_like(pocket)
         return self.multiplicity * jnp.stack([along.get(name, zero) * pocket for name in self.freedoms])

@@ -1,5 +1,6 @@
 """Range checks of a run in time of cylindrical rollers: those of `range_checks`, over all instants together."""
 
+import dataclasses
 from typing import Any
 
 import jax
@@ -8,7 +9,7 @@ from jaxtyping import Array
 
 from .cylindrical_roller import CylindricalRollerBearing
 from .history import Instant
-from .kinematics import RollerKinematics
+from .kinematics import roller_kinematics
 from .range_checks import MEAN_OF_LINE, RACEWAYS, Contacts, Excess, Facts, result_excess
 from .solution import RING_FREEDOMS, CageState, RingDisplacement
 
@@ -25,15 +26,9 @@ def run_excess(scene: CylindricalRollerBearing, instants: Instant) -> Excess:
     """
     oil, elements = scene.oil, instants.elements
     assert oil is not None
-    geometry = scene.geometry
 
     def at_once(inner_speed: Array, orbital_speed: Array, spin_speed: Array) -> tuple[Array, Array]:
-        motion = RollerKinematics(
-            inner_speed=inner_speed,
-            outer_speed=jnp.asarray(scene.operation.outer_speed),
-            pitch_radius=jnp.asarray(geometry.pitch_radius),
-            roller_radius=jnp.asarray(geometry.roller_radius),
-        )
+        motion = roller_kinematics(scene.geometry, dataclasses.replace(scene.operation, inner_speed=inner_speed))
         return motion.surface_speeds(orbital_speed - motion.free_orbit, spin_speed - motion.free_spin)
 
     moving = (instants.inner_speed, elements.orbital_speed, elements.spin_speed)
@@ -60,5 +55,5 @@ def run_excess(scene: CylindricalRollerBearing, instants: Instant) -> Excess:
 
 
 def largest(pieces: list[Excess]) -> Excess:
-    """Of the pieces of a run, the largest number of each check; one that is not a number says nothing."""
+    """Finds the largest number of each check among the pieces of a run; one that is not a number says nothing."""
     return jax.tree.map(lambda *values: jnp.nanmax(jnp.stack([jnp.asarray(-jnp.inf), *values])), *pieces)

@@ -72,8 +72,10 @@ def anchored(value: Array, stiffness: float) -> Array:
 
 
 class Descent(NamedTuple):
-    """Where the descent ended, the largest scaled residual that it still had to bring down where it was last looked at
-    (with settled elements: of the globals), and the Newton steps taken."""
+    """The end of a descent.
+
+    `residual` is the largest scaled one that was still to be brought down where it was last looked at (with settled
+    elements: of the globals); `steps` counts Newton steps."""
 
     point: ArrowPoint
     residual: Float[Array, ""]
