@@ -6,6 +6,7 @@ the work. `jax.shard_map` would be another program for another number of devices
 then differ in the last bits between one device and two.
 """
 
+import functools
 import threading
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
@@ -19,9 +20,11 @@ import numpy as np
 from jaxtyping import Array, Bool
 
 from ._scene import AbstractScene
+from .numerics.compiling import quick_options
 from .numerics.newton import NewtonOptions
 from .numerics.precision import as_float, require_x64
 from .numerics.status import Status
+from .programs import KeptProgram
 from .solve import solve, steady_function
 
 Method = Literal["map", "vmap"]
@@ -41,11 +44,13 @@ class LaneProgram:
     """Solves lanes of scenes: `program(inputs, active)` gives their solutions as numpy arrays with the lanes in front.
 
     **Arguments:**
-    - `make`: from the base and a lane's inputs to its scene.
+    - `make`: from the base and a lane's inputs to its scene. Of a function of this package the program is kept between
+      processes (`programs.KeptProgram`) where one device of a CPU does all.
     - `base`: numbers that all lanes share: a pytree.
     - `example`: the inputs of one lane, a pytree of float64 numbers and arrays.
     - `lanes`: that each device solves in one call.
     - `devices`: how many of the local ones share the work; all if not given.
+    - `quick`: compile quickly (see `numerics.compiling`): for few lanes.
     """
 
     def __init__(
@@ -58,32 +63,30 @@ class LaneProgram:
         lanes: int,
         devices: int | None = None,
         options: NewtonOptions | None = None,
+        quick: bool = False,
     ):
         require_x64()
         self.base = jax.tree.map(as_float, base)
         self.lanes = lanes
         self.devices = jax.local_devices()[:devices]
-
-        def one(shared: Any, inputs: Any) -> Any:
-            return solve(make(shared, inputs), throw=False, options=options)
-
-        example = jax.tree.map(as_float, example)
-        steady_function(make(self.base, example))
-        self.structure = jax.eval_shape(one, self.base, example)
-        """The solution of one lane, with shapes for arrays."""
-        empty = _without_result(self.structure)
-
-        def lane(shared: Any, active: Array, inputs: Any) -> Any:
-            return jax.lax.cond(active, lambda: one(shared, inputs), lambda: empty)
-
-        def device(shared: Any, active: Bool[Array, " lane"], inputs: Any) -> Any:
-            if method == "map":
-                return jax.lax.map(lambda given: lane(shared, given[0], given[1]), (active, inputs))
-            return jax.vmap(lane, in_axes=(None, 0, 0))(shared, active, inputs)
-
-        self._program = jax.jit(device)
+        self._example = jax.tree.map(as_float, example)
+        steady_function(make(self.base, self._example))
+        self._static = (make, method, options)
+        self._quick = quick
+        self._kept = _QUICK if quick else _OPTIMISED
         self._compiled: dict[Any, Any] = {}
         self._tracing = threading.Lock()
+
+    @functools.cached_property
+    def structure(self) -> Any:
+        """The solution of one lane, with shapes for arrays."""
+        inputs = jax.tree.map(lambda leaf: np.asarray(leaf)[None], self._example)
+        arguments = jax.tree.flatten((*self._static, *self._filled(inputs, np.zeros(1, dtype=bool), 0)))
+        found = self._kept.result(arguments[1], arguments[0]) if len(self.devices) == 1 else None
+        if found is None:
+            make, _, options = self._static
+            return jax.eval_shape(functools.partial(_lane, make, options), self.base, self._example)
+        return jax.tree.map(lambda leaf: jax.ShapeDtypeStruct(leaf.shape[1:], leaf.dtype), found)
 
     def __call__(self, inputs: Any, active: np.ndarray, progress: Callable[[int], None] = lambda lanes: None) -> Any:
         """Solutions of as many lanes as there are.
@@ -112,23 +115,59 @@ class LaneProgram:
                 done.append(block)
         return jax.tree.map(lambda *parts: np.concatenate(parts), *done)
 
-    def _block(self, device: Any, inputs: Any, active: np.ndarray, start: int) -> Any:
-        """Lanes of one call; the last block is filled up with lanes that are not solved."""
+    def _filled(self, inputs: Any, active: np.ndarray, start: int) -> tuple[Any, np.ndarray, Any]:
+        """What the lanes of one call share, which of them are solved, and their inputs: the last block is filled up
+        with lanes that are not solved."""
 
         def part(values: Any) -> np.ndarray:
             values = np.asarray(values)[start : start + self.lanes]
             return np.concatenate([values, np.repeat(values[-1:], self.lanes - len(values), axis=0)])
 
         wanted = np.zeros(self.lanes, dtype=bool)
-        count = min(self.lanes, len(active) - start)
-        wanted[:count] = active[start : start + count]
-        given = jax.device_put((self.base, wanted, jax.tree.map(part, inputs)), device)
+        wanted[: min(self.lanes, len(active) - start)] = active[start : start + self.lanes]
+        return self.base, wanted, jax.tree.map(part, inputs)
+
+    def _block(self, device: Any, inputs: Any, active: np.ndarray, start: int) -> Any:
+        """Lanes of one call."""
+        given = self._filled(inputs, active, start)
         if device not in self._compiled:
-            with self._tracing:
-                lowered = self._program.lower(*given)
-            with _COMPILING:
-                self._compiled[device] = lowered.compile()
-        return jax.tree.map(lambda leaf: np.asarray(leaf)[:count], self._compiled[device](*given))
+            self._compiled[device] = self._prepared(device, given)
+        count = min(self.lanes, len(active) - start)
+        return jax.tree.map(lambda leaf: np.asarray(leaf)[:count], self._compiled[device](given))
+
+    def _prepared(self, device: Any, given: Any) -> Callable[[Any], Any]:
+        """The program for a device, of what `_filled` gives: kept, or compiled here."""
+        leaves, structure = jax.tree.flatten((*self._static, *given))
+        kept = self._kept.ready(structure, leaves) if len(self.devices) == 1 else None
+        if kept is not None:
+            return lambda given: kept(jax.tree.leaves((*self._static, *given)))
+        options = quick_options() if self._quick and device.platform == "cpu" else None
+        with self._tracing:
+            lowered = jax.jit(functools.partial(_lanes, *self._static)).lower(*jax.device_put(given, device))
+        with _COMPILING:
+            compiled = lowered.compile(options)
+        return lambda given: compiled(*jax.device_put(given, device))
+
+
+def _lane(make: Any, options: Any, shared: Any, inputs: Any) -> Any:
+    return solve(make(shared, inputs), throw=False, options=options)
+
+
+def _lanes(make: Any, method: Method, options: Any, shared: Any, active: Bool[Array, " lane"], inputs: Any) -> Any:
+    """Solutions of all lanes of one call."""
+    one = functools.partial(_lane, make, options)
+    first = jax.tree.map(lambda leaf: jax.ShapeDtypeStruct(leaf.shape[1:], leaf.dtype), inputs)
+    empty = _without_result(jax.eval_shape(one, shared, first))
+
+    def lane(shared: Any, active: Array, inputs: Any) -> Any:
+        return jax.lax.cond(active, lambda: one(shared, inputs), lambda: empty)
+
+    if method == "map":
+        return jax.lax.map(lambda given: lane(shared, given[0], given[1]), (active, inputs))
+    return jax.vmap(lane, in_axes=(None, 0, 0))(shared, active, inputs)
+
+
+_QUICK, _OPTIMISED = KeptProgram(_lanes, quick=True), KeptProgram(_lanes, quick=False)
 
 
 def _without_result(structure: Any) -> Any:

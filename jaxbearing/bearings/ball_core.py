@@ -246,6 +246,11 @@ class BallCore(AbstractBallSystem):
             self, ring_load=self.ring_load * ratio**ease, couple_share=share, guess=guess, heavy_guess=heavy, ease=ease
         )
 
+    @property
+    def further_sums(self) -> int:
+        # weighted speeds and weights
+        return 1 if self.common_orbit else 0
+
     def element(self, unknowns, shared):
         state = self.balls(unknowns, shared)
         totals = state.on_ring

@@ -304,6 +304,11 @@ class LubricatedBallSystem(AbstractBallSystem):
         couple = self.couple_share * jnp.where(path == 0, 1.0 - ease, 1.0)
         return dataclasses.replace(self, couple_share=couple, slide_share=jnp.where(path == 0, 1.0, slide))
 
+    @property
+    def further_sums(self) -> int:
+        # moment on the cage, and two components of the force for one global; weighted speeds and weights
+        return 1 if self.common_orbit else 0 if self.cage is None else 2
+
     def element(self, unknowns, shared):
         state = self.balls(unknowns, shared)
         totals = [state.on_ring]

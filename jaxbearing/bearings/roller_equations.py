@@ -166,6 +166,11 @@ class LubricatedRollerSystem(AbstractArrowSystem):
         where = lambda system: (system.ring_load, system.laws.entrainment_offset)
         return eqx.tree_at(where, self, (self.ring_load * factor, offset))
 
+    @property
+    def further_sums(self) -> int:
+        # moment on the cage, and two components of the force for one global
+        return 0 if self.cage is None else 2
+
     def element(self, unknowns, shared):
         state = self.rollers(unknowns, shared)
         balance = state.load[0][None, :] * self.directions

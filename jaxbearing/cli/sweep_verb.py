@@ -109,6 +109,7 @@ def sweep(
     with bad_input():
         from ..scenes.overrides import split_assignments
         from ..sweeps.fields import SceneSource
+        from ..sweeps.verb import calls_at_once
 
         _check_modes(over, cases_file, random, latin_hypercube)
         source = SceneSource.of(scene, split_assignments(changes or []))
@@ -125,7 +126,8 @@ def sweep(
 
     label = labelled(scene, changes)
     enable_compilation_cache()
-    use_cores((devices or cores()) if workers is None and scheduler is None else 1)
+    most = devices or min(cores(), calls_at_once(recipe, cases, chunk))
+    use_cores(most if workers is None and scheduler is None else 1)
     with without_false_alarms():
         from ..sweeps.engine import StoppedError, SweepError, kept_words, run
         from ..sweeps.fields import described_fields

@@ -68,6 +68,11 @@ class AbstractArrowSystem(eqx.Module):
         """Number of ways to ease the system; 0: a solve that fails at once has failed."""
         return 0
 
+    @property
+    def further_sums(self) -> int:
+        """How many sums over the elements `closure` takes beyond one for each global."""
+        return 0
+
     @abc.abstractmethod
     def element(
         self, unknowns: Float[Array, "m element"], shared: Float[Array, "g element"]
@@ -153,11 +158,10 @@ def linearize(system: AbstractArrowSystem, point: ArrowPoint) -> tuple[Equations
 
 
 def empty_jacobian(system: AbstractArrowSystem, point: ArrowPoint) -> ArrowJacobian:
-    """Blocks of zeros of the right shapes, to start a loop with; traces the element function, not its Jacobian."""
+    """Blocks of zeros of the right shapes, to start a loop with."""
     m, n = point.elements.shape
     g = point.globals.shape[0]
-    shared = jax.ShapeDtypeStruct((g, n), point.globals.dtype)
-    k = jax.eval_shape(lambda u, z: system.element(u, z)[1], point.elements, shared).shape[0]
+    k = g + system.further_sums
     return ArrowJacobian(
         jnp.zeros((m, m, n)), jnp.zeros((m, g, n)), jnp.zeros((k, m, n)), jnp.zeros((g, g)), jnp.zeros((g, k))
     )

@@ -2,6 +2,7 @@
 
 import functools
 import gc
+import os
 import threading
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
@@ -30,8 +31,9 @@ _QUICK = {
 }
 """On a CPU, XLA's older way to emit loops, and LLVM without its optimizations: a bearing compiles in 0.65 of the time
 and 0.4 of the processor time; its programs run 2 to 3 times slower, milliseconds for one solve. Without the passes
-above all of a first `jaxbearing solve` takes 0.75 to 0.95 of that. None of it on a GPU, where the options stand for
-something else."""
+above all of a first `jaxbearing solve` takes 0.75 to 0.95 of that. XLA cuts LLVM's work into 32 parts, each of which
+costs something: on two cores a large program in four parts takes 0.92 of the processor time. None of it on a GPU,
+where the options stand for something else."""
 
 
 RARELY = (100_000, 20, 10)
@@ -81,7 +83,8 @@ def quick_options() -> dict[str, Any]:
             return False
         return True
 
-    return _QUICK if known(_QUICK) else {name: value for name, value in _QUICK.items() if known({name: value})}
+    wanted = _QUICK | {"xla_cpu_parallel_codegen_split_count": min(2 * (os.cpu_count() or 1), 32)}
+    return wanted if known(wanted) else {name: value for name, value in wanted.items() if known({name: value})}
 
 
 def is_tracing() -> bool:

@@ -61,6 +61,13 @@ class _Ready:
     others: list[Any]
     instead: Callable[[], "_Ready"] | None = None
 
+    @property
+    def result(self) -> Any:
+        """The result, with shapes for arrays."""
+        shapes = self.compiled.out_info
+        filled = [shapes[one.place] if isinstance(one, _Slot) else one for one in self.others]
+        return jax.tree.unflatten(self.structure, filled)
+
     def __call__(self, leaves: list[Any]) -> Any:
         arrays = self._run(_arrays(leaves)) if self.instead is None else self._first_run(_arrays(leaves))
         filled = [arrays[one.place] if isinstance(one, _Slot) else one for one in self.others]
@@ -115,6 +122,14 @@ class KeptProgram:
     def ready(self, structure: Structure, leaves: list[Any]) -> Callable[[list[Any]], Any] | None:
         """The program for arguments of this structure: a function of their leaves, arrays of the same shapes and equal
         others; loaded, or made and kept. `None` where programs like it are not kept."""
+        return self._found(structure, leaves, make=True)
+
+    def result(self, structure: Structure, leaves: list[Any]) -> Any:
+        """What the program for such arguments gives, with shapes for arrays; `None` where there is no program yet."""
+        found = self._found(structure, leaves, make=False)
+        return None if found is None else found.result
+
+    def _found(self, structure: Structure, leaves: list[Any], make: bool) -> _Ready | None:
         folder = _folder()
         if folder is None:
             return None
@@ -123,7 +138,7 @@ class KeptProgram:
         found = self._ready.get(key)
         if found is None and key not in self._never:
             try:
-                found = self._prepared(structure, leaves, folder)
+                found = self._prepared(structure, leaves, folder, make)
             except NotKept:
                 self._never.add(key)
             if found is not None:
@@ -131,13 +146,13 @@ class KeptProgram:
         return found
 
     @collecting_rarely()
-    def _prepared(self, structure: Structure, leaves: list[Any], folder: Path) -> _Ready:
-        """The program, loaded or made and kept. **Raises:** `NotKept`."""
+    def _prepared(self, structure: Structure, leaves: list[Any], folder: Path, make: bool) -> _Ready | None:
+        """The program, loaded, or made and kept where it may be made. **Raises:** `NotKept`."""
         path = folder / self._name(structure, leaves)
         with without_false_alarms() if compiler_is_loud() else nullcontext():
             ready = _loaded(path)
             if ready is None:
-                return self._made(structure, leaves, path)
+                return self._made(structure, leaves, path) if make else None
         ready.instead = lambda: self._made(structure, leaves, path)
         return ready
 

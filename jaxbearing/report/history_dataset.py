@@ -11,7 +11,8 @@ import xarray as xr
 from ..bearings.history import History
 from ..numerics.status import Status
 from .history_shocks import FACES, SHOCK, peaks_by_turn, sectors, whirl_ratio
-from .labelled import attributes, flags, identity_text, labelled, variable, without_fill
+from .labelled import labelled
+from .variables import attributes, flags, identity_text, variable, without_fill
 
 _STATES = {"roller_state": ("q", "v", "u"), "cage_state": ("x", "y", "q", "v_x", "v_y", "v")}
 """Components of the states, along their dimensions."""

@@ -11,7 +11,7 @@ from .._identity import Identity, identity_from
 from ..bearings.history import LastState
 from ..ehl import FilmState
 from ..scenes.input_files import check_regular
-from .labelled import IDENTITY
+from .variables import IDENTITY
 
 _NEEDED = ("time", "state_rollers", "state_cage", "frame_angle", "frame_speed", "reference_speed", "azimuth")
 _OF_A_FILM = ("time", "pressure", "offset", "mass", "steps", "known", "proposal")

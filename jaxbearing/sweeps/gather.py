@@ -10,8 +10,8 @@ import numpy as np
 import xarray as xr
 
 from ..numerics.interrupts import deferred_interrupts
-from ..report.labelled import CHECK, without_fill
 from ..report.netcdf import NetcdfStream
+from ..report.variables import CHECK, without_fill
 from .chunks import KEY, read_chunk
 from .labels import CASE, FAILURE, per_case, template
 from .plan import Plan

@@ -9,7 +9,7 @@ import xarray as xr
 
 from ..numerics.status import Status
 from ..report.dataset import solution_to_dataset
-from ..report.labelled import checks, common
+from ..report.variables import checks, common
 
 CASE = "case"
 FAILURE = "failure"

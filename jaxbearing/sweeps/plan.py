@@ -23,11 +23,14 @@ from .recipe import Recipe
 from .stored_recipe import recipe_of_data
 
 PLAN = "plan.data"
-FORMAT = 1
+FORMAT = 2
 """Version of the format of that file."""
 CHUNK, LANES = 1000, 125
 """Cases of a chunk, and those of them that a device solves in one call: eight devices can share one."""
 VMAP_LANES = 1000
+QUICK_CASES = 1000
+"""A sweep of no more cases is compiled quickly, if one of them is solved in milliseconds: its program runs 2 to 5 times
+slower, seconds in all, and is compiled in a quarter of the time, tens of seconds."""
 HEAVY_CHUNK, HEAVY_LANES = 32, 4
 """Of scenes whose solve takes a large part of a second."""
 
@@ -41,7 +44,8 @@ class Plan:
     - `options`: of the solver.
     - `chunk`: cases in a file; `lanes`: cases in a call on one device.
     - `elements`: whether results of each rolling element (of each point of a profile) are kept, or only numbers.
-    - `platform`: "cpu", "gpu"; `method`: how a device goes through its lanes.
+    - `platform`: "cpu", "gpu"; `method`: how a device goes through its lanes; `quick`: whether the program is compiled
+      quickly.
     - `label`: the scene as it was named, for messages and titles.
     - `metadata`: unit and description of each swept field.
     - `cache`: folder of JAX's compilation cache, for workers of the sweep; not part of the hash, nor of the file.
@@ -55,6 +59,7 @@ class Plan:
     elements: bool
     platform: str
     method: Method
+    quick: bool
     label: str
     metadata: dict[str, dict[str, str]]
     cache: str | None = None
@@ -73,7 +78,8 @@ class Plan:
         """Hash of scene, cases, options and versions: two sweeps with the same key have the same numbers."""
         digest = hashlib.sha256()
         scene = self.recipe.example_scene
-        told = [__version__, _source(), jax.__version__, self.platform, self.method, self.chunk, self.lanes]
+        told = [__version__, _source(), jax.__version__, self.platform, self.method, self.quick, self.chunk]
+        told += [self.lanes]
         told += [self.elements, _structure(self.options), self.cases.kind, self.cases.paths, self.cases.shape]
         told += [type(self.recipe).__name__, _structure(scene)]
         digest.update(repr(told).encode())
@@ -97,6 +103,7 @@ class Plan:
             lanes=self.lanes,
             devices=devices,
             options=self.options,
+            quick=self.quick,
         )
 
 
@@ -176,7 +183,7 @@ def _read(folder: str | os.PathLike[str]) -> tuple[dict[str, Any], dict[str, np.
     return said, arrays
 
 
-_PLAIN = ("chunk", "lanes", "elements", "platform", "method", "label", "metadata", "options")
+_PLAIN = ("chunk", "lanes", "elements", "platform", "method", "quick", "label", "metadata", "options")
 """Fields of a plan that are written as they are. The compilation cache is not among them: JAX runs what lies there."""
 
 

@@ -29,7 +29,8 @@ class Recipe(Protocol):
         """The scene of one of the cases."""
         ...
 
-    def make(self, base: Any, inputs: Any) -> AbstractScene:
+    @staticmethod
+    def make(base: Any, inputs: Any) -> AbstractScene:
         """Scene of one lane; pure."""
         ...
 
@@ -61,7 +62,8 @@ class Direct:
     def example_scene(self) -> AbstractScene:
         return self.base
 
-    def make(self, base: Any, inputs: Any) -> AbstractScene:
+    @staticmethod
+    def make(base: Any, inputs: Any) -> AbstractScene:
         return base.replace(inputs)
 
     def scene(self, values: dict[str, float]) -> AbstractScene:
@@ -102,8 +104,9 @@ class Read:
     example_scene: Any
     base: Any = None
 
-    def make(self, base: Any, inputs: Any) -> AbstractScene:
-        return jax.tree.unflatten(jax.tree.structure(self.example_scene), inputs)
+    @staticmethod
+    def make(base: Any, inputs: Any) -> AbstractScene:
+        return inputs
 
     def scene(self, values: dict[str, float]) -> AbstractScene:
         scene = jax.tree.map(as_float, self.read(values))
@@ -120,7 +123,8 @@ class Read:
             except ValueError as error:
                 rows.append(jax.tree.leaves(self.example_scene))
                 reasons.append(str(error))
-        return [np.stack([np.asarray(leaf) for leaf in leaves]) for leaves in zip(*rows, strict=True)], reasons
+        stacked = [np.stack([np.asarray(leaf) for leaf in leaves]) for leaves in zip(*rows, strict=True)]
+        return jax.tree.unflatten(jax.tree.structure(self.example_scene), stacked), reasons
 
     def as_data(self) -> dict[str, Any]:
         return {"kind": "read", **self.read.as_data()}

@@ -17,11 +17,24 @@ from .cases import Cases, grid
 from .cluster import on_workers
 from .engine import Runner, in_process
 from .fields import Field, dimension_of, label_of
-from .plan import CHUNK, HEAVY_CHUNK, HEAVY_LANES, LANES, VMAP_LANES, Plan, compilation_cache
+from .plan import CHUNK, HEAVY_CHUNK, HEAVY_LANES, LANES, QUICK_CASES, VMAP_LANES, Plan, compilation_cache
 from .recipe import Recipe, in_scene
 
-_QUICK = (BallBearing, CylindricalRollerBearing, TaperedRollerBearing)
+_LIGHT = (BallBearing, CylindricalRollerBearing, TaperedRollerBearing)
 """Scenes that are solved in milliseconds."""
+
+
+def _sizes(recipe: Recipe, chunk: int | None) -> tuple[bool, int, int]:
+    """Whether a case is solved in milliseconds; cases in a chunk; most cases in a call on a CPU."""
+    light = isinstance(recipe.example_scene, _LIGHT)
+    size = (CHUNK if light else HEAVY_CHUNK) if chunk is None else chunk
+    return light, size, LANES if light else HEAVY_LANES
+
+
+def calls_at_once(recipe: Recipe, cases: Cases, chunk: int | None = None) -> int:
+    """How many devices of a CPU can share the work."""
+    _, size, most = _sizes(recipe, chunk)
+    return -(-min(len(cases), size) // most)
 
 
 def make_plan(
@@ -37,10 +50,9 @@ def make_plan(
     """Cut the cases into chunks. **Raises:** `ValueError` for a chunk without cases."""
     if chunk is not None and chunk < 1:
         raise ValueError(f"chunk: found {chunk}, expected 1 or more cases")
-    quick = isinstance(recipe.example_scene, _QUICK)
     method = default_method()
-    size = (CHUNK if quick else HEAVY_CHUNK) if chunk is None else chunk
-    most = (LANES if quick else HEAVY_LANES) if method == "map" else VMAP_LANES
+    light, size, most = _sizes(recipe, chunk)
+    most = most if method == "map" else VMAP_LANES
     return Plan(
         recipe=recipe,
         cases=cases,
@@ -50,6 +62,7 @@ def make_plan(
         elements=elements,
         platform=jax.default_backend(),
         method=method,
+        quick=light and len(cases) <= QUICK_CASES,
         label=label,
         metadata=metadata,
         cache=compilation_cache(),

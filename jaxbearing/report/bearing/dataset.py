@@ -17,7 +17,8 @@ import xarray as xr
 
 from ...bearings.solution import RING_FREEDOMS, Solution, stiffness_units
 from ...numerics.status import Status
-from ..labelled import CHECK, attributes, checks, common, flags, labelled, udunits, variable, without_fill
+from ..labelled import labelled, udunits
+from ..variables import CHECK, attributes, checks, common, flags, variable, without_fill
 from .operation import unused_operation
 
 _ELEMENT = "element"

@@ -8,7 +8,8 @@ import xarray as xr
 
 from ...ehl import LineContactHistory, LineContactSolution
 from ...numerics.status import Status
-from ..labelled import CHECK, attributes, checks, flags, identity_text, labelled, variable, without_fill
+from ..labelled import labelled
+from ..variables import CHECK, attributes, checks, flags, identity_text, variable, without_fill
 
 _ALONG_X = {"node": "x"}
 """Name of the dimension of profiles that all have the same nodes: their places."""

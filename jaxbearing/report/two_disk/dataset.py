@@ -7,7 +7,8 @@ import xarray as xr
 
 from ...machines import TwoDiskSolution
 from ...numerics.status import Status
-from ..labelled import CHECK, attributes, checks, common, flags, labelled, variable, without_fill
+from ..labelled import labelled
+from ..variables import CHECK, attributes, checks, common, flags, variable, without_fill
 
 
 def two_disk_to_dataset(solution: TwoDiskSolution, dims: Sequence[str] = ()) -> xr.Dataset:

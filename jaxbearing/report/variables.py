@@ -1,0 +1,100 @@
+"""From fields with labels to variables of a data set: meanings, dimensions, names, attributes."""
+
+import json
+import re
+from collections.abc import Iterator, Mapping, Sequence
+from typing import Any
+
+import numpy as np
+import xarray as xr
+
+from .. import __version__
+from .labelled import udunits
+
+CHECK = "check"
+"""Dimension of the checks of the laws' ranges."""
+
+
+def variable(
+    value: Any,
+    metadata: Mapping[str, Any],
+    path: str,
+    leading: Sequence[str] = (),
+    names: Mapping[str, str] | None = None,
+) -> xr.Variable:
+    """A result as a variable, with the dimensions of its label.
+
+    **Arguments:**
+    - `leading`: dimensions of a batch; a number that the whole batch shares, such as the number of unknowns, has none
+      of them.
+    - `names`: other names for dimensions of the label.
+    """
+    values, renamed = np.asarray(value), names or {}
+    own = [renamed.get(name, name) for name in metadata["dims"]]
+    return xr.Variable((*(leading if values.ndim > len(own) else ()), *own), values, described(metadata, path))
+
+
+def described(metadata: Mapping[str, str], path: str) -> dict[str, str]:
+    """Attributes of a variable from the label of its field."""
+    return {"units": udunits(metadata["unit"]), "long_name": metadata["description"], "path": path}
+
+
+def flags(dtype: np.dtype, meanings: Sequence[str]) -> dict[str, Any]:
+    """Attributes of an enumeration: its values and what they mean."""
+    words = " ".join(re.sub(r"[^\w-]+", "_", meaning) for meaning in meanings)
+    return {"flag_values": np.arange(len(meanings), dtype=dtype), "flag_meanings": words}
+
+
+def checks(solution: Any, dims: tuple[str, ...]) -> xr.Variable:
+    """Which checks of the laws' ranges were left."""
+    broken = np.stack([np.asarray(value) for value in solution.range_checks.values()], axis=-1).astype(np.int8)
+    attributes = {"units": "1", "long_name": "whether a law is used beyond its range", "path": "checks"}
+    return xr.Variable((*dims, CHECK), broken, attributes | flags(broken.dtype, ("within", "beyond")))
+
+
+def common(values: np.ndarray, own: int, name: str) -> np.ndarray:
+    """What is the same in all lanes, from values with `own` dimensions behind those of the batch; failed lanes are NaN.
+
+    **Raises:** `ValueError` where the lanes differ.
+    """
+    lanes = values.reshape(-1, *values.shape[values.ndim - own :])
+    # fmax and fmin pass over NaN
+    found = np.fmax.reduce(lanes, axis=0)
+    if not np.array_equal(found, np.fmin.reduce(lanes, axis=0), equal_nan=True):
+        raise ValueError(f"{name}: the lanes of the batch have different ones")
+    return found
+
+
+def without_fill(dataset: xr.Dataset) -> xr.Dataset:
+    """Nothing is missing in a coordinate, and the conventions allow no mark for it."""
+    for coordinate in dataset.coords.values():
+        coordinate.encoding["_FillValue"] = None
+    return dataset
+
+
+def attributes(solution: Any, title: str) -> dict[str, str]:
+    """Of the data set: title, version, warnings and notes in words."""
+    return {
+        "Conventions": "CF-1.11",
+        "title": title,
+        "source": f"jaxbearing {__version__}",
+        "jaxbearing_version": __version__,
+        "warnings": "\n".join(_broken_checks(solution)),
+        "notes": "\n".join(solution.notes),
+    }
+
+
+IDENTITY = "scene_identity"
+"""Attribute of the file of a run in time: which bearing or contact it is, as JSON."""
+
+
+def identity_text(identity: Any) -> dict[str, str]:
+    """The identity as an attribute of a data set."""
+    return {} if identity is None else {IDENTITY: json.dumps(identity.told())}
+
+
+def _broken_checks(solution: Any) -> Iterator[str]:
+    for text, broken in solution.range_checks.items():
+        lanes = np.asarray(broken)
+        if lanes.any():
+            yield text if lanes.ndim == 0 else f"{text} ({int(lanes.sum())} of {lanes.size} cases)"
