@@ -11,6 +11,7 @@ from jaxtyping import Array, Bool, Float, Int
 
 from jaxbearing.lubricants import ExponentialRheology
 from jaxbearing.machines import DiskState, TwoDisk
+from jaxbearing.programs import KeptProgram
 
 from .loss import robust
 from .parameters import with_natural
@@ -71,7 +72,7 @@ def predicted_coefficients(
     return scene.traction(state, oil).rolling / state.load
 
 
-coefficients = eqx.filter_jit(predicted_coefficients)
+coefficients = KeptProgram(predicted_coefficients, quick=True)
 """The same, compiled."""
 
 
@@ -146,8 +147,7 @@ def _stationary(problem: Problem, u: Float[Array, " parameter"]) -> Bool[Array, 
     return jnp.all(jnp.abs(columns.T @ residual) <= STATIONARY * size)
 
 
-@eqx.filter_jit
-def estimate_from(problem: Problem, starts: Float[Array, "start parameter"], method: str) -> Estimate:
+def estimates(problem: Problem, starts: Float[Array, "start parameter"], method: str) -> Estimate:
     """Optimisations from several starts, batched; each is scaled by the columns of its own first Jacobian."""
 
     def one(u):
@@ -159,8 +159,11 @@ def estimate_from(problem: Problem, starts: Float[Array, "start parameter"], met
     return jax.vmap(one)(starts)
 
 
-@eqx.filter_jit
-def held_out(
+estimate_from = KeptProgram(estimates, quick=False)
+"""The same, compiled with all of XLA's optimisations: it runs for seconds."""
+
+
+def _held_out(
     problem: Problem, weights: Float[Array, "case point"], method: str
 ) -> tuple[Float[Array, "case point"], Bool[Array, " case"]]:
     """Predictions for all points after optimisations with other weights, from u = 0; and which converged."""
@@ -175,8 +178,11 @@ def held_out(
     return jax.vmap(one)(weights)
 
 
-@eqx.filter_jit
-def linearized(problem: Problem, u: Float[Array, " parameter"]) -> tuple[Array, Array, Array]:
+held_out = KeptProgram(_held_out, quick=False)
+"""The same, compiled."""
+
+
+def linearize(problem: Problem, u: Float[Array, " parameter"]) -> tuple[Array, Array, Array]:
     """Predicted coefficients, plain residuals and their Jacobian with respect to the natural coordinates."""
     unit = eqx.tree_at(
         lambda p: (p.base, p.directions, p.scales),
@@ -187,8 +193,11 @@ def linearized(problem: Problem, u: Float[Array, " parameter"]) -> tuple[Array, 
     return unit.predicted(zero), unit.plain_residual(zero), jax.jacfwd(unit.plain_residual)(zero)
 
 
-@eqx.filter_jit
-def slope_over_slide(problem: Problem, u: Float[Array, " parameter"]) -> Float[Array, " point"]:
+linearized = KeptProgram(linearize, quick=True)
+"""The same, compiled."""
+
+
+def _slope_over_slide(problem: Problem, u: Float[Array, " parameter"]) -> Float[Array, " point"]:
     """d coefficient / d slide-to-roll ratio of the model at each point."""
 
     def predicted(sliding):
@@ -198,3 +207,7 @@ def slope_over_slide(problem: Problem, u: Float[Array, " parameter"]) -> Float[A
     sliding = problem.state.sliding_speed
     speed = problem.state.entrainment_speed
     return jax.jvp(predicted, (sliding,), (speed,))[1]
+
+
+slope_over_slide = KeptProgram(_slope_over_slide, quick=True)
+"""The same, compiled."""

@@ -14,6 +14,7 @@ from scipy import stats
 from jaxbearing.contacts import ReeEyring, deborah_number, viscous_function_for
 from jaxbearing.machines import DiskState, TwoDisk
 from jaxbearing.machines.two_disk import INNER_TOLERANCE
+from jaxbearing.programs import KeptProgram
 
 from .estimation import Problem, coefficients, estimate_from, linearized, slope_over_slide
 from .identifiability import frozen_by_rule
@@ -47,10 +48,12 @@ def filled(count: int) -> int:
     return max(SMALLEST_BATCH, 1 << (count - 1).bit_length())
 
 
-@eqx.filter_jit
 def _state(scene: TwoDisk, slide_to_roll: Any, entrainment_speed: Any, temperature: Any, load: Any) -> DiskState:
     state = scene.state(slide_to_roll, entrainment_speed, temperature, load=load)
     return jax.tree.map(lambda leaf: jnp.broadcast_to(leaf, state.film.shape), state)
+
+
+_compiled_state = KeptProgram(_state, quick=True)
 
 
 class Search:
@@ -68,7 +71,7 @@ class Search:
             measurements.temperature,
             measurements.load,
         )
-        self.batch = _state(scene, *(self.fill(column) for column in columns))
+        self.batch = _compiled_state(scene, *(self.fill(column) for column in columns))
         self.state = jax.tree.map(lambda leaf: leaf[: self.count], self.batch)
         lost = np.flatnonzero(~(np.asarray(self.state.inner_residual) <= INNER_TOLERANCE))
         if len(lost):

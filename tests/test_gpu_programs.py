@@ -12,7 +12,7 @@ from fit_results import MEDIAN
 
 import jaxbearing as jb
 from fitting import Measurements, read_curves
-from fitting.estimation import estimate_from
+from fitting.estimation import estimates
 from fitting.options import FitOptions
 from fitting.search import Search
 from jaxbearing.scenes.data_files import builtin_names
@@ -98,7 +98,7 @@ def test_fits():
     scene = jb.load_scene("two_disk_etm")
     search = Search(Measurements.of(read_curves(MEDIAN), scene), scene, FitOptions())
     problem = search.problem(search.free_by_rule()[0], {})
-    fit = lambda method: lambda problem, starts: estimate_from(problem, starts, method)
+    fit = lambda method: lambda problem, starts: estimates(problem, starts, method)
     check(program(fit("levenberg_marquardt"), (problem, jnp.zeros((2, 6)))))
     for method in ("bfgs", "gradient_descent"):
         only_errors(fit(method), (problem, jnp.zeros((2, 6))))

@@ -2,11 +2,11 @@
 
 from typing import Any, NamedTuple
 
-import equinox as eqx
 import jax.numpy as jnp
 import numpy as np
 
 from jaxbearing.machines import TwoDisk
+from jaxbearing.programs import KeptProgram
 
 from ..result import FitResult
 
@@ -41,7 +41,7 @@ def smooth_curves(result: FitResult, numbers: list[int], logarithmic: bool) -> l
     curves = []
     for first in range(0, len(numbers), _TOGETHER):
         chunk = [_filled(part[first : first + _TOGETHER]) for part in (slide, speed, temperature, load)]
-        values = np.asarray(_coefficients(result.scene, *chunk)).reshape(_TOGETHER, POINTS)
+        values = np.asarray(_compiled_coefficients(result.scene, *chunk)).reshape(_TOGETHER, POINTS)
         curves += [SmoothCurve(s, v) for s, v in zip(slide[first : first + _TOGETHER], values, strict=False)]
     return curves
 
@@ -74,7 +74,9 @@ def _filled(parts: list[np.ndarray]) -> Any:
     return jnp.asarray(np.concatenate([*parts, *[parts[-1]] * (_TOGETHER - len(parts))]))
 
 
-@eqx.filter_jit
 def _coefficients(scene: TwoDisk, slide: Any, speed: Any, temperature: Any, load: Any) -> Any:
     state = scene.state(slide, speed, temperature, load=load)
     return scene.traction(state).rolling / state.load
+
+
+_compiled_coefficients = KeptProgram(_coefficients, quick=True)

@@ -20,7 +20,7 @@ import numpy as np
 
 import fitting
 import jaxbearing as jb
-from fitting.estimation import column_scales, estimate, linearized
+from fitting.estimation import column_scales, estimate, linearize
 from fitting.parameters import NAMES, natural
 from fitting.search import Search
 from fitting.uncertainty import spread
@@ -107,7 +107,7 @@ def coverage(name: str, repetitions: int, march: Resolution = PRESETS[1e-3]) -> 
         u = jnp.zeros(len(NAMES))
         own = eqx.tree_at(lambda p: p.scales, own, column_scales(own, u))
         found = estimate(own, u, "levenberg_marquardt")
-        return own.natural(found.u), found.converged, *linearized(own, found.u)[1:]
+        return own.natural(found.u), found.converged, *linearize(own, found.u)[1:]
 
     run = eqx.filter_jit(lambda data: jax.lax.map(one, data, batch_size=10))
     coordinates, converged, residual, jacobian = (np.asarray(part) for part in run(data))
