@@ -10,7 +10,7 @@ import numpy as np
 
 from jaxbearing.lubricants.ranges import FITTED_PRESSURE
 from jaxbearing.machines import TwoDisk
-from jaxbearing.numerics.compiling import collecting_rarely
+from jaxbearing.numerics.garbage import collecting_rarely
 
 from .estimation import Estimate, Problem, linearized
 from .identifiability import confounded, elastic_conditions, implausible, in_words, not_determined, viscous_only

@@ -13,6 +13,7 @@ import importlib
 import os
 from typing import TYPE_CHECKING, Any
 
+from .numerics.garbage import collecting_rarely
 from .numerics.interrupts import end_command_at_interrupt, is_the_command
 from .numerics.quiet import silence_compiler
 
@@ -22,15 +23,17 @@ if is_the_command():
     # statuses say what went wrong: a program that calls Python to raise an error of its own could not be kept
     os.environ.setdefault("EQX_ON_ERROR", "nan")
 
-import jax  # noqa: E402
+with collecting_rarely():
+    import jax
 
-jax.config.update("jax_enable_x64", True)
+    jax.config.update("jax_enable_x64", True)
 
-from .simulate import simulate as simulate  # noqa: E402  (64-bit floats first)
-from .simulate import simulate_batch as simulate_batch  # noqa: E402
-from .solve import jit_solver as jit_solver  # noqa: E402
-from .solve import solve as solve  # noqa: E402
-from .sweep import sweep as sweep  # noqa: E402
+    # 64-bit floats first
+    from .simulate import simulate as simulate
+    from .simulate import simulate_batch as simulate_batch
+    from .solve import jit_solver as jit_solver
+    from .solve import solve as solve
+    from .sweep import sweep as sweep
 
 if TYPE_CHECKING:
     from . import plots as plots

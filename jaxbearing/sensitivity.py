@@ -13,7 +13,7 @@ from ._scene import AbstractScene
 from .bearings.solution import Solution
 from .ehl import LineContactSolution
 from .machines import TwoDiskSolution
-from .numerics.compiling import collecting_rarely
+from .numerics.garbage import collecting_rarely
 from .numerics.newton import NewtonOptions
 from .numerics.precision import as_float, require_x64
 from .programs import KeptProgram

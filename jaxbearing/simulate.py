@@ -13,7 +13,7 @@ from .ehl import EHLLineContact, FilmSimulation, FilmState, LineContactHistory, 
 from .ehl import check_restart as check_film_restart
 from .numerics.arguments import require_choice, require_outside
 from .numerics.checks import check_inputs
-from .numerics.compiling import collecting_rarely
+from .numerics.garbage import collecting_rarely
 from .numerics.precision import require_x64
 from .numerics.structure import static_number
 

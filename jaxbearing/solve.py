@@ -25,7 +25,8 @@ from .ehl import EHLLineContact, LineContactSolution, solve_line_contact
 from .life.bearing_life import with_life
 from .machines import TwoDisk, TwoDiskSolution, solve_two_disk
 from .numerics.checks import check_inputs, gate, void
-from .numerics.compiling import collecting_rarely, inside_a_program
+from .numerics.compiling import inside_a_program
+from .numerics.garbage import collecting_rarely
 from .numerics.newton import NewtonOptions
 from .numerics.precision import as_float, require_x64
 from .numerics.quiet import compiler_is_loud, without_false_alarms

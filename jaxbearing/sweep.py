@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from ._scene import AbstractScene
 from .numerics.arguments import require_outside
-from .numerics.compiling import collecting_rarely
+from .numerics.garbage import collecting_rarely
 from .numerics.newton import NewtonOptions
 from .numerics.precision import require_x64
 

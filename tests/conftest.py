@@ -22,7 +22,8 @@ import jax
 import jaxlib
 import pytest
 
-from jaxbearing.numerics.compiling import IDLE_PASSES, RARELY
+from jaxbearing.numerics.compiling import IDLE_PASSES
+from jaxbearing.numerics.garbage import RARELY
 
 jax.config.update("jax_numpy_rank_promotion", "raise")
 jax.config.update("jax_numpy_dtype_promotion", "strict")

@@ -11,7 +11,7 @@ from typing import Annotated, Any
 
 import typer
 
-from ..numerics.compiling import collecting_rarely
+from ..numerics.garbage import collecting_rarely
 from .fit_verb import fit
 from .interrupt import prompt_interrupt, tell
 from .messages import BAD_INPUT, INTERRUPTED, NO_OUTPUT, say

@@ -1,11 +1,8 @@
 """Programs that run a few times: compile time counts, run time does not."""
 
 import functools
-import gc
 import os
-import threading
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from collections.abc import Callable
 from typing import Any
 
 import equinox as eqx
@@ -13,6 +10,8 @@ import jax
 import jax.numpy as jnp
 import numpy as np
 from jax.core import Tracer
+
+from .garbage import collecting_rarely
 
 IDLE_PASSES = (
     "reshape-mover",
@@ -34,38 +33,6 @@ and 0.4 of the processor time; its programs run 2 to 3 times slower, millisecond
 above all of a first `jaxbearing solve` takes 0.75 to 0.95 of that. XLA cuts LLVM's work into 32 parts, each of which
 costs something: on two cores a large program in four parts takes 0.92 of the processor time. None of it on a GPU,
 where the options stand for something else."""
-
-
-RARELY = (100_000, 20, 10)
-"""New objects that Python's collector of garbage waits for, and collections of the young before one of the older."""
-
-
-class _Depth:
-    """How many are inside `collecting_rarely`, of all threads, and the thresholds of before."""
-
-    lock = threading.Lock()
-    inside = 0
-    before = gc.get_threshold()
-
-
-@contextmanager
-def collecting_rarely() -> Iterator[None]:
-    """Traces programs in 0.65 of the time: a trace makes millions of objects that live until it ends, and Python's
-    collector of garbage would look through them again and again. The thresholds are those of the process: the first
-    thread in sets them, the last one out sets them back."""
-    with _Depth.lock:
-        if _Depth.inside == 0:
-            _Depth.before = gc.get_threshold()
-            if 0 < _Depth.before[0] < RARELY[0]:
-                gc.set_threshold(*RARELY)
-        _Depth.inside += 1
-    try:
-        yield
-    finally:
-        with _Depth.lock:
-            _Depth.inside -= 1
-            if _Depth.inside == 0 and gc.get_threshold() == RARELY:
-                gc.set_threshold(*_Depth.before)
 
 
 @functools.cache

@@ -29,7 +29,8 @@ from jax.experimental.compilation_cache.compilation_cache import reset_cache
 from jax.extend.core import Jaxpr
 from jax.stages import Compiled
 
-from ..numerics.compiling import collecting_rarely, quick_options, quickly_compiled
+from ..numerics.compiling import quick_options, quickly_compiled
+from ..numerics.garbage import collecting_rarely
 from ..numerics.quiet import compiler_is_loud, without_false_alarms
 from . import files
 from .describe import OWN, ROOT, NotKept, Structure, description, static_description

@@ -21,7 +21,8 @@ import jax
 import numpy as np
 
 import jaxbearing as jb
-from jaxbearing.numerics.compiling import collecting_rarely, quick_options
+from jaxbearing.numerics.compiling import quick_options
+from jaxbearing.numerics.garbage import collecting_rarely
 from jaxbearing.numerics.newton import NewtonOptions
 from jaxbearing.numerics.precision import as_float
 

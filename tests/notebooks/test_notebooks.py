@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 from command_process import environment
 
-from jaxbearing.numerics.compiling import RARELY
+from jaxbearing.numerics.garbage import RARELY
 
 NOTEBOOKS = sorted((Path(__file__).parents[2] / "notebooks").glob("*.ipynb"))
 LARGEST = 400_000

@@ -7,7 +7,8 @@ import jax.numpy as jnp
 import pytest
 
 from jaxbearing.numerics import compiling
-from jaxbearing.numerics.compiling import RARELY, collecting_rarely, quickly_compiled
+from jaxbearing.numerics.compiling import quickly_compiled
+from jaxbearing.numerics.garbage import RARELY, collecting_rarely
 
 USUAL = (700, 10, 10)
 
