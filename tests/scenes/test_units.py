@@ -2,12 +2,16 @@
 
 import math
 
+import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from pydantic_core import PydanticCustomError
 
 from jaxbearing.scenes import units
+from jaxbearing.scenes.usual_units import USUAL
+
+DIMENSIONS = [one for one in vars(units).values() if isinstance(one, units.Dimension)]
 
 # (text, dimension, SI value): conversion factors by definition, not from the units library
 DEFINITIONS = [
@@ -156,3 +160,28 @@ def test_any_text_is_read_or_refused_in_words(text):
     except PydanticCustomError as error:
         value, found = 0.0, error.context["found"]
     assert found or math.isfinite(value)
+
+
+USUAL_TEXTS = [(si, text) for si, texts in USUAL.items() for text in texts]
+
+
+@pytest.mark.parametrize(("si", "text"), USUAL_TEXTS, ids=lambda value: value)
+def test_usual_units_are_those_of_pint(si, text):
+    """To the bit: whoever adds a unit to a file, so that pint reads it, changes no number."""
+    registry, rng = units.registry(), np.random.default_rng(len(si) + 64 * len(text))
+    numbers = [0.0, 1.0, *rng.uniform(-300.0, 3000.0, 50), *10.0 ** rng.uniform(-12.0, 12.0, 50)]
+    numbers = [float(number) for number in (*numbers, *np.round(numbers, 3))]
+    unit, target = registry.Unit(text), registry.Unit(si)
+    # "K" of a difference and of a temperature
+    for dimension in (one for one in DIMENSIONS if one.si == si):
+        if USUAL[si][text][1] and not dimension.offset_allowed:
+            continue
+        for number in numbers:
+            expected = float(registry.Quantity(number, unit).to(target).magnitude)
+            assert units.parse(f"{number!r} {text}", dimension) == expected, dimension.name
+
+
+def test_every_dimension_has_its_usual_units():
+    """Without its SI unit a table would never be looked into."""
+    assert set(USUAL) == {one.si for one in DIMENSIONS}
+    assert all(texts[si] == (1.0, 0.0) for si, texts in USUAL.items())
