@@ -23,6 +23,7 @@ from ._scene import AbstractScene
 from .numerics.compiling import quick_options
 from .numerics.newton import NewtonOptions
 from .numerics.precision import as_float, require_x64
+from .numerics.quiet import compiling_quietly
 from .numerics.status import Status
 from .programs import KeptProgram
 from .solve import solve, steady_function
@@ -144,7 +145,7 @@ class LaneProgram:
         options = quick_options() if self._quick and device.platform == "cpu" else None
         with self._tracing:
             lowered = jax.jit(functools.partial(_lanes, *self._static)).lower(*jax.device_put(given, device))
-        with _COMPILING:
+        with _COMPILING, compiling_quietly():
             compiled = lowered.compile(options)
         return lambda given: compiled(*jax.device_put(given, device))
 

@@ -1,8 +1,7 @@
 """The steady verb: a scene in, a solution out."""
 
 import dataclasses
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from collections.abc import Callable
 from typing import Any, overload
 
 import equinox as eqx
@@ -29,7 +28,6 @@ from .numerics.compiling import inside_a_program
 from .numerics.garbage import collecting_rarely
 from .numerics.newton import NewtonOptions
 from .numerics.precision import as_float, require_x64
-from .numerics.quiet import compiler_is_loud, without_false_alarms
 from .numerics.status import Status
 from .programs import KeptProgram
 
@@ -73,8 +71,6 @@ def _solve_any(scene: AbstractScene, options: NewtonOptions) -> Any:
 
 _solve = eqx.filter_jit(_solve_any)
 _solve_optimised = KeptProgram(_solve_any, quick=False)
-_SOLVED: set[Any] = set()
-"""Structures of scenes that were solved outside of other programs."""
 _solve_quickly = KeptProgram(_solve_any, quick=True)
 
 
@@ -123,12 +119,11 @@ def solve(
     """
     require_x64()
     steady_function(scene)
-    with _compiling_quietly(scene):
-        function = _solve_optimised if optimised else _solve_quickly
-        function = _solve if inside_a_program(scene) else function
-        solution = function(jax.tree.map(as_float, scene), chosen_options(options))
-        if throw:
-            solution.raise_if_failed()
+    function = _solve_optimised if optimised else _solve_quickly
+    function = _solve if inside_a_program(scene) else function
+    solution = function(jax.tree.map(as_float, scene), chosen_options(options))
+    if throw:
+        solution.raise_if_failed()
     return solution
 
 
@@ -137,20 +132,6 @@ def chosen_options(options: NewtonOptions | None) -> NewtonOptions:
     if not isinstance(options, NewtonOptions | None):
         raise TypeError(f"options must be NewtonOptions, got {options!r}")
     return NewtonOptions() if options is None else options
-
-
-@contextmanager
-def _compiling_quietly(scene: AbstractScene) -> Iterator[None]:
-    """Holds back the false alarms of a compiler that is loud, where a program is compiled: the first time that a scene
-    of this structure is solved, and not inside of another program."""
-    if compiler_is_loud():
-        leaves, structure = jax.tree.flatten(scene)
-        if structure not in _SOLVED and not any(isinstance(leaf, Tracer) for leaf in leaves):
-            with without_false_alarms():
-                yield
-            _SOLVED.add(structure)
-            return
-    yield
 
 
 def solve_once(scene: AbstractScene) -> Any:

@@ -13,6 +13,7 @@ import jaxbearing as jb
 scene = jb.load_scene("reference_roller", {"contact": "none"})
 assert bool(jb.solve(scene).converged)
 assert bool(jb.solve(scene.at_operation(radial_load=1e3), optimised=True).converged)
+assert bool((jb.sweep(scene, {"operation.radial_load": [1e3, 2e3]}).failure == "").all())
 print("done", file=sys.stderr)
 """
 

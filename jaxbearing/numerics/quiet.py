@@ -5,7 +5,7 @@ import sys
 import tempfile
 import threading
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import AbstractContextManager, contextmanager, nullcontext
 
 _FALSE_ALARMS = (
     b"cpu_aot_loader",
@@ -40,6 +40,11 @@ class _State:
 def compiler_is_loud() -> bool:
     """True if JAX was imported before its level could be set, and the user does not ask for all of its lines."""
     return not _State.silent and os.environ.get(_LEVEL) != "0"
+
+
+def compiling_quietly() -> AbstractContextManager[None]:
+    """For a block that compiles or loads a program: without false alarms, where the compiler is loud."""
+    return without_false_alarms() if compiler_is_loud() else nullcontext()
 
 
 @contextmanager

@@ -18,7 +18,7 @@ import os
 import pickle
 import threading
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager, nullcontext, suppress
+from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -31,7 +31,7 @@ from jax.stages import Compiled
 
 from ..numerics.compiling import quick_options, quickly_compiled
 from ..numerics.garbage import collecting_rarely
-from ..numerics.quiet import compiler_is_loud, without_false_alarms
+from ..numerics.quiet import compiling_quietly
 from . import files
 from .describe import OWN, ROOT, NotKept, Structure, description, static_description
 from .folder import VARIABLE, cache_folder
@@ -114,11 +114,20 @@ class KeptProgram:
         self._plain = quickly_compiled(function) if quick else eqx.filter_jit(function)
         self._ready: dict[Any, _Ready] = {}
         self._never: set[Any] = set()
+        self._compiled: set[Any] = set()
 
     def __call__(self, *args: Any) -> Any:
         leaves, structure = jax.tree.flatten(args)
         ready = self.ready(structure, leaves)
-        return self._plain(*args) if ready is None else ready(leaves)
+        if ready is not None:
+            return ready(leaves)
+        key = _key(structure, leaves)
+        if key in self._compiled:
+            return self._plain(*args)
+        with compiling_quietly():
+            found = self._plain(*args)
+        self._compiled.add(key)
+        return found
 
     def ready(self, structure: Structure, leaves: list[Any]) -> Callable[[list[Any]], Any] | None:
         """The program for arguments of this structure: a function of their leaves, arrays of the same shapes and equal
@@ -134,8 +143,7 @@ class KeptProgram:
         folder = _folder()
         if folder is None:
             return None
-        about = tuple((leaf.shape, leaf.dtype) if _is_array(leaf) else (type(leaf), leaf) for leaf in leaves)
-        key = (structure, about, _told())
+        key = _key(structure, leaves)
         found = self._ready.get(key)
         if found is None and key not in self._never:
             try:
@@ -150,7 +158,7 @@ class KeptProgram:
     def _prepared(self, structure: Structure, leaves: list[Any], folder: Path, make: bool) -> _Ready | None:
         """The program, loaded, or made and kept where it may be made. **Raises:** `NotKept`."""
         path = folder / self._name(structure, leaves)
-        with without_false_alarms() if compiler_is_loud() else nullcontext():
+        with compiling_quietly():
             ready = _loaded(path)
             if ready is None:
                 return self._made(structure, leaves, path) if make else None
@@ -184,6 +192,12 @@ class KeptProgram:
         if not _calls_host(traced.jaxpr.jaxpr):
             _keep(path, ready)
         return ready
+
+
+def _key(structure: Structure, leaves: list[Any]) -> Any:
+    """What a program of this process is found by."""
+    about = tuple((leaf.shape, leaf.dtype) if _is_array(leaf) else (type(leaf), leaf) for leaf in leaves)
+    return structure, about, _told()
 
 
 def _setting(name: str) -> Any:

@@ -3,6 +3,7 @@
 import contextlib
 import os
 import shutil
+import warnings
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
@@ -201,7 +202,11 @@ def _finished(target: Path) -> tuple[str, int] | None:
     if not target.exists():
         return None
     try:
-        with xr.open_dataset(target, engine="zarr" if target.is_dir() else "h5netcdf") as dataset:
+        # of a foreign store xarray warns that it has no consolidated metadata
+        with (
+            warnings.catch_warnings(action="ignore"),
+            xr.open_dataset(target, engine="zarr" if target.is_dir() else "h5netcdf") as dataset,
+        ):
             key = dataset.attrs.get(KEY)
             return None if key is None else (str(key), int((dataset["failure"] == "").sum()))
     except Exception:
