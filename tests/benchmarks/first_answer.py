@@ -1,14 +1,16 @@
 """What a first answer costs: size of the programs, processor time of tracing and of compiling, quick and optimised, and
 whole processes without and with kept programs.
 
-    python tests/benchmarks/first_answer.py [--quick]
+    python tests/benchmarks/first_answer.py [--quick] [--against FOLDER]
 
 Lines of the lowered program and processor seconds hold on a busy machine as well, as far as anything does; wall seconds
-stand beside them.
+stand beside them. With `--against`, the folder of another checkout of the project, each figure is measured of both, in
+turn, and printed as "there -> here": `git worktree add FOLDER COMMIT` makes one.
 """
 
+import argparse
+import json
 import os
-import resource
 import subprocess
 import sys
 import tempfile
@@ -16,25 +18,68 @@ import time
 from pathlib import Path
 from typing import NamedTuple
 
-import equinox as eqx
-import jax
-import numpy as np
-
-import jaxbearing as jb
-from jaxbearing.numerics.compiling import quick_options
-from jaxbearing.numerics.garbage import collecting_rarely
-from jaxbearing.numerics.newton import NewtonOptions
-from jaxbearing.numerics.precision import as_float
-
 ROOT = Path(__file__).parents[2]
 SCENES = ("turbine_roller", "turbine_ball", "tapered_example", "reference_roller", "deep_groove_6205", "two_disk_etm")
-SOLVED = sys.modules["jaxbearing.solve"]
-SENSITIVE = ("turbine_ball",)
+PROGRAM = """
+import gc, json, sys, time
+gc.set_threshold(100_000, 20, 10)
+import jax, numpy as np, jaxbearing as jb
+
+name, repeats = sys.argv[1], int(sys.argv[2])
+QUICK = {
+    "xla_cpu_use_fusion_emitters": False,
+    "xla_backend_optimization_level": 0,
+    "xla_llvm_disable_expensive_passes": True,
+    "xla_cpu_parallel_codegen_split_count": 4,
+    "xla_disable_hlo_passes": "reshape-mover,simplify-while-loops,tree_reduction_rewriter,"
+    "while-loop-constant-sinking,while-loop-invariant-code-motion",
+}
+is_number = lambda leaf: isinstance(leaf, (float, np.ndarray, np.generic, jax.Array))
+leaves, structure = jax.tree.flatten(jb.load_scene(name))
+places = [i for i, leaf in enumerate(leaves) if is_number(leaf)]
+numbers = [np.asarray(leaves[i], dtype=float) for i in places]
+
+def solve(numbers):
+    given = list(leaves)
+    for i, number in zip(places, numbers):
+        given[i] = number
+    solution = jb.solve(jax.tree.unflatten(structure, given), throw=False)
+    return [leaf for leaf in jax.tree.leaves(solution) if getattr(leaf, "dtype", None) == np.float64]
+
+def run(compiled):
+    begin = time.perf_counter()
+    jax.block_until_ready(compiled(numbers))
+    return time.perf_counter() - begin
+
+begin = time.process_time()
+lowered = jax.jit(solve).lower(numbers)
+traced, compiled, seconds, runs = time.process_time() - begin, [], [], []
+for options in (None, QUICK):
+    begin = time.process_time()
+    compiled.append(lowered.compile(options))
+    seconds.append(time.process_time() - begin)
+    runs.append(min(run(compiled[-1]) for _ in range(repeats)))
+one, other = (np.concatenate([np.ravel(leaf) for leaf in program(numbers)]) for program in compiled)
+scale = np.maximum(np.abs(one), np.abs(other))
+difference = np.abs(one - other)[scale > 1e-12] / scale[scale > 1e-12]
+lines = len(lowered.as_text().splitlines())
+print(json.dumps([lines, traced, *seconds, *runs, float(np.nanmax(difference, initial=0.0))]))
+"""
+"""Of public names only: it measures other versions too."""
 IN_PYTHON = "import sys, jaxbearing as jb\nprint(jb.solve(jb.load_scene(sys.argv[1])).status)"
 GRADIENT = """
 import sys, jax, jaxbearing as jb
 scene = jb.load_scene(sys.argv[1])
 print(jax.jit(jax.grad(lambda d: jb.solve(scene.replace_geometry(pitch_diameter=d)).ring.radial))(0.05))
+"""
+CURVE = """\
+slide_to_roll [%], traction_coefficient, pressure [GPa], temperature [degC]
+0.1, 0.0083, 1.5, 40
+0.2, 0.0107, 1.5, 40
+0.5, 0.0142, 1.5, 40
+1.0, 0.0161, 1.5, 40
+2.0, 0.0185, 1.5, 40
+5.0, 0.0207, 1.5, 40
 """
 
 
@@ -51,93 +96,107 @@ class Program(NamedTuple):
     difference: float
 
 
-def program(name: str, repeats: int = 5) -> Program:
-    numbers, structure = jax.tree.flatten(jax.tree.map(as_float, jb.load_scene(name)))
-
-    def solve(given):
-        solution = SOLVED._solve_any(jax.tree.unflatten(structure, given), NewtonOptions())
-        return [leaf for leaf in jax.tree.leaves(solution) if eqx.is_inexact_array(leaf)]
-
-    with collecting_rarely():
-        begin = time.process_time()
-        lowered = jax.jit(solve).lower(numbers)
-        traced = time.process_time() - begin
-        compiled, seconds, runs = [], [], []
-        for options in (None, quick_options()):
-            begin = time.process_time()
-            compiled.append(lowered.compile(options))
-            seconds.append(time.process_time() - begin)
-            runs.append(min(_run(compiled[-1], numbers) for _ in range(repeats)))
-    one, other = (np.concatenate([np.ravel(leaf) for leaf in solved(numbers)]) for solved in compiled)
-    scale = np.maximum(np.abs(one), np.abs(other))
-    difference = np.abs(one - other)[scale > 1e-12] / scale[scale > 1e-12]
-    lines = len(lowered.as_text().splitlines())
-    return Program(lines, traced, *seconds, *runs, float(np.nanmax(difference, initial=0.0)))
-
-
-def _run(compiled, numbers) -> float:
-    begin = time.perf_counter()
-    jax.block_until_ready(compiled(numbers))
-    return time.perf_counter() - begin
-
-
 class Process(NamedTuple):
-    """Wall and processor seconds of a process; whether it ended well."""
+    """Wall and processor seconds of a process, its largest memory, GB; whether it ended well."""
 
     wall: float
     processor: float
+    memory: float
     well: bool
 
 
-def process(arguments: list[str], cache: str) -> Process:
-    variables = os.environ | {"JAXBEARING_CACHE": cache, "PYTHONPATH": str(ROOT), "JAX_PLATFORMS": "cpu"}
+def program(name: str, repeats: int = 5, root: Path = ROOT) -> Program:
+    """Measures the program of a scene of a checkout, in a process of its own."""
+    done = subprocess.run(
+        [sys.executable, "-c", PROGRAM, name, str(repeats)],
+        env=_variables("off", root),
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    if done.returncode:
+        raise RuntimeError(f"{name}: {done.stderr}")
+    return Program(*json.loads(done.stdout.splitlines()[-1]))
+
+
+def process(arguments: list[str], cache: str, root: Path = ROOT) -> Process:
+    with tempfile.TemporaryDirectory() as folder:
+        (Path(folder) / "curves.csv").write_text(CURVE)
+        begin = time.perf_counter()
+        running = subprocess.Popen(
+            [sys.executable, *arguments],
+            env=_variables(cache, root),
+            stdout=subprocess.DEVNULL,
+            stderr=subprocess.DEVNULL,
+            cwd=folder,
+        )
+        _, status, used = os.wait4(running.pid, 0)
+        running.returncode = os.waitstatus_to_exitcode(status)
+        wall = time.perf_counter() - begin
+    return Process(wall, used.ru_utime + used.ru_stime, used.ru_maxrss / 1e6, running.returncode == 0)
+
+
+def _variables(cache: str, root: Path) -> dict[str, str]:
+    variables = os.environ | {"JAXBEARING_CACHE": cache, "PYTHONPATH": str(root), "JAX_PLATFORMS": "cpu"}
     for name in ("JAX_DISABLE_MOST_OPTIMIZATIONS", "XLA_FLAGS", "JAX_COMPILATION_CACHE_DIR"):
         variables.pop(name, None)
-    before, begin = resource.getrusage(resource.RUSAGE_CHILDREN), time.perf_counter()
-    with tempfile.TemporaryDirectory() as folder:
-        done = subprocess.run([sys.executable, *arguments], env=variables, capture_output=True, cwd=folder, check=False)
-    after = resource.getrusage(resource.RUSAGE_CHILDREN)
-    spent = after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
-    return Process(time.perf_counter() - begin, spent, done.returncode == 0)
+    return variables
 
 
 def processes(quick: bool = False) -> dict[str, list[str]]:
     """Arguments of Python by what is asked."""
     solved = ("deep_groove_6205",) if quick else ("turbine_roller", "turbine_ball", "deep_groove_6205")
-    found = {f"jaxbearing solve {name}": ["-m", "jaxbearing", "solve", name, "--json"] for name in solved}
+    command = lambda *words: ["-m", "jaxbearing", *words]
+    found = {f"jaxbearing solve {name}": command("solve", name, "--json") for name in solved}
     found |= {f"first jb.solve, {name}": ["-c", IN_PYTHON, name] for name in solved}
     if quick:
         return found
-    sensitive = ["-m", "jaxbearing", "solve", "turbine_ball", "--sensitivities", "--json"]
-    run = ["-m", "jaxbearing", "simulate", "turbine_roller_dynamic", "--duration", "1 ms", "--json"]
-    sweep = ["-m", "jaxbearing", "sweep", "tapered_example", "--out", "a.nc"]
+    machine = ("--scene", "two_disk_mobil_jet_ii", "--set", "operation.entrainment_speed=20 m/s", "--out", "oil.toml")
     return found | {
         "first jit(grad), deep_groove_6205": ["-c", GRADIENT, "deep_groove_6205"],
-        "--sensitivities, turbine_ball": sensitive,
-        "simulate, 1 ms": run,
-        "sweep, 10 tapered cases": [*sweep, "--over", "operation.radial_load=4 kN:5 kN:10"],
+        "--sensitivities, turbine_ball": command("solve", "turbine_ball", "--sensitivities", "--json"),
+        "simulate, 1 ms": command("simulate", "turbine_roller_dynamic", "--duration", "1 ms", "--json"),
+        "sweep, 10 tapered cases": command(
+            "sweep", "tapered_example", "--out", "a.nc", "--over", "operation.radial_load=4 kN:5 kN:10"
+        ),
+        "fit, 6 points": command("fit", "curves.csv", *machine),
     }
 
 
-def cold_and_warm(arguments: list[str]) -> tuple[Process, Process]:
+def cold_and_warm(arguments: list[str], root: Path = ROOT) -> tuple[Process, Process]:
     with tempfile.TemporaryDirectory() as cache:
-        return process(arguments, cache), process(arguments, cache)
+        return process(arguments, cache, root), process(arguments, cache, root)
 
 
 def main() -> None:
-    quick = "--quick" in sys.argv
-    print("scene: lines lowered; CPU s: trace + lower, compile, compile quickly; run ms, quick run ms; difference")
-    for name in SCENES[-1:] if quick else SCENES:
-        found = program(name)
-        print(
-            f"{name}: {found.lines}; {found.traced:.1f}, {found.optimised:.1f}, {found.quick:.1f}; "
-            f"{1e3 * found.run_optimised:.2f}, {1e3 * found.run_quick:.2f}; {found.difference:.0e}"
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--quick", action="store_true", help="the smallest programs only")
+    parser.add_argument("--against", type=Path, metavar="FOLDER", help="another checkout, measured beside this one")
+    given = parser.parse_args()
+    roots = [ROOT] if given.against is None else [given.against.resolve(), ROOT]
+    beside = lambda figures: " -> ".join(figures)
+    print(
+        "| scene | lines lowered | CPU s: trace and lower | compile | compile quickly | run, ms | quick | difference |"
+    )
+    print("|---" * 8 + "|")
+    for name in SCENES[-1:] if given.quick else SCENES:
+        found = [program(name, root=root) for root in roots]
+        seconds = (beside([f"{one[i]:.1f}" for one in found]) for i in (1, 2, 3))
+        runs = (beside([f"{1e3 * one[i]:.2f}" for one in found]) for i in (4, 5))
+        lines, difference = (
+            beside([str(one.lines) for one in found]),
+            beside([f"{one.difference:.0e}" for one in found]),
         )
-    print("process: CPU s without kept programs, with them; wall s, the same two")
-    for name, arguments in processes(quick).items():
-        cold, warm = cold_and_warm(arguments)
-        failed = "" if cold.well and warm.well else " FAILED"
-        print(f"{name}: {cold.processor:.1f}, {warm.processor:.1f}; {cold.wall:.1f}, {warm.wall:.1f}{failed}")
+        print("|", " | ".join([name, lines, *seconds, *runs, difference]), "|", flush=True)
+    print("\n| process | CPU s without kept programs | with them | wall s without | with | GB without |")
+    print("|---" * 6 + "|")
+    for name, arguments in processes(given.quick).items():
+        both = [cold_and_warm(arguments, root) for root in roots]
+        figures = [beside([f"{one[i].processor:.1f}" for one in both]) for i in (0, 1)]
+        figures += [beside([f"{one[i].wall:.1f}" for one in both]) for i in (0, 1)]
+        figures += [beside([f"{one[0].memory:.1f}" for one in both])]
+        failed = "" if all(run.well for one in both for run in one) else " FAILED"
+        print("|", " | ".join([name + failed, *figures]), "|", flush=True)
 
 
 if __name__ == "__main__":
