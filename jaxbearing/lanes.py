@@ -74,7 +74,7 @@ class LaneProgram:
         steady_function(make(self.base, self._example))
         self._static = (make, method, options)
         self._quick = quick
-        self._kept = _QUICK if quick else _OPTIMISED
+        self._kept = KeptProgram(_lanes, quick)
         self._compiled: dict[Any, Any] = {}
         self._tracing = threading.Lock()
 
@@ -82,8 +82,8 @@ class LaneProgram:
     def structure(self) -> Any:
         """The solution of one lane, with shapes for arrays."""
         inputs = jax.tree.map(lambda leaf: np.asarray(leaf)[None], self._example)
-        arguments = jax.tree.flatten((*self._static, *self._filled(inputs, np.zeros(1, dtype=bool), 0)))
-        found = self._kept.result(arguments[1], arguments[0]) if len(self.devices) == 1 else None
+        leaves, structure = self._flat(self._filled(inputs, np.zeros(1, dtype=bool), 0))
+        found = self._kept.result(structure, leaves) if len(self.devices) == 1 else None
         if found is None:
             make, _, options = self._static
             return jax.eval_shape(functools.partial(_lane, make, options), self.base, self._example)
@@ -128,6 +128,10 @@ class LaneProgram:
         wanted[: min(self.lanes, len(active) - start)] = active[start : start + self.lanes]
         return self.base, wanted, jax.tree.map(part, inputs)
 
+    def _flat(self, given: Any) -> tuple[list[Any], Any]:
+        """Leaves and structure of all arguments of `_lanes`, from what `_filled` gives."""
+        return jax.tree.flatten((*self._static, *given))
+
     def _block(self, device: Any, inputs: Any, active: np.ndarray, start: int) -> Any:
         """Lanes of one call."""
         given = self._filled(inputs, active, start)
@@ -138,10 +142,10 @@ class LaneProgram:
 
     def _prepared(self, device: Any, given: Any) -> Callable[[Any], Any]:
         """The program for a device, of what `_filled` gives: kept, or compiled here."""
-        leaves, structure = jax.tree.flatten((*self._static, *given))
+        leaves, structure = self._flat(given)
         kept = self._kept.ready(structure, leaves) if len(self.devices) == 1 else None
         if kept is not None:
-            return lambda given: kept(jax.tree.leaves((*self._static, *given)))
+            return lambda given: kept(self._flat(given)[0])
         options = quick_options() if self._quick and device.platform == "cpu" else None
         with self._tracing:
             lowered = jax.jit(functools.partial(_lanes, *self._static)).lower(*jax.device_put(given, device))
@@ -166,9 +170,6 @@ def _lanes(make: Any, method: Method, options: Any, shared: Any, active: Bool[Ar
     if method == "map":
         return jax.lax.map(lambda given: lane(shared, given[0], given[1]), (active, inputs))
     return jax.vmap(lane, in_axes=(None, 0, 0))(shared, active, inputs)
-
-
-_QUICK, _OPTIMISED = KeptProgram(_lanes, quick=True), KeptProgram(_lanes, quick=False)
 
 
 def _without_result(structure: Any) -> Any:

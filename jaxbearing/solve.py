@@ -2,6 +2,7 @@
 
 import dataclasses
 from collections.abc import Callable
+from contextlib import nullcontext
 from typing import Any, overload
 
 import equinox as eqx
@@ -28,6 +29,7 @@ from .numerics.compiling import inside_a_program
 from .numerics.garbage import collecting_rarely
 from .numerics.newton import NewtonOptions
 from .numerics.precision import as_float, require_x64
+from .numerics.quiet import quiet_first_time
 from .numerics.status import Status
 from .programs import KeptProgram
 
@@ -119,11 +121,13 @@ def solve(
     """
     require_x64()
     steady_function(scene)
-    function = _solve_optimised if optimised else _solve_quickly
-    function = _solve if inside_a_program(scene) else function
-    solution = function(jax.tree.map(as_float, scene), chosen_options(options))
-    if throw:
-        solution.raise_if_failed()
+    inside = inside_a_program(scene)
+    function = _solve if inside else _solve_optimised if optimised else _solve_quickly
+    # small programs beside the large one are compiled too
+    with nullcontext() if inside else quiet_first_time((solve, optimised, jax.tree.structure(scene))):
+        solution = function(jax.tree.map(as_float, scene), chosen_options(options))
+        if throw:
+            solution.raise_if_failed()
     return solution
 
 
@@ -165,9 +169,10 @@ def jit_solver(scene: AbstractScene, *, options: NewtonOptions | None = None) ->
         """Asks the kept program, or JAX's own where a number is traced or batched and where programs are not kept."""
         if any(isinstance(number, Tracer) for number in numbers) or [np.shape(one) for one in numbers] != shapes:
             return compiled(numbers)
-        if not kept:  # looked for once, at the first call
-            kept.append(_solve_optimised.ready(arguments, numbers) or compiled)
-        return kept[0](numbers)
+        with quiet_first_time((jit_solver, arguments)):
+            if not kept:  # looked for once, at the first call
+                kept.append(_solve_optimised.ready(arguments, numbers) or compiled)
+            return kept[0](numbers)
 
     # of leaves that a changed copy has in common with it
     own = jax.tree.unflatten(structure, given)

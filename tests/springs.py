@@ -22,6 +22,10 @@ class Springs(AbstractArrowSystem):
     def initial(self):
         return ArrowPoint(jnp.full((self.m, self.stiffness.shape[0]), 0.3), jnp.full(self.load.shape, 0.4))
 
+    @property
+    def further_sums(self):
+        return 2 - self.load.shape[0]
+
     def element(self, unknowns, shared):
         pull = self.stiffness * jnp.sum(shared, axis=0)
         rows = [unknowns[i] + 0.1 * unknowns[i] ** 3 + 0.2 * unknowns[i - 1] - pull / (i + 1.0) for i in range(self.m)]

@@ -68,7 +68,13 @@ ChunkOption = Annotated[
     typer.Option("--chunk", metavar="COUNT", min=1, help="Cases computed and kept at a time; what a kill can cost."),
 ]
 DevicesOption = Annotated[
-    int | None, typer.Option("--devices", metavar="COUNT", min=1, help="Cores to use (or GPUs); all if not given.")
+    int | None,
+    typer.Option(
+        "--devices",
+        metavar="COUNT",
+        min=1,
+        help="Cores to use (or GPUs); all that the cases can keep busy if not given.",
+    ),
 ]
 WorkersOption = Annotated[
     int | None,

@@ -1,7 +1,6 @@
 """Programs that run a few times: compile time counts, run time does not."""
 
 import functools
-import os
 from collections.abc import Callable
 from typing import Any
 
@@ -26,13 +25,14 @@ _QUICK = {
     "xla_cpu_use_fusion_emitters": False,
     "xla_backend_optimization_level": 0,
     "xla_llvm_disable_expensive_passes": True,
+    "xla_cpu_parallel_codegen_split_count": 4,
     "xla_disable_hlo_passes": ",".join(IDLE_PASSES),
 }
 """On a CPU, XLA's older way to emit loops, and LLVM without its optimizations: a bearing compiles in 0.65 of the time
 and 0.4 of the processor time; its programs run 2 to 3 times slower, milliseconds for one solve. Without the passes
 above all of a first `jaxbearing solve` takes 0.75 to 0.95 of that. XLA cuts LLVM's work into 32 parts, each of which
-costs something: on two cores a large program in four parts takes 0.92 of the processor time. None of it on a GPU,
-where the options stand for something else."""
+costs something: on two cores a large program in four parts takes 0.92 of the processor time. Four on every machine, as
+the number of parts changes last bits. None of it on a GPU, where the options stand for something else."""
 
 
 @functools.cache
@@ -50,8 +50,7 @@ def quick_options() -> dict[str, Any]:
             return False
         return True
 
-    wanted = _QUICK | {"xla_cpu_parallel_codegen_split_count": min(2 * (os.cpu_count() or 1), 32)}
-    return wanted if known(wanted) else {name: value for name, value in wanted.items() if known({name: value})}
+    return _QUICK if known(_QUICK) else {name: value for name, value in _QUICK.items() if known({name: value})}
 
 
 def is_tracing() -> bool:

@@ -4,7 +4,7 @@ import os
 import sys
 import tempfile
 import threading
-from collections.abc import Iterator
+from collections.abc import Hashable, Iterator
 from contextlib import AbstractContextManager, contextmanager, nullcontext
 
 _FALSE_ALARMS = (
@@ -45,6 +45,20 @@ def compiler_is_loud() -> bool:
 def compiling_quietly() -> AbstractContextManager[None]:
     """For a block that compiles or loads a program: without false alarms, where the compiler is loud."""
     return without_false_alarms() if compiler_is_loud() else nullcontext()
+
+
+_SEEN: set[Hashable] = set()
+
+
+@contextmanager
+def quiet_first_time(key: Hashable) -> Iterator[None]:
+    """For a block that compiles a program when it is called the first time with such a key."""
+    if not compiler_is_loud() or key in _SEEN:
+        yield
+        return
+    with without_false_alarms():
+        yield
+    _SEEN.add(key)
 
 
 @contextmanager

@@ -31,7 +31,7 @@ from jax.stages import Compiled
 
 from ..numerics.compiling import quick_options, quickly_compiled
 from ..numerics.garbage import collecting_rarely
-from ..numerics.quiet import compiling_quietly
+from ..numerics.quiet import compiling_quietly, quiet_first_time
 from . import files
 from .describe import OWN, ROOT, NotKept, Structure, description, static_description
 from .folder import VARIABLE, cache_folder
@@ -114,20 +114,14 @@ class KeptProgram:
         self._plain = quickly_compiled(function) if quick else eqx.filter_jit(function)
         self._ready: dict[Any, _Ready] = {}
         self._never: set[Any] = set()
-        self._compiled: set[Any] = set()
 
     def __call__(self, *args: Any) -> Any:
         leaves, structure = jax.tree.flatten(args)
         ready = self.ready(structure, leaves)
         if ready is not None:
             return ready(leaves)
-        key = _key(structure, leaves)
-        if key in self._compiled:
+        with quiet_first_time((self._function, self._quick, structure)):
             return self._plain(*args)
-        with compiling_quietly():
-            found = self._plain(*args)
-        self._compiled.add(key)
-        return found
 
     def ready(self, structure: Structure, leaves: list[Any]) -> Callable[[list[Any]], Any] | None:
         """The program for arguments of this structure: a function of their leaves, arrays of the same shapes and equal

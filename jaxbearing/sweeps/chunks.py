@@ -102,6 +102,14 @@ def _program(plan: Plan, devices: int | None) -> tuple[LaneProgram, xr.Dataset]:
     return _compiled[plan.key, devices]
 
 
+def labels_of(plan: Plan) -> xr.Dataset:
+    """The data set of one case, without results: that of the sweep at work in this process, or made anew."""
+    for (key, _), (_, labels) in _compiled.items():
+        if key == plan.key:
+            return labels
+    return template(plan.program().structure, plan.elements)
+
+
 def _said(plan: Plan, reasons: list[str], good: np.ndarray, start: int) -> list[str]:
     """Where a scene would have been refused, that is the reason: values that no equation can show."""
     said = list(reasons)

@@ -12,8 +12,8 @@ import xarray as xr
 from ..numerics.interrupts import deferred_interrupts
 from ..report.netcdf import NetcdfStream
 from ..report.variables import CHECK, without_fill
-from .chunks import KEY, read_chunk
-from .labels import CASE, FAILURE, per_case, template
+from .chunks import KEY, labels_of, read_chunk
+from .labels import CASE, FAILURE, per_case
 from .plan import Plan
 
 Progress = Callable[[int, int], None]
@@ -45,7 +45,7 @@ def store(
 
 
 def _labels(plan: Plan) -> xr.Dataset:
-    labels = template(plan.program().structure, plan.elements)
+    labels = labels_of(plan).copy()
     labels.attrs |= {"title": f"{labels.attrs['title']}, sweep of {plan.label}", KEY: plan.key}
     labels.attrs |= {"sweep_kind": plan.cases.kind, "sweep_fields": " ".join(plan.cases.paths)}
     return labels

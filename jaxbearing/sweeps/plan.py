@@ -28,8 +28,8 @@ FORMAT = 2
 CHUNK, LANES = 1000, 125
 """Cases of a chunk, and those of them that a device solves in one call: eight devices can share one."""
 VMAP_LANES = 1000
-QUICK_CASES = 1000
-"""A sweep of no more cases is compiled quickly, if one of them is solved in milliseconds: its program runs 2 to 5 times
+QUICK_CASES = LANES
+"""A sweep of no more cases is compiled quickly, if one of them is solved in milliseconds: its program runs 2 to 6 times
 slower, seconds in all, and is compiled in a quarter of the time, tens of seconds."""
 HEAVY_CHUNK, HEAVY_LANES = 32, 4
 """Of scenes whose solve takes a large part of a second."""

@@ -198,7 +198,7 @@ def main() -> int:
     arguments = parser.parse_args()
     if arguments.section:
         sys.argv = sys.argv[:1]
-        from jaxbearing.numerics.compiling import RARELY
+        from jaxbearing.numerics.garbage import RARELY
 
         gc.set_threshold(*RARELY)  # as `jaxbearing` does where it traces
         arguments.answer.write_text(json.dumps(run_here(arguments.section, arguments.quick)), encoding="utf-8")

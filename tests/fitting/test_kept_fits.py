@@ -1,4 +1,4 @@
-"""What a fit compiles is kept between processes: each program has a name that another process finds."""
+"""What a fit compiles has a name by which another process finds it."""
 
 import jax
 import jax.numpy as jnp
@@ -45,7 +45,7 @@ def calls(problem):
     }
 
 
-def test_every_program_can_be_kept(problem):
+def test_every_program_has_a_name(problem):
     """`NotKept` would be raised for an argument that is known in this process only."""
     names = set()
     for program, given in calls(problem).items():

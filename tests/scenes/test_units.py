@@ -169,7 +169,7 @@ USUAL_TEXTS = [(si, text) for si, texts in USUAL.items() for text in texts]
 def test_usual_units_are_those_of_pint(si, text):
     """To the bit: whoever adds a unit to a file, so that pint reads it, changes no number."""
     registry, rng = units.registry(), np.random.default_rng(len(si) + 64 * len(text))
-    numbers = [0.0, 1.0, *rng.uniform(-300.0, 3000.0, 50), *10.0 ** rng.uniform(-12.0, 12.0, 50)]
+    numbers = [0.0, -0.0, 1.0, *rng.uniform(-300.0, 3000.0, 50), *10.0 ** rng.uniform(-12.0, 12.0, 50)]
     numbers = [float(number) for number in (*numbers, *np.round(numbers, 3))]
     unit, target = registry.Unit(text), registry.Unit(si)
     # "K" of a difference and of a temperature
@@ -178,7 +178,8 @@ def test_usual_units_are_those_of_pint(si, text):
             continue
         for number in numbers:
             expected = float(registry.Quantity(number, unit).to(target).magnitude)
-            assert units.parse(f"{number!r} {text}", dimension) == expected, dimension.name
+            found = units.parse(f"{number!r} {text}", dimension)
+            assert found.hex() == expected.hex(), dimension.name
 
 
 def test_every_dimension_has_its_usual_units():

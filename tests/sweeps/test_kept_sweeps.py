@@ -8,7 +8,6 @@ from roller_cases import dry_roller
 
 import jaxbearing as jb
 from jaxbearing import lanes
-from jaxbearing.programs import KeptProgram
 from jaxbearing.sweeps import chunks
 from jaxbearing.sweeps.plan import QUICK_CASES
 from jaxbearing.sweeps.verb import calls_at_once, plan_in_scene
@@ -22,8 +21,6 @@ def forgotten(monkeypatch):
 
     def forget():
         monkeypatch.setattr(chunks, "_compiled", {})
-        monkeypatch.setattr(lanes, "_QUICK", KeptProgram(lanes._lanes, quick=True))
-        monkeypatch.setattr(lanes, "_OPTIMISED", KeptProgram(lanes._lanes, quick=False))
 
     forget()
     return forget
