@@ -44,7 +44,7 @@ sys.addaudithook(hook)
 MOMENTS = {
     "the first import": (("scenes",), "jax", 0),
     "an extension that is being loaded": (("solve", *DRY), "jaxlib._jax", 0),
-    "the scene that is being read": (("solve", *DRY), "pint", 0),
+    "the scene that is being read": (("solve", *DRY), "jaxbearing.scenes.drafts", 0),
     "the program that is being traced or compiled": (("solve", *BALL), "jaxbearing.solve", 0.7),
     "a run that begins": (
         ("simulate", *LINE, "--duration", "2 ms", "--json", "--out", "a.nc"),
