@@ -117,8 +117,8 @@ class LaneProgram:
         return jax.tree.map(lambda *parts: np.concatenate(parts), *done)
 
     def _filled(self, inputs: Any, active: np.ndarray, start: int) -> tuple[Any, np.ndarray, Any]:
-        """What the lanes of one call share, which of them are solved, and their inputs: the last block is filled up
-        with lanes that are not solved."""
+        """Gives what the lanes of one call share, which of them are solved, and their inputs. The last block is filled
+        up with lanes that are not solved."""
 
         def part(values: Any) -> np.ndarray:
             values = np.asarray(values)[start : start + self.lanes]

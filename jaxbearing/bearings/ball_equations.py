@@ -127,7 +127,7 @@ class BallsState(NamedTuple):
     friction: Float[Array, "2 ball"] | None
     film: PointFilm
     orbit_residual: Float[Array, ""]
-    """How far centrifugal forces of balls that roll without sliding are off, over their loads; 0 for other balls."""
+    """Gives how far centrifugal forces of balls that roll without sliding are off, over their loads; 0 for others."""
     traction: Traction | None
     rolling: Float[Array, "2 ball"] | None
     """Moment of the film's pressure against the roll, N m."""

@@ -70,7 +70,7 @@ class AbstractArrowSystem(eqx.Module):
 
     @property
     def further_sums(self) -> int:
-        """How many sums over the elements `closure` takes beyond one for each global."""
+        """Says how many sums over the elements `closure` takes beyond one for each global."""
         return 0
 
     @abc.abstractmethod

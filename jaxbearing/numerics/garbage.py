@@ -10,7 +10,7 @@ RARELY = (100_000, 20, 10)
 
 
 class _Depth:
-    """How many are inside `collecting_rarely`, of all threads, and the thresholds of before."""
+    """Holds how many are inside `collecting_rarely`, of all threads, and the thresholds of before."""
 
     lock = threading.Lock()
     inside = 0

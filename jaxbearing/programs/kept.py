@@ -129,7 +129,7 @@ class KeptProgram:
         return self._found(structure, leaves, make=True)
 
     def result(self, structure: Structure, leaves: list[Any]) -> Any:
-        """What the program for such arguments gives, with shapes for arrays; `None` where there is no program yet."""
+        """Describes what the program for such arguments gives, with shapes for arrays; `None` without a program yet."""
         found = self._found(structure, leaves, make=False)
         return None if found is None else found.result
 
@@ -189,7 +189,7 @@ class KeptProgram:
 
 
 def _key(structure: Structure, leaves: list[Any]) -> Any:
-    """What a program of this process is found by."""
+    """Gives the key under which this process finds a program."""
     about = tuple((leaf.shape, leaf.dtype) if _is_array(leaf) else (type(leaf), leaf) for leaf in leaves)
     return structure, about, _told()
 

@@ -53,7 +53,7 @@ def checks(solution: Any, dims: tuple[str, ...]) -> xr.Variable:
 
 
 def common(values: np.ndarray, own: int, name: str) -> np.ndarray:
-    """What is the same in all lanes, from values with `own` dimensions behind those of the batch; failed lanes are NaN.
+    """Gives what is the same in all lanes, from values with `own` dimensions behind the batch; failed lanes are NaN.
 
     **Raises:** `ValueError` where the lanes differ.
     """
@@ -73,7 +73,7 @@ def without_fill(dataset: xr.Dataset) -> xr.Dataset:
 
 
 def attributes(solution: Any, title: str) -> dict[str, str]:
-    """Of the data set: title, version, warnings and notes in words."""
+    """Gives the attributes of the data set: title, version, warnings and notes in words."""
     return {
         "Conventions": "CF-1.11",
         "title": title,

@@ -25,14 +25,14 @@ _LIGHT = (BallBearing, CylindricalRollerBearing, TaperedRollerBearing)
 
 
 def _sizes(recipe: Recipe, chunk: int | None) -> tuple[bool, int, int]:
-    """Whether a case is solved in milliseconds; cases in a chunk; most cases in a call on a CPU."""
+    """Says whether a case is solved in milliseconds, how many a chunk has, and how many at most a call on a CPU."""
     light = isinstance(recipe.example_scene, _LIGHT)
     size = (CHUNK if light else HEAVY_CHUNK) if chunk is None else chunk
     return light, size, LANES if light else HEAVY_LANES
 
 
 def calls_at_once(recipe: Recipe, cases: Cases, chunk: int | None = None) -> int:
-    """How many devices of a CPU can share the work."""
+    """Says how many devices of a CPU can share the work."""
     _, size, most = _sizes(recipe, chunk)
     return -(-min(len(cases), size) // most)
 
