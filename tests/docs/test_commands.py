@@ -8,7 +8,6 @@ import dataclasses
 import json
 import re
 import shlex
-import shutil
 import sys
 from pathlib import Path
 
@@ -54,6 +53,21 @@ def _programs(line):
 COMMANDS = {page.relative_to(ROOT).as_posix(): commands_of(page.read_text(encoding="utf-8")) for page in PAGES}
 
 
+def once(commands):
+    """By page, each command where it stands first."""
+    found, done = {}, []
+    for page, lines in commands.items():
+        found[page] = []
+        for arguments in lines:
+            if arguments not in done:
+                found[page].append(arguments)
+                done.append(arguments)
+    return {page: lines for page, lines in found.items() if lines}
+
+
+ONCE = once(COMMANDS)
+
+
 def test_commands_are_found():
     assert len(COMMANDS["README.md"]) > 20
     assert ["solve", "misaligned.toml"] in COMMANDS["docs/life.md"]
@@ -62,7 +76,7 @@ def test_commands_are_found():
 
 @pytest.fixture
 def folder(tmp_path, monkeypatch):
-    """Where a reader works; in `given` the files that the pages show or describe."""
+    """Where a reader works, with the files that the pages show or describe."""
     readme, life = (ROOT / name for name in ("README.md", "docs/life.md"))
     (curves,) = re.findall(r"```csv\n(.*?)```", readme.read_text(encoding="utf-8"), flags=re.DOTALL)
     (scene,) = re.findall(r"```toml\n(.*?)```", life.read_text(encoding="utf-8"), flags=re.DOTALL)
@@ -72,9 +86,8 @@ def folder(tmp_path, monkeypatch):
         "cases.csv": "operation.inner_speed [rpm],operation.radial_load [kN]\n8000,20\n10000,25\n",
         "run_up.csv": "time [ms],speed [rpm]\n0,8000\n10,9000\n50,10500\n",
     }
-    (tmp_path / "given").mkdir()
     for name, text in files.items():
-        (tmp_path / "given" / name).write_text(text, encoding="utf-8")
+        (tmp_path / name).write_text(text, encoding="utf-8")
     monkeypatch.setenv("JAXBEARING_CACHE", "off")
     return tmp_path
 
@@ -133,19 +146,6 @@ def shortened(monkeypatch, one_process):
     monkeypatch.setattr(sys.modules["jaxbearing.simulate"], "simulate", short)
 
 
-def run_all(folder, monkeypatch, capfd, without=()):
-    """Each command once, in the order of the pages, each page in a folder of its own."""
-    done = []
-    for page, commands in COMMANDS.items():
-        here = folder / page.replace("/", "_")
-        shutil.copytree(folder / "given", here)
-        monkeypatch.chdir(here)
-        for arguments in commands:
-            if arguments not in done and arguments[0] not in without:
-                run_one(page, arguments, here, monkeypatch, capfd)
-                done.append(arguments)
-
-
 def run_one(page, arguments, folder, monkeypatch, capfd):
     command = shlex.join(["jaxbearing", *arguments])
     monkeypatch.setattr("sys.argv", ["jaxbearing", *arguments])
@@ -162,15 +162,23 @@ def run_one(page, arguments, folder, monkeypatch, capfd):
 
 
 @pytest.mark.usefixtures("made_up")
-def test_commands_run(folder, monkeypatch, capfd):
-    run_all(folder, monkeypatch, capfd)
+@pytest.mark.parametrize("page", ONCE)
+def test_commands_run(page, folder, monkeypatch, capfd):
+    """In the order of the page, in one folder."""
+    monkeypatch.chdir(folder)
+    for arguments in ONCE[page]:
+        run_one(page, arguments, folder, monkeypatch, capfd)
 
 
 @pytest.mark.slow
 @pytest.mark.usefixtures("shortened")
-def test_commands_run_with_their_solvers(folder, monkeypatch, capfd):
-    # the study, of 100 solves, has a test of its own
-    run_all(folder, monkeypatch, capfd, without=("study",))
+@pytest.mark.parametrize("page", ONCE)
+def test_commands_run_with_their_solvers(page, folder, monkeypatch, capfd):
+    monkeypatch.chdir(folder)
+    for arguments in ONCE[page]:
+        # the study, of 100 solves, has a test of its own
+        if arguments[0] != "study":
+            run_one(page, arguments, folder, monkeypatch, capfd)
 
 
 def test_scripts_and_tests_that_are_named_are_there():
