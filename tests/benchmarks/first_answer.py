@@ -1,7 +1,7 @@
 """What a first answer costs: size of the programs, processor time of tracing and of compiling, quick and optimised, and
 whole processes without and with kept programs.
 
-    python tests/benchmarks/first_answer.py [--quick] [--against FOLDER]
+    python tests/benchmarks/first_answer.py [--quick] [--against FOLDER] [--only programs|processes]
 
 Lines of the lowered program and processor seconds hold on a busy machine as well, as far as anything does; wall seconds
 stand beside them. With `--against`, the folder of another checkout of the project, each figure is measured of both, in
@@ -15,6 +15,7 @@ import subprocess
 import sys
 import tempfile
 import time
+from collections.abc import Sequence
 from pathlib import Path
 from typing import NamedTuple
 
@@ -187,31 +188,42 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--quick", action="store_true", help="the smallest programs only")
     parser.add_argument("--against", type=Path, metavar="FOLDER", help="another checkout, measured beside this one")
+    parser.add_argument("--only", choices=("programs", "processes"))
+    parser.add_argument("--scenes", default=",".join(SCENES), help="of the programs")
     given = parser.parse_args()
     roots = [ROOT] if given.against is None else [given.against.resolve(), ROOT]
-    beside = lambda figures: " -> ".join(figures)
-    print(
-        "| scene | lines lowered | CPU s: trace and lower | compile | compile quickly | run, ms | quick | difference |"
-    )
+    if given.only != "processes":
+        _print_programs(SCENES[-1:] if given.quick else given.scenes.split(","), roots)
+    if given.only != "programs":
+        _print_processes(given.quick, roots)
+
+
+def _print_programs(names: Sequence[str], roots: list[Path]) -> None:
+    print("| scene | lines lowered | CPU s: trace, lower | compile | compile quickly | run, ms | quick | difference |")
     print("|---" * 8 + "|")
-    for name in SCENES[-1:] if given.quick else SCENES:
+    for name in names:
         found = [program(name, root=root) for root in roots]
-        seconds = (beside([f"{one[i]:.1f}" for one in found]) for i in (1, 2, 3))
-        runs = (beside([f"{1e3 * one[i]:.2f}" for one in found]) for i in (4, 5))
-        lines, difference = (
-            beside([str(one.lines) for one in found]),
-            beside([f"{one.difference:.0e}" for one in found]),
-        )
-        print("|", " | ".join([name, lines, *seconds, *runs, difference]), "|", flush=True)
+        figures = [_beside([str(one.lines) for one in found])]
+        figures += [_beside([f"{one[i]:.1f}" for one in found]) for i in (1, 2, 3)]
+        figures += [_beside([f"{1e3 * one[i]:.2f}" for one in found]) for i in (4, 5)]
+        figures += [_beside([f"{one.difference:.0e}" for one in found])]
+        print("|", " | ".join([name, *figures]), "|", flush=True)
+
+
+def _print_processes(quick: bool, roots: list[Path]) -> None:
     print("\n| process | CPU s without kept programs | with them | wall s without | with | GB without |")
     print("|---" * 6 + "|")
-    for name, arguments in processes(given.quick).items():
+    for name, arguments in processes(quick).items():
         both = [cold_and_warm(arguments, root) for root in roots]
-        figures = [beside([f"{one[i].processor:.1f}" for one in both]) for i in (0, 1)]
-        figures += [beside([f"{one[i].wall:.1f}" for one in both]) for i in (0, 1)]
-        figures += [beside([f"{one[0].memory:.1f}" for one in both])]
+        figures = [_beside([f"{one[i].processor:.1f}" for one in both]) for i in (0, 1)]
+        figures += [_beside([f"{one[i].wall:.1f}" for one in both]) for i in (0, 1)]
+        figures += [_beside([f"{one[0].memory:.1f}" for one in both])]
         failed = "" if all(run.well for one in both for run in one) else " FAILED"
         print("|", " | ".join([name + failed, *figures]), "|", flush=True)
+
+
+def _beside(figures: list[str]) -> str:
+    return " -> ".join(figures)
 
 
 if __name__ == "__main__":
