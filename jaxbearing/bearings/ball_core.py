@@ -190,13 +190,14 @@ class BallCore(AbstractBallSystem):
             ring = ring_estimate(problem)
             groove = problem.groove_at(ring)
 
-            def better(_, last: tuple[Array, Array]) -> tuple[Array, Array]:
-                centre, _ = free_centres(dataclasses.replace(problem, centrifugal=last[1]), groove)
+            def better(turn: Array, last: tuple[Array, Array]) -> tuple[Array, Array]:
+                placed = turn == ESTIMATES  # the forces are known, and the balls are placed
+                centre, _ = free_centres(dataclasses.replace(problem, centrifugal=last[1]), groove, placed)
                 inner = groove - centre
                 angle = jnp.stack([jnp.arctan2(inner[0], inner[1]), jnp.arctan2(centre[0], centre[1])])
-                return centre, core.outward_force(core.motion(angle))
+                return centre, jnp.where(placed, last[1], core.outward_force(core.motion(angle)))
 
-            return *jax.lax.fori_loop(0, ESTIMATES, better, (groove, problem.centrifugal)), ring
+            return *jax.lax.fori_loop(0, ESTIMATES + 1, better, (groove, problem.centrifugal)), ring
 
         centres, forces, rings = jax.vmap(under)(jnp.stack([core.ring_load, core.heavier * core.ring_load]))
         return dataclasses.replace(first, centrifugal=forces[0]), centres, rings

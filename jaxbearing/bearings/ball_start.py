@@ -95,8 +95,14 @@ def _forces(problem: CentrifugalProblem, centre: Array, groove: Array) -> _Force
     return _Forces(energy, outer - inner - push, inner, outer_stiffness, inner_stiffness)
 
 
-def free_centres(problem: CentrifugalProblem, groove: Array) -> tuple[Array, Bool[Array, " ball"]]:
-    """Ball centres for given inner grooves, near equilibrium; and which balls do not touch the inner race (exact)."""
+def free_centres(
+    problem: CentrifugalProblem, groove: Array, blocked: bool | Bool[Array, ""] = True
+) -> tuple[Array, Bool[Array, " ball"]]:
+    """Ball centres for given inner grooves, near equilibrium; and which balls do not touch the inner race (exact).
+
+    **Arguments:** `blocked`: whether the inner race stops a ball that its centrifugal force turns down the outer groove.
+    Where the ring has not followed yet, the contact angles of the equilibrium are nearer to those without.
+    """
     compliance = problem.stiffness ** (-2.0 / 3.0)
     together = jnp.sum(compliance) ** -1.5
     length = safe_norm(groove[0], groove[1], 1e-30)
@@ -109,6 +115,7 @@ def free_centres(problem: CentrifugalProblem, groove: Array) -> tuple[Array, Boo
     inner = problem.offset[0] + compliance[0] * load ** (2.0 / 3.0)
     swing = (jnp.square(reach) + jnp.square(length) - jnp.square(inner)) / (2.0 * reach * length)
     stopped = side * angle - jnp.arccos(jnp.clip(swing, -1.0, 1.0))
+    stopped = jnp.where(blocked, stopped, -jnp.inf)
     angle = side * jnp.maximum(side * jnp.arctan2(axial, radial), stopped)
     centre = reach[None] * jnp.stack([jnp.sin(angle), jnp.cos(angle)])
     alone = problem.offset[1] + compliance[1] * problem.centrifugal ** (2.0 / 3.0)
