@@ -100,8 +100,8 @@ def free_centres(
 ) -> tuple[Array, Bool[Array, " ball"]]:
     """Ball centres for given inner grooves, near equilibrium; and which balls do not touch the inner race (exact).
 
-    **Arguments:** `blocked`: whether the inner race stops a ball that its centrifugal force turns down the outer groove.
-    Where the ring has not followed yet, the contact angles of the equilibrium are nearer to those without.
+    **Arguments:** `blocked`: whether the inner race stops a ball that the centrifugal force turns down the outer
+    groove. Where the ring has not followed yet, contact angles of the equilibrium are nearer to those without.
     """
     compliance = problem.stiffness ** (-2.0 / 3.0)
     together = jnp.sum(compliance) ** -1.5
