@@ -29,7 +29,7 @@ from .numerics.compiling import inside_a_program
 from .numerics.garbage import collecting_rarely
 from .numerics.newton import NewtonOptions
 from .numerics.precision import as_float, require_x64
-from .numerics.quiet import quiet_first_time
+from .numerics.quiet import compiling_quietly, quiet_first_time
 from .numerics.status import Status
 from .programs import KeptProgram
 
@@ -169,9 +169,10 @@ def jit_solver(scene: AbstractScene, *, options: NewtonOptions | None = None) ->
         """Asks the kept program, or JAX's own where a number is traced or batched and where programs are not kept."""
         if any(isinstance(number, Tracer) for number in numbers) or [np.shape(one) for one in numbers] != shapes:
             return compiled(numbers)
-        with quiet_first_time((jit_solver, arguments)):
-            if not kept:  # looked for once, at the first call
-                kept.append(_solve_optimised.ready(arguments, numbers) or compiled)
+        if kept:
+            return kept[0](numbers)
+        with compiling_quietly():
+            kept.append(_solve_optimised.ready(arguments, numbers) or compiled)
             return kept[0](numbers)
 
     # of leaves that a changed copy has in common with it

@@ -78,9 +78,16 @@ class Plan:
         """Hash of scene, cases, options and versions: two sweeps with the same key have the same numbers."""
         digest = hashlib.sha256()
         scene = self.recipe.example_scene
-        told = [__version__, _source(), jax.__version__, self.platform, self.method, self.quick, self.chunk]
-        told += [self.lanes]
-        told += [self.elements, _structure(self.options), self.cases.kind, self.cases.paths, self.cases.shape]
+        told = [__version__, _source(), jax.__version__, self.platform, self.method, self.quick]
+        told += [
+            self.chunk,
+            self.lanes,
+            self.elements,
+            _structure(self.options),
+            self.cases.kind,
+            self.cases.paths,
+            self.cases.shape,
+        ]
         told += [type(self.recipe).__name__, _structure(scene)]
         digest.update(repr(told).encode())
         for array in (*jax.tree.leaves((scene, self.options)), *self.cases.values):
