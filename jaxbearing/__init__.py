@@ -49,6 +49,7 @@ if TYPE_CHECKING:
     from .numerics.newton import NewtonOptions as NewtonOptions
     from .numerics.status import SolveError as SolveError
     from .numerics.status import Status as Status
+    from .port import reaction as reaction
     from .report.history_file import read_last_state as read_last_state
     from .scenes.errors import SceneError as SceneError
     from .scenes.reader import builtin_names as builtin_names
@@ -71,6 +72,7 @@ _LAZY = {
     "load_scene": ".scenes.reader",
     "pocket_loads": ".bearings.roller_instants",
     "quasi_static_start": ".bearings.roller_motion",
+    "reaction": ".port",
     "read_last_state": ".report.history_file",
     "sensitivities": ".sensitivity",
     "trajectory": ".bearings.roller_simulation",

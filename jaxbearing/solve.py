@@ -58,11 +58,15 @@ def steady_function(scene: AbstractScene) -> Callable[..., Any]:
 
 @collecting_rarely()  # its body runs where it is traced
 def _solve_any(scene: AbstractScene, options: NewtonOptions) -> Any:
-    """The whole way from a scene to its solution. Where an input is invalid the solve ends at once, in NaN."""
+    """The whole way from a scene to its solution."""
+    return with_checked_inputs(scene, lambda lane: with_life(lane, steady_function(scene)(lane, options)))
+
+
+def with_checked_inputs(scene: AbstractScene, compute: Callable[[Any], Any]) -> Any:
+    """What `compute` makes of a scene, with the checks of its inputs. Where one is invalid it ends at once, in NaN."""
     inputs = check_inputs(scene)
     given: Any = gate(scene, inputs.valid)
-    lane = dataclasses.replace(given, operation=void(given.operation, inputs.valid))
-    solution = with_life(lane, steady_function(scene)(lane, options))
+    solution = compute(dataclasses.replace(given, operation=void(given.operation, inputs.valid)))
     return dataclasses.replace(
         solution,
         status=jnp.where(inputs.valid, solution.status, int(Status.INVALID_INPUT)),

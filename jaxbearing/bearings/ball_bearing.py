@@ -12,6 +12,7 @@ from collections.abc import Iterator
 from typing import ClassVar, Literal
 
 import equinox as eqx
+from jaxtyping import Array
 
 from .._scene import AbstractScene, label, number, optional_number
 from .._types import Scalar
@@ -181,6 +182,17 @@ class BallBearing(AbstractScene):
     def slips(self) -> bool:
         """Whether the balls' speeds are unknowns; without traction they follow from rolling without sliding."""
         return self.contact is not None and self.contact.traction is not None
+
+    @property
+    def ring_lever(self) -> Array:
+        """What tilts of the ring are multiplied by inside the equations, m."""
+        return self.geometry.groove_circle_radius
+
+    @property
+    def port_distance(self) -> Array:
+        r"""Of the plane of the inner groove centres, where `ring` counts, from that of the unloaded balls along $+e_x$,
+        m: $(f_i - \frac12)D\sin\alpha$ at the contact angle of the unloaded bearing."""
+        return self.geometry.inner_offset * self.geometry.free_sine
 
     @property
     def ring_freedom(self) -> tuple[str, ...]:

@@ -12,13 +12,16 @@ from ..gaps import ReynoldsDrag, RollerDrag, ball_frontal_area
 from ..gaps.ball_pocket import BallPocket
 from ..materials import reduced_modulus
 from ..numerics.arrow import ArrowPoint
+from ..numerics.safe import safe_norm
 from .ball_bearing import BallBearing
-from .ball_core import BallCore
+from .ball_core import FORCE_FLOOR, BallCore
 from .ball_equations import BallCageParts, BallDrag, BallGuess, LubricatedBallSystem
 from .ball_kinematics import BallKinematics
-from .ball_system import LENGTH_UNIT, Grooves
+from .ball_start import together
+from .ball_system import Grooves
 from .gyroscopic import AbstractGyroscopic, ResolvedCouple
 from .parts import drag_density
+from .ring import LENGTH_UNIT, InnerRing, inner_ring
 
 SMALLEST_GUESS = 1e-3
 """Load of an inner contact that the frictionless bearing has lost, over a ball's load scale, where the films start."""
@@ -28,53 +31,39 @@ CONTROL_AT_EQUAL_LOADS, CONTROL_BY_LOAD = -1.6, 8.0
 
 
 class Row(NamedTuple):
-    """The balls that are solved for, and how the ring's freedoms move their inner groove centres."""
+    """The balls that are solved for, how the inner ring may move, and how that moves their inner groove centres,
+    (axial, radial), m: `directions` for a unit of its unknowns, `held_shift` by what it is held at."""
 
     azimuth: Float[Array, " ball"]
+    ring: InnerRing
     directions: Float[Array, "freedom 2 ball"]
-    held_tilt: Float[Array, ""]
-    """Misalignment of a ring that does not tilt freely, times R_i, m."""
-    load: Float[Array, " freedom"]
-    freedoms: tuple[str, ...]
+    held_shift: Float[Array, "2 ball"]
     multiplicity: int
 
 
-def ring_directions(azimuth: Array) -> dict[str, Array]:
-    """Change of the inner groove centre, (axial, radial), for a unit of each freedom; a unit of tilt is R_i."""
+def ring_directions(azimuth: Float[Array, " ball"]) -> Float[Array, "5 2 ball"]:
+    """Change of the inner groove centre, (axial, radial), for a unit of each of `RING_FREEDOMS`; a unit of tilt is
+    R_i."""
     zero, one = jnp.zeros_like(azimuth), jnp.ones_like(azimuth)
     cosine, sine = jnp.cos(azimuth), jnp.sin(azimuth)
-    return {
-        "axial": jnp.stack([one, zero]),
-        "radial": jnp.stack([zero, cosine]),
-        "lateral": jnp.stack([zero, sine]),
-        "tilt": jnp.stack([cosine, zero]),
-        "tilt_lateral": jnp.stack([sine, zero]),
-    }
-
-
-def ball_row(scene: BallBearing) -> Row:
-    """All balls, or one for all where they are alike."""
-    operation, geometry = scene.operation, scene.geometry
-    count = 1 if operation.symmetric else geometry.n_balls
-    azimuth = jnp.asarray(2.0 * np.pi * np.arange(count) / count)
-    directions = ring_directions(azimuth)
-    number = lambda value: jnp.asarray(0.0 if value is None else value)
-    lever = geometry.groove_circle_radius
-    loads = {"axial": number(operation.axial_load), "radial": number(operation.radial_load)}
-    loads["tilt"] = number(operation.moment) / lever
-    freedoms = scene.ring_freedom
-    tilt = number(operation.misalignment) if operation.moment is None else jnp.zeros(())
-    return Row(
-        azimuth=azimuth,
-        directions=jnp.stack([directions[name] for name in freedoms]),
-        held_tilt=tilt * lever,
-        load=jnp.stack([loads[name] for name in freedoms]),
-        freedoms=freedoms,
-        multiplicity=geometry.n_balls // count,
+    return jnp.stack(
+        [jnp.stack(pair) for pair in ((one, zero), (zero, cosine), (zero, sine), (cosine, zero), (sine, zero))]
     )
 
 
-def ball_grooves(scene: BallBearing) -> Grooves:
+def ball_row(scene: BallBearing, ring: InnerRing | None = None) -> Row:
+    """All balls, or one for all where they are alike; with the ring of the scene, or with another one."""
+    operation, geometry = scene.operation, scene.geometry
+    count = 1 if operation.symmetric and ring is None else geometry.n_balls
+    azimuth = jnp.asarray(2.0 * np.pi * np.arange(count) / count)
+    if ring is None:
+        ring = inner_ring(operation, scene.ring_freedom, geometry.groove_circle_radius)
+    every = ring_directions(azimuth)
+    held_shift = jnp.einsum("f,fcn->cn", ring.held, every)
+    return Row(azimuth, ring, ring.of_unknown(every), held_shift, geometry.n_balls // count)
+
+
+def ball_grooves(scene: BallBearing, expansion: Float[Array, ""] | None = None) -> Grooves:
     geometry = scene.geometry
     modulus = reduced_modulus(scene.materials.rings, scene.materials.balls)
     return Grooves(
@@ -86,13 +75,18 @@ def ball_grooves(scene: BallBearing) -> Grooves:
         aligned=jnp.asarray(geometry.aligned),
         lever=jnp.asarray(geometry.groove_circle_radius),
         groove_arm=jnp.asarray(geometry.conformity_inner * geometry.ball_diameter),
+        expansion=expansion,
     )
 
 
-def build_core(scene: BallBearing, exact: bool | None = None) -> BallCore:
-    """The bearing without friction on the raceways and without films; `exact`: whether the grooves move with the exact
-    rotation of the ring; not given: where the ring can tilt."""
-    geometry, operation, row = scene.geometry, scene.operation, ball_row(scene)
+def build_core(scene: BallBearing, exact: bool | None = None, ring: InnerRing | None = None) -> BallCore:
+    """The bearing without friction on the raceways and without films.
+
+    **Arguments:** `exact`: whether the grooves move with the exact rotation of the ring; not given: where the ring can
+    tilt; `ring`: another one than the scene's, all balls then.
+    """
+    geometry, operation, row = scene.geometry, scene.operation, ball_row(scene, ring)
+    grooves = ball_grooves(scene, row.ring.expansion)
     density = jnp.asarray(scene.materials.balls.density)
     attitude, gyroscopic = scene.kinematics.attitude, scene.kinematics.gyroscopic
     return BallCore(
@@ -102,21 +96,28 @@ def build_core(scene: BallBearing, exact: bool | None = None) -> BallCore:
             jnp.asarray(geometry.pitch_diameter),
             jnp.asarray(geometry.ball_diameter),
         ),
-        grooves=ball_grooves(scene),
+        grooves=grooves,
         directions=row.directions,
         azimuth=row.azimuth,
-        held_tilt=row.held_tilt,
-        ring_load=row.load,
+        ring=row.ring if ring is None else row.ring.asking(_held_load(grooves, row)),
+        held_shift=row.held_shift,
         mass=geometry.mass(density),
         inertia=geometry.inertia(density),
         gyroscopic=gyroscopic if isinstance(gyroscopic, AbstractGyroscopic) else None,
         couple_share=jnp.ones(()),
-        freedoms=row.freedoms,
         multiplicity=row.multiplicity,
         attitude="inner" if attitude == "inner" else "outer",
-        exact=scene.operation.tilts if exact is None else exact,
+        exact=operation.tilts if exact is None else exact,
         common_orbit=scene.kinematics.orbit == "common",
     )
+
+
+def _held_load(grooves: Grooves, row: Row) -> Float[Array, ""]:
+    """Estimates the load that the given displacements of the ring ask for, N."""
+    rest = grooves.rest + row.held_shift
+    approach = jnp.maximum(safe_norm(rest[0], rest[1]) - jnp.sum(grooves.offset), 0.0)
+    load = together(grooves.stiffness) * approach**1.5 + FORCE_FLOOR
+    return row.multiplicity * jnp.sum(load)
 
 
 def build_lubricated(scene: BallBearing, core: BallCore) -> LubricatedBallSystem:
@@ -149,9 +150,10 @@ def _guesses(core: BallCore, slips: bool) -> dict[str, Any]:
     guess, heavy = core.guesses()
     if slips:
         return {"guess": _guess(core, guess)}
-    easiest = core.ring_load * core.heavier
-    loads, points = jax.tree.map(lambda a, b: jnp.stack([a, b]), (core.ring_load, guess), (easiest, heavy))
-    both = jax.vmap(lambda load, point: _guess(dataclasses.replace(core, ring_load=load), point))(loads, points)
+    easiest = core.ring.load * core.heavier
+    loads, points = jax.tree.map(lambda a, b: jnp.stack([a, b]), (core.ring.load, guess), (easiest, heavy))
+    under = lambda load: dataclasses.replace(core, ring=core.ring.under(load))
+    both = jax.vmap(lambda load, point: _guess(under(load), point))(loads, points)
     own, easy = (jax.tree.map(lambda leaf, i=i: leaf[i], both) for i in (0, 1))
     return {"guess": own, "heavy_guess": easy, "heavier": core.heavier}
 

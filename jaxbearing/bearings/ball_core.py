@@ -29,7 +29,8 @@ from ..numerics.arrow import ArrowPoint
 from ..numerics.safe import safe_norm
 from .ball_kinematics import BallMotion
 from .ball_start import CentrifugalProblem, free_centres, ring_estimate, start
-from .ball_system import LENGTH_UNIT, AbstractBallSystem
+from .ball_system import AbstractBallSystem
+from .ring import LENGTH_UNIT
 
 FORCE_FLOOR = 1e-3
 """Added to the centrifugal force, N: a ball that nothing loads stays in its outer groove (load error 1e-3 N)."""
@@ -97,7 +98,7 @@ class BallCore(AbstractBallSystem):
 
     def load_scale(self) -> Array:
         """Scale of the ring's balances, N."""
-        return jnp.sqrt(jnp.sum(jnp.square(self.ring_load)) + (self.ball_count * FORCE_FLOOR) ** 2)
+        return jnp.sqrt(jnp.square(self.ring.size()) + (self.ball_count * FORCE_FLOOR) ** 2)
 
     def ball_scale(self) -> Array:
         """Scale of a ball's balances, N."""
@@ -119,7 +120,7 @@ class BallCore(AbstractBallSystem):
 
     def equation_names(self) -> tuple[str, ...]:
         orbit = ("common orbital speed",) if self.common_orbit else ()
-        return ("axial balance of a ball", "radial balance of a ball", *self.ring_equation_names(), *orbit)
+        return ("axial balance of a ball", "radial balance of a ball", *self.ring.equation_names(), *orbit)
 
     def step_caps(self) -> ArrowPoint:
         half = 0.5 * self.grooves.centre_distance / LENGTH_UNIT
@@ -199,7 +200,7 @@ class BallCore(AbstractBallSystem):
 
             return *jax.lax.fori_loop(0, ESTIMATES + 1, better, (groove, problem.centrifugal)), ring
 
-        centres, forces, rings = jax.vmap(under)(jnp.stack([core.ring_load, core.heavier * core.ring_load]))
+        centres, forces, rings = jax.vmap(under)(jnp.stack([core.ring.load, core.heavier * core.ring.load]))
         return dataclasses.replace(first, centrifugal=forces[0]), centres, rings
 
     def _frozen(self, angle: Float[Array, "2 ball"]) -> CentrifugalProblem:
@@ -209,7 +210,8 @@ class BallCore(AbstractBallSystem):
             stiffness=self.grooves.stiffness,
             groove=self._groove_at_rest(),
             directions=self.directions,
-            ring_load=self.ring_load,
+            ring_load=self.ring.load,
+            held_load=self.ring.held_load,
             centrifugal=self.outward_force(self.motion(angle)),
             multiplicity=self.multiplicity,
             centre_distance=self.grooves.centre_distance,
@@ -244,7 +246,12 @@ class BallCore(AbstractBallSystem):
             heavy = jax.tree.map(lambda a, b: jnp.where(path == 0, a, b), heavy, guess)
             share = share * jnp.where(path == 0, 1.0, 1.0 - ease)
         return dataclasses.replace(
-            self, ring_load=self.ring_load * ratio**ease, couple_share=share, guess=guess, heavy_guess=heavy, ease=ease
+            self,
+            ring=self.ring.under(self.ring.load * ratio**ease),
+            couple_share=share,
+            guess=guess,
+            heavy_guess=heavy,
+            ease=ease,
         )
 
     @property
@@ -262,7 +269,7 @@ class BallCore(AbstractBallSystem):
 
     def closure(self, globals_, totals):
         d = len(self.freedoms)
-        rows = (totals[:d] - self.ring_load) / self.load_scale()
+        rows = (totals[:d] - self.ring.load) / self.load_scale()
         if self.common_orbit:
             rows = jnp.append(rows, orbit_row(totals[d:], self.orbit_unit))
         return rows, jnp.zeros(())

@@ -66,8 +66,9 @@ from ..numerics.safe import safe_norm
 from .ball_core import orbit_row, orbit_totals
 from .ball_geometry import BallGeometry
 from .ball_kinematics import BallMotion, RaceMotion
-from .ball_system import LENGTH_UNIT, AbstractBallSystem, InnerArm, OnRing
+from .ball_system import AbstractBallSystem, InnerArm, OnRing
 from .land import LandState, guided_land
+from .ring import LENGTH_UNIT
 
 LOG_LOAD_RANGE = (-200.0, 18.0)
 """ln(load / 1 N) that an iterate may take."""
@@ -204,7 +205,7 @@ class LubricatedBallSystem(AbstractBallSystem):
         return self.orbit_unit / self.kinematics.ratio
 
     def load_scale(self) -> Array:
-        return jnp.sqrt(jnp.sum(jnp.square(self.ring_load)))
+        return self.ring.size()
 
     def friction_scale(self) -> Array:
         """Scale of a ball's friction forces, N: 1 % of its share of the load and of its centrifugal force."""
@@ -230,7 +231,7 @@ class LubricatedBallSystem(AbstractBallSystem):
             "approach of the rings at a ball",
             "direction of the contacts of a ball",
             *own,
-            *self.ring_equation_names(),
+            *self.ring.equation_names(),
             *((orbit,) if self.global_orbit else ()),
         )
 
@@ -296,8 +297,8 @@ class LubricatedBallSystem(AbstractBallSystem):
         if self.heavier is not None:
             of_load, of_films = jnp.where(path == 0, ease, 0.0), jnp.where(path == 0, 0.0, ease)
             guess = jax.tree.map(lambda a, b: jnp.where(of_load > 0, a, b), self.heavy_guess, self.guess)
-            load = self.ring_load * self.heavier**of_load
-            return dataclasses.replace(self, ring_load=load, film_share=THINNEST_FILM**of_films, guess=guess)
+            ring = self.ring.under(self.ring.load * self.heavier**of_load)
+            return dataclasses.replace(self, ring=ring, film_share=THINNEST_FILM**of_films, guess=guess)
         slide = EASIEST_SLIDE**ease
         if not self.resolved:
             return dataclasses.replace(self, slide_share=slide)
@@ -322,7 +323,7 @@ class LubricatedBallSystem(AbstractBallSystem):
 
     def closure(self, globals_, totals):
         d = len(self.freedoms)
-        ring = (totals[:d] - self.ring_load) / self.load_scale()
+        ring = (totals[:d] - self.ring.load) / self.load_scale()
         if self.common_orbit:
             return jnp.append(ring, orbit_row(totals[d:], self.orbit_unit)), jnp.zeros(())
         if self.cage is None:
@@ -422,7 +423,8 @@ class LubricatedBallSystem(AbstractBallSystem):
         They go through cage and land and act in the middle plane, hence without a moment."""
         along = {"radial": jnp.cos(self.azimuth), "lateral": jnp.sin(self.azimuth)}
         zero = jnp.zeros_like(pocket)
-        return self.multiplicity * jnp.stack([along.get(name, zero) * pocket for name in self.freedoms])
+        rows = [along.get(name, zero) * pocket for name in self.freedoms]
+        return self.multiplicity * jnp.stack(rows) if rows else zero[None][:0]
 
     def _outer_contact(
         self, log_load: Array, inner: Array, outward: Array, friction: Array | None

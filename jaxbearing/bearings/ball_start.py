@@ -34,8 +34,8 @@ class CentrifugalProblem(eqx.Module):
     """Balls between two grooves under given forces. Units m, N; (inner, outer) or (axial, radial) first.
 
     `groove`: inner groove centre of every ball with the ring at rest; `directions`: its change for a unit of every
-    ring freedom (a length each); `ring_load`: on them; `aligned`: axial displacement at which the planes of the grooves
-    coincide; `multiplicity`: balls that each ball stands for.
+    ring freedom (a length each); `ring_load`: on them; `held_load`: of `InnerRing`; `aligned`: axial
+    displacement at which the planes of the grooves coincide; `multiplicity`: balls that each ball stands for.
     """
 
     offset: Float[Array, "2"]
@@ -43,6 +43,7 @@ class CentrifugalProblem(eqx.Module):
     groove: Float[Array, "2 ball"]
     directions: Float[Array, "freedom 2 ball"]
     ring_load: Float[Array, " freedom"]
+    held_load: Float[Array, ""] | None
     centrifugal: Float[Array, " ball"]
     centre_distance: Float[Array, ""]
     free_cosine: Float[Array, ""]
@@ -104,9 +105,8 @@ def free_centres(
     groove. Where the ring has not followed yet, contact angles of the equilibrium are nearer to those without.
     """
     compliance = problem.stiffness ** (-2.0 / 3.0)
-    together = jnp.sum(compliance) ** -1.5
     length = safe_norm(groove[0], groove[1], 1e-30)
-    load = together * jnp.maximum(length - jnp.sum(problem.offset), 0.0) ** 1.5
+    load = together(problem.stiffness) * jnp.maximum(length - jnp.sum(problem.offset), 0.0) ** 1.5
     axial, radial = load * groove[0] / length, load * groove[1] / length + problem.centrifugal
     outer = safe_norm(axial, radial, 1e-30)
     reach = problem.offset[1] + compliance[1] * outer ** (2.0 / 3.0)
@@ -190,6 +190,8 @@ def start(problem: CentrifugalProblem, ring: Float[Array, " freedom"]) -> Start:
     total, count = _scale(problem)
     scale = total / count + problem.centrifugal
     cap = 0.5 * problem.centre_distance
+    if not problem.freedoms:
+        return Start(_equilibrium(problem, problem.groove, scale, cap), ring, jnp.asarray(0))
 
     def evaluate(ring: Array):
         groove = problem.groove_at(ring)
@@ -240,7 +242,15 @@ def start(problem: CentrifugalProblem, ring: Float[Array, " freedom"]) -> Start:
 def _scale(problem: CentrifugalProblem) -> tuple[Array, int]:
     """Size of the load on the ring, N, and the number of balls that carry it."""
     count = problem.groove.shape[1] * problem.multiplicity
-    return jnp.sqrt(jnp.sum(jnp.square(problem.ring_load))) + 1e-3 * count, count
+    size = jnp.sqrt(jnp.sum(jnp.square(problem.ring_load)))
+    if problem.held_load is not None:
+        size = size + problem.held_load
+    return size + 1e-3 * count, count
+
+
+def together(stiffness: Float[Array, "2"]) -> Float[Array, ""]:
+    """Constant of both contacts of a ball, one behind the other, N/m^(3/2)."""
+    return jnp.sum(stiffness ** (-2.0 / 3.0)) ** -1.5
 
 
 def ring_estimate(problem: CentrifugalProblem) -> Float[Array, " freedom"]:
@@ -250,17 +260,19 @@ def ring_estimate(problem: CentrifugalProblem) -> Float[Array, " freedom"]:
     Axially from $\\sin\\alpha(\\cos\\alpha_0/\\cos\\alpha - 1)^{3/2} = F/(NK_nBD^{3/2})$ with the axial force that
     would load half the balls (Harris), radially from Sjovall's load distribution.
     """
+    if not problem.freedoms:
+        return jnp.zeros(0)
     total, count = _scale(problem)
     load = dict(zip(problem.freedoms, problem.ring_load, strict=True))
     zero = jnp.zeros(())
-    together = jnp.sum(problem.stiffness ** (-2.0 / 3.0)) ** -1.5
+    both = together(problem.stiffness)
     distance, cosine = problem.centre_distance, problem.free_cosine
     axial, radial = load.get("axial", zero), jnp.abs(load.get("radial", zero)) + jnp.abs(load.get("lateral", zero))
     tilting = jnp.abs(load.get("tilt", zero)) + jnp.abs(load.get("tilt_lateral", zero))
     sine = jnp.sqrt(jnp.maximum(1.0 - cosine * cosine, 0.0))
     tangent = sine / cosine
     thrust = jnp.maximum(jnp.maximum(jnp.abs(axial) + tilting, 1.22 * radial * tangent), 1.0)
-    target = jnp.log(thrust / (count * together * distance**1.5))
+    target = jnp.log(thrust / (count * both * distance**1.5))
 
     def deeper(_, angle):
         """Newton on the logarithm of the thrust, from above."""
@@ -277,7 +289,7 @@ def ring_estimate(problem: CentrifugalProblem) -> Float[Array, " freedom"]:
     mixed = 1.0 - 0.6 * jnp.minimum(1.0, radial * tangent / jnp.maximum(jnp.abs(axial), 1e-3))
     alone = (jnp.abs(axial) + tilting) <= 1e-9 * total
     inward = jnp.where(alone, problem.aligned, problem.aligned + pushed * (distance * sine + depth * mixed))
-    across = (5.0 * radial / (count * cosine * together)) ** (2.0 / 3.0)
+    across = (5.0 * radial / (count * cosine * both)) ** (2.0 / 3.0)
     across = across + jnp.where(alone, distance * (1.0 - cosine), 0.0)
     guesses = {"axial": inward, "radial": jnp.sign(load.get("radial", zero)) * across}
     return jnp.stack([guesses.get(name, zero) for name in problem.freedoms])

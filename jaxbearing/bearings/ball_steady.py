@@ -11,7 +11,7 @@ from jaxtyping import Array, Float
 from ..contacts import PointContact
 from ..contacts.point_laws import PointFilm
 from ..materials import reduced_modulus
-from ..numerics.arrow import ArrowJacobian, ArrowPoint, linearize, schur_complement
+from ..numerics.arrow import ArrowJacobian, ArrowPoint, linearize
 from ..numerics.newton import NewtonOptions, NewtonResult, newton_solve
 from .ball_bearing import BallBearing
 from .ball_build import build_core, build_lubricated, ring_directions
@@ -20,19 +20,24 @@ from .ball_equations import BallsState, LubricatedBallSystem
 from .ball_kinematics import BallMotion
 from .ball_rolling import common_orbit_torques, rolling_balance
 from .ball_solution import BallPowerLoss, BallResults, RacewayPower
-from .ball_system import LENGTH_UNIT
 from .land import LandState
 from .range_checks import BALL_PRESSURE, MEAN_OF_POINT, RACEWAYS, Contacts, Facts
-from .solution import RING_FREEDOMS, CageState, Reason, RingDisplacement, Solution
+from .ring import InnerRing, Port
+from .solution import RING_FREEDOMS, CageState, Reason, Solution
 from .steady import assemble
 
 SIDES = np.array([[1.0], [-1.0]])
 """Inner, outer: the sense of the contact's x axis along the orbit."""
 
 
-def solve_ball(scene: BallBearing, options: NewtonOptions) -> Solution:
-    """Steady state: pure, jit-able, vmap-able, differentiable; never raises for a failed solve."""
-    core, steps = build_core(scene).started()
+def solve_ball(
+    scene: BallBearing, options: NewtonOptions, ring: InnerRing | None = None, exact: bool | None = None
+) -> Solution:
+    """Steady state: pure, jit-able, vmap-able, differentiable; never raises for a failed solve.
+
+    **Arguments:** `ring`: instead of that of the scene's operating point; `exact`: of `build_core`.
+    """
+    core, steps = build_core(scene, exact, ring).started()
     if scene.contact is None:
         system, result = newton_solve(core, options)
         results, film = _dry_results(scene, system, result), None
@@ -42,25 +47,18 @@ def solve_ball(scene: BallBearing, options: NewtonOptions) -> Solution:
         results, film = _lubricated(scene, system, result, state), state.film
     steps = steps + result.iterations
     lever = system.grooves.lever
-    ring = {name: result.point.globals[i] * LENGTH_UNIT for i, name in enumerate(system.freedoms)}
-    if scene.operation.moment is None and scene.operation.misalignment is not None:
-        ring["tilt"] = jnp.asarray(scene.operation.misalignment) * lever
-    scale = {"tilt": lever, "tilt_lateral": lever}
-    displacement = RingDisplacement(
-        **{name: ring.get(name, jnp.zeros(())) / scale.get(name, 1.0) for name in RING_FREEDOMS}
-    )
-    stiffness = _stiffness(scene, system, result, film)
+    port = _port(scene, system, result, film)
     if scene.operation.moment is not None:
-        results = results._replace(facts=results.facts._replace(stiffness=_of_lengths(stiffness, lever)))
-    times = overload(scene)
+        results = results._replace(facts=results.facts._replace(stiffness=_of_lengths(port.stiffness, lever)))
+    times = overload(scene) if ring is None else jnp.zeros(())
     return assemble(
         scene,
         result,
         results,
-        displacement,
-        stiffness,
+        system.ring.displacement(result.point.globals),
+        port,
         iterations=steps,
-        ring_freedom=_ring_names(scene),
+        ring_freedom=_ring_names(scene) if ring is None else RING_FREEDOMS,
         reasons=_without_cage(scene)
         | {
             "the load is {:.3g} times that at which the most loaded ball reaches 4.2 GPa, the limit of the static load "
@@ -329,42 +327,31 @@ def _ball_torques(
     return inner, outer
 
 
-def _stiffness(
+def _port(
     scene: BallBearing, system: BallCore | LubricatedBallSystem, result: NewtonResult, film: PointFilm | None
-) -> Float[Array, "5 5"]:
-    """d load / d displacement of all five freedoms of the ring with everything else in equilibrium; N/m, and N or
-    N m for a rad; of all balls, also where one was solved for all."""
-    count, lever = scene.geometry.n_balls, system.grooves.lever
+) -> Port:
+    """The reaction and the stiffness of all five freedoms of the ring, of all balls, also where one was solved for
+    all."""
+    count = scene.geometry.n_balls
     azimuth = jnp.asarray(2.0 * np.pi * np.arange(count) / count)
-    directions = ring_directions(azimuth)
-    place = {name: result.point.globals[i] for i, name in enumerate(system.freedoms)}
     wide = lambda values: jnp.broadcast_to(values, (*values.shape[:-1], count))
     full = dataclasses.replace(
         system,
-        directions=jnp.stack([directions[name] for name in RING_FREEDOMS]),
+        directions=ring_directions(azimuth),
         azimuth=azimuth,
-        held_tilt=jnp.zeros(()),  # an unknown here
-        ring_load=jnp.full(5, 1.0 / jnp.sqrt(5.0)) * system.load_scale(),
-        freedoms=RING_FREEDOMS,
+        ring=system.ring.released(system.load_scale()),
+        held_shift=jnp.zeros((2, count)),
         multiplicity=1,
     )
-    held = {"tilt": system.held_tilt / LENGTH_UNIT}
-    ring = jnp.stack([place.get(name, held.get(name, jnp.zeros(()))) for name in RING_FREEDOMS])
-    point = ArrowPoint(
-        wide(result.point.elements), jnp.concatenate([ring, result.point.globals[len(system.freedoms) :]])
-    )
+    point = ArrowPoint(wide(result.point.elements), system.ring.released_unknowns(result.point.globals))
     if isinstance(full, LubricatedBallSystem):
         # a ring that cannot tilt moves the groove centres only: at given unknowns of the balls the films stay
         film = None if full.exact else jax.tree.map(wide, film)
-        jacobian = _all_freedoms(full, point, result.jacobian, len(system.freedoms), system.multiplicity, film)
-    else:
-        jacobian = linearize(full, point)[1]
-    schur = schur_complement(jacobian)
-    stiffness = schur[:5, :5]
-    if schur.shape[0] > 5:
-        stiffness = stiffness - schur[:5, 5:] @ schur[5:, :5] / schur[5, 5]
-    arm = jnp.stack([*[jnp.ones(())] * 3, lever, lever])
-    return stiffness * (full.load_scale() / LENGTH_UNIT) * arm[:, None] * arm[None, :]
+        jacobian, force = _all_freedoms(full, point, result.jacobian, len(system.freedoms), system.multiplicity, film)
+        return full.ring.port(jacobian, force, full.load_scale())
+    equations, jacobian = linearize(full, point)
+    force = equations.residual.globals[:5] * full.load_scale() + full.ring.load
+    return full.ring.port(jacobian, force, full.load_scale())
 
 
 def _all_freedoms(
@@ -374,10 +361,10 @@ def _all_freedoms(
     freedoms: int,
     multiplicity: int,
     film: PointFilm | None,
-) -> ArrowJacobian:
-    """The Jacobian with all five freedoms of the ring, from that of the solve. Ring displacements only move the groove
-    centres, so the expensive friction derivatives of the solve can be reused; that a tilt also turns the inner race
-    under the sliding ball is left out here.
+) -> tuple[ArrowJacobian, Float[Array, "5"]]:
+    """The Jacobian with all five freedoms of the ring, from that of the solve, and the forces on them, N. Ring
+    displacements only move the groove centres, so the expensive friction derivatives of the solve can be reused; that a
+    tilt also turns the inner race under the sliding ball is left out here.
 
     **Arguments:** `full`: the equations of all balls with five freedoms; `solved`: of the solve, with this many
     `freedoms`, every ball of it standing for `multiplicity`; `film`: where it does not depend on the ring.
@@ -392,16 +379,19 @@ def _all_freedoms(
 
     v = jnp.concatenate([point.elements, shared])
     seeds = jnp.broadcast_to(jnp.eye(m + g)[:, :, None], (m + g, m + g, count))
-    tangents = jnp.swapaxes(jax.vmap(lambda seed: jax.jvp(light, (v,), (seed,))[1])(seeds), 0, 1)
+    push = lambda seed: jax.jvp(light, (v,), (seed,))
+    values, tangents = jax.vmap(push, out_axes=(None, 0))(seeds)
+    tangents = jnp.swapaxes(tangents, 0, 1)
     wide = lambda values: jnp.broadcast_to(values, (*values.shape[:-1], count))
     by_ring = jnp.zeros((m, 5, count)).at[:2].set(tangents[:2, m : m + 5])
     cage = solved.chain[freedoms:, freedoms:]
     chain = jnp.zeros((g, 5 + cage.shape[1])).at[:5, :5].set(jnp.eye(5) / full.load_scale())
     corner = jnp.zeros((g, g)).at[:5].set(jnp.sum(tangents[2:, m:], axis=-1) / full.load_scale())
-    return ArrowJacobian(
+    jacobian = ArrowJacobian(
         local=wide(solved.local),
         to_globals=jnp.concatenate([by_ring, wide(solved.to_globals[:, freedoms:])], axis=1),
         contributions=jnp.concatenate([tangents[2:, :m], wide(solved.contributions[freedoms:]) / multiplicity]),
         corner=corner.at[5:, 5:].set(solved.corner[freedoms:, freedoms:]),
         chain=chain.at[5:, 5:].set(cage),
     )
+    return jacobian, jnp.sum(values[2:], axis=-1)

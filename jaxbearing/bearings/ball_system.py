@@ -13,10 +13,8 @@ from ..numerics.safe import safe_norm
 from .ball_kinematics import BallKinematics, BallMotion
 from .groove_motion import RingFrame, inner_arm, length_of, ring_frame
 from .gyroscopic import AbstractGyroscopic
-from .solution import RING_FREEDOMS
+from .ring import LENGTH_UNIT, InnerRing
 
-LENGTH_UNIT = 1e-5
-"""Scale of displacements, m."""
 Attitude = Literal["outer", "inner", "min_power", "equilibrium"]
 
 
@@ -36,6 +34,9 @@ class Grooves(NamedTuple):
     groove_arm: Float[Array, ""]
     """f_i D: of the friction at the inner race about that circle."""
 
+    expansion: Float[Array, ""] | None = None
+    """Of `InnerRing`."""
+
     @property
     def free_angle(self) -> Float[Array, ""]:
         """Contact angle of the unloaded bearing, rad."""
@@ -49,7 +50,8 @@ class Grooves(NamedTuple):
     @property
     def rest(self) -> Float[Array, "2 1"]:
         """Inner groove centre (axial, radial) from the outer one, of the ring without displacement, m."""
-        return jnp.stack([-self.aligned, self.centre_distance * self.free_cosine])[:, None]
+        radial = self.centre_distance * self.free_cosine
+        return jnp.stack([-self.aligned, radial if self.expansion is None else radial + self.expansion])[:, None]
 
 
 class InnerArm(NamedTuple):
@@ -77,23 +79,21 @@ class AbstractBallSystem(AbstractArrowSystem):
     """Balls between two grooved rings; globals: first the displacements of the inner ring.
 
     `directions[f]` are the changes of the inner groove centre (axial, radial) at every ball for a unit of freedom f, to
-    first order; tilts are multiplied by R_i, so that every unknown of the ring is a length. `held_tilt` is the
-    misalignment of a ring that does not tilt freely, times R_i. `exact`: whether the grooves move with the exact
-    rotation of the ring (`groove_motion`).
+    first order; the lever of the `ring` is R_i. `held_shift`: their changes by what the ring is held at, m. `exact`:
+    whether the grooves move with the exact rotation of the ring (`groove_motion`).
     """
 
     kinematics: BallKinematics
     grooves: Grooves
     directions: Float[Array, "freedom 2 ball"]
     azimuth: Float[Array, " ball"]
-    held_tilt: Float[Array, ""]
-    ring_load: Float[Array, " freedom"]
+    ring: InnerRing
+    held_shift: Float[Array, "2 ball"]
     mass: Float[Array, ""]
     inertia: Float[Array, ""]
     gyroscopic: AbstractGyroscopic | None
     couple_share: Float[Array, ""]
     """Part of the gyroscopic couple that acts: 1, less in an eased system."""
-    freedoms: tuple[str, ...] = eqx.field(static=True)
     multiplicity: int = eqx.field(static=True)
     """Balls that each ball stands for."""
     attitude: Attitude = eqx.field(static=True)
@@ -103,23 +103,20 @@ class AbstractBallSystem(AbstractArrowSystem):
     def ball_count(self) -> int:
         return self.multiplicity * self.azimuth.shape[0]
 
-    def ring_equation_names(self) -> tuple[str, ...]:
-        return tuple(f"{name} load balance of the ring" for name in self.freedoms)
+    @property
+    def freedoms(self) -> tuple[str, ...]:
+        """Freedoms of the ring that are unknown."""
+        return self.ring.freedoms
 
     def groove_centres(self, shift: Float[Array, "freedom ball"]) -> Float[Array, "2 ball"]:
         """Of the inner groove at every ball, (axial, radial) from those of the outer one, m, for displacements of the
         ring in units of `LENGTH_UNIT`; to first order."""
         moved = LENGTH_UNIT * jnp.einsum("fn,fcn->cn", shift, self.directions)
-        return (self.grooves.rest + moved).at[0].add(self.held_tilt * jnp.cos(self.azimuth))
+        return self.grooves.rest + moved + self.held_shift
 
     def ring_frame(self, shift: Float[Array, "freedom ball"]) -> RingFrame:
         """The displaced ring of an `exact` system, for displacements in units of `LENGTH_UNIT`."""
-        rows = list(jnp.zeros((5, self.azimuth.shape[0])).at[3].set(self.held_tilt))
-        for name, moved in zip(self.freedoms, LENGTH_UNIT * shift, strict=True):
-            rows[RING_FREEDOMS.index(name)] = moved
-        lever = self.grooves.lever
-        unit = jnp.stack([*[jnp.ones(())] * 3, 1.0 / lever, 1.0 / lever])
-        return ring_frame(jnp.stack(rows) * unit[:, None], self.azimuth)
+        return ring_frame(self.ring.moved(shift) * self.ring.units[:, None], self.azimuth)
 
     def inner_arm(self, shift: Float[Array, "freedom ball"], centre: Float[Array, "2 ball"]) -> InnerArm:
         """From ball centres, counted from the outer groove centre (axial, radial), m, to the inner groove centres."""
@@ -176,6 +173,8 @@ class AbstractBallSystem(AbstractArrowSystem):
         return arm, on_ring
 
     def _to_first_order(self, force: Array, moment: Array) -> Array:
+        if not self.freedoms:
+            return jnp.zeros((0, self.azimuth.shape[0]))
         rows = []
         for direction, name in zip(self.directions, self.freedoms, strict=True):
             row = jnp.sum(force * direction, axis=0)

@@ -12,6 +12,8 @@ from collections.abc import Iterator
 from typing import Any, ClassVar, Literal
 
 import equinox as eqx
+import jax.numpy as jnp
+from jaxtyping import Array
 
 from .._types import Scalar
 from ..lubricants import Lubricant, NoPressureViscosity
@@ -238,6 +240,16 @@ class CylindricalRollerBearing(AbstractScene):
         """Whether rollers may tilt and are cut into laminae; without it they carry evenly along their length."""
         operation = self.operation
         return self.profile is not None or operation.misalignment is not None or operation.moment is not None
+
+    @property
+    def ring_lever(self) -> Array:
+        """What tilts of the ring are multiplied by inside the equations, m."""
+        return jnp.asarray(self.geometry.loaded_length)
+
+    @property
+    def port_distance(self) -> Array:
+        """Of the point of the ring whose displacements count from the middle of the rollers along $+e_x$, m: none."""
+        return jnp.zeros(())
 
     @property
     def slips(self) -> bool:

@@ -4,21 +4,21 @@ from typing import NamedTuple
 
 import jax.numpy as jnp
 import numpy as np
-from jaxtyping import Array
+from jaxtyping import Array, Float
 
 from ..contacts import LineContact
 from ..gaps import Flange, Pocket, PocketEdge, RollerDrag
 from ..materials import reduced_modulus
-from ..numerics.arrow import schur_complement
+from ..numerics.arrow import condensed, schur_complement
 from ..numerics.newton import NewtonOptions, NewtonResult, newton_solve
 from .cylindrical_roller import CylindricalRollerBearing, RollerCage, RollerGeometry
 from .kinematics import RollerKinematics, roller_kinematics
 from .land import LandState
 from .parts import drag_density
 from .range_checks import MEAN_OF_LINE, RACEWAYS, Contacts, Facts
+from .ring import LENGTH_UNIT, Port
 from .roller_equations import DryRollerSystem, LubricatedRollerSystem, RollerState
 from .roller_forces import CageParts, ring_torques, rolling_alone
-from .roller_loads import LENGTH_UNIT
 from .solution import RING_FREEDOMS, CageState, PowerLoss, RingDisplacement, RollerResults, Solution
 from .steady import assemble
 
@@ -139,13 +139,12 @@ def solve_steady(scene: CylindricalRollerBearing, options: NewtonOptions) -> Sol
     results = _dry_results(system, result) if isinstance(system, DryRollerSystem) else _lubricated(system, result)
     ring = {name: result.point.globals[i] * LENGTH_UNIT for i, name in enumerate(scene.ring_freedom)}
     displacement = RingDisplacement(**{name: ring.get(name, jnp.zeros(())) for name in RING_FREEDOMS})
-    stiffness = _ring_stiffness(system, result, len(scene.ring_freedom))
     return assemble(
         scene,
         result,
         results,
         displacement,
-        stiffness,
+        _port(system, result, results.elements.load_inner),
         ring_freedom=scene.ring_freedom,
         equation_names=system.equation_names(),
     )
@@ -163,14 +162,14 @@ class _Results(NamedTuple):
     facts: Facts
 
 
-def _ring_stiffness(system: DryRollerSystem | LubricatedRollerSystem, result: NewtonResult, freedoms: int) -> Array:
-    """d load / d displacement of the ring's freedoms with everything else in equilibrium, N/m."""
-    schur = schur_complement(result.jacobian)
-    ring = schur[:freedoms, :freedoms]
-    if schur.shape[0] > freedoms:
-        others = jnp.linalg.solve(schur[freedoms:, freedoms:], schur[freedoms:, :freedoms])
-        ring = ring - schur[:freedoms, freedoms:] @ others
-    return ring * (system.load_scale() / LENGTH_UNIT)
+def _port(
+    system: DryRollerSystem | LubricatedRollerSystem, result: NewtonResult, load: Float[Array, " roller"]
+) -> Port:
+    """The reaction and the stiffness of the ring, everything else in equilibrium; `load`: on the inner race, N."""
+    free = np.asarray([RING_FREEDOMS.index(name) for name in system.freedoms])
+    ring = condensed(schur_complement(result.jacobian), len(free)) * (system.load_scale() / LENGTH_UNIT)
+    force = jnp.zeros(5).at[1:3].set(jnp.stack([jnp.sum(load * part(system.azimuth)) for part in (jnp.cos, jnp.sin)]))
+    return Port(force, jnp.zeros((5, 5)).at[free[:, None], free[None, :]].set(ring))
 
 
 def _dry_results(system: DryRollerSystem, result: NewtonResult) -> _Results:

@@ -203,6 +203,12 @@ class Solution(AbstractSolution):
     drive_power: Float[Array, ""] | None = eqx.field(metadata=label("W", "sum over both rings of torque times speed"))
     inner_torque: Float[Array, ""] | None = eqx.field(metadata=label("N m", "torque that drives the inner ring"))
     outer_torque: Float[Array, ""] | None = eqx.field(metadata=label("N m", "torque that drives the outer ring"))
+    force: Float[Array, " freedom"] = eqx.field(
+        metadata=label(
+            "mixed",
+            "loads that hold the inner ring where it is: axial, radial, lateral in N, about its tilts in N m",
+        )
+    )
     stiffness: Float[Array, "freedom freedom_displaced"] = eqx.field(
         metadata=label(
             "mixed",

@@ -4,14 +4,14 @@ from typing import Any
 
 import jax
 import jax.numpy as jnp
-import numpy as np
-from jaxtyping import Array, Float, Int
+from jaxtyping import Array, Int
 
 from ..numerics.newton import NewtonResult
 from .ball_bearing import BallBearing
 from .cylindrical_roller import CylindricalRollerBearing
 from .range_checks import input_excess, result_excess
-from .solution import RING_FREEDOMS, Reason, RingDisplacement, Solution
+from .ring import Port
+from .solution import Reason, RingDisplacement, Solution
 from .tapered_roller import TaperedRollerBearing
 
 
@@ -20,7 +20,7 @@ def assemble(
     result: NewtonResult,
     results: Any,
     ring: RingDisplacement,
-    stiffness: Float[Array, "active active"],
+    port: Port,
     iterations: Int[Array, ""] | None = None,
     reasons: dict[str, Reason] | None = None,
     **names: Any,
@@ -29,14 +29,13 @@ def assemble(
 
     **Arguments:**
     - `results`: a named tuple of further fields of the `Solution`, and `facts`, what the range checks look at.
-    - `stiffness`: of the freedoms `stiffness_freedom` (or `ring_freedom`) of `names`, in their order.
+    - `port`: force and stiffness of the ring, in all five freedoms.
     - `iterations`: of all solves together; those of `result` where not given.
     - `reasons`: of `Solution`; none applies where the solve converged.
     - `names`: static fields of the `Solution`.
     """
     good = result.converged
-    active = names.get("stiffness_freedom") or names["ring_freedom"]
-    shown = {**results._asdict(), "ring": ring, "stiffness": _in_all_freedoms(stiffness, active)}
+    shown = {**results._asdict(), "ring": ring, "force": port.force, "stiffness": port.stiffness}
     facts = shown.pop("facts")
     checks = {text: value > 0 for text, value in input_excess(scene).items()}
     checks |= {text: good & (value > 0) for text, value in result_excess(scene, facts, ring, results.cage).items()}
@@ -61,11 +60,3 @@ def assemble(
         **jax.tree.map(lambda leaf: jnp.where(good, leaf, jnp.nan), shown),
         **names,
     )
-
-
-def _in_all_freedoms(stiffness: Float[Array, "active active"], active: tuple[str, ...]) -> Float[Array, "5 5"]:
-    """The stiffness of the active freedoms inside that of all five: 0 where the model has none."""
-    if active == RING_FREEDOMS:
-        return stiffness
-    place = np.asarray([RING_FREEDOMS.index(name) for name in active])
-    return jnp.zeros((len(RING_FREEDOMS),) * 2).at[place[:, None], place[None, :]].set(stiffness)

@@ -1,5 +1,6 @@
 """From a tapered roller bearing scene to its equations."""
 
+import dataclasses
 from typing import NamedTuple
 
 import jax.numpy as jnp
@@ -8,6 +9,8 @@ from jaxtyping import Array, Float
 
 from ..contacts import StraightLine, palmgren_stiffness
 from ..materials import reduced_modulus
+from ..numerics.safe import positive_power
+from .ring import InnerRing, inner_ring
 from .tapered_geometry import TaperedGeometry
 from .tapered_roller import TaperedOperation, TaperedRollerBearing
 from .tapered_system import Inertia, TaperedForm, TaperedSystem
@@ -79,49 +82,47 @@ def tapered_form(geometry: TaperedGeometry) -> TaperedForm:
     )
 
 
-def ring_columns(
-    azimuth: Float[Array, " roller"], lever: Array, load_position: Array
-) -> dict[str, Float[Array, "3 roller"]]:
-    """(Da, Dr, t) of the cone at every roller for a unit of each freedom of the reference point; a unit of tilt is a
-    length, the tilt times `lever`."""
+def ring_columns(azimuth: Float[Array, " roller"], lever: Array, load_position: Array) -> Float[Array, "5 3 roller"]:
+    """(Da, Dr, t) of the cone at every roller for a unit of each of `RING_FREEDOMS` of the reference point; a unit of
+    tilt is a length, the tilt times `lever`."""
     zero, one = jnp.zeros_like(azimuth), jnp.ones_like(azimuth)
     cosine, sine = jnp.cos(azimuth), jnp.sin(azimuth)
-    return {
-        "axial": jnp.stack([one, zero, zero]),
-        "radial": jnp.stack([zero, cosine, zero]),
-        "lateral": jnp.stack([zero, sine, zero]),
-        # a tilt that moves azimuth 0 along +a is -t, about the reference point: the apex moves by a_B with it
-        "tilt": jnp.stack([zero, load_position * cosine, -cosine]) / lever,
-        "tilt_lateral": jnp.stack([zero, load_position * sine, -sine]) / lever,
-    }
+    # a tilt that moves azimuth 0 along +a is -t, about the reference point: the apex moves by a_B with it
+    tilt = jnp.stack([zero, load_position * cosine, -cosine]) / lever
+    tilt_lateral = jnp.stack([zero, load_position * sine, -sine]) / lever
+    shifts = [jnp.stack(one) for one in ((one, zero, zero), (zero, cosine, zero), (zero, sine, zero))]
+    return jnp.stack([*shifts, tilt, tilt_lateral])
 
 
-def build_tapered(scene: TaperedRollerBearing, freedoms: tuple[str, ...] | None = None) -> TaperedSystem:
-    """The equations of a scene with the ring freedoms of the scene, or with others and then all rollers."""
+def build_tapered(scene: TaperedRollerBearing, ring: InnerRing | None = None) -> TaperedSystem:
+    """The equations of a scene with its own ring, or with another one and then all rollers."""
     geometry, operation = scene.geometry, scene.operation
-    names = scene.ring_freedom if freedoms is None else freedoms
-    count = 1 if operation.symmetric and freedoms is None else geometry.n_rollers
+    count = 1 if operation.symmetric and ring is None else geometry.n_rollers
     azimuth = jnp.asarray(2.0 * np.pi * np.arange(count) / count)
     lever = geometry.apex_distance
     columns = ring_columns(azimuth, lever, jnp.asarray(operation.load_position))
-    number = lambda value: jnp.asarray(0.0 if value is None else value)
-    loads = {"axial": number(operation.axial_load), "radial": number(operation.radial_load)}
-    loads["tilt"] = number(operation.moment) / lever
-    tilt = number(operation.misalignment) if operation.moment is None else jnp.zeros(())
+    if ring is None:
+        ring = inner_ring(operation, scene.ring_freedom, lever)
     modulus = reduced_modulus(scene.materials.rings, scene.materials.rollers)
     length = jnp.asarray(geometry.roller_length)
     stiffness = palmgren_stiffness(length, modulus)
     body = roller_body(geometry, jnp.asarray(scene.materials.rollers.density))
-    return TaperedSystem(
+    held = jnp.einsum("f,fcn->cn", ring.held, columns)
+    system = TaperedSystem(
         form=tapered_form(geometry),
         line=StraightLine(stiffness, length) if scene.profile is None else scene.profile.line(stiffness, length),
         flange_stiffness=geometry.flange_contact(modulus).stiffness_constant(),
         inertia=roller_inertia(geometry, body, rolling_motion(geometry, operation)),
-        columns=jnp.stack([columns[name] for name in names]),
-        held=tilt * lever * columns["tilt"],
-        ring_load=jnp.stack([loads.get(name, jnp.zeros(())) for name in names]),
+        columns=ring.of_unknown(columns),
+        held=held if ring.expansion is None else held.at[1].add(ring.expansion),
+        ring=ring,
         guess=None,
         seated=None,
-        freedoms=names,
         multiplicity=geometry.n_rollers // count,
     )
+    if ring.freedoms:
+        return system
+    # both contacts of a roller, one behind the other
+    depth = 0.5 * jnp.maximum(system.pressed(held), 0.0)
+    asked = jnp.sum(stiffness * length * positive_power(depth, 10.0 / 9.0))
+    return dataclasses.replace(system, ring=ring.asking(asked))

@@ -9,6 +9,9 @@ default the apex itself. (The source's tilt t and moment M_1 have the opposite s
 
 from collections.abc import Iterator
 
+import jax.numpy as jnp
+from jaxtyping import Array
+
 from .._scene import AbstractScene, label, number, optional_number
 from .._types import Scalar
 from ..contacts.laws import ContactLaws
@@ -100,6 +103,19 @@ class TaperedRollerBearing(AbstractScene):
     def slips(self) -> bool:
         """Rollers roll without sliding on the raceways."""
         return False
+
+    @property
+    def ring_lever(self) -> Array:
+        """What tilts of the ring are multiplied by inside the equations, m."""
+        return self.geometry.apex_distance
+
+    @property
+    def port_distance(self) -> Array:
+        r"""Of the reference point of the loads from the plane through the middle of the rollers along $+e_x$, m:
+        $(\frac{D_w}{2\tan\epsilon} - \frac{l_w}2\cos\epsilon)\cos\gamma$ to the apex, and `load_position`."""
+        geometry, half = self.geometry, jnp.asarray(self.geometry.roller_half_angle)
+        along = 0.5 * geometry.roller_diameter / jnp.tan(half) - 0.5 * geometry.roller_length * jnp.cos(half)
+        return along * jnp.cos(geometry.axis_angle) + self.operation.load_position
 
     @property
     def ring_freedom(self) -> tuple[str, ...]:

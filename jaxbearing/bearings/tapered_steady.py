@@ -9,13 +9,13 @@ from jaxtyping import Array, Bool, Float
 
 from ..contacts import LineContact, lamina_points
 from ..materials import reduced_modulus
-from ..numerics.arrow import ArrowPoint, linearize, schur_complement
+from ..numerics.arrow import ArrowPoint, linearize
 from ..numerics.newton import NewtonOptions, NewtonResult, newton_solve
 from ..numerics.status import Status
 from .range_checks import MEAN_OF_LINE, MEAN_OF_POINT, RACEWAYS, Contacts, Facts
 from .rating import LAMINAE, rated_laminae
-from .roller_loads import LENGTH_UNIT
-from .solution import RING_FREEDOMS, CageState, LaminaLoads, Reason, RingDisplacement, Solution
+from .ring import InnerRing, Port
+from .solution import RING_FREEDOMS, CageState, LaminaLoads, Reason, Solution
 from .steady import assemble
 from .tapered_build import build_tapered, rolling_motion
 from .tapered_friction import TaperedFriction, tapered_friction
@@ -31,19 +31,20 @@ HIGHEST = 9.0
 """1/(10/9 - 1): see `line_pressure`."""
 
 
-def solve_tapered(scene: TaperedRollerBearing, options: NewtonOptions) -> Solution:
-    """Steady state: pure, jit-able, vmap-able, differentiable; never raises for a failed solve.
+def solve_tapered(scene: TaperedRollerBearing, options: NewtonOptions, ring: InnerRing | None = None) -> Solution:
+    """Steady state: pure, jit-able, vmap-able, differentiable; never raises for a failed solve. `ring`: instead of that
+    of the scene's operating point.
 
     Where no equilibrium is found and one of two proofs holds that there is none, the status is `no_equilibrium`: the
     loads are beyond a static bound (`slides_out`, `tips_over`), which they tell alone; or the cone, with all else in
     equilibrium, is still pushed on at a tilt of 0.1 rad, or at a displacement of the apex distance
     (`numerics.convex.find_minimum`).
     """
-    posed = build_tapered(scene)
-    sliding = slides_out(scene, posed.inertia) | tips_over(scene)
+    posed = build_tapered(scene, ring)
+    sliding = slides_out(scene, posed.inertia) | tips_over(scene) if ring is None else jnp.asarray(False)
     # what has no equilibrium is not looked for: in its place a few steps to one that is finite, with its derivatives
-    easy = jnp.where(sliding, _axial_only(posed), posed.ring_load)
-    started, minimum = dataclasses.replace(posed, ring_load=easy).started(sliding)
+    easy = jnp.where(sliding, _axial_only(posed), posed.ring.load)
+    started, minimum = dataclasses.replace(posed, ring=posed.ring.under(easy)).started(sliding)
     system, result = newton_solve(started, options)
     none = sliding | (~result.converged & minimum.outside)
     result = result._replace(status=jnp.where(none, int(Status.NO_EQUILIBRIUM), result.status))
@@ -52,24 +53,17 @@ def solve_tapered(scene: TaperedRollerBearing, options: NewtonOptions) -> Soluti
     if scene.contact is not None:
         friction = tapered_friction(scene, system.at(result.point))
         result = _with_nested(result, friction, options)
-    ring = {name: result.point.globals[i] * LENGTH_UNIT for i, name in enumerate(system.freedoms)}
-    lever = scene.geometry.apex_distance
-    if scene.operation.moment is None and scene.operation.misalignment is not None:
-        ring["tilt"] = jnp.asarray(scene.operation.misalignment) * lever
-    scale = {"tilt": lever, "tilt_lateral": lever}
-    displacement = RingDisplacement(
-        **{name: ring.get(name, jnp.zeros(())) / scale.get(name, 1.0) for name in RING_FREEDOMS}
-    )
-    tilted = scene.operation.misalignment is not None and scene.operation.moment is None
+    freedoms = scene.ring_freedom if ring is None else RING_FREEDOMS
+    tilted = ring is None and scene.operation.misalignment is not None and scene.operation.moment is None
     return assemble(
         scene,
         result,
         _results(scene, system, result, friction),
-        displacement,
-        _stiffness(scene, system, result),
-        reasons=_reasons(scene, posed.inertia),
+        system.ring.displacement(result.point.globals),
+        _port(scene, system, result),
+        reasons=_reasons(scene, posed.inertia) if ring is None else {},
         iterations=jnp.where(sliding, 0, minimum.steps + result.iterations),
-        ring_freedom=(*scene.ring_freedom, "tilt") if tilted else scene.ring_freedom,
+        ring_freedom=(*freedoms, "tilt") if tilted else freedoms,
         stiffness_freedom=RING_FREEDOMS,
         equation_names=system.equation_names(),
     )
@@ -144,7 +138,7 @@ def _radial(scene: TaperedRollerBearing) -> Float[Array, ""]:
 def _axial_only(system: TaperedSystem) -> Float[Array, " freedom"]:
     """Loads of the size of the system's that have an equilibrium: along the axis alone."""
     along = jnp.asarray([1.0 if name == "axial" else 0.0 for name in system.freedoms])
-    return along * (system.load_scale() + jnp.sum(jnp.abs(system.ring_load) * (1.0 - along)))
+    return along * (system.load_scale() + jnp.sum(jnp.abs(system.ring.load) * (1.0 - along)))
 
 
 def _with_nested(result: NewtonResult, friction: TaperedFriction, options: NewtonOptions) -> NewtonResult:
@@ -321,13 +315,11 @@ def _end_reach(scene: TaperedRollerBearing, state: TaperedState) -> Array:
     return below + ellipse.transverse - 0.5 * geometry.roller_diameter
 
 
-def _stiffness(scene: TaperedRollerBearing, system: TaperedSystem, result: NewtonResult) -> Float[Array, "5 5"]:
-    """d load / d displacement of the cone's five freedoms at the reference point, rollers in equilibrium, N/m."""
-    full = build_tapered(scene, RING_FREEDOMS)
-    place = dict(zip(system.freedoms, result.point.globals, strict=True))
-    ring = jnp.stack([place.get(name, jnp.zeros(())) for name in RING_FREEDOMS])
+def _port(scene: TaperedRollerBearing, system: TaperedSystem, result: NewtonResult) -> Port:
+    """The reaction and the stiffness of the cone's five freedoms at the reference point, rollers in equilibrium."""
+    full = build_tapered(scene, system.ring.released(system.load_scale()))
     elements = jnp.broadcast_to(result.point.elements, (3, scene.geometry.n_rollers))
-    schur = schur_complement(linearize(full, ArrowPoint(elements, ring))[1])
-    lever = scene.geometry.apex_distance
-    arm = jnp.stack([*[jnp.ones(())] * 3, lever, lever])
-    return schur * (full.load_scale() / LENGTH_UNIT) * arm[:, None] * arm[None, :]
+    point = ArrowPoint(elements, system.ring.released_unknowns(result.point.globals))
+    equations, jacobian = linearize(full, point)
+    force = equations.residual.globals * full.load_scale() + full.ring.load
+    return full.ring.port(jacobian, force, full.load_scale())

@@ -33,7 +33,7 @@ from ..numerics.arrow import ArrowPoint
 from ..numerics.batching import in_turn
 from ..numerics.convex import AbstractConvexArrow, Minimum, anchored, find_minimum
 from ..numerics.safe import positive_power
-from .roller_loads import LENGTH_UNIT
+from .ring import LENGTH_UNIT, TILTS, InnerRing
 
 ANCHOR = 1e-4
 """Spring that holds a roller where it is, N/m: 1e-12 of a loaded contact's stiffness in derivatives (a hundred times as
@@ -97,8 +97,8 @@ class TaperedState(NamedTuple):
 class TaperedSystem(AbstractConvexArrow):
     """See the module. Unknowns are lengths in units of 10 um: phi times the roller length, ring tilts times d.
 
-    `columns[f]` are (Da, Dr, t) at every roller for a unit of freedom f, `held` those of what is given; `ring_load` is
-    conjugate to the freedoms.
+    `columns[f]` are (Da, Dr, t) at every roller for a unit of freedom f, `held` those of what the ring
+    is held at.
     """
 
     form: TaperedForm
@@ -107,12 +107,16 @@ class TaperedSystem(AbstractConvexArrow):
     inertia: Inertia
     columns: Float[Array, "freedom 3 roller"]
     held: Float[Array, "3 roller"]
-    ring_load: Float[Array, " freedom"]
+    ring: InnerRing
     guess: ArrowPoint | None
     seated: ArrowPoint | None
     """First guess at full ease."""
-    freedoms: tuple[str, ...] = eqx.field(static=True)
     multiplicity: int = eqx.field(static=True)
+
+    @property
+    def freedoms(self) -> tuple[str, ...]:
+        """Freedoms of the ring that are unknown."""
+        return self.ring.freedoms
 
     # -- scales ---------------------------------------------------------------------------------------------------
 
@@ -122,7 +126,7 @@ class TaperedSystem(AbstractConvexArrow):
 
     def load_scale(self) -> Array:
         """Of the ring's balances, N."""
-        return jnp.sqrt(jnp.sum(jnp.square(self.ring_load)) + LOAD_FLOOR**2)
+        return jnp.sqrt(jnp.square(self.ring.size()) + LOAD_FLOOR**2)
 
     def roller_scale(self) -> Array:
         """Of a roller's balances, N."""
@@ -135,8 +139,8 @@ class TaperedSystem(AbstractConvexArrow):
     # -- solver contract ------------------------------------------------------------------------------------------
 
     def equation_names(self) -> tuple[str, ...]:
-        ring = tuple(f"{name} load balance of the ring" for name in self.freedoms)
-        return ("force balance along a roller", "force balance across a roller", "moment balance of a roller", *ring)
+        own = ("force balance along a roller", "force balance across a roller", "moment balance of a roller")
+        return (*own, *self.ring.equation_names())
 
     def step_caps(self) -> ArrowPoint:
         cap = LONGEST_STEP / LENGTH_UNIT
@@ -145,7 +149,7 @@ class TaperedSystem(AbstractConvexArrow):
     def bounds(self) -> tuple[ArrowPoint, ArrowPoint]:
         """Of the ring: the apex distance, or the largest tilt; whoever looks for a balance looks no further."""
         away = self.form.apex_distance / LENGTH_UNIT
-        ring = jnp.stack([MOST_TILT * away if name.startswith("tilt") else away for name in self.freedoms])
+        ring = self.ring.of_each(lambda name: MOST_TILT * away if name in TILTS else away)
         high = ArrowPoint(jnp.full((3, 1), FARTHEST / LENGTH_UNIT), ring)
         return ArrowPoint(-high.elements, -high.globals), high
 
@@ -153,10 +157,15 @@ class TaperedSystem(AbstractConvexArrow):
         """In contact: the ring pressed in by 20 um or more, rollers in between."""
         if self.guess is not None:
             return self.guess
+        if not self.freedoms:
+            # towards each roller, as far as an axial displacement would bring the cone
+            pressed = self.pressed(self.held) / jnp.sin(self.form.cone_angle)
+            axial = jnp.maximum(pressed, 2e-6) / LENGTH_UNIT
+            return ArrowPoint(jnp.stack([0.9 * axial, 0.05 * axial, 0.0 * axial]), jnp.zeros(0))
         share = self.load_scale() / (self.roller_count * jnp.sin(self.form.cup_angle))
         even = (share / (self.line.stiffness * self.line.length)) ** 0.9
         axial = jnp.maximum(2.0 * even / jnp.sin(self.form.cone_angle), 2e-6) / LENGTH_UNIT
-        ring = jnp.stack([axial if name == "axial" else jnp.zeros(()) for name in self.freedoms])
+        ring = self.ring.of_each(lambda name: axial if name == "axial" else 0.0)
         ones = jnp.ones(self.held.shape[1])
         return ArrowPoint(jnp.stack([0.9 * axial * ones, 0.05 * axial * ones, 0.0 * ones]), ring)
 
@@ -168,7 +177,7 @@ class TaperedSystem(AbstractConvexArrow):
 
     def closure(self, globals_, totals):
         held = anchored(globals_, ANCHOR * LENGTH_UNIT)
-        return (totals - self.ring_load + held) / self.load_scale(), jnp.zeros(())
+        return (totals - self.ring.load + held) / self.load_scale(), jnp.zeros(())
 
     def energies(self, unknowns, shared):
         """Of the contacts of each roller less the work of its inertia, J."""
@@ -182,7 +191,7 @@ class TaperedSystem(AbstractConvexArrow):
 
     def work(self, globals_):
         """Of the ring's loads, J."""
-        return LENGTH_UNIT * jnp.sum(self.ring_load * globals_)
+        return LENGTH_UNIT * jnp.sum(self.ring.load * globals_)
 
     @property
     def paths(self) -> int:
@@ -222,6 +231,12 @@ class TaperedSystem(AbstractConvexArrow):
     def state(self, unknowns: Float[Array, "3 roller"], shared: Float[Array, "freedom roller"]) -> TaperedState:
         motion = self.held + LENGTH_UNIT * jnp.einsum("fn,fcn->cn", shared, self.columns)
         return self._loaded(*self.approaches(self.units() * unknowns, motion))
+
+    def pressed(self, motion: Float[Array, "3 roller"]) -> Float[Array, " roller"]:
+        """Displacement of the cone's raceway towards each roller, in its middle, m; of the cone's (Da, Dr, t)."""
+        axial, radial, turn = motion
+        normal = axial * jnp.sin(self.form.cone_angle) + radial * jnp.cos(self.form.cone_angle)
+        return normal - turn * (self.form.apex_distance - 0.5 * self.line.length)
 
     def approaches(
         self, place: Float[Array, "3 roller"], motion: Float[Array, "3 roller"]

@@ -14,7 +14,6 @@ gradient of one convex potential, with the springs of `tapered_system.ANCHOR`.
 import dataclasses
 from typing import NamedTuple
 
-import equinox as eqx
 import jax
 import jax.numpy as jnp
 from jaxtyping import Array, Float
@@ -23,7 +22,7 @@ from ..contacts import AbstractTiltedLine
 from ..numerics.arrow import ArrowPoint
 from ..numerics.batching import in_turn
 from ..numerics.convex import AbstractConvexArrow, Minimum, anchored, find_minimum
-from .roller_loads import LENGTH_UNIT
+from .ring import LENGTH_UNIT, TILTS, InnerRing
 from .tapered_system import ANCHOR, FARTHEST, LOAD_FLOOR, LONGEST_STEP, MOST_TILT, START_TOLERANCE
 
 SLOW = 1e-2
@@ -43,20 +42,24 @@ class TiltingState(NamedTuple):
 
 class TiltingRollers(AbstractConvexArrow):
     """See the module. `columns[f]` are (towards the roller, slope of the inner race) for a unit of each freedom of the
-    ring, `held` those of the given misalignment."""
+    ring, `held` those of what the ring is held at."""
 
     line: AbstractTiltedLine
     azimuth: Float[Array, " roller"]
     columns: Float[Array, "freedom 2 roller"]
     held: Float[Array, "2 roller"]
-    ring_load: Float[Array, " freedom"]
+    ring: InnerRing
     radial_clearance: Float[Array, ""]
     centrifugal: Float[Array, ""]
     guess: ArrowPoint | None
-    freedoms: tuple[str, ...] = eqx.field(static=True)
+
+    @property
+    def freedoms(self) -> tuple[str, ...]:
+        """Freedoms of the ring that are unknown."""
+        return self.ring.freedoms
 
     def load_scale(self) -> Array:
-        return jnp.sqrt(jnp.sum(jnp.square(self.ring_load)) + LOAD_FLOOR**2)
+        return jnp.sqrt(jnp.square(self.ring.size()) + LOAD_FLOOR**2)
 
     def roller_scale(self) -> Array:
         return self.load_scale() / self.azimuth.size + self.centrifugal
@@ -66,8 +69,7 @@ class TiltingRollers(AbstractConvexArrow):
         return LENGTH_UNIT * jnp.stack([jnp.ones(()), 1.0 / jnp.asarray(self.line.length)])[:, None]
 
     def equation_names(self) -> tuple[str, ...]:
-        ring = tuple(f"{name} load balance of the ring" for name in self.freedoms)
-        return ("force balance of a roller", "moment balance of a roller", *ring)
+        return ("force balance of a roller", "moment balance of a roller", *self.ring.equation_names())
 
     def step_caps(self) -> ArrowPoint:
         cap = LONGEST_STEP / LENGTH_UNIT
@@ -76,7 +78,7 @@ class TiltingRollers(AbstractConvexArrow):
     def bounds(self) -> tuple[ArrowPoint, ArrowPoint]:
         far = FARTHEST / LENGTH_UNIT
         tilt = MOST_TILT * jnp.asarray(self.line.length) / LENGTH_UNIT
-        ring = jnp.stack([tilt if name.startswith("tilt") else jnp.asarray(far) for name in self.freedoms])
+        ring = self.ring.of_each(lambda name: tilt if name in TILTS else far)
         high = ArrowPoint(jnp.full((2, 1), far), ring)
         return ArrowPoint(-high.elements, -high.globals), high
 
@@ -84,11 +86,14 @@ class TiltingRollers(AbstractConvexArrow):
         """The ring pressed in by the clearance and what one roller under the whole load needs; rollers half-way."""
         if self.guess is not None:
             return self.guess
+        if not self.freedoms:
+            half = 0.5 * (self.held[0] - self.radial_clearance) / LENGTH_UNIT
+            return ArrowPoint(jnp.stack([half, jnp.zeros_like(half)]), jnp.zeros(0))
         load = self.load_scale() + self.centrifugal
         depth = jnp.maximum(
             self.radial_clearance + 2.0 * (load / (self.line.stiffness * self.line.length)) ** 0.9, 1e-6
         )
-        ring = jnp.stack([depth if name == "radial" else jnp.zeros(()) for name in self.freedoms]) / LENGTH_UNIT
+        ring = self.ring.of_each(lambda name: depth if name == "radial" else 0.0) / LENGTH_UNIT
         half = 0.5 * (depth * jnp.cos(self.azimuth) - self.radial_clearance) / LENGTH_UNIT
         return ArrowPoint(jnp.stack([half, jnp.zeros_like(half)]), ring)
 
@@ -100,7 +105,7 @@ class TiltingRollers(AbstractConvexArrow):
 
     def closure(self, globals_, totals):
         held = anchored(globals_, ANCHOR * LENGTH_UNIT)
-        return (totals - self.ring_load + held) / self.load_scale(), jnp.zeros(())
+        return (totals - self.ring.load + held) / self.load_scale(), jnp.zeros(())
 
     def energies(self, unknowns, shared):
         """Of the contacts of each roller less the work of its centrifugal force, J."""
@@ -111,7 +116,7 @@ class TiltingRollers(AbstractConvexArrow):
 
     def work(self, globals_):
         """Of the ring's loads, J."""
-        return LENGTH_UNIT * jnp.sum(self.ring_load * globals_)
+        return LENGTH_UNIT * jnp.sum(self.ring.load * globals_)
 
     def started(self) -> tuple["TiltingRollers", Minimum]:
         """These equations with the minimum of the potential as first guess, and how it was found.

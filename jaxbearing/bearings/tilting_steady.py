@@ -5,6 +5,7 @@ for rolling without sliding: laminae are short line contacts side by side, each 
 tractions that rolling without sliding needs balance each roller; ring torques are assembled from them.
 """
 
+import dataclasses
 from typing import NamedTuple
 
 import jax.numpy as jnp
@@ -14,17 +15,18 @@ from jaxtyping import Array, Float
 from ..contacts import LineContact, palmgren_stiffness
 from ..contacts.laws import ContactState
 from ..materials import reduced_modulus
-from ..numerics.arrow import ArrowPoint, linearize, schur_complement
+from ..numerics.arrow import ArrowPoint, linearize
 from ..numerics.newton import NewtonOptions, newton_solve
+from ..numerics.safe import positive_power
 from ..numerics.status import Status
 from .cylindrical_roller import CylindricalRollerBearing
 from .kinematics import RollerKinematics, roller_kinematics
 from .range_checks import MEAN_OF_LINE, RACEWAYS, Contacts, Facts
 from .rating import rated_laminae
+from .ring import InnerRing, Port, inner_ring
 from .roller_forces import rolling_alone
-from .roller_loads import LENGTH_UNIT
 from .roller_profile import RollerProfile
-from .solution import CageState, LaminaLoads, PowerLoss, RingDisplacement, RollerResults, Solution
+from .solution import CageState, LaminaLoads, PowerLoss, RollerResults, Solution
 from .steady import assemble
 from .tilting_roller import TiltingRollers, TiltingState
 
@@ -32,72 +34,62 @@ FREEDOMS = ("radial", "lateral", "tilt", "tilt_lateral")
 """Of the inner ring, those that the model has: nothing holds it axially."""
 
 
-def build_tilting(scene: CylindricalRollerBearing, freedoms: tuple[str, ...] | None = None) -> TiltingRollers:
-    """The equations of a scene with its ring freedoms, or with others."""
+def build_tilting(scene: CylindricalRollerBearing, ring: InnerRing | None = None) -> TiltingRollers:
+    """The equations of a scene, with its own ring or another one."""
     geometry, operation = scene.geometry, scene.operation
-    names = (*scene.ring_freedom, *(() if operation.moment is None else ("tilt",))) if freedoms is None else freedoms
     azimuth = jnp.asarray(2.0 * np.pi * np.arange(geometry.n_rollers) / geometry.n_rollers)
     length = jnp.asarray(geometry.loaded_length)
     columns = _columns(azimuth, length)
-    number = lambda value: jnp.asarray(0.0 if value is None else value)
-    tilt = number(operation.misalignment) if operation.moment is None else jnp.zeros(())
-    radial = jnp.where(jnp.asarray(operation.radial_load) > 0, operation.radial_load, jnp.nan)
-    loads = {"radial": radial, "tilt": number(operation.moment) / length}
+    if ring is None:
+        ring = inner_ring(operation, (*scene.ring_freedom, *(() if operation.moment is None else ("tilt",))), length)
+        # a load that is not positive makes this lane fail (a concrete one was refused when the scene was built)
+        ring = ring.under(jnp.where(jnp.asarray(operation.radial_load) > 0, ring.load, jnp.nan))
     stiffness = palmgren_stiffness(length, reduced_modulus(scene.materials.rings, scene.materials.rollers))
     motion = roller_kinematics(scene.geometry, scene.operation)
     mass = scene.materials.rollers.density * jnp.pi * motion.roller_radius**2 * geometry.roller_length
     profile = RollerProfile() if scene.profile is None else scene.profile
-    return TiltingRollers(
+    held = jnp.einsum("f,fcn->cn", ring.held, columns)
+    system = TiltingRollers(
         line=profile.line(stiffness, length),
         azimuth=azimuth,
-        columns=jnp.stack([columns[name] for name in names]),
-        held=tilt * length * columns["tilt"],
-        ring_load=jnp.stack([loads.get(name, jnp.zeros(())) for name in names]),
+        columns=ring.of_unknown(columns),
+        held=held if ring.expansion is None else held.at[0].add(ring.expansion),
+        ring=ring,
         radial_clearance=jnp.asarray(geometry.diametral_clearance) / 2.0,
         centrifugal=mass * motion.pitch_radius * jnp.square(motion.free_orbit),
         guess=None,
-        freedoms=names,
     )
+    if ring.freedoms:
+        return system
+    depth = 0.5 * jnp.maximum(system.held[0] - system.radial_clearance, 0.0)
+    asked = jnp.sum(stiffness * length * positive_power(depth, 10.0 / 9.0))
+    return dataclasses.replace(system, ring=ring.asking(asked))
 
 
-def _columns(azimuth: Float[Array, " roller"], lever: Array) -> dict[str, Float[Array, "2 roller"]]:
-    """(towards the roller, slope of the inner race) for a unit of each freedom; tilts times `lever` are lengths."""
+def _columns(azimuth: Float[Array, " roller"], lever: Array) -> Float[Array, "5 2 roller"]:
+    """(towards the roller, slope of the inner race) for a unit of each of `RING_FREEDOMS`; tilts times `lever` are
+    lengths. Nothing holds the ring axially."""
     zero, cosine, sine = jnp.zeros_like(azimuth), jnp.cos(azimuth), jnp.sin(azimuth)
-    return {
-        "radial": jnp.stack([cosine, zero]),
-        "lateral": jnp.stack([sine, zero]),
-        "tilt": jnp.stack([zero, -cosine / lever]),
-        "tilt_lateral": jnp.stack([zero, -sine / lever]),
-    }
+    pairs = ((zero, zero), (cosine, zero), (sine, zero), (zero, -cosine / lever), (zero, -sine / lever))
+    return jnp.stack([jnp.stack(pair) for pair in pairs])
 
 
-def solve_tilting(scene: CylindricalRollerBearing, options: NewtonOptions) -> Solution:
-    """Steady state: pure, jit-able, vmap-able, differentiable; never raises for a failed solve."""
-    started, minimum = build_tilting(scene).started()
+def solve_tilting(scene: CylindricalRollerBearing, options: NewtonOptions, ring: InnerRing | None = None) -> Solution:
+    """Steady state: pure, jit-able, vmap-able, differentiable; never raises for a failed solve. `ring`: instead of that
+    of the scene's operating point."""
+    started, minimum = build_tilting(scene, ring).started()
     system, result = newton_solve(started, options)
     none = ~result.converged & minimum.outside
     result = result._replace(status=jnp.where(none, int(Status.NO_EQUILIBRIUM), result.status))
-    length = scene.geometry.loaded_length
-    ring = {name: result.point.globals[i] * LENGTH_UNIT for i, name in enumerate(system.freedoms)}
-    held = scene.operation.moment is None and scene.operation.misalignment is not None
-    if held:
-        ring["tilt"] = jnp.asarray(scene.operation.misalignment) * length
-    place = lambda name: ring.get(name, jnp.zeros(()))
-    displacement = RingDisplacement(
-        axial=jnp.zeros(()),
-        radial=place("radial"),
-        lateral=place("lateral"),
-        tilt=place("tilt") / length,
-        tilt_lateral=jnp.zeros(()),
-    )
+    held = ring is None and scene.operation.moment is None and scene.operation.misalignment is not None
     return assemble(
         scene,
         result,
         _results(scene, system, system.at(result.point)),
-        displacement,
-        _stiffness(scene, system, result.point),
+        system.ring.displacement(result.point.globals),
+        _port(scene, system, result.point),
         iterations=minimum.steps + result.iterations,
-        ring_freedom=(*system.freedoms, "tilt") if held else system.freedoms,
+        ring_freedom=(*system.freedoms, "tilt") if held else system.freedoms or FREEDOMS,
         stiffness_freedom=FREEDOMS,
         equation_names=system.equation_names(),
     )
@@ -204,12 +196,13 @@ def _films(
     return more, jnp.sum(jnp.where(carried, parts.rolling_force, 0.0), axis=2)
 
 
-def _stiffness(scene: CylindricalRollerBearing, system: TiltingRollers, point: ArrowPoint) -> Float[Array, "4 4"]:
-    """d load / d displacement of all freedoms, rollers in equilibrium, N/m."""
-    full = build_tilting(scene, FREEDOMS)
-    place = dict(zip(system.freedoms, point.globals, strict=True))
-    ring = jnp.stack([place.get(name, jnp.zeros(())) for name in FREEDOMS])
-    schur = schur_complement(linearize(full, ArrowPoint(point.elements, ring))[1])
-    length = jnp.asarray(scene.geometry.loaded_length)
-    arm = jnp.stack([jnp.ones(()), jnp.ones(()), length, length])
-    return schur * (full.load_scale() / LENGTH_UNIT) * arm[:, None] * arm[None, :]
+def _port(scene: CylindricalRollerBearing, system: TiltingRollers, point: ArrowPoint) -> Port:
+    """The reaction and the stiffness of the ring's freedoms, rollers in equilibrium."""
+    full = build_tilting(scene, system.ring.released(system.load_scale()))
+    place = ArrowPoint(point.elements, system.ring.released_unknowns(point.globals))
+    equations, jacobian = linearize(full, place)
+    force = equations.residual.globals * full.load_scale() + full.ring.load
+    port = full.ring.port(jacobian, force, full.load_scale())
+    # nothing holds it axially: not the springs that anchor the unknowns either
+    held = jnp.asarray([0.0, 1.0, 1.0, 1.0, 1.0])
+    return Port(port.force * held, port.stiffness * held[:, None] * held[None, :])

@@ -146,7 +146,7 @@ def linearize(system: AbstractArrowSystem, point: ArrowPoint) -> tuple[Equations
 
     totals = jnp.sum(values[m:], axis=1)
     closure, pullback, closure_inner = jax.vjp(system.closure, point.globals, totals, has_aux=True)
-    direct, chain = jax.vmap(pullback)(jnp.eye(g))
+    direct, chain = jax.vmap(pullback)(jnp.eye(g)) if g else (jnp.zeros((0, 0)), jnp.zeros((0, len(totals))))
     jacobian = ArrowJacobian(
         local=tangents[:m, :m],
         to_globals=tangents[:m, m:],
@@ -177,6 +177,16 @@ def _eliminated(jacobian: ArrowJacobian) -> tuple[Float[Array, "m g element"], F
 def schur_complement(jacobian: ArrowJacobian) -> Float[Array, "g g"]:
     """D - sum_j C_j A_j^-1 B_j: stiffness of the globals with every element in equilibrium."""
     return _eliminated(jacobian)[1]
+
+
+def condensed(matrix: Float[Array, "g g"], count: int) -> Float[Array, "k k"]:
+    """The Schur complement on the first `count` unknowns of a matrix, those behind them in equilibrium."""
+    others = matrix[count:, count:]
+    if not others.size:
+        return matrix
+    follow = matrix[count:, :count]
+    follow = follow / others[0, 0] if len(others) == 1 else jnp.linalg.solve(others, follow)
+    return matrix[:count, :count] - matrix[:count, count:] @ follow
 
 
 def uphill_step(

@@ -218,13 +218,17 @@ class Minimum(NamedTuple):
 
 def find_minimum(system: AbstractConvexArrow, *, tolerance: float, hopeless: Bool[Array, ""] | bool = False) -> Minimum:
     """A start for Newton's iteration that is the minimum of the potential to `tolerance`, where there is one inside the
-    bounds: all unknowns descend together, and, where that takes long, the globals alone with every element settled.
+    bounds: all unknowns descend together, and, where that takes long, the globals alone with every element settled. A
+    system without globals is settled.
 
     The proof that it is outside: at a bound, everything else in equilibrium, the potential still falls outwards. As a
     convex function it then does so all the way to there. `hopeless`: known to have no minimum, not worth the long way.
     """
     system = jax.lax.stop_gradient(system)
-    quick = descend(system, system.initial(), tolerance=tolerance, max_steps=QUICK_STEPS)
+    first = system.initial()
+    if not first.globals.size:
+        return Minimum(settle(system, first), jnp.asarray(0), jnp.asarray(False))
+    quick = descend(system, first, tolerance=tolerance, max_steps=QUICK_STEPS)
     slowly = lambda _: descend_settled(system, quick.point, tolerance=tolerance, max_steps=SETTLED_STEPS)
     low, high = (bound.globals for bound in system.bounds())
     inside = jnp.all((quick.point.globals >= low) & (quick.point.globals <= high))

@@ -45,6 +45,8 @@ def solve_blocks(
 
 def solve_dense(matrix: Float[Array, "g g"], right: Float[Array, " g"]) -> Float[Array, " g"]:
     """One small dense system with pivoting, by LAPACK: the Schur complement of the globals."""
+    if matrix.shape[0] == 0:
+        return right
     if matrix.shape[0] == 1:
         return right / matrix[0]
     return jnp.linalg.solve(matrix, right)

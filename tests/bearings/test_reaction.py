@@ -1,0 +1,228 @@
+"""The port of a bearing: displacements of the inner ring in, what holds it there out."""
+
+import jax
+import jax.numpy as jnp
+import numpy as np
+import pytest
+from tapered_cases import tapered
+
+import jaxbearing as jb
+from jaxbearing.bearings.ball_bearing import BallAttitude, BallBearing, BallMaterials, BallOperation
+from jaxbearing.bearings.ball_geometry import BallGeometry
+from jaxbearing.bearings.cylindrical_roller import CylindricalRollerBearing, RollerGeometry
+from jaxbearing.bearings.parts import Materials, Operation
+from jaxbearing.bearings.ring import shift_matrix
+from jaxbearing.bearings.solution import RING_FREEDOMS
+from jaxbearing.materials import Material
+
+RPM = np.pi / 30.0
+STEEL = Material(207e9, 0.3, 7850.0)
+MICRO = np.array([1e-6, 1e-6, 1e-6, 1e-3, 1e-3])
+"""um and mrad."""
+
+
+def balls(geometry, rpm):
+    operation = BallOperation(inner_speed=rpm * RPM, axial_load=1e3)
+    return BallBearing(geometry, BallMaterials(STEEL, STEEL), operation, BallAttitude("outer"))
+
+
+T15 = balls(BallGeometry(20, 153e-3, 20.638e-3, 0.5225, 0.51125, np.radians(30.0)), 12500.0)
+DEEP_GROOVE = balls(BallGeometry(9, 38.5e-3, 7.938e-3, 0.515, 0.525, diametral_clearance=12e-6), 6000.0)
+N7 = CylindricalRollerBearing(
+    RollerGeometry(13, 54e-3, 10e-3, 10e-3, 25e-6), Materials(STEEL, STEEL), Operation(6000.0 * RPM, 1e3)
+)
+# The sheet "several bearings together", section 9, rows A1 to A4: scene, displacement (um, mrad), expansion, force,
+# diagonal of the stiffness, other entries of it. Its grooves move to first order with a tilt.
+ROWS = {
+    "A1": (
+        T15,
+        [50.0, 20.0, 10.0, 0.2, -0.1],
+        0.0,
+        [32379.75499, 20701.16782, 3506.465670, 1079.334811, 139.8436025],
+        [6.830736748e8, 6.871205636e8, 6.948187676e8, 2.011064775e6, 1.997116095e6],
+        {(0, 1): 3.24638509e8, (1, 3): 3.36536763e7},
+    ),
+    "A1, 5 um larger": (
+        T15,
+        [50.0, 20.0, 10.0, 0.2, -0.1],
+        5e-6,
+        [37001.67090, 23367.49084, 4043.209181, 1202.798450, 158.7357020],
+        [7.455497816e8, 7.542830078e8, 7.873918801e8, 2.164983624e6, 2.209541222e6],
+        {},
+    ),
+    "A2": (
+        DEEP_GROOVE,
+        [5.0, 15.0, -4.0, 0.3, -0.2],
+        0.0,
+        [18.03723968, 465.6725706, -116.2460194, 0.2940006670, -0.08925098055],
+        [1.775083169e6, 8.084642307e7, 3.761847169e7, 513.1104332, 149.4130195],
+        {(1, 2): -9.83673706e6},
+    ),
+    "A3": (
+        tapered(1e3, rpm=3000),
+        [20.0, 8.0, -3.0, 0.2, 0.1],
+        0.0,
+        [3950.655452, 10205.05627, -2742.352855, 59.69825829, -14.6170543],
+        [1.215995864e8, 8.231234100e8, 1.122540248e9, 3.367169780e4, 4.641827771e4],
+        {},
+    ),
+    "A4": (
+        N7,
+        [0.0, 20.0, 5.0, 0.2, 0.1],
+        0.0,
+        [0.0, 3015.603280, 755.6441753, 0.9394418602, 0.3037072956],
+        [0.0, 5.201873945e8, 1.909527048e8, 4332.734343, 1589.543594],
+        {(0, 1): 0.0},
+    ),
+}
+
+
+@pytest.mark.parametrize("row", ROWS)
+def test_check_values(row):
+    scene, displacement, expansion, force, stiffness, others = ROWS[row]
+    found = jb.reaction(scene, displacement * MICRO, expansion=expansion)
+    np.testing.assert_allclose(found.force, force, rtol=1e-8)
+    np.testing.assert_allclose(np.diag(found.stiffness), stiffness, rtol=1e-8)
+    for place, value in others.items():
+        np.testing.assert_allclose(found.stiffness[place], value, rtol=1e-8)
+
+
+def test_stiffness_is_not_symmetric_with_centrifugal_forces_of_the_balls_own():
+    scene, displacement, *_ = ROWS["A1"]
+    k = np.asarray(jb.reaction(scene, displacement * MICRO).stiffness)
+    size = np.sqrt(np.diag(k))
+    np.testing.assert_allclose(np.max(np.abs(k - k.T) / np.outer(size, size)), 6.63e-3, rtol=1e-3)
+
+
+def test_check_values_of_a_mirrored_bearing_from_another_point():
+    scene, displacement, *_ = ROWS["A1"]
+    mirror = np.array([-1.0, 1.0, 1.0, -1.0, -1.0])
+    found = jb.reaction(scene, displacement * MICRO)
+    back = np.asarray(shift_matrix(jnp.asarray(-30e-3)))
+    force = back.T @ (mirror * np.asarray(found.force))
+    expected = [-32379.75499, 20701.16782, 3506.465670, -458.2997761, -34.64963237]
+    np.testing.assert_allclose(force, expected, rtol=1e-8)
+    stiffness = back.T @ (mirror[:, None] * np.asarray(found.stiffness) * mirror) @ back
+    np.testing.assert_allclose(stiffness[3, 3], 617649.4767, rtol=1e-7)
+
+
+def test_the_exact_tilt_differs_by_what_the_docstring_says():
+    for row, size in (("A1", 1e-3), ("A2", 2e-2)):
+        scene, displacement, _, force, *_ = ROWS[row]
+        exact = np.asarray(jb.reaction(scene, displacement * MICRO, tilt="exact").force)
+        away = np.abs(exact / force - 1.0)
+        assert 0.05 * size < np.max(away) < size
+        straight = np.array([50.0, 0.0, 0.0, 0.0, 0.0]) * MICRO
+        both = [jb.reaction(scene, straight, tilt=tilt).force[0] for tilt in ("exact", "linear")]
+        np.testing.assert_allclose(*both, rtol=1e-9)
+
+
+RETURNED = {
+    "deep groove, free tilt": ("deep_groove_6205", {}),
+    "deep groove, no tilt": ("deep_groove_6205", {"operation.moment": "none"}),
+    "deep groove, held tilt": ("deep_groove_6205", {"operation.moment": "none", "operation.misalignment": "1 mrad"}),
+    "tapered": ("tapered_example", {}),
+    "tapered, loads at the row": ("tapered_example", {"operation.load_position": "-80 mm"}),
+    "rollers with a moment": (
+        "reference_roller",
+        {"contact": "none", "cage": "none", "operation.moment": "20 N*m"},
+    ),
+    "films": (
+        "deep_groove_6205",
+        {
+            "oil.name": "mobil_jet_ii",
+            "operation.oil_temperature": "60 degC",
+            "contact.film": "nijenbanning",
+            "operation.misalignment": "0 mrad",
+            "operation.moment": "none",
+        },
+    ),
+    "cage and traction": ("turbine_ball", {"operation.radial_load": "3 kN"}),
+}
+
+
+@pytest.mark.parametrize("name", RETURNED)
+def test_displacements_of_a_solve_need_its_loads(name):
+    scene = jb.load_scene(*RETURNED[name])
+    solved = jb.solve(scene)
+    given = {
+        "axial": getattr(scene.operation, "axial_load", None),
+        "radial": scene.operation.radial_load,
+        "tilt": scene.operation.moment,
+    }
+    for freedom, load in given.items():
+        if load is not None:
+            found = solved.force[RING_FREEDOMS.index(freedom)]
+            np.testing.assert_allclose(found, load, rtol=1e-9, atol=1e-8)
+    back = jb.reaction(scene, solved.ring, at="ring")
+    size = np.max(np.abs(solved.force[:3]))
+    np.testing.assert_allclose(back.force, solved.force, rtol=1e-9, atol=1e-9 * size)
+    scale = np.sqrt(np.outer(*2 * [np.diag(solved.stiffness)])) + 1e-9
+    np.testing.assert_allclose(back.stiffness / scale, solved.stiffness / scale, atol=1e-8)
+    np.testing.assert_allclose(back.elements.load_inner, solved.elements.load_inner, atol=1e-9 * size)
+
+
+@pytest.mark.parametrize("row", ["A1", "A2", "A3", "A4"])
+def test_stiffness_is_the_derivative_of_the_force(row):
+    scene, displacement, *_ = ROWS[row]
+    place = displacement * MICRO
+    found = jb.reaction(scene, place)
+    exact = jax.jit(jax.jacfwd(lambda q: jb.reaction(scene, q).force))(place)
+    size = np.sqrt(np.diag(found.stiffness)) + 1e-9
+    np.testing.assert_allclose(found.stiffness / np.outer(size, size), exact / np.outer(size, size), atol=1e-10)
+    step = 1e-4 * MICRO
+    force = jax.jit(jax.vmap(lambda q: jb.reaction(scene, q).force))
+    ends = [np.asarray(force(place + sign * np.diag(step))) for sign in (1.0, -1.0)]
+    differences = (ends[0] - ends[1]).T / (2.0 * step)
+    np.testing.assert_allclose(found.stiffness / np.outer(size, size), differences / np.outer(size, size), atol=2e-6)
+
+
+def test_an_empty_half_carries_nothing():
+    found = jb.reaction(DEEP_GROOVE, np.array([0.0, 30.0, 0.0, 0.0, 0.0]) * MICRO)
+    load = np.asarray(found.elements.load_inner)
+    assert np.all(load[np.cos(np.asarray(found.elements.azimuth)) < 0] == 0.0)
+    np.testing.assert_allclose(found.force[1], np.sum(load * np.cos(found.elements.azimuth)), rtol=1e-8)
+
+
+@pytest.mark.parametrize("row", ["A2", "A3", "A4"])
+def test_turning_everything_by_one_pitch_turns_the_force(row):
+    scene, displacement, *_ = ROWS[row]
+    count = getattr(scene.geometry, "n_balls", None) or scene.geometry.n_rollers
+    cosine, sine = np.cos(2.0 * np.pi / count), np.sin(2.0 * np.pi / count)
+    turn = np.eye(5)
+    for first in (1, 3):
+        turn[first : first + 2, first : first + 2] = [[cosine, -sine], [sine, cosine]]
+    place = displacement * MICRO
+    force, turned = jb.reaction(scene, place).force, jb.reaction(scene, turn @ place).force
+    np.testing.assert_allclose(turned, turn @ np.asarray(force), rtol=1e-9, atol=1e-9 * np.max(np.abs(force)))
+
+
+def test_gradient_by_a_number_of_the_scene():
+    scene, displacement, *_ = ROWS["A1"]
+    force = jax.jit(lambda w: jb.reaction(scene.at_operation(inner_speed=w), displacement * MICRO).force)
+    speed = 12500.0 * RPM
+    slope = jax.jit(jax.jacrev(force))(speed)
+    step = 1e-3 * speed
+    np.testing.assert_allclose(slope, (force(speed + step) - force(speed - step)) / (2.0 * step), rtol=1e-5)
+
+
+def test_closure_is_an_axial_displacement():
+    scene, displacement, *_ = ROWS["A1"]
+    place = displacement * MICRO
+    closed = jb.reaction(scene, place, closure=3e-6)
+    moved = jb.reaction(scene, place + np.array([3e-6, 0.0, 0.0, 0.0, 0.0]))
+    np.testing.assert_allclose(closed.force, moved.force, rtol=1e-12)
+    np.testing.assert_allclose(closed.ring.axial, 50e-6)
+
+
+def test_what_it_does_not_take():
+    with pytest.raises(ValueError, match="displacement must have five numbers, axial, radial"):
+        jb.reaction(T15, [1e-6, 0.0])
+    with pytest.raises(ValueError, match="tilt must be one of 'exact', 'linear', got 'iso'"):
+        jb.reaction(T15, np.zeros(5), tilt="iso")
+    with pytest.raises(ValueError, match=r"contact\.traction"):
+        jb.reaction(jb.load_scene("turbine_roller"), np.zeros(5))
+    with pytest.raises(TypeError, match="reaction takes a bearing, got a TwoDisk"):
+        jb.reaction(jb.load_scene("two_disk_etm"), np.zeros(5))
+    invalid = jax.jit(lambda w: jb.reaction(T15.replace_geometry(ball_diameter=w), np.zeros(5), throw=False).status)
+    assert int(invalid(-1.0)) == jb.Status.INVALID_INPUT
