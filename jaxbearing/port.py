@@ -85,7 +85,7 @@ def reaction(
             "contact.traction: the reaction of a cylindrical roller bearing is that of rollers that may tilt, which "
             "are not modelled with sliding friction; leave it out"
         )
-    numbers = (jax.tree.map(as_float, scene), _as_array(displacement), as_float(closure), as_float(expansion))
+    numbers: Any = (jax.tree.map(as_float, scene), _as_array(displacement), as_float(closure), as_float(expansion))
     inside = inside_a_program(numbers)
     function = _react if inside else _react_quickly
     with quiet_first_time((reaction, jax.tree.structure(scene), at, tilt)):

@@ -348,10 +348,10 @@ def _port(
         # a ring that cannot tilt moves the groove centres only: at given unknowns of the balls the films stay
         film = None if full.exact else jax.tree.map(wide, film)
         jacobian, force = _all_freedoms(full, point, result.jacobian, len(system.freedoms), system.multiplicity, film)
-        return full.ring.port(jacobian, force, full.load_scale())
+        return full.ring.port(jacobian, force, full.load_scale(), system.freedoms)
     equations, jacobian = linearize(full, point)
     force = equations.residual.globals[:5] * full.load_scale() + full.ring.load
-    return full.ring.port(jacobian, force, full.load_scale())
+    return full.ring.port(jacobian, force, full.load_scale(), system.freedoms)
 
 
 def _all_freedoms(

@@ -43,6 +43,8 @@ class Port(NamedTuple):
 
     force: Float[Array, "5"]
     stiffness: Float[Array, "5 5"]
+    free: tuple[str, ...]
+    """Freedoms that are unknowns of the solve, under given loads."""
 
 
 class InnerRing(eqx.Module):
@@ -115,15 +117,17 @@ class InnerRing(eqx.Module):
         load, held = jnp.full(5, size / jnp.sqrt(5.0)), jnp.zeros(5)
         return InnerRing(load, held, self.lever, RING_FREEDOMS, self.expansion)
 
-    def port(self, jacobian: ArrowJacobian, force: Float[Array, "5"], scale: Float[Array, ""]) -> "Port":
+    def port(
+        self, jacobian: ArrowJacobian, force: Float[Array, "5"], scale: Float[Array, ""], free: tuple[str, ...]
+    ) -> "Port":
         """The port of a `released` ring.
 
         **Arguments:** `jacobian`: with the ring's freedoms first among the globals, of residuals that are forces over
-        `scale`, N; `force`: what the elements ask of every freedom, N.
+        `scale`, N; `force`: what the elements ask of every freedom, N; `free`: of `Port`.
         """
         stiffness = condensed(schur_complement(jacobian), 5)
         arm = 1.0 / self.units
-        return Port(force * arm, stiffness * (scale / LENGTH_UNIT) * arm[:, None] * arm[None, :])
+        return Port(force * arm, stiffness * (scale / LENGTH_UNIT) * arm[:, None] * arm[None, :], free)
 
     def released_unknowns(self, globals_: Float[Array, " g"]) -> Float[Array, " g5"]:
         """The global unknowns of the `released` ring where this one has `globals_`."""

@@ -169,7 +169,7 @@ def _port(
     free = np.asarray([RING_FREEDOMS.index(name) for name in system.freedoms])
     ring = condensed(schur_complement(result.jacobian), len(free)) * (system.load_scale() / LENGTH_UNIT)
     force = jnp.zeros(5).at[1:3].set(jnp.stack([jnp.sum(load * part(system.azimuth)) for part in (jnp.cos, jnp.sin)]))
-    return Port(force, jnp.zeros((5, 5)).at[free[:, None], free[None, :]].set(ring))
+    return Port(force, jnp.zeros((5, 5)).at[free[:, None], free[None, :]].set(ring), system.freedoms)
 
 
 def _dry_results(system: DryRollerSystem, result: NewtonResult) -> _Results:

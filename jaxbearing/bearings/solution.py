@@ -42,6 +42,11 @@ class RingDisplacement(eqx.Module):
     tilt_lateral: Float[Array, ""] = eqx.field(metadata=label("rad", "tilt about the load line"))
 
 
+def force_units() -> tuple[str, ...]:
+    """Units of the entries of `Solution.force`."""
+    return tuple(_CONJUGATE[field.metadata["unit"]] for field in dataclasses.fields(RingDisplacement))
+
+
 def stiffness_units() -> tuple[tuple[str, ...], ...]:
     """Units of the entries of `Solution.stiffness`: N/m, N/rad, N m/m and N m/rad."""
     fields = {field.name: field for field in dataclasses.fields(RingDisplacement)}
@@ -206,7 +211,8 @@ class Solution(AbstractSolution):
     force: Float[Array, " freedom"] = eqx.field(
         metadata=label(
             "mixed",
-            "loads that hold the inner ring where it is: axial, radial, lateral in N, about its tilts in N m",
+            "loads that hold the inner ring where it is: axial, radial, lateral, about tilt and tilt_lateral, in N and "
+            "N m; 0 along freedoms that are not modelled",
         )
     )
     stiffness: Float[Array, "freedom freedom_displaced"] = eqx.field(
@@ -227,6 +233,8 @@ class Solution(AbstractSolution):
     element_name: str = eqx.field(static=True, default="roller")
     raceway_power: Any = None
     laminae: LaminaLoads | None = None
+    held_freedom: tuple[str, ...] = eqx.field(static=True, default=())
+    """Freedoms of the ring that are held where they are, and not free under a given load."""
     reasons: dict[str, Reason] = eqx.field(default_factory=dict)
     """Possible causes of a failed solve: a sentence with places for numbers, such as `{:.3g}` -> the numbers."""
     life: Any = None

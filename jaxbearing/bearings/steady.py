@@ -11,7 +11,7 @@ from .ball_bearing import BallBearing
 from .cylindrical_roller import CylindricalRollerBearing
 from .range_checks import input_excess, result_excess
 from .ring import Port
-from .solution import Reason, RingDisplacement, Solution
+from .solution import RING_FREEDOMS, Reason, RingDisplacement, Solution
 from .tapered_roller import TaperedRollerBearing
 
 
@@ -35,6 +35,8 @@ def assemble(
     - `names`: static fields of the `Solution`.
     """
     good = result.converged
+    modelled = names.get("stiffness_freedom") or names["ring_freedom"]
+    names["held_freedom"] = tuple(name for name in RING_FREEDOMS if name in modelled and name not in port.free)
     shown = {**results._asdict(), "ring": ring, "force": port.force, "stiffness": port.stiffness}
     facts = shown.pop("facts")
     checks = {text: value > 0 for text, value in input_excess(scene).items()}

@@ -322,4 +322,4 @@ def _port(scene: TaperedRollerBearing, system: TaperedSystem, result: NewtonResu
     point = ArrowPoint(elements, system.ring.released_unknowns(result.point.globals))
     equations, jacobian = linearize(full, point)
     force = equations.residual.globals * full.load_scale() + full.ring.load
-    return full.ring.port(jacobian, force, full.load_scale())
+    return full.ring.port(jacobian, force, full.load_scale(), system.freedoms)

@@ -202,7 +202,7 @@ def _port(scene: CylindricalRollerBearing, system: TiltingRollers, point: ArrowP
     place = ArrowPoint(point.elements, system.ring.released_unknowns(point.globals))
     equations, jacobian = linearize(full, place)
     force = equations.residual.globals * full.load_scale() + full.ring.load
-    port = full.ring.port(jacobian, force, full.load_scale())
+    port = full.ring.port(jacobian, force, full.load_scale(), system.freedoms)
     # nothing holds it axially: not the springs that anchor the unknowns either
     held = jnp.asarray([0.0, 1.0, 1.0, 1.0, 1.0])
-    return Port(port.force * held, port.stiffness * held[:, None] * held[None, :])
+    return Port(port.force * held, port.stiffness * held[:, None] * held[None, :], port.free)

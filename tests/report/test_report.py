@@ -50,6 +50,7 @@ def solution(status=Status.CONVERGED, number=None, **changes):
         "drive_power": jnp.asarray(1000.0 * one),
         "inner_torque": jnp.asarray(one),
         "outer_torque": jnp.asarray(one),
+        "force": jnp.zeros(5).at[1].set(25e3 * one),
         "stiffness": jnp.zeros((5, 5)).at[1, 1].set(2e9 * one),
         "checks": {"speed out of range": jnp.asarray(True), "load out of range": jnp.asarray(False)},
         "ring_freedom": ("radial",),

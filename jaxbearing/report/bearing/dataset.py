@@ -15,7 +15,7 @@ from collections.abc import Sequence
 import numpy as np
 import xarray as xr
 
-from ...bearings.solution import RING_FREEDOMS, Solution, stiffness_units
+from ...bearings.solution import RING_FREEDOMS, Solution, force_units, stiffness_units
 from ...numerics.status import Status
 from ..labelled import labelled, udunits
 from ..variables import CHECK, attributes, checks, common, flags, variable, without_fill
@@ -90,6 +90,11 @@ def _of_stiffness(solution: Solution) -> dict[str, xr.Variable]:
     words = {"units": "1", "long_name": "whether the model has this freedom; entries of the stiffness are 0 where not"}
     meanings = flags(modelled.dtype, ("not modelled", "modelled"))
     return {
+        "force_units": xr.Variable(
+            _FREEDOMS[:1],
+            [udunits(unit) for unit in force_units()],
+            {"units": "1", "long_name": "unit of an entry of force"},
+        ),
         "stiffness_units": xr.Variable(_FREEDOMS, units, {"units": "1", "long_name": "unit of an entry of stiffness"}),
         "freedom_modelled": xr.Variable(_FREEDOMS[:1], modelled, words | meanings),
     }

@@ -21,7 +21,7 @@ _INSIDE = (
     "laminae",
     "reasons",
 )
-_NAMES = ("stiffness_freedom", "element_name")
+_NAMES = ("stiffness_freedom", "held_freedom", "element_name")
 """Fields that are not written as they are, but in words or in another order, or not at all."""
 
 

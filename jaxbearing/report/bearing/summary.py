@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from rich.console import Console
 
-from ...bearings.solution import RING_FREEDOMS, Solution, stiffness_units
+from ...bearings.solution import RING_FREEDOMS, Solution, force_units, stiffness_units
 from ...numerics.status import Status
 from ..display import digits, display_unit, displayed, with_unit
 from ..screen import (
@@ -163,6 +163,9 @@ def facts(solution: Solution) -> Iterator[tuple[str, str]]:
         angle = f"attitude angle {with_unit(float(cage.attitude_angle), 'rad', 3)}"
         yield "Cage", f"{with_unit(float(cage.speed), 'rad/s')}, {slip}, {place}, {angle}"
     yield "Inner ring", ", ".join(_ring(solution))
+    held = ", ".join(_held(solution))
+    if held:
+        yield "Held by", held
     yield from _ball_facts(solution)
     yield from _tapered_facts(solution)
     yield "Stiffness", ", ".join(_stiffness(solution))
@@ -256,11 +259,31 @@ _KINDS = {
 }
 
 
+NOTHING = 1e-9
+"""Of the forces on the ring, N, and of their moments with a lever of 1 m, N m."""
+_LOADS = {
+    "axial": "axial load",
+    "radial": "radial load",
+    "lateral": "lateral load",
+    "tilt": "moment",
+    "tilt_lateral": "moment about the load line",
+}
+
+
 def _ring(solution: Solution) -> Iterator[str]:
     for field in dataclasses.fields(solution.ring):
         if field.name in solution.ring_freedom:
             value = float(getattr(solution.ring, field.name))
             yield f"{field.metadata['description']} {with_unit(value, field.metadata['unit'])}"
+
+
+def _held(solution: Solution) -> Iterator[str]:
+    """The loads that freedoms which are held need, but for those that are nothing beside the others."""
+    force = np.asarray(solution.force)
+    least = NOTHING * np.max(np.abs(force[:3]))
+    for name, unit, value in zip(RING_FREEDOMS, force_units(), force, strict=True):
+        if name in solution.held_freedom and abs(value) > least:
+            yield f"{_LOADS[name]} {with_unit(float(value), unit)}"
 
 
 def _stiffness(solution: Solution) -> Iterator[str]:
