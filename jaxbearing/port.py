@@ -1,34 +1,37 @@
 """The port verb: displacements of the inner ring in, what must act on it to hold it there out.
 
-A bearing inside a set, or on a shaft, is known by its port ([arrangements, sections 1 and 2]): five displacements of
-the inner ring against the outer one, five conjugate loads, and the derivatives of these by those.
+A bearing inside a set, or on a shaft, is known by its port: five displacements of the inner ring against the outer one,
+five conjugate loads, and the derivatives of these by those (frame and signs: `bearings.ring`).
 """
 
 import dataclasses
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from contextlib import nullcontext
 from typing import Any, Literal
 
 import equinox as eqx
 import jax
 import jax.numpy as jnp
 import numpy as np
-from jax.core import Tracer
 from jaxtyping import Array, Float
 
 from ._types import Scalar
 from .bearings.ball_bearing import BallBearing
 from .bearings.ball_steady import solve_ball
 from .bearings.cylindrical_roller import CylindricalRollerBearing
-from .bearings.ring import held_ring, shift_matrix
+from .bearings.ring import held_ring
 from .bearings.solution import RING_FREEDOMS, RingDisplacement, Solution
 from .bearings.tapered_roller import TaperedRollerBearing
 from .bearings.tapered_steady import solve_tapered
 from .bearings.tilting_steady import solve_tilting
-from .numerics.arguments import require_choice
+from .numerics.arguments import require_choice, require_numbers
+from .numerics.checks import void
 from .numerics.compiling import inside_a_program
+from .numerics.garbage import collecting_rarely
 from .numerics.newton import NewtonOptions
 from .numerics.precision import as_float, require_x64
 from .numerics.quiet import quiet_first_time
+from .numerics.status import Status
 from .programs import KeptProgram
 from .solve import chosen_options, with_checked_inputs
 
@@ -38,7 +41,7 @@ _POINTS, _TILTS = ("port", "ring"), ("exact", "linear")
 
 def reaction(
     scene: Bearing,
-    displacement: RingDisplacement | Sequence[Any] | Array,
+    displacement: RingDisplacement | Mapping[str, Any] | Sequence[Any] | Array,
     *,
     at: Literal["port", "ring"] = "port",
     tilt: Literal["exact", "linear"] | None = None,
@@ -50,29 +53,35 @@ def reaction(
     r"""What must act on the inner ring of a bearing to hold it at given displacements.
 
     The solution is that of the displaced bearing: `force` (axial, radial, lateral in N, about both tilts in N m), its
-    derivatives `stiffness`, shape (5, 5), and the losses, torques and results of the rolling elements that `solve` has.
-    The loads of the scene's operating point are not looked at; its speeds, oil and temperature are. May be called
-    inside `jax.jit`, `jax.vmap` and `jax.grad`. Nothing in the stiffness is made symmetric: with each ball's own
-    centrifugal force, with couples or with friction it is not.
+    derivatives `stiffness`, shape (5, 5), `ring`, the given displacements, and losses, torques and results of the
+    rolling elements as `solve` gives them. The loads of the scene's operating point have no effect, but must be valid;
+    nor has its rating (`life` is `None`). May be called inside `jax.jit`, `jax.vmap` and `jax.grad`; where a lane fails
+    its results are NaN, and where a traced number is not finite its status is `invalid_input`.
 
-    A cylindrical roller bearing has no axial freedom, its rollers tilt, and they are dry or roll without sliding.
+    Nothing in the stiffness is made symmetric: with each ball's own centrifugal force, with couples or with friction it
+    is not. As in the loads of `solve`, friction along the raceways is left out of the force (of `turbine_ball` 0.1 %
+    of it, across the load), and of balls that slide the turning of the race under them is left out of the derivatives
+    by the tilts (3e-6). A cylindrical roller bearing has no axial freedom; its rollers tilt, and are dry or roll
+    without sliding.
 
     **Arguments:**
     - `scene`: a ball, cylindrical or tapered roller bearing.
     - `displacement`: axial, radial and lateral displacement, m, tilt and lateral tilt, rad, of the inner ring against
-      the outer one; shape (5,), or a `RingDisplacement` such as `solution.ring`.
+      the outer one: five numbers in this order, an array of shape (5,), the numbers by their names, or a
+      `RingDisplacement` such as `solution.ring`.
     - `at`: the point of the ring that is displaced. "port": on the axis in the plane of the unloaded balls, or in the
       middle of the rollers; "ring": where `solution.ring` of a solve counts (the plane of the inner groove centres, the
       reference point of a tapered bearing).
     - `tilt`: how the inner grooves of a ball bearing move: with the "exact" rotation of the ring, or "linear", to first
       order, as in the standards. The latter is 1e-4 to 1e-2 of the force off at 0.2 mrad, and 2 % at 4 mrad. Left out:
       as a solve of the scene has it, exact where its operating point names a moment or a misalignment.
-    - `closure`: added to the axial displacement, m: of a bearing that is adjusted against another one.
+    - `closure`: added to the axial displacement, m: of a bearing that is adjusted against another one. `ring` does not
+      hold it.
     - `expansion`: growth of the inner raceway's radius less that of the outer one, m.
     - `throw`, `options`: of `solve`.
 
-    **Raises:** `SolveError` where the solve fails; `TypeError` for another kind of scene; `ValueError` for a
-    displacement of another shape, or a cylindrical roller bearing with sliding friction.
+    **Raises:** `SolveError` where the solve fails; `TypeError` for another kind of scene; `ValueError` for what are not
+    five displacements, or no number, and for a cylindrical roller bearing with sliding friction.
     """
     require_x64()
     require_choice("at", at, _POINTS)
@@ -85,31 +94,46 @@ def reaction(
             "contact.traction: the reaction of a cylindrical roller bearing is that of rollers that may tilt, which "
             "are not modelled with sliding friction; leave it out"
         )
-    numbers: Any = (jax.tree.map(as_float, scene), _as_array(displacement), as_float(closure), as_float(expansion))
+    lengths = [_number(name, value) for name, value in (("closure", closure), ("expansion", expansion))]
+    numbers: Any = (jax.tree.map(as_float, scene), _five(displacement), *lengths)
     inside = inside_a_program(numbers)
-    function = _react if inside else _react_quickly
-    with quiet_first_time((reaction, jax.tree.structure(scene), at, tilt)):
+    function: Any = _react if inside else _react_quickly
+    with nullcontext() if inside else quiet_first_time((reaction, jax.tree.structure(scene), at, tilt)):
         solution = function(*numbers, chosen_options(options), at, tilt)
         if throw:
             solution.raise_if_failed()
     return solution
 
 
-def _as_array(displacement: Any) -> Array | np.ndarray:
-    """**Raises:** `ValueError` for what are not five numbers."""
+def _number(name: str, value: Any) -> Array | np.ndarray:
+    """**Raises:** `ValueError` for what is not one number."""
+    require_numbers("finite", **{name: value})
+    if np.shape(value) != ():
+        raise ValueError(f"{name} must be one number, got shape {np.shape(value)}")
+    return as_float(value)
+
+
+def _five(displacement: Any) -> Array | np.ndarray:
+    """The five displacements as an array. **Raises:** `ValueError` for something else."""
+    expected = f"displacement must have five numbers, {', '.join(RING_FREEDOMS)}"
     if isinstance(displacement, RingDisplacement):
         displacement = [getattr(displacement, name) for name in RING_FREEDOMS]
-    leaves = jax.tree.leaves(displacement)
-    found: Any = displacement
-    if not isinstance(displacement, jax.Array):
-        found = jnp.stack(leaves) if any(isinstance(leaf, Tracer) for leaf in leaves) else np.asarray(leaves, float)
-        if len(leaves) == 1:
-            found = found[0]
-    if found.shape != (5,):
-        raise ValueError(f"displacement must have five numbers, {', '.join(RING_FREEDOMS)}; got shape {found.shape}")
-    return as_float(found)
+    elif isinstance(displacement, Mapping):
+        if set(displacement) != set(RING_FREEDOMS):
+            raise ValueError(f"{expected}; got {', '.join(map(str, displacement))}")
+        displacement = [displacement[name] for name in RING_FREEDOMS]
+    if isinstance(displacement, jax.Array | np.ndarray):
+        if displacement.shape != (5,):
+            raise ValueError(f"{expected}; got shape {displacement.shape}")
+        require_numbers("finite", displacement=displacement)
+        return as_float(displacement)
+    if not isinstance(displacement, list | tuple) or len(displacement) != 5:
+        raise ValueError(f"{expected}; got {displacement!r}")
+    numbers = [_number(f"displacement, {name},", one) for name, one in zip(RING_FREEDOMS, displacement, strict=True)]
+    return jnp.stack(numbers) if any(isinstance(one, jax.Array) for one in numbers) else np.stack(numbers)
 
 
+@collecting_rarely()
 def _react_any(
     scene: Bearing,
     displacement: Float[Array, "5"],
@@ -119,22 +143,23 @@ def _react_any(
     at: str,
     tilt: str | None,
 ) -> Solution:
+    numbers = (displacement, closure, expansion)
+    finite = jnp.all(jnp.stack([jnp.all(jnp.isfinite(one)) for one in numbers]))
+
     def react(lane: Bearing) -> Solution:
-        shift = shift_matrix(lane.port_distance if at == "port" else jnp.zeros(()))
-        moved = (shift @ displacement).at[0].add(closure)
-        ring = held_ring(moved, lane.ring_lever, expansion)
+        displacement, closure, expansion = (jnp.where(finite, one, 0.0) for one in numbers)
+        lane = dataclasses.replace(lane, operation=void(lane.operation, finite))
+        solution = at_displacement(lane, displacement, closure, expansion)
+        return dataclasses.replace(solution, status=jnp.where(finite, solution.status, int(Status.INVALID_INPUT)))
+
+    def at_displacement(lane: Any, displacement: Array, closure: Array, expansion: Array) -> Solution:
+        distance = lane.port_distance if at == "port" else jnp.zeros(())
+        ring = held_ring(displacement, lane.ring_lever, distance, closure, expansion)
         if isinstance(lane, BallBearing):
-            solution = solve_ball(lane, options, ring, lane.operation.tilts if tilt is None else tilt == "exact")
-        elif isinstance(lane, TaperedRollerBearing):
-            solution = solve_tapered(lane, options, ring)
-        else:
-            solution = solve_tilting(lane, options, ring)
-        return dataclasses.replace(
-            solution,
-            ring=RingDisplacement(**dict(zip(RING_FREEDOMS, displacement, strict=True))),
-            force=shift.T @ solution.force,
-            stiffness=shift.T @ solution.stiffness @ shift,
-        )
+            return solve_ball(lane, options, ring, lane.operation.tilts if tilt is None else tilt == "exact")
+        if isinstance(lane, TaperedRollerBearing):
+            return solve_tapered(lane, options, ring)
+        return solve_tilting(lane, options, ring)
 
     return with_checked_inputs(scene, react)
 

@@ -48,7 +48,7 @@ def solve_ball(
     steps = steps + result.iterations
     lever = system.grooves.lever
     port = _port(scene, system, result, film)
-    if scene.operation.moment is not None:
+    if "tilt" in system.freedoms:
         results = results._replace(facts=results.facts._replace(stiffness=_of_lengths(port.stiffness, lever)))
     times = overload(scene) if ring is None else jnp.zeros(())
     return assemble(

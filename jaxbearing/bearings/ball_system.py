@@ -13,7 +13,7 @@ from ..numerics.safe import safe_norm
 from .ball_kinematics import BallKinematics, BallMotion
 from .groove_motion import RingFrame, inner_arm, length_of, ring_frame
 from .gyroscopic import AbstractGyroscopic
-from .ring import LENGTH_UNIT, InnerRing
+from .ring import LENGTH_UNIT, TILTS, InnerRing
 
 Attitude = Literal["outer", "inner", "min_power", "equilibrium"]
 
@@ -178,7 +178,7 @@ class AbstractBallSystem(AbstractArrowSystem):
         rows = []
         for direction, name in zip(self.directions, self.freedoms, strict=True):
             row = jnp.sum(force * direction, axis=0)
-            if name.startswith("tilt"):
+            if name in TILTS:
                 # the tilt turns the axial direction of the groove's centre
                 row = row + moment * direction[0] / self.grooves.lever
             rows.append(self.multiplicity * row)

@@ -42,8 +42,9 @@ from ..numerics.roots import monotone_root
 from ..numerics.safe import safe_norm
 from .kinematics import RollerKinematics
 from .land import LandState, guided_land
+from .ring import LENGTH_UNIT
 from .roller_forces import CageParts, forces_without_pocket, on_cage
-from .roller_loads import LENGTH_UNIT, LOG_LOAD_RANGE, approach_error, guessed_loads, per_race
+from .roller_loads import LOG_LOAD_RANGE, approach_error, guessed_loads, per_race
 
 EASED_ENTRAINMENT = 0.3
 """Entrainment speed that a solve which failed at once is given first, over that of rolling without slip."""

@@ -16,9 +16,8 @@ from ..numerics.arrow import AbstractArrowSystem, ArrowPoint
 from ..numerics.plain_newton import plain_newton
 from ..numerics.roots import monotone_root
 from ..numerics.safe import positive_power, safe_norm
+from .ring import LENGTH_UNIT
 
-LENGTH_UNIT = 1e-5
-"""Scale of displacements and approaches, m."""
 LOG_LOAD_RANGE = (-40.0, 18.0)
 """ln(load / 1 N) that an iterate may take."""
 LEAST_SPEED = 1e-3

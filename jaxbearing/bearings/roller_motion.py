@@ -14,9 +14,9 @@ from ..numerics.checks import InputChecks, check_inputs, gate, void
 from ..numerics.newton import NewtonOptions, newton_solve
 from ..numerics.status import Status
 from .cylindrical_roller import CylindricalRollerBearing
+from .ring import LENGTH_UNIT
 from .roller_dynamics import RollerDynamics
 from .roller_equations import LubricatedRollerSystem
-from .roller_loads import LENGTH_UNIT
 from .roller_steady import build_system
 from .simulation import Simulation
 

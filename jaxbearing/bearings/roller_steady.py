@@ -168,7 +168,7 @@ def _port(
     """The reaction and the stiffness of the ring, everything else in equilibrium; `load`: on the inner race, N."""
     free = np.asarray([RING_FREEDOMS.index(name) for name in system.freedoms])
     ring = condensed(schur_complement(result.jacobian), len(free)) * (system.load_scale() / LENGTH_UNIT)
-    force = jnp.zeros(5).at[1:3].set(jnp.stack([jnp.sum(load * part(system.azimuth)) for part in (jnp.cos, jnp.sin)]))
+    force = jnp.zeros(5).at[free].set(jnp.sum(load[None, :] * system.directions, axis=1))
     return Port(force, jnp.zeros((5, 5)).at[free[:, None], free[None, :]].set(ring), system.freedoms)
 
 

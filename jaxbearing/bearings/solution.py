@@ -211,8 +211,8 @@ class Solution(AbstractSolution):
     force: Float[Array, " freedom"] = eqx.field(
         metadata=label(
             "mixed",
-            "loads that hold the inner ring where it is: axial, radial, lateral, about tilt and tilt_lateral, in N and "
-            "N m; 0 along freedoms that are not modelled",
+            "loads that hold the inner ring where it is, friction along the raceways left out: axial, radial, lateral, "
+            "about tilt and tilt_lateral, in N and N m; freedoms that are not modelled are 0",
         )
     )
     stiffness: Float[Array, "freedom freedom_displaced"] = eqx.field(

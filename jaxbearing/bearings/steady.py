@@ -35,12 +35,15 @@ def assemble(
     - `names`: static fields of the `Solution`.
     """
     good = result.converged
+    held = not port.free
     modelled = names.get("stiffness_freedom") or names["ring_freedom"]
     names["held_freedom"] = tuple(name for name in RING_FREEDOMS if name in modelled and name not in port.free)
     shown = {**results._asdict(), "ring": ring, "force": port.force, "stiffness": port.stiffness}
     facts = shown.pop("facts")
-    checks = {text: value > 0 for text, value in input_excess(scene).items()}
-    checks |= {text: good & (value > 0) for text, value in result_excess(scene, facts, ring, results.cage).items()}
+    checks = {text: value > 0 for text, value in input_excess(scene, held).items()}
+    checks |= {
+        text: good & (value > 0) for text, value in result_excess(scene, facts, ring, results.cage, held).items()
+    }
     notes = scene.assumptions()
     if scene.unused_parts():
         unused = ", ".join(scene.unused_parts())

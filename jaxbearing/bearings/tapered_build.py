@@ -123,6 +123,6 @@ def build_tapered(scene: TaperedRollerBearing, ring: InnerRing | None = None) ->
     if ring.freedoms:
         return system
     # both contacts of a roller, one behind the other
-    depth = 0.5 * jnp.maximum(system.pressed(held), 0.0)
+    depth = 0.5 * jnp.maximum(system.pressed(system.held) + 0.5 * length * jnp.abs(system.held[2]), 0.0)
     asked = jnp.sum(stiffness * length * positive_power(depth, 10.0 / 9.0))
     return dataclasses.replace(system, ring=ring.asking(asked))

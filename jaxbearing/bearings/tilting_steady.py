@@ -61,7 +61,8 @@ def build_tilting(scene: CylindricalRollerBearing, ring: InnerRing | None = None
     )
     if ring.freedoms:
         return system
-    depth = 0.5 * jnp.maximum(system.held[0] - system.radial_clearance, 0.0)
+    edge = 0.5 * length * jnp.abs(system.held[1])
+    depth = 0.5 * jnp.maximum(system.held[0] + edge - system.radial_clearance, 0.0)
     asked = jnp.sum(stiffness * length * positive_power(depth, 10.0 / 9.0))
     return dataclasses.replace(system, ring=ring.asking(asked))
 

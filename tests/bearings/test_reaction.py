@@ -213,11 +213,75 @@ def test_closure_is_an_axial_displacement():
     moved = jb.reaction(scene, place + np.array([3e-6, 0.0, 0.0, 0.0, 0.0]))
     np.testing.assert_allclose(closed.force, moved.force, rtol=1e-12)
     np.testing.assert_allclose(closed.ring.axial, 50e-6)
+    np.testing.assert_allclose(closed.ring.tilt, 0.2e-3)
+
+
+def test_ways_to_give_displacements():
+    scene, displacement, *_ = ROWS["A2"]
+    force = jb.reaction(scene, displacement * MICRO).force
+    numbers = (displacement * MICRO).tolist()
+    by_name = dict(zip(RING_FREEDOMS, numbers, strict=True))
+    for given in (numbers, tuple(numbers), by_name, jnp.asarray(numbers), [jnp.asarray(one) for one in numbers]):
+        np.testing.assert_array_equal(jb.reaction(scene, given).force, force)
+
+
+def test_a_failed_lane_says_so_and_leaves_the_others_alone():
+    """Both lanes share the geometry, on which the point of the ring that is shown depends."""
+    scene, displacement, *_ = ROWS["A1"]
+    places = jnp.stack([jnp.asarray(displacement * MICRO), jnp.asarray([0.0, np.nan, 0.0, 0.0, 0.0])])
+
+    def lanes(diameter, places, options=None):
+        changed = scene.replace_geometry(ball_diameter=diameter)
+        return jax.vmap(lambda q: jb.reaction(changed, q, throw=False, options=options))(places)
+
+    def total(diameter, places, options=None):
+        found = lanes(diameter, places, options)
+        return jnp.sum(jnp.where(found.converged[:, None], found.force, 0.0))
+
+    diameter = scene.geometry.ball_diameter
+    found = lanes(diameter, places)
+    assert found.status.tolist() == [jb.Status.CONVERGED, jb.Status.INVALID_INPUT]
+    for results in (found.force, found.stiffness, found.ring.radial):
+        assert np.all(np.isfinite(results[0]))
+        assert np.all(np.isnan(results[1]))
+    slope, alone = (jax.grad(total)(diameter, some) for some in (places, places[:1]))
+    np.testing.assert_allclose(slope, alone, rtol=1e-12)
+    few = jb.NewtonOptions(max_steps=2, further_tries=False)
+    assert not np.any(lanes(diameter, places, few).converged)
+    assert float(jax.grad(total)(diameter, places, few)) == 0.0
+
+
+EMPTY = {"nothing moves": np.zeros(5), "drawn apart": np.array([-20.0, 0.0, 0.0, 0.0, 0.0]) * MICRO}
+
+
+@pytest.mark.parametrize("row", ["A1", "A2", "A3", "A4"])
+@pytest.mark.parametrize("name", EMPTY)
+def test_a_ring_that_touches_little(row, name):
+    scene = ROWS[row][0]
+    found = jb.reaction(scene, EMPTY[name])
+    assert np.all(np.isfinite(found.force))
+    assert np.all(np.isfinite(found.stiffness))
+
+
+def test_warnings_are_about_the_ring_that_is_held():
+    """Nothing is said of the loads of the operating point; of a tilt, whether the operating point names one or not."""
+    loaded = T15.at_operation(radial_load=5e3)
+    assert not any("1.22" in text for text in jb.reaction(loaded, [30e-6, 0.0, 0.0, 0.0, 0.0]).warnings)
+    assert any("10 mrad" in text for text in jb.reaction(DEEP_GROOVE, [0.0, 0.0, 0.0, 0.02, 0.0]).warnings)
 
 
 def test_what_it_does_not_take():
     with pytest.raises(ValueError, match="displacement must have five numbers, axial, radial"):
         jb.reaction(T15, [1e-6, 0.0])
+    for wrong in ([1e-6, None, 2e-6, 0.0, 0.0, 0.0], [[1e-6, 0.0], [0.0, 0.0, 0.0]], "five", {"axial": 1e-6}):
+        with pytest.raises(ValueError, match="displacement must have five numbers, axial, radial"):
+            jb.reaction(T15, wrong)
+    with pytest.raises(ValueError, match="displacement, lateral, must be a number"):
+        jb.reaction(T15, [0.0, 0.0, "3 um", 0.0, 0.0])
+    with pytest.raises(ValueError, match="closure must be a number"):
+        jb.reaction(T15, np.zeros(5), closure="3 um")
+    with pytest.raises(ValueError, match=r"expansion must be one number, got shape \(3,\)"):
+        jb.reaction(T15, np.zeros(5), expansion=np.zeros(3))
     with pytest.raises(ValueError, match="tilt must be one of 'exact', 'linear', got 'iso'"):
         jb.reaction(T15, np.zeros(5), tilt="iso")
     with pytest.raises(ValueError, match=r"contact\.traction"):

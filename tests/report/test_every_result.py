@@ -37,7 +37,7 @@ from jaxbearing.sweeps import labels
 WHEN = datetime(2026, 1, 1, tzinfo=UTC)
 OTHERS = ("two-disk", "warm two-disk", "line contact")
 """Scenes that are no bearings."""
-IN_OTHER_WORDS = ("status", "worst_equation", "stiffness", "deborah_number", "inner_residual")
+IN_OTHER_WORDS = ("status", "worst_equation", "force", "stiffness", "deborah_number", "inner_residual")
 """Fields of the JSON that are texts, of a part of the numbers, or of the largest."""
 DRAWN = {"power_loss_total", "life_L10h", "film_central", "ring_radial", "cage_slip"}
 """Results with one number a case of which some are drawn."""

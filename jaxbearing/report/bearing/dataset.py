@@ -87,7 +87,10 @@ def _of_stiffness(solution: Solution) -> dict[str, xr.Variable]:
     """Units of the entries of the stiffness, and which freedoms the model has."""
     units = [[udunits(unit) for unit in row] for row in stiffness_units()]
     modelled = np.asarray([name in solution.freedoms_of_stiffness for name in RING_FREEDOMS], dtype=np.int8)
-    words = {"units": "1", "long_name": "whether the model has this freedom; entries of the stiffness are 0 where not"}
+    words = {
+        "units": "1",
+        "long_name": "whether the model has this freedom; entries of force and stiffness are 0 where not",
+    }
     meanings = flags(modelled.dtype, ("not modelled", "modelled"))
     return {
         "force_units": xr.Variable(

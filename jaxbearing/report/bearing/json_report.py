@@ -13,6 +13,7 @@ from .operation import unused_operation
 _INSIDE = (
     "status",
     "worst_equation",
+    "force",
     "stiffness",
     "checks",
     "ring_freedom",
@@ -44,6 +45,8 @@ def bearing_to_dict(solution: Solution) -> dict[str, Any]:
     results["operation"] |= dict.fromkeys(unused_operation(solution))
     # fixed keys, also where the scene models no friction: `None` then, which is not a loss of 0
     results["power_loss"].setdefault("total", None)
+    modelled = [name in solution.freedoms_of_stiffness for name in RING_FREEDOMS]
+    results["force"] = finite(np.where(modelled, np.asarray(solution.force), np.nan).tolist())
     results["stiffness"] = modelled_only(np.asarray(solution.stiffness), solution.freedoms_of_stiffness)
     results["worst_equation"] = solution.equation_names[int(solution.worst_equation)]
     results.setdefault("life", None)
