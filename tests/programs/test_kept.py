@@ -125,17 +125,21 @@ def test_settings_of_jax_are_as_before(folder):
     def settings():
         return {name: getattr(jax.config, name) for name in dir(jax.config) if name.startswith("jax_")}
 
-    before = settings()
-    jax.config.update("jax_traceback_in_locations_limit", 7)
-    try:
-        ask()
-        with pytest.raises(ZeroDivisionError), kept._compiled_for_keeps():
+    def fails():
+        with kept._compiled_for_keeps():
             assert jax.config.jax_traceback_in_locations_limit == 0
             assert not jax.config.jax_enable_compilation_cache
             raise ZeroDivisionError
-        assert settings() == before | {"jax_traceback_in_locations_limit": 7}
+
+    limit = "jax_traceback_in_locations_limit"
+    before = settings()
+    jax.config.update(limit, 7)
+    try:
+        ask()
+        with pytest.raises(ZeroDivisionError):
+            fails()
+        assert settings() == before | {limit: 7}
     finally:
-        limit = "jax_traceback_in_locations_limit"
         jax.config.update(limit, before[limit])
 
 
