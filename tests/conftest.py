@@ -10,6 +10,8 @@ from pathlib import Path
 os.environ.setdefault("JAX_PLATFORMS", "cpu")
 # programs of the package are compiled from what is here, and not loaded
 os.environ.setdefault("JAXBEARING_CACHE", "off")
+# where in the source an operation stands is looked at by nobody, and takes a quarter of the time of lowering
+os.environ.setdefault("JAX_TRACEBACK_IN_LOCATIONS_LIMIT", "0")
 # the commands that tests start share a GPU with them
 os.environ.setdefault("XLA_PYTHON_CLIENT_PREALLOCATE", "false")
 

@@ -3,8 +3,8 @@
 JAX's own cache keeps what the compiler made, but a program must be traced and lowered to be found there, which takes
 longer than all the rest of a solve. Here the key is what the program is made from: the structure of the arguments with
 all that is static, shapes and types, the files of this package, the versions of the libraries, the processor and what
-the compiler was told. What is kept and what is loaded are the same bits. No setting of JAX is changed, but for its own
-cache, which is off while a program that will be kept is compiled.
+the compiler was told. What is kept and what is loaded are the same bits. No setting of JAX is changed but while a
+program that will be kept is compiled (`_compiled_for_keeps`).
 
 A file that is damaged, foreign or of another version is compiled anew and written over (`programs.files`). Files hold
 code and pickled data, so only those are read that belong to the user and that nobody else may write.
@@ -18,6 +18,7 @@ import os
 import pickle
 import threading
 from collections.abc import Callable, Iterator
+from concurrent.futures import ThreadPoolExecutor
 from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -180,7 +181,7 @@ class KeptProgram:
 
         options = quick_options() if self._quick else None
         traced = jax.jit(flat, compiler_options=options).trace(_arrays(leaves))
-        with _without_jax_cache():
+        with _compiled_for_keeps():
             compiled = traced.lower().compile()
         ready = _Ready(compiled, *found[-1])
         if not _calls_host(traced.jaxpr.jaxpr):
@@ -199,23 +200,30 @@ def _setting(name: str) -> Any:
 
 
 _COMPILING = threading.Lock()
-"""Held while JAX's cache is off: another thread must not switch it on."""
+"""Held while settings of JAX are changed: another thread must not change them back."""
 
 
 @contextmanager
-def _without_jax_cache() -> Iterator[None]:
-    """Compiles inside the block are neither read from JAX's own cache nor written to it: a program that was loaded
-    from there cannot be serialised again (its functions are then not found), and would be kept twice."""
+def _compiled_for_keeps() -> Iterator[None]:
+    """Settings of JAX while a program that will be kept is lowered and compiled, as they were afterwards.
+
+    Its own cache is neither read nor written: a program that was loaded from there cannot be serialised again (its
+    functions are then not found), and would be kept twice. Nor is it written where in the source each operation
+    stands, which takes a quarter of the time of lowering.
+    """
+    others = {"jax_traceback_in_locations_limit": 0}
+    if _setting("jax_compilation_cache_dir"):
+        others["jax_enable_compilation_cache"] = False
     with _COMPILING:
-        if not _setting("jax_compilation_cache_dir") or not _setting("jax_enable_compilation_cache"):
-            yield
-            return
-        jax.config.update("jax_enable_compilation_cache", False)
+        before = {name: _setting(name) for name in others if _setting(name) is not None}
+        for name in before:
+            jax.config.update(name, others[name])
         reset_cache()
         try:
             yield
         finally:
-            jax.config.update("jax_enable_compilation_cache", True)
+            for name, value in before.items():
+                jax.config.update(name, value)
             reset_cache()
 
 
@@ -331,9 +339,12 @@ def _loaded(path: Path) -> _Ready | None:
         program, count, skeleton = pickle.loads(content)
         others, structure = jax.tree.flatten(skeleton, is_leaf=lambda leaf: isinstance(leaf, _Slot))
         arrays = sum(isinstance(leaf, _Slot) for leaf in others)
-        _initialise_lapack()
         given, result = jax.tree.structure((([0] * count,), {})), jax.tree.structure([0] * arrays)
-        return _Ready(deserialize_and_load(program, given, result), structure, others)
+        with ThreadPoolExecutor(1) as beside:  # neither holds Python's lock for long
+            lapack = beside.submit(_initialise_lapack)
+            loaded = deserialize_and_load(program, given, result)
+            lapack.result()
+        return _Ready(loaded, structure, others)
     return None
 
 

@@ -119,6 +119,30 @@ def test_settings_for_debugging_are_obeyed_at_once(folder):
     assert float(program(jnp.eye(2), jnp.ones(2))["sum"][0]) == 2.0
 
 
+def test_settings_of_jax_are_as_before(folder):
+    """Those that change while a program is compiled, also where that fails."""
+
+    def settings():
+        return {name: getattr(jax.config, name) for name in dir(jax.config) if name.startswith("jax_")}
+
+    def fails():
+        with kept._compiled_for_keeps():
+            assert jax.config.jax_traceback_in_locations_limit == 0
+            assert not jax.config.jax_enable_compilation_cache
+            raise ZeroDivisionError
+
+    limit = "jax_traceback_in_locations_limit"
+    before = settings()
+    jax.config.update(limit, 7)
+    try:
+        ask()
+        with pytest.raises(ZeroDivisionError):
+            fails()
+        assert settings() == before | {limit: 7}
+    finally:
+        jax.config.update(limit, before[limit])
+
+
 def test_a_folder_that_others_may_write_is_closed(folder, tmp_path):
     (tmp_path / "cache").mkdir()
     ask()
