@@ -27,7 +27,7 @@ STATIONARY = 1e-7
 
 
 class Problem(eqx.Module):
-    """What the optimiser sees: `natural = base + directions @ (u / scales)`.
+    """The unknowns of the optimiser are scaled: `natural = base + directions @ (u / scales)`.
 
     **Arguments:**
     - `scene`, `state`: the machine; patch, film and temperature of the points.
@@ -141,7 +141,7 @@ def estimate(problem: Problem, u: Float[Array, " parameter"], method: str) -> Es
 
 
 def _stationary(problem: Problem, u: Float[Array, " parameter"]) -> Bool[Array, ""]:
-    """Whether the residual is at right angles to every column of its Jacobian, to `STATIONARY`."""
+    """True if the residual is at right angles to every column of its Jacobian, to `STATIONARY`."""
     residual, columns = problem.residual(u), jacobian(problem, u)
     size = jnp.linalg.norm(residual) * jnp.linalg.norm(columns, axis=0)
     return jnp.all(jnp.abs(columns.T @ residual) <= STATIONARY * size)

@@ -114,8 +114,8 @@ class _Held(NamedTuple):
 
 
 def _revised(search: Search, problem: Problem, u: Any, held: _Held) -> _Held | None:
-    """What to hold or release next: bounds first (an active set), then what the data do not determine; None: nothing
-    any more."""
+    """Chooses the parameters to hold or release next: bounds first (an active set), then those that the data do not
+    determine; `None` if nothing is left."""
     coordinates = np.asarray(problem.natural(u))
     low, high = search.limits
     beyond = np.where(held.free, np.maximum(low - coordinates, coordinates - high), -np.inf)

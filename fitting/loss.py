@@ -1,4 +1,4 @@
-"""How far a model is from the measurements: errors of each point, and what an outlier may count."""
+"""Distance of a model from the measurements: errors of each point, and what an outlier may count."""
 
 import math
 from typing import NamedTuple

@@ -1,4 +1,4 @@
-"""What is left after a fit: by curve, its information content, and whether it is random."""
+"""Residuals of a fit: by curve, its information content, and whether it is random."""
 
 from typing import Any
 

@@ -1,4 +1,4 @@
-"""How to fit."""
+"""Options of a fit."""
 
 from collections.abc import Mapping
 from typing import NamedTuple
@@ -12,7 +12,7 @@ MOST_STARTS = 1000
 
 
 class FitOptions(NamedTuple):
-    """How to fit.
+    """Options of a fit.
 
     **Arguments:**
     - `model`: viscous function; None: the scene's.

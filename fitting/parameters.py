@@ -25,13 +25,13 @@ POSITIVE = (True, False, False, True, False, False)
 SCALES = np.array([1.0, 1e-9, 1e3, 1.0, 1e-9, 1e3])
 """Unit of each natural coordinate in SI: ln, 1/GPa, kK."""
 LARGEST_LOG = 80.0
-"""Of G0 and tau in Pa: 35 decades."""
+"""Largest logarithm of G0 and tau in Pa: 35 decades."""
 GROUPS = ((0, 1, 2), (3, 4, 5))
 """Indices of value, pressure and temperature coefficient of shear modulus and stress."""
 
 
 class Centre(NamedTuple):
-    """Where the data are: G and tau there are what the data know best.
+    """Reference point in the middle of the data: the data determine G and tau best there.
 
     `pressure`: middle of the mean pressures, Pa; `inverse_temperature`: of 1/T, 1/K. The spans are the largest minus
     the smallest.

@@ -1,4 +1,4 @@
-"""What a fit gives."""
+"""Result of a fit."""
 
 from typing import NamedTuple
 

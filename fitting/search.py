@@ -115,7 +115,7 @@ class Search:
         return {NAMES.index(name) for name in self.options.free}
 
     def elastic_part_shows(self, free: np.ndarray) -> bool:
-        """Whether a fit of the shear modulus is significantly better than the scene's value (F test): the Deborah
+        """True if a fit of the shear modulus is significantly better than the scene's value (F test): the Deborah
         number by which the data look viscous is that of the scene's modulus, which may be far off."""
         without = free.copy()
         without[list(GROUPS[0])] = False

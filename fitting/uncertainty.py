@@ -1,4 +1,4 @@
-"""How well the data know each parameter."""
+"""Uncertainty of each parameter."""
 
 from typing import NamedTuple
 

@@ -1,4 +1,4 @@
-"""What all scenes share: fields that hold numbers with a label, and copies with other values."""
+"""Base of all scenes: fields that hold numbers with a label, and copies with other values."""
 
 import abc
 import dataclasses
@@ -37,7 +37,7 @@ def optional_number(*, bound: str = "finite", **kwargs: Any) -> Any:
 
 
 class AbstractScene(eqx.Module):
-    """What every scene can do: give a changed copy of itself, with the attribute names of the scene file."""
+    """Base of scenes: makes changed copies, by the attribute names of the scene file."""
 
     def replace(self: Scene, changes: dict[str, Any]) -> Scene:
         """A copy with other values; keys are dotted paths, values SI numbers (or parts).
@@ -66,7 +66,7 @@ class AbstractSolution(eqx.Module):
     @property
     @abc.abstractmethod
     def converged(self) -> Bool[Array, "*batch"]:
-        """Whether there is a result."""
+        """True if there is a result."""
 
     @abc.abstractmethod
     def solver_failure(self) -> str:

@@ -29,7 +29,7 @@ from .programs import KeptProgram
 from .solve import solve, steady_function
 
 Method = Literal["map", "vmap"]
-"""How a device goes through its lanes: one after the other, or all in step, each waiting for the slowest."""
+"""Order in which a device solves its lanes: one after the other, or all in step, each waiting for the slowest."""
 
 
 _COMPILING = threading.Semaphore(2)

@@ -50,7 +50,7 @@ def reaction(
     throw: bool = True,
     options: NewtonOptions | None = None,
 ) -> Solution:
-    r"""What must act on the inner ring of a bearing to hold it at given displacements.
+    r"""Computes the loads that hold the inner ring of a bearing at given displacements.
 
     The solution is that of the displaced bearing: `force` (axial, radial, lateral in N, about both tilts in N m), its
     derivatives `stiffness`, shape (5, 5), `ring`, the given displacements, and losses, torques and results of the

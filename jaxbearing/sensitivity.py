@@ -69,7 +69,7 @@ def sensitivities(
 
 
 def sensitivities_once(scene: AbstractScene) -> tuple[Any, Sensitivities]:
-    """What `sensitivities(scene, throw=False)` returns, for a process that asks once and ends."""
+    """Result of `sensitivities(scene, throw=False)`, for a process that asks once and ends."""
     return _run(scene, False, NewtonOptions(), _once)
 
 

@@ -106,7 +106,7 @@ _OTHER_KIND = "restart: a state of a {}, for a scene of a {}"
 
 
 def check_restart(scene: Any, restart: LastState | FilmState, duration: float | None = None) -> None:
-    """What `simulate` would refuse of a last state, before it begins. **Raises:** `ValueError`."""
+    """Checks a last state as `simulate` does, before it begins. **Raises:** `ValueError`."""
     if isinstance(scene, EHLLineContact):
         if not isinstance(restart, FilmState):
             raise ValueError(_OTHER_KIND.format("bearing", "line contact"))

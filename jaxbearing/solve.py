@@ -48,7 +48,7 @@ _STEADY: dict[type, Callable[..., Any]] = {
 
 
 def steady_function(scene: AbstractScene) -> Callable[..., Any]:
-    """What solves this kind of scene. **Raises:** `TypeError` for an unknown kind."""
+    """Solver of this kind of scene. **Raises:** `TypeError` for an unknown kind."""
     try:
         return _STEADY[type(scene)]
     except KeyError:
@@ -63,7 +63,7 @@ def _solve_any(scene: AbstractScene, options: NewtonOptions) -> Any:
 
 
 def with_checked_inputs(scene: AbstractScene, compute: Callable[[Any], Any]) -> Any:
-    """What `compute` makes of a scene, with the checks of its inputs. Where one is invalid it ends at once, in NaN."""
+    """Result of `compute` for a scene, with the checks of its inputs. Where one is invalid it ends at once, in NaN."""
     inputs = check_inputs(scene)
     given: Any = gate(scene, inputs.valid)
     solution = compute(dataclasses.replace(given, operation=void(given.operation, inputs.valid)))

@@ -23,10 +23,10 @@ class AbstractTimeFactor(Checked):
 
     @abc.abstractmethod
     def antiderivative(self, time: Scalar) -> Float[Array, ""]:
-        """Of the factor, s, with any constant."""
+        """Integral of the factor, s, with any constant."""
 
     def integral(self, time: Scalar) -> Float[Array, ""]:
-        """Of the factor from 0 to `time`, s: with it a frame can turn with the shaft, and positions stay small."""
+        """Integral of the factor from 0 to `time`, s: with it a frame can turn with the shaft."""
         return self.antiderivative(time) - self.antiderivative(jnp.zeros(()))
 
     def kinks(self) -> Float[Array, " kink"]:

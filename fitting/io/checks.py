@@ -1,4 +1,4 @@
-"""What every curve file must have whatever its layout, and what is worth a remark."""
+"""Checks that every curve file must pass whatever its layout, and remarks on unusual content."""
 
 from collections.abc import Sequence
 

@@ -1,4 +1,4 @@
-"""What the columns of a curve file hold: their dimensions, their units, and their values in SI."""
+"""Meaning of the columns of a curve file: their dimensions, their units, and their values in SI."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass

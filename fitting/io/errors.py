@@ -34,7 +34,7 @@ class CurveError(ValueError):
 
 
 def refusing(file: str) -> Refuse:
-    """What raises the error of a cell of the file."""
+    """Function that raises the error of a cell of the file."""
 
     def refuse(line: int, column: str, found: str, expected: str) -> NoReturn:
         raise CurveError(file, line, column, found, expected)

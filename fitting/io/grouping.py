@@ -52,7 +52,7 @@ def group(
 
 
 def _steps(name: str, values: Float64[np.ndarray, " point"]) -> Bool[np.ndarray, " gap"]:
-    """Whether the sorted values step from one condition to the next, for each pair of neighbours."""
+    """True if the sorted values step from one condition to the next, for each pair of neighbours."""
     ordered = np.sort(values)
     limit = TEMPERATURE_STEP if name == "temperature" else RELATIVE_STEP * ordered[:-1]
     return np.diff(ordered) > limit

@@ -125,7 +125,7 @@ class _Reader:
         return notes
 
     def _has(self, heading: str, required: bool) -> bool:
-        """Whether all sweeps have it; a column that may be absent may also be empty."""
+        """True if all sweeps have it; a column that may be absent may also be empty."""
         if not all(heading in step.headings for step in self._sweeps):
             return False
         return required or all(any(_cell(row.text, step, heading) for row in step.rows) for step in self._sweeps)

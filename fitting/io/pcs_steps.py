@@ -45,12 +45,12 @@ class Step:
 
     @property
     def is_traction(self) -> bool:
-        """Whether it is a sweep of the slide-to-roll ratio in one direction."""
+        """True if it is a sweep of the slide-to-roll ratio in one direction."""
         return self.kind.lower() == "traction"
 
 
 def is_pcs_export(text: str) -> bool:
-    """Whether a text is an export of such a machine: it has the title or the first line of a step."""
+    """True if a text is an export of such a machine: it has the title or the first line of a step."""
     return any(_TITLE.match(line.text) or _STEP.match(line.text) for line in numbered_lines(text))
 
 

@@ -31,7 +31,7 @@ _LEVELS = 6
 
 
 class _Look(NamedTuple):
-    """How a curve is drawn; `label` is empty where the legend names it not."""
+    """Style of a drawn curve; `label` is empty if the legend does not name it."""
 
     colour: Any
     marker: str

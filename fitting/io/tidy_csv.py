@@ -22,7 +22,7 @@ from .units_file import side_units, units_path
 
 @dataclass(frozen=True)
 class _Layout:
-    """How the lines of one file part into cells, and which cells are used."""
+    """Layout of one file: separators of the cells, and the cells that are used."""
 
     path: Path
     separator: str

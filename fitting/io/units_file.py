@@ -16,7 +16,7 @@ _EXPECTED = 'a table [units] with lines such as pressure = "GPa"'
 
 
 def units_path(path: Path) -> Path:
-    """Where the side file of a curve file would be."""
+    """Path at which the side file of a curve file would lie."""
     return path.with_name(f"{path.stem}.units.toml")
 
 

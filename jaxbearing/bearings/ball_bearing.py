@@ -70,7 +70,7 @@ class BallOperation(AbstractOperation):
 
     @property
     def symmetric(self) -> bool:
-        """Whether all balls are alike."""
+        """True if all balls are alike."""
         return self.radial_load is None and not self.tilts
 
     @property
@@ -87,7 +87,7 @@ class BallMaterials(eqx.Module):
 
 
 class BallAttitude(eqx.Module):
-    """How the balls turn.
+    """Model of the balls' rotation.
 
     **Arguments:**
     - `attitude`: closure for the direction of a ball's spin: "outer" or "inner" race control (no spin there),
@@ -180,17 +180,17 @@ class BallBearing(AbstractScene):
 
     @property
     def slips(self) -> bool:
-        """Whether the balls' speeds are unknowns; without traction they follow from rolling without sliding."""
+        """True if the balls' speeds are unknowns; without traction they follow from rolling without sliding."""
         return self.contact is not None and self.contact.traction is not None
 
     @property
     def ring_lever(self) -> Array:
-        """What tilts of the ring are multiplied by inside the equations, m."""
+        """Lever by which the equations multiply the tilts of the ring, m."""
         return self.geometry.groove_circle_radius
 
     @property
     def port_distance(self) -> Array:
-        r"""Of the plane of the inner groove centres, where `ring` counts, from that of the unloaded balls along $+e_x$,
+        r"""Distance of the plane of the inner groove centres, where `ring` counts, from that of the unloaded balls,
         m: $(f_i - \frac12)D\sin\alpha$ at the contact angle of the unloaded bearing."""
         return self.geometry.inner_offset * self.geometry.free_sine
 
@@ -211,7 +211,7 @@ class BallBearing(AbstractScene):
         return tuple(name for name, part in named.items() if part is not None)
 
     def assumptions(self) -> tuple[str, ...]:
-        """What the scene does not give and the model assumed, and what its data were not made for; for the user."""
+        """Notes for the user: assumptions of the model, and uses for which the scene's data were not made."""
         said = []
         if self.contact is not None and self.oil is not None:
             said += [f"oil: {note}" for note in self.oil.notes]

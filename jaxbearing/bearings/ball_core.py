@@ -51,8 +51,8 @@ ORBIT_FLOOR = 1.0
 
 
 def orbit_totals(load: Array, own: Array, common: Array) -> Float[Array, "2 ball"]:
-    """What each ball adds to the two sums of `orbit_row`; inner `load`, N, its `own` and the `common` orbital speed,
-    rad/s. `FORCE_FLOOR` is added to the weights: their sum is not 0."""
+    """Contributions of each ball to the two sums of `orbit_row`; inner `load`, N, its `own` and the `common` orbital
+    speed, rad/s. `FORCE_FLOOR` is added to the weights: their sum is not 0."""
     weight = load + FORCE_FLOOR
     return jnp.stack([weight * (common - own), weight])
 

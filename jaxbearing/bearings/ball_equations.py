@@ -82,11 +82,11 @@ EASIEST_SLIDE = 1e-3
 THINNEST_FILM = 1e-3
 """Part of the films that the easiest system has."""
 PART_TOLERANCE = 1e-12
-"""Of the part of the way from outer to inner control at which the spin power is least."""
+"""Tolerance of the attitude of least spin power, as a part of the way from outer to inner control."""
 
 
 class BallCageParts(eqx.Module):
-    """What a cage adds to the equations; all prepared, with the oil at its inlet temperature."""
+    """Terms of the cage in the equations; all are prepared, with the oil at its inlet temperature."""
 
     pocket: BallPocket
     land: ShortJournal
@@ -135,7 +135,7 @@ class BallsState(NamedTuple):
     curvature: Float[Array, "2 ball"] | None
     """Moment of Heathcote slip against the roll, N m."""
     pocket_force: Float[Array, " ball"] | None
-    """Of the pocket's friction on the ball, outward, as the balance of forces has it, N."""
+    """Outward force of the pocket's friction on the ball in the balance of forces, N."""
     pocket: BallPocketFilm | None
     drag_force: Float[Array, " ball"] | None
     fit: Float[Array, "2 ball"]
@@ -164,7 +164,7 @@ class LubricatedBallSystem(AbstractBallSystem):
     cage: BallCageParts | None = None
     drag: BallDrag | None = None
     common_orbit: bool = eqx.field(static=True, default=False)
-    """Whether balls that roll without sliding have one orbital speed."""
+    """True if balls that roll without sliding have one orbital speed."""
     slide_share: Scalar = eqx.field(converter=as_float, default=1.0)
     """Part of the sliding that the traction law sees: 1, less in an eased system."""
     heavy_guess: BallGuess | None = None

@@ -119,7 +119,7 @@ class BallGeometry(Checked):
         return self.contacts(self.free_cosine, self.free_cosine, reduced_modulus)
 
     def mass(self, density: Values) -> Float[Array, ""]:
-        """Of a ball, kg."""
+        """Mass of a ball, kg."""
         return density * jnp.pi / 6.0 * jnp.asarray(self.ball_diameter) ** 3
 
     def inertia(self, density: Values) -> Float[Array, ""]:

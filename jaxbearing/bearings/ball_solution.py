@@ -70,7 +70,7 @@ class BallPowerLoss(eqx.Module):
 
 
 class RacewayPower(eqx.Module):
-    """What the losses on the raceways consist of, W: spin about the contact normal, sliding along and across the
+    """Parts of the losses on the raceways, W: spin about the contact normal, sliding along and across the
     rolling direction, sliding that comes of the curvature of the contact (`None`: taken as flat)."""
 
     inner_spin: _Power = _result("W", "spin, inner raceway")

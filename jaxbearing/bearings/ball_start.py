@@ -17,9 +17,9 @@ from ..numerics.safe import safe_norm
 from ..numerics.small_linear import solve_blocks, solve_dense
 
 RING_TOLERANCE = 2e-2
-"""Of the ring's balance, relative to the load: what the full equations need of their start."""
+"""Tolerance of the ring's balance, relative to the load: sufficient for a start of the full equations."""
 BALL_TOLERANCE = 1e-9
-"""Of a ball's balance, relative to its load scale."""
+"""Tolerance of a ball's balance, relative to its load scale."""
 RING_STEPS, BALL_STEPS = 40, 60
 """Most trials."""
 SOFTEST = 1e2
@@ -64,7 +64,7 @@ class Start(NamedTuple):
 
 
 class _Forces(NamedTuple):
-    """Of the two springs at a ball, for a ball centre and an inner groove centre."""
+    """Energy, forces and stiffness of the two springs at a ball, for given centres of ball and inner groove."""
 
     energy: Float[Array, " ball"]
     balance: Float[Array, "2 ball"]

@@ -1,4 +1,4 @@
-"""What the equations of ball bearings with and without films have in common: grooves, ring, centrifugal force."""
+"""Base of the equations of ball bearings with and without films: grooves, ring, centrifugal force."""
 
 from collections.abc import Callable
 from typing import Any, Literal, NamedTuple, TypeAlias
@@ -19,7 +19,7 @@ Attitude = Literal["outer", "inner", "min_power", "equilibrium"]
 
 
 class Grooves(NamedTuple):
-    """What the normal loads of a ball need; `offset` and `stiffness` of (inner, outer), m and N/m^(3/2)."""
+    """Geometry and stiffness of the grooves; `offset` and `stiffness` of (inner, outer), m and N/m^(3/2)."""
 
     offset: Float[Array, "2"]
     stiffness: Float[Array, "2"]
@@ -35,7 +35,7 @@ class Grooves(NamedTuple):
     """f_i D: of the friction at the inner race about that circle."""
 
     expansion: Float[Array, ""] | None = None
-    """Of `InnerRing`."""
+    """See `InnerRing.expansion`."""
 
     @property
     def free_angle(self) -> Float[Array, ""]:
@@ -109,8 +109,8 @@ class AbstractBallSystem(AbstractArrowSystem):
         return self.ring.freedoms
 
     def groove_centres(self, shift: Float[Array, "freedom ball"]) -> Float[Array, "2 ball"]:
-        """Of the inner groove at every ball, (axial, radial) from those of the outer one, m, for displacements of the
-        ring in units of `LENGTH_UNIT`; to first order."""
+        """Centres of the inner groove at every ball, (axial, radial) from those of the outer one, m, for displacements
+        of the ring in units of `LENGTH_UNIT`; to first order."""
         moved = LENGTH_UNIT * jnp.einsum("fn,fcn->cn", shift, self.directions)
         return self.grooves.rest + moved + self.held_shift
 
@@ -185,5 +185,5 @@ class AbstractBallSystem(AbstractArrowSystem):
         return jnp.stack(rows)
 
     def shared_fields(self) -> dict[str, Any]:
-        """What another system of the same balls is built with."""
+        """Arguments of another system of the same balls."""
         return {name: getattr(self, name) for name in AbstractBallSystem.__dataclass_fields__}

@@ -1,4 +1,4 @@
-"""What the one-piece cages of all bearings have in common: size, guiding lands, pocket clearance."""
+"""Base of the one-piece cages of all bearings: size, guiding lands, pocket clearance."""
 
 import abc
 import math
@@ -35,7 +35,7 @@ class AbstractCage(Checked):
 
     part: ClassVar[str] = "cage"
     element: ClassVar[str]
-    """What the pockets hold."""
+    """Name of the rolling elements in the pockets."""
     assumed_inner: ClassVar[float]
     """Bore = pitch diameter minus this times the element's diameter, where a scene does not give it."""
     assumed_outer: ClassVar[float]
@@ -86,7 +86,7 @@ class AbstractCage(Checked):
         )
 
     def assumptions(self) -> list[str]:
-        """What the scene does not give of the cage and the model assumed; for the user."""
+        """Notes for the user on dimensions of the cage that the model assumed."""
         assumed = {
             "inner_diameter": f"pitch diameter - {self.assumed_inner:.3g} {self.element} diameters",
             "outer_diameter": f"pitch diameter + {self.assumed_outer:.3g} {self.element} diameters",

@@ -237,23 +237,23 @@ class CylindricalRollerBearing(AbstractScene):
 
     @property
     def tilts(self) -> bool:
-        """Whether rollers may tilt and are cut into laminae; without it they carry evenly along their length."""
+        """True if rollers may tilt and are cut into laminae; without it they carry evenly along their length."""
         operation = self.operation
         return self.profile is not None or operation.misalignment is not None or operation.moment is not None
 
     @property
     def ring_lever(self) -> Array:
-        """What tilts of the ring are multiplied by inside the equations, m."""
+        """Lever by which the equations multiply the tilts of the ring, m."""
         return jnp.asarray(self.geometry.loaded_length)
 
     @property
     def port_distance(self) -> Array:
-        """Of the point of the ring whose displacements count from the middle of the rollers along $+e_x$, m: none."""
+        """Distance of the ring's reference point from the middle of the rollers along $+e_x$, m: none."""
         return jnp.zeros(())
 
     @property
     def slips(self) -> bool:
-        """Whether roller and cage speeds are unknowns; without traction they follow from rolling without slip."""
+        """True if roller and cage speeds are unknowns; without traction they follow from rolling without slip."""
         return self.contact is not None and self.contact.traction is not None
 
     def unused_parts(self) -> tuple[str, ...]:
@@ -266,7 +266,7 @@ class CylindricalRollerBearing(AbstractScene):
         return tuple(name for name, part in named.items() if part is not None)
 
     def assumptions(self) -> tuple[str, ...]:
-        """What the scene does not give and the model assumed, and what its data were not made for; for the user."""
+        """Notes for the user: assumptions of the model, and uses for which the scene's data were not made."""
         said = []
         if self.contact is not None and self.oil is not None:
             said += [f"oil: {note}" for note in self.oil.notes]

@@ -1,4 +1,4 @@
-"""How friction at the contacts of a ball carries its gyroscopic couple, where no traction law resolves it."""
+"""Laws by which contact friction carries a ball's gyroscopic couple if no traction law resolves it."""
 
 import abc
 from typing import ClassVar

@@ -42,7 +42,7 @@ class PocketPeaks(eqx.Module):
 
 
 class Instant(eqx.Module):
-    """What happens at one time; in a `History` every array has the times in front."""
+    """State and results at one time; in a `History` every array has the times in front."""
 
     inner_speed: Float[Array, ""] = eqx.field(metadata=label("rad/s", "inner ring speed"))
     radial_load: Float[Array, ""] = eqx.field(metadata=label("N", "load on the inner ring along the load line"))
@@ -140,7 +140,7 @@ class History(AbstractSolution):
 
     @property
     def converged(self) -> Bool[Array, "*batch"]:
-        """Whether the run reached its end."""
+        """True if the run reached its end."""
         return jnp.asarray(self.status) == Status.CONVERGED
 
     @property

@@ -20,7 +20,7 @@ __all__ = ["AbstractScene", "ContactLaws", "Drag", "Materials", "Operation", "nu
 
 
 class AbstractOperation(Checked):
-    """What the operating points of all bearings have besides their loads."""
+    """Base of the operating points of all bearings, without loads."""
 
     part: ClassVar[str] = "operation"
 

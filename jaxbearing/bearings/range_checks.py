@@ -124,7 +124,7 @@ class _Result(NamedTuple):
 def result_excess(
     scene: Scene, facts: Facts, ring: RingDisplacement, cage: CageState | None, held: bool = False
 ) -> Excess:
-    """By how much the results leave what laws and bearings are made for: text -> number, positive where it applies.
+    """Excess of the results over the ranges of laws and bearings: text -> number, positive where it applies.
     `held`: the ring is where it is told to be, whatever the loads of the scene."""
     result, found = _Result(scene, facts, ring, cage, held), {}
     for check in RESULT_CHECKS:

@@ -1,4 +1,4 @@
-"""What a scene says about the fatigue life of its bearing: the same for all kinds of bearings."""
+"""Inputs of the fatigue life of a bearing: the same for all kinds of bearings."""
 
 from typing import ClassVar, Literal
 

@@ -31,7 +31,7 @@ _LOADS = {"axial": "axial_load", "radial": "radial_load", "tilt": "moment"}
 
 
 class Port(NamedTuple):
-    """What the inner ring needs where it is: `force`, the loads on its five freedoms, N and N m; `stiffness`, their
+    """Reaction of the inner ring at its place: `force`, the loads on its five freedoms, N and N m; `stiffness`, their
     derivatives by the displacements, everything else in equilibrium, N/m, N/rad, N m/m, N m/rad. Nothing in it is made
     symmetric: with centrifugal forces, couples or friction it is not."""
 
@@ -143,7 +143,7 @@ class InnerRing(eqx.Module):
 
 
 def _levers(lever: Float[Array, ""]) -> Float[Array, "5"]:
-    """What each of `RING_FREEDOMS` is multiplied by to be a length."""
+    """Factors that make each of `RING_FREEDOMS` a length."""
     return jnp.stack([lever if name in TILTS else jnp.ones(()) for name in RING_FREEDOMS])
 
 

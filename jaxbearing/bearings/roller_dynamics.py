@@ -438,7 +438,7 @@ class RollerDynamics(eqx.Module):
         return jnp.stack([drive, lost, closing, lever, load])
 
     def kinetic_energy(self, time: Scalar, state: ArrowPoint) -> Float[Array, ""]:
-        """Of rollers and cage, J."""
+        """Kinetic energy of rollers and cage, J."""
         motion = self.system.kinematics
         (_, v, u), (_, _, _, v_x, v_y, v_c), _ = self.unscaled(state)
         turning = self.frame(time)[1]

@@ -17,7 +17,7 @@ from .solution import PowerLoss
 
 
 class CageParts(eqx.Module):
-    """What besides the raceways acts on rollers and cage; all prepared, with the oil at its inlet temperature.
+    """Forces on rollers and cage besides those of the raceways, all prepared, with the oil at its inlet temperature.
 
     Without a cage (a moving bearing only: rollers outside the loaded zone then have no steady state) `pocket`, `land`
     and `rails` are `None`.

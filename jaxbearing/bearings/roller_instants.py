@@ -1,4 +1,4 @@
-"""What is reported of a moving cylindrical roller bearing at one time."""
+"""Report of a moving cylindrical roller bearing at one time."""
 
 import jax
 import jax.numpy as jnp

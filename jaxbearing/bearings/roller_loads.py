@@ -1,5 +1,5 @@
-"""How the rings' approach loads the rollers of a lubricated bearing: the equation of one roller, a guess of all loads,
-and the distribution at given speeds and places (source eqs. (37)-(39), (41))."""
+"""Roller loads of a lubricated bearing from the approach of the rings: the equation of one roller, a guess of all
+loads, and the distribution at given speeds and places (source eqs. (37)-(39), (41))."""
 
 from typing import NamedTuple
 

@@ -91,7 +91,7 @@ _excess = KeptProgram(run_excess, quick=True)
 def _request(
     scene: CylindricalRollerBearing, duration: float | None, simulation: Simulation | None, interval: float
 ) -> tuple[Simulation, float]:
-    """What is asked of a run, checked: how, and how long, s."""
+    """Checked request for a run: its settings, and its duration, s."""
     if not scene.slips:
         raise ValueError(IMMOBILE)
     check_inputs(scene)

@@ -17,7 +17,7 @@ AT_SOME_TIME = "at some time of the run: "
 
 
 def run_excess(scene: CylindricalRollerBearing, instants: Instant) -> Excess:
-    """By how much the results of a run leave what laws and bearings are made for: text -> the largest number of all
+    """Excess of the results of a run over the ranges of laws and bearings: text -> the largest number of all
     instants, positive where the check applies. Pure.
 
     **Arguments:** `instants`, of a run or of a piece of it, with the times in front of every array. All contacts of a

@@ -1,4 +1,4 @@
-"""What a scene says about its run in time: the same for all kinds of bearings."""
+"""Settings of a run in time: the same for all kinds of bearings."""
 
 from typing import ClassVar
 

@@ -55,7 +55,7 @@ def stiffness_units() -> tuple[tuple[str, ...], ...]:
 
 
 class CageState(eqx.Module):
-    """Where the cage is and how fast it turns."""
+    """Position and speed of the cage."""
 
     speed: Float[Array, ""] = eqx.field(metadata=label("rad/s", "cage speed"))
     slip: Float[Array, ""] = eqx.field(metadata=label("1", "1 - cage speed / speed of rolling without slip"))

@@ -250,7 +250,7 @@ def _rib(
 def _balance(
     geometry: TaperedGeometry, roller: _Roller, races: RaceFriction, rib: Traction | None, drag: Array | None
 ) -> tuple[RollerBalance, Float[Array, "2 roller"]]:
-    """Of each roller about the apex; and the torque that each roller asks of the rings, N m."""
+    """Balance of each roller about the apex; and the torque that each roller asks of the rings, N m."""
     moment, force, torque = jnp.zeros_like(races.film), jnp.zeros(races.film.shape[1]), jnp.zeros_like(races.film)
     if races.rolling is not None:
         couple = races.rolling * races.radius

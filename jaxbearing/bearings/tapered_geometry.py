@@ -20,7 +20,7 @@ from ..numerics.checks import Checked, demand, functions, given
 from ..numerics.structure import count
 
 LEAST_HALF_ANGLE = math.radians(0.3)
-"""Of the rollers: below, the apex goes to infinity and the bearing is a cylindrical one."""
+"""Least half angle of the rollers: below, the apex goes to infinity and the bearing is a cylindrical one."""
 
 
 class TaperedGeometry(Checked):
@@ -84,7 +84,7 @@ class TaperedGeometry(Checked):
 
     @property
     def pitch_diameter(self) -> Array:
-        """Of the circle of the rollers' middles, m."""
+        """Diameter of the circle of the rollers' middles, m."""
         return 2.0 * (self.big_end_radius - 0.5 * self.roller_length * jnp.sin(self.axis_angle))
 
     @property

@@ -55,7 +55,7 @@ class TaperedOperation(AbstractOperation):
 
     @property
     def symmetric(self) -> bool:
-        """Whether all rollers are alike."""
+        """True if all rollers are alike."""
         return self.radial_load is None and self.moment is None and self.misalignment is None
 
 
@@ -106,12 +106,12 @@ class TaperedRollerBearing(AbstractScene):
 
     @property
     def ring_lever(self) -> Array:
-        """What tilts of the ring are multiplied by inside the equations, m."""
+        """Lever by which the equations multiply the tilts of the ring, m."""
         return self.geometry.apex_distance
 
     @property
     def port_distance(self) -> Array:
-        r"""Of the reference point of the loads from the plane through the middle of the rollers along $+e_x$, m:
+        r"""Distance of the loads' reference point from the plane of the rollers' middles along $+e_x$, m:
         $(\frac{D_w}{2\tan\epsilon} - \frac{l_w}2\cos\epsilon)\cos\gamma$ to the apex, and `load_position`."""
         geometry, half = self.geometry, jnp.asarray(self.geometry.roller_half_angle)
         along = 0.5 * geometry.roller_diameter / jnp.tan(half) - 0.5 * geometry.roller_length * jnp.cos(half)

@@ -26,7 +26,7 @@ from .tapered_system import Inertia, TaperedState, TaperedSystem
 ROUNDED_UP = 2e-6
 """Added to a bound, of itself, so that its six printed digits are on the right side of it."""
 ROUNDING = 1e-9
-"""Of the moments that a bound compares: what lies closer is left to the solve."""
+"""Relative round-off of the moments that a bound compares: closer cases are left to the solve."""
 HIGHEST = 9.0
 """1/(10/9 - 1): see `line_pressure`."""
 
@@ -70,7 +70,7 @@ def solve_tapered(scene: TaperedRollerBearing, options: NewtonOptions, ring: Inn
 
 
 def slides_out(scene: TaperedRollerBearing, inertia: Inertia) -> Bool[Array, ""]:
-    r"""Whether $F_a < F_r\tan\alpha_o + ZQ_c\sin\alpha_o$, $Q_c = F_c\cos\alpha_f/\cos(\alpha_o - \alpha_f)$: no
+    r"""True if $F_a < F_r\tan\alpha_o + ZQ_c\sin\alpha_o$, $Q_c = F_c\cos\alpha_f/\cos(\alpha_o - \alpha_f)$: no
     equilibrium then, whatever the tilt.
 
     Every roller leans on the cup at that angle, and the centrifugal forces of two or more cancel (a single one proves
@@ -91,7 +91,7 @@ def least_axial_load(scene: TaperedRollerBearing, inertia: Inertia) -> Float[Arr
 
 
 def tips_over(scene: TaperedRollerBearing) -> Bool[Array, ""]:
-    r"""Whether a given moment lies beyond what the cup can hold: no equilibrium then, whatever the tilt.
+    r"""True if a given moment lies beyond what the cup can hold: no equilibrium then, whatever the tilt.
 
     M about the apex (`moment` less the radial load times `load_position`) is $\sum\rho Q_o\cos\psi$, each load at a
     distance $\rho$ between d - l and d from the apex, $F_r = \cos\alpha_o\sum Q_o\cos\psi$ and $F_a =
@@ -306,7 +306,7 @@ def line_pressure(scene: TaperedRollerBearing, system: TaperedSystem, state: Tap
 
 
 def _end_reach(scene: TaperedRollerBearing, state: TaperedState) -> Array:
-    """By how much the ellipse on the rib reaches beyond the end face, m."""
+    """Length by which the ellipse on the rib reaches beyond the end face, m."""
     geometry = scene.geometry
     modulus = reduced_modulus(scene.materials.rings, scene.materials.rollers)
     below = geometry.end_radius * jnp.sin(geometry.flange_tilt)

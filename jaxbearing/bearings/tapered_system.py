@@ -43,12 +43,12 @@ LOAD_FLOOR = 1e-3
 START_TOLERANCE = 1e-7
 """Scaled residual at which the descent of the potential hands over to Newton."""
 LONGEST_STEP = 1e-4
-"""Of a displacement in one Newton step, m."""
+"""Largest change of a displacement in one Newton step, m."""
 FARTHEST = 100.0
 """Displacement of a roller, m, at which an iterate is lost."""
 MOST_TILT = 0.1
-"""Of a ring that is free to tilt, rad. The equations are those of small displacements; they do have roots beyond, where
-rollers carry all load on the last micrometres of their length while the others are millimetres apart."""
+"""Largest tilt of a ring that is free to tilt, rad. The equations are those of small displacements; they do have roots
+beyond, where rollers carry all load on the last micrometres of their length while the others are millimetres apart."""
 
 
 SEATING = 1e-3
@@ -84,7 +84,7 @@ class Inertia(NamedTuple):
 
 
 class TaperedState(NamedTuple):
-    """What happens at every roller: approaches f (m) and g (rad), loads (N), moments about s = 0 (N m), races first."""
+    """State of every roller: approaches f (m) and g (rad), loads (N), moments about s = 0 (N m), races first."""
 
     approach: Float[Array, "2 roller"]
     slope: Float[Array, "2 roller"]
@@ -125,11 +125,11 @@ class TaperedSystem(AbstractConvexArrow):
         return self.multiplicity * self.held.shape[1]
 
     def load_scale(self) -> Array:
-        """Of the ring's balances, N."""
+        """Scale of the ring's balances, N."""
         return jnp.sqrt(jnp.square(self.ring.size()) + LOAD_FLOOR**2)
 
     def roller_scale(self) -> Array:
-        """Of a roller's balances, N."""
+        """Scale of a roller's balances, N."""
         return self.load_scale() / self.roller_count + self.inertia.force
 
     def units(self) -> Float[Array, "3 1"]:
@@ -147,7 +147,7 @@ class TaperedSystem(AbstractConvexArrow):
         return ArrowPoint(jnp.full((3, 1), cap), jnp.full(len(self.freedoms), cap))
 
     def bounds(self) -> tuple[ArrowPoint, ArrowPoint]:
-        """Of the ring: the apex distance, or the largest tilt; whoever looks for a balance looks no further."""
+        """Limits of the search for an equilibrium; of the ring the apex distance, or the largest tilt."""
         away = self.form.apex_distance / LENGTH_UNIT
         ring = self.ring.of_each(lambda name: MOST_TILT * away if name in TILTS else away)
         high = ArrowPoint(jnp.full((3, 1), FARTHEST / LENGTH_UNIT), ring)
@@ -180,7 +180,7 @@ class TaperedSystem(AbstractConvexArrow):
         return (totals - self.ring.load + held) / self.load_scale(), jnp.zeros(())
 
     def energies(self, unknowns, shared):
-        """Of the contacts of each roller less the work of its inertia, J."""
+        """Energy of the contacts of each roller less the work of its inertia, J."""
         state = self.state(unknowns, shared)
         along, across, tilt = self.units() * unknowns
         line = jnp.sum(self.line.energy(state.approach, state.slope), axis=0)
@@ -190,7 +190,7 @@ class TaperedSystem(AbstractConvexArrow):
         return self.multiplicity * (line + flange - self.inertia.force * outwards + self.inertia.moment * tilt)
 
     def work(self, globals_):
-        """Of the ring's loads, J."""
+        """Work of the ring's loads, J."""
         return LENGTH_UNIT * jnp.sum(self.ring.load * globals_)
 
     @property

@@ -28,7 +28,7 @@ from .tapered_system import ANCHOR, FARTHEST, LOAD_FLOOR, LONGEST_STEP, MOST_TIL
 SLOW = 1e-2
 """Centrifugal force over a roller's share of the load below which a bearing is solved at rest first."""
 HALVINGS = 60
-"""Of the approach of a roller that only its centrifugal force holds."""
+"""Number of bisections for the approach of a roller that only its centrifugal force holds."""
 
 
 class TiltingState(NamedTuple):
@@ -108,14 +108,14 @@ class TiltingRollers(AbstractConvexArrow):
         return (totals - self.ring.load + held) / self.load_scale(), jnp.zeros(())
 
     def energies(self, unknowns, shared):
-        """Of the contacts of each roller less the work of its centrifugal force, J."""
+        """Energy of the contacts of each roller less the work of its centrifugal force, J."""
         state = self.state(unknowns, shared)
         out, tilt = self.units() * unknowns
         energy = jnp.sum(self.line.energy(state.approach, state.slope), axis=0)
         return energy - self.centrifugal * (out + 0.5 * self.line.length * tilt)
 
     def work(self, globals_):
-        """Of the ring's loads, J."""
+        """Work of the ring's loads, J."""
         return LENGTH_UNIT * jnp.sum(self.ring.load * globals_)
 
     def started(self) -> tuple["TiltingRollers", Minimum]:

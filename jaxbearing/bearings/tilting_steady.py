@@ -31,7 +31,7 @@ from .steady import assemble
 from .tilting_roller import TiltingRollers, TiltingState
 
 FREEDOMS = ("radial", "lateral", "tilt", "tilt_lateral")
-"""Of the inner ring, those that the model has: nothing holds it axially."""
+"""Freedoms of the inner ring in the model: nothing holds it axially."""
 
 
 def build_tilting(scene: CylindricalRollerBearing, ring: InnerRing | None = None) -> TiltingRollers:

@@ -1,4 +1,4 @@
-"""How many devices JAX has on this machine: on a CPU as many as there are cores to use, if a verb asks for them."""
+"""Number of JAX devices on this machine: on a CPU as many as there are cores to use, if a verb asks for them."""
 
 import os
 

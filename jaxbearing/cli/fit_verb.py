@@ -164,7 +164,7 @@ def _models(given: str | None, known: list[str]) -> list[str | None]:
 
 
 def _check_options(options: Any) -> None:
-    """What is wrong with the options together."""
+    """Message on options that do not fit together."""
     both = [name for name in options.fixed if name in options.free]
     if both:
         refuse(f"--free: found '{both[0]}', which --fix holds; expected one of the two")

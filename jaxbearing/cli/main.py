@@ -31,7 +31,7 @@ Environment: JAXBEARING_CACHE is the folder where compiled programs are kept
   between runs, or off; without it they are kept in the user's cache folder."""
 
 _UsageError: Any = typer.BadParameter.__mro__[1]
-"""What the parser raises for a wrong command line; typer exports only this one kind of it."""
+"""Error of the parser for a wrong command line; typer exports only this one kind."""
 
 app = typer.Typer(
     name="jaxbearing",

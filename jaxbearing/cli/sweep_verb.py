@@ -192,7 +192,7 @@ def _cases(source: Any, over: Any, cases_file: Any, random: Any, latin_hypercube
 
 @contextmanager
 def _refused(option: str) -> Iterator[None]:
-    """What the library says of values that no sweep can have."""
+    """Message of the library on values that no sweep can have."""
     from ..scenes.errors import SceneError
 
     try:

@@ -1,4 +1,4 @@
-"""Where the screen output goes."""
+"""Console of the screen output."""
 
 import sys
 from typing import TYPE_CHECKING

@@ -30,13 +30,13 @@ SPEED_FLOOR = 1e-6
 """Smoothing of the mean speed's modulus, m/s: at rest the oil has all the time it needs and flows as a viscous
 fluid."""
 UNCERTAIN_SHARE = 0.1
-"""Of the size of an estimated error that may have the other sign."""
+"""Share of an estimated error that may have the other sign."""
 RISE_TOLERANCE = 1e-10
 """Newton step at which the search for a temperature ends, relative to the rise or 1 K."""
 
 
 class Traction(NamedTuple):
-    """What a sheared film does. Forces are those of body 1 on body 2, along the sliding of body 1 over body 2.
+    """Traction of a sheared film. Forces are those of body 1 on body 2, along the sliding of body 1 over body 2.
 
     `rolling`, `transverse`, N; `moment`, N m, about the normal through the centre; `power`, W, dissipated;
     `curvature`, N m^2: integral of the stress along rolling times y^2 (None: no sliding of that kind).
@@ -187,7 +187,7 @@ class _Problem(eqx.Module):
     half: bool = eqx.field(static=True)
     """True if the strips cover one half of the contact, the other half being alike."""
     curved: bool = eqx.field(static=True)
-    """Whether the sliding changes with the square of the distance from the middle."""
+    """True if the sliding changes with the square of the distance from the middle."""
 
     def solved(self, steps: int, extrapolate: bool) -> Traction:
         heating = self.law.heating
@@ -303,7 +303,7 @@ class _Problem(eqx.Module):
         return peak(offset, strips)
 
     def conductivity(self, heating: FilmHeating) -> Array:
-        """Of the oil, W/(m K)."""
+        """Thermal conductivity of the oil, W/(m K)."""
         if heating.conductivity is not None:
             return jnp.asarray(heating.conductivity)
         if self.lubricant.conductivity is None:

@@ -24,7 +24,7 @@ class AbstractLineFilm(Checked):
 
     part: ClassVar[str] = "contact.film"
     piezoviscous_only: ClassVar[bool]
-    """Whether the law holds only for an oil whose viscosity rises with pressure: for others its film is about 0."""
+    """True if the law holds only for an oil whose viscosity rises with pressure: for others its film is about 0."""
 
     @abc.abstractmethod
     def log_thickness(

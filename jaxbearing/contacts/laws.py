@@ -22,7 +22,7 @@ SPEED_SMOOTHING = 5e-7
 
 
 class ContactState(NamedTuple):
-    """What one contact does: `film` m, `temperature_rise` K above the inlet, `traction` N (None: frictionless),
+    """State of one contact: `film` m, `temperature_rise` K above the inlet, `traction` N (None: frictionless),
     `rolling_force` N (None: no rolling resistance), of the sign of the mean speed.
 
     `inner_residual` is that of the nested solve for the temperature rise, in units of ln(film).

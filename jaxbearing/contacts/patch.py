@@ -28,7 +28,7 @@ class Strips(NamedTuple):
 
 
 class ContactPatch(eqx.Module):
-    """Where two bodies touch: Hertz pressure over an ellipse or a rectangle. Fields broadcast against each other.
+    """Contact area of two bodies: Hertz pressure over an ellipse or a rectangle. Fields broadcast against each other.
 
     **Arguments:**
     - `pressure`: Hertz (peak) pressure, Pa, > 0.

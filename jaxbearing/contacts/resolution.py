@@ -1,4 +1,4 @@
-"""How finely a contact is cut for its traction: steps along rolling, strips across.
+"""Discretisation of a contact for its traction: steps along rolling, strips across.
 
 Measured relative error of the force without spin (`tests/benchmarks/traction.py`): 800 random contacts, Deborah number
 1e-2 to 3e2, slide ratio 1e-4 to 1, Mobil Jet II and Pennzane; each entry is the worse one of line and point contact,

@@ -39,7 +39,7 @@ class AbstractRollingResistance(eqx.Module):
     """
 
     piezoviscous_only: ClassVar[bool]
-    """Whether the law means nothing for an oil whose viscosity does not rise with pressure."""
+    """True if the law means nothing for an oil whose viscosity does not rise with pressure."""
 
     @abc.abstractmethod
     def force(

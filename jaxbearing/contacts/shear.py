@@ -25,12 +25,12 @@ class Sliding(NamedTuple):
 
     @property
     def plane(self) -> bool:
-        """Whether all of it is along rolling."""
+        """True if all of it is along rolling."""
         return self.transverse is None and self.spin is None
 
     @property
     def alike(self) -> bool:
-        """Whether it is the same across the contact."""
+        """True if it is the same across the contact."""
         return self.spin is None and self.curvature is None
 
 

@@ -59,7 +59,7 @@ class AbstractTiltedLine(Checked):
 
     @abc.abstractmethod
     def drop(self, position: Values) -> Float[Array, "..."]:
-        """Of the roller's profile, m, at a place, s/l from 0 to 1."""
+        """Depth of the roller's profile, m, at a place, s/l from 0 to 1."""
 
     def load_per_length(self, f: Values, g: Values, position: Values) -> Float[Array, "..."]:
         """q, N/m, at a place s/l."""

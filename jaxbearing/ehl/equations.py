@@ -45,7 +45,7 @@ class Fluid(eqx.Module):
 
 
 class Equations(eqx.Module):
-    r"""What the equations of one solve depend on beside mesh and unknowns (dimensionless but for the fluid).
+    r"""Parameters of the equations of one solve beside mesh and unknowns (dimensionless but for the fluid).
 
     X = x/a, P = p/p_h, H = h R'/a^2, time t u_0/a; $\varepsilon = \bar\rho H^3 e^{-\ln(\eta/\eta_0)}/\lambda$,
     $m = \bar\rho H$, $\lambda = 12\eta_0 u_0 R'^2/(a^3 p_h)$, u_0 a fixed reference speed:

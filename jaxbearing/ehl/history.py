@@ -69,7 +69,7 @@ class LineContactHistory(AbstractSolution):
 
     @property
     def converged(self) -> Bool[Array, ""]:
-        """Whether the run reached its end, or the end of what the model describes."""
+        """True if the run reached its end, or the end of what the model describes."""
         return self.status == Status.CONVERGED
 
     @property
@@ -84,7 +84,7 @@ class LineContactHistory(AbstractSolution):
 
 
 def thin_note(time: float, limit: Any) -> str:
-    """What is said of a run that ended below its film limit."""
+    """Note on a run that ended below its film limit."""
     return (
         f"the run ended at {1e3 * time:.6g} ms: the smallest film fell below contact.film_limit, "
         f"{1e9 * float(limit):.3g} nm, where a continuum, and smooth surfaces, mean nothing"

@@ -1,4 +1,4 @@
-"""Where a run in time of a line contact stands, in SI units, and how another run goes on from there."""
+"""State of a line contact's run in time, in SI units, from which another run continues."""
 
 import equinox as eqx
 import jax

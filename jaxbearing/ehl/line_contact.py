@@ -44,7 +44,7 @@ class ContactBodies(eqx.Module):
 
 
 class FilmModel(Checked):
-    """What is modelled, and how finely.
+    """Parts that are modelled, and their resolution.
 
     **Arguments:**
     - `compressible`: whether the density follows Dowson and Higginson; else it is constant.
@@ -102,7 +102,7 @@ class ContactOperation(Checked):
 
 
 class Scales(NamedTuple):
-    """What makes a contact dimensionless, and its numbers."""
+    """Scales of the dimensionless contact, and its dimensionless numbers."""
 
     half_width: Float[Array, ""]
     hertz_pressure: Float[Array, ""]
@@ -205,7 +205,7 @@ class EHLLineContact(AbstractScene):
         return 0.125 * jnp.pi * scales.film / film
 
     def solvable(self, scales: Scales, speed: Any) -> Bool[Array, ""]:
-        """Whether there is a film at this speed that this model describes."""
+        """True if there is a film at this speed that this model describes."""
         return existing(scales.wedge, speed) & self.described(scales)
 
     def described(self, scales: Scales) -> Bool[Array, ""]:
@@ -222,7 +222,7 @@ class EHLLineContact(AbstractScene):
         return MeshKey(self.contact.nodes, self.contact.inlet, outlet, stop=True)
 
     def assumptions(self) -> tuple[str, ...]:
-        """What the scene's data were not made for or leave open; for the user."""
+        """Notes for the user: uses for which the scene's data were not made, and assumptions."""
         # the notes of the oil on conductivity and rheology are about what is not used here
         notes = tuple(f"oil: {note}" for note in self.oil.viscosity.notes)
         if self.contact.compressible:

@@ -36,7 +36,7 @@ class Mesh(NamedTuple):
 
 
 class MeshKey(NamedTuple):
-    """What a mesh is made from: static.
+    """Static description of a mesh.
 
     `nodes`: n; `inlet`, `outlet`: length of the domain to both sides, half widths; `stop`: graded for a run in time
     (wider bumps, the left one at the Hertz edge), or for steady running.

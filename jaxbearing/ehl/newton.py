@@ -22,7 +22,7 @@ ROUNDING = 1e-14
 
 
 class Root(NamedTuple):
-    """Where the iteration ended; of a lane that failed, the last finite point. `step`: largest change of an unknown in
+    """End of the iteration; of a lane that failed, the last finite point. `step`: largest change of an unknown in
     the last step; `residual`: largest row before it."""
 
     point: Point

@@ -38,7 +38,7 @@ class Begun(NamedTuple):
 
 
 class Seen(NamedTuple):
-    """What is kept of a step, SI."""
+    """Stored results of a step, SI."""
 
     central: Float[Array, ""]
     minimum: Float[Array, ""]
@@ -50,7 +50,7 @@ class Seen(NamedTuple):
 
 
 def drive_of(scene: EHLLineContact, simulation: FilmSimulation, scales: Scales) -> Drive:
-    """What does not change in the run."""
+    """Constants of the run."""
     unit = scales.half_width / scales.reference_speed
     base = jnp.asarray(scene.operation.entrainment_speed) / scales.reference_speed
     limit = scene.contact.film_limit / scales.film
@@ -103,7 +103,7 @@ def _see(points: Point, scales: Scales, key: MeshKey) -> Seen:
 
 
 def enters_behind(scene: EHLLineContact, simulation: FilmSimulation, begin: float, stop: float) -> bool:
-    """Whether oil enters from +x at some time between two, s."""
+    """True if oil enters from +x at some time between two, s."""
     factors = np.asarray(jax.vmap(simulation.speed.factor)(jnp.linspace(begin, stop, LOOKS)))
     return bool((float(scene.operation.entrainment_speed) * factors).min() < 0.0)
 

@@ -1,4 +1,4 @@
-"""What a scene of a line contact says about its run in time."""
+"""Settings of a line contact's run in time."""
 
 from typing import ClassVar
 

@@ -45,7 +45,7 @@ class Steady(eqx.Module):
 
 
 class SteadyRoot(NamedTuple):
-    """Where the last mesh's iteration ended; `iterations` of all meshes; see `newton.Root`."""
+    """End of the iteration on the last mesh; `iterations` of all meshes; see `newton.Root`."""
 
     point: Point
     solved: Bool[Array, ""]
@@ -125,7 +125,7 @@ def _directional(function: Callable, primals: tuple, tangents: tuple) -> Any:
 
 
 def existing(wedge: Scalar, speed: Scalar) -> Bool[Array, ""]:
-    """Whether there is entrainment enough for a steady film."""
+    """True if there is entrainment enough for a steady film."""
     return jnp.asarray(wedge * jnp.abs(speed) >= SMALLEST_WEDGE)
 
 

@@ -48,7 +48,7 @@ SEGMENT = 32
 
 
 class Motion(NamedTuple):
-    """Where a run stands: enough to go on exactly as if it had not stopped. Times in a/u_0.
+    """State of a run: enough to go on exactly as if it had not stopped. Times in a/u_0.
 
     `points`, `masses`: at the last three times, newest first; `steps`: between them; `known`: how many there are;
     `proposal`: the step to try next.
@@ -64,7 +64,7 @@ class Motion(NamedTuple):
 
 
 class Drive(eqx.Module):
-    """What does not change in a run. **Arguments:** `fluid`; `wedge`; `speed`: over that of the operation, over time;
+    """Constants of a run. **Arguments:** `fluid`; `wedge`; `speed`: over that of the operation, over time;
     `unit`: s, one unit of the dimensionless time; `base`: the operation's speed over the reference speed (its
     sign); `tolerance`: largest relative error of m in one step; `film_limit`: dimensionless."""
 
@@ -145,15 +145,15 @@ def _derivative(step: Array, steps: Array, masses: Array, known: Array) -> tuple
 
 
 def _error_part(step: Array, steps: Array, known: Array) -> Array:
-    """Of the difference between solution and extrapolation. 1 (too much) for the first step; 1/2 for the second, whose
-    extrapolation is a line."""
+    """Share of the difference between solution and extrapolation that counts as error: 1 (too much) for the first
+    step; 1/2 for the second, whose extrapolation is a line."""
     h, h1, h2 = step, steps[0], steps[1]
     a, b = h * (h + h1) / (2.0 * h + h1), h + h1 + h2
     return jnp.where(known == 1, 1.0, jnp.where(known == 2, 0.5, a / (a + b)))
 
 
 def mass_imbalance(equations: Equations, point: Point, mesh: Mesh) -> Float[Array, ""]:
-    """What the balance of the zone under pressure leaves open (inflow less outflow less change of the mass in it), over
+    """Error of the mass balance of the zone under pressure (inflow less outflow less change of the mass in it), over
     the sum of the changes in it and the largest flux through a face."""
     film = film_shape(point, mesh)
     flux = face_fluxes(equations, point.pressure, film, mesh)

@@ -92,7 +92,7 @@ def _excess_and_slope(exit_: _Exit) -> tuple[Batch, Batch]:
 
 
 def _moved(exit_: _Exit, way: Values) -> _Exit:
-    """What a small change of T changes, to first order."""
+    """First-order effect of a small change of T."""
     t, _, sin, _, _ = exit_
     square = sin * sin
     return _Exit(way, square * way, -t * sin * square * way, square**2 * way, square**3 * way)

@@ -26,7 +26,7 @@ def _fully_turbulent_excess(reynolds: Values) -> tuple[Batch, Batch]:
 
 
 class AbstractTurbulence(eqx.Module):
-    """What turbulence does to a thin film: the effective viscosity mu k_z/12 and the friction C_f."""
+    """Effect of turbulence on a thin film: the effective viscosity mu k_z/12 and the friction C_f."""
 
     @abc.abstractmethod
     def factors(self, reynolds: Values, critical_reynolds: Values) -> tuple[Batch, Batch]:

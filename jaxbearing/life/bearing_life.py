@@ -54,7 +54,7 @@ THIN_WARNING = (
 
 
 class Rated(NamedTuple):
-    """What a kind of bearing gives to the life."""
+    """Inputs of the life from a kind of bearing."""
 
     family: Family
     pitch_diameter: Array
@@ -170,7 +170,7 @@ def bearing_life(scene: Any, solution: Solution) -> Life:
 
 
 def _turning(operation: Any) -> tuple[Bool[Array, ""], Bool[Array, ""]]:
-    """Whether the inner and the outer ring turn against the load, which stands still; the inner one where none does."""
+    """True if the inner and the outer ring turn against the load, which stands still; the inner one where none does."""
     inner, outer = (jnp.asarray(value) != 0.0 for value in (operation.inner_speed, operation.outer_speed))
     return inner | ~outer, outer
 

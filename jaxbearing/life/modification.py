@@ -12,9 +12,9 @@ from .capacity import MILLIMETRE
 Family = Literal["ball", "roller"]
 
 LARGEST = 50.0
-"""Of a_ISO."""
+"""Largest a_ISO."""
 LEAST_BRACKET = 0.05
-"""Where the bracket of a_ISO is held before the power: 0.1 * 0.05^-9.185 is far beyond 50 already."""
+"""Least bracket of a_ISO before the power: 0.1 * 0.05^-9.185 is far beyond 50 already."""
 KAPPA_RANGE = (0.1, 4.0)
 """Viscosity ratios: below, ISO 281 gives no factor; above, that of 4 holds."""
 

@@ -72,7 +72,7 @@ def roller_contact_capacities(
 
 
 def _mean_power(relative: Array, turns: Bool[Array, ""], turning: float, resting: float) -> Array:
-    """Of relative loads over the elements (axis 0): mean of the power `turning`, raised to `resting`, or of that."""
+    """Mean of relative loads over the elements (axis 0): of the power `turning`, raised to `resting`, or of that."""
     mean = jnp.mean(relative**turning, axis=0)
     rolled = (mean + TINY) ** (resting / turning) - TINY ** (resting / turning)
     return jnp.where(turns, rolled, jnp.mean(relative**resting, axis=0))

@@ -12,7 +12,7 @@ from .viscosity import AbstractViscosity
 
 
 class InletOil(eqx.Module):
-    """What film formulas need of the oil, evaluated once at inlet temperature and ambient pressure."""
+    """Oil properties for film formulas, evaluated once at inlet temperature and ambient pressure."""
 
     temperature: Values
     viscosity: Values

@@ -44,7 +44,7 @@ class ExponentialRheology(Checked):
     exponent: float | None = constant("rheology.exponent", None)
 
     def misfit(self, viscous_function: str, exponent: Values | None = None) -> tuple[str, ...]:
-        """What a user should know of a traction law with this viscous function: nothing, or that the data were fitted
+        """Notes for the user on a traction law with this viscous function: nothing, or that the data were fitted
         with another one (a limiting stress is no Eyring stress).
 
         **Arguments:** `viscous_function`, its name; `exponent`, that of "elsharkawy_hamrock".

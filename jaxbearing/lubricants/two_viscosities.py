@@ -23,7 +23,7 @@ ESTIMATE_NOTE = (
     "alpha of the oil, the growth of its viscosity with pressure, is estimated from its viscosity (Wooster): +-30 % "
     "for mineral oils, up to 70 % too large for synthetic ones"
 )
-"""What a scene says of an oil whose alpha is an estimate."""
+"""Note of a scene on an oil whose alpha is an estimate."""
 
 
 def wooster_pressure_viscosity(viscosity: Values) -> Batch:

@@ -82,7 +82,7 @@ class AbstractViscosity(Checked):
 
     @property
     def notes(self) -> tuple[str, ...]:
-        """What a user of the law should know about where its numbers come from, in words."""
+        """Notes for the user on the origin of the law's numbers."""
         return ()
 
 

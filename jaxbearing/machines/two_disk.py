@@ -166,7 +166,7 @@ class DiskState(NamedTuple):
     entrainment_speed: Float[Array, "*batch"]
     sliding_speed: Float[Array, "*batch"]
     temperature: Float[Array, "*batch"]
-    """Of the oil that enters the contact, K."""
+    """Temperature of the oil that enters the contact, K."""
     inner_residual: Float[Array, "*batch"]
 
 
@@ -202,7 +202,7 @@ class TwoDiskSolution(AbstractSolution):
 
     @property
     def converged(self) -> Bool[Array, ""]:
-        """Whether all points are."""
+        """True if all points converged."""
         return jnp.all(self.status == Status.CONVERGED)
 
     def solver_failure(self) -> str:
@@ -287,7 +287,7 @@ class TwoDisk(AbstractScene):
         return reduced_modulus(self.materials.body_1, self.materials.body_2)
 
     def assumptions(self) -> tuple[str, ...]:
-        """What the scene's data were not made for or leave open; for the user."""
+        """Notes for the user: uses for which the scene's data were not made, and assumptions."""
         return (*(f"oil: {note}" for note in self.oil.notes), *self.contact.traction.notes(self.oil))
 
     def state(
@@ -392,7 +392,7 @@ def _in_batches(function: Any, grid: Sequence[Array]) -> Any:
 
 
 def _range_excess(scene: TwoDisk, contact: LineContact | PointContact, load: Any) -> dict[str, Array]:
-    """By how much the operation leaves the ranges for which the laws were made: positive where it does."""
+    """Excess of the operation over the ranges of the laws: positive outside of them."""
     operation, (low, high) = scene.operation, FITTED_TEMPERATURES
     temperature, slide = jnp.asarray(operation.temperature), jnp.max(jnp.abs(operation.slide_to_roll))
     excess = {
@@ -413,6 +413,6 @@ def _range_excess(scene: TwoDisk, contact: LineContact | PointContact, load: Any
 
 
 def _hottest_excess(temperature: Array, traction: Traction, good: Array) -> Array:
-    """By how much the hottest oil in a contact is beyond the range of the oil laws, K."""
+    """Excess of the hottest oil in a contact over the range of the oil laws, K."""
     hottest = temperature if traction.film_rise is None else temperature + traction.film_rise
     return jnp.max(jnp.where(good, hottest, 0.0)) - FITTED_TEMPERATURES[1]

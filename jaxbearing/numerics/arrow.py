@@ -49,7 +49,7 @@ class AbstractArrowSystem(eqx.Module):
 
     @property
     def rising(self) -> bool:
-        """Whether each equation grows with its own unknown at every root: Newton's steps are then turned uphill where
+        """True if each equation grows with its own unknown at every root: Newton's steps are then turned uphill where
         one falls."""
         return True
 

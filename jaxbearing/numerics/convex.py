@@ -41,9 +41,9 @@ TRIED = np.array([256.0, 16.0, 1.0, 0.125, 0.01])
 HARDENING = np.array([1e-10, 1e-5, 1e-1])
 """Added to the diagonal of the globals' stiffness, relative to itself: rows of unequal scale keep theirs."""
 QUICK_STEPS, SETTLED_STEPS = 60, 60
-"""Of the descent of all unknowns together, and of the globals with the elements at their minima."""
+"""Most steps of the descent of all unknowns together, and of the globals with the elements at their minima."""
 OUTSIDE = 1e-3
-"""Of the force that pushes a global over its bound: the other equations' residuals there, at most."""
+"""Largest residual of the other equations, over the force that pushes a global over its bound."""
 FAST = 0.5
 """A whole Newton step that lowers the potential, and the residual to this part, is taken without a search."""
 
@@ -55,11 +55,11 @@ class AbstractConvexArrow(AbstractArrowSystem):
     def energies(
         self, unknowns: Float[Array, "m element"], shared: Float[Array, "g element"]
     ) -> Float[Array, " element"]:
-        """Of each element and its contacts; arguments as those of `element`."""
+        """Energy of each element and its contacts; arguments as those of `element`."""
 
     @abc.abstractmethod
     def work(self, globals_: Float[Array, " g"]) -> Float[Array, ""]:
-        """Of the loads on the globals."""
+        """Work of the loads on the globals."""
 
     def potential(self, point: ArrowPoint) -> Float[Array, ""]:
         """Convex, in any unit; need not be bounded below where there is no equilibrium."""
@@ -209,7 +209,7 @@ def descend_settled(system: AbstractConvexArrow, guess: ArrowPoint, *, tolerance
 
 
 class Minimum(NamedTuple):
-    """Where the search for the minimum ended, its steps, and whether it is proved to lie outside the bounds."""
+    """End of the search for the minimum, its steps, and whether it is proved to lie outside the bounds."""
 
     point: ArrowPoint
     steps: Int[Array, ""]

@@ -31,7 +31,7 @@ def solve_dense(matrix: Float[Array, "n n"], right_side: Float[Array, " n"]) -> 
 
 
 def _width(n: int) -> int:
-    """Of the blocks: fast at this size (measured), and few enough to compile."""
+    """Width of the blocks: fast at this size (measured), and few enough to compile."""
     target = 50 if n <= 300 else 68 if n <= 600 else 100
     return -(-n // -(-n // target))
 
@@ -54,7 +54,7 @@ def _eliminate(matrix: Array, right_side: Array) -> Array:
 
 
 def _inverse(block: Array) -> Array:
-    """Of a small matrix, a few columns at a time."""
+    """Inverse of a small matrix, a few columns at a time."""
     width = block.shape[0]
     lu, _, order = jax.lax.linalg.lu(block)
     groups = -(-width // COLUMNS)

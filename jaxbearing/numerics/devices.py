@@ -32,7 +32,7 @@ def shared_out(run: Callable[..., Any]) -> Callable[..., Any]:
 
 
 def may_be_shared_out(given: Any) -> bool:
-    """Whether nobody has chosen devices already: by `jax.device_put`, by a mesh, by a default, or by a transformation
+    """True if nobody has chosen devices already: by `jax.device_put`, by a mesh, by a default, or by a transformation
     of JAX around the call, of which nothing is known."""
     if getattr(jax.config, "jax_default_device", None) is not None or not jax.sharding.get_abstract_mesh().empty:
         return False

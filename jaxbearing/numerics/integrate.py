@@ -55,7 +55,7 @@ def diffrax_solver(options: IntegratorOptions, idle: int = 0) -> Any:
 
 
 class _Problem(NamedTuple):
-    """What diffrax integrates: vector field, solver, state and arguments; the norm of an error; the state proper."""
+    """Problem for diffrax: vector field, solver, state and arguments; the norm of an error; the state proper."""
 
     field: Any
     solver: Any

@@ -1,4 +1,4 @@
-"""What is asked of an integration in time, and what comes back; apart from `integrate`, which pulls in diffrax."""
+"""Options and results of an integration in time; apart from `integrate`, which pulls in diffrax."""
 
 from collections.abc import Callable
 from typing import Any, Literal, NamedTuple, get_args
@@ -29,7 +29,7 @@ class NestedField(NamedTuple):
 
 
 class IntegratorOptions(Checked):
-    """How to integrate.
+    """Options of the integrator.
 
     **Arguments:**
     - `solver`: one of `SOLVERS`.

@@ -32,7 +32,7 @@ a rise (measured on random roller bearings with both rings turning: with 1.5, th
 20 steps). The further tries, begun nearer to their root, ask for a decrease: a residual that saturates never grows by
 that factor."""
 LEAST_FALL = 0.1
-"""Of the fall of the residual that its linearization promises for a step of a further try."""
+"""Least decrease of the residual over the one that its linearization predicts, for a step of a further try."""
 TURNING_BACK = 0.5
 """A step that takes back the one before it goes at most this part of its length: as in bisection, what two steps that
 oppose each other enclose is halved. Newton's iteration in a kink goes back and forth for ever."""
@@ -80,7 +80,7 @@ class NewtonOptions(eqx.Module):
 
 
 class NewtonResult(NamedTuple):
-    """Where the iteration ended. On a lane that failed, `point` is a finite point and not a solution.
+    """End of the iteration. On a lane that failed, `point` is a finite point and not a solution.
 
     `jacobian` holds the blocks, residual norm, worst equation and worst element are measured at the last iterate on the
     system asked for (not an eased one); of a lane that converged, `point` is one Newton step (below the step tolerance)
@@ -102,15 +102,15 @@ class NewtonResult(NamedTuple):
 
 
 class _Path(NamedTuple):
-    """Where the further tries stand: each walks from ease 1 to ease 0, every stage from where the last one ended."""
+    """State of the further tries: each walks from ease 1 to ease 0, every stage from where the last one ended."""
 
     ease: Float[Array, ""]
-    """Of the stage being solved; 0 in the first try."""
+    """Ease of the stage being solved; 0 in the first try."""
     solved_ease: Float[Array, ""]
-    """Of the last stage solved; above 1: none."""
+    """Ease of the last stage solved; above 1: none."""
     solved: ArrowPoint
     length: Float[Array, ""]
-    """Of this stage."""
+    """Length of this stage."""
     steps: Int[Array, ""]
     """Newton steps of this stage."""
     tries: Int[Array, ""]
@@ -123,7 +123,7 @@ class _Iterate(NamedTuple):
     step: ArrowPoint
     base_norm: Float[Array, ""]
     share: Float[Array, ""]
-    """Of the Newton step that `step` is, after caps and pacing; what the residual may fall by is as much less."""
+    """Share of the Newton step left after caps and pacing; the expected decrease of the residual scales with it."""
     attempt: Int[Array, ""]
     iterations: Int[Array, ""]
     status: Int[Array, ""]
@@ -188,8 +188,8 @@ def _paced(
 
 
 def _of_last_bits(equations: Equations, jacobian: ArrowJacobian, at: ArrowPoint) -> Bool[Array, ""]:
-    """Whether no residual is more than what the last bits of the unknowns make of it: those of 1 where an unknown is
-    smaller, for it then stands for a difference of two of that order."""
+    """True if every residual is within the round-off of a change of the unknowns by their last bits (by those of 1
+    where an unknown is smaller: it then stands for a difference of two of that order)."""
     steep = jax.tree.map(jnp.abs, jacobian)
     own, common = (LAST_BITS * jnp.maximum(jnp.abs(part), 1.0) for part in at)
     elements = jnp.einsum("ijn,jn->in", steep.local, own) + jnp.einsum("ign,g->in", steep.to_globals, common)

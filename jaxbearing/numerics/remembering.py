@@ -18,7 +18,7 @@ FULL = 0.95
 
 
 class Memory(NamedTuple):
-    """What was found at a time, its slope, 1/s, and half its curvature, 1/s^2."""
+    """Value found at a time, its slope, 1/s, and half its curvature, 1/s^2."""
 
     time: Scalar
     value: Float[Array, " found"]

@@ -1,4 +1,4 @@
-"""How a solve ended: one enumeration for the solver, the Python result, the JSON and the screen."""
+"""Status of a solve: one enumeration for the solver, the Python result, the JSON and the screen."""
 
 import enum
 

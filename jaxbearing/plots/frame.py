@@ -1,4 +1,4 @@
-"""What all figures have in common: size, caption, units of an axis."""
+"""Common parts of all figures: size, caption, units of an axis."""
 
 import textwrap
 from collections.abc import Callable
@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     import matplotlib.figure
 
 WIDTH, HEIGHT = 7.2, 4.9
-"""Of a figure, inches."""
+"""Width and height of a figure, inches."""
 _CAPTION_SIZE, _PER_INCH, _LINE = 8.5, 15.5, 0.165
 """Size of a caption's letters in points, letters in an inch, height of a line in inches."""
 _MARGIN = 0.12

@@ -1,4 +1,4 @@
-"""What figures of solutions and sweeps share: the axes to draw into, colours, units of swept fields and results."""
+"""Common parts of the figures of solutions and sweeps: axes, colours, units of swept fields and results."""
 
 from typing import TYPE_CHECKING, Any
 

@@ -1,1 +1,1 @@
-"""What a solution looks like: JSON for programs, a summary for people."""
+"""Output of solutions: JSON for programs, a summary for people."""

@@ -1,4 +1,4 @@
-"""How numbers look to a person: engineer's units, significant digits, bars."""
+"""Numbers for people: engineer's units, significant digits, bars."""
 
 import math
 

@@ -24,7 +24,7 @@ _FONT = 8.5
 _DRAWN_CLEARANCE = 0.07
 """A clearance in the drawing, in roller diameters."""
 RING_THICKNESS = 0.45
-"""Of a ring at its raceway, in roller diameters."""
+"""Thickness of a ring at its raceway, in roller diameters."""
 _CAPTION = (
     "Names as in --set and in Python; those without a dot belong to geometry. To scale, except for the clearances (all "
     "drawn at one visible\nsize, true values beside them) and for bore, outside diameter and width of the rings, which "

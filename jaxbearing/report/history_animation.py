@@ -22,7 +22,7 @@ _LEAST_POCKET_LOAD = 1.0
 
 
 class _Picture(NamedTuple):
-    """What is drawn at one instant: places in mm on a page with the load line downwards."""
+    """Drawing of one instant: places in mm on a page with the load line downwards."""
 
     rollers: np.ndarray
     bars: np.ndarray | None

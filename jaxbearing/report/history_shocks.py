@@ -77,7 +77,7 @@ def shocks(history: History) -> dict[str, list[dict[str, float]]]:
 
 
 def sectors(history: History) -> Sectors | None:
-    """How shocks are spread round the azimuth; `None` without pockets."""
+    """Distribution of shocks round the azimuth; `None` without pockets."""
     load = pocket_peaks(history)
     if load is None:
         return None

@@ -67,7 +67,7 @@ def _spread(values: Any) -> dict[str, float]:
 
 
 def _stored(history: History) -> dict[str, float]:
-    """What the drive spends beside the dissipation, as mean powers over the run, W."""
+    """Drive power beside the dissipation, as means over the run, W."""
     energy, time = history.energy, float(history.time[-1] - history.time[0])
     works = {"pocket_films": energy.pocket_films, "lever_arm": energy.lever_arm, "kinetic": energy.kinetic}
     return {name: float(work) / time if time > 0 else math.nan for name, work in works.items()}
@@ -153,7 +153,7 @@ def print_history(history: History, label: str, console: "Console") -> None:
 
 
 def _print_sectors(found: dict[str, Any], console: "Console") -> None:
-    """Where the shocks are: two lines a face, or one line where there are none."""
+    """Prints the places of the shocks: two lines a face, or one where there are none."""
     from rich.table import Table
 
     threshold = with_unit(found["threshold"], "N")

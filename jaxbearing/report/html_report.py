@@ -73,6 +73,6 @@ def html_report(
 
 
 def versions() -> dict[str, str]:
-    """Of what the results depend on."""
+    """Versions of everything that the results depend on."""
     found = {"jaxbearing": __version__} | {name: version(name) for name in _OF_PACKAGES}
     return found | {"Python": platform.python_version(), "system": f"{platform.system()} {platform.machine()}"}

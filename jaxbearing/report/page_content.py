@@ -1,4 +1,4 @@
-"""What a report page shows of a solve, whatever its kind."""
+"""Content of the report page of a solve, of any kind."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field

@@ -32,7 +32,7 @@ def headline(label: str, status: str, style: str, state: str, console: Console) 
 
 
 def print_failure(label: str, status: str, reason: str, console: Console) -> None:
-    """What is said instead of results."""
+    """Message instead of results."""
     headline(label, "NOT CONVERGED", "bold red", f"status: {status}", console)
     console.print(Padding(Text(reason, style="red"), (0, 2)))
     console.print(Padding(Text("No results: the point where the iteration stopped is not a solution."), (0, 2)))
@@ -82,7 +82,7 @@ def print_table(
 
 
 def width(columns: dict[str, list[str]]) -> int:
-    """Of the table of these columns, margins included."""
+    """Width of the table of these columns, margins included."""
     widths = [max(map(len, [*title.split("\n"), *texts])) for title, texts in columns.items()]
     return sum(widths) + _GAP * (len(widths) - 1) + 4
 

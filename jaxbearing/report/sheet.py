@@ -1,4 +1,4 @@
-"""What pages of plots have in common: colours, head and foot, units and titles of axes."""
+"""Common parts of pages of plots: colours, head and foot, units and titles of axes."""
 
 import math
 import textwrap

@@ -55,7 +55,7 @@ def _kinematics(table: KinematicsTable | None, slips: bool) -> BallAttitude:
 
 
 def _gyroscopic(table: KinematicsTable, attitude: str) -> AbstractGyroscopic | ResolvedCouple | None:
-    """What carries the couple, for an attitude of the balls."""
+    """Model that carries the couple, for an attitude of the balls."""
     sign = 1.0 if table.gyroscopic_sign is None else table.gyroscopic_sign
     match table.gyroscopic:
         case "shared":

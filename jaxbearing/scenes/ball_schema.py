@@ -159,7 +159,7 @@ class BallBearingTable(Table):
 
     @check
     def _flow(self) -> Problems:
-        """What one table needs of another. The classes check the rest when they are built."""
+        """Checks what one table needs of another. The classes check the rest when they are built."""
         if self.contact is not None and self.contact.traction is not None:
             yield from require_oil_flow(self.drag, self.operation)
 

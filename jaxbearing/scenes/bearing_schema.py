@@ -1,4 +1,4 @@
-"""What the scene files of all bearings have in common: cage, operating point, and what these need of the oil."""
+"""Common tables of the scene files of all bearings: cage, operating point, and what these need of the oil."""
 
 from collections.abc import Mapping
 from typing import Annotated, Any, Literal
@@ -48,7 +48,7 @@ def _reliability(value: Any) -> float:
 
 
 class RatingTable(Table):
-    """What the life needs; see `bearings.rating.Rating`."""
+    """Inputs of the life; see `bearings.rating.Rating`."""
 
     dynamic_capacity: units.PositiveForce | None = None
     static_capacity: units.PositiveForce | None = None

@@ -1,4 +1,4 @@
-"""What the [contact] table of a roller bearing stands for."""
+"""Laws that the [contact] table of a roller bearing names."""
 
 from collections.abc import Callable
 

@@ -22,7 +22,7 @@ _NUMBER = re.compile(r"[+-]?(?:[0-9]+(?P<mark>[.,])?[0-9]*|(?P<leading_mark>[.,]
 _NON_FINITE = re.compile(r"[+-]?(?:nan|inf|infinity)", re.IGNORECASE)
 _MARK_NAMES = {".": "point", ",": "comma"}
 _MINUS = "\N{MINUS SIGN}"
-"""What typesetters and some spreadsheets write for "-"."""
+"""Characters that typesetters and some spreadsheets write for "-"."""
 
 Refuse = Callable[[int, str, str, str], NoReturn]
 """Raises the error of a reader: line, column, what was found, what is expected."""

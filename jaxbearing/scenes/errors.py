@@ -126,7 +126,7 @@ def from_class(error: ValueError, raw: Mapping[str, Any], file: str) -> SceneErr
 
 
 def describe_at(raw: Mapping[str, Any], path: str) -> str:
-    """What the scene has at a dotted path, in words."""
+    """Content of the scene at a dotted path, in words."""
     value: Any = raw
     for name in path.split("."):
         if not isinstance(value, Mapping) or name not in value:
@@ -173,7 +173,7 @@ def _in_words(detail: Any, model: type[BaseModel]) -> tuple[str, dict[str, str]]
 
 
 def _expected_at(model: type[BaseModel], location: Sequence[int | str]) -> str:
-    """What the field at a location takes, in the words with which it refuses what it does not take."""
+    """Expected content of the field at a location, in the words of its refusals."""
     wanted = type_at(model, location)
     if wanted is None:
         return ""
@@ -189,7 +189,7 @@ def _expected_at(model: type[BaseModel], location: Sequence[int | str]) -> str:
 
 
 def unknown_name(location: Sequence[int | str], model: type[BaseModel]) -> dict[str, str]:
-    """What is found, expected and near where the schema has no such name."""
+    """Found, expected and similar names where the schema has no such name."""
     name, parents = str(location[-1]), location[:-1]
     owner = names_at(model, parents)
     later = owner.not_yet.get(name)

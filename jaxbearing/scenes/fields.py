@@ -55,12 +55,12 @@ def tables_at(model: type[BaseModel], location: Sequence[int | str]) -> list[typ
 
 
 def is_known(model: type[BaseModel], path: Sequence[str]) -> bool:
-    """Whether the schema has a field at this path."""
+    """True if the schema has a field at this path."""
     return path[-1] in names_at(model, path[:-1]).names
 
 
 def is_optional(model: type[BaseModel], location: Sequence[int | str]) -> bool:
-    """Whether the field at a location may be left out, the table around it being there."""
+    """True if the field at a location may be left out, the table around it being there."""
     owners = tables_at(model, location[:-1])
     fields = [owner.model_fields[str(location[-1])] for owner in owners if str(location[-1]) in owner.model_fields]
     return bool(fields) and all(not info.is_required() and info.default is None for info in fields)

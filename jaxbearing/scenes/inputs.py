@@ -1,4 +1,4 @@
-"""What a scene file says, field by field, with what each field is: for pages that list their inputs."""
+"""Inputs of a scene file, field by field, with descriptions: for pages that list them."""
 
 import dataclasses
 import inspect
@@ -71,8 +71,8 @@ def _text(value: Any) -> str:
 
 
 def described_field(scene: AbstractScene, path: tuple[str, ...]) -> str:
-    """What a field is: the label of the class that holds it, what a law says of itself, or what the class's docstring
-    says of its argument."""
+    """Description of a field: the label of the class that holds it, what a law says of itself, or what the class's
+    docstring says of its argument."""
     words = path[-1].replace("_", " ")
     owner: Any = scene
     for name in path[:-1]:
@@ -87,8 +87,8 @@ def described_field(scene: AbstractScene, path: tuple[str, ...]) -> str:
 
 
 def described_argument(owner: type, name: str) -> str:
-    """What a field of a class of a scene is: its label, or what the docstring of the class or of its `__init__` says of
-    the argument; "" where neither says anything."""
+    """Description of a field of a scene's class: its label, or what the docstring of the class or of its `__init__`
+    says of the argument; "" where neither says anything."""
     if dataclasses.is_dataclass(owner):
         label = {field.name: field.metadata for field in dataclasses.fields(owner)}.get(name, {}).get("description")
         if label:

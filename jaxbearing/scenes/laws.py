@@ -1,4 +1,4 @@
-"""What the names of contact laws in scene files stand for, whatever the kind of scene."""
+"""Names of contact laws in scene files of any kind, and the laws that they stand for."""
 
 from collections.abc import Callable
 from typing import Annotated, Any
@@ -52,7 +52,7 @@ MAXWELL_EYRING = "maxwell_eyring"
 """Ree and Eyring's flow with the Maxwell element that every law here has."""
 
 DISTRIBUTED_ACCURACY = 1e-3
-"""Of the distributed traction where a scene does not say."""
+"""Accuracy of the distributed traction if a scene gives none."""
 
 
 def thermal_factor(name: str | None) -> AbstractThermalFactor:

@@ -38,7 +38,7 @@ class ContactBodiesTable(Table):
 
 
 class FilmModelTable(Table):
-    """How the contact is solved.
+    """Numerical settings of the contact.
 
     - `accuracy`: relative error of the steady films for which mesh and inlet are chosen, by the load of the scene
     - `compressible`: density by Dowson and Higginson; false: constant

@@ -13,7 +13,7 @@ _EXPECTED = "an oil file: the tables of [oil] in a scene, such as [viscosity], a
 
 
 class Origin(NamedTuple):
-    """Where a law comes from: `sources` of its parameters, in words; `note` that solutions with it repeat, or ""."""
+    """Origin of a law: `sources` of its parameters, in words; `note` that solutions with it repeat, or ""."""
 
     sources: dict[str, str]
     note: str

@@ -1,4 +1,4 @@
-"""What a scene needs of its oil: refused by name of the law that is missing or does not fit."""
+"""Requirements of a scene on its oil: refused by name of the law that is missing or does not fit."""
 
 from collections.abc import Mapping
 

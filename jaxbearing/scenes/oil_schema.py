@@ -109,7 +109,7 @@ class TwoViscositiesTable(Law):
 
 
 class UnknownViscosityTable(Law):
-    """Where `law` is absent or unknown: only there to say so."""
+    """Stand-in for a table whose `law` is absent or unknown: it only raises the error."""
 
     model_config = ConfigDict(extra="allow")
     tag: ClassVar[str] = "<unknown>"
@@ -141,7 +141,7 @@ class IntegratedPressureViscosityTable(Law):
 
 
 class UnknownPressureViscosityTable(Law):
-    """Where `law` is absent or unknown: only there to say so."""
+    """Stand-in for a table whose `law` is absent or unknown: it only raises the error."""
 
     model_config = ConfigDict(extra="allow")
     tag: ClassVar[str] = "<unknown>"

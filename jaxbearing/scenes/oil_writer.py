@@ -152,7 +152,7 @@ def _is_read_as(value: float, text: str, dimension: units.Dimension) -> bool:
 
 
 def _dimension(info: Any) -> units.Dimension | None:
-    """Of a field of the schema; `None` for a plain number."""
+    """Dimension of a field of the schema; `None` for a plain number."""
     for part in (*info.metadata, *_metadata(info.annotation)):
         if isinstance(part, units.QuantityValidator):
             return part.dimension

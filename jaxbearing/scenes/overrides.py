@@ -120,7 +120,7 @@ def applied(
 
 
 def _take_out(changed: dict[str, Any], inside: list[str], names: Iterable[str]) -> None:
-    """What the file has of these fields of a table; an override may put them in again."""
+    """Values that the file gives for these fields of a table; an override may put them in again."""
     table: Any = changed
     for key in inside:
         table = table.get(key) if isinstance(table, dict) else None

@@ -64,7 +64,7 @@ def load_scene(source: str | Path, overrides: Overrides | None = None) -> Abstra
 
 
 def oil_origins(source: str | Path, overrides: Overrides | None = None) -> dict[str, Origin]:
-    """Where the laws of the oil come from, for a scene that `load_scene` takes with the same arguments."""
+    """Origins of the oil's laws, for a scene that `load_scene` takes with the same arguments."""
     label, mapping = read_tables(source)
     overrides = as_texts(overrides)
     model, _ = _schema(mapping, overrides, label)
@@ -147,7 +147,7 @@ def _build(
 
 
 def _related(a: str, b: str) -> bool:
-    """Whether one dotted path is the other or leads to it."""
+    """True if one dotted path is the other or leads to it."""
     return f"{a}.".startswith(f"{b}.") or f"{b}.".startswith(f"{a}.")
 
 

@@ -133,7 +133,7 @@ class CylindricalRollerTable(Table):
 
     @check
     def _flow(self) -> Problems:
-        """What one table needs of another. The classes check the rest when they are built."""
+        """Checks what one table needs of another. The classes check the rest when they are built."""
         slips = self.contact is not None and self.contact.traction is not None
         if slips and (self.cage is not None or self.simulation is not None):
             yield from require_oil_flow(self.drag, self.operation)

@@ -1,4 +1,4 @@
-"""What all tables of a scene file have in common."""
+"""Base of all tables of a scene file."""
 
 from collections.abc import Callable, Iterator, Mapping
 from typing import Any, ClassVar, Self

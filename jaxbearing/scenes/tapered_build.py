@@ -19,7 +19,7 @@ from .profile_schema import roller_profile
 from .tapered_schema import TaperedContactTable, TaperedRollerTable
 
 FLANGE_FILMS = {**POINT_FILMS, "chittenden": ChittendenCentral}
-"""Of `flange_film`; the names of the other laws are in `laws` and `contact_laws`."""
+"""Laws by the names of `flange_film`; the names of the other laws are in `laws` and `contact_laws`."""
 
 
 def tapered_roller_bearing(table: TaperedRollerTable) -> TaperedRollerBearing:
@@ -43,7 +43,7 @@ def tapered_roller_bearing(table: TaperedRollerTable) -> TaperedRollerBearing:
 
 
 def _laws(table: TaperedContactTable, oil: Lubricant | None) -> ContactLaws:
-    """Of the raceways."""
+    """Laws of the raceways."""
     rolling = None if table.rolling_resistance is None else ROLLING[table.rolling_resistance]()
     traction = None if table.traction is None else MeanPressureTraction(viscous_function(table.traction, oil))
     return ContactLaws(
@@ -52,8 +52,8 @@ def _laws(table: TaperedContactTable, oil: Lubricant | None) -> ContactLaws:
 
 
 def _rib_laws(table: TaperedContactTable, oil: Lubricant | None) -> PointLaws:
-    """Of the roller ends; without a name the film of contacts that roll along their longer axis, which holds for oils
-    whose viscosity rises with pressure."""
+    """Laws of the roller ends; without a name the film of contacts that roll along their longer axis, which holds for
+    oils whose viscosity rises with pressure."""
     isoviscous = oil is not None and isinstance(oil.pressure_viscosity, NoPressureViscosity)
     film = NijenbanningVennerMoes if isoviscous else ChittendenCentral
     traction = None

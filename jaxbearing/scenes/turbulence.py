@@ -1,4 +1,4 @@
-"""What the names of flow regimes in scene files stand for."""
+"""Names of flow regimes in scene files, and their models."""
 
 from ..gaps import AbstractTurbulence, BlendedTurbulence, FullTurbulence, Laminar
 

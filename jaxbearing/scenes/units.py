@@ -21,7 +21,7 @@ _NAME = r"[A-Za-z°µμΩÅ_][A-Za-z0-9°µμΩÅ_]*"
 _POWER = r"(?: *(?:\*\*|\^) *[+-]?[0-9]{1,2}(?![0-9])|⁻?[⁰¹²³⁴⁵⁶⁷⁸⁹]{1,2})"
 _FACTOR = rf"\(* *(?:{_NAME}{_POWER}?|[0-9]+(?:\.[0-9]+)?) *\)*"
 _UNIT = re.compile(rf"{_FACTOR}(?:(?: *[*/·] *| +){_FACTOR})*")
-"""What a unit may look like. Brackets carry no power, so that none is raised to another: pint evaluates what it reads,
+"""Syntax of a unit. Brackets carry no power, so that none is raised to another: pint evaluates what it reads,
 skips comments and ignores characters that it does not know."""
 _WORDS = re.compile(r"\b(?:square|sq|squared|cubic|cubed|per)\b", re.IGNORECASE)
 """Words that pint replaces by powers, which the pattern cannot see."""
@@ -34,7 +34,7 @@ _REMEMBERED = 1024
 
 @dataclass(frozen=True)
 class Dimension:
-    """What a dimensional field holds: its name in messages, the SI unit, an example, and how units are compared."""
+    """Kind of a dimensional field: its name in messages, the SI unit, an example, and how units are compared."""
 
     name: str
     si: str
@@ -42,7 +42,7 @@ class Dimension:
     offset_allowed: bool = False
 
     def expected(self, bound: str = "") -> str:
-        """What a field of this kind wants, `bound` being "", "> 0" or ">= 0" in SI."""
+        """Expected content of a field of this kind, `bound` being "", "> 0" or ">= 0" in SI."""
         if bound and self.offset_allowed:
             bound = "above absolute zero"
         return f"{self.name}{bound and ' '}{bound} with a unit, e.g. '{self.example}'"

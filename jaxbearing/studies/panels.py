@@ -1,4 +1,4 @@
-"""What the power-loss study varies: panels of one or two fields round the scene's own operating point.
+"""Variations of the power-loss study: panels of one or two fields round the scene's own operating point.
 
 The values are those of the source's section 4.2 for its roller bearing (its Figures 36 to 40). For another bearing
 speed, load, flow and clearances keep their ratio to the scene's own values; temperatures stay as they are.

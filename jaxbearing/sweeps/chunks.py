@@ -111,7 +111,7 @@ def labels_of(plan: Plan) -> xr.Dataset:
 
 
 def _said(plan: Plan, reasons: list[str], good: np.ndarray, start: int) -> list[str]:
-    """Where a scene would have been refused, that is the reason: values that no equation can show."""
+    """Reasons of failed cases whose scene would have been refused: values that no equation can show."""
     said = list(reasons)
     for lane in np.flatnonzero(~good).tolist():
         if not said[lane]:

@@ -43,7 +43,7 @@ class _Tally:
 
 @dataclass(frozen=True)
 class Outcome:
-    """How a sweep ended. `kept`: cases that were there from an earlier run."""
+    """End of a sweep. `kept`: cases that were there from an earlier run."""
 
     cases: int
     converged: int
@@ -64,7 +64,7 @@ class Watcher:
 
 
 def chunk_folder(target: Path) -> Path:
-    """Where the chunks of a sweep are until the whole is written."""
+    """Folder of a sweep's chunks until the whole is written."""
     return target.with_name(f"{target.name}.chunks")
 
 
@@ -125,7 +125,7 @@ def kept_words(plan: Plan, target: Path) -> str:
 
 
 def _there_already(plan: Plan, target: Path, overwrite: bool, watcher: Watcher) -> Outcome | None:
-    """How the sweep ended, where its store is there. **Raises:** `SweepError` where something else is."""
+    """End of the sweep, if its store exists. **Raises:** `SweepError` where something else is."""
     if target.exists() and not (target.is_file() or target.is_dir()):
         raise SweepError(f"found '{target}', no ordinary file; expected a new name")
     found = _finished(target)

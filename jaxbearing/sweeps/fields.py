@@ -124,13 +124,13 @@ def _parts(kind: Any) -> list[Any]:
 
 
 def dimension_of(kind: Any) -> Dimension | None:
-    """Of a field's type; `None` for a number without a unit."""
+    """Unit of a field's type; `None` for a number without a unit."""
     found = [note.dimension for note in _parts(kind) if isinstance(note, QuantityValidator)]
     return found[0] if found else None
 
 
 def _no_number(kind: Any) -> str:
-    """What a field is that is not one number; "" for one that is."""
+    """Description of a field that is not one number; "" for one that is."""
     base = _parts(kind)[0]
     if base is float:
         return ""

@@ -84,7 +84,7 @@ def _pieces(plan: Plan, folder: Path, labels: xr.Dataset) -> Iterator[tuple[xr.D
 
 
 def _lacking(plan: Plan, folder: Path, shared: xr.Dataset) -> list[str]:
-    """What all cases share but only they know, such as the azimuths: NaN where all cases of a chunk failed."""
+    """Values that all cases share and only solved cases know, such as the azimuths; NaN if a whole chunk failed."""
     kept = read_chunk(folder, 0, plan.key)
     return [str(name) for name in shared.variables if str(name) in kept]
 

@@ -1,4 +1,4 @@
-"""What is kept of the solutions of a sweep: the variables of their data set, as arrays over the cases."""
+"""Stored results of a sweep: the variables of their data set, as arrays over the cases."""
 
 import functools
 from typing import Any

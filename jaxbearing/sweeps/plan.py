@@ -1,4 +1,4 @@
-"""What a sweep computes, how it is cut into chunks, and the hash by which its files know each other."""
+"""Plan of a sweep: its cases, its chunks, and the hash by which its files know each other."""
 
 import functools
 import hashlib
@@ -32,7 +32,7 @@ QUICK_CASES = LANES
 """A sweep of no more cases is compiled quickly, if one of them is solved in milliseconds: its program runs 2 to 6 times
 slower, seconds in all, and is compiled in a quarter of the time, tens of seconds."""
 HEAVY_CHUNK, HEAVY_LANES = 32, 4
-"""Of scenes whose solve takes a large part of a second."""
+"""Cases of a chunk, and lanes at a time, of scenes whose solve takes a large part of a second."""
 
 
 @dataclass(frozen=True)
@@ -66,7 +66,7 @@ class Plan:
 
     @property
     def chunks(self) -> int:
-        """How many there are."""
+        """Number of chunks."""
         return -(-len(self.cases) // self.chunk)
 
     def range_of(self, index: int) -> tuple[int, int]:
@@ -99,7 +99,7 @@ class Plan:
         return {name: value for name, value in vars(self).items() if name != "key"}
 
     def program(self, devices: int | None = None) -> LaneProgram:
-        """What solves the lanes; compiled at its first call."""
+        """Solver of the lanes; compiled at its first call."""
         start = self.recipe.inputs(self.cases.part(0, 1))[0]
         example = jax.tree.map(lambda leaf: np.asarray(leaf)[0], start)
         return LaneProgram(

@@ -13,7 +13,7 @@ from ..numerics.precision import as_float
 from .cases import Cases
 
 Inputs = tuple[Any, list[str]]
-"""What a lane's program needs of its cases, lanes in front, and why a case has no scene ("": it has one)."""
+"""Inputs of a lane's program, lanes in front, and the reason why a case has no scene ("": it has one)."""
 
 
 class Recipe(Protocol):
@@ -35,7 +35,7 @@ class Recipe(Protocol):
         ...
 
     def inputs(self, values: dict[str, np.ndarray]) -> Inputs:
-        """What `make` needs, of many cases."""
+        """Arguments of `make`, of many cases."""
         ...
 
     def scene(self, values: dict[str, float]) -> AbstractScene:

@@ -1,4 +1,4 @@
-"""What the property figures share: colours, oils of the source, the simpler viscosity laws matched to an oil."""
+"""Common parts of the property figures: colours, oils of the source, the simpler viscosity laws matched to an oil."""
 
 from typing import TYPE_CHECKING, Any
 

@@ -21,7 +21,8 @@ if TYPE_CHECKING:
     import matplotlib.figure
 
 TEMPERATURE, SPEED, PRESSURE = 297.0, 21.175, 1.5e9
-"""Of the source's tests (Figure 29), cold: K; mean speed, m/s (U1 + U2 = 42.35 m/s); Hertz pressure, Pa."""
+"""Conditions of the source's cold tests (Figure 29): temperature, K; mean speed, m/s (U1 + U2 = 42.35 m/s); Hertz
+pressure, Pa."""
 FINE = Resolution(128, 24)
 _WHERE = (
     "Mobil Jet II at 297 K, 1.5 GPa Hertz pressure, U1 + U2 = 42.35 m/s, R = 20 mm, isothermal Maxwell-Eyring model"

@@ -1,1 +1,1 @@
-"""How a bearing's solution is shown."""
+"""Output of a bearing's solution."""

@@ -134,7 +134,7 @@ def _round(solution: Solution, name: str, values: dict[str, np.ndarray]) -> Char
 
 
 def _by_side(solution: Solution, name: str) -> dict[str, np.ndarray]:
-    """Of raceways and rib: what the scene models and some contact has."""
+    """Values of raceways and rib, as far as the scene models them and some contact has results."""
     found = {side: getattr(solution.elements, f"{name}_{side}", None) for side, *_ in SIDES}
     arrays = {side: np.asarray(value) for side, value in found.items() if value is not None}
     return {side: array for side, array in arrays.items() if np.any(np.isfinite(array))}

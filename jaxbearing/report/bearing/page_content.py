@@ -1,4 +1,4 @@
-"""What the report page of a bearing shows."""
+"""Content of the report page of a bearing."""
 
 from collections.abc import Iterator
 from typing import Any

@@ -21,7 +21,7 @@ SIDES = (("outer", OUTER, "s", "outer race"), ("inner", INNER, "o", "inner race"
 LOG_FROM = 20.0
 """Largest over smallest value from which on an axis is logarithmic: the films of the loaded zone must be readable."""
 _SCALE_AZIMUTH = math.radians(157.5)
-"""Where the numbers of the polar plot stand: away from the load line."""
+"""Angle of the numbers of the polar plot: away from the load line."""
 
 ROUND = {
     "film": ("Central film", False),

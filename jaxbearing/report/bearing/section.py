@@ -17,7 +17,7 @@ from ..svg import INK, Drawing, Point
 from .plots import INNER, OUTER, RIB
 
 _WIDTH = 115.0
-"""Of the rolling element's diameter, points of the page."""
+"""Width of the rolling element, points of the page."""
 _LONGEST = 0.9
 """Longest arrow, in diameters of the element."""
 _SIDE = 0.25

@@ -14,7 +14,7 @@ from ..svg import INK, Drawing, Point
 from .plots import INNER, OUTER
 
 _WIDTH = 290.0
-"""Of the outer ring, points of the page."""
+"""Width of the outer ring, points of the page."""
 _SHOULDER = 0.3
 """Height of the shoulders of a ball bearing's rings over the pitch circle, in ball diameters."""
 _LONGEST = 0.42

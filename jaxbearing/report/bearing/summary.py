@@ -260,7 +260,7 @@ _KINDS = {
 
 
 NOTHING = 1e-9
-"""Of the forces on the ring, N, and of their moments with a lever of 1 m, N m."""
+"""Least force on the ring that is shown, over the largest one, N; moments with a lever of 1 m, N m."""
 _LOADS = {
     "axial": "axial load",
     "radial": "radial load",

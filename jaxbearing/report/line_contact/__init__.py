@@ -1,1 +1,1 @@
-"""How the film of a line contact is shown, steady and in time."""
+"""Output of the film of a line contact, steady and in time."""

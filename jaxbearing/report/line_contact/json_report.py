@@ -31,7 +31,7 @@ def line_contact_to_dict(solution: LineContactSolution) -> dict[str, Any]:
 
 
 def film_statistics(history: LineContactHistory) -> dict[str, Any]:
-    """What a run is summed up by, SI."""
+    """Summary of a run, SI."""
     time, central = np.asarray(history.time), np.asarray(history.film.central)
     minimum, place = np.asarray(history.film.minimum), np.asarray(history.film.minimum_position)
     lowest = int(np.argmin(minimum))

@@ -1,4 +1,4 @@
-"""What the report page of a line contact shows."""
+"""Content of the report page of a line contact."""
 
 from typing import Any
 

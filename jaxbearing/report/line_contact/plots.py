@@ -62,7 +62,7 @@ def plot_line_contact(solution: LineContactSolution, title: str) -> "matplotlib.
 
 
 def inlet_side(solution: LineContactSolution) -> str:
-    """Where the oil comes from, in words."""
+    """Side of the inlet, in words."""
     return "from the left" if float(solution.operation.entrainment_speed) > 0 else "from the right"
 
 

@@ -1,1 +1,1 @@
-"""How traction curves are shown."""
+"""Output of traction curves."""

@@ -10,7 +10,7 @@ from ...machines import TwoDiskSolution
 
 
 class Curve(NamedTuple):
-    """Where one curve is in the arrays of a solution, and its operating point, SI."""
+    """Place of one curve in the arrays of a solution, and its operating point, SI."""
 
     place: tuple[int, ...]
     """Indices of temperature, speed and load."""

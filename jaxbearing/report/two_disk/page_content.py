@@ -1,4 +1,4 @@
-"""What the report page of a two-disk machine shows: its traction curves."""
+"""Content of the report page of a two-disk machine: its traction curves."""
 
 import numpy as np
 

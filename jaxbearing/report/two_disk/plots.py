@@ -98,7 +98,7 @@ def draw_panel(axes: Any, solution: TwoDiskSolution, curves: list[Curve]) -> Non
 
 
 def curve_name(solution: TwoDiskSolution, curve: Curve) -> str:
-    """What the curves of a panel differ in: pressure, or load."""
+    """Quantity in which the curves of a panel differ: pressure, or load."""
     unit, factor = axis_unit("Pa", curve.pressure)
     if solution.operation.pressure is not None:
         return f"{factor * curve.pressure:.4g} {unit}"
