@@ -19,7 +19,8 @@ from ..materials import reduced_modulus
 
 LINE_SHARE = 0.75
 """Ratio of minimum to central film of a line contact: 0.750 and 0.746 in own full solutions of the source's two
-contacts (table 18), 0.75 by Dowson and Higginson's minimum and Dowson and Toyoda's central film at U = 1e-11, W = 1e-4."""
+contacts (table 18), 0.75 by Dowson and Higginson's minimum and Dowson and Toyoda's central film at U = 1e-11, W =
+1e-4."""
 
 
 def minimum_films(scene: Any, elements: Any) -> tuple[Float[Array, " element"], Float[Array, " element"]]:
