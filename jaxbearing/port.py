@@ -17,13 +17,10 @@ from jaxtyping import Array, Float
 
 from ._types import Scalar
 from .bearings.ball_bearing import BallBearing
-from .bearings.ball_steady import solve_ball
 from .bearings.cylindrical_roller import CylindricalRollerBearing
 from .bearings.ring import held_ring
 from .bearings.solution import RING_FREEDOMS, RingDisplacement, Solution
 from .bearings.tapered_roller import TaperedRollerBearing
-from .bearings.tapered_steady import solve_tapered
-from .bearings.tilting_steady import solve_tilting
 from .numerics.arguments import require_choice, require_numbers
 from .numerics.checks import void
 from .numerics.compiling import inside_a_program
@@ -33,7 +30,7 @@ from .numerics.precision import as_float, require_x64
 from .numerics.quiet import quiet_first_time
 from .numerics.status import Status
 from .programs import KeptProgram
-from .solve import chosen_options, with_checked_inputs
+from .solve import chosen_options, solve_held, with_checked_inputs
 
 Bearing = BallBearing | CylindricalRollerBearing | TaperedRollerBearing
 _POINTS, _TILTS = ("port", "ring"), ("exact", "linear")
@@ -155,11 +152,7 @@ def _react_any(
     def at_displacement(lane: Any, displacement: Array, closure: Array, expansion: Array) -> Solution:
         distance = lane.port_distance if at == "port" else jnp.zeros(())
         ring = held_ring(displacement, lane.ring_lever, distance, closure, expansion)
-        if isinstance(lane, BallBearing):
-            return solve_ball(lane, options, ring, lane.operation.tilts if tilt is None else tilt == "exact")
-        if isinstance(lane, TaperedRollerBearing):
-            return solve_tapered(lane, options, ring)
-        return solve_tilting(lane, options, ring)
+        return solve_held(lane, options, ring, None if tilt is None else tilt == "exact")
 
     return with_checked_inputs(scene, react)
 

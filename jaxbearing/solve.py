@@ -16,6 +16,7 @@ from ._scene import AbstractScene
 from .bearings.ball_bearing import BallBearing
 from .bearings.ball_steady import solve_ball
 from .bearings.cylindrical_roller import CylindricalRollerBearing
+from .bearings.ring import InnerRing
 from .bearings.roller_steady import solve_steady
 from .bearings.solution import Solution
 from .bearings.tapered_roller import TaperedRollerBearing
@@ -73,6 +74,19 @@ def with_checked_inputs(scene: AbstractScene, compute: Callable[[Any], Any]) -> 
         operation=given.operation,
         checks=Checks(dict(solution.checks), inputs.broken, inputs.rules),
     )
+
+
+def solve_held(scene: Any, options: NewtonOptions, ring: InnerRing, exact_tilt: bool | None) -> Solution:
+    """The steady state of a bearing whose inner ring is held where `ring` says; cylindrical rollers may tilt.
+
+    **Arguments:** `exact_tilt`: whether the grooves of a ball bearing move with the exact rotation of the ring; `None`:
+    as the scene's own solve has it.
+    """
+    if isinstance(scene, BallBearing):
+        return solve_ball(scene, options, ring, exact_tilt)
+    if isinstance(scene, TaperedRollerBearing):
+        return solve_tapered(scene, options, ring)
+    return solve_tilting(scene, options, ring)
 
 
 _solve = eqx.filter_jit(_solve_any)

@@ -89,7 +89,7 @@ def feasible(scene):
     unloaded = system.balance(system._loaded(-jnp.ones((2, n)), jnp.zeros((2, n)), -jnp.ones(n)))
     rollers = np.broadcast_to(np.asarray(unloaded), (3, n)).T.ravel()
     # balance = contact forces' part + unloaded part = 0; sign: contacts enter as + d approach / d unknown
-    right = np.concatenate([-rollers, np.asarray(system.ring_load)])
+    right = np.concatenate([-rollers, np.asarray(system.ring.load)])
     scale = np.linalg.norm(right)
     found = scipy.optimize.linprog(np.zeros(5 * n), A_eq=matrix, b_eq=right / scale, bounds=(0, None), method="highs")
     return found.status == 0

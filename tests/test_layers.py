@@ -28,6 +28,7 @@ RANK = {
     "bearings": 5,
     "life": 6,
     "solve": 7,
+    "port": 8,
     "lanes": 8,
     "simulate": 7,
     "sensitivity": 7,

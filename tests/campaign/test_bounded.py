@@ -108,7 +108,7 @@ def _roller_system(scene):
 
 
 def _ball_system(scene):
-    return build_core(scene), ("directions", "azimuth")
+    return build_core(scene), ("directions", "azimuth", "held_shift")
 
 
 def _tapered_system(scene):
