@@ -429,4 +429,4 @@ INPUT_CHECKS: tuple[Callable[[Scene], Excess], ...] = (
 )
 """All checks of scenes, in the order of the warnings."""
 LOAD_CHECKS = (_thrust, _at_apex)
-"""Those that are about the loads of the operating point."""
+"""Checks of the operating point's loads: they say nothing about a held ring."""

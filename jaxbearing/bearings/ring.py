@@ -25,7 +25,7 @@ from .solution import RING_FREEDOMS, RingDisplacement
 LENGTH_UNIT = 1e-5
 """Scale of displacements, m."""
 TILTS = ("tilt", "tilt_lateral")
-"""Those of `RING_FREEDOMS` that are angles."""
+"""The angles among `RING_FREEDOMS`."""
 _LOADS = {"axial": "axial_load", "radial": "radial_load", "tilt": "moment"}
 """Freedom -> the field of an operating point that holds its load."""
 
