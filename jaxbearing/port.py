@@ -149,7 +149,7 @@ def _react_any(
         solution = at_displacement(lane, displacement, closure, expansion)
         return dataclasses.replace(solution, status=jnp.where(finite, solution.status, int(Status.INVALID_INPUT)))
 
-    def at_displacement(lane: Any, displacement: Array, closure: Array, expansion: Array) -> Solution:
+    def at_displacement(lane: Bearing, displacement: Array, closure: Array, expansion: Array) -> Solution:
         distance = lane.port_distance if at == "port" else jnp.zeros(())
         ring = held_ring(displacement, lane.ring_lever, distance, closure, expansion)
         return solve_held(lane, options, ring, None if tilt is None else tilt == "exact")

@@ -76,7 +76,12 @@ def with_checked_inputs(scene: AbstractScene, compute: Callable[[Any], Any]) -> 
     )
 
 
-def solve_held(scene: Any, options: NewtonOptions, ring: InnerRing, exact_tilt: bool | None) -> Solution:
+def solve_held(
+    scene: BallBearing | CylindricalRollerBearing | TaperedRollerBearing,
+    options: NewtonOptions,
+    ring: InnerRing,
+    exact_tilt: bool | None,
+) -> Solution:
     """The steady state of a bearing whose inner ring is held where `ring` says; cylindrical rollers may tilt.
 
     **Arguments:** `exact_tilt`: whether the grooves of a ball bearing move with the exact rotation of the ring; `None`:

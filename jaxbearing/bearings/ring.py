@@ -11,7 +11,7 @@ lever of the family, and a moment divided by it.
 
 import dataclasses
 from collections.abc import Callable
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import equinox as eqx
 import jax
@@ -19,7 +19,9 @@ import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Array, Float
 
+from .._types import Scalar
 from ..numerics.arrow import ArrowJacobian, condensed, schur_complement
+from .parts import AbstractOperation
 from .solution import RING_FREEDOMS, RingDisplacement
 
 LENGTH_UNIT = 1e-5
@@ -84,7 +86,7 @@ class InnerRing(eqx.Module):
         """The rows of the unknown freedoms."""
         return every[self.places]
 
-    def of_each(self, value: Callable[[str], Any]) -> Float[Array, " freedom"]:
+    def of_each(self, value: Callable[[str], Scalar]) -> Float[Array, " freedom"]:
         """A number for each unknown freedom, by its name."""
         numbers = [jnp.asarray(value(name), dtype=float) for name in self.freedoms]
         return jnp.stack(numbers) if numbers else jnp.zeros(0)
@@ -165,7 +167,7 @@ def held_ring(
     return InnerRing(jnp.zeros(0), held, lever, (), expansion, distance, closure)
 
 
-def inner_ring(operation: Any, freedoms: tuple[str, ...], lever: Array) -> InnerRing:
+def inner_ring(operation: AbstractOperation, freedoms: tuple[str, ...], lever: Array) -> InnerRing:
     """The ring of an operating point: held at its misalignment where its tilt is not unknown.
 
     **Arguments:** `operation`: of any family; `freedoms`: those that are unknown; `lever`: of `InnerRing`, m.
