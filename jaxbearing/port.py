@@ -13,6 +13,7 @@ import equinox as eqx
 import jax
 import jax.numpy as jnp
 import numpy as np
+from jax.core import Tracer
 from jaxtyping import Array, Float
 
 from ._types import Scalar
@@ -58,8 +59,8 @@ def reaction(
     Nothing in the stiffness is made symmetric: with each ball's own centrifugal force, with couples or with friction it
     is not. As in the loads of `solve`, friction along the raceways is left out of the force (of `turbine_ball` 0.1 %
     of it, across the load), and of balls that slide the turning of the race under them is left out of the derivatives
-    by the tilts (3e-6). A cylindrical roller bearing has no axial freedom; its rollers tilt, and are dry or roll
-    without sliding.
+    by the tilts (3e-6). A cylindrical roller bearing has no axial freedom. Its rollers tilt with the ring where they
+    are dry or roll without sliding; where they slide they carry evenly along their length, and the ring must not tilt.
 
     **Arguments:**
     - `scene`: a ball, cylindrical or tapered roller bearing.
@@ -78,7 +79,8 @@ def reaction(
     - `throw`, `options`: of `solve`.
 
     **Raises:** `SolveError` where the solve fails; `TypeError` for another kind of scene; `ValueError` for what are not
-    five displacements, or no number, and for a cylindrical roller bearing with sliding friction.
+    five displacements, or no number, and for a tilt of a cylindrical roller bearing whose rollers slide (a traced one
+    gives the status `invalid_input`).
     """
     require_x64()
     require_choice("at", at, _POINTS)
@@ -86,13 +88,14 @@ def reaction(
         require_choice("tilt", tilt, _TILTS)
     if not isinstance(scene, Bearing):
         raise TypeError(f"reaction takes a bearing, got a {type(scene).__name__}")
-    if isinstance(scene, CylindricalRollerBearing) and scene.slips:
+    five = _five(displacement)
+    if _cannot_tilt(scene) and not isinstance(five, Tracer) and np.any(np.asarray(five)[3:] != 0.0):
         raise ValueError(
-            "contact.traction: the reaction of a cylindrical roller bearing is that of rollers that may tilt, which "
-            "are not modelled with sliding friction; leave it out"
+            "displacement: tilt and tilt_lateral of a cylindrical roller bearing with contact.traction must be 0, "
+            "since rollers that slide are not modelled with a tilt; leave out the tilts or the traction"
         )
     lengths = [_number(name, value) for name, value in (("closure", closure), ("expansion", expansion))]
-    numbers: Any = (jax.tree.map(as_float, scene), _five(displacement), *lengths)
+    numbers: Any = (jax.tree.map(as_float, scene), five, *lengths)
     inside = inside_a_program(numbers)
     function: Any = _react if inside else _react_quickly
     with nullcontext() if inside else quiet_first_time((reaction, jax.tree.structure(scene), at, tilt)):
@@ -100,6 +103,10 @@ def reaction(
         if throw:
             solution.raise_if_failed()
     return solution
+
+
+def _cannot_tilt(scene: Bearing) -> bool:
+    return isinstance(scene, CylindricalRollerBearing) and scene.slips
 
 
 def _number(name: str, value: Any) -> Array | np.ndarray:
@@ -142,6 +149,8 @@ def _react_any(
 ) -> Solution:
     numbers = (displacement, closure, expansion)
     finite = jnp.all(jnp.stack([jnp.all(jnp.isfinite(one)) for one in numbers]))
+    if _cannot_tilt(scene):
+        finite &= jnp.all(displacement[3:] == 0.0)
 
     def react(lane: Bearing) -> Solution:
         displacement, closure, expansion = (jnp.where(finite, one, 0.0) for one in numbers)

@@ -36,7 +36,9 @@ from .programs import KeptProgram
 
 
 def _solve_cylindrical(scene: CylindricalRollerBearing, options: NewtonOptions) -> Solution:
-    return solve_tilting(scene, options) if scene.tilts else solve_steady(scene, options)
+    # dry rollers that carry evenly leave a held ring without unknowns; those that may tilt have some, and the same loads
+    held = scene.contact is None and not scene.unknown_freedoms
+    return solve_tilting(scene, options) if scene.tilts or held else solve_steady(scene, options)
 
 
 _STEADY: dict[type, Callable[..., Any]] = {
@@ -82,7 +84,8 @@ def solve_held(
     ring: InnerRing,
     exact_tilt: bool | None,
 ) -> Solution:
-    """The steady state of a bearing whose inner ring is held where `ring` says; cylindrical rollers may tilt.
+    """The steady state of a bearing whose inner ring is held where `ring` says; cylindrical rollers may tilt, but for
+    those that slide.
 
     **Arguments:** `exact_tilt`: whether the grooves of a ball bearing move with the exact rotation of the ring; `None`:
     as the scene's own solve has it.
@@ -91,7 +94,7 @@ def solve_held(
         return solve_ball(scene, options, ring, exact_tilt)
     if isinstance(scene, TaperedRollerBearing):
         return solve_tapered(scene, options, ring)
-    return solve_tilting(scene, options, ring)
+    return solve_steady(scene, options, ring) if scene.slips else solve_tilting(scene, options, ring)
 
 
 _solve = eqx.filter_jit(_solve_any)

@@ -14,7 +14,8 @@ from jaxbearing.bearings.cylindrical_roller import (
     RollerFlange,
     RollerGeometry,
 )
-from jaxbearing.bearings.parts import ContactLaws, Drag, Materials, Operation
+from jaxbearing.bearings.operation import Operation
+from jaxbearing.bearings.parts import ContactLaws, Drag, Materials
 from jaxbearing.contacts import (
     DistributedTraction,
     DowsonHigginson,

@@ -14,7 +14,6 @@ from typing import ClassVar, Literal
 import equinox as eqx
 from jaxtyping import Array
 
-from .._scene import AbstractScene, label, number, optional_number
 from .._types import Scalar
 from ..contacts.point_laws import PointLaws
 from ..lubricants import Lubricant, NoPressureViscosity
@@ -23,10 +22,12 @@ from ..numerics.checks import demand, given
 from ..numerics.refusals import refusals_of, refuse_all
 from ..numerics.structure import choice
 from .ball_geometry import BallGeometry
+from .bearing import AbstractBearing
 from .cage import ASSUMED_LANDS as ASSUMED_LANDS
 from .cage import AbstractCage
 from .gyroscopic import AbstractGyroscopic, ResolvedCouple
-from .parts import AbstractOperation, DragSettings
+from .operation import LOAD_FIELDS, AbstractOperation
+from .parts import DragSettings
 from .rating import Rating
 
 ASSUMED_CAGE_THICKNESS = 0.4
@@ -36,47 +37,28 @@ ASSUMED_CAGE_THICKNESS = 0.4
 class BallOperation(AbstractOperation):
     """Operating point of a ball bearing: the batched part of a sweep.
 
-    A load that is not given (`None`) is 0, and where neither `radial_load` nor `moment` nor `misalignment` is given all
-    balls are alike, and one of them is solved for. A `moment` (also 0) frees the tilt of the inner ring; without it the
-    ring is held at `misalignment`.
+    It needs a load, or a displacement of the ring. Where nothing across the axis is given all balls are alike, and one
+    of them is solved for.
 
-    **Arguments:**
-    - `inner_speed`, `outer_speed`: absolute speeds of the rings, rad/s.
-    - `axial_load`, `radial_load`: on the inner ring, N.
-    - `moment`: on the inner ring, N m; `misalignment`: tilt of the inner ring, rad.
-    - `oil_temperature`: inlet temperature, K; `oil_flow`: supplied to the bearing, m^3/s.
+    **Arguments:** those of `AbstractOperation`.
     """
 
-    inner_speed: Scalar = number(metadata=label("rad/s", "inner ring speed"))
-    axial_load: Scalar | None = optional_number(metadata=label("N", "axial load"))
-    radial_load: Scalar | None = optional_number(metadata=label("N", "radial load"))
-    moment: Scalar | None = optional_number(metadata=label("N m", "moment"))
-    misalignment: Scalar | None = optional_number(metadata=label("rad", "misalignment"))
-    oil_temperature: Scalar = number(373.15, bound="> 0", metadata=label("K", "oil temperature"))
-    oil_flow: Scalar = number(0.0, bound=">= 0", metadata=label("m^3/s", "oil flow"))
-    outer_speed: Scalar = number(0.0, metadata=label("rad/s", "outer ring speed"))
-
-    def __check_init__(self):
-        super().__check_init__()
-        loads = [load for load in (self.axial_load, self.radial_load, self.moment) if load is not None]
+    def _conflicts(self) -> Iterator[str | ValueError]:
+        yield from super()._conflicts()
+        loads = [load for load in map(self.load, LOAD_FIELDS) if load is not None]
+        if self.displaced:
+            return
         if not loads:
-            raise ValueError("operation.axial_load: a ball bearing needs an axial_load, a radial_load or a moment")
-        if given(*loads) is not None:
-            demand(
+            yield (
+                "operation.axial_load: a ball bearing needs an axial_load, a radial_load or a moment, or a displacement"
+            )
+        elif given(*loads) is not None:
+            yield from refusals_of(
+                demand,
                 "operation.axial_load, radial_load or moment must differ from 0",
                 functools.reduce(operator.or_, (abs(load) > 0 for load in loads)),
                 lambda: "operation.axial_load: all loads are 0, and nothing holds the inner ring in its place",
             )
-
-    @property
-    def symmetric(self) -> bool:
-        """True if all balls are alike."""
-        return self.radial_load is None and not self.tilts
-
-    @property
-    def tilts(self) -> bool:
-        """True if the inner ring can tilt."""
-        return self.moment is not None or self.misalignment is not None
 
 
 class BallMaterials(eqx.Module):
@@ -127,7 +109,7 @@ class BallDragSettings(DragSettings):
     """Oil drag on the orbiting balls; where the coefficient is not given it is that of an isolated sphere."""
 
 
-class BallBearing(AbstractScene):
+class BallBearing(AbstractBearing):
     """A steady single-row ball bearing under any combination of axial load, radial load and moment.
 
     - `contact=None`: dry and frictionless: loads, contact angles and motion without sliding, with `kinematics.attitude`
@@ -193,13 +175,6 @@ class BallBearing(AbstractScene):
         r"""Distance of the plane of the inner groove centres, where `ring` counts, from that of the unloaded balls,
         m: $(f_i - \frac12)D\sin\alpha$ at the contact angle of the unloaded bearing."""
         return self.geometry.inner_offset * self.geometry.free_sine
-
-    @property
-    def ring_freedom(self) -> tuple[str, ...]:
-        """Active freedoms of the inner ring, in the order of the unknowns."""
-        if self.operation.symmetric:
-            return ("axial",)
-        return ("axial", "radial") if self.operation.moment is None else ("axial", "radial", "tilt")
 
     def unused_parts(self) -> tuple[str, ...]:
         """Tables that the scene names but that have no effect without traction on the raceways."""

@@ -5,7 +5,6 @@ from typing import Any, NamedTuple
 
 import jax
 import jax.numpy as jnp
-import numpy as np
 from jaxtyping import Array, Float
 
 from ..gaps import ReynoldsDrag, RollerDrag, ball_frontal_area
@@ -20,7 +19,7 @@ from .ball_kinematics import BallKinematics
 from .ball_start import together
 from .ball_system import Grooves
 from .gyroscopic import AbstractGyroscopic, ResolvedCouple
-from .parts import drag_density
+from .parts import azimuths, drag_density
 from .ring import LENGTH_UNIT, InnerRing, inner_ring
 
 SMALLEST_GUESS = 1e-3
@@ -54,13 +53,12 @@ def ring_directions(azimuth: Float[Array, " ball"]) -> Float[Array, "5 2 ball"]:
 def ball_row(scene: BallBearing, ring: InnerRing | None = None) -> Row:
     """All balls, or one for all where they are alike; with the ring of the scene, or with another one."""
     operation, geometry = scene.operation, scene.geometry
-    count = 1 if operation.symmetric and ring is None else geometry.n_balls
-    azimuth = jnp.asarray(2.0 * np.pi * np.arange(count) / count)
+    azimuth = azimuths(geometry, geometry.n_balls, operation.symmetric and ring is None)
     if ring is None:
-        ring = inner_ring(operation, scene.ring_freedom, geometry.groove_circle_radius)
+        ring = inner_ring(operation, scene.unknown_freedoms, geometry.groove_circle_radius)
     every = ring_directions(azimuth)
     held_shift = jnp.einsum("f,fcn->cn", ring.held, every)
-    return Row(azimuth, ring, ring.of_unknown(every), held_shift, geometry.n_balls // count)
+    return Row(azimuth, ring, ring.of_unknown(every), held_shift, geometry.n_balls // azimuth.size)
 
 
 def ball_grooves(scene: BallBearing, expansion: Float[Array, ""] | None = None) -> Grooves:
@@ -99,7 +97,7 @@ def build_core(scene: BallBearing, exact: bool | None = None, ring: InnerRing | 
         grooves=grooves,
         directions=row.directions,
         azimuth=row.azimuth,
-        ring=row.ring if row.ring.freedoms else row.ring.asking(_held_load(grooves, row)),
+        ring=row.ring.asking(_held_load(grooves, row)) if row.ring.asks else row.ring,
         held_shift=row.held_shift,
         mass=geometry.mass(density),
         inertia=geometry.inertia(density),

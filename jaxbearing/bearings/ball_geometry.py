@@ -12,7 +12,7 @@ from ..contacts import PointContact
 from ..numerics.checks import Checked, demand, given
 from ..numerics.refusals import refusals_of, refuse_all
 from ..numerics.structure import count
-from .parts import check_row_fits
+from .parts import FIRST_ELEMENT, check_row_fits
 
 
 class BallGeometry(Checked):
@@ -25,6 +25,7 @@ class BallGeometry(Checked):
     - `contact_angle`: of the unloaded bearing, rad, at least 0 and below pi/2.
     - `diametral_clearance`: DIAMETRAL internal clearance of the unloaded bearing, m, >= 0.
     - `shoulder_angle_inner`, `shoulder_angle_outer`: angle at which the groove ends, rad; not given: no check.
+    - `first_element_angle`: azimuth of the first ball, rad; not given: 0, and the load line is a line of symmetry.
     """
 
     part: ClassVar[str] = "geometry"
@@ -38,6 +39,7 @@ class BallGeometry(Checked):
     diametral_clearance: Scalar | None = optional_number(bound=">= 0")
     shoulder_angle_inner: Scalar | None = optional_number(bound="> 0")
     shoulder_angle_outer: Scalar | None = optional_number(bound="> 0")
+    first_element_angle: Scalar | None = optional_number(metadata=FIRST_ELEMENT)
 
     def __check_init__(self):
         super().__check_init__()

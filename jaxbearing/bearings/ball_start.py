@@ -267,7 +267,8 @@ def ring_estimate(problem: CentrifugalProblem) -> Float[Array, " freedom"]:
     zero = jnp.zeros(())
     both = together(problem.stiffness)
     distance, cosine = problem.centre_distance, problem.free_cosine
-    axial, radial = load.get("axial", zero), jnp.abs(load.get("radial", zero)) + jnp.abs(load.get("lateral", zero))
+    axial, across = load.get("axial", zero), jnp.stack([load.get("radial", zero), load.get("lateral", zero)])
+    radial = jnp.sqrt(jnp.sum(jnp.square(across)))
     tilting = jnp.abs(load.get("tilt", zero)) + jnp.abs(load.get("tilt_lateral", zero))
     sine = jnp.sqrt(jnp.maximum(1.0 - cosine * cosine, 0.0))
     tangent = sine / cosine
@@ -289,7 +290,8 @@ def ring_estimate(problem: CentrifugalProblem) -> Float[Array, " freedom"]:
     mixed = 1.0 - 0.6 * jnp.minimum(1.0, radial * tangent / jnp.maximum(jnp.abs(axial), 1e-3))
     alone = (jnp.abs(axial) + tilting) <= 1e-9 * total
     inward = jnp.where(alone, problem.aligned, problem.aligned + pushed * (distance * sine + depth * mixed))
-    across = (5.0 * radial / (count * cosine * both)) ** (2.0 / 3.0)
-    across = across + jnp.where(alone, distance * (1.0 - cosine), 0.0)
-    guesses = {"axial": inward, "radial": jnp.sign(load.get("radial", zero)) * across}
+    moved = (5.0 * radial / (count * cosine * both)) ** (2.0 / 3.0)
+    moved = moved + jnp.where(alone, distance * (1.0 - cosine), 0.0)
+    along = moved * across / jnp.where(radial > 0, radial, 1.0)
+    guesses = {"axial": inward, "radial": along[0], "lateral": along[1]}
     return jnp.stack([guesses.get(name, zero) for name in problem.freedoms])

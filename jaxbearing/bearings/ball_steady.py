@@ -21,9 +21,10 @@ from .ball_kinematics import BallMotion
 from .ball_rolling import common_orbit_torques, rolling_balance
 from .ball_solution import BallPowerLoss, BallResults, RacewayPower
 from .land import LandState
+from .parts import azimuths
 from .range_checks import BALL_PRESSURE, MEAN_OF_POINT, RACEWAYS, Contacts, Facts
 from .ring import InnerRing, Port
-from .solution import RING_FREEDOMS, CageState, Reason, Solution
+from .solution import RING_FREEDOMS, TILTS, CageState, Reason, Solution
 from .steady import assemble
 
 SIDES = np.array([[1.0], [-1.0]])
@@ -48,8 +49,9 @@ def solve_ball(
     steps = steps + result.iterations
     lever = system.grooves.lever
     port = _port(scene, system, result, film)
-    if "tilt" in system.freedoms:
-        results = results._replace(facts=results.facts._replace(stiffness=_of_lengths(port.stiffness, lever)))
+    if any(name in TILTS for name in system.freedoms):
+        stiffness = _of_lengths(port.stiffness, lever, system.freedoms)
+        results = results._replace(facts=results.facts._replace(stiffness=stiffness))
     times = overload(scene) if ring is None else jnp.zeros(())
     return assemble(
         scene,
@@ -58,7 +60,7 @@ def solve_ball(
         system.ring.displacement(result.point.globals),
         port,
         iterations=steps,
-        ring_freedom=_ring_names(scene) if ring is None else RING_FREEDOMS,
+        ring_freedom=scene.shown_freedoms if ring is None else RING_FREEDOMS,
         reasons=_without_cage(scene)
         | {
             "the load is {:.3g} times that at which the most loaded ball reaches 4.2 GPa, the limit of the static load "
@@ -70,10 +72,12 @@ def solve_ball(
     )
 
 
-def _of_lengths(stiffness: Float[Array, "5 5"], lever: Array) -> Float[Array, "3 3"]:
-    """The stiffness of the freedoms of a ring that may tilt, all displacements counted as lengths, N/m."""
-    free = np.asarray([RING_FREEDOMS.index(name) for name in ("axial", "radial", "tilt")])
-    unit = jnp.stack([jnp.ones(()), jnp.ones(()), 1.0 / lever])
+def _of_lengths(
+    stiffness: Float[Array, "5 5"], lever: Array, freedoms: tuple[str, ...]
+) -> Float[Array, "freedom freedom"]:
+    """The stiffness of the unknown freedoms of a ring that may tilt, all displacements counted as lengths, N/m."""
+    free = np.asarray([RING_FREEDOMS.index(name) for name in freedoms])
+    unit = jnp.stack([1.0 / lever if name in TILTS else jnp.ones(()) for name in freedoms])
     return stiffness[free][:, free] * unit[:, None] * unit[None]
 
 
@@ -96,10 +100,10 @@ def overload(scene: BallBearing) -> Float[Array, ""]:
     that of Hamrock and Brewe's closed form of the ellipse, within 5 %: enough for a message, and short.
     """
     geometry, operation = scene.geometry, scene.operation
-    size = lambda value: jnp.abs(jnp.asarray(0.0 if value is None else value))
     angle = jnp.asarray(0.0 if geometry.contact_angle is None else geometry.contact_angle)
-    radial = size(operation.radial_load)
-    axial = size(operation.axial_load) + 2.0 * size(operation.moment) / geometry.pitch_diameter
+    radial, axial = operation.radial_size, 2.0 * operation.moment_size / geometry.pitch_diameter
+    if operation.axial_load is not None:
+        axial = axial + jnp.abs(operation.axial_load)
     share = 0.6 if geometry.contact_angle is None else 0.5
     equivalent = jnp.maximum(radial, share * radial + jnp.minimum(0.58 - 0.008 * jnp.degrees(angle), 0.5) * axial)
     modulus = reduced_modulus(scene.materials.rings, scene.materials.balls)
@@ -110,12 +114,6 @@ def overload(scene: BallBearing) -> Float[Array, ""]:
     spread = 6.0 * jnp.square(ellipticity) * integral * radius / (jnp.pi * modulus)
     ball = (jnp.pi * BALL_PRESSURE / (1.5 * ellipticity)) ** 3 * jnp.square(spread)
     return equivalent / (0.2 * geometry.n_balls * jnp.cos(angle) * ball)
-
-
-def _ring_names(scene: BallBearing) -> tuple[str, ...]:
-    """Freedoms whose displacement is shown."""
-    tilted = scene.operation.misalignment is not None and scene.operation.moment is None
-    return (*scene.ring_freedom, "tilt") if tilted else scene.ring_freedom
 
 
 class _Results(NamedTuple):
@@ -153,9 +151,8 @@ def _ball_results(
     rolling = jnp.abs(kinematics.inner_speed - kinematics.outer_speed) / kinematics.ratio
     ratios = [race.spin / jnp.sqrt(jnp.square(race.roll) + jnp.square(1e-12 * rolling) + 1e-24) for race in races]
     every = lambda values: None if values is None else _every(scene, values)
-    count = geometry.n_balls
     elements = BallResults(
-        azimuth=jnp.asarray(2.0 * np.pi * np.arange(count) / count),
+        azimuth=azimuths(geometry, geometry.n_balls),
         load_inner=_every(scene, load[0]),
         load_outer=_every(scene, load[1]),
         contact_angle_inner=_every(scene, angle[0]),
@@ -333,7 +330,7 @@ def _port(
     """The reaction and the stiffness of all five freedoms of the ring, of all balls, also where one was solved for
     all."""
     count = scene.geometry.n_balls
-    azimuth = jnp.asarray(2.0 * np.pi * np.arange(count) / count)
+    azimuth = azimuths(scene.geometry, count)
     wide = lambda values: jnp.broadcast_to(values, (*values.shape[:-1], count))
     full = dataclasses.replace(
         system,

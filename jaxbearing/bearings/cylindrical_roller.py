@@ -20,14 +20,15 @@ from ..lubricants import Lubricant, NoPressureViscosity
 from ..numerics.checks import Checked, demand, given
 from ..numerics.refusals import refusals_of, refuse_all
 from ..numerics.structure import choice, count
+from .bearing import AbstractBearing
 from .cage import ASSUMED_LANDS as ASSUMED_LANDS
 from .cage import AbstractCage
+from .operation import Operation
 from .parts import (
-    AbstractScene,
+    FIRST_ELEMENT,
     ContactLaws,
     Drag,
     Materials,
-    Operation,
     check_between,
     check_row_fits,
     number,
@@ -53,6 +54,7 @@ class RollerGeometry(Checked):
     - `pitch_diameter`, `roller_diameter`, `roller_length` (of the whole roller): m, > 0.
     - `contact_length`: cylindrical length that carries load, m, > 0; `roller_length` where not given.
     - `diametral_clearance`: DIAMETRAL internal clearance of the assembled bearing, m; negative: preload.
+    - `first_element_angle`: azimuth of the first roller, rad; not given: 0, and the load line is a line of symmetry.
     """
 
     part: ClassVar[str] = "geometry"
@@ -63,6 +65,7 @@ class RollerGeometry(Checked):
     roller_length: Scalar = number(bound="> 0")
     diametral_clearance: Scalar = number()
     contact_length: Scalar | None = optional_number(bound="> 0")
+    first_element_angle: Scalar | None = optional_number(metadata=FIRST_ELEMENT)
 
     def __check_init__(self):
         super().__check_init__()
@@ -164,7 +167,7 @@ def _freedoms(value: Any) -> tuple[str, ...]:
     raise ValueError(f"ring_freedom must be ('radial',) or ('radial', 'lateral'), got {value!r}")
 
 
-class CylindricalRollerBearing(AbstractScene):
+class CylindricalRollerBearing(AbstractBearing):
     """A steady cylindrical roller bearing under radial load; every part but geometry, materials and operation may
     be `None`, and is then not modelled: no unknown, no equation, no run time.
 
@@ -179,6 +182,8 @@ class CylindricalRollerBearing(AbstractScene):
 
     **Raises:** `ValueError` for combinations that have no steady state or lack what they need.
     """
+
+    modelled_freedoms: ClassVar[tuple[str, ...]] = ("radial", "lateral", "tilt", "tilt_lateral")
 
     geometry: RollerGeometry
     materials: Materials
@@ -197,16 +202,15 @@ class CylindricalRollerBearing(AbstractScene):
         refuse_all(self._problems())
 
     def _problems(self) -> Iterator[str | ValueError]:
+        if self.simulation is not None:
+            yield from refusals_of(check_run, self.operation)
         if self.contact is None:
             return
         if self.tilts and self.slips:
             operation = self.operation
-            given = {
-                "operation.misalignment": operation.misalignment,
-                "operation.moment": operation.moment,
-                "profile": self.profile,
-            }
-            causes = [path for path, value in given.items() if value is not None]
+            names = ("misalignment", "misalignment_lateral", "moment", "moment_lateral")
+            causes = [f"operation.{name}" for name in names if getattr(operation, name) is not None]
+            causes += [] if self.profile is None else ["profile"]
             yield (
                 f"{causes[0]}: tilting or profiled rollers (profile, operation.misalignment, operation.moment) roll "
                 f"without sliding in this version; leave out {' and '.join(causes)}, or contact.traction"
@@ -236,10 +240,13 @@ class CylindricalRollerBearing(AbstractScene):
                     )
 
     @property
+    def skewed(self) -> bool:
+        return super().skewed or "lateral" in self.ring_freedom
+
+    @property
     def tilts(self) -> bool:
         """True if rollers may tilt and are cut into laminae; without it they carry evenly along their length."""
-        operation = self.operation
-        return self.profile is not None or operation.misalignment is not None or operation.moment is not None
+        return self.profile is not None or self.operation.tilts
 
     @property
     def ring_lever(self) -> Array:
@@ -283,6 +290,14 @@ class CylindricalRollerBearing(AbstractScene):
         if self.slips and self.flange is not None and self.flange.height is None:
             said.append(f"flange.height is not given: assumed {ASSUMED_FLANGE_HEIGHT:.3f} of the roller diameter")
         return tuple(said)
+
+
+def check_run(operation: Operation) -> None:
+    """**Raises:** `ValueError` where the operating point is none that a run in time can begin at."""
+    if operation.displaced:
+        raise ValueError("operation.displacement: in a run in time loads move the ring, it is not held")
+    if operation.radial_load is None:
+        raise ValueError("operation.radial_load: a run in time needs one")
 
 
 def _misfit(contact: ContactLaws, oil: Lubricant) -> list[str]:

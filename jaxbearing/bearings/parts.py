@@ -1,10 +1,11 @@
-"""Parts that bearing families share: the operating point, the contact laws, drag, checks of their sizes."""
+"""Parts that bearing families share: the contact laws, materials, drag, checks of their sizes, azimuths."""
 
 import math
 from typing import Any, ClassVar
 
 import equinox as eqx
 import jax.numpy as jnp
+import numpy as np
 from jaxtyping import Array, Float
 
 from .._scene import AbstractScene, label, number, optional_number
@@ -15,58 +16,9 @@ from ..lubricants import Lubricant
 from ..materials import Material
 from ..numerics.checks import Checked, demand, given, known
 from ..numerics.safe import safe_norm
+from .operation import AbstractOperation
 
-__all__ = ["AbstractScene", "ContactLaws", "Drag", "Materials", "Operation", "number", "optional_number"]
-
-
-class AbstractOperation(Checked):
-    """Base of the operating points of all bearings, without loads."""
-
-    part: ClassVar[str] = "operation"
-
-    inner_speed: eqx.AbstractVar[Scalar]
-    outer_speed: eqx.AbstractVar[Scalar]
-    oil_temperature: eqx.AbstractVar[Scalar]
-    oil_flow: eqx.AbstractVar[Scalar]
-
-    def check_rings_turn(self) -> None:
-        """**Raises:** `ValueError` where the rings turn alike and no film can form (where the numbers are known)."""
-        speeds = given(self.inner_speed, self.outer_speed)
-        if speeds is not None:
-            demand(
-                "operation.inner_speed of a lubricated bearing must differ from operation.outer_speed",
-                abs(speeds[0] - speeds[1]) > 0,
-                lambda: (
-                    f"operation.inner_speed: it is {float(speeds[0]):.6g} rad/s, the same as operation.outer_speed; a "
-                    "lubricated bearing needs rings that turn against each other; leave out [contact] for a dry one"
-                ),
-            )
-
-
-class Operation(AbstractOperation):
-    """Operating point of a roller bearing: the batched part of a sweep.
-
-    **Arguments:**
-    - `inner_speed`, `outer_speed`: absolute speeds of the rings, rad/s, counter-clockwise positive.
-    - `radial_load`: on the inner ring, along azimuth 0, N, > 0.
-    - `moment`: on the inner ring, N m (also 0): its tilt is free; without it the ring is held at `misalignment`, rad. A
-      positive one moves azimuth 0 along the axis. Both need rollers that may tilt, which are dry and frictionless.
-    - `oil_temperature`: inlet temperature, K; every interaction uses it unless it computes its own.
-    - `oil_flow`: supplied to the bearing, m^3/s.
-    """
-
-    inner_speed: Scalar = number(metadata=label("rad/s", "inner ring speed"))
-    radial_load: Scalar = number(bound="> 0", metadata=label("N", "radial load"))
-    oil_temperature: Scalar = number(373.15, bound="> 0", metadata=label("K", "oil temperature"))
-    oil_flow: Scalar = number(0.0, bound=">= 0", metadata=label("m^3/s", "oil flow"))
-    outer_speed: Scalar = number(0.0, metadata=label("rad/s", "outer ring speed"))
-    moment: Scalar | None = optional_number(metadata=label("N m", "moment"))
-    misalignment: Scalar | None = optional_number(metadata=label("rad", "misalignment"))
-
-    def __check_init__(self):
-        super().__check_init__()
-        if self.moment is not None and self.misalignment is not None:
-            raise ValueError("operation.misalignment: none beside operation.moment, which sets the tilt free")
+__all__ = ["AbstractScene", "ContactLaws", "Drag", "Materials", "number", "optional_number"]
 
 
 class Materials(eqx.Module):
@@ -151,3 +103,13 @@ def check_row_fits(count: int, diameter: Any, pitch_diameter: Any, element: str 
             f"circle of {float(sizes[1]):g} m: their centres are {float(chord):g} m apart; at most {most()} fit"
         ),
     )
+
+
+FIRST_ELEMENT = label("rad", "azimuth of the first rolling element")
+
+
+def azimuths(geometry: Any, count: int, alone: bool = False) -> Float[Array, " element"]:
+    """Azimuths of the rolling elements, rad; `alone`: of one that stands for all."""
+    places = jnp.asarray(2.0 * np.pi * np.arange(1 if alone else count) / count)
+    first = geometry.first_element_angle
+    return places if first is None else places + first

@@ -18,10 +18,11 @@ from ..contacts.laws import SPEED_SMOOTHING, ContactLaws
 from ..contacts.point_laws import PointLaws
 from ..lubricants import InletOil
 from ..lubricants.ranges import FITTED_PRESSURE, FITTED_TEMPERATURES
-from ..numerics.safe import smooth_abs
+from ..numerics.safe import safe_norm, smooth_abs
 from .ball_bearing import BallBearing
 from .cylindrical_roller import CylindricalRollerBearing
 from .kinematics import roller_kinematics
+from .parts import azimuths
 from .solution import CageState, RingDisplacement
 from .tapered_roller import TaperedRollerBearing
 
@@ -284,8 +285,8 @@ def _would_skid(result: _Result) -> Excess:
 
 
 def _tilted(result: _Result) -> Excess:
-    operation, roller = result.scene.operation, result.facts.roller_tilt
-    if not result.held and operation.moment is None and operation.misalignment is None and roller is None:
+    roller = result.facts.roller_tilt
+    if not result.held and not result.scene.operation.tilts and roller is None:
         return {}
     tilt = jnp.maximum(jnp.abs(result.ring.tilt), jnp.abs(result.ring.tilt_lateral))
     if roller is not None:
@@ -316,8 +317,11 @@ def _squeezed(result: _Result) -> Excess:
     if not isinstance(scene, CylindricalRollerBearing) or not scene.tilts or result.held:
         return {}
     load = result.facts.contacts[0].load
-    azimuth = 2.0 * np.pi * np.arange(load.shape[1]) / load.shape[1]
-    behind = jnp.max(jnp.where(np.cos(azimuth) < -0.5, load[0], 0.0))
+    azimuth = azimuths(scene.geometry, load.shape[1])
+    outward = jnp.stack([jnp.cos(azimuth), jnp.sin(azimuth)])
+    resultant = outward @ load[0]
+    opposite = resultant @ outward < -0.5 * safe_norm(resultant[0], resultant[1])
+    behind = jnp.max(jnp.where(opposite, load[0], 0.0))
     loose = jnp.asarray(scene.geometry.diametral_clearance) > 0
     text = "the tilt takes up the whole clearance: rollers opposite the load are squeezed"
     return {text: jnp.where(loose, behind - LOADED * jnp.max(load), -1.0)}
@@ -358,14 +362,16 @@ def missing_thrust(scene: BallBearing) -> Float[Array, ""]:
     r"""$1.22F_r\tan\alpha - F_a$, N, of an angular contact bearing: positive where fewer than half of its balls are
     loaded (Harris, *Rolling Bearing Analysis*)."""
     operation, angle = scene.operation, jnp.asarray(scene.geometry.contact_angle)
-    size = lambda value: jnp.abs(jnp.asarray(0.0 if value is None else value))
-    return 1.22 * size(operation.radial_load) * jnp.tan(angle) - size(operation.axial_load)
+    axial = jnp.asarray(0.0 if operation.axial_load is None else operation.axial_load)
+    return 1.22 * operation.radial_size * jnp.tan(angle) - jnp.abs(axial)
 
 
 def _thrust(scene: Scene) -> Excess:
     if not isinstance(scene, BallBearing):
         return {}
-    if scene.geometry.contact_angle is None or scene.operation.radial_load is None:
+    operation = scene.operation
+    across = operation.radial_load is not None or operation.radial_load_lateral is not None
+    if scene.geometry.contact_angle is None or operation.displaced or not across:
         return {}
     text = (
         "axial load below 1.22 F_r tan(contact angle): fewer than half of the balls of this angular contact bearing "
@@ -409,7 +415,9 @@ def _wide_land(scene: Scene) -> Excess:
 
 
 def _at_apex(scene: Scene) -> Excess:
-    if not isinstance(scene, TaperedRollerBearing) or scene.operation.moment is None:
+    if not isinstance(scene, TaperedRollerBearing):
+        return {}
+    if scene.operation.load("tilt") is None and scene.operation.load("tilt_lateral") is None:
         return {}
     text = (
         "operation.load_position is 0: radial load and moment act at the common apex of the cones, not at the "

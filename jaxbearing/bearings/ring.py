@@ -21,15 +21,11 @@ from jaxtyping import Array, Float
 
 from .._types import Scalar
 from ..numerics.arrow import ArrowJacobian, condensed, schur_complement
-from .parts import AbstractOperation
-from .solution import RING_FREEDOMS, RingDisplacement
+from .operation import AbstractOperation
+from .solution import RING_FREEDOMS, TILTS, RingDisplacement
 
 LENGTH_UNIT = 1e-5
 """Scale of displacements, m."""
-TILTS = ("tilt", "tilt_lateral")
-"""The angles among `RING_FREEDOMS`."""
-_LOADS = {"axial": "axial_load", "radial": "radial_load", "tilt": "moment"}
-"""Freedom -> the field of an operating point that holds its load."""
 
 
 class Port(NamedTuple):
@@ -56,6 +52,7 @@ class InnerRing(eqx.Module):
       `None`: it is the same point.
     - `closure`: part of the axial displacement that is not shown, m; `None`: none.
     - `held_load`: size of the load that the given displacements ask for, N, about: a scale; `None`: not needed.
+    - `asks`: whether the loads leave open what the given displacements ask for.
     """
 
     load: Float[Array, " freedom"]
@@ -66,6 +63,7 @@ class InnerRing(eqx.Module):
     distance: Float[Array, ""] | None = None
     closure: Float[Array, ""] | None = None
     held_load: Float[Array, ""] | None = None
+    asks: bool = eqx.field(static=True, default=False)
 
     @property
     def places(self) -> np.ndarray:
@@ -91,6 +89,12 @@ class InnerRing(eqx.Module):
         numbers = [jnp.asarray(value(name), dtype=float) for name in self.freedoms]
         return jnp.stack(numbers) if numbers else jnp.zeros(0)
 
+    def across(self) -> Float[Array, " freedom"]:
+        """Direction of the load across the axis, in the unknown freedoms; 0 where there is none."""
+        load = jnp.where(np.asarray([name in ("radial", "lateral") for name in self.freedoms], bool), self.load, 0.0)
+        square = jnp.sum(jnp.square(load))
+        return load / jnp.sqrt(jnp.where(square > 0, square, 1.0))
+
     def displacement(self, globals_: Float[Array, " g"]) -> RingDisplacement:
         """The displacement that is shown, m and rad, from the global unknowns, whose first ones are those of the
         ring."""
@@ -111,7 +115,9 @@ class InnerRing(eqx.Module):
 
     def size(self) -> Float[Array, ""]:
         """The size of the load on the ring, given or made by what it is held at, N."""
-        size = jnp.sqrt(jnp.sum(jnp.square(self.load)))
+        square = jnp.sum(jnp.square(self.load))
+        loaded = square > 0
+        size = jnp.where(loaded, jnp.sqrt(jnp.where(loaded, square, 1.0)), square)
         return size if self.held_load is None else size + self.held_load
 
     def equation_names(self) -> tuple[str, ...]:
@@ -120,7 +126,7 @@ class InnerRing(eqx.Module):
     def released(self, size: Float[Array, ""]) -> "InnerRing":
         """The ring with all five freedoms unknown, under a load of this size, N, which scales the equations."""
         load, held = jnp.full(5, size / jnp.sqrt(5.0)), jnp.zeros(5)
-        return dataclasses.replace(self, load=load, held=held, freedoms=RING_FREEDOMS, held_load=None)
+        return dataclasses.replace(self, load=load, held=held, freedoms=RING_FREEDOMS, held_load=None, asks=False)
 
     def released_unknowns(self, globals_: Float[Array, " g"]) -> Float[Array, " g5"]:
         """The global unknowns of the `released` ring where this one has `globals_`."""
@@ -164,16 +170,22 @@ def held_ring(
     """
     lever = jnp.asarray(lever)
     held = (shift_matrix(distance) @ displacement).at[0].add(closure) * _levers(lever)
-    return InnerRing(jnp.zeros(0), held, lever, (), expansion, distance, closure)
+    return InnerRing(jnp.zeros(0), held, lever, (), expansion, distance, closure, asks=True)
 
 
 def inner_ring(operation: AbstractOperation, freedoms: tuple[str, ...], lever: Array) -> InnerRing:
-    """The ring of an operating point: held at its misalignment where its tilt is not unknown.
+    """The ring of an operating point: held where a displacement is given, and at 0 where neither is.
 
     **Arguments:** `operation`: of any family; `freedoms`: those that are unknown; `lever`: of `InnerRing`, m.
     """
-    number = lambda name: jnp.asarray(0.0 if (found := getattr(operation, name, None)) is None else found)
-    levers: dict[str, Array] = dict(zip(RING_FREEDOMS, _levers(jnp.asarray(lever)), strict=True))
-    load = [number(_LOADS.get(name, "")) / levers[name] for name in freedoms]
-    tilt = jnp.zeros(()) if "tilt" in freedoms else number("misalignment") * lever
-    return InnerRing(jnp.stack(load), jnp.zeros(5).at[3].set(tilt), jnp.asarray(lever), freedoms)
+    lever = jnp.asarray(lever)
+    number = lambda value: jnp.zeros(()) if value is None else jnp.asarray(value)
+    levers: dict[str, Array] = dict(zip(RING_FREEDOMS, _levers(lever), strict=True))
+    load = [number(operation.load(name)) / levers[name] for name in freedoms]
+    held = jnp.zeros(5)
+    for place, name in enumerate(RING_FREEDOMS):
+        given = operation.held_at(name)
+        if given is not None:
+            held = held.at[place].set(given * levers[name])
+    asks = operation.displaced or not freedoms
+    return InnerRing(jnp.stack(load) if load else jnp.zeros(0), held, lever, freedoms, asks=asks)

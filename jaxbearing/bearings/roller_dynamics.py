@@ -170,7 +170,7 @@ class RollerDynamics(eqx.Module):
 
     def ring_load(self, time: Scalar) -> Float[Array, " freedom"]:
         """Load on the inner ring along its freedoms, N."""
-        load = self.system.ring_load * self.load.factor(time)
+        load = self.system.ring.load * self.load.factor(time)
         return load if self.rotating_load is None else load + self.rotating_load.components(time)
 
     @property

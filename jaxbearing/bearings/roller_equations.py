@@ -26,7 +26,8 @@ The sign of $F_{C2} - F_{C1}$ in the cage's x balance differs from the source's 
 eq. (32) and action = reaction. Each interaction gives its force and its dissipation from one and the same speed.
 """
 
-from typing import NamedTuple
+import dataclasses
+from typing import NamedTuple, TypeVar
 
 import equinox as eqx
 import jax
@@ -42,7 +43,7 @@ from ..numerics.roots import monotone_root
 from ..numerics.safe import safe_norm
 from .kinematics import RollerKinematics
 from .land import LandState, guided_land
-from .ring import LENGTH_UNIT
+from .ring import LENGTH_UNIT, InnerRing
 from .roller_forces import CageParts, forces_without_pocket, on_cage
 from .roller_loads import LOG_LOAD_RANGE, approach_error, guessed_loads, per_race
 
@@ -50,6 +51,16 @@ EASED_ENTRAINMENT = 0.3
 """Entrainment speed that a solve which failed at once is given first, over that of rolling without slip."""
 EASED_PRESSURE = 1.5e9
 """Hertz pressure of the most loaded roller, Pa, at which traction surely drives the rollers: given first after that."""
+
+
+System = TypeVar("System", bound="_InPlane")
+IN_PLANE = ("radial", "lateral")
+"""Freedoms of the inner ring in the model of rollers that carry evenly along their length."""
+
+
+def outward(azimuth: Float[Array, " roller"]) -> Float[Array, "2 roller"]:
+    """Outward unit vector at each roller, along the load line and along azimuth 90 degrees."""
+    return jnp.stack([jnp.cos(azimuth), jnp.sin(azimuth)])
 
 
 class RollerState(NamedTuple):
@@ -73,7 +84,39 @@ class RollerState(NamedTuple):
     cage_force: Float[Array, "2 roller"] | None
 
 
-class LubricatedRollerSystem(AbstractArrowSystem):
+class _InPlane(AbstractArrowSystem):
+    """Base of the equations of rollers that carry evenly along their length. `directions`: outward unit vectors along
+    the unknown freedoms of the `ring`; `held`: by what displacements that are given bring it towards each roller, m,
+    `None`: none is given."""
+
+    directions: eqx.AbstractVar[Float[Array, "freedom roller"]]
+    azimuth: eqx.AbstractVar[Float[Array, " roller"]]
+    ring: eqx.AbstractVar[InnerRing]
+    held: eqx.AbstractVar[Float[Array, " roller"] | None]
+
+    @property
+    def freedoms(self) -> tuple[str, ...]:
+        """Freedoms of the ring that are unknown."""
+        return self.ring.freedoms
+
+    def load_scale(self) -> Array:
+        """Scale of the ring's balances, N."""
+        return safe_norm(self.ring.size(), 0.0)
+
+    def inward(self, shared: Float[Array, "freedom ..."]) -> Float[Array, " roller"]:
+        """Displacement of the inner ring towards each roller, m, from its unknowns."""
+        shift = jnp.sum(shared * self.directions, axis=0) * LENGTH_UNIT
+        return shift if self.held is None else shift + self.held
+
+    def in_plane(self: System) -> System:
+        """The equations with both freedoms of the ring unknown."""
+        ring, both = self.ring, outward(self.azimuth)
+        free = InnerRing(jnp.full(2, ring.size() / jnp.sqrt(2.0)), jnp.zeros(5), ring.lever, IN_PLANE)
+        held = None if ring.expansion is None else jnp.broadcast_to(ring.expansion, self.azimuth.shape)
+        return dataclasses.replace(self, directions=both, ring=free, held=held)
+
+
+class LubricatedRollerSystem(_InPlane):
     """Lubricated bearing. With `cage`: unknowns (ln Qi, speed at the outer race) per roller, (ring, cage speed).
     Without (frictionless raceways): ln Qi per roller and the ring, kinematics of rolling without slip."""
 
@@ -84,17 +127,13 @@ class LubricatedRollerSystem(AbstractArrowSystem):
     inlet: InletOil
     directions: Float[Array, "freedom roller"]
     azimuth: Float[Array, " roller"]
-    ring_load: Float[Array, " freedom"]
+    ring: InnerRing
     radial_clearance: Float[Array, ""]
     roller_mass: Float[Array, ""]
-    freedoms: tuple[str, ...] = eqx.field(static=True)
+    held: Float[Array, " roller"] | None = None
     cage: CageParts | None = None
 
     # -- scales ---------------------------------------------------------------------------------------------------
-
-    def load_scale(self) -> Array:
-        """Scale of the ring balance, N."""
-        return safe_norm(self.ring_load[0], 0.0)
 
     def friction_scale(self) -> Array:
         """Scale of friction forces, N: 1 % of a roller's share of the load plus its centrifugal force."""
@@ -106,7 +145,7 @@ class LubricatedRollerSystem(AbstractArrowSystem):
     # -- solver contract ------------------------------------------------------------------------------------------
 
     def equation_names(self) -> tuple[str, ...]:
-        ring = tuple(f"{name} load balance of the ring" for name in self.freedoms)
+        ring = self.ring.equation_names()
         if self.cage is None:
             return ("approach of the rings at a roller", *ring)
         return ("approach of the rings at a roller", "moment balance of a roller", *ring, "moment balance of the cage")
@@ -135,17 +174,19 @@ class LubricatedRollerSystem(AbstractArrowSystem):
         film force on the rollers outside the loaded zone, at the ring displacement that carries the load."""
         motion, n = self.kinematics, self.azimuth.shape[0]
         mean_speed, _ = motion.surface_speeds(jnp.zeros(()), jnp.zeros(()))
+        along = self.ring.across()
+        opening = self.radial_clearance if self.held is None else self.radial_clearance - self.held
         shift, log_load = guessed_loads(
             self.contact,
             self.laws,
             self.inlet,
             mean_speed,
-            self.directions[0],
+            jnp.einsum("f,fn->n", along, self.directions),
             self.load_scale(),
             self.centrifugal(motion.free_orbit),
-            self.radial_clearance,
+            opening,
         )
-        ring = jnp.concatenate([shift[None], jnp.zeros(self.directions.shape[0] - 1)]) / LENGTH_UNIT
+        ring = along * shift / LENGTH_UNIT
         if self.cage is None:
             return ArrowPoint(log_load[None, :], ring)
         return ArrowPoint(jnp.stack([log_load, jnp.zeros(n)]), jnp.concatenate([ring, jnp.zeros(1)]))
@@ -164,8 +205,8 @@ class LubricatedRollerSystem(AbstractArrowSystem):
         per_roller = 2.0 * jnp.pi * EASED_PRESSURE**2 * contact.reduced_radius * contact.length
         heavy = per_roller / contact.reduced_modulus * self.azimuth.shape[0] / 4.0
         factor = jnp.where(path == 1, jnp.maximum(heavy / self.load_scale(), 1.0) ** ease, 1.0)
-        where = lambda system: (system.ring_load, system.laws.entrainment_offset)
-        return eqx.tree_at(where, self, (self.ring_load * factor, offset))
+        where = lambda system: (system.ring.load, system.laws.entrainment_offset)
+        return eqx.tree_at(where, self, (self.ring.load * factor, offset))
 
     @property
     def further_sums(self) -> int:
@@ -183,7 +224,7 @@ class LubricatedRollerSystem(AbstractArrowSystem):
 
     def closure(self, globals_, totals):
         d = self.directions.shape[0]
-        ring = (totals[:d] - self.ring_load) / self.load_scale()
+        ring = (totals[:d] - self.ring.load) / self.load_scale()
         if self.cage is None:
             return ring, jnp.zeros(())
         land = self.land(self.orbit(globals_[d]), totals[d + 1], totals[d + 2])
@@ -204,7 +245,7 @@ class LubricatedRollerSystem(AbstractArrowSystem):
     def rollers(self, unknowns: Float[Array, "m roller"], shared: Float[Array, "g roller"]) -> RollerState:
         motion, d = self.kinematics, self.directions.shape[0]
         log_load = unknowns[0]
-        shift = jnp.sum(shared[:d] * self.directions, axis=0) * LENGTH_UNIT
+        shift = self.inward(shared[:d])
         if self.cage is None:
             orbit_change = spin_change = jnp.zeros_like(log_load)
         else:
@@ -278,7 +319,7 @@ class LubricatedRollerSystem(AbstractArrowSystem):
         return self.land(self.orbit(point.globals[-1]), force[0], force[1])
 
 
-class DryRollerSystem(AbstractArrowSystem):
+class DryRollerSystem(_InPlane):
     """Dry frictionless bearing: the loads follow from the ring displacement in closed form but for one well
     conditioned scalar root per roller, so only the ring displacement is an unknown."""
 
@@ -286,13 +327,13 @@ class DryRollerSystem(AbstractArrowSystem):
     contact: LineContact
     directions: Float[Array, "freedom roller"]
     azimuth: Float[Array, " roller"]
-    ring_load: Float[Array, " freedom"]
+    ring: InnerRing
     radial_clearance: Float[Array, ""]
     roller_mass: Float[Array, ""]
-    freedoms: tuple[str, ...] = eqx.field(static=True)
+    held: Float[Array, " roller"] | None = None
 
     def equation_names(self) -> tuple[str, ...]:
-        return tuple(f"{name} load balance of the ring" for name in self.freedoms)
+        return self.ring.equation_names()
 
     def step_caps(self) -> ArrowPoint:
         # a dry distribution is convex in the displacement: no cap is needed
@@ -308,10 +349,10 @@ class DryRollerSystem(AbstractArrowSystem):
     def initial(self) -> ArrowPoint:
         """The whole load on one roller: never outside contact, and the root is approached from above."""
         stiff = jnp.sum(self.contact.palmgren_compliance)
-        shift = self.radial_clearance + stiff * (self.ring_load[0] + self.centrifugal()) ** 0.9
+        shift = self.radial_clearance + stiff * (self.load_scale() + self.centrifugal()) ** 0.9
         shift = jnp.maximum(shift, 0.1 * LENGTH_UNIT)
-        others = jnp.zeros(self.directions.shape[0] - 1)
-        return ArrowPoint(jnp.zeros((0, self.azimuth.shape[0])), jnp.concatenate([shift[None], others]) / LENGTH_UNIT)
+        ring = self.ring.across() * shift / LENGTH_UNIT
+        return ArrowPoint(jnp.zeros((0, self.azimuth.shape[0])), ring)
 
     def loads(self, shift: Array) -> tuple[Float[Array, "2 roller"], Array]:
         r"""Loads on both races from the inward displacement of the inner ring at each roller, and the root's residual.
@@ -337,18 +378,13 @@ class DryRollerSystem(AbstractArrowSystem):
         inner = jnp.where(taken, jnp.where(taken, root.value, 1.0) ** (10.0 / 9.0), 0.0)
         return jnp.stack([inner, inner + fc]), jnp.max(root.residual / x)
 
-    def load_scale(self) -> Array:
-        """Scale of the ring balance, N."""
-        return safe_norm(self.ring_load[0], 0.0)
-
     def inward_shift(self, point: ArrowPoint) -> Array:
         """Displacement of the inner ring towards each roller, m."""
-        return jnp.sum(point.globals[:, None] * self.directions, axis=0) * LENGTH_UNIT
+        return self.inward(point.globals[:, None])
 
     def element(self, unknowns, shared):
-        shift = jnp.sum(shared * self.directions, axis=0) * LENGTH_UNIT
-        load, inner = self.loads(shift)
+        load, inner = self.loads(self.inward(shared))
         return unknowns, load[0][None, :] * self.directions, inner
 
     def closure(self, globals_, totals):
-        return (totals - self.ring_load) / self.load_scale(), jnp.zeros(())
+        return (totals - self.ring.load) / self.load_scale(), jnp.zeros(())

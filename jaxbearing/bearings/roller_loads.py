@@ -49,13 +49,13 @@ def guessed_loads(
     cosine: Float[Array, " roller"],
     total: Float[Array, ""],
     centrifugal: Float[Array, ""],
-    radial_clearance: Float[Array, ""],
+    opening: Float[Array, "*roller"],
 ) -> tuple[Float[Array, ""], Float[Array, " roller"]]:
     """Ring displacement along the load, m, and ln Qi: a dry elastic distribution on rings swollen by the films, plus
     Martin's film force on the rollers outside the loaded zone, at the displacement that carries the load.
 
     **Arguments:** `cosine` of the angle between each roller and the load `total`, N; speeds and the `centrifugal`
-    force, N, of a typical roller.
+    force, N, of a typical roller; `opening` between the races of each roller at that displacement 0, m.
     """
     kappa = per_race(contact.palmgren_compliance)
     typical = total * 4.0 / cosine.shape[0] + centrifugal + 1.0
@@ -75,8 +75,8 @@ def guessed_loads(
     def balance(shift, args):
         return jnp.sum(loads(shift, args) * args[4]) / args[5] - 1.0
 
-    args = (film, martin, centrifugal, radial_clearance, cosine, total, stiff)
-    high = radial_clearance + stiff * (total + centrifugal) ** 0.9
+    args = (film, martin, centrifugal, opening, cosine, total, stiff)
+    high = jnp.max(opening) + stiff * (total + centrifugal) ** 0.9
     low = jnp.minimum(-high, -LENGTH_UNIT)
     high = jnp.maximum(high, LENGTH_UNIT)
     shift = monotone_root(balance, args, low, high, high, tolerance=1e-6).value

@@ -13,7 +13,7 @@ from ..numerics.arrow import ArrowPoint
 from ..numerics.checks import InputChecks, check_inputs, gate, void
 from ..numerics.newton import NewtonOptions, newton_solve
 from ..numerics.status import Status
-from .cylindrical_roller import CylindricalRollerBearing
+from .cylindrical_roller import CylindricalRollerBearing, check_run
 from .ring import LENGTH_UNIT
 from .roller_dynamics import RollerDynamics
 from .roller_equations import LubricatedRollerSystem
@@ -58,11 +58,13 @@ def build_dynamics(
     **Arguments:** `reference_speed`, rad/s, of the frame in which positions are counted, at the operating point; that
     of rolling without slip where not given.
 
-    **Raises:** `ValueError` for a scene without traction on the raceways: nothing would drive its rollers.
+    **Raises:** `ValueError` for a scene without traction on the raceways: nothing would drive its rollers; and for an
+    operating point that holds the ring somewhere.
     """
     if not scene.slips:
         raise ValueError(IMMOBILE)
-    if simulation.rotating_load is not None and "lateral" not in scene.ring_freedom:
+    check_run(scene.operation)
+    if simulation.rotating_load is not None and not scene.skewed:
         scene = scene.replace({"ring_freedom": ("radial", "lateral")})
     system = build_system(scene)
     assert isinstance(system, LubricatedRollerSystem)
@@ -130,12 +132,12 @@ def quasi_static(scene: CylindricalRollerBearing, options: NewtonOptions | None 
 
 
 def at_start(scene: CylindricalRollerBearing, simulation: Simulation) -> CylindricalRollerBearing:
-    """The scene at the speed and radial load of time 0."""
+    """The scene at the speed and loads of time 0."""
     zero, operation = jnp.zeros(()), scene.operation
-    return scene.at_operation(
-        inner_speed=operation.inner_speed * simulation.speed.factor(zero),
-        radial_load=operation.radial_load * simulation.load.factor(zero),
-    )
+    factor = simulation.load.factor(zero)
+    names = [name for name in ("radial_load", "radial_load_lateral") if getattr(operation, name) is not None]
+    loads = {name: getattr(operation, name) * factor for name in names}
+    return scene.at_operation(inner_speed=operation.inner_speed * simulation.speed.factor(zero), **loads)
 
 
 def begin(scene: CylindricalRollerBearing, simulation: Simulation, found: QuasiStatic) -> Start:

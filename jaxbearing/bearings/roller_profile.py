@@ -1,10 +1,13 @@
 """Rollers cut into laminae along their length: the same part for cylindrical and tapered rollers."""
 
 import equinox as eqx
+import jax.numpy as jnp
+from jaxtyping import Array
 
 from .._types import Scalar
 from ..contacts import AbstractTiltedLine, SlicedLine
 from ..contacts.profile import AbstractProfile
+from ..numerics.safe import positive_power
 from ..numerics.structure import count
 from .rating import LAMINAE
 
@@ -28,3 +31,14 @@ class RollerProfile(eqx.Module):
     def line(self, stiffness: Scalar, length: Scalar) -> AbstractTiltedLine:
         """The contact of such a roller over its length. **Arguments:** K, N/m^(19/9); m."""
         return SlicedLine(stiffness, length, self.shape, self.n_laminae)
+
+
+def pressed_load(stiffness: Array, length: Array, pressed: Array, slope: Array) -> Array:
+    """About the loads of straight rollers between two races, N: a scale of the load that a held ring needs.
+
+    **Arguments:** K of one contact, N/m^(19/9), and length, m, of the rollers; by how much the races press each
+    together at its middle, m, and how that changes along it.
+    """
+    # both contacts of a roller, one behind the other
+    depth = 0.5 * jnp.maximum(pressed + 0.5 * length * jnp.abs(slope), 0.0)
+    return stiffness * length * positive_power(depth, 10.0 / 9.0)

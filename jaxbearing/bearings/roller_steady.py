@@ -3,32 +3,38 @@
 from typing import NamedTuple
 
 import jax.numpy as jnp
-import numpy as np
 from jaxtyping import Array, Float
 
-from ..contacts import LineContact
+from ..contacts import LineContact, palmgren_stiffness
 from ..gaps import Flange, Pocket, PocketEdge, RollerDrag
 from ..materials import reduced_modulus
-from ..numerics.arrow import condensed, schur_complement
+from ..numerics.arrow import ArrowPoint, condensed, linearize, schur_complement
 from ..numerics.newton import NewtonOptions, NewtonResult, newton_solve
 from .cylindrical_roller import CylindricalRollerBearing, RollerCage, RollerGeometry
 from .kinematics import RollerKinematics, roller_kinematics
 from .land import LandState
-from .parts import drag_density
+from .parts import azimuths, drag_density
 from .range_checks import MEAN_OF_LINE, RACEWAYS, Contacts, Facts
-from .ring import LENGTH_UNIT, Port
-from .roller_equations import DryRollerSystem, LubricatedRollerSystem, RollerState
+from .ring import LENGTH_UNIT, InnerRing, Port
+from .roller_equations import IN_PLANE, DryRollerSystem, LubricatedRollerSystem, RollerState, outward
 from .roller_forces import CageParts, ring_torques, rolling_alone
-from .solution import RING_FREEDOMS, CageState, PowerLoss, RingDisplacement, RollerResults, Solution
+from .roller_loads import LEAST_LOAD
+from .roller_profile import pressed_load
+from .roller_ring import roller_ring
+from .solution import CageState, PowerLoss, RollerResults, Solution
 from .steady import assemble
 
 
-def build_system(scene: CylindricalRollerBearing) -> DryRollerSystem | LubricatedRollerSystem:
-    """The equations of a scene, with everything prepared that does not depend on the unknowns."""
+def build_system(
+    scene: CylindricalRollerBearing, ring: InnerRing | None = None
+) -> DryRollerSystem | LubricatedRollerSystem:
+    """The equations of a scene, with everything prepared that does not depend on the unknowns; with its own ring, or
+    another one."""
     geometry, operation = scene.geometry, scene.operation
-    azimuth = jnp.asarray(2.0 * np.pi * np.arange(geometry.n_rollers) / geometry.n_rollers)
-    # outward unit vector at each roller, along the load line and along azimuth 90 degrees
-    cosines = {"radial": jnp.cos(azimuth), "lateral": jnp.sin(azimuth)}
+    azimuth = azimuths(geometry, geometry.n_rollers)
+    cosines = outward(azimuth)
+    if ring is None:
+        ring = roller_ring(scene, scene.ring_lever)
     motion = roller_kinematics(geometry, operation)
     radii = jnp.stack(
         [
@@ -41,17 +47,22 @@ def build_system(scene: CylindricalRollerBearing) -> DryRollerSystem | Lubricate
         length=jnp.asarray(geometry.loaded_length),
         reduced_modulus=jnp.asarray(reduced_modulus(scene.materials.rings, scene.materials.rollers)),
     )
-    # a load that is not positive makes this lane fail (a concrete one was refused when the scene was built)
-    radial = jnp.where(jnp.asarray(operation.radial_load) > 0, operation.radial_load, jnp.nan)
-    load = jnp.asarray([1.0 if name == "radial" else 0.0 for name in scene.ring_freedom]) * radial
+    clearance, held = jnp.asarray(geometry.diametral_clearance) / 2.0, None
+    if ring.asks:
+        held = jnp.einsum("f,fn->n", ring.held[1:3], cosines)
+        if ring.expansion is not None:
+            held = held + ring.expansion
+        stiffness = palmgren_stiffness(contact.length, contact.reduced_modulus)
+        asked = pressed_load(stiffness, contact.length, held - clearance, jnp.zeros(()))
+        ring = ring.asking(jnp.sum(asked) + LEAST_LOAD)
     common = {
         "kinematics": motion,
         "contact": contact,
-        "directions": jnp.stack([cosines[name] for name in scene.ring_freedom]),
+        "directions": cosines[ring.places - 1],
         "azimuth": azimuth,
-        "ring_load": load,
-        "freedoms": scene.ring_freedom,
-        "radial_clearance": jnp.asarray(geometry.diametral_clearance) / 2.0,
+        "ring": ring,
+        "held": held,
+        "radial_clearance": clearance,
         "roller_mass": scene.materials.rollers.density * jnp.pi * motion.roller_radius**2 * geometry.roller_length,
     }
     if scene.contact is None:
@@ -126,8 +137,9 @@ def drag_area(geometry: RollerGeometry, cage: RollerCage | None) -> Array:
     return jnp.asarray(geometry.roller_length) * jnp.maximum(geometry.roller_diameter - thickness, 0.0)
 
 
-def solve_steady(scene: CylindricalRollerBearing, options: NewtonOptions) -> Solution:
-    """Steady state: pure, jit-able, vmap-able, differentiable; never raises for a failed solve.
+def solve_steady(scene: CylindricalRollerBearing, options: NewtonOptions, ring: InnerRing | None = None) -> Solution:
+    """Steady state: pure, jit-able, vmap-able, differentiable; never raises for a failed solve. `ring`: instead of that
+    of the scene's operating point.
 
     **Raises:** `ValueError` for a scene that has no steady state.
     """
@@ -135,17 +147,16 @@ def solve_steady(scene: CylindricalRollerBearing, options: NewtonOptions) -> Sol
         raise ValueError(
             "cage: without one a roller outside the loaded zone has no steady state; simulate can run this scene"
         )
-    system, result = newton_solve(build_system(scene), options)
+    system, result = newton_solve(build_system(scene, ring), options)
     results = _dry_results(system, result) if isinstance(system, DryRollerSystem) else _lubricated(system, result)
-    ring = {name: result.point.globals[i] * LENGTH_UNIT for i, name in enumerate(scene.ring_freedom)}
-    displacement = RingDisplacement(**{name: ring.get(name, jnp.zeros(())) for name in RING_FREEDOMS})
     return assemble(
         scene,
         result,
         results,
-        displacement,
+        system.ring.displacement(result.point.globals),
         _port(system, result, results.elements.load_inner),
-        ring_freedom=scene.ring_freedom,
+        ring_freedom=scene.shown_freedoms if ring is None else IN_PLANE,
+        stiffness_freedom=IN_PLANE if system.ring.asks else None,
         equation_names=system.equation_names(),
     )
 
@@ -165,10 +176,20 @@ class _Results(NamedTuple):
 def _port(
     system: DryRollerSystem | LubricatedRollerSystem, result: NewtonResult, load: Float[Array, " roller"]
 ) -> Port:
-    """The reaction and the stiffness of the ring, everything else in equilibrium; `load`: on the inner race, N."""
-    free = np.asarray([RING_FREEDOMS.index(name) for name in system.freedoms])
-    ring = condensed(schur_complement(result.jacobian), len(free)) * (system.load_scale() / LENGTH_UNIT)
-    force = jnp.zeros(5).at[free].set(jnp.sum(load[None, :] * system.directions, axis=1))
+    """The reaction and the stiffness of the ring, everything else in equilibrium; `load`: on the inner race, N.
+
+    Of the unknown freedoms; where a displacement is given, of all that the model has.
+    """
+    jacobian, shown = result.jacobian, system
+    if system.ring.asks:
+        shown = system.in_plane()
+        moved = system.ring.moved(result.point.globals[: len(system.freedoms)])[shown.ring.places] / LENGTH_UNIT
+        others = result.point.globals[len(system.freedoms) :]
+        place = ArrowPoint(result.point.elements, jnp.concatenate([moved, others]))
+        jacobian = linearize(shown, place)[1]
+    free = shown.ring.places
+    ring = condensed(schur_complement(jacobian), len(free)) * (shown.load_scale() / LENGTH_UNIT)
+    force = jnp.zeros(5).at[free].set(jnp.sum(load[None, :] * shown.directions, axis=1))
     return Port(force, jnp.zeros((5, 5)).at[free[:, None], free[None, :]].set(ring), system.freedoms)
 
 

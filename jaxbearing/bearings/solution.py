@@ -20,6 +20,8 @@ INNER_TOLERANCE = 1e-8
 
 RING_FREEDOMS = ("axial", "radial", "lateral", "tilt", "tilt_lateral")
 """Degrees of freedom of the inner ring, in the order of `ring` and `stiffness`."""
+TILTS = ("tilt", "tilt_lateral")
+"""The angles among `RING_FREEDOMS`."""
 
 _CONJUGATE = {"m": "N", "rad": "N m"}
 """Unit of a displacement of the ring -> that of its load."""

@@ -4,13 +4,13 @@ import dataclasses
 from typing import NamedTuple
 
 import jax.numpy as jnp
-import numpy as np
 from jaxtyping import Array, Float
 
 from ..contacts import StraightLine, palmgren_stiffness
 from ..materials import reduced_modulus
-from ..numerics.safe import positive_power
+from .parts import azimuths
 from .ring import InnerRing, inner_ring
+from .roller_profile import pressed_load
 from .tapered_geometry import TaperedGeometry
 from .tapered_roller import TaperedOperation, TaperedRollerBearing
 from .tapered_system import Inertia, TaperedForm, TaperedSystem
@@ -97,12 +97,11 @@ def ring_columns(azimuth: Float[Array, " roller"], lever: Array, load_position: 
 def build_tapered(scene: TaperedRollerBearing, ring: InnerRing | None = None) -> TaperedSystem:
     """The equations of a scene with its own ring, or with another one and then all rollers."""
     geometry, operation = scene.geometry, scene.operation
-    count = 1 if operation.symmetric and ring is None else geometry.n_rollers
-    azimuth = jnp.asarray(2.0 * np.pi * np.arange(count) / count)
+    azimuth = azimuths(geometry, geometry.n_rollers, operation.symmetric and ring is None)
     lever = geometry.apex_distance
     columns = ring_columns(azimuth, lever, jnp.asarray(operation.load_position))
     if ring is None:
-        ring = inner_ring(operation, scene.ring_freedom, lever)
+        ring = inner_ring(operation, scene.unknown_freedoms, lever)
     modulus = reduced_modulus(scene.materials.rings, scene.materials.rollers)
     length = jnp.asarray(geometry.roller_length)
     stiffness = palmgren_stiffness(length, modulus)
@@ -118,11 +117,16 @@ def build_tapered(scene: TaperedRollerBearing, ring: InnerRing | None = None) ->
         ring=ring,
         guess=None,
         seated=None,
-        multiplicity=geometry.n_rollers // count,
+        multiplicity=geometry.n_rollers // azimuth.size,
     )
-    if ring.freedoms:
+    if not ring.asks:
         return system
-    # both contacts of a roller, one behind the other
-    depth = 0.5 * jnp.maximum(system.pressed(system.held) + 0.5 * length * jnp.abs(system.held[2]), 0.0)
-    asked = jnp.sum(stiffness * length * positive_power(depth, 10.0 / 9.0))
-    return dataclasses.replace(system, ring=ring.asking(asked))
+    return dataclasses.replace(system, ring=ring.asking(_held_load(system, stiffness)))
+
+
+def _held_load(system: TaperedSystem, stiffness: Array) -> Float[Array, ""]:
+    """Estimates the load that the given displacements of the ring ask for, N."""
+    pressed = system.pressed(system.held)
+    return system.multiplicity * jnp.sum(
+        pressed_load(stiffness, jnp.asarray(system.line.length), pressed, system.held[2])
+    )

@@ -13,11 +13,12 @@ from typing import Any, ClassVar
 import jax.numpy as jnp
 from jaxtyping import Array
 
-from .._scene import number
+from .._scene import number, optional_number
 from .._types import Scalar
 from ..contacts import PointContact
 from ..numerics.checks import Checked, demand, functions, given
 from ..numerics.structure import count
+from .parts import FIRST_ELEMENT
 
 LEAST_HALF_ANGLE = math.radians(0.3)
 """Least half angle of the rollers: below, the apex goes to infinity and the bearing is a cylindrical one."""
@@ -34,6 +35,7 @@ class TaperedGeometry(Checked):
     - `roller_half_angle`: epsilon, rad, at least 0.3 degrees.
     - `flange_angle`: of the NORMAL of the rib to the bearing axis, alpha_f, rad; less than gamma = alpha_o - epsilon.
     - `end_radius`: R_s, of the sphere of the roller's big end, m.
+    - `first_element_angle`: azimuth of the first roller, rad; not given: 0, and the load line is a line of symmetry.
 
     **Raises:** `ValueError` naming the field that makes the bearing impossible.
     """
@@ -47,6 +49,7 @@ class TaperedGeometry(Checked):
     roller_half_angle: Scalar = number(bound="> 0")
     flange_angle: Scalar = number(bound="> 0")
     end_radius: Scalar = number(bound="> 0")
+    first_element_angle: Scalar | None = optional_number(metadata=FIRST_ELEMENT)
 
     def __check_init__(self):
         super().__check_init__()

@@ -12,13 +12,15 @@ from collections.abc import Iterator
 import jax.numpy as jnp
 from jaxtyping import Array
 
-from .._scene import AbstractScene, label, number, optional_number
+from .._scene import label, number
 from .._types import Scalar
 from ..contacts.laws import ContactLaws
 from ..contacts.point_laws import PointLaws
 from ..lubricants import Lubricant
 from ..numerics.refusals import refusals_of, refuse_all
-from .parts import AbstractOperation, Drag, Materials
+from .bearing import AbstractBearing
+from .operation import AbstractOperation
+from .parts import Drag, Materials
 from .rating import Rating
 from .roller_profile import RollerProfile
 from .tapered_geometry import TaperedGeometry
@@ -27,39 +29,22 @@ from .tapered_geometry import TaperedGeometry
 class TaperedOperation(AbstractOperation):
     """Operating point of a tapered roller bearing: the batched part of a sweep.
 
-    Where neither `radial_load` nor `moment` nor `misalignment` is given all rollers are alike, and one of them is
-    solved for. A `moment` (also 0) frees the tilt of the inner ring; without it the ring is held at `misalignment`.
+    It needs an axial load, towards the apex, or an axial displacement. Where nothing across the axis is given all
+    rollers are alike, and one of them is solved for.
 
-    **Arguments:**
-    - `inner_speed`, `outer_speed`: rad/s.
-    - `axial_load`: on the inner ring towards the apex, N; `radial_load`: along azimuth 0, N.
-    - `moment`: about the reference point, N m; `misalignment`: tilt of the inner ring, rad.
+    **Arguments:** those of `AbstractOperation`, of the reference point, and
     - `load_position`: of the reference point, from the apex along the axis, m; the rollers are on its negative side.
-    - `oil_temperature`: inlet temperature, K; `oil_flow`: supplied to the bearing, m^3/s.
     """
 
-    inner_speed: Scalar = number(metadata=label("rad/s", "inner ring speed"))
-    axial_load: Scalar = number(metadata=label("N", "axial load"))
-    radial_load: Scalar | None = optional_number(metadata=label("N", "radial load"))
-    moment: Scalar | None = optional_number(metadata=label("N m", "moment"))
-    misalignment: Scalar | None = optional_number(metadata=label("rad", "misalignment"))
-    load_position: Scalar = number(0.0, metadata=label("m", "reference point from the apex"))
-    oil_temperature: Scalar = number(373.15, bound="> 0", metadata=label("K", "oil temperature"))
-    oil_flow: Scalar = number(0.0, bound=">= 0", metadata=label("m^3/s", "oil flow"))
-    outer_speed: Scalar = number(0.0, metadata=label("rad/s", "outer ring speed"))
+    load_position: Scalar = number(0.0, kw_only=True, metadata=label("m", "reference point from the apex"))
 
-    def __check_init__(self):
-        super().__check_init__()
-        if self.moment is not None and self.misalignment is not None:
-            raise ValueError("operation.misalignment: none beside operation.moment, which sets the tilt free")
-
-    @property
-    def symmetric(self) -> bool:
-        """True if all rollers are alike."""
-        return self.radial_load is None and self.moment is None and self.misalignment is None
+    def _conflicts(self) -> Iterator[str | ValueError]:
+        yield from super()._conflicts()
+        if self.load("axial") is None and self.held_at("axial") is None:
+            yield "operation.axial_load: a tapered roller bearing needs one, or operation.displacement.axial"
 
 
-class TaperedRollerBearing(AbstractScene):
+class TaperedRollerBearing(AbstractBearing):
     """A steady single-row tapered roller bearing under axial load, radial load and moment, whose rollers roll without
     sliding about the apex: loads of raceways and rib, displacements, films, and what friction costs
     (`tapered_friction`). A part that is `None` is not modelled.
@@ -116,13 +101,6 @@ class TaperedRollerBearing(AbstractScene):
         geometry, half = self.geometry, jnp.asarray(self.geometry.roller_half_angle)
         along = 0.5 * geometry.roller_diameter / jnp.tan(half) - 0.5 * geometry.roller_length * jnp.cos(half)
         return along * jnp.cos(geometry.axis_angle) + self.operation.load_position
-
-    @property
-    def ring_freedom(self) -> tuple[str, ...]:
-        """Active freedoms of the inner ring, in the order of the unknowns."""
-        if self.operation.symmetric:
-            return ("axial",)
-        return ("axial", "radial") if self.operation.moment is None else ("axial", "radial", "tilt")
 
     def unused_parts(self) -> tuple[str, ...]:
         """Tables that the scene names but that have no effect."""

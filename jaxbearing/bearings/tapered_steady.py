@@ -4,7 +4,6 @@ import dataclasses
 from typing import NamedTuple
 
 import jax.numpy as jnp
-import numpy as np
 from jaxtyping import Array, Bool, Float
 
 from ..contacts import LineContact, lamina_points
@@ -12,6 +11,7 @@ from ..materials import reduced_modulus
 from ..numerics.arrow import ArrowPoint, linearize
 from ..numerics.newton import NewtonOptions, NewtonResult, newton_solve
 from ..numerics.status import Status
+from .parts import azimuths
 from .range_checks import MEAN_OF_LINE, MEAN_OF_POINT, RACEWAYS, Contacts, Facts
 from .rating import LAMINAE, rated_laminae
 from .ring import InnerRing, Port
@@ -41,7 +41,7 @@ def solve_tapered(scene: TaperedRollerBearing, options: NewtonOptions, ring: Inn
     (`numerics.convex.find_minimum`).
     """
     posed = build_tapered(scene, ring)
-    sliding = slides_out(scene, posed.inertia) | tips_over(scene) if ring is None else jnp.asarray(False)
+    sliding = slides_out(scene, posed.inertia) | tips_over(scene) if _bounded(scene, ring) else jnp.asarray(False)
     # what has no equilibrium is not looked for: in its place a few steps to one that is finite, with its derivatives
     easy = jnp.where(sliding, _axial_only(posed), posed.ring.load)
     started, minimum = dataclasses.replace(posed, ring=posed.ring.under(easy)).started(sliding)
@@ -53,20 +53,23 @@ def solve_tapered(scene: TaperedRollerBearing, options: NewtonOptions, ring: Inn
     if scene.contact is not None:
         friction = tapered_friction(scene, system.at(result.point))
         result = _with_nested(result, friction, options)
-    freedoms = scene.ring_freedom if ring is None else RING_FREEDOMS
-    tilted = ring is None and scene.operation.misalignment is not None and scene.operation.moment is None
     return assemble(
         scene,
         result,
         _results(scene, system, result, friction),
         system.ring.displacement(result.point.globals),
         _port(scene, system, result),
-        reasons=_reasons(scene, posed.inertia) if ring is None else {},
+        reasons=_reasons(scene, posed.inertia) if _bounded(scene, ring) else {},
         iterations=jnp.where(sliding, 0, minimum.steps + result.iterations),
-        ring_freedom=(*freedoms, "tilt") if tilted else freedoms,
+        ring_freedom=scene.shown_freedoms if ring is None else RING_FREEDOMS,
         stiffness_freedom=RING_FREEDOMS,
         equation_names=system.equation_names(),
     )
+
+
+def _bounded(scene: TaperedRollerBearing, ring: InnerRing | None) -> bool:
+    """True if the loads alone may tell that there is no equilibrium: all forces are given."""
+    return ring is None and not scene.operation.displaced
 
 
 def slides_out(scene: TaperedRollerBearing, inertia: Inertia) -> Bool[Array, ""]:
@@ -87,7 +90,7 @@ def least_axial_load(scene: TaperedRollerBearing, inertia: Inertia) -> Float[Arr
     geometry = scene.geometry
     cup, rib = jnp.asarray(geometry.contact_angle), jnp.asarray(geometry.flange_angle)
     least = inertia.force * jnp.cos(rib) / jnp.cos(cup - rib)
-    return jnp.abs(_radial(scene)) * jnp.tan(cup) + geometry.n_rollers * least * jnp.sin(cup)
+    return scene.operation.radial_size * jnp.tan(cup) + geometry.n_rollers * least * jnp.sin(cup)
 
 
 def tips_over(scene: TaperedRollerBearing) -> Bool[Array, ""]:
@@ -98,19 +101,33 @@ def tips_over(scene: TaperedRollerBearing) -> Bool[Array, ""]:
     \sin\alpha_o\sum Q_o$; so $|M - (d - l/2)F_r/\cos\alpha_o| \le (l/2)F_a/\sin\alpha_o$. What rotation adds cancels
     round two or more rollers.
     """
-    if scene.operation.moment is None or scene.geometry.n_rollers < 2:
-        return jnp.asarray(False)
-    moment, middle, most = _moment_range(scene)
-    return jnp.abs(moment - middle) > most + ROUNDING * (jnp.abs(moment) + jnp.abs(middle))
+    beyond = jnp.asarray(False)
+    if scene.geometry.n_rollers < 2:
+        return beyond
+    for moment, middle, most, _ in _moment_ranges(scene).values():
+        beyond |= jnp.abs(moment - middle) > most + ROUNDING * (jnp.abs(moment) + jnp.abs(middle))
+    return beyond
 
 
-def _moment_range(scene: TaperedRollerBearing) -> tuple[Array, Array, Array]:
-    """Moment about the apex, N m, and the middle and half width of the range of `tips_over`."""
+def _moment_ranges(scene: TaperedRollerBearing) -> dict[str, tuple[Array, Array, Array, Array]]:
+    """By the names of the given moments: the moment about the apex, N m, the middle and half width of the range of
+    `tips_over`, and what is added to come to the reference point. Both tilts have the same bounds, each with the
+    force that moves its azimuth."""
     operation, geometry = scene.operation, scene.geometry
     cup, length = jnp.asarray(geometry.contact_angle), jnp.asarray(geometry.roller_length)
-    moment = jnp.asarray(operation.moment) - jnp.asarray(operation.load_position) * _radial(scene)
-    middle = (geometry.apex_distance - 0.5 * length) * _radial(scene) / jnp.cos(cup)
-    return moment, middle, 0.5 * length * jnp.asarray(operation.axial_load) / jnp.sin(cup)
+    most = 0.5 * length * jnp.asarray(operation.axial_load) / jnp.sin(cup)
+    found = {}
+    given = {
+        "moment": (operation.moment, operation.radial_load),
+        "moment about the load line": (operation.moment_lateral, operation.radial_load_lateral),
+    }
+    for name, (moment, force) in given.items():
+        if moment is not None:
+            force = jnp.asarray(0.0 if force is None else force)
+            shift = jnp.asarray(operation.load_position) * force
+            middle = (geometry.apex_distance - 0.5 * length) * force / jnp.cos(cup)
+            found[name] = (jnp.asarray(moment) - shift, middle, most, shift)
+    return found
 
 
 def _reasons(scene: TaperedRollerBearing, inertia: Inertia) -> dict[str, Reason]:
@@ -122,17 +139,11 @@ def _reasons(scene: TaperedRollerBearing, inertia: Inertia) -> dict[str, Reason]
             sliding, jnp.stack([given, least * (1.0 + ROUNDED_UP)])
         )
     }
-    if scene.operation.moment is not None:
-        moment, middle, most = _moment_range(scene)
-        shift = jnp.asarray(scene.operation.moment) - moment
-        ends = jnp.stack([jnp.asarray(scene.operation.moment), middle - most + shift, middle + most + shift])
-        text = "the moment of {:.4g} N m must lie between {:.4g} and {:.4g} N m"
+    for name, (moment, middle, most, shift) in _moment_ranges(scene).items():
+        ends = jnp.stack([moment + shift, middle - most + shift, middle + most + shift])
+        text = f"the {name} of {{:.4g}} N m must lie between {{:.4g}} and {{:.4g}} N m"
         found[text] = Reason(tips_over(scene) & ~sliding, ends)
     return found
-
-
-def _radial(scene: TaperedRollerBearing) -> Float[Array, ""]:
-    return jnp.asarray(0.0 if scene.operation.radial_load is None else scene.operation.radial_load)
 
 
 def _axial_only(system: TaperedSystem) -> Float[Array, " freedom"]:
@@ -181,7 +192,7 @@ def _results(
     more = {} if friction is None else _of_friction(friction, state)
     positive = lambda values: every(jnp.where(values > 0, values, 0.0))  # and no -0.0
     elements = TaperedResults(
-        azimuth=jnp.asarray(2.0 * np.pi * np.arange(count) / count),
+        azimuth=azimuths(geometry, count),
         load_inner=positive(state.load[0]),
         load_outer=positive(state.load[1]),
         load_flange=positive(state.flange_load),

@@ -86,15 +86,17 @@ class TiltingRollers(AbstractConvexArrow):
         """The ring pressed in by the clearance and what one roller under the whole load needs; rollers half-way."""
         if self.guess is not None:
             return self.guess
-        if not self.freedoms:
+        if self.ring.asks:
+            # where it is held, what else moves at 0
             half = 0.5 * (self.held[0] - self.radial_clearance) / LENGTH_UNIT
-            return ArrowPoint(jnp.stack([half, jnp.zeros_like(half)]), jnp.zeros(0))
+            return ArrowPoint(jnp.stack([half, jnp.zeros_like(half)]), jnp.zeros(len(self.freedoms)))
         load = self.load_scale() + self.centrifugal
         depth = jnp.maximum(
             self.radial_clearance + 2.0 * (load / (self.line.stiffness * self.line.length)) ** 0.9, 1e-6
         )
-        ring = self.ring.of_each(lambda name: depth if name == "radial" else 0.0) / LENGTH_UNIT
-        half = 0.5 * (depth * jnp.cos(self.azimuth) - self.radial_clearance) / LENGTH_UNIT
+        ring = depth * self.ring.across() / LENGTH_UNIT
+        inward = LENGTH_UNIT * jnp.einsum("f,fn->n", ring, self.columns[:, 0])
+        half = 0.5 * (inward - self.radial_clearance) / LENGTH_UNIT
         return ArrowPoint(jnp.stack([half, jnp.zeros_like(half)]), ring)
 
     def element(self, unknowns, shared):

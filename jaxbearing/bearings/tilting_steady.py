@@ -9,7 +9,6 @@ import dataclasses
 from typing import NamedTuple
 
 import jax.numpy as jnp
-import numpy as np
 from jaxtyping import Array, Float
 
 from ..contacts import LineContact, palmgren_stiffness
@@ -17,33 +16,29 @@ from ..contacts.laws import ContactState
 from ..materials import reduced_modulus
 from ..numerics.arrow import ArrowPoint, linearize
 from ..numerics.newton import NewtonOptions, newton_solve
-from ..numerics.safe import positive_power
 from ..numerics.status import Status
 from .cylindrical_roller import CylindricalRollerBearing
 from .kinematics import RollerKinematics, roller_kinematics
+from .parts import azimuths
 from .range_checks import MEAN_OF_LINE, RACEWAYS, Contacts, Facts
 from .rating import rated_laminae
-from .ring import InnerRing, Port, inner_ring
+from .ring import InnerRing, Port
 from .roller_forces import rolling_alone
-from .roller_profile import RollerProfile
+from .roller_profile import RollerProfile, pressed_load
+from .roller_ring import roller_ring
 from .solution import CageState, LaminaLoads, PowerLoss, RollerResults, Solution
 from .steady import assemble
 from .tilting_roller import TiltingRollers, TiltingState
-
-FREEDOMS = ("radial", "lateral", "tilt", "tilt_lateral")
-"""Freedoms of the inner ring in the model: nothing holds it axially."""
 
 
 def build_tilting(scene: CylindricalRollerBearing, ring: InnerRing | None = None) -> TiltingRollers:
     """The equations of a scene, with its own ring or another one."""
     geometry, operation = scene.geometry, scene.operation
-    azimuth = jnp.asarray(2.0 * np.pi * np.arange(geometry.n_rollers) / geometry.n_rollers)
+    azimuth = azimuths(geometry, geometry.n_rollers)
     length = jnp.asarray(geometry.loaded_length)
     columns = _columns(azimuth, length)
     if ring is None:
-        ring = inner_ring(operation, (*scene.ring_freedom, *(() if operation.moment is None else ("tilt",))), length)
-        # a load that is not positive makes this lane fail (a concrete one was refused when the scene was built)
-        ring = ring.under(jnp.where(jnp.asarray(operation.radial_load) > 0, ring.load, jnp.nan))
+        ring = roller_ring(scene, length)
     stiffness = palmgren_stiffness(length, reduced_modulus(scene.materials.rings, scene.materials.rollers))
     motion = roller_kinematics(scene.geometry, scene.operation)
     mass = scene.materials.rollers.density * jnp.pi * motion.roller_radius**2 * geometry.roller_length
@@ -59,12 +54,12 @@ def build_tilting(scene: CylindricalRollerBearing, ring: InnerRing | None = None
         centrifugal=mass * motion.pitch_radius * jnp.square(motion.free_orbit),
         guess=None,
     )
-    if ring.freedoms:
+    if not ring.asks:
         return system
-    edge = 0.5 * length * jnp.abs(system.held[1])
-    depth = 0.5 * jnp.maximum(system.held[0] + edge - system.radial_clearance, 0.0)
-    asked = jnp.sum(stiffness * length * positive_power(depth, 10.0 / 9.0))
-    return dataclasses.replace(system, ring=ring.asking(asked))
+    pressed = system.held[0] - system.radial_clearance
+    return dataclasses.replace(
+        system, ring=ring.asking(jnp.sum(pressed_load(stiffness, length, pressed, system.held[1])))
+    )
 
 
 def _columns(azimuth: Float[Array, " roller"], lever: Array) -> Float[Array, "5 2 roller"]:
@@ -82,7 +77,6 @@ def solve_tilting(scene: CylindricalRollerBearing, options: NewtonOptions, ring:
     system, result = newton_solve(started, options)
     none = ~result.converged & minimum.outside
     result = result._replace(status=jnp.where(none, int(Status.NO_EQUILIBRIUM), result.status))
-    held = ring is None and scene.operation.moment is None and scene.operation.misalignment is not None
     return assemble(
         scene,
         result,
@@ -90,8 +84,8 @@ def solve_tilting(scene: CylindricalRollerBearing, options: NewtonOptions, ring:
         system.ring.displacement(result.point.globals),
         _port(scene, system, result.point),
         iterations=minimum.steps + result.iterations,
-        ring_freedom=(*system.freedoms, "tilt") if held else system.freedoms or FREEDOMS,
-        stiffness_freedom=FREEDOMS,
+        ring_freedom=scene.shown_freedoms if ring is None else scene.modelled_freedoms,
+        stiffness_freedom=scene.modelled_freedoms,
         equation_names=system.equation_names(),
     )
 

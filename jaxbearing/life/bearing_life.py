@@ -208,9 +208,10 @@ def _ball(scene: BallBearing, elements: Any, laminae: Any, turns: Any) -> Rated:
     if _tilts_linearly(scene):
         inner, outer = linear_tilt_loads(scene)
     rate = ball_damage_rate(inner, outer, limits, *turns)
+    # the catalogue's formula, of loads that are all known: a radial one alone
     operation = scene.operation
-    radial_only = operation.axial_load is None and operation.moment is None and operation.radial_load is not None
-    load = jnp.abs(jnp.asarray(operation.radial_load)) if radial_only else None
+    radial_only = not operation.displaced and operation.axial_load is None and operation.moment is None
+    load = operation.radial_size if radial_only and operation.moment_lateral is None else None
     return Rated("ball", jnp.asarray(geometry.pitch_diameter), capacity, static, rate, load)
 
 
@@ -249,8 +250,8 @@ def _cylindrical(scene: CylindricalRollerBearing, elements: Any, laminae: Any, t
     profiled = laminae is not None and laminae.profiled
     rate = roller_damage_rate(inner, outer, limits, *turns, factors=edge_weights(rating, profiled, inner.shape[1]))
     operation, load = scene.operation, None
-    if operation.moment is None and operation.misalignment is None:
-        load = jnp.abs(jnp.asarray(operation.radial_load))
+    if not operation.tilts and not operation.displaced:
+        load = operation.radial_size
     return Rated("roller", jnp.asarray(geometry.pitch_diameter), capacity, static, rate, load)
 
 
@@ -267,9 +268,8 @@ def _tapered(scene: TaperedRollerBearing, elements: Any, laminae: Any, turns: An
     weights = edge_weights(rating, laminae.profiled, laminae.inner.shape[1])
     rate = roller_damage_rate(laminae.inner, laminae.outer, limits, *turns, factors=weights)
     load = None
-    if operation.moment is None and operation.misalignment is None:
-        radial = jnp.abs(jnp.asarray(0.0 if operation.radial_load is None else operation.radial_load))
-        load = tapered_equivalent_load(radial, jnp.asarray(operation.axial_load), angle)
+    if not operation.tilts and not operation.displaced:
+        load = tapered_equivalent_load(operation.radial_size, jnp.asarray(operation.axial_load), angle)
     return Rated("roller", pitch, capacity, static, rate, load)
 
 

@@ -74,6 +74,7 @@ class FrontSize(Protocol):
     outer: float
     ring: float
     step: float
+    first: float
     pocket: float
     cage: tuple[float, float] | None
     count: int
@@ -96,6 +97,7 @@ class _Size:
         self.gap = _DRAWN_CLEARANCE * self.diameter
         self.ring = RING_THICKNESS * self.diameter
         self.step = 2.0 * math.pi / geometry.n_rollers
+        self.first = first_angle(geometry)
         between = 2.0 * self.pitch * math.sin(math.pi / max(geometry.n_rollers, 2)) - self.diameter
         self.pocket = min(self.gap, 0.3 * between)
         self.cage = None if cage is None else (mm(cage.bore(geometry)) / 2.0, mm(cage.outside(geometry)) / 2.0)
@@ -104,6 +106,11 @@ class _Size:
         flange = scene.flange
         self.rim = 0.0 if flange is None else mm(flange.rim_height(geometry))
         self.count, self.counted = geometry.n_rollers, "n_rollers"
+
+
+def first_angle(geometry: Any) -> float:
+    """Azimuth of the first rolling element, rad."""
+    return 0.0 if geometry.first_element_angle is None else float(geometry.first_element_angle)
 
 
 def length_text(value: Any) -> str:
@@ -122,23 +129,23 @@ def _ring_outline(axes: Any, inside: float, outside: float, colour: str) -> None
     axes.add_patch(Annulus((0.0, 0.0), outside, outside - inside, facecolor=colour, edgecolor=INK, linewidth=0.9))
 
 
-def _draw_bars(axes: Any, size: FrontSize, indices: Any) -> None:
-    """Cage bars between the pockets, after rollers of these numbers."""
+def _draw_bars(axes: Any, size: FrontSize, indices: Any, first: float) -> None:
+    """Cage bars between the pockets, after rollers of these numbers; `first`: azimuth of number 0."""
     if size.cage is None:
         return
     radius = np.linspace(*size.cage, 30)
     wall = np.arcsin(np.minimum((size.diameter / 2.0 + size.pocket) / radius, 1.0))
     angles = np.concatenate([wall, (size.step - wall)[::-1]])
     for i in indices:
-        x, y = _point(i * size.step + angles, np.concatenate([radius, radius[::-1]]))
+        x, y = _point(first + i * size.step + angles, np.concatenate([radius, radius[::-1]]))
         axes.fill(x, y, facecolor=CAGE, edgecolor=INK, linewidth=0.6, zorder=2)
 
 
-def _draw_rollers(axes: Any, size: FrontSize, indices: Any) -> None:
+def _draw_rollers(axes: Any, size: FrontSize, indices: Any, first: float) -> None:
     from matplotlib.patches import Circle
 
     for i in indices:
-        centre = _point(i * size.step, size.pitch)
+        centre = _point(first + i * size.step, size.pitch)
         axes.add_patch(Circle(centre, size.diameter / 2.0, facecolor=ROLLER, edgecolor=INK, linewidth=0.9, zorder=3))
 
 
@@ -171,8 +178,8 @@ def draw_front(axes: Any, scene: Any, size: FrontSize) -> None:
     everyone = range(size.count)
     _ring_outline(axes, size.outer, outside, RING)
     _ring_outline(axes, bore, size.inner, RING)
-    _draw_bars(axes, size, everyone)
-    _draw_rollers(axes, size, everyone)
+    _draw_bars(axes, size, everyone, size.first)
+    _draw_rollers(axes, size, everyone, size.first)
     centre_line = {"edgecolor": FAINT, "linestyle": (0, (6, 3, 1, 3)), "linewidth": 0.8}
     axes.add_patch(Circle((0.0, 0.0), size.pitch, fill=False, zorder=4, **centre_line))
     left, right = _point(-0.5 * math.pi, size.pitch), _point(0.5 * math.pi, size.pitch)
@@ -181,8 +188,9 @@ def draw_front(axes: Any, scene: Any, size: FrontSize) -> None:
     _text(axes, (0.0, 0.33 * bore), f"{size.counted} {size.count}")
 
     style = {"color": LOAD, "linewidth": 2.4, "arrowstyle": "-|>,head_width=0.4,head_length=0.8"}
-    if scene.operation.radial_load is not None:
-        load = f"operation.radial_load\n{1e-3 * float(scene.operation.radial_load):.6g} kN, on the inner ring"
+    radial = scene.operation.load("radial")
+    if radial is not None:
+        load = f"operation.radial_load\n{1e-3 * float(radial):.6g} kN, on the inner ring"
         axes.annotate("", xy=(0.0, -0.97 * bore), xytext=(0.0, -0.5 * bore), arrowprops=style, zorder=6)
         _text(axes, (0.0, -0.33 * bore), load, color=LOAD)
     speed = f"operation.inner_speed\n{displayed(float(scene.operation.inner_speed), 'rad/s'):.6g} rpm"
@@ -192,7 +200,7 @@ def draw_front(axes: Any, scene: Any, size: FrontSize) -> None:
     _arc(axes, 1.05 * outside, 0.0, math.radians(42.0))
     x, y = _point(math.radians(45.0), 1.07 * outside)
     _text(axes, (x, y), "azimuth", ha="left", va="center")
-    _text(axes, (0.0, -1.10 * outside), "element 0", color=INK)
+    _text(axes, _point(size.first, 1.10 * outside), "element 0", color=INK)
     axes.set_xlim(-1.12 * outside, 1.22 * outside)
     axes.set_ylim(-1.16 * outside, 1.06 * outside)
 
@@ -210,8 +218,8 @@ def _draw_pocket(axes: Any, scene: CylindricalRollerBearing, size: _Size) -> Non
     geometry, diameter = scene.geometry, size.diameter
     _ring_outline(axes, size.outer, size.outer + diameter, RING)
     _ring_outline(axes, size.inner - size.gap - diameter, size.inner - size.gap, RING)
-    _draw_bars(axes, size, (-2, -1, 0, 1))
-    _draw_rollers(axes, size, (-2, -1, 0, 1, 2))
+    _draw_bars(axes, size, (-2, -1, 0, 1), 0.0)
+    _draw_rollers(axes, size, (-2, -1, 0, 1, 2), 0.0)
     # turned: what is at azimuth 0 is above
     axes.set_ylim(-(size.inner - size.gap - 0.55 * diameter), -(size.outer + 0.55 * diameter))
     axes.set_xlim(1.75 * diameter, -1.75 * diameter)

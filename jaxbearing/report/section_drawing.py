@@ -9,9 +9,11 @@ import equinox as eqx
 import numpy as np
 
 from ..bearings.ball_bearing import BallBearing
+from ..bearings.operation import LOAD_FIELDS
+from ..bearings.solution import TILTS
 from ..bearings.tapered_roller import TaperedRollerBearing
 from .bearing.section import draw_element
-from .drawing import DIMENSION, INK, RING_THICKNESS, dimension, draw_front, leader, length_text
+from .drawing import DIMENSION, INK, RING_THICKNESS, dimension, draw_front, first_angle, leader, length_text
 
 if TYPE_CHECKING:
     import matplotlib.figure
@@ -61,6 +63,7 @@ class _Front:
         self.inner, self.outer = self.pitch - self.diameter / 2.0, self.pitch + self.diameter / 2.0
         self.ring = RING_THICKNESS * self.diameter
         self.step = 2.0 * math.pi / self.count
+        self.first = first_angle(geometry)
         between = 2.0 * self.pitch * math.sin(math.pi / max(self.count, 2)) - self.diameter
         self.pocket = min(0.07 * self.diameter, 0.3 * between)
         cage = getattr(scene, "cage", None)
@@ -163,9 +166,10 @@ def _dimensions(scene: Any) -> Iterator[tuple[str, str]]:
             name = field.name if table == "geometry" else f"{table}.{field.name}"
             note = " (on the diameter)" if field.name == "guiding_clearance" else ""
             yield f"{table}.{field.name}", f"{name} {_value(field.name, value)}{note}"
-    for name, unit, scale in (("axial_load", "kN", 1e-3), ("moment", "N m", 1.0)):
-        load = getattr(scene.operation, name)
-        if load is not None:
+    for freedom, name in LOAD_FIELDS.items():
+        load, tilts = scene.operation.load(freedom), freedom in TILTS
+        unit, scale = ("N m", 1.0) if tilts else ("kN", 1e-3)
+        if freedom != "radial" and load is not None:
             yield f"operation.{name}", f"operation.{name} {scale * float(load):.6g} {unit}, on the inner ring"
 
 

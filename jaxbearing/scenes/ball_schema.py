@@ -29,6 +29,7 @@ class BallGeometryTable(Table):
     diametral_clearance: units.NonNegativeLength | None = None
     shoulder_angle_inner: units.FlangeAngle | None = None
     shoulder_angle_outer: units.FlangeAngle | None = None
+    first_element_angle: units.Angle | None = None
 
     @check
     def _one_of_both(self) -> Problems:
@@ -130,26 +131,13 @@ class BallDragTable(Table):
     through_flow_fraction: units.Fraction = 1.0
 
 
-class BallOperationTable(BearingOperationTable):
-    axial_load: units.Force | None = None
-    radial_load: units.Force | None = None
-    moment: units.Moment | None = None
-    misalignment: units.Angle | None = None
-
-    @check
-    def _tilt(self) -> Problems:
-        if self.moment is not None and self.misalignment is not None:
-            expected = "none beside operation.moment, which sets the tilt free"
-            yield refusal_at("misalignment", expected, f"{self.misalignment:g} rad")
-
-
 class BallBearingTable(Table):
     """The whole file. A table that is left out is not modelled."""
 
     kind: Literal["ball_bearing"]
     geometry: BallGeometryTable
     materials: BallMaterialsTable
-    operation: BallOperationTable
+    operation: BearingOperationTable
     oil: OilTable | None = None
     contact: BallContactTable | None = None
     kinematics: KinematicsTable | None = None

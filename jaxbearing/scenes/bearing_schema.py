@@ -30,13 +30,47 @@ class BearingCageTable(Table):
             yield refusal_at("inner_diameter", f"less than the outer diameter, {in_mm(outside)}", in_mm(bore))
 
 
+class DisplacementTable(Table):
+    """Where the inner ring is held."""
+
+    axial: units.Length | None = None
+    radial: units.Length | None = None
+    lateral: units.Length | None = None
+
+
 class BearingOperationTable(Table):
-    """The operating point without its loads."""
+    """The operating point; which loads and displacements a kind of bearing needs its class says."""
 
     inner_speed: units.Speed
     outer_speed: units.Speed = 0.0
     oil_temperature: units.Temperature | None = None
     oil_flow: units.NonNegativeFlow | None = None
+    axial_load: units.Force | None = None
+    radial_load: units.Force | None = None
+    radial_load_lateral: units.Force | None = None
+    moment: units.Moment | None = None
+    moment_lateral: units.Moment | None = None
+    misalignment: units.Angle | None = None
+    misalignment_lateral: units.Angle | None = None
+    displacement: DisplacementTable | None = None
+
+    @check
+    def _tilt(self) -> Problems:
+        for moment, tilt in (("moment", "misalignment"), ("moment_lateral", "misalignment_lateral")):
+            if getattr(self, moment) is not None and getattr(self, tilt) is not None:
+                about = "" if moment == "moment" else " about the load line"
+                expected = f"none beside operation.{moment}, which sets the tilt{about} free"
+                yield refusal_at(tilt, expected, f"{getattr(self, tilt):g} rad")
+
+    @check
+    def _held(self) -> Problems:
+        if self.displacement is None:
+            return
+        for load, freedom in (("axial_load", "axial"), ("radial_load", "radial"), ("radial_load_lateral", "lateral")):
+            held = getattr(self.displacement, freedom)
+            if getattr(self, load) is not None and held is not None:
+                expected = f"none beside operation.{load}, which sets the {freedom} displacement free"
+                yield refusal_at(f"displacement.{freedom}", expected, in_mm(held))
 
 
 def _reliability(value: Any) -> float:

@@ -4,7 +4,8 @@ the constructors: nothing runs on JAX."""
 from functools import cache
 
 from ..bearings.cylindrical_roller import CylindricalRollerBearing, RollerCage, RollerFlange, RollerGeometry
-from ..bearings.parts import Drag, Materials, Operation
+from ..bearings.operation import Operation
+from ..bearings.parts import Drag, Materials
 from ..bearings.rating import Rating
 from ..bearings.simulation import Simulation
 from .bearing_build import built, cage, part
@@ -45,4 +46,5 @@ def cylindrical_roller_bearing(table: CylindricalRollerTable) -> CylindricalRoll
 def _run(table: CylindricalRollerTable) -> Simulation | None:
     if table.simulation is None:
         return None
-    return simulation(table.simulation, table.operation.inner_speed, table.operation.radial_load)
+    load = table.operation.radial_load
+    return simulation(table.simulation, table.operation.inner_speed, 0.0 if load is None else load)

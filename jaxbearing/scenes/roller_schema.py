@@ -28,6 +28,7 @@ class GeometryTable(Table):
     roller_length: units.PositiveLength
     diametral_clearance: units.Length
     contact_length: units.PositiveLength | None = None
+    first_element_angle: units.Angle | None = None
 
     @check
     def _consistent(self) -> Problems:
@@ -100,16 +101,24 @@ class DragTable(Table):
 
 
 class OperationTable(BearingOperationTable):
-    not_yet: ClassVar[Mapping[str, str]] = {"axial_load": "a radial load only, beside a moment or misalignment"}
-    radial_load: units.PositiveForce
-    moment: units.Moment | None = None
-    misalignment: units.Angle | None = None
+    radial_load: units.PositiveForce | None = None
 
     @check
-    def _tilt(self) -> Problems:
-        if self.moment is not None and self.misalignment is not None:
-            expected = "none beside operation.moment, which sets the tilt free"
-            yield refusal_at("misalignment", expected, f"{self.misalignment:g} rad")
+    def _axial(self) -> Problems:
+        expected = "none: nothing holds the inner ring of a cylindrical roller bearing along the axis"
+        if self.axial_load is not None:
+            yield refusal_at("axial_load", expected, f"{self.axial_load:g} N")
+        if self.displacement is not None and self.displacement.axial is not None:
+            yield refusal_at("displacement.axial", expected, in_mm(self.displacement.axial))
+
+    @check
+    def _across(self) -> Problems:
+        held = self.displacement is not None and (
+            self.displacement.radial is not None or self.displacement.lateral is not None
+        )
+        if self.radial_load is None and self.radial_load_lateral is None and not held:
+            expected = "a force, e.g. '10 kN', or radial_load_lateral, or operation.displacement.radial"
+            yield refusal_at("radial_load", expected, "nothing")
 
 
 class CylindricalRollerTable(Table):
@@ -137,6 +146,11 @@ class CylindricalRollerTable(Table):
         slips = self.contact is not None and self.contact.traction is not None
         if slips and (self.cage is not None or self.simulation is not None):
             yield from require_oil_flow(self.drag, self.operation)
+
+    @check
+    def _run(self) -> Problems:
+        if self.simulation is not None and self.operation.radial_load is None:
+            yield refusal_at("operation.radial_load", "a force, which a run in time needs, e.g. '10 kN'", "nothing")
 
     @check
     def _cage(self) -> Problems:

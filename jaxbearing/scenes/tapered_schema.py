@@ -21,6 +21,7 @@ class TaperedGeometryTable(Table):
     roller_half_angle: units.AcuteAngle
     flange_angle: units.AcuteAngle
     end_radius: units.PositiveLength
+    first_element_angle: units.Angle | None = None
 
 
 class TaperedMaterialsTable(Table):
@@ -61,17 +62,13 @@ ISOVISCOUS = {
 
 
 class TaperedOperationTable(BearingOperationTable):
-    axial_load: units.Force
-    radial_load: units.Force | None = None
-    moment: units.Moment | None = None
-    misalignment: units.Angle | None = None
     load_position: units.Length = 0.0
 
     @check
-    def _tilt(self) -> Problems:
-        if self.moment is not None and self.misalignment is not None:
-            expected = "none beside operation.moment, which sets the tilt free"
-            yield refusal_at("misalignment", expected, f"{self.misalignment:g} rad")
+    def _thrust(self) -> Problems:
+        if self.axial_load is None and (self.displacement is None or self.displacement.axial is None):
+            expected = "a force, e.g. '1 kN', or operation.displacement.axial"
+            yield refusal_at("axial_load", expected, "nothing")
 
 
 class TaperedRollerTable(Table):

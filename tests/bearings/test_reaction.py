@@ -10,7 +10,8 @@ import jaxbearing as jb
 from jaxbearing.bearings.ball_bearing import BallAttitude, BallBearing, BallMaterials, BallOperation
 from jaxbearing.bearings.ball_geometry import BallGeometry
 from jaxbearing.bearings.cylindrical_roller import CylindricalRollerBearing, RollerGeometry
-from jaxbearing.bearings.parts import Materials, Operation
+from jaxbearing.bearings.operation import Operation
+from jaxbearing.bearings.parts import Materials
 from jaxbearing.bearings.ring import shift_matrix
 from jaxbearing.bearings.solution import RING_FREEDOMS
 from jaxbearing.materials import Material
@@ -29,7 +30,7 @@ def balls(geometry, rpm):
 T15 = balls(BallGeometry(20, 153e-3, 20.638e-3, 0.5225, 0.51125, np.radians(30.0)), 12500.0)
 DEEP_GROOVE = balls(BallGeometry(9, 38.5e-3, 7.938e-3, 0.515, 0.525, diametral_clearance=12e-6), 6000.0)
 N7 = CylindricalRollerBearing(
-    RollerGeometry(13, 54e-3, 10e-3, 10e-3, 25e-6), Materials(STEEL, STEEL), Operation(6000.0 * RPM, 1e3)
+    RollerGeometry(13, 54e-3, 10e-3, 10e-3, 25e-6), Materials(STEEL, STEEL), Operation(6000.0 * RPM, radial_load=1e3)
 )
 # The sheet "several bearings together", section 9, rows A1 to A4: scene, displacement (um, mrad), expansion, force,
 # diagonal of the stiffness, other entries of it. Its grooves move to first order with a tilt.

@@ -151,8 +151,8 @@ def test_turned_by_one_pitch():
     dynamics, state = rolling(simulation=simulation)
     state = shaken(dynamics, state)
     rates = all_at(dynamics, ZERO, state)[1]
-    turned_load = jnp.asarray([np.cos(pitch), np.sin(pitch)]) * dynamics.system.ring_load[0]
-    turned = eqx.tree_at(lambda d: d.system.ring_load, dynamics, turned_load)
+    turned_load = jnp.asarray([np.cos(pitch), np.sin(pitch)]) * dynamics.system.ring.load[0]
+    turned = eqx.tree_at(lambda d: d.system.ring.load, dynamics, turned_load)
     cosine, sine = np.cos(pitch), np.sin(pitch)
 
     def turn(point):

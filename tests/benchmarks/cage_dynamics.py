@@ -70,7 +70,7 @@ def field_of(dynamics):
     the ring, and see `loaded`. Loads inside are found as exactly as ours are at the tolerance."""
 
     def field(ring_load, t, y, tolerance):
-        moving = eqx.tree_at(lambda d: d.system.ring_load, dynamics, ring_load)
+        moving = eqx.tree_at(lambda d: d.system.ring.load, dynamics, ring_load)
         n = dynamics.system.azimuth.shape[0]
         cage = jnp.concatenate([y[ATOMS * n :], jnp.zeros(len(WORKS))])
         state = ArrowPoint(y[: ATOMS * n].reshape(ATOMS, n), cage)
@@ -125,7 +125,7 @@ def batch_program(static, solver):
     def one(given, numbers, times):
         load, tolerance = given
         start = eqx.combine(numbers, static)
-        dynamics = eqx.tree_at(lambda d: d.system.ring_load, start.dynamics, load)
+        dynamics = eqx.tree_at(lambda d: d.system.ring.load, start.dynamics, load)
         options = IntegratorOptions(solver=solver, tolerance=tolerance)
         return ours(start._replace(dynamics=dynamics), times, options)
 
@@ -134,7 +134,7 @@ def batch_program(static, solver):
 
 def batches_of(start, times, tolerances, size, solver="tsit5"):
     """By tolerance: seconds a run of a batch at loads from 90 % to 110 %, and the lanes that failed; one program."""
-    loads = start.dynamics.system.ring_load[None, :] * jnp.linspace(0.9, 1.1, size)[:, None]
+    loads = start.dynamics.system.ring.load[None, :] * jnp.linspace(0.9, 1.1, size)[:, None]
     numbers, static = eqx.partition(start, eqx.is_array)
     program = batch_program(static, solver)
     for tolerance in tolerances:
@@ -163,7 +163,7 @@ def benchmark(quick=False):
         exact = flat(exact.states)
         tolerances = TOLERANCES[1:3] if quick else TOLERANCES
         table, rival = [], {}
-        functions = loaded(field_of(start.dynamics), start.dynamics.system.ring_load)
+        functions = loaded(field_of(start.dynamics), start.dynamics.system.ring.load)
         y0 = flat(jax.tree.map(lambda leaf: leaf[None], start.state))[0]
         for function in functions:
             jax.block_until_ready(function(np.float64(0.0), y0, 1e-3))

@@ -10,7 +10,7 @@ import pytest
 from rich.console import Console
 
 from jaxbearing.bearings.ball_solution import BallPowerLoss
-from jaxbearing.bearings.parts import Operation
+from jaxbearing.bearings.operation import Operation
 from jaxbearing.bearings.solution import CageState, PowerLoss, RingDisplacement, RollerResults, Solution
 from jaxbearing.bearings.tapered_solution import TaperedPowerLoss
 from jaxbearing.life.result import Life

@@ -1,6 +1,8 @@
 """The operating point of a solution in words, without what the scene does not use."""
 
 import dataclasses
+from collections.abc import Iterator
+from typing import Any
 
 import numpy as np
 
@@ -20,17 +22,24 @@ def unused_operation(solution: Solution) -> set[str]:
 
 def operating_point(solution: Solution) -> str:
     """As in "inner ring speed 10500 rpm, radial load 25 kN"; an outer ring at rest is not mentioned."""
-    hidden = unused_operation(solution)
+    hidden, operation = unused_operation(solution), solution.operation
     said = []
-    for field in dataclasses.fields(solution.operation):
-        given = getattr(solution.operation, field.name)
-        if given is None:
-            continue
+    for field, given in _numbers(operation):
         value = float(np.asarray(given))
         if field.name in hidden or (field.name in ("outer_speed", "load_position") and value == 0.0):
             continue
         said.append(f"{field.metadata['description']} {_with_unit(value, field.metadata['unit'])}")
     return ", ".join(said)
+
+
+def _numbers(part: Any) -> Iterator[tuple[dataclasses.Field[Any], Any]]:
+    """Fields of an operating point that hold a number, those of its parts too, and the number."""
+    for field in dataclasses.fields(part):
+        given = getattr(part, field.name)
+        if dataclasses.is_dataclass(given):
+            yield from _numbers(given)
+        elif given is not None:
+            yield field, given
 
 
 def _with_unit(value: float, unit: str) -> str:

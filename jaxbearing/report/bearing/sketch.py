@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 
 from ...bearings.ball_bearing import BallBearing
-from ...bearings.solution import Solution
+from ...bearings.solution import RING_FREEDOMS, Solution
 from ...bearings.tapered_roller import TaperedRollerBearing
 from ..display import displayed
 from ..drawing import CAGE, FAINT, RING, RING_THICKNESS, ROLLER
@@ -89,17 +89,22 @@ def _loads(drawing: Drawing, sizes: Sizes, azimuth: np.ndarray, inner: np.ndarra
 def _applied(drawing: Drawing, sizes: Sizes, solution: Solution) -> None:
     """Load on the inner ring and its speed, in the middle."""
     operation = solution.operation
-    number = lambda name: None if getattr(operation, name, None) is None else float(getattr(operation, name))
-    radial, axial, moment = (number(name) for name in ("radial_load", "axial_load", "moment"))
+    number = lambda freedom: float(given) if (given := operation.load(freedom)) is not None else 0.0
+    axial, radial, lateral, moment, moment_lateral = map(number, RING_FREEDOMS)
     words = [f"{displayed(float(operation.inner_speed), 'rad/s'):.6g} rpm"]
     if axial:
         words.append(f"axial {1e-3 * axial:.5g} kN")
     if moment:
         words.append(f"moment {moment:.5g} N m")
+    if moment_lateral:
+        words.append(f"about the load line {moment_lateral:.5g} N m")
     if radial:
         words.append(f"radial {1e-3 * radial:.5g} kN")
-        reach = math.copysign(0.32 * sizes.bore, radial)
-        drawing.arrow((0.0, 0.0), (0.0, -reach), INK, width=4.0)
+    if lateral:
+        words.append(f"lateral {1e-3 * lateral:.5g} kN")
+    if radial or lateral:
+        reach = 0.32 * sizes.bore / math.hypot(radial, lateral)
+        drawing.arrow((0.0, 0.0), (reach * lateral, -reach * radial), INK, width=4.0)
     # a small bore holds four lines of smaller letters
     size = min(12.0, 0.55 * sizes.bore * drawing.scale / len(words))
     gap = (0.625 * size * len(words) + 6.0) / drawing.scale

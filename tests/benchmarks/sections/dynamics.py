@@ -96,8 +96,8 @@ def section(quick=False):
 
 def lane_at(script, nominal, functions, share, times):
     """The run at a share of the load, from the nominal start as in the batch; `functions`: of `field_of`."""
-    load = share * nominal.dynamics.system.ring_load
-    start = nominal._replace(dynamics=eqx.tree_at(lambda d: d.system.ring_load, nominal.dynamics, load))
+    load = share * nominal.dynamics.system.ring.load
+    start = nominal._replace(dynamics=eqx.tree_at(lambda d: d.system.ring.load, nominal.dynamics, load))
     tight = script.IntegratorOptions(solver="dopri8", tolerance=script.REFERENCE)
     exact = script.ours(start, jnp.asarray(times), tight)
     assert int(exact.status) == script.Status.CONVERGED
