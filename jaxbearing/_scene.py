@@ -119,12 +119,12 @@ class AbstractSolution(eqx.Module):
 
 def _replaced(part: Any, changes: dict[tuple[str, ...], Any], above: str = "") -> Any:
     """The part rebuilt once with all changes, so that what is validated is the result and no state in between."""
-    names = [field.name for field in dataclasses.fields(part)] if isinstance(part, eqx.Module) else []
+    fields = {field.name: field for field in dataclasses.fields(part)} if isinstance(part, eqx.Module) else {}
     new: dict[str, Any] = {}
     inner: dict[str, dict[tuple[str, ...], Any]] = {}
     for path, value in changes.items():
-        if not isinstance(part, eqx.Module) or path[0] not in names:
-            whole, there = above + ".".join(path), ", ".join(names) or "no fields"
+        if not isinstance(part, eqx.Module) or path[0] not in fields:
+            whole, there = above + ".".join(path), ", ".join(fields) or "no fields"
             raise AttributeError(f"the scene has no {whole!r}: {type(part).__name__} has {there}")
         if len(path) == 1:
             new[path[0]] = value
@@ -132,6 +132,8 @@ def _replaced(part: Any, changes: dict[tuple[str, ...], Any], above: str = "") -
             inner.setdefault(path[0], {})[path[1:]] = value
     for name, value in new.items():
         old = getattr(part, name)
+        if isinstance(value, Mapping) and "converter" in fields[name].metadata:
+            continue  # the field makes a part of it
         if isinstance(old, eqx.Module) and not (value is None or isinstance(value, eqx.Module)):
             whole = ".".join([*filter(None, [above.rstrip(".")]), name])
             raise TypeError(f"{whole} must be a part such as {type(old).__name__}, got {value!r}")

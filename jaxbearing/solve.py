@@ -36,7 +36,7 @@ from .programs import KeptProgram
 
 
 def _solve_cylindrical(scene: CylindricalRollerBearing, options: NewtonOptions) -> Solution:
-    # dry rollers that carry evenly leave a held ring without unknowns; those that may tilt have some, and the same loads
+    # dry rollers that carry evenly leave a held ring without unknowns; those that may tilt have the same loads
     held = scene.contact is None and not scene.unknown_freedoms
     return solve_tilting(scene, options) if scene.tilts or held else solve_steady(scene, options)
 

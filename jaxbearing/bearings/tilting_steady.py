@@ -33,7 +33,7 @@ from .tilting_roller import TiltingRollers, TiltingState
 
 def build_tilting(scene: CylindricalRollerBearing, ring: InnerRing | None = None) -> TiltingRollers:
     """The equations of a scene, with its own ring or another one."""
-    geometry, operation = scene.geometry, scene.operation
+    geometry = scene.geometry
     azimuth = azimuths(geometry, geometry.n_rollers)
     length = jnp.asarray(geometry.loaded_length)
     columns = _columns(azimuth, length)
