@@ -29,6 +29,7 @@ with collecting_rarely():
     jax.config.update("jax_enable_x64", True)
 
     # 64-bit floats first
+    from ._shown import shown_by
     from .simulate import simulate as simulate
     from .simulate import simulate_batch as simulate_batch
     from .solve import jit_solver as jit_solver
@@ -46,15 +47,20 @@ if TYPE_CHECKING:
     from .bearings.roller_simulation import trajectory as trajectory
     from .bearings.simulation import Simulation as Simulation
     from .bearings.solution import Solution as Solution
+    from .bearings.tapered_roller import TaperedRollerBearing as TaperedRollerBearing
     from .numerics.newton import NewtonOptions as NewtonOptions
     from .numerics.status import SolveError as SolveError
     from .numerics.status import Status as Status
     from .port import reaction as reaction
     from .report.history_file import read_last_state as read_last_state
     from .scenes.errors import SceneError as SceneError
+    from .scenes.from_python import load_oil as load_oil
+    from .scenes.from_python import scene_from_mapping as scene_from_mapping
     from .scenes.reader import builtin_names as builtin_names
     from .scenes.reader import load_scene as load_scene
     from .sensitivity import sensitivities as sensitivities
+
+shown_by(f"{__name__}.report.shown")
 
 __version__ = "0.1.0"
 
@@ -68,12 +74,15 @@ _LAZY = {
     "Solution": ".bearings.solution",
     "SolveError": ".numerics.status",
     "Status": ".numerics.status",
+    "TaperedRollerBearing": ".bearings.tapered_roller",
     "builtin_names": ".scenes.reader",
+    "load_oil": ".scenes.from_python",
     "load_scene": ".scenes.reader",
     "pocket_loads": ".bearings.roller_instants",
     "quasi_static_start": ".bearings.roller_motion",
     "reaction": ".port",
     "read_last_state": ".report.history_file",
+    "scene_from_mapping": ".scenes.from_python",
     "sensitivities": ".sensitivity",
     "trajectory": ".bearings.roller_simulation",
 }

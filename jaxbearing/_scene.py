@@ -11,6 +11,7 @@ import numpy as np
 from jaxtyping import Array, Bool
 
 from ._checks import Checks
+from ._shown import Shown
 from .numerics.checks import bounded
 from .numerics.precision import as_float
 from .numerics.status import SolveError, Status
@@ -36,7 +37,7 @@ def optional_number(*, bound: str = "finite", **kwargs: Any) -> Any:
     return bounded(bound, converter=lambda v: None if v is None else as_float(v), default=None, **kwargs)
 
 
-class AbstractScene(eqx.Module):
+class AbstractScene(Shown):
     """Base of scenes: makes changed copies, by the attribute names of the scene file."""
 
     def replace(self: Scene, changes: dict[str, Any]) -> Scene:
@@ -55,7 +56,7 @@ class AbstractScene(eqx.Module):
         return self.replace({f"geometry.{name}": value for name, value in changes.items()})
 
 
-class AbstractSolution(eqx.Module):
+class AbstractSolution(Shown):
     """Interface of all results of a solve: `status`; `checks`, text -> True if an input is out of its
     bound or a law is used beyond its range; `notes`, what the model assumed or left out."""
 

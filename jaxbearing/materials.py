@@ -25,9 +25,9 @@ class Material(Checked):
 
 
 Material.__init__.__doc__ = """**Arguments:**
-- `youngs_modulus`: Pa, > 0.
-- `poisson_ratio`: Poisson's ratio, between 0 and 0.5.
-- `density`: kg/m^3, > 0.
+- `youngs_modulus`: modulus of elasticity, Pa, > 0.
+- `poisson_ratio`: Poisson's ratio.
+- `density`: mass over volume, kg/m^3, > 0.
 """
 
 

@@ -15,6 +15,7 @@ RANK = {
     "_types": 0,
     "_checks": 2,
     "_scene": 2,
+    "_shown": 1,
     "_identity": 2,
     "time_laws": 2,
     "numerics": 1,

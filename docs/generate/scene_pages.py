@@ -1,18 +1,15 @@
 """The page of scene files: every table and field with its unit, range, default and meaning, from the schemas."""
 
-import dataclasses
 import itertools
-import types
 import typing
+from pathlib import Path
 
-from pydantic import TypeAdapter, ValidationError
-
-import jaxbearing.lubricants
-from jaxbearing.materials import Material
+from jaxbearing.scenes.field_list import class_of, class_of_table, fields
 from jaxbearing.scenes.fields import tables_at
-from jaxbearing.scenes.inputs import described_argument
 from jaxbearing.scenes.reader import KINDS, builtin_names, builtin_text, schema_of_kind
-from jaxbearing.scenes.units import QuantityValidator
+
+FILE = Path(__file__).parents[1] / "scene_files.md"
+"""The page is kept in the repository; `python docs/generate/scene_pages.py` writes it anew."""
 
 HEAD = """# Scene files
 
@@ -26,17 +23,6 @@ from the rest, or assumed, which the solution's notes say.
 ## Built-in scenes
 
 """
-
-
-@dataclasses.dataclass(frozen=True)
-class Field:
-    """One line of a table of the page."""
-
-    name: str
-    unit: str
-    expected: str
-    default: str
-    description: str
 
 
 def page():
@@ -56,7 +42,7 @@ def page():
                     parts.append(_table(f"[{name}]", table, class_of(scene, name, table)))
     parts.append("## Tables that several kinds have")
     for table, name in shared.items():
-        parts.append(_table(_title(name, table), table, _class_of_shared(name, table), _anchor(table)))
+        parts.append(_table(_title(name, table), table, class_of_table(table), _anchor(table)))
     return "\n\n".join(part for part in parts if part) + "\n"
 
 
@@ -110,7 +96,8 @@ def _title(name, table):
 
 def _table(title, model, scene_class, anchor=""):
     rows = [
-        f"| `{f.name}` | {f.unit} | {f.expected} | {f.default} | {f.description} |" for f in fields(model, scene_class)
+        f"| `{f.name}` | {f.unit} | {_takes(f)} | {f.default} | {_cell(f.description)} |"
+        for f in fields(model, scene_class)
     ]
     head = f"### `{title}`" + (f" {{ #{anchor} }}" if anchor else "")
     if not rows:
@@ -118,94 +105,15 @@ def _table(title, model, scene_class, anchor=""):
     return "\n".join([head, "", "| field | SI unit | takes | default | what it is |", "|---|---|---|---|---|", *rows])
 
 
-def fields(model, scene_class):
-    """The fields of a table; descriptions are those of the class that the table builds."""
-    for name, info in model.model_fields.items():
-        if name in ("sources", "note", "law"):
-            continue
-        annotation = typing.Annotated[info.annotation, *info.metadata] if info.metadata else info.annotation
-        dimension = _dimension(annotation)
-        unit = dimension.si if dimension else ""
-        if info.is_required():
-            default = "required"
-        elif info.default is None:
-            default = "optional"
-        else:
-            default = f"{str(info.default).lower() if isinstance(info.default, bool) else info.default} {unit}".strip()
-        words = name.replace("_", " ")
-        said = described_argument(scene_class, name) if scene_class is not None else ""
-        # a field that no class has, or that its class does not explain, is explained by its table
-        said = said if said and said != words else described_argument(model, name)
-        text = _cell(said.removeprefix(f"{words}: ") or words)
-        yield Field(name, unit, _expected(model, name, annotation, unit), default, text)
-
-
-def _expected(model, name, annotation, unit):
-    """What the field takes, in the words of its own refusal of what is out of its range."""
-    tables = [one for one in tables_at(model, (name,)) if not one.__name__.startswith("Unknown")]
-    links = [f"[{one.tag.strip('<>') or 'table'}](#{_anchor(one)})" for one in tables]
-    reader = TypeAdapter(annotation)
-    # a value below the range, of the right kind; then what nothing takes
-    for probe in (f"-1 {unit}" if unit else -1, object()):
-        try:
-            reader.validate_python(probe)
-        except ValidationError as error:
-            found = [one.get("ctx", {}).get("expected") or _PLAIN.get(one["type"], "") for one in error.errors()]
-            words = dict.fromkeys(_cell(text) for text in found if text and "a table with a 'law'" not in text)
-            return " or ".join([*words, *([f"a table: {', '.join(links)}"] if links else [])])
-    raise ValueError(f"{model.__name__}.{name} takes anything")
-
-
-_PLAIN = {"string_type": "text", "bool_type": "true or false", "float_type": "a number", "dict_type": "a table"}
+def _takes(field):
+    links = [f"[{one.tag.strip('<>') or 'table'}](#{_anchor(one)})" for one in field.tables]
+    words = [_cell(field.expected)] if field.expected else []
+    return " or ".join([*words, *([f"a table: {', '.join(links)}"] if links else [])])
 
 
 def _cell(text):
     return " ".join(text.split()).replace("|", "\\|").replace("<", "&lt;")
 
 
-def _dimension(annotation):
-    for part in typing.get_args(annotation):
-        if isinstance(part, QuantityValidator):
-            return part.dimension
-        found = _dimension(part)
-        if found is not None:
-            return found
-    return None
-
-
-def class_of(owner, name, table):
-    """The class of the scene that a field of `owner` holds."""
-    hint = typing.get_type_hints(owner).get(name)
-    classes = [one for one in _classes(hint) if dataclasses.is_dataclass(one)]
-    return classes[0] if classes else _class_of_shared(name, table)
-
-
-def _classes(hint):
-    if typing.get_origin(hint) in (typing.Union, types.UnionType):
-        return [one for part in typing.get_args(hint) for one in _classes(part)]
-    return [hint] if isinstance(hint, type) else []
-
-
-def _class_of_shared(name, table):
-    """Tables are named after the class that they build."""
-    known = {"MaterialTable": Material, **_named()}
-    return known.get(table.__name__) or getattr(jaxbearing.lubricants, table.__name__.removesuffix("Table"), None)
-
-
-def _named():
-    from jaxbearing.bearings.cage import AbstractCage
-    from jaxbearing.bearings.rating import Rating
-    from jaxbearing.bearings.roller_profile import RollerProfile
-    from jaxbearing.bearings.simulation import Simulation
-    from jaxbearing.time_laws import Ramp, RotatingLoad, Sinusoidal
-
-    return {
-        "BearingCageTable": AbstractCage,
-        "RatingTable": Rating,
-        "ProfileTable": RollerProfile,
-        "SimulationTable": Simulation,
-        "PerturbationTable": Sinusoidal,
-        "RampTable": Ramp,
-        "RotatingLoadTable": RotatingLoad,
-        "OilTable": jaxbearing.lubricants.Lubricant,
-    }
+if __name__ == "__main__":
+    FILE.write_text(page(), encoding="utf-8")

@@ -12,6 +12,7 @@ from typing import Annotated, Any
 import typer
 
 from ..numerics.garbage import collecting_rarely
+from .fields_verb import fields
 from .fit_verb import fit
 from .interrupt import prompt_interrupt, tell
 from .messages import BAD_INPUT, INTERRUPTED, NO_OUTPUT, say
@@ -115,5 +116,5 @@ def _options(
     pass
 
 
-for _verb in (scenes, solve, report, sweep, study, simulate, stiffness, fit):
+for _verb in (scenes, fields, solve, report, sweep, study, simulate, stiffness, fit):
     app.command()(_verb)

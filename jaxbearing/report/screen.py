@@ -50,9 +50,10 @@ def print_rule(title: str, console: Console) -> None:
     console.print(Rule(title, align="left", style="dim"))
 
 
-def print_line(name: str, text: str, console: Console) -> None:
+def print_line(name: str, text: str, console: Console, columns: int = 18) -> None:
+    """A name, in so many columns, and what is said of it."""
     grid = Table.grid(padding=(0, 2, 0, 0))
-    grid.add_column(width=18, no_wrap=True)
+    grid.add_column(width=columns, no_wrap=True)
     grid.add_column(overflow="fold")
     grid.add_row(Text(f"  {name}"), Text(text))
     console.print(grid)

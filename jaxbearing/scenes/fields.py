@@ -7,6 +7,8 @@ from typing import Any
 
 from pydantic import BaseModel
 
+from .units import Dimension, QuantityValidator
+
 
 @dataclass(frozen=True)
 class Names:
@@ -73,6 +75,23 @@ def type_at(model: type[BaseModel], location: Sequence[int | str]) -> Any:
         if info is not None:
             return typing.Annotated[info.annotation, *info.metadata] if info.metadata else info.annotation
     return None
+
+
+def parts_of(kind: Any) -> list[Any]:
+    """A type without what may be left out, and all that annotates it."""
+    if typing.get_origin(kind) is typing.Annotated:
+        inner, *notes = typing.get_args(kind)
+        return [*parts_of(inner), *notes]
+    alternatives = [one for one in typing.get_args(kind) if one is not type(None)]
+    if alternatives and type(None) in typing.get_args(kind) and len(alternatives) == 1:
+        return parts_of(alternatives[0])
+    return [kind]
+
+
+def dimension_of(kind: Any) -> Dimension | None:
+    """Unit of a field's type; `None` for a number without a unit."""
+    found = [note.dimension for note in parts_of(kind) if isinstance(note, QuantityValidator)]
+    return found[0] if found else None
 
 
 def plain_table_at(model: type[BaseModel], name: str) -> Any:

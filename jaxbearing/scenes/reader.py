@@ -28,7 +28,7 @@ from .two_disk_build import two_disk
 from .two_disk_schema import TwoDiskTable
 from .units import describe, shortened
 
-__all__ = ["builtin_names", "builtin_summary", "builtin_text", "load_scene", "scene_from_mapping"]
+__all__ = ["builtin_names", "builtin_summary", "builtin_text", "load_scene", "scene_from_tables"]
 
 _KIND_EXAMPLE = 'kind = "cylindrical_roller_bearing"'
 _SCHEMAS: dict[str, tuple[type[Table], Callable[[Any], AbstractScene]]] = {
@@ -60,7 +60,7 @@ def load_scene(source: str | Path, overrides: Overrides | None = None) -> Abstra
     **Raises:** `SceneError` with file, field, what was found and what is expected.
     """
     label, mapping = read_tables(source)
-    return scene_from_mapping(mapping, label, overrides)
+    return scene_from_tables(mapping, label, overrides)
 
 
 def oil_origins(source: str | Path, overrides: Overrides | None = None) -> dict[str, Origin]:
@@ -71,7 +71,7 @@ def oil_origins(source: str | Path, overrides: Overrides | None = None) -> dict[
     return origins(apply(mapping, overrides, model, label).get("oil", {}), label)
 
 
-def scene_from_mapping(
+def scene_from_tables(
     mapping: Mapping[str, Any], origin: str = "scene", overrides: Overrides | None = None
 ) -> AbstractScene:
     """A scene from the tables of a scene file, {"kind": ..., "geometry": {...}, ...}; `origin` names it in messages.
@@ -96,6 +96,11 @@ def model_of(scene: AbstractScene) -> type[BaseModel] | None:
     """The schema of the files of such scenes."""
     built = {scene_class: model for model, scene_class in map(schema_of_kind, KINDS)}
     return built.get(type(scene))
+
+
+def kind_of(scene: AbstractScene) -> str:
+    """The kind of such scenes, one of `KINDS`; "" for another class."""
+    return next((kind for kind in KINDS if schema_of_kind(kind)[1] is type(scene)), "")
 
 
 def _schema(

@@ -7,7 +7,9 @@ here first, because pint's own reader of quantities takes "1,5 mm" for 15 mm and
 import functools
 import math
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from contextvars import ContextVar
 from dataclasses import dataclass
 from typing import Annotated, Any
 
@@ -28,6 +30,7 @@ _WORDS = re.compile(r"\b(?:square|sq|squared|cubic|cubed|per)\b", re.IGNORECASE)
 _LONGEST_UNIT = 40
 _NON_FINITE = re.compile(r"\s*[+-]?(nan|inf|infinity)\b", re.IGNORECASE)
 _LONGEST = 60
+_SI_NUMBERS: ContextVar[bool] = ContextVar("bare numbers are SI values", default=False)
 _REMEMBERED = 1024
 """Units that are remembered: pint takes a millisecond to read one, which was most of what a scene took."""
 
@@ -119,6 +122,16 @@ def refusal(expected: str, found: str, suggestion: str = "") -> PydanticCustomEr
     )
 
 
+@contextmanager
+def bare_numbers_are_si() -> Iterator[None]:
+    """A number without a unit is an SI value here: for what is written in Python, and not by hand in a file."""
+    token = _SI_NUMBERS.set(True)
+    try:
+        yield
+    finally:
+        _SI_NUMBERS.reset(token)
+
+
 def parse(value: Any, dimension: Dimension) -> float:
     """SI value of a text with a unit.
 
@@ -126,6 +139,8 @@ def parse(value: Any, dimension: Dimension) -> float:
     an unknown unit, a unit of another dimension, or a number that is not finite.
     """
     if isinstance(value, int | float) and not isinstance(value, bool):
+        if _SI_NUMBERS.get() and _is_finite(value):
+            return float(value)
         bare = f"the bare number {_short(value)}" if _is_finite(value) else describe(value)
         raise refusal(dimension.expected(), bare)
     if not isinstance(value, str):

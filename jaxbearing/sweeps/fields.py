@@ -13,10 +13,10 @@ from pydantic import BaseModel, TypeAdapter, ValidationError
 from .._scene import AbstractScene
 from ..report.labelled import udunits
 from ..scenes.errors import SceneError, in_words, unknown_name
-from ..scenes.fields import is_known, type_at
+from ..scenes.fields import dimension_of, is_known, parts_of, type_at
 from ..scenes.overrides import REMOVE, parse_value
-from ..scenes.reader import read_tables, scene_from_mapping, scene_model
-from ..scenes.units import Dimension, QuantityValidator, describe
+from ..scenes.reader import read_tables, scene_from_tables, scene_model
+from ..scenes.units import Dimension, describe
 from .cases import MOST_CASES, Cases, between, grid, latin_hypercube, random
 from .recipe import Direct, Read, from_reader, structural
 
@@ -101,7 +101,7 @@ class _Reader:
 
     def __call__(self, values: dict[str, float]) -> AbstractScene:
         texts = {path: self.fields[path].text(value) for path, value in values.items()}
-        return scene_from_mapping(self.source.tables, self.source.label, {**self.source.overrides, **texts})
+        return scene_from_tables(self.source.tables, self.source.label, {**self.source.overrides, **texts})
 
     def as_data(self) -> dict[str, Any]:
         return {
@@ -112,26 +112,9 @@ class _Reader:
         }
 
 
-def _parts(kind: Any) -> list[Any]:
-    """A type without what may be left out, and all that annotates it."""
-    if typing.get_origin(kind) is typing.Annotated:
-        inner, *notes = typing.get_args(kind)
-        return [*_parts(inner), *notes]
-    alternatives = [one for one in typing.get_args(kind) if one is not type(None)]
-    if alternatives and type(None) in typing.get_args(kind) and len(alternatives) == 1:
-        return _parts(alternatives[0])
-    return [kind]
-
-
-def dimension_of(kind: Any) -> Dimension | None:
-    """Unit of a field's type; `None` for a number without a unit."""
-    found = [note.dimension for note in _parts(kind) if isinstance(note, QuantityValidator)]
-    return found[0] if found else None
-
-
 def _no_number(kind: Any) -> str:
     """Description of a field that is not one number; "" for one that is."""
-    base = _parts(kind)[0]
+    base = parts_of(kind)[0]
     if base is float:
         return ""
     if base is int:

@@ -10,7 +10,7 @@ import pytest
 import jaxbearing as jb
 from jaxbearing.contacts import NoThermalReduction
 from jaxbearing.scenes.errors import SceneError
-from jaxbearing.scenes.reader import scene_from_mapping
+from jaxbearing.scenes.reader import scene_from_tables
 
 FILE = Path(__file__).parent / "hand_written.toml"
 LOSSES = {"inner_raceway", "outer_raceway", "pocket", "cage_pilot", "flange", "drag", "rolling_resistance"}
@@ -70,7 +70,7 @@ def tables(left_out):
 @pytest.mark.parametrize("left_out", [*LUBRICATED, *WITHOUT_LOSSES])
 def test_loads(left_out):
     raw = tables(left_out)
-    scene = scene_from_mapping(raw, "bearing.toml")
+    scene = scene_from_tables(raw, "bearing.toml")
     for name in ("oil", "contact", "cage", "flange", "drag"):
         assert (getattr(scene, name) is None) == (name not in raw)
     if "contact" in raw:
@@ -83,7 +83,7 @@ def test_loads(left_out):
 def test_what_is_needed_is_asked_for(left_out):
     path, words = REFUSED[left_out]
     with pytest.raises(SceneError) as caught:
-        scene_from_mapping(tables(left_out), "bearing.toml")
+        scene_from_tables(tables(left_out), "bearing.toml")
     message = str(caught.value)
     assert message.startswith(f"bearing.toml: {path}: found nothing; expected ")
     assert message.count("(") == message.count(")") <= 2
@@ -112,7 +112,7 @@ def slow_where_lubricated(names):
 
 @pytest.mark.parametrize("left_out", slow_where_lubricated(WITHOUT_LOSSES))
 def test_solves_without_losses(left_out):
-    solution = jb.solve(scene_from_mapping(tables(left_out)))
+    solution = jb.solve(scene_from_tables(tables(left_out)))
     check_loads(solution)
     assert losses(solution) == {}
     assert solution.power_loss.total is solution.drive_power is None
@@ -127,7 +127,7 @@ def test_solves_without_losses(left_out):
 @pytest.mark.slow
 @pytest.mark.parametrize("left_out", LUBRICATED)
 def test_solves_with_losses(left_out):
-    solution = jb.solve(scene_from_mapping(tables(left_out)))
+    solution = jb.solve(scene_from_tables(tables(left_out)))
     check_loads(solution)
     power = losses(solution)
     assert set(power) == LOSSES - LUBRICATED[left_out]

@@ -30,7 +30,7 @@ from jaxbearing.scenes.data_files import oil_names
 from jaxbearing.scenes.errors import SceneError
 from jaxbearing.scenes.oils import load_oil, missing_sources, oil_data
 from jaxbearing.scenes.overrides import parse_value, split_assignments
-from jaxbearing.scenes.reader import builtin_names, builtin_summary, builtin_text, load_scene, scene_from_mapping
+from jaxbearing.scenes.reader import builtin_names, builtin_summary, builtin_text, load_scene, scene_from_tables
 
 KINDS = {
     "ball_bearing": BallBearing,
@@ -210,7 +210,7 @@ def test_oil_from_tables_alone():
     tables = oil_data("mobil_jet_ii")
     raw["oil"] = {name: table for name, table in tables.items() if isinstance(table, dict)}
     raw["oil"]["pressure_viscosity"] = {"law": "integrated"}
-    oil = scene_from_mapping(raw).oil
+    oil = scene_from_tables(raw).oil
     assert isinstance(oil.pressure_viscosity, IntegratedPressureViscosity)
     assert oil.pressure_viscosity.viscosity is oil.viscosity
 
@@ -266,4 +266,4 @@ def test_numbers_of_numpy_and_jax():
     # in the tables themselves, and in lists of them
     tables = tomllib.loads(builtin_text("two_disk_etm"))
     tables["operation"]["slide_to_roll"] = [np.int64(0), np.float32(0.25)]
-    assert list(scene_from_mapping(tables).operation.slide_to_roll) == [0.0, 0.25]
+    assert list(scene_from_tables(tables).operation.slide_to_roll) == [0.0, 0.25]

@@ -1,0 +1,82 @@
+"""A scene as a table: every field by its path in a scene file, with its unit."""
+
+import dataclasses
+from collections.abc import Iterator
+from typing import Any
+
+import equinox as eqx
+import numpy as np
+from pydantic import BaseModel
+from rich.console import Console
+
+from .._scene import AbstractScene
+from ..scenes.fields import dimension_of, is_known, parts_of, tables_at, type_at
+from ..scenes.reader import kind_of, model_of
+from .display import ZERO_CELSIUS, display_unit, displayed
+from .screen import print_line, print_rule
+
+_NAMES = 40
+"""Columns of the names."""
+_SIZES = {"m": ((1e-3, "mm", 1e3), (0.0, "um", 1e6)), "Pa": ((1e8, "GPa", 1e-9), (1e5, "MPa", 1e-6), (0.0, "Pa", 1.0))}
+"""SI unit -> from which size on, which unit is shown, and the factor."""
+
+
+def print_scene(scene: AbstractScene, console: Console) -> bool:
+    """Prints the fields of a scene, its parts below each other; `False` for a class that no scene file describes, and
+    for a batch of scenes."""
+    model = model_of(scene)
+    rows = [] if model is None else list(_rows(scene, (), model))
+    if not rows or any(text is None for _, text in rows):
+        return False
+    print_line("kind", kind_of(scene), console, _NAMES)
+    table = None
+    for path, text in rows:
+        if path[0] != table and len(path) > 1:
+            print_rule(path[0], console)
+        table = path[0]
+        print_line(".".join(path[1:] or path), text, console, _NAMES)
+    return True
+
+
+def _rows(part: Any, inside: tuple[str, ...], model: type[BaseModel]) -> Iterator[tuple[tuple[str, ...], str | None]]:
+    """Path and text of every field that is given; no text where a number is one of a batch."""
+    for field in dataclasses.fields(part):
+        value, path = getattr(part, field.name), (*inside, field.name)
+        if value is None or (isinstance(value, tuple) and not value):
+            continue
+        if isinstance(value, eqx.Module):
+            # a table of fields, or a law
+            if tables_at(model, path) and _is_table(value, model, path):
+                yield from _rows(value, path, model)
+            else:
+                yield path, type(value).__name__
+            continue
+        kind = type_at(model, path) if is_known(model, path) else None
+        if np.ndim(value) == 0 or isinstance(value, str):
+            yield path, _text(value, kind)
+        elif isinstance(value, tuple):
+            yield path, ", ".join(map(str, value))
+        else:
+            several = kind is not None and parts_of(kind)[0] is not float
+            yield path, f"{np.size(value)} values" if several else None
+
+
+def _is_table(value: eqx.Module, model: type[BaseModel], path: tuple[str, ...]) -> bool:
+    """True if the part has a field of the name that the table at its place has."""
+    return any(is_known(model, (*path, field.name)) for field in dataclasses.fields(value))
+
+
+def _text(value: Any, kind: Any) -> str:
+    if isinstance(value, str | bool | int):
+        return str(value).lower() if isinstance(value, bool) else str(value)
+    number = float(value)
+    dimension = None if kind is None else dimension_of(kind)
+    if dimension is None:
+        return f"{number:.6g}"
+    if dimension.offset_allowed:
+        return f"{number - ZERO_CELSIUS:.6g} degC"
+    sizes = _SIZES.get(dimension.si, ())
+    unit, factor = next(((name, by) for least, name, by in sizes if abs(number) >= least), ("", 0.0))
+    if unit:
+        return f"{number * factor:.6g} {unit}"
+    return f"{displayed(number, dimension.si):.6g} {display_unit(dimension.si)}"

@@ -1,0 +1,141 @@
+"""Every field of a kind of scene file: its unit, what it takes, its default, what it is, from the schemas."""
+
+import dataclasses
+import types
+import typing
+from collections.abc import Iterator
+
+from pydantic import BaseModel, TypeAdapter, ValidationError
+
+from .. import lubricants
+from ..bearings.cage import AbstractCage
+from ..bearings.rating import Rating
+from ..bearings.roller_profile import RollerProfile
+from ..bearings.simulation import Simulation
+from ..materials import Material
+from ..time_laws import Ramp, RotatingLoad, Sinusoidal
+from .fields import tables_at
+from .inputs import described_argument
+from .reader import schema_of_kind
+from .units import Dimension, QuantityValidator
+
+_CLASSES = {
+    "BearingCageTable": AbstractCage,
+    "MaterialTable": Material,
+    "OilTable": lubricants.Lubricant,
+    "PerturbationTable": Sinusoidal,
+    "ProfileTable": RollerProfile,
+    "RampTable": Ramp,
+    "RatingTable": Rating,
+    "RotatingLoadTable": RotatingLoad,
+    "SimulationTable": Simulation,
+}
+"""Tables whose class no field of a scene names. Those of an oil's laws are named after the class."""
+_PLAIN = {"string_type": "text", "bool_type": "true or false", "float_type": "a number", "dict_type": "a table"}
+
+
+@dataclasses.dataclass(frozen=True)
+class Field:
+    """One field of a table of a scene file.
+
+    **Arguments:**
+    - `unit`: of SI, or "".
+    - `expected`: what it takes, in words.
+    - `tables`: those that it takes.
+    - `default`: in words: "required", "optional" (what it stands for is not modelled, computed or assumed), or a value.
+    """
+
+    name: str
+    unit: str
+    expected: str
+    tables: tuple[type[BaseModel], ...]
+    default: str
+    description: str
+
+
+def fields(model: type[BaseModel], owner: type | None) -> Iterator[Field]:
+    """The fields of a table; descriptions are those of `owner`, the class that the table builds."""
+    for name, info in model.model_fields.items():
+        if name in ("sources", "note", "law"):
+            continue
+        annotation = typing.Annotated[info.annotation, *info.metadata] if info.metadata else info.annotation
+        dimension = _dimension(annotation)
+        unit = dimension.si if dimension else ""
+        if info.is_required():
+            default = "required"
+        elif info.default is None:
+            default = "optional"
+        else:
+            default = f"{str(info.default).lower() if isinstance(info.default, bool) else info.default} {unit}".strip()
+        words = name.replace("_", " ")
+        said = described_argument(owner, name) if owner is not None else ""
+        # a field that no class has, or that its class does not explain, is explained by its table
+        said = said if said and said != words else described_argument(model, name)
+        expected, tables = _expected(model, name, annotation, unit)
+        text = " ".join((said.removeprefix(f"{words}: ") or words).split())
+        yield Field(name, unit, expected, tables, default, text)
+
+
+def _dimension(annotation: object) -> Dimension | None:
+    """The unit of a type, or of one of its alternatives."""
+    for part in typing.get_args(annotation):
+        found = part.dimension if isinstance(part, QuantityValidator) else _dimension(part)
+        if found is not None:
+            return found
+    return None
+
+
+def _expected(
+    model: type[BaseModel], name: str, annotation: object, unit: str
+) -> tuple[str, tuple[type[BaseModel], ...]]:
+    """What the field takes, in the words of its own refusal of what is out of its range, and the tables among it."""
+    tables = tuple(one for one in tables_at(model, (name,)) if not one.__name__.startswith("Unknown"))
+    reader = TypeAdapter(annotation)
+    # a value below the range, of the right kind; then what nothing takes
+    for probe in (f"-1 {unit}" if unit else -1, object()):
+        try:
+            reader.validate_python(probe)
+        except ValidationError as error:
+            found = [one.get("ctx", {}).get("expected") or _PLAIN.get(one["type"], "") for one in error.errors()]
+            words = dict.fromkeys(
+                " ".join(text.split()) for text in found if text and "a table with a 'law'" not in text
+            )
+            return " or ".join(words), tables
+    raise ValueError(f"{model.__name__}.{name} takes anything")
+
+
+def tables_of_kind(kind: str) -> Iterator[tuple[str, type[BaseModel], type | None]]:
+    """Dotted path, table and class of every table of a kind of scene, the outer before the inner; alternatives one
+    after the other."""
+    model, scene = schema_of_kind(kind)
+    yield from _inside(model, scene, "")
+
+
+def _inside(
+    model: type[BaseModel], owner: type | None, above: str
+) -> Iterator[tuple[str, type[BaseModel], type | None]]:
+    for name in model.model_fields:
+        for table in tables_at(model, (name,)):
+            if table.__name__.startswith("Unknown"):
+                continue
+            built, path = class_of(owner, name, table), f"{above}{name}"
+            yield path, table, built
+            yield from _inside(table, built, f"{path}.")
+
+
+def class_of(owner: type | None, name: str, table: type[BaseModel]) -> type | None:
+    """The class of the scene that a field of `owner` holds, or that such a table builds."""
+    hint = typing.get_type_hints(owner).get(name) if owner is not None else None
+    classes = [one for one in _classes(hint) if dataclasses.is_dataclass(one)]
+    return classes[0] if classes else class_of_table(table)
+
+
+def class_of_table(table: type[BaseModel]) -> type | None:
+    """The class that a table builds, by the name of the table."""
+    return _CLASSES.get(table.__name__) or getattr(lubricants, table.__name__.removesuffix("Table"), None)
+
+
+def _classes(hint: object) -> list[type]:
+    if typing.get_origin(hint) in (typing.Union, types.UnionType):
+        return [one for part in typing.get_args(hint) for one in _classes(part)]
+    return [hint] if isinstance(hint, type) else []

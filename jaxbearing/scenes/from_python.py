@@ -1,0 +1,56 @@
+"""Scenes and oils from what a program holds: tables of SI numbers or texts with units, names of oils, files."""
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+import jax
+import numpy as np
+
+from .._scene import AbstractScene
+from ..lubricants import Lubricant
+from . import oils
+from .data_files import oil_names
+from .drafts import read_table
+from .oil_files import read_oil
+from .oil_schema import OilTable
+from .reader import scene_from_tables
+from .units import bare_numbers_are_si
+
+
+def scene_from_mapping(mapping: Mapping[str, Any]) -> AbstractScene:
+    """A scene from the tables of a scene file, {"kind": ..., "geometry": {...}, ...}.
+
+    A number of a field with a unit is an SI value here; a text carries its own unit, as in a file. The numbers must be
+    known: in place of traced ones make the scene first, and change it with `replace`.
+
+    **Raises:** `SceneError` with all that is wrong; `TypeError` for something else than a mapping, and for traced
+    numbers.
+    """
+    if not isinstance(mapping, Mapping):
+        raise TypeError(f"scene_from_mapping takes the tables of a scene, got a {type(mapping).__name__}")
+    with bare_numbers_are_si():
+        return scene_from_tables(_plain(mapping, ""), "scene")
+
+
+def load_oil(source: str | Path) -> Lubricant:
+    """An oil of the catalogue by its name, or the oil of a file such as `jaxbearing fit --out` writes.
+
+    **Raises:** `SceneError` for a name that the catalogue does not have, and for a file that is no oil.
+    """
+    if isinstance(source, str) and (source in oil_names() or not source.endswith(".toml")):
+        return oils.load_oil(source)
+    return oils.lubricant(read_table(OilTable, read_oil(str(source)), str(source)))
+
+
+def _plain(value: Any, path: str) -> Any:
+    """The tables with Python's own numbers and lists."""
+    if isinstance(value, Mapping):
+        return {str(key): _plain(inner, f"{path}.{key}".lstrip(".")) for key, inner in value.items()}
+    if isinstance(value, list | tuple):
+        return [_plain(inner, path) for inner in value]
+    if isinstance(value, jax.core.Tracer):
+        raise TypeError(f"{path}: a traced number; make the scene of known numbers first and change it with replace")
+    if isinstance(value, jax.Array | np.ndarray | np.generic):
+        return np.asarray(value).tolist()
+    return str(value) if isinstance(value, Path) else value
