@@ -9,6 +9,7 @@ from typing import Any
 
 import equinox as eqx
 import jax
+from jax.core import Tracer
 
 _RENDERER: list[str] = []
 
@@ -40,4 +41,4 @@ class Shown(eqx.Module):
 
 def _is_one_number(leaf: Any) -> bool:
     """False for what has no value yet, and for what stands for a number (`jax.ShapeDtypeStruct`)."""
-    return not isinstance(leaf, jax.core.Tracer | jax.ShapeDtypeStruct)
+    return not isinstance(leaf, Tracer | jax.ShapeDtypeStruct)

@@ -26,11 +26,12 @@ def print_scene(scene: AbstractScene, console: Console) -> bool:
     for a batch of scenes."""
     model = model_of(scene)
     rows = [] if model is None else list(_rows(scene, (), model))
-    if not rows or any(text is None for _, text in rows):
+    texts = [(path, text) for path, text in rows if text is not None]
+    if not rows or len(texts) < len(rows):
         return False
     print_line("kind", kind_of(scene), console, _NAMES)
     table = None
-    for path, text in rows:
+    for path, text in texts:
         if path[0] != table and len(path) > 1:
             print_rule(path[0], console)
         table = path[0]

@@ -4,6 +4,7 @@ import dataclasses
 import types
 import typing
 from collections.abc import Iterator
+from typing import Any
 
 from pydantic import BaseModel, TypeAdapter, ValidationError
 
@@ -85,9 +86,7 @@ def _dimension(annotation: object) -> Dimension | None:
     return None
 
 
-def _expected(
-    model: type[BaseModel], name: str, annotation: object, unit: str
-) -> tuple[str, tuple[type[BaseModel], ...]]:
+def _expected(model: type[BaseModel], name: str, annotation: Any, unit: str) -> tuple[str, tuple[type[BaseModel], ...]]:
     """What the field takes, in the words of its own refusal of what is out of its range, and the tables among it."""
     tables = tuple(one for one in tables_at(model, (name,)) if not one.__name__.startswith("Unknown"))
     reader = TypeAdapter(annotation)

@@ -6,6 +6,7 @@ from typing import Any
 
 import jax
 import numpy as np
+from jax.core import Tracer
 
 from .._scene import AbstractScene
 from ..lubricants import Lubricant
@@ -49,7 +50,7 @@ def _plain(value: Any, path: str) -> Any:
         return {str(key): _plain(inner, f"{path}.{key}".lstrip(".")) for key, inner in value.items()}
     if isinstance(value, list | tuple):
         return [_plain(inner, path) for inner in value]
-    if isinstance(value, jax.core.Tracer):
+    if isinstance(value, Tracer):
         raise TypeError(f"{path}: a traced number; make the scene of known numbers first and change it with replace")
     if isinstance(value, jax.Array | np.ndarray | np.generic):
         return np.asarray(value).tolist()
