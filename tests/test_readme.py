@@ -1,4 +1,4 @@
-"""The README is true: its Python runs, its table is what the main job gives, its commands are there."""
+"""README and the pages that it leads to are true: their Python runs, their tables are what the commands give."""
 
 import re
 from pathlib import Path
@@ -9,15 +9,34 @@ import jaxbearing as jb
 from fitting import Measurements, fit, read_curves
 from jaxbearing.scenes.data_files import builtin_text
 
-README = (Path(__file__).parents[1] / "README.md").read_text(encoding="utf-8")
+TOP = Path(__file__).parents[1]
+README, USING, INSTALLING, FITTING = (
+    (TOP / name).read_text(encoding="utf-8")
+    for name in ("README.md", "docs/using.md", "docs/installing.md", "docs/fitting.md")
+)
+LONGEST = 700
+"""Words of the README."""
+
+
+def blocks(text, language):
+    return re.findall(rf"```{language}\n(.*?)```", text, flags=re.DOTALL)
 
 
 def test_python_blocks_run(capsys):
-    blocks = re.findall(r"```python\n(.*?)```", README, flags=re.DOTALL)
-    assert blocks
-    for block in blocks:
+    for block in blocks(README, "python"):
         exec(compile(block, "README.md", "exec"), {})
     assert "1389" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize("block", blocks(USING, "python"), ids=range(len(blocks(USING, "python"))))
+def test_python_blocks_of_using_it_run(block, capsys):
+    exec(compile(block, "using.md", "exec"), {})
+    assert capsys.readouterr().out
+
+
+def test_readme_is_short():
+    """What is more stands in docs/."""
+    assert len(README.split()) <= LONGEST
 
 
 def test_power_loss_table_is_ours():
@@ -35,12 +54,12 @@ def test_power_loss_table_is_ours():
 @pytest.mark.slow
 def test_rolling_resistance_adds_what_is_said():
     rolling = jb.load_scene("turbine_roller", {"contact.rolling_resistance": "ertel_grubin"})
-    assert f"{float(jb.solve(rolling).power_loss.total):.0f} W" in README
+    assert f"{float(jb.solve(rolling).power_loss.total):.0f} W" in INSTALLING
 
 
 def test_oil_table_is_a_scene(tmp_path):
-    """The oil of the README in a scene without traction, which would need a rheology."""
-    (block,) = re.findall(r"```toml\n(.*?)```", README, flags=re.DOTALL)
+    """The oil of the page in a scene without traction, which would need a rheology."""
+    (block,) = blocks(USING, "toml")
     text = builtin_text("turbine_roller").replace("[oil]", "[unused]")
     head = text[: text.index("[unused]")]
     rest = re.sub(r"(?m)^traction", "# traction", text[text.index("[contact]") :])
@@ -53,11 +72,10 @@ def test_oil_table_is_a_scene(tmp_path):
 
 
 def test_curve_file_is_read(tmp_path):
-    (block,) = re.findall(r"```csv\n(.*?)```", README, flags=re.DOTALL)
-    assert block in (Path(__file__).parents[1] / "docs" / "fitting.md").read_text(encoding="utf-8")
+    (block,) = blocks(FITTING, "csv")
     file = tmp_path / "curves.csv"
     file.write_text(block, encoding="utf-8")
-    changes = re.findall(r"jaxbearing fit .*? --scene (\w+) --set ([\w.]+)=\"(.*?)\"", README)
+    changes = re.findall(r"jaxbearing fit .*? --scene (\w+) --set ([\w.]+)=\"(.*?)\"", FITTING)
     ((scene, path, value),) = changes
     measured = Measurements.of(read_curves(file), jb.load_scene(scene, {path: value}))
     assert measured.slide_to_roll.tolist() == [0.001, 0.002, 0.005, 0.01, 0.02, 0.05]

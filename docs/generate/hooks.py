@@ -60,8 +60,7 @@ def _list_the_rest(nav, named):
 
 
 def on_page_markdown(markdown, page, config, files):
-    readme = (TOP / "README.md").read_text(encoding="utf-8")
-    return links.with_files(links.of_page(links.with_readme(markdown, readme), page.file.src_uri), TOP / "docs")
+    return links.with_files(links.of_page(markdown, page.file.src_uri), TOP / "docs")
 
 
 def on_page_content(html, page, config, files):

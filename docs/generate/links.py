@@ -1,29 +1,9 @@
-"""Links of files that are read at their place in the repository, as they are on the site; sections of the README."""
+"""Links of files that are read at their place in the repository, as they are on the site."""
 
 import re
 
-_SECTION = re.compile(r"^<!-- README: (.+?) -->$", flags=re.MULTILINE)
 _FILE = re.compile(r"^<!-- FILE: (.+?) -->$", flags=re.MULTILINE)
 _LINK = re.compile(r"\]\(([^)\s:]+?)(#[^)\s]*)?\)")
-
-
-def section(readme, title):
-    """A section of the README without its heading; "" is what stands above the first.
-
-    **Raises:** `KeyError` for a title that is not there.
-    """
-    parts = re.split(r"^## (.+)$", readme, flags=re.MULTILINE)
-    sections = {"": parts[0].partition("\n")[2]} | dict(zip(parts[1::2], parts[2::2], strict=True))
-    return sections[title].strip()
-
-
-def with_readme(markdown, readme):
-    """A page with `<!-- README: title -->` replaced by that section ("top": above the first)."""
-
-    def one(found):
-        return of_top_level(section(readme, "" if found[1] == "top" else found[1]))
-
-    return _SECTION.sub(one, markdown)
 
 
 def with_files(markdown, folder):

@@ -69,16 +69,16 @@ ONCE = once(COMMANDS)
 
 
 def test_commands_are_found():
-    assert len(COMMANDS["README.md"]) > 20
+    assert len(COMMANDS["README.md"]) > 4
     assert ["solve", "misaligned.toml"] in COMMANDS["docs/life.md"]
-    assert sum(map(len, COMMANDS.values())) > 35
+    assert sum(map(len, COMMANDS.values())) > 50
 
 
 @pytest.fixture
 def folder(tmp_path, monkeypatch):
     """Where a reader works, with the files that the pages show or describe."""
-    readme, life = (ROOT / name for name in ("README.md", "docs/life.md"))
-    (curves,) = re.findall(r"```csv\n(.*?)```", readme.read_text(encoding="utf-8"), flags=re.DOTALL)
+    fitting, life = (ROOT / name for name in ("docs/fitting.md", "docs/life.md"))
+    (curves,) = re.findall(r"```csv\n(.*?)```", fitting.read_text(encoding="utf-8"), flags=re.DOTALL)
     (scene,) = re.findall(r"```toml\n(.*?)```", life.read_text(encoding="utf-8"), flags=re.DOTALL)
     files = {
         "curves.csv": curves,

@@ -57,15 +57,6 @@ def test_fields_that_a_page_names_exist(path):
             assert any(is_known(model, names) for model in models), field
 
 
-@each_page
-def test_sections_of_the_readme_exist(path):
-    readme = (TOP / "README.md").read_text(encoding="utf-8")
-    text = path.read_text(encoding="utf-8")
-    made = links.with_readme(text, readme)
-    assert "<!-- README" not in made
-    assert len(made) > len(text) or made == text
-
-
 def test_links_of_the_readme_become_pages():
     text = "[a](docs/claims.md) [b](CHANGELOG.md) [c](https://x.org/docs/a.md) [d](notebooks/rheology.ipynb)"
     expected = "[a](claims.md) [b](changelog.md) [c](https://x.org/docs/a.md) [d](notebooks/rheology.md)"
@@ -114,7 +105,7 @@ def test_every_field_of_every_kind_has_a_line():
         for _, table in scene_pages._below(model):
             for field in scene_pages.fields(table, None):
                 assert f"| `{field.name}` | {field.unit} |" in page
-                assert field.expected
+                assert field.expected or field.tables
 
 
 def test_page_of_results_has_every_labelled_class():
