@@ -10,7 +10,7 @@ import numpy as np
 
 from jaxbearing.lubricants.ranges import FITTED_PRESSURE
 from jaxbearing.machines import TwoDisk
-from jaxbearing.numerics.garbage import collecting_rarely
+from jaxbearing.numerics.garbage import rare_garbage_collection
 
 from .estimation import Estimate, Problem, linearized
 from .identifiability import confounded, elastic_conditions, implausible, in_words, not_determined, viscous_only
@@ -40,7 +40,7 @@ EXACT = 1e-6
 """Residual, in assumed standard deviations, that is no residual at all."""
 
 
-@collecting_rarely()
+@rare_garbage_collection()
 def fit(measurements: Measurements, scene: TwoDisk, options: FitOptions | None = None) -> FitResult:
     """Shear modulus and characteristic stress of the scene's oil from measured traction curves.
 

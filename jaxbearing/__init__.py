@@ -13,7 +13,7 @@ import importlib
 import os
 from typing import TYPE_CHECKING, Any
 
-from .numerics.garbage import collecting_rarely
+from .numerics.garbage import rare_garbage_collection
 from .numerics.interrupts import end_command_at_interrupt, is_the_command
 from .numerics.quiet import silence_compiler
 
@@ -23,7 +23,7 @@ if is_the_command():
     # statuses say what went wrong: a program that calls Python to raise an error of its own could not be kept
     os.environ.setdefault("EQX_ON_ERROR", "nan")
 
-with collecting_rarely():
+with rare_garbage_collection():
     import jax
 
     jax.config.update("jax_enable_x64", True)

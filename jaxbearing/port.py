@@ -25,7 +25,7 @@ from .bearings.tapered_roller import TaperedRollerBearing
 from .numerics.arguments import require_choice, require_numbers
 from .numerics.checks import void
 from .numerics.compiling import inside_a_program
-from .numerics.garbage import collecting_rarely
+from .numerics.garbage import rare_garbage_collection
 from .numerics.newton import NewtonOptions
 from .numerics.precision import as_float, require_x64
 from .numerics.quiet import quiet_first_time
@@ -137,7 +137,7 @@ def _five(displacement: Any) -> Array | np.ndarray:
     return jnp.stack(numbers) if any(isinstance(one, jax.Array) for one in numbers) else np.stack(numbers)
 
 
-@collecting_rarely()
+@rare_garbage_collection()
 def _react_any(
     scene: Bearing,
     displacement: Float[Array, "5"],

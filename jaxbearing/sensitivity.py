@@ -13,7 +13,7 @@ from ._scene import AbstractScene
 from .bearings.solution import Solution
 from .ehl import LineContactSolution
 from .machines import TwoDiskSolution
-from .numerics.garbage import collecting_rarely
+from .numerics.garbage import rare_garbage_collection
 from .numerics.newton import NewtonOptions
 from .numerics.precision import as_float, require_x64
 from .programs import KeptProgram
@@ -73,7 +73,7 @@ def sensitivities_once(scene: AbstractScene) -> tuple[Any, Sensitivities]:
     return _run(scene, False, NewtonOptions(), _once)
 
 
-@collecting_rarely()
+@rare_garbage_collection()
 def _run(scene: AbstractScene, throw: bool, options: NewtonOptions, function: Any) -> tuple[Any, Sensitivities]:
     require_x64()
     steady_function(scene)

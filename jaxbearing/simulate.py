@@ -13,7 +13,7 @@ from .ehl import EHLLineContact, FilmSimulation, FilmState, LineContactHistory, 
 from .ehl import check_restart as check_film_restart
 from .numerics.arguments import require_choice, require_outside
 from .numerics.checks import check_inputs
-from .numerics.garbage import collecting_rarely
+from .numerics.garbage import rare_garbage_collection
 from .numerics.precision import require_x64
 from .numerics.structure import static_number
 
@@ -43,7 +43,7 @@ def simulate(
     progress: Progress | None = None,
     restart: History | LastState | None = None,
 ) -> History: ...
-@collecting_rarely()
+@rare_garbage_collection()
 def simulate(
     scene: Any,
     duration: float | None = None,
@@ -154,7 +154,7 @@ def _run_film(
     return history
 
 
-@collecting_rarely()
+@rare_garbage_collection()
 def simulate_batch(
     scene: CylindricalRollerBearing,
     duration: float,

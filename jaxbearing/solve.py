@@ -27,7 +27,7 @@ from .life.bearing_life import with_life
 from .machines import TwoDisk, TwoDiskSolution, solve_two_disk
 from .numerics.checks import check_inputs, gate, void
 from .numerics.compiling import inside_a_program
-from .numerics.garbage import collecting_rarely
+from .numerics.garbage import rare_garbage_collection
 from .numerics.newton import NewtonOptions
 from .numerics.precision import as_float, require_x64
 from .numerics.quiet import compiling_quietly, quiet_first_time
@@ -59,7 +59,7 @@ def steady_function(scene: AbstractScene) -> Callable[..., Any]:
         raise TypeError(f"cannot solve a {type(scene).__name__}; solve takes: {known}") from None
 
 
-@collecting_rarely()  # its body runs where it is traced
+@rare_garbage_collection()  # its body runs where it is traced
 def _solve_any(scene: AbstractScene, options: NewtonOptions) -> Any:
     """The whole way from a scene to its solution."""
     return with_checked_inputs(scene, lambda lane: with_life(lane, steady_function(scene)(lane, options)))

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from ._scene import AbstractScene
 from .numerics.arguments import require_outside
-from .numerics.garbage import collecting_rarely
+from .numerics.garbage import rare_garbage_collection
 from .numerics.newton import NewtonOptions
 from .numerics.precision import require_x64
 
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from .sweeps import Cases
 
 
-@collecting_rarely()
+@rare_garbage_collection()
 def sweep(
     scene: AbstractScene,
     over: "Mapping[str, Any] | Cases",

@@ -56,7 +56,7 @@ _FLAGS = (
 
 def pytest_configure():
     """Most of the time of the tests is spent in XLA: on a CPU they compile quickly, but for those that ask for
-    `optimized`. Tracing comes next, a third of it Python's collector of garbage (`collecting_rarely`)."""
+    `optimized`. Tracing comes next, a third of it Python's collector of garbage (`rare_garbage_collection`)."""
     gc.freeze()
     gc.set_threshold(*RARELY)
     if os.environ["JAX_PLATFORMS"] != "cpu":

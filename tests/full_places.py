@@ -59,14 +59,14 @@ def no_room(kind, folder, monkeypatch):
         finally:
             subprocess.run(["umount", "-l", str(folder)], check=True)
         return
-    whole = files.appearing_whole
+    whole = files.atomic_file
 
     @contextlib.contextmanager
-    def appearing_whole(path):
+    def atomic_file(path):
         with whole(path) as temporary, limited():
             yield temporary
 
-    monkeypatch.setattr(files, "appearing_whole", appearing_whole)
+    monkeypatch.setattr(files, "atomic_file", atomic_file)
     folder.mkdir(exist_ok=True)
     yield
 

@@ -23,7 +23,7 @@ class Springs(AbstractArrowSystem):
         return ArrowPoint(jnp.full((self.m, self.stiffness.shape[0]), 0.3), jnp.full(self.load.shape, 0.4))
 
     @property
-    def further_sums(self):
+    def extra_totals(self):
         return 2 - self.load.shape[0]
 
     def element(self, unknowns, shared):
@@ -33,7 +33,7 @@ class Springs(AbstractArrowSystem):
         own = jnp.sum(unknowns, axis=0) if self.m else jnp.zeros_like(pull)
         return local, jnp.stack([pull + own + pull**3, own * pull]), jnp.zeros(())
 
-    def closure(self, globals_, totals):
+    def global_residual(self, globals_, totals):
         other = jnp.flip(globals_)
         weights = jnp.arange(1.0, 1.0 + globals_.shape[0])
         residual = globals_ * (weights + totals[1] ** 2) + 0.3 * other + totals[0] - self.load

@@ -85,13 +85,13 @@ class BallState(NamedTuple):
 class BallCore(AbstractBallSystem):
     """Balls that roll without sliding, with the attitude of outer or inner race control.
 
-    Its iteration begins at `guess`, and in an eased system (`ease` > 0) at `heavy_guess` (`started`); where these are
-    `None`, at estimates by formulas.
+    Its iteration begins at `guess`, and in an easier system (`parameter` > 0 of `homotopy`) at `heavy_guess`
+    (`started`); where these are `None`, at estimates by formulas.
     """
 
     guess: ArrowPoint | None = None
     heavy_guess: ArrowPoint | None = None
-    ease: Float[Array, ""] | None = None
+    parameter: Float[Array, ""] | None = None
     common_orbit: bool = eqx.field(static=True, default=False)
 
     # -- scales ---------------------------------------------------------------------------------------------------
@@ -151,9 +151,9 @@ class BallCore(AbstractBallSystem):
 
     def initial(self) -> ArrowPoint:
         guess, heavy = self.guesses()
-        if self.ease is None:
+        if self.parameter is None:
             return guess
-        return ArrowPoint(*(jnp.where(self.ease == 0.0, x, y) for x, y in zip(guess, heavy, strict=True)))
+        return ArrowPoint(*(jnp.where(self.parameter == 0.0, x, y) for x, y in zip(guess, heavy, strict=True)))
 
     def started(self) -> tuple["BallCore", Int[Array, ""]]:
         """These equations with the minimum of the convex problem as first guess, and the Newton steps to that."""
@@ -229,14 +229,14 @@ class BallCore(AbstractBallSystem):
         return centre + self.inner_arm(shift, centre).in_plane
 
     @property
-    def side_by_side(self) -> bool:
+    def lanes_together(self) -> bool:
         return True
 
     @property
-    def paths(self) -> int:
+    def homotopies(self) -> int:
         return 1 if self.gyroscopic is None else 2
 
-    def eased(self, ease, path):
+    def homotopy(self, parameter, path):
         """More load: the inner contacts of a fast, lightly loaded bearing are nearly lost; or less of the couple."""
         ratio = self.heavier
         guess, heavy = self.guesses()
@@ -244,18 +244,18 @@ class BallCore(AbstractBallSystem):
         if self.gyroscopic is not None:
             ratio = jnp.where(path == 0, ratio, 1.0)
             heavy = jax.tree.map(lambda a, b: jnp.where(path == 0, a, b), heavy, guess)
-            share = share * jnp.where(path == 0, 1.0, 1.0 - ease)
+            share = share * jnp.where(path == 0, 1.0, 1.0 - parameter)
         return dataclasses.replace(
             self,
-            ring=self.ring.under(self.ring.load * ratio**ease),
+            ring=self.ring.under(self.ring.load * ratio**parameter),
             couple_share=share,
             guess=guess,
             heavy_guess=heavy,
-            ease=ease,
+            parameter=parameter,
         )
 
     @property
-    def further_sums(self) -> int:
+    def extra_totals(self) -> int:
         # weighted speeds and weights
         return 1 if self.common_orbit else 0
 
@@ -267,7 +267,7 @@ class BallCore(AbstractBallSystem):
             totals = jnp.concatenate([totals, self.multiplicity * speeds])
         return state.balance / self.ball_scale(), totals, jnp.zeros(())
 
-    def closure(self, globals_, totals):
+    def global_residual(self, globals_, totals):
         d = len(self.freedoms)
         rows = (totals[:d] - self.ring.load) / self.load_scale()
         if self.common_orbit:

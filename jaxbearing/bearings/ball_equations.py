@@ -166,13 +166,13 @@ class LubricatedBallSystem(AbstractBallSystem):
     common_orbit: bool = eqx.field(static=True, default=False)
     """True if balls that roll without sliding have one orbital speed."""
     slide_share: Scalar = eqx.field(converter=as_float, default=1.0)
-    """Part of the sliding that the traction law sees: 1, less in an eased system."""
+    """Part of the sliding that the traction law sees: 1, less in an easier system."""
     heavy_guess: BallGuess | None = None
     """The easiest system starts here; only balls that do not slide have it."""
     heavier: Float[Array, ""] | None = None
     """The easiest load over the load on the ring."""
     film_share: Scalar = eqx.field(converter=as_float, default=1.0)
-    """Part of the films that keeps the surfaces apart: 1, less in an eased system."""
+    """Part of the films that keeps the surfaces apart: 1, less in an easier system."""
 
     # -- structure ------------------------------------------------------------------------------------------------
 
@@ -277,7 +277,7 @@ class LubricatedBallSystem(AbstractBallSystem):
         return ArrowPoint(elements, ring)
 
     @property
-    def rising(self) -> bool:
+    def increasing(self) -> bool:
         """Not where a ball has nearly lost its inner race."""
         return False
 
@@ -287,26 +287,26 @@ class LubricatedBallSystem(AbstractBallSystem):
         return 100.0
 
     @property
-    def paths(self) -> int:
+    def homotopies(self) -> int:
         return 2 if self.resolved or self.heavier is not None else 1
 
-    def eased(self, ease, path):
+    def homotopy(self, parameter, path):
         """Slower sliding in the traction law, which then saturates less; first, where traction has to carry the
         gyroscopic couple, a part of that. Without traction more load first, as much as makes contacts stiffer than
         films, and then thinner films: the lightest balls hang in films far thicker than their contacts give."""
         if self.heavier is not None:
-            of_load, of_films = jnp.where(path == 0, ease, 0.0), jnp.where(path == 0, 0.0, ease)
+            of_load, of_films = jnp.where(path == 0, parameter, 0.0), jnp.where(path == 0, 0.0, parameter)
             guess = jax.tree.map(lambda a, b: jnp.where(of_load > 0, a, b), self.heavy_guess, self.guess)
             ring = self.ring.under(self.ring.load * self.heavier**of_load)
             return dataclasses.replace(self, ring=ring, film_share=THINNEST_FILM**of_films, guess=guess)
-        slide = EASIEST_SLIDE**ease
+        slide = EASIEST_SLIDE**parameter
         if not self.resolved:
             return dataclasses.replace(self, slide_share=slide)
-        couple = self.couple_share * jnp.where(path == 0, 1.0 - ease, 1.0)
+        couple = self.couple_share * jnp.where(path == 0, 1.0 - parameter, 1.0)
         return dataclasses.replace(self, couple_share=couple, slide_share=jnp.where(path == 0, 1.0, slide))
 
     @property
-    def further_sums(self) -> int:
+    def extra_totals(self) -> int:
         # moment on the cage, and two components of the force for one global; weighted speeds and weights
         return 1 if self.common_orbit else 0 if self.cage is None else 2
 
@@ -321,7 +321,7 @@ class LubricatedBallSystem(AbstractBallSystem):
         local = jnp.concatenate([state.fit, *(row[None, :] for row in state.rows)])
         return local, jnp.concatenate(totals), jnp.maximum(jnp.max(state.film.residual), state.orbit_residual)
 
-    def closure(self, globals_, totals):
+    def global_residual(self, globals_, totals):
         d = len(self.freedoms)
         ring = (totals[:d] - self.ring.load) / self.load_scale()
         if self.common_orbit:

@@ -93,7 +93,7 @@ class AbstractBallSystem(AbstractArrowSystem):
     inertia: Float[Array, ""]
     gyroscopic: AbstractGyroscopic | None
     couple_share: Float[Array, ""]
-    """Part of the gyroscopic couple that acts: 1, less in an eased system."""
+    """Part of the gyroscopic couple that acts: 1, less in an easier system."""
     multiplicity: int = eqx.field(static=True)
     """Balls that each ball stands for."""
     attitude: Attitude = eqx.field(static=True)

@@ -351,7 +351,7 @@ class RollerDynamics(eqx.Module):
         now = self.at(time, state, guess, tolerance)
         motion, (_, v, _), cage = now.motion, *self.unscaled(state)[:2]
         acceleration = now.tangential / self.system.roller_mass
-        hurry = motion.pitch_radius * self.frame(time)[2]
+        frame_acceleration = motion.pitch_radius * self.frame(time)[2]
         spinning = motion.roller_radius * (acceleration / motion.pitch_radius - now.moment / self.roller_inertia)
         if self.cage_mass is None or self.cage_inertia is None:
             # no cage: its states are frozen
@@ -359,9 +359,9 @@ class RollerDynamics(eqx.Module):
         else:
             linear = now.cage_force / self.cage_mass
             angular = motion.pitch_radius * now.cage_moment / self.cage_inertia
-            moving = jnp.concatenate([cage[3:], linear, (angular - hurry)[None]])
+            moving = jnp.concatenate([cage[3:], linear, (angular - frame_acceleration)[None]])
         works = self.powers(time, now) / self.work_unit
-        rollers = jnp.stack([v, acceleration - hurry, spinning]) / jnp.asarray(ROLLER_UNITS)[:, None]
+        rollers = jnp.stack([v, acceleration - frame_acceleration, spinning]) / jnp.asarray(ROLLER_UNITS)[:, None]
         rates = ArrowPoint(rollers, jnp.concatenate([moving / jnp.asarray(CAGE_UNITS), works]))
         good = now.distribution.residual < LOAD_FAILURE * LOAD_TOLERANCE * jnp.sqrt(tolerance)
         return jax.tree.map(lambda rate: jnp.where(good, rate, jnp.nan), rates), loads.smoothed(now.distribution.point)

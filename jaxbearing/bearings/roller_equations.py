@@ -192,24 +192,24 @@ class LubricatedRollerSystem(_InPlane):
         return ArrowPoint(jnp.stack([log_load, jnp.zeros(n)]), jnp.concatenate([ring, jnp.zeros(1)]))
 
     @property
-    def paths(self) -> int:
+    def homotopies(self) -> int:
         return 0 if self.cage is None else 2
 
-    def eased(self, ease, path):
+    def homotopy(self, parameter, path):
         """Path 0, more entrainment in every contact: where a ring and the cage nearly turn together a film collapses,
         and the friction of a roller falls with its slip; entrainment from outside makes it grow again. Path 1, more
         load: it pins the rollers to rolling without slip."""
         extra = EASED_ENTRAINMENT * jnp.abs(self.kinematics.orbit_scale) * self.kinematics.outer_radius
-        offset = self.laws.entrainment_offset + jnp.where(path == 0, ease**3 * extra, 0.0)
+        offset = self.laws.entrainment_offset + jnp.where(path == 0, parameter**3 * extra, 0.0)
         contact = jax.tree.map(lambda values: per_race(values)[0], self.contact)
         per_roller = 2.0 * jnp.pi * EASED_PRESSURE**2 * contact.reduced_radius * contact.length
         heavy = per_roller / contact.reduced_modulus * self.azimuth.shape[0] / 4.0
-        factor = jnp.where(path == 1, jnp.maximum(heavy / self.load_scale(), 1.0) ** ease, 1.0)
+        factor = jnp.where(path == 1, jnp.maximum(heavy / self.load_scale(), 1.0) ** parameter, 1.0)
         where = lambda system: (system.ring.load, system.laws.entrainment_offset)
         return eqx.tree_at(where, self, (self.ring.load * factor, offset))
 
     @property
-    def further_sums(self) -> int:
+    def extra_totals(self) -> int:
         # moment on the cage, and two components of the force for one global
         return 0 if self.cage is None else 2
 
@@ -222,7 +222,7 @@ class LubricatedRollerSystem(_InPlane):
         contributions = jnp.concatenate([balance, state.cage_moment[None, :], state.cage_force])
         return local, contributions, state.contact.inner_residual
 
-    def closure(self, globals_, totals):
+    def global_residual(self, globals_, totals):
         d = self.directions.shape[0]
         ring = (totals[:d] - self.ring.load) / self.load_scale()
         if self.cage is None:
@@ -386,5 +386,5 @@ class DryRollerSystem(_InPlane):
         load, inner = self.loads(self.inward(shared))
         return unknowns, load[0][None, :] * self.directions, inner
 
-    def closure(self, globals_, totals):
+    def global_residual(self, globals_, totals):
         return (totals - self.ring.load) / self.load_scale(), jnp.zeros(())

@@ -45,7 +45,7 @@ class RollerForces(NamedTuple):
     drag_force: Float[Array, " roller"] | None
 
 
-def rolling_lean(contact: LineContact, motion: RollerKinematics) -> Float[Array, "2"]:
+def rolling_force_factor(contact: LineContact, motion: RollerKinematics) -> Float[Array, "2"]:
     """Tangential force on a roller by its rolling resistance, over it, per race: R_reduced/R_R - 1/2."""
     return per_race(contact.reduced_radius) / motion.roller_radius - 0.5
 
@@ -73,7 +73,7 @@ def forces_without_pocket(
             moment = moment + end.moment
     rolling = state.rolling_force
     if rolling is not None:
-        lean = rolling_lean(contact, motion)
+        lean = rolling_force_factor(contact, motion)
         tangential = tangential + rolling[0] * lean[0] - rolling[1] * lean[1]
         moment = moment + 0.5 * motion.roller_radius * (rolling[0] + rolling[1])
     drag = None
@@ -142,11 +142,11 @@ def rolling_alone(
     r"""Power and ring torques of rollers that roll without sliding against their rolling resistances R, N.
 
     The tractions that balance each roller do no work: $T_i + T_o = (R_i + R_o)/2$ (moment), $T_i - T_o = \lambda_oR_o -
-    \lambda_iR_i$ (tangential force), $\lambda$ as in `rolling_lean`.
+    \lambda_iR_i$ (tangential force), $\lambda$ as in `rolling_force_factor`.
     """
     if rolling is None:
         return RollingAlone(PowerLoss(), None, None, None)
-    lean = rolling_lean(contact, motion)
+    lean = rolling_force_factor(contact, motion)
     total = 0.5 * (rolling[0] + rolling[1])
     difference = lean[1] * rolling[1] - lean[0] * rolling[0]
     traction = 0.5 * jnp.stack([total + difference, total - difference])

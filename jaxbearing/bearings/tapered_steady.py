@@ -40,11 +40,11 @@ def solve_tapered(scene: TaperedRollerBearing, options: NewtonOptions, ring: Inn
     equilibrium, is still pushed on at a tilt of 0.1 rad, or at a displacement of the apex distance
     (`numerics.convex.find_minimum`).
     """
-    posed = build_tapered(scene, ring)
-    sliding = slides_out(scene, posed.inertia) | tips_over(scene) if _bounded(scene, ring) else jnp.asarray(False)
+    asked = build_tapered(scene, ring)
+    sliding = slides_out(scene, asked.inertia) | tips_over(scene) if _bounded(scene, ring) else jnp.asarray(False)
     # what has no equilibrium is not looked for: in its place a few steps to one that is finite, with its derivatives
-    easy = jnp.where(sliding, _axial_only(posed), posed.ring.load)
-    started, minimum = dataclasses.replace(posed, ring=posed.ring.under(easy)).started(sliding)
+    easy = jnp.where(sliding, _axial_only(asked), asked.ring.load)
+    started, minimum = dataclasses.replace(asked, ring=asked.ring.under(easy)).started(sliding)
     system, result = newton_solve(started, options)
     none = sliding | (~result.converged & minimum.outside)
     result = result._replace(status=jnp.where(none, int(Status.NO_EQUILIBRIUM), result.status))
@@ -59,7 +59,7 @@ def solve_tapered(scene: TaperedRollerBearing, options: NewtonOptions, ring: Inn
         _results(scene, system, result, friction),
         system.ring.displacement(result.point.globals),
         _port(scene, system, result),
-        reasons=_reasons(scene, posed.inertia) if _bounded(scene, ring) else {},
+        reasons=_reasons(scene, asked.inertia) if _bounded(scene, ring) else {},
         iterations=jnp.where(sliding, 0, minimum.steps + result.iterations),
         ring_freedom=scene.shown_freedoms if ring is None else RING_FREEDOMS,
         stiffness_freedom=RING_FREEDOMS,

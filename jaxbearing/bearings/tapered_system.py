@@ -110,7 +110,7 @@ class TaperedSystem(AbstractConvexArrow):
     ring: InnerRing
     guess: ArrowPoint | None
     seated: ArrowPoint | None
-    """First guess at full ease."""
+    """First guess at parameter 1 of the homotopy."""
     multiplicity: int = eqx.field(static=True)
 
     @property
@@ -175,7 +175,7 @@ class TaperedSystem(AbstractConvexArrow):
         totals = self.multiplicity * jnp.einsum("fcn,cn->fn", self.columns, self.ring_force(state))
         return balance / self.roller_scale(), totals, jnp.zeros(())
 
-    def closure(self, globals_, totals):
+    def global_residual(self, globals_, totals):
         held = anchored(globals_, ANCHOR * LENGTH_UNIT)
         return (totals - self.ring.load + held) / self.load_scale(), jnp.zeros(())
 
@@ -194,17 +194,17 @@ class TaperedSystem(AbstractConvexArrow):
         return LENGTH_UNIT * jnp.sum(self.ring.load * globals_)
 
     @property
-    def paths(self) -> int:
+    def homotopies(self) -> int:
         return 0 if self.seated is None else 1
 
-    def eased(self, ease, path):
+    def homotopy(self, parameter, path):
         """More inertia, where there is some: it brings the rollers that carry nothing to their places."""
         del path
         guess = None
         if self.guess is not None and self.seated is not None:
-            guess = jax.tree.map(lambda own, other: jnp.where(ease < 1.0, own, other), self.guess, self.seated)
+            guess = jax.tree.map(lambda own, other: jnp.where(parameter < 1.0, own, other), self.guess, self.seated)
         force = self.inertia.force
-        factor = jnp.maximum(self._slowness(), 1.0) ** ease
+        factor = jnp.maximum(self._slowness(), 1.0) ** parameter
         inertia = self.inertia._replace(force=force * factor, moment=self.inertia.moment * factor)
         return dataclasses.replace(self, inertia=inertia, guess=guess)
 
@@ -285,14 +285,14 @@ class TaperedSystem(AbstractConvexArrow):
 
 def _minima(given: tuple[TaperedSystem, Bool[Array, ""]]) -> Minimum:
     """Finds the minima of a system and of the one with more inertia, along a first axis."""
-    posed, hopeless = given
-    start = posed.initial()
+    system, hopeless = given
+    start = system.initial()
     nothing = Minimum(start, jnp.asarray(0), jnp.asarray(False))
 
-    def search(ease: Array) -> Minimum:
+    def search(parameter: Array) -> Minimum:
         # where it is fast enough the second one is the first
-        there = dataclasses.replace(posed.eased(ease, jnp.asarray(0)), guess=start)
+        there = dataclasses.replace(system.homotopy(parameter, jnp.asarray(0)), guess=start)
         find = lambda: find_minimum(there, tolerance=START_TOLERANCE, hopeless=hopeless)
-        return jax.lax.cond((ease > 0.0) & ((posed._slowness() <= 1.0) | hopeless), lambda: nothing, find)
+        return jax.lax.cond((parameter > 0.0) & ((system._slowness() <= 1.0) | hopeless), lambda: nothing, find)
 
     return jax.lax.map(search, jnp.asarray([0.0, 1.0]))

@@ -105,7 +105,7 @@ class TiltingRollers(AbstractConvexArrow):
         totals = jnp.einsum("fcn,cn->fn", self.columns, self.ring_force(state))
         return balance / self.roller_scale(), totals, jnp.zeros(())
 
-    def closure(self, globals_, totals):
+    def global_residual(self, globals_, totals):
         held = anchored(globals_, ANCHOR * LENGTH_UNIT)
         return (totals - self.ring.load + held) / self.load_scale(), jnp.zeros(())
 
@@ -170,21 +170,21 @@ class TiltingRollers(AbstractConvexArrow):
         return jnp.stack([state.load[0], state.moment[0] - 0.5 * self.line.length * state.load[0]])
 
 
-def _minimum(posed: TiltingRollers) -> Minimum:
+def _minimum(system: TiltingRollers) -> Minimum:
     """Finds the minimum that `TiltingRollers.started` begins with."""
-    slow = posed.centrifugal < SLOW * posed.load_scale() / posed.azimuth.size
-    resting = dataclasses.replace(posed, centrifugal=jnp.where(slow, 0.0, posed.centrifugal))
+    slow = system.centrifugal < SLOW * system.load_scale() / system.azimuth.size
+    resting = dataclasses.replace(system, centrifugal=jnp.where(slow, 0.0, system.centrifugal))
 
     def search(carry: tuple[ArrowPoint, Array], centrifugal: Array) -> tuple[tuple[ArrowPoint, Array], Minimum]:
         guess, steps = carry
         found = find_minimum(
-            dataclasses.replace(posed, guess=guess, centrifugal=centrifugal), tolerance=START_TOLERANCE
+            dataclasses.replace(system, guess=guess, centrifugal=centrifugal), tolerance=START_TOLERANCE
         )
-        seated = posed.seated(found.point)
+        seated = system.seated(found.point)
         guess = ArrowPoint(*(jnp.where(slow, new, old) for new, old in zip(seated, found.point, strict=True)))
         return (guess, steps + found.steps), found
 
     first = (resting.initial(), jnp.asarray(0))
-    both = jnp.stack([resting.centrifugal, posed.centrifugal])
+    both = jnp.stack([resting.centrifugal, system.centrifugal])
     (_, steps), founds = jax.lax.scan(search, first, both)
     return jax.tree.map(lambda leaf: leaf[-1], founds)._replace(steps=steps)

@@ -11,7 +11,7 @@ from typing import Annotated, Any
 
 import typer
 
-from ..numerics.garbage import collecting_rarely
+from ..numerics.garbage import rare_garbage_collection
 from .fields_verb import fields
 from .fit_verb import fit
 from .interrupt import prompt_interrupt, tell
@@ -60,7 +60,7 @@ def _run() -> int:
         sys.stdout.reconfigure(errors="replace")
     only_news()
     try:
-        with collecting_rarely():
+        with rare_garbage_collection():
             code = app(standalone_mode=False)
         sys.stdout.flush()
         if code == INTERRUPTED:

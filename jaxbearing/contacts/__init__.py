@@ -13,6 +13,7 @@ from .film import MartinBlend as MartinBlend
 from .film import Moes as Moes
 from .film import PanHamrockCentral as PanHamrockCentral
 from .film import PanHamrockMinimum as PanHamrockMinimum
+from .heated_film import heated_film as heated_film
 from .heating import FilmHeating as FilmHeating
 from .limits import deborah_number as deborah_number
 from .limits import elastic_slope as elastic_slope
@@ -60,4 +61,3 @@ from .viscous import GecimWiner as GecimWiner
 from .viscous import ReeEyring as ReeEyring
 from .viscous import viscous_function as viscous_function
 from .viscous import viscous_function_for as viscous_function_for
-from .warm_film import warm_film as warm_film

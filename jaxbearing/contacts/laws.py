@@ -11,11 +11,11 @@ from ..numerics.checks import Checked, bounded
 from ..numerics.precision import as_float
 from ..numerics.safe import smooth_abs
 from .film import AbstractLineFilm
+from .heated_film import HeatedFilm, heated_film
 from .line import LineContact
 from .rolling import AbstractRollingResistance
 from .thermal import AbstractThermalFactor, NoThermalReduction
 from .traction import AbstractTraction
-from .warm_film import WarmFilm, warm_film
 
 SPEED_SMOOTHING = 5e-7
 """Smoothing of the mean surface speed's modulus, m/s: relative error < 1e-12 above 0.5 m/s."""
@@ -62,7 +62,7 @@ class ContactLaws(Checked):
         """Entrainment speed of the film, m/s, > 0. **Arguments:** `mean_speed` (u1 + u2)/2, m/s, of either sign."""
         return smooth_abs(mean_speed, self.entrainment_smoothing) + self.entrainment_offset
 
-    def warm_film(
+    def heated_film(
         self,
         contact: LineContact,
         load: Values,
@@ -70,10 +70,10 @@ class ContactLaws(Checked):
         sliding_speed: Values,
         lubricant: Lubricant,
         inlet: InletOil,
-    ) -> WarmFilm:
+    ) -> HeatedFilm:
         """The film alone; arguments as in `evaluate`."""
         speed = self.entrainment(mean_speed)
-        return warm_film(self.film, self.thermal, contact, load, speed, sliding_speed, lubricant, inlet)
+        return heated_film(self.film, self.thermal, contact, load, speed, sliding_speed, lubricant, inlet)
 
     def evaluate(
         self,
@@ -94,7 +94,7 @@ class ContactLaws(Checked):
         `inlet` = `lubricant.at(inlet temperature)`, evaluated once for all contacts.
         """
         speed = self.entrainment(mean_speed)
-        found = self.warm_film(contact, load, mean_speed, sliding_speed, lubricant, inlet)
+        found = self.heated_film(contact, load, mean_speed, sliding_speed, lubricant, inlet)
         base, base_viscosity = inlet.temperature, inlet.viscosity
         if found.rise is not None:
             base = inlet.temperature + found.rise

@@ -11,6 +11,7 @@ from ..lubricants import InletOil, Lubricant
 from ..numerics.safe import smooth_abs
 from ..numerics.structure import switch
 from .distributed import DistributedTraction, Traction
+from .heated_film import heated_film
 from .laws import SPEED_SMOOTHING
 from .patch import contact_patch
 from .point import PointContact
@@ -18,7 +19,6 @@ from .point_film import AbstractPointFilm
 from .rolling import point_rolling_moment
 from .shear import Sliding
 from .thermal import AbstractThermalFactor, NoThermalReduction
-from .warm_film import warm_film
 
 
 class PointFilm(NamedTuple):
@@ -65,7 +65,7 @@ class PointLaws(eqx.Module):
     ) -> PointFilm:
         """**Arguments:** `load`, N, > 0; `mean_speed` and `sliding_speed` along rolling, m/s, of either sign."""
         speed = smooth_abs(mean_speed, SPEED_SMOOTHING)
-        found = warm_film(self.film, self.thermal, contact, load, speed, sliding_speed, lubricant, inlet)
+        found = heated_film(self.film, self.thermal, contact, load, speed, sliding_speed, lubricant, inlet)
         temperature = inlet.temperature + (jnp.zeros_like(found.log_thickness) if found.rise is None else found.rise)
         viscosity = lubricant.viscosity.viscosity(0.0, temperature)
         return PointFilm(jnp.exp(found.log_thickness), temperature, found.rise, viscosity, found.residual)

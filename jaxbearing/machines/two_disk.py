@@ -28,7 +28,7 @@ from ..contacts import (
     contact_patch,
     deborah_number,
 )
-from ..contacts.warm_film import warm_film
+from ..contacts.heated_film import heated_film
 from ..lubricants import Lubricant, NoPressureViscosity
 from ..lubricants.ranges import FITTED_PRESSURE, FITTED_TEMPERATURES
 from ..materials import Material, reduced_modulus
@@ -310,7 +310,7 @@ class TwoDisk(AbstractScene):
         sliding = slide_to_roll * speed
         inlet = self.oil.at(temperature)
         laws = self.contact
-        found = warm_film(laws.film, laws.thermal, contact, load, speed, sliding, self.oil, inlet)
+        found = heated_film(laws.film, laws.thermal, contact, load, speed, sliding, self.oil, inlet)
         residual = jnp.zeros_like(found.log_thickness)
         if found.rise is not None and laws.warm_inlet:
             temperature, residual = temperature + found.rise, found.residual

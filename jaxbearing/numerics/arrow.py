@@ -34,7 +34,7 @@ class AbstractArrowSystem(eqx.Module):
 
     Unknowns and residuals must be scaled to order 1. Where each equation grows with its own unknown at the root, those
     before it in equilibrium (elements first, then globals, each in its order; the sign of a row is yours to choose),
-    say so by `rising`. Subclasses are final and hold every number that the equations depend on as a leaf, because
+    say so by `increasing`. Subclasses are final and hold every number that the equations depend on as a leaf, because
     derivatives of the solution are taken with respect to the leaves.
     """
 
@@ -42,19 +42,19 @@ class AbstractArrowSystem(eqx.Module):
     def initial(self) -> ArrowPoint:
         """First guess."""
 
-    def eased(self: System, ease: Float[Array, ""], path: Int[Array, ""]) -> System:
-        """The system at easier parameters, from ease 0 (exactly itself) to 1, along one of `paths` ways (0, 1 ...):
-        those that the solver tries, one after the other, where it fails at once."""
+    def homotopy(self: System, parameter: Float[Array, ""], path: Int[Array, ""]) -> System:
+        """The system along one of its `homotopies` (0, 1 ...), from parameter 0 (itself) to 1 (easy). The solver
+        walks along them, one after the other, where it fails at once."""
         raise NotImplementedError
 
     @property
-    def rising(self) -> bool:
+    def increasing(self) -> bool:
         """True if each equation grows with its own unknown at every root: Newton's steps are then turned uphill where
         one falls."""
         return True
 
     @property
-    def side_by_side(self) -> bool:
+    def lanes_together(self) -> bool:
         """True if the lanes of a batch are better solved all at once on a CPU: small programs without branches are."""
         return False
 
@@ -64,13 +64,13 @@ class AbstractArrowSystem(eqx.Module):
         return 1.0
 
     @property
-    def paths(self) -> int:
-        """Number of ways to ease the system; 0: a solve that fails at once has failed."""
+    def homotopies(self) -> int:
+        """Number of homotopies from an easier system to this one; 0: a solve that fails at once has failed."""
         return 0
 
     @property
-    def further_sums(self) -> int:
-        """Says how many sums over the elements `closure` takes beyond one for each global."""
+    def extra_totals(self) -> int:
+        """Says how many sums over the elements `global_residual` takes beyond one for each global."""
         return 0
 
     @abc.abstractmethod
@@ -84,7 +84,7 @@ class AbstractArrowSystem(eqx.Module):
         """
 
     @abc.abstractmethod
-    def closure(
+    def global_residual(
         self, globals_: Float[Array, " g"], totals: Float[Array, " k"]
     ) -> tuple[Float[Array, " g"], Float[Array, ""]]:
         """Global residuals from the globals and the contributions summed over the elements; and, as in `element`,
@@ -125,8 +125,8 @@ def evaluate(system: AbstractArrowSystem, point: ArrowPoint) -> Equations:
     n = point.elements.shape[1]
     shared = jnp.broadcast_to(point.globals[:, None], (point.globals.shape[0], n))
     local, contribution, inner = system.element(point.elements, shared)
-    closure, closure_inner = system.closure(point.globals, jnp.sum(contribution, axis=1))
-    return Equations(ArrowPoint(local, closure), jnp.maximum(inner, closure_inner))
+    global_part, global_inner = system.global_residual(point.globals, jnp.sum(contribution, axis=1))
+    return Equations(ArrowPoint(local, global_part), jnp.maximum(inner, global_inner))
 
 
 def linearize(system: AbstractArrowSystem, point: ArrowPoint) -> tuple[Equations, ArrowJacobian]:
@@ -145,7 +145,7 @@ def linearize(system: AbstractArrowSystem, point: ArrowPoint) -> tuple[Equations
     tangents = jnp.swapaxes(tangents, 0, 1)  # (m + k outputs, m + g inputs, element)
 
     totals = jnp.sum(values[m:], axis=1)
-    closure, pullback, closure_inner = jax.vjp(system.closure, point.globals, totals, has_aux=True)
+    global_part, pullback, global_inner = jax.vjp(system.global_residual, point.globals, totals, has_aux=True)
     direct, chain = jax.vmap(pullback)(jnp.eye(g)) if g else (jnp.zeros((0, 0)), jnp.zeros((0, len(totals))))
     jacobian = ArrowJacobian(
         local=tangents[:m, :m],
@@ -154,14 +154,14 @@ def linearize(system: AbstractArrowSystem, point: ArrowPoint) -> tuple[Equations
         corner=direct + chain @ jnp.sum(tangents[m:, m:], axis=-1),
         chain=chain,
     )
-    return Equations(ArrowPoint(values[:m], closure), jnp.maximum(inner, closure_inner)), jacobian
+    return Equations(ArrowPoint(values[:m], global_part), jnp.maximum(inner, global_inner)), jacobian
 
 
 def empty_jacobian(system: AbstractArrowSystem, point: ArrowPoint) -> ArrowJacobian:
     """Blocks of zeros of the right shapes, to start a loop with."""
     m, n = point.elements.shape
     g = point.globals.shape[0]
-    k = g + system.further_sums
+    k = g + system.extra_totals
     return ArrowJacobian(
         jnp.zeros((m, m, n)), jnp.zeros((m, g, n)), jnp.zeros((k, m, n)), jnp.zeros((g, g)), jnp.zeros((g, k))
     )

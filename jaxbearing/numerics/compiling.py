@@ -10,7 +10,7 @@ import jax.numpy as jnp
 import numpy as np
 from jax.core import Tracer
 
-from .garbage import collecting_rarely
+from .garbage import rare_garbage_collection
 
 IDLE_PASSES = (
     "reshape-mover",
@@ -90,7 +90,7 @@ def quickly_compiled(function: Callable[..., Any]) -> Callable[..., Any]:
     def quick() -> Callable[..., Any]:
         return eqx.filter_jit(function, compiler_options=quick_options())  # pyright: ignore[reportCallIssue]
 
-    @collecting_rarely()
+    @rare_garbage_collection()
     def call(*args: Any, **kwargs: Any) -> Any:
         chosen = quick() if jax.default_backend() == "cpu" else ordinary
         return chosen(*args, **kwargs)

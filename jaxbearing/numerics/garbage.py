@@ -10,7 +10,7 @@ RARELY = (100_000, 20, 10)
 
 
 class _Depth:
-    """Holds how many are inside `collecting_rarely`, of all threads, and the thresholds of before."""
+    """Holds how many are inside `rare_garbage_collection`, of all threads, and the thresholds of before."""
 
     lock = threading.Lock()
     inside = 0
@@ -18,7 +18,7 @@ class _Depth:
 
 
 @contextmanager
-def collecting_rarely() -> Iterator[None]:
+def rare_garbage_collection() -> Iterator[None]:
     """Traces programs in 0.65 of the time: a trace makes millions of objects that live until it ends, and Python's
     collector of garbage would look through them again and again. The thresholds are those of the process: the first
     thread in sets them, the last one out sets them back."""

@@ -7,7 +7,7 @@
         arrow_residual, solver, system.initial(), args=system, adjoint=optx.ImplicitAdjoint(linear_solver=BlockArrow())
     )
 
-`newton_solve` is what the library uses: it adds caps, bounds, backtracking, further tries and a status a lane.
+`newton_solve` is what the library uses: it adds caps, bounds, backtracking, continuation and a status a lane.
 """
 
 from typing import Any

@@ -31,7 +31,7 @@ from jax.extend.core import Jaxpr
 from jax.stages import Compiled
 
 from ..numerics.compiling import quick_options, quickly_compiled
-from ..numerics.garbage import collecting_rarely
+from ..numerics.garbage import rare_garbage_collection
 from ..numerics.quiet import compiling_quietly, quiet_first_time
 from . import files
 from .describe import OWN, ROOT, NotKept, Structure, description, static_description
@@ -149,7 +149,7 @@ class KeptProgram:
                 self._ready[key] = found
         return found
 
-    @collecting_rarely()
+    @rare_garbage_collection()
     def _prepared(self, structure: Structure, leaves: list[Any], folder: Path, make: bool) -> _Ready | None:
         """The program, loaded, or made and kept where it may be made. **Raises:** `NotKept`."""
         path = folder / self._name(structure, leaves)

@@ -1,7 +1,7 @@
 """Files that appear whole or not at all: the one way in which the package writes a file.
 
 What a file holds is made in memory and handed to `write_whole`; what may be larger than memory goes through
-`appearing_whole`. Libraries that do not survive a disk that fills up (HDF5 crashes the process) never see the disk.
+`atomic_file`. Libraries that do not survive a disk that fills up (HDF5 crashes the process) never see the disk.
 """
 
 import os
@@ -23,12 +23,12 @@ def write_whole(path: str | os.PathLike[str], content: str | bytes | memoryview)
     there before.
     """
     data = content.encode("utf-8") if isinstance(content, str) else content
-    with appearing_whole(path) as temporary, _named(path), temporary.open("wb") as file:
+    with atomic_file(path) as temporary, _named(path), temporary.open("wb") as file:
         file.write(data)
 
 
 @contextmanager
-def appearing_whole(path: str | os.PathLike[str]) -> Iterator[Path]:
+def atomic_file(path: str | os.PathLike[str]) -> Iterator[Path]:
     """A temporary path in the same folder to write to; it takes the place of `path` when the block ends well.
 
     Where the block fails the temporary file is removed, and a file that was at `path` is what it was.

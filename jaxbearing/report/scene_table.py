@@ -30,12 +30,12 @@ def print_scene(scene: AbstractScene, console: Console) -> bool:
     if not rows or len(texts) < len(rows):
         return False
     print_line("kind", kind_of(scene), console, _NAMES)
-    table = None
-    for path, text in texts:
-        if path[0] != table and len(path) > 1:
-            print_rule(path[0], console)
-        table = path[0]
-        print_line(".".join(path[1:] or path), text, console, _NAMES)
+    last = ""
+    for (table, *inside), text in texts:
+        if table != last and inside:
+            print_rule(table, console)
+        last = table
+        print_line(".".join(inside or [table]), text, console, _NAMES)
     return True
 
 

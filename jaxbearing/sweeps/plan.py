@@ -15,7 +15,7 @@ import numpy as np
 from .. import __version__
 from ..lanes import LaneProgram, Method
 from ..numerics.newton import NewtonOptions
-from ..report.files import appearing_whole
+from ..report.files import atomic_file
 from ..scenes.input_files import check_regular
 from .as_data import ForeignPartError, decoded, encoded
 from .cases import Cases
@@ -143,7 +143,7 @@ def write_plan(plan: Plan, folder: Path) -> None:
         said["plan"], arrays = encoded(_as_fields(plan))
     except ForeignPartError as error:
         said["lacking"] = str(error)
-    with appearing_whole(folder / PLAN) as temporary, temporary.open("wb") as file:
+    with atomic_file(folder / PLAN) as temporary, temporary.open("wb") as file:
         kept: dict[str, Any] = {"said": np.asarray(json.dumps(said)), **arrays}
         np.savez(file, **kept)
 

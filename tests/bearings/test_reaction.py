@@ -247,7 +247,7 @@ def test_a_failed_lane_says_so_and_leaves_the_others_alone():
         assert np.all(np.isnan(results[1]))
     slope, alone = (jax.grad(total)(diameter, some) for some in (places, places[:1]))
     np.testing.assert_allclose(slope, alone, rtol=1e-12)
-    few = jb.NewtonOptions(max_steps=2, further_tries=False)
+    few = jb.NewtonOptions(max_steps=2, continuation=False)
     assert not np.any(lanes(diameter, places, few).converged)
     assert float(jax.grad(total)(diameter, places, few)) == 0.0
 

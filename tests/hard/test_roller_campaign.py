@@ -60,12 +60,12 @@ def test_random_bearings_converge_with_finite_results_and_derivatives():
     np.testing.assert_allclose(solution.drive_power, solution.power_loss.total, rtol=1e-8)
     assert np.median(steps) <= OFTEN
     assert np.max(steps[~both]) <= RARELY
-    assert np.mean(steps <= RARELY) >= 0.98  # the rest found their way in a further try
+    assert np.mean(steps <= RARELY) >= 0.98  # the rest found their way by continuation
 
 
 def test_a_failed_solve_reports_the_residual_of_the_system_asked_for():
     """Rings that turn nearly together under a light load: whether it is solved or not, what is said is about it and not
-    about the easier systems of the further tries, which are solved to 1e-7 here."""
+    about the easier systems of the continuation, which are solved to 1e-7 here."""
     operation = {
         "inner_speed": 1190.4 * RPM,
         "outer_speed": 1267.2 * RPM,

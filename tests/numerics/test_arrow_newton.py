@@ -132,8 +132,8 @@ def test_failure_names_residual_and_worst_equation():
 
 def test_unconverged_inner_solve_is_not_hidden():
     class Hiding(Springs):
-        def closure(self, globals_, totals):
-            return super().closure(globals_, totals)[0], jnp.asarray(1e-3)
+        def global_residual(self, globals_, totals):
+            return super().global_residual(globals_, totals)[0], jnp.asarray(1e-3)
 
     _, result = newton_solve(Hiding(jnp.linspace(0.5, 1.5, 5), jnp.asarray([1.0, 2.0])))
     assert result.status == Status.NOT_CONVERGED

@@ -15,7 +15,7 @@ from jaxbearing.contacts import (
     Resolution,
     Sliding,
 )
-from jaxbearing.contacts.warm_film import warm_film
+from jaxbearing.contacts.heated_film import heated_film
 from jaxbearing.gaps import ShortJournal
 from jaxbearing.numerics.compiling import compiled_by_hand
 from jaxbearing.scenes.oils import load_oil
@@ -34,7 +34,7 @@ def traction(sliding):
 
 def film(speed):
     inlet = OIL.at(380.0)
-    return warm_film(Moes(), Gupta(), LINE, 800.0, speed, 0.3, OIL, inlet).log_thickness
+    return heated_film(Moes(), Gupta(), LINE, 800.0, speed, 0.3, OIL, inlet).log_thickness
 
 
 LAWS = {

@@ -8,7 +8,7 @@ import pytest
 
 from jaxbearing.numerics import compiling
 from jaxbearing.numerics.compiling import quickly_compiled
-from jaxbearing.numerics.garbage import RARELY, collecting_rarely
+from jaxbearing.numerics.garbage import RARELY, rare_garbage_collection
 
 USUAL = (700, 10, 10)
 
@@ -31,9 +31,9 @@ def test_an_option_that_jaxlib_does_not_know_is_left_out(monkeypatch):
 
 @pytest.mark.usefixtures("usual_collector")
 def test_thresholds_are_set_once_and_come_back():
-    with collecting_rarely():
+    with rare_garbage_collection():
         assert gc.get_threshold() == RARELY
-        with collecting_rarely():
+        with rare_garbage_collection():
             assert gc.get_threshold() == RARELY
         assert gc.get_threshold() == RARELY
     assert gc.get_threshold() == USUAL
@@ -44,18 +44,18 @@ def test_the_last_thread_sets_them_back():
     inside, leave = threading.Event(), threading.Event()
 
     def other():
-        with collecting_rarely():
+        with rare_garbage_collection():
             inside.set()
             leave.wait(10.0)
 
     thread = threading.Thread(target=other)
-    with collecting_rarely():
+    with rare_garbage_collection():
         thread.start()
         assert inside.wait(10.0)
     assert gc.get_threshold() == RARELY
     leave.set()
     thread.join()
     assert gc.get_threshold() == USUAL
-    with pytest.raises(ZeroDivisionError), collecting_rarely():
+    with pytest.raises(ZeroDivisionError), rare_garbage_collection():
         1 / 0  # noqa: B018
     assert gc.get_threshold() == USUAL

@@ -26,7 +26,7 @@ class Steep(AbstractArrowSystem):
     def element(self, unknowns, shared):
         return STEEP * self.function(unknowns), unknowns, jnp.zeros(())
 
-    def closure(self, globals_, totals):
+    def global_residual(self, globals_, totals):
         return globals_ - totals, jnp.zeros(())
 
     def step_caps(self):

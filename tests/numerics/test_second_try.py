@@ -8,7 +8,8 @@ import pytest
 from jaxtyping import Array, Float
 
 from jaxbearing.numerics.arrow import AbstractArrowSystem, ArrowPoint
-from jaxbearing.numerics.newton import LONGEST_STAGE, MOST_STEPS, NewtonOptions, newton_solve
+from jaxbearing.numerics.continuation import LONGEST_STAGE, MOST_STEPS
+from jaxbearing.numerics.newton import NewtonOptions, newton_solve
 from jaxbearing.numerics.status import Status
 
 
@@ -30,7 +31,7 @@ class Plateau(AbstractArrowSystem):
     def element(self, unknowns, shared):
         return self.plateau(unknowns), 0.0 * shared, jnp.zeros(())
 
-    def closure(self, globals_, totals):
+    def global_residual(self, globals_, totals):
         return self.plateau(globals_) + totals, jnp.zeros(())
 
     def step_caps(self):
@@ -46,15 +47,15 @@ class Plateau(AbstractArrowSystem):
 
 
 class Eased(Plateau):
-    """At ease 1 the root is the first guess."""
+    """At parameter 1 of the homotopy the root is the first guess."""
 
-    paths = 2
+    homotopies = 2
 
-    def eased(self, ease, path):
+    def homotopy(self, parameter, path):
         """Way 0 breaks off half way where the root is not `reachable`; way 1 breaks off where `lost`."""
         breaks = (path == 0) & (not self.reachable) | self.lost
-        target = self.root + jnp.where(breaks & (ease < 0.5), 1e6, 0.0)
-        return eqx.tree_at(lambda system: system.root, self, (1.0 - ease) * target)
+        target = self.root + jnp.where(breaks & (parameter < 0.5), 1e6, 0.0)
+        return eqx.tree_at(lambda system: system.root, self, (1.0 - parameter) * target)
 
 
 class Capped(Eased):
@@ -65,7 +66,7 @@ class Capped(Eased):
 
 
 class Far(Eased):
-    """x - a = 0 by steps of 0.15 at most, from -1e6; with any ease from 0."""
+    """x - a = 0 by steps of 0.15 at most, from -1e6; with any parameter above 0 from 0."""
 
     start: Array | float = -1e6
 
@@ -78,15 +79,15 @@ class Far(Eased):
     def step_caps(self):
         return ArrowPoint(jnp.full((1, 1), 0.15), jnp.full(1, 0.15))
 
-    def eased(self, ease, path):
-        return Far(self.root, self.steepness, start=jnp.where(ease > 0.0, 0.0, self.start))
+    def homotopy(self, parameter, path):
+        return Far(self.root, self.steepness, start=jnp.where(parameter > 0.0, 0.0, self.start))
 
 
 class TwoRoots(Eased):
     """x^2 = a^2, and a nested solve that fails at the root -a; the last way alone begins beside the other one."""
 
     start: Array | float = -2.0
-    rising = False
+    increasing = False
 
     def plateau(self, x):
         return jnp.square(x) - jnp.square(self.root)
@@ -97,8 +98,8 @@ class TwoRoots(Eased):
     def element(self, unknowns, shared):
         return self.plateau(unknowns), 0.0 * shared, jnp.where(jnp.min(unknowns) < 0.0, 1.0, 0.0)
 
-    def eased(self, ease, path):
-        other = (path == self.paths - 1) & (ease > 0.0) & self.reachable
+    def homotopy(self, parameter, path):
+        other = (path == self.homotopies - 1) & (parameter > 0.0) & self.reachable
         return TwoRoots(self.root, self.steepness, self.reachable, start=jnp.where(other, 2.0, self.start))
 
 
@@ -155,7 +156,7 @@ def test_a_path_that_breaks_ends_with_a_status_and_not_in_a_loop():
 
 
 def test_further_tries_can_be_left_out():
-    _, result = newton_solve(Eased(*parameters(6.0)), NewtonOptions(further_tries=False))
+    _, result = newton_solve(Eased(*parameters(6.0)), NewtonOptions(continuation=False))
     assert int(result.status) != Status.CONVERGED
     assert int(result.iterations) <= 60
 

@@ -128,7 +128,7 @@ def test_failed_cases_are_flagged_and_say_why(scene, tmp_path):
     assert np.isnan(found["ring_radial"].values).tolist() == [False, True, False]
     assert np.isfinite(found["geometry_roller_diameter"].values).all()
     assert "load_inner" not in found
-    steps = jb.NewtonOptions(max_steps=1, further_tries=False)
+    steps = jb.NewtonOptions(max_steps=1, continuation=False)
     failed = jb.sweep(scene, {"operation.radial_load": [1e3, 2e4]}, options=steps, chunk=4)
     assert set(failed["status"].values.tolist()) == {1}
     assert all("not_converged after" in text for text in failed["failure"].values.tolist())

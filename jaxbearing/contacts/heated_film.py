@@ -15,7 +15,7 @@ from .point_film import AbstractPointFilm
 from .thermal import AbstractThermalFactor, NoThermalReduction, inlet_temperature_rise
 
 
-class WarmFilm(NamedTuple):
+class HeatedFilm(NamedTuple):
     """`log_thickness`, ln of m; `rise`, K, of the oil in the contact above the inlet (None: isothermal); `residual` of
     the nested solve for it, in units of ln(film)."""
 
@@ -25,7 +25,7 @@ class WarmFilm(NamedTuple):
 
 
 @compiled_by_hand
-def warm_film(
+def heated_film(
     film: AbstractLineFilm | AbstractPointFilm,
     thermal: AbstractThermalFactor,
     contact: LineContact | PointContact,
@@ -34,7 +34,7 @@ def warm_film(
     sliding_speed: Values,
     lubricant: Lubricant,
     inlet: InletOil,
-) -> WarmFilm:
+) -> HeatedFilm:
     """The isothermal film at the inlet temperature times the thermal factor, and the rise that explains the factor.
 
     **Arguments:** laws that fit the kind of contact; `load`, N, > 0; `speed`, mean of the surfaces, and
@@ -45,11 +45,11 @@ def warm_film(
     factor: Any = thermal
     log_film = law.log_thickness(contact, load, speed, inlet.viscosity, inlet.pressure_viscosity)
     if isinstance(thermal, NoThermalReduction):
-        return WarmFilm(log_film, None, jnp.zeros_like(log_film))
+        return HeatedFilm(log_film, None, jnp.zeros_like(log_film))
     log_factor = factor.log_factor(contact, load, speed, sliding_speed, inlet)
     args = (law, contact, load, speed, lubricant)
     root = inlet_temperature_rise(_log_film_at, args, inlet.temperature, log_film, log_factor)
-    return WarmFilm(log_film + log_factor, root.value, root.residual)
+    return HeatedFilm(log_film + log_factor, root.value, root.residual)
 
 
 def _log_film_at(temperature: Array, args: Any) -> Array:
