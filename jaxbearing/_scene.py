@@ -133,11 +133,15 @@ def _replaced(part: Any, changes: dict[tuple[str, ...], Any], above: str = "") -
             inner.setdefault(path[0], {})[path[1:]] = value
     for name, value in new.items():
         old = getattr(part, name)
-        if isinstance(value, Mapping) and "converter" in fields[name].metadata:
+        if isinstance(value, Mapping) and "part" in fields[name].metadata:
             continue  # the field makes a part of it
         if isinstance(old, eqx.Module) and not (value is None or isinstance(value, eqx.Module)):
             whole = ".".join([*filter(None, [above.rstrip(".")]), name])
             raise TypeError(f"{whole} must be a part such as {type(old).__name__}, got {value!r}")
     for name, deeper in inner.items():
-        new[name] = _replaced(new.get(name, getattr(part, name)), deeper, f"{above}{name}.")
+        old = new.get(name, getattr(part, name))
+        if old is None and "part" in fields[name].metadata and all(len(path) == 1 for path in deeper):
+            new[name] = {path[0]: value for path, value in deeper.items()}  # the field makes a part of it
+        else:
+            new[name] = _replaced(old, deeper, f"{above}{name}.")
     return dataclasses.replace(part, **new) if isinstance(part, eqx.Module) else part

@@ -269,7 +269,7 @@ class BallCore(AbstractBallSystem):
 
     def global_residual(self, globals_, totals):
         d = len(self.freedoms)
-        rows = (totals[:d] - self.ring.load) / self.load_scale()
+        rows = self.load_balance(globals_[:d], totals[:d]) / self.load_scale()
         if self.common_orbit:
             rows = jnp.append(rows, orbit_row(totals[d:], self.orbit_unit))
         return rows, jnp.zeros(())

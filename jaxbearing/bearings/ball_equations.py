@@ -323,7 +323,7 @@ class LubricatedBallSystem(AbstractBallSystem):
 
     def global_residual(self, globals_, totals):
         d = len(self.freedoms)
-        ring = (totals[:d] - self.ring.load) / self.load_scale()
+        ring = self.load_balance(globals_[:d], totals[:d]) / self.load_scale()
         if self.common_orbit:
             return jnp.append(ring, orbit_row(totals[d:], self.orbit_unit)), jnp.zeros(())
         if self.cage is None:

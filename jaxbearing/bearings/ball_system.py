@@ -9,11 +9,12 @@ import jax.numpy as jnp
 from jaxtyping import Array, Float
 
 from ..numerics.arrow import AbstractArrowSystem
+from ..numerics.convex import anchored
 from ..numerics.safe import safe_norm
 from .ball_kinematics import BallKinematics, BallMotion
 from .groove_motion import RingFrame, inner_arm, length_of, ring_frame
 from .gyroscopic import AbstractGyroscopic
-from .ring import LENGTH_UNIT, TILTS, InnerRing
+from .ring import ANCHOR, LENGTH_UNIT, TILTS, InnerRing
 
 Attitude = Literal["outer", "inner", "min_power", "equilibrium"]
 
@@ -107,6 +108,12 @@ class AbstractBallSystem(AbstractArrowSystem):
     def freedoms(self) -> tuple[str, ...]:
         """Freedoms of the ring that are unknown."""
         return self.ring.freedoms
+
+    def load_balance(self, unknowns: Float[Array, " freedom"], totals: Float[Array, " freedom"]) -> Array:
+        """What the balls ask of the unknown freedoms of the ring less the load on them, N. A ring that is held so that
+        no ball touches it may float along the others: it is anchored."""
+        balance = totals - self.ring.load
+        return balance + anchored(unknowns, ANCHOR * LENGTH_UNIT) if self.ring.asks else balance
 
     def groove_centres(self, shift: Float[Array, "freedom ball"]) -> Float[Array, "2 ball"]:
         """Centres of the inner groove at every ball, (axial, radial) from those of the outer one, m, for displacements

@@ -212,7 +212,7 @@ class CylindricalRollerBearing(AbstractBearing):
             causes = [f"operation.{name}" for name in names if getattr(operation, name) is not None]
             causes += [] if self.profile is None else ["profile"]
             yield (
-                f"{causes[0]}: tilting or profiled rollers (profile, operation.misalignment, operation.moment) roll "
+                f"{causes[0]}: tilting or profiled rollers (a profile, misalignments, moments) roll "
                 f"without sliding in this version; leave out {' and '.join(causes)}, or contact.traction"
             )
         if self.cage is not None:

@@ -1,5 +1,7 @@
 """The operating point of a bearing: speeds, oil, and for each freedom of the inner ring a load or a displacement."""
 
+import functools
+import operator
 from collections.abc import Iterator, Mapping
 from typing import Any, ClassVar
 
@@ -10,7 +12,7 @@ from jaxtyping import Array
 from .._scene import label, number, optional_number
 from .._types import Scalar
 from ..numerics.checks import Checked, demand, given
-from ..numerics.refusals import refuse_all
+from ..numerics.refusals import refusals_of, refuse_all
 from ..numerics.safe import safe_norm
 
 
@@ -50,7 +52,9 @@ def _as_displacement(value: Any) -> HeldDisplacement | None:
     if isinstance(value, Mapping):
         unknown = set(value) - {"axial", "radial", "lateral"}
         if unknown:
-            raise ValueError(f"operation.displacement has axial, radial and lateral, got {', '.join(sorted(unknown))}")
+            raise ValueError(
+                f"operation.displacement has axial, radial and lateral, got {', '.join(sorted(map(str, unknown)))}"
+            )
         return HeldDisplacement(**value)
     if not isinstance(value, HeldDisplacement | None):
         raise ValueError(f"operation.displacement must be a HeldDisplacement or a mapping, got {value!r}")
@@ -99,7 +103,9 @@ class AbstractOperation(Checked):
     misalignment_lateral: Scalar | None = optional_number(
         kw_only=True, metadata=label("rad", "misalignment about the load line")
     )
-    displacement: HeldDisplacement | None = eqx.field(kw_only=True, default=None, converter=_as_displacement)
+    displacement: HeldDisplacement | None = eqx.field(
+        kw_only=True, default=None, converter=_as_displacement, metadata={"part": "displacement"}
+    )
     oil_temperature: Scalar = number(373.15, bound="> 0", kw_only=True, metadata=label("K", "oil temperature"))
     oil_flow: Scalar = number(0.0, bound=">= 0", kw_only=True, metadata=label("m^3/s", "oil flow"))
     outer_speed: Scalar = number(0.0, kw_only=True, metadata=label("rad/s", "outer ring speed"))
@@ -207,4 +213,12 @@ class Operation(AbstractOperation):
             yield (
                 "operation.radial_load: a cylindrical roller bearing needs one, or a radial_load_lateral, or a "
                 "displacement of the ring across the axis"
+            )
+        loads = [load for load in map(self.load, ("radial", "lateral")) if load is not None]
+        if loads and not self.displaced and given(*loads) is not None:
+            yield from refusals_of(
+                demand,
+                "operation.radial_load or radial_load_lateral must differ from 0",
+                functools.reduce(operator.or_, (abs(load) > 0 for load in loads)),
+                lambda: "operation.radial_load_lateral: it is 0, and nothing else loads the bearing",
             )

@@ -307,7 +307,7 @@ def _unstable(result: _Result) -> Excess:
         return {}
     text = (
         "the equilibrium is unstable: the ring is free to tilt, and the least thrust or moment tips it into another "
-        "one; give it a small axial load, or hold its tilt (leave out operation.moment)"
+        "one; give it a small axial load, or hold its tilt (leave out the moment)"
     )
     return {text: -jnp.linalg.eigvalsh(0.5 * (stiffness + stiffness.T))[0]}
 

@@ -27,6 +27,10 @@ from .solution import RING_FREEDOMS, TILTS, RingDisplacement
 LENGTH_UNIT = 1e-5
 """Scale of displacements, m."""
 
+ANCHOR = 1e-4
+"""Spring that holds what nothing touches, a roller or a ring, where it is, N/m: 1e-12 of a loaded contact's stiffness
+in derivatives (a hundred times as much spoils those of rollers that hardly touch by 6e-6), nothing in balances."""
+
 
 class Port(NamedTuple):
     """Reaction of the inner ring at its place: `force`, the loads on its five freedoms, N and N m; `stiffness`, their

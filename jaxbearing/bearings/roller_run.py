@@ -13,6 +13,7 @@ from ..numerics.arrow import ArrowPoint
 from ..numerics.integrator import IntegratorOptions, NestedField, Segment
 from .cylindrical_roller import CylindricalRollerBearing
 from .history import Energy, Instant, LastState
+from .parts import azimuths
 from .roller_dynamics import WORKS, RollerDynamics
 from .roller_instants import observe, pocket_peaks
 from .roller_motion import build_dynamics
@@ -129,7 +130,9 @@ def check_fits(scene: CylindricalRollerBearing, last: LastState) -> None:
         raise ValueError("restart: a state with numbers that are not finite")
     if last.identity is not None:
         require_same(last.identity, identity(scene), "bearing")
-    places = 2.0 * np.pi * np.arange(count) / count + np.asarray(last.rollers)[0] / float(scene.geometry.pitch_radius)
+    places = np.asarray(azimuths(scene.geometry, count)) + np.asarray(last.rollers)[0] / float(
+        scene.geometry.pitch_radius
+    )
     apart = np.abs(np.asarray(last.azimuth) - places - float(last.frame_angle)).max()
     if apart > 1e-7:
         raise ValueError("restart: a state of another bearing: its rollers do not stand on this pitch circle")

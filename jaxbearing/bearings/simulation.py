@@ -19,7 +19,7 @@ class Simulation(Checked):
     **Arguments:**
     - `duration`: s; `None`: it must be given with the run.
     - `speed`: inner ring speed over that of the operating point, as a function of time.
-    - `load`: radial load over that of the operating point, as a function of time.
+    - `load`: radial and lateral load over those of the operating point, as a function of time.
     - `rotating_load`: a further, turning load; it frees the ring across the load line too.
     - `solver`: one of `numerics.integrator.SOLVERS`.
     - `tolerance`: relative tolerance, and absolute one in the units of the state.

@@ -10,6 +10,7 @@ from ..contacts import LineContact, lamina_points
 from ..materials import reduced_modulus
 from ..numerics.arrow import ArrowPoint, linearize
 from ..numerics.newton import NewtonOptions, NewtonResult, newton_solve
+from ..numerics.safe import safe_norm
 from ..numerics.status import Status
 from .parts import azimuths
 from .range_checks import MEAN_OF_LINE, MEAN_OF_POINT, RACEWAYS, Contacts, Facts
@@ -94,25 +95,35 @@ def least_axial_load(scene: TaperedRollerBearing, inertia: Inertia) -> Float[Arr
 
 
 def tips_over(scene: TaperedRollerBearing) -> Bool[Array, ""]:
-    r"""True if a given moment lies beyond what the cup can hold: no equilibrium then, whatever the tilt.
+    r"""True if given moments lie beyond what the cup can hold: no equilibrium then, whatever the tilt.
 
     M about the apex (`moment` less the radial load times `load_position`) is $\sum\rho Q_o\cos\psi$, each load at a
     distance $\rho$ between d - l and d from the apex, $F_r = \cos\alpha_o\sum Q_o\cos\psi$ and $F_a =
-    \sin\alpha_o\sum Q_o$; so $|M - (d - l/2)F_r/\cos\alpha_o| \le (l/2)F_a/\sin\alpha_o$. What rotation adds cancels
-    round two or more rollers.
+    \sin\alpha_o\sum Q_o$; so $|M - (d - l/2)F_r/\cos\alpha_o| \le (l/2)F_a/\sin\alpha_o$. With the lateral load and
+    the moment about the load line this holds of the two together, as a plane vector. What rotation adds cancels round
+    two or more rollers.
     """
-    beyond = jnp.asarray(False)
-    if scene.geometry.n_rollers < 2:
-        return beyond
-    for moment, middle, most, _ in _moment_ranges(scene).values():
-        beyond |= jnp.abs(moment - middle) > most + ROUNDING * (jnp.abs(moment) + jnp.abs(middle))
-    return beyond
+    ranges = _moment_ranges(scene)
+    if scene.geometry.n_rollers < 2 or not ranges:
+        return jnp.asarray(False)
+    beyond = [one.moment - one.middle for one in ranges.values()]
+    size = jnp.abs(beyond[0]) if len(beyond) == 1 else safe_norm(beyond[0], beyond[1])
+    rounding = sum(jnp.abs(one.moment) + jnp.abs(one.middle) for one in ranges.values())
+    return size > next(iter(ranges.values())).most + ROUNDING * rounding
 
 
-def _moment_ranges(scene: TaperedRollerBearing) -> dict[str, tuple[Array, Array, Array, Array]]:
-    """By the names of the given moments: the moment about the apex, N m, the middle and half width of the range of
-    `tips_over`, and what is added to come to the reference point. Both tilts have the same bounds, each with the
-    force that moves its azimuth."""
+class _MomentRange(NamedTuple):
+    """A given moment about the apex, N m, the middle and half width of its range, and what is added to come to the
+    reference point."""
+
+    moment: Array
+    middle: Array
+    most: Array
+    shift: Array
+
+
+def _moment_ranges(scene: TaperedRollerBearing) -> dict[str, _MomentRange]:
+    """Ranges of the given moments by their names, each with the force that moves its azimuth."""
     operation, geometry = scene.operation, scene.geometry
     cup, length = jnp.asarray(geometry.contact_angle), jnp.asarray(geometry.roller_length)
     most = 0.5 * length * jnp.asarray(operation.axial_load) / jnp.sin(cup)
@@ -121,12 +132,12 @@ def _moment_ranges(scene: TaperedRollerBearing) -> dict[str, tuple[Array, Array,
         "moment": (operation.moment, operation.radial_load),
         "moment about the load line": (operation.moment_lateral, operation.radial_load_lateral),
     }
-    for name, (moment, force) in given.items():
+    for name, (moment, load) in given.items():
         if moment is not None:
-            force = jnp.asarray(0.0 if force is None else force)
+            force = jnp.asarray(0.0 if load is None else load)
             shift = jnp.asarray(operation.load_position) * force
             middle = (geometry.apex_distance - 0.5 * length) * force / jnp.cos(cup)
-            found[name] = (jnp.asarray(moment) - shift, middle, most, shift)
+            found[name] = _MomentRange(jnp.asarray(moment) - shift, middle, most, shift)
     return found
 
 
@@ -143,6 +154,10 @@ def _reasons(scene: TaperedRollerBearing, inertia: Inertia) -> dict[str, Reason]
         ends = jnp.stack([moment + shift, middle - most + shift, middle + most + shift])
         text = f"the {name} of {{:.4g}} N m must lie between {{:.4g}} and {{:.4g}} N m"
         found[text] = Reason(tips_over(scene) & ~sliding, ends)
+    if len(_moment_ranges(scene)) == 2:
+        text = "both moments together, as a vector, at most {:.4g} N m from the middles of these ranges"
+        most = _moment_ranges(scene)["moment"].most
+        found[text] = Reason(tips_over(scene) & ~sliding, most[None])
     return found
 
 

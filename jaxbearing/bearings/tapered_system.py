@@ -33,11 +33,8 @@ from ..numerics.arrow import ArrowPoint
 from ..numerics.batching import in_turn
 from ..numerics.convex import AbstractConvexArrow, Minimum, anchored, find_minimum
 from ..numerics.safe import positive_power
-from .ring import LENGTH_UNIT, TILTS, InnerRing
+from .ring import ANCHOR, LENGTH_UNIT, TILTS, InnerRing
 
-ANCHOR = 1e-4
-"""Spring that holds a roller where it is, N/m: 1e-12 of a loaded contact's stiffness in derivatives (a hundred times as
-much spoils those of rollers that hardly touch by 6e-6), nothing in balances."""
 LOAD_FLOOR = 1e-3
 """Added to the scale of loads, N."""
 START_TOLERANCE = 1e-7

@@ -8,7 +8,7 @@ the axial side, then moves inwards there), times the length. With the profile h(
 $\delta_o = x + \phi s - h$, $\delta_i = d\cdot n - J_d/2 - \tau\cos\psi(s - \ell/2) - x - \phi s - h$,
 
 roller: $Q_o - Q_i = F_c$, $M_o - M_i = F_c\ell/2$; ring: $\sum Q_in = F$, $-\sum(M_i - Q_i\ell/2)\cos\psi = M$. The
-gradient of one convex potential, with the springs of `tapered_system.ANCHOR`.
+gradient of one convex potential, with the springs of `ring.ANCHOR`.
 """
 
 import dataclasses
@@ -22,8 +22,8 @@ from ..contacts import AbstractTiltedLine
 from ..numerics.arrow import ArrowPoint
 from ..numerics.batching import in_turn
 from ..numerics.convex import AbstractConvexArrow, Minimum, anchored, find_minimum
-from .ring import LENGTH_UNIT, TILTS, InnerRing
-from .tapered_system import ANCHOR, FARTHEST, LOAD_FLOOR, LONGEST_STEP, MOST_TILT, START_TOLERANCE
+from .ring import ANCHOR, LENGTH_UNIT, TILTS, InnerRing
+from .tapered_system import FARTHEST, LOAD_FLOOR, LONGEST_STEP, MOST_TILT, START_TOLERANCE
 
 SLOW = 1e-2
 """Centrifugal force over a roller's share of the load below which a bearing is solved at rest first."""

@@ -12,6 +12,7 @@ import numpy as np
 
 from ..bearings.ball_bearing import BallBearing
 from ..bearings.cylindrical_roller import CylindricalRollerBearing
+from ..bearings.operation import LOAD_FIELDS
 from ..bearings.tapered_roller import TaperedRollerBearing
 from .display import displayed
 
@@ -188,11 +189,13 @@ def draw_front(axes: Any, scene: Any, size: FrontSize) -> None:
     _text(axes, (0.0, 0.33 * bore), f"{size.counted} {size.count}")
 
     style = {"color": LOAD, "linewidth": 2.4, "arrowstyle": "-|>,head_width=0.4,head_length=0.8"}
-    radial = scene.operation.load("radial")
-    if radial is not None:
-        load = f"operation.radial_load\n{1e-3 * float(radial):.6g} kN, on the inner ring"
-        axes.annotate("", xy=(0.0, -0.97 * bore), xytext=(0.0, -0.5 * bore), arrowprops=style, zorder=6)
-        _text(axes, (0.0, -0.33 * bore), load, color=LOAD)
+    loads = {name: scene.operation.load(name) for name in ("radial", "lateral")}
+    said = [f"operation.{LOAD_FIELDS[n]} {1e-3 * float(load):.6g} kN" for n, load in loads.items() if load is not None]
+    if said:
+        radial, lateral = (0.0 if load is None else float(load) for load in loads.values())
+        along = bore * np.array([lateral, -radial]) / (math.hypot(radial, lateral) or 1.0)
+        axes.annotate("", xy=tuple(0.97 * along), xytext=tuple(0.5 * along), arrowprops=style, zorder=6)
+        _text(axes, (0.0, -0.33 * bore), "\n".join([*said, "on the inner ring"]), color=LOAD)
     speed = f"operation.inner_speed\n{displayed(float(scene.operation.inner_speed), 'rad/s'):.6g} rpm"
     _text(axes, (0.0, 0.68 * bore), speed)
     _arc(axes, size.inner - 0.5 * size.ring, math.radians(135.0), math.radians(225.0))

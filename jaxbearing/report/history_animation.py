@@ -8,7 +8,9 @@ import numpy as np
 
 from ..bearings.cylindrical_roller import CylindricalRollerBearing
 from ..bearings.history import History
+from ..bearings.parts import azimuths
 from .animations import instants, moving, moving_head
+from .bearing.operation import load_angle
 from .bearing.plots import INNER, OUTER
 from .sheet import INK, round_up
 
@@ -66,7 +68,7 @@ def _picture(history: History, scene: CylindricalRollerBearing, at: int, since: 
     instants, geometry = history.instants, scene.geometry
     pitch = 1e3 * float(geometry.pitch_radius)
     elements, count = instants.elements, geometry.n_rollers
-    places = 2.0 * math.pi * np.arange(count) / count
+    places = np.asarray(azimuths(geometry, count))
     azimuth, bars, cage = np.asarray(elements.azimuth)[at], None, np.zeros(2)
     if instants.cage is not None:
         # the middle of each pocket; X lies a quarter turn behind the load line
@@ -121,9 +123,9 @@ def _draw(
     axes.axis("off")
     axes.add_patch(Circle((0.0, 0.0), outer, fill=False, edgecolor=INK, linewidth=1.4))
     ring = axes.add_patch(Circle((0.0, 0.0), inner, fill=False, edgecolor=INK, linewidth=1.4))
-    axes.annotate(
-        "load", (0.0, -0.25 * inner), (0.0, 0.1 * inner), ha="center", fontsize=9, arrowprops={"arrowstyle": "->"}
-    )
+    along = _on_page(inner, load_angle(scene.operation) or 0.0)
+    style: dict[str, Any] = {"ha": "center", "fontsize": 9, "arrowprops": {"arrowstyle": "->"}}
+    axes.annotate("load", tuple(0.25 * along), tuple(-0.1 * along), **style)
     scale = bar / round_up(most)
     peak = max((float(np.abs(p.pocket).max()) for p in pictures if p.pocket is not None), default=0.0)
     norm = SymLogNorm(_LEAST_POCKET_LOAD, vmin=-round_up(peak), vmax=round_up(peak))

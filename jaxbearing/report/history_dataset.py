@@ -30,7 +30,7 @@ def history_to_dataset(history: History) -> xr.Dataset:
     dataset["status"].attrs |= flags(dataset["status"].dtype, [status.text for status in Status])
     count = dataset.sizes["element"]
     dataset = dataset.assign(_statistics(history))
-    names = {"element": (np.arange(count), "number of the rolling element, 0 on the load line at the start")}
+    names = {"element": (np.arange(count), "number of the rolling element; azimuth says where it is")}
     names |= {dim: (list(parts), "component of the state") for dim, parts in _STATES.items()}
     coordinates = {
         dim: xr.Variable((dim,), values, {"units": "1", "long_name": text}) for dim, (values, text) in names.items()

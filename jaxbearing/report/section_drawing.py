@@ -169,7 +169,7 @@ def _dimensions(scene: Any) -> Iterator[tuple[str, str]]:
     for freedom, name in LOAD_FIELDS.items():
         load, tilts = scene.operation.load(freedom), freedom in TILTS
         unit, scale = ("N m", 1.0) if tilts else ("kN", 1e-3)
-        if freedom != "radial" and load is not None:
+        if freedom not in ("radial", "lateral") and load is not None:
             yield f"operation.{name}", f"operation.{name} {scale * float(load):.6g} {unit}, on the inner ring"
 
 

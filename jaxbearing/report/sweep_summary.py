@@ -11,6 +11,7 @@ from rich.console import Console
 from rich.table import Table
 from rich.text import Text
 
+from ..bearings.operation import HELD_FIELDS, LOAD_FIELDS
 from .display import with_unit
 from .labelled import label_unit
 from .screen import counted, headline, print_warnings
@@ -49,6 +50,7 @@ def print_sweep(file: str | os.PathLike[str], label: str, kept: int, seconds: fl
             for name in _MAIN
             if name in dataset and np.nansum(np.abs(dataset[name].values))
         }
+        rows |= _held(dataset)
         if dataset.attrs.get("not_modelled"):
             rows["Not modelled:"] = dataset.attrs["not_modelled"].replace("_", " ")
         grid = Table.grid(padding=(0, 2, 0, 0))
@@ -67,6 +69,18 @@ def _reasons(failure: np.ndarray) -> Iterator[str]:
     if len(found) > _REASONS:
         others = sum(count for _, count in found.most_common()[_REASONS:])
         yield f"{counted(others, 'case')} failed otherwise"
+
+
+def _held(dataset: xr.Dataset) -> dict[str, str]:
+    """Loads that the freedoms need whose displacement the scene gives."""
+    found = {}
+    for freedom, load in LOAD_FIELDS.items():
+        given = f"operation_{HELD_FIELDS[freedom].replace('.', '_')}"
+        if "force" in dataset and given in dataset:
+            force = dataset["force"].sel(freedom=freedom)
+            unit = str(dataset["force_units"].sel(freedom=freedom).values)
+            found[f"force, {load}"] = _spread(force.assign_attrs(units=unit))
+    return found
 
 
 def _spread(values: xr.DataArray) -> str:

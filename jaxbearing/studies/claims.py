@@ -75,12 +75,14 @@ def _in_front(study: PowerLossStudy) -> Found:
     names = ("load_inner", "pocket_film_front", "pocket_film_rear", "azimuth")
     load, front, rear, azimuth = (study.result(name) for name in names)
     driving, loaded = front < scene.cage.pocket_clearance / 2, load > LOADED
-    share = float(np.sum((load * np.cos(azimuth))[driving])) / float(scene.operation.radial_load)
+    radial, lateral = (0.0 if one is None else float(one) for one in map(scene.operation.load, ("radial", "lateral")))
+    towards = np.cos(azimuth - np.arctan2(lateral, radial))
+    share = float(np.sum((load * towards)[driving])) / float(np.hypot(radial, lateral))
     others = load[loaded & ~driving]
     heaviest = driving.any() and (not others.size or load[driving].min() > others.max())
-    holds = driving[0] and heaviest and not np.any(driving & ~loaded) and share > 0.5
-    opposite = len(load) // 2
-    return bool(holds), [1e6 * front[0], 1e6 * rear[opposite], int(driving.sum()), int(loaded.sum()), 100 * share]
+    most, opposite = int(np.argmax(towards)), int(np.argmin(towards))
+    holds = driving[most] and heaviest and not np.any(driving & ~loaded) and share > 0.5
+    return bool(holds), [1e6 * front[most], 1e6 * rear[opposite], int(driving.sum()), int(loaded.sum()), 100 * share]
 
 
 def _load(study: PowerLossStudy) -> Found:
@@ -157,7 +159,7 @@ _DATA: tuple[tuple[str, str, tuple[str, ...], Callable[[PowerLossStudy], Found]]
     (
         "Rollers in the loaded zone lie at the front of their pockets and drive the cage",
         "film in front of the most loaded roller, behind the one opposite [µm]; rollers in front, loaded; load share %",
-        (GUIDING,),
+        (GUIDING, RADIAL),
         _in_front,
     ),
     ("The total does not depend on the radial load above 200 daN", "total at 2, 4, 8, 16, 40 kN [W]", (RADIAL,), _load),

@@ -220,3 +220,43 @@ def test_a_run_in_time_under_a_lateral_load_starts_as_the_solve():
     assert int(start.status) == int(straight.status) == 0
     size = np.max(np.abs(straight.state.elements), axis=1, keepdims=True)
     np.testing.assert_allclose(start.state.elements / size, straight.state.elements / size, atol=1e-7)
+
+
+def test_a_ring_held_inside_its_play():
+    """No ball is touched: the ring floats along its axis, and needs no force."""
+    scene = jb.load_scene("deep_groove_6205", {"operation.moment": "none"})
+    for place in (0.0, 1e-6):
+        free = scene.at_operation(axial_load=None, radial_load=None, displacement={"radial": place})
+        assert np.max(np.abs(jb.solve(free).force[:3])) < 0.2  # the floor of the centrifugal force, 1 mN a ball
+
+
+def test_no_load_at_all_is_refused():
+    scene = jb.load_scene("reference_roller", DRY)
+    with pytest.raises(ValueError, match=r"operation\.radial_load_lateral: it is 0, and nothing else loads"):
+        scene.at_operation(radial_load=None, radial_load_lateral=0.0)
+    solve = lambda load: jb.solve(scene.at_operation(radial_load=None, radial_load_lateral=load), throw=False)
+    batch = jax.jit(jax.vmap(solve))(jnp.asarray([1e3, 0.0]))
+    assert list(np.asarray(batch.converged)) == [True, False]
+
+
+def test_bounds_of_moments_turn_with_the_loads():
+    """Loads turned by 45 degrees are refused without a step as well."""
+    scene = jb.load_scene("tapered_example", {"contact": "none", "operation.load_position": "-80 mm"})
+    half = math.sqrt(0.5)
+    load = float(scene.operation.radial_load)
+    across = scene.at_operation(
+        radial_load=half * load, radial_load_lateral=half * load, moment=half * 450.0, moment_lateral=half * 450.0
+    )
+    for one in (scene.at_operation(moment=450.0), across):
+        failed = jb.solve(one, throw=False)
+        assert int(failed.iterations) == 0
+        assert "N m must lie between" in failed.failure()
+    assert "both moments together" in failed.failure()
+
+
+def test_displacements_by_their_paths():
+    scene = jb.load_scene("reference_roller", DRY)
+    by_path = scene.replace({"operation.radial_load": None, "operation.displacement.radial": 3e-5})
+    assert float(by_path.operation.displacement.radial) == 3e-5
+    both = by_path.replace({"operation.displacement.lateral": 1e-6})
+    assert float(both.operation.displacement.radial) == 3e-5

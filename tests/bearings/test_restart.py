@@ -11,6 +11,7 @@ import pytest
 import jaxbearing as jb
 from jaxbearing._identity import ALIKE, differences, identity_from, identity_of
 from jaxbearing.bearings.history import LastState
+from jaxbearing.bearings.parts import azimuths
 from jaxbearing.bearings.roller_run import MAY_CHANGE, identity
 from jaxbearing.ehl import FilmState
 from jaxbearing.ehl import last_state as film
@@ -23,7 +24,7 @@ CONTACT = jb.load_scene("satellite_contact_1")
 def state_of_bearing(scene=BEARING):
     """At rest on the pitch circle."""
     count = scene.geometry.n_rollers
-    zero, azimuth = np.asarray(0.0), 2.0 * np.pi * np.arange(count) / count
+    zero, azimuth = np.asarray(0.0), np.asarray(azimuths(scene.geometry, count))
     numbers = (zero, np.zeros((3, count)), np.zeros(6), zero, zero, zero, azimuth)
     return LastState(*numbers, has_cage=scene.cage is not None, identity=identity(scene))
 
@@ -108,3 +109,10 @@ def test_there_and_back():
     assert identity_from(told).told() == told
     with pytest.raises(ValueError, match=r"could not convert|inhomogeneous|setting an array"):
         identity_from({"geometry": [1, [2, 3]]})
+
+
+def test_a_bearing_whose_first_element_is_elsewhere():
+    """Its own state goes on; that of the bearing turned does not."""
+    turned = BEARING.replace({"geometry.first_element_angle": 0.1})
+    check_restart(turned, state_of_bearing(turned), 1e-3)
+    assert "first_element_angle" in refused(turned, state_of_bearing(turned.replace_geometry(first_element_angle=0.2)))

@@ -1,5 +1,6 @@
 """Sweeps: the same numbers as single solves, failed cases, files that survive kills and damage, what is refused."""
 
+import io
 import os
 import re
 import shutil
@@ -13,9 +14,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 import xarray as xr
+from rich.console import Console
 from roller_cases import dry_roller
 
 import jaxbearing as jb
+from jaxbearing.report.sweep_summary import print_sweep
 from jaxbearing.sweeps import latin_hypercube, listed
 from jaxbearing.sweeps.chunks import chunk_path, read_chunk
 from jaxbearing.sweeps.engine import SweepError, Watcher, chunk_folder, run
@@ -369,3 +372,17 @@ def test_no_equilibrium_is_said_of_its_case_only(tmp_path):
     assert found["status"].values.tolist() == [3, 0]
     assert "no_equilibrium" in str(found["failure"].values[0])
     assert np.isnan(found["ring_axial"].values).tolist() == [True, False]
+
+
+def test_the_place_of_the_first_element_can_be_swept(tmp_path):
+    """Azimuths differ from case to case then; loads that a given displacement needs are shown."""
+    scene = jb.load_scene("reference_roller", {"contact": "none", "cage": "none"})
+    held = {"operation.radial_load": None, "operation.displacement.radial": 30e-6}
+    scene = scene.replace({"geometry.first_element_angle": 0.0, **held})
+    found = jb.sweep(scene, {"geometry.first_element_angle": [0.0, 0.1]})
+    np.testing.assert_allclose(found["azimuth"].values[:, 0], [0.0, 0.1])
+    store = tmp_path / "s.nc"
+    found.to_netcdf(store, engine="h5netcdf")
+    console = Console(file=io.StringIO(), width=120, record=True)
+    print_sweep(store, "s", 0, 1.0, console)
+    assert "force, radial_load" in console.export_text()

@@ -95,7 +95,8 @@ def _loads(solution: Solution) -> Chart:
     }
     figure = figure_of(*traces, polar=polar, margin={"l": 46, "r": 46, "t": 54, "b": 30})
     name = solution.element_name
-    caption = f"Normal load of each {name} on its contacts; azimuth 0, where {name} 0 stands, is below."
+    first = float(np.degrees(np.asarray(solution.elements.azimuth)[0]))
+    caption = f"Normal load of each {name} on its contacts; azimuth 0 is below, {name} 0 stands at {first:.4g}°."
     return Chart("load", f"Load on each {name}, {unit}", caption, figure, 400)
 
 

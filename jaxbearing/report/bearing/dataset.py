@@ -66,9 +66,15 @@ def _with_coordinates(dataset: xr.Dataset, solution: Solution, dims: tuple[str, 
     """Operating point, azimuths and names as coordinates."""
     azimuth = dataset["azimuth"]
     if dims:
-        azimuth = xr.DataArray(common(azimuth.values, 1, "azimuth"), dims=(_ELEMENT,), attrs=azimuth.attrs)
+        try:
+            values = common(azimuth.values, 1, "azimuth")
+        except ValueError:  # a batch over the place of the first element
+            pass
+        else:
+            azimuth = xr.DataArray(values, dims=(_ELEMENT,), attrs=azimuth.attrs)
+    numbers = np.arange(azimuth.sizes[_ELEMENT])
     names = {
-        _ELEMENT: (np.arange(azimuth.size), "number of the rolling element, 0 on the load line"),
+        _ELEMENT: (numbers, "number of the rolling element; azimuth says where it is"),
         _FREEDOMS[0]: (list(RING_FREEDOMS), "freedom of the inner ring along which the load acts"),
         _FREEDOMS[1]: (list(RING_FREEDOMS), "freedom of the inner ring that is displaced"),
     }

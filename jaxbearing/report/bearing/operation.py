@@ -1,11 +1,13 @@
 """The operating point of a solution in words, without what the scene does not use."""
 
 import dataclasses
+import math
 from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
 
+from ...bearings.operation import AbstractOperation
 from ...bearings.solution import Solution
 from ..display import ZERO_CELSIUS, display_unit, displayed
 
@@ -18,6 +20,12 @@ def unused_operation(solution: Solution) -> set[str]:
     if solution.power_loss.drag is None:
         unused.add("oil_flow")
     return unused
+
+
+def load_angle(operation: AbstractOperation) -> float | None:
+    """Azimuth along which the given load across the axis points, rad; `None` where none is given."""
+    radial, lateral = (0.0 if load is None else float(load) for load in map(operation.load, ("radial", "lateral")))
+    return math.atan2(lateral, radial) if radial or lateral else None
 
 
 def operating_point(solution: Solution) -> str:

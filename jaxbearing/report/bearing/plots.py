@@ -9,7 +9,7 @@ import numpy as np
 from ...bearings.solution import Solution
 from ..display import digits, displayed
 from ..sheet import FAINT, INK, axis_unit, foot, grid_lines, head, log_ticks, pretty, round_up, title_of
-from .operation import operating_point
+from .operation import load_angle, operating_point
 
 if TYPE_CHECKING:
     import matplotlib.figure
@@ -133,14 +133,17 @@ def draw_loads(axes: Any, solution: Solution) -> None:
     axes.tick_params(axis="x", pad=2)
     axes.grid(color="#D8D8D8", linewidth=0.7)
     axes.spines["polar"].set_color(FAINT)
-    if getattr(solution.operation, "radial_load", None) is not None:
-        _load_arrow(axes)
+    angle = load_angle(solution.operation)
+    if angle is not None:
+        _load_arrow(axes, angle)
     title_of(axes, f"Load on each rolling element, {unit}", pad=16)
 
 
-def _load_arrow(axes: Any) -> None:
+def _load_arrow(axes: Any, angle: float) -> None:
+    """Beside the picture; azimuth 0 is below, counter-clockwise."""
     arrow = {"arrowstyle": "-|>,head_width=0.35,head_length=0.7", "linewidth": 2.2, "color": INK}
-    axes.annotate("", xy=(1.05, 0.0), xytext=(1.05, 0.14), xycoords="axes fraction", arrowprops=arrow)
+    place, half = np.array([1.05, 0.07]), 0.07 * np.array([math.sin(angle), -math.cos(angle)])
+    axes.annotate("", xy=tuple(place + half), xytext=tuple(place - half), xycoords="axes fraction", arrowprops=arrow)
     axes.text(1.05, 0.165, "load", transform=axes.transAxes, fontsize=9, color=INK, ha="center")
 
 
