@@ -98,7 +98,7 @@ def _program(plan: Plan, devices: int | None) -> tuple[LaneProgram, xr.Dataset]:
     if (plan.key, devices) not in _compiled:
         program = plan.program(devices)
         _compiled.clear()
-        _compiled[plan.key, devices] = program, template(program.structure, plan.elements)
+        _compiled[plan.key, devices] = program, template(program.structure, plan.elements, plan.cases.paths)
     return _compiled[plan.key, devices]
 
 
@@ -107,7 +107,7 @@ def labels_of(plan: Plan) -> xr.Dataset:
     for (key, _), (_, labels) in _compiled.items():
         if key == plan.key:
             return labels
-    return template(plan.program().structure, plan.elements)
+    return template(plan.program().structure, plan.elements, plan.cases.paths)
 
 
 def _said(plan: Plan, reasons: list[str], good: np.ndarray, start: int) -> list[str]:

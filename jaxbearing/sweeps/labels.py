@@ -1,6 +1,7 @@
 """Stored results of a sweep: the variables of their data set, as arrays over the cases."""
 
 import functools
+from collections.abc import Sequence
 from typing import Any
 
 import jax
@@ -17,13 +18,16 @@ _EACH = {"element", "node"}
 """Dimensions of results that a sweep may leave out."""
 
 
-def template(structure: Any, elements: bool) -> xr.Dataset:
+def template(structure: Any, elements: bool, paths: Sequence[str]) -> xr.Dataset:
     """The data set of one case, with names, units and dimensions but no results.
 
-    **Arguments:** `structure`: a solution with shapes for arrays; `elements`: see `Plan`.
+    **Arguments:** `structure`: a solution with shapes for arrays; `elements`: see `Plan`; `paths`: swept fields.
     """
     one = jax.tree.map(lambda leaf: np.zeros((1, *leaf.shape), leaf.dtype), structure)
     dataset = solution_to_dataset(one, (CASE,))
+    if "azimuth" in dataset and "geometry.first_element_angle" in paths:
+        # elsewhere in each case
+        dataset = dataset.assign_coords(azimuth=dataset["azimuth"].expand_dims({CASE: 1}))
     if not elements:
         dataset = dataset.drop_dims(sorted(_EACH & set(dataset.dims)))
     return dataset
