@@ -8,7 +8,7 @@ from pydantic import BeforeValidator
 
 from . import units
 from .bearing_schema import BearingCageTable as BallCageTable
-from .bearing_schema import BearingOperationTable, RatingTable, require_oil, require_oil_flow
+from .bearing_schema import RatingTable, ThrustOperationTable, require_oil, require_oil_flow
 from .laws import TractionAccuracy
 from .materials import MaterialField
 from .oil_schema import OilTable
@@ -137,7 +137,7 @@ class BallBearingTable(Table):
     kind: Literal["ball_bearing"]
     geometry: BallGeometryTable
     materials: BallMaterialsTable
-    operation: BearingOperationTable
+    operation: ThrustOperationTable
     oil: OilTable | None = None
     contact: BallContactTable | None = None
     kinematics: KinematicsTable | None = None

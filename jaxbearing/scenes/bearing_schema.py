@@ -45,7 +45,6 @@ class BearingOperationTable(Table):
     outer_speed: units.Speed = 0.0
     oil_temperature: units.Temperature | None = None
     oil_flow: units.NonNegativeFlow | None = None
-    axial_load: units.Force | None = None
     radial_load: units.Force | None = None
     radial_load_lateral: units.Force | None = None
     moment: units.Moment | None = None
@@ -68,9 +67,15 @@ class BearingOperationTable(Table):
             return
         for load, freedom in (("axial_load", "axial"), ("radial_load", "radial"), ("radial_load_lateral", "lateral")):
             held = getattr(self.displacement, freedom)
-            if getattr(self, load) is not None and held is not None:
+            if getattr(self, load, None) is not None and held is not None:
                 expected = f"none beside operation.{load}, which sets the {freedom} displacement free"
                 yield refusal_at(f"displacement.{freedom}", expected, in_mm(held))
+
+
+class ThrustOperationTable(BearingOperationTable):
+    """The operating point of a bearing that carries axial loads."""
+
+    axial_load: units.Force | None = None
 
 
 def _reliability(value: Any) -> float:

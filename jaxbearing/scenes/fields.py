@@ -101,8 +101,9 @@ def plain_table_at(model: type[BaseModel], name: str) -> Any:
 
 
 def required_names(model: type[BaseModel]) -> tuple[str, ...]:
-    """Names of the fields of a table that may not be left out."""
-    return tuple(name for name, info in model.model_fields.items() if info.is_required())
+    """Names of the fields of a table that may not be left out, or not without something in their place."""
+    required = tuple(name for name, info in model.model_fields.items() if info.is_required())
+    return (*required, *getattr(model, "needs", ()))
 
 
 def _models_of_field(model: type[BaseModel], name: str) -> list[type[BaseModel]]:

@@ -101,14 +101,14 @@ class DragTable(Table):
 
 
 class OperationTable(BearingOperationTable):
+    not_yet: ClassVar[Mapping[str, str]] = {"axial_load": "a radial load only, beside a moment or misalignment"}
+    needs: ClassVar[tuple[str, ...]] = ("radial_load",)
     radial_load: units.PositiveForce | None = None
 
     @check
     def _axial(self) -> Problems:
-        expected = "none: nothing holds the inner ring of a cylindrical roller bearing along the axis"
-        if self.axial_load is not None:
-            yield refusal_at("axial_load", expected, f"{self.axial_load:g} N")
         if self.displacement is not None and self.displacement.axial is not None:
+            expected = "none: nothing holds the inner ring of a cylindrical roller bearing along the axis"
             yield refusal_at("displacement.axial", expected, in_mm(self.displacement.axial))
 
     @check
@@ -117,7 +117,7 @@ class OperationTable(BearingOperationTable):
             self.displacement.radial is not None or self.displacement.lateral is not None
         )
         if self.radial_load is None and self.radial_load_lateral is None and not held:
-            expected = "a force, e.g. '10 kN', or radial_load_lateral, or operation.displacement.radial"
+            expected = "a force, e.g. '10 kN', which is required without radial_load_lateral and operation.displacement"
             yield refusal_at("radial_load", expected, "nothing")
 
 

@@ -26,7 +26,8 @@ class Table(BaseModel):
 
     `tag` names a table that is one of several alternatives of a field; `not_yet` are names of later versions with what
     to expect instead; `instead`: field -> those that it stands for: a `--set` of it takes them out; `about`: field ->
-    those that say more about it: they go when a `--set` takes it out.
+    those that say more about it: they go when a `--set` takes it out; `needs`: fields without which, or something in
+    their place, a check refuses the table.
     """
 
     model_config = ConfigDict(extra="forbid", strict=True, frozen=True)
@@ -34,6 +35,7 @@ class Table(BaseModel):
     not_yet: ClassVar[Mapping[str, str]] = {}
     instead: ClassVar[Mapping[str, tuple[str, ...]]] = {}
     about: ClassVar[Mapping[str, tuple[str, ...]]] = {}
+    needs: ClassVar[tuple[str, ...]] = ()
 
     @classmethod
     def checks(cls) -> Iterator[Callable[[Any], Problems]]:

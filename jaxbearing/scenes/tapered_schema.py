@@ -4,7 +4,7 @@ from collections.abc import Mapping
 from typing import ClassVar, Literal
 
 from . import units
-from .bearing_schema import BearingOperationTable, RatingTable, require_oil, require_oil_flow
+from .bearing_schema import RatingTable, ThrustOperationTable, require_oil, require_oil_flow
 from .laws import TractionAccuracy
 from .materials import MaterialField
 from .oil_schema import OilTable
@@ -61,13 +61,14 @@ ISOVISCOUS = {
 """The laws of `TaperedContactTable` that hold for an oil of the same viscosity at every pressure."""
 
 
-class TaperedOperationTable(BearingOperationTable):
+class TaperedOperationTable(ThrustOperationTable):
+    needs: ClassVar[tuple[str, ...]] = ("axial_load",)
     load_position: units.Length = 0.0
 
     @check
     def _thrust(self) -> Problems:
         if self.axial_load is None and (self.displacement is None or self.displacement.axial is None):
-            expected = "a force, e.g. '1 kN', or operation.displacement.axial"
+            expected = "a force, e.g. '1 kN', which is required where operation.displacement.axial is not given"
             yield refusal_at("axial_load", expected, "nothing")
 
 

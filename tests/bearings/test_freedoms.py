@@ -28,7 +28,15 @@ SLOW = {
     "rollers that slide": ("reference_roller", {}),
     "balls that slide": ("turbine_ball", {"operation.radial_load": "3 kN"}),
 }
-NAMES = [*BEARINGS, *(pytest.param(name, marks=pytest.mark.slow) for name in SLOW)]
+QUICK = ("rollers, dry", "balls")
+"""Those whose programs are small."""
+
+
+def slow_but(names, quick):
+    return [name if name in quick else pytest.param(name, marks=pytest.mark.slow) for name in names]
+
+
+NAMES = slow_but([*BEARINGS, *SLOW], QUICK)
 
 
 def bearing(name):
@@ -105,7 +113,7 @@ TILTS = {
 }
 
 
-@pytest.mark.parametrize("name", TILTS)
+@pytest.mark.parametrize("name", slow_but(TILTS, ("rollers",)))
 def test_moments_about_both_axes(name):
     """Moments free both tilts; held at these tilts the ring needs the moments."""
     file, changes, moment, across = TILTS[name]
@@ -131,22 +139,21 @@ def test_a_moment_about_the_load_axis():
     """7 balls of 11.5 mm at rest under 1 kN radially, 1 kN axially and 1 N m about the load axis."""
     steel = Material(youngs_modulus=210e9, poisson_ratio=0.3, density=7800.0)
     geometry = BallGeometry(7, 43.5e-3, 11.5e-3, 0.52, 0.53, diametral_clearance=10e-6)
-    for tilt in ({}, {"moment": 0.0}):
-        operation = BallOperation(0.0, axial_load=1e3, radial_load=1e3, moment_lateral=1.0, **tilt)
-        scene = BallBearing(geometry, BallMaterials(steel, steel), operation, BallAttitude("outer"))
-        solution = jb.solve(scene)
-        assert float(solution.residual_norm) < 1e-9
-        assert solution.ring.tilt_lateral > 0.0
-        np.testing.assert_allclose(solution.force[:3], [1e3, 1e3, 0.0], rtol=1e-9, atol=1e-6)
-        np.testing.assert_allclose(solution.force[4], 1.0, rtol=1e-9)
-        # what reaches the outer ring, from the printed loads and angles; forces along the orbit, 5e-4 here, do not: the
-        # balls of a bearing at rest are held in their places
-        elements = solution.elements
-        load, angle, psi = elements.load_outer, elements.contact_angle_outer, elements.azimuth
-        np.testing.assert_allclose(jnp.sum(load * jnp.sin(angle)), 1e3, rtol=1e-9)
-        across = load * jnp.cos(angle)
-        np.testing.assert_allclose(jnp.sum(across * jnp.cos(psi)), 1e3, rtol=1e-3)
-        np.testing.assert_allclose(jnp.sum(across * jnp.sin(psi)), 0.0, atol=1e-2)
+    operation = BallOperation(0.0, axial_load=1e3, radial_load=1e3, moment_lateral=1.0)
+    scene = BallBearing(geometry, BallMaterials(steel, steel), operation, BallAttitude("outer"))
+    solution = jb.solve(scene)
+    assert float(solution.residual_norm) < 1e-9
+    assert solution.ring.tilt_lateral > 0.0
+    np.testing.assert_allclose(solution.force[:3], [1e3, 1e3, 0.0], rtol=1e-9, atol=1e-6)
+    np.testing.assert_allclose(solution.force[4], 1.0, rtol=1e-9)
+    # what reaches the outer ring, from the printed loads and angles; forces along the orbit, 5e-4 here, do not: the
+    # balls of a bearing at rest are held in their places
+    elements = solution.elements
+    load, angle, psi = elements.load_outer, elements.contact_angle_outer, elements.azimuth
+    np.testing.assert_allclose(jnp.sum(load * jnp.sin(angle)), 1e3, rtol=1e-9)
+    across = load * jnp.cos(angle)
+    np.testing.assert_allclose(jnp.sum(across * jnp.cos(psi)), 1e3, rtol=1e-3)
+    np.testing.assert_allclose(jnp.sum(across * jnp.sin(psi)), 0.0, atol=1e-2)
 
 
 def test_derivatives_by_displacements_and_lateral_loads():
@@ -170,7 +177,7 @@ def _held_at(scene, place):
 
 
 def test_a_batch_of_displacements_of_which_one_is_no_number():
-    scene = jb.load_scene("reference_roller").at_operation(radial_load=None, displacement={"radial": 30e-6})
+    scene = jb.load_scene("reference_roller", DRY).at_operation(radial_load=None, displacement={"radial": 30e-6})
     places = jnp.asarray([20e-6, jnp.nan, 30e-6])
     solve = lambda one: jb.solve(scene.at_operation(displacement={"radial": one}), throw=False)
     batch = jax.jit(jax.vmap(solve))(places)
@@ -210,6 +217,7 @@ def test_what_a_bearing_needs_and_does_not_have():
         run.at_operation(radial_load=None, displacement={"radial": 1e-6})
 
 
+@pytest.mark.slow
 def test_a_run_in_time_under_a_lateral_load_starts_as_the_solve():
     scene = jb.load_scene("turbine_roller_dynamic")
     across = turned(scene).replace({"simulation": None})

@@ -118,6 +118,8 @@ def test_the_exact_tilt_differs_by_what_the_docstring_says():
         np.testing.assert_allclose(*both, rtol=1e-9)
 
 
+LONG = ("films", "cage and traction", "deep groove, held tilt")
+"""Cases with large programs."""
 RETURNED = {
     "deep groove, free tilt": ("deep_groove_6205", {}),
     "deep groove, no tilt": ("deep_groove_6205", {"operation.moment": "none"}),
@@ -142,7 +144,9 @@ RETURNED = {
 }
 
 
-@pytest.mark.parametrize("name", RETURNED)
+@pytest.mark.parametrize(
+    "name", [pytest.param(one, marks=pytest.mark.slow) if one in LONG else one for one in RETURNED]
+)
 def test_displacements_of_a_solve_need_its_loads(name):
     scene = jb.load_scene(*RETURNED[name])
     solved = jb.solve(scene)
@@ -233,7 +237,7 @@ def test_a_failed_lane_says_so_and_leaves_the_others_alone():
 
     def lanes(diameter, places, options=None):
         changed = scene.replace_geometry(ball_diameter=diameter)
-        return jax.vmap(lambda q: jb.reaction(changed, q, throw=False, options=options))(places)
+        return jax.jit(jax.vmap(lambda q: jb.reaction(changed, q, throw=False, options=options)))(places)
 
     def total(diameter, places, options=None):
         found = lanes(diameter, places, options)
@@ -245,7 +249,7 @@ def test_a_failed_lane_says_so_and_leaves_the_others_alone():
     for results in (found.force, found.stiffness, found.ring.radial):
         assert np.all(np.isfinite(results[0]))
         assert np.all(np.isnan(results[1]))
-    slope, alone = (jax.grad(total)(diameter, some) for some in (places, places[:1]))
+    slope, alone = (jax.jit(jax.grad(total))(diameter, some) for some in (places, places[:1]))
     np.testing.assert_allclose(slope, alone, rtol=1e-12)
     few = jb.NewtonOptions(max_steps=2, continuation=False)
     assert not np.any(lanes(diameter, places, few).converged)
@@ -285,9 +289,27 @@ def test_what_it_does_not_take():
         jb.reaction(T15, np.zeros(5), expansion=np.zeros(3))
     with pytest.raises(ValueError, match="tilt must be one of 'exact', 'linear', got 'iso'"):
         jb.reaction(T15, np.zeros(5), tilt="iso")
-    with pytest.raises(ValueError, match=r"contact\.traction"):
-        jb.reaction(jb.load_scene("turbine_roller"), np.zeros(5))
+    with pytest.raises(ValueError, match=r"displacement: tilt .* with contact\.traction must be 0"):
+        jb.reaction(jb.load_scene("turbine_roller"), [0.0, 1e-6, 0.0, 1e-4, 0.0])
     with pytest.raises(TypeError, match="reaction takes a bearing, got a TwoDisk"):
         jb.reaction(jb.load_scene("two_disk_etm"), np.zeros(5))
     invalid = jax.jit(lambda w: jb.reaction(T15.replace_geometry(ball_diameter=w), np.zeros(5), throw=False).status)
     assert int(invalid(-1.0)) == jb.Status.INVALID_INPUT
+
+
+def test_rollers_that_slide_are_held_where_a_solve_brings_them():
+    """Cage, losses and stiffness are those of the solve; a tilt is an invalid input."""
+    scene = jb.load_scene("reference_roller").replace({"ring_freedom": ("radial", "lateral")})
+    solved = jb.solve(scene)
+    place = jnp.asarray([0.0, solved.ring.radial, solved.ring.lateral, 0.0, 0.0])
+    held = jax.jit(lambda q: jb.reaction(scene, q, throw=False))(place)
+    np.testing.assert_allclose(held.force, solved.force, rtol=1e-9, atol=1e-6)
+    np.testing.assert_allclose(held.power_loss.total, solved.power_loss.total, rtol=1e-9)
+    np.testing.assert_allclose(held.cage.speed, solved.cage.speed, rtol=1e-12)
+    scale = float(solved.stiffness[1, 1])
+    np.testing.assert_allclose(held.stiffness / scale, solved.stiffness / scale, atol=1e-8)
+    np.testing.assert_allclose(
+        held.drive_power, held.power_loss.total, rtol=1e-8
+    )  # the balance of power of a held ring
+    tilted = jax.jit(lambda q: jb.reaction(scene, q, throw=False).status)(place.at[3].set(1e-6))
+    assert int(tilted) == jb.Status.INVALID_INPUT

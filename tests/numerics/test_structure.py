@@ -99,7 +99,7 @@ def test_words(name, path, word):
 
 
 PARTS = ("lubricants", "contacts", "gaps", "bearings", "machines", "ehl")
-INSIDE = ("System", "Core", "Problem", "Patch", "Fluid", "History", "State", "Solution", "Loads")
+INSIDE = ("System", "Core", "Problem", "Patch", "Fluid", "History", "State", "Solution", "Loads", "InnerRing")
 """What the solvers make of a scene: their static numbers follow from fields that were checked."""
 
 
