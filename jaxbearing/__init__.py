@@ -37,17 +37,41 @@ with rare_garbage_collection():
     from .sweep import sweep as sweep
 
 if TYPE_CHECKING:
+    from . import contacts as contacts
+    from . import gaps as gaps
+    from . import life as life
+    from . import lubricants as lubricants
     from . import plots as plots
     from . import sweeps as sweeps
+    from .bearings.ball_bearing import BallAttitude as BallAttitude
     from .bearings.ball_bearing import BallBearing as BallBearing
+    from .bearings.ball_bearing import BallCage as BallCage
+    from .bearings.ball_bearing import BallDragSettings as BallDragSettings
+    from .bearings.ball_bearing import BallMaterials as BallMaterials
+    from .bearings.ball_bearing import BallOperation as BallOperation
+    from .bearings.ball_geometry import BallGeometry as BallGeometry
     from .bearings.cylindrical_roller import CylindricalRollerBearing as CylindricalRollerBearing
+    from .bearings.cylindrical_roller import RollerCage as RollerCage
+    from .bearings.cylindrical_roller import RollerFlange as RollerFlange
+    from .bearings.cylindrical_roller import RollerGeometry as RollerGeometry
     from .bearings.history import History as History
+    from .bearings.operation import HeldDisplacement as HeldDisplacement
+    from .bearings.operation import Operation as Operation
+    from .bearings.parts import Drag as Drag
+    from .bearings.parts import Materials as Materials
+    from .bearings.rating import Rating as Rating
     from .bearings.roller_instants import pocket_loads as pocket_loads
     from .bearings.roller_motion import quasi_static_start as quasi_static_start
+    from .bearings.roller_profile import RollerProfile as RollerProfile
     from .bearings.roller_simulation import trajectory as trajectory
     from .bearings.simulation import Simulation as Simulation
     from .bearings.solution import Solution as Solution
+    from .bearings.tapered_geometry import TaperedGeometry as TaperedGeometry
+    from .bearings.tapered_roller import TaperedOperation as TaperedOperation
     from .bearings.tapered_roller import TaperedRollerBearing as TaperedRollerBearing
+    from .ehl import EHLLineContact as EHLLineContact
+    from .machines import TwoDisk as TwoDisk
+    from .materials import Material as Material
     from .numerics.newton import NewtonOptions as NewtonOptions
     from .numerics.status import SolveError as SolveError
     from .numerics.status import Status as Status
@@ -65,16 +89,36 @@ shown_by(f"{__name__}.report.shown")
 __version__ = "0.1.0"
 
 _LAZY = {
+    "BallAttitude": ".bearings.ball_bearing",
     "BallBearing": ".bearings.ball_bearing",
+    "BallCage": ".bearings.ball_bearing",
+    "BallDragSettings": ".bearings.ball_bearing",
+    "BallGeometry": ".bearings.ball_geometry",
+    "BallMaterials": ".bearings.ball_bearing",
+    "BallOperation": ".bearings.ball_bearing",
     "CylindricalRollerBearing": ".bearings.cylindrical_roller",
+    "Drag": ".bearings.parts",
+    "EHLLineContact": ".ehl",
+    "HeldDisplacement": ".bearings.operation",
     "History": ".bearings.history",
+    "Material": ".materials",
+    "Materials": ".bearings.parts",
     "NewtonOptions": ".numerics.newton",
+    "Operation": ".bearings.operation",
+    "Rating": ".bearings.rating",
+    "RollerCage": ".bearings.cylindrical_roller",
+    "RollerFlange": ".bearings.cylindrical_roller",
+    "RollerGeometry": ".bearings.cylindrical_roller",
+    "RollerProfile": ".bearings.roller_profile",
     "SceneError": ".scenes.errors",
     "Simulation": ".bearings.simulation",
     "Solution": ".bearings.solution",
     "SolveError": ".numerics.status",
     "Status": ".numerics.status",
+    "TaperedGeometry": ".bearings.tapered_geometry",
+    "TaperedOperation": ".bearings.tapered_roller",
     "TaperedRollerBearing": ".bearings.tapered_roller",
+    "TwoDisk": ".machines",
     "builtin_names": ".scenes.reader",
     "load_oil": ".scenes.from_python",
     "load_scene": ".scenes.reader",
@@ -87,8 +131,11 @@ _LAZY = {
     "trajectory": ".bearings.roller_simulation",
 }
 """Public names that pull in the edge (units, validation) or are only needed by some; imported on first use."""
-_MODULES = ("plots", "sweeps")
-"""Modules that are public as such."""
+_MODULES = ("contacts", "fitting", "gaps", "life", "lubricants", "plots", "sweeps")
+"""Modules that are public as such: the laws, the fit of an oil, sweeps, figures."""
+_AT_ONCE = ("jit_solver", "simulate", "simulate_batch", "solve", "sweep")
+
+__all__ = [*_AT_ONCE, *_LAZY, *_MODULES]  # pyright: ignore[reportUnsupportedDunderAll]
 
 
 def __getattr__(name: str) -> Any:
@@ -100,4 +147,4 @@ def __getattr__(name: str) -> Any:
 
 
 def __dir__() -> list[str]:
-    return sorted([*globals(), *_LAZY, *_MODULES])
+    return sorted([*__all__, "__doc__", "__version__"])

@@ -4,3 +4,21 @@ The standards themselves were not at hand. Each formula says how far its constan
 [T] it reproduces well-known values of the standard's tables, [D] derived here by computation, [C] it passes a test of
 consistency, [M] from memory only.
 """
+
+from .basic import basic_life as basic_life
+from .basic import deep_groove_equivalent_load as deep_groove_equivalent_load
+from .basic import tapered_equivalent_load as tapered_equivalent_load
+from .capacity import ball_capacity as ball_capacity
+from .capacity import roller_capacity as roller_capacity
+from .modification import contamination_factor as contamination_factor
+from .modification import fatigue_load_limit as fatigue_load_limit
+from .modification import film_ratio as film_ratio
+from .modification import modification_factor as modification_factor
+from .modification import reference_viscosity as reference_viscosity
+from .reference import ball_contact_capacities as ball_contact_capacities
+from .reference import ball_damage_rate as ball_damage_rate
+from .reference import edge_factors as edge_factors
+from .reference import roller_contact_capacities as roller_contact_capacities
+from .reference import roller_damage_rate as roller_damage_rate
+from .static import ball_static_capacity as ball_static_capacity
+from .static import roller_static_capacity as roller_static_capacity

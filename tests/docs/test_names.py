@@ -72,3 +72,17 @@ def test_name_is_there(name, at_once):
 
 def test_all_that_is_offered_is_there(at_once):
     assert {"sweeps", "plots", "trajectory", "quasi_static_start", "pocket_loads", *jaxbearing._LAZY} <= at_once
+
+
+def test_nothing_else_is_offered(at_once):
+    """Names of the package and no imports of its own."""
+    assert at_once == {*jaxbearing.__all__, "__doc__", "__version__"}
+    for name in jaxbearing.__all__:
+        assert resolved(f"jb.{name}") is not None
+
+
+def test_fitting_has_a_name_that_is_not_generic():
+    import jaxbearing.fitting as same
+
+    assert same is fitting
+    assert jaxbearing.fitting is fitting
