@@ -10,9 +10,9 @@ from fitting import Measurements, fit, read_curves
 from jaxbearing.scenes.data_files import builtin_text
 
 TOP = Path(__file__).parents[1]
-README, USING, INSTALLING, FITTING = (
+README, USING, INSTALLING, FITTING, LAWS = (
     (TOP / name).read_text(encoding="utf-8")
-    for name in ("README.md", "docs/using.md", "docs/installing.md", "docs/fitting.md")
+    for name in ("README.md", "docs/using.md", "docs/installing.md", "docs/fitting.md", "docs/laws.md")
 )
 LONGEST = 700
 """Words of the README."""
@@ -32,6 +32,12 @@ def test_python_blocks_run(capsys):
 def test_python_blocks_of_using_it_run(block, capsys):
     exec(compile(block, "using.md", "exec"), {})
     assert capsys.readouterr().out
+
+
+@pytest.mark.parametrize("block", blocks(LAWS, "python"), ids=range(len(blocks(LAWS, "python"))))
+def test_laws_can_be_called_as_the_page_says(block, capsys):
+    exec(compile(block, "laws.md", "exec"), {})
+    assert "nan" not in capsys.readouterr().out
 
 
 def test_readme_is_short():

@@ -32,6 +32,10 @@ class BallResults(eqx.Module):
     spin_speed: _Values = _result("rad/s", "spin of the ball, relative to its orbit")
     attitude_angle: _Values = _result("rad", "attitude of the spin, beta")
     raceway_control: _Values = _result("percent", "100: outer race control, 0: inner race control")
+    control_angle_inner: _Values = _result("rad", "attitude of the spin under inner race control, beta_i")
+    control_angle_outer: _Values = _result("rad", "attitude of the spin under outer race control, beta_o")
+    centrifugal_force: _Values = _result("N", "centrifugal force on the ball")
+    gyroscopic_couple: _Values = _result("N m", "gyroscopic couple of the ball, carried where the scene says by what")
     spin_to_roll_inner: _Values = _result("1", "spin about the contact normal over roll, inner")
     spin_to_roll_outer: _Values = _result("1", "spin about the contact normal over roll, outer")
     transverse_spin: _Values | None = _optional(

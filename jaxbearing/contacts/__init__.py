@@ -11,6 +11,7 @@ from .film import DowsonToyoda as DowsonToyoda
 from .film import Grubin as Grubin
 from .film import MartinBlend as MartinBlend
 from .film import Moes as Moes
+from .film import MoesNumbers as MoesNumbers
 from .film import PanHamrockCentral as PanHamrockCentral
 from .film import PanHamrockMinimum as PanHamrockMinimum
 from .heated_film import heated_film as heated_film

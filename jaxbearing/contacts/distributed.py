@@ -53,6 +53,10 @@ class Traction(NamedTuple):
     inner_residual: Float[Array, "*batch"] | None = None
     curvature: Float[Array, "*batch"] | None = None
 
+    def coefficient(self, load: Values) -> Float[Array, "*batch"]:
+        """Traction coefficient along rolling. **Arguments:** `load`: of the contact, N, > 0."""
+        return self.rolling / load
+
 
 class DistributedTraction(AbstractTraction):
     r"""Maxwell fluid under the local Hertz pressure, followed along strips in the rolling direction.

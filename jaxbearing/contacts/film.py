@@ -1,7 +1,7 @@
 """Isothermal film thickness of a lubricated line contact."""
 
 import abc
-from typing import ClassVar
+from typing import ClassVar, NamedTuple
 
 import jax.numpy as jnp
 from jaxtyping import Array, Float
@@ -45,6 +45,27 @@ class AbstractLineFilm(Checked):
         - `pressure_viscosity`: reciprocal isoviscous pressure at the inlet temperature, 1/Pa, >= 0.
         """
 
+    def thickness(
+        self,
+        contact: LineContact,
+        load: Values,
+        entrainment_speed: Values,
+        viscosity: Values,
+        pressure_viscosity: Values,
+    ) -> Float[Array, "..."]:
+        """Film thickness, m. **Arguments:** those of `log_thickness`."""
+        return jnp.exp(self.log_thickness(contact, load, entrainment_speed, viscosity, pressure_viscosity))
+
+
+class MoesNumbers(NamedTuple):
+    r"""Dimensionless groups of a film by Moes: load number M, material number L, and `film_unit`, m, by which a film is
+    divided to give H; of a line contact $M = \frac{Q}{\ell E'R}U^{-1/2}$, of a point contact
+    $M = \frac{Q}{E'R_x^2}U^{-3/4}$; $L = \alpha E'U^{1/4}$, $H = \frac hRU^{-1/2}$, $U = \mu(u_1+u_2)/(E'R)$."""
+
+    load: Float[Array, "..."]
+    material: Float[Array, "..."]
+    film_unit: Float[Array, "..."]
+
 
 class Moes(AbstractLineFilm):
     r"""Central film of a line contact in all four regimes.
@@ -73,11 +94,8 @@ class Moes(AbstractLineFilm):
         viscosity: Values,
         pressure_viscosity: Values,
     ) -> Float[Array, "..."]:
-        stiffness = contact.reduced_modulus * contact.reduced_radius
-        log_u = log_entrainment_sum(entrainment_speed) + jnp.log(viscosity) - jnp.log(stiffness)
-        m = load / (contact.length * stiffness) * jnp.exp(-0.5 * log_u)
+        log_u, m, log_l = self._groups(contact, load, entrainment_speed, viscosity, pressure_viscosity)
         log_m = jnp.log(smooth_abs(m, MOES_LOAD_FLOOR))
-        log_l = log_material_number(pressure_viscosity, contact.reduced_modulus) + 0.25 * log_u
 
         rigid_isoviscous = jnp.log(3.0) - log_m
         elastic_isoviscous = jnp.log(2.621) - 0.2 * log_m
@@ -89,6 +107,28 @@ class Moes(AbstractLineFilm):
         piezoviscous = -2.0 / 7.0 * log_add(-3.5 * rigid_piezoviscous, -3.5 * elastic_piezoviscous)
         log_h = log_add(s * isoviscous, s * piezoviscous) / s
         return log_h + 0.5 * log_u + jnp.log(contact.reduced_radius)
+
+    def numbers(
+        self,
+        contact: LineContact,
+        load: Values,
+        entrainment_speed: Values,
+        viscosity: Values,
+        pressure_viscosity: Values,
+    ) -> MoesNumbers:
+        """Dimensionless groups of the contact. **Arguments:** those of `log_thickness`."""
+        log_u, m, log_l = self._groups(contact, load, entrainment_speed, viscosity, pressure_viscosity)
+        return MoesNumbers(m, jnp.exp(log_l), contact.reduced_radius * jnp.exp(0.5 * log_u))
+
+    @staticmethod
+    def _groups(
+        contact: LineContact, load: Values, entrainment_speed: Values, viscosity: Values, pressure_viscosity: Values
+    ) -> tuple[Array, Array, Array]:
+        """ln U, M and ln L."""
+        stiffness = contact.reduced_modulus * contact.reduced_radius
+        log_u = log_entrainment_sum(entrainment_speed) + jnp.log(viscosity) - jnp.log(stiffness)
+        m = load / (contact.length * stiffness) * jnp.exp(-0.5 * log_u)
+        return log_u, m, log_material_number(pressure_viscosity, contact.reduced_modulus) + 0.25 * log_u
 
 
 def _log_groups(

@@ -10,7 +10,7 @@ from jaxtyping import Array, Float
 from .._types import Values
 from ..numerics.arguments import require_numbers
 from ..numerics.compiling import compiled_by_hand
-from ..numerics.safe import smooth_abs
+from ..numerics.safe import positive_power, smooth_abs
 
 LOAD_WIDTH = 1e-3
 """Smoothing of |load| in size and pressure, N: the relative error of the load is 5e-7 at 1 N."""
@@ -86,6 +86,16 @@ class PointContact(eqx.Module):
         integrals = _elliptic(log_k)
         root = jnp.sqrt(2.0 / 9.0 * _second_kind(integrals, log_k) / (self._curvature() * integrals.k))
         return jnp.pi * jnp.exp(log_k) * self.reduced_modulus * root / integrals.k
+
+    def load_at_approach(self, approach: Values) -> Float[Array, "..."]:
+        """Load of bodies that are this much nearer than where they first touch, N, 0 where they are apart.
+        **Arguments:** `approach`, m."""
+        return self.stiffness_constant() * positive_power(approach, 1.5)
+
+    def approach(self, load: Values) -> Float[Array, "..."]:
+        """How much nearer the bodies come than where they first touch, m; its slope grows without bound towards 0.
+        **Arguments:** `load`, N, >= 0."""
+        return (jnp.asarray(load) / self.stiffness_constant()) ** (2.0 / 3.0)
 
     def _log_radius_ratio(self) -> Array:
         return jnp.log(self.reduced_radius_transverse) - jnp.log(self.reduced_radius_rolling)

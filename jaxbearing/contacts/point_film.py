@@ -9,7 +9,7 @@ from jaxtyping import Array, Float
 from .._types import Scalar, Values
 from ..numerics.checks import Checked, bounded
 from ..numerics.safe import log_add, smooth_abs
-from .film import LOG_2
+from .film import LOG_2, MoesNumbers
 from .line import LOAD_FLOOR, log_entrainment_sum, log_material_number
 from .point import PointContact
 
@@ -45,6 +45,17 @@ class AbstractPointFilm(Checked):
         - `pressure_viscosity`: reciprocal isoviscous pressure at the inlet temperature, 1/Pa, >= 0.
         """
 
+    def thickness(
+        self,
+        contact: PointContact,
+        load: Values,
+        entrainment_speed: Values,
+        viscosity: Values,
+        pressure_viscosity: Values,
+    ) -> Float[Array, "..."]:
+        """Film thickness, m. **Arguments:** those of `log_thickness`."""
+        return jnp.exp(self.log_thickness(contact, load, entrainment_speed, viscosity, pressure_viscosity))
+
 
 class NijenbanningVennerMoes(AbstractPointFilm):
     r"""Central film of an elliptical contact in all four regimes.
@@ -74,12 +85,9 @@ class NijenbanningVennerMoes(AbstractPointFilm):
         viscosity: Values,
         pressure_viscosity: Values,
     ) -> Float[Array, "..."]:
-        radius, modulus = contact.reduced_radius_rolling, contact.reduced_modulus
-        stiffness = modulus * radius
-        log_u = log_entrainment_sum(entrainment_speed) + jnp.log(viscosity) - jnp.log(stiffness)
-        m = load / (stiffness * radius) * jnp.exp(-0.75 * log_u)
+        radius = contact.reduced_radius_rolling
+        log_u, m, log_l = self._groups(contact, load, entrainment_speed, viscosity, pressure_viscosity)
         log_m = jnp.log(smooth_abs(m, POINT_LOAD_FLOOR))
-        log_l = log_material_number(pressure_viscosity, modulus) + 0.25 * log_u
         ratio = jnp.maximum(radius / contact.reduced_radius_transverse, RADIUS_RATIO_FLOOR)
         log_ratio = jnp.log(ratio)
         log_c = jnp.log(1.0 + 0.006 * log_ratio + 0.63 * jnp.exp(4.0 / 7.0 * log_ratio))
@@ -96,6 +104,29 @@ class NijenbanningVennerMoes(AbstractPointFilm):
         piezoviscous = -log_add(-8.0 * rigid_piezoviscous, -8.0 * elastic_piezoviscous) / 8.0
         log_h = log_add(s * isoviscous, s * piezoviscous) / s
         return log_h + 0.5 * log_u + jnp.log(radius)
+
+    def numbers(
+        self,
+        contact: PointContact,
+        load: Values,
+        entrainment_speed: Values,
+        viscosity: Values,
+        pressure_viscosity: Values,
+    ) -> MoesNumbers:
+        """Dimensionless groups of the contact. **Arguments:** those of `log_thickness`."""
+        log_u, m, log_l = self._groups(contact, load, entrainment_speed, viscosity, pressure_viscosity)
+        return MoesNumbers(m, jnp.exp(log_l), contact.reduced_radius_rolling * jnp.exp(0.5 * log_u))
+
+    @staticmethod
+    def _groups(
+        contact: PointContact, load: Values, entrainment_speed: Values, viscosity: Values, pressure_viscosity: Values
+    ) -> tuple[Array, Array, Array]:
+        """ln U, M and ln L."""
+        radius, modulus = contact.reduced_radius_rolling, contact.reduced_modulus
+        stiffness = modulus * radius
+        log_u = log_entrainment_sum(entrainment_speed) + jnp.log(viscosity) - jnp.log(stiffness)
+        m = load / (stiffness * radius) * jnp.exp(-0.75 * log_u)
+        return log_u, m, log_material_number(pressure_viscosity, modulus) + 0.25 * log_u
 
 
 def _log_rigid_isoviscous(log_ratio: Array, log_m: Array) -> Array:

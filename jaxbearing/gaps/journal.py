@@ -103,9 +103,14 @@ class ShortJournal(Checked):
         **Arguments:** `density`, kg/m^3; `viscosity` at inlet temperature, Pa s; `relative_speed`,
         journal minus bush, rad/s, either sign.
         """
-        reynolds = density * self.radius * smooth_abs(relative_speed, SPEED_WIDTH) * self.clearance / viscosity
+        reynolds = self.reynolds_number(density, viscosity, relative_speed)
         critical = jnp.broadcast_to(41.2 * jnp.sqrt(self.radius / self.clearance), jnp.shape(reynolds))
         return self.turbulence.factors(reynolds, critical)
+
+    def reynolds_number(self, density: Values, viscosity: Values, relative_speed: Values) -> Batch:
+        r"""$Re = \rho R|\Delta\omega|c/\mu$; laminar below about 41.2 sqrt(R/c). **Arguments:** those of
+        `film_factors`."""
+        return density * self.radius * smooth_abs(relative_speed, SPEED_WIDTH) * self.clearance / viscosity
 
     def film_constant(self, viscosity: Values, k_z: Values) -> Batch:
         r"""$K = (\mu k_z/12) R L^3/c^3$, N s/m."""

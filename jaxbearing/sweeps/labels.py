@@ -18,7 +18,7 @@ _EACH = {"element", "node"}
 """Dimensions of results that a sweep may leave out."""
 
 
-def template(structure: Any, elements: bool, paths: Sequence[str]) -> xr.Dataset:
+def template(structure: Any, elements: bool, paths: Sequence[str] = ()) -> xr.Dataset:
     """The data set of one case, with names, units and dimensions but no results.
 
     **Arguments:** `structure`: a solution with shapes for arrays; `elements`: see `Plan`; `paths`: swept fields.

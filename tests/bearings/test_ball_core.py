@@ -250,3 +250,19 @@ def test_bad_bearings_are_refused():
         BallOperation(100.0)
     with pytest.raises(ValueError, match="needs traction"):
         bearing(T15, 1000, 1e3, attitude="equilibrium")
+
+
+def test_forces_of_motion_are_results():
+    """The printed centrifugal force closes a ball's balance; the couple is that of spin and orbit; beta lies between
+    the attitudes of both races' control."""
+    scene = jb.load_scene("angular_contact_218")
+    elements = jb.solve(scene).elements
+    inner, outer = elements.load_inner, elements.load_outer
+    open_ = inner * jnp.cos(elements.contact_angle_inner) - outer * jnp.cos(elements.contact_angle_outer)
+    # loose balls are held by 1 mN
+    np.testing.assert_allclose(open_ + elements.centrifugal_force, 0.0, atol=2e-3)
+    geometry, density = scene.geometry, scene.materials.balls.density
+    spin = elements.spin_speed * elements.orbital_speed * jnp.sin(elements.attitude_angle)
+    np.testing.assert_allclose(elements.gyroscopic_couple, geometry.inertia(density) * spin, rtol=1e-12)
+    np.testing.assert_allclose(elements.attitude_angle, elements.control_angle_outer, rtol=1e-12)
+    assert np.all(elements.control_angle_inner > elements.control_angle_outer)
