@@ -21,6 +21,7 @@ from jaxtyping import Array, Float
 
 from .._types import Scalar
 from ..numerics.arrow import ArrowJacobian, condensed, schur_complement
+from ..numerics.safe import NORM_FLOOR
 from .operation import AbstractOperation
 from .solution import RING_FREEDOMS, TILTS, RingDisplacement
 
@@ -119,9 +120,10 @@ class InnerRing(eqx.Module):
 
     def size(self) -> Float[Array, ""]:
         """The size of the load on the ring, given or made by what it is held at, N."""
-        square = jnp.sum(jnp.square(self.load))
-        loaded = square > 0
-        size = jnp.where(loaded, jnp.sqrt(jnp.where(loaded, square, 1.0)), square)
+        if len(self.freedoms) == 1:
+            size = jnp.abs(self.load[0])
+        else:
+            size = jnp.sqrt(jnp.sum(jnp.square(self.load)) + NORM_FLOOR**2)
         return size if self.held_load is None else size + self.held_load
 
     def equation_names(self) -> tuple[str, ...]:

@@ -40,7 +40,6 @@ from ..gaps import EndForces, PocketFilm
 from ..lubricants import InletOil, Lubricant
 from ..numerics.arrow import AbstractArrowSystem, ArrowPoint
 from ..numerics.roots import monotone_root
-from ..numerics.safe import safe_norm
 from .kinematics import RollerKinematics
 from .land import LandState, guided_land
 from .ring import LENGTH_UNIT, InnerRing
@@ -101,7 +100,7 @@ class _InPlane(AbstractArrowSystem):
 
     def load_scale(self) -> Array:
         """Scale of the ring's balances, N."""
-        return safe_norm(self.ring.size(), 0.0)
+        return self.ring.size()
 
     def inward(self, shared: Float[Array, "freedom ..."]) -> Float[Array, " roller"]:
         """Displacement of the inner ring towards each roller, m, from its unknowns."""
