@@ -8,7 +8,7 @@ import numpy as np
 from campaign.draws import Numbers, Range, even, log
 from campaign.structure import Results, Twin
 
-from jaxbearing.numerics.newton import MOST_ROUNDED, NewtonOptions
+from jaxbearing.numerics.newton_steps import MOST_ROUNDED, NewtonOptions
 
 RPM = 2.0 * np.pi / 60.0
 LITRE_PER_HOUR = 1e-3 / 3600.0

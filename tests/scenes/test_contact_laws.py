@@ -35,7 +35,7 @@ from jaxbearing.lubricants import NoPressureViscosity, WaltherRoelands
 from jaxbearing.scenes.contact_laws import FILMS, ROLLING
 from jaxbearing.scenes.errors import SceneError
 from jaxbearing.scenes.laws import BALL_FILMS, THERMAL
-from jaxbearing.scenes.reader import builtin_text, load_scene, scene_from_mapping
+from jaxbearing.scenes.reader import builtin_text, load_scene, scene_from_tables
 from jaxbearing.scenes.roller_schema import ISOVISCOUS, ContactTable
 from jaxbearing.scenes.tapered_build import FLANGE_FILMS
 
@@ -253,7 +253,7 @@ def data_sheet_scene(**changes):
     raw["oil"] = {**DATA_SHEET, **changes}
     raw["contact"] = {"film": "moes"}
     del raw["cage"], raw["flange"], raw["drag"]
-    return scene_from_mapping(raw)
+    return scene_from_tables(raw)
 
 
 def test_oil_of_a_data_sheet():
@@ -265,7 +265,7 @@ def test_oil_of_a_data_sheet():
     raw = tomllib.loads(builtin_text("turbine_roller"))
     raw["oil"] = {**DATA_SHEET, "conductivity": "0.14 W/(m*K)"}
     with pytest.raises(SceneError, match=r"oil\.rheology: found nothing; expected the law of rheology, which contact"):
-        scene_from_mapping(raw)
+        scene_from_tables(raw)
 
 
 @pytest.mark.slow

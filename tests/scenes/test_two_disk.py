@@ -23,7 +23,7 @@ from jaxbearing.contacts import (
 )
 from jaxbearing.scenes.errors import SceneError
 from jaxbearing.scenes.laws import LINE_FILMS, POINT_FILMS
-from jaxbearing.scenes.reader import builtin_text, load_scene, scene_from_mapping
+from jaxbearing.scenes.reader import builtin_text, load_scene, scene_from_tables
 from jaxbearing.scenes.two_disk_schema import ISOVISCOUS, TwoDiskContactTable
 
 NAME = "two_disk_mobil_jet_ii"
@@ -127,7 +127,7 @@ def test_set_of_load_or_pressure_takes_the_other_out():
     both = raw()
     both["operation"]["load"] = "1 N"
     with pytest.raises(SceneError, match=r"operation\.pressure: found both 'pressure' and 'load'"):
-        scene_from_mapping(both)
+        scene_from_tables(both)
 
 
 @pytest.mark.parametrize(
@@ -316,8 +316,8 @@ def conductivity_left_out(**contact_fields):
     ids=str,
 )
 def test_heat_needs_a_conductivity(fields, user):
-    scene_from_mapping(conductivity_left_out())
+    scene_from_tables(conductivity_left_out())
     with pytest.raises(SceneError) as caught:
-        scene_from_mapping(conductivity_left_out(**fields))
+        scene_from_tables(conductivity_left_out(**fields))
     assert caught.value.path == "oil.conductivity"
     assert f"the law of conductivity, which {user} needs" in str(caught.value)
