@@ -155,7 +155,7 @@ def test_a_path_that_breaks_ends_with_a_status_and_not_in_a_loop():
     assert options.max_steps < int(result.iterations) <= (1 + 2 * MOST_STEPS) * options.max_steps
 
 
-def test_further_tries_can_be_left_out():
+def test_continuation_can_be_left_out():
     _, result = newton_solve(Eased(*parameters(6.0)), NewtonOptions(continuation=False))
     assert int(result.status) != Status.CONVERGED
     assert int(result.iterations) <= 60
