@@ -93,7 +93,7 @@ class PointContact(eqx.Module):
         return self.stiffness_constant() * positive_power(approach, 1.5)
 
     def approach(self, load: Values) -> Float[Array, "..."]:
-        """How much nearer the bodies come than where they first touch, m; its slope grows without bound towards 0.
+        """Approach of the bodies from where they first touch, m; its slope grows without bound towards 0.
         **Arguments:** `load`, N, >= 0."""
         return (jnp.asarray(load) / self.stiffness_constant()) ** (2.0 / 3.0)
 

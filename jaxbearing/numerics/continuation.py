@@ -31,7 +31,7 @@ class Continuation(NamedTuple):
     parameter: Float[Array, ""]
     """Homotopy parameter of the stage being solved; 0 in the first try."""
     solved_parameter: Float[Array, ""]
-    """That of the last stage solved; above 1: none."""
+    """Parameter of the last stage solved; above 1: none."""
     solved: ArrowPoint
     length: Float[Array, ""]
     """Length of this stage."""
@@ -69,7 +69,7 @@ def first_guesses(system: AbstractArrowSystem) -> tuple[ArrowPoint, ArrowPoint]:
 
 
 class StageEnd(NamedTuple):
-    """How a Newton step left a stage: its root was found (`converged`), it `failed`, its root is one at which a nested
+    """End of a Newton step for its stage: the root was found (`converged`), it `failed`, its root is one at which a nested
     solve fails (`hopeless`: this try has come to its end, and another one may end elsewhere), or no Newton steps are
     left for further stages (`spent`)."""
 

@@ -65,7 +65,7 @@ class NewtonOptions(eqx.Module):
 
 
 class Search(NamedTuple):
-    """Where the iteration stands: a `trial` at a fraction of a `step` from `base`."""
+    """State of the iteration: a `trial` at a fraction of a `step` from `base`."""
 
     trial: ArrowPoint
     base: ArrowPoint
@@ -104,7 +104,7 @@ class Proposal(NamedTuple):
 
 
 class Verdict(NamedTuple):
-    """What the equations at a trial say: it is a root (`settled`), of the nested solves too (`converged`); the trial is
+    """Judgement of a trial by the equations there: it is a root (`settled`), of the nested solves too (`converged`); the trial is
     taken (`accepted`); there is no usable step left (`stuck`). `norm`: of the residual."""
 
     norm: Float[Array, ""]

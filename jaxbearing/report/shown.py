@@ -28,7 +28,7 @@ def html(shown: AbstractScene | AbstractSolution) -> str | None:
 
 
 def _printed(shown: Any, console: Console) -> bool:
-    """Whether there was something to print."""
+    """Prints, and tells whether there was something to print."""
     if isinstance(shown, AbstractSolution):
         if np.ndim(shown.converged):
             return False

@@ -31,7 +31,7 @@ class BearingCageTable(Table):
 
 
 class DisplacementTable(Table):
-    """Where the inner ring is held."""
+    """Given displacements of the inner ring."""
 
     axial: units.Length | None = None
     radial: units.Length | None = None
