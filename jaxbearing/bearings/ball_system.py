@@ -110,8 +110,10 @@ class AbstractBallSystem(AbstractArrowSystem):
         return self.ring.freedoms
 
     def load_balance(self, unknowns: Float[Array, " freedom"], totals: Float[Array, " freedom"]) -> Array:
-        """Returns the forces of the balls on the unknown freedoms of the ring less the load on these, N. A ring that is held so that
-        no ball touches it may float along the others: it is anchored."""
+        """Returns the forces of the balls on the unknown freedoms of the ring less the load on these, N.
+
+        A ring that is held so that no ball touches it may float along the others: it is anchored.
+        """
         balance = totals - self.ring.load
         return balance + anchored(unknowns, ANCHOR * LENGTH_UNIT) if self.ring.asks else balance
 

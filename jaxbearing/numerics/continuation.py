@@ -69,9 +69,11 @@ def first_guesses(system: AbstractArrowSystem) -> tuple[ArrowPoint, ArrowPoint]:
 
 
 class StageEnd(NamedTuple):
-    """End of a Newton step for its stage: the root was found (`converged`), it `failed`, its root is one at which a nested
-    solve fails (`hopeless`: this try has come to its end, and another one may end elsewhere), or no Newton steps are
-    left for further stages (`spent`)."""
+    """End of a Newton step for its stage.
+
+    The root was found (`converged`); it `failed`; its root is one at which a nested solve fails (`hopeless`: this try
+    has come to its end, and another one may end elsewhere); no Newton steps are left for further stages (`spent`).
+    """
 
     converged: Bool[Array, ""]
     failed: Bool[Array, ""]

@@ -104,8 +104,11 @@ class Proposal(NamedTuple):
 
 
 class Verdict(NamedTuple):
-    """Judgement of a trial by the equations there: it is a root (`settled`), of the nested solves too (`converged`); the trial is
-    taken (`accepted`); there is no usable step left (`stuck`). `norm`: of the residual."""
+    """Judgement of a trial by the equations there.
+
+    It is a root (`settled`), of the nested solves too (`converged`); it is taken (`accepted`); there is no usable step
+    left (`stuck`). `norm`: of the residual.
+    """
 
     norm: Float[Array, ""]
     settled: Bool[Array, ""]

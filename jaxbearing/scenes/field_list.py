@@ -87,7 +87,7 @@ def _dimension(annotation: object) -> Dimension | None:
 
 
 def _expected(model: type[BaseModel], name: str, annotation: Any, unit: str) -> tuple[str, tuple[type[BaseModel], ...]]:
-    """Returns what the field takes, in the words of its own refusal of what is out of its range, and the tables among it."""
+    """Returns what the field takes, in the words of its own refusal of what is out of range, and its tables."""
     tables = tuple(one for one in tables_at(model, (name,)) if not one.__name__.startswith("Unknown"))
     reader = TypeAdapter(annotation)
     # a value below the range, of the right kind; then what nothing takes
