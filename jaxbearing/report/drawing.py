@@ -190,12 +190,13 @@ def draw_front(axes: Any, scene: Any, size: FrontSize) -> None:
 
     style = {"color": LOAD, "linewidth": 2.4, "arrowstyle": "-|>,head_width=0.4,head_length=0.8"}
     loads = {name: scene.operation.load(name) for name in ("radial", "lateral")}
-    said = [f"operation.{LOAD_FIELDS[n]} {1e-3 * float(load):.6g} kN" for n, load in loads.items() if load is not None]
+    given = {name: float(load) for name, load in loads.items() if load is not None}
+    said = [f"operation.{LOAD_FIELDS[name]}\n{1e-3 * load:.6g} kN" for name, load in given.items()]
     if said:
-        radial, lateral = (0.0 if load is None else float(load) for load in loads.values())
+        radial, lateral = (given.get(name, 0.0) for name in loads)
         along = bore * np.array([lateral, -radial]) / (math.hypot(radial, lateral) or 1.0)
         axes.annotate("", xy=tuple(0.97 * along), xytext=tuple(0.5 * along), arrowprops=style, zorder=6)
-        _text(axes, (0.0, -0.33 * bore), "\n".join([*said, "on the inner ring"]), color=LOAD)
+        _text(axes, (0.0, -0.33 * bore), "\n".join(said) + ", on the inner ring", color=LOAD)
     speed = f"operation.inner_speed\n{displayed(float(scene.operation.inner_speed), 'rad/s'):.6g} rpm"
     _text(axes, (0.0, 0.68 * bore), speed)
     _arc(axes, size.inner - 0.5 * size.ring, math.radians(135.0), math.radians(225.0))
