@@ -150,14 +150,14 @@ def _reasons(scene: TaperedRollerBearing, inertia: Inertia) -> dict[str, Reason]
             sliding, jnp.stack([given, least * (1.0 + ROUNDED_UP)])
         )
     }
-    for name, (moment, middle, most, shift) in _moment_ranges(scene).items():
+    ranges, tipping = _moment_ranges(scene), tips_over(scene) & ~sliding
+    for name, (moment, middle, most, shift) in ranges.items():
         ends = jnp.stack([moment + shift, middle - most + shift, middle + most + shift])
         text = f"the {name} of {{:.4g}} N m must lie between {{:.4g}} and {{:.4g}} N m"
-        found[text] = Reason(tips_over(scene) & ~sliding, ends)
-    if len(_moment_ranges(scene)) == 2:
+        found[text] = Reason(tipping, ends)
+    if len(ranges) == 2:
         text = "both moments together, as a vector, at most {:.4g} N m from the middles of these ranges"
-        most = _moment_ranges(scene)["moment"].most
-        found[text] = Reason(tips_over(scene) & ~sliding, most[None])
+        found[text] = Reason(tipping, ranges["moment"].most[None])
     return found
 
 
