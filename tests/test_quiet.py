@@ -8,7 +8,18 @@ import sys
 import pytest
 
 SOLVE = """
+import jax
 import jaxbearing as jb
+from jaxbearing.numerics import quiet
+
+
+def heard(event, *_, **__):
+    # on any processor: not every one is complained about
+    if "backend_compile" in event and quiet.compiler_is_loud() and not quiet._HOLDING.locked():
+        print("compiled aloud", file=sys.stderr)
+
+
+jax.monitoring.register_event_duration_secs_listener(heard)
 
 scene = jb.load_scene("reference_roller", {"contact": "none"})
 assert bool(jb.solve(scene).converged)
