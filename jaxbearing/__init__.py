@@ -43,32 +43,32 @@ if TYPE_CHECKING:
     from . import lubricants as lubricants
     from . import plots as plots
     from . import sweeps as sweeps
-    from .bearings.ball_bearing import BallAttitude as BallAttitude
-    from .bearings.ball_bearing import BallBearing as BallBearing
-    from .bearings.ball_bearing import BallCage as BallCage
-    from .bearings.ball_bearing import BallDragSettings as BallDragSettings
-    from .bearings.ball_bearing import BallMaterials as BallMaterials
-    from .bearings.ball_bearing import BallOperation as BallOperation
-    from .bearings.ball_geometry import BallGeometry as BallGeometry
-    from .bearings.cylindrical_roller import CylindricalRollerBearing as CylindricalRollerBearing
-    from .bearings.cylindrical_roller import RollerCage as RollerCage
-    from .bearings.cylindrical_roller import RollerFlange as RollerFlange
-    from .bearings.cylindrical_roller import RollerGeometry as RollerGeometry
-    from .bearings.history import History as History
+    from .bearings.ball.geometry import BallGeometry as BallGeometry
+    from .bearings.ball.scene import BallAttitude as BallAttitude
+    from .bearings.ball.scene import BallBearing as BallBearing
+    from .bearings.ball.scene import BallCage as BallCage
+    from .bearings.ball.scene import BallDragSettings as BallDragSettings
+    from .bearings.ball.scene import BallMaterials as BallMaterials
+    from .bearings.ball.scene import BallOperation as BallOperation
+    from .bearings.cylindrical.scene import CylindricalRollerBearing as CylindricalRollerBearing
+    from .bearings.cylindrical.scene import RollerCage as RollerCage
+    from .bearings.cylindrical.scene import RollerFlange as RollerFlange
+    from .bearings.cylindrical.scene import RollerGeometry as RollerGeometry
+    from .bearings.motion.history import History as History
+    from .bearings.motion.instants import pocket_loads as pocket_loads
+    from .bearings.motion.runs import trajectory as trajectory
+    from .bearings.motion.settings import Simulation as Simulation
+    from .bearings.motion.start import quasi_static_start as quasi_static_start
     from .bearings.operation import HeldDisplacement as HeldDisplacement
     from .bearings.operation import Operation as Operation
     from .bearings.parts import Drag as Drag
     from .bearings.parts import Materials as Materials
+    from .bearings.profile import RollerProfile as RollerProfile
     from .bearings.rating import Rating as Rating
-    from .bearings.roller_instants import pocket_loads as pocket_loads
-    from .bearings.roller_motion import quasi_static_start as quasi_static_start
-    from .bearings.roller_profile import RollerProfile as RollerProfile
-    from .bearings.roller_simulation import trajectory as trajectory
-    from .bearings.simulation import Simulation as Simulation
     from .bearings.solution import Solution as Solution
-    from .bearings.tapered_geometry import TaperedGeometry as TaperedGeometry
-    from .bearings.tapered_roller import TaperedOperation as TaperedOperation
-    from .bearings.tapered_roller import TaperedRollerBearing as TaperedRollerBearing
+    from .bearings.tapered.geometry import TaperedGeometry as TaperedGeometry
+    from .bearings.tapered.scene import TaperedOperation as TaperedOperation
+    from .bearings.tapered.scene import TaperedRollerBearing as TaperedRollerBearing
     from .ehl import EHLLineContact as EHLLineContact
     from .machines import TwoDisk as TwoDisk
     from .materials import Material as Material
@@ -89,46 +89,46 @@ shown_by(f"{__name__}.report.shown")
 __version__ = "0.1.0"
 
 _LAZY = {
-    "BallAttitude": ".bearings.ball_bearing",
-    "BallBearing": ".bearings.ball_bearing",
-    "BallCage": ".bearings.ball_bearing",
-    "BallDragSettings": ".bearings.ball_bearing",
-    "BallGeometry": ".bearings.ball_geometry",
-    "BallMaterials": ".bearings.ball_bearing",
-    "BallOperation": ".bearings.ball_bearing",
-    "CylindricalRollerBearing": ".bearings.cylindrical_roller",
+    "BallAttitude": ".bearings.ball.scene",
+    "BallBearing": ".bearings.ball.scene",
+    "BallCage": ".bearings.ball.scene",
+    "BallDragSettings": ".bearings.ball.scene",
+    "BallGeometry": ".bearings.ball.geometry",
+    "BallMaterials": ".bearings.ball.scene",
+    "BallOperation": ".bearings.ball.scene",
+    "CylindricalRollerBearing": ".bearings.cylindrical.scene",
     "Drag": ".bearings.parts",
     "EHLLineContact": ".ehl",
     "HeldDisplacement": ".bearings.operation",
-    "History": ".bearings.history",
+    "History": ".bearings.motion.history",
     "Material": ".materials",
     "Materials": ".bearings.parts",
     "NewtonOptions": ".numerics.newton",
     "Operation": ".bearings.operation",
     "Rating": ".bearings.rating",
-    "RollerCage": ".bearings.cylindrical_roller",
-    "RollerFlange": ".bearings.cylindrical_roller",
-    "RollerGeometry": ".bearings.cylindrical_roller",
-    "RollerProfile": ".bearings.roller_profile",
+    "RollerCage": ".bearings.cylindrical.scene",
+    "RollerFlange": ".bearings.cylindrical.scene",
+    "RollerGeometry": ".bearings.cylindrical.scene",
+    "RollerProfile": ".bearings.profile",
     "SceneError": ".scenes.errors",
-    "Simulation": ".bearings.simulation",
+    "Simulation": ".bearings.motion.settings",
     "Solution": ".bearings.solution",
     "SolveError": ".numerics.status",
     "Status": ".numerics.status",
-    "TaperedGeometry": ".bearings.tapered_geometry",
-    "TaperedOperation": ".bearings.tapered_roller",
-    "TaperedRollerBearing": ".bearings.tapered_roller",
+    "TaperedGeometry": ".bearings.tapered.geometry",
+    "TaperedOperation": ".bearings.tapered.scene",
+    "TaperedRollerBearing": ".bearings.tapered.scene",
     "TwoDisk": ".machines",
     "builtin_names": ".scenes.reader",
     "load_oil": ".scenes.from_python",
     "load_scene": ".scenes.reader",
-    "pocket_loads": ".bearings.roller_instants",
-    "quasi_static_start": ".bearings.roller_motion",
+    "pocket_loads": ".bearings.motion.instants",
+    "quasi_static_start": ".bearings.motion.start",
     "reaction": ".port",
     "read_last_state": ".report.history_file",
     "scene_from_mapping": ".scenes.from_python",
     "sensitivities": ".sensitivity",
-    "trajectory": ".bearings.roller_simulation",
+    "trajectory": ".bearings.motion.runs",
 }
 """Public names that pull in the edge (units, validation) or are only needed by some; imported on first use."""
 _MODULES = ("contacts", "fitting", "gaps", "life", "lubricants", "plots", "sweeps")

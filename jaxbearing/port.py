@@ -17,11 +17,11 @@ from jax.core import Tracer
 from jaxtyping import Array, Float
 
 from ._types import Scalar
-from .bearings.ball_bearing import BallBearing
-from .bearings.cylindrical_roller import CylindricalRollerBearing
+from .bearings.ball.scene import BallBearing
+from .bearings.cylindrical.scene import CylindricalRollerBearing
 from .bearings.ring import held_ring
 from .bearings.solution import RING_FREEDOMS, RingDisplacement, Solution
-from .bearings.tapered_roller import TaperedRollerBearing
+from .bearings.tapered.scene import TaperedRollerBearing
 from .numerics.arguments import require_choice, require_numbers
 from .numerics.checks import void
 from .numerics.compiling import inside_a_program

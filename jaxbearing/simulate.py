@@ -4,11 +4,11 @@ import dataclasses
 from collections.abc import Callable, Mapping
 from typing import Any, Literal, overload
 
-from .bearings.cylindrical_roller import CylindricalRollerBearing
-from .bearings.history import History, LastState
-from .bearings.roller_run import check_fits
-from .bearings.roller_simulation import FIELD, INTERVAL, simulate_roller_batch, simulate_rollers, trajectory
-from .bearings.simulation import Simulation
+from .bearings.cylindrical.scene import CylindricalRollerBearing
+from .bearings.motion.history import History, LastState
+from .bearings.motion.run import check_fits
+from .bearings.motion.runs import FIELD, INTERVAL, simulate_roller_batch, simulate_rollers, trajectory
+from .bearings.motion.settings import Simulation
 from .ehl import EHLLineContact, FilmSimulation, FilmState, LineContactHistory, simulate_film
 from .ehl import check_restart as check_film_restart
 from .numerics.arguments import require_choice, require_outside

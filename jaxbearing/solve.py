@@ -13,15 +13,15 @@ from jax.core import Tracer
 
 from ._checks import Checks
 from ._scene import AbstractScene
-from .bearings.ball_bearing import BallBearing
-from .bearings.ball_steady import solve_ball
-from .bearings.cylindrical_roller import CylindricalRollerBearing
+from .bearings.ball.scene import BallBearing
+from .bearings.ball.steady import solve_ball
+from .bearings.cylindrical.scene import CylindricalRollerBearing
+from .bearings.cylindrical.steady import solve_steady
+from .bearings.cylindrical.tilting_steady import solve_tilting
 from .bearings.ring import InnerRing
-from .bearings.roller_steady import solve_steady
 from .bearings.solution import Solution
-from .bearings.tapered_roller import TaperedRollerBearing
-from .bearings.tapered_steady import solve_tapered
-from .bearings.tilting_steady import solve_tilting
+from .bearings.tapered.scene import TaperedRollerBearing
+from .bearings.tapered.steady import solve_tapered
 from .ehl import EHLLineContact, LineContactSolution, solve_line_contact
 from .life.bearing_life import with_life
 from .machines import TwoDisk, TwoDiskSolution, solve_two_disk

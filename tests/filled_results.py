@@ -14,7 +14,7 @@ import numpy as np
 from life_page import page_scene
 
 import jaxbearing as jb
-from jaxbearing.bearings.history import History, Instant
+from jaxbearing.bearings.motion.history import History, Instant
 from jaxbearing.ehl import LineContactHistory
 from jaxbearing.numerics.newton import NewtonOptions
 from jaxbearing.numerics.precision import as_float

@@ -9,7 +9,7 @@ import jax
 import jax.numpy as jnp
 import numpy as np
 
-from jaxbearing.bearings.roller_equations import LENGTH_UNIT, LubricatedRollerSystem
+from jaxbearing.bearings.cylindrical.equations import LENGTH_UNIT, LubricatedRollerSystem
 from jaxbearing.gaps.journal import OFFSET_SHIFT
 from jaxbearing.numerics.arrow import ArrowPoint
 

@@ -5,8 +5,8 @@ import jax
 import jax.numpy as jnp
 from roller_cases import RPM, reference_roller
 
-from jaxbearing.bearings.roller_motion import build_dynamics, quasi_static_start
-from jaxbearing.bearings.simulation import Simulation
+from jaxbearing.bearings.motion.settings import Simulation
+from jaxbearing.bearings.motion.start import build_dynamics, quasi_static_start
 
 ZERO = jnp.zeros(())
 

@@ -8,7 +8,7 @@ import equinox as eqx
 import numpy as np
 from reference_oils import mobil_jet_ii
 
-from jaxbearing.bearings.cylindrical_roller import (
+from jaxbearing.bearings.cylindrical.scene import (
     CylindricalRollerBearing,
     RollerCage,
     RollerFlange,

@@ -16,8 +16,8 @@ import scipy.optimize
 from tapered_cases import RPM, tapered
 
 import jaxbearing as jb
-from jaxbearing.bearings.tapered_build import build_tapered
-from jaxbearing.bearings.tapered_system import MOST_TILT
+from jaxbearing.bearings.tapered.build import build_tapered
+from jaxbearing.bearings.tapered.system import MOST_TILT
 from jaxbearing.numerics.arrow import ArrowPoint
 from jaxbearing.numerics.status import Status
 

@@ -3,8 +3,8 @@
 import numpy as np
 
 from jaxbearing.bearings.parts import Materials
-from jaxbearing.bearings.tapered_geometry import TaperedGeometry
-from jaxbearing.bearings.tapered_roller import TaperedOperation, TaperedRollerBearing
+from jaxbearing.bearings.tapered.geometry import TaperedGeometry
+from jaxbearing.bearings.tapered.scene import TaperedOperation, TaperedRollerBearing
 from jaxbearing.materials import Material
 
 RPM = 2.0 * np.pi / 60.0

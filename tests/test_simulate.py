@@ -12,9 +12,9 @@ import pytest
 from moving_roller import start_of, table_16
 
 import jaxbearing as jb
-from jaxbearing.bearings.roller_instants import pocket_loads
-from jaxbearing.bearings.roller_motion import quasi_static_start
-from jaxbearing.bearings.simulation import Simulation
+from jaxbearing.bearings.motion.instants import pocket_loads
+from jaxbearing.bearings.motion.settings import Simulation
+from jaxbearing.bearings.motion.start import quasi_static_start
 from jaxbearing.simulate import simulate, trajectory
 from jaxbearing.time_laws import AbstractTimeFactor, Ramp, RotatingLoad, Sinusoidal
 

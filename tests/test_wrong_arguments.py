@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 import jaxbearing as jb
-from jaxbearing.bearings.line_contact_bridge import line_contact_of
+from jaxbearing.bearings.ball.line_contact_bridge import line_contact_of
 from jaxbearing.contacts import (
     ContactPatch,
     HalfSpaceCompliance,

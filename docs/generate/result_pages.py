@@ -2,7 +2,10 @@
 
 import dataclasses
 
-from jaxbearing.bearings import ball_solution, history, solution, tapered_solution
+from jaxbearing.bearings import solution
+from jaxbearing.bearings.ball import solution as ball_solution
+from jaxbearing.bearings.motion import history
+from jaxbearing.bearings.tapered import solution as tapered_solution
 from jaxbearing.ehl import history as film_history
 from jaxbearing.ehl import solution as film
 from jaxbearing.life.result import Life

@@ -137,7 +137,7 @@ def simulate(
 
 
 def _check_instants(length: float, every: float | None) -> None:
-    from ..bearings.roller_simulation import INTERVAL, MOST_INSTANTS
+    from ..bearings.motion.runs import INTERVAL, MOST_INSTANTS
 
     if length / (every or INTERVAL) > MOST_INSTANTS:
         refuse(

@@ -93,7 +93,7 @@ def _line_contact(wanted: tuple[str, Path] | None, model: Any, scene: str) -> tu
     """Race and file, or no file; refused where there is no such contact."""
     if wanted is None:
         return "", None
-    from ..bearings.ball_bearing import BallBearing
+    from ..bearings.ball.scene import BallBearing
 
     race, path = wanted
     if race not in RACES:
@@ -110,7 +110,7 @@ def _write_line_contact(
 ) -> None:
     import numpy as np
 
-    from ..bearings.line_contact_bridge import line_contact_of
+    from ..bearings.ball.line_contact_bridge import line_contact_of
     from ..report.files import write_whole
     from ..scenes.line_contact_writer import line_contact_text
     from ..scenes.overrides import split_assignments

@@ -32,8 +32,8 @@ def study(
     36 to 40), and which of the source's statements hold."""
     begin = time.monotonic()
     with bad_input():
-        from ..bearings.ball_bearing import BallBearing
-        from ..bearings.cylindrical_roller import CylindricalRollerBearing
+        from ..bearings.ball.scene import BallBearing
+        from ..bearings.cylindrical.scene import CylindricalRollerBearing
         from ..scenes.overrides import split_assignments
         from ..scenes.reader import load_scene
 

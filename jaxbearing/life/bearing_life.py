@@ -9,12 +9,12 @@ import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Array, Bool, Float
 
-from ..bearings.ball_bearing import BallBearing
-from ..bearings.ball_rating import linear_tilt_loads
-from ..bearings.cylindrical_roller import CylindricalRollerBearing
+from ..bearings.ball.rating import linear_tilt_loads
+from ..bearings.ball.scene import BallBearing
+from ..bearings.cylindrical.scene import CylindricalRollerBearing
 from ..bearings.rating import CATALOGUE_CONFORMITY, Rating, rated_laminae
 from ..bearings.solution import Solution
-from ..bearings.tapered_roller import TaperedRollerBearing
+from ..bearings.tapered.scene import TaperedRollerBearing
 from ..lubricants import Lubricant
 from .basic import BALL_EXPONENT, RELIABILITY_FACTORS, ROLLER_EXPONENT, basic_life, tapered_equivalent_load
 from .capacity import ball_capacity, roller_capacity

@@ -5,7 +5,7 @@ from typing import Any
 import jax.numpy as jnp
 from jaxtyping import Array, Float
 
-from ..bearings.ball_bearing import BallBearing
+from ..bearings.ball.scene import BallBearing
 from ..contacts import (
     AbstractLineFilm,
     DowsonHigginson,

@@ -4,7 +4,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ..bearings.history import History
+from ..bearings.motion.history import History
 from ..bearings.solution import Solution
 from ..machines import TwoDiskSolution
 from ..report.bearing.plots import ROUND, draw_loads, draw_losses, draw_round, power_losses

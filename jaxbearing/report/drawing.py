@@ -10,10 +10,10 @@ from typing import TYPE_CHECKING, Any, Protocol
 
 import numpy as np
 
-from ..bearings.ball_bearing import BallBearing
-from ..bearings.cylindrical_roller import CylindricalRollerBearing
+from ..bearings.ball.scene import BallBearing
+from ..bearings.cylindrical.scene import CylindricalRollerBearing
 from ..bearings.operation import LOAD_FIELDS
-from ..bearings.tapered_roller import TaperedRollerBearing
+from ..bearings.tapered.scene import TaperedRollerBearing
 from .display import displayed
 
 if TYPE_CHECKING:

@@ -2,7 +2,7 @@
 
 from typing import TYPE_CHECKING, Any
 
-from ..bearings.history import History
+from ..bearings.motion.history import History
 from ..ehl import EHLLineContact, LineContactHistory
 from ..ehl.history import SOLVER
 from ..numerics.status import SolveError
@@ -29,8 +29,8 @@ def history_to_dict(history: Any) -> dict[str, Any]:
 
 def not_begun_to_dict(scene: Any, duration: float | None, error: SolveError) -> dict[str, Any]:
     """A run whose start was not found, with the keys that `history_to_dict` has and nothing in those of results."""
-    from ..bearings.range_checks import input_excess
-    from ..bearings.simulation import Simulation
+    from ..bearings.checks import input_excess
+    from ..bearings.motion.settings import Simulation
     from .plain import plain
 
     film, simulation = isinstance(scene, EHLLineContact), scene.simulation

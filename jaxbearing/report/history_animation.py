@@ -6,8 +6,8 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from ..bearings.cylindrical_roller import CylindricalRollerBearing
-from ..bearings.history import History
+from ..bearings.cylindrical.scene import CylindricalRollerBearing
+from ..bearings.motion.history import History
 from ..bearings.parts import azimuths
 from .animations import instants, moving, moving_head
 from .bearing.operation import load_angle

@@ -8,7 +8,7 @@ instant have the dimension `time` before their own, those over the rolling eleme
 import numpy as np
 import xarray as xr
 
-from ..bearings.history import History
+from ..bearings.motion.history import History
 from ..numerics.status import Status
 from .history_shocks import FACES, SHOCK, peaks_by_turn, sectors, whirl_ratio
 from .labelled import labelled

@@ -8,7 +8,7 @@ import numpy as np
 import xarray as xr
 
 from .._identity import Identity, identity_from
-from ..bearings.history import LastState
+from ..bearings.motion.history import LastState
 from ..ehl import FilmState
 from ..scenes.input_files import check_regular
 from .variables import IDENTITY

@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ..bearings.history import History
+from ..bearings.motion.history import History
 from .bearing.plots import INNER, LOSS, OUTER
 from .sheet import FAINT, axis_unit, foot, grid_lines, head, title_of
 

@@ -6,7 +6,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from jaxtyping import Float, Int
 
-from ..bearings.history import History
+from ..bearings.motion.history import History
 
 FACES = ("front", "rear")
 SECTORS = 12

@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ..bearings.history import History
+from ..bearings.motion.history import History
 from ..numerics.status import Status
 from .display import with_unit
 from .history_shocks import FACES, SHOCK, Sectors, sectors, shocks, whirl_ratio

@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING, Any
 import equinox as eqx
 import numpy as np
 
-from ..bearings.ball_bearing import BallBearing
+from ..bearings.ball.scene import BallBearing
 from ..bearings.operation import LOAD_FIELDS
 from ..bearings.solution import TILTS
-from ..bearings.tapered_roller import TaperedRollerBearing
+from ..bearings.tapered.scene import TaperedRollerBearing
 from .bearing.section import draw_element
 from .drawing import DIMENSION, INK, RING_THICKNESS, dimension, draw_front, first_angle, leader, length_text
 

@@ -7,10 +7,10 @@ import numpy as np
 from rich.console import Console
 
 from .._scene import AbstractScene
-from ..bearings.ball_bearing import BallBearing
-from ..bearings.cylindrical_roller import CylindricalRollerBearing
+from ..bearings.ball.scene import BallBearing
+from ..bearings.cylindrical.scene import CylindricalRollerBearing
 from ..bearings.solution import RING_FREEDOMS, Solution, stiffness_units
-from ..bearings.tapered_roller import TaperedRollerBearing
+from ..bearings.tapered.scene import TaperedRollerBearing
 from ..numerics.status import SolveError
 from ..solve import jit_solver
 from .bearing.json_report import modelled_only

@@ -3,7 +3,9 @@ constructors: nothing runs on JAX."""
 
 from functools import cache
 
-from ..bearings.ball_bearing import (
+from ..bearings.ball.geometry import BallGeometry
+from ..bearings.ball.gyroscopic import AbstractGyroscopic, CappedCouple, ResolvedCouple, SharedCouple
+from ..bearings.ball.scene import (
     BallAttitude,
     BallBearing,
     BallCage,
@@ -11,8 +13,6 @@ from ..bearings.ball_bearing import (
     BallMaterials,
     BallOperation,
 )
-from ..bearings.ball_geometry import BallGeometry
-from ..bearings.gyroscopic import AbstractGyroscopic, CappedCouple, ResolvedCouple, SharedCouple
 from ..bearings.rating import Rating
 from ..contacts import PointLaws
 from ..lubricants import Lubricant

@@ -10,9 +10,9 @@ from pydantic import BaseModel, TypeAdapter, ValidationError
 
 from .. import lubricants
 from ..bearings.cage import AbstractCage
+from ..bearings.motion.settings import Simulation
+from ..bearings.profile import RollerProfile
 from ..bearings.rating import Rating
-from ..bearings.roller_profile import RollerProfile
-from ..bearings.simulation import Simulation
 from ..materials import Material
 from ..time_laws import Ramp, RotatingLoad, Sinusoidal
 from .fields import tables_at

@@ -3,8 +3,8 @@
 from collections.abc import Mapping
 from typing import ClassVar, Literal
 
+from ..bearings.profile import RollerProfile
 from ..bearings.rating import LAMINAE
-from ..bearings.roller_profile import RollerProfile
 from ..contacts.profile import CrownedProfile, LogarithmicProfile
 from . import units
 from .table import Problems, Table, check, refusal_at

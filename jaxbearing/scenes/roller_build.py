@@ -3,11 +3,11 @@ the constructors: nothing runs on JAX."""
 
 from functools import cache
 
-from ..bearings.cylindrical_roller import CylindricalRollerBearing, RollerCage, RollerFlange, RollerGeometry
+from ..bearings.cylindrical.scene import CylindricalRollerBearing, RollerCage, RollerFlange, RollerGeometry
+from ..bearings.motion.settings import Simulation
 from ..bearings.operation import Operation
 from ..bearings.parts import Drag, Materials
 from ..bearings.rating import Rating
-from ..bearings.simulation import Simulation
 from .bearing_build import built, cage, part
 from .contact_laws import contact_laws
 from .materials import material

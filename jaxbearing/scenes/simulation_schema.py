@@ -2,7 +2,7 @@
 
 from typing import Literal
 
-from ..bearings.simulation import DEFAULT_SOLVER, DEFAULT_TOLERANCE, Simulation
+from ..bearings.motion.settings import DEFAULT_SOLVER, DEFAULT_TOLERANCE, Simulation
 from ..time_laws import AbstractTimeFactor, Ramp, RotatingLoad, Sinusoidal, Steady, Tabulated
 from . import units
 from .errors import SceneError

@@ -5,8 +5,8 @@ from functools import cache
 
 from ..bearings.parts import ContactLaws, Drag, Materials
 from ..bearings.rating import Rating
-from ..bearings.tapered_geometry import TaperedGeometry
-from ..bearings.tapered_roller import TaperedOperation, TaperedRollerBearing
+from ..bearings.tapered.geometry import TaperedGeometry
+from ..bearings.tapered.scene import TaperedOperation, TaperedRollerBearing
 from ..contacts import ChittendenCentral, Gupta, MeanPressureTraction, NijenbanningVennerMoes, NoThermalReduction
 from ..contacts.point_laws import PointLaws
 from ..lubricants import Lubricant, NoPressureViscosity

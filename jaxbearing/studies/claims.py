@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from ..bearings.cylindrical_roller import CylindricalRollerBearing
+from ..bearings.cylindrical.scene import CylindricalRollerBearing
 from .panels import (
     ANGLE,
     ANGLES,

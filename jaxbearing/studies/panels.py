@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from ..bearings.ball_bearing import BallBearing
+from ..bearings.ball.scene import BallBearing
 
 SPEED, FLOW, TEMPERATURE = "operation.inner_speed", "operation.oil_flow", "operation.oil_temperature"
 RADIAL, AXIAL_LOAD = "operation.radial_load", "operation.axial_load"

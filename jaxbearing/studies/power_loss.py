@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ..bearings.cylindrical_roller import CylindricalRollerBearing
+from ..bearings.cylindrical.scene import CylindricalRollerBearing
 from ..gaps import FullTurbulence
 from ..sweep import sweep
 from ..sweeps import listed

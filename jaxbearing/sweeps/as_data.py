@@ -1,6 +1,6 @@
 """Scenes and plans as data: a text of JSON, and arrays. Reading them makes parts of this package and runs nothing.
 
-A part is its class, named as `jaxbearing.bearings.ball_bearing:BallBearing`, and its fields. Only classes of this
+A part is its class, named as `jaxbearing.bearings.ball.scene:BallBearing`, and its fields. Only classes of this
 package that are imported already are known by name. Their constructors are not called, no module is imported for a
 file, and arrays are read without pickles.
 """

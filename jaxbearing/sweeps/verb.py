@@ -6,9 +6,9 @@ from typing import Any
 import jax
 
 from .._scene import AbstractScene
-from ..bearings.ball_bearing import BallBearing
-from ..bearings.cylindrical_roller import CylindricalRollerBearing
-from ..bearings.tapered_roller import TaperedRollerBearing
+from ..bearings.ball.scene import BallBearing
+from ..bearings.cylindrical.scene import CylindricalRollerBearing
+from ..bearings.tapered.scene import TaperedRollerBearing
 from ..lanes import default_method
 from ..numerics.newton import NewtonOptions
 from ..scenes.fields import is_known, type_at

@@ -8,10 +8,10 @@ import numpy as np
 import pytest
 
 import jaxbearing as jb
-from jaxbearing.bearings.ball_build import build_core
-from jaxbearing.bearings.ball_geometry import BallGeometry
-from jaxbearing.bearings.ball_kinematics import BallKinematics, BallMotion
-from jaxbearing.bearings.gyroscopic import CappedCouple, ResolvedCouple
+from jaxbearing.bearings.ball.build import build_core
+from jaxbearing.bearings.ball.geometry import BallGeometry
+from jaxbearing.bearings.ball.gyroscopic import CappedCouple, ResolvedCouple
+from jaxbearing.bearings.ball.kinematics import BallKinematics, BallMotion
 from jaxbearing.contacts import DistributedTraction, HamrockDowsonCentral, Resolution, Sliding, contact_patch
 from jaxbearing.gaps import BallPocket
 from jaxbearing.materials import Material, reduced_modulus

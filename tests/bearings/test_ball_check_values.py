@@ -10,10 +10,10 @@ import pytest
 from scipy.special import ellipe
 
 import jaxbearing as jb
-from jaxbearing.bearings.ball_bearing import BallAttitude, BallBearing, BallMaterials, BallOperation
-from jaxbearing.bearings.ball_geometry import BallGeometry
-from jaxbearing.bearings.ball_kinematics import BallKinematics
-from jaxbearing.bearings.gyroscopic import CappedCouple, SharedCouple
+from jaxbearing.bearings.ball.geometry import BallGeometry
+from jaxbearing.bearings.ball.gyroscopic import CappedCouple, SharedCouple
+from jaxbearing.bearings.ball.kinematics import BallKinematics
+from jaxbearing.bearings.ball.scene import BallAttitude, BallBearing, BallMaterials, BallOperation
 from jaxbearing.contacts import DistributedTraction, HamrockDowsonCentral, Resolution, Sliding, contact_patch
 from jaxbearing.contacts.point_film import AbstractPointFilm
 from jaxbearing.contacts.point_laws import PointLaws

@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 import jaxbearing as jb
-from jaxbearing.bearings.ball_bearing import BallAttitude, BallBearing, BallMaterials, BallOperation
-from jaxbearing.bearings.ball_geometry import BallGeometry
-from jaxbearing.bearings.gyroscopic import CappedCouple, SharedCouple
+from jaxbearing.bearings.ball.geometry import BallGeometry
+from jaxbearing.bearings.ball.gyroscopic import CappedCouple, SharedCouple
+from jaxbearing.bearings.ball.scene import BallAttitude, BallBearing, BallMaterials, BallOperation
 from jaxbearing.materials import Material
 from jaxbearing.solve import jit_solver
 

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 import jaxbearing as jb
-from jaxbearing.bearings.ball_kinematics import BallKinematics
-from jaxbearing.bearings.gyroscopic import CappedCouple, SharedCouple
+from jaxbearing.bearings.ball.gyroscopic import CappedCouple, SharedCouple
+from jaxbearing.bearings.ball.kinematics import BallKinematics
 from jaxbearing.contacts import point_rolling_moment
 from jaxbearing.contacts.point_laws import PointFilm
 from jaxbearing.gaps import BallPocket

@@ -9,9 +9,9 @@ import numpy as np
 import pytest
 
 import jaxbearing as jb
-from jaxbearing.bearings.ball_build import build_core, build_lubricated
-from jaxbearing.bearings.ball_kinematics import BallKinematics, BallMotion
-from jaxbearing.bearings.gyroscopic import CappedCouple, ResolvedCouple, SharedCouple
+from jaxbearing.bearings.ball.build import build_core, build_lubricated
+from jaxbearing.bearings.ball.gyroscopic import CappedCouple, ResolvedCouple, SharedCouple
+from jaxbearing.bearings.ball.kinematics import BallKinematics, BallMotion
 from jaxbearing.contacts import (
     BairWiner,
     ContactPatch,

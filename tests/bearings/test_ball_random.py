@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import jaxbearing as jb
-from jaxbearing.bearings.gyroscopic import ResolvedCouple
+from jaxbearing.bearings.ball.gyroscopic import ResolvedCouple
 
 RPM = 2.0 * np.pi / 60.0
 FREE = {"cage": None, "drag": None}

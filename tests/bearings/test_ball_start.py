@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 
 import jaxbearing as jb
-from jaxbearing.bearings import ball_start
-from jaxbearing.bearings.ball_build import build_core, build_lubricated
-from jaxbearing.bearings.ball_start import free_centres
+from jaxbearing.bearings.ball import start as ball_start
+from jaxbearing.bearings.ball.build import build_core, build_lubricated
+from jaxbearing.bearings.ball.start import free_centres
 
 CORE = build_core(jb.load_scene("angular_contact_218", {"operation.axial_load": "10 N"}))
 PROBLEM = CORE._estimates()[0]

@@ -8,11 +8,11 @@ import numpy as np
 import pytest
 
 import jaxbearing as jb
-from jaxbearing.bearings.ball_bearing import BallAttitude, BallBearing, BallMaterials, BallOperation
-from jaxbearing.bearings.ball_geometry import BallGeometry
+from jaxbearing.bearings.ball.geometry import BallGeometry
+from jaxbearing.bearings.ball.scene import BallAttitude, BallBearing, BallMaterials, BallOperation
 from jaxbearing.bearings.operation import HELD_FIELDS, LOAD_FIELDS, HeldDisplacement, Operation
 from jaxbearing.bearings.solution import RING_FREEDOMS
-from jaxbearing.bearings.tapered_roller import TaperedOperation
+from jaxbearing.bearings.tapered.scene import TaperedOperation
 from jaxbearing.materials import Material
 
 TURN = 0.3

@@ -6,7 +6,7 @@ import pytest
 from numpy.testing import assert_allclose
 
 import jaxbearing as jb
-from jaxbearing.bearings.line_contact_bridge import line_contact_of
+from jaxbearing.bearings.ball.line_contact_bridge import line_contact_of
 from jaxbearing.ehl import FilmModel
 from jaxbearing.materials import reduced_modulus
 from jaxbearing.numerics.status import Status

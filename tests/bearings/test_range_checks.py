@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import jaxbearing as jb
-from jaxbearing.bearings.range_checks import (
+from jaxbearing.bearings.checks import (
     BALL_PRESSURE,
     EDGE_LOADED,
     LARGEST_TILT,

@@ -7,9 +7,9 @@ import pytest
 from tapered_cases import tapered
 
 import jaxbearing as jb
-from jaxbearing.bearings.ball_bearing import BallAttitude, BallBearing, BallMaterials, BallOperation
-from jaxbearing.bearings.ball_geometry import BallGeometry
-from jaxbearing.bearings.cylindrical_roller import CylindricalRollerBearing, RollerGeometry
+from jaxbearing.bearings.ball.geometry import BallGeometry
+from jaxbearing.bearings.ball.scene import BallAttitude, BallBearing, BallMaterials, BallOperation
+from jaxbearing.bearings.cylindrical.scene import CylindricalRollerBearing, RollerGeometry
 from jaxbearing.bearings.operation import Operation
 from jaxbearing.bearings.parts import Materials
 from jaxbearing.bearings.ring import shift_matrix

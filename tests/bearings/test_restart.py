@@ -10,9 +10,9 @@ import pytest
 
 import jaxbearing as jb
 from jaxbearing._identity import ALIKE, differences, identity_from, identity_of
-from jaxbearing.bearings.history import LastState
+from jaxbearing.bearings.motion.history import LastState
+from jaxbearing.bearings.motion.run import MAY_CHANGE, identity
 from jaxbearing.bearings.parts import azimuths
-from jaxbearing.bearings.roller_run import MAY_CHANGE, identity
 from jaxbearing.ehl import FilmState
 from jaxbearing.ehl import last_state as film
 from jaxbearing.simulate import check_restart

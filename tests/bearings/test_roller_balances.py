@@ -9,8 +9,8 @@ import pytest
 from roller_cases import HARD_CASES, changed, dry_roller, reference_roller, turbine_roller
 
 import jaxbearing as jb
-from jaxbearing.bearings.roller_forces import CageParts, forces_without_pocket, ring_torques
-from jaxbearing.bearings.roller_steady import build_system
+from jaxbearing.bearings.cylindrical.forces import CageParts, forces_without_pocket, ring_torques
+from jaxbearing.bearings.cylindrical.steady import build_system
 from jaxbearing.contacts import JoinedRollingResistance, NoThermalReduction, RigidRollingResistance
 from jaxbearing.contacts.laws import ContactState
 from jaxbearing.numerics.arrow import evaluate

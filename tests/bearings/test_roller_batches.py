@@ -7,7 +7,7 @@ import pytest
 from roller_cases import LITRE_PER_HOUR, RPM, dry_roller, reference_roller, turbine_roller
 
 import jaxbearing as jb
-from jaxbearing.bearings.roller_steady import build_system
+from jaxbearing.bearings.cylindrical.steady import build_system
 from jaxbearing.numerics.arrow import ArrowPoint, evaluate
 from jaxbearing.numerics.precision import as_float
 from jaxbearing.numerics.status import Status

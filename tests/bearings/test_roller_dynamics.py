@@ -11,9 +11,9 @@ import pytest
 from moving_roller import ZERO, all_at, built, rolling, shaken, start_of, table_16
 from roller_cases import reference_roller
 
-from jaxbearing.bearings.roller_dynamics import FINE, LOAD_TOLERANCE, WORKS
-from jaxbearing.bearings.roller_loads import LENGTH_UNIT
-from jaxbearing.bearings.simulation import Simulation
+from jaxbearing.bearings.motion.loads import LENGTH_UNIT
+from jaxbearing.bearings.motion.rates import FINE, LOAD_TOLERANCE, WORKS
+from jaxbearing.bearings.motion.settings import Simulation
 from jaxbearing.numerics.arrow import ArrowPoint
 from jaxbearing.numerics.integrate import integrate_segment
 from jaxbearing.numerics.integrator import IntegratorOptions
@@ -98,7 +98,7 @@ DRIVEN = {
 
 @pytest.mark.parametrize("name", DRIVEN)
 def test_energy_is_balanced_at_every_state(name):
-    """Both identities in the docstring of `roller_dynamics`, term by term from forces and local speeds."""
+    """Both identities in the docstring of `motion.rates`, term by term from forces and local speeds."""
     dynamics, state = rolling(simulation=DRIVEN[name])
     state = shaken(dynamics, state)
 

@@ -7,7 +7,7 @@ import pytest
 from full_roller_system import extend, full_residual
 from roller_cases import changed, reference_roller, turbine_roller
 
-from jaxbearing.bearings.roller_steady import build_system
+from jaxbearing.bearings.cylindrical.steady import build_system
 from jaxbearing.numerics.newton import newton_solve
 from jaxbearing.numerics.precision import as_float
 

@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 import jaxbearing as jb
-from jaxbearing.bearings.ball_build import build_core, build_lubricated
-from jaxbearing.bearings.ball_rolling import rolling_balance
+from jaxbearing.bearings.ball.build import build_core, build_lubricated
+from jaxbearing.bearings.ball.rolling import rolling_balance
 
 ROLLING_BALLS = {
     "contact.traction": "none",
@@ -42,7 +42,7 @@ def check(solution, operation):
 
 @pytest.mark.parametrize("attitude", ["outer", "inner"])
 def test_constraint_forces_balance_each_ball(attitude):
-    """Moments about the axis and about the radius and the force along the orbit, as `ball_equations` prints them."""
+    """Moments about the axis and about the radius and the force along the orbit, as `ball.equations` prints them."""
     system = build_lubricated(scene := balls(**{"kinematics.attitude": attitude}), build_core(scene))
     angle = jnp.asarray([[0.7, 0.3], [0.45, 0.52]])
     state = system.at(system.initial())

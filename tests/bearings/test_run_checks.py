@@ -10,8 +10,8 @@ import pytest
 from filled_results import history_of
 
 import jaxbearing as jb
-from jaxbearing.bearings.kinematics import roller_kinematics
-from jaxbearing.bearings.run_checks import AT_SOME_TIME, largest, run_excess
+from jaxbearing.bearings.cylindrical.kinematics import roller_kinematics
+from jaxbearing.bearings.motion.checks import AT_SOME_TIME, largest, run_excess
 
 SCENE = jb.load_scene("turbine_roller_dynamic")
 TIME, ROLLER = 3, 5

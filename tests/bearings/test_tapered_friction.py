@@ -9,10 +9,10 @@ from scipy.spatial.transform import Rotation
 from tapered_cases import G1, RPM, tapered
 
 import jaxbearing as jb
-from jaxbearing.bearings.tapered_build import rolling_motion
-from jaxbearing.bearings.tapered_friction import rib_motion, tapered_friction
-from jaxbearing.bearings.tapered_geometry import TaperedGeometry
-from jaxbearing.bearings.tapered_system import TaperedState
+from jaxbearing.bearings.tapered.build import rolling_motion
+from jaxbearing.bearings.tapered.friction import rib_motion, tapered_friction
+from jaxbearing.bearings.tapered.geometry import TaperedGeometry
+from jaxbearing.bearings.tapered.system import TaperedState
 
 CUP, HALF, FLANGE, SPHERE = (G1[name] for name in ("contact_angle", "roller_half_angle", "flange_angle", "end_radius"))
 CONE, AXIS = CUP - 2 * HALF, CUP - HALF

@@ -10,9 +10,9 @@ from tapered_cases import G1, RPM, STEEL, tapered
 
 import jaxbearing as jb
 from jaxbearing.bearings.ring import inner_ring
-from jaxbearing.bearings.tapered_build import build_tapered, roller_body
-from jaxbearing.bearings.tapered_geometry import TaperedGeometry
-from jaxbearing.bearings.tapered_steady import tips_over
+from jaxbearing.bearings.tapered.build import build_tapered, roller_body
+from jaxbearing.bearings.tapered.geometry import TaperedGeometry
+from jaxbearing.bearings.tapered.steady import tips_over
 from jaxbearing.numerics.arrow import ArrowPoint, evaluate
 from jaxbearing.numerics.status import Status
 from jaxbearing.solve import jit_solver
@@ -152,7 +152,7 @@ def test_equations_are_the_gradient_of_the_energy(laminae):
 
 
 def with_profile(scene):
-    from jaxbearing.bearings.roller_profile import RollerProfile
+    from jaxbearing.bearings.profile import RollerProfile
     from jaxbearing.contacts import LogarithmicProfile
 
     return scene.replace({"profile": RollerProfile(LogarithmicProfile(4e-6))})
@@ -275,7 +275,7 @@ def test_partial_contact_and_pressures():
 
 @pytest.mark.slow
 def test_laminae_of_straight_rollers_find_the_same():
-    from jaxbearing.bearings.roller_profile import RollerProfile
+    from jaxbearing.bearings.profile import RollerProfile
 
     plain = jb.solve(tapered(5e3, 10e3, 3000))
     cut = jb.solve(tapered(5e3, 10e3, 3000).replace({"profile": RollerProfile()}))

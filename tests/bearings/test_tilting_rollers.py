@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 import jaxbearing as jb
+from jaxbearing.bearings.cylindrical.tilting_steady import build_tilting
+from jaxbearing.bearings.profile import RollerProfile
 from jaxbearing.bearings.rating import Rating
-from jaxbearing.bearings.roller_profile import RollerProfile
-from jaxbearing.bearings.tilting_steady import build_tilting
 from jaxbearing.contacts import CrownedProfile, LogarithmicProfile
 from jaxbearing.life.minimum_film import LINE_SHARE
 from jaxbearing.numerics.arrow import ArrowPoint, evaluate

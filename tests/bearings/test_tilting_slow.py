@@ -7,7 +7,7 @@ import pytest
 from roller_cases import dry_roller
 
 import jaxbearing as jb
-from jaxbearing.bearings.roller_profile import RollerProfile
+from jaxbearing.bearings.profile import RollerProfile
 from jaxbearing.contacts.profile import CrownedProfile
 from jaxbearing.numerics.status import Status
 

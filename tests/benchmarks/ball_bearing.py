@@ -37,7 +37,7 @@ import scipy.optimize  # noqa: E402
 from benchmark_tools import best_time, error_of, sharded  # noqa: E402
 
 import jaxbearing as jb  # noqa: E402
-from jaxbearing.bearings.ball_build import build_core, build_lubricated  # noqa: E402
+from jaxbearing.bearings.ball.build import build_core, build_lubricated  # noqa: E402
 from jaxbearing.numerics.arrow import ArrowPoint, evaluate  # noqa: E402
 from jaxbearing.numerics.precision import as_float  # noqa: E402
 

@@ -38,8 +38,8 @@ from benchmark_tools import best_time, sharded, time_at  # noqa: E402
 from moving_roller import start_of, started, table_16  # noqa: E402
 from scipy.integrate import solve_ivp  # noqa: E402
 
-from jaxbearing.bearings.roller_dynamics import CAGE_UNITS, ROLLER_UNITS, WORKS  # noqa: E402
-from jaxbearing.bearings.simulation import Simulation  # noqa: E402
+from jaxbearing.bearings.motion.rates import CAGE_UNITS, ROLLER_UNITS, WORKS  # noqa: E402
+from jaxbearing.bearings.motion.settings import Simulation  # noqa: E402
 from jaxbearing.numerics.arrow import ArrowPoint  # noqa: E402
 from jaxbearing.numerics.integrate import integrate_segment  # noqa: E402
 from jaxbearing.numerics.integrator import IMPLICIT, SOLVERS, IntegratorOptions  # noqa: E402

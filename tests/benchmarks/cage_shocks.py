@@ -24,7 +24,7 @@ from moving_roller import table_16  # noqa: E402
 from roller_cases import RPM  # noqa: E402
 
 import jaxbearing as jb  # noqa: E402
-from jaxbearing.bearings.simulation import Simulation  # noqa: E402
+from jaxbearing.bearings.motion.settings import Simulation  # noqa: E402
 from jaxbearing.report.history_shocks import FACES, shocks, turns  # noqa: E402
 from jaxbearing.time_laws import Sinusoidal, Steady  # noqa: E402
 

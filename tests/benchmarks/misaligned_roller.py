@@ -21,7 +21,7 @@ from benchmark_tools import best_time
 from life_page import optimisation_example
 
 import jaxbearing as jb
-from jaxbearing.bearings.roller_profile import RollerProfile
+from jaxbearing.bearings.profile import RollerProfile
 from jaxbearing.contacts import SlicedLine, StraightLine, palmgren_stiffness
 
 COUNTS = (10, 30, 100)

@@ -37,7 +37,7 @@ from full_roller_system import extend, scipy_functions  # noqa: E402
 from roller_cases import reference_roller, turbine_roller  # noqa: E402
 
 import jaxbearing as jb  # noqa: E402
-from jaxbearing.bearings.roller_steady import build_system  # noqa: E402
+from jaxbearing.bearings.cylindrical.steady import build_system  # noqa: E402
 from jaxbearing.numerics.newton import newton_solve  # noqa: E402
 from jaxbearing.numerics.precision import as_float  # noqa: E402
 

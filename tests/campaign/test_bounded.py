@@ -13,9 +13,9 @@ from campaign.structures import STRUCTURES
 from hypothesis import HealthCheck, given, settings
 
 import jaxbearing as jb
-from jaxbearing.bearings.ball_build import build_core
-from jaxbearing.bearings.roller_steady import build_system
-from jaxbearing.bearings.tapered_build import build_tapered
+from jaxbearing.bearings.ball.build import build_core
+from jaxbearing.bearings.cylindrical.steady import build_system
+from jaxbearing.bearings.tapered.build import build_tapered
 from jaxbearing.numerics.newton import newton_solve
 
 pytestmark = pytest.mark.slow

@@ -9,7 +9,7 @@ import pytest
 import xarray as xr
 
 import jaxbearing as jb
-from jaxbearing.bearings.line_contact_bridge import line_contact_of
+from jaxbearing.bearings.ball.line_contact_bridge import line_contact_of
 
 NAME = "satellite_contact_1"
 SOLVE = ("solve", NAME, "--set", "contact.nodes=101")

@@ -6,7 +6,7 @@ import pytest
 from roller_cases import RPM
 
 import jaxbearing as jb
-from jaxbearing.bearings.simulation import Simulation
+from jaxbearing.bearings.motion.settings import Simulation
 from jaxbearing.time_laws import Ramp, RotatingLoad
 
 pytestmark = pytest.mark.slow

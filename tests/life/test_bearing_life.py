@@ -10,10 +10,10 @@ import numpy as np
 import pytest
 
 import jaxbearing as jb
-from jaxbearing.bearings.ball_bearing import BallAttitude, BallBearing, BallMaterials, BallOperation
-from jaxbearing.bearings.ball_geometry import BallGeometry
+from jaxbearing.bearings.ball.geometry import BallGeometry
+from jaxbearing.bearings.ball.scene import BallAttitude, BallBearing, BallMaterials, BallOperation
+from jaxbearing.bearings.profile import RollerProfile
 from jaxbearing.bearings.rating import Rating
-from jaxbearing.bearings.roller_profile import RollerProfile
 from jaxbearing.contacts import CrownedProfile
 from jaxbearing.life.bearing_life import RATED, without_effect
 from jaxbearing.life.reference import roller_damage_rate

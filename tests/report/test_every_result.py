@@ -18,8 +18,10 @@ from rich.console import Console
 
 import jaxbearing as jb
 from jaxbearing import plots
-from jaxbearing.bearings import ball_solution, solution, tapered_solution
+from jaxbearing.bearings import solution
+from jaxbearing.bearings.ball import solution as ball_solution
 from jaxbearing.bearings.solution import RING_FREEDOMS, Solution
+from jaxbearing.bearings.tapered import solution as tapered_solution
 from jaxbearing.ehl import LineContactSolution
 from jaxbearing.ehl import solution as film
 from jaxbearing.life.result import Life

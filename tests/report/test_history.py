@@ -13,7 +13,7 @@ from filled_results import history_of
 from moving_roller import table_16
 
 import jaxbearing as jb
-from jaxbearing.bearings.roller_run import resume
+from jaxbearing.bearings.motion.run import resume
 from jaxbearing.numerics.status import SolveError, Status
 from jaxbearing.report import histories, history_shocks
 from jaxbearing.report.animations import save_animation

@@ -9,10 +9,10 @@ import numpy as np
 import pytest
 from rich.console import Console
 
-from jaxbearing.bearings.ball_solution import BallPowerLoss
+from jaxbearing.bearings.ball.solution import BallPowerLoss
 from jaxbearing.bearings.operation import Operation
 from jaxbearing.bearings.solution import CageState, PowerLoss, RingDisplacement, RollerResults, Solution
-from jaxbearing.bearings.tapered_solution import TaperedPowerLoss
+from jaxbearing.bearings.tapered.solution import TaperedPowerLoss
 from jaxbearing.life.result import Life
 from jaxbearing.numerics.status import Status
 from jaxbearing.report.display import bar, digits, with_unit

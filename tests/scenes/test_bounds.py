@@ -13,9 +13,9 @@ import two_disk_cases
 from roller_cases import reference_roller
 
 import jaxbearing as jb
+from jaxbearing.bearings.motion.settings import Simulation
 from jaxbearing.bearings.parts import Drag
 from jaxbearing.bearings.rating import CLEANLINESS_CLASSES, RELIABILITIES, Rating
-from jaxbearing.bearings.simulation import Simulation
 from jaxbearing.life.basic import RELIABILITY_FACTORS
 from jaxbearing.life.modification import CLEANLINESS
 from jaxbearing.numerics.checks import RANGES, check_inputs

@@ -8,9 +8,9 @@ import jax.numpy as jnp
 import numpy as np
 import pytest
 
-from jaxbearing.bearings.ball_bearing import BallBearing
-from jaxbearing.bearings.cylindrical_roller import CylindricalRollerBearing
-from jaxbearing.bearings.tapered_roller import TaperedRollerBearing
+from jaxbearing.bearings.ball.scene import BallBearing
+from jaxbearing.bearings.cylindrical.scene import CylindricalRollerBearing
+from jaxbearing.bearings.tapered.scene import TaperedRollerBearing
 from jaxbearing.contacts import (
     DistributedTraction,
     DowsonHigginson,

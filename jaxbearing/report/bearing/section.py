@@ -7,10 +7,10 @@ from typing import Any
 
 import numpy as np
 
-from ...bearings.ball_bearing import BallBearing
-from ...bearings.cylindrical_roller import CylindricalRollerBearing
+from ...bearings.ball.scene import BallBearing
+from ...bearings.cylindrical.scene import CylindricalRollerBearing
 from ...bearings.solution import Solution
-from ...bearings.tapered_roller import TaperedRollerBearing
+from ...bearings.tapered.scene import TaperedRollerBearing
 from ..display import digits
 from ..drawing import FAINT, RING, RING_THICKNESS, ROLLER
 from ..svg import INK, Drawing, Point

@@ -5,9 +5,9 @@ from typing import Any
 
 import numpy as np
 
-from ...bearings.ball_bearing import BallBearing
+from ...bearings.ball.scene import BallBearing
 from ...bearings.solution import RING_FREEDOMS, Solution
-from ...bearings.tapered_roller import TaperedRollerBearing
+from ...bearings.tapered.scene import TaperedRollerBearing
 from ..display import displayed
 from ..drawing import CAGE, FAINT, RING, RING_THICKNESS, ROLLER
 from ..svg import INK, Drawing, Point

@@ -1,0 +1,67 @@
+"""From the root of a bearing's equations to its `Solution`, for every kind of bearing."""
+
+from typing import Any
+
+import jax
+import jax.numpy as jnp
+from jaxtyping import Array, Int
+
+from ..numerics.newton import NewtonResult
+from .ball.scene import BallBearing
+from .checks import input_excess, result_excess
+from .cylindrical.scene import CylindricalRollerBearing
+from .ring import Port
+from .solution import RING_FREEDOMS, Reason, RingDisplacement, Solution
+from .tapered.scene import TaperedRollerBearing
+
+
+def assemble(
+    scene: CylindricalRollerBearing | BallBearing | TaperedRollerBearing,
+    result: NewtonResult,
+    results: Any,
+    ring: RingDisplacement,
+    port: Port,
+    iterations: Int[Array, ""] | None = None,
+    reasons: dict[str, Reason] | None = None,
+    **names: Any,
+) -> Solution:
+    """The `Solution` of a solve: how it ended, and NaN for every result where it failed.
+
+    **Arguments:**
+    - `results`: a named tuple of further fields of the `Solution`, and `facts`, what the range checks look at.
+    - `port`: force and stiffness of the ring, in all five freedoms.
+    - `iterations`: of all solves together; those of `result` where not given.
+    - `reasons`: of `Solution`; none applies where the solve converged.
+    - `names`: static fields of the `Solution`.
+    """
+    good = result.converged
+    held = not port.free
+    modelled = names.get("stiffness_freedom") or names["ring_freedom"]
+    names["held_freedom"] = tuple(name for name in RING_FREEDOMS if name in modelled and name not in port.free)
+    shown = {**results._asdict(), "ring": ring, "force": port.force, "stiffness": port.stiffness}
+    facts = shown.pop("facts")
+    checks = {text: value > 0 for text, value in input_excess(scene, held).items()}
+    checks |= {
+        text: good & (value > 0) for text, value in result_excess(scene, facts, ring, results.cage, held).items()
+    }
+    notes = scene.assumptions()
+    if scene.unused_parts():
+        unused = ", ".join(scene.unused_parts())
+        lacking = "[contact]" if isinstance(scene, TaperedRollerBearing) else "traction on the raceways"
+        notes = (*notes, f"without {lacking} these tables have no effect: {unused}")
+    return Solution(
+        status=result.status,
+        iterations=result.iterations if iterations is None else iterations,
+        residual_norm=result.residual_norm,
+        inner_residual=result.inner_residual,
+        worst_equation=result.worst_equation,
+        worst_element=result.worst_element,
+        operation=scene.operation,
+        checks=checks,
+        global_equations=result.point.globals.shape[0],
+        unknowns=result.point.elements.size + result.point.globals.size,
+        notes=notes,
+        reasons={text: Reason(~good & one.applies, one.numbers) for text, one in (reasons or {}).items()},
+        **jax.tree.map(lambda leaf: jnp.where(good, leaf, jnp.nan), shown),
+        **names,
+    )

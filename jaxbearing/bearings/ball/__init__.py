@@ -1,0 +1,1 @@
+"""Ball bearings: scene, geometry, kinematics, equations, results."""

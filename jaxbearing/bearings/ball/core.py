@@ -1,0 +1,343 @@
+r"""Loads and contact angles of a ball bearing without friction: the block-arrow core of every ball bearing model.
+
+Unknown per ball: its centre (V axial, W radial) from the centre of the outer groove; globally: the displacement of the
+inner ring. With $A = (A_1, A_2)$ the centre of the inner groove at the ball's azimuth,
+
+- $l_o = |(V, W)|$, $l_i = |A - (V, W)|$, $\delta_k = l_k - g_k + h_k$, $Q_k = K_k\delta_{k+}^{3/2}$ (source eqs.
+  (23)-(26); a film h stores approach like extra metal, and then $Q_k$ is the root of its own equation);
+- ball: $Q_o\sin\alpha_o - Q_i\sin\alpha_i - \sigma(T_i\cos\alpha_i - T_o\cos\alpha_o) = 0$ and
+  $Q_o\cos\alpha_o - Q_i\cos\alpha_i + \sigma(T_i\sin\alpha_i - T_o\sin\alpha_o) = F_C$ (eqs. (14)-(15));
+- ring: $\sum p_x = F_a$, $\sum p_r\cos\psi = F_r$, $\sum(R_ip_x - \sigma T_if_iD)\cos\psi = M$ (eqs. (21)-(22)), with
+  $p_x = Q_i\sin\alpha_i + \sigma T_i\cos\alpha_i$ and $p_r = Q_i\cos\alpha_i - \sigma T_i\sin\alpha_i$.
+
+$F_C = \frac12md_m\omega_m^2$, with the orbital speed of rolling without sliding at the ball's own angles and attitude;
+or, with `common_orbit`, with one $\omega_m$ for all balls (the source's, of its cage), one more unknown: the mean of
+their own, weighted by the inner loads, $\sum Q_{ij}(\omega_{mj} - \omega_m) = 0$. Each ball keeps the spin of its own.
+Written as forces that grow with their displacement. For T = 0 and frozen $F_C$ they are the gradient of one convex
+potential (`start` descends it).
+"""
+
+import dataclasses
+from typing import NamedTuple
+
+import equinox as eqx
+import jax
+import jax.numpy as jnp
+from jaxtyping import Array, Bool, Float, Int
+
+from ...numerics.arrow import ArrowPoint
+from ...numerics.safe import safe_norm
+from ..ring import LENGTH_UNIT
+from .kinematics import BallMotion
+from .start import CentrifugalProblem, free_centres, ring_estimate, start
+from .system import AbstractBallSystem
+
+FORCE_FLOOR = 1e-3
+"""Added to the centrifugal force, N: a ball that nothing loads stays in its outer groove (load error 1e-3 N)."""
+
+ESTIMATES = 3
+"""Passes between centrifugal forces and contact angles in the first guess."""
+
+EASY_LOAD = 1e5
+"""Load of a ball over the square of its diameter, Pa: so loaded, its contacts are stiffer than their films."""
+
+STEEPEST = 1.4
+"""Contact angle, rad, up to which the direction of the inner groove gives the speed of a ball that does not touch it:
+the rolling that it stands for has a pole near 90 degrees."""
+
+
+ORBIT_FLOOR = 1.0
+"""Added to the scale of orbital speeds, rad/s, in squares: a bearing at rest has none."""
+
+
+def orbit_totals(load: Array, own: Array, common: Array) -> Float[Array, "2 ball"]:
+    """Contributions of each ball to the two sums of `orbit_row`; inner `load`, N, its `own` and the `common` orbital
+    speed, rad/s. `FORCE_FLOOR` is added to the weights: their sum is not 0."""
+    weight = load + FORCE_FLOOR
+    return jnp.stack([weight * (common - own), weight])
+
+
+def orbit_row(totals: Float[Array, "2"], unit: Array) -> Array:
+    """Common orbital speed minus the weighted mean of the balls' own, scaled."""
+    return totals[0] / (totals[1] * unit)
+
+
+class BallState(NamedTuple):
+    """Everything that happens at the balls for given unknowns; loads and angles (inner, outer) first."""
+
+    load: Float[Array, "2 ball"]
+    angle: Float[Array, "2 ball"]
+    """Contact angles on the races: of the inner one against the tilted ring."""
+    direction: Float[Array, "2 ball"]
+    """Direction of the normal forces on the ball, from the radius towards the axis, in the fixed frame, rad."""
+    centre: Float[Array, "2 ball"]
+    """Centre of the ball, from the outer groove centre, m."""
+    motion: BallMotion
+    own_orbit: Float[Array, " ball"]
+    """Orbital speed of rolling without sliding at the ball's own angles, rad/s; `motion` may have the common one."""
+    balance: Float[Array, "2 ball"]
+    """Left side minus right side of the ball's two force balances, N."""
+    on_ring: Float[Array, "freedom ball"]
+    """Contributions of each ball to the forces on the ring's freedoms, N: of p_x, p_r, the force along the orbit where
+    the ring may tilt, and the moment about the tangent of the circle of groove centres."""
+
+
+class BallCore(AbstractBallSystem):
+    """Balls that roll without sliding, with the attitude of outer or inner race control.
+
+    Its iteration begins at `guess`, and in an easier system (`parameter` > 0 of `homotopy`) at `heavy_guess`
+    (`started`); where these are `None`, at estimates by formulas.
+    """
+
+    guess: ArrowPoint | None = None
+    heavy_guess: ArrowPoint | None = None
+    parameter: Float[Array, ""] | None = None
+    common_orbit: bool = eqx.field(static=True, default=False)
+
+    # -- scales ---------------------------------------------------------------------------------------------------
+
+    def load_scale(self) -> Array:
+        """Scale of the ring's balances, N."""
+        return jnp.sqrt(jnp.square(self.ring.size()) + (self.ball_count * FORCE_FLOOR) ** 2)
+
+    def ball_scale(self) -> Array:
+        """Scale of a ball's balances, N."""
+        angle = self.grooves.free_angle
+        free = self.kinematics.rolling(angle, angle, angle)
+        return self.load_scale() / self.ball_count + self.outward_force(free)
+
+    def free_orbit(self) -> Array:
+        """Orbital speed at the free contact angle, rad/s."""
+        angle = self.grooves.free_angle
+        return self.kinematics.rolling(angle, angle, angle).orbital_speed
+
+    @property
+    def orbit_unit(self) -> Array:
+        """Scale of orbital speeds, rad/s."""
+        return self.kinematics.orbit_scale(self.free_orbit(), ORBIT_FLOOR)
+
+    # -- solver contract ------------------------------------------------------------------------------------------
+
+    def equation_names(self) -> tuple[str, ...]:
+        orbit = ("common orbital speed",) if self.common_orbit else ()
+        return ("axial balance of a ball", "radial balance of a ball", *self.ring.equation_names(), *orbit)
+
+    def step_caps(self) -> ArrowPoint:
+        half = 0.5 * self.grooves.centre_distance / LENGTH_UNIT
+        ring = jnp.full(len(self.freedoms), half)
+        if self.common_orbit:
+            ring = jnp.append(ring, 0.5)
+        return ArrowPoint(jnp.stack([half, half])[:, None], ring)
+
+    def bounds(self) -> tuple[ArrowPoint, ArrowPoint]:
+        far = 1e6
+        elements, ring = jnp.full((2, 1), far), jnp.full(len(self.freedoms) + self.common_orbit, far)
+        return ArrowPoint(-elements, -ring), ArrowPoint(elements, ring)
+
+    @property
+    def heavier(self) -> Array:
+        """The ratio of the easiest load to the load on the ring: centrifugal forces and films are small beside it."""
+        angle = self.grooves.free_angle
+        force = self.outward_force(self.kinematics.rolling(angle, angle, angle))
+        force = force + EASY_LOAD * jnp.square(self.kinematics.ball_diameter)
+        return 1.0 + self.ball_count * force / self.load_scale()
+
+    def guesses(self) -> tuple[ArrowPoint, ArrowPoint]:
+        """Gives the points where the iteration starts under the load on the ring, and under the easiest one."""
+        if self.guess is not None and self.heavy_guess is not None:
+            return self.guess, self.heavy_guess
+        _, centres, rings = self._estimates()
+        return self._points(centres, rings)
+
+    def initial(self) -> ArrowPoint:
+        guess, heavy = self.guesses()
+        if self.parameter is None:
+            return guess
+        return ArrowPoint(*(jnp.where(self.parameter == 0.0, x, y) for x, y in zip(guess, heavy, strict=True)))
+
+    def started(self) -> tuple["BallCore", Int[Array, ""]]:
+        """These equations with the minimum of the convex problem as first guess, and the Newton steps to that."""
+        problem, centres, rings = self._estimates()
+        found = start(problem, rings[0])
+        guess, heavy = self._points(centres.at[0].set(found.centre), rings.at[0].set(found.ring))
+        return dataclasses.replace(self, guess=guess, heavy_guess=heavy), found.steps
+
+    def _points(
+        self, centres: Float[Array, "2 2 ball"], rings: Float[Array, "2 freedom"]
+    ) -> tuple[ArrowPoint, ArrowPoint]:
+        """Unknowns at ball centres and displacements of the ring, m, under its load and under the easiest one."""
+        points = jax.lax.stop_gradient(jax.vmap(self._point)(centres, rings))
+        own, easiest = (jax.tree.map(lambda leaf, i=i: leaf[i], points) for i in (0, 1))
+        return own, easiest
+
+    def _point(self, centre: Float[Array, "2 ball"], moved: Float[Array, " freedom"]) -> ArrowPoint:
+        elements, ring = (centre - self.free_centre()) / LENGTH_UNIT, moved / LENGTH_UNIT
+        if not self.common_orbit:
+            return ArrowPoint(elements, ring)
+        at_rest = jnp.append(ring, 0.0)
+        state = self.balls(elements, jnp.broadcast_to(at_rest[:, None], (at_rest.size, elements.shape[1])))
+        away = orbit_totals(state.load[0], state.own_orbit, state.motion.orbital_speed)
+        return ArrowPoint(elements, at_rest.at[-1].set(-orbit_row(jnp.sum(away, axis=1), self.orbit_unit)))
+
+    def _estimates(self) -> tuple[CentrifugalProblem, Float[Array, "2 2 ball"], Float[Array, "2 freedom"]]:
+        """The convex problem at the centrifugal forces of the estimated contact angles, and estimates of ball centres
+        and displacements of the ring under its load and under the easiest one; not differentiated."""
+        core = jax.lax.stop_gradient(self)
+        free = jnp.broadcast_to(core.grooves.free_angle, (2, core.azimuth.shape[0]))
+        first = core._frozen(free)
+
+        def under(load: Array) -> tuple[Array, Array, Array]:
+            problem = dataclasses.replace(first, ring_load=load)
+            ring = ring_estimate(problem)
+            groove = problem.groove_at(ring)
+
+            def better(turn: Array, last: tuple[Array, Array]) -> tuple[Array, Array]:
+                placed = turn == ESTIMATES  # the forces are known, and the balls are placed
+                centre, _ = free_centres(dataclasses.replace(problem, centrifugal=last[1]), groove, placed)
+                inner = groove - centre
+                angle = jnp.stack([jnp.arctan2(inner[0], inner[1]), jnp.arctan2(centre[0], centre[1])])
+                return centre, jnp.where(placed, last[1], core.outward_force(core.motion(angle)))
+
+            return *jax.lax.fori_loop(0, ESTIMATES + 1, better, (groove, problem.centrifugal)), ring
+
+        centres, forces, rings = jax.vmap(under)(jnp.stack([core.ring.load, core.heavier * core.ring.load]))
+        return dataclasses.replace(first, centrifugal=forces[0]), centres, rings
+
+    def _frozen(self, angle: Float[Array, "2 ball"]) -> CentrifugalProblem:
+        """The convex problem at the centrifugal forces of given contact angles."""
+        return CentrifugalProblem(
+            offset=self.grooves.offset,
+            stiffness=self.grooves.stiffness,
+            groove=self._groove_at_rest(),
+            directions=self.directions,
+            ring_load=self.ring.load,
+            held_load=self.ring.held_load,
+            centrifugal=self.outward_force(self.motion(angle)),
+            multiplicity=self.multiplicity,
+            centre_distance=self.grooves.centre_distance,
+            free_cosine=self.grooves.free_cosine,
+            aligned=self.grooves.aligned,
+            freedoms=self.freedoms,
+        )
+
+    def _groove_at_rest(self) -> Float[Array, "2 ball"]:
+        """Inner groove centres of the ring without displacement, at its misalignment, m."""
+        shift = jnp.zeros((len(self.freedoms), self.azimuth.shape[0]))
+        if not self.exact:
+            return self.groove_centres(shift)
+        centre = jnp.broadcast_to(self.free_centre(), (2, self.azimuth.shape[0]))
+        return centre + self.inner_arm(shift, centre).in_plane
+
+    @property
+    def lanes_together(self) -> bool:
+        return True
+
+    @property
+    def homotopies(self) -> int:
+        return 1 if self.gyroscopic is None else 2
+
+    def homotopy(self, parameter, path):
+        """More load: the inner contacts of a fast, lightly loaded bearing are nearly lost; or less of the couple."""
+        ratio = self.heavier
+        guess, heavy = self.guesses()
+        share = self.couple_share
+        if self.gyroscopic is not None:
+            ratio = jnp.where(path == 0, ratio, 1.0)
+            heavy = jax.tree.map(lambda a, b: jnp.where(path == 0, a, b), heavy, guess)
+            share = share * jnp.where(path == 0, 1.0, 1.0 - parameter)
+        return dataclasses.replace(
+            self,
+            ring=self.ring.under(self.ring.load * ratio**parameter),
+            couple_share=share,
+            guess=guess,
+            heavy_guess=heavy,
+            parameter=parameter,
+        )
+
+    @property
+    def extra_totals(self) -> int:
+        # weighted speeds and weights
+        return 1 if self.common_orbit else 0
+
+    def element(self, unknowns, shared):
+        state = self.balls(unknowns, shared)
+        totals = state.on_ring
+        if self.common_orbit:
+            speeds = orbit_totals(state.load[0], state.own_orbit, state.motion.orbital_speed)
+            totals = jnp.concatenate([totals, self.multiplicity * speeds])
+        return state.balance / self.ball_scale(), totals, jnp.zeros(())
+
+    def global_residual(self, globals_, totals):
+        d = len(self.freedoms)
+        rows = self.load_balance(globals_[:d], totals[:d]) / self.load_scale()
+        if self.common_orbit:
+            rows = jnp.append(rows, orbit_row(totals[d:], self.orbit_unit))
+        return rows, jnp.zeros(())
+
+    # -- physics --------------------------------------------------------------------------------------------------
+
+    def free_centre(self) -> Float[Array, "2 1"]:
+        """Centre of an unloaded ball at the free contact angle, m."""
+        return self.grooves.offset[1] * self.grooves.free_normal
+
+    def outward_force(self, motion: BallMotion) -> Array:
+        """Centrifugal force with `FORCE_FLOOR`, N."""
+        return self.centrifugal(motion.orbital_speed) + FORCE_FLOOR
+
+    def at(self, point: ArrowPoint) -> BallState:
+        shape = (point.globals.shape[0], point.elements.shape[1])
+        return self.balls(point.elements, jnp.broadcast_to(point.globals[:, None], shape))
+
+    def balls(self, unknowns: Float[Array, "2 ball"], shared: Float[Array, "g ball"]) -> BallState:
+        centre = self.free_centre() + LENGTH_UNIT * unknowns[:2]
+        shift = shared[: len(self.freedoms)]
+        arm, on_ring = self.reach(shift, centre)
+        apart = jnp.stack([arm.length, safe_norm(centre[0], centre[1])])
+        direction = angle = jnp.stack([jnp.arctan2(*arm.in_plane), jnp.arctan2(centre[0], centre[1])])
+        if arm.turned is not None:
+            angle = direction.at[0].add(-arm.turned)
+        load = self.loads(apart)
+        motion = self.motion(angle, load[0] > 0)
+        own_orbit = motion.orbital_speed
+        if self.common_orbit:
+            motion = motion._replace(orbital_speed=self.free_orbit() + self.orbit_unit * shared[len(self.freedoms)])
+        friction = None
+        if self.gyroscopic is not None:
+            parts = self.gyroscopic.friction(self.couple(motion), self.kinematics.ball_diameter, load[0], load[1])
+            friction = self.gyroscopic.sign * jnp.stack(parts)
+        pressing = load.at[0].multiply(arm.share) if self.exact else load
+        axial, radial, moment = self.with_friction(pressing, direction, friction)
+        sideways = () if arm.along is None else (load[0] * arm.along / arm.length,)
+        return BallState(
+            load=load,
+            angle=angle,
+            direction=direction,
+            centre=centre,
+            motion=motion,
+            own_orbit=own_orbit,
+            balance=jnp.stack([axial[1] - axial[0], radial[1] - radial[0] - self.outward_force(motion)]),
+            on_ring=on_ring(jnp.stack([axial[0], radial[0], *sideways]), moment),
+        )
+
+    def loads(self, apart: Float[Array, "2 ball"]) -> Float[Array, "2 ball"]:
+        """Hertz loads from the distances of the centres, N; 0 and without slope where a contact is open."""
+        approach = apart - self.grooves.offset[:, None]
+        closed = approach > 0
+        power = jnp.where(closed, approach, 0.0) * jnp.sqrt(jnp.where(closed, approach, 1.0))
+        return self.grooves.stiffness[:, None] * power
+
+    def motion(self, angle: Float[Array, "2 ball"], touching: Bool[Array, " ball"] | None = None) -> BallMotion:
+        """Rolling without sliding, with the attitude of the controlling race.
+
+        Of a ball that does not touch the inner race (not `touching`) the direction of the inner groove's centre stands
+        for the contact angle, up to `STEEPEST`.
+        """
+        inner, outer = angle
+        steep = jnp.clip(inner, -STEEPEST, STEEPEST)
+        inner = steep if touching is None else jnp.where(touching, inner, steep)
+        return self.kinematics.rolling(inner, outer, self._attitude(inner, outer))
+
+    def _attitude(self, inner: Array, outer: Array) -> Array:
+        if self.attitude == "outer":
+            return self.kinematics.outer_control(outer)
+        return self.kinematics.inner_control(inner)

@@ -1,0 +1,129 @@
+"""Geometry of a ball bearing: grooves, contact angle, centres of curvature."""
+
+from collections.abc import Iterator
+from typing import ClassVar
+
+import jax.numpy as jnp
+from jaxtyping import Array, Float
+
+from ..._scene import number, optional_number
+from ..._types import Scalar, Values
+from ...contacts import PointContact
+from ...numerics.checks import Checked, demand, given
+from ...numerics.refusals import refusals_of, refuse_all
+from ...numerics.structure import count
+from ..parts import FIRST_ELEMENT, check_row_fits
+
+
+class BallGeometry(Checked):
+    """Main dimensions of a single-row ball bearing; give the contact angle or the clearance, the other follows.
+
+    **Arguments:**
+    - `n_balls`: number of balls (structure: another number recompiles).
+    - `pitch_diameter`, `ball_diameter`: m, > 0.
+    - `conformity_inner`, `conformity_outer`: groove radius over ball diameter, > 0.5.
+    - `contact_angle`: of the unloaded bearing, rad, at least 0 and below pi/2.
+    - `diametral_clearance`: DIAMETRAL internal clearance of the unloaded bearing, m, >= 0.
+    - `shoulder_angle_inner`, `shoulder_angle_outer`: angle at which the groove ends, rad; not given: no check.
+    - `first_element_angle`: azimuth of the first ball, rad; not given: 0, and the load line is a line of symmetry.
+    """
+
+    part: ClassVar[str] = "geometry"
+
+    n_balls: int = count("geometry.n_balls")
+    pitch_diameter: Scalar = number(bound="> 0")
+    ball_diameter: Scalar = number(bound="> 0")
+    conformity_inner: Scalar = number(bound="between 0.5 and 1, and not 0.5")
+    conformity_outer: Scalar = number(bound="between 0.5 and 1, and not 0.5")
+    contact_angle: Scalar | None = optional_number(bound=">= 0 and below 90 degrees")
+    diametral_clearance: Scalar | None = optional_number(bound=">= 0")
+    shoulder_angle_inner: Scalar | None = optional_number(bound="> 0")
+    shoulder_angle_outer: Scalar | None = optional_number(bound="> 0")
+    first_element_angle: Scalar | None = optional_number(metadata=FIRST_ELEMENT)
+
+    def __check_init__(self):
+        super().__check_init__()
+        refuse_all(self._problems())
+
+    def _problems(self) -> Iterator[str | ValueError]:
+        yield from refusals_of(check_row_fits, self.n_balls, self.ball_diameter, self.pitch_diameter, "ball")
+        if (self.contact_angle is None) == (self.diametral_clearance is None):
+            yield "geometry.contact_angle: give it or geometry.diametral_clearance, one of the two"
+        sizes = given(self.diametral_clearance, self.ball_diameter, self.conformity_inner, self.conformity_outer)
+        if sizes is not None:
+            yield from refusals_of(
+                demand,
+                "geometry.diametral_clearance must be less than that of balls that leave the grooves",
+                sizes[0] < 2.0 * (sizes[2] + sizes[3] - 1.0) * sizes[1],
+                lambda: f"geometry.diametral_clearance: {float(sizes[0]):g} m is more than the grooves hold",
+            )
+
+    @property
+    def centre_distance(self) -> Array:
+        """BD = (f_i + f_o - 1) D: of the groove centres, unloaded balls in contact, m."""
+        return (self.conformity_inner + self.conformity_outer - 1.0) * jnp.asarray(self.ball_diameter)
+
+    @property
+    def inner_offset(self) -> Array:
+        """Groove centre to ball centre, inner groove, m."""
+        return (self.conformity_inner - 0.5) * jnp.asarray(self.ball_diameter)
+
+    @property
+    def outer_offset(self) -> Array:
+        """Groove centre to ball centre, outer groove, m."""
+        return (self.conformity_outer - 0.5) * jnp.asarray(self.ball_diameter)
+
+    @property
+    def free_cosine(self) -> Array:
+        """Cosine of the contact angle of the unloaded bearing."""
+        if self.contact_angle is not None:
+            return jnp.cos(jnp.asarray(self.contact_angle))
+        assert self.diametral_clearance is not None
+        return 1.0 - self.diametral_clearance / (2.0 * self.centre_distance)
+
+    @property
+    def free_sine(self) -> Array:
+        """Sine of that angle; for a clearance of 0 it is 0 with derivative 0."""
+        if self.contact_angle is not None:
+            return jnp.sin(jnp.asarray(self.contact_angle))
+        assert self.diametral_clearance is not None
+        lift = self.diametral_clearance / (2.0 * self.centre_distance)
+        open_ = lift > 0
+        return jnp.where(open_, jnp.sqrt(jnp.where(open_, lift * (2.0 - lift), 1.0)), 0.0)
+
+    @property
+    def aligned(self) -> Array:
+        """Axial displacement of the inner ring at which the planes of the grooves coincide, m.
+
+        A bearing given by its clearance has its zero there, in the middle of the play. One given by its contact angle
+        has its zero at first contact of balls and races, with the inner ring pushed along $+e_x$.
+        """
+        if self.contact_angle is None:
+            return jnp.zeros(())
+        return -self.centre_distance * self.free_sine
+
+    @property
+    def groove_circle_radius(self) -> Array:
+        """R_i: of the circle of the inner groove's centres, m."""
+        return 0.5 * self.pitch_diameter + self.inner_offset * self.free_cosine
+
+    def contacts(self, inner_cosine: Values, outer_cosine: Values, reduced_modulus: Values) -> PointContact:
+        """Both contacts, races first (inner, outer), at given contact angles: shape (2, ...)."""
+        ratio = self.ball_diameter / self.pitch_diameter
+        half = 0.5 * jnp.asarray(self.ball_diameter)
+        rolling = jnp.stack([half * (1.0 - ratio * inner_cosine), half * (1.0 + ratio * outer_cosine)])
+        groove = lambda f: f * self.ball_diameter / (2.0 * f - 1.0)
+        transverse = jnp.stack([jnp.asarray(groove(f)) for f in (self.conformity_inner, self.conformity_outer)])
+        return PointContact(rolling, transverse.reshape((2,) + (1,) * (rolling.ndim - 1)), reduced_modulus)
+
+    def free_contacts(self, reduced_modulus: Values) -> PointContact:
+        """Both contacts at the free contact angle, shape (2,)."""
+        return self.contacts(self.free_cosine, self.free_cosine, reduced_modulus)
+
+    def mass(self, density: Values) -> Float[Array, ""]:
+        """Mass of a ball, kg."""
+        return density * jnp.pi / 6.0 * jnp.asarray(self.ball_diameter) ** 3
+
+    def inertia(self, density: Values) -> Float[Array, ""]:
+        """Moment of inertia of a ball, kg m^2."""
+        return density * jnp.pi / 60.0 * jnp.asarray(self.ball_diameter) ** 5

@@ -1,0 +1,85 @@
+"""Laws by which contact friction carries a ball's gyroscopic couple if no traction law resolves it."""
+
+import abc
+from typing import ClassVar
+
+import equinox as eqx
+import jax.numpy as jnp
+from jaxtyping import Array, Float
+
+from ..._types import Scalar, Values
+from ...numerics.checks import Checked, bounded, demand, given
+from ...numerics.precision import as_float
+
+NO_LOAD = 1e-9
+"""Added to the sum of both loads, N: no couple where no contact carries anything."""
+
+
+class AbstractGyroscopic(Checked):
+    r"""Friction forces $T_i, T_o$ on the ball that balance the couple $M_g = J\omega_R\omega_m\sin\beta$.
+
+    Euler's equation asks the contacts for the couple $+M_ge_t$: each carries $-(D/2)F_kb_k\times n_k$ of it with
+    $F_k = -T_k$, $T_i + T_o = 2M_g/D$. `sign` +1 is that; -1 is the sign printed by Harris and by the source's
+    eqs. (14)-(15), for comparison with the literature.
+    """
+
+    part: ClassVar[str] = "kinematics"
+    sign: eqx.AbstractVar[Scalar]
+
+    def __check_init__(self):
+        super().__check_init__()
+        if given(self.sign) is not None:
+            demand(
+                "kinematics.gyroscopic.sign must be 1 or -1",
+                abs(self.sign) == 1.0,
+                lambda: f"kinematics.gyroscopic_sign must be 1 or -1, got {float(self.sign):g}",
+            )
+
+    @abc.abstractmethod
+    def friction(
+        self, couple: Values, diameter: Values, inner_load: Values, outer_load: Values
+    ) -> tuple[Float[Array, "..."], Float[Array, "..."]]:
+        """$T_i, T_o$, N. **Arguments:** $M_g$, N m; D, m; loads, N, >= 0."""
+
+
+class SharedCouple(AbstractGyroscopic):
+    r"""$T_k = \lambda_kM_g/D$ with given shares: (0, 2) under outer race control, (1, 1) else (source eqs. (14)-(15)).
+
+    **Limits:** asks an unloaded inner contact for friction: at light load and high speed no equilibrium exists.
+
+    **Arguments:**
+    - `inner_share`, `outer_share`: lambda_i and lambda_o, each a part of the couple in units of half of it; together 2.
+    - `sign`: of the force pair, 1 or -1.
+    """
+
+    inner_share: Scalar = bounded("finite", converter=as_float, default=1.0)
+    outer_share: Scalar = bounded("finite", converter=as_float, default=1.0)
+    sign: Scalar = eqx.field(converter=as_float, default=1.0)
+
+    def friction(self, couple, diameter, inner_load, outer_load):
+        return self.inner_share * couple / diameter, self.outer_share * couple / diameter
+
+
+class CappedCouple(AbstractGyroscopic):
+    r"""Shared in proportion to the loads and limited by friction: $T_k = \mu Q_k\tanh[2M_g/(D\mu(Q_i + Q_o))]$.
+
+    **Limits:** the whole couple for small $M_g$; $\mu Q_k$ for a large one: the rest of the couple is not carried, and
+    the ball would start to turn about $e_t$, which this law leaves out.
+
+    **Arguments:**
+    - `friction_coefficient`: coefficient mu, > 0.
+    - `sign`: of the force pair, 1 or -1.
+    """
+
+    friction_coefficient: Scalar = bounded("> 0", name="gyroscopic_friction", converter=as_float, default=0.05)
+    sign: Scalar = eqx.field(converter=as_float, default=1.0)
+
+    def friction(self, couple, diameter, inner_load, outer_load):
+        limit = self.friction_coefficient * (inner_load + outer_load + NO_LOAD)
+        taken = self.friction_coefficient * jnp.tanh(2.0 * couple / (diameter * limit))
+        return taken * inner_load, taken * outer_load
+
+
+class ResolvedCouple(eqx.Module):
+    """The transverse traction of the contacts carries the couple: the ball also turns about the orbit's tangent, and
+    slides across the rolling direction."""

@@ -1,0 +1,136 @@
+"""Kinematics of balls between two grooved rings: rolling without sliding, attitude of the spin, relative motion."""
+
+from typing import NamedTuple
+
+import equinox as eqx
+import jax.numpy as jnp
+from jaxtyping import Array, Float
+
+from ..._types import Values
+
+
+class BallMotion(NamedTuple):
+    """Orbital speed of the ball centre and spin relative to the orbiting frame, rad/s; both > 0 in normal running.
+
+    The spin vector is $-\\omega_R(\\cos\\beta\\,e_x - \\sin\\beta\\,e_r) + \\omega_te_t$: `attitude` is beta, rad, in
+    the plane through the bearing axis; `transverse` is $\\omega_t$, 0 unless traction resolves the gyroscopic couple.
+    """
+
+    orbital_speed: Float[Array, "*batch"]
+    spin_speed: Float[Array, "*batch"]
+    attitude: Float[Array, "*batch"]
+    transverse: Float[Array, "*batch"]
+
+    @property
+    def axial_spin(self) -> Float[Array, "*batch"]:
+        """Against the bearing axis, rad/s."""
+        return self.spin_speed * jnp.cos(self.attitude)
+
+    @property
+    def radial_spin(self) -> Float[Array, "*batch"]:
+        """Outwards, rad/s."""
+        return self.spin_speed * jnp.sin(self.attitude)
+
+
+class RaceMotion(NamedTuple):
+    """Relative motion in the contact with one race, inner or outer; ball minus race.
+
+    `race_speed` and `ball_speed`, m/s: of the two surfaces along rolling, relative to the contact; `rolling` and
+    `transverse`, m/s: sliding along $e_t$ and $b_k$; `spin` and `roll`, rad/s: relative angular speed about the
+    contact's normal and about $b_k$.
+    """
+
+    race_speed: Float[Array, "*batch"]
+    ball_speed: Float[Array, "*batch"]
+    rolling: Float[Array, "*batch"]
+    transverse: Float[Array, "*batch"]
+    spin: Float[Array, "*batch"]
+    roll: Float[Array, "*batch"]
+
+    @property
+    def mean_speed(self) -> Float[Array, "*batch"]:
+        """Entrainment speed, m/s: of the sign of the race's speed in normal running."""
+        return 0.5 * (self.race_speed + self.ball_speed)
+
+
+class BallKinematics(eqx.Module):
+    r"""Balls of diameter D on a pitch circle $d_m$, $\gamma' = D/d_m$, between an inner and an outer ring.
+
+    At a ball: $e_x$ axial, $e_r$ radially outward, $e_t = e_x\times e_r$ along the orbit. The contact normals, from the
+    ball's centre, are $n_o = \cos\alpha_oe_r + \sin\alpha_oe_x$ and $n_i = -\cos\alpha_ie_r - \sin\alpha_ie_x$, and
+    $(e_t, b_k, n_k)$ is right-handed. Elastic changes of the rolling radii are neglected.
+
+    **Reference:** Jones (1959), Trans. ASME D 81, 1; Harris, *Rolling Bearing Analysis*; source eqs. (3)-(12).
+    """
+
+    inner_speed: Float[Array, ""]
+    outer_speed: Float[Array, ""]
+    pitch_diameter: Float[Array, ""]
+    ball_diameter: Float[Array, ""]
+
+    @property
+    def ratio(self) -> Array:
+        """D/dm."""
+        return self.ball_diameter / self.pitch_diameter
+
+    def rolling(self, inner_angle: Values, outer_angle: Values, attitude: Values) -> BallMotion:
+        """Motion without sliding at the centres of both contacts, for a given attitude. Angles in rad."""
+        inner_cosine, outer_cosine = jnp.cos(inner_angle - attitude), jnp.cos(outer_angle - attitude)
+        inner = (1.0 - self.ratio * jnp.cos(inner_angle)) * outer_cosine
+        outer = (1.0 + self.ratio * jnp.cos(outer_angle)) * inner_cosine
+        orbital = (self.inner_speed * inner + self.outer_speed * outer) / (inner + outer)
+        # (orbital - outer_speed) a_o / c_o without the difference of the speeds
+        relative = self.inner_speed - self.outer_speed
+        both = (1.0 - self.ratio * jnp.cos(inner_angle)) * (1.0 + self.ratio * jnp.cos(outer_angle))
+        spin = relative * both / (self.ratio * (inner + outer))
+        return BallMotion(orbital, spin, jnp.broadcast_to(attitude, spin.shape), jnp.zeros_like(spin))
+
+    def held(self, orbital_speed: Values, inner_angle: Values, outer_angle: Values, attitude: Values) -> BallMotion:
+        """Motion at a given orbital speed, sliding by as much on both races; rad/s, rad."""
+        inner = (self.inner_speed - orbital_speed) * (1.0 - self.ratio * jnp.cos(inner_angle))
+        outer = (orbital_speed - self.outer_speed) * (1.0 + self.ratio * jnp.cos(outer_angle))
+        cosines = jnp.cos(inner_angle - attitude) + jnp.cos(outer_angle - attitude)
+        spin = (inner + outer) / (self.ratio * cosines)
+        ones = jnp.ones_like(spin)
+        return BallMotion(orbital_speed * ones, spin, attitude * ones, jnp.zeros_like(spin))
+
+    def orbit_scale(self, free: Array, floor: float = 0.0) -> Float[Array, ""]:
+        """Scale of orbital speeds, rad/s: not 0 while a ring turns. **Arguments:** `free`, rad/s, of a ball that rolls;
+        `floor`, rad/s, added in squares."""
+        both = 0.5 * (jnp.square(free) + jnp.square(free - self.outer_speed))
+        return jnp.sqrt(both + floor**2)
+
+    def outer_control(self, outer_angle: Values) -> Float[Array, "..."]:
+        """Attitude without spin on the outer race, rad (source eq. (10))."""
+        return jnp.arctan2(jnp.sin(outer_angle), jnp.cos(outer_angle) + self.ratio)
+
+    def inner_control(self, inner_angle: Values) -> Float[Array, "..."]:
+        """Attitude without spin on the inner race, rad (source eq. (11))."""
+        return jnp.arctan2(jnp.sin(inner_angle), jnp.cos(inner_angle) - self.ratio)
+
+    def raceway_control(self, inner_angle: Values, outer_angle: Values, attitude: Values) -> Float[Array, "..."]:
+        """100 (beta_i - beta)/(beta_i - beta_o): 100 outer, 0 inner race control (source eq. (94)).
+
+        100 where both attitudes agree within 1e-9 rad (contact angles 0), where it has no meaning.
+        """
+        inner, outer = self.inner_control(inner_angle), self.outer_control(outer_angle)
+        apart = jnp.abs(inner - outer) > 1e-9
+        return jnp.where(apart, 100.0 * (inner - attitude) / jnp.where(apart, inner - outer, 1.0), 100.0)
+
+    def inner_race(self, motion: BallMotion, angle: Values) -> RaceMotion:
+        """Relative motion on the inner race at a contact angle, rad."""
+        slow = self.inner_speed - motion.orbital_speed
+        race = slow * 0.5 * self.pitch_diameter * (1.0 - self.ratio * jnp.cos(angle))
+        ball = 0.5 * motion.spin_speed * self.ball_diameter * jnp.cos(angle - motion.attitude)
+        spin = slow * jnp.sin(angle) + motion.spin_speed * jnp.sin(angle - motion.attitude)
+        roll = motion.spin_speed * jnp.cos(angle - motion.attitude) + slow * jnp.cos(angle)
+        return RaceMotion(race, ball, ball - race, -0.5 * motion.transverse * self.ball_diameter, spin, roll)
+
+    def outer_race(self, motion: BallMotion, angle: Values) -> RaceMotion:
+        """Relative motion on the outer race at a contact angle, rad."""
+        fast = motion.orbital_speed - self.outer_speed
+        race = fast * 0.5 * self.pitch_diameter * (1.0 + self.ratio * jnp.cos(angle))
+        ball = 0.5 * motion.spin_speed * self.ball_diameter * jnp.cos(angle - motion.attitude)
+        spin = fast * jnp.sin(angle) - motion.spin_speed * jnp.sin(angle - motion.attitude)
+        roll = fast * jnp.cos(angle) - motion.spin_speed * jnp.cos(angle - motion.attitude)
+        return RaceMotion(race, ball, race - ball, -0.5 * motion.transverse * self.ball_diameter, spin, roll)

@@ -1,0 +1,87 @@
+"""From a ball bearing to the film of one of its contacts: the equivalent line contact of a ball on a race."""
+
+from typing import Any, Literal
+
+import jax.numpy as jnp
+
+from ...ehl import ContactBodies, ContactGeometry, ContactOperation, EHLLineContact, FilmModel, FilmSimulation
+from ...materials import reduced_modulus
+from ...numerics.arguments import require_choice
+from ...numerics.checks import known
+from ..solution import Solution
+from .kinematics import BallKinematics, BallMotion
+from .scene import BallBearing
+
+
+def line_contact_of(
+    scene: BallBearing,
+    solution: Solution,
+    *,
+    race: Literal["inner", "outer"] = "inner",
+    ball: int = 0,
+    model: FilmModel | None = None,
+    simulation: FilmSimulation | None = None,
+) -> EHLLineContact:
+    r"""The line contact that stands for a ball on a race, as in the source's Table 18: the same Hertz (peak) pressure
+    and the same half width in the direction of rolling.
+
+    The ellipse of a ball on a race is many times longer across rolling than along it, and oil enters its middle as it
+    enters a line contact. With its half axis a along rolling and its peak pressure p_h, Hertz' relations for a line,
+    $p_h = a E'/(4R')$ and $F = \frac{\pi}{2} a p_h$, give
+
+    $R' = \frac{a E'}{4 p_h}$, $F = \frac{\pi}{2} a p_h$.
+
+    R' tends to the radius along rolling, 1/R = 1/R1 + 1/R2, as the ellipse grows long; larger for a short one. The
+    entrainment speed is the mean of both surfaces' speeds along rolling, ball and race, relative to the contact: of the
+    race $(\Omega_i - \omega_m)(d_m - D\cos\alpha)/2$, of the ball $\omega_R D\cos(\alpha - \beta)/2$ (at the inner
+    race). Left out: side leakage, spin, speeds across rolling, heating of the inlet.
+
+    **Arguments:** `scene` and its converged `solution`; `race`; `ball`: its number; `model`: of the film and its mesh;
+    `simulation`: of a run in time.
+
+    **Raises:** `ValueError` for a scene without an oil, a solve that failed, or a ball that is not there or not loaded.
+    """
+    require_choice("race", race, ("inner", "outer"))
+    if scene.oil is None:
+        raise ValueError("oil: found nothing, expected the oil of the line contact")
+    solution.raise_if_failed()
+    elements: Any = solution.elements
+    geometry = scene.geometry
+    if not 0 <= ball < geometry.n_balls:
+        raise ValueError(f"ball: found {ball}, expected a number from 0 to {geometry.n_balls - 1}")
+    side = 0 if race == "inner" else 1
+    operation: Any = scene.operation
+    modulus = reduced_modulus(scene.materials.rings, scene.materials.balls)
+    angles = (elements.contact_angle_inner, elements.contact_angle_outer)
+    loads = jnp.stack([elements.load_inner, elements.load_outer])
+    load = known(loads[side, ball])
+    if load is not None and not load[0] > 0:
+        raise ValueError(f"ball: found {ball}, which the {race} race does not load; expected a loaded one")
+    contact = geometry.contacts(jnp.cos(angles[0]), jnp.cos(angles[1]), modulus)
+    half_width, pressure = contact.semi_axis_rolling(loads)[side, ball], contact.hertz_pressure(loads)[side, ball]
+    kinematics = BallKinematics(
+        *(
+            jnp.asarray(value)
+            for value in (
+                operation.inner_speed,
+                operation.outer_speed,
+                geometry.pitch_diameter,
+                geometry.ball_diameter,
+            )
+        )
+    )
+    across = jnp.zeros_like(loads[0]) if elements.transverse_spin is None else elements.transverse_spin
+    motion = BallMotion(elements.orbital_speed, elements.spin_speed, elements.attitude_angle, across)
+    surfaces = (kinematics.inner_race if race == "inner" else kinematics.outer_race)(motion, angles[side])
+    return EHLLineContact(
+        geometry=ContactGeometry(half_width * modulus / (4.0 * pressure)),
+        materials=ContactBodies(scene.materials.rings, scene.materials.balls),
+        oil=scene.oil,
+        contact=FilmModel() if model is None else model,
+        operation=ContactOperation(
+            entrainment_speed=surfaces.mean_speed[ball],
+            oil_temperature=operation.oil_temperature,
+            load_per_length=0.5 * jnp.pi * half_width * pressure,
+        ),
+        simulation=simulation,
+    )

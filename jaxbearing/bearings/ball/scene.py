@@ -1,0 +1,214 @@
+"""The ball bearing as a scene: geometry, materials, oil, contact laws, cage, drag, attitude of the balls' spin.
+
+Frames and signs. $e_x$ along the bearing axis; azimuths from the load line, counter-clockwise, the sense of inner ring
+rotation. Axial load and displacement push the inner ring along $+e_x$, radial ones along azimuth 0; a positive moment
+or tilt moves azimuth 0 of the inner ring along $+e_x$. Contact angles are positive where the inner race pushes the ball
+along $+e_x$. The groove is taken as a full circle: `geometry.shoulder_angle_*` says where it ends.
+"""
+
+import functools
+import operator
+from collections.abc import Iterator
+from typing import ClassVar, Literal
+
+import equinox as eqx
+from jaxtyping import Array
+
+from ..._types import Scalar
+from ...contacts.point_laws import PointLaws
+from ...lubricants import Lubricant, NoPressureViscosity
+from ...materials import Material
+from ...numerics.checks import demand, given
+from ...numerics.refusals import refusals_of, refuse_all
+from ...numerics.structure import choice
+from ..bearing import AbstractBearing
+from ..cage import ASSUMED_LANDS as ASSUMED_LANDS
+from ..cage import AbstractCage
+from ..operation import LOAD_FIELDS, AbstractOperation
+from ..parts import DragSettings
+from ..rating import Rating
+from .geometry import BallGeometry
+from .gyroscopic import AbstractGyroscopic, ResolvedCouple
+
+ASSUMED_CAGE_THICKNESS = 0.4
+"""Radial thickness of the cage over the ball diameter, where a scene does not give its diameters."""
+
+
+class BallOperation(AbstractOperation):
+    """Operating point of a ball bearing: the batched part of a sweep.
+
+    It needs a load, or a displacement of the ring. Where nothing across the axis is given all balls are alike, and one
+    of them is solved for.
+
+    **Arguments:** those of `AbstractOperation`.
+    """
+
+    def _conflicts(self) -> Iterator[str | ValueError]:
+        yield from super()._conflicts()
+        loads = [load for load in map(self.load, LOAD_FIELDS) if load is not None]
+        if self.displaced:
+            return
+        if not loads:
+            yield (
+                "operation.axial_load: a ball bearing needs an axial_load, a radial_load or a moment, or a displacement"
+            )
+        elif given(*loads) is not None:
+            yield from refusals_of(
+                demand,
+                "operation.axial_load, radial_load or moment must differ from 0",
+                functools.reduce(operator.or_, (abs(load) > 0 for load in loads)),
+                lambda: "operation.axial_load: all loads are 0, and nothing holds the inner ring in its place",
+            )
+
+
+class BallMaterials(eqx.Module):
+    """Solids of a ball bearing: `rings` and `balls`."""
+
+    rings: Material
+    balls: Material
+
+
+class BallAttitude(eqx.Module):
+    """Model of the balls' rotation.
+
+    **Arguments:**
+    - `attitude`: closure for the direction of a ball's spin: "outer" or "inner" race control (no spin there),
+      "min_power" (least spin power), "equilibrium" (moment balance of the ball under its traction).
+    - `gyroscopic`: what carries the gyroscopic couple: `None` (off), an `AbstractGyroscopic`, or `ResolvedCouple()`.
+    - `orbit`: speed about the bearing axis of balls that roll without sliding: "own", of each ball from its contact
+      angles, or "common", the mean of these weighted by the inner loads.
+    """
+
+    attitude: Literal["outer", "inner", "min_power", "equilibrium"] = choice(
+        "kinematics.attitude", ("outer", "inner", "min_power", "equilibrium"), "equilibrium"
+    )
+    gyroscopic: AbstractGyroscopic | ResolvedCouple | None = None
+    orbit: Literal["own", "common"] = choice("kinematics.orbit", ("own", "common"), "own")
+
+    def __check_init__(self):
+        if isinstance(self.gyroscopic, ResolvedCouple) and self.attitude != "equilibrium":
+            raise ValueError("kinematics.gyroscopic: 'resolved' needs kinematics.attitude = 'equilibrium'")
+
+
+class BallCage(AbstractCage):
+    """One-piece cage with cylindrical pockets, guided by one ring on `n_lands` lands.
+
+    **Arguments:** those of `AbstractCage`, and
+    - `pocket_clearance`: DIAMETRAL: pocket diameter minus ball diameter, m, > 0.
+    """
+
+    element: ClassVar[str] = "ball"
+    assumed_inner: ClassVar[float] = ASSUMED_CAGE_THICKNESS
+    assumed_outer: ClassVar[float] = ASSUMED_CAGE_THICKNESS
+
+    def row(self, geometry: BallGeometry) -> tuple[int, Scalar]:
+        return geometry.n_balls, geometry.ball_diameter
+
+
+class BallDragSettings(DragSettings):
+    """Oil drag on the orbiting balls; where the coefficient is not given it is that of an isolated sphere."""
+
+
+class BallBearing(AbstractBearing):
+    """A steady single-row ball bearing under any combination of axial load, radial load and moment.
+
+    - `contact=None`: dry and frictionless: loads, contact angles and motion without sliding, with `kinematics.attitude`
+      "outer" or "inner".
+    - `contact.traction=None`: films too, and where named the rolling resistance; balls roll without sliding.
+    - with traction the balls slide and spin; without a `cage` every ball has its own orbital speed.
+
+    **Raises:** `ValueError` for combinations that have no steady state or lack what they need.
+    """
+
+    geometry: BallGeometry
+    materials: BallMaterials
+    operation: BallOperation
+    kinematics: BallAttitude = BallAttitude()
+    oil: Lubricant | None = None
+    contact: PointLaws | None = None
+    cage: BallCage | None = None
+    drag: BallDragSettings | None = None
+    rating: Rating | None = None
+
+    def __check_init__(self):
+        refuse_all(self._problems())
+
+    def _problems(self) -> Iterator[str | ValueError]:
+        if not self.slips and self.kinematics.attitude not in ("outer", "inner"):
+            yield (
+                f"kinematics.attitude: '{self.kinematics.attitude}' needs traction (contact.traction); without "
+                "friction the attitude is that of 'outer' or 'inner' race control"
+            )
+        if self.slips and self.kinematics.orbit == "common":
+            yield (
+                "kinematics.orbit: 'common' is for balls that roll without sliding; with contact.traction they orbit "
+                "with the cage, or without one each by its own balance of forces"
+            )
+        if self.contact is None:
+            return
+        if self.cage is not None:
+            yield from refusals_of(self.cage.check_fits, self.geometry)
+        if self.oil is None:
+            yield "oil: a scene with a [contact] table needs an oil"
+            return
+        yield from refusals_of(self.operation.check_rings_turn)
+        if self.slips and self.cage is not None and self.oil.density is None:
+            yield "oil.density: the cage land and the drag need it"
+        if isinstance(self.oil.pressure_viscosity, NoPressureViscosity) and self.contact.film.piezoviscous_only:
+            yield (
+                f"contact.film: {type(self.contact.film).__name__} holds for oils whose viscosity rises with pressure, "
+                "not for an isoviscous one"
+            )
+
+    @property
+    def slips(self) -> bool:
+        """True if the balls' speeds are unknowns; without traction they follow from rolling without sliding."""
+        return self.contact is not None and self.contact.traction is not None
+
+    @property
+    def ring_lever(self) -> Array:
+        """Lever by which the equations multiply the tilts of the ring, m."""
+        return self.geometry.groove_circle_radius
+
+    @property
+    def port_distance(self) -> Array:
+        r"""Distance of the plane of the inner groove centres, where `ring` counts, from that of the unloaded balls,
+        m: $(f_i - \frac12)D\sin\alpha$ at the contact angle of the unloaded bearing."""
+        return self.geometry.inner_offset * self.geometry.free_sine
+
+    def unused_parts(self) -> tuple[str, ...]:
+        """Tables that the scene names but that have no effect without traction on the raceways."""
+        if self.slips:
+            return ()
+        named = {"cage": self.cage, "drag": self.drag}
+        if self.contact is None:
+            named["oil"] = self.oil
+        return tuple(name for name, part in named.items() if part is not None)
+
+    def assumptions(self) -> tuple[str, ...]:
+        """Notes for the user: assumptions of the model, and uses for which the scene's data were not made."""
+        said = []
+        if self.contact is not None and self.oil is not None:
+            said += [f"oil: {note}" for note in self.oil.notes]
+            if self.contact.traction is not None:
+                said += self.contact.traction.notes(self.oil)
+            if self.contact.heathcote:
+                said.append(
+                    "contact.heathcote: ball and race slide also because their contact is curved (Heathcote slip), "
+                    "which the source leaves out"
+                )
+        if self.slips and self.cage is not None:
+            said += self.cage.assumptions()
+        if self.kinematics.orbit == "common":
+            said.append(
+                "kinematics.orbit = 'common': all balls orbit at the mean of their own speeds, weighted by their inner "
+                "loads"
+            )
+        if self.slips and self.kinematics.attitude != "equilibrium":
+            said.append(
+                f"kinematics.attitude = '{self.kinematics.attitude}' is a hypothesis: the moments about the radius do "
+                "not balance, and the losses do not add up to the drive power"
+            )
+        if self.rating is not None:
+            said += self.rating.groove_assumptions()
+        return tuple(said)

@@ -1,0 +1,87 @@
+"""Results of a ball bearing, labelled (see `solution`)."""
+
+from typing import Any
+
+import equinox as eqx
+from jaxtyping import Array, Float
+
+from ..solution import label
+
+_Values = Float[Array, " element"]
+
+
+def _result(unit: str, description: str) -> Any:
+    return eqx.field(metadata=label(unit, description))
+
+
+def _optional(unit: str, description: str) -> Any:
+    return eqx.field(default=None, metadata=label(unit, description))
+
+
+class BallResults(eqx.Module):
+    """Arrays over the balls; what is not modelled is `None`. Speeds are positive in normal running."""
+
+    azimuth: _Values = _result("rad", "azimuth from the load line")
+    load_inner: _Values = _result("N", "normal load on the inner raceway")
+    load_outer: _Values = _result("N", "normal load on the outer raceway")
+    contact_angle_inner: _Values = _result("rad", "contact angle, inner")
+    contact_angle_outer: _Values = _result("rad", "contact angle, outer")
+    pressure_inner: _Values = _result("Pa", "Hertz (peak) pressure on the inner raceway")
+    pressure_outer: _Values = _result("Pa", "Hertz (peak) pressure on the outer raceway")
+    orbital_speed: _Values = _result("rad/s", "speed of the ball centre about the bearing axis")
+    spin_speed: _Values = _result("rad/s", "spin of the ball, relative to its orbit")
+    attitude_angle: _Values = _result("rad", "attitude of the spin, beta")
+    raceway_control: _Values = _result("percent", "100: outer race control, 0: inner race control")
+    control_angle_inner: _Values = _result("rad", "attitude of the spin under inner race control, beta_i")
+    control_angle_outer: _Values = _result("rad", "attitude of the spin under outer race control, beta_o")
+    centrifugal_force: _Values = _result("N", "centrifugal force on the ball")
+    gyroscopic_couple: _Values = _result("N m", "gyroscopic couple of the ball, carried where the scene says by what")
+    spin_to_roll_inner: _Values = _result("1", "spin about the contact normal over roll, inner")
+    spin_to_roll_outer: _Values = _result("1", "spin about the contact normal over roll, outer")
+    transverse_spin: _Values | None = _optional(
+        "rad/s", "spin about the tangent of the orbit, of the gyroscopic couple"
+    )
+    film_inner: _Values | None = _optional("m", "central film on the inner raceway")
+    film_outer: _Values | None = _optional("m", "central film on the outer raceway")
+    temperature_rise_inner: _Values | None = _optional("K", "inlet heating, inner")
+    temperature_rise_outer: _Values | None = _optional("K", "inlet heating, outer")
+    sliding_inner: _Values | None = _optional("m/s", "sliding along rolling, inner")
+    sliding_outer: _Values | None = _optional("m/s", "sliding along rolling, outer")
+    traction_inner: _Values | None = _optional("N", "force of the inner race on the ball along the orbit")
+    traction_outer: _Values | None = _optional("N", "force of the outer race on the ball along the orbit")
+    spin_moment_inner: _Values | None = _optional("N m", "moment that brakes the spin, inner")
+    spin_moment_outer: _Values | None = _optional("N m", "moment that brakes the spin, outer")
+    pocket_film_front: _Values | None = _optional("m", "film in front of the ball")
+    pocket_film_rear: _Values | None = _optional("m", "film behind the ball")
+    pocket_load_front: _Values | None = _optional("N", "pocket load in front")
+    pocket_load_rear: _Values | None = _optional("N", "pocket load behind")
+
+
+_Power = Float[Array, ""]
+
+
+class BallPowerLoss(eqx.Module):
+    """Dissipated power by location, W; the entries add up to `total`. Losses that a scene does not model are `None`,
+    and `total` is `None` where it models none."""
+
+    total: _Power | None = _optional("W", "total")
+    inner_raceway: _Power | None = _optional("W", "sliding and spin on the inner raceway")
+    outer_raceway: _Power | None = _optional("W", "sliding and spin on the outer raceway")
+    rolling_resistance: _Power | None = _optional("W", "rolling resistance of the raceways")
+    pocket: _Power | None = _optional("W", "balls sliding in the cage pockets")
+    cage_pilot: _Power | None = _optional("W", "cage lands on the guiding ring")
+    drag: _Power | None = _optional("W", "oil drag on the orbiting balls")
+
+
+class RacewayPower(eqx.Module):
+    """Parts of the losses on the raceways, W: spin about the contact normal, sliding along and across the
+    rolling direction, sliding that comes of the curvature of the contact (`None`: taken as flat)."""
+
+    inner_spin: _Power = _result("W", "spin, inner raceway")
+    inner_rolling: _Power = _result("W", "sliding along rolling, inner raceway")
+    inner_transverse: _Power = _result("W", "sliding across rolling, inner raceway")
+    outer_spin: _Power = _result("W", "spin, outer raceway")
+    outer_rolling: _Power = _result("W", "sliding along rolling, outer raceway")
+    outer_transverse: _Power = _result("W", "sliding across rolling, outer raceway")
+    inner_curvature: _Power | None = _optional("W", "Heathcote slip, inner raceway")
+    outer_curvature: _Power | None = _optional("W", "Heathcote slip, outer raceway")

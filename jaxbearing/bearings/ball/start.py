@@ -1,0 +1,297 @@
+r"""First guess of a ball bearing's equilibrium: without friction, at frozen centrifugal forces, it is a convex problem.
+
+$\Pi = \sum_j[\frac25K_o\delta_{o+}^{5/2} + \frac25K_i\delta_{i+}^{5/2} - F_CW] - F\cdot q$: each $\delta$ is the norm
+of an affine map minus a constant, and the power is convex and increasing. Two nested damped Newton iterations, on each
+ball for a given ring and on the ring with every ball in equilibrium, both accepting a step only where the potential
+falls. Nothing here is differentiated: it is the start of an iteration.
+"""
+
+from typing import NamedTuple
+
+import equinox as eqx
+import jax
+import jax.numpy as jnp
+from jaxtyping import Array, Bool, Float, Int
+
+from ...numerics.safe import safe_norm
+from ...numerics.small_linear import solve_blocks, solve_dense
+
+RING_TOLERANCE = 2e-2
+"""Tolerance of the ring's balance, relative to the load: sufficient for a start of the full equations."""
+BALL_TOLERANCE = 1e-9
+"""Tolerance of a ball's balance, relative to its load scale."""
+RING_STEPS, BALL_STEPS = 40, 60
+"""Most trials."""
+SOFTEST = 1e2
+"""Added to the ring's stiffness, N/m: where no ball carries anything the ring would be free."""
+ARMIJO = 1e-4
+"""Part of the promised decrease that a step must bring."""
+SHORTEST = 1e-6
+"""Fraction of a step at which it is taken as it is: the decrease is lost in round-off."""
+
+
+class CentrifugalProblem(eqx.Module):
+    """Balls between two grooves under given forces. Units m, N; (inner, outer) or (axial, radial) first.
+
+    `groove`: inner groove centre of every ball with the ring at rest; `directions`: its change for a unit of every
+    ring freedom (a length each); `ring_load`: on them; `held_load`: of `InnerRing`; `aligned`: axial
+    displacement at which the planes of the grooves coincide; `multiplicity`: balls that each ball stands for.
+    """
+
+    offset: Float[Array, "2"]
+    stiffness: Float[Array, "2"]
+    groove: Float[Array, "2 ball"]
+    directions: Float[Array, "freedom 2 ball"]
+    ring_load: Float[Array, " freedom"]
+    held_load: Float[Array, ""] | None
+    centrifugal: Float[Array, " ball"]
+    centre_distance: Float[Array, ""]
+    free_cosine: Float[Array, ""]
+    aligned: Float[Array, ""]
+    multiplicity: int = eqx.field(static=True)
+    freedoms: tuple[str, ...] = eqx.field(static=True)
+
+    def groove_at(self, ring: Float[Array, " freedom"]) -> Float[Array, "2 ball"]:
+        return self.groove + jnp.einsum("f,fcn->cn", ring, self.directions)
+
+
+class Start(NamedTuple):
+    """Ball centres from the outer groove centre and ring displacements, m; outer Newton steps."""
+
+    centre: Float[Array, "2 ball"]
+    ring: Float[Array, " freedom"]
+    steps: Int[Array, ""]
+
+
+class _Forces(NamedTuple):
+    """Energy, forces and stiffness of the two springs at a ball, for given centres of ball and inner groove."""
+
+    energy: Float[Array, " ball"]
+    balance: Float[Array, "2 ball"]
+    """d energy / d centre."""
+    inner: Float[Array, "2 ball"]
+    """d energy / d groove centre: force on the inner ring."""
+    stiffness_outer: Float[Array, "2 2 ball"]
+    stiffness_inner: Float[Array, "2 2 ball"]
+
+
+def _spring(arm: Float[Array, "2 ball"], offset: Array, constant: Array) -> tuple[Array, Array, Array]:
+    """Energy, force and stiffness of one contact, whose centres are `arm` apart."""
+    length = safe_norm(arm[0], arm[1], 1e-30)
+    approach = jnp.maximum(length - offset, 0.0)
+    root = jnp.sqrt(approach)
+    load = constant * approach * root
+    normal = arm / length[None]
+    along = normal[:, None] * normal[None, :]
+    across = jnp.eye(2)[:, :, None] - along
+    stiffness = (1.5 * constant * root)[None, None] * along + (load / length)[None, None] * across
+    return 0.4 * load * approach, load[None] * normal, stiffness
+
+
+def _forces(problem: CentrifugalProblem, centre: Array, groove: Array) -> _Forces:
+    inner_energy, inner, inner_stiffness = _spring(groove - centre, problem.offset[0], problem.stiffness[0])
+    outer_energy, outer, outer_stiffness = _spring(centre, problem.offset[1], problem.stiffness[1])
+    push = jnp.stack([jnp.zeros_like(problem.centrifugal), problem.centrifugal])
+    energy = inner_energy + outer_energy - problem.centrifugal * centre[1]
+    return _Forces(energy, outer - inner - push, inner, outer_stiffness, inner_stiffness)
+
+
+def free_centres(
+    problem: CentrifugalProblem, groove: Array, blocked: bool | Bool[Array, ""] = True
+) -> tuple[Array, Bool[Array, " ball"]]:
+    """Ball centres for given inner grooves, near equilibrium; and which balls do not touch the inner race (exact).
+
+    **Arguments:** `blocked`: whether the inner race stops a ball that the centrifugal force turns down the outer
+    groove. Where the ring has not followed yet, contact angles of the equilibrium are nearer to those without.
+    """
+    compliance = problem.stiffness ** (-2.0 / 3.0)
+    length = safe_norm(groove[0], groove[1], 1e-30)
+    load = together(problem.stiffness) * jnp.maximum(length - jnp.sum(problem.offset), 0.0) ** 1.5
+    axial, radial = load * groove[0] / length, load * groove[1] / length + problem.centrifugal
+    outer = safe_norm(axial, radial, 1e-30)
+    reach = problem.offset[1] + compliance[1] * outer ** (2.0 / 3.0)
+    # as far down the outer groove as the forces on the ball point, but not through the inner race
+    angle, side = jnp.arctan2(groove[0], groove[1]), jnp.where(groove[0] < 0, -1.0, 1.0)
+    inner = problem.offset[0] + compliance[0] * load ** (2.0 / 3.0)
+    swing = (jnp.square(reach) + jnp.square(length) - jnp.square(inner)) / (2.0 * reach * length)
+    stopped = side * angle - jnp.arccos(jnp.clip(swing, -1.0, 1.0))
+    stopped = jnp.where(blocked, stopped, -jnp.inf)
+    angle = side * jnp.maximum(side * jnp.arctan2(axial, radial), stopped)
+    centre = reach[None] * jnp.stack([jnp.sin(angle), jnp.cos(angle)])
+    alone = problem.offset[1] + compliance[1] * problem.centrifugal ** (2.0 / 3.0)
+    lost = safe_norm(groove[0], groove[1] - alone) <= problem.offset[0]
+    resting = jnp.stack([jnp.zeros_like(length), alone])
+    return jnp.where(lost[None], resting, centre), lost
+
+
+class _Balls(NamedTuple):
+    centre: Array
+    step: Array
+    energy: Array
+    slope: Array
+    fraction: Array
+    done: Bool[Array, " ball"]
+    trials: Int[Array, ""]
+
+
+def _equilibrium(problem: CentrifugalProblem, groove: Array, scale: Array, cap: Array) -> Float[Array, "2 ball"]:
+    """Ball centres that minimise each ball's potential for given inner grooves."""
+    first, lost = free_centres(problem, groove)
+
+    def propose(centre: Array, forces: _Forces):
+        matrix = forces.stiffness_outer + forces.stiffness_inner + SOFTEST * jnp.eye(2)[:, :, None]
+        step = -solve_blocks(matrix, forces.balance[:, None, :])[:, 0]
+        step = step * jnp.minimum(1.0, cap / safe_norm(step[0], step[1], 1e-30))[None]
+        small = jnp.max(jnp.abs(forces.balance), axis=0) <= BALL_TOLERANCE * scale
+        return step, jnp.sum(step * forces.balance, axis=0), small | (jnp.max(jnp.abs(step), axis=0) < 1e-15)
+
+    def advance(state: _Balls) -> _Balls:
+        trial = state.centre + state.fraction[None] * state.step
+        forces = _forces(problem, trial, groove)
+        enough = forces.energy <= state.energy + ARMIJO * state.fraction * state.slope
+        # near the minimum the decrease is lost in the round-off of the energy
+        near = jnp.abs(state.slope) <= 1e-12 * jnp.abs(forces.energy) + 1e-18
+        accept = (enough | near | (state.fraction < SHORTEST)) & ~state.done
+        step, slope, small = propose(trial, forces)
+        # a lane that begins without numbers has none later, and the others would wait for it
+        hopeless = (state.trials == 0) & jnp.isnan(forces.energy)
+        return _Balls(
+            centre=jnp.where(accept[None], trial, state.centre),
+            step=jnp.where(accept[None], step, state.step),
+            energy=jnp.where(accept, forces.energy, state.energy),
+            slope=jnp.where(accept, slope, state.slope),
+            fraction=jnp.where(accept, 1.0, jnp.where(state.done, state.fraction, 0.3 * state.fraction)),
+            done=state.done | (accept & small) | hopeless,
+            trials=state.trials + 1,
+        )
+
+    # the first trial is the start itself, taken in any case
+    zeros = jnp.zeros_like(first[0])
+    begin = _Balls(first, jnp.zeros_like(first), zeros + jnp.inf, zeros, zeros + 1.0, lost, jnp.asarray(0))
+    going = lambda state: (state.trials < BALL_STEPS) & ~jnp.all(state.done)
+    return jax.lax.while_loop(going, advance, begin).centre
+
+
+class _Ring(NamedTuple):
+    ring: Array
+    centre: Array
+    step: Array
+    energy: Array
+    slope: Array
+    fraction: Array
+    done: Bool[Array, ""]
+    trials: Int[Array, ""]
+    steps: Int[Array, ""]
+
+
+def start(problem: CentrifugalProblem, ring: Float[Array, " freedom"]) -> Start:
+    """The minimum of the potential to `RING_TOLERANCE`, from an estimate of the ring's displacement, `ring`, m."""
+    problem = jax.lax.stop_gradient(problem)
+    total, count = _scale(problem)
+    scale = total / count + problem.centrifugal
+    cap = 0.5 * problem.centre_distance
+    if not problem.freedoms:
+        return Start(_equilibrium(problem, problem.groove, scale, cap), ring, jnp.asarray(0))
+
+    def evaluate(ring: Array):
+        groove = problem.groove_at(ring)
+        centre = _equilibrium(problem, groove, scale, cap)
+        forces = _forces(problem, centre, groove)
+        # stiffness of a ball in equilibrium: the two springs in series
+        series = forces.stiffness_outer + forces.stiffness_inner + 1e-3 * SOFTEST * jnp.eye(2)[:, :, None]
+        reduced = forces.stiffness_inner - jnp.einsum(
+            "ijn,jkn->ikn", forces.stiffness_inner, solve_blocks(series, forces.stiffness_inner)
+        )
+        balance = problem.multiplicity * jnp.einsum("fcn,cn->f", problem.directions, forces.inner) - problem.ring_load
+        matrix = problem.multiplicity * jnp.einsum("fan,abn,gbn->fg", problem.directions, reduced, problem.directions)
+        step = -solve_dense(matrix + SOFTEST * jnp.eye(matrix.shape[0]), balance)
+        step = step * jnp.minimum(1.0, cap / jnp.maximum(jnp.max(jnp.abs(step)), 1e-30))
+        energy = problem.multiplicity * jnp.sum(forces.energy) - jnp.sum(problem.ring_load * ring)
+        small = jnp.max(jnp.abs(balance)) <= RING_TOLERANCE * total
+        return centre, step, energy, jnp.sum(balance * step), small
+
+    def advance(state: _Ring) -> _Ring:
+        trial = state.ring + state.fraction * state.step
+        centre, step, energy, slope, small = evaluate(trial)
+        enough = energy <= state.energy + ARMIJO * state.fraction * state.slope
+        near = jnp.abs(state.slope) <= 1e-12 * jnp.abs(energy) + 1e-18
+        accept = enough | near | (state.fraction < SHORTEST)
+        pick = lambda new, old: jnp.where(accept, new, old)
+        hopeless = (state.trials == 0) & jnp.isnan(energy)
+        return _Ring(
+            ring=pick(trial, state.ring),
+            centre=pick(centre, state.centre),
+            step=pick(step, state.step),
+            energy=pick(energy, state.energy),
+            slope=pick(slope, state.slope),
+            fraction=pick(1.0, 0.3 * state.fraction),
+            done=(accept & small) | hopeless,
+            trials=state.trials + 1,
+            steps=state.steps + (accept & ~small).astype(int),
+        )
+
+    none, one = jnp.asarray(0), jnp.ones(())
+    begin = _Ring(
+        ring, jnp.zeros_like(problem.groove), jnp.zeros_like(ring), one * jnp.inf, 0.0 * one, one, none > 0, none, none
+    )
+    going = lambda state: (state.trials < RING_STEPS) & ~state.done
+    end = jax.lax.while_loop(going, advance, begin)
+    return Start(end.centre, end.ring, end.steps)
+
+
+def _scale(problem: CentrifugalProblem) -> tuple[Array, int]:
+    """Size of the load on the ring, N, and the number of balls that carry it."""
+    count = problem.groove.shape[1] * problem.multiplicity
+    size = jnp.sqrt(jnp.sum(jnp.square(problem.ring_load)))
+    if problem.held_load is not None:
+        size = size + problem.held_load
+    return size + 1e-3 * count, count
+
+
+def together(stiffness: Float[Array, "2"]) -> Float[Array, ""]:
+    """Constant of both contacts of a ball, one behind the other, N/m^(3/2)."""
+    return jnp.sum(stiffness ** (-2.0 / 3.0)) ** -1.5
+
+
+def ring_estimate(problem: CentrifugalProblem) -> Float[Array, " freedom"]:
+    """Ring displacements, pressed in rather too deep: Newton on a power 3/2 contracts from there, and a ring that
+    touches no ball has no stiffness.
+
+    Axially from $\\sin\\alpha(\\cos\\alpha_0/\\cos\\alpha - 1)^{3/2} = F/(NK_nBD^{3/2})$ with the axial force that
+    would load half the balls (Harris), radially from Sjovall's load distribution.
+    """
+    if not problem.freedoms:
+        return jnp.zeros(0)
+    total, count = _scale(problem)
+    load = dict(zip(problem.freedoms, problem.ring_load, strict=True))
+    zero = jnp.zeros(())
+    both = together(problem.stiffness)
+    distance, cosine = problem.centre_distance, problem.free_cosine
+    axial, across = load.get("axial", zero), jnp.stack([load.get("radial", zero), load.get("lateral", zero)])
+    radial = jnp.sqrt(jnp.sum(jnp.square(across)))
+    tilting = jnp.abs(load.get("tilt", zero)) + jnp.abs(load.get("tilt_lateral", zero))
+    sine = jnp.sqrt(jnp.maximum(1.0 - cosine * cosine, 0.0))
+    tangent = sine / cosine
+    thrust = jnp.maximum(jnp.maximum(jnp.abs(axial) + tilting, 1.22 * radial * tangent), 1.0)
+    target = jnp.log(thrust / (count * both * distance**1.5))
+
+    def deeper(_, angle):
+        """Newton on the logarithm of the thrust, from above."""
+        lift = jnp.maximum(cosine / jnp.cos(angle) - 1.0, 1e-12)
+        value = jnp.log(jnp.sin(angle)) + 1.5 * jnp.log(lift) - target
+        slope = 1.0 / jnp.tan(angle) + 1.5 * cosine * jnp.tan(angle) / (jnp.cos(angle) * lift)
+        low = jnp.arccos(cosine) + 1e-9
+        return jnp.clip(angle - value / slope, 0.5 * (low + angle), 1.5)
+
+    free = jnp.arccos(cosine)
+    angle = jax.lax.fori_loop(0, 12, deeper, jnp.minimum(free + 0.3, 1.45))
+    depth = distance * jnp.sin(angle - free) / jnp.cos(angle)
+    pushed = jnp.where(axial < 0, -1.0, 1.0)
+    mixed = 1.0 - 0.6 * jnp.minimum(1.0, radial * tangent / jnp.maximum(jnp.abs(axial), 1e-3))
+    alone = (jnp.abs(axial) + tilting) <= 1e-9 * total
+    inward = jnp.where(alone, problem.aligned, problem.aligned + pushed * (distance * sine + depth * mixed))
+    moved = (5.0 * radial / (count * cosine * both)) ** (2.0 / 3.0)
+    moved = moved + jnp.where(alone, distance * (1.0 - cosine), 0.0)
+    along = moved * across / jnp.where(radial > 0, radial, 1.0)
+    guesses = {"axial": inward, "radial": along[0], "lateral": along[1]}
+    return jnp.stack([guesses.get(name, zero) for name in problem.freedoms])

@@ -1,0 +1,398 @@
+"""Steady state of a ball bearing: from the scene to the equations, and from the roots to the results."""
+
+import dataclasses
+from typing import Any, NamedTuple
+
+import jax
+import jax.numpy as jnp
+import numpy as np
+from jaxtyping import Array, Float
+
+from ...contacts import PointContact
+from ...contacts.point_laws import PointFilm
+from ...materials import reduced_modulus
+from ...numerics.arrow import ArrowJacobian, ArrowPoint, linearize
+from ...numerics.newton import NewtonOptions, NewtonResult, newton_solve
+from ..assemble import assemble
+from ..checks import BALL_PRESSURE, MEAN_OF_POINT, RACEWAYS, Contacts, Facts
+from ..land import LandState
+from ..parts import azimuths
+from ..ring import InnerRing, Port
+from ..solution import RING_FREEDOMS, TILTS, CageState, Reason, Solution
+from .build import build_core, build_lubricated, ring_directions
+from .core import BallCore
+from .equations import BallsState, LubricatedBallSystem
+from .kinematics import BallMotion
+from .rolling import common_orbit_torques, rolling_balance
+from .scene import BallBearing
+from .solution import BallPowerLoss, BallResults, RacewayPower
+
+SIDES = np.array([[1.0], [-1.0]])
+"""Inner, outer: the sense of the contact's x axis along the orbit."""
+
+
+def solve_ball(
+    scene: BallBearing, options: NewtonOptions, ring: InnerRing | None = None, exact: bool | None = None
+) -> Solution:
+    """Steady state: pure, jit-able, vmap-able, differentiable; never raises for a failed solve.
+
+    **Arguments:** `ring`: instead of that of the scene's operating point; `exact`: of `build_core`.
+    """
+    core, steps = build_core(scene, exact, ring).started()
+    if scene.contact is None:
+        system, result = newton_solve(core, options)
+        results, film = _dry_results(scene, system, result), None
+    else:
+        system, result = newton_solve(build_lubricated(scene, core), options)
+        state = system.at(result.point)
+        results, film = _lubricated(scene, system, result, state), state.film
+    steps = steps + result.iterations
+    lever = system.grooves.lever
+    port = _port(scene, system, result, film)
+    if any(name in TILTS for name in system.freedoms):
+        stiffness = _of_lengths(port.stiffness, lever, system.freedoms)
+        results = results._replace(facts=results.facts._replace(stiffness=stiffness))
+    times = overload(scene) if ring is None else jnp.zeros(())
+    return assemble(
+        scene,
+        result,
+        results,
+        system.ring.displacement(result.point.globals),
+        port,
+        iterations=steps,
+        ring_freedom=scene.shown_freedoms if ring is None else RING_FREEDOMS,
+        reasons=_without_cage(scene)
+        | {
+            "the load is {:.3g} times that at which the most loaded ball reaches 4.2 GPa, the limit of the static load "
+            "rating: balls and races would yield": Reason(times > 1.0, times)
+        },
+        stiffness_freedom=RING_FREEDOMS,
+        equation_names=system.equation_names(),
+        element_name="ball",
+    )
+
+
+def _of_lengths(
+    stiffness: Float[Array, "5 5"], lever: Array, freedoms: tuple[str, ...]
+) -> Float[Array, "freedom freedom"]:
+    """The stiffness of the unknown freedoms of a ring that may tilt, all displacements counted as lengths, N/m."""
+    free = np.asarray([RING_FREEDOMS.index(name) for name in freedoms])
+    unit = jnp.stack([1.0 / lever if name in TILTS else jnp.ones(()) for name in freedoms])
+    return stiffness[free][:, free] * unit[:, None] * unit[None]
+
+
+def _without_cage(scene: BallBearing) -> dict[str, Reason]:
+    if not scene.slips or scene.cage is not None:
+        return {}
+    text = (
+        "balls that slide have no cage here: where the load lets some of them skid, no steady state is found; give the "
+        "scene a [cage], a larger thrust, or leave out contact.traction"
+    )
+    return {text: Reason(jnp.asarray(True), jnp.zeros(0))}
+
+
+def overload(scene: BallBearing) -> Float[Array, ""]:
+    r"""Load over the static load rating of the scene's own grooves and materials, by the definition of ISO 76:
+    $P_0/C_0$, $C_0 = \frac15Z\cos\alpha\,Q(4.2\,GPa)$ of the inner contact.
+
+    $P_0 = \max(F_r, X_0F_r + Y_0F_a)$, X_0 = 0.6 (deep groove) or 0.5, $Y_0 = 0.58 - 0.008\alpha$/1°, at most 0.5: a
+    line through ISO 76's table ([M], from memory). A moment counts as the axial load $2M/d_m$. The load at 4.2 GPa is
+    that of Hamrock and Brewe's closed form of the ellipse, within 5 %: enough for a message, and short.
+    """
+    geometry, operation = scene.geometry, scene.operation
+    angle = jnp.asarray(0.0 if geometry.contact_angle is None else geometry.contact_angle)
+    radial, axial = operation.radial_size, 2.0 * operation.moment_size / geometry.pitch_diameter
+    if operation.axial_load is not None:
+        axial = axial + jnp.abs(operation.axial_load)
+    share = 0.6 if geometry.contact_angle is None else 0.5
+    equivalent = jnp.maximum(radial, share * radial + jnp.minimum(0.58 - 0.008 * jnp.degrees(angle), 0.5) * axial)
+    modulus = reduced_modulus(scene.materials.rings, scene.materials.balls)
+    rolling = 0.5 * geometry.ball_diameter * (1.0 - geometry.ball_diameter / geometry.pitch_diameter * jnp.cos(angle))
+    transverse = geometry.conformity_inner * geometry.ball_diameter / (2.0 * geometry.conformity_inner - 1.0)
+    ratio, radius = transverse / rolling, 1.0 / (1.0 / rolling + 1.0 / transverse)
+    ellipticity, integral = ratio ** (2.0 / jnp.pi), 1.0 + (0.5 * jnp.pi - 1.0) / ratio
+    spread = 6.0 * jnp.square(ellipticity) * integral * radius / (jnp.pi * modulus)
+    ball = (jnp.pi * BALL_PRESSURE / (1.5 * ellipticity)) ** 3 * jnp.square(spread)
+    return equivalent / (0.2 * geometry.n_balls * jnp.cos(angle) * ball)
+
+
+class _Results(NamedTuple):
+    """Results before masking; `facts`: what the range checks look at."""
+
+    cage: CageState | None
+    elements: BallResults
+    power_loss: BallPowerLoss
+    raceway_power: RacewayPower | None
+    drive_power: Array | None
+    inner_torque: Array | None
+    outer_torque: Array | None
+    facts: Facts
+
+
+def _every(scene: BallBearing, values: Array) -> Float[Array, " ball"]:
+    """One value a ball, also where one ball was solved for all."""
+    return jnp.broadcast_to(values, (scene.geometry.n_balls,))
+
+
+def _ball_results(
+    scene: BallBearing,
+    system: BallCore | LubricatedBallSystem,
+    load: Array,
+    angle: Array,
+    motion: BallMotion,
+    **more: Array | None,
+) -> tuple[BallResults, Contacts]:
+    """Loads, angles and motion; and the contacts for the checks, as far as geometry goes."""
+    geometry, kinematics = scene.geometry, system.kinematics
+    cosine = jnp.cos(angle)
+    ellipse = _contact(scene, cosine).ellipse(load)
+    pressure = jnp.where(load > 0, ellipse.pressure, 0.0)
+    races = (kinematics.inner_race(motion, angle[0]), kinematics.outer_race(motion, angle[1]))
+    rolling = jnp.abs(kinematics.inner_speed - kinematics.outer_speed) / kinematics.ratio
+    ratios = [race.spin / jnp.sqrt(jnp.square(race.roll) + jnp.square(1e-12 * rolling) + 1e-24) for race in races]
+    every = lambda values: None if values is None else _every(scene, values)
+    elements = BallResults(
+        azimuth=azimuths(geometry, geometry.n_balls),
+        load_inner=_every(scene, load[0]),
+        load_outer=_every(scene, load[1]),
+        contact_angle_inner=_every(scene, angle[0]),
+        contact_angle_outer=_every(scene, angle[1]),
+        pressure_inner=_every(scene, pressure[0]),
+        pressure_outer=_every(scene, pressure[1]),
+        orbital_speed=_every(scene, motion.orbital_speed),
+        spin_speed=_every(scene, motion.spin_speed),
+        attitude_angle=_every(scene, motion.attitude),
+        raceway_control=_every(scene, kinematics.raceway_control(angle[0], angle[1], motion.attitude)),
+        control_angle_inner=_every(scene, kinematics.inner_control(angle[0])),
+        control_angle_outer=_every(scene, kinematics.outer_control(angle[1])),
+        centrifugal_force=_every(scene, system.centrifugal(motion.orbital_speed)),
+        gyroscopic_couple=_every(scene, system.couple(motion)),
+        spin_to_roll_inner=_every(scene, jnp.abs(ratios[0])),
+        spin_to_roll_outer=_every(scene, jnp.abs(ratios[1])),
+        **{name: every(values) for name, values in more.items()},
+    )
+    contacts = Contacts(RACEWAYS, load, pressure, MEAN_OF_POINT, angle=angle)
+    return elements, _at_shoulders(scene, contacts, jnp.abs(angle), ellipse.transverse)
+
+
+def _at_shoulders(scene: BallBearing, contacts: Contacts, angle: Array, transverse: Array) -> Contacts:
+    """The contacts, with how far they pass the shoulders that the scene gives."""
+    geometry = scene.geometry
+    limits = (geometry.shoulder_angle_inner, geometry.shoulder_angle_outer)
+    if limits == (None, None):
+        return contacts
+    radius = jnp.stack([jnp.asarray(f * geometry.ball_diameter) for f in _conformities(scene)])[:, None]
+    limit = jnp.stack([jnp.asarray(0.0 if value is None else value) for value in limits])[:, None]
+    names = ("the inner ring's shoulder", "the outer ring's shoulder")
+    edges = tuple(None if value is None else name for value, name in zip(limits, names, strict=True))
+    return contacts._replace(past_edge=angle + transverse / radius - limit, edges=edges)
+
+
+def _conformities(scene: BallBearing) -> tuple[Any, Any]:
+    return scene.geometry.conformity_inner, scene.geometry.conformity_outer
+
+
+def _contact(scene: BallBearing, cosine: Array) -> PointContact:
+    modulus = reduced_modulus(scene.materials.rings, scene.materials.balls)
+    return scene.geometry.contacts(cosine[0], cosine[1], modulus)
+
+
+def _dry_results(scene: BallBearing, system: BallCore, result: NewtonResult) -> _Results:
+    state = system.at(result.point)
+    elements, contacts = _ball_results(scene, system, state.load, state.angle, state.motion)
+    return _Results(None, elements, BallPowerLoss(), None, None, None, None, Facts((contacts,)))
+
+
+def _lubricated(scene: BallBearing, system: LubricatedBallSystem, result: NewtonResult, state: BallsState) -> _Results:
+    motion = system.kinematics
+    film, shear, pocket = state.film, state.traction, state.pocket
+    more: dict[str, Array | None] = {"film_inner": film.film[0], "film_outer": film.film[1]}
+    if film.rise is not None:
+        more |= {"temperature_rise_inner": film.rise[0], "temperature_rise_outer": film.rise[1]}
+    if shear is not None:
+        forward = -SIDES * shear.rolling
+        more |= {"sliding_inner": state.races.rolling[0], "sliding_outer": state.races.rolling[1]}
+        more |= {"traction_inner": forward[0], "traction_outer": forward[1]}
+        more |= {"spin_moment_inner": shear.moment[0], "spin_moment_outer": shear.moment[1]}
+    if system.resolved:
+        more["transverse_spin"] = state.motion.transverse
+    if pocket is not None:
+        more |= {"pocket_film_front": pocket.film_front, "pocket_film_rear": pocket.film_rear}
+        more |= {"pocket_load_front": pocket.load_front, "pocket_load_rear": pocket.load_rear}
+    elements, contacts = _ball_results(scene, system, state.load, state.angle, state.motion, **more)
+    contacts = contacts._replace(
+        laws=system.laws,
+        mean_speed=state.races.mean_speed,
+        sliding=state.races.rolling,
+        temperature=film.temperature,
+    )
+    facts = Facts((contacts,), inlet=system.inlet)
+    land = None if system.cage is None else system.land_at(result.point, state)
+    if shear is None:
+        return _rolling_alone(system, state, elements, facts)
+    cage = None
+    if land is not None:
+        orbit = system.orbit(result.point.globals[-1])
+        free = motion.rolling(state.angle[0], state.angle[1], state.motion.attitude).orbital_speed
+        weight = state.load[0] / jnp.sum(state.load[0])
+        mean = jnp.sum(weight * free)
+        unit = system.orbit_unit
+        slip = (mean - orbit) * mean / (jnp.square(mean) + jnp.square(1e-8 * unit))
+        alone = system.multiplicity > 1  # all balls alike: the cage is concentric
+        eccentricity = jnp.zeros(()) if alone else land.eccentricity_ratio
+        cage = CageState(orbit, slip, eccentricity, land.attitude_angle)
+    parts = _raceway_power(system, state)
+    losses = _losses(system, state, land)
+    inner, outer = _ring_torques(system, state, land)
+    drive = motion.inner_speed * inner + motion.outer_speed * outer
+    return _Results(cage, elements, losses, parts, drive, inner, outer, facts)
+
+
+def _rolling_alone(system: LubricatedBallSystem, state: BallsState, elements: BallResults, facts: Facts) -> _Results:
+    """Results of balls that roll without sliding: what rolling costs, where the scene models it."""
+    balance = rolling_balance(system, state)
+    if balance is None:
+        return _Results(None, elements, BallPowerLoss(), None, None, None, None, facts)
+    power = system.multiplicity * jnp.sum(SIDES * balance.resistance * state.races.roll)
+    if system.common_orbit:
+        inner, outer = common_orbit_torques(system, state, balance.resistance)
+    else:
+        inner, outer = _ball_torques(system, state, balance.forward, balance.about, (balance.resistance,))
+    drive = system.kinematics.inner_speed * inner + system.kinematics.outer_speed * outer
+    losses = BallPowerLoss(total=power, rolling_resistance=power)
+    return _Results(None, elements, losses, None, drive, inner, outer, facts)
+
+
+def _raceway_power(system: LubricatedBallSystem, state: BallsState) -> RacewayPower:
+    shear, races = state.traction, state.races
+    assert shear is not None
+    total = lambda power: system.multiplicity * jnp.sum(power, axis=-1)
+    spin, rolling = total(shear.moment * races.spin), total(shear.rolling * (SIDES * races.rolling))
+    transverse = total(shear.transverse * (SIDES * races.transverse))
+    parts = RacewayPower(spin[0], rolling[0], transverse[0], spin[1], rolling[1], transverse[1])
+    if state.curvature is None:
+        return parts
+    curved = total(SIDES * state.curvature * races.roll)
+    return dataclasses.replace(parts, inner_curvature=curved[0], outer_curvature=curved[1])
+
+
+def _losses(system: LubricatedBallSystem, state: BallsState, land: LandState | None) -> BallPowerLoss:
+    """Dissipation by location, each from the force and the speed of its own interaction."""
+    shear, pocket, motion = state.traction, state.pocket, state.motion
+    assert shear is not None
+    total = lambda power: system.multiplicity * jnp.sum(power)
+    losses: dict[str, Array | None] = {"inner_raceway": total(shear.power[0]), "outer_raceway": total(shear.power[1])}
+    if state.rolling is not None:
+        losses["rolling_resistance"] = total(SIDES * state.rolling * state.races.roll)
+    if pocket is not None:
+        radius = 0.5 * system.kinematics.ball_diameter
+        power = pocket.friction * motion.axial_spin + pocket.transverse * motion.radial_spin
+        losses["pocket"] = total(radius * power)
+    if land is not None:
+        losses["cage_pilot"] = land.power
+    if state.drag_force is not None:
+        losses["drag"] = total(state.drag_force * 0.5 * system.kinematics.pitch_diameter * motion.orbital_speed)
+    everything = sum((value for value in losses.values() if value is not None), jnp.zeros(()))
+    return BallPowerLoss(total=everything, **losses)
+
+
+def _ring_torques(system: LubricatedBallSystem, state: BallsState, land: LandState | None) -> tuple[Array, Array]:
+    """Torques that must be applied to the inner and the outer ring to keep them turning, N m, from the forces and
+    couples of balls and land on the rings: independent of the dissipations."""
+    shear = state.traction
+    assert shear is not None
+    resistances = tuple(moment for moment in (state.rolling, state.curvature) if moment is not None)
+    forward = jnp.asarray(-SIDES * shear.rolling)
+    inner, outer = _ball_torques(system, state, forward, -shear.moment, resistances)
+    if land is not None and system.cage is not None:
+        if system.cage.guidance == "inner_ring":
+            inner = inner - land.ring_torque
+        else:
+            outer = outer - land.ring_torque
+    return inner, outer
+
+
+def _ball_torques(
+    system: LubricatedBallSystem, state: BallsState, forward: Array, about: Array, resistances: tuple[Array, ...]
+) -> tuple[Array, Array]:
+    """Torques on the rings against the balls, N m. **Arguments:** on each ball, races first: force along the orbit, N,
+    moments about the normals and against the roll, N m."""
+    motion = system.kinematics
+    sine, cosine = jnp.sin(state.angle), jnp.cos(state.angle)
+    radius = 0.5 * motion.pitch_diameter * (1.0 - SIDES * motion.ratio * cosine)
+    # n_i . e_x = -sin, n_o . e_x = sin; b_i . e_x = -cos, b_o . e_x = cos
+    torque = forward * radius - SIDES * about * sine
+    for resistance in resistances:
+        torque = torque + SIDES * (SIDES * resistance) * cosine
+    inner, outer = system.multiplicity * jnp.sum(torque, axis=1)
+    return inner, outer
+
+
+def _port(
+    scene: BallBearing, system: BallCore | LubricatedBallSystem, result: NewtonResult, film: PointFilm | None
+) -> Port:
+    """The reaction and the stiffness of all five freedoms of the ring, of all balls, also where one was solved for
+    all."""
+    count = scene.geometry.n_balls
+    azimuth = azimuths(scene.geometry, count)
+    wide = lambda values: jnp.broadcast_to(values, (*values.shape[:-1], count))
+    full = dataclasses.replace(
+        system,
+        directions=ring_directions(azimuth),
+        azimuth=azimuth,
+        ring=system.ring.released(system.load_scale()),
+        held_shift=jnp.zeros((2, count)),
+        multiplicity=1,
+    )
+    point = ArrowPoint(wide(result.point.elements), system.ring.released_unknowns(result.point.globals))
+    if isinstance(full, LubricatedBallSystem):
+        # a ring that cannot tilt moves the groove centres only: at given unknowns of the balls the films stay
+        film = None if full.exact else jax.tree.map(wide, film)
+        jacobian, force = _all_freedoms(full, point, result.jacobian, len(system.freedoms), system.multiplicity, film)
+        return full.ring.port(jacobian, force, full.load_scale(), system.freedoms)
+    equations, jacobian = linearize(full, point)
+    force = equations.residual.globals[:5] * full.load_scale() + full.ring.load
+    return full.ring.port(jacobian, force, full.load_scale(), system.freedoms)
+
+
+def _all_freedoms(
+    full: LubricatedBallSystem,
+    point: ArrowPoint,
+    solved: ArrowJacobian,
+    freedoms: int,
+    multiplicity: int,
+    film: PointFilm | None,
+) -> tuple[ArrowJacobian, Float[Array, "5"]]:
+    """The Jacobian with all five freedoms of the ring, from that of the solve, and the forces on them, N. Ring
+    displacements only move the groove centres, so the expensive friction derivatives of the solve can be reused; that a
+    tilt also turns the inner race under the sliding ball is left out here.
+
+    **Arguments:** `full`: the equations of all balls with five freedoms; `solved`: of the solve, with this many
+    `freedoms`, every ball of it standing for `multiplicity`; `film`: where it does not depend on the ring.
+    """
+    m, count = point.elements.shape
+    g = point.globals.shape[0]
+    shared = jnp.broadcast_to(point.globals[:, None], (g, count))
+
+    def light(v):
+        state = full.frictionless(v[:m], v[m:], film)[0]
+        return jnp.concatenate([state.fit, state.on_ring])
+
+    v = jnp.concatenate([point.elements, shared])
+    seeds = jnp.broadcast_to(jnp.eye(m + g)[:, :, None], (m + g, m + g, count))
+    push = lambda seed: jax.jvp(light, (v,), (seed,))
+    values, tangents = jax.vmap(push, out_axes=(None, 0))(seeds)
+    tangents = jnp.swapaxes(tangents, 0, 1)
+    wide = lambda values: jnp.broadcast_to(values, (*values.shape[:-1], count))
+    by_ring = jnp.zeros((m, 5, count)).at[:2].set(tangents[:2, m : m + 5])
+    cage = solved.chain[freedoms:, freedoms:]
+    chain = jnp.zeros((g, 5 + cage.shape[1])).at[:5, :5].set(jnp.eye(5) / full.load_scale())
+    corner = jnp.zeros((g, g)).at[:5].set(jnp.sum(tangents[2:, m:], axis=-1) / full.load_scale())
+    jacobian = ArrowJacobian(
+        local=wide(solved.local),
+        to_globals=jnp.concatenate([by_ring, wide(solved.to_globals[:, freedoms:])], axis=1),
+        contributions=jnp.concatenate([tangents[2:, :m], wide(solved.contributions[freedoms:]) / multiplicity]),
+        corner=corner.at[5:, 5:].set(solved.corner[freedoms:, freedoms:]),
+        chain=chain.at[5:, 5:].set(cage),
+    )
+    return jacobian, jnp.sum(values[2:], axis=-1)

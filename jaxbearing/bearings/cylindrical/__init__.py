@@ -1,0 +1,1 @@
+"""Cylindrical roller bearings: scene, equations of rolling, sliding and tilting rollers, results."""

@@ -1,0 +1,389 @@
+r"""Equations of the steady cylindrical roller bearing, as a block-arrow system.
+
+Every roller orbits at the cage speed W; per roller (source eqs. (27)-(29), (38)), with s the spin (see
+`cylindrical.scene` for frames and signs):
+
+- approach: $J_d/2 + \delta_i + \delta_o - h_i - h_o = d\cdot n$ (as the logarithm of the ratio of the positive terms
+  on its two sides), unknown ln Qi, $Q_o = Q_i + m R_m W^2$ (the pocket
+  friction, about 0.1 % of the centrifugal force, is left out of it, so Q does not depend on the pocket);
+- moment: $R_R(F_{C1} + F_{C2} - F_i - F_o) + M_{flange} + M_{rail} + \frac{R_R}{2}(P_i + P_o) = 0$, unknown the mean
+  speed of the surfaces at the outer race, as a change of s at this W (near a cage speed at which that mean speed is 0
+  the film collapses and the moment has a cusp; the unknown keeps its distance from the cusp when W changes);
+- tangential: $Q_{C1} - Q_{C2} = F_i - F_o + F_E + F_{Ec} - F_{OL} + F_P$, eliminated: the two pocket films follow from
+  it in closed form (`gaps.Pocket`);
+
+and globally: ring, $\sum Q_i n = F_r$ (source eq. (37)), unknown the ring displacement d; cage moment (source
+eq. (33)), unknown W. The cage offset is eliminated too: the land must carry the sum of the pocket forces, and its
+eccentricity is the root of a monotone scalar equation (`gaps.ShortJournal.static_equilibrium`).
+
+Rolling resistance, where the scene models it (the source omits it): in each contact the film's pressure leans against
+the motion by $P = \ell\int h\,dp/dx\,dx$. Its shear, -P/2, brakes both surfaces; its pressure passes through both
+centres and pushes the roller on by $P R/R_R$, R the reduced radius, and the ring by what is left. So
+$F_P = P_i (R_i'/R_R - 1/2) - P_o (R_o'/R_R - 1/2)$, with $R_i', R_o'$ the reduced radii, each ring is braked by P/2 at
+its raceway, and the dissipation is P times the mean speed.
+
+The sign of $F_{C2} - F_{C1}$ in the cage's x balance differs from the source's eq. (31), which contradicts its own
+eq. (32) and action = reaction. Each interaction gives its force and its dissipation from one and the same speed.
+"""
+
+import dataclasses
+from typing import NamedTuple, TypeVar
+
+import equinox as eqx
+import jax
+import jax.numpy as jnp
+from jaxtyping import Array, Float
+
+from ...contacts import LineContact
+from ...contacts.laws import ContactLaws, ContactState
+from ...gaps import EndForces, PocketFilm
+from ...lubricants import InletOil, Lubricant
+from ...numerics.arrow import AbstractArrowSystem, ArrowPoint
+from ...numerics.roots import monotone_root
+from ..land import LandState, guided_land
+from ..motion.loads import LOG_LOAD_RANGE, approach_error, guessed_loads, per_race
+from ..ring import LENGTH_UNIT, InnerRing
+from .forces import CageParts, forces_without_pocket, on_cage
+from .kinematics import RollerKinematics
+
+EASED_ENTRAINMENT = 0.3
+"""Entrainment speed that a solve which failed at once is given first, over that of rolling without slip."""
+EASED_PRESSURE = 1.5e9
+"""Hertz pressure of the most loaded roller, Pa, at which traction surely drives the rollers: given first after that."""
+
+
+System = TypeVar("System", bound="_InPlane")
+IN_PLANE = ("radial", "lateral")
+"""Freedoms of the inner ring in the model of rollers that carry evenly along their length."""
+
+
+def outward(azimuth: Float[Array, " roller"]) -> Float[Array, "2 roller"]:
+    """Outward unit vector at each roller, along the load line and along azimuth 90 degrees."""
+    return jnp.stack([jnp.cos(azimuth), jnp.sin(azimuth)])
+
+
+class RollerState(NamedTuple):
+    """Everything that happens at every roller, for given unknowns; arrays over rollers, races first where two."""
+
+    load: Float[Array, "2 roller"]
+    approach: Float[Array, "2 roller"]
+    orbital_speed: Float[Array, " roller"]
+    spin_speed: Float[Array, " roller"]
+    mean_speed: Float[Array, "2 roller"]
+    sliding_speed: Float[Array, "2 roller"]
+    contact: ContactState
+    pocket: PocketFilm | None
+    inner_flange: EndForces | None
+    outer_flange: EndForces | None
+    rails: EndForces | None
+    drag_force: Float[Array, " roller"] | None
+    approach_error: Float[Array, " roller"]
+    moment_error: Float[Array, " roller"] | None
+    cage_moment: Float[Array, " roller"] | None
+    cage_force: Float[Array, "2 roller"] | None
+
+
+class _InPlane(AbstractArrowSystem):
+    """Base of the equations of rollers that carry evenly along their length. `directions`: outward unit vectors along
+    the unknown freedoms of the `ring`; `held`: by what displacements that are given bring it towards each roller, m,
+    `None`: none is given."""
+
+    directions: eqx.AbstractVar[Float[Array, "freedom roller"]]
+    azimuth: eqx.AbstractVar[Float[Array, " roller"]]
+    ring: eqx.AbstractVar[InnerRing]
+    held: eqx.AbstractVar[Float[Array, " roller"] | None]
+
+    @property
+    def freedoms(self) -> tuple[str, ...]:
+        """Freedoms of the ring that are unknown."""
+        return self.ring.freedoms
+
+    def load_scale(self) -> Array:
+        """Scale of the ring's balances, N."""
+        return self.ring.size()
+
+    def inward(self, shared: Float[Array, "freedom ..."]) -> Float[Array, " roller"]:
+        """Displacement of the inner ring towards each roller, m, from its unknowns."""
+        shift = jnp.sum(shared * self.directions, axis=0) * LENGTH_UNIT
+        return shift if self.held is None else shift + self.held
+
+    def in_plane(self: System) -> System:
+        """The equations with both freedoms of the ring unknown."""
+        ring, both = self.ring, outward(self.azimuth)
+        free = InnerRing(jnp.full(2, ring.size() / jnp.sqrt(2.0)), jnp.zeros(5), ring.lever, IN_PLANE)
+        held = None if ring.expansion is None else jnp.broadcast_to(ring.expansion, self.azimuth.shape)
+        return dataclasses.replace(self, directions=both, ring=free, held=held)
+
+
+class LubricatedRollerSystem(_InPlane):
+    """Lubricated bearing. With `cage`: unknowns (ln Qi, speed at the outer race) per roller, (ring, cage speed).
+    Without (frictionless raceways): ln Qi per roller and the ring, kinematics of rolling without slip."""
+
+    kinematics: RollerKinematics
+    contact: LineContact
+    laws: ContactLaws
+    oil: Lubricant
+    inlet: InletOil
+    directions: Float[Array, "freedom roller"]
+    azimuth: Float[Array, " roller"]
+    ring: InnerRing
+    radial_clearance: Float[Array, ""]
+    roller_mass: Float[Array, ""]
+    held: Float[Array, " roller"] | None = None
+    cage: CageParts | None = None
+
+    # -- scales ---------------------------------------------------------------------------------------------------
+
+    def friction_scale(self) -> Array:
+        """Scale of friction forces, N: 1 % of a roller's share of the load plus its centrifugal force."""
+        return 0.01 * (self.load_scale() / self.azimuth.shape[0] + self.centrifugal(self.kinematics.free_orbit))
+
+    def centrifugal(self, orbital_speed: Array) -> Array:
+        return self.roller_mass * self.kinematics.pitch_radius * jnp.square(orbital_speed)
+
+    # -- solver contract ------------------------------------------------------------------------------------------
+
+    def equation_names(self) -> tuple[str, ...]:
+        ring = self.ring.equation_names()
+        if self.cage is None:
+            return ("approach of the rings at a roller", *ring)
+        return ("approach of the rings at a roller", "moment balance of a roller", *ring, "moment balance of the cage")
+
+    def step_caps(self) -> ArrowPoint:
+        ring = [5.0] * self.directions.shape[0]
+        if self.cage is None:
+            return ArrowPoint(jnp.asarray([[3.0]]), jnp.asarray(ring))
+        return ArrowPoint(jnp.asarray([[3.0], [0.2]]), jnp.asarray([*ring, 0.2]))
+
+    def bounds(self) -> tuple[ArrowPoint, ArrowPoint]:
+        low, high = LOG_LOAD_RANGE
+        ring = [1e4] * self.directions.shape[0]
+        if self.cage is None:
+            return (
+                ArrowPoint(jnp.asarray([[low]]), -jnp.asarray(ring)),
+                ArrowPoint(jnp.asarray([[high]]), jnp.asarray(ring)),
+            )
+        return (
+            ArrowPoint(jnp.asarray([[low], [-3.0]]), -jnp.asarray([*ring, 2.0])),
+            ArrowPoint(jnp.asarray([[high], [3.0]]), jnp.asarray([*ring, 2.0])),
+        )
+
+    def initial(self) -> ArrowPoint:
+        """Rolling without slip; loads from a dry elastic distribution on rings swollen by the films, plus Martin's
+        film force on the rollers outside the loaded zone, at the ring displacement that carries the load."""
+        motion, n = self.kinematics, self.azimuth.shape[0]
+        mean_speed, _ = motion.surface_speeds(jnp.zeros(()), jnp.zeros(()))
+        along = self.ring.across()
+        opening = self.radial_clearance if self.held is None else self.radial_clearance - self.held
+        shift, log_load = guessed_loads(
+            self.contact,
+            self.laws,
+            self.inlet,
+            mean_speed,
+            jnp.einsum("f,fn->n", along, self.directions),
+            self.load_scale(),
+            self.centrifugal(motion.free_orbit),
+            opening,
+        )
+        ring = along * shift / LENGTH_UNIT
+        if self.cage is None:
+            return ArrowPoint(log_load[None, :], ring)
+        return ArrowPoint(jnp.stack([log_load, jnp.zeros(n)]), jnp.concatenate([ring, jnp.zeros(1)]))
+
+    @property
+    def homotopies(self) -> int:
+        return 0 if self.cage is None else 2
+
+    def homotopy(self, parameter, path):
+        """Path 0, more entrainment in every contact: where a ring and the cage nearly turn together a film collapses,
+        and the friction of a roller falls with its slip; entrainment from outside makes it grow again. Path 1, more
+        load: it pins the rollers to rolling without slip."""
+        extra = EASED_ENTRAINMENT * jnp.abs(self.kinematics.orbit_scale) * self.kinematics.outer_radius
+        offset = self.laws.entrainment_offset + jnp.where(path == 0, parameter**3 * extra, 0.0)
+        contact = jax.tree.map(lambda values: per_race(values)[0], self.contact)
+        per_roller = 2.0 * jnp.pi * EASED_PRESSURE**2 * contact.reduced_radius * contact.length
+        heavy = per_roller / contact.reduced_modulus * self.azimuth.shape[0] / 4.0
+        factor = jnp.where(path == 1, jnp.maximum(heavy / self.load_scale(), 1.0) ** parameter, 1.0)
+        where = lambda system: (system.ring.load, system.laws.entrainment_offset)
+        return eqx.tree_at(where, self, (self.ring.load * factor, offset))
+
+    @property
+    def extra_totals(self) -> int:
+        # moment on the cage, and two components of the force for one global
+        return 0 if self.cage is None else 2
+
+    def element(self, unknowns, shared):
+        state = self.rollers(unknowns, shared)
+        balance = state.load[0][None, :] * self.directions
+        if state.moment_error is None or state.cage_moment is None or state.cage_force is None:
+            return state.approach_error[None, :], balance, state.contact.inner_residual
+        local = jnp.stack([state.approach_error, state.moment_error])
+        contributions = jnp.concatenate([balance, state.cage_moment[None, :], state.cage_force])
+        return local, contributions, state.contact.inner_residual
+
+    def global_residual(self, globals_, totals):
+        d = self.directions.shape[0]
+        ring = (totals[:d] - self.ring.load) / self.load_scale()
+        if self.cage is None:
+            return ring, jnp.zeros(())
+        land = self.land(self.orbit(globals_[d]), totals[d + 1], totals[d + 2])
+        scale = self.friction_scale() * self.kinematics.pitch_radius * self.azimuth.shape[0]
+        # the moment falls with the cage speed: minus it has the positive diagonal of a stiffness
+        return jnp.concatenate([ring, -(totals[d] + land.cage_torque)[None] / scale]), land.residual
+
+    # -- physics --------------------------------------------------------------------------------------------------
+
+    def orbit(self, scaled: Array) -> Array:
+        """Orbital speed W from the scaled unknown, which is 0 when rolling without slip."""
+        return self.kinematics.free_orbit + self.kinematics.orbit_unit * scaled
+
+    def at(self, point: ArrowPoint) -> RollerState:
+        shape = (point.globals.shape[0], point.elements.shape[1])
+        return self.rollers(point.elements, jnp.broadcast_to(point.globals[:, None], shape))
+
+    def rollers(self, unknowns: Float[Array, "m roller"], shared: Float[Array, "g roller"]) -> RollerState:
+        motion, d = self.kinematics, self.directions.shape[0]
+        log_load = unknowns[0]
+        shift = self.inward(shared[:d])
+        if self.cage is None:
+            orbit_change = spin_change = jnp.zeros_like(log_load)
+        else:
+            orbit_change = motion.orbit_unit * shared[d]
+            # twice the change of the outer race's mean speed is R_R spin_change + R_o orbit_change
+            spin_change = motion.spin_unit * (unknowns[1] - shared[d])
+        orbit, spin = motion.free_orbit + orbit_change, motion.free_spin + spin_change
+        inner_load = jnp.exp(log_load)
+        load = jnp.stack([inner_load, inner_load + self.centrifugal(orbit)])
+        mean_speed, sliding = motion.surface_speeds(orbit_change, spin_change)
+        contact = self.laws.evaluate(self.contact, load, mean_speed, sliding, self.oil, self.inlet)
+        approach = self.contact.palmgren_approach(load)
+        state = RollerState(
+            load=load,
+            approach=approach,
+            orbital_speed=orbit,
+            spin_speed=spin,
+            mean_speed=mean_speed,
+            sliding_speed=sliding,
+            contact=contact,
+            pocket=None,
+            inner_flange=None,
+            outer_flange=None,
+            rails=None,
+            drag_force=None,
+            approach_error=approach_error(approach, contact.film, self.radial_clearance - shift),
+            moment_error=None,
+            cage_moment=None,
+            cage_force=None,
+        )
+        return state if self.cage is None else self._with_cage(state, self.cage)
+
+    def _with_cage(self, state: RollerState, cage: CageParts) -> RollerState:
+        """Tangential and moment balance of the rollers, and what they do to the cage."""
+        motion, spin = self.kinematics, state.spin_speed
+        assert cage.pocket is not None
+        forces = forces_without_pocket(motion, self.contact, state.contact, cage, state.orbital_speed, spin)
+        # tangential balance: the pocket films carry what is left; front minus rear load
+        pocket = cage.pocket.balance(forces.tangential, spin, self.inlet.viscosity)
+        moment = forces.moment + motion.roller_radius * (pocket.friction_front + pocket.friction_rear)
+        cage_moment, cage_force = on_cage(
+            motion,
+            self.azimuth,
+            (pocket.load_front, pocket.load_rear),
+            (pocket.friction_front, pocket.friction_rear),
+            forces.rails,
+        )
+        return state._replace(
+            pocket=pocket,
+            inner_flange=forces.inner_flange,
+            outer_flange=forces.outer_flange,
+            rails=forces.rails,
+            drag_force=forces.drag_force,
+            moment_error=moment / (self.friction_scale() * motion.roller_radius),
+            cage_moment=cage_moment,
+            cage_force=cage_force,
+        )
+
+    def land(self, orbit: Array, force_x: Array, force_y: Array) -> LandState:
+        """The lands that carry the pocket forces: eccentricity, torques on cage and guiding ring."""
+        cage, motion = self.cage, self.kinematics
+        assert cage is not None
+        assert cage.land is not None
+        return guided_land(
+            cage.land, cage.guidance, motion.inner_speed, motion.outer_speed, orbit, force_x, force_y, self.inlet
+        )
+
+    def land_at(self, point: ArrowPoint, state: RollerState) -> LandState:
+        assert state.cage_force is not None
+        force = jnp.sum(state.cage_force, axis=1)
+        return self.land(self.orbit(point.globals[-1]), force[0], force[1])
+
+
+class DryRollerSystem(_InPlane):
+    """Dry frictionless bearing: the loads follow from the ring displacement in closed form but for one well
+    conditioned scalar root per roller, so only the ring displacement is an unknown."""
+
+    kinematics: RollerKinematics
+    contact: LineContact
+    directions: Float[Array, "freedom roller"]
+    azimuth: Float[Array, " roller"]
+    ring: InnerRing
+    radial_clearance: Float[Array, ""]
+    roller_mass: Float[Array, ""]
+    held: Float[Array, " roller"] | None = None
+
+    def equation_names(self) -> tuple[str, ...]:
+        return self.ring.equation_names()
+
+    def step_caps(self) -> ArrowPoint:
+        # a dry distribution is convex in the displacement: no cap is needed
+        return ArrowPoint(jnp.zeros((0, 1)), jnp.full(self.directions.shape[0], 1e4))
+
+    def bounds(self) -> tuple[ArrowPoint, ArrowPoint]:
+        edge = jnp.full(self.directions.shape[0], 1e5)
+        return ArrowPoint(jnp.zeros((0, 1)), -edge), ArrowPoint(jnp.zeros((0, 1)), edge)
+
+    def centrifugal(self) -> Array:
+        return self.roller_mass * self.kinematics.pitch_radius * jnp.square(self.kinematics.free_orbit)
+
+    def initial(self) -> ArrowPoint:
+        """The whole load on one roller: never outside contact, and the root is approached from above."""
+        stiff = jnp.sum(self.contact.palmgren_compliance)
+        shift = self.radial_clearance + stiff * (self.load_scale() + self.centrifugal()) ** 0.9
+        shift = jnp.maximum(shift, 0.1 * LENGTH_UNIT)
+        ring = self.ring.across() * shift / LENGTH_UNIT
+        return ArrowPoint(jnp.zeros((0, self.azimuth.shape[0])), ring)
+
+    def loads(self, shift: Array) -> tuple[Float[Array, "2 roller"], Array]:
+        r"""Loads on both races from the inward displacement of the inner ring at each roller, and the root's residual.
+
+        $k_i Q^{0.9} + k_o (Q + F_c)^{0.9} = d\cdot n - J_d/2$ with Q = 0 until the outer approach of the centrifugal
+        force is taken up; solved in $t = Q^{0.9}$, where it is nearly linear: Q is C1 at take-off, with slope 0.
+        """
+        kappa = per_race(self.contact.palmgren_compliance)
+        fc = self.centrifugal()
+        # Double where: 0^0.9 has no derivative, and a bearing at rest has no centrifugal force.
+        turning = fc > 0
+        outer_rest = jnp.where(turning, kappa[1] * jnp.where(turning, fc, 1.0) ** 0.9, 0.0)
+        excess = (shift - self.radial_clearance - outer_rest) / kappa[0]
+        taken = excess > 0
+        x = jnp.where(taken, excess, 1.0)
+
+        def balance(t, args):
+            x_, fc_, ratio, rest = args
+            return t + ratio * (t ** (10.0 / 9.0) + fc_) ** 0.9 - rest - x_
+
+        args = (x, fc, kappa[1] / kappa[0], outer_rest / kappa[0])
+        root = monotone_root(balance, args, 1e-3 * x, 1.001 * x, 0.5 * x)
+        inner = jnp.where(taken, jnp.where(taken, root.value, 1.0) ** (10.0 / 9.0), 0.0)
+        return jnp.stack([inner, inner + fc]), jnp.max(root.residual / x)
+
+    def inward_shift(self, point: ArrowPoint) -> Array:
+        """Displacement of the inner ring towards each roller, m."""
+        return self.inward(point.globals[:, None])
+
+    def element(self, unknowns, shared):
+        load, inner = self.loads(self.inward(shared))
+        return unknowns, load[0][None, :] * self.directions, inner
+
+    def global_residual(self, globals_, totals):
+        return (totals - self.ring.load) / self.load_scale(), jnp.zeros(())

@@ -1,0 +1,158 @@
+"""Forces on the rollers and on the cage of a cylindrical roller bearing, steady or moving. Frames and signs: see
+`cylindrical.scene`."""
+
+from typing import Literal, NamedTuple
+
+import equinox as eqx
+import jax.numpy as jnp
+from jaxtyping import Array, Float
+
+from ...contacts import LineContact
+from ...contacts.laws import ContactState
+from ...gaps import EndForces, FlangeCoefficients, Pocket, PocketEdgeCoefficients, RollerDrag, ShortJournal
+from ...numerics.series import cosine_and_sine
+from ..motion.loads import per_race
+from ..solution import PowerLoss
+from .kinematics import RollerKinematics
+
+
+class CageParts(eqx.Module):
+    """Forces on rollers and cage besides those of the raceways, all prepared, with the oil at its inlet temperature.
+
+    Without a cage (a moving bearing only: rollers outside the loaded zone then have no steady state) `pocket`, `land`
+    and `rails` are `None`.
+    """
+
+    pocket: Pocket | None
+    land: ShortJournal | None
+    guidance: Literal["inner_ring", "outer_ring"] = eqx.field(static=True)
+    rails: PocketEdgeCoefficients | None = None
+    inner_flange: FlangeCoefficients | None = None
+    outer_flange: FlangeCoefficients | None = None
+    drag: RollerDrag | None = None
+    drag_density: Float[Array, ""] | None = None
+
+
+class RollerForces(NamedTuple):
+    """Sum of all forces on each roller but those of its pocket's walls: along the orbit, N, and about its centre, N m
+    (counter-clockwise); and its parts."""
+
+    tangential: Float[Array, " roller"]
+    moment: Float[Array, " roller"]
+    inner_flange: EndForces | None
+    outer_flange: EndForces | None
+    rails: EndForces | None
+    drag_force: Float[Array, " roller"] | None
+
+
+def rolling_force_factor(contact: LineContact, motion: RollerKinematics) -> Float[Array, "2"]:
+    """Tangential force on a roller by its rolling resistance, over it, per race: R_reduced/R_R - 1/2."""
+    return per_race(contact.reduced_radius) / motion.roller_radius - 0.5
+
+
+def forces_without_pocket(
+    motion: RollerKinematics,
+    contact: LineContact,
+    state: ContactState,
+    parts: CageParts,
+    orbit: Float[Array, " roller"],
+    spin: Float[Array, " roller"],
+) -> RollerForces:
+    """Raceways, roller ends and drag, at orbital speeds and spins, rad/s."""
+    ends = lambda part, ring_speed: None if part is None else part.evaluate(-spin, ring_speed - orbit)
+    inner_flange = ends(parts.inner_flange, motion.inner_speed)
+    outer_flange = ends(parts.outer_flange, motion.outer_speed)
+    rails = None if parts.rails is None else parts.rails.evaluate(-spin)
+    traction = state.traction
+    assert traction is not None
+    tangential = traction[0] - traction[1]
+    moment = -motion.roller_radius * (traction[0] + traction[1])
+    for end in (inner_flange, outer_flange, rails):
+        if end is not None:
+            tangential = tangential + end.tangential_force
+            moment = moment + end.moment
+    rolling = state.rolling_force
+    if rolling is not None:
+        lean = rolling_force_factor(contact, motion)
+        tangential = tangential + rolling[0] * lean[0] - rolling[1] * lean[1]
+        moment = moment + 0.5 * motion.roller_radius * (rolling[0] + rolling[1])
+    drag = None
+    if parts.drag is not None:
+        drag = parts.drag.force(motion.pitch_radius * orbit, parts.drag_density)
+        tangential = tangential - drag
+    return RollerForces(tangential, moment, inner_flange, outer_flange, rails, drag)
+
+
+def on_cage(
+    motion: RollerKinematics,
+    azimuth: Float[Array, " roller"],
+    load: tuple[Array, Array],
+    friction: tuple[Array, Array],
+    rails: EndForces | None,
+) -> tuple[Float[Array, " roller"], Float[Array, "2 roller"]]:
+    """Moment about the bearing centre, N m, and force (X, Y), N, of each roller on the cage.
+
+    **Arguments:** `load` and `friction` on the walls (front, rear), N; `rails`: forces of the rails on the roller.
+    """
+    forward = load[0] - load[1]
+    moment = forward * motion.pitch_radius - (friction[0] + friction[1]) * motion.roller_radius
+    if rails is not None:
+        forward = forward - rails.tangential_force
+        moment = moment - rails.moment - rails.tangential_force * motion.pitch_radius
+    outward = friction[0] - friction[1]
+    cosine, sine = cosine_and_sine(azimuth)
+    # t = (-cos, -sin), n = (-sin, cos) in (X, Y), the load along +Y
+    return moment, jnp.stack([-forward * cosine - outward * sine, -forward * sine + outward * cosine])
+
+
+def ring_torques(
+    motion: RollerKinematics,
+    state: ContactState,
+    inner_flange: EndForces | None,
+    outer_flange: EndForces | None,
+) -> tuple[Float[Array, ""], Float[Array, ""]]:
+    """Torques that must be applied to the inner and the outer ring against rollers and their ends, N m."""
+    traction = state.traction
+    assert traction is not None
+    inner = jnp.sum(traction[0]) * motion.inner_radius
+    outer = -jnp.sum(traction[1]) * motion.outer_radius
+    rolling = state.rolling_force
+    if rolling is not None:
+        inner = inner + 0.5 * jnp.sum(rolling[0]) * motion.inner_radius
+        outer = outer - 0.5 * jnp.sum(rolling[1]) * motion.outer_radius
+    if inner_flange is not None:
+        inner = inner - jnp.sum(inner_flange.ring_moment)
+    if outer_flange is not None:
+        outer = outer - jnp.sum(outer_flange.ring_moment)
+    return inner, outer
+
+
+class RollingAlone(NamedTuple):
+    """Cost of rolling without sliding: losses and drive power, W, torques on the rings, N m; None: not modelled."""
+
+    power_loss: PowerLoss
+    drive_power: Float[Array, ""] | None
+    inner_torque: Float[Array, ""] | None
+    outer_torque: Float[Array, ""] | None
+
+
+def rolling_alone(
+    contact: LineContact, motion: RollerKinematics, rolling: Float[Array, "2 roller"] | None
+) -> RollingAlone:
+    r"""Power and ring torques of rollers that roll without sliding against their rolling resistances R, N.
+
+    The tractions that balance each roller do no work: $T_i + T_o = (R_i + R_o)/2$ (moment), $T_i - T_o = \lambda_oR_o -
+    \lambda_iR_i$ (tangential force), $\lambda$ as in `rolling_force_factor`.
+    """
+    if rolling is None:
+        return RollingAlone(PowerLoss(), None, None, None)
+    lean = rolling_force_factor(contact, motion)
+    total = 0.5 * (rolling[0] + rolling[1])
+    difference = lean[1] * rolling[1] - lean[0] * rolling[0]
+    traction = 0.5 * jnp.stack([total + difference, total - difference])
+    state = ContactState(jnp.ones_like(rolling), None, traction, rolling, jnp.zeros(()))
+    inner, outer = ring_torques(motion, state, None, None)
+    still = jnp.zeros(())
+    power = jnp.sum(rolling) * motion.surface_speeds(still, still)[0][0]
+    drive = motion.inner_speed * inner + motion.outer_speed * outer
+    return RollingAlone(PowerLoss(total=power, rolling_resistance=power), drive, inner, outer)

@@ -1,0 +1,323 @@
+"""The cylindrical roller bearing as a scene: geometry, materials, oil, contact laws, cage, flange, drag.
+
+Frames and signs. Plane (X, Y), origin at the bearing centre; azimuths from the load line, counter-clockwise, the
+sense of inner ring rotation. The load on the inner ring and its displacement point along azimuth 0; n is the outward
+unit vector at a roller, t the forward tangential one. Spins are relative to the orbiting frame and positive in normal
+running (a roller between a turning inner and a fixed outer ring spins clockwise: the counter-clockwise spin is minus
+`spin_speed`). Pocket face 1 is in front of the roller, face 2 behind it.
+"""
+
+import math
+from collections.abc import Iterator
+from typing import Any, ClassVar, Literal
+
+import equinox as eqx
+import jax.numpy as jnp
+from jaxtyping import Array
+
+from ..._types import Scalar
+from ...lubricants import Lubricant, NoPressureViscosity
+from ...numerics.checks import Checked, demand, given
+from ...numerics.refusals import refusals_of, refuse_all
+from ...numerics.structure import choice, count
+from ..bearing import AbstractBearing
+from ..cage import ASSUMED_LANDS as ASSUMED_LANDS
+from ..cage import AbstractCage
+from ..motion.settings import Simulation
+from ..operation import Operation
+from ..parts import (
+    FIRST_ELEMENT,
+    ContactLaws,
+    Drag,
+    Materials,
+    check_between,
+    check_row_fits,
+    number,
+    optional_number,
+)
+from ..profile import RollerProfile
+from ..rating import Rating
+
+ASSUMED_CAGE_INNER = 7.0 / 12.0
+"""Cage bore = pitch diameter minus this times the roller diameter, where a scene does not give it."""
+ASSUMED_CAGE_OUTER = 4.0 / 12.0
+"""Cage outside diameter = pitch diameter plus this times the roller diameter, where a scene does not give it."""
+ASSUMED_FLANGE_HEIGHT = 2.5 / 12.0
+"""Flange height over roller diameter, where a scene does not give it."""
+
+
+class RollerGeometry(Checked):
+    """Main dimensions, m. `diametral_clearance` may be negative (preload).
+
+    **Arguments:**
+    - `n_rollers`: number of rollers (structure: another number recompiles).
+    - `pitch_diameter`, `roller_diameter`, `roller_length` (of the whole roller): m, > 0.
+    - `contact_length`: cylindrical length that carries load, m, > 0; `roller_length` where not given.
+    - `diametral_clearance`: DIAMETRAL internal clearance of the assembled bearing, m; negative: preload.
+    - `first_element_angle`: azimuth of the first roller, rad; not given: 0, and the load line is a line of symmetry.
+    """
+
+    part: ClassVar[str] = "geometry"
+
+    n_rollers: int = count("geometry.n_rollers")
+    pitch_diameter: Scalar = number(bound="> 0")
+    roller_diameter: Scalar = number(bound="> 0")
+    roller_length: Scalar = number(bound="> 0")
+    diametral_clearance: Scalar = number()
+    contact_length: Scalar | None = optional_number(bound="> 0")
+    first_element_angle: Scalar | None = optional_number(metadata=FIRST_ELEMENT)
+
+    def __check_init__(self):
+        super().__check_init__()
+        check_row_fits(self.n_rollers, self.roller_diameter, self.pitch_diameter)
+        sizes = given(self.contact_length, self.roller_length)
+        if sizes is not None:
+            demand(
+                "geometry.contact_length must be at most the roller length",
+                sizes[0] <= sizes[1],
+                lambda: (
+                    f"geometry.contact_length must be at most the roller length, {float(sizes[1]):.6g} m, got "
+                    f"{float(sizes[0]):.6g} m"
+                ),
+            )
+
+    @property
+    def loaded_length(self) -> Scalar:
+        """Length of the raceway contacts, m."""
+        return self.roller_length if self.contact_length is None else self.contact_length
+
+    @property
+    def pitch_radius(self) -> Scalar:
+        return self.pitch_diameter / 2.0
+
+    @property
+    def roller_radius(self) -> Scalar:
+        return self.roller_diameter / 2.0
+
+    @property
+    def inner_radius(self) -> Scalar:
+        """Inner raceway."""
+        return self.pitch_radius - self.roller_radius
+
+    @property
+    def outer_radius(self) -> Scalar:
+        """Outer raceway."""
+        return self.pitch_radius + self.roller_radius
+
+
+class RollerCage(AbstractCage):
+    """One-piece cage, guided by one ring on `n_lands` lands, with a pocket film in front of and behind each roller.
+
+    **Arguments:** those of `AbstractCage`, and
+    - `pocket_clearance`: TOTAL circumferential clearance of a roller in its pocket, m, > 0.
+    - `pocket_axial_clearance`: TOTAL axial clearance of a roller between the cage rails, m; not given: the films
+      between roller ends and rails are not modelled.
+    """
+
+    element: ClassVar[str] = "roller"
+    assumed_inner: ClassVar[float] = ASSUMED_CAGE_INNER
+    assumed_outer: ClassVar[float] = ASSUMED_CAGE_OUTER
+
+    pocket_axial_clearance: Scalar | None = optional_number(bound="> 0")
+
+    def row(self, geometry: RollerGeometry) -> tuple[int, Scalar]:
+        return geometry.n_rollers, geometry.roller_diameter
+
+    def mass_and_inertia(self, geometry: RollerGeometry, density: Scalar) -> tuple[Scalar, Scalar]:
+        """Mass, kg, and moment of inertia about the axis, kg m^2: a ring as wide as rollers, their axial clearance and
+        the lands, less a rectangular pocket for each roller (in the inertia as a point in the middle of the ring: its
+        own extent would take off another 0.4 %)."""
+        inner, outer = self.bore(geometry) / 2.0, self.outside(geometry) / 2.0
+        axial = 0.0 if self.pocket_axial_clearance is None else self.pocket_axial_clearance
+        pocket_width = geometry.roller_length + axial
+        width = pocket_width + self.lands * self.land_width
+        ring = density * math.pi * (outer * outer - inner * inner) * width
+        length, depth = geometry.roller_diameter + self.pocket_clearance, outer - inner
+        pockets = geometry.n_rollers * density * pocket_width * length * depth
+        middle = 0.5 * (inner + outer)
+        inertia = 0.5 * ring * (inner * inner + outer * outer) - pockets * middle * middle
+        return ring - pockets, inertia
+
+
+class RollerFlange(Checked):
+    """Flanges that guide the rollers axially, on the inner ring, the outer ring or both.
+
+    **Arguments:**
+    - `ring`: "inner", "outer" or "both".
+    - `axial_clearance`: TOTAL axial clearance of a roller between its two flanges, m.
+    - `angle`: flange opening angle, rad.
+    - `height`: of the flange above the raceway, m; assumed from the roller size where not given.
+    """
+
+    part: ClassVar[str] = "flange"
+
+    ring: Literal["inner", "outer", "both"] = choice("flange.ring", ("inner", "outer", "both"))
+    axial_clearance: Scalar = number(bound="> 0")
+    angle: Scalar = number(0.0, bound=">= 0 and below 90 degrees")
+    height: Scalar | None = optional_number(bound="> 0")
+
+    def rim_height(self, geometry: RollerGeometry) -> Scalar:
+        return ASSUMED_FLANGE_HEIGHT * geometry.roller_diameter if self.height is None else self.height
+
+
+def _freedoms(value: Any) -> tuple[str, ...]:
+    """**Raises:** `ValueError` for what are no freedoms of the ring."""
+    if isinstance(value, list | tuple) and tuple(map(str, value)) in (("radial",), ("radial", "lateral")):
+        return tuple(map(str, value))
+    raise ValueError(f"ring_freedom must be ('radial',) or ('radial', 'lateral'), got {value!r}")
+
+
+class CylindricalRollerBearing(AbstractBearing):
+    """A steady cylindrical roller bearing under radial load; every part but geometry, materials and operation may
+    be `None`, and is then not modelled: no unknown, no equation, no run time.
+
+    - `contact=None`: dry and frictionless; only the load distribution is solved, rollers orbit without slip.
+    - `contact.traction=None`: films, and where named the rolling resistance, but no sliding friction on the raceways;
+      rollers orbit without slip.
+    - with traction a `cage` is needed: without one a roller outside the loaded zone has no steady state, and the scene
+      must have a `simulation`.
+    - `profile`, or `operation.misalignment` or `operation.moment`: rollers that tilt, in laminae; with a
+      `contact` without traction: films and what rolling costs, for rolling without sliding.
+    - `simulation`: what a run in time does beyond the operating point; a steady solve does not look at it.
+
+    **Raises:** `ValueError` for combinations that have no steady state or lack what they need.
+    """
+
+    modelled_freedoms: ClassVar[tuple[str, ...]] = ("radial", "lateral", "tilt", "tilt_lateral")
+
+    geometry: RollerGeometry
+    materials: Materials
+    operation: Operation
+    oil: Lubricant | None = None
+    contact: ContactLaws | None = None
+    cage: RollerCage | None = None
+    flange: RollerFlange | None = None
+    drag: Drag | None = None
+    simulation: Simulation | None = None
+    ring_freedom: tuple[str, ...] = eqx.field(static=True, converter=_freedoms, default=("radial",))
+    rating: Rating | None = None
+    profile: RollerProfile | None = None
+
+    def __check_init__(self):
+        refuse_all(self._problems())
+
+    def _problems(self) -> Iterator[str | ValueError]:
+        if self.simulation is not None:
+            yield from refusals_of(check_run, self.operation)
+        if self.contact is None:
+            return
+        if self.tilts and self.slips:
+            operation = self.operation
+            names = ("misalignment", "misalignment_lateral", "moment", "moment_lateral")
+            causes = [f"operation.{name}" for name in names if getattr(operation, name) is not None]
+            causes += [] if self.profile is None else ["profile"]
+            yield (
+                f"{causes[0]}: tilting or profiled rollers (a profile, misalignments, moments) roll "
+                f"without sliding in this version; leave out {' and '.join(causes)}, or contact.traction"
+            )
+        if self.cage is not None:
+            yield from refusals_of(self.cage.check_fits, self.geometry)
+        if self.flange is not None:
+            yield from refusals_of(_check_height, self.flange, self.geometry)
+        yield from refusals_of(self.operation.check_rings_turn)
+        if self.slips and self.cage is None and self.simulation is None:
+            yield (
+                "cage: a lubricated bearing with traction and without a cage has no steady state (a roller outside the "
+                "loaded zone slows down for ever); give it a cage, leave out contact.traction, or use simulate"
+            )
+        if self.oil is None:
+            yield "oil: a scene with a [contact] table needs an oil"
+            return
+        if self.slips and (self.oil.density is None):
+            yield "oil.density: the cage land and the drag need it"
+        if isinstance(self.oil.pressure_viscosity, NoPressureViscosity):
+            laws = {"film": self.contact.film, "rolling_resistance": self.contact.rolling}
+            for name, law in laws.items():
+                if law is not None and law.piezoviscous_only:
+                    yield (
+                        f"contact.{name}: {type(law).__name__} holds for oils whose viscosity rises with pressure, not "
+                        "for an isoviscous one; film = 'moes' and rolling_resistance = 'rigid_isoviscous' do"
+                    )
+
+    @property
+    def skewed(self) -> bool:
+        return super().skewed or "lateral" in self.ring_freedom
+
+    @property
+    def tilts(self) -> bool:
+        """True if rollers may tilt and are cut into laminae; without it they carry evenly along their length."""
+        return self.profile is not None or self.operation.tilts
+
+    @property
+    def ring_lever(self) -> Array:
+        """Lever by which the equations multiply the tilts of the ring, m."""
+        return jnp.asarray(self.geometry.loaded_length)
+
+    @property
+    def port_distance(self) -> Array:
+        """Distance of the ring's reference point from the middle of the rollers along $+e_x$, m: none."""
+        return jnp.zeros(())
+
+    @property
+    def slips(self) -> bool:
+        """True if roller and cage speeds are unknowns; without traction they follow from rolling without slip."""
+        return self.contact is not None and self.contact.traction is not None
+
+    def unused_parts(self) -> tuple[str, ...]:
+        """Tables that the scene names but that have no effect without traction on the raceways."""
+        if self.slips:
+            return ()
+        named = {"cage": self.cage, "flange": self.flange, "drag": self.drag}
+        if self.contact is None:
+            named["oil"] = None if self.rating is not None else self.oil
+        return tuple(name for name, part in named.items() if part is not None)
+
+    def assumptions(self) -> tuple[str, ...]:
+        """Notes for the user: assumptions of the model, and uses for which the scene's data were not made."""
+        said = []
+        if self.contact is not None and self.oil is not None:
+            said += [f"oil: {note}" for note in self.oil.notes]
+            said += _misfit(self.contact, self.oil)
+        if self.tilts and self.contact is not None:
+            said.append(
+                "tilting rollers roll without sliding: cage, skidding and sliding friction are not modelled, losses "
+                + ("are not either" if self.contact.rolling is None else "are those of rolling resistance alone")
+            )
+        if self.geometry.contact_length is None:
+            said.append("geometry.contact_length is not given: the whole roller length carries load")
+        if self.slips and self.cage is not None:
+            said += self.cage.assumptions()
+        if self.slips and self.flange is not None and self.flange.height is None:
+            said.append(f"flange.height is not given: assumed {ASSUMED_FLANGE_HEIGHT:.3f} of the roller diameter")
+        return tuple(said)
+
+
+def check_run(operation: Operation) -> None:
+    """**Raises:** `ValueError` where the operating point is none that a run in time can begin at."""
+    if operation.displaced:
+        raise ValueError("operation.displacement: in a run in time loads move the ring, it is not held")
+    if operation.radial_load is None:
+        raise ValueError("operation.radial_load: a run in time needs one")
+
+
+def _misfit(contact: ContactLaws, oil: Lubricant) -> list[str]:
+    """Laws that were not made for this oil."""
+    said = []
+    if contact.traction is not None:
+        said += contact.traction.notes(oil)
+    isoviscous = isinstance(oil.pressure_viscosity, NoPressureViscosity)
+    if contact.rolling is not None and not contact.rolling.piezoviscous_only and not isoviscous:
+        said.append(
+            "contact.rolling_resistance leaves out the rise of viscosity with pressure: about half the resistance of a "
+            "loaded contact (ertel_grubin has it)"
+        )
+    return said
+
+
+def _check_height(flange: RollerFlange, geometry: RollerGeometry) -> None:
+    """**Raises:** `ValueError` where the flange cannot exist between the rings (where the numbers are known)."""
+    sizes = given(flange.rim_height(geometry), geometry.roller_diameter)
+    if sizes is not None:
+        height, roller = sizes
+        limit = roller / 2.0 if flange.ring == "both" else roller
+        check_between("flange.height", height, 0.0, limit, "raceway", "what the roller leaves to it")

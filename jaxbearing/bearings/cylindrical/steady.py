@@ -1,0 +1,311 @@
+"""Steady state of a cylindrical roller bearing: from the scene to the equations, and from the root to the results."""
+
+from typing import NamedTuple
+
+import jax.numpy as jnp
+from jaxtyping import Array, Float
+
+from ...contacts import LineContact, palmgren_stiffness
+from ...gaps import Flange, Pocket, PocketEdge, RollerDrag
+from ...materials import reduced_modulus
+from ...numerics.arrow import ArrowPoint, condensed, linearize, schur_complement
+from ...numerics.newton import NewtonOptions, NewtonResult, newton_solve
+from ..assemble import assemble
+from ..checks import MEAN_OF_LINE, RACEWAYS, Contacts, Facts
+from ..land import LandState
+from ..motion.loads import LEAST_LOAD
+from ..parts import azimuths, drag_density
+from ..profile import pressed_load
+from ..ring import LENGTH_UNIT, InnerRing, Port
+from ..solution import CageState, PowerLoss, RollerResults, Solution
+from .equations import IN_PLANE, DryRollerSystem, LubricatedRollerSystem, RollerState, outward
+from .forces import CageParts, ring_torques, rolling_alone
+from .kinematics import RollerKinematics, roller_kinematics
+from .ring import roller_ring
+from .scene import CylindricalRollerBearing, RollerCage, RollerGeometry
+
+
+def build_system(
+    scene: CylindricalRollerBearing, ring: InnerRing | None = None
+) -> DryRollerSystem | LubricatedRollerSystem:
+    """The equations of a scene, with everything prepared that does not depend on the unknowns; with its own ring, or
+    another one."""
+    geometry, operation = scene.geometry, scene.operation
+    azimuth = azimuths(geometry, geometry.n_rollers)
+    cosines = outward(azimuth)
+    if ring is None:
+        ring = roller_ring(scene, scene.ring_lever)
+    motion = roller_kinematics(geometry, operation)
+    radii = jnp.stack(
+        [
+            1.0 / (1.0 / motion.roller_radius + 1.0 / motion.inner_radius),
+            1.0 / (1.0 / motion.roller_radius - 1.0 / motion.outer_radius),
+        ]
+    )
+    contact = LineContact(
+        reduced_radius=radii[:, None],
+        length=jnp.asarray(geometry.loaded_length),
+        reduced_modulus=jnp.asarray(reduced_modulus(scene.materials.rings, scene.materials.rollers)),
+    )
+    clearance, held = jnp.asarray(geometry.diametral_clearance) / 2.0, None
+    if ring.asks:
+        held = jnp.einsum("f,fn->n", ring.held[1:3], cosines)
+        if ring.expansion is not None:
+            held = held + ring.expansion
+        stiffness = palmgren_stiffness(contact.length, contact.reduced_modulus)
+        asked = pressed_load(stiffness, contact.length, held - clearance, jnp.zeros(()))
+        ring = ring.asking(jnp.sum(asked) + LEAST_LOAD)
+    common = {
+        "kinematics": motion,
+        "contact": contact,
+        "directions": cosines[ring.places - 1],
+        "azimuth": azimuth,
+        "ring": ring,
+        "held": held,
+        "radial_clearance": clearance,
+        "roller_mass": scene.materials.rollers.density * jnp.pi * motion.roller_radius**2 * geometry.roller_length,
+    }
+    if scene.contact is None:
+        return DryRollerSystem(**common)
+    assert scene.oil is not None
+    return LubricatedRollerSystem(
+        **common,
+        laws=scene.contact,
+        oil=scene.oil,
+        inlet=scene.oil.at(operation.oil_temperature),
+        cage=_cage_parts(scene, motion) if scene.slips else None,
+    )
+
+
+def _cage_parts(scene: CylindricalRollerBearing, motion: RollerKinematics) -> CageParts:
+    cage, oil, geometry, operation = scene.cage, scene.oil, scene.geometry, scene.operation
+    assert oil is not None
+    viscosity = oil.viscosity.viscosity(0.0, jnp.asarray(operation.oil_temperature))
+    rails = None
+    if cage is not None and cage.pocket_axial_clearance is not None:
+        edge = PocketEdge(
+            inner_radius=jnp.asarray(cage.bore(geometry)) / 2.0,
+            outer_radius=jnp.asarray(cage.outside(geometry)) / 2.0,
+            side_clearance=jnp.asarray(cage.pocket_axial_clearance) / 2.0,
+            pitch_radius=motion.pitch_radius,
+            roller_radius=motion.roller_radius,
+        )
+        rails = edge.coefficients(viscosity)
+
+    def flange(ring: str, race: Array, outward: float):
+        part = scene.flange
+        if part is None or part.ring not in (ring, "both"):
+            return None
+        return Flange(
+            race_radius=race,
+            rim_radius=race + outward * part.rim_height(geometry),
+            side_clearance=jnp.asarray(part.axial_clearance) / 2.0,
+            angle=jnp.asarray(part.angle),
+            pitch_radius=motion.pitch_radius,
+            roller_radius=motion.roller_radius,
+        ).coefficients(viscosity)
+
+    drag, density = None, None
+    if scene.drag is not None:
+        drag = RollerDrag(coefficient=jnp.asarray(scene.drag.coefficient), area=drag_area(geometry, cage))
+        density = drag_density(oil, operation, geometry.pitch_diameter, scene.drag.through_flow_fraction)
+    pocket = None
+    if cage is not None:
+        pocket = Pocket(
+            clearance=jnp.asarray(cage.pocket_clearance),
+            length=jnp.asarray(geometry.roller_length),
+            roller_radius=motion.roller_radius,
+        )
+    return CageParts(
+        pocket=pocket,
+        land=None if cage is None else cage.land(geometry),
+        guidance="inner_ring" if cage is None else cage.guidance,
+        rails=rails,
+        inner_flange=flange("inner", motion.inner_radius, 1.0),
+        outer_flange=flange("outer", motion.outer_radius, -1.0),
+        drag=drag,
+        drag_density=density,
+    )
+
+
+def drag_area(geometry: RollerGeometry, cage: RollerCage | None) -> Array:
+    """Frontal area of a roller that the cage leaves free: length times (diameter - cage thickness), m^2.
+
+    The analogue of the source's ball formula; 0 where the cage is thicker than the roller.
+    """
+    thickness = 0.0 if cage is None else (cage.outside(geometry) - cage.bore(geometry)) / 2.0
+    return jnp.asarray(geometry.roller_length) * jnp.maximum(geometry.roller_diameter - thickness, 0.0)
+
+
+def solve_steady(scene: CylindricalRollerBearing, options: NewtonOptions, ring: InnerRing | None = None) -> Solution:
+    """Steady state: pure, jit-able, vmap-able, differentiable; never raises for a failed solve. `ring`: instead of that
+    of the scene's operating point.
+
+    **Raises:** `ValueError` for a scene that has no steady state.
+    """
+    if scene.slips and scene.cage is None:
+        raise ValueError(
+            "cage: without one a roller outside the loaded zone has no steady state; simulate can run this scene"
+        )
+    system, result = newton_solve(build_system(scene, ring), options)
+    results = _dry_results(system, result) if isinstance(system, DryRollerSystem) else _lubricated(system, result)
+    return assemble(
+        scene,
+        result,
+        results,
+        system.ring.displacement(result.point.globals),
+        _port(system, result, results.elements.load_inner),
+        ring_freedom=scene.shown_freedoms if ring is None else IN_PLANE,
+        stiffness_freedom=IN_PLANE if system.ring.asks else None,
+        equation_names=system.equation_names(),
+    )
+
+
+class _Results(NamedTuple):
+    """Results before masking; `facts`: what the range checks look at."""
+
+    cage: CageState | None
+    elements: RollerResults
+    power_loss: PowerLoss
+    drive_power: Array | None
+    inner_torque: Array | None
+    outer_torque: Array | None
+    facts: Facts
+
+
+def _port(
+    system: DryRollerSystem | LubricatedRollerSystem, result: NewtonResult, load: Float[Array, " roller"]
+) -> Port:
+    """The reaction and the stiffness of the ring, everything else in equilibrium; `load`: on the inner race, N.
+
+    Of the unknown freedoms; where a displacement is given, of all that the model has.
+    """
+    jacobian, shown = result.jacobian, system
+    if system.ring.asks:
+        shown = system.in_plane()
+        moved = system.ring.moved(result.point.globals[: len(system.freedoms)])[shown.ring.places] / LENGTH_UNIT
+        others = result.point.globals[len(system.freedoms) :]
+        place = ArrowPoint(result.point.elements, jnp.concatenate([moved, others]))
+        jacobian = linearize(shown, place)[1]
+    free = shown.ring.places
+    ring = condensed(schur_complement(jacobian), len(free)) * (shown.load_scale() / LENGTH_UNIT)
+    force = jnp.zeros(5).at[free].set(jnp.sum(load[None, :] * shown.directions, axis=1))
+    return Port(force, jnp.zeros((5, 5)).at[free[:, None], free[None, :]].set(ring), system.freedoms)
+
+
+def _dry_results(system: DryRollerSystem, result: NewtonResult) -> _Results:
+    load, _ = system.loads(system.inward_shift(result.point))
+    motion, ones = system.kinematics, jnp.ones_like(system.azimuth)
+    pressure = jnp.where(load > 0, system.contact.hertz_pressure(load), 0.0)
+    elements = RollerResults(
+        azimuth=system.azimuth,
+        load_inner=load[0],
+        load_outer=load[1],
+        pressure_inner=pressure[0],
+        pressure_outer=pressure[1],
+        orbital_speed=motion.free_orbit * ones,
+        spin_speed=motion.free_spin * ones,
+    )
+    facts = Facts((Contacts(RACEWAYS, load, pressure, MEAN_OF_LINE),))
+    return _Results(None, elements, PowerLoss(), None, None, None, facts)
+
+
+def _lubricated(system: LubricatedRollerSystem, result: NewtonResult) -> _Results:
+    state, motion = system.at(result.point), system.kinematics
+    pressure = system.contact.hertz_pressure(state.load)
+    contact, pocket, rise = state.contact, state.pocket, state.contact.temperature_rise
+    elements = RollerResults(
+        azimuth=system.azimuth,
+        load_inner=state.load[0],
+        load_outer=state.load[1],
+        pressure_inner=pressure[0],
+        pressure_outer=pressure[1],
+        orbital_speed=state.orbital_speed,
+        spin_speed=state.spin_speed,
+        film_inner=contact.film[0],
+        film_outer=contact.film[1],
+        temperature_rise_inner=None if rise is None else rise[0],
+        temperature_rise_outer=None if rise is None else rise[1],
+        sliding_inner=state.sliding_speed[0],
+        sliding_outer=state.sliding_speed[1],
+        traction_inner=None if contact.traction is None else contact.traction[0],
+        traction_outer=None if contact.traction is None else contact.traction[1],
+        pocket_film_front=None if pocket is None else pocket.film_front,
+        pocket_film_rear=None if pocket is None else pocket.film_rear,
+        pocket_load_front=None if pocket is None else pocket.load_front,
+        pocket_load_rear=None if pocket is None else pocket.load_rear,
+    )
+    contacts = Contacts(
+        RACEWAYS,
+        state.load,
+        pressure,
+        MEAN_OF_LINE,
+        laws=system.laws,
+        mean_speed=state.mean_speed,
+        sliding=state.sliding_speed,
+        temperature=None if rise is None else system.inlet.temperature + rise,
+    )
+    facts = Facts((contacts,), inlet=system.inlet)
+    if system.cage is None:
+        return _Results(None, elements, *rolling_alone(system.contact, motion, contact.rolling_force), facts)
+
+    land = system.land_at(result.point, state)
+    losses = _losses(system, state, land)
+    inner, outer = _ring_torques(system, state, land)
+    orbit = system.orbit(result.point.globals[-1])
+    cage = CageState(
+        speed=orbit,
+        slip=cage_slip(orbit, motion),
+        eccentricity_ratio=land.eccentricity_ratio,
+        attitude_angle=land.attitude_angle,
+    )
+    drive = motion.inner_speed * inner + motion.outer_speed * outer
+    return _Results(cage, elements, losses, drive, inner, outer, facts)
+
+
+def cage_slip(orbit: Array, motion: RollerKinematics) -> Array:
+    """1 - W / W_free, finite (and then without meaning) where rolling without slip would hold the cage still.
+
+    W_free is smoothed by 1e-8 of the speed scale: relative error 1e-16 with one ring at rest.
+    """
+    free = motion.free_orbit
+    return (free - orbit) * free / (jnp.square(free) + jnp.square(1e-8 * motion.orbit_unit))
+
+
+def _losses(system: LubricatedRollerSystem, state: RollerState, land: LandState) -> PowerLoss:
+    """Dissipation by location, each from the force and the speed of its own interaction."""
+    motion, traction, pocket = system.kinematics, state.contact.traction, state.pocket
+    rolling = state.contact.rolling_force
+    assert traction is not None
+    assert pocket is not None
+    sliding = jnp.sum(traction * state.sliding_speed, axis=1)
+    friction = pocket.friction_front + pocket.friction_rear
+    flanges = [end for end in (state.inner_flange, state.outer_flange) if end is not None]
+    losses = {
+        "inner_raceway": sliding[0],
+        "outer_raceway": sliding[1],
+        "rolling_resistance": None if rolling is None else jnp.sum(rolling * state.mean_speed),
+        "pocket": jnp.sum(friction * motion.roller_radius * state.spin_speed),
+        "element_ends": None if state.rails is None else jnp.sum(state.rails.power),
+        "flange": sum(jnp.sum(end.power) for end in flanges) if flanges else None,
+        "cage_pilot": land.power,
+        "drag": None
+        if state.drag_force is None
+        else jnp.sum(state.drag_force * motion.pitch_radius * state.orbital_speed),
+    }
+    total = sum((value for value in losses.values() if value is not None), jnp.zeros(()))
+    return PowerLoss(total=total, **losses)
+
+
+def _ring_torques(system: LubricatedRollerSystem, state: RollerState, land: LandState) -> tuple[Array, Array]:
+    """Torques that must be applied to the inner and the outer ring to keep them turning, N m.
+
+    Assembled from the forces on the rings; that their power equals the sum of the dissipations is the test of every
+    sign in the model.
+    """
+    cage = system.cage
+    assert cage is not None
+    inner, outer = ring_torques(system.kinematics, state.contact, state.inner_flange, state.outer_flange)
+    if cage.guidance == "inner_ring":
+        return inner - land.ring_torque, outer
+    return inner, outer - land.ring_torque

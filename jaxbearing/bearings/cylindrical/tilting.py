@@ -1,0 +1,190 @@
+r"""Cylindrical roller bearing whose rollers may tilt: rings misaligned, rollers with a profile, cut into laminae;
+its equations are those of dry contacts without friction.
+
+Unknowns per roller: the outward displacement x of its end s = 0 and its tilt phi, which moves the end s = l outwards;
+globally the displacements of the inner ring, m, and its tilt $\tau$ (moves azimuth 0 along +axial: the end s = l, on
+the axial side, then moves inwards there), times the length. With the profile h(s) of the roller (on both contacts)
+
+$\delta_o = x + \phi s - h$, $\delta_i = d\cdot n - J_d/2 - \tau\cos\psi(s - \ell/2) - x - \phi s - h$,
+
+roller: $Q_o - Q_i = F_c$, $M_o - M_i = F_c\ell/2$; ring: $\sum Q_in = F$, $-\sum(M_i - Q_i\ell/2)\cos\psi = M$. The
+gradient of one convex potential, with the springs of `ring.ANCHOR`.
+"""
+
+import dataclasses
+from typing import NamedTuple
+
+import jax
+import jax.numpy as jnp
+from jaxtyping import Array, Float
+
+from ...contacts import AbstractTiltedLine
+from ...numerics.arrow import ArrowPoint
+from ...numerics.batching import in_turn
+from ...numerics.convex import AbstractConvexArrow, Minimum, anchored, find_minimum
+from ..ring import ANCHOR, LENGTH_UNIT, TILTS, InnerRing
+from ..tapered.system import FARTHEST, LOAD_FLOOR, LONGEST_STEP, MOST_TILT, START_TOLERANCE
+
+SLOW = 1e-2
+"""Centrifugal force over a roller's share of the load below which a bearing is solved at rest first."""
+HALVINGS = 60
+"""Number of bisections for the approach of a roller that only its centrifugal force holds."""
+
+
+class TiltingState(NamedTuple):
+    """Approaches f (m) and g (rad) of the races (inner, outer), loads, N, and their moments about s = 0, N m."""
+
+    approach: Float[Array, "2 roller"]
+    slope: Float[Array, "2 roller"]
+    load: Float[Array, "2 roller"]
+    moment: Float[Array, "2 roller"]
+
+
+class TiltingRollers(AbstractConvexArrow):
+    """See the module. `columns[f]` are (towards the roller, slope of the inner race) for a unit of each freedom of the
+    ring, `held` those of what the ring is held at."""
+
+    line: AbstractTiltedLine
+    azimuth: Float[Array, " roller"]
+    columns: Float[Array, "freedom 2 roller"]
+    held: Float[Array, "2 roller"]
+    ring: InnerRing
+    radial_clearance: Float[Array, ""]
+    centrifugal: Float[Array, ""]
+    guess: ArrowPoint | None
+
+    @property
+    def freedoms(self) -> tuple[str, ...]:
+        """Freedoms of the ring that are unknown."""
+        return self.ring.freedoms
+
+    def load_scale(self) -> Array:
+        return jnp.sqrt(jnp.square(self.ring.size()) + LOAD_FLOOR**2)
+
+    def roller_scale(self) -> Array:
+        return self.load_scale() / self.azimuth.size + self.centrifugal
+
+    def units(self) -> Float[Array, "2 1"]:
+        """x, phi for a unit of the unknowns."""
+        return LENGTH_UNIT * jnp.stack([jnp.ones(()), 1.0 / jnp.asarray(self.line.length)])[:, None]
+
+    def equation_names(self) -> tuple[str, ...]:
+        return ("force balance of a roller", "moment balance of a roller", *self.ring.equation_names())
+
+    def step_caps(self) -> ArrowPoint:
+        cap = LONGEST_STEP / LENGTH_UNIT
+        return ArrowPoint(jnp.full((2, 1), cap), jnp.full(len(self.freedoms), cap))
+
+    def bounds(self) -> tuple[ArrowPoint, ArrowPoint]:
+        far = FARTHEST / LENGTH_UNIT
+        tilt = MOST_TILT * jnp.asarray(self.line.length) / LENGTH_UNIT
+        ring = self.ring.of_each(lambda name: tilt if name in TILTS else far)
+        high = ArrowPoint(jnp.full((2, 1), far), ring)
+        return ArrowPoint(-high.elements, -high.globals), high
+
+    def initial(self) -> ArrowPoint:
+        """The ring pressed in by the clearance and what one roller under the whole load needs; rollers half-way."""
+        if self.guess is not None:
+            return self.guess
+        if self.ring.asks:
+            # where it is held, what else moves at 0
+            half = 0.5 * (self.held[0] - self.radial_clearance) / LENGTH_UNIT
+            return ArrowPoint(jnp.stack([half, jnp.zeros_like(half)]), jnp.zeros(len(self.freedoms)))
+        load = self.load_scale() + self.centrifugal
+        depth = jnp.maximum(
+            self.radial_clearance + 2.0 * (load / (self.line.stiffness * self.line.length)) ** 0.9, 1e-6
+        )
+        ring = depth * self.ring.across() / LENGTH_UNIT
+        inward = LENGTH_UNIT * jnp.einsum("f,fn->n", ring, self.columns[:, 0])
+        half = 0.5 * (inward - self.radial_clearance) / LENGTH_UNIT
+        return ArrowPoint(jnp.stack([half, jnp.zeros_like(half)]), ring)
+
+    def element(self, unknowns, shared):
+        state = self.state(unknowns, shared)
+        balance = self.balance(state) + anchored(unknowns, ANCHOR * LENGTH_UNIT)
+        totals = jnp.einsum("fcn,cn->fn", self.columns, self.ring_force(state))
+        return balance / self.roller_scale(), totals, jnp.zeros(())
+
+    def global_residual(self, globals_, totals):
+        held = anchored(globals_, ANCHOR * LENGTH_UNIT)
+        return (totals - self.ring.load + held) / self.load_scale(), jnp.zeros(())
+
+    def energies(self, unknowns, shared):
+        """Energy of the contacts of each roller less the work of its centrifugal force, J."""
+        state = self.state(unknowns, shared)
+        out, tilt = self.units() * unknowns
+        energy = jnp.sum(self.line.energy(state.approach, state.slope), axis=0)
+        return energy - self.centrifugal * (out + 0.5 * self.line.length * tilt)
+
+    def work(self, globals_):
+        """Work of the ring's loads, J."""
+        return LENGTH_UNIT * jnp.sum(self.ring.load * globals_)
+
+    def started(self) -> tuple["TiltingRollers", Minimum]:
+        """These equations with the minimum of the potential as first guess, and how it was found.
+
+        Where the bearing turns slowly, the search begins from the bearing at rest, with the rollers that carry nothing
+        there seated on the outer race: a centrifugal force that is next to nothing asks for approaches that are, and
+        the search does not find such a place from afar.
+        """
+        found = in_turn(_minimum, jax.lax.stop_gradient(self))
+        return dataclasses.replace(self, guess=found.point), found
+
+    def seated(self, point: ArrowPoint) -> ArrowPoint:
+        """The point with each roller that does not reach the inner race seated on the outer one, held there by its
+        centrifugal force; a profile is the same on both sides of the middle, so that it does not tilt."""
+        length, zero = jnp.asarray(self.line.length), jnp.zeros(())
+        position = jnp.linspace(0.0, 1.0, 101)
+        high = (self.centrifugal / (self.line.stiffness * length)) ** 0.9 + jnp.max(self.line.drop(position))
+
+        def halved(_: Array, ends: tuple[Array, Array]) -> tuple[Array, Array]:
+            middle = 0.5 * (ends[0] + ends[1])
+            heavy = self.line.load_and_moment(middle, zero)[0] > self.centrifugal
+            return jnp.where(heavy, ends[0], middle), jnp.where(heavy, middle, ends[1])
+
+        depth = jax.lax.fori_loop(0, HALVINGS, halved, (zero, high))[1]
+        flat = jnp.stack([depth, zero])[:, None] / self.units() * jnp.ones_like(point.elements)
+        alone = self.at(ArrowPoint(flat, point.globals)).load[0] == 0.0
+        return ArrowPoint(jnp.where(alone, flat, point.elements), point.globals)
+
+    def at(self, point: ArrowPoint) -> TiltingState:
+        shape = (point.globals.shape[0], point.elements.shape[1])
+        return self.state(point.elements, jnp.broadcast_to(point.globals[:, None], shape))
+
+    def state(self, unknowns: Float[Array, "2 roller"], shared: Float[Array, "freedom roller"]) -> TiltingState:
+        inward, turn = self.held + LENGTH_UNIT * jnp.einsum("fn,fcn->cn", shared, self.columns)
+        out, tilt = self.units() * unknowns
+        # `turn` is about the middle of the roller
+        inner = inward - self.radial_clearance - 0.5 * self.line.length * turn - out
+        approach, slope = jnp.stack([inner, out]), jnp.stack([turn - tilt, tilt])
+        return TiltingState(approach, slope, *self.line.load_and_moment(approach, slope))
+
+    def balance(self, state: TiltingState) -> Float[Array, "2 roller"]:
+        """Force, N, and moment about s = 0 over the length, N."""
+        force = state.load[1] - state.load[0] - self.centrifugal
+        moment = (state.moment[1] - state.moment[0]) / self.line.length - 0.5 * self.centrifugal
+        return jnp.stack([force, moment])
+
+    def ring_force(self, state: TiltingState) -> Float[Array, "2 roller"]:
+        """Force on each roller, N, and moment about its middle, N m, conjugate to (towards the roller, slope)."""
+        return jnp.stack([state.load[0], state.moment[0] - 0.5 * self.line.length * state.load[0]])
+
+
+def _minimum(system: TiltingRollers) -> Minimum:
+    """Finds the minimum that `TiltingRollers.started` begins with."""
+    slow = system.centrifugal < SLOW * system.load_scale() / system.azimuth.size
+    resting = dataclasses.replace(system, centrifugal=jnp.where(slow, 0.0, system.centrifugal))
+
+    def search(carry: tuple[ArrowPoint, Array], centrifugal: Array) -> tuple[tuple[ArrowPoint, Array], Minimum]:
+        guess, steps = carry
+        found = find_minimum(
+            dataclasses.replace(system, guess=guess, centrifugal=centrifugal), tolerance=START_TOLERANCE
+        )
+        seated = system.seated(found.point)
+        guess = ArrowPoint(*(jnp.where(slow, new, old) for new, old in zip(seated, found.point, strict=True)))
+        return (guess, steps + found.steps), found
+
+    first = (resting.initial(), jnp.asarray(0))
+    both = jnp.stack([resting.centrifugal, system.centrifugal])
+    (_, steps), founds = jax.lax.scan(search, first, both)
+    return jax.tree.map(lambda leaf: leaf[-1], founds)._replace(steps=steps)

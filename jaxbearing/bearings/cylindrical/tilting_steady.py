@@ -1,0 +1,203 @@
+r"""Steady state of a cylindrical roller bearing with tilting, profiled rollers.
+
+The load distribution is dry and frictionless. With an oil and contact laws films and rolling resistance follow from it
+for rolling without sliding: laminae are short line contacts side by side, each with its own load per length. The
+tractions that rolling without sliding needs balance each roller; ring torques are assembled from them.
+"""
+
+import dataclasses
+from typing import NamedTuple
+
+import jax.numpy as jnp
+from jaxtyping import Array, Float
+
+from ...contacts import LineContact, palmgren_stiffness
+from ...contacts.laws import ContactState
+from ...materials import reduced_modulus
+from ...numerics.arrow import ArrowPoint, linearize
+from ...numerics.newton import NewtonOptions, newton_solve
+from ...numerics.status import Status
+from ..assemble import assemble
+from ..checks import MEAN_OF_LINE, RACEWAYS, Contacts, Facts
+from ..parts import azimuths
+from ..profile import RollerProfile, pressed_load
+from ..rating import rated_laminae
+from ..ring import InnerRing, Port
+from ..solution import CageState, LaminaLoads, PowerLoss, RollerResults, Solution
+from .forces import rolling_alone
+from .kinematics import RollerKinematics, roller_kinematics
+from .ring import roller_ring
+from .scene import CylindricalRollerBearing
+from .tilting import TiltingRollers, TiltingState
+
+
+def build_tilting(scene: CylindricalRollerBearing, ring: InnerRing | None = None) -> TiltingRollers:
+    """The equations of a scene, with its own ring or another one."""
+    geometry = scene.geometry
+    azimuth = azimuths(geometry, geometry.n_rollers)
+    length = jnp.asarray(geometry.loaded_length)
+    columns = _columns(azimuth, length)
+    if ring is None:
+        ring = roller_ring(scene, length)
+    stiffness = palmgren_stiffness(length, reduced_modulus(scene.materials.rings, scene.materials.rollers))
+    motion = roller_kinematics(scene.geometry, scene.operation)
+    mass = scene.materials.rollers.density * jnp.pi * motion.roller_radius**2 * geometry.roller_length
+    profile = RollerProfile() if scene.profile is None else scene.profile
+    held = jnp.einsum("f,fcn->cn", ring.held, columns)
+    system = TiltingRollers(
+        line=profile.line(stiffness, length),
+        azimuth=azimuth,
+        columns=ring.of_unknown(columns),
+        held=held if ring.expansion is None else held.at[0].add(ring.expansion),
+        ring=ring,
+        radial_clearance=jnp.asarray(geometry.diametral_clearance) / 2.0,
+        centrifugal=mass * motion.pitch_radius * jnp.square(motion.free_orbit),
+        guess=None,
+    )
+    if not ring.asks:
+        return system
+    pressed = system.held[0] - system.radial_clearance
+    return dataclasses.replace(
+        system, ring=ring.asking(jnp.sum(pressed_load(stiffness, length, pressed, system.held[1])))
+    )
+
+
+def _columns(azimuth: Float[Array, " roller"], lever: Array) -> Float[Array, "5 2 roller"]:
+    """(towards the roller, slope of the inner race) for a unit of each of `RING_FREEDOMS`; tilts times `lever` are
+    lengths. Nothing holds the ring axially."""
+    zero, cosine, sine = jnp.zeros_like(azimuth), jnp.cos(azimuth), jnp.sin(azimuth)
+    pairs = ((zero, zero), (cosine, zero), (sine, zero), (zero, -cosine / lever), (zero, -sine / lever))
+    return jnp.stack([jnp.stack(pair) for pair in pairs])
+
+
+def solve_tilting(scene: CylindricalRollerBearing, options: NewtonOptions, ring: InnerRing | None = None) -> Solution:
+    """Steady state: pure, jit-able, vmap-able, differentiable; never raises for a failed solve. `ring`: instead of that
+    of the scene's operating point."""
+    started, minimum = build_tilting(scene, ring).started()
+    system, result = newton_solve(started, options)
+    none = ~result.converged & minimum.outside
+    result = result._replace(status=jnp.where(none, int(Status.NO_EQUILIBRIUM), result.status))
+    return assemble(
+        scene,
+        result,
+        _results(scene, system, system.at(result.point)),
+        system.ring.displacement(result.point.globals),
+        _port(scene, system, result.point),
+        iterations=minimum.steps + result.iterations,
+        ring_freedom=scene.shown_freedoms if ring is None else scene.modelled_freedoms,
+        stiffness_freedom=scene.modelled_freedoms,
+        equation_names=system.equation_names(),
+    )
+
+
+class _Results(NamedTuple):
+    """Results before masking; `facts`: what the range checks look at."""
+
+    cage: CageState | None
+    elements: RollerResults
+    power_loss: PowerLoss
+    drive_power: Array | None
+    inner_torque: Array | None
+    outer_torque: Array | None
+    laminae: LaminaLoads
+    facts: Facts
+
+
+def _results(scene: CylindricalRollerBearing, system: TiltingRollers, state: TiltingState) -> _Results:
+    motion, zero, ones = (
+        roller_kinematics(scene.geometry, scene.operation),
+        jnp.zeros(()),
+        jnp.ones_like(system.azimuth),
+    )
+    count = RollerProfile().n_laminae if scene.profile is None else scene.profile.n_laminae
+    cut = lambda number: jnp.stack(
+        [system.line.laminae(state.approach[side], state.slope[side], number) for side in (0, 1)]
+    )
+    laminae = cut(count)
+    rated = rated_laminae(scene.rating, count)
+    inner_laminae, outer_laminae = laminae if rated == count else cut(rated)
+    curvatures = jnp.stack([1.0 / motion.inner_radius, -1.0 / motion.outer_radius])
+    contact = LineContact(
+        (1.0 / (1.0 / motion.roller_radius + curvatures))[:, None],
+        jnp.asarray(system.line.length),
+        reduced_modulus(scene.materials.rings, scene.materials.rollers),
+    )
+    most = jnp.max(laminae, axis=2)
+    peaks = jnp.where(most > 0, contact.hertz_pressure(jnp.where(most > 0, most, 1.0) * count), 0.0)
+    more, rolling = _films(scene, contact, motion, laminae)
+    elements = RollerResults(
+        azimuth=system.azimuth,
+        load_inner=state.load[0],
+        load_outer=state.load[1],
+        pressure_inner=peaks[0],
+        pressure_outer=peaks[1],
+        orbital_speed=motion.free_orbit * ones,
+        spin_speed=motion.free_spin * ones,
+        **more,
+    )
+    profiled = scene.profile is not None and scene.profile.shape is not None
+    costs = rolling_alone(contact, motion, rolling)
+    contacts = Contacts(RACEWAYS, state.load, peaks, MEAN_OF_LINE, laminae=laminae)
+    facts = Facts((contacts,))
+    if scene.contact is not None and scene.oil is not None:
+        rises = [more[name] for name in ("temperature_rise_inner", "temperature_rise_outer") if name in more]
+        inlet = scene.oil.at(scene.operation.oil_temperature)
+        speed = motion.surface_speeds(zero, zero)[0][:, None]
+        temperature = inlet.temperature + jnp.stack(rises) if rises else None
+        contacts = contacts._replace(laws=scene.contact, mean_speed=speed, temperature=temperature)
+        facts = facts._replace(contacts=(contacts,), inlet=inlet)
+    return _Results(
+        None,
+        elements,
+        *costs,
+        LaminaLoads(inner_laminae, outer_laminae, profiled),
+        facts,
+    )
+
+
+def _films(
+    scene: CylindricalRollerBearing,
+    contact: LineContact,
+    motion: RollerKinematics,
+    laminae: Float[Array, "2 roller lamina"],
+) -> tuple[dict[str, Array], Float[Array, "2 roller"] | None]:
+    """Films, NaN where nothing is loaded, and the rolling resistance of each contact, N.
+
+    `film_*`: of the whole contact, its load spread evenly over the length; `film_least_*`: the thinnest of the laminae.
+    """
+    laws, oil = scene.contact, scene.oil
+    if laws is None or oil is None:
+        return {}, None
+    inlet = oil.at(scene.operation.oil_temperature)
+    speed = motion.surface_speeds(jnp.zeros(()), jnp.zeros(()))[0][:, None]
+
+    def loaded(one: LineContact, load: Array, speed: Array) -> tuple[Array, ContactState]:
+        carries = load > 0
+        safe = jnp.where(carries, load, 1.0)
+        return carries, laws.evaluate(one, safe, speed + 0.0 * safe, 0.0 * safe, oil, inlet)
+
+    carries, whole = loaded(contact, jnp.sum(laminae, axis=2), speed)
+    each = LineContact(contact.reduced_radius[..., None], contact.length / laminae.shape[2], contact.reduced_modulus)
+    carried, parts = loaded(each, laminae, speed[..., None])
+    blank = lambda values: jnp.where(carries, values, jnp.nan)
+    film = blank(whole.film)
+    least = blank(jnp.min(jnp.where(carried, parts.film, jnp.inf), axis=2))
+    more = {"film_inner": film[0], "film_outer": film[1], "film_least_inner": least[0], "film_least_outer": least[1]}
+    if whole.temperature_rise is not None:
+        rise = blank(whole.temperature_rise)
+        more |= {"temperature_rise_inner": rise[0], "temperature_rise_outer": rise[1]}
+    if parts.rolling_force is None:
+        return more, None
+    return more, jnp.sum(jnp.where(carried, parts.rolling_force, 0.0), axis=2)
+
+
+def _port(scene: CylindricalRollerBearing, system: TiltingRollers, point: ArrowPoint) -> Port:
+    """The reaction and the stiffness of the ring's freedoms, rollers in equilibrium."""
+    full = build_tilting(scene, system.ring.released(system.load_scale()))
+    place = ArrowPoint(point.elements, system.ring.released_unknowns(point.globals))
+    equations, jacobian = linearize(full, place)
+    force = equations.residual.globals * full.load_scale() + full.ring.load
+    port = full.ring.port(jacobian, force, full.load_scale(), system.freedoms)
+    # nothing holds it axially: not the springs that anchor the unknowns either
+    held = jnp.asarray([0.0, 1.0, 1.0, 1.0, 1.0])
+    return Port(port.force * held, port.stiffness * held[:, None] * held[None, :], port.free)

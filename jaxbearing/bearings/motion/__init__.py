@@ -1,0 +1,1 @@
+"""Runs of bearings in time: settings, start, rates, integration, instants, history."""

@@ -1,0 +1,188 @@
+"""Results of a run in time, labelled: every quantity carries its unit and description where it is defined.
+
+The command line, JSON, files and plots read this metadata; nothing keeps a second list.
+"""
+
+from collections.abc import Mapping
+from typing import Any
+
+import equinox as eqx
+import jax
+import jax.numpy as jnp
+import numpy as np
+from jaxtyping import Array, Bool, Float, Int
+
+from ..._identity import Identity
+from ..._scene import AbstractSolution
+from ...numerics.status import Status
+from ..solution import PowerLoss, RingDisplacement, RollerResults, label, losses_not_modelled
+
+
+class CageMotion(eqx.Module):
+    """The cage's centre, in the plane with Y along the load line and X a quarter turn behind it, and its speeds."""
+
+    x: Float[Array, ""] = eqx.field(metadata=label("m", "cage centre across the load line (X)"))
+    y: Float[Array, ""] = eqx.field(metadata=label("m", "cage centre along the load line (Y)"))
+    velocity_x: Float[Array, ""] = eqx.field(metadata=label("m/s", "velocity of the cage centre along X"))
+    velocity_y: Float[Array, ""] = eqx.field(metadata=label("m/s", "velocity of the cage centre along Y"))
+    speed: Float[Array, ""] = eqx.field(metadata=label("rad/s", "cage speed"))
+    slip: Float[Array, ""] = eqx.field(metadata=label("1", "1 - cage speed / speed of rolling without slip"))
+    eccentricity_ratio: Float[Array, ""] = eqx.field(metadata=label("1", "cage offset over radial guiding clearance"))
+
+
+class PocketPeaks(eqx.Module):
+    """A shock lasts some microseconds, less than lies between two instants: the largest loads in between."""
+
+    front: Float[Array, " element"] = eqx.field(
+        metadata=label("N", "largest load on the front pocket wall since the instant before")
+    )
+    rear: Float[Array, " element"] = eqx.field(
+        metadata=label("N", "largest load on the rear pocket wall since the instant before")
+    )
+
+
+class Instant(eqx.Module):
+    """State and results at one time; in a `History` every array has the times in front."""
+
+    inner_speed: Float[Array, ""] = eqx.field(metadata=label("rad/s", "inner ring speed"))
+    radial_load: Float[Array, ""] = eqx.field(metadata=label("N", "load on the inner ring along the load line"))
+    lateral_load: Float[Array, ""] = eqx.field(metadata=label("N", "load on the inner ring across the load line"))
+    ring: RingDisplacement
+    cage: CageMotion | None
+    elements: RollerResults
+    pocket_peaks: PocketPeaks | None
+    power_loss: PowerLoss
+    drive_power: Float[Array, ""] = eqx.field(metadata=label("W", "sum over both rings of torque times speed"))
+    kinetic_energy: Float[Array, ""] = eqx.field(metadata=label("J", "kinetic energy of rolling elements and cage"))
+    pocket_energy: Float[Array, ""] = eqx.field(metadata=label("J", "elastic energy of the pocket films"))
+    raceway_energy: Float[Array, ""] = eqx.field(metadata=label("J", "elastic energy of the raceway contacts"))
+    state_rollers: Float[Array, "roller_state element"] = eqx.field(
+        metadata=label("1", "state of the rolling elements: position, orbital and spin speed in the frame of the run")
+    )
+    state_cage: Float[Array, " cage_state"] = eqx.field(
+        metadata=label(
+            "1", "state of the cage: x, y, angle times pitch radius in the frame of the run, and their rates"
+        )
+    )
+    frame_angle: Float[Array, ""] = eqx.field(metadata=label("rad", "angle of the frame of the state"))
+    frame_speed: Float[Array, ""] = eqx.field(metadata=label("rad/s", "speed of that frame"))
+
+
+class LastState(eqx.Module):
+    """From where another run can go on: `History.last_state`, or that of a file.
+
+    **Arguments:**
+    - `time`: s.
+    - `rollers`: rows q, m, v and u, m/s, of each roller.
+    - `cage`: X, Y, q, m, and their rates, m/s.
+    - `frame_angle`, `frame_speed`: of the frame in which they are counted, rad and rad/s.
+    - `reference_speed`: of that frame at the operating point, rad/s.
+    - `azimuth`: of the rollers, rad.
+    - `has_cage`: whether there is a cage.
+    - `identity`: which bearing it is (`None`: not known, as in files of earlier versions).
+    """
+
+    time: Float[Array | np.ndarray, ""]
+    rollers: Float[Array | np.ndarray, "3 roller"]
+    cage: Float[Array | np.ndarray, "6"]
+    frame_angle: Float[Array | np.ndarray, ""]
+    frame_speed: Float[Array | np.ndarray, ""]
+    reference_speed: Float[Array | np.ndarray, ""]
+    azimuth: Float[Array | np.ndarray, " roller"]
+    has_cage: bool = eqx.field(static=True)
+    identity: Identity | None = None
+
+
+class Energy(eqx.Module):
+    """Works and energies over the run, J (see `motion.rates`). `drive` = `kinetic` + `dissipation` + `pocket_films`
+    + `lever_arm`, up to `error`; `load_on_ring` is balanced within the raceways, which are quasi-static."""
+
+    drive: Float[Array, ""] = eqx.field(metadata=label("J", "work of the torques that drive the rings"))
+    dissipation: Float[Array, ""] = eqx.field(metadata=label("J", "dissipated, but for the squeezed pocket films"))
+    pocket_films: Float[Array, ""] = eqx.field(
+        metadata=label("J", "work that closed the pocket films: oil squeezed out, and elastic energy")
+    )
+    lever_arm: Float[Array, ""] = eqx.field(
+        metadata=label(
+            "J", "neglected by the model: moment of the pocket loads about the cage's centre, not the bearing's"
+        )
+    )
+    kinetic: Float[Array, ""] = eqx.field(metadata=label("J", "gain of kinetic energy"))
+    pocket_elastic: Float[Array, ""] = eqx.field(metadata=label("J", "gain of elastic energy of the pocket films"))
+    raceway_elastic: Float[Array, ""] = eqx.field(metadata=label("J", "gain of elastic energy of the raceways"))
+    load_on_ring: Float[Array, ""] = eqx.field(metadata=label("J", "work of the radial load on the ring"))
+    error: Float[Array, ""] = eqx.field(metadata=label("1", "what the balance leaves open, over the drive work"))
+
+
+class History(AbstractSolution):
+    """Result of a run in time: all instants up to the last good one, also where it stopped early.
+
+    `instants` holds the results with the times in front: `history.instants.cage.speed` has the shape of `time`.
+    """
+
+    status: Int[Array, ""] = eqx.field(metadata=label("1", "how the run ended"))
+    time: Float[Array, " time"] = eqx.field(metadata=label("s", "time"))
+    stop: Float[Array, ""] = eqx.field(metadata=label("s", "time to which the run was to go"))
+    accepted: Int[Array, ""] = eqx.field(metadata=label("1", "steps taken"))
+    rejected: Int[Array, ""] = eqx.field(metadata=label("1", "steps tried and not taken"))
+    reference_speed: Float[Array, ""] = eqx.field(
+        metadata=label("rad/s", "speed of the frame of the state at the operating point")
+    )
+    operation: Any
+    instants: Any
+    energy: Energy
+    checks: Mapping[str, Bool[Array, ""]]
+    solver: str = eqx.field(static=True)
+    interrupted: bool = eqx.field(static=True, default=False)
+    element_name: str = eqx.field(static=True, default="roller")
+    notes: tuple[str, ...] = eqx.field(static=True, default=())
+    identity: Identity | None = None
+
+    @property
+    def converged(self) -> Bool[Array, "*batch"]:
+        """True if the run reached its end."""
+        return jnp.asarray(self.status) == Status.CONVERGED
+
+    @property
+    def not_modelled(self) -> tuple[str, ...]:
+        """Losses that the scene does not model, by their names in `instants.power_loss`."""
+        return losses_not_modelled(self.instants.power_loss)
+
+    @property
+    def completed(self) -> bool:
+        return bool(self.converged)
+
+    def last_state(self) -> LastState:
+        """The state of the last instant, for `jaxbearing.simulate(..., restart=...)`.
+
+        **Raises:** `ValueError` for a run that did not begin.
+        """
+        if np.size(self.time) == 0:
+            raise ValueError(self.failure())
+        last = jax.tree.map(lambda leaf: np.asarray(leaf[-1]), self.instants)
+        return LastState(
+            time=np.asarray(self.time[-1]),
+            rollers=last.state_rollers,
+            cage=last.state_cage,
+            frame_angle=last.frame_angle,
+            frame_speed=last.frame_speed,
+            reference_speed=np.asarray(self.reference_speed),
+            azimuth=last.elements.azimuth,
+            has_cage=last.cage is not None,
+            identity=self.identity,
+        )
+
+    def lane(self, index: int) -> "History":
+        """One run of a batch, up to the last instant that it reached."""
+        one = jax.tree.map(lambda leaf: np.asarray(np.asarray(leaf)[index]), self)
+        reached = np.isfinite(one.time)
+        instants = jax.tree.map(lambda leaf: leaf[reached], one.instants)
+        return eqx.tree_at(lambda h: (h.time, h.instants), one, (one.time[reached], instants))
+
+    def solver_failure(self) -> str:
+        if np.size(self.time) == 0:
+            return f"{Status(int(self.status)).text}: the quasi-static start of the run was not found"
+        reached, stop = float(self.time[-1]), float(self.stop)
+        why = "interrupted" if self.interrupted else Status(int(self.status)).text
+        where = f"{1e3 * reached:.6g} ms of {1e3 * stop:.6g} ms, after {int(self.accepted)} steps"
+        return f"{why}: the run stopped at {where}; what was computed until then is kept"

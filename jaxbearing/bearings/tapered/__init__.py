@@ -1,0 +1,1 @@
+"""Tapered roller bearings: scene, geometry, equations, friction, results."""

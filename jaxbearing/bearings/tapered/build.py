@@ -1,0 +1,132 @@
+"""From a tapered roller bearing scene to its equations."""
+
+import dataclasses
+from typing import NamedTuple
+
+import jax.numpy as jnp
+from jaxtyping import Array, Float
+
+from ...contacts import StraightLine, palmgren_stiffness
+from ...materials import reduced_modulus
+from ..parts import azimuths
+from ..profile import pressed_load
+from ..ring import InnerRing, inner_ring
+from .geometry import TaperedGeometry
+from .scene import TaperedOperation, TaperedRollerBearing
+from .system import Inertia, TaperedForm, TaperedSystem
+
+
+class TaperedMotion(NamedTuple):
+    """Rolling without sliding about the apex, rad/s: orbit of the rollers and their spin relative to it, positive in
+    normal running."""
+
+    orbital_speed: Array
+    spin_speed: Array
+
+
+class RollerBody(NamedTuple):
+    """Mass, kg, centre of mass from the big end, m, moments of inertia about and across the axis, kg m^2."""
+
+    mass: Array
+    centre: Array
+    axial: Array
+    transverse: Array
+
+
+def rolling_motion(geometry: TaperedGeometry, operation: TaperedOperation) -> TaperedMotion:
+    r"""$\omega_m = (\omega_i\sin\alpha_i + \omega_o\sin\alpha_o)/(\sin\alpha_i + \sin\alpha_o)$, $\omega_s =
+    (\omega_m - \omega_o)\sin\alpha_o/\sin\epsilon$."""
+    inner, outer = jnp.sin(geometry.cone_angle), jnp.sin(jnp.asarray(geometry.contact_angle))
+    orbit = (operation.inner_speed * inner + operation.outer_speed * outer) / (inner + outer)
+    return TaperedMotion(orbit, (orbit - operation.outer_speed) * outer / jnp.sin(geometry.roller_half_angle))
+
+
+def roller_body(geometry: TaperedGeometry, density: Array) -> RollerBody:
+    """A frustum from the big end to the end of contact; the spherical cap is left out."""
+    big = 0.5 * jnp.asarray(geometry.roller_diameter)
+    length = geometry.roller_length * jnp.cos(geometry.roller_half_angle)
+    small = big - geometry.roller_length * jnp.sin(geometry.roller_half_angle)
+    squares = big**2 + big * small + small**2
+    mass = jnp.pi * density * length * squares / 3.0
+    centre = length * (big**2 + 2.0 * big * small + 3.0 * small**2) / (4.0 * squares)
+    fourth = sum(big ** (4 - k) * small**k for k in range(5)) / 5.0
+    axial = 0.5 * jnp.pi * density * length * fourth
+    second = jnp.pi * density * length**3 * (big**2 + 3.0 * big * small + 6.0 * small**2) / 30.0
+    return RollerBody(mass, centre, axial, 0.5 * axial + second - mass * centre**2)
+
+
+def roller_inertia(geometry: TaperedGeometry, body: RollerBody, motion: TaperedMotion) -> Inertia:
+    r"""$F_c = m\omega_m^2(Y_b - l_c\sin\gamma)$, $M_g = \omega_m\sin\gamma[I_a(\omega_s - \omega_m\cos\gamma) +
+    I_t\omega_m\cos\gamma]$, which pushes the small end inwards."""
+    orbit, sine, cosine = motion.orbital_speed, jnp.sin(geometry.axis_angle), jnp.cos(geometry.axis_angle)
+    force = body.mass * jnp.square(orbit) * (geometry.big_end_radius - body.centre * sine)
+    spinning = body.axial * (motion.spin_speed - orbit * cosine)
+    return Inertia(force, body.centre, orbit * sine * (spinning + body.transverse * orbit * cosine))
+
+
+def tapered_form(geometry: TaperedGeometry) -> TaperedForm:
+    half, flange = jnp.asarray(geometry.roller_half_angle), jnp.asarray(geometry.flange_angle)
+    a_s, r_s = geometry.sphere_centre
+    return TaperedForm(
+        sine=jnp.sin(half),
+        cosine=jnp.cos(half),
+        cone_angle=geometry.cone_angle,
+        cup_angle=jnp.asarray(geometry.contact_angle),
+        axis_angle=geometry.axis_angle,
+        flange_angle=flange,
+        flange_tilt=geometry.flange_tilt,
+        offset=0.5 * geometry.roller_diameter * jnp.sin(half),
+        apex_distance=geometry.apex_distance,
+        end_height=geometry.end_height,
+        flange_arm=-r_s * jnp.cos(flange) - a_s * jnp.sin(flange),
+    )
+
+
+def ring_columns(azimuth: Float[Array, " roller"], lever: Array, load_position: Array) -> Float[Array, "5 3 roller"]:
+    """(Da, Dr, t) of the cone at every roller for a unit of each of `RING_FREEDOMS` of the reference point; a unit of
+    tilt is a length, the tilt times `lever`."""
+    zero, one = jnp.zeros_like(azimuth), jnp.ones_like(azimuth)
+    cosine, sine = jnp.cos(azimuth), jnp.sin(azimuth)
+    # a tilt that moves azimuth 0 along +a is -t, about the reference point: the apex moves by a_B with it
+    tilt = jnp.stack([zero, load_position * cosine, -cosine]) / lever
+    tilt_lateral = jnp.stack([zero, load_position * sine, -sine]) / lever
+    shifts = [jnp.stack(one) for one in ((one, zero, zero), (zero, cosine, zero), (zero, sine, zero))]
+    return jnp.stack([*shifts, tilt, tilt_lateral])
+
+
+def build_tapered(scene: TaperedRollerBearing, ring: InnerRing | None = None) -> TaperedSystem:
+    """The equations of a scene with its own ring, or with another one and then all rollers."""
+    geometry, operation = scene.geometry, scene.operation
+    azimuth = azimuths(geometry, geometry.n_rollers, operation.symmetric and ring is None)
+    lever = geometry.apex_distance
+    columns = ring_columns(azimuth, lever, jnp.asarray(operation.load_position))
+    if ring is None:
+        ring = inner_ring(operation, scene.unknown_freedoms, lever)
+    modulus = reduced_modulus(scene.materials.rings, scene.materials.rollers)
+    length = jnp.asarray(geometry.roller_length)
+    stiffness = palmgren_stiffness(length, modulus)
+    body = roller_body(geometry, jnp.asarray(scene.materials.rollers.density))
+    held = jnp.einsum("f,fcn->cn", ring.held, columns)
+    system = TaperedSystem(
+        form=tapered_form(geometry),
+        line=StraightLine(stiffness, length) if scene.profile is None else scene.profile.line(stiffness, length),
+        flange_stiffness=geometry.flange_contact(modulus).stiffness_constant(),
+        inertia=roller_inertia(geometry, body, rolling_motion(geometry, operation)),
+        columns=ring.of_unknown(columns),
+        held=held if ring.expansion is None else held.at[1].add(ring.expansion),
+        ring=ring,
+        guess=None,
+        seated=None,
+        multiplicity=geometry.n_rollers // azimuth.size,
+    )
+    if not ring.asks:
+        return system
+    return dataclasses.replace(system, ring=ring.asking(_held_load(system, stiffness)))
+
+
+def _held_load(system: TaperedSystem, stiffness: Array) -> Float[Array, ""]:
+    """Estimates the load that the given displacements of the ring ask for, N."""
+    pressed = system.pressed(system.held)
+    return system.multiplicity * jnp.sum(
+        pressed_load(stiffness, jnp.asarray(system.line.length), pressed, system.held[2])
+    )

@@ -1,0 +1,208 @@
+r"""Geometry of a tapered roller bearing: cones with one apex, spherical roller ends, a conical rib on the cone.
+
+Meridian plane of a roller: (a, r), a along the bearing axis, *positive from the rollers' big ends towards the common
+apex O*, r radially outwards; O is the origin. Half angles of cup $\alpha_o$ and cone $\alpha_i$, roller half angle
+$\epsilon = (\alpha_o - \alpha_i)/2$, roller axis $\gamma = (\alpha_o + \alpha_i)/2$ (the source prints these two
+definitions in swapped order). Source eqs. (42), (43), (53): the first, X_b, only places its origin and could not be
+reconstructed.
+"""
+
+import math
+from typing import Any, ClassVar
+
+import jax.numpy as jnp
+from jaxtyping import Array
+
+from ..._scene import number, optional_number
+from ..._types import Scalar
+from ...contacts import PointContact
+from ...numerics.checks import Checked, demand, functions, given
+from ...numerics.structure import count
+from ..parts import FIRST_ELEMENT
+
+LEAST_HALF_ANGLE = math.radians(0.3)
+"""Least half angle of the rollers: below, the apex goes to infinity and the bearing is a cylindrical one."""
+
+
+class TaperedGeometry(Checked):
+    """Main dimensions; the pitch diameter follows from them.
+
+    **Arguments:**
+    - `n_rollers`: number of rollers (structure).
+    - `roller_diameter`: D_w, of the big end, m.
+    - `roller_length`: l_w, of contact, along the generator, m.
+    - `contact_angle`: half angle of the cup, alpha_o, rad.
+    - `roller_half_angle`: epsilon, rad, at least 0.3 degrees.
+    - `flange_angle`: of the NORMAL of the rib to the bearing axis, alpha_f, rad; less than gamma = alpha_o - epsilon.
+    - `end_radius`: R_s, of the sphere of the roller's big end, m.
+    - `first_element_angle`: azimuth of the first roller, rad; not given: 0, and the load line is a line of symmetry.
+
+    **Raises:** `ValueError` naming the field that makes the bearing impossible.
+    """
+
+    part: ClassVar[str] = "geometry"
+
+    n_rollers: int = count("geometry.n_rollers")
+    roller_diameter: Scalar = number(bound="> 0")
+    roller_length: Scalar = number(bound="> 0")
+    contact_angle: Scalar = number(bound="above 0 and below 90 degrees")
+    roller_half_angle: Scalar = number(bound="> 0")
+    flange_angle: Scalar = number(bound="> 0")
+    end_radius: Scalar = number(bound="> 0")
+    first_element_angle: Scalar | None = optional_number(metadata=FIRST_ELEMENT)
+
+    def __check_init__(self):
+        super().__check_init__()
+        if self.n_rollers < 1:
+            raise ValueError(f"geometry.n_rollers must be >= 1, got {self.n_rollers}")
+        names = ("roller_diameter", "roller_length", "contact_angle", "roller_half_angle", "flange_angle", "end_radius")
+        sizes = given(*(getattr(self, name) for name in names))
+        if sizes is not None:
+            _check(self.n_rollers, *sizes)
+
+    @property
+    def cone_angle(self) -> Array:
+        """alpha_i, rad."""
+        return jnp.asarray(self.contact_angle) - 2.0 * self.roller_half_angle
+
+    @property
+    def axis_angle(self) -> Array:
+        """gamma, of the roller axis to the bearing axis, rad."""
+        return jnp.asarray(self.contact_angle) - self.roller_half_angle
+
+    @property
+    def apex_distance(self) -> Array:
+        """d, from the apex to the big end along a generator, m."""
+        return self.roller_diameter / (2.0 * jnp.sin(self.roller_half_angle))
+
+    @property
+    def big_end_radius(self) -> Array:
+        """Y_b, of the circle of big-end centres, m (eq. (43))."""
+        return 0.5 * self.roller_diameter * jnp.sin(self.axis_angle) / jnp.tan(self.roller_half_angle)
+
+    @property
+    def mean_roller_diameter(self) -> Array:
+        """At mid length, m."""
+        return self.roller_diameter - self.roller_length * jnp.sin(self.roller_half_angle)
+
+    @property
+    def pitch_diameter(self) -> Array:
+        """Diameter of the circle of the rollers' middles, m."""
+        return 2.0 * (self.big_end_radius - 0.5 * self.roller_length * jnp.sin(self.axis_angle))
+
+    @property
+    def end_height(self) -> Array:
+        """R_s cos(lambda): from the big end's plane to the centre of its sphere, m."""
+        return self.end_radius * jnp.sqrt(1.0 - jnp.square(self.roller_diameter / (2.0 * self.end_radius)))
+
+    @property
+    def flange_tilt(self) -> Array:
+        """theta = gamma - alpha_f, rad: the contact at the rib lies below the roller axis."""
+        return self.axis_angle - self.flange_angle
+
+    @property
+    def sphere_centre(self) -> tuple[Array, Array]:
+        """(a, r) of the sphere's centre, m."""
+        k = self.roller_diameter / (2.0 * jnp.tan(self.roller_half_angle)) - self.end_height
+        return -k * jnp.cos(self.axis_angle), k * jnp.sin(self.axis_angle)
+
+    @property
+    def flange_radius(self) -> Array:
+        """r_f: of the contact on the rib about the bearing axis, m."""
+        height = self.end_radius * jnp.sin(self.flange_angle) - self.end_height * jnp.sin(self.axis_angle)
+        return self.big_end_radius + height
+
+    def flange_contact(self, reduced_modulus: Scalar) -> PointContact:
+        """Sphere on the concave cone of the rib (eq. (53)): straight along its generator, curved around the axis, which
+        is the direction of rolling."""
+        around = 1.0 / self.end_radius - jnp.sin(self.flange_angle) / self.flange_radius
+        return PointContact(1.0 / around, jnp.asarray(self.end_radius), reduced_modulus)
+
+    def race_reduced_radii(self, position: Array) -> Array:
+        """Reduced radii of the inner and outer contact normal to the generator at s/l, m; shape (2, ...)."""
+        reach = self.apex_distance - self.roller_length * position
+        roller = reach * jnp.tan(self.roller_half_angle)
+        inner, outer = reach * jnp.tan(self.cone_angle), reach * jnp.tan(self.contact_angle)
+        return jnp.stack([1.0 / (1.0 / roller + 1.0 / inner), 1.0 / (1.0 / roller - 1.0 / outer)])
+
+
+def _check(n_rollers: int, diameter: Any, length: Any, cup: Any, half: Any, flange: Any, end_radius: Any) -> None:
+    """Numbers known or traced. **Raises:** `ValueError` for a bearing that is known to be impossible."""
+    xp = functions(diameter, length, cup, half, flange, end_radius)
+    degrees = lambda angle: f"{math.degrees(float(angle)):g} degrees"
+    metres = lambda size: f"{float(size):g} m"
+    gamma, cone = cup - half, cup - 2.0 * half
+    demand(
+        "geometry.roller_half_angle must be at least 0.3 degrees",
+        half >= LEAST_HALF_ANGLE,
+        lambda: (
+            f"geometry.roller_half_angle must be at least 0.3 degrees, got {degrees(half)}: a smaller taper is a "
+            "cylindrical roller bearing"
+        ),
+    )
+    demand(
+        "geometry.roller_half_angle must be below half the contact_angle",
+        cone > 0.0,
+        lambda: f"geometry.roller_half_angle must be below half the contact_angle, got {degrees(half)}",
+    )
+    # from the apex of the roller's cone to its big end
+    slant = 0.5 * diameter / xp.sin(half)
+    demand(
+        "geometry.roller_length must end before the tip of the roller's cone",
+        length < slant,
+        lambda: (
+            f"geometry.roller_length must be below {metres(slant)} (the roller's cone ends there), got {metres(length)}"
+        ),
+    )
+    # a longer radius than the cone is fits the rib closer than a sphere can: Hertz's contact does not hold
+    fits = (end_radius > 0.5 * diameter) & (end_radius < slant)
+    demand(
+        "geometry.end_radius must be above half the roller_diameter and below the length of the roller's cone",
+        fits,
+        lambda: (
+            f"geometry.end_radius must be above {metres(0.5 * diameter)} (half the roller_diameter) and below "
+            f"{metres(slant)} (from the apex of the roller's cone to its big end), got {metres(end_radius)}"
+        ),
+    )
+    radius = 0.5 * diameter * xp.sin(gamma) / xp.tan(half)
+    # rollers are nearest where they touch their neighbours: the plane of two axes through the apex
+    most = lambda: math.ceil(math.pi / math.asin(math.sin(half) / math.sin(gamma))) - 1
+    demand(
+        "geometry.n_rollers must be so small that the rollers fit beside each other",
+        xp.sin(half) < xp.sin(gamma) * math.sin(math.pi / max(n_rollers, 2)),
+        lambda: (
+            f"geometry.n_rollers: {n_rollers} rollers of big-end diameter {metres(diameter)} do not fit on a circle of "
+            f"radius {metres(radius)}, at most {most()}"
+        ),
+    )
+    height = xp.sqrt(xp.where(fits, end_radius**2 - 0.25 * diameter**2, 0.0))
+    contact_radius = radius + end_radius * xp.sin(flange) - height * xp.sin(gamma)
+    cone_big_end = diameter / (2.0 * xp.sin(half)) * xp.sin(cone)
+    # at the rim of the end face, and where the rib ends at the cone
+    rim = gamma - xp.arcsin(0.5 * diameter / end_radius)
+    foot = (cone_big_end - radius + height * xp.sin(gamma)) / end_radius
+    lowest = xp.where(foot < xp.sin(gamma), xp.maximum(rim, xp.arcsin(xp.clip(foot, 0.0, 1.0))), math.inf)
+    demand(
+        "geometry.flange_angle: an angle must exist that puts the contact of the rib on the roller's end face",
+        lowest < gamma,
+        lambda: (
+            f"geometry.flange_angle: no angle puts the contact of the rib on the roller's end face; an end_radius of "
+            f"{metres(end_radius)} does not fit the other sizes"
+        ),
+    )
+
+    def why() -> str:
+        if flange >= gamma:
+            return "the roller end would not touch the rib below its axis"
+        if flange <= rim:
+            return "the contact lies beyond the roller's end face"
+        return f"the contact, at radius {metres(contact_radius)}, lies below the cone's big end, {metres(cone_big_end)}"
+
+    demand(
+        "geometry.flange_angle must put the contact of the rib on the roller's end face, below its axis",
+        (lowest < flange) & (flange < gamma),
+        lambda: (
+            f"geometry.flange_angle must be above {degrees(lowest)} and below {degrees(gamma)} (the roller axis) with "
+            f"an end_radius of {metres(end_radius)}, got {degrees(flange)}: {why()}"
+        ),
+    )

@@ -1,0 +1,119 @@
+r"""The tapered roller bearing as a scene: geometry, materials, oil, contact laws, operating point.
+
+Frames and signs. As for ball bearings: axial load and displacement push the inner ring (the cone) along $+e_x$, radial
+ones along azimuth 0; a positive moment or tilt moves azimuth 0 of the inner ring along $+e_x$. Here $+e_x$ points from
+the rollers' big ends towards the common apex of the cones, so that a positive axial load presses the bearing together.
+Loads and displacements are those of the *reference point* on the axis, `operation.load_position` from the apex: by
+default the apex itself. (The source's tilt t and moment M_1 have the opposite sense: $t = -$tilt.)
+"""
+
+from collections.abc import Iterator
+
+import jax.numpy as jnp
+from jaxtyping import Array
+
+from ..._scene import label, number
+from ..._types import Scalar
+from ...contacts.laws import ContactLaws
+from ...contacts.point_laws import PointLaws
+from ...lubricants import Lubricant
+from ...numerics.refusals import refusals_of, refuse_all
+from ..bearing import AbstractBearing
+from ..operation import AbstractOperation
+from ..parts import Drag, Materials
+from ..profile import RollerProfile
+from ..rating import Rating
+from .geometry import TaperedGeometry
+
+
+class TaperedOperation(AbstractOperation):
+    """Operating point of a tapered roller bearing: the batched part of a sweep.
+
+    It needs an axial load, towards the apex, or an axial displacement. Where nothing across the axis is given all
+    rollers are alike, and one of them is solved for.
+
+    **Arguments:** those of `AbstractOperation`, of the reference point, and
+    - `load_position`: of the reference point, from the apex along the axis, m; the rollers are on its negative side.
+    """
+
+    load_position: Scalar = number(0.0, kw_only=True, metadata=label("m", "reference point from the apex"))
+
+    def _conflicts(self) -> Iterator[str | ValueError]:
+        yield from super()._conflicts()
+        if self.load("axial") is None and self.held_at("axial") is None:
+            yield "operation.axial_load: a tapered roller bearing needs one, or operation.displacement.axial"
+
+
+class TaperedRollerBearing(AbstractBearing):
+    """A steady single-row tapered roller bearing under axial load, radial load and moment, whose rollers roll without
+    sliding about the apex: loads of raceways and rib, displacements, films, and what friction costs
+    (`friction`). A part that is `None` is not modelled.
+
+    - `contact`: laws of the raceways: films, and where named the rolling resistance. Its `traction` moves nothing: it
+      tells whether the films can carry what keeps the rollers rolling.
+    - `rib`: laws of the roller ends on the rib: film, and where named the traction of what slides there.
+    - `drag`: of the oil on the orbiting rollers.
+    - `profile`: without one rollers are straight, and contacts integrated in closed form.
+
+    **Raises:** `ValueError` for combinations that lack what they need.
+    """
+
+    geometry: TaperedGeometry
+    materials: Materials
+    operation: TaperedOperation
+    oil: Lubricant | None = None
+    contact: ContactLaws | None = None
+    profile: RollerProfile | None = None
+    rating: Rating | None = None
+    rib: PointLaws | None = None
+    drag: Drag | None = None
+
+    def __check_init__(self):
+        refuse_all(self._problems())
+
+    def _problems(self) -> Iterator[str | ValueError]:
+        if self.contact is None:
+            if self.rib is not None:
+                yield "contact: a scene with laws of the rib needs those of the raceways"
+            return
+        if self.oil is None:
+            yield "oil: a scene with a [contact] table needs an oil"
+        if self.drag is not None and self.oil is not None and self.oil.density is None:
+            yield "oil.density: the drag needs it"
+        if self.rib is not None and self.rib.rolling_resistance:
+            yield "rib.rolling_resistance: the rib has none, the roller ends slide on it"
+        yield from refusals_of(self.operation.check_rings_turn)
+
+    @property
+    def slips(self) -> bool:
+        """Rollers roll without sliding on the raceways."""
+        return False
+
+    @property
+    def ring_lever(self) -> Array:
+        """Lever by which the equations multiply the tilts of the ring, m."""
+        return self.geometry.apex_distance
+
+    @property
+    def port_distance(self) -> Array:
+        r"""Distance of the loads' reference point from the plane of the rollers' middles along $+e_x$, m:
+        $(\frac{D_w}{2\tan\epsilon} - \frac{l_w}2\cos\epsilon)\cos\gamma$ to the apex, and `load_position`."""
+        geometry, half = self.geometry, jnp.asarray(self.geometry.roller_half_angle)
+        along = 0.5 * geometry.roller_diameter / jnp.tan(half) - 0.5 * geometry.roller_length * jnp.cos(half)
+        return along * jnp.cos(geometry.axis_angle) + self.operation.load_position
+
+    def unused_parts(self) -> tuple[str, ...]:
+        """Tables that the scene names but that have no effect."""
+        if self.contact is not None:
+            return ()
+        named = {"oil": self.oil if self.rating is None else None, "drag": self.drag}
+        return tuple(name for name, part in named.items() if part is not None)
+
+    def assumptions(self) -> tuple[str, ...]:
+        """Notes for the user: assumptions of the model, and uses for which its data were not made."""
+        said = []
+        if self.contact is not None and self.oil is not None:
+            said += [f"oil: {note}" for note in self.oil.notes]
+            laws = (self.contact.traction, None if self.rib is None else self.rib.traction)
+            said += dict.fromkeys(note for law in laws if law is not None for note in law.notes(self.oil))
+        return tuple(said)

@@ -1,0 +1,64 @@
+"""Results of a tapered roller bearing, labelled (see `solution`)."""
+
+from typing import Any, ClassVar
+
+import equinox as eqx
+from jaxtyping import Array, Float
+
+from ..solution import label
+
+_Values = Float[Array, " element"]
+
+
+def _result(unit: str, description: str) -> Any:
+    return eqx.field(metadata=label(unit, description))
+
+
+def _optional(unit: str, description: str) -> Any:
+    return eqx.field(default=None, metadata=label(unit, description))
+
+
+class TaperedResults(eqx.Module):
+    """Arrays over the rollers; what is not modelled is `None`, films and tractions where nothing touches are NaN.
+    Speeds are positive in normal running."""
+
+    azimuth: _Values = _result("rad", "azimuth from the load line")
+    load_inner: _Values = _result("N", "normal load on the inner raceway")
+    load_outer: _Values = _result("N", "normal load on the outer raceway")
+    load_flange: _Values = _result("N", "normal load of the roller end on the rib")
+    contact_angle_inner: _Values = _result("rad", "half angle of the cone")
+    contact_angle_outer: _Values = _result("rad", "half angle of the cup")
+    pressure_inner: _Values = _result("Pa", "Hertz (peak) pressure on the inner raceway")
+    pressure_outer: _Values = _result("Pa", "Hertz (peak) pressure on the outer raceway")
+    pressure_flange: _Values = _result("Pa", "Hertz (peak) pressure on the rib")
+    orbital_speed: _Values = _result("rad/s", "speed of the roller centre about the bearing axis")
+    spin_speed: _Values = _result("rad/s", "spin about the roller's own axis, relative to its orbit")
+    roller_shift: _Values = _result("m", "displacement of the big end along the roller axis, towards the small end")
+    roller_lift: _Values = _result("m", "displacement of the big end across the roller axis, outwards")
+    roller_tilt: _Values = _result("rad", "tilt of the roller, small end outwards")
+    film_inner: _Values | None = _optional("m", "central film on the inner raceway, at mid length")
+    film_outer: _Values | None = _optional("m", "central film on the outer raceway, at mid length")
+    film_flange: _Values | None = _optional("m", "central film on the rib")
+    temperature_rise_inner: _Values | None = _optional("K", "inlet heating, inner")
+    temperature_rise_outer: _Values | None = _optional("K", "inlet heating, outer")
+    temperature_rise_flange: _Values | None = _optional("K", "inlet heating, rib")
+    sliding_flange: _Values | None = _optional("m/s", "speed of the rib over the roller end")
+    spin_flange: _Values | None = _optional("rad/s", "spin of the rib over the roller end about the normal")
+    traction_inner: _Values | None = _optional("N", "forward force by the inner race that keeps the roller rolling")
+    traction_outer: _Values | None = _optional("N", "backward force by the outer race that keeps the roller rolling")
+    traction_flange: _Values | None = _optional("N", "forward force by the rib")
+
+
+_Power = Float[Array, ""]
+
+
+class TaperedPowerLoss(eqx.Module):
+    """Dissipated power by location, W; the entries add up to `total`. Losses that a scene does not model are `None`,
+    and `total` is `None` where it models none. `never`: losses that no scene of this kind models."""
+
+    never: ClassVar[tuple[str, ...]] = ("inner_raceway", "outer_raceway", "cage")
+
+    total: _Power | None = _optional("W", "total")
+    rolling_resistance: _Power | None = _optional("W", "rolling resistance of the raceways")
+    flange: _Power | None = _optional("W", "roller ends sliding on the rib")
+    drag: _Power | None = _optional("W", "oil drag on the orbiting rollers")

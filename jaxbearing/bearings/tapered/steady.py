@@ -1,0 +1,351 @@
+"""Steady state of a tapered roller bearing: from the scene to the equations, and from the root to the results."""
+
+import dataclasses
+from typing import NamedTuple
+
+import jax.numpy as jnp
+from jaxtyping import Array, Bool, Float
+
+from ...contacts import LineContact, lamina_points
+from ...materials import reduced_modulus
+from ...numerics.arrow import ArrowPoint, linearize
+from ...numerics.newton import NewtonOptions, NewtonResult, newton_solve
+from ...numerics.safe import safe_norm
+from ...numerics.status import Status
+from ..assemble import assemble
+from ..checks import MEAN_OF_LINE, MEAN_OF_POINT, RACEWAYS, Contacts, Facts
+from ..parts import azimuths
+from ..rating import LAMINAE, rated_laminae
+from ..ring import InnerRing, Port
+from ..solution import RING_FREEDOMS, CageState, LaminaLoads, Reason, Solution
+from .build import build_tapered, rolling_motion
+from .friction import TaperedFriction, tapered_friction
+from .scene import TaperedRollerBearing
+from .solution import TaperedPowerLoss, TaperedResults
+from .system import Inertia, TaperedState, TaperedSystem
+
+ROUNDED_UP = 2e-6
+"""Added to a bound, of itself, so that its six printed digits are on the right side of it."""
+ROUNDING = 1e-9
+"""Relative round-off of the moments that a bound compares: closer cases are left to the solve."""
+HIGHEST = 9.0
+"""1/(10/9 - 1): see `line_pressure`."""
+
+
+def solve_tapered(scene: TaperedRollerBearing, options: NewtonOptions, ring: InnerRing | None = None) -> Solution:
+    """Steady state: pure, jit-able, vmap-able, differentiable; never raises for a failed solve. `ring`: instead of that
+    of the scene's operating point.
+
+    Where no equilibrium is found and one of two proofs holds that there is none, the status is `no_equilibrium`: the
+    loads are beyond a static bound (`slides_out`, `tips_over`), which they tell alone; or the cone, with all else in
+    equilibrium, is still pushed on at a tilt of 0.1 rad, or at a displacement of the apex distance
+    (`numerics.convex.find_minimum`).
+    """
+    asked = build_tapered(scene, ring)
+    sliding = slides_out(scene, asked.inertia) | tips_over(scene) if _bounded(scene, ring) else jnp.asarray(False)
+    # what has no equilibrium is not looked for: in its place a few steps to one that is finite, with its derivatives
+    easy = jnp.where(sliding, _axial_only(asked), asked.ring.load)
+    started, minimum = dataclasses.replace(asked, ring=asked.ring.under(easy)).started(sliding)
+    system, result = newton_solve(started, options)
+    none = sliding | (~result.converged & minimum.outside)
+    result = result._replace(status=jnp.where(none, int(Status.NO_EQUILIBRIUM), result.status))
+    result = result._replace(residual_norm=jnp.where(sliding, jnp.nan, result.residual_norm))
+    friction = None
+    if scene.contact is not None:
+        friction = tapered_friction(scene, system.at(result.point))
+        result = _with_nested(result, friction, options)
+    return assemble(
+        scene,
+        result,
+        _results(scene, system, result, friction),
+        system.ring.displacement(result.point.globals),
+        _port(scene, system, result),
+        reasons=_reasons(scene, asked.inertia) if _bounded(scene, ring) else {},
+        iterations=jnp.where(sliding, 0, minimum.steps + result.iterations),
+        ring_freedom=scene.shown_freedoms if ring is None else RING_FREEDOMS,
+        stiffness_freedom=RING_FREEDOMS,
+        equation_names=system.equation_names(),
+    )
+
+
+def _bounded(scene: TaperedRollerBearing, ring: InnerRing | None) -> bool:
+    """True if the loads alone may tell that there is no equilibrium: all forces are given."""
+    return ring is None and not scene.operation.displaced
+
+
+def slides_out(scene: TaperedRollerBearing, inertia: Inertia) -> Bool[Array, ""]:
+    r"""True if $F_a < F_r\tan\alpha_o + ZQ_c\sin\alpha_o$, $Q_c = F_c\cos\alpha_f/\cos(\alpha_o - \alpha_f)$: no
+    equilibrium then, whatever the tilt.
+
+    Every roller leans on the cup at that angle, and the centrifugal forces of two or more cancel (a single one proves
+    nothing): $F_a - F_r\tan\alpha_o = \sin\alpha_o\sum Q_o(1 - \cos\psi)$; and $Q_c$ is the least that a roller leans
+    on the cup with, its centrifugal force carried by cup and rib alone.
+    """
+    if scene.geometry.n_rollers < 2:
+        return jnp.asarray(False)
+    return jnp.asarray(scene.operation.axial_load) < least_axial_load(scene, inertia)
+
+
+def least_axial_load(scene: TaperedRollerBearing, inertia: Inertia) -> Float[Array, ""]:
+    """The bound of `slides_out`, N: less does not hold the cone in the cup."""
+    geometry = scene.geometry
+    cup, rib = jnp.asarray(geometry.contact_angle), jnp.asarray(geometry.flange_angle)
+    least = inertia.force * jnp.cos(rib) / jnp.cos(cup - rib)
+    return scene.operation.radial_size * jnp.tan(cup) + geometry.n_rollers * least * jnp.sin(cup)
+
+
+def tips_over(scene: TaperedRollerBearing) -> Bool[Array, ""]:
+    r"""True if given moments lie beyond what the cup can hold: no equilibrium then, whatever the tilt.
+
+    M about the apex (`moment` less the radial load times `load_position`) is $\sum\rho Q_o\cos\psi$, each load at a
+    distance $\rho$ between d - l and d from the apex, $F_r = \cos\alpha_o\sum Q_o\cos\psi$ and $F_a =
+    \sin\alpha_o\sum Q_o$; so $|M - (d - l/2)F_r/\cos\alpha_o| \le (l/2)F_a/\sin\alpha_o$. With the lateral load and
+    the moment about the load line this holds of the two together, as a plane vector. What rotation adds cancels round
+    two or more rollers.
+    """
+    ranges = _moment_ranges(scene)
+    if scene.geometry.n_rollers < 2 or not ranges:
+        return jnp.asarray(False)
+    beyond = [one.moment - one.middle for one in ranges.values()]
+    size = jnp.abs(beyond[0]) if len(beyond) == 1 else safe_norm(beyond[0], beyond[1])
+    rounding = sum(jnp.abs(one.moment) + jnp.abs(one.middle) for one in ranges.values())
+    return size > next(iter(ranges.values())).most + ROUNDING * rounding
+
+
+class _MomentRange(NamedTuple):
+    """A given moment about the apex, N m, the middle and half width of its range, and what is added to come to the
+    reference point."""
+
+    moment: Array
+    middle: Array
+    most: Array
+    shift: Array
+
+
+def _moment_ranges(scene: TaperedRollerBearing) -> dict[str, _MomentRange]:
+    """Ranges of the given moments by their names, each with the force that moves its azimuth."""
+    operation, geometry = scene.operation, scene.geometry
+    cup, length = jnp.asarray(geometry.contact_angle), jnp.asarray(geometry.roller_length)
+    most = 0.5 * length * jnp.asarray(operation.axial_load) / jnp.sin(cup)
+    found = {}
+    given = {
+        "moment": (operation.moment, operation.radial_load),
+        "moment about the load line": (operation.moment_lateral, operation.radial_load_lateral),
+    }
+    for name, (moment, load) in given.items():
+        if moment is not None:
+            force = jnp.asarray(0.0 if load is None else load)
+            shift = jnp.asarray(operation.load_position) * force
+            middle = (geometry.apex_distance - 0.5 * length) * force / jnp.cos(cup)
+            found[name] = _MomentRange(jnp.asarray(moment) - shift, middle, most, shift)
+    return found
+
+
+def _reasons(scene: TaperedRollerBearing, inertia: Inertia) -> dict[str, Reason]:
+    """Possible causes of a failed solve: loads beyond the static bounds, with the bounds."""
+    sliding, least = slides_out(scene, inertia), least_axial_load(scene, inertia)
+    given = jnp.asarray(scene.operation.axial_load)
+    found = {
+        "the axial load of {:.6g} N must be at least {:.6g} N to hold the cone in the cup": Reason(
+            sliding, jnp.stack([given, least * (1.0 + ROUNDED_UP)])
+        )
+    }
+    ranges, tipping = _moment_ranges(scene), tips_over(scene) & ~sliding
+    for name, (moment, middle, most, shift) in ranges.items():
+        ends = jnp.stack([moment + shift, middle - most + shift, middle + most + shift])
+        text = f"the {name} of {{:.4g}} N m must lie between {{:.4g}} and {{:.4g}} N m"
+        found[text] = Reason(tipping, ends)
+    if len(ranges) == 2:
+        text = "both moments together, as a vector, at most {:.4g} N m from the middles of these ranges"
+        found[text] = Reason(tipping, ranges["moment"].most[None])
+    return found
+
+
+def _axial_only(system: TaperedSystem) -> Float[Array, " freedom"]:
+    """Loads of the size of the system's that have an equilibrium: along the axis alone."""
+    along = jnp.asarray([1.0 if name == "axial" else 0.0 for name in system.freedoms])
+    return along * (system.load_scale() + jnp.sum(jnp.abs(system.ring.load) * (1.0 - along)))
+
+
+def _with_nested(result: NewtonResult, friction: TaperedFriction, options: NewtonOptions) -> NewtonResult:
+    """The residual of the films' nested solves; not converged where that is too large."""
+    residual = friction.races.residual
+    if friction.rib is not None:
+        residual = jnp.maximum(residual, friction.rib.residual)
+    failed = result.converged & ~(residual <= options.inner_tolerance)
+    status = jnp.where(failed, int(Status.NOT_CONVERGED), result.status)
+    return result._replace(status=status, inner_residual=jnp.maximum(result.inner_residual, residual))
+
+
+class _Results(NamedTuple):
+    """Results before masking; `facts`: what the range checks look at."""
+
+    cage: CageState | None
+    elements: TaperedResults
+    power_loss: TaperedPowerLoss
+    drive_power: Array | None
+    inner_torque: Array | None
+    outer_torque: Array | None
+    laminae: LaminaLoads
+    facts: Facts
+
+
+def _results(
+    scene: TaperedRollerBearing,
+    system: TaperedSystem,
+    result: NewtonResult,
+    friction: TaperedFriction | None,
+) -> _Results:
+    geometry, state = scene.geometry, system.at(result.point)
+    count = geometry.n_rollers
+    every = lambda values: jnp.broadcast_to(values, (count,))
+    motion = rolling_motion(geometry, scene.operation)
+    place = system.units() * result.point.elements
+    pressure = line_pressure(scene, system, state)
+    modulus = reduced_modulus(scene.materials.rings, scene.materials.rollers)
+    flange = geometry.flange_contact(modulus).hertz_pressure(state.flange_load)
+    more = {} if friction is None else _of_friction(friction, state)
+    positive = lambda values: every(jnp.where(values > 0, values, 0.0))  # and no -0.0
+    elements = TaperedResults(
+        azimuth=azimuths(geometry, count),
+        load_inner=positive(state.load[0]),
+        load_outer=positive(state.load[1]),
+        load_flange=positive(state.flange_load),
+        contact_angle_inner=every(geometry.cone_angle),
+        contact_angle_outer=every(jnp.asarray(geometry.contact_angle)),
+        pressure_inner=every(pressure[0]),
+        pressure_outer=every(pressure[1]),
+        pressure_flange=every(jnp.where(state.flange_load > 0, flange, 0.0)),
+        orbital_speed=every(motion.orbital_speed),
+        spin_speed=every(motion.spin_speed),
+        roller_shift=every(place[0]),
+        roller_lift=every(place[1]),
+        roller_tilt=every(place[2]),
+        **{name: every(values) for name, values in more.items()},
+    )
+    own = LAMINAE if scene.profile is None else scene.profile.n_laminae
+    rated = rated_laminae(scene.rating, own)
+    cut = lambda number: jnp.stack(
+        [system.line.laminae(state.approach[side], state.slope[side], number) for side in (0, 1)]
+    )
+    laminae = cut(own)
+    inner_laminae, outer_laminae = (
+        jnp.broadcast_to(side, (count, rated)) for side in (laminae if rated == own else cut(rated))
+    )
+    losses, drive, inner, outer = TaperedPowerLoss(), None, None, None
+    if friction is not None:
+        losses, inner, outer = friction.losses, friction.inner_torque, friction.outer_torque
+    if inner is not None and outer is not None:
+        drive = scene.operation.inner_speed * inner + scene.operation.outer_speed * outer
+    return _Results(
+        cage=None,
+        elements=elements,
+        power_loss=losses,
+        drive_power=drive,
+        inner_torque=inner,
+        outer_torque=outer,
+        laminae=LaminaLoads(
+            inner_laminae, outer_laminae, scene.profile is not None and scene.profile.shape is not None
+        ),
+        facts=_facts(scene, state, friction, pressure, flange, laminae, place[2]),
+    )
+
+
+def _of_friction(friction: TaperedFriction, state: TaperedState) -> dict[str, Array]:
+    """Films, their temperatures and friction, by the names of the results."""
+    races, rib, balance = friction.races, friction.rib, friction.balance
+    more = {"film_inner": races.film[0], "film_outer": races.film[1]}
+    if races.temperature_rise is not None:
+        more |= {
+            "temperature_rise_inner": races.temperature_rise[0],
+            "temperature_rise_outer": races.temperature_rise[1],
+        }
+    if balance is not None:
+        # without load it is the cage's, not the raceway's
+        traction = jnp.where(state.load > 0, balance.traction, jnp.nan)
+        more |= {"traction_inner": traction[0], "traction_outer": -traction[1]}
+    if rib is None:
+        return more
+    more |= {"film_flange": rib.film, "sliding_flange": rib.motion.sliding_speed, "spin_flange": rib.motion.spin}
+    if rib.temperature_rise is not None:
+        more["temperature_rise_flange"] = rib.temperature_rise
+    if rib.traction is not None:
+        more["traction_flange"] = rib.traction.rolling
+    return more
+
+
+def _facts(
+    scene: TaperedRollerBearing,
+    state: TaperedState,
+    friction: TaperedFriction | None,
+    pressure: Float[Array, "2 roller"],
+    flange: Float[Array, " roller"],
+    laminae: Float[Array, "2 roller lamina"],
+    tilt: Float[Array, " roller"],
+) -> Facts:
+    """The facts that the range checks need, of raceways and rib."""
+    races = Contacts(RACEWAYS, state.load, pressure, MEAN_OF_LINE, laminae=laminae)
+    rib = Contacts(
+        ("the rib",),
+        state.flange_load[None],
+        flange[None],
+        MEAN_OF_POINT,
+        past_edge=_end_reach(scene, state)[None],
+        edges=("the edge of the roller's end face, on the rib",),
+    )
+    if friction is None or scene.contact is None or scene.oil is None:
+        return Facts((races, rib), roller_tilt=tilt)
+    inlet, of_races, of_rib = scene.oil.at(scene.operation.oil_temperature), friction.races, friction.rib
+    warm = lambda rise: None if rise is None else inlet.temperature + rise
+    races = races._replace(laws=scene.contact, mean_speed=of_races.speed, temperature=warm(of_races.temperature_rise))
+    if of_rib is not None:
+        rise = of_rib.temperature_rise
+        rib = rib._replace(laws=scene.rib, temperature=warm(None if rise is None else rise[None]))
+    reserve = None
+    if of_races.capacity is not None and friction.balance is not None:
+        reserve = of_races.capacity - jnp.abs(friction.balance.traction)
+    return Facts((races, rib), inlet=inlet, traction_reserve=reserve, roller_tilt=tilt)
+
+
+def line_pressure(scene: TaperedRollerBearing, system: TaperedSystem, state: TaperedState) -> Float[Array, "2 roller"]:
+    r"""Largest Hertz pressure along each raceway contact, Pa: $p_0^2 = qE'/(2\pi R)$ with q and R of the place.
+
+    Straight rollers: R shrinks towards the apex, so that the largest is at an end, or, where the load falls towards the
+    small end, at $s = 10d - 9f/|g|$, where $d\,p_0/ds = 0$. With a profile: the largest of the points that the load is
+    summed over, so that one without load has none.
+    """
+    geometry = scene.geometry
+    modulus = reduced_modulus(scene.materials.rings, scene.materials.rollers)
+    length, reach = system.line.length, geometry.apex_distance
+    if scene.profile is None:
+        falls = state.slope < 0
+        steep = jnp.where(falls, -state.slope, 1.0)
+        inside = jnp.where(falls, 10.0 * reach - HIGHEST * state.approach / steep, 0.0)
+        place = jnp.stack([jnp.zeros_like(inside), jnp.ones_like(inside), jnp.clip(inside / length, 0.0, 1.0)])
+    else:
+        places = jnp.asarray(lamina_points(scene.profile.n_laminae)[0])[:, None, None]
+        place = jnp.broadcast_to(places, (len(places), *state.slope.shape))
+    load = system.line.load_per_length(state.approach[None], state.slope[None], place)
+    radii = jnp.stack([geometry.race_reduced_radii(place[:, side])[side] for side in (0, 1)], axis=1)
+    contact = LineContact(radii, jnp.ones(()), modulus)
+    return jnp.max(jnp.where(load > 0, contact.hertz_pressure(load), 0.0), axis=0)
+
+
+def _end_reach(scene: TaperedRollerBearing, state: TaperedState) -> Array:
+    """Length by which the ellipse on the rib reaches beyond the end face, m."""
+    geometry = scene.geometry
+    modulus = reduced_modulus(scene.materials.rings, scene.materials.rollers)
+    below = geometry.end_radius * jnp.sin(geometry.flange_tilt)
+    # across the rolling direction, along the rib's generator
+    ellipse = geometry.flange_contact(modulus).ellipse(state.flange_load)
+    return below + ellipse.transverse - 0.5 * geometry.roller_diameter
+
+
+def _port(scene: TaperedRollerBearing, system: TaperedSystem, result: NewtonResult) -> Port:
+    """The reaction and the stiffness of the cone's five freedoms at the reference point, rollers in equilibrium."""
+    full = build_tapered(scene, system.ring.released(system.load_scale()))
+    elements = jnp.broadcast_to(result.point.elements, (3, scene.geometry.n_rollers))
+    point = ArrowPoint(elements, system.ring.released_unknowns(result.point.globals))
+    equations, jacobian = linearize(full, point)
+    force = equations.residual.globals * full.load_scale() + full.ring.load
+    return full.ring.port(jacobian, force, full.load_scale(), system.freedoms)

@@ -1,0 +1,295 @@
+r"""Equations of the tapered roller bearing without friction on the raceways: one block-arrow system.
+
+Unknowns per roller: u_x along its axis towards the small end, u_z outwards (both of the big end's centre), and the tilt
+phi that moves the small end outwards; globally the displacements of the cone. With the cone's motion at the roller,
+(Da, Dr) of the apex and the tilt t that turns a towards r (source eqs. (44)-(50), coefficients derived):
+
+- $\delta_k(s) = f_k + g_ks$: $f_i = u_x\sin\epsilon - u_z\cos\epsilon + \phi C + D_a\sin\alpha_i + D_r\cos\alpha_i -
+  td$, $g_i = t - \phi$; $f_o = u_x\sin\epsilon + u_z\cos\epsilon - \phi C$, $g_o = \phi$; $C =
+  \frac{D_w}{2}\sin\epsilon$;
+- $\delta_f = -u_x\cos\theta - u_z\sin\theta - \phi R_s\cos\lambda\sin\theta + D_a\cos\alpha_f - D_r\sin\alpha_f +
+  tT_f$.
+  (Eq. (50) prints D_f for B_f in its second term, and -D_f, +E_f in its ring terms, which contradict eqs. (56)-(57).)
+
+Everything is the gradient of one convex potential, $\Pi = \sum[w_i + w_o + \frac25k_f\delta_{f+}^{5/2} - F_c\,u_r +
+M_g\phi] - F\cdot q$, with $u_r$ outwards at the centre of mass: the rows are those of eqs. (54), (56), (57) with *all*
+moments about the big end's centre (the source takes the contacts' about it and the rib's lever about the centre of
+mass: its moment row is off by $s_c(Q_i - Q_o)$).
+
+A roller that nothing touches has no place, nor has a cone that touches no roller. Each is held by a spring of `ANCHOR`
+from where it is, which adds to the Jacobian and nothing to the balances.
+"""
+
+import dataclasses
+from typing import NamedTuple
+
+import equinox as eqx
+import jax
+import jax.numpy as jnp
+from jaxtyping import Array, Bool, Float
+
+from ...contacts import AbstractTiltedLine
+from ...numerics.arrow import ArrowPoint
+from ...numerics.batching import in_turn
+from ...numerics.convex import AbstractConvexArrow, Minimum, anchored, find_minimum
+from ...numerics.safe import positive_power
+from ..ring import ANCHOR, LENGTH_UNIT, TILTS, InnerRing
+
+LOAD_FLOOR = 1e-3
+"""Added to the scale of loads, N."""
+START_TOLERANCE = 1e-7
+"""Scaled residual at which the descent of the potential hands over to Newton."""
+LONGEST_STEP = 1e-4
+"""Largest change of a displacement in one Newton step, m."""
+FARTHEST = 100.0
+"""Displacement of a roller, m, at which an iterate is lost."""
+MOST_TILT = 0.1
+"""Largest tilt of a ring that is free to tilt, rad. The equations are those of small displacements; they do have roots
+beyond, where rollers carry all load on the last micrometres of their length while the others are millimetres apart."""
+
+
+SEATING = 1e-3
+"""Centrifugal force, over a roller's share of the load, below which rollers that carry nothing hardly find their
+places: forces of 1e-10 of the others bring them there. Where Newton's iteration fails so, it begins with this much and
+walks down."""
+
+
+class TaperedForm(NamedTuple):
+    """Geometry as the equations need it; `sine`, `cosine`: of epsilon; angles in rad, lengths in m."""
+
+    sine: Array
+    cosine: Array
+    cone_angle: Array
+    cup_angle: Array
+    axis_angle: Array
+    flange_angle: Array
+    flange_tilt: Array
+    offset: Array
+    """C."""
+    apex_distance: Array
+    end_height: Array
+    flange_arm: Array
+    """T_f."""
+
+
+class Inertia(NamedTuple):
+    """Centrifugal force, N, at `centre` from the big end along the roller axis, m, and gyroscopic moment, N m."""
+
+    force: Array
+    centre: Array
+    moment: Array
+
+
+class TaperedState(NamedTuple):
+    """State of every roller: approaches f (m) and g (rad), loads (N), moments about s = 0 (N m), races first."""
+
+    approach: Float[Array, "2 roller"]
+    slope: Float[Array, "2 roller"]
+    flange_approach: Float[Array, " roller"]
+    load: Float[Array, "2 roller"]
+    moment: Float[Array, "2 roller"]
+    flange_load: Float[Array, " roller"]
+
+
+class TaperedSystem(AbstractConvexArrow):
+    """See the module. Unknowns are lengths in units of 10 um: phi times the roller length, ring tilts times d.
+
+    `columns[f]` are (Da, Dr, t) at every roller for a unit of freedom f, `held` those of what the ring
+    is held at.
+    """
+
+    form: TaperedForm
+    line: AbstractTiltedLine
+    flange_stiffness: Float[Array, ""]
+    inertia: Inertia
+    columns: Float[Array, "freedom 3 roller"]
+    held: Float[Array, "3 roller"]
+    ring: InnerRing
+    guess: ArrowPoint | None
+    seated: ArrowPoint | None
+    """First guess at parameter 1 of the homotopy."""
+    multiplicity: int = eqx.field(static=True)
+
+    @property
+    def freedoms(self) -> tuple[str, ...]:
+        """Freedoms of the ring that are unknown."""
+        return self.ring.freedoms
+
+    # -- scales ---------------------------------------------------------------------------------------------------
+
+    @property
+    def roller_count(self) -> int:
+        return self.multiplicity * self.held.shape[1]
+
+    def load_scale(self) -> Array:
+        """Scale of the ring's balances, N."""
+        return jnp.sqrt(jnp.square(self.ring.size()) + LOAD_FLOOR**2)
+
+    def roller_scale(self) -> Array:
+        """Scale of a roller's balances, N."""
+        return self.load_scale() / self.roller_count + self.inertia.force
+
+    def units(self) -> Float[Array, "3 1"]:
+        """u_x, u_z, phi for a unit of the unknowns."""
+        return LENGTH_UNIT * jnp.stack([jnp.ones(()), jnp.ones(()), 1.0 / jnp.asarray(self.line.length)])[:, None]
+
+    # -- solver contract ------------------------------------------------------------------------------------------
+
+    def equation_names(self) -> tuple[str, ...]:
+        own = ("force balance along a roller", "force balance across a roller", "moment balance of a roller")
+        return (*own, *self.ring.equation_names())
+
+    def step_caps(self) -> ArrowPoint:
+        cap = LONGEST_STEP / LENGTH_UNIT
+        return ArrowPoint(jnp.full((3, 1), cap), jnp.full(len(self.freedoms), cap))
+
+    def bounds(self) -> tuple[ArrowPoint, ArrowPoint]:
+        """Limits of the search for an equilibrium; of the ring the apex distance, or the largest tilt."""
+        away = self.form.apex_distance / LENGTH_UNIT
+        ring = self.ring.of_each(lambda name: MOST_TILT * away if name in TILTS else away)
+        high = ArrowPoint(jnp.full((3, 1), FARTHEST / LENGTH_UNIT), ring)
+        return ArrowPoint(-high.elements, -high.globals), high
+
+    def initial(self) -> ArrowPoint:
+        """In contact: the ring pressed in by 20 um or more, rollers in between."""
+        if self.guess is not None:
+            return self.guess
+        if not self.freedoms:
+            # towards each roller, as far as an axial displacement would bring the cone
+            pressed = self.pressed(self.held) / jnp.sin(self.form.cone_angle)
+            axial = jnp.maximum(pressed, 2e-6) / LENGTH_UNIT
+            return ArrowPoint(jnp.stack([0.9 * axial, 0.05 * axial, 0.0 * axial]), jnp.zeros(0))
+        share = self.load_scale() / (self.roller_count * jnp.sin(self.form.cup_angle))
+        even = (share / (self.line.stiffness * self.line.length)) ** 0.9
+        axial = jnp.maximum(2.0 * even / jnp.sin(self.form.cone_angle), 2e-6) / LENGTH_UNIT
+        ring = self.ring.of_each(lambda name: axial if name == "axial" else 0.0)
+        ones = jnp.ones(self.held.shape[1])
+        return ArrowPoint(jnp.stack([0.9 * axial * ones, 0.05 * axial * ones, 0.0 * ones]), ring)
+
+    def element(self, unknowns, shared):
+        state = self.state(unknowns, shared)
+        balance = self.balance(state) + anchored(unknowns, ANCHOR * LENGTH_UNIT)
+        totals = self.multiplicity * jnp.einsum("fcn,cn->fn", self.columns, self.ring_force(state))
+        return balance / self.roller_scale(), totals, jnp.zeros(())
+
+    def global_residual(self, globals_, totals):
+        held = anchored(globals_, ANCHOR * LENGTH_UNIT)
+        return (totals - self.ring.load + held) / self.load_scale(), jnp.zeros(())
+
+    def energies(self, unknowns, shared):
+        """Energy of the contacts of each roller less the work of its inertia, J."""
+        state = self.state(unknowns, shared)
+        along, across, tilt = self.units() * unknowns
+        line = jnp.sum(self.line.energy(state.approach, state.slope), axis=0)
+        flange = 0.4 * self.flange_stiffness * positive_power(state.flange_approach, 2.5)
+        sine, cosine = jnp.sin(self.form.axis_angle), jnp.cos(self.form.axis_angle)
+        outwards = -along * sine + (across + tilt * self.inertia.centre) * cosine
+        return self.multiplicity * (line + flange - self.inertia.force * outwards + self.inertia.moment * tilt)
+
+    def work(self, globals_):
+        """Work of the ring's loads, J."""
+        return LENGTH_UNIT * jnp.sum(self.ring.load * globals_)
+
+    @property
+    def homotopies(self) -> int:
+        return 0 if self.seated is None else 1
+
+    def homotopy(self, parameter, path):
+        """More inertia, where there is some: it brings the rollers that carry nothing to their places."""
+        del path
+        guess = None
+        if self.guess is not None and self.seated is not None:
+            guess = jax.tree.map(lambda own, other: jnp.where(parameter < 1.0, own, other), self.guess, self.seated)
+        force = self.inertia.force
+        factor = jnp.maximum(self._slowness(), 1.0) ** parameter
+        inertia = self.inertia._replace(force=force * factor, moment=self.inertia.moment * factor)
+        return dataclasses.replace(self, inertia=inertia, guess=guess)
+
+    def _slowness(self) -> Array:
+        """`SEATING` over the centrifugal force; 0 at rest."""
+        force = self.inertia.force
+        least = SEATING * self.load_scale() / self.roller_count
+        return jnp.where(force > 0, least / jnp.where(force > 0, force, 1.0), 0.0)
+
+    def started(self, hopeless: Bool[Array, ""]) -> tuple["TaperedSystem", Minimum]:
+        """These equations with the minimum of the potential as first guess, that with more inertia as another one, and
+        how the first was found; `hopeless`: known to have none."""
+        both = in_turn(_minima, jax.lax.stop_gradient((self, hopeless)))
+        found, seated = (jax.tree.map(lambda leaf, i=i: leaf[i], both) for i in (0, 1))
+        system = dataclasses.replace(self, guess=found.point, seated=seated.point)
+        return system, found._replace(steps=found.steps + seated.steps)
+
+    # -- physics --------------------------------------------------------------------------------------------------
+
+    def at(self, point: ArrowPoint) -> TaperedState:
+        shape = (point.globals.shape[0], point.elements.shape[1])
+        return self.state(point.elements, jnp.broadcast_to(point.globals[:, None], shape))
+
+    def state(self, unknowns: Float[Array, "3 roller"], shared: Float[Array, "freedom roller"]) -> TaperedState:
+        motion = self.held + LENGTH_UNIT * jnp.einsum("fn,fcn->cn", shared, self.columns)
+        return self._loaded(*self.approaches(self.units() * unknowns, motion))
+
+    def pressed(self, motion: Float[Array, "3 roller"]) -> Float[Array, " roller"]:
+        """Displacement of the cone's raceway towards each roller, in its middle, m; of the cone's (Da, Dr, t)."""
+        axial, radial, turn = motion
+        normal = axial * jnp.sin(self.form.cone_angle) + radial * jnp.cos(self.form.cone_angle)
+        return normal - turn * (self.form.apex_distance - 0.5 * self.line.length)
+
+    def approaches(
+        self, place: Float[Array, "3 roller"], motion: Float[Array, "3 roller"]
+    ) -> tuple[Float[Array, "2 roller"], Float[Array, "2 roller"], Float[Array, " roller"]]:
+        """f and g of both races and delta_f, from (u_x, u_z, phi) and the cone's (Da, Dr, t), m and rad."""
+        form, (along, across, tilt), (axial, radial, turn) = self.form, place, motion
+        cone = axial * jnp.sin(form.cone_angle) + radial * jnp.cos(form.cone_angle) - turn * form.apex_distance
+        inner = along * form.sine - across * form.cosine + tilt * form.offset + cone
+        outer = along * form.sine + across * form.cosine - tilt * form.offset
+        rib = axial * jnp.cos(form.flange_angle) - radial * jnp.sin(form.flange_angle) + turn * form.flange_arm
+        below = jnp.sin(form.flange_tilt)
+        flange = rib - along * jnp.cos(form.flange_tilt) - (across + tilt * form.end_height) * below
+        return jnp.stack([inner, outer]), jnp.stack([turn - tilt, tilt]), flange
+
+    def _loaded(self, approach: Array, slope: Array, flange: Array) -> TaperedState:
+        load, moment = self.line.load_and_moment(approach, slope)
+        return TaperedState(approach, slope, flange, load, moment, self.flange_stiffness * positive_power(flange, 1.5))
+
+    def balance(self, state: TaperedState) -> Float[Array, "3 roller"]:
+        """Forces along and across a roller and moment (over the roller length) about its big end's centre, N."""
+        form, (inner, outer), (inner_moment, outer_moment) = self.form, state.load, state.moment
+        flange, inertia = state.flange_load, self.inertia
+        sine, cosine = jnp.sin(form.axis_angle), jnp.cos(form.axis_angle)
+        below = jnp.sin(form.flange_tilt)
+        along = (inner + outer) * form.sine - flange * jnp.cos(form.flange_tilt) + inertia.force * sine
+        across = (outer - inner) * form.cosine - flange * below - inertia.force * cosine
+        moment = outer_moment - inner_moment + form.offset * (inner - outer) - flange * form.end_height * below
+        moment = moment - inertia.force * inertia.centre * cosine + inertia.moment
+        return jnp.stack([along, across, moment / self.line.length])
+
+    def ring_force(self, state: TaperedState) -> Float[Array, "3 roller"]:
+        """Force of the cone on each roller, axial and radial, N, and moment about the apex, N m: conjugate to (Da, Dr,
+        t)."""
+        form, inner, flange = self.form, state.load[0], state.flange_load
+        axial = inner * jnp.sin(form.cone_angle) + flange * jnp.cos(form.flange_angle)
+        radial = inner * jnp.cos(form.cone_angle) - flange * jnp.sin(form.flange_angle)
+        return jnp.stack([axial, radial, state.moment[0] - form.apex_distance * inner + form.flange_arm * flange])
+
+    def cup_force(self, state: TaperedState) -> Float[Array, "3 roller"]:
+        """Force of each roller on the cup, axial, radial, N, and moment about the apex, N m, conjugate to the cup's
+        (Da, Dr, t): for the closure of the whole."""
+        form, outer = self.form, state.load[1]
+        axial, radial = outer * jnp.sin(form.cup_angle), outer * jnp.cos(form.cup_angle)
+        return jnp.stack([axial, radial, state.moment[1] - form.apex_distance * outer])
+
+
+def _minima(given: tuple[TaperedSystem, Bool[Array, ""]]) -> Minimum:
+    """Finds the minima of a system and of the one with more inertia, along a first axis."""
+    system, hopeless = given
+    start = system.initial()
+    nothing = Minimum(start, jnp.asarray(0), jnp.asarray(False))
+
+    def search(parameter: Array) -> Minimum:
+        # where it is fast enough the second one is the first
+        there = dataclasses.replace(system.homotopy(parameter, jnp.asarray(0)), guess=start)
+        find = lambda: find_minimum(there, tolerance=START_TOLERANCE, hopeless=hopeless)
+        return jax.lax.cond((parameter > 0.0) & ((system._slowness() <= 1.0) | hopeless), lambda: nothing, find)
+
+    return jax.lax.map(search, jnp.asarray([0.0, 1.0]))
