@@ -3,7 +3,7 @@
 import abc
 import dataclasses
 from collections.abc import Mapping
-from typing import Any, TypeVar
+from typing import Any, ClassVar, TypeVar
 
 import equinox as eqx
 import jax
@@ -38,7 +38,22 @@ def optional_number(*, bound: str = "finite", **kwargs: Any) -> Any:
 
 
 class AbstractScene(Shown):
-    """Base of scenes: makes changed copies, by the attribute names of the scene file."""
+    """Base of scenes: makes changed copies, by the attribute names of the scene file.
+
+    A class of scenes says what the verbs and the pages ask of its kind: they know no list of kinds.
+    """
+
+    kind: ClassVar[str] = ""
+    """Kind of the scene, as `kind` in scene files has it."""
+
+    def steady_solution(self, options: Any) -> Any:
+        """The steady state, traced inside the program of `jb.solve`; pure, and never raises for a failed solve.
+
+        **Arguments:** `options`: `NewtonOptions`, of those kinds that have unknowns.
+
+        **Raises:** `TypeError` for a kind of scene without one.
+        """
+        raise TypeError(f"cannot solve a {type(self).__name__}: its class has no method steady_solution")
 
     def replace(self: Scene, changes: dict[str, Any]) -> Scene:
         """A copy with other values; keys are dotted paths, values SI numbers (or parts).

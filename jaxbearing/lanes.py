@@ -26,7 +26,7 @@ from .numerics.precision import as_float, require_x64
 from .numerics.quiet import compiling_quietly
 from .numerics.status import Status
 from .programs import KeptProgram
-from .solve import solve, steady_function
+from .solve import require_solvable, solve
 
 Method = Literal["map", "vmap"]
 """Order in which a device solves its lanes: one after the other, or all in step, each waiting for the slowest."""
@@ -71,7 +71,7 @@ class LaneProgram:
         self.lanes = lanes
         self.devices = jax.local_devices()[:devices]
         self._example = jax.tree.map(as_float, example)
-        steady_function(make(self.base, self._example))
+        require_solvable(make(self.base, self._example))
         self._static = (make, method, options)
         self._quick = quick
         self._kept = KeptProgram(_lanes, quick)

@@ -17,11 +17,9 @@ from jax.core import Tracer
 from jaxtyping import Array, Float
 
 from ._types import Scalar
-from .bearings.ball.scene import BallBearing
-from .bearings.cylindrical.scene import CylindricalRollerBearing
+from .bearings.bearing import AbstractBearing
 from .bearings.ring import held_ring
 from .bearings.solution import RING_FREEDOMS, RingDisplacement, Solution
-from .bearings.tapered.scene import TaperedRollerBearing
 from .numerics.arguments import require_choice, require_numbers
 from .numerics.checks import void
 from .numerics.compiling import inside_a_program
@@ -31,14 +29,13 @@ from .numerics.precision import as_float, require_x64
 from .numerics.quiet import quiet_first_time
 from .numerics.status import Status
 from .programs import KeptProgram
-from .solve import chosen_options, solve_held, with_checked_inputs
+from .solve import chosen_options, with_checked_inputs
 
-Bearing = BallBearing | CylindricalRollerBearing | TaperedRollerBearing
 _POINTS, _TILTS = ("port", "ring"), ("exact", "linear")
 
 
 def reaction(
-    scene: Bearing,
+    scene: AbstractBearing,
     displacement: RingDisplacement | Mapping[str, Any] | Sequence[Any] | Array,
     *,
     at: Literal["port", "ring"] = "port",
@@ -86,10 +83,10 @@ def reaction(
     require_choice("at", at, _POINTS)
     if tilt is not None:
         require_choice("tilt", tilt, _TILTS)
-    if not isinstance(scene, Bearing):
+    if not isinstance(scene, AbstractBearing):
         raise TypeError(f"reaction takes a bearing, got a {type(scene).__name__}")
     five = _five(displacement)
-    if _cannot_tilt(scene) and not isinstance(five, Tracer) and np.any(np.asarray(five)[3:] != 0.0):
+    if not scene.may_tilt and not isinstance(five, Tracer) and np.any(np.asarray(five)[3:] != 0.0):
         raise ValueError(
             "displacement: tilt and tilt_lateral of a cylindrical roller bearing with contact.traction must be 0, "
             "since rollers that slide are not modelled with a tilt; leave out the tilts or the traction"
@@ -103,10 +100,6 @@ def reaction(
         if throw:
             solution.raise_if_failed()
     return solution
-
-
-def _cannot_tilt(scene: Bearing) -> bool:
-    return isinstance(scene, CylindricalRollerBearing) and scene.slips
 
 
 def _number(name: str, value: Any) -> Array | np.ndarray:
@@ -139,7 +132,7 @@ def _five(displacement: Any) -> Array | np.ndarray:
 
 @rare_garbage_collection()
 def _react_any(
-    scene: Bearing,
+    scene: AbstractBearing,
     displacement: Float[Array, "5"],
     closure: Float[Array, ""],
     expansion: Float[Array, ""],
@@ -149,19 +142,19 @@ def _react_any(
 ) -> Solution:
     numbers = (displacement, closure, expansion)
     finite = jnp.all(jnp.stack([jnp.all(jnp.isfinite(one)) for one in numbers]))
-    if _cannot_tilt(scene):
+    if not scene.may_tilt:
         finite &= jnp.all(displacement[3:] == 0.0)
 
-    def react(lane: Bearing) -> Solution:
+    def react(lane: AbstractBearing) -> Solution:
         displacement, closure, expansion = (jnp.where(finite, one, 0.0) for one in numbers)
         lane = dataclasses.replace(lane, operation=void(lane.operation, finite))
         solution = at_displacement(lane, displacement, closure, expansion)
         return dataclasses.replace(solution, status=jnp.where(finite, solution.status, int(Status.INVALID_INPUT)))
 
-    def at_displacement(lane: Bearing, displacement: Array, closure: Array, expansion: Array) -> Solution:
+    def at_displacement(lane: AbstractBearing, displacement: Array, closure: Array, expansion: Array) -> Solution:
         distance = lane.port_distance if at == "port" else jnp.zeros(())
         ring = held_ring(displacement, lane.ring_lever, distance, closure, expansion)
-        return solve_held(lane, options, ring, None if tilt is None else tilt == "exact")
+        return lane.solve_ring(options, ring, None if tilt is None else tilt == "exact")
 
     return with_checked_inputs(scene, react)
 

@@ -17,7 +17,7 @@ from .numerics.garbage import rare_garbage_collection
 from .numerics.newton import NewtonOptions
 from .numerics.precision import as_float, require_x64
 from .programs import KeptProgram
-from .solve import _solve_any, steady_function
+from .solve import _solve_any, require_solvable
 
 _Slopes = dict[str, Float[Array, ""]]
 
@@ -76,7 +76,7 @@ def sensitivities_once(scene: AbstractScene) -> tuple[Any, Sensitivities]:
 @rare_garbage_collection()
 def _run(scene: AbstractScene, throw: bool, options: NewtonOptions, function: Any) -> tuple[Any, Sensitivities]:
     require_x64()
-    steady_function(scene)
+    require_solvable(scene)
     solution, slopes = function(jax.tree.map(as_float, scene), options)
     if throw:
         solution.raise_if_failed()

@@ -3,7 +3,7 @@
 import dataclasses
 from collections.abc import Callable
 from contextlib import nullcontext
-from typing import Any, overload
+from typing import TYPE_CHECKING, Any, overload
 
 import equinox as eqx
 import jax
@@ -13,18 +13,7 @@ from jax.core import Tracer
 
 from ._checks import Checks
 from ._scene import AbstractScene
-from .bearings.ball.scene import BallBearing
-from .bearings.ball.steady import solve_ball
-from .bearings.cylindrical.scene import CylindricalRollerBearing
-from .bearings.cylindrical.steady import solve_steady
-from .bearings.cylindrical.tilting_steady import solve_tilting
-from .bearings.ring import InnerRing
-from .bearings.solution import Solution
-from .bearings.tapered.scene import TaperedRollerBearing
-from .bearings.tapered.steady import solve_tapered
-from .ehl import EHLLineContact, LineContactSolution, solve_line_contact
 from .life.bearing_life import with_life
-from .machines import TwoDisk, TwoDiskSolution, solve_two_disk
 from .numerics.checks import check_inputs, gate, void
 from .numerics.compiling import inside_a_program
 from .numerics.garbage import rare_garbage_collection
@@ -34,35 +23,28 @@ from .numerics.quiet import compiling_quietly, quiet_first_time
 from .numerics.status import Status
 from .programs import KeptProgram
 
-
-def _solve_cylindrical(scene: CylindricalRollerBearing, options: NewtonOptions) -> Solution:
-    # dry rollers that carry evenly leave a held ring without unknowns; those that may tilt have the same loads
-    held = scene.contact is None and not scene.unknown_freedoms
-    return solve_tilting(scene, options) if scene.tilts or held else solve_steady(scene, options)
-
-
-_STEADY: dict[type, Callable[..., Any]] = {
-    CylindricalRollerBearing: _solve_cylindrical,
-    BallBearing: solve_ball,
-    TaperedRollerBearing: solve_tapered,
-    TwoDisk: solve_two_disk,
-    EHLLineContact: solve_line_contact,
-}
+if TYPE_CHECKING:
+    from .bearings.ball.scene import BallBearing
+    from .bearings.ball.solution import BallSolution
+    from .bearings.cylindrical.scene import CylindricalRollerBearing
+    from .bearings.cylindrical.solution import RollerSolution
+    from .bearings.tapered.scene import TaperedRollerBearing
+    from .bearings.tapered.solution import TaperedSolution
+    from .ehl import EHLLineContact, LineContactSolution
+    from .machines import TwoDisk, TwoDiskSolution
 
 
-def steady_function(scene: AbstractScene) -> Callable[..., Any]:
-    """Solver of this kind of scene. **Raises:** `TypeError` for an unknown kind."""
-    try:
-        return _STEADY[type(scene)]
-    except KeyError:
-        known = ", ".join(kind.__name__ for kind in _STEADY)
-        raise TypeError(f"cannot solve a {type(scene).__name__}; solve takes: {known}") from None
+def require_solvable(scene: AbstractScene) -> None:
+    """**Raises:** `TypeError` for what is no scene, or for a kind without a steady state."""
+    if not isinstance(scene, AbstractScene) or type(scene).steady_solution is AbstractScene.steady_solution:
+        kinds = "a ball, cylindrical or tapered roller bearing, a two-disk machine or a line contact"
+        raise TypeError(f"cannot solve a {type(scene).__name__}; solve takes: {kinds}")
 
 
 @rare_garbage_collection()  # its body runs where it is traced
 def _solve_any(scene: AbstractScene, options: NewtonOptions) -> Any:
     """The whole way from a scene to its solution."""
-    return with_checked_inputs(scene, lambda lane: with_life(lane, steady_function(scene)(lane, options)))
+    return with_checked_inputs(scene, lambda lane: with_life(lane, lane.steady_solution(options)))
 
 
 def with_checked_inputs(scene: AbstractScene, compute: Callable[[Any], Any]) -> Any:
@@ -78,25 +60,6 @@ def with_checked_inputs(scene: AbstractScene, compute: Callable[[Any], Any]) -> 
     )
 
 
-def solve_held(
-    scene: BallBearing | CylindricalRollerBearing | TaperedRollerBearing,
-    options: NewtonOptions,
-    ring: InnerRing,
-    exact_tilt: bool | None,
-) -> Solution:
-    """The steady state of a bearing whose inner ring is held where `ring` says; cylindrical rollers may tilt, but for
-    those that slide.
-
-    **Arguments:** `exact_tilt`: whether the grooves of a ball bearing move with the exact rotation of the ring; `None`:
-    as the scene's own solve has it.
-    """
-    if isinstance(scene, BallBearing):
-        return solve_ball(scene, options, ring, exact_tilt)
-    if isinstance(scene, TaperedRollerBearing):
-        return solve_tapered(scene, options, ring)
-    return solve_steady(scene, options, ring) if scene.slips else solve_tilting(scene, options, ring)
-
-
 _solve = eqx.filter_jit(_solve_any)
 _solve_optimised = KeptProgram(_solve_any, quick=False)
 _solve_quickly = KeptProgram(_solve_any, quick=True)
@@ -104,20 +67,28 @@ _solve_quickly = KeptProgram(_solve_any, quick=True)
 
 @overload
 def solve(
-    scene: TwoDisk, *, throw: bool = True, options: NewtonOptions | None = None, optimised: bool = False
-) -> TwoDiskSolution: ...
+    scene: "BallBearing", *, throw: bool = True, options: NewtonOptions | None = None, optimised: bool = False
+) -> "BallSolution": ...
 @overload
 def solve(
-    scene: EHLLineContact, *, throw: bool = True, options: NewtonOptions | None = None, optimised: bool = False
-) -> LineContactSolution: ...
-@overload
-def solve(
-    scene: CylindricalRollerBearing | BallBearing | TaperedRollerBearing,
+    scene: "CylindricalRollerBearing",
     *,
     throw: bool = True,
     options: NewtonOptions | None = None,
     optimised: bool = False,
-) -> Solution: ...
+) -> "RollerSolution": ...
+@overload
+def solve(
+    scene: "TaperedRollerBearing", *, throw: bool = True, options: NewtonOptions | None = None, optimised: bool = False
+) -> "TaperedSolution": ...
+@overload
+def solve(
+    scene: "TwoDisk", *, throw: bool = True, options: NewtonOptions | None = None, optimised: bool = False
+) -> "TwoDiskSolution": ...
+@overload
+def solve(
+    scene: "EHLLineContact", *, throw: bool = True, options: NewtonOptions | None = None, optimised: bool = False
+) -> "LineContactSolution": ...
 @overload
 def solve(
     scene: AbstractScene, *, throw: bool = True, options: NewtonOptions | None = None, optimised: bool = False
@@ -146,7 +117,7 @@ def solve(
     kind of scene; `RuntimeError` where 64-bit floats are switched off.
     """
     require_x64()
-    steady_function(scene)
+    require_solvable(scene)
     inside = inside_a_program(scene)
     function = _solve if inside else _solve_optimised if optimised else _solve_quickly
     # small programs beside the large one are compiled too
@@ -178,7 +149,7 @@ def jit_solver(scene: AbstractScene, *, options: NewtonOptions | None = None) ->
     """
     chosen = chosen_options(options)
     require_x64()
-    steady_function(scene)
+    require_solvable(scene)
     own_numbers = jax.tree.map(as_float, scene)
     given, structure = jax.tree.flatten(own_numbers)
     arguments = jax.tree.structure((own_numbers, chosen))

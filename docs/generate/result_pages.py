@@ -4,6 +4,7 @@ import dataclasses
 
 from jaxbearing.bearings import solution
 from jaxbearing.bearings.ball import solution as ball_solution
+from jaxbearing.bearings.cylindrical import solution as cylindrical_solution
 from jaxbearing.bearings.motion import history
 from jaxbearing.bearings.tapered import solution as tapered_solution
 from jaxbearing.ehl import history as film_history
@@ -21,13 +22,13 @@ SECTIONS = {
         "life": Life,
     },
     "Rolling elements and power: cylindrical rollers": {
-        "elements": solution.RollerResults,
-        "power_loss": solution.PowerLoss,
+        "elements": cylindrical_solution.RollerResults,
+        "power_loss": cylindrical_solution.PowerLoss,
     },
     "Rolling elements and power: balls": {
         "elements": ball_solution.BallResults,
         "power_loss": ball_solution.BallPowerLoss,
-        "raceway_power": ball_solution.RacewayPower,
+        "raceway_power": solution.RacewayPower,
     },
     "Rolling elements and power: tapered rollers": {
         "elements": tapered_solution.TaperedResults,

@@ -7,16 +7,14 @@ import jax.numpy as jnp
 from jaxtyping import Array, Int
 
 from ..numerics.newton import NewtonResult
-from .ball.scene import BallBearing
+from .bearing import AbstractBearing
 from .checks import input_excess, result_excess
-from .cylindrical.scene import CylindricalRollerBearing
 from .ring import Port
 from .solution import RING_FREEDOMS, Reason, RingDisplacement, Solution
-from .tapered.scene import TaperedRollerBearing
 
 
 def assemble(
-    scene: CylindricalRollerBearing | BallBearing | TaperedRollerBearing,
+    scene: AbstractBearing,
     result: NewtonResult,
     results: Any,
     ring: RingDisplacement,
@@ -47,8 +45,7 @@ def assemble(
     notes = scene.assumptions()
     if scene.unused_parts():
         unused = ", ".join(scene.unused_parts())
-        lacking = "[contact]" if isinstance(scene, TaperedRollerBearing) else "traction on the raceways"
-        notes = (*notes, f"without {lacking} these tables have no effect: {unused}")
+        notes = (*notes, f"without {scene.without_effect} these tables have no effect: {unused}")
     return Solution(
         status=result.status,
         iterations=result.iterations if iterations is None else iterations,
@@ -61,6 +58,7 @@ def assemble(
         global_equations=result.point.globals.shape[0],
         unknowns=result.point.elements.size + result.point.globals.size,
         notes=notes,
+        element_name=scene.element,
         reasons={text: Reason(~good & one.applies, one.numbers) for text, one in (reasons or {}).items()},
         **jax.tree.map(lambda leaf: jnp.where(good, leaf, jnp.nan), shown),
         **names,

@@ -1,22 +1,118 @@
-"""Base of the bearings as scenes: which freedoms of the inner ring are unknown."""
+"""Base of the bearings as scenes: what a family answers, and the unknown freedoms of the inner ring."""
 
-from typing import Any, ClassVar
+import abc
+from typing import Any, ClassVar, TypeVar
 
 import equinox as eqx
+from jaxtyping import Array
 
 from .._scene import AbstractScene
+from ..contacts import PointContact
+from ..numerics.newton import NewtonOptions
+from .facts import ROLLER_PRESSURE, RangeChecks
 from .operation import AbstractOperation
-from .solution import RING_FREEDOMS, TILTS
+from .rated import RatedContacts
+from .rating import Rating
+from .ring import InnerRing
+from .solution import RING_FREEDOMS, TILTS, Solution
+
+Bearing = TypeVar("Bearing", bound="AbstractBearing")
 
 
 class AbstractBearing(AbstractScene):
-    """Base of all bearings, whose inner ring has the freedoms of `solution.RING_FREEDOMS`, or some of them."""
+    """Base of all bearings, whose inner ring has the freedoms of `solution.RING_FREEDOMS`, or some of them.
+
+    A family is a folder beside this file. Its scene answers what the rest of the package asks: the solve, with the
+    ring's own loads or with a ring that is held (`solve_ring`), the range checks of its own, and what the life is
+    computed from.
+    """
 
     modelled_freedoms: ClassVar[tuple[str, ...]] = RING_FREEDOMS
     """Freedoms of the inner ring that its rolling elements feel."""
+    element: ClassVar[str] = "roller"
+    """Name of a rolling element."""
+    yield_pressure: ClassVar[float] = ROLLER_PRESSURE
+    """Hertz pressure beyond which elements and races yield, Pa."""
+    without_effect: ClassVar[str] = "traction on the raceways"
+    """What a scene lacks whose `unused_parts` have no effect."""
 
     geometry: eqx.AbstractVar[Any]
     operation: eqx.AbstractVar[Any]
+    oil: eqx.AbstractVar[Any]
+    contact: eqx.AbstractVar[Any]
+    rating: eqx.AbstractVar[Rating | None]
+
+    def steady_solution(self, options: NewtonOptions) -> Solution:
+        return self.solve_ring(options)
+
+    @abc.abstractmethod
+    def solve_ring(
+        self, options: NewtonOptions, ring: InnerRing | None = None, exact_tilt: bool | None = None
+    ) -> Solution:
+        """The steady state.
+
+        **Arguments:**
+        - `ring`: an inner ring that is held; left out: that of the operating point.
+        - `exact_tilt`: whether the grooves of a ball bearing move with the exact rotation of the ring; `None`: as the
+          scene's own solve has it.
+        """
+
+    @abc.abstractmethod
+    def range_checks(self) -> RangeChecks:
+        """The range checks that bearings of this family have beside those of all."""
+
+    @abc.abstractmethod
+    def rated_contacts(self, elements: Any, laminae: Any) -> RatedContacts:
+        """Sizes and loads of the raceway contacts for the life.
+
+        **Arguments:** `elements`, `laminae`: of a solution.
+        """
+
+    def point_contacts(self, elements: Any) -> PointContact | None:
+        """Raceway contacts of a solution where they are points, races first, shape (2, element); `None`: lines."""
+        return None
+
+    @property
+    def line_contacts(self) -> bool:
+        """True if raceways and elements touch along lines."""
+        return self.element == "roller"
+
+    @property
+    def may_tilt(self) -> bool:
+        """True if the model has a tilted inner ring for this scene."""
+        return True
+
+    @property
+    def rated_to_first_order(self) -> bool:
+        """True if the life takes the loads of the first-order motion of a tilted ring."""
+        return False
+
+    @property
+    @abc.abstractmethod
+    def ring_lever(self) -> Array:
+        """Lever by which the equations multiply the tilts of the ring, m."""
+
+    @property
+    @abc.abstractmethod
+    def port_distance(self) -> Array:
+        """Distance of the point where `ring` of the solution counts from the port, along $+e_x$, m."""
+
+    @property
+    @abc.abstractmethod
+    def slips(self) -> bool:
+        """True if the elements' speeds are unknowns; they follow from rolling without sliding else."""
+
+    @abc.abstractmethod
+    def unused_parts(self) -> tuple[str, ...]:
+        """Tables that the scene names but that have no effect."""
+
+    @abc.abstractmethod
+    def assumptions(self) -> tuple[str, ...]:
+        """Notes for the user: assumptions of the model, and uses for which the scene's data were not made."""
+
+    def with_lateral_freedom(self: Bearing) -> Bearing:
+        """The scene with the freedoms across the axis that the stiffness of a shaft's support needs."""
+        return self
 
     @property
     def skewed(self) -> bool:

@@ -5,7 +5,7 @@ The command line, JSON, files and pages read this metadata; nothing keeps a seco
 
 import dataclasses
 from collections.abc import Mapping
-from typing import Any, NamedTuple
+from typing import Any, Generic, NamedTuple, TypeVar
 
 import equinox as eqx
 import numpy as np
@@ -65,95 +65,6 @@ class CageState(eqx.Module):
     attitude_angle: Float[Array, ""] = eqx.field(metadata=label("rad", "angle between land load and line of centres"))
 
 
-class RollerResults(eqx.Module):
-    """Arrays over the rolling elements; what is not modelled is `None`. Speeds are positive in normal running."""
-
-    azimuth: Float[Array, " element"] = eqx.field(metadata=label("rad", "azimuth from the load line"))
-    load_inner: Float[Array, " element"] = eqx.field(metadata=label("N", "normal load on the inner raceway"))
-    load_outer: Float[Array, " element"] = eqx.field(metadata=label("N", "normal load on the outer raceway"))
-    pressure_inner: Float[Array, " element"] = eqx.field(
-        metadata=label("Pa", "Hertz (peak) pressure on the inner raceway")
-    )
-    pressure_outer: Float[Array, " element"] = eqx.field(
-        metadata=label("Pa", "Hertz (peak) pressure on the outer raceway")
-    )
-    orbital_speed: Float[Array, " element"] = eqx.field(
-        metadata=label("rad/s", "speed of the roller centre about the bearing axis")
-    )
-    spin_speed: Float[Array, " element"] = eqx.field(
-        metadata=label("rad/s", "spin about the roller's own axis, relative to its orbit")
-    )
-    film_inner: Float[Array, " element"] | None = eqx.field(
-        default=None, metadata=label("m", "central film on the inner raceway")
-    )
-    film_outer: Float[Array, " element"] | None = eqx.field(
-        default=None, metadata=label("m", "central film on the outer raceway")
-    )
-    film_least_inner: Float[Array, " element"] | None = eqx.field(
-        default=None, metadata=label("m", "central film of the lamina that carries most, inner")
-    )
-    film_least_outer: Float[Array, " element"] | None = eqx.field(
-        default=None, metadata=label("m", "central film of the lamina that carries most, outer")
-    )
-    temperature_rise_inner: Float[Array, " element"] | None = eqx.field(
-        default=None, metadata=label("K", "inlet heating, inner")
-    )
-    temperature_rise_outer: Float[Array, " element"] | None = eqx.field(
-        default=None, metadata=label("K", "inlet heating, outer")
-    )
-    sliding_inner: Float[Array, " element"] | None = eqx.field(
-        default=None, metadata=label("m/s", "sliding speed on the inner race")
-    )
-    sliding_outer: Float[Array, " element"] | None = eqx.field(
-        default=None, metadata=label("m/s", "sliding speed on the outer race")
-    )
-    traction_inner: Float[Array, " element"] | None = eqx.field(
-        default=None, metadata=label("N", "forward force by the inner race")
-    )
-    traction_outer: Float[Array, " element"] | None = eqx.field(
-        default=None, metadata=label("N", "backward force by the outer race")
-    )
-    pocket_film_front: Float[Array, " element"] | None = eqx.field(
-        default=None, metadata=label("m", "film in front of the roller")
-    )
-    pocket_film_rear: Float[Array, " element"] | None = eqx.field(
-        default=None, metadata=label("m", "film behind the roller")
-    )
-    pocket_load_front: Float[Array, " element"] | None = eqx.field(
-        default=None, metadata=label("N", "pocket load in front")
-    )
-    pocket_load_rear: Float[Array, " element"] | None = eqx.field(
-        default=None, metadata=label("N", "pocket load behind")
-    )
-
-
-class PowerLoss(eqx.Module):
-    """Dissipated power by location, W; the entries add up to `total`. Losses that a scene does not model are `None`,
-    and `total` is `None` where it models none."""
-
-    total: Float[Array, ""] | None = eqx.field(default=None, metadata=label("W", "total"))
-    inner_raceway: Float[Array, ""] | None = eqx.field(
-        default=None, metadata=label("W", "sliding on the inner raceway")
-    )
-    outer_raceway: Float[Array, ""] | None = eqx.field(
-        default=None, metadata=label("W", "sliding on the outer raceway")
-    )
-    rolling_resistance: Float[Array, ""] | None = eqx.field(
-        default=None, metadata=label("W", "rolling resistance of the raceways")
-    )
-    pocket: Float[Array, ""] | None = eqx.field(
-        default=None, metadata=label("W", "rollers sliding in the cage pockets")
-    )
-    element_ends: Float[Array, ""] | None = eqx.field(
-        default=None, metadata=label("W", "roller ends against the cage rails")
-    )
-    flange: Float[Array, ""] | None = eqx.field(
-        default=None, metadata=label("W", "roller ends against the ring flanges")
-    )
-    cage_pilot: Float[Array, ""] | None = eqx.field(default=None, metadata=label("W", "cage lands on the guiding ring"))
-    drag: Float[Array, ""] | None = eqx.field(default=None, metadata=label("W", "oil drag on the orbiting rollers"))
-
-
 def losses_not_modelled(loss: Any) -> tuple[str, ...]:
     """Names of the losses that are `None`, and of those that no scene of this kind models.
 
@@ -161,6 +72,24 @@ def losses_not_modelled(loss: Any) -> tuple[str, ...]:
     """
     absent = [field.name for field in dataclasses.fields(loss) if getattr(loss, field.name) is None]
     return (*(name for name in absent if name != "total"), *getattr(loss, "never", ()))
+
+
+class RacewayPower(eqx.Module):
+    """Parts of the losses on the raceways of balls, W: spin about the contact normal, sliding along and across the
+    rolling direction, sliding that comes of the curvature of the contact (`None`: taken as flat)."""
+
+    inner_spin: Float[Array, ""] = eqx.field(metadata=label("W", "spin, inner raceway"))
+    inner_rolling: Float[Array, ""] = eqx.field(metadata=label("W", "sliding along rolling, inner raceway"))
+    inner_transverse: Float[Array, ""] = eqx.field(metadata=label("W", "sliding across rolling, inner raceway"))
+    outer_spin: Float[Array, ""] = eqx.field(metadata=label("W", "spin, outer raceway"))
+    outer_rolling: Float[Array, ""] = eqx.field(metadata=label("W", "sliding along rolling, outer raceway"))
+    outer_transverse: Float[Array, ""] = eqx.field(metadata=label("W", "sliding across rolling, outer raceway"))
+    inner_curvature: Float[Array, ""] | None = eqx.field(
+        default=None, metadata=label("W", "Heathcote slip, inner raceway")
+    )
+    outer_curvature: Float[Array, ""] | None = eqx.field(
+        default=None, metadata=label("W", "Heathcote slip, outer raceway")
+    )
 
 
 class LaminaLoads(eqx.Module):
@@ -183,12 +112,19 @@ class Reason(NamedTuple):
     numbers: Float[Array, "..."]
 
 
-class Solution(AbstractSolution):
+Point = TypeVar("Point")
+"""Class of the operating point of a family."""
+Elements = TypeVar("Elements")
+"""Class of the results of its rolling elements."""
+Losses = TypeVar("Losses")
+"""Class of its losses."""
+
+
+class Solution(AbstractSolution, Generic[Point, Elements, Losses]):
     """Result of a steady solve. Where `status` is not converged every result is NaN, never the last iterate.
 
-    `operation`, `elements` and `power_loss` are those of the kind of bearing: `Operation`, `RollerResults`,
-    `PowerLoss`, or `BallOperation`, `BallResults`, `BallPowerLoss` and `RacewayPower`, or `TaperedOperation`,
-    `TaperedResults`, `TaperedPowerLoss`. Where the scene models no loss there is no drive power and no torque.
+    `operation`, `elements` and `power_loss` are those of the kind of bearing, which `BallSolution`, `RollerSolution`
+    and `TaperedSolution` name. Where the scene models no loss there is no drive power and no torque.
 
     **Arguments:** the labels of the fields say what they are, and
     - `global_equations`: number of equations that belong to no single rolling element.
@@ -202,11 +138,11 @@ class Solution(AbstractSolution):
     )
     worst_equation: Int[Array, ""] = eqx.field(metadata=label("1", "equation with the largest scaled residual"))
     worst_element: Int[Array, ""] = eqx.field(metadata=label("1", "rolling element with the largest scaled residual"))
-    operation: Any
+    operation: Point
     ring: RingDisplacement
     cage: CageState | None
-    elements: Any
-    power_loss: Any
+    elements: Elements
+    power_loss: Losses
     drive_power: Float[Array, ""] | None = eqx.field(metadata=label("W", "sum over both rings of torque times speed"))
     inner_torque: Float[Array, ""] | None = eqx.field(metadata=label("N m", "torque that drives the inner ring"))
     outer_torque: Float[Array, ""] | None = eqx.field(metadata=label("N m", "torque that drives the outer ring"))
@@ -233,7 +169,7 @@ class Solution(AbstractSolution):
     stiffness_freedom: tuple[str, ...] | None = eqx.field(static=True, default=None)
     """Rows and columns of `stiffness` that are modelled; `None`: those of `ring_freedom`. The others are 0."""
     element_name: str = eqx.field(static=True, default="roller")
-    raceway_power: Any = None
+    raceway_power: RacewayPower | None = None
     laminae: LaminaLoads | None = None
     held_freedom: tuple[str, ...] = eqx.field(static=True, default=())
     """Freedoms of the ring that are held where they are, and not free under a given load."""

@@ -127,12 +127,19 @@ class EHLLineContact(AbstractScene):
     `operation`; `simulation`: what a run in time does.
     """
 
+    kind: ClassVar[str] = "line_contact"
+
     geometry: ContactGeometry
     materials: ContactBodies
     oil: Lubricant
     contact: FilmModel
     operation: ContactOperation
     simulation: FilmSimulation | None = None
+
+    def steady_solution(self, options: Any) -> Any:
+        from .solution import solve_line_contact
+
+        return solve_line_contact(self, options)
 
     @property
     def hertz(self) -> LineContact:

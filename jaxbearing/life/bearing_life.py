@@ -1,4 +1,4 @@
-"""From a scene and its solution to the life: which loads, sizes and laws each kind of bearing has."""
+"""From a scene and its solution to the life: the laws for the contacts that the scene states."""
 
 import dataclasses
 from collections.abc import Callable
@@ -9,12 +9,10 @@ import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Array, Bool, Float
 
-from ..bearings.ball.rating import linear_tilt_loads
-from ..bearings.ball.scene import BallBearing
-from ..bearings.cylindrical.scene import CylindricalRollerBearing
+from ..bearings.bearing import AbstractBearing
+from ..bearings.rated import RatedContacts
 from ..bearings.rating import CATALOGUE_CONFORMITY, Rating, rated_laminae
 from ..bearings.solution import Solution
-from ..bearings.tapered.scene import TaperedRollerBearing
 from ..lubricants import Lubricant
 from .basic import BALL_EXPONENT, RELIABILITY_FACTORS, ROLLER_EXPONENT, basic_life, tapered_equivalent_load
 from .capacity import ball_capacity, roller_capacity
@@ -54,10 +52,9 @@ THIN_WARNING = (
 
 
 class Rated(NamedTuple):
-    """Inputs of the life from a kind of bearing."""
+    """Ratings of a bearing, and the rate at which its contacts take damage."""
 
     family: Family
-    pitch_diameter: Array
     dynamic_capacity: Array
     static_capacity: Array
     damage_rate: Array
@@ -74,7 +71,7 @@ def with_life(scene: Any, solution: Any) -> Any:
     checks = dict(solution.checks)
     if life.modification_factor is not None and life.viscosity_ratio is not None:
         checks[THIN_WARNING] = life.viscosity_ratio < KAPPA_RANGE[0]
-    if _tilts_linearly(scene):
+    if scene.rated_to_first_order:
         checks[NO_LINEAR_LOADS] = solution.converged & ~jnp.isfinite(life.damage_rate)
     notes = (*solution.notes, *without_effect(scene, life))
     return dataclasses.replace(solution, life=life, checks=checks, notes=notes)
@@ -83,16 +80,16 @@ def with_life(scene: Any, solution: Any) -> Any:
 def without_effect(scene: Any, life: Life) -> list[str]:
     """Notes on fields of the rating without effect: they need what the scene lacks, or belong to another kind."""
     rating: Rating = scene.rating
-    if isinstance(scene, BallBearing):
+    if not scene.line_contacts:
         others = {"n_laminae": rating.n_laminae, "edge_factor": rating.edge_factor}
         found = [
             f"rating.{name} has no effect: it is about rollers" for name, value in others.items() if value is not None
         ]
     else:
         found = ["rating.grooves has no effect: it is about balls"] if rating.grooves != "catalogue" else []
-    if rating.tilt == "iso" and not _tilts_linearly(scene):
+    if rating.tilt == "iso" and not scene.rated_to_first_order:
         found.append("rating.tilt = 'iso' has no effect: it is about ball bearings with a moment or a misalignment")
-    if rating.n_laminae is not None and rating.n_laminae < FEWEST_LAMINAE and not isinstance(scene, BallBearing):
+    if rating.n_laminae is not None and rating.n_laminae < FEWEST_LAMINAE and scene.line_contacts:
         found.append(
             f"rating.n_laminae = {rating.n_laminae}: ISO 16281 asks for at least {FEWEST_LAMINAE}; with edge factors "
             "the life of straight rollers grows with the number of laminae"
@@ -113,10 +110,8 @@ def bearing_life(scene: Any, solution: Solution) -> Life:
 
     **Raises:** `TypeError` for a kind of bearing without a life; `ValueError` for a scene without a rating.
     """
-    try:
-        rated_by = RATED[type(scene)]
-    except KeyError:
-        raise TypeError(f"no life of a {type(scene).__name__}") from None
+    if not isinstance(scene, AbstractBearing):
+        raise TypeError(f"no life of a {type(scene).__name__}")
     if scene.rating is None:
         raise ValueError("bearing_life needs a scene with a rating, got one without")
     rating: Rating = scene.rating
@@ -126,7 +121,9 @@ def bearing_life(scene: Any, solution: Solution) -> Life:
     operation = scene.operation
     speed = jnp.asarray(operation.inner_speed) - operation.outer_speed
     turns = _turning(operation)
-    rated = rated_by(scene, *solid, turns)
+    contacts = scene.rated_contacts(*solid)
+    pitch_diameter = jnp.asarray(contacts.pitch_diameter)
+    rated = rated_by(contacts, rating, turns)
     exponent = BALL_EXPONENT if rated.family == "ball" else ROLLER_EXPONENT
     rate = rated.damage_rate
     loaded = rate > 0
@@ -136,15 +133,15 @@ def bearing_life(scene: Any, solution: Solution) -> Life:
     equivalent = jnp.where(loaded, rated.dynamic_capacity * safe_rate ** (1.0 / exponent), 0.0 * rate)
     hours = lambda revolutions: revolutions * _HOURS / jnp.abs(speed)
     reliability = RELIABILITY_FACTORS[rating.reliability]
-    kappa = _viscosity_ratio(scene, rated.pitch_diameter, speed)
+    kappa = _viscosity_ratio(scene, pitch_diameter, speed)
     more: dict[str, Any] = {}
     if kappa is not None:
         more["viscosity_ratio"] = kappa
     if kappa is not None and rating.cleanliness is not None:
         limit = rating.fatigue_load_limit
         if limit is None:
-            limit = fatigue_load_limit(rated.static_capacity, rated.pitch_diameter, rated.family)
-        clean = contamination_factor(kappa, rated.pitch_diameter, rating.cleanliness)
+            limit = fatigue_load_limit(rated.static_capacity, pitch_diameter, rated.family)
+        clean = contamination_factor(kappa, pitch_diameter, rating.cleanliness)
         ratio = clean * limit / jnp.where(loaded, equivalent, 1.0)
         factor = modification_factor(kappa, ratio, rated.family)
         modified = reliability * factor * reference
@@ -191,35 +188,22 @@ def _given(value: Any, computed: Callable[[], Array]) -> Array:
     return computed() if value is None else jnp.asarray(value)
 
 
-def _ball(scene: BallBearing, elements: Any, laminae: Any, turns: Any) -> Rated:
-    geometry, rating = scene.geometry, scene.rating
-    assert rating is not None
-    # ratings are made for the nominal angle: 0 of a bearing that is given by its clearance
-    angle = jnp.asarray(0.0 if geometry.contact_angle is None else geometry.contact_angle)
-    sizes = (geometry.n_balls, geometry.ball_diameter, geometry.pitch_diameter, angle)
-    grooves = (geometry.conformity_inner, geometry.conformity_outer)
-    modulus = rated_modulus(scene.materials.rings, scene.materials.balls)
+def rated_by(contacts: RatedContacts, rating: Rating, turns: tuple[Array, Array]) -> Rated:
+    """**Arguments:** `turns`: whether the inner and the outer ring turn against the load."""
+    return (_of_points if contacts.length is None else _of_lines)(contacts, rating, turns)
+
+
+def _of_points(contacts: RatedContacts, rating: Rating, turns: Any) -> Rated:
+    assert contacts.conformities is not None
+    sizes = (contacts.n_elements, contacts.diameter, contacts.pitch_diameter, jnp.asarray(contacts.contact_angle))
+    modulus = rated_modulus(contacts.rings, contacts.elements)
     # the ratings' grooves; those that share the damage between the races are the bearing's own
-    rated = grooves if rating.grooves == "scene" else (CATALOGUE_CONFORMITY,) * 2
+    rated = contacts.conformities if rating.grooves == "scene" else (CATALOGUE_CONFORMITY,) * 2
     capacity = _given(rating.dynamic_capacity, lambda: ball_capacity(*sizes, *rated))
     static = _given(rating.static_capacity, lambda: ball_static_capacity(*sizes, rated[0], modulus))
-    limits = ball_contact_capacities(capacity, *sizes, *grooves)
-    inner, outer = elements.load_inner, elements.load_outer
-    if _tilts_linearly(scene):
-        inner, outer = linear_tilt_loads(scene)
-    rate = ball_damage_rate(inner, outer, limits, *turns)
-    # the catalogue's formula, of loads that are all known: a radial one alone
-    operation = scene.operation
-    radial_only = not operation.displaced and operation.axial_load is None and operation.moment is None
-    load = operation.radial_size if radial_only and operation.moment_lateral is None else None
-    return Rated("ball", jnp.asarray(geometry.pitch_diameter), capacity, static, rate, load)
-
-
-def _tilts_linearly(scene: Any) -> bool:
-    """True if the life takes the loads of the first-order motion of a tilted ring."""
-    if not isinstance(scene, BallBearing) or scene.rating is None:
-        return False
-    return scene.operation.tilts and scene.rating.tilt == "iso"
+    limits = ball_contact_capacities(capacity, *sizes, *contacts.conformities)
+    rate = ball_damage_rate(contacts.inner, contacts.outer, limits, *turns)
+    return Rated("ball", capacity, static, rate, contacts.radial_load)
 
 
 def edge_weights(rating: Rating, profiled: bool, count: int) -> np.ndarray:
@@ -233,48 +217,20 @@ def even_laminae(load: Float[Array, " element"], count: int) -> Float[Array, "el
     return jnp.broadcast_to(load[:, None] / count, (load.shape[0], count))
 
 
-def _cylindrical(scene: CylindricalRollerBearing, elements: Any, laminae: Any, turns: Any) -> Rated:
-    geometry, rating = scene.geometry, scene.rating
-    assert rating is not None
-    sizes = (geometry.n_rollers, geometry.roller_diameter, geometry.pitch_diameter)
-    length = geometry.loaded_length
-    modulus = rated_modulus(scene.materials.rings, scene.materials.rollers)
-    capacity = _given(rating.dynamic_capacity, lambda: roller_capacity(*sizes, length))
-    static = _given(rating.static_capacity, lambda: roller_static_capacity(*sizes, length, modulus=modulus))
-    limits = roller_contact_capacities(capacity, *sizes)
-    if laminae is None:
-        count = rated_laminae(rating)
-        inner, outer = (even_laminae(load, count) for load in (elements.load_inner, elements.load_outer))
-    else:
-        inner, outer = laminae.inner, laminae.outer
-    profiled = laminae is not None and laminae.profiled
-    rate = roller_damage_rate(inner, outer, limits, *turns, factors=edge_weights(rating, profiled, inner.shape[1]))
-    operation, load = scene.operation, None
-    if not operation.tilts and not operation.displaced:
-        load = operation.radial_size
-    return Rated("roller", jnp.asarray(geometry.pitch_diameter), capacity, static, rate, load)
-
-
-def _tapered(scene: TaperedRollerBearing, elements: Any, laminae: Any, turns: Any) -> Rated:
-    geometry, rating, operation = scene.geometry, scene.rating, scene.operation
-    assert rating is not None
-    angle = jnp.asarray(geometry.contact_angle)
-    pitch, length = geometry.pitch_diameter, geometry.roller_length
-    sizes = (geometry.n_rollers, geometry.mean_roller_diameter, pitch)
-    modulus = rated_modulus(scene.materials.rings, scene.materials.rollers)
+def _of_lines(contacts: RatedContacts, rating: Rating, turns: Any) -> Rated:
+    assert contacts.length is not None
+    angle, length = jnp.asarray(contacts.contact_angle), contacts.length
+    sizes = (contacts.n_elements, contacts.diameter, contacts.pitch_diameter)
+    modulus = rated_modulus(contacts.rings, contacts.elements)
     capacity = _given(rating.dynamic_capacity, lambda: roller_capacity(*sizes, length, angle))
     static = _given(rating.static_capacity, lambda: roller_static_capacity(*sizes, length, angle, modulus))
     limits = roller_contact_capacities(capacity, *sizes, angle)
-    weights = edge_weights(rating, laminae.profiled, laminae.inner.shape[1])
-    rate = roller_damage_rate(laminae.inner, laminae.outer, limits, *turns, factors=weights)
-    load = None
-    if not operation.tilts and not operation.displaced:
-        load = tapered_equivalent_load(operation.radial_size, jnp.asarray(operation.axial_load), angle)
-    return Rated("roller", pitch, capacity, static, rate, load)
-
-
-RATED: dict[type, Callable[..., Rated]] = {
-    BallBearing: _ball,
-    CylindricalRollerBearing: _cylindrical,
-    TaperedRollerBearing: _tapered,
-}
+    inner, outer = contacts.inner, contacts.outer
+    if inner.ndim == 1:
+        inner, outer = (even_laminae(load, rated_laminae(rating)) for load in (inner, outer))
+    weights = edge_weights(rating, contacts.profiled, inner.shape[1])
+    rate = roller_damage_rate(inner, outer, limits, *turns, factors=weights)
+    load = contacts.radial_load
+    if load is not None and contacts.axial_load is not None:
+        load = tapered_equivalent_load(load, contacts.axial_load, angle)
+    return Rated("roller", capacity, static, rate, load)

@@ -5,7 +5,7 @@ from typing import Any
 import jax.numpy as jnp
 from jaxtyping import Array, Float
 
-from ..bearings.ball.scene import BallBearing
+from ..bearings.bearing import AbstractBearing
 from ..contacts import (
     AbstractLineFilm,
     DowsonHigginson,
@@ -13,9 +13,9 @@ from ..contacts import (
     HamrockDowsonMinimum,
     MartinBlend,
     PanHamrockMinimum,
+    PointContact,
     RigidBlend,
 )
-from ..materials import reduced_modulus
 
 LINE_SHARE = 0.75
 """Ratio of minimum to central film of a line contact: 0.750 and 0.746 in own full solutions of the source's two
@@ -36,7 +36,8 @@ def minimum_films(scene: Any, elements: Any) -> tuple[Float[Array, " element"], 
     if isinstance(film, HamrockDowsonMinimum):
         share = jnp.ones((2, 1))
     else:
-        share = _point_share(scene, elements) if isinstance(scene, BallBearing) else _line_share(scene.contact.film)
+        points = scene.point_contacts(elements)
+        share = _line_share(scene.contact.film) if points is None else _point_share(scene, points, elements)
     films = [_thinnest(elements, side) for side in ("inner", "outer")]
     return films[0] * share[0], films[1] * share[1]
 
@@ -51,11 +52,7 @@ def _line_share(law: AbstractLineFilm) -> Array:
     return jnp.full((2, 1), 1.0 if isinstance(law, DowsonHigginson | PanHamrockMinimum) else LINE_SHARE)
 
 
-def _point_share(scene: BallBearing, elements: Any) -> Float[Array, "2 element"]:
-    assert scene.oil is not None
-    angles = elements.contact_angle_inner, elements.contact_angle_outer
-    modulus = reduced_modulus(scene.materials.rings, scene.materials.balls)
-    contact = scene.geometry.contacts(jnp.cos(angles[0]), jnp.cos(angles[1]), modulus)
+def _point_share(scene: AbstractBearing, contact: PointContact, elements: Any) -> Float[Array, "2 element"]:
     load = jnp.stack([elements.load_inner, elements.load_outer])
     operation, inlet = scene.operation, scene.oil.at(scene.operation.oil_temperature)
     speed = 0.25 * scene.geometry.pitch_diameter * (jnp.asarray(operation.inner_speed) - operation.outer_speed)

@@ -9,7 +9,7 @@ import jax.numpy as jnp
 from jaxtyping import Array, Float
 
 from .._types import Scalar
-from ..bearings.checks import BALL_PRESSURE, ROLLER_PRESSURE
+from ..bearings.facts import BALL_PRESSURE, ROLLER_PRESSURE
 from ..contacts import LineContact, PointContact
 from ..materials import Material, reduced_modulus
 from ..numerics.arguments import require_count, require_numbers

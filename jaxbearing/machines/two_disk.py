@@ -239,6 +239,8 @@ class TwoDisk(AbstractScene):
     **Raises:** `ValueError` for laws that do not fit the geometry or the oil.
     """
 
+    kind: ClassVar[str] = "two_disk"
+
     geometry: DiskGeometry
     materials: DiskMaterials
     oil: Lubricant
@@ -247,6 +249,9 @@ class TwoDisk(AbstractScene):
 
     def __check_init__(self):
         refuse_all(self._problems())
+
+    def steady_solution(self, options: Any) -> TwoDiskSolution:
+        return solve_two_disk(self, options)
 
     def _problems(self) -> Iterator[str | ValueError]:
         laws, oil = self.contact, self.oil

@@ -11,7 +11,7 @@ from rich.console import Console
 
 from .._scene import AbstractScene
 from ..scenes.fields import dimension_of, is_known, parts_of, tables_at, type_at
-from ..scenes.reader import kind_of, model_of
+from ..scenes.reader import model_of
 from .display import ZERO_CELSIUS, display_unit, displayed
 from .screen import print_line, print_rule
 
@@ -29,7 +29,7 @@ def print_scene(scene: AbstractScene, console: Console) -> bool:
     texts = [(path, text) for path, text in rows if text is not None]
     if not rows or len(texts) < len(rows):
         return False
-    print_line("kind", kind_of(scene), console, _NAMES)
+    print_line("kind", scene.kind, console, _NAMES)
     last = ""
     for (table, *inside), text in texts:
         if table != last and inside:

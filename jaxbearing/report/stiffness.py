@@ -7,18 +7,14 @@ import numpy as np
 from rich.console import Console
 
 from .._scene import AbstractScene
-from ..bearings.ball.scene import BallBearing
-from ..bearings.cylindrical.scene import CylindricalRollerBearing
+from ..bearings.bearing import AbstractBearing
 from ..bearings.solution import RING_FREEDOMS, Solution, stiffness_units
-from ..bearings.tapered.scene import TaperedRollerBearing
 from ..numerics.status import SolveError
 from ..solve import jit_solver
 from .bearing.json_report import modelled_only
 from .display import display_unit, with_unit
 from .plain import plain
 from .screen import column, counted, headline, pieces, print_line, print_table, print_warnings
-
-Bearing = BallBearing | CylindricalRollerBearing | TaperedRollerBearing
 
 
 class StiffnessTable(NamedTuple):
@@ -39,24 +35,23 @@ class StiffnessTable(NamedTuple):
     warnings: tuple[str, ...]
 
 
-def at_speeds(scene: AbstractScene, speeds: Any) -> list[Bearing]:
+def at_speeds(scene: AbstractScene, speeds: Any) -> list[AbstractBearing]:
     """The scene at each speed of the inner ring, rad/s, with the freedoms of the ring that its stiffness needs: where
     the ring of a roller bearing moves along the load line only, it is given the lateral freedom too.
 
     **Raises:** `TypeError` for a scene of something else than a bearing; `ValueError` for speeds that are not finite,
     >= 0 and increasing, or that the scene refuses.
     """
-    if not isinstance(scene, Bearing):
+    if not isinstance(scene, AbstractBearing):
         raise TypeError(f"a {type(scene).__name__} has no stiffness; expected a bearing")
     values = np.asarray(speeds, dtype=np.float64)
     if values.ndim != 1 or not np.all(np.isfinite(values)) or np.any(values < 0.0) or np.any(np.diff(values) <= 0.0):
         raise ValueError("speeds must be a list of finite numbers >= 0, each larger than the one before")
-    if isinstance(scene, CylindricalRollerBearing) and not scene.tilts:
-        scene = scene.replace({"ring_freedom": ("radial", "lateral")})
-    return [_at_speed(scene, float(value)) for value in values]
+    supporting = scene.with_lateral_freedom()
+    return [_at_speed(supporting, float(value)) for value in values]
 
 
-def _at_speed(scene: Bearing, speed: float) -> Bearing:
+def _at_speed(scene: AbstractBearing, speed: float) -> AbstractBearing:
     """**Raises:** `ValueError` that names the speed for which the scene has no meaning."""
     try:
         return scene.at_operation(inner_speed=speed)
@@ -65,7 +60,7 @@ def _at_speed(scene: Bearing, speed: float) -> Bearing:
 
 
 def stiffness_over_speed(
-    scene: AbstractScene, speeds: Any, *, solver: Callable[[Bearing], Solution] | None = None
+    scene: AbstractScene, speeds: Any, *, solver: Callable[[AbstractBearing], Solution] | None = None
 ) -> StiffnessTable:
     """Solves at each speed; the loads on the bearing are the scene's at all of them.
 

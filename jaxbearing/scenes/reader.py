@@ -94,13 +94,7 @@ def scene_model(mapping: Mapping[str, Any], overrides: Mapping[str, str], origin
 
 def model_of(scene: AbstractScene) -> type[BaseModel] | None:
     """The schema of the files of such scenes."""
-    built = {scene_class: model for model, scene_class in map(schema_of_kind, KINDS)}
-    return built.get(type(scene))
-
-
-def kind_of(scene: AbstractScene) -> str:
-    """The kind of such scenes, one of `KINDS`; "" for another class."""
-    return next((kind for kind in KINDS if schema_of_kind(kind)[1] is type(scene)), "")
+    return _SCHEMAS[scene.kind][0] if scene.kind in _SCHEMAS else None
 
 
 def _schema(

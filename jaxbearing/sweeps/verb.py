@@ -6,9 +6,7 @@ from typing import Any
 import jax
 
 from .._scene import AbstractScene
-from ..bearings.ball.scene import BallBearing
-from ..bearings.cylindrical.scene import CylindricalRollerBearing
-from ..bearings.tapered.scene import TaperedRollerBearing
+from ..bearings.bearing import AbstractBearing
 from ..lanes import default_method
 from ..numerics.newton import NewtonOptions
 from ..scenes.fields import is_known, type_at
@@ -20,13 +18,10 @@ from .fields import Field, dimension_of, label_of
 from .plan import CHUNK, HEAVY_CHUNK, HEAVY_LANES, LANES, QUICK_CASES, VMAP_LANES, Plan, compilation_cache
 from .recipe import Recipe, in_scene
 
-_LIGHT = (BallBearing, CylindricalRollerBearing, TaperedRollerBearing)
-"""Scenes that are solved in milliseconds."""
-
 
 def _sizes(recipe: Recipe, chunk: int | None) -> tuple[bool, int, int]:
     """Says whether a case is solved in milliseconds, how many a chunk has, and how many at most a call on a CPU."""
-    light = isinstance(recipe.example_scene, _LIGHT)
+    light = isinstance(recipe.example_scene, AbstractBearing)
     size = (CHUNK if light else HEAVY_CHUNK) if chunk is None else chunk
     return light, size, LANES if light else HEAVY_LANES
 

@@ -11,12 +11,12 @@ import numpy as np
 import pytest
 
 import jaxbearing as jb
+from jaxbearing.bearings.ball.checks import missing_thrust
 from jaxbearing.bearings.ball.geometry import BallGeometry
 from jaxbearing.bearings.ball.groove_motion import inner_arm, length_of, ring_frame
 from jaxbearing.bearings.ball.rating import linear_tilt_loads
 from jaxbearing.bearings.ball.scene import BallAttitude, BallBearing, BallMaterials, BallOperation
 from jaxbearing.bearings.ball.steady import overload
-from jaxbearing.bearings.checks import missing_thrust
 from jaxbearing.bearings.rating import Rating
 from jaxbearing.materials import Material, reduced_modulus
 

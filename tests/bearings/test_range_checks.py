@@ -7,18 +7,15 @@ import numpy as np
 import pytest
 
 import jaxbearing as jb
-from jaxbearing.bearings.checks import (
+from jaxbearing.bearings.checks import EDGE_LOADED, LARGEST_TILT, input_excess, result_excess
+from jaxbearing.bearings.facts import (
     BALL_PRESSURE,
-    EDGE_LOADED,
-    LARGEST_TILT,
     MEAN_OF_LINE,
     MEAN_OF_POINT,
     RACEWAYS,
     ROLLER_PRESSURE,
     Contacts,
     Facts,
-    input_excess,
-    result_excess,
 )
 from jaxbearing.bearings.solution import CageState, RingDisplacement
 from jaxbearing.lubricants.ranges import FITTED_PRESSURE, FITTED_TEMPERATURES

@@ -15,7 +15,7 @@ from jaxbearing.bearings.ball.scene import BallAttitude, BallBearing, BallMateri
 from jaxbearing.bearings.profile import RollerProfile
 from jaxbearing.bearings.rating import Rating
 from jaxbearing.contacts import CrownedProfile
-from jaxbearing.life.bearing_life import RATED, without_effect
+from jaxbearing.life.bearing_life import rated_by, without_effect
 from jaxbearing.life.reference import roller_damage_rate
 from jaxbearing.life.result import Life
 from jaxbearing.materials import CATALOGUE, reduced_modulus
@@ -94,9 +94,8 @@ def test_static_rating_of_ceramic_elements_in_every_kind_of_bearing(name, elemen
     laminae = SimpleNamespace(inner=jnp.ones((4, 30)), outer=jnp.ones((4, 30)), profiled=False)
 
     def rated(material):
-        return RATED[type(scene)](
-            scene.replace({f"materials.{elements}": material}), solid, laminae, (jnp.asarray(True), jnp.asarray(False))
-        )
+        contacts = scene.replace({f"materials.{elements}": material}).rated_contacts(solid, laminae)
+        return rated_by(contacts, scene.rating, (jnp.asarray(True), jnp.asarray(False)))
 
     steel, ceramic = rated(STEEL), rated(CATALOGUE["Si3N4"])
     ratio = float(reduced_modulus(STEEL, STEEL) / reduced_modulus(STEEL, CATALOGUE["Si3N4"]))

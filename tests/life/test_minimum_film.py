@@ -23,7 +23,8 @@ from jaxbearing.life.minimum_film import LINE_SHARE, minimum_films
 )
 def test_line_contacts(law, share):
     films = SimpleNamespace(film_inner=jnp.asarray([1e-7, jnp.nan]), film_outer=jnp.asarray([2e-7, 3e-7]))
-    inner, outer = minimum_films(SimpleNamespace(contact=SimpleNamespace(film=law)), films)
+    scene = SimpleNamespace(contact=SimpleNamespace(film=law), point_contacts=lambda elements: None)
+    inner, outer = minimum_films(scene, films)
     np.testing.assert_allclose(inner, [share * 1e-7, np.nan], rtol=1e-15)
     np.testing.assert_allclose(outer, [share * 2e-7, share * 3e-7], rtol=1e-15)
 

@@ -20,6 +20,7 @@ import jaxbearing as jb
 from jaxbearing import plots
 from jaxbearing.bearings import solution
 from jaxbearing.bearings.ball import solution as ball_solution
+from jaxbearing.bearings.cylindrical import solution as cylindrical_solution
 from jaxbearing.bearings.solution import RING_FREEDOMS, Solution
 from jaxbearing.bearings.tapered import solution as tapered_solution
 from jaxbearing.ehl import LineContactSolution
@@ -48,11 +49,11 @@ PARTS = (
     Solution,
     solution.RingDisplacement,
     solution.CageState,
-    solution.RollerResults,
-    solution.PowerLoss,
+    cylindrical_solution.RollerResults,
+    cylindrical_solution.PowerLoss,
     ball_solution.BallResults,
     ball_solution.BallPowerLoss,
-    ball_solution.RacewayPower,
+    solution.RacewayPower,
     tapered_solution.TaperedResults,
     tapered_solution.TaperedPowerLoss,
     Life,

@@ -10,7 +10,7 @@ import pytest
 from roller_cases import HARD_CASES, changed, dry_roller, reference_roller, turbine_roller
 
 import jaxbearing as jb
-from jaxbearing.bearings.solution import PowerLoss
+from jaxbearing.bearings.cylindrical.solution import PowerLoss
 from jaxbearing.numerics.status import Status
 from jaxbearing.report.bearing.plots import power_losses
 from jaxbearing.report.drawing import draw_bearing

@@ -10,8 +10,9 @@ import pytest
 from rich.console import Console
 
 from jaxbearing.bearings.ball.solution import BallPowerLoss
+from jaxbearing.bearings.cylindrical.solution import PowerLoss, RollerResults
 from jaxbearing.bearings.operation import Operation
-from jaxbearing.bearings.solution import CageState, PowerLoss, RingDisplacement, RollerResults, Solution
+from jaxbearing.bearings.solution import CageState, RingDisplacement, Solution
 from jaxbearing.bearings.tapered.solution import TaperedPowerLoss
 from jaxbearing.life.result import Life
 from jaxbearing.numerics.status import Status

@@ -1,9 +1,12 @@
-"""Loads for the rating of a ball bearing in the form of ISO 16281, with the first-order motion of a tilted ring."""
+"""What the life of a ball bearing is computed from."""
+
+from typing import Any
 
 import jax.numpy as jnp
 from jaxtyping import Array, Float
 
 from ...numerics.newton import NewtonOptions, newton_solve
+from ..rated import RatedContacts
 from .build import build_core
 from .scene import BallBearing
 
@@ -20,3 +23,27 @@ def linear_tilt_loads(scene: BallBearing, options: NewtonOptions | None = None) 
     system, result = newton_solve(core, NewtonOptions() if options is None else options)
     load = system.at(result.point).load
     return jnp.where(result.converged, load, jnp.nan)
+
+
+def rated_contacts(scene: BallBearing, elements: Any) -> RatedContacts:
+    """**Arguments:** `elements`: `BallResults` of a solution."""
+    geometry, operation = scene.geometry, scene.operation
+    inner, outer = elements.load_inner, elements.load_outer
+    if scene.rated_to_first_order:
+        inner, outer = linear_tilt_loads(scene)
+    # the catalogue's formula is one of loads that are all known: here of a radial one alone
+    given = (operation.axial_load, operation.moment, operation.moment_lateral)
+    radial_only = not operation.displaced and all(load is None for load in given)
+    return RatedContacts(
+        n_elements=geometry.n_balls,
+        diameter=geometry.ball_diameter,
+        pitch_diameter=geometry.pitch_diameter,
+        # ratings are made for the nominal angle: 0 of a bearing that is given by its clearance
+        contact_angle=0.0 if geometry.contact_angle is None else geometry.contact_angle,
+        rings=scene.materials.rings,
+        elements=scene.materials.balls,
+        inner=inner,
+        outer=outer,
+        conformities=(geometry.conformity_inner, geometry.conformity_outer),
+        radial_load=operation.radial_size if radial_only else None,
+    )

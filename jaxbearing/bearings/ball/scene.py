@@ -9,24 +9,31 @@ along $+e_x$. The groove is taken as a full circle: `geometry.shoulder_angle_*` 
 import functools
 import operator
 from collections.abc import Iterator
-from typing import ClassVar, Literal
+from typing import Any, ClassVar, Literal
 
 import equinox as eqx
+import jax.numpy as jnp
 from jaxtyping import Array
 
 from ..._types import Scalar
+from ...contacts import PointContact
 from ...contacts.point_laws import PointLaws
 from ...lubricants import Lubricant, NoPressureViscosity
-from ...materials import Material
+from ...materials import Material, reduced_modulus
 from ...numerics.checks import demand, given
+from ...numerics.newton import NewtonOptions
 from ...numerics.refusals import refusals_of, refuse_all
 from ...numerics.structure import choice
 from ..bearing import AbstractBearing
 from ..cage import ASSUMED_LANDS as ASSUMED_LANDS
 from ..cage import AbstractCage
+from ..facts import BALL_PRESSURE, RangeChecks
 from ..operation import LOAD_FIELDS, AbstractOperation
 from ..parts import DragSettings
+from ..rated import RatedContacts
 from ..rating import Rating
+from ..ring import InnerRing
+from ..solution import Solution
 from .geometry import BallGeometry
 from .gyroscopic import AbstractGyroscopic, ResolvedCouple
 
@@ -120,6 +127,10 @@ class BallBearing(AbstractBearing):
     **Raises:** `ValueError` for combinations that have no steady state or lack what they need.
     """
 
+    kind: ClassVar[str] = "ball_bearing"
+    element: ClassVar[str] = "ball"
+    yield_pressure: ClassVar[float] = BALL_PRESSURE
+
     geometry: BallGeometry
     materials: BallMaterials
     operation: BallOperation
@@ -159,6 +170,31 @@ class BallBearing(AbstractBearing):
                 f"contact.film: {type(self.contact.film).__name__} holds for oils whose viscosity rises with pressure, "
                 "not for an isoviscous one"
             )
+
+    def solve_ring(
+        self, options: NewtonOptions, ring: InnerRing | None = None, exact_tilt: bool | None = None
+    ) -> Solution:
+        from .steady import solve_ball
+
+        return solve_ball(self, options, ring, exact_tilt)
+
+    def range_checks(self) -> RangeChecks:
+        from .checks import CHECKS
+
+        return CHECKS
+
+    def rated_contacts(self, elements: Any, laminae: Any) -> RatedContacts:
+        from .rating import rated_contacts
+
+        return rated_contacts(self, elements)
+
+    def point_contacts(self, elements: Any) -> PointContact:
+        cosines = (jnp.cos(elements.contact_angle_inner), jnp.cos(elements.contact_angle_outer))
+        return self.geometry.contacts(*cosines, reduced_modulus(self.materials.rings, self.materials.balls))
+
+    @property
+    def rated_to_first_order(self) -> bool:
+        return self.rating is not None and self.operation.tilts and self.rating.tilt == "iso"
 
     @property
     def slips(self) -> bool:

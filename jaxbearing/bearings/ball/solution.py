@@ -5,7 +5,8 @@ from typing import Any
 import equinox as eqx
 from jaxtyping import Array, Float
 
-from ..solution import label
+from ..solution import Solution, label
+from .scene import BallOperation
 
 _Values = Float[Array, " element"]
 
@@ -73,15 +74,5 @@ class BallPowerLoss(eqx.Module):
     drag: _Power | None = _optional("W", "oil drag on the orbiting balls")
 
 
-class RacewayPower(eqx.Module):
-    """Parts of the losses on the raceways, W: spin about the contact normal, sliding along and across the
-    rolling direction, sliding that comes of the curvature of the contact (`None`: taken as flat)."""
-
-    inner_spin: _Power = _result("W", "spin, inner raceway")
-    inner_rolling: _Power = _result("W", "sliding along rolling, inner raceway")
-    inner_transverse: _Power = _result("W", "sliding across rolling, inner raceway")
-    outer_spin: _Power = _result("W", "spin, outer raceway")
-    outer_rolling: _Power = _result("W", "sliding along rolling, outer raceway")
-    outer_transverse: _Power = _result("W", "sliding across rolling, outer raceway")
-    inner_curvature: _Power | None = _optional("W", "Heathcote slip, inner raceway")
-    outer_curvature: _Power | None = _optional("W", "Heathcote slip, outer raceway")
+BallSolution = Solution[BallOperation, BallResults, BallPowerLoss]
+"""Result of a steady solve of a ball bearing."""

@@ -14,18 +14,18 @@ from ...materials import reduced_modulus
 from ...numerics.arrow import ArrowJacobian, ArrowPoint, linearize
 from ...numerics.newton import NewtonOptions, NewtonResult, newton_solve
 from ..assemble import assemble
-from ..checks import BALL_PRESSURE, MEAN_OF_POINT, RACEWAYS, Contacts, Facts
+from ..facts import MEAN_OF_POINT, RACEWAYS, Contacts, Facts
 from ..land import LandState
 from ..parts import azimuths
 from ..ring import InnerRing, Port
-from ..solution import RING_FREEDOMS, TILTS, CageState, Reason, Solution
+from ..solution import RING_FREEDOMS, TILTS, CageState, RacewayPower, Reason, Solution
 from .build import build_core, build_lubricated, ring_directions
 from .core import BallCore
 from .equations import BallsState, LubricatedBallSystem
 from .kinematics import BallMotion
 from .rolling import common_orbit_torques, rolling_balance
 from .scene import BallBearing
-from .solution import BallPowerLoss, BallResults, RacewayPower
+from .solution import BallPowerLoss, BallResults
 
 SIDES = np.array([[1.0], [-1.0]])
 """Inner, outer: the sense of the contact's x axis along the orbit."""
@@ -68,7 +68,6 @@ def solve_ball(
         },
         stiffness_freedom=RING_FREEDOMS,
         equation_names=system.equation_names(),
-        element_name="ball",
     )
 
 
@@ -112,7 +111,7 @@ def overload(scene: BallBearing) -> Float[Array, ""]:
     ratio, radius = transverse / rolling, 1.0 / (1.0 / rolling + 1.0 / transverse)
     ellipticity, integral = ratio ** (2.0 / jnp.pi), 1.0 + (0.5 * jnp.pi - 1.0) / ratio
     spread = 6.0 * jnp.square(ellipticity) * integral * radius / (jnp.pi * modulus)
-    ball = (jnp.pi * BALL_PRESSURE / (1.5 * ellipticity)) ** 3 * jnp.square(spread)
+    ball = (jnp.pi * scene.yield_pressure / (1.5 * ellipticity)) ** 3 * jnp.square(spread)
     return equivalent / (0.2 * geometry.n_balls * jnp.cos(angle) * ball)
 
 

@@ -12,8 +12,8 @@ from ...contacts.laws import ContactState
 from ...gaps import EndForces, FlangeCoefficients, Pocket, PocketEdgeCoefficients, RollerDrag, ShortJournal
 from ...numerics.series import cosine_and_sine
 from ..motion.loads import per_race
-from ..solution import PowerLoss
 from .kinematics import RollerKinematics
+from .solution import PowerLoss
 
 
 class CageParts(eqx.Module):

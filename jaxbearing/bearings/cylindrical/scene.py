@@ -18,11 +18,13 @@ from jaxtyping import Array
 from ..._types import Scalar
 from ...lubricants import Lubricant, NoPressureViscosity
 from ...numerics.checks import Checked, demand, given
+from ...numerics.newton import NewtonOptions
 from ...numerics.refusals import refusals_of, refuse_all
 from ...numerics.structure import choice, count
 from ..bearing import AbstractBearing
 from ..cage import ASSUMED_LANDS as ASSUMED_LANDS
 from ..cage import AbstractCage
+from ..facts import RangeChecks
 from ..motion.settings import Simulation
 from ..operation import Operation
 from ..parts import (
@@ -36,7 +38,10 @@ from ..parts import (
     optional_number,
 )
 from ..profile import RollerProfile
+from ..rated import RatedContacts
 from ..rating import Rating
+from ..ring import InnerRing
+from ..solution import Solution
 
 ASSUMED_CAGE_INNER = 7.0 / 12.0
 """Cage bore = pitch diameter minus this times the roller diameter, where a scene does not give it."""
@@ -183,6 +188,7 @@ class CylindricalRollerBearing(AbstractBearing):
     **Raises:** `ValueError` for combinations that have no steady state or lack what they need.
     """
 
+    kind: ClassVar[str] = "cylindrical_roller_bearing"
     modelled_freedoms: ClassVar[tuple[str, ...]] = ("radial", "lateral", "tilt", "tilt_lateral")
 
     geometry: RollerGeometry
@@ -238,6 +244,41 @@ class CylindricalRollerBearing(AbstractBearing):
                         f"contact.{name}: {type(law).__name__} holds for oils whose viscosity rises with pressure, not "
                         "for an isoviscous one; film = 'moes' and rolling_resistance = 'rigid_isoviscous' do"
                     )
+
+    def solve_ring(
+        self, options: NewtonOptions, ring: InnerRing | None = None, exact_tilt: bool | None = None
+    ) -> Solution:
+        # dry rollers that carry evenly leave a held ring without unknowns; those that may tilt have the same loads
+        evenly = self.slips or not self.tilts
+        if ring is not None:
+            evenly = self.slips
+        elif self.contact is None and not self.unknown_freedoms:
+            evenly = False
+        if evenly:
+            from .steady import solve_steady
+
+            return solve_steady(self, options, ring)
+        from .tilting_steady import solve_tilting
+
+        return solve_tilting(self, options, ring)
+
+    def range_checks(self) -> RangeChecks:
+        from .checks import CHECKS
+
+        return CHECKS
+
+    def rated_contacts(self, elements: Any, laminae: Any) -> RatedContacts:
+        from .rating import rated_contacts
+
+        return rated_contacts(self, elements, laminae)
+
+    def with_lateral_freedom(self) -> "CylindricalRollerBearing":
+        return self if self.tilts else self.replace({"ring_freedom": ("radial", "lateral")})
+
+    @property
+    def may_tilt(self) -> bool:
+        """False where rollers slide, which carry evenly along their length."""
+        return not self.slips
 
     @property
     def skewed(self) -> bool:

@@ -11,18 +11,19 @@ from ...materials import reduced_modulus
 from ...numerics.arrow import ArrowPoint, condensed, linearize, schur_complement
 from ...numerics.newton import NewtonOptions, NewtonResult, newton_solve
 from ..assemble import assemble
-from ..checks import MEAN_OF_LINE, RACEWAYS, Contacts, Facts
+from ..facts import MEAN_OF_LINE, RACEWAYS, Contacts, Facts
 from ..land import LandState
 from ..motion.loads import LEAST_LOAD
 from ..parts import azimuths, drag_density
 from ..profile import pressed_load
 from ..ring import LENGTH_UNIT, InnerRing, Port
-from ..solution import CageState, PowerLoss, RollerResults, Solution
+from ..solution import CageState, Solution
 from .equations import IN_PLANE, DryRollerSystem, LubricatedRollerSystem, RollerState, outward
 from .forces import CageParts, ring_torques, rolling_alone
 from .kinematics import RollerKinematics, roller_kinematics
 from .ring import roller_ring
 from .scene import CylindricalRollerBearing, RollerCage, RollerGeometry
+from .solution import PowerLoss, RollerResults
 
 
 def build_system(

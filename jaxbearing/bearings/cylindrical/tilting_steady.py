@@ -18,16 +18,17 @@ from ...numerics.arrow import ArrowPoint, linearize
 from ...numerics.newton import NewtonOptions, newton_solve
 from ...numerics.status import Status
 from ..assemble import assemble
-from ..checks import MEAN_OF_LINE, RACEWAYS, Contacts, Facts
+from ..facts import MEAN_OF_LINE, RACEWAYS, Contacts, Facts
 from ..parts import azimuths
 from ..profile import RollerProfile, pressed_load
 from ..rating import rated_laminae
 from ..ring import InnerRing, Port
-from ..solution import CageState, LaminaLoads, PowerLoss, RollerResults, Solution
+from ..solution import CageState, LaminaLoads, Solution
 from .forces import rolling_alone
 from .kinematics import RollerKinematics, roller_kinematics
 from .ring import roller_ring
 from .scene import CylindricalRollerBearing
+from .solution import PowerLoss, RollerResults
 from .tilting import TiltingRollers, TiltingState
 
 

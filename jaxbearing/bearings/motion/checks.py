@@ -7,9 +7,10 @@ import jax
 import jax.numpy as jnp
 from jaxtyping import Array
 
-from ..checks import MEAN_OF_LINE, RACEWAYS, Contacts, Excess, Facts, result_excess
+from ..checks import result_excess
 from ..cylindrical.kinematics import roller_kinematics
 from ..cylindrical.scene import CylindricalRollerBearing
+from ..facts import MEAN_OF_LINE, RACEWAYS, Contacts, Excess, Facts
 from ..solution import RING_FREEDOMS, CageState, RingDisplacement
 from .history import Instant
 

@@ -15,7 +15,8 @@ from jaxtyping import Array, Bool, Float, Int
 from ..._identity import Identity
 from ..._scene import AbstractSolution
 from ...numerics.status import Status
-from ..solution import PowerLoss, RingDisplacement, RollerResults, label, losses_not_modelled
+from ..cylindrical.solution import PowerLoss, RollerResults
+from ..solution import RingDisplacement, label, losses_not_modelled
 
 
 class CageMotion(eqx.Module):

@@ -6,8 +6,9 @@ from jaxtyping import Array, Float
 
 from ..._types import Scalar
 from ...numerics.arrow import ArrowPoint
+from ..cylindrical.solution import RollerResults
 from ..cylindrical.steady import cage_slip
-from ..solution import RING_FREEDOMS, RingDisplacement, RollerResults
+from ..solution import RING_FREEDOMS, RingDisplacement
 from .history import CageMotion, Instant, PocketPeaks
 from .rates import RollerDynamics
 

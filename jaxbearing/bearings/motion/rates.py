@@ -54,7 +54,7 @@ from ...time_laws import AbstractTimeFactor, RotatingLoad, Steady
 from ..cylindrical.equations import LubricatedRollerSystem
 from ..cylindrical.forces import RollerForces, forces_without_pocket, on_cage, ring_torques
 from ..cylindrical.kinematics import RollerKinematics
-from ..solution import PowerLoss
+from ..cylindrical.solution import PowerLoss
 from .loads import Distribution, RaceLoads, distributed_loads
 
 ROLLER_UNITS = (1e-5, 0.1, 1.0)

@@ -20,8 +20,9 @@ from ...numerics.precision import as_float
 from ...numerics.status import SolveError, Status
 from ...numerics.structure import static_number
 from ...programs import KeptProgram
-from ..checks import Excess, input_excess
+from ..checks import input_excess
 from ..cylindrical.scene import CylindricalRollerBearing
+from ..facts import Excess
 from .checks import largest, run_excess
 from .history import Energy, History, LastState
 from .rates import WORKS

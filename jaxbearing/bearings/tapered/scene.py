@@ -8,6 +8,7 @@ default the apex itself. (The source's tilt t and moment M_1 have the opposite s
 """
 
 from collections.abc import Iterator
+from typing import Any, ClassVar
 
 import jax.numpy as jnp
 from jaxtyping import Array
@@ -17,12 +18,17 @@ from ..._types import Scalar
 from ...contacts.laws import ContactLaws
 from ...contacts.point_laws import PointLaws
 from ...lubricants import Lubricant
+from ...numerics.newton import NewtonOptions
 from ...numerics.refusals import refusals_of, refuse_all
 from ..bearing import AbstractBearing
+from ..facts import RangeChecks
 from ..operation import AbstractOperation
 from ..parts import Drag, Materials
 from ..profile import RollerProfile
+from ..rated import RatedContacts
 from ..rating import Rating
+from ..ring import InnerRing
+from ..solution import Solution
 from .geometry import TaperedGeometry
 
 
@@ -58,6 +64,9 @@ class TaperedRollerBearing(AbstractBearing):
     **Raises:** `ValueError` for combinations that lack what they need.
     """
 
+    kind: ClassVar[str] = "tapered_roller_bearing"
+    without_effect: ClassVar[str] = "[contact]"
+
     geometry: TaperedGeometry
     materials: Materials
     operation: TaperedOperation
@@ -83,6 +92,23 @@ class TaperedRollerBearing(AbstractBearing):
         if self.rib is not None and self.rib.rolling_resistance:
             yield "rib.rolling_resistance: the rib has none, the roller ends slide on it"
         yield from refusals_of(self.operation.check_rings_turn)
+
+    def solve_ring(
+        self, options: NewtonOptions, ring: InnerRing | None = None, exact_tilt: bool | None = None
+    ) -> Solution:
+        from .steady import solve_tapered
+
+        return solve_tapered(self, options, ring)
+
+    def range_checks(self) -> RangeChecks:
+        from .checks import CHECKS
+
+        return CHECKS
+
+    def rated_contacts(self, elements: Any, laminae: Any) -> RatedContacts:
+        from .rating import rated_contacts
+
+        return rated_contacts(self, laminae)
 
     @property
     def slips(self) -> bool:

@@ -5,7 +5,8 @@ from typing import Any, ClassVar
 import equinox as eqx
 from jaxtyping import Array, Float
 
-from ..solution import label
+from ..solution import Solution, label
+from .scene import TaperedOperation
 
 _Values = Float[Array, " element"]
 
@@ -62,3 +63,7 @@ class TaperedPowerLoss(eqx.Module):
     rolling_resistance: _Power | None = _optional("W", "rolling resistance of the raceways")
     flange: _Power | None = _optional("W", "roller ends sliding on the rib")
     drag: _Power | None = _optional("W", "oil drag on the orbiting rollers")
+
+
+TaperedSolution = Solution[TaperedOperation, TaperedResults, TaperedPowerLoss]
+"""Result of a steady solve of a tapered roller bearing."""

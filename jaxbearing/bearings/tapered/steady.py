@@ -13,7 +13,7 @@ from ...numerics.newton import NewtonOptions, NewtonResult, newton_solve
 from ...numerics.safe import safe_norm
 from ...numerics.status import Status
 from ..assemble import assemble
-from ..checks import MEAN_OF_LINE, MEAN_OF_POINT, RACEWAYS, Contacts, Facts
+from ..facts import MEAN_OF_LINE, MEAN_OF_POINT, RACEWAYS, Contacts, Facts
 from ..parts import azimuths
 from ..rating import LAMINAE, rated_laminae
 from ..ring import InnerRing, Port

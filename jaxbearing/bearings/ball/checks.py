@@ -1,0 +1,48 @@
+"""Range checks of ball bearings, beside those of all bearings."""
+
+import jax.numpy as jnp
+import numpy as np
+from jaxtyping import Array, Float
+
+from ..facts import Contacts, Excess, RangeChecks, SolvedBearing
+from .scene import BallBearing
+
+
+def _angles(result: SolvedBearing) -> Excess:
+    scene = result.scene
+
+    def leaning(contacts: Contacts) -> Excess:
+        if contacts.angle is None:
+            return {}
+        # the groove of the model is a full circle
+        text = "a loaded ball touches the groove of {place} beyond 90°, where no groove is: it cannot run so"
+        found = contacts.said(text, contacts.most(jnp.abs(contacts.angle)) - 0.5 * np.pi)
+        if scene.geometry.contact_angle is not None:
+            text = "a loaded ball leans on the other shoulder of {place}: an angular-contact bearing has none there"
+            found |= contacts.said(text, contacts.most(-contacts.angle) - 1e-9)
+        return found
+
+    return result.each(leaning)
+
+
+def missing_thrust(scene: BallBearing) -> Float[Array, ""]:
+    r"""$1.22F_r\tan\alpha - F_a$, N, of an angular contact bearing: positive where fewer than half of its balls are
+    loaded (Harris, *Rolling Bearing Analysis*)."""
+    operation, angle = scene.operation, jnp.asarray(scene.geometry.contact_angle)
+    axial = jnp.asarray(0.0 if operation.axial_load is None else operation.axial_load)
+    return 1.22 * operation.radial_size * jnp.tan(angle) - jnp.abs(axial)
+
+
+def _thrust(scene: BallBearing) -> Excess:
+    operation = scene.operation
+    across = operation.radial_load is not None or operation.radial_load_lateral is not None
+    if scene.geometry.contact_angle is None or operation.displaced or not across:
+        return {}
+    text = (
+        "axial load below 1.22 F_r tan(contact angle): fewer than half of the balls of this angular contact bearing "
+        "carry load; it needs an axial load or a second bearing that preloads it"
+    )
+    return {text: missing_thrust(scene)}
+
+
+CHECKS = RangeChecks(results=(_angles,), loads=(_thrust,))

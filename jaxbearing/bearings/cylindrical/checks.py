@@ -1,0 +1,47 @@
+"""Range checks of cylindrical roller bearings, beside those of all bearings."""
+
+import jax.numpy as jnp
+
+from ...numerics.safe import safe_norm
+from ..facts import LOADED, Excess, RangeChecks, SolvedBearing
+from ..parts import azimuths
+from .kinematics import roller_kinematics
+from .scene import CylindricalRollerBearing
+
+LARGEST_INTERFERENCE = 1e-3
+"""Largest interference over the pitch diameter: rings that are stretched so much carry 0.2 GPa."""
+
+
+def _squeezed(result: SolvedBearing) -> Excess:
+    scene = result.scene
+    if not scene.tilts or result.held:
+        return {}
+    load = result.facts.contacts[0].load
+    azimuth = azimuths(scene.geometry, load.shape[1])
+    outward = jnp.stack([jnp.cos(azimuth), jnp.sin(azimuth)])
+    resultant = outward @ load[0]
+    opposite = resultant @ outward < -0.5 * safe_norm(resultant[0], resultant[1])
+    behind = jnp.max(jnp.where(opposite, load[0], 0.0))
+    loose = jnp.asarray(scene.geometry.diametral_clearance) > 0
+    text = "the tilt takes up the whole clearance: rollers opposite the load are squeezed"
+    return {text: jnp.where(loose, behind - LOADED * jnp.max(load), -1.0)}
+
+
+def _interference(scene: CylindricalRollerBearing) -> Excess:
+    clearance = scene.geometry.diametral_clearance
+    text = (
+        "interference (a clearance below 0) beyond a thousandth of the pitch diameter: no fit makes so much; check "
+        "sign and unit of geometry.diametral_clearance"
+    )
+    return {text: -jnp.asarray(clearance) - LARGEST_INTERFERENCE * scene.geometry.pitch_diameter}
+
+
+def _standing_cage(scene: CylindricalRollerBearing) -> Excess:
+    if scene.contact is None:
+        return {}
+    motion = roller_kinematics(scene.geometry, scene.operation)
+    text = "rolling without slip would nearly hold the cage still: its slip has no meaning"
+    return {text: 0.01 * motion.orbit_unit - jnp.abs(motion.free_orbit)}
+
+
+CHECKS = RangeChecks(results=(_squeezed,), inputs=(_interference, _standing_cage))

@@ -1,0 +1,25 @@
+"""What the life of a cylindrical roller bearing is computed from."""
+
+from typing import Any
+
+from ..rated import RatedContacts
+from .scene import CylindricalRollerBearing
+
+
+def rated_contacts(scene: CylindricalRollerBearing, elements: Any, laminae: Any) -> RatedContacts:
+    """**Arguments:** `RollerResults` and, of rollers in laminae, `LaminaLoads` of a solution."""
+    geometry, operation = scene.geometry, scene.operation
+    loads = (elements.load_inner, elements.load_outer) if laminae is None else (laminae.inner, laminae.outer)
+    return RatedContacts(
+        n_elements=geometry.n_rollers,
+        diameter=geometry.roller_diameter,
+        pitch_diameter=geometry.pitch_diameter,
+        contact_angle=0.0,
+        rings=scene.materials.rings,
+        elements=scene.materials.rollers,
+        inner=loads[0],
+        outer=loads[1],
+        length=geometry.loaded_length,
+        profiled=laminae is not None and laminae.profiled,
+        radial_load=None if operation.tilts or operation.displaced else operation.radial_size,
+    )

@@ -1,0 +1,33 @@
+"""Range checks of tapered roller bearings, beside those of all bearings."""
+
+import jax.numpy as jnp
+
+from ..facts import BUSY, Excess, RangeChecks, SolvedBearing
+from .scene import TaperedRollerBearing
+
+
+def _would_skid(result: SolvedBearing) -> Excess:
+    reserve = result.facts.traction_reserve
+    if reserve is None:
+        return {}
+    # each of those that roll by themselves, and, since a cage hands on what others lack, all together
+    own = result.facts.contacts[0].loaded(BUSY)[:1]
+    least = jnp.minimum(jnp.min(jnp.where(own, reserve, jnp.inf)), jnp.min(jnp.sum(reserve, axis=1)))
+    text = (
+        "rollers would skid (to keep them rolling takes more traction than the raceway films have at 10 % sliding): "
+        "speeds and losses are those of pure rolling"
+    )
+    return {text: -least}
+
+
+def _at_apex(scene: TaperedRollerBearing) -> Excess:
+    if scene.operation.load("tilt") is None and scene.operation.load("tilt_lateral") is None:
+        return {}
+    text = (
+        "operation.load_position is 0: radial load and moment act at the common apex of the cones, not at the "
+        "bearing's middle"
+    )
+    return {text: jnp.where(jnp.asarray(scene.operation.load_position) == 0.0, 1.0, -1.0)}
+
+
+CHECKS = RangeChecks(results=(_would_skid,), loads=(_at_apex,))
