@@ -8,14 +8,12 @@ import gfm_lists
 import links
 import maths
 import notebook_pages
-import result_pages
 from mkdocs.structure.files import File
 
 TOP = Path(__file__).parents[2]
 MADE = {
     "changelog.md": lambda: links.of_top_level((TOP / "CHANGELOG.md").read_text(encoding="utf-8")),
     "command_line.md": command_line.page,
-    "results.md": result_pages.page,
 }
 
 

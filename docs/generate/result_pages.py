@@ -1,6 +1,7 @@
 """The page of results: every key with its unit and meaning, from the labels that the result classes carry."""
 
 import dataclasses
+from pathlib import Path
 
 from jaxbearing.bearings import solution
 from jaxbearing.bearings.ball import solution as ball_solution
@@ -13,6 +14,9 @@ from jaxbearing.life.result import Life
 from jaxbearing.machines import two_disk
 from jaxbearing.numerics.status import Status
 from jaxbearing.report.labelled import udunits
+
+FILE = Path(__file__).parents[1] / "results.md"
+"""The page is kept in the repository; `python docs/generate/result_pages.py` writes it anew."""
 
 SECTIONS = {
     "Steady state of a bearing": {
@@ -73,7 +77,7 @@ from the labels of the result classes.
 def page():
     """Markdown."""
     status = "| value | name |\n|---|---|\n" + "".join(f"| {int(one)} | `{one.text}` |\n" for one in Status)
-    parts = [HEAD + status]
+    parts = [HEAD + status.rstrip("\n")]
     for title, classes in SECTIONS.items():
         parts.append(f"## {title}")
         rows = [row for path, one in classes.items() for row in rows_of(one, path)]
@@ -88,3 +92,7 @@ def rows_of(one, path):
         if "unit" in field.metadata:
             name = f"{path}.{field.name}" if path else field.name
             yield name, udunits(field.metadata["unit"]), field.metadata["description"].replace("|", "\\|")
+
+
+if __name__ == "__main__":
+    FILE.write_text(page(), encoding="utf-8")
