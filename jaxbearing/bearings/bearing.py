@@ -1,6 +1,7 @@
 """Base of the bearings as scenes: what a family answers, and the unknown freedoms of the inner ring."""
 
 import abc
+from collections.abc import Callable
 from typing import Any, ClassVar, TypeVar
 
 import equinox as eqx
@@ -11,6 +12,7 @@ from ..contacts import PointContact
 from ..numerics.newton import NewtonOptions
 from .facts import ROLLER_PRESSURE, RangeChecks
 from .operation import AbstractOperation
+from .outline import Outline
 from .rated import RatedContacts
 from .rating import Rating
 from .ring import InnerRing
@@ -67,6 +69,24 @@ class AbstractBearing(AbstractScene):
 
         **Arguments:** `elements`, `laminae`: of a solution.
         """
+
+    @abc.abstractmethod
+    def outline(self, of: Callable[[str], float] | None = None) -> Outline:
+        """Shapes of one rolling element and what it touches, for drawings.
+
+        **Arguments:** `of`: from the name of a result to its value for this element; left out: of the unloaded
+        bearing.
+        """
+
+    @property
+    def n_elements(self) -> int:
+        """Number of rolling elements."""
+        return getattr(self.geometry, f"n_{self.element}s")
+
+    @property
+    def mean_diameter(self) -> Any:
+        """Diameter of a rolling element, at its middle, m."""
+        return getattr(self.geometry, f"{self.element}_diameter")
 
     def point_contacts(self, elements: Any) -> PointContact | None:
         """Raceway contacts of a solution where they are points, races first, shape (2, element); `None`: lines."""

@@ -10,10 +10,10 @@ from typing import TYPE_CHECKING, Any, Protocol
 
 import numpy as np
 
-from ..bearings.ball.scene import BallBearing
+from ..bearings.bearing import AbstractBearing
 from ..bearings.cylindrical.scene import CylindricalRollerBearing
 from ..bearings.operation import LOAD_FIELDS
-from ..bearings.tapered.scene import TaperedRollerBearing
+from ..bearings.outline import RING_THICKNESS
 from .display import displayed
 
 if TYPE_CHECKING:
@@ -24,8 +24,6 @@ RING, ROLLER, CAGE = "#CDD3DB", "#F6F7F9", "#E6CB8B"
 _FONT = 8.5
 _DRAWN_CLEARANCE = 0.07
 """A clearance in the drawing, in roller diameters."""
-RING_THICKNESS = 0.45
-"""Thickness of a ring at its raceway, in roller diameters."""
 _CAPTION = (
     "Names as in --set and in Python; those without a dot belong to geometry. To scale, except for the clearances (all "
     "drawn at one visible\nsize, true values beside them) and for bore, outside diameter and width of the rings, which "
@@ -43,13 +41,12 @@ def draw_bearing(scene: Any) -> "matplotlib.figure.Figure":
     """
     from .page import Page
 
-    if isinstance(scene, BallBearing | TaperedRollerBearing):
+    if not isinstance(scene, AbstractBearing):
+        raise TypeError(f"draw_bearing draws a bearing, got a {type(scene).__name__}")
+    if not isinstance(scene, CylindricalRollerBearing):
         from .section_drawing import draw_in_section
 
         return draw_in_section(scene)
-    if not isinstance(scene, CylindricalRollerBearing):
-        kinds = "BallBearing, CylindricalRollerBearing or TaperedRollerBearing"
-        raise TypeError(f"draw_bearing draws a {kinds}, got a {type(scene).__name__}")
     figure = Page()
     size = _Size(scene)
     for draw, title, place in (

@@ -1,4 +1,4 @@
-"""Ball and tapered roller bearings in a drawing: seen along the axis, and one element in a section through the axis."""
+"""A bearing of any family in a drawing: seen along the axis, and one element in a section through the axis."""
 
 import dataclasses
 import math
@@ -8,12 +8,12 @@ from typing import TYPE_CHECKING, Any
 import equinox as eqx
 import numpy as np
 
-from ..bearings.ball.scene import BallBearing
+from ..bearings.bearing import AbstractBearing
 from ..bearings.operation import LOAD_FIELDS
+from ..bearings.outline import RING_THICKNESS
 from ..bearings.solution import TILTS
-from ..bearings.tapered.scene import TaperedRollerBearing
-from .bearing.section import draw_element
-from .drawing import DIMENSION, INK, RING_THICKNESS, dimension, draw_front, first_angle, leader, length_text
+from .bearing.section import draw_outline
+from .drawing import DIMENSION, INK, dimension, draw_front, first_angle, leader, length_text
 
 if TYPE_CHECKING:
     import matplotlib.figure
@@ -54,11 +54,10 @@ class _Front:
 
     def __init__(self, scene: Any):
         geometry = scene.geometry
-        ball = isinstance(scene, BallBearing)
         mm = lambda value: 1e3 * float(value)
-        self.counted = "n_balls" if ball else "n_rollers"
-        self.count = getattr(geometry, self.counted)
-        self.diameter = mm(geometry.ball_diameter if ball else geometry.mean_roller_diameter)
+        self.counted = f"n_{scene.element}s"
+        self.count = scene.n_elements
+        self.diameter = mm(scene.mean_diameter)
         self.pitch = mm(geometry.pitch_diameter) / 2.0
         self.inner, self.outer = self.pitch - self.diameter / 2.0, self.pitch + self.diameter / 2.0
         self.ring = RING_THICKNESS * self.diameter
@@ -70,7 +69,7 @@ class _Front:
         self.cage = None if cage is None else (mm(cage.bore(geometry)) / 2.0, mm(cage.outside(geometry)) / 2.0)
 
 
-def draw_in_section(scene: BallBearing | TaperedRollerBearing) -> "matplotlib.figure.Figure":
+def draw_in_section(scene: AbstractBearing) -> "matplotlib.figure.Figure":
     """See `drawing.draw_bearing`."""
     from .page import Page
 
@@ -82,10 +81,14 @@ def draw_in_section(scene: BallBearing | TaperedRollerBearing) -> "matplotlib.fi
         axes.set_title(title, fontsize=10.5, fontweight="bold", color=INK, pad=4)
     draw_front(front, scene, _Front(scene))
     patches = _Patches(section)
-    draw_element(scene, patches, lambda name: _unloaded_angle(scene.geometry))
-    labels, said = _ball_labels(section, scene) if isinstance(scene, BallBearing) else _tapered_labels(section, scene)
+    outline, given = scene.outline(), dict(_dimensions(scene))
+    draw_outline(patches, outline)
+    for ends in outline.dimensions:
+        dimension(section, *ends)
+    labels = [(given[f"geometry.{name}"], place) for name, place in outline.labels.items()]
+    said = {f"n_{scene.element}s", "pitch_diameter", *outline.labels}
     _beside(section, np.asarray(patches.points), labels)
-    rest = [text for path, text in _dimensions(scene) if path.removeprefix("geometry.") not in said]
+    rest = [text for path, text in given.items() if path.removeprefix("geometry.") not in said]
     figure.text(0.52, 0.30, "\n".join(rest), fontsize=8.5, color=DIMENSION, va="top", linespacing=1.5)
     figure.text(0.02, 0.02, _CAPTION, fontsize=8, color=INK, linespacing=1.4)
     return figure
@@ -103,52 +106,6 @@ def _beside(axes: Any, points: np.ndarray, labels: list[Label]) -> None:
             leader(axes, (x, float(y)), text, target, ha="left" if side > 0.0 else "right")
     axes.set_xlim(left - 0.95 * width, right + 0.95 * width)
     axes.set_ylim(low - 0.08 * height, high + 0.08 * height)
-
-
-def _unloaded_angle(geometry: Any) -> float:
-    """Angle of the unloaded contacts, rad; 0 for a bearing with clearance, in the middle of its play."""
-    return 0.0 if geometry.contact_angle is None else float(geometry.contact_angle)
-
-
-def _ball_labels(axes: Any, scene: BallBearing) -> tuple[list[Label], set[str]]:
-    """Labels of the section, and the fields that it and the view along the axis name."""
-    geometry = scene.geometry
-    half, angle = 500.0 * float(geometry.ball_diameter), _unloaded_angle(geometry)
-    dimension(axes, (-half, 0.0), (half, 0.0))
-    given = dict(_dimensions(scene))
-    point = lambda sign, at: (sign * half * math.sin(at), sign * half * math.cos(at))
-    labels = [
-        (given["geometry.ball_diameter"], (-0.6 * half, 0.0)),
-        (given["geometry.conformity_outer"], point(1.0, angle - 0.5)),
-        (given["geometry.conformity_inner"], point(-1.0, angle - 0.5)),
-    ]
-    said = {"n_balls", "pitch_diameter", "ball_diameter", "conformity_inner", "conformity_outer"}
-    if "geometry.contact_angle" in given:
-        labels.append((given["geometry.contact_angle"], (0.5 * point(1.0, angle)[0], 0.5 * point(1.0, angle)[1])))
-        said.add("contact_angle")
-    return labels, said
-
-
-def _tapered_labels(axes: Any, scene: TaperedRollerBearing) -> tuple[list[Label], set[str]]:
-    geometry = scene.geometry
-    mm = lambda value: 1e3 * float(np.asarray(value))
-    cup, cone = float(geometry.contact_angle), float(np.asarray(geometry.cone_angle))
-    big, small = mm(geometry.apex_distance), mm(geometry.apex_distance) - mm(geometry.roller_length)
-    on = lambda angle, reach: (-reach * math.cos(angle), reach * math.sin(angle))
-    between = lambda a, b, part: (a[0] + part * (b[0] - a[0]), a[1] + part * (b[1] - a[1]))
-    dimension(axes, on(cone, big), on(cup, big))
-    dimension(axes, on(cup, big), on(cup, small))
-    ends = on(cone, big), on(cup, big)
-    places = {
-        "roller_diameter": between(*ends, 0.7),
-        "roller_length": on(cup, big - 0.4 * (big - small)),
-        "contact_angle": on(cup, big - 0.75 * (big - small)),
-        "roller_half_angle": on(0.5 * (cup + cone), small),
-        "flange_angle": between(*ends, 0.06),
-        "end_radius": between(*ends, 0.4),
-    }
-    given = dict(_dimensions(scene))
-    return [(given[f"geometry.{name}"], place) for name, place in places.items()], {"n_rollers", *places}
 
 
 _ANGLES = ("angle",)

@@ -8,7 +8,7 @@ along $+e_x$. The groove is taken as a full circle: `geometry.shoulder_angle_*` 
 
 import functools
 import operator
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from typing import Any, ClassVar, Literal
 
 import equinox as eqx
@@ -29,6 +29,7 @@ from ..cage import ASSUMED_LANDS as ASSUMED_LANDS
 from ..cage import AbstractCage
 from ..facts import BALL_PRESSURE, RangeChecks
 from ..operation import LOAD_FIELDS, AbstractOperation
+from ..outline import Outline
 from ..parts import DragSettings
 from ..rated import RatedContacts
 from ..rating import Rating
@@ -182,6 +183,11 @@ class BallBearing(AbstractBearing):
         from .checks import CHECKS
 
         return CHECKS
+
+    def outline(self, of: Callable[[str], float] | None = None) -> Outline:
+        from .outline import ball_outline
+
+        return ball_outline(self, of)
 
     def rated_contacts(self, elements: Any, laminae: Any) -> RatedContacts:
         from .rating import rated_contacts

@@ -8,7 +8,7 @@ running (a roller between a turning inner and a fixed outer ring spins clockwise
 """
 
 import math
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from typing import Any, ClassVar, Literal
 
 import equinox as eqx
@@ -27,6 +27,7 @@ from ..cage import AbstractCage
 from ..facts import RangeChecks
 from ..motion.settings import Simulation
 from ..operation import Operation
+from ..outline import Outline
 from ..parts import (
     FIRST_ELEMENT,
     ContactLaws,
@@ -266,6 +267,11 @@ class CylindricalRollerBearing(AbstractBearing):
         from .checks import CHECKS
 
         return CHECKS
+
+    def outline(self, of: Callable[[str], float] | None = None) -> Outline:
+        from .outline import roller_outline
+
+        return roller_outline(self)
 
     def rated_contacts(self, elements: Any, laminae: Any) -> RatedContacts:
         from .rating import rated_contacts

@@ -7,7 +7,7 @@ Loads and displacements are those of the *reference point* on the axis, `operati
 default the apex itself. (The source's tilt t and moment M_1 have the opposite sense: $t = -$tilt.)
 """
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from typing import Any, ClassVar
 
 import jax.numpy as jnp
@@ -23,6 +23,7 @@ from ...numerics.refusals import refusals_of, refuse_all
 from ..bearing import AbstractBearing
 from ..facts import RangeChecks
 from ..operation import AbstractOperation
+from ..outline import Outline
 from ..parts import Drag, Materials
 from ..profile import RollerProfile
 from ..rated import RatedContacts
@@ -105,10 +106,19 @@ class TaperedRollerBearing(AbstractBearing):
 
         return CHECKS
 
+    def outline(self, of: Callable[[str], float] | None = None) -> Outline:
+        from .outline import tapered_outline
+
+        return tapered_outline(self)
+
     def rated_contacts(self, elements: Any, laminae: Any) -> RatedContacts:
         from .rating import rated_contacts
 
         return rated_contacts(self, laminae)
+
+    @property
+    def mean_diameter(self) -> Array:
+        return self.geometry.mean_roller_diameter
 
     @property
     def slips(self) -> bool:

@@ -5,9 +5,7 @@ from typing import Any
 
 import numpy as np
 
-from ...bearings.ball.scene import BallBearing
 from ...bearings.solution import RING_FREEDOMS, Solution
-from ...bearings.tapered.scene import TaperedRollerBearing
 from ...numerics.status import Status
 from ..display import digits, with_unit
 from ..page_content import Content, Sketch
@@ -20,7 +18,6 @@ from .section import section
 from .sketch import front_view
 from .summary import facts, not_modelled
 
-_KINDS = {BallBearing: "ball bearing", TaperedRollerBearing: "tapered roller bearing"}
 _SOLVER = ("status", "iterations", "residual_norm", "inner_residual", "worst_equation", "worst_element", "unknowns")
 _LIFE = ("Life", "Rating", "Lubrication")
 """Facts that stand in a table of their own."""
@@ -46,7 +43,7 @@ def bearing_content(scene: Any, solution: Solution) -> Content:
     results = [row for row in result_rows(solution, unused | set(_SOLVER)) if not row.path.startswith("operation.")]
     name = solution.element_name
     return Content(
-        kind=_KINDS.get(type(scene), "cylindrical roller bearing"),
+        kind=scene.kind.replace("_", " "),
         operation=pretty(operating_point(solution)),
         headlines=list(_headlines(solution, total if losses else None)),
         sketches=[
@@ -79,14 +76,13 @@ def _stiffness(solution: Solution) -> tuple[list[str], list[list[str]]]:
 
 
 def _front_caption(scene: Any, name: str) -> str:
-    rings = "the shoulders, bore and outside diameter of the rings"
-    if not isinstance(scene, BallBearing):
-        rings = "bore and outside diameter of the rings"
+    shoulders = "" if scene.line_contacts else "the shoulders, "
+    rings = f"{shoulders}bore and outside diameter of the rings"
     return _ARROWS.format(name=name, rings=rings)
 
 
 def _section_caption(scene: Any, name: str) -> str:
-    angles = ", directions those of the contacts" if isinstance(scene, BallBearing | TaperedRollerBearing) else ""
+    angles = ", directions those of the contacts" if scene.outline().own_directions else ""
     return _SECTION.format(name=name, angles=angles)
 
 

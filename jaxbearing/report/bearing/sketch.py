@@ -5,18 +5,15 @@ from typing import Any
 
 import numpy as np
 
-from ...bearings.ball.scene import BallBearing
+from ...bearings.outline import RING_THICKNESS
 from ...bearings.solution import RING_FREEDOMS, Solution
-from ...bearings.tapered.scene import TaperedRollerBearing
 from ..display import displayed
-from ..drawing import CAGE, FAINT, RING, RING_THICKNESS, ROLLER
+from ..drawing import CAGE, FAINT, RING, ROLLER
 from ..svg import INK, Drawing, Point
 from .plots import INNER, OUTER
 
 _WIDTH = 290.0
 """Width of the outer ring, points of the page."""
-_SHOULDER = 0.3
-"""Height of the shoulders of a ball bearing's rings over the pitch circle, in ball diameters."""
 _LONGEST = 0.42
 """Longest arrow, in radii of the bore."""
 
@@ -28,14 +25,8 @@ class Sizes:
         geometry = scene.geometry
         mm = lambda value: 1e3 * float(np.asarray(value))
         self.pitch = 0.5 * mm(geometry.pitch_diameter)
-        tapered = isinstance(scene, TaperedRollerBearing)
-        if isinstance(scene, BallBearing):
-            self.diameter = mm(geometry.ball_diameter)
-            self.inner, self.outer = self.pitch - _SHOULDER * self.diameter, self.pitch + _SHOULDER * self.diameter
-        else:
-            self.diameter = mm(geometry.mean_roller_diameter if tapered else geometry.roller_diameter)
-            half = 0.5 * self.diameter
-            self.inner, self.outer = self.pitch - half, self.pitch + half
+        self.diameter, shoulder = mm(scene.mean_diameter), scene.outline().shoulder
+        self.inner, self.outer = self.pitch - shoulder, self.pitch + shoulder
         self.back = (0.5 + RING_THICKNESS) * self.diameter
         cage = getattr(scene, "cage", None)
         self.cage = None if cage is None else (0.5 * mm(cage.bore(geometry)), 0.5 * mm(cage.outside(geometry)))

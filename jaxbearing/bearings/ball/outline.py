@@ -1,0 +1,58 @@
+"""A ball and the grooves that it touches, for drawings."""
+
+import math
+from collections.abc import Callable
+
+import numpy as np
+
+from ..outline import RING_SIDE, RING_THICKNESS, Outline, Point, moved
+from .scene import BallBearing
+
+_SHOULDER = 0.3
+"""Height of a ball bearing's shoulders over the ball's centre, in ball diameters: a scene does not have it."""
+
+
+def ball_outline(scene: BallBearing, of: Callable[[str], float] | None) -> Outline:
+    """See `AbstractBearing.outline`."""
+    geometry = scene.geometry
+    diameter, half = 1e3 * float(geometry.ball_diameter), 500.0 * float(geometry.ball_diameter)
+    # of a bearing that is given by its clearance: in the middle of its play
+    free = 0.0 if geometry.contact_angle is None else float(geometry.contact_angle)
+    contacts: dict[str, tuple[Point, Point]] = {}
+    rings = []
+    for side, sign in (("outer", 1.0), ("inner", -1.0)):
+        angle = free if of is None else of(f"contact_angle_{side}")
+        direction = sign * math.sin(angle), sign * math.cos(angle)
+        rings.append(_groove(diameter, float(getattr(geometry, f"conformity_{side}")), direction, sign))
+        contacts[side] = moved((0.0, 0.0), direction, half), direction
+    point = lambda sign, at: (sign * half * math.sin(at), sign * half * math.cos(at))
+    labels = {
+        "ball_diameter": (-0.6 * half, 0.0),
+        "conformity_outer": point(1.0, free - 0.5),
+        "conformity_inner": point(-1.0, free - 0.5),
+    }
+    if geometry.contact_angle is not None:
+        labels["contact_angle"] = (0.5 * point(1.0, free)[0], 0.5 * point(1.0, free)[1])
+    return Outline(
+        diameter=diameter,
+        rings=rings,
+        element=None,
+        line=(contacts["inner"][0], contacts["outer"][0]),
+        contacts=contacts,
+        shoulder=_SHOULDER * diameter,
+        dimensions=[((-half, 0.0), (half, 0.0))],
+        labels=labels,
+    )
+
+
+def _groove(diameter: float, conformity: float, direction: Point, sign: float) -> list[Point]:
+    """A ring whose groove touches the ball in this direction; what is above (`sign` 1) or below the shoulders."""
+    radius = conformity * diameter
+    cx, cy = moved((0.0, 0.0), direction, (0.5 - conformity) * diameter)
+    shoulder = sign * _SHOULDER * diameter
+    reach = math.sqrt(max(radius * radius - (shoulder - cy) ** 2, 0.0))
+    start = math.atan2(sign * (shoulder - cy), reach)
+    angles = np.linspace(math.pi - start, start, 40)
+    arc = [(cx + radius * math.cos(a), cy + sign * radius * math.sin(a)) for a in angles]
+    end, back = (0.5 + RING_SIDE) * diameter, sign * (0.5 + RING_THICKNESS) * diameter
+    return [(-end, shoulder), *arc, (end, shoulder), (end, back), (-end, back)]
