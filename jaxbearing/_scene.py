@@ -55,6 +55,30 @@ class AbstractScene(Shown):
         """
         raise TypeError(f"cannot solve a {type(self).__name__}: its class has no method steady_solution")
 
+    runs_in_programs: ClassVar[bool] = False
+    """True if a run in time can be a part of a program, see `jaxbearing.simulate_batch`."""
+
+    def simulated(self, duration: float | None, **settings: Any) -> Any:
+        """A run in time; `jaxbearing.simulate` says what it takes, and checks the scene.
+
+        **Raises:** `TypeError` for a kind of scene that does not move.
+        """
+        raise TypeError(f"cannot simulate a {type(self).__name__}: its class has no method simulated")
+
+    def simulated_batch(self, duration: float, over: Mapping[str, Any], **settings: Any) -> Any:
+        """Many runs in time; `jaxbearing.simulate_batch` says what it takes.
+
+        **Raises:** `TypeError` for a kind of scene whose runs are no programs.
+        """
+        raise TypeError(f"cannot simulate a {type(self).__name__}: its class has no method simulated_batch")
+
+    def check_restart(self, restart: Any, duration: float | None = None) -> None:
+        """Checks the state from which a run of this scene is to go on.
+
+        **Raises:** `ValueError` where it does not fit; `TypeError` for a kind of scene that does not move.
+        """
+        raise TypeError(f"cannot simulate a {type(self).__name__}: its class has no method check_restart")
+
     def replace(self: Scene, changes: dict[str, Any]) -> Scene:
         """A copy with other values; keys are dotted paths, values SI numbers (or parts).
 

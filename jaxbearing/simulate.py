@@ -1,48 +1,45 @@
 """The verb for runs in time: a scene and a duration in, a history out."""
 
-import dataclasses
 from collections.abc import Callable, Mapping
-from typing import Any, Literal, overload
+from typing import TYPE_CHECKING, Any, Literal, overload
 
-from .bearings.cylindrical.scene import CylindricalRollerBearing
-from .bearings.motion.history import History, LastState
-from .bearings.motion.run import check_fits
-from .bearings.motion.runs import FIELD, INTERVAL, simulate_roller_batch, simulate_rollers, trajectory
-from .bearings.motion.settings import Simulation
-from .ehl import EHLLineContact, FilmSimulation, FilmState, LineContactHistory, simulate_film
-from .ehl import check_restart as check_film_restart
+from ._scene import AbstractScene
 from .numerics.arguments import require_choice, require_outside
-from .numerics.checks import check_inputs
 from .numerics.garbage import rare_garbage_collection
 from .numerics.precision import require_x64
-from .numerics.structure import static_number
 
-__all__ = ["FIELD", "INTERVAL", "check_restart", "simulate", "simulate_batch", "trajectory"]
+if TYPE_CHECKING:
+    from .bearings.cylindrical.scene import CylindricalRollerBearing
+    from .bearings.motion.history import History, LastState
+    from .bearings.motion.settings import Simulation
+    from .ehl import EHLLineContact, FilmSimulation, FilmState, LineContactHistory
 
+INTERVAL = 20e-6
+"""Time between the instants of a history where a run does not say, s."""
 Progress = Callable[[float, float], None]
 
 
 @overload
 def simulate(
-    scene: EHLLineContact,
+    scene: "EHLLineContact",
     duration: float | None = None,
     *,
-    simulation: FilmSimulation | None = None,
+    simulation: "FilmSimulation | None" = None,
     throw: bool = True,
     progress: Progress | None = None,
-    restart: LineContactHistory | FilmState | None = None,
-) -> LineContactHistory: ...
+    restart: "LineContactHistory | FilmState | None" = None,
+) -> "LineContactHistory": ...
 @overload
 def simulate(
-    scene: CylindricalRollerBearing,
+    scene: "CylindricalRollerBearing",
     duration: float | None = None,
     *,
-    simulation: Simulation | None = None,
+    simulation: "Simulation | None" = None,
     interval: float = INTERVAL,
     throw: bool = True,
     progress: Progress | None = None,
-    restart: History | LastState | None = None,
-) -> History: ...
+    restart: "History | LastState | None" = None,
+) -> "History": ...
 @rare_garbage_collection()
 def simulate(
     scene: Any,
@@ -79,91 +76,41 @@ def simulate(
     (the fields that differ are named, with both values); `TypeError` for another kind of scene.
     """
     require_x64()
-    instead = "" if isinstance(scene, EHLLineContact) else f"use {_PURE} there, or "
+    _require_moving(scene, "simulated")
+    instead = f"use {_PURE} there, or " if scene.runs_in_programs else ""
     require_outside(
         "simulate",
         f"a run in time goes on piece by piece, by what it finds; {instead}call simulate outside, with plain numbers",
         (scene, duration, simulation, interval, restart),
     )
-    if isinstance(scene, EHLLineContact):
-        return _run_film(scene, duration, simulation, restart, throw, progress)
-    if not isinstance(scene, CylindricalRollerBearing):
-        taken = "CylindricalRollerBearing, EHLLineContact"
-        raise TypeError(f"cannot simulate a {type(scene).__name__}; simulate takes: {taken}")
-    if isinstance(restart, LineContactHistory | FilmState):
-        raise ValueError(_OTHER_KIND.format("line contact", "bearing"))
-    if not isinstance(restart, History | LastState | None):
-        raise TypeError(f"restart must be a History or a LastState (jb.read_last_state of a file), got {restart!r}")
-    if not isinstance(simulation, Simulation | None):
-        raise TypeError(f"simulation must be a Simulation, got {simulation!r}")
-    return simulate_rollers(
-        scene, duration, simulation=simulation, interval=interval, throw=throw, progress=progress, restart=restart
+    return scene.simulated(
+        duration, simulation=simulation, interval=interval, throw=throw, progress=progress, restart=restart
     )
 
 
 _PURE = "simulate_batch, or quasi_static_start and trajectory,"
-_OTHER_KIND = "restart: a state of a {}, for a scene of a {}"
 
 
-def check_restart(scene: Any, restart: LastState | FilmState, duration: float | None = None) -> None:
-    """Checks a last state as `simulate` does, before it begins. **Raises:** `ValueError`."""
-    if isinstance(scene, EHLLineContact):
-        if not isinstance(restart, FilmState):
-            raise ValueError(_OTHER_KIND.format("bearing", "line contact"))
-        chosen, length = _length(scene, duration, None)
-        check_film_restart(scene, chosen, restart, length)
-    else:
-        if not isinstance(restart, LastState):
-            raise ValueError(_OTHER_KIND.format("line contact", "bearing"))
-        check_fits(scene, restart)
-
-
-def _length(
-    scene: EHLLineContact, duration: float | None, simulation: FilmSimulation | None
-) -> tuple[FilmSimulation, float]:
-    chosen = simulation or scene.simulation or FilmSimulation()
-    duration = duration if duration is not None else chosen.duration
-    if duration is None:
-        raise ValueError("simulate needs a duration: give it, or name it in the scene's simulation")
-    length = static_number("duration", duration, float)
-    if not length > 0:
-        raise ValueError(f"duration must be > 0 s, got {length:g}")
-    return chosen, length
-
-
-def _run_film(
-    scene: EHLLineContact,
-    duration: float | None,
-    simulation: FilmSimulation | None,
-    restart: Any,
-    throw: bool,
-    progress: Progress | None,
-) -> LineContactHistory:
-    check_inputs(scene)
-    chosen, length = _length(scene, duration, simulation)
-    check_inputs(chosen)
-    if isinstance(restart, LineContactHistory):
-        restart = restart.last_state
-    if not isinstance(restart, FilmState | None):
-        raise ValueError(_OTHER_KIND.format("bearing", "line contact"))
-    # the length of the run is no part of the program
-    chosen, scene = dataclasses.replace(chosen, duration=None), dataclasses.replace(scene, simulation=None)
-    history = simulate_film(scene, length, chosen, start=restart, progress=progress)
-    if throw:
-        history.raise_if_failed()
-    return history
+def _require_moving(scene: Any, method: str) -> None:
+    """**Raises:** `TypeError` for what is no scene, or for a kind that does not move."""
+    if isinstance(scene, AbstractScene) and getattr(type(scene), method) is not getattr(AbstractScene, method):
+        return
+    name, taken = ("simulate", "a cylindrical roller bearing or a line contact")
+    if method == "simulated_batch":
+        name, taken = ("simulate_batch", "a cylindrical roller bearing")
+    raise TypeError(f"cannot simulate a {type(scene).__name__}; {name} takes: {taken}")
 
 
 @rare_garbage_collection()
 def simulate_batch(
-    scene: CylindricalRollerBearing,
+    scene: Any,
     duration: float,
     over: Mapping[str, Any],
     *,
-    simulation: Simulation | None = None,
+    simulation: Any = None,
     interval: float = INTERVAL,
     method: Literal["map", "vmap"] = "map",
-) -> History:
+) -> Any:
     """Many runs at once, each with a status of its own: a run that fails leaves the others alone. Pure.
 
     The result is a `History` with the lanes in front of every array (`history.status`, `history.instants.cage.speed`
@@ -187,7 +134,6 @@ def simulate_batch(
     **Raises:** as `simulate`, but not for a run that fails; `ValueError` where the values are not equally many.
     """
     require_x64()
-    if not isinstance(scene, CylindricalRollerBearing):
-        raise TypeError(f"cannot simulate a {type(scene).__name__}; simulate_batch takes: CylindricalRollerBearing")
+    _require_moving(scene, "simulated_batch")
     require_choice("method", method, ("map", "vmap"))
-    return simulate_roller_batch(scene, duration, over, simulation=simulation, interval=interval, method=method)
+    return scene.simulated_batch(duration, over, simulation=simulation, interval=interval, method=method)

@@ -13,9 +13,10 @@ from moving_roller import start_of, table_16
 
 import jaxbearing as jb
 from jaxbearing.bearings.motion.instants import pocket_loads
+from jaxbearing.bearings.motion.runs import trajectory
 from jaxbearing.bearings.motion.settings import Simulation
 from jaxbearing.bearings.motion.start import quasi_static_start
-from jaxbearing.simulate import simulate, trajectory
+from jaxbearing.simulate import simulate
 from jaxbearing.time_laws import AbstractTimeFactor, Ramp, RotatingLoad, Sinusoidal
 
 SHORT = 2.56e-3

@@ -137,7 +137,8 @@ def simulate(
 
 
 def _check_instants(length: float, every: float | None) -> None:
-    from ..bearings.motion.runs import INTERVAL, MOST_INSTANTS
+    from ..bearings.motion.runs import MOST_INSTANTS
+    from ..simulate import INTERVAL
 
     if length / (every or INTERVAL) > MOST_INSTANTS:
         refuse(
@@ -157,12 +158,11 @@ def _check_animation(path: Path | None) -> None:
 def _last_state(path: Path, model: Any, scene: str, duration: float | None) -> Any:
     """The end of an earlier run, which fits the scene; refused otherwise."""
     from ..report.history_file import read_last_state
-    from ..simulate import check_restart
 
     wanted = "a NetCDF file of an earlier run of this scene, as --out writes it"
     try:
         last = read_last_state(path)
-        check_restart(model, last, duration)
+        model.check_restart(last, duration)
     except OSError as error:
         refuse(f"--restart: found '{path}', which cannot be read ({error.strerror or error}); expected {wanted}")
     except ValueError as error:

@@ -1,7 +1,7 @@
 """Results of a run in time of a line contact, labelled."""
 
 from collections.abc import Mapping
-from typing import Any
+from typing import Any, ClassVar
 
 import equinox as eqx
 from jaxtyping import Array, Bool, Float, Int
@@ -44,6 +44,9 @@ class LineContactHistory(AbstractSolution):
     A run whose film falls below `contact.film_limit` has come to the end of what the model describes: it is completed,
     and a warning says so. `last_state` is where it stands: `simulate(scene, ..., restart=history)` goes on from there.
     """
+
+    of: ClassVar[str] = "line contact"
+    """What it is a state of, for messages."""
 
     status: Int[Array, ""] = eqx.field(metadata=label("1", "how the run ended"))
     time: Float[Array, " time"] = eqx.field(metadata=label("s", "time"))

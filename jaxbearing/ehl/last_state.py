@@ -1,5 +1,7 @@
 """State of a line contact's run in time, in SI units, from which another run continues."""
 
+from typing import ClassVar
+
 import equinox as eqx
 import jax
 import jax.numpy as jnp
@@ -27,6 +29,9 @@ class FilmState(eqx.Module):
     `known`: how many of them are there; `proposal`: the step to try next, s; `identity`: which contact it is (`None`:
     not known, as in files of earlier versions).
     """
+
+    of: ClassVar[str] = "line contact"
+    """What it is a state of, for messages."""
 
     x: Float[Array | np.ndarray, " node"] = eqx.field(metadata=label("m", "place of the node along rolling"))
     time: Float[Array | np.ndarray, ""] = eqx.field(metadata=label("s", "time from which a run can go on"))

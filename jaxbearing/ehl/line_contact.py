@@ -141,6 +141,16 @@ class EHLLineContact(AbstractScene):
 
         return solve_line_contact(self, options)
 
+    def simulated(self, duration: float | None, **settings: Any) -> Any:
+        from .run import run_film
+
+        return run_film(self, duration, **settings)
+
+    def check_restart(self, restart: Any, duration: float | None = None) -> None:
+        from .run import check_state
+
+        check_state(self, restart, duration)
+
     @property
     def hertz(self) -> LineContact:
         """The dry contact, 1 m long."""

@@ -1,8 +1,9 @@
 """A run in time of a line contact: from the steady film, segment after segment."""
 
 import contextlib
+import dataclasses
 from collections.abc import Callable
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import equinox as eqx
 import jax
@@ -10,10 +11,12 @@ import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Array, Float
 
+from ..numerics.checks import check_inputs
 from ..numerics.compiling import quickly_compiled
 from ..numerics.interrupts import Deferral, deferred_interrupts
 from ..numerics.precision import as_float
 from ..numerics.status import SolveError, Status
+from ..numerics.structure import static_number
 from .equations import Point, film_shape
 from .history import FilmHistory, LineContactHistory, PressureHistory, ProfileHistory, thin_note
 from .last_state import UNKNOWN, FilmState, mesh_of_state, motion_of, state_of
@@ -221,3 +224,56 @@ def simulate_film(
         interrupted=interrupted,
         notes=notes,
     )
+
+
+def _length(
+    scene: EHLLineContact, duration: float | None, simulation: FilmSimulation | None
+) -> tuple[FilmSimulation, float]:
+    chosen = simulation or scene.simulation or FilmSimulation()
+    duration = duration if duration is not None else chosen.duration
+    if duration is None:
+        raise ValueError("simulate needs a duration: give it, or name it in the scene's simulation")
+    length = static_number("duration", duration, float)
+    if not length > 0:
+        raise ValueError(f"duration must be > 0 s, got {length:g}")
+    return chosen, length
+
+
+def _require_film(state: Any) -> None:
+    """**Raises:** `ValueError` for what is no state of a line contact."""
+    if not isinstance(state, FilmState):
+        found = getattr(state, "of", type(state).__name__)
+        raise ValueError(f"restart: a state of a {found}, for a scene of a line contact")
+
+
+def check_state(scene: EHLLineContact, state: Any, duration: float | None) -> None:
+    """Checks a state as a run does before it begins. **Raises:** `ValueError`."""
+    _require_film(state)
+    chosen, length = _length(scene, duration, None)
+    check_restart(scene, chosen, state, length)
+
+
+def run_film(
+    scene: EHLLineContact,
+    duration: float | None,
+    *,
+    simulation: FilmSimulation | None,
+    interval: float,
+    throw: bool,
+    progress: Callable[[float, float], None] | None,
+    restart: Any,
+) -> LineContactHistory:
+    """See `jaxbearing.simulate`; every step is kept, whatever `interval`."""
+    check_inputs(scene)
+    chosen, length = _length(scene, duration, simulation)
+    check_inputs(chosen)
+    if isinstance(restart, LineContactHistory):
+        restart = restart.last_state
+    if restart is not None:
+        _require_film(restart)
+    # the length of the run is no part of the program
+    chosen, scene = dataclasses.replace(chosen, duration=None), dataclasses.replace(scene, simulation=None)
+    history = simulate_film(scene, length, chosen, start=restart, progress=progress)
+    if throw:
+        history.raise_if_failed()
+    return history

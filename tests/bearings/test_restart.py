@@ -15,7 +15,6 @@ from jaxbearing.bearings.motion.run import MAY_CHANGE, identity
 from jaxbearing.bearings.parts import azimuths
 from jaxbearing.ehl import FilmState
 from jaxbearing.ehl import last_state as film
-from jaxbearing.simulate import check_restart
 
 BEARING = jb.load_scene("turbine_roller_dynamic")
 CONTACT = jb.load_scene("satellite_contact_1")
@@ -38,7 +37,7 @@ def state_of_contact(scene=CONTACT):
 
 def refused(scene, state, duration=1e-3):
     with pytest.raises(ValueError, match="restart: ") as error:
-        check_restart(scene, state, duration)
+        scene.check_restart(state, duration)
     return str(error.value)
 
 
@@ -83,8 +82,8 @@ def test_what_may_change():
     """Another operating point, oil, friction laws, drag, simulation."""
     changes = {"operation.inner_speed": 900.0, "operation.oil_temperature": 350.0, "drag.coefficient": 0.9}
     changes |= {"oil.viscosity": CONTACT.oil.viscosity, "contact": jb.load_scene("turbine_roller").contact}
-    check_restart(BEARING.replace(changes | {"simulation": jb.Simulation()}), state_of_bearing())
-    check_restart(BEARING.replace({"drag": None}), state_of_bearing())
+    BEARING.replace(changes | {"simulation": jb.Simulation()}).check_restart(state_of_bearing())
+    BEARING.replace({"drag": None}).check_restart(state_of_bearing())
     assert set(MAY_CHANGE) <= {field.name for field in dataclasses.fields(BEARING)}
 
 
@@ -114,5 +113,5 @@ def test_there_and_back():
 def test_a_bearing_whose_first_element_is_elsewhere():
     """Its own state goes on; that of the bearing turned does not."""
     turned = BEARING.replace({"geometry.first_element_angle": 0.1})
-    check_restart(turned, state_of_bearing(turned), 1e-3)
+    turned.check_restart(state_of_bearing(turned), 1e-3)
     assert "first_element_angle" in refused(turned, state_of_bearing(turned.replace_geometry(first_element_angle=0.2)))

@@ -39,12 +39,12 @@ from moving_roller import start_of, started, table_16  # noqa: E402
 from scipy.integrate import solve_ivp  # noqa: E402
 
 from jaxbearing.bearings.motion.rates import CAGE_UNITS, ROLLER_UNITS, WORKS  # noqa: E402
+from jaxbearing.bearings.motion.run import FIELD  # noqa: E402
 from jaxbearing.bearings.motion.settings import Simulation  # noqa: E402
 from jaxbearing.numerics.arrow import ArrowPoint  # noqa: E402
 from jaxbearing.numerics.integrate import integrate_segment  # noqa: E402
 from jaxbearing.numerics.integrator import IMPLICIT, SOLVERS, IntegratorOptions  # noqa: E402
 from jaxbearing.numerics.status import Status  # noqa: E402
-from jaxbearing.simulate import FIELD  # noqa: E402
 
 RUNS = {"0.7 turns, drag 0.6": (0.6, 0.7), "1 turn, drag 1.2": (1.2, 1.0)}
 """Drag coefficient and turns of the cage."""

@@ -17,6 +17,7 @@ import pytest
 from filled_results import history_of, solution_of, structure_of
 
 from fitting import fit as _fit  # noqa: F401  (the module of this name is in sys.modules)
+from jaxbearing import CylindricalRollerBearing, EHLLineContact
 from jaxbearing.cli.main import main
 from jaxbearing.sensitivity import Sensitivities
 from jaxbearing.sweeps import engine
@@ -132,7 +133,8 @@ def made_up(monkeypatch, one_process):
     monkeypatch.setattr(sys.modules["jaxbearing.sensitivity"], "sensitivities_once", slopes)
     monkeypatch.setattr(sys.modules["jaxbearing.simulate"], "simulate", run)
     # a made up state is that of no bearing
-    monkeypatch.setattr(sys.modules["jaxbearing.simulate"], "check_restart", lambda *_: None)
+    for kind in (CylindricalRollerBearing, EHLLineContact):
+        monkeypatch.setattr(kind, "check_restart", lambda *_: None)
     monkeypatch.setattr("jaxbearing.sweeps.plan.LaneProgram", Program)
     fit = lambda measurements, machine, options: fit_results.made_up(machine, "curves.csv")
     monkeypatch.setattr(sys.modules["fitting.fit"], "fit", fit)

@@ -8,7 +8,7 @@ running (a roller between a turning inner and a fixed outer ring spins clockwise
 """
 
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from typing import Any, ClassVar, Literal
 
 import equinox as eqx
@@ -190,6 +190,7 @@ class CylindricalRollerBearing(AbstractBearing):
     """
 
     kind: ClassVar[str] = "cylindrical_roller_bearing"
+    runs_in_programs: ClassVar[bool] = True
     modelled_freedoms: ClassVar[tuple[str, ...]] = ("radial", "lateral", "tilt", "tilt_lateral")
 
     geometry: RollerGeometry
@@ -280,6 +281,21 @@ class CylindricalRollerBearing(AbstractBearing):
 
     def with_lateral_freedom(self) -> "CylindricalRollerBearing":
         return self if self.tilts else self.replace({"ring_freedom": ("radial", "lateral")})
+
+    def simulated(self, duration: float | None, **settings: Any) -> Any:
+        from ..motion.runs import simulate_rollers
+
+        return simulate_rollers(self, duration, **settings)
+
+    def simulated_batch(self, duration: float, over: Mapping[str, Any], **settings: Any) -> Any:
+        from ..motion.runs import simulate_roller_batch
+
+        return simulate_roller_batch(self, duration, over, **settings)
+
+    def check_restart(self, restart: Any, duration: float | None = None) -> None:
+        from ..motion.run import check_fits
+
+        check_fits(self, restart)
 
     @property
     def may_tilt(self) -> bool:

@@ -4,7 +4,7 @@ The command line, JSON, files and plots read this metadata; nothing keeps a seco
 """
 
 from collections.abc import Mapping
-from typing import Any
+from typing import Any, ClassVar
 
 import equinox as eqx
 import jax
@@ -83,6 +83,9 @@ class LastState(eqx.Module):
     - `identity`: which bearing it is (`None`: not known, as in files of earlier versions).
     """
 
+    of: ClassVar[str] = "bearing"
+    """What it is a state of, for messages."""
+
     time: Float[Array | np.ndarray, ""]
     rollers: Float[Array | np.ndarray, "3 roller"]
     cage: Float[Array | np.ndarray, "6"]
@@ -120,6 +123,9 @@ class History(AbstractSolution):
 
     `instants` holds the results with the times in front: `history.instants.cage.speed` has the shape of `time`.
     """
+
+    of: ClassVar[str] = "bearing"
+    """What it is a state of, for messages."""
 
     status: Int[Array, ""] = eqx.field(metadata=label("1", "how the run ended"))
     time: Float[Array, " time"] = eqx.field(metadata=label("s", "time"))

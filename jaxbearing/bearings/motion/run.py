@@ -1,6 +1,6 @@
 """A run of a moving cylindrical roller bearing, piece by piece: states, instants, the shocks between them, energy."""
 
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import equinox as eqx
 import jax
@@ -117,8 +117,10 @@ def identity(scene: CylindricalRollerBearing) -> Identity:
     return identity_of(scene, MAY_CHANGE)
 
 
-def check_fits(scene: CylindricalRollerBearing, last: LastState) -> None:
+def check_fits(scene: CylindricalRollerBearing, last: Any) -> None:
     """**Raises:** `ValueError` where a state is not one of this bearing."""
+    if not isinstance(last, LastState):
+        raise ValueError(f"restart: a state of a {getattr(last, 'of', type(last).__name__)}, for a scene of a bearing")
     count, found = scene.geometry.n_rollers, np.shape(last.rollers)[-1]
     if found != count:
         raise ValueError(f"restart: a state of {found} rollers, for a scene with {count}")

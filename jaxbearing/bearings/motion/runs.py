@@ -30,8 +30,6 @@ from .run import FIELD, UNKNOWN, Advanced, advance, check_fits, energy_of, ident
 from .settings import Simulation
 from .start import IMMOBILE, Start, at_start, begin, checked_lane, quasi_static
 
-INTERVAL = 20e-6
-"""Time between the instants of a history where a run does not say, s."""
 FIRST_STEP = 1e-7
 """First step that is tried, s."""
 SEGMENT = 128
@@ -114,15 +112,21 @@ def _request(
 
 def simulate_rollers(
     scene: CylindricalRollerBearing,
-    duration: float | None = None,
+    duration: float | None,
     *,
-    simulation: Simulation | None = None,
-    interval: float = INTERVAL,
-    throw: bool = True,
-    progress: Progress | None = None,
-    restart: History | LastState | None = None,
+    simulation: Any,
+    interval: float,
+    throw: bool,
+    progress: Progress | None,
+    restart: Any,
 ) -> History:
     """See `jaxbearing.simulate`."""
+    if getattr(restart, "of", "bearing") != "bearing":
+        raise ValueError(f"restart: a state of a {restart.of}, for a scene of a bearing")
+    if not isinstance(restart, History | LastState | None):
+        raise TypeError(f"restart must be a History or a LastState (jb.read_last_state of a file), got {restart!r}")
+    if not isinstance(simulation, Simulation | None):
+        raise TypeError(f"simulation must be a Simulation, got {simulation!r}")
     chosen, length = _request(scene, duration, simulation, interval)
     last = restart.last_state() if isinstance(restart, History) else restart
     if last is not None:
@@ -235,7 +239,7 @@ def simulate_roller_batch(
     over: Mapping[str, Any],
     *,
     simulation: Simulation | None = None,
-    interval: float = INTERVAL,
+    interval: float,
     method: Literal["map", "vmap"] = "map",
 ) -> History:
     """See `jaxbearing.simulate_batch`."""
