@@ -9,8 +9,10 @@ import pytest
 from roller_cases import HARD_CASES, changed, dry_roller, reference_roller, turbine_roller
 
 import jaxbearing as jb
-from jaxbearing.bearings.cylindrical.forces import CageParts, forces_without_pocket, ring_torques
+from jaxbearing.bearings.cylindrical.forces import CageParts, forces_without_pocket, friction_on_rings
+from jaxbearing.bearings.cylindrical.solution import PowerLoss
 from jaxbearing.bearings.cylindrical.steady import build_system
+from jaxbearing.bearings.interactions import costs
 from jaxbearing.contacts import JoinedRollingResistance, NoThermalReduction, RigidRollingResistance
 from jaxbearing.contacts.laws import ContactState
 from jaxbearing.numerics.arrow import evaluate
@@ -93,15 +95,23 @@ def test_raceways_act_as_they_are_acted_upon():
     contact = ContactState(jnp.ones((2, 30)), None, traction, rolling, jnp.zeros(()))
     parts = CageParts(pocket=None, land=None, guidance="inner_ring")
     speeds = jnp.full(30, 500.0), jnp.full(30, 6000.0)
+
+    def driven_by(contact):
+        still = jnp.zeros((2, 30))
+        found = costs(
+            PowerLoss, friction_on_rings(system.kinematics, contact, still, still, None, None), system.kinematics
+        )
+        return found.inner_torque + found.outer_torque
+
     forces = forces_without_pocket(system.kinematics, system.contact, contact, parts, *speeds)
-    driven = sum(ring_torques(system.kinematics, contact, None, None))
+    driven = driven_by(contact)
     got = jnp.sum(forces.tangential * system.kinematics.pitch_radius + forces.moment)
     np.testing.assert_allclose(got, driven, rtol=1e-12)
     # and each kind of force by itself
     for state in (contact._replace(rolling_force=None), contact._replace(traction=jnp.zeros((2, 30)))):
         forces = forces_without_pocket(system.kinematics, system.contact, state, parts, *speeds)
         got = jnp.sum(forces.tangential * system.kinematics.pitch_radius + forces.moment)
-        np.testing.assert_allclose(got, sum(ring_torques(system.kinematics, state, None, None)), rtol=1e-12)
+        np.testing.assert_allclose(got, driven_by(state), rtol=1e-12)
 
 
 def test_dry_has_no_power_and_carries_the_load():

@@ -139,7 +139,7 @@ def test_every_dissipation_is_positive():
     dynamics, state = rolling()
     for seed in range(3):
         now, _ = all_at(dynamics, ZERO, shaken(dynamics, state, seed=seed))
-        loss = dynamics.losses(now)
+        loss = dynamics.costs(now).power_loss
         named = ("inner_raceway", "outer_raceway", "pocket", "flange", "element_ends", "cage_pilot", "drag")
         assert all(getattr(loss, name) > 0 for name in named)
 

@@ -15,6 +15,7 @@ from ...numerics.arrow import ArrowJacobian, ArrowPoint, linearize
 from ...numerics.newton import NewtonOptions, NewtonResult, newton_solve
 from ..assemble import assemble
 from ..facts import MEAN_OF_POINT, RACEWAYS, Contacts, Facts
+from ..interactions import Interaction, costs, of_land
 from ..land import LandState
 from ..parts import azimuths
 from ..ring import InnerRing, Port
@@ -241,25 +242,22 @@ def _lubricated(scene: BallBearing, system: LubricatedBallSystem, result: Newton
         eccentricity = jnp.zeros(()) if alone else land.eccentricity_ratio
         cage = CageState(orbit, slip, eccentricity, land.attitude_angle)
     parts = _raceway_power(system, state)
-    losses = _losses(system, state, land)
-    inner, outer = _ring_torques(system, state, land)
-    drive = motion.inner_speed * inner + motion.outer_speed * outer
-    return _Results(cage, elements, losses, parts, drive, inner, outer, facts)
+    cost = costs(BallPowerLoss, _interactions(system, state, land), motion)
+    return _Results(cage, elements, cost.power_loss, parts, *cost[1:], facts)
 
 
 def _rolling_alone(system: LubricatedBallSystem, state: BallsState, elements: BallResults, facts: Facts) -> _Results:
     """Results of balls that roll without sliding: what rolling costs, where the scene models it."""
-    balance = rolling_balance(system, state)
-    if balance is None:
-        return _Results(None, elements, BallPowerLoss(), None, None, None, None, facts)
-    power = system.multiplicity * jnp.sum(SIDES * balance.resistance * state.races.roll)
-    if system.common_orbit:
-        inner, outer = common_orbit_torques(system, state, balance.resistance)
-    else:
-        inner, outer = _ball_torques(system, state, balance.forward, balance.about, (balance.resistance,))
-    drive = system.kinematics.inner_speed * inner + system.kinematics.outer_speed * outer
-    losses = BallPowerLoss(total=power, rolling_resistance=power)
-    return _Results(None, elements, losses, None, drive, inner, outer, facts)
+    balance, found = rolling_balance(system, state), []
+    if balance is not None:
+        power = system.multiplicity * jnp.sum(SIDES * balance.resistance * state.races.roll)
+        if system.common_orbit:
+            torques = common_orbit_torques(system, state, balance.resistance)
+        else:
+            torques = _ball_torques(system, state, balance.forward, balance.about, (balance.resistance,))
+        found = [Interaction("rolling_resistance", power, *torques)]
+    cost = costs(BallPowerLoss, found, system.kinematics)
+    return _Results(None, elements, cost.power_loss, None, *cost[1:], facts)
 
 
 def _raceway_power(system: LubricatedBallSystem, state: BallsState) -> RacewayPower:
@@ -275,40 +273,31 @@ def _raceway_power(system: LubricatedBallSystem, state: BallsState) -> RacewayPo
     return dataclasses.replace(parts, inner_curvature=curved[0], outer_curvature=curved[1])
 
 
-def _losses(system: LubricatedBallSystem, state: BallsState, land: LandState | None) -> BallPowerLoss:
-    """Dissipation by location, each from the force and the speed of its own interaction."""
+def _interactions(system: LubricatedBallSystem, state: BallsState, land: LandState | None) -> list[Interaction]:
+    """All friction of balls that slide, each from the force and the speed of its own interaction."""
     shear, pocket, motion = state.traction, state.pocket, state.motion
     assert shear is not None
     total = lambda power: system.multiplicity * jnp.sum(power)
-    losses: dict[str, Array | None] = {"inner_raceway": total(shear.power[0]), "outer_raceway": total(shear.power[1])}
+    curved = () if state.curvature is None else (state.curvature,)
+    inner, outer = _ball_torques(system, state, jnp.asarray(-SIDES * shear.rolling), -shear.moment, curved)
+    found = [
+        Interaction("inner_raceway", total(shear.power[0]), inner_torque=inner),
+        Interaction("outer_raceway", total(shear.power[1]), outer_torque=outer),
+    ]
     if state.rolling is not None:
-        losses["rolling_resistance"] = total(SIDES * state.rolling * state.races.roll)
+        nothing = jnp.zeros_like(state.rolling)
+        torques = _ball_torques(system, state, nothing, nothing, (state.rolling,))
+        found.append(Interaction("rolling_resistance", total(SIDES * state.rolling * state.races.roll), *torques))
     if pocket is not None:
         radius = 0.5 * system.kinematics.ball_diameter
         power = pocket.friction * motion.axial_spin + pocket.transverse * motion.radial_spin
-        losses["pocket"] = total(radius * power)
-    if land is not None:
-        losses["cage_pilot"] = land.power
-    if state.drag_force is not None:
-        losses["drag"] = total(state.drag_force * 0.5 * system.kinematics.pitch_diameter * motion.orbital_speed)
-    everything = sum((value for value in losses.values() if value is not None), jnp.zeros(()))
-    return BallPowerLoss(total=everything, **losses)
-
-
-def _ring_torques(system: LubricatedBallSystem, state: BallsState, land: LandState | None) -> tuple[Array, Array]:
-    """Torques that must be applied to the inner and the outer ring to keep them turning, N m, from the forces and
-    couples of balls and land on the rings: independent of the dissipations."""
-    shear = state.traction
-    assert shear is not None
-    resistances = tuple(moment for moment in (state.rolling, state.curvature) if moment is not None)
-    forward = jnp.asarray(-SIDES * shear.rolling)
-    inner, outer = _ball_torques(system, state, forward, -shear.moment, resistances)
+        found.append(Interaction("pocket", total(radius * power)))
     if land is not None and system.cage is not None:
-        if system.cage.guidance == "inner_ring":
-            inner = inner - land.ring_torque
-        else:
-            outer = outer - land.ring_torque
-    return inner, outer
+        found.append(of_land(land.power, land.ring_torque, system.cage.guidance))
+    if state.drag_force is not None:
+        speed = 0.5 * system.kinematics.pitch_diameter * motion.orbital_speed
+        found.append(Interaction("drag", total(state.drag_force * speed)))
+    return found
 
 
 def _ball_torques(

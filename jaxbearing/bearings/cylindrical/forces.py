@@ -11,6 +11,7 @@ from ...contacts import LineContact
 from ...contacts.laws import ContactState
 from ...gaps import EndForces, FlangeCoefficients, Pocket, PocketEdgeCoefficients, RollerDrag, ShortJournal
 from ...numerics.series import cosine_and_sine
+from ..interactions import Costs, Interaction, costs
 from ..motion.loads import per_race
 from .kinematics import RollerKinematics
 from .solution import PowerLoss
@@ -105,54 +106,60 @@ def on_cage(
     return moment, jnp.stack([-forward * cosine - outward * sine, -forward * sine + outward * cosine])
 
 
-def ring_torques(
+def friction_on_rings(
     motion: RollerKinematics,
-    state: ContactState,
+    contact: ContactState,
+    sliding: Array,
+    rolling: Array,
     inner_flange: EndForces | None,
     outer_flange: EndForces | None,
-) -> tuple[Float[Array, ""], Float[Array, ""]]:
-    """Torques that must be applied to the inner and the outer ring against rollers and their ends, N m."""
-    traction = state.traction
+) -> list[Interaction]:
+    """Friction of the rollers on raceways and flanges.
+
+    **Arguments:** `sliding`, `rolling`: sliding speeds and mean surface speeds on the inner and the outer race, m/s.
+    """
+    traction, resistance = contact.traction, contact.rolling_force
     assert traction is not None
-    inner = jnp.sum(traction[0]) * motion.inner_radius
-    outer = -jnp.sum(traction[1]) * motion.outer_radius
-    rolling = state.rolling_force
-    if rolling is not None:
-        inner = inner + 0.5 * jnp.sum(rolling[0]) * motion.inner_radius
-        outer = outer - 0.5 * jnp.sum(rolling[1]) * motion.outer_radius
+    power = jnp.sum(traction * sliding, axis=1)
+    found = [
+        Interaction("inner_raceway", power[0], inner_torque=jnp.sum(traction[0]) * motion.inner_radius),
+        Interaction("outer_raceway", power[1], outer_torque=-jnp.sum(traction[1]) * motion.outer_radius),
+    ]
+    if resistance is not None:
+        torques = _against_rolling(motion, resistance)
+        found.append(Interaction("rolling_resistance", jnp.sum(resistance * rolling), *torques))
     if inner_flange is not None:
-        inner = inner - jnp.sum(inner_flange.ring_moment)
+        found.append(Interaction("flange", jnp.sum(inner_flange.power), -jnp.sum(inner_flange.ring_moment)))
     if outer_flange is not None:
-        outer = outer - jnp.sum(outer_flange.ring_moment)
-    return inner, outer
+        found.append(Interaction("flange", jnp.sum(outer_flange.power), None, -jnp.sum(outer_flange.ring_moment)))
+    return found
 
 
-class RollingAlone(NamedTuple):
-    """Cost of rolling without sliding: losses and drive power, W, torques on the rings, N m; None: not modelled."""
-
-    power_loss: PowerLoss
-    drive_power: Float[Array, ""] | None
-    inner_torque: Float[Array, ""] | None
-    outer_torque: Float[Array, ""] | None
+def _against_rolling(motion: RollerKinematics, resistance: Array) -> tuple[Array, Array]:
+    """Torques on the rings, N m, of the resistance to rolling: half of its force is on the ring's side."""
+    half = 0.5 * jnp.sum(resistance, axis=1)
+    return half[0] * motion.inner_radius, -half[1] * motion.outer_radius
 
 
 def rolling_alone(
     contact: LineContact, motion: RollerKinematics, rolling: Float[Array, "2 roller"] | None
-) -> RollingAlone:
+) -> Costs[PowerLoss]:
     r"""Power and ring torques of rollers that roll without sliding against their rolling resistances R, N.
 
     The tractions that balance each roller do no work: $T_i + T_o = (R_i + R_o)/2$ (moment), $T_i - T_o = \lambda_oR_o -
     \lambda_iR_i$ (tangential force), $\lambda$ as in `rolling_force_factor`.
     """
     if rolling is None:
-        return RollingAlone(PowerLoss(), None, None, None)
+        return costs(PowerLoss, [], motion)
     lean = rolling_force_factor(contact, motion)
     total = 0.5 * (rolling[0] + rolling[1])
     difference = lean[1] * rolling[1] - lean[0] * rolling[0]
     traction = 0.5 * jnp.stack([total + difference, total - difference])
-    state = ContactState(jnp.ones_like(rolling), None, traction, rolling, jnp.zeros(()))
-    inner, outer = ring_torques(motion, state, None, None)
     still = jnp.zeros(())
     power = jnp.sum(rolling) * motion.surface_speeds(still, still)[0][0]
-    drive = motion.inner_speed * inner + motion.outer_speed * outer
-    return RollingAlone(PowerLoss(total=power, rolling_resistance=power), drive, inner, outer)
+    constraint = jnp.sum(traction, axis=1) * jnp.stack([motion.inner_radius, -motion.outer_radius])
+    found = [
+        Interaction("", None, constraint[0], constraint[1]),
+        Interaction("rolling_resistance", power, *_against_rolling(motion, rolling)),
+    ]
+    return costs(PowerLoss, found, motion)

@@ -12,6 +12,7 @@ from ...numerics.arrow import ArrowPoint, condensed, linearize, schur_complement
 from ...numerics.newton import NewtonOptions, NewtonResult, newton_solve
 from ..assemble import assemble
 from ..facts import MEAN_OF_LINE, RACEWAYS, Contacts, Facts
+from ..interactions import Interaction, costs, of_land
 from ..land import LandState
 from ..motion.loads import LEAST_LOAD
 from ..parts import azimuths, drag_density
@@ -19,7 +20,7 @@ from ..profile import pressed_load
 from ..ring import LENGTH_UNIT, InnerRing, Port
 from ..solution import CageState, Solution
 from .equations import IN_PLANE, DryRollerSystem, LubricatedRollerSystem, RollerState, outward
-from .forces import CageParts, ring_torques, rolling_alone
+from .forces import CageParts, friction_on_rings, rolling_alone
 from .kinematics import RollerKinematics, roller_kinematics
 from .ring import roller_ring
 from .scene import CylindricalRollerBearing, RollerCage, RollerGeometry
@@ -248,11 +249,10 @@ def _lubricated(system: LubricatedRollerSystem, result: NewtonResult) -> _Result
     )
     facts = Facts((contacts,), inlet=system.inlet)
     if system.cage is None:
-        return _Results(None, elements, *rolling_alone(system.contact, motion, contact.rolling_force), facts)
+        cost = rolling_alone(system.contact, motion, contact.rolling_force)
+        return _Results(cage=None, elements=elements, facts=facts, **cost._asdict())
 
     land = system.land_at(result.point, state)
-    losses = _losses(system, state, land)
-    inner, outer = _ring_torques(system, state, land)
     orbit = system.orbit(result.point.globals[-1])
     cage = CageState(
         speed=orbit,
@@ -260,8 +260,8 @@ def _lubricated(system: LubricatedRollerSystem, result: NewtonResult) -> _Result
         eccentricity_ratio=land.eccentricity_ratio,
         attitude_angle=land.attitude_angle,
     )
-    drive = motion.inner_speed * inner + motion.outer_speed * outer
-    return _Results(cage, elements, losses, drive, inner, outer, facts)
+    cost = costs(PowerLoss, _interactions(system, state, land), motion)
+    return _Results(cage=cage, elements=elements, facts=facts, **cost._asdict())
 
 
 def cage_slip(orbit: Array, motion: RollerKinematics) -> Array:
@@ -273,40 +273,19 @@ def cage_slip(orbit: Array, motion: RollerKinematics) -> Array:
     return (free - orbit) * free / (jnp.square(free) + jnp.square(1e-8 * motion.orbit_unit))
 
 
-def _losses(system: LubricatedRollerSystem, state: RollerState, land: LandState) -> PowerLoss:
-    """Dissipation by location, each from the force and the speed of its own interaction."""
-    motion, traction, pocket = system.kinematics, state.contact.traction, state.pocket
-    rolling = state.contact.rolling_force
-    assert traction is not None
+def _interactions(system: LubricatedRollerSystem, state: RollerState, land: LandState) -> list[Interaction]:
+    """All friction of rollers that slide, each from the force and the speed of its own interaction."""
+    motion, pocket, cage = system.kinematics, state.pocket, system.cage
     assert pocket is not None
-    sliding = jnp.sum(traction * state.sliding_speed, axis=1)
-    friction = pocket.friction_front + pocket.friction_rear
-    flanges = [end for end in (state.inner_flange, state.outer_flange) if end is not None]
-    losses = {
-        "inner_raceway": sliding[0],
-        "outer_raceway": sliding[1],
-        "rolling_resistance": None if rolling is None else jnp.sum(rolling * state.mean_speed),
-        "pocket": jnp.sum(friction * motion.roller_radius * state.spin_speed),
-        "element_ends": None if state.rails is None else jnp.sum(state.rails.power),
-        "flange": sum(jnp.sum(end.power) for end in flanges) if flanges else None,
-        "cage_pilot": land.power,
-        "drag": None
-        if state.drag_force is None
-        else jnp.sum(state.drag_force * motion.pitch_radius * state.orbital_speed),
-    }
-    total = sum((value for value in losses.values() if value is not None), jnp.zeros(()))
-    return PowerLoss(total=total, **losses)
-
-
-def _ring_torques(system: LubricatedRollerSystem, state: RollerState, land: LandState) -> tuple[Array, Array]:
-    """Torques that must be applied to the inner and the outer ring to keep them turning, N m.
-
-    Assembled from the forces on the rings; that their power equals the sum of the dissipations is the test of every
-    sign in the model.
-    """
-    cage = system.cage
     assert cage is not None
-    inner, outer = ring_torques(system.kinematics, state.contact, state.inner_flange, state.outer_flange)
-    if cage.guidance == "inner_ring":
-        return inner - land.ring_torque, outer
-    return inner, outer - land.ring_torque
+    found = friction_on_rings(
+        motion, state.contact, state.sliding_speed, state.mean_speed, state.inner_flange, state.outer_flange
+    )
+    friction = pocket.friction_front + pocket.friction_rear
+    found.append(Interaction("pocket", jnp.sum(friction * motion.roller_radius * state.spin_speed)))
+    if state.rails is not None:
+        found.append(Interaction("element_ends", jnp.sum(state.rails.power)))
+    found.append(of_land(land.power, land.ring_torque, cage.guidance))
+    if state.drag_force is not None:
+        found.append(Interaction("drag", jnp.sum(state.drag_force * motion.pitch_radius * state.orbital_speed)))
+    return found

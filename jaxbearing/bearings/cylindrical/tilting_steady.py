@@ -147,13 +147,8 @@ def _results(scene: CylindricalRollerBearing, system: TiltingRollers, state: Til
         temperature = inlet.temperature + jnp.stack(rises) if rises else None
         contacts = contacts._replace(laws=scene.contact, mean_speed=speed, temperature=temperature)
         facts = facts._replace(contacts=(contacts,), inlet=inlet)
-    return _Results(
-        None,
-        elements,
-        *costs,
-        LaminaLoads(inner_laminae, outer_laminae, profiled),
-        facts,
-    )
+    laminae = LaminaLoads(inner_laminae, outer_laminae, profiled)
+    return _Results(cage=None, elements=elements, laminae=laminae, facts=facts, **costs._asdict())
 
 
 def _films(

@@ -54,7 +54,8 @@ def observe(dynamics: RollerDynamics, time: Scalar, state: ArrowPoint) -> Instan
             eccentricity_ratio=now.land.eccentricity_ratio,
         )
     peaks = None if pocket is None else PocketPeaks(front=pocket.front.load, rear=pocket.rear.load)
-    inner, outer = dynamics.drive_torques(now)
+    cost = dynamics.costs(now)
+    assert cost.drive_power is not None
     frame_angle, frame_speed, _ = dynamics.frame(time)
     rollers, own, _ = dynamics.unscaled(state)
     return Instant(
@@ -65,8 +66,8 @@ def observe(dynamics: RollerDynamics, time: Scalar, state: ArrowPoint) -> Instan
         cage=cage,
         elements=elements,
         pocket_peaks=peaks,
-        power_loss=dynamics.losses(now),
-        drive_power=motion.inner_speed * inner + motion.outer_speed * outer,
+        power_loss=cost.power_loss,
+        drive_power=cost.drive_power,
         kinetic_energy=dynamics.kinetic_energy(time, state),
         pocket_energy=dynamics.pocket_energy(now),
         raceway_energy=dynamics.raceway_energy(now),

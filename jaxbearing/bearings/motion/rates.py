@@ -52,9 +52,10 @@ from ...numerics.arrow import ArrowPoint
 from ...numerics.series import cosine_and_sine
 from ...time_laws import AbstractTimeFactor, RotatingLoad, Steady
 from ..cylindrical.equations import LubricatedRollerSystem
-from ..cylindrical.forces import RollerForces, forces_without_pocket, on_cage, ring_torques
+from ..cylindrical.forces import RollerForces, forces_without_pocket, friction_on_rings, on_cage
 from ..cylindrical.kinematics import RollerKinematics
 from ..cylindrical.solution import PowerLoss
+from ..interactions import Costs, Interaction, costs, of_land
 from .loads import Distribution, RaceLoads, distributed_loads
 
 ROLLER_UNITS = (1e-5, 0.1, 1.0)
@@ -373,56 +374,36 @@ class RollerDynamics(eqx.Module):
 
     # -- energy ---------------------------------------------------------------------------------------------------
 
-    def drive_torques(self, now: MovingState) -> tuple[Float[Array, ""], Float[Array, ""]]:
-        """That must be applied to the inner and the outer ring, N m."""
-        parts = self.system.cage
+    def costs(self, now: MovingState) -> Costs[PowerLoss]:
+        """Losses by location, W, and what drives the rings, each from the force and the sliding speed of its own
+        interaction; without the squeezing of the pocket films (see `powers`)."""
+        motion, forces, parts = now.motion, now.forces, self.system.cage
         assert parts is not None
-        inner, outer = ring_torques(now.motion, now.contact, now.forces.inner_flange, now.forces.outer_flange)
-        if now.land is None:
-            return inner, outer
-        if parts.guidance == "inner_ring":
-            return inner - now.land.ring_torque, outer
-        return inner, outer - now.land.ring_torque
-
-    def losses(self, now: MovingState) -> PowerLoss:
-        """Dissipation by location, W, each from the force and the sliding speed of its own interaction; without the
-        squeezing of the pocket films (see `powers`)."""
-        motion, contact, forces = now.motion, now.contact, now.forces
-        assert contact.traction is not None
-        sliding = jnp.sum(contact.traction * now.sliding_speed, axis=1)
-        rolling, rails = contact.rolling_force, forces.rails
-        flanges = [end for end in (forces.inner_flange, forces.outer_flange) if end is not None]
+        found = friction_on_rings(
+            motion, now.contact, now.sliding_speed, now.mean_speed, forces.inner_flange, forces.outer_flange
+        )
         cosine, sine = cosine_and_sine(now.azimuth)
         behind = now.orbit - now.cage_orbit
-        pocket = ends = None
         if now.pocket is not None:
             front, rear = now.pocket.front.friction, now.pocket.rear.friction
             outward = now.velocity[1] * cosine - now.velocity[0] * sine
             rubbing = (front + rear) * motion.roller_radius * (now.spin - behind)
-            pocket = jnp.sum(rubbing - (front - rear) * outward)
+            found.append(Interaction("pocket", jnp.sum(rubbing - (front - rear) * outward)))
+        rails = forces.rails
         if rails is not None:
             along = -(now.velocity[0] * cosine + now.velocity[1] * sine)
             forward = rails.tangential_force * (motion.pitch_radius * behind - along)
-            ends = -jnp.sum(forward + rails.moment * (behind - now.spin))
-        drag = forces.drag_force
-        found = {
-            "inner_raceway": sliding[0],
-            "outer_raceway": sliding[1],
-            "rolling_resistance": None if rolling is None else jnp.sum(rolling * now.mean_speed),
-            "pocket": pocket,
-            "element_ends": ends,
-            "flange": sum(jnp.sum(end.power) for end in flanges) if flanges else None,
-            "cage_pilot": None if now.land is None else now.land.power,
-            "drag": None if drag is None else jnp.sum(drag * motion.pitch_radius * now.orbit),
-        }
-        total = sum((value for value in found.values() if value is not None), jnp.zeros(()))
-        return PowerLoss(total=total, **found)
+            found.append(Interaction("element_ends", -jnp.sum(forward + rails.moment * (behind - now.spin))))
+        if now.land is not None:
+            found.append(of_land(now.land.power, now.land.ring_torque, parts.guidance))
+        if forces.drag_force is not None:
+            found.append(Interaction("drag", jnp.sum(forces.drag_force * motion.pitch_radius * now.orbit)))
+        return costs(PowerLoss, found, motion)
 
     def powers(self, time: Scalar, now: MovingState) -> Float[Array, " work"]:
         r"""Rates of `WORKS`, W. That of the load is $-\dot F\cdot d$: its work is this integral plus the change of
         $F\cdot d$."""
-        inner, outer = self.drive_torques(now)
-        drive = now.motion.inner_speed * inner + now.motion.outer_speed * outer
+        cost = self.costs(now)
         closing = lever = jnp.zeros(())
         if now.pocket is not None:
             push = now.pocket.front.load - now.pocket.rear.load
@@ -433,9 +414,9 @@ class RollerDynamics(eqx.Module):
         time = jnp.asarray(time, dtype=float)
         _, load_rate = jax.jvp(self.ring_load, (time,), (jnp.ones_like(time),))
         load = -jnp.sum(load_rate * now.distribution.ring)
-        lost = self.losses(now).total
-        assert lost is not None
-        return jnp.stack([drive, lost, closing, lever, load])
+        assert cost.drive_power is not None
+        assert cost.power_loss.total is not None
+        return jnp.stack([cost.drive_power, cost.power_loss.total, closing, lever, load])
 
     def kinetic_energy(self, time: Scalar, state: ArrowPoint) -> Float[Array, ""]:
         """Kinetic energy of rollers and cage, J."""

@@ -45,6 +45,7 @@ from ...contacts.point_laws import PointFilm
 from ...gaps import RollerDrag
 from ...lubricants import InletOil, Lubricant
 from ...materials import reduced_modulus
+from ..interactions import Costs, Interaction, costs
 from ..parts import drag_density
 from .build import TaperedMotion, rolling_motion
 from .geometry import TaperedGeometry
@@ -103,15 +104,13 @@ class RollerBalance(NamedTuple):
 
 
 class TaperedFriction(NamedTuple):
-    """All of it. `losses`, `inner_torque`, `outer_torque` and `balance` are None where the scene models no friction."""
+    """All of it. `balance` is None where the scene models no friction."""
 
     races: RaceFriction
     rib: RibFriction | None
     drag_force: Array | None
     balance: RollerBalance | None
-    losses: TaperedPowerLoss
-    inner_torque: Array | None
-    outer_torque: Array | None
+    costs: Costs[TaperedPowerLoss]
 
 
 class _Roller(NamedTuple):
@@ -150,22 +149,23 @@ def tapered_friction(scene: TaperedRollerBearing, state: TaperedState) -> Tapere
         speed = 0.5 * geometry.pitch_diameter * motion.orbital_speed
         drag = RollerDrag(jnp.asarray(scene.drag.coefficient), area).force(speed, density)
     traction = None if rib is None else rib.traction
-    nothing = TaperedFriction(races, rib, drag, None, TaperedPowerLoss(), None, None)
+    nothing = TaperedFriction(races, rib, drag, None, costs(TaperedPowerLoss, [], scene.operation))
     if races.rolling is None and traction is None and drag is None:
         return nothing
     balance, torques = _balance(geometry, roller, races, traction, drag)
     multiplicity = geometry.n_rollers // state.load.shape[1]
     total = lambda values: multiplicity * jnp.sum(values, axis=-1)
     inner, outer = total(torques)
-    losses: dict[str, Array] = {}
+    # what keeps the rollers rolling acts on the rings and does no work
+    found = [Interaction("", None, inner, outer)]
     if races.rolling is not None:
-        losses["rolling_resistance"] = jnp.sum(total(races.rolling * races.speed))
+        found.append(Interaction("rolling_resistance", jnp.sum(total(races.rolling * races.speed))))
     if traction is not None:
-        losses["flange"] = total(traction.power)
+        found.append(Interaction("flange", total(traction.power)))
     if drag is not None:
-        losses["drag"] = geometry.n_rollers * drag * 0.5 * geometry.pitch_diameter * motion.orbital_speed
-    loss = TaperedPowerLoss(total=sum(losses.values(), jnp.zeros(())), **losses)
-    return nothing._replace(balance=balance, losses=loss, inner_torque=inner, outer_torque=outer)
+        power = geometry.n_rollers * drag * 0.5 * geometry.pitch_diameter * motion.orbital_speed
+        found.append(Interaction("drag", power))
+    return nothing._replace(balance=balance, costs=costs(TaperedPowerLoss, found, scene.operation))
 
 
 def _roller(geometry: TaperedGeometry) -> _Roller:

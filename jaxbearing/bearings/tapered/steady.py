@@ -14,6 +14,7 @@ from ...numerics.safe import safe_norm
 from ...numerics.status import Status
 from ..assemble import assemble
 from ..facts import MEAN_OF_LINE, MEAN_OF_POINT, RACEWAYS, Contacts, Facts
+from ..interactions import costs
 from ..parts import azimuths
 from ..rating import LAMINAE, rated_laminae
 from ..ring import InnerRing, Port
@@ -232,18 +233,11 @@ def _results(
     inner_laminae, outer_laminae = (
         jnp.broadcast_to(side, (count, rated)) for side in (laminae if rated == own else cut(rated))
     )
-    losses, drive, inner, outer = TaperedPowerLoss(), None, None, None
-    if friction is not None:
-        losses, inner, outer = friction.losses, friction.inner_torque, friction.outer_torque
-    if inner is not None and outer is not None:
-        drive = scene.operation.inner_speed * inner + scene.operation.outer_speed * outer
+    cost = costs(TaperedPowerLoss, [], scene.operation) if friction is None else friction.costs
     return _Results(
         cage=None,
         elements=elements,
-        power_loss=losses,
-        drive_power=drive,
-        inner_torque=inner,
-        outer_torque=outer,
+        **cost._asdict(),
         laminae=LaminaLoads(
             inner_laminae, outer_laminae, scene.profile is not None and scene.profile.shape is not None
         ),

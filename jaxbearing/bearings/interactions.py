@@ -1,0 +1,70 @@
+"""Friction place by place: what it dissipates, and what it asks of the rings; losses and drive power follow from there.
+
+The power of an interaction comes from its own force and its own speed of sliding, its torques from its forces on the
+rings. That the drive power, the sum of torque times speed over both rings, equals the sum of the dissipations is
+therefore a test of every sign in a model, and nowhere assumed.
+"""
+
+from collections.abc import Callable, Sequence
+from typing import Any, Generic, NamedTuple, TypeVar
+
+import jax.numpy as jnp
+from jaxtyping import Array, Float
+
+Losses = TypeVar("Losses")
+
+
+class Interaction(NamedTuple):
+    """Friction at one place of a bearing.
+
+    **Arguments:**
+    - `location`: field of the family's losses that holds its power; "" of constraint forces, which do no work.
+    - `power`: dissipation, W.
+    - `inner_torque`, `outer_torque`: N m, by which the ring must be driven against it; `None`: it does not act on that
+      ring.
+    """
+
+    location: str
+    power: Float[Array, ""] | None = None
+    inner_torque: Float[Array, ""] | None = None
+    outer_torque: Float[Array, ""] | None = None
+
+
+class Costs(NamedTuple, Generic[Losses]):
+    """What all interactions together cost: losses and drive power, W, torques on the rings, N m; `None`: no loss is
+    modelled."""
+
+    power_loss: Losses
+    drive_power: Float[Array, ""] | None = None
+    inner_torque: Float[Array, ""] | None = None
+    outer_torque: Float[Array, ""] | None = None
+
+
+def costs(losses: Callable[..., Losses], interactions: Sequence[Interaction], motion: Any) -> Costs[Losses]:
+    """The costs of a bearing.
+
+    **Arguments:** `losses`: class of the family's losses, with a field for each location and `total`; `motion`: with
+    the speeds of the rings, `inner_speed` and `outer_speed`, rad/s.
+    """
+    if not interactions:
+        return Costs(losses())
+    powers: dict[str, Array] = {}
+    for one in interactions:
+        if one.power is not None:
+            powers[one.location] = powers[one.location] + one.power if one.location in powers else one.power
+    inner, outer = (
+        _sum([torque for one in interactions if (torque := getattr(one, f"{ring}_torque")) is not None])
+        for ring in ("inner", "outer")
+    )
+    drive = motion.inner_speed * inner + motion.outer_speed * outer
+    return Costs(losses(total=_sum(list(powers.values())), **powers), drive, inner, outer)
+
+
+def _sum(values: Sequence[Array]) -> Float[Array, ""]:
+    return sum(values[1:], jnp.asarray(values[0])) if values else jnp.zeros(())
+
+
+def of_land(power: Array, ring_torque: Array, guidance: str) -> Interaction:
+    """The cage's lands: dissipation, W, and torque on the ring that guides it, N m; `guidance` of the cage."""
+    ring = "inner_torque" if guidance == "inner_ring" else "outer_torque"
+    return Interaction("cage_pilot", power, **{ring: -ring_torque})
