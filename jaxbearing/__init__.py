@@ -76,6 +76,7 @@ if TYPE_CHECKING:
     from .numerics.status import SolveError as SolveError
     from .numerics.status import Status as Status
     from .port import reaction as reaction
+    from .program_size import compile_report as compile_report
     from .report.history_file import read_last_state as read_last_state
     from .scenes.errors import SceneError as SceneError
     from .scenes.from_python import load_oil as load_oil
@@ -120,6 +121,7 @@ _LAZY = {
     "TaperedRollerBearing": ".bearings.tapered.scene",
     "TwoDisk": ".machines",
     "builtin_names": ".scenes.reader",
+    "compile_report": ".program_size",
     "load_oil": ".scenes.from_python",
     "load_scene": ".scenes.reader",
     "pocket_loads": ".bearings.motion.instants",

@@ -34,7 +34,7 @@ if TYPE_CHECKING:
     from .machines import TwoDisk, TwoDiskSolution
 
 
-def require_solvable(scene: AbstractScene) -> None:
+def require_solvable(scene: Any) -> None:
     """**Raises:** `TypeError` for what is no scene, or for a kind without a steady state."""
     if not isinstance(scene, AbstractScene) or type(scene).steady_solution is AbstractScene.steady_solution:
         kinds = "a ball, cylindrical or tapered roller bearing, a two-disk machine or a line contact"

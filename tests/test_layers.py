@@ -31,6 +31,7 @@ RANK = {
     "solve": 7,
     "port": 8,
     "lanes": 8,
+    "program_size": 8,
     "simulate": 7,
     "sensitivity": 7,
     "scenes": 9,

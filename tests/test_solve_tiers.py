@@ -66,3 +66,22 @@ def test_what_is_inside_a_program():
     assert seen == [False, True, False]
     jax.grad(lambda x: (seen.append(inside_a_program([x])), x)[1])(1.0)
     assert seen[-1]
+
+
+def test_compile_report_counts_what_a_scene_needs():
+    """A part that is left out adds no line; numbers change nothing."""
+    dry = jb.compile_report(SCENE, compile=False)
+    again = jb.compile_report(SCENE.at_operation(inner_speed=12.0), compile=False)
+    rated = jb.compile_report(SCENE.replace({"rating": jb.Rating()}), compile=False)
+    assert dry[:2] == again[:2]
+    assert dry.equations < rated.equations
+    assert dry.lines < rated.lines
+    assert (dry.optimised, dry.quick) == (None, None)
+    with pytest.raises(TypeError, match="cannot solve a dict"):
+        jb.compile_report({})
+
+
+def test_compile_report_compiles_in_both_ways():
+    report = jb.compile_report(jb.load_scene("two_disk_etm"))
+    assert report.tracing > 0.0
+    assert min(report.optimised, report.quick) > 0.0
