@@ -15,11 +15,12 @@ from ...numerics.safe import safe_norm
 from ..parts import azimuths, drag_density
 from ..ring import LENGTH_UNIT, InnerRing, inner_ring
 from .core import FORCE_FLOOR, BallCore
-from .equations import BallCageParts, BallDrag, BallGuess, LubricatedBallSystem
+from .equations import LubricatedBallSystem
 from .gyroscopic import AbstractGyroscopic, ResolvedCouple
 from .kinematics import BallKinematics
 from .scene import BallBearing
 from .start import together
+from .state import BallCageParts, BallDrag, BallGuess
 from .system import Grooves
 
 SMALLEST_GUESS = 1e-3

@@ -44,11 +44,11 @@ which is what $\int\tau\cdot\Delta u\,dA$ has beside sliding of the centre and s
 """
 
 import dataclasses
-from typing import Literal, NamedTuple
 
 import equinox as eqx
 import jax
 import jax.numpy as jnp
+import numpy as np
 from jaxtyping import Array, Float
 
 from ..._types import Scalar
@@ -56,8 +56,7 @@ from ...contacts import PointContact
 from ...contacts.distributed import Traction
 from ...contacts.point_laws import PointFilm, PointLaws
 from ...contacts.shear import Sliding
-from ...gaps import ReynoldsDrag, RollerDrag, ShortJournal
-from ...gaps.ball_pocket import BallPocket, BallPocketFilm
+from ...gaps.ball_pocket import BallPocketFilm
 from ...lubricants import InletOil, Lubricant
 from ...numerics.arrow import ArrowPoint
 from ...numerics.precision import as_float
@@ -67,9 +66,12 @@ from ..land import LandState, guided_land
 from ..ring import LENGTH_UNIT
 from .core import orbit_row, orbit_totals
 from .geometry import BallGeometry
-from .kinematics import BallMotion, RaceMotion
+from .kinematics import BallMotion
+from .state import BallCageParts, BallDrag, BallGuess, BallsState
 from .system import AbstractBallSystem, InnerArm, OnRing
 
+SIDES = np.array([[1.0], [-1.0]])
+"""Inner, outer: the sense of the contact's x axis along the orbit."""
 LOG_LOAD_RANGE = (-200.0, 18.0)
 """ln(load / 1 N) that an iterate may take."""
 ROLLING_PASSES = 5
@@ -83,68 +85,6 @@ THINNEST_FILM = 1e-3
 """Part of the films that the easiest system has."""
 PART_TOLERANCE = 1e-12
 """Tolerance of the attitude of least spin power, as a part of the way from outer to inner control."""
-
-
-class BallCageParts(eqx.Module):
-    """Terms of the cage in the equations; all are prepared, with the oil at its inlet temperature."""
-
-    pocket: BallPocket
-    land: ShortJournal
-    guidance: Literal["inner_ring", "outer_ring"] = eqx.field(static=True)
-
-
-class BallDrag(eqx.Module):
-    """Drag on the orbiting balls: a law with its own coefficient, and the density of the oil-air mixture."""
-
-    law: ReynoldsDrag | RollerDrag
-    density: Float[Array, ""]
-
-    def force(self, speed: Array, viscosity: Array) -> Array:
-        """N, of the sign of the orbital speed, m/s; it acts against it."""
-        if isinstance(self.law, RollerDrag):
-            return self.law.force(speed, self.density)
-        return self.law.force(speed, self.density, viscosity)
-
-
-class BallGuess(NamedTuple):
-    """Start of the iteration: from the bearing without friction."""
-
-    log_load: Float[Array, " ball"]
-    angle: Float[Array, " ball"]
-    attitude: Float[Array, " ball"]
-    ring: Float[Array, " freedom"]
-
-
-class BallsState(NamedTuple):
-    """Everything that happens at every ball, for given unknowns; arrays over balls, (inner, outer) first where two."""
-
-    load: Float[Array, "2 ball"]
-    angle: Float[Array, "2 ball"]
-    """Contact angles on the races: of the inner one against the tilted ring."""
-    centre: Float[Array, "2 ball"]
-    """Centre of the ball, from the outer groove centre, m."""
-    motion: BallMotion
-    races: RaceMotion
-    friction: Float[Array, "2 ball"] | None
-    film: PointFilm
-    orbit_residual: Float[Array, ""]
-    """Gives how far centrifugal forces of balls that roll without sliding are off, over their loads; 0 for others."""
-    traction: Traction | None
-    rolling: Float[Array, "2 ball"] | None
-    """Moment of the film's pressure against the roll, N m."""
-    curvature: Float[Array, "2 ball"] | None
-    """Moment of Heathcote slip against the roll, N m."""
-    pocket_force: Float[Array, " ball"] | None
-    """Outward force of the pocket's friction on the ball in the balance of forces, N."""
-    pocket: BallPocketFilm | None
-    drag_force: Float[Array, " ball"] | None
-    fit: Float[Array, "2 ball"]
-    rows: tuple[Array, ...]
-    """Residuals of the ball's motion, in the order of its unknowns."""
-    on_ring: Float[Array, "freedom ball"]
-    """Contributions of each ball to the forces on the ring's freedoms, N."""
-    cage_moment: Float[Array, " ball"] | None
-    cage_force: Float[Array, "2 ball"] | None
 
 
 class LubricatedBallSystem(AbstractBallSystem):
@@ -542,73 +482,98 @@ class LubricatedBallSystem(AbstractBallSystem):
         return fit, centre, arm, on_ring
 
     def _with_traction(self, state: BallsState, contact: PointContact) -> BallsState:
-        motion, races, angle = state.motion, state.races, state.angle
-        side = jnp.asarray([[1.0], [-1.0]])
-        slide = self.slide_share * side
+        """The state with all friction on the balls, and the equations of their motion."""
+        motion = state.motion
+        shear, rolling, curvature = self._friction(state, contact)
+        forward, about = jnp.asarray(-SIDES * shear.rolling), -shear.moment
+        axis, radius = self._moments(state.angle, forward, about, (rolling, curvature))
+        tangential, drag_force, pocket = forward[0] + forward[1], None, None
+        if self.drag is not None:
+            speed = 0.5 * self.kinematics.pitch_diameter * motion.orbital_speed
+            drag_force = self.drag.force(speed, self.inlet.viscosity)
+            tangential = tangential - drag_force
+        if self.cage is not None:
+            pocket = self.cage.pocket.balance(tangential, motion.axial_spin, motion.radial_spin, self.inlet.viscosity)
+            axis, radius = axis + pocket.friction, radius - pocket.transverse
+        if self.resolved:
+            couple = 2.0 / self.kinematics.ball_diameter * self.inertia * motion.orbital_speed
+            radius = radius + couple * motion.transverse
+        cage_moment, cage_force = (None, None) if pocket is None else self._on_cage(pocket)
+        state = state._replace(
+            traction=shear,
+            rolling=rolling,
+            curvature=curvature,
+            pocket=pocket,
+            drag_force=drag_force,
+            cage_moment=cage_moment,
+            cage_force=cage_force,
+        )
+        return state._replace(rows=self._rows(state, contact, axis, radius, tangential))
+
+    def _friction(self, state: BallsState, contact: PointContact) -> tuple[Traction, Array | None, Array | None]:
+        """Traction of both contacts; moments against the roll by the film's pressure and by Heathcote slip, N m;
+        `None`: not modelled."""
+        races = state.races
+        slide = self.slide_share * SIDES
         transverse = slide * races.transverse if self.resolved else None
         bend = 0.5 / self._patch_radius() if self.laws.heathcote else None
         curved = None if bend is None else bend * slide * races.roll
         sliding = Sliding(slide * races.rolling, transverse, self.slide_share * races.spin, curved)
         shear = self.laws.shear(contact, state.load, state.film, races.mean_speed, sliding, self.oil)
-        forward, about = -side * shear.rolling, -shear.moment
-        sine, cosine = jnp.sin(angle), jnp.cos(angle)
-        arm = 2.0 / self.kinematics.ball_diameter
-        axis = forward[1] * cosine[1] - forward[0] * cosine[0] + arm * (about[1] * sine[1] - about[0] * sine[0])
-        radius = forward[0] * sine[0] - forward[1] * sine[1] + arm * (about[1] * cosine[1] - about[0] * cosine[0])
-        turn = side * races.roll
+        turn = SIDES * races.roll
         rolling = self.laws.rolling_moment(contact, state.load, state.film, races.mean_speed, turn, self.inlet)
         curvature = None if bend is None or shear.curvature is None else -bend * shear.curvature
-        for resistance in (rolling, curvature):
+        return shear, rolling, curvature
+
+    def _moments(
+        self, angle: Array, forward: Array, about: Array, resistances: tuple[Array | None, ...]
+    ) -> tuple[Array, Array]:
+        """Moments on each ball about the bearing's axis and about the radius, over half of the ball's diameter, N.
+
+        **Arguments:** on the ball, races first: `forward`, force along the orbit, N; `about`, moment about the normal,
+        and `resistances`, moments against the roll, N m.
+        """
+        sine, cosine, arm = jnp.sin(angle), jnp.cos(angle), 2.0 / self.kinematics.ball_diameter
+        axis = forward[1] * cosine[1] - forward[0] * cosine[0] + arm * (about[1] * sine[1] - about[0] * sine[0])
+        radius = forward[0] * sine[0] - forward[1] * sine[1] + arm * (about[1] * cosine[1] - about[0] * cosine[0])
+        for resistance in resistances:
             if resistance is not None:
                 axis = axis + arm * (resistance[1] * cosine[1] + resistance[0] * cosine[0])
                 radius = radius - arm * (resistance[1] * sine[1] + resistance[0] * sine[0])
-        tangential = forward[0] + forward[1]
-        drag_force = None
-        if self.drag is not None:
-            speed = 0.5 * self.kinematics.pitch_diameter * motion.orbital_speed
-            drag_force = self.drag.force(speed, self.inlet.viscosity)
-            tangential = tangential - drag_force
-        pocket = cage_moment = cage_force = outward = None
-        if self.cage is not None:
-            pocket = self.cage.pocket.balance(tangential, motion.axial_spin, motion.radial_spin, self.inlet.viscosity)
-            axis, radius = axis + pocket.friction, radius - pocket.transverse
-            # of the ball on the cage
-            forward_cage, outward = pocket.load_front - pocket.load_rear, pocket.friction_front - pocket.friction_rear
-            half = 0.5 * self.kinematics.pitch_diameter
-            cage_moment = forward_cage * half - pocket.friction / arm
-            turn, lift = jnp.cos(self.azimuth), jnp.sin(self.azimuth)
-            # t = (-sin, cos), n = (cos, sin) in the plane of the bearing, the load along x
-            cage_force = jnp.stack([-forward_cage * lift + outward * turn, forward_cage * turn + outward * lift])
-            if self.multiplicity > 1:  # all balls alike: the pockets hold each other
-                cage_force = jnp.zeros_like(cage_force)
-        scale = self.friction_scale()
-        couple = arm * self.inertia * motion.orbital_speed
-        if self.resolved:
-            radius = radius + couple * motion.transverse
+        return axis, radius
+
+    def _on_cage(self, pocket: BallPocketFilm) -> tuple[Array, Array]:
+        """Moment, N m, and force, N, of each ball on the cage, (along, across) the load line."""
+        forward, outward = pocket.load_front - pocket.load_rear, pocket.friction_front - pocket.friction_rear
+        moment = 0.5 * (self.kinematics.pitch_diameter * forward - self.kinematics.ball_diameter * pocket.friction)
+        cosine, sine = jnp.cos(self.azimuth), jnp.sin(self.azimuth)
+        # t = (-sin, cos), n = (cos, sin) in the plane of the bearing, the load along x
+        force = jnp.stack([-forward * sine + outward * cosine, forward * cosine + outward * sine])
+        if self.multiplicity > 1:  # all balls alike: the pockets hold each other
+            force = jnp.zeros_like(force)
+        return moment, force
+
+    def _rows(
+        self, state: BallsState, contact: PointContact, axis: Array, radius: Array, tangential: Array
+    ) -> tuple[Array, ...]:
+        """Residuals of the ball's motion, in the order of its unknowns; moments over half of its diameter, N."""
+        scale, shear, pocket = self.friction_scale(), state.traction, state.pocket
+        assert shear is not None
         rows = {
             "spin": axis / scale,
             "axial spin": axis / scale,
             "radial spin": -radius / scale,
             "orbit": -tangential / scale,
         }
-        if state.pocket_force is not None and outward is not None:
-            rows["outward"] = (state.pocket_force + outward) / scale
+        if state.pocket_force is not None and pocket is not None:
+            rows["outward"] = (state.pocket_force + (pocket.friction_front - pocket.friction_rear)) / scale
         if self.resolved:
             assert state.friction is not None
-            sideways = state.friction - side * shear.transverse
+            sideways = state.friction - SIDES * shear.transverse
             rows["transverse"], rows["carried"] = (sideways[0] + sideways[1]) / scale, sideways[0] / scale
         if self.attitude == "min_power":
             rows["attitude"] = state.motion.attitude - self._least_power(state, contact)
-        return state._replace(
-            traction=shear,
-            rolling=rolling,
-            curvature=curvature,
-            pocket=pocket,
-            drag_force=drag_force,
-            rows=tuple(rows[name] for name in self.own_unknowns),
-            cage_moment=cage_moment,
-            cage_force=cage_force,
-        )
+        return tuple(rows[name] for name in self.own_unknowns)
 
     def _patch_radius(self) -> Float[Array, "2 1"]:
         """R_k = 2 f_k D/(2 f_k + 1): of the surface in which ball and race meet, across rolling, (inner, outer), m."""

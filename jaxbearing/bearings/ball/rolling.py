@@ -27,7 +27,8 @@ import jax.numpy as jnp
 from jaxtyping import Array, Float
 
 from .core import orbit_totals
-from .equations import BallsState, LubricatedBallSystem
+from .equations import LubricatedBallSystem
+from .state import BallsState
 
 
 class RollingBalance(NamedTuple):

@@ -22,14 +22,12 @@ from ..ring import InnerRing, Port
 from ..solution import RING_FREEDOMS, TILTS, CageState, RacewayPower, Reason, Solution
 from .build import build_core, build_lubricated, ring_directions
 from .core import BallCore
-from .equations import BallsState, LubricatedBallSystem
+from .equations import SIDES, LubricatedBallSystem
 from .kinematics import BallMotion
 from .rolling import common_orbit_torques, rolling_balance
 from .scene import BallBearing
 from .solution import BallPowerLoss, BallResults
-
-SIDES = np.array([[1.0], [-1.0]])
-"""Inner, outer: the sense of the contact's x axis along the orbit."""
+from .state import BallsState
 
 
 def solve_ball(
