@@ -3,6 +3,7 @@
 import equinox as eqx
 import jax
 import jax.numpy as jnp
+import numpy as np
 from jaxtyping import Array, Float
 
 from jaxbearing.numerics.arrow import AbstractArrowSystem, ArrowPoint, evaluate
@@ -51,9 +52,8 @@ class Springs(AbstractArrowSystem):
 
 
 def springs(m=2, g=2, n=5, scale=1.0, flaw=0.0):
-    return Springs(
-        stiffness=jnp.linspace(0.5, 1.5, n), load=scale * jnp.arange(1.0, 1.0 + g), m=m, flaw=jnp.asarray(flaw)
-    )
+    stiffness, load = jnp.asarray(np.linspace(0.5, 1.5, n)), jnp.asarray(scale * np.arange(1.0, 1.0 + g))
+    return Springs(stiffness=stiffness, load=load, m=m, flaw=jnp.asarray(flaw))
 
 
 def flat(point):

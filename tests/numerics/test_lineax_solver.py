@@ -28,20 +28,28 @@ def test_solve_equals_dense_algebra(m, g, n, transposed):
     rng = np.random.default_rng(1)
     point = ArrowPoint(jnp.asarray(rng.normal(size=(m, n))), jnp.asarray(rng.normal(size=g)))
     right = ArrowPoint(jnp.asarray(rng.normal(size=(m, n))), jnp.asarray(rng.normal(size=g)))
-    operator = lx.JacobianLinearOperator(arrow_residual, point, system)
-    dense = dense_jacobian(system, point)
-    if transposed:
-        operator, dense = operator.transpose(), dense.T
-    solved = lx.linear_solve(operator, right, BlockArrow()).value
-    np.testing.assert_allclose(flat(solved), np.linalg.solve(dense, flat(right)), rtol=1e-10, atol=1e-12)
+
+    @jax.jit
+    def solved(system, point, right):
+        operator = lx.JacobianLinearOperator(arrow_residual, point, system)
+        dense = dense_jacobian(system, point)
+        if transposed:
+            operator, dense = operator.transpose(), dense.T
+        return flat(lx.linear_solve(operator, right, BlockArrow()).value), dense, flat(right)
+
+    solution, dense, right = solved(system, point, right)
+    np.testing.assert_allclose(solution, np.linalg.solve(dense, right), rtol=1e-10, atol=1e-12)
 
 
 def test_transpose_of_the_state_is_the_state_of_the_transpose():
-    system = springs(2, 3, 4)
-    operator = lx.JacobianLinearOperator(arrow_residual, system.initial(), system)
-    solver = BlockArrow()
-    turned, _ = solver.transpose(solver.init(operator, {}), {})
-    for a, b in zip(turned, solver.init(operator.transpose(), {}), strict=True):
+    @jax.jit
+    def states(system):
+        operator = lx.JacobianLinearOperator(arrow_residual, system.initial(), system)
+        solver = BlockArrow()
+        turned, _ = solver.transpose(solver.init(operator, {}), {})
+        return turned, solver.init(operator.transpose(), {})
+
+    for a, b in zip(*states(springs(2, 3, 4)), strict=True):
         np.testing.assert_allclose(a, b, rtol=1e-13, atol=1e-14)
 
 
@@ -53,7 +61,7 @@ def test_optimistix_finds_the_root_of_newton_solve():
 
 
 def test_gradient_through_optimistix_equals_ours():
-    theirs = jax.grad(lambda system: jnp.sum(flat(root_by_optimistix(system)) ** 2))(springs())
-    ours = jax.grad(lambda system: jnp.sum(flat(newton_solve(system)[1].point) ** 2))(springs())
+    theirs = jax.jit(jax.grad(lambda system: jnp.sum(flat(root_by_optimistix(system)) ** 2)))(springs())
+    ours = jax.jit(jax.grad(lambda system: jnp.sum(flat(newton_solve(system)[1].point) ** 2)))(springs())
     np.testing.assert_allclose(theirs.load, ours.load, rtol=1e-9)
     np.testing.assert_allclose(theirs.stiffness, ours.stiffness, rtol=1e-9)
