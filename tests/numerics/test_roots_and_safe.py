@@ -1,5 +1,7 @@
 """Monotone root with its implicit derivative; safe functions against the plain ones and at the singular points."""
 
+import functools
+
 import jax
 import jax.numpy as jnp
 import numpy as np
@@ -28,10 +30,13 @@ def cubic(x, args):
     return x**3 + a * x - b
 
 
+ROOT = jax.jit(lambda b: monotone_root(cubic, (2.0, b), -1e4, 1e4, 3.0))
+
+
 @pytest.mark.parametrize("b", [-1e6, -1.0, 0.0, 1e-9, 5.0, 1e9])
 def test_root_against_cardano(b):
     """x^3 + a x = b has one real root for a > 0."""
-    root = monotone_root(cubic, (2.0, b), -1e4, 1e4, 3.0)
+    root = ROOT(b)
     real = [r.real for r in np.roots([1.0, 0.0, 2.0, -b]) if abs(r.imag) < 1e-6 * max(1.0, abs(r))]
     np.testing.assert_allclose(root.value, real[0], rtol=1e-12, atol=1e-15)
     assert root.residual <= 1e-9 * max(1.0, abs(b))
@@ -41,16 +46,16 @@ def test_root_derivative_is_implicit_in_both_modes():
     value = lambda a, b: monotone_root(cubic, (a, b), -10.0, 10.0, 1.0).value
     x = value(2.0, 5.0)
     exact = (-x / (3 * x**2 + 2), 1 / (3 * x**2 + 2))
-    np.testing.assert_allclose(jax.jacfwd(value, argnums=(0, 1))(2.0, 5.0), exact, rtol=1e-13)
-    np.testing.assert_allclose(jax.jacrev(value, argnums=(0, 1))(2.0, 5.0), exact, rtol=1e-13)
+    for mode in (jax.jacfwd, jax.jacrev):
+        np.testing.assert_allclose(jax.jit(mode(value, argnums=(0, 1)))(2.0, 5.0), exact, rtol=1e-13)
 
 
 def test_root_elementwise_and_batched():
     b = jnp.linspace(-3.0, 9.0, 7)
     together = monotone_root(cubic, (2.0, b), -10.0, 10.0, jnp.zeros(7)).value
-    each = jax.vmap(lambda b_: monotone_root(cubic, (2.0, b_), -10.0, 10.0, 0.0).value)(b)
+    each = jax.jit(jax.vmap(lambda b_: monotone_root(cubic, (2.0, b_), -10.0, 10.0, 0.0).value))(b)
     np.testing.assert_allclose(together, each, rtol=1e-14)
-    np.testing.assert_allclose(cubic(together, (2.0, b)), 0.0, atol=1e-13)
+    np.testing.assert_allclose(cubic(np.asarray(together), (2.0, np.asarray(b))), 0.0, atol=1e-13)
 
 
 def test_halley_steps_are_of_third_order_and_keep_the_derivative():
@@ -58,15 +63,16 @@ def test_halley_steps_are_of_third_order_and_keep_the_derivative():
     f = lambda x, b: x + jnp.exp(x) - b
     expansion = lambda x, b: (f(x, b), 1.0 + jnp.exp(x), jnp.exp(x))
     exact = lambda b: b - lambertw(np.exp(b)).real
+    solve = lambda b, guess, **more: monotone_root(f, b, -60.0, 20.0, guess, expansion=expansion, **more).value
+    limited = {n: jax.jit(functools.partial(solve, max_steps=n)) for n in (1, 2)}
+    tolerant = jax.jit(jax.value_and_grad(functools.partial(solve, tolerance=1e-5)))
     for b, guess in ((2.0, 0.8), (2.0, 19.0), (-30.0, 3.0)):
-        solve = lambda b_, guess=guess, **more: monotone_root(f, b_, -60.0, 20.0, guess, **more)
-        found = solve(jnp.asarray(b), expansion=expansion, tolerance=1e-5)
-        np.testing.assert_allclose(found.value, exact(b), rtol=1e-14)
+        found, slope = tolerant(b, guess)
+        np.testing.assert_allclose(found, exact(b), rtol=1e-14)
         # what is left is the cube of the last step, not its square
-        steps = [abs(float(solve(jnp.asarray(b), expansion=expansion, max_steps=n).value) - exact(b)) for n in (1, 2)]
+        steps = [abs(float(limited[n](b, guess)) - exact(b)) for n in (1, 2)]
         if guess == 0.8:
             assert steps[1] < 0.3 * steps[0] ** 3
-        slope = jax.grad(lambda b_, solve=solve: solve(b_, expansion=expansion, tolerance=1e-5).value)(b)
         np.testing.assert_allclose(slope, 1.0 / (1.0 + np.exp(exact(b))), rtol=1e-13)
 
 
@@ -86,9 +92,10 @@ def test_root_of_a_flat_start_bisects():
 
 
 def check_gradients(function, points):
+    three = jax.jit(lambda x: (function(x), jax.jacfwd(function)(x), jax.jacrev(function)(x)))
     for x in points:
-        value, forward, reverse = function(x), jax.jacfwd(function)(x), jax.jacrev(function)(x)
-        assert all(jnp.isfinite(v) for v in (value, forward, reverse)), (x, value, forward, reverse)
+        value, forward, reverse = three(x)
+        assert all(np.isfinite(v) for v in (value, forward, reverse)), (x, value, forward, reverse)
         # a slope of order 1 that cancels to nothing far away leaves round-off
         np.testing.assert_allclose(forward, reverse, rtol=1e-12, atol=1e-15)
 
