@@ -3,6 +3,7 @@ one orbital speed for all balls, numbers of the gyroscopic couple."""
 
 import dataclasses
 
+import equinox as eqx
 import jax
 import jax.numpy as jnp
 import numpy as np
@@ -53,46 +54,52 @@ FORCES = {
 def test_forces_on_balls_cage_and_ring_balance(name):
     """Every body by itself and all together, to 1e-9 of the load, from the forces of the interactions."""
     scene = turbine(**COARSE, **COMBINED, **DRAGGED, **FORCES[name])
-    system, found = newton_solve(build_lubricated(scene, build_core(scene).started()[0]))
-    assert int(found.status) == 0
-    state, azimuth = system.at(found.point), system.azimuth
+    status, state, azimuth, centrifugal = jax.tree.map(np.asarray, forces_of(scene))
+    assert int(status) == 0
     load, pocket = float(scene.operation.radial_load), state.pocket
     close = lambda left, right: np.testing.assert_allclose(left, right, rtol=0, atol=1e-9 * load)
-    cosine, sine, across = jnp.cos(azimuth), jnp.sin(azimuth), jnp.cos(state.angle)
+    cosine, sine, across = np.cos(azimuth), np.sin(azimuth), np.cos(state.angle)
     # source eq. (14): of the pocket the ball gets -F_C1 e_r in front and +F_C2 e_r behind
     front, rear = pocket.friction_front, pocket.friction_rear
-    assert float(jnp.max(jnp.abs(rear - front))) > 0.3
-    friction = jnp.zeros((2, 8)) if state.friction is None else state.friction
-    radial = state.load * across - friction * jnp.sin(state.angle)
-    axial = state.load * jnp.sin(state.angle) + friction * across
-    centrifugal = system.centrifugal(state.motion.orbital_speed)
+    assert float(np.max(np.abs(rear - front))) > 0.3
+    friction = np.zeros((2, 8)) if state.friction is None else state.friction
+    radial = state.load * across - friction * np.sin(state.angle)
+    axial = state.load * np.sin(state.angle) + friction * across
     close(axial[0] - axial[1], 0.0)
     close(radial[0] - radial[1] + centrifugal - front + rear, 0.0)
     # along the tangent, source eq. (16)
-    tangential = -jnp.asarray([[1.0], [-1.0]]) * state.traction.rolling
+    tangential = -np.asarray([[1.0], [-1.0]]) * state.traction.rolling
     pushed = pocket.load_rear - pocket.load_front
     close(tangential[0] + tangential[1] + pushed - state.drag_force, 0.0)
     # cage: the lands carry what the balls do to it; along the load line and across it
-    on_cage = jnp.stack([-pushed * -sine + (front - rear) * cosine, -pushed * cosine + (front - rear) * sine])
-    close(jnp.sum(on_cage, axis=1), jnp.sum(state.cage_force, axis=1))
-    land_on_cage = -float(jnp.sum(on_cage[0]))
+    on_cage = np.stack([-pushed * -sine + (front - rear) * cosine, -pushed * cosine + (front - rear) * sine])
+    close(np.sum(on_cage, axis=1), np.sum(state.cage_force, axis=1))
+    land_on_cage = -float(np.sum(on_cage[0]))
     assert abs(land_on_cage) > 0.05
     # inner ring, source eq. (22), which gets the opposite of what its land does to the cage
     inner_land = land_on_cage if name != "outer guidance" else 0.0
-    close(jnp.sum(radial[0] * cosine) + inner_land, load)
+    close(np.sum(radial[0] * cosine) + inner_land, load)
     # ring, cage and balls: the outer ring's forces on balls and cage, inertia and drag; tangential ones included
     outer_land = land_on_cage - inner_land
-    from_outer = jnp.sum(-radial[1] * cosine - tangential[1] * sine)
-    body = jnp.sum(centrifugal * cosine + state.drag_force * sine)
-    close(load + from_outer + body + outer_land + jnp.sum(-tangential[0] * sine), 0.0)
+    from_outer = np.sum(-radial[1] * cosine - tangential[1] * sine)
+    body = np.sum(centrifugal * cosine + state.drag_force * sine)
+    close(load + from_outer + body + outer_land + np.sum(-tangential[0] * sine), 0.0)
+
+
+@eqx.filter_jit
+def forces_of(scene):
+    """Status of the solve, the balls in equilibrium, their places, and the centrifugal forces."""
+    system, found = newton_solve(build_lubricated(scene, build_core(scene).started()[0]))
+    state = system.at(found.point)
+    return found.status, state, system.azimuth, system.centrifugal(state.motion.orbital_speed)
 
 
 def test_no_cage_no_pocket_friction():
-    scene = turbine(cage=None)
-    core = build_core(scene)
-    assert build_lubricated(scene, core).own_unknowns == ("axial spin", "radial spin", "orbit")
-    assert build_lubricated(turbine(), core).own_unknowns == ("axial spin", "radial spin", "outward")
-    assert build_lubricated(turbine(**{"contact.traction": None, "kinematics.attitude": "outer"}), core).cage is None
+    core = eqx.filter_eval_shape(build_core, turbine(cage=None))  # structure alone
+    shaped = lambda **changes: eqx.filter_eval_shape(build_lubricated, turbine(**changes), core)
+    assert shaped(cage=None).own_unknowns == ("axial spin", "radial spin", "orbit")
+    assert shaped().own_unknowns == ("axial spin", "radial spin", "outward")
+    assert shaped(**{"contact.traction": None, "kinematics.attitude": "outer"}).cage is None
 
 
 @pytest.mark.slow
@@ -405,11 +412,11 @@ def test_taking_the_couple_out_takes_its_numbers_along():
 def test_gyroscopic_couple_is_euler_s():
     """By cross products: the ball's moment about the radius, and the couple that friction has to carry."""
     scene = turbine(**{"kinematics.gyroscopic": ResolvedCouple(), "cage": None, "drag": None})
-    system = build_lubricated(scene, build_core(scene))
+    system, start = built(scene)
     # none of it for friction to carry: loads and slides do not depend on the inertia then
     system = dataclasses.replace(system, couple_share=jnp.zeros(()))
-    unknowns = system.initial().elements.at[system.own_unknowns.index("transverse") + 2].set(0.03)
-    shared = jnp.broadcast_to(system.initial().globals[:, None], (system.initial().globals.size, unknowns.shape[1]))
+    unknowns = start.elements.at[system.own_unknowns.index("transverse") + 2].set(0.03)
+    shared = jnp.broadcast_to(start.globals[:, None], (start.globals.size, unknowns.shape[1]))
 
     @jax.jit
     def radial_row(inertia):
@@ -427,6 +434,13 @@ def test_gyroscopic_couple_is_euler_s():
     np.testing.assert_allclose(row - without, expected, rtol=1e-9)
     whole = dataclasses.replace(system, couple_share=jnp.ones(()))
     np.testing.assert_allclose(whole.couple(motion), -inertia_moment[2], rtol=1e-12)
+
+
+@eqx.filter_jit
+def built(scene):
+    """The system, and where Newton's iteration starts."""
+    system = build_lubricated(scene, build_core(scene))
+    return system, system.initial()
 
 
 def test_bad_couples_are_refused():

@@ -2,6 +2,7 @@
 
 import dataclasses
 
+import equinox as eqx
 import jax
 import jax.numpy as jnp
 import numpy as np
@@ -12,17 +13,18 @@ from jaxbearing.bearings.ball import start as ball_start
 from jaxbearing.bearings.ball.build import build_core, build_lubricated
 from jaxbearing.bearings.ball.start import free_centres
 
-CORE = build_core(jb.load_scene("angular_contact_218", {"operation.axial_load": "10 N"}))
-PROBLEM = CORE._estimates()[0]
+SCENE = jb.load_scene("angular_contact_218", {"operation.axial_load": "10 N"})
+PROBLEM = eqx.filter_jit(lambda scene: build_core(scene)._estimates()[0])(SCENE)
 INNER, OUTER = (float(offset) for offset in PROBLEM.offset)
+centres = eqx.filter_jit(free_centres)
 
 
 def placed(length, angle, force):
     """Distances of a ball centre from the centres of the outer and the inner groove, and its angle on the outer one."""
-    groove = jnp.asarray(length) * jnp.asarray([[np.sin(angle)], [np.cos(angle)]])
-    centre, lost = free_centres(dataclasses.replace(PROBLEM, centrifugal=jnp.asarray([force])), groove)
-    away = np.asarray(groove - centre)[:, 0]
-    outer = np.asarray(centre)[:, 0]
+    groove = length * np.asarray([[np.sin(angle)], [np.cos(angle)]])
+    problem = dataclasses.replace(PROBLEM, centrifugal=jnp.asarray([force]))
+    centre, lost = (np.asarray(part) for part in centres(problem, jnp.asarray(groove)))
+    away, outer = (groove - centre)[:, 0], centre[:, 0]
     return np.hypot(*outer), np.hypot(*away), np.arctan2(*outer), bool(lost[0])
 
 
@@ -113,11 +115,16 @@ def test_a_lane_without_numbers_is_given_up_at_once(load, monkeypatch):
 @pytest.mark.parametrize("guidance", ["inner_ring", "outer_ring"])
 def test_friction_of_pockets_goes_through_the_land_without_a_moment(guidance):
     scene = jb.load_scene("turbine_ball", COMBINED | {"cage.guidance": guidance})
-    system = build_lubricated(scene, build_core(scene))
-    pocket = jnp.linspace(-1.0, 3.0, scene.geometry.n_balls)
-    contributions = system._through_land(pocket)
-    found = dict(zip(system.freedoms, np.asarray(jnp.sum(contributions, axis=1)), strict=True))
-    radial = float(jnp.sum(pocket * jnp.cos(system.azimuth)))
+    pocket = np.linspace(-1.0, 3.0, scene.geometry.n_balls)
+
+    @eqx.filter_jit
+    def through_land(scene, pocket):
+        system = build_lubricated(scene, build_core(scene))
+        return system.freedoms, system._through_land(pocket), system.azimuth
+
+    freedoms, contributions, azimuth = through_land(scene, jnp.asarray(pocket))
+    found = dict(zip(freedoms, np.sum(contributions, axis=1), strict=True))
+    radial = float(np.sum(pocket * np.cos(azimuth)))
     assert found["radial"] == pytest.approx(radial, rel=1e-14)
     assert all(value == 0.0 for name, value in found.items() if name != "radial")
 

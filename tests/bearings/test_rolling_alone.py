@@ -43,20 +43,26 @@ def check(solution, operation):
 @pytest.mark.parametrize("attitude", ["outer", "inner"])
 def test_constraint_forces_balance_each_ball(attitude):
     """Moments about the axis and about the radius and the force along the orbit, as `ball.equations` prints them."""
-    system = build_lubricated(scene := balls(**{"kinematics.attitude": attitude}), build_core(scene))
-    angle = jnp.asarray([[0.7, 0.3], [0.45, 0.52]])
-    state = system.at(system.initial())
-    widened = jax.tree.map(lambda leaf: jnp.broadcast_to(leaf, (*leaf.shape[:-1], 2)), state)
-    state = widened._replace(angle=angle, load=jnp.asarray([[900.0, 400.0], [1200.0, 800.0]]))
-    found = rolling_balance(system, state)
-    assert found is not None
-    (f_i, f_o), (s_i, s_o), (r_i, r_o) = found.forward, found.about, found.resistance
-    (a_i, a_o), arm = angle, 2.0 / system.kinematics.ball_diameter
-    axis = f_o * jnp.cos(a_o) - f_i * jnp.cos(a_i) + arm * (s_o * jnp.sin(a_o) - s_i * jnp.sin(a_i))
-    axis = axis + arm * (r_o * jnp.cos(a_o) + r_i * jnp.cos(a_i))
-    radius = -f_o * jnp.sin(a_o) + f_i * jnp.sin(a_i) + arm * (s_o * jnp.cos(a_o) - s_i * jnp.cos(a_i))
-    radius = radius - arm * (r_o * jnp.sin(a_o) + r_i * jnp.sin(a_i))
-    size = float(jnp.max(jnp.abs(f_i)))
+    angle = np.asarray([[0.7, 0.3], [0.45, 0.52]])
+
+    @eqx.filter_jit
+    def balanced(scene):
+        system = build_lubricated(scene, build_core(scene))
+        state = system.at(system.initial())
+        widened = jax.tree.map(lambda leaf: jnp.broadcast_to(leaf, (*leaf.shape[:-1], 2)), state)
+        load = jnp.asarray([[900.0, 400.0], [1200.0, 800.0]])
+        found = rolling_balance(system, widened._replace(angle=jnp.asarray(angle), load=load))
+        assert found is not None
+        return found.forward, found.about, found.resistance, system.kinematics.ball_diameter
+
+    found = jax.tree.map(np.asarray, balanced(balls(**{"kinematics.attitude": attitude})))
+    (f_i, f_o), (s_i, s_o), (r_i, r_o), diameter = found
+    (a_i, a_o), arm = angle, 2.0 / diameter
+    axis = f_o * np.cos(a_o) - f_i * np.cos(a_i) + arm * (s_o * np.sin(a_o) - s_i * np.sin(a_i))
+    axis = axis + arm * (r_o * np.cos(a_o) + r_i * np.cos(a_i))
+    radius = -f_o * np.sin(a_o) + f_i * np.sin(a_i) + arm * (s_o * np.cos(a_o) - s_i * np.cos(a_i))
+    radius = radius - arm * (r_o * np.sin(a_o) + r_i * np.sin(a_i))
+    size = float(np.max(np.abs(f_i)))
     assert size > 0.1
     for left in (axis, radius, f_i + f_o):
         np.testing.assert_allclose(left, 0.0, atol=1e-13 * size)

@@ -2,6 +2,7 @@
 
 import dataclasses
 
+import equinox as eqx
 import jax
 import jax.numpy as jnp
 import numpy as np
@@ -19,6 +20,7 @@ from jaxbearing.solve import jit_solver
 
 CUP = G1["contact_angle"]
 TIGHT = jb.NewtonOptions(residual_tolerance=1e-13, step_tolerance=1e-11)
+built = eqx.filter_jit(build_tapered)
 
 # Da, D1 (um), tilt, then of roller 0: Q_i, Q_o, Q_f, u_x, phi, u_z; printed to 7 digits, with a spring of 1 N/m
 CHECKS = {
@@ -74,7 +76,7 @@ def test_geometry_check_values():
     )
     body = roller_body(geometry, jnp.asarray(7850.0))
     np.testing.assert_allclose(body, (3.4322749e-3, 4.6564623e-3, 2.4958943e-8, 3.8752955e-8), rtol=5e-8)
-    fast = build_tapered(tapered(1e4, rpm=15000)).inertia
+    fast = built(tapered(1e4, rpm=15000)).inertia
     np.testing.assert_allclose((fast.force, fast.moment), (33.7034, 0.0168145), rtol=3e-6)  # printed to 6 digits
 
 
@@ -91,7 +93,7 @@ def test_axial_load_in_closed_form(solutions):
 def test_loads_close(name, solutions):
     """Forces of the cup equal the loads on the cone, and the moments about the apex too (F1: 1e-9)."""
     loads, more, _ = CHECKS[name]
-    e = solutions[name].elements
+    e = jax.tree.map(np.asarray, solutions[name].elements)
     axial, radial = loads[0], (loads[1] or 0.0) if len(loads) > 1 else 0.0
     sine, cosine = np.sin(CUP), np.cos(CUP)
     np.testing.assert_allclose(np.sum(e.load_outer) * sine, axial, rtol=1e-9)
@@ -103,12 +105,12 @@ def test_loads_close(name, solutions):
     # moments: those of the cup, of the inertia and of the ring's holder, or the applied one, about the apex
     scene = tapered(*loads, **more)
     three = inner_ring(scene.operation, ("axial", "radial", "tilt"), scene.geometry.apex_distance)
-    system = build_tapered(scene, three)
-    ring, own = solutions[name].ring, e
+    system = built(scene, three)
+    ring, own = jax.tree.map(np.asarray, solutions[name].ring), e
     units, lever = np.asarray(system.units()), system.form.apex_distance
-    place = jnp.stack([own.roller_shift, own.roller_lift, own.roller_tilt]) / units
-    state = system.at(ArrowPoint(place, jnp.stack([ring.axial, ring.radial, ring.tilt * lever]) / 1e-5))
-    on_ring, on_cup = np.asarray(system.ring_force(state)), np.asarray(system.cup_force(state))
+    place = np.stack([own.roller_shift, own.roller_lift, own.roller_tilt]) / units
+    point = ArrowPoint(jnp.asarray(place), jnp.asarray(np.stack([ring.axial, ring.radial, ring.tilt * lever]) / 1e-5))
+    on_ring, on_cup = (np.asarray(force) for force in forces_on_rings(system, point))
     inertia, gamma = system.inertia, np.radians(12.036)
     a = -G1["roller_diameter"] / 2 * np.cos(gamma) / np.tan(G1["roller_half_angle"]) + inertia.centre * np.cos(gamma)
     # a force outwards at a, and a couple that turns the small end inwards (from a towards r: negative)
@@ -128,27 +130,36 @@ def test_loads_close(name, solutions):
         )
 
 
+@eqx.filter_jit
+def forces_on_rings(system, point):
+    state = system.at(point)
+    return system.ring_force(state), system.cup_force(state)
+
+
 @pytest.mark.parametrize("laminae", [False, True])
 def test_equations_are_the_gradient_of_the_energy(laminae):
     scene = tapered(5e3, 10e3, 5000, moment=600.0, load_position=-0.02)
     if laminae:
         scene = with_profile(scene)
-    system = build_tapered(scene)
+    system = built(scene)
     rng = np.random.default_rng(1)
-    start = system.initial()
+    start = eqx.filter_jit(lambda system: system.initial())(system)
     for _ in range(4):
         point = ArrowPoint(
-            start.elements + jnp.asarray(rng.normal(size=start.elements.shape)),
-            start.globals + jnp.asarray(rng.normal(size=start.globals.shape)),
+            jnp.asarray(np.asarray(start.elements) + rng.normal(size=start.elements.shape)),
+            jnp.asarray(np.asarray(start.globals) + rng.normal(size=start.globals.shape)),
         )
-        slope = jax.grad(system.potential)(point)
-        found = evaluate(system, point).residual
-        scale = 1e-5 * system.roller_scale()
-        np.testing.assert_allclose(
-            found.elements * scale, slope.elements, rtol=1e-8, atol=1e-8 * np.max(slope.elements)
-        )
-        scale = 1e-5 * system.load_scale()
-        np.testing.assert_allclose(found.globals * scale, slope.globals, rtol=1e-8, atol=1e-8 * np.max(slope.globals))
+        slope, found = jax.tree.map(np.asarray, slopes_of_the_energy(system, point))
+        np.testing.assert_allclose(found.elements, slope.elements, rtol=1e-8, atol=1e-8 * np.max(slope.elements))
+        np.testing.assert_allclose(found.globals, slope.globals, rtol=1e-8, atol=1e-8 * np.max(slope.globals))
+
+
+@eqx.filter_jit
+def slopes_of_the_energy(system, point):
+    """By differentiation, and from the equations with their scales."""
+    found = evaluate(system, point).residual
+    elements, globals_ = found.elements * system.roller_scale(), found.globals * system.load_scale()
+    return jax.grad(system.potential)(point), ArrowPoint(1e-5 * elements, 1e-5 * globals_)
 
 
 def with_profile(scene):
@@ -292,8 +303,8 @@ def test_a_profile_relieves_the_ends():
 
 def test_both_rings_turn():
     """As seen from the cage nothing but the centrifugal force changes when both rings turn on."""
-    turning = build_tapered(tapered(5e3, rpm=3000, outer_speed=3000 * RPM)).inertia
-    alone = build_tapered(tapered(5e3, rpm=3000)).inertia
+    turning = built(tapered(5e3, rpm=3000, outer_speed=3000 * RPM)).inertia
+    alone = built(tapered(5e3, rpm=3000)).inertia
     assert turning.force > 4.0 * alone.force
     assert dataclasses.replace(STEEL).density == 7850.0
 
