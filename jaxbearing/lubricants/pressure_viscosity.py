@@ -8,10 +8,12 @@ import abc
 from typing import ClassVar
 
 import jax.numpy as jnp
+from jaxtyping import Array, Float
 
 from .._types import Batch, Scalar, Values
 from ..numerics.arguments import require_temperature
 from ..numerics.checks import Checked, bounded
+from ..numerics.compiling import compiled_by_hand
 from ..numerics.quadrature import gauss_legendre
 from ..numerics.safe import softplus_floor
 from .simple_viscosity import ConstantViscosity
@@ -127,19 +129,26 @@ class IntegratedPressureViscosity(AbstractPressureViscosity):
 
     def coefficient(self, temperature: Values) -> Batch:
         require_temperature(temperature)
-        temperature = jnp.asarray(temperature, dtype=float)
-        limit = self.viscosity.pressure_limit(temperature)
-        scale = SUBSTITUTION_SCALES * self.viscosity.pressure_scale(temperature)
         nodes, weights = gauss_legendre(NODES)
-        trailing = (1,) * temperature.ndim + (NODES,)
-        end, scale = (limit / (scale + limit))[..., None], scale[..., None]
-        t = end * jnp.asarray(nodes).reshape(trailing)
-        pressure = scale * t / (1.0 - t)
-        jacobian = scale / jnp.square(1.0 - t)
-        ambient = self.viscosity.log_viscosity(0.0, temperature)[..., None]
-        ratio = jnp.exp(ambient - self.viscosity.log_viscosity(pressure, temperature[..., None]))
-        integral = jnp.sum(end * jnp.asarray(weights).reshape(trailing) * ratio * jacobian, axis=-1)
-        return 1.0 / integral
+        temperature = jnp.asarray(temperature, dtype=float)
+        return _integrated(self.viscosity, temperature, jnp.asarray(nodes), jnp.asarray(weights))
+
+
+@compiled_by_hand
+def _integrated(
+    viscosity: AbstractViscosity, temperature: Batch, nodes: Float[Array, " node"], weights: Float[Array, " node"]
+) -> Batch:
+    limit = viscosity.pressure_limit(temperature)
+    scale = SUBSTITUTION_SCALES * viscosity.pressure_scale(temperature)
+    trailing = (1,) * temperature.ndim + nodes.shape
+    end, scale = (limit / (scale + limit))[..., None], scale[..., None]
+    t = end * nodes.reshape(trailing)
+    pressure = scale * t / (1.0 - t)
+    jacobian = scale / jnp.square(1.0 - t)
+    ambient = viscosity.log_viscosity(0.0, temperature)[..., None]
+    ratio = jnp.exp(ambient - viscosity.log_viscosity(pressure, temperature[..., None]))
+    integral = jnp.sum(end * weights.reshape(trailing) * ratio * jacobian, axis=-1)
+    return 1.0 / integral
 
 
 IntegratedPressureViscosity.__init__.__doc__ = """**Arguments:**

@@ -177,7 +177,8 @@ def lamina_rows(quick: bool) -> Rows:
     """Of `rating.n_laminae`: load of a roller with a logarithmic profile, by the part of its length that touches."""
     length, stiffness = 0.012, 1e9
     profile = LogarithmicProfile(jnp.asarray(5e-6))
-    load = lambda count, f, g: float(SlicedLine(stiffness, length, profile, count).load_and_moment(f, g)[0])
+    line_load = eqx.filter_jit(lambda line, f, g: line.load_and_moment(f, g)[0])
+    load = lambda count, *case: float(line_load(SlicedLine(stiffness, length, profile, count), *map(jnp.asarray, case)))
     cases = ((3e-5, 0.0), (-1.6e-5, 2e-5 / length))
     places = np.linspace(-1.0, 1.0, 20_001)
     approach = lambda f, g: f + g * length * 0.5 * (1.0 + places) - np.asarray(profile.drop_at(jnp.asarray(places)))
