@@ -41,14 +41,24 @@ def test_capped_couple_is_whole_when_small_and_friction_when_large():
 @pytest.mark.parametrize("place", [(2.5, 3000.0, 4000.0), (0.0, 3000.0, 4000.0), (2.5, 0.1, 900.0), (-1.0, 50.0, 70.0)])
 def test_capped_couple_derivatives(place):
     law = CappedCouple()
-    value = lambda x: jnp.stack(law.friction(x[0], DIAMETER, x[1], x[2]))
-    found = np.asarray(jax.jacfwd(value)(jnp.asarray(place)))
+    value = jax.jit(lambda x: jnp.stack(law.friction(x[0], DIAMETER, x[1], x[2])))
+    slopes = jax.jit(jax.jacfwd(value))
+    found = np.asarray(slopes(np.asarray(place)))
     assert np.all(np.isfinite(found))
     for i, (x, step) in enumerate(zip(place, (1e-3, 1e-2 * place[1], 1e-1), strict=True)):
-        along = lambda v, i=i: value(jnp.asarray(place).at[i].set(v))
+        along = lambda v, i=i: value(np.asarray([*place[:i], v, *place[i + 1 :]]))
         np.testing.assert_allclose(found[:, i], difference(along, x, step), rtol=1e-7, atol=1e-7)
     for corner in ((0.0, 0.0, 0.0), (2.5, 0.0, 0.0)):
-        assert np.all(np.isfinite(jax.jacfwd(value)(jnp.asarray(corner))))
+        assert np.all(np.isfinite(slopes(np.asarray(corner))))
+
+
+def pocket_values(pocket, x):
+    film = pocket.balance(x[0], x[1], x[2], x[3])
+    return jnp.stack([1e4 * film.film_front, film.load_front, film.friction, film.transverse])
+
+
+POCKET_VALUES = jax.jit(pocket_values)
+POCKET_SLOPES = jax.jit(jax.jacfwd(pocket_values, argnums=1))
 
 
 @pytest.mark.parametrize("net", [-200.0, -1.0, 0.0, 1e-3, 30.0])
@@ -56,17 +66,12 @@ def test_capped_couple_derivatives(place):
 def test_pocket_derivatives(net, spin):
     pocket = BallPocket(clearance=3e-4, ball_radius=0.5 * DIAMETER)
     load = float(pocket.balance(0.0, spin, 0.6 * spin, 5e-3).load_front)
-    scale = jnp.array([load, spin + 0.1, spin + 0.1, 5e-3])
-
-    def value(x):
-        film = pocket.balance(x[0], x[1], x[2], x[3])
-        return jnp.stack([1e4 * film.film_front, film.load_front, film.friction, film.transverse])
-
-    place = jnp.array([net, spin, 0.6 * spin, 5e-3])
-    found = np.asarray(jax.jacfwd(value)(place)) * np.asarray(scale)
+    scale = np.array([load, spin + 0.1, spin + 0.1, 5e-3])
+    place = np.array([net, spin, 0.6 * spin, 5e-3])
+    found = np.asarray(POCKET_SLOPES(pocket, place)) * scale
     assert np.all(np.isfinite(found))
     for i in range(4):
-        along = lambda s, i=i: value(place.at[i].add(s * scale[i]))
+        along = lambda s, i=i: POCKET_VALUES(pocket, place + s * scale * np.eye(4)[i])
         np.testing.assert_allclose(found[:, i], difference(along, 0.0, 1e-3), rtol=1e-6, atol=1e-6)
     swapped = pocket.balance(-net, spin, 0.6 * spin, 5e-3)
     np.testing.assert_allclose(swapped.film_rear, pocket.balance(net, spin, 0.6 * spin, 5e-3).film_front, rtol=1e-12)
@@ -130,7 +135,7 @@ def test_rolling_resistance_takes_power_whichever_way_a_ball_turns():
     np.testing.assert_allclose(roll * radius / speed, 1.0, rtol=1e-12)
     inlet, load = scene.oil.at(373.15), jnp.asarray([3300.0, 4100.0])
     film = PointFilm(load, load, None, inlet.viscosity * jnp.ones(2), load)
-    moment = lambda speed, roll: scene.contact.rolling_moment(contact, load, film, speed, roll, inlet)
+    moment = jax.jit(lambda speed, roll: scene.contact.rolling_moment(contact, load, film, speed, roll, inlet))
     own = point_rolling_moment(contact, load, speed, inlet.viscosity, inlet.pressure_viscosity)
     np.testing.assert_allclose(moment(speed, roll), own, rtol=1e-12)
     assert np.all(own > 0.0)
@@ -139,7 +144,7 @@ def test_rolling_resistance_takes_power_whichever_way_a_ball_turns():
         assert np.all(found * factor >= 0.0)
         assert np.all(np.abs(found) <= np.sqrt(2.0) * np.asarray(own))
         np.testing.assert_allclose(moment(-speed, factor * roll), found, rtol=1e-12)
-    slopes = jax.grad(lambda s, r: jnp.sum(moment(s, r)), argnums=(0, 1))(0.0 * speed, 0.0 * roll)
+    slopes = jax.jit(jax.grad(lambda s, r: jnp.sum(moment(s, r)), argnums=(0, 1)))(np.zeros(2), np.zeros(2))
     assert np.all(np.isfinite(np.asarray(slopes)))
 
 

@@ -47,14 +47,20 @@ ARMS = [
 ]
 
 
+@jax.jit
+def arms(ring, azimuth, centre, lever, side=0.0):
+    """From balls to the inner groove, and their lengths."""
+    arm = inner_arm(ring_frame(ring, azimuth), centre, lever, side)
+    return arm, length_of(arm)
+
+
 @pytest.mark.parametrize(("azimuth", "side", "expected"), ARMS)
 def test_exact_arms_of_five_freedoms(azimuth, side, expected):
     lever, arc = 0.03661272600, 2.313428788e-4
-    ring = jnp.asarray([20e-6, 30e-6, -15e-6, 4e-3, -2.5e-3])[:, None]
+    ring = np.asarray([20e-6, 30e-6, -15e-6, 4e-3, -2.5e-3])[:, None]
     # ball centre along the axis, and from the axis less R_i
-    centre = jnp.asarray([[3e-6], [-3.6e-4]])
-    frame = ring_frame(ring, jnp.asarray([azimuth]))
-    found = length_of(inner_arm(frame, centre, lever, side * arc))
+    centre = np.asarray([[3e-6], [-3.6e-4]])
+    _, found = arms(ring, np.asarray([azimuth]), centre, lever, side * arc)
     # R_i is printed to 1e-12 m
     np.testing.assert_allclose(found, expected, rtol=1e-8)
 
@@ -64,8 +70,8 @@ def test_arm_is_the_least_distance_from_the_circle():
     lever, azimuth = 0.02, np.array([0.4, 2.0])
     shift, tilt = np.array([5e-5, -3e-5, 4e-5]), np.array([0.03, -0.05])
     centre = np.array([[1e-5, -2e-5], [0.0199, 0.0198]])
-    frame = ring_frame(jnp.asarray([*shift, *tilt])[:, None] * jnp.ones((1, 2)), jnp.asarray(azimuth))
-    found = length_of(inner_arm(frame, jnp.asarray(centre - np.array([[0.0], [lever]])), lever))
+    ring = np.asarray([*shift, *tilt])[:, None] * np.ones((1, 2))
+    _, found = arms(ring, azimuth, centre - np.array([[0.0], [lever]]), lever)
     # rotation vector tilt[1] Y - tilt[0] Z, by Rodrigues
     size = np.hypot(*tilt)
     about = np.array([0.0, tilt[1], -tilt[0]]) / size
@@ -84,8 +90,8 @@ def test_closed_form_in_the_plane_of_the_moment(tilt):
     """No clearance: the groove centres come apart by sqrt(A^2 + 4 R_i R_e sin^2(t/2)) - A, R_e = R_i - A."""
     lever, apart = 0.0194, 3.2e-4
     outer = lever - apart
-    frame = ring_frame(jnp.asarray([0.0, 0.0, 0.0, tilt, 0.0])[:, None], jnp.zeros(1))
-    found = length_of(inner_arm(frame, jnp.asarray([[0.0], [-apart]]), lever)) - apart
+    ring = np.asarray([0.0, 0.0, 0.0, tilt, 0.0])[:, None]
+    found = np.asarray(arms(ring, np.zeros(1), np.asarray([[0.0], [-apart]]), lever)[1]) - apart
     expected = np.sqrt(apart**2 + 4.0 * lever * outer * np.sin(0.5 * tilt) ** 2) - apart
     np.testing.assert_allclose(found, [expected], rtol=1e-11, atol=1e-17)
 
@@ -128,7 +134,7 @@ def test_forces_and_moments_balance(any_load):
     axial, radial, moment = 300.0, 1500.0, 6.0
     solution = any_load(axial_load=axial, radial_load=radial, moment=moment)
     assert bool(solution.converged)
-    e, ring = solution.elements, solution.ring
+    e, ring = jax.tree.map(np.asarray, (solution.elements, solution.ring))
     tilt, lever = float(ring.tilt), float(GROOVE.groove_circle_radius)
     assert abs(tilt) > 2e-3
     cosine, sine = np.cos(e.azimuth), np.sin(e.azimuth)
@@ -137,10 +143,9 @@ def test_forces_and_moments_balance(any_load):
     outer_circle = lever - float(GROOVE.centre_distance * GROOVE.free_cosine)
     angle = np.asarray(e.contact_angle_outer)
     centre = np.stack([reach * np.sin(angle), outer_circle + reach * np.cos(angle)])
-    moved = jnp.asarray([ring.axial, ring.radial, 0.0, tilt, 0.0])[:, None] * jnp.ones((1, 9))
-    frame = ring_frame(moved, e.azimuth)
-    arm = inner_arm(frame, jnp.asarray(centre - np.array([[0.0], [lever]])), lever)
-    force = np.asarray(e.load_inner) * np.asarray(arm) / np.asarray(length_of(arm))
+    moved = np.array([ring.axial, ring.radial, 0.0, tilt, 0.0])[:, None] * np.ones((1, 9))
+    arm, length = (np.asarray(part) for part in arms(moved, e.azimuth, centre - np.array([[0.0], [lever]]), lever))
+    force = np.asarray(e.load_inner) * arm / length
     close = lambda found, given: np.testing.assert_allclose(found, given, rtol=0, atol=1e-8 * radial)
     close(np.sum(force[0]), axial)
     close(np.sum(force[1] * cosine - force[2] * sine), radial)

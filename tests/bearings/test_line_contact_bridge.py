@@ -1,5 +1,6 @@
 """The line contact that stands for a ball on a race."""
 
+import equinox as eqx
 import jax.numpy as jnp
 import numpy as np
 import pytest
@@ -52,11 +53,16 @@ def test_hertz_contact_is_that_of_the_ball(case, race, request):
     scales = line_contact_of(scene, solution, race=race).scales()
     elements = solution.elements
     assert_allclose(scales.hertz_pressure, getattr(elements, f"pressure_{race}")[0], rtol=1e-12)
-    cosines = (np.cos(elements.contact_angle_inner), np.cos(elements.contact_angle_outer))
-    modulus = reduced_modulus(scene.materials.rings, scene.materials.balls)
-    loads = np.stack([elements.load_inner, elements.load_outer])
-    ellipse = scene.geometry.contacts(*cosines, modulus).ellipse(loads)
+    ellipse = ellipses(scene, elements)
     assert_allclose(scales.half_width, ellipse.rolling[("inner", "outer").index(race), 0], rtol=1e-12)
+
+
+@eqx.filter_jit
+def ellipses(scene, elements):
+    cosines = jnp.cos(elements.contact_angle_inner), jnp.cos(elements.contact_angle_outer)
+    modulus = reduced_modulus(scene.materials.rings, scene.materials.balls)
+    loads = jnp.stack([elements.load_inner, elements.load_outer])
+    return scene.geometry.contacts(*cosines, modulus).ellipse(loads)
 
 
 @pytest.mark.parametrize("race", ["inner", "outer"])

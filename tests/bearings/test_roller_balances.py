@@ -2,6 +2,7 @@
 
 import dataclasses
 
+import equinox as eqx
 import jax
 import jax.numpy as jnp
 import numpy as np
@@ -89,29 +90,24 @@ def test_few_rollers_at_100_rpm(n_rollers):
 
 def test_raceways_act_as_they_are_acted_upon():
     """The moment about the bearing axis of what a roller gets from both races is what their rings are driven with."""
-    system = build_system(reference_roller())
     random = np.random.default_rng(1)
     traction, rolling = (jnp.asarray(random.normal(size=(2, 30))) for _ in range(2))
     contact = ContactState(jnp.ones((2, 30)), None, traction, rolling, jnp.zeros(()))
     parts = CageParts(pocket=None, land=None, guidance="inner_ring")
     speeds = jnp.full(30, 500.0), jnp.full(30, 6000.0)
 
-    def driven_by(contact):
-        still = jnp.zeros((2, 30))
-        found = costs(
-            PowerLoss, friction_on_rings(system.kinematics, contact, still, still, None, None), system.kinematics
-        )
-        return found.inner_torque + found.outer_torque
-
-    forces = forces_without_pocket(system.kinematics, system.contact, contact, parts, *speeds)
-    driven = driven_by(contact)
-    got = jnp.sum(forces.tangential * system.kinematics.pitch_radius + forces.moment)
-    np.testing.assert_allclose(got, driven, rtol=1e-12)
-    # and each kind of force by itself
-    for state in (contact._replace(rolling_force=None), contact._replace(traction=jnp.zeros((2, 30)))):
+    @eqx.filter_jit
+    def got_and_driven(scene, state):
+        system, still = build_system(scene), jnp.zeros((2, 30))
         forces = forces_without_pocket(system.kinematics, system.contact, state, parts, *speeds)
         got = jnp.sum(forces.tangential * system.kinematics.pitch_radius + forces.moment)
-        np.testing.assert_allclose(got, driven_by(state), rtol=1e-12)
+        friction = friction_on_rings(system.kinematics, state, still, still, None, None)
+        found = costs(PowerLoss, friction, system.kinematics)
+        return got, found.inner_torque + found.outer_torque
+
+    # both kinds of force together, and each by itself
+    for state in (contact, contact._replace(rolling_force=None), contact._replace(traction=jnp.zeros((2, 30)))):
+        np.testing.assert_allclose(*got_and_driven(reference_roller(), state), rtol=1e-12)
 
 
 def test_dry_has_no_power_and_carries_the_load():
@@ -172,8 +168,8 @@ def test_leaving_parts_out_costs_nothing():
     """Unknowns fall without the cage; equations fall without each other part."""
 
     def equations(scene):
-        system = build_system(scene)
-        return len(jax.make_jaxpr(lambda p: evaluate(system, p))(system.initial()).eqns)
+        system = eqx.filter_jit(build_system)(scene)
+        return len(jax.make_jaxpr(lambda p: evaluate(system, p))(jax.eval_shape(system.initial)).eqns)
 
     full = turbine_roller()
     assert jb.solve(full).unknowns == 62

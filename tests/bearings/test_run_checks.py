@@ -14,6 +14,7 @@ from jaxbearing.bearings.cylindrical.kinematics import roller_kinematics
 from jaxbearing.bearings.motion.checks import AT_SOME_TIME, largest, run_excess
 
 SCENE = jb.load_scene("turbine_roller_dynamic")
+excess = eqx.filter_jit(run_excess)
 TIME, ROLLER = 3, 5
 
 
@@ -42,7 +43,7 @@ def calm():
 
 
 def said(instants):
-    found = {text: float(value) for text, value in run_excess(SCENE, instants).items()}
+    found = {text: float(value) for text, value in excess(SCENE, instants).items()}
     assert all(text.startswith(AT_SOME_TIME) and not np.isnan(value) for text, value in found.items())
     return [text.removeprefix(AT_SOME_TIME) for text, value in found.items() if value > 0]
 
@@ -102,7 +103,7 @@ def test_rings_that_change_their_speed_are_not_taken_for_skidding(calm):
 
 
 def test_pieces_of_a_run_are_one_run(calm):
-    pieces = [run_excess(SCENE, calm), run_excess(SCENE, changed(calm, "pressure_inner", 4.1e9))]
+    pieces = [excess(SCENE, calm), excess(SCENE, changed(calm, "pressure_inner", 4.1e9))]
     whole = largest(pieces)
     assert whole.keys() == pieces[0].keys()
     assert all(float(whole[text]) == max(float(piece[text]) for piece in pieces) for text in whole)
@@ -110,8 +111,8 @@ def test_pieces_of_a_run_are_one_run(calm):
 
 def test_an_instant_at_which_a_run_breaks_off_silences_nothing(calm):
     """Its last state may not be finite."""
-    broken = jax.tree.map(lambda leaf: jnp.full_like(leaf, jnp.nan), run_excess(SCENE, calm))
-    whole = largest([run_excess(SCENE, changed(calm, "pressure_inner", 4.1e9)), broken])
+    broken = jax.tree.map(lambda leaf: jnp.full_like(leaf, jnp.nan), excess(SCENE, calm))
+    whole = largest([excess(SCENE, changed(calm, "pressure_inner", 4.1e9)), broken])
     assert any("4 GPa on the inner raceway" in text for text, value in whole.items() if value > 0)
     names = ("load_inner", "load_outer", "pressure_inner", "pressure_outer", "orbital_speed", "spin_speed")
     last = lambda i: tuple(getattr(i.elements, name) for name in names)

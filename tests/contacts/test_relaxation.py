@@ -19,11 +19,11 @@ SLOPES = jax.jit(lambda *a: jax.jvp(STRESS, *a)[1])
 
 
 def padded(trial, relaxation):
-    return (jnp.resize(jnp.asarray(value, dtype=float), SIZE) for value in (trial, relaxation))
+    return (jnp.asarray(np.resize(np.asarray(value, dtype=float), SIZE)) for value in (trial, relaxation))
 
 
 def stress_ratio(law, trial, relaxation):
-    return STRESS(law, *padded(trial, relaxation))[: np.size(trial)]
+    return np.asarray(STRESS(law, *padded(trial, relaxation)))[: np.size(trial)]
 
 
 def slopes(law, trial, relaxation):
@@ -34,7 +34,7 @@ def slopes(law, trial, relaxation):
     for index in (1, 2, 0) if hasattr(law, "exponent") else (1, 2):
         tangent = list(zero)
         tangent[index] = jax.tree.map(jnp.ones_like, point[index])
-        found.append(SLOPES(point, tuple(tangent))[: np.size(trial)])
+        found.append(np.asarray(SLOPES(point, tuple(tangent)))[: np.size(trial)])
     return found
 
 

@@ -53,16 +53,17 @@ def test_against_mpmath(law):
 def test_inverse_both_ways(law):
     q = jnp.asarray([-20.0, -3.0, -0.5, -1e-9, 0.0, 1e-9, 0.5, 3.0])
     # near the limiting stress 1 - s carries eps/(1 - s): e^3 for Bair and Winer, (1 - s^n)^-1 for the others
-    s = law.stress_ratio(q)
-    np.testing.assert_allclose(law.rate_ratio(s)[1:], q[1:], rtol=1e-12)
+    stress_ratio, rate_ratio = jax.jit(law.stress_ratio), jax.jit(law.rate_ratio)
+    s = stress_ratio(q)
+    np.testing.assert_allclose(rate_ratio(s)[1:], q[1:], rtol=1e-12)
     s = jnp.asarray([-0.9, -0.1, 0.0, 1e-9, 0.3, 0.99])
-    np.testing.assert_allclose(law.stress_ratio(law.rate_ratio(s)), s, rtol=1e-13)
-    np.testing.assert_allclose(SCALED[law](0.0, q), law.stress_ratio(q), rtol=1e-14)
+    np.testing.assert_allclose(stress_ratio(rate_ratio(s)), s, rtol=1e-13)
+    np.testing.assert_allclose(SCALED[law](0.0, q), stress_ratio(q), rtol=1e-14)
 
 
 @pytest.mark.parametrize("law", LAWS, ids=IDS)
 def test_newtonian_at_rest(law):
-    slopes = [jax.grad(function)(0.0) for function in (law.rate_ratio, law.stress_ratio)]
+    slopes = [jax.jit(jax.grad(function))(0.0) for function in (law.rate_ratio, law.stress_ratio)]
     np.testing.assert_allclose(slopes, 1.0, rtol=1e-15)
     np.testing.assert_allclose(SLOPES[law](jnp.full(1, 2.0), jnp.zeros(1))[1], np.exp(2.0), rtol=1e-14)
 
@@ -71,35 +72,35 @@ def test_newtonian_at_rest(law):
 def test_limiting_stress(law):
     assert float(law.stress_ratio(1e300)) == 1.0
     np.testing.assert_array_equal(SCALED[law](jnp.asarray([600.0, 600.0]), jnp.asarray([1e100, -1e-200])), [1.0, -1.0])
-    assert jnp.all(law.stress_ratio(jnp.logspace(-3, 1, 20)) < 1)
+    assert np.all(np.asarray(jax.jit(law.stress_ratio)(np.logspace(-3, 1, 20))) < 1)
 
 
 def test_order_of_the_limiting_laws():
     """At the same q: Newton above all; E-H rises towards its square corner min(q, 1) with n."""
-    q = jnp.logspace(-1, 1, 9)
-    stress = [ElsharkawyHamrock(n).stress_ratio(q) for n in (1.0, 2.0, 3.0, 200.0)]
-    assert all(jnp.all(low < high) for low, high in itertools.pairwise(stress))
-    np.testing.assert_allclose(stress[-1], jnp.minimum(q, 1.0), rtol=4e-3)  # ln(2)/200 at q = 1
+    q = np.logspace(-1, 1, 9)
+    at = jax.jit(lambda exponent, q: ElsharkawyHamrock(exponent).stress_ratio(q))
+    stress = [np.asarray(at(n, q)) for n in (1.0, 2.0, 3.0, 200.0)]
+    assert all(np.all(low < high) for low, high in itertools.pairwise(stress))
+    np.testing.assert_allclose(stress[-1], np.minimum(q, 1.0), rtol=4e-3)  # ln(2)/200 at q = 1
 
 
 @pytest.mark.parametrize("law", LAWS, ids=IDS)
 def test_hard_cases_value_and_gradient(law):
-    log_scale, x = jnp.meshgrid(
-        jnp.asarray([-800.0, -600.0, 0.0, 229.9, 600.0, 800.0]), jnp.asarray([0.0, 1e-300, -1e-9, 1.0, 1e12])
-    )
-    assert jnp.all(jnp.isfinite(SCALED[law](log_scale, x)))
-    assert all(jnp.all(jnp.isfinite(g)) for g in SLOPES[law](log_scale.ravel(), x.ravel()))
-    assert all(jnp.all(jnp.isfinite(jax.vmap(jax.grad(law.stress_ratio))(q))) for q in (x.ravel(), 1e200 * x.ravel()))
+    log_scale, x = np.meshgrid([-800.0, -600.0, 0.0, 229.9, 600.0, 800.0], [0.0, 1e-300, -1e-9, 1.0, 1e12])
+    assert np.all(np.isfinite(SCALED[law](log_scale, x)))
+    assert all(np.all(np.isfinite(g)) for g in SLOPES[law](log_scale.ravel(), x.ravel()))
+    slopes = jax.jit(jax.vmap(jax.grad(law.stress_ratio)))
+    assert all(np.all(np.isfinite(slopes(q))) for q in (x.ravel(), 1e200 * x.ravel()))
 
 
 @pytest.mark.parametrize("law", LAWS, ids=IDS)
 def test_gradients(law):
-    log_scale = jnp.asarray([-2.0, 0.0, 1.5, 40.0])
-    x = jnp.asarray([3.0, -1.0 - 1e-3, 0.2, 1e-18])
+    log_scale = np.asarray([-2.0, 0.0, 1.5, 40.0])
+    x = np.asarray([3.0, -1.0 - 1e-3, 0.2, 1e-18])
     gradient = SLOPES[law](log_scale, x)
-    for i, step in enumerate((1e-5 * jnp.ones(4), 1e-5 * jnp.abs(x))):
+    for i, step in enumerate((1e-5 * np.ones(4), 1e-5 * np.abs(x))):
         up, down = ((log_scale + s * step, x) if i == 0 else (log_scale, x + s * step) for s in (1, -1))
-        central = (SCALED[law](*up) - SCALED[law](*down)) / (2 * step)
+        central = np.subtract(SCALED[law](*up), SCALED[law](*down)) / (2 * step)
         # round-off 1e-16/1e-5 of values of order 1, truncation 1e-10
         np.testing.assert_allclose(gradient[i] * step, central * step, rtol=1e-7, atol=4e-16)
 

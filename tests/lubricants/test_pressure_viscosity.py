@@ -1,5 +1,6 @@
 """Pressure-viscosity coefficient: the integral, its closed form, the printed tables."""
 
+import functools
 import tomllib
 from pathlib import Path
 
@@ -25,6 +26,7 @@ PUBLISHED = tomllib.loads((Path(__file__).parents[1] / "published" / "lubricants
 # The law is an argument, so that laws of the same class share one compilation.
 COEFFICIENT = jax.jit(lambda law, temperature: law.coefficient(temperature))
 DERIVATIVE = jax.jit(jax.grad(lambda law, t: jnp.sum(law.coefficient(t)), argnums=(0, 1)))
+gauss = functools.cache(np.polynomial.legendre.leggauss)
 LOG_VISCOSITY = jax.jit(lambda law, p, t: law.log_viscosity(p, t))
 INTEGRATED = {name: IntegratedPressureViscosity(oil.viscosity) for name, oil in OILS.items()}
 OTHERS = [
@@ -68,7 +70,7 @@ def test_integral_against_scipy():
 @pytest.mark.parametrize("temperature", [253.15, 313.15, 423.15])
 def test_nodes_are_enough(name, temperature):
     law = OILS[name].viscosity
-    nodes, weights = np.polynomial.legendre.leggauss(400)
+    nodes, weights = gauss(400)
     limit = float(law.pressure_limit(temperature))
     pressure = 0.5 * limit * ((0.5 * (nodes + 1)) ** 3)  # crowded at 0, where the integrand varies
     pressure, weight = 2 * pressure, limit * 1.5 * (0.5 * (nodes + 1)) ** 2 * weights

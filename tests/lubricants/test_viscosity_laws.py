@@ -39,15 +39,15 @@ each_law = pytest.mark.parametrize("law", LAWS.values(), ids=LAWS.keys())
 
 @each_law
 def test_hard_cases_value_and_gradient(law):
-    pressure = jnp.asarray([-1e10, -1e7, -1.0, 0.0, 1.0, 1e9, 3e9, 1e10])[:, None]
-    temperature = jnp.asarray([1.0, 50.0, 100.0, 138.0, 139.0, 250.0, 373.0, 1000.0])[None, :]
+    pressure = np.asarray([-1e10, -1e7, -1.0, 0.0, 1.0, 1e9, 3e9, 1e10])[:, None]
+    temperature = np.asarray([1.0, 50.0, 100.0, 138.0, 139.0, 250.0, 373.0, 1000.0])[None, :]
     value = LOG_VISCOSITY(law, pressure, temperature)
     assert value.shape == (8, 8)
-    assert jnp.all(jnp.isfinite(value))
+    assert np.all(np.isfinite(value))
     # at 1 K the uncapped logarithm is 1e9, and its last digit 1e-7
-    assert jnp.all(value <= CAP + 1e-6)
+    assert np.all(np.asarray(value) <= CAP + 1e-6)
     for leaf in jax.tree.leaves(DERIVATIVE(law, pressure, temperature)):
-        assert jnp.all(jnp.isfinite(leaf))
+        assert np.all(np.isfinite(leaf))
 
 
 @each_law
@@ -90,8 +90,8 @@ def test_eager_is_jit_is_vmap(law):
 
 @pytest.mark.parametrize("law", [law for name, law in LAWS.items() if name != "constant"])
 def test_rises_with_pressure_and_falls_with_temperature(law):
-    pressure = jnp.linspace(0.0, 2e9, 101)
-    assert jnp.all(jnp.diff(LOG_VISCOSITY(law, pressure, 330.0)) > 0)
+    pressure = np.linspace(0.0, 2e9, 101)
+    assert np.all(np.diff(LOG_VISCOSITY(law, pressure, 330.0)) > 0)
     slope = law.log_slope(jnp.asarray([250.0, 313.0, 450.0]))
     assert jnp.all(slope == 0 if law is LAWS["barus_isothermal"] else slope < 0)
 
