@@ -52,8 +52,8 @@ class Sinusoidal(AbstractTimeFactor):
 
     part: ClassVar[str] = "sinusoidal"
 
-    frequency: Scalar = number(bound="> 0")
-    amplitude: Scalar = number()
+    frequency: Scalar = number(bound="> 0", unit="1/s")
+    amplitude: Scalar = number(bound=">= 0", unit="1")
 
     def factor(self, time: Scalar) -> Float[Array, ""]:
         return 1.0 + self.amplitude * jnp.sin(2.0 * jnp.pi * self.frequency * time)
@@ -72,10 +72,10 @@ class Ramp(AbstractTimeFactor):
 
     part: ClassVar[str] = "ramp"
 
-    start: Scalar = number()
-    stop: Scalar = number()
-    duration: Scalar = number(bound="> 0")
-    begin: Scalar = number(0.0)
+    start: Scalar = number(unit="1")
+    stop: Scalar = number(unit="1")
+    duration: Scalar = number(bound="> 0", unit="s")
+    begin: Scalar = number(0.0, bound=">= 0", unit="s")
 
     def factor(self, time: Scalar) -> Float[Array, ""]:
         x = jnp.clip((time - self.begin) / self.duration, 0.0, 1.0)
@@ -97,10 +97,10 @@ class LinearRamp(AbstractTimeFactor):
 
     part: ClassVar[str] = "ramp"
 
-    start: Scalar = number()
-    stop: Scalar = number()
-    duration: Scalar = number(bound=">= 0")
-    begin: Scalar = number(0.0)
+    start: Scalar = number(unit="1")
+    stop: Scalar = number(unit="1")
+    duration: Scalar = number(bound=">= 0", unit="s")
+    begin: Scalar = number(0.0, bound=">= 0", unit="s")
 
     def factor(self, time: Scalar) -> Float[Array, ""]:
         return self.start + (self.stop - self.start) * self._risen(time)
@@ -171,9 +171,9 @@ class RotatingLoad(Checked):
 
     part: ClassVar[str] = "rotating_load"
 
-    load: Scalar = number(bound=">= 0")
-    speed: Scalar = number()
-    phase: Scalar = number(0.0)
+    load: Scalar = number(bound=">= 0", unit="N")
+    speed: Scalar = number(unit="rad/s")
+    phase: Scalar = number(0.0, unit="rad")
 
     def components(self, time: Scalar) -> Float[Array, "2"]:
         """Along azimuths 0 and 90 degrees, N."""

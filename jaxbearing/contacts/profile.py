@@ -32,8 +32,8 @@ class CrownedProfile(AbstractProfile):
     - `straight_fraction`: x0, of the length, >= 0 and below 1.
     """
 
-    drop: Scalar = bounded(">= 0", converter=as_float)
-    straight_fraction: Scalar = bounded(">= 0 and below 1", converter=as_float, default=0.0)
+    drop: Scalar = bounded(">= 0", unit="m", converter=as_float)
+    straight_fraction: Scalar = bounded(">= 0 and below 1", unit="1", converter=as_float, default=0.0)
 
     def drop_at(self, position: Values) -> Float[Array, "..."]:
         beyond = jnp.maximum(jnp.abs(position) - self.straight_fraction, 0.0)
@@ -53,8 +53,8 @@ class LogarithmicProfile(AbstractProfile):
     - `end_ratio`: r, above 0 and below 1: the smaller, the nearer to the ends the roller falls off.
     """
 
-    drop: Scalar = bounded(">= 0", converter=as_float)
-    end_ratio: Scalar = bounded("above 0 and below 1", converter=as_float, default=0.01)
+    drop: Scalar = bounded(">= 0", unit="m", converter=as_float)
+    end_ratio: Scalar = bounded("above 0 and below 1", unit="1", converter=as_float, default=0.01)
 
     def drop_at(self, position: Values) -> Float[Array, "..."]:
         return self.drop * jnp.log1p(-(1.0 - self.end_ratio) * jnp.square(position)) / jnp.log(self.end_ratio)

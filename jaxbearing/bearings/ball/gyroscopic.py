@@ -52,8 +52,8 @@ class SharedCouple(AbstractGyroscopic):
     - `sign`: of the force pair, 1 or -1.
     """
 
-    inner_share: Scalar = bounded("finite", converter=as_float, default=1.0)
-    outer_share: Scalar = bounded("finite", converter=as_float, default=1.0)
+    inner_share: Scalar = bounded("between 0 and 2", unit="1", converter=as_float, default=1.0)
+    outer_share: Scalar = bounded("between 0 and 2", unit="1", converter=as_float, default=1.0)
     sign: Scalar = eqx.field(converter=as_float, default=1.0)
 
     def friction(self, couple, diameter, inner_load, outer_load):
@@ -71,7 +71,9 @@ class CappedCouple(AbstractGyroscopic):
     - `sign`: of the force pair, 1 or -1.
     """
 
-    friction_coefficient: Scalar = bounded("> 0", name="gyroscopic_friction", converter=as_float, default=0.05)
+    friction_coefficient: Scalar = bounded(
+        "> 0", unit="1", name="gyroscopic_friction", converter=as_float, default=0.05
+    )
     sign: Scalar = eqx.field(converter=as_float, default=1.0)
 
     def friction(self, couple, diameter, inner_load, outer_load):
