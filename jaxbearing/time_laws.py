@@ -47,7 +47,9 @@ class Steady(AbstractTimeFactor):
 class Sinusoidal(AbstractTimeFactor):
     r"""$1 + A\sin(2\pi ft)$ (source, section 4.4).
 
-    **Arguments:** `frequency`, f, Hz; `amplitude`, A, as a fraction.
+    **Arguments:**
+    - `frequency`: f, of the swing, Hz.
+    - `amplitude`: A, as a fraction of the mean value, >= 0; beyond 1 the sign changes.
     """
 
     part: ClassVar[str] = "sinusoidal"
@@ -67,7 +69,10 @@ class Ramp(AbstractTimeFactor):
     r"""From `start` to `stop` between the times `begin` and `begin + duration`, as the quintic that begins and ends
     without slope and curvature: a jump of the acceleration would be a shock of its own.
 
-    **Arguments:** `start`, `stop`: each a factor; `duration`, s, > 0; `begin`, s.
+    **Arguments:**
+    - `start`, `stop`: factor before and after.
+    - `duration`: of the change, s, > 0.
+    - `begin`: when it begins, s, >= 0.
     """
 
     part: ClassVar[str] = "ramp"
@@ -92,7 +97,10 @@ class LinearRamp(AbstractTimeFactor):
     """Straight from `start` to `stop` between the times `begin` and `begin + duration`; at once (just after `begin`)
     for a duration of 0.
 
-    **Arguments:** `start`, `stop`: each a factor; `duration`, s, >= 0; `begin`, s.
+    **Arguments:**
+    - `start`, `stop`: factor before and after.
+    - `duration`: of the change, s, >= 0.
+    - `begin`: when it begins, s, >= 0.
     """
 
     part: ClassVar[str] = "ramp"
@@ -165,8 +173,10 @@ class Tabulated(AbstractTimeFactor):
 class RotatingLoad(Checked):
     """A load on the inner ring that turns, as that of an unbalanced shaft: it is added to the radial load.
 
-    **Arguments:** `load`, N; `speed` at which its direction turns, rad/s, counter-clockwise positive (the mean shaft
-    speed for an unbalance); `phase`, its azimuth at time 0 from the load line, rad.
+    **Arguments:**
+    - `load`: its size, N.
+    - `speed`: at which its direction turns, rad/s, counter-clockwise positive; that of the shaft for an unbalance.
+    - `phase`: its azimuth at time 0 from the load line, rad.
     """
 
     part: ClassVar[str] = "rotating_load"

@@ -41,7 +41,7 @@ class ExponentialRheology(Checked):
     stress_pressure: Scalar = bounded("finite", unit="1/Pa")
     stress_temperature: Scalar = bounded("finite", unit="K", difference=True)
     viscous_function: str | None = choice("rheology.viscous_function", VISCOUS_FUNCTIONS, None)
-    exponent: float | None = constant("rheology.exponent", None)
+    exponent: float | None = constant("rheology.exponent", None, bound="> 0")
 
     def misfit(self, viscous_function: str, exponent: Values | None = None) -> tuple[str, ...]:
         """Notes for the user on a traction law with this viscous function: nothing, or that the data were fitted

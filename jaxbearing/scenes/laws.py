@@ -5,7 +5,7 @@ A law of another package is named by an entry point of the group `jaxbearing.law
 """
 
 from collections.abc import Callable, Iterator, Mapping
-from typing import Any, Generic, TypeVar
+from typing import Annotated, Any, Generic, TypeVar
 
 from pydantic import GetCoreSchemaHandler
 from pydantic_core import CoreSchema, PydanticCustomError, core_schema
@@ -66,7 +66,7 @@ class Laws(Generic[AnyLaw], Mapping[str, Callable[..., AnyLaw]]):
 
     # a type is compared and hashed with all that annotates it
     __eq__ = object.__eq__
-    __hash__ = object.__hash__
+    __hash__ = object.__hash__  # pyright: ignore[reportAssignmentType]  (mappings have none)
 
     def __contains__(self, name: object) -> bool:
         return name in self._named
@@ -90,7 +90,8 @@ class Laws(Generic[AnyLaw], Mapping[str, Callable[..., AnyLaw]]):
         """True if the law of this name is one of these. **Raises:** `KeyError` for a name that stands for none."""
         if name in self._named:
             return True
-        return name not in ANY_FILMS and issubclass(ANY_FILMS._loaded(name), self._kinds)
+        law = ANY_FILMS[name]
+        return name not in ANY_FILMS and isinstance(law, type) and issubclass(law, self._kinds)
 
     def name_of(self, law: Any) -> str:
         """The name of the law of which this is one."""
@@ -220,5 +221,5 @@ def distributed_traction(
     return DistributedTraction(viscous_function(name, oil), resolution)
 
 
-TractionAccuracy = units.among_type(PRESETS)
+TractionAccuracy = Annotated[float, units.among_note(PRESETS)]
 """Relative error of the forces for which there is a measured resolution."""

@@ -3,7 +3,7 @@ accuracy chooses the mesh (see `line_contact_build`)."""
 
 import itertools
 from collections.abc import Mapping
-from typing import ClassVar, Literal
+from typing import Annotated, ClassVar, Literal
 
 from pydantic import Field
 
@@ -19,7 +19,7 @@ ACCURACIES: dict[float, int] = {1e-2: 201, 2e-3: 501, 1e-3: 801, 3e-4: 1601}
 """Relative error of the steady films -> fewest nodes of the mesh, enough at moderate loads; heavy ones take more (see
 `ehl.resolution`)."""
 DEFAULT_ACCURACY = 2e-3
-Accuracy = units.among_type(ACCURACIES)
+Accuracy = Annotated[float, units.among_note(ACCURACIES)]
 
 
 class ContactGeometryTable(table_of(ContactGeometry)):
@@ -89,11 +89,7 @@ class SpeedTable(Table):
 
 
 class FilmPerturbationTable(table_of(Sinusoidal)):
-    """A factor 1 + amplitude sin(2 pi frequency t); beyond an amplitude of 1 the motion reverses.
-
-    - `frequency`: of the swing
-    - `amplitude`: as a part of the mean value
-    """
+    """A factor 1 + amplitude sin(2 pi frequency t); beyond an amplitude of 1 the motion reverses."""
 
 
 class FilmSimulationTable(table_of(FilmSimulation)):

@@ -3,7 +3,7 @@
 The names of the laws are registered here, once: tables, lists in messages, the reading and the writing of oils follow.
 """
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from functools import reduce
 from operator import or_
 from typing import Annotated, Any, ClassVar, Literal
@@ -19,6 +19,7 @@ from ..lubricants import (
     IntegratedPressureViscosity,
     LinearConductivity,
     LinearDensity,
+    Lubricant,
     ModifiedWLF,
     Roelands,
     WaltherRoelands,
@@ -68,16 +69,19 @@ class _ExponentOfFunction(Law):
             yield refusal_at("exponent", expected, f"the number {self.exponent:g}")
 
 
-def law_table(name: str, law: type, tag: str = "", base: type[Law] = Law) -> type[Law]:
+def _law_named(*names: str) -> dict[str, Any]:
+    """The field `law`, for `create_model`."""
+    return {"__module__": __name__, "law": (Literal[names], ...)}
+
+
+def law_table(name: str, law: type, tag: str | None = None, base: type[Law] = Law) -> type[Law]:
     """The table of a law of an oil.
 
     **Arguments:** `name`: in files; `law`: the class that has the parameters; `tag`: of the alternative, where it is
-    not the name; `base`: with further rules.
+    not the name, or "" where there is none; `base`: with further rules.
     """
-    made: Any = create_model(
-        f"{law.__name__}Table", __base__=table_of(law, base=base), __module__=__name__, law=(Literal[name], ...)
-    )
-    made.tag, made.__doc__ = tag or f"<{name}>", law.__doc__
+    made: Any = create_model(f"{law.__name__}Table", __base__=table_of(law, base=base), **_law_named(name))
+    made.tag, made.__doc__ = f"<{name}>" if tag is None else tag, law.__doc__
     return made
 
 
@@ -110,9 +114,7 @@ def _law_field(title: str, laws: Mapping[str, type[Law]], text: Any) -> Any:
     **Arguments:** `title`: for the stand-in of a table whose `law` is absent or unknown: it only raises the error;
     `laws`: by name; `text`: the type of what may stand instead of a table.
     """
-    unknown: Any = create_model(
-        f"Unknown{title}Table", __base__=_Unknown, __module__=__name__, law=(Literal[tuple(laws)], ...)
-    )
+    unknown: Any = create_model(f"Unknown{title}Table", __base__=_Unknown, **_law_named(*laws))
 
     def tag(value: Any) -> str:
         if not isinstance(value, dict):
@@ -120,9 +122,8 @@ def _law_field(title: str, laws: Mapping[str, type[Law]], text: Any) -> Any:
         law = value.get("law")
         return f"<{law}>" if isinstance(law, str) and law in laws else "<unknown>"
 
-    tables = [Annotated[table, Tag(f"<{name}>")] for name, table in laws.items()]
-    kinds = [Annotated[text, Tag("<value>")], *tables, Annotated[unknown, Tag("<unknown>")]]
-    return Annotated[reduce(or_, kinds), Discriminator(tag)]
+    tables = {f"<{name}>": table for name, table in laws.items()}
+    return _alternatives({"<value>": text, **tables, "<unknown>": unknown}, tag)
 
 
 class _Unknown(Law):
@@ -136,8 +137,12 @@ def _text_or_table(value: Any) -> str:
 
 def _linear_field(table: type[Law], law: type) -> Any:
     """The type of a field that holds a number, the same at every temperature, or a linear law."""
-    kinds = Annotated[number_of(law, "value"), Tag("<value>")] | Annotated[table, Tag("<table>")]
-    return Annotated[kinds, Discriminator(_text_or_table)]
+    return _alternatives({"<value>": number_of(law, "value"), "<table>": table}, _text_or_table)
+
+
+def _alternatives(kinds: Mapping[str, Any], tag: Callable[[Any], str]) -> Any:
+    """The type of a field that holds one of these, by the tag of what is given."""
+    return Annotated[reduce(or_, [Annotated[kind, Tag(name)] for name, kind in kinds.items()]), Discriminator(tag)]
 
 
 def _celsius(temperature: float) -> str:
@@ -167,6 +172,10 @@ _PressureViscosity = _law_field(
 )
 
 
+_Density = _linear_field(LinearDensityTable, LinearDensity)
+_Conductivity = _linear_field(LinearConductivityTable, LinearConductivity)
+
+
 class OilTable(Table):
     """`name` takes the laws of an oil of the catalogue, `file` those of an oil file; further tables replace or amend
     them. A `--set` of the file is of the whole oil.
@@ -181,15 +190,16 @@ class OilTable(Table):
     - `conductivity`: which thermal factors and film heating need
     """
 
+    builds: ClassVar[type | None] = Lubricant
     instead: ClassVar[Mapping[str, tuple[str, ...]]] = {"name": ("file",), "file": ("name", "description", *_LAWS)}
     name: Annotated[str, BeforeValidator(_oil_name)] | None = None
     file: str | None = None
     description: str | None = None
     viscosity: _Viscosity | None = None  # pyright: ignore[reportInvalidTypeForm]
     pressure_viscosity: _PressureViscosity | None = None  # pyright: ignore[reportInvalidTypeForm]
-    rheology: ExponentialRheologyTable | None = None
-    density: _linear_field(LinearDensityTable, LinearDensity) | None = None  # pyright: ignore[reportInvalidTypeForm]
-    conductivity: _linear_field(LinearConductivityTable, LinearConductivity) | None = None  # pyright: ignore[reportInvalidTypeForm]
+    rheology: ExponentialRheologyTable | None = None  # pyright: ignore[reportInvalidTypeForm]
+    density: _Density | None = None  # pyright: ignore[reportInvalidTypeForm]
+    conductivity: _Conductivity | None = None  # pyright: ignore[reportInvalidTypeForm]
 
     @check
     def _complete(self) -> Problems:

@@ -106,13 +106,13 @@ def lubricant(table: OilTable) -> Lubricant:
 
 
 def _viscosity(table: OilTable, density: LinearDensity | None) -> AbstractViscosity:
-    law = table.viscosity
+    law: Any = table.viscosity
     more = {"density": density} if builds(law, WaltherRoelands) else {}
     return law.builds(**more, **_parameters(law))
 
 
 def _pressure_viscosity(table: OilTable, viscosity: AbstractViscosity) -> AbstractPressureViscosity:
-    law = table.pressure_viscosity
+    law: Any = table.pressure_viscosity
     if isinstance(law, float):
         return ConstantPressureViscosity(np.float64(law))
     if law is not None and not builds(law, IntegratedPressureViscosity):

@@ -12,22 +12,13 @@ _LAWS = ("perturbation", "ramp", "table")
 
 
 class PerturbationTable(table_of(Sinusoidal)):
-    """A factor 1 + amplitude sin(2 pi frequency t); a bearing's speed and load do not reverse.
-
-    - `frequency`: of the swing
-    - `amplitude`: as a part of the mean value
-    """
+    """A factor 1 + amplitude sin(2 pi frequency t); a bearing's speed and load do not reverse."""
 
     amplitude: units.Fraction
 
 
 class RampTable(table_of(Ramp)):
-    """A factor that goes smoothly from `start` to `stop`; a bearing's speed and load do not reverse.
-
-    - `start`, `stop`: factor before and after
-    - `duration`: of the change
-    - `begin`: when it begins
-    """
+    """A factor that goes smoothly from `start` to `stop`; a bearing's speed and load do not reverse."""
 
     start: units.NonNegativeNumber
     stop: units.NonNegativeNumber = 1.0
@@ -43,12 +34,7 @@ class FileTable(Table):
 
 
 class RotatingLoadTable(table_of(RotatingLoad)):
-    """A turning load beside the radial one.
-
-    - `load`: its size
-    - `speed`: at which it turns
-    - `phase`: its azimuth at time 0
-    """
+    """A turning load beside the radial one."""
 
 
 class SimulationTable(table_of(Simulation, leave_out=("entrainment_smoothing",))):

@@ -9,7 +9,7 @@ import dataclasses
 import types
 import typing
 from collections.abc import Collection, Iterator, Mapping
-from typing import Any, Literal
+from typing import Annotated, Any, Literal
 
 from pydantic import create_model
 
@@ -55,17 +55,18 @@ def type_of(field: Any) -> Any:
     word or a truth value."""
     said: Mapping[str, Any] = field.metadata
     if "bound" in said:
-        return units.number_type(said["bound"], said["unit"], said["difference"])
+        return Annotated[float, units.number_note(said["bound"], said["unit"], said["difference"])]
     if "each" in said:
-        return units.several_type(said["each"], said["unit"])
+        return Annotated[tuple[float, ...], units.several_note(said["each"], said["unit"])]
     if "choices" in said:
         return Literal[said["choices"]]
     if "count" in said:
-        return units.count_type(*said["count"])
+        return Annotated[int, units.count_note(*said["count"])]
     if "switch" in said:
         return units.Switch
     if "constant" in said:
-        return units.number_type(said["constant"]) if said["among"] is None else units.among_type(said["among"])
+        among, bound = said["among"], said["constant"]
+        return Annotated[float, units.number_note(bound) if among is None else units.among_note(among)]
     return None
 
 

@@ -275,12 +275,12 @@ def _item(value: Any, index: int, count: int, read: Callable[[Any], float], expe
         raise refusal(expected, f"{context['found']}{place}", context["suggestion"]) from None
 
 
-def several_type(bound: str, unit: str) -> Any:
-    """Type of a field that holds one number, or a list of them; arguments as in `number_type`."""
+def several_note(bound: str, unit: str) -> BeforeValidator:
+    """Reads one number, or a list of them; arguments as in `number_note`."""
     dimension = dimension_of_unit(unit)
     expected = f"{dimension.expected(bound)}, or a list of such texts"
     read = lambda given: several(given, lambda one: quantity(one, dimension, bound), expected)
-    return Annotated[tuple[float, ...], BeforeValidator(read)]
+    return BeforeValidator(read)
 
 
 def _switch(value: Any) -> bool:
@@ -313,13 +313,13 @@ def _count_up_to(least: int | None, most: int | None) -> Callable[[Any], int]:
     return read
 
 
-def count_type(least: int | None = None, most: int | None = None) -> Any:
-    """Type of a field that holds a whole number from `least`, or 1, to `most`, or `LARGEST_COUNT`."""
-    return Annotated[int, BeforeValidator(_count_up_to(least, most))]
+def count_note(least: int | None = None, most: int | None = None) -> BeforeValidator:
+    """Reads a whole number from `least`, or 1, to `most`, or `LARGEST_COUNT`."""
+    return BeforeValidator(_count_up_to(least, most))
 
 
-def number_type(bound: str, unit: str = "1", difference: bool = False) -> Any:
-    """Type of a field that holds one number.
+def number_note(bound: str, unit: str = "1", difference: bool = False) -> BeforeValidator:
+    """Reads one number.
 
     **Arguments:**
     - `bound`: one of `numerics.checks.RANGES`.
@@ -327,12 +327,12 @@ def number_type(bound: str, unit: str = "1", difference: bool = False) -> Any:
     - `difference`: whether a number in K is a difference of temperatures.
     """
     if unit == "1":
-        return Annotated[float, BeforeValidator(lambda given: number(given, bound))]
-    return Annotated[float, _quantity(dimension_of_unit(unit, difference), bound)]
+        return BeforeValidator(lambda given: number(given, bound))
+    return _quantity(dimension_of_unit(unit, difference), bound)
 
 
-def among_type(numbers: Iterable[float]) -> Any:
-    """Type of a field that holds one of some numbers."""
+def among_note(numbers: Iterable[float]) -> BeforeValidator:
+    """Reads one of some numbers."""
     known = tuple(numbers)
 
     def read(value: Any) -> float:
@@ -342,50 +342,17 @@ def among_type(numbers: Iterable[float]) -> Any:
             raise refusal(f"one of {words}, without quotes", describe(value))
         return given
 
-    return Annotated[float, BeforeValidator(read)]
+    return BeforeValidator(read)
 
 
-Count = count_type()
+# fields that no class has
+Count = Annotated[int, count_note()]
 Switch = Annotated[bool, BeforeValidator(_switch)]
-PositiveTime = Annotated[float, _quantity(TIME, "> 0")]
-NonNegativeTime = Annotated[float, _quantity(TIME, ">= 0")]
-PositiveFrequency = Annotated[float, _quantity(FREQUENCY, "> 0")]
-NonNegativeForce = Annotated[float, _quantity(FORCE, ">= 0")]
-PositiveNumber = Annotated[float, BeforeValidator(lambda value: number(value, "> 0"))]
-NonNegativeNumber = Annotated[float, BeforeValidator(lambda value: number(value, ">= 0"))]
-Number = Annotated[float, BeforeValidator(number)]
+PositiveNumber = Annotated[float, number_note("> 0")]
+NonNegativeNumber = Annotated[float, number_note(">= 0")]
+Number = Annotated[float, number_note("finite")]
+Fraction = Annotated[float, number_note("between 0 and 1")]
 Numbers = Annotated[
     tuple[float, ...], BeforeValidator(lambda given: several(given, number, "a number, or a list of them"))
 ]
-Fraction = number_type("between 0 and 1")
-
-Length = Annotated[float, _quantity(LENGTH)]
-PositiveLength = Annotated[float, _quantity(LENGTH, "> 0")]
-NonNegativeLength = Annotated[float, _quantity(LENGTH, ">= 0")]
-Speed = Annotated[float, _quantity(SPEED)]
-SurfaceSpeed = Annotated[float, _quantity(SURFACE_SPEED)]
-NonNegativeSurfaceSpeed = Annotated[float, _quantity(SURFACE_SPEED, ">= 0")]
-Angle = Annotated[float, _quantity(ANGLE)]
-Moment = Annotated[float, _quantity(MOMENT)]
-Force = Annotated[float, _quantity(FORCE)]
-PositiveForce = Annotated[float, _quantity(FORCE, "> 0")]
-PositiveLineLoad = Annotated[float, _quantity(LINE_LOAD, "> 0")]
-PositivePressure = Annotated[float, _quantity(PRESSURE, "> 0")]
-InversePressure = Annotated[float, _quantity(INVERSE_PRESSURE)]
-PositiveInversePressure = Annotated[float, _quantity(INVERSE_PRESSURE, "> 0")]
-Temperature = Annotated[float, _quantity(TEMPERATURE, "> 0")]
-TemperatureDifference = Annotated[float, _quantity(TEMPERATURE_DIFFERENCE)]
-NonNegativeTemperatureDifference = Annotated[float, _quantity(TEMPERATURE_DIFFERENCE, ">= 0")]
-PositiveTemperatureDifference = Annotated[float, _quantity(TEMPERATURE_DIFFERENCE, "> 0")]
-NonNegativeFlow = Annotated[float, _quantity(FLOW, ">= 0")]
-PositiveDensity = Annotated[float, _quantity(DENSITY, "> 0")]
-DensitySlope = Annotated[float, _quantity(DENSITY_SLOPE)]
-PositiveViscosity = Annotated[float, _quantity(VISCOSITY, "> 0")]
-PositiveKinematicViscosity = Annotated[float, _quantity(KINEMATIC_VISCOSITY, "> 0")]
-PositiveConductivity = Annotated[float, _quantity(CONDUCTIVITY, "> 0")]
-ConductivitySlope = Annotated[float, _quantity(CONDUCTIVITY_SLOPE)]
-KelvinPerPressure = Annotated[float, _quantity(KELVIN_PER_PRESSURE)]
-Kelvin2PerPressure = Annotated[float, _quantity(KELVIN2_PER_PRESSURE)]
-
-Times = several_type(">= 0", "s")
-"""A time, or a list of them."""
+Times = Annotated[tuple[float, ...], several_note(">= 0", "s")]

@@ -48,7 +48,7 @@ class SharedCouple(AbstractGyroscopic):
     **Limits:** asks an unloaded inner contact for friction: at light load and high speed no equilibrium exists.
 
     **Arguments:**
-    - `inner_share`, `outer_share`: lambda_i and lambda_o, each a part of the couple in units of half of it; together 2.
+    - `inner_share`, `outer_share`: part of the couple that the race carries, in units of half of it; together 2.
     - `sign`: of the force pair, 1 or -1.
     """
 
@@ -67,7 +67,7 @@ class CappedCouple(AbstractGyroscopic):
     the ball would start to turn about $e_t$, which this law leaves out.
 
     **Arguments:**
-    - `friction_coefficient`: coefficient mu, > 0.
+    - `friction_coefficient`: coefficient of friction mu that caps what a race carries, > 0.
     - `sign`: of the force pair, 1 or -1.
     """
 
