@@ -83,7 +83,7 @@ class Roelands(AbstractViscosity):
     **Reference:** Roelands (1966), thesis, TU Delft; source eq. (75), garbled there.
     """
 
-    reference_viscosity: Scalar = bounded("> 6.32e-5 Pa s (Roelands' smallest viscosity)", unit="Pa s")
+    reference_viscosity: Scalar = bounded("> 0.0632 mPa s (Roelands' smallest viscosity)", unit="Pa s")
     reference_temperature: Scalar = bounded("> 138 K (the pole of Roelands' law)", unit="K")
     pressure_exponent: Scalar = bounded("> 0", unit="1")
     temperature_exponent: Scalar = bounded(">= 0", unit="1")

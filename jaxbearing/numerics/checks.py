@@ -51,9 +51,9 @@ RANGES = {
     ">= 0 and below 90 degrees": Interval(0.0, 0.5 * np.pi, low_allowed=True),
     "above 0 and below 90 degrees": Interval(0.0, 0.5 * np.pi),
     "between 2 and 64": Interval(2.0, 64.0, True, True),
-    "> 6.32e-5 Pa s (Roelands' smallest viscosity)": Interval(6.32e-5, np.inf),
+    "> 0.0632 mPa s (Roelands' smallest viscosity)": Interval(6.32e-5, np.inf),
     "> 138 K (the pole of Roelands' law)": Interval(138.0, np.inf),
-    "> 0.3e-6 m^2/s (0.3 cSt)": Interval(0.3e-6, np.inf),
+    "> 0.3 cSt (0.3e-6 m^2/s)": Interval(0.3e-6, np.inf),
 }
 """Bounds of fields, by the words of messages."""
 

@@ -15,7 +15,7 @@ from .units import describe, shortened
 LAW_ERROR = "law_name"
 """Type of the validation error for a name that stands for no law."""
 _CLASS_MESSAGE = re.compile(r"([a-z_0-9]+(?:\.[a-z_0-9]+)*)(:| must)")
-_MUST_BE = re.compile(r"be (?P<expected>.*?)(?:, got [^;:]*)?")
+_MUST_BE = re.compile(r"be (?P<expected>.*?)(?:, got [^:]*(?:: (?P<reason>.*))?)?")
 _FOUND_EXPECTED = re.compile(r"(?:found (?P<found>.*?), )?expected (?P<expected>.*)")
 
 
@@ -114,8 +114,8 @@ def in_words(file: str, path: str, words: Mapping[str, str]) -> SceneError:
 
 
 def from_class(error: ValueError, raw: Mapping[str, Any], file: str) -> SceneError:
-    """The refusals by classes of the library: "table.field must be ..., got ...", "table.field: found ..., expected
-    ...", "table.field: expected ..." or "table.field: ...", the reason."""
+    """The refusals by classes of the library: "table.field must be ..., got ...: reason", "table.field: found ...,
+    expected ...", "table.field: expected ..." or "table.field: reason"."""
     if isinstance(error, SceneError):
         # of another file
         return error
@@ -130,7 +130,8 @@ def from_class(error: ValueError, raw: Mapping[str, Any], file: str) -> SceneErr
     expectation = (_MUST_BE if match[2] == " must" else _FOUND_EXPECTED).fullmatch(said)
     if expectation is None:
         return SceneError(file, path, found, "values that fit together", reason=text.removeprefix(f"{path}: "))
-    return SceneError(file, path, expectation.groupdict().get("found") or found, expectation["expected"])
+    words = expectation.groupdict()
+    return SceneError(file, path, words.get("found") or found, words["expected"], reason=words.get("reason") or "")
 
 
 def describe_at(raw: Mapping[str, Any], path: str) -> str:

@@ -275,12 +275,16 @@ def _item(value: Any, index: int, count: int, read: Callable[[Any], float], expe
         raise refusal(expected, f"{context['found']}{place}", context["suggestion"]) from None
 
 
-def several_note(bound: str, unit: str) -> BeforeValidator:
+def several_note(bound: str, unit: str = "1") -> BeforeValidator:
     """Reads one number, or a list of them; arguments as in `number_note`."""
-    dimension = dimension_of_unit(unit)
-    expected = f"{dimension.expected(bound)}, or a list of such texts"
-    read = lambda given: several(given, lambda one: quantity(one, dimension, bound), expected)
-    return BeforeValidator(read)
+    if unit == "1":
+        said = "" if bound == "finite" else f" {bound}"
+        expected, read = f"a number{said}, or a list of them", lambda one: number(one, bound)
+    else:
+        dimension = dimension_of_unit(unit)
+        expected = f"{dimension.expected(bound)}, or a list of such texts"
+        read = lambda one: quantity(one, dimension, bound)
+    return BeforeValidator(lambda given: several(given, read, expected))
 
 
 def _switch(value: Any) -> bool:
@@ -352,7 +356,5 @@ PositiveNumber = Annotated[float, number_note("> 0")]
 NonNegativeNumber = Annotated[float, number_note(">= 0")]
 Number = Annotated[float, number_note("finite")]
 Fraction = Annotated[float, number_note("between 0 and 1")]
-Numbers = Annotated[
-    tuple[float, ...], BeforeValidator(lambda given: several(given, number, "a number, or a list of them"))
-]
+Numbers = Annotated[tuple[float, ...], several_note("finite")]
 Times = Annotated[tuple[float, ...], several_note(">= 0", "s")]
