@@ -13,6 +13,7 @@ from jaxtyping import Array, Bool
 from ._checks import Checks
 from ._shown import Shown
 from .numerics.checks import bounded
+from .numerics.checks import label as label
 from .numerics.precision import as_float
 from .numerics.status import SolveError, Status
 
@@ -20,13 +21,9 @@ Scene = TypeVar("Scene", bound="AbstractScene")
 OF_A_BATCH = "this is a batch of solutions: take one lane of it first, jax.tree.map(lambda leaf: leaf[lane], solution)"
 
 
-def label(unit: str, description: str) -> dict[str, str]:
-    """Metadata of a field: its SI unit and what it is."""
-    return {"unit": unit, "description": description}
-
-
 def number(default: Any = dataclasses.MISSING, *, bound: str = "finite", **kwargs: Any) -> Any:
-    """Field of a scene that holds one number, converted to a float64 leaf, within a bound of `numerics.checks`."""
+    """Field of a scene that holds one number, converted to a float64 leaf. Further arguments: those of
+    `numerics.checks.bounded`."""
     if default is not dataclasses.MISSING:
         kwargs["default"] = default
     return bounded(bound, converter=as_float, **kwargs)

@@ -19,9 +19,9 @@ class Material(Checked):
 
     part: ClassVar[str] = "material"
 
-    youngs_modulus: Scalar = bounded("> 0")
-    poisson_ratio: Scalar = bounded("between 0 and 0.5")
-    density: Scalar = bounded("> 0")
+    youngs_modulus: Scalar = bounded("> 0", unit="Pa")
+    poisson_ratio: Scalar = bounded("between 0 and 0.5", unit="1")
+    density: Scalar = bounded("> 0", unit="kg/m^3")
 
 
 Material.__init__.__doc__ = """**Arguments:**

@@ -47,13 +47,15 @@ class Steady(AbstractTimeFactor):
 class Sinusoidal(AbstractTimeFactor):
     r"""$1 + A\sin(2\pi ft)$ (source, section 4.4).
 
-    **Arguments:** `frequency`, f, Hz; `amplitude`, A, as a fraction.
+    **Arguments:**
+    - `frequency`: f, of the swing, Hz.
+    - `amplitude`: A, as a fraction of the mean value, >= 0; beyond 1 the sign changes.
     """
 
     part: ClassVar[str] = "sinusoidal"
 
-    frequency: Scalar = number(bound="> 0")
-    amplitude: Scalar = number()
+    frequency: Scalar = number(bound="> 0", unit="1/s")
+    amplitude: Scalar = number(bound=">= 0", unit="1")
 
     def factor(self, time: Scalar) -> Float[Array, ""]:
         return 1.0 + self.amplitude * jnp.sin(2.0 * jnp.pi * self.frequency * time)
@@ -67,15 +69,18 @@ class Ramp(AbstractTimeFactor):
     r"""From `start` to `stop` between the times `begin` and `begin + duration`, as the quintic that begins and ends
     without slope and curvature: a jump of the acceleration would be a shock of its own.
 
-    **Arguments:** `start`, `stop`: each a factor; `duration`, s, > 0; `begin`, s.
+    **Arguments:**
+    - `start`, `stop`: factor before and after.
+    - `duration`: of the change, s, > 0.
+    - `begin`: when it begins, s, >= 0.
     """
 
     part: ClassVar[str] = "ramp"
 
-    start: Scalar = number()
-    stop: Scalar = number()
-    duration: Scalar = number(bound="> 0")
-    begin: Scalar = number(0.0)
+    start: Scalar = number(unit="1")
+    stop: Scalar = number(unit="1")
+    duration: Scalar = number(bound="> 0", unit="s")
+    begin: Scalar = number(0.0, bound=">= 0", unit="s")
 
     def factor(self, time: Scalar) -> Float[Array, ""]:
         x = jnp.clip((time - self.begin) / self.duration, 0.0, 1.0)
@@ -92,15 +97,18 @@ class LinearRamp(AbstractTimeFactor):
     """Straight from `start` to `stop` between the times `begin` and `begin + duration`; at once (just after `begin`)
     for a duration of 0.
 
-    **Arguments:** `start`, `stop`: each a factor; `duration`, s, >= 0; `begin`, s.
+    **Arguments:**
+    - `start`, `stop`: factor before and after.
+    - `duration`: of the change, s, >= 0.
+    - `begin`: when it begins, s, >= 0.
     """
 
     part: ClassVar[str] = "ramp"
 
-    start: Scalar = number()
-    stop: Scalar = number()
-    duration: Scalar = number(bound=">= 0")
-    begin: Scalar = number(0.0)
+    start: Scalar = number(unit="1")
+    stop: Scalar = number(unit="1")
+    duration: Scalar = number(bound=">= 0", unit="s")
+    begin: Scalar = number(0.0, bound=">= 0", unit="s")
 
     def factor(self, time: Scalar) -> Float[Array, ""]:
         return self.start + (self.stop - self.start) * self._risen(time)
@@ -165,15 +173,17 @@ class Tabulated(AbstractTimeFactor):
 class RotatingLoad(Checked):
     """A load on the inner ring that turns, as that of an unbalanced shaft: it is added to the radial load.
 
-    **Arguments:** `load`, N; `speed` at which its direction turns, rad/s, counter-clockwise positive (the mean shaft
-    speed for an unbalance); `phase`, its azimuth at time 0 from the load line, rad.
+    **Arguments:**
+    - `load`: its size, N.
+    - `speed`: at which its direction turns, rad/s, counter-clockwise positive; that of the shaft for an unbalance.
+    - `phase`: its azimuth at time 0 from the load line, rad.
     """
 
     part: ClassVar[str] = "rotating_load"
 
-    load: Scalar = number(bound=">= 0")
-    speed: Scalar = number()
-    phase: Scalar = number(0.0)
+    load: Scalar = number(bound=">= 0", unit="N")
+    speed: Scalar = number(unit="rad/s")
+    phase: Scalar = number(0.0, unit="rad")
 
     def components(self, time: Scalar) -> Float[Array, "2"]:
         """Along azimuths 0 and 90 degrees, N."""

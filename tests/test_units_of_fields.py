@@ -67,15 +67,16 @@ def entries(doc):
 
 def said(kind, name):
     """Unit and text of a field: of its label, or of the line of an argument in the docstring of its class."""
+    fields = getattr(kind, "__dataclass_fields__", {})
+    label = fields[name].metadata if name in fields else {}
+    unit = label.get("unit", "")
+    if label.get("description"):
+        return unit, label["description"]
     for owner in kind.__mro__:
-        fields = getattr(owner, "__dataclass_fields__", {})
-        label = fields[name].metadata.get("unit") if name in fields else None
-        if label:
-            return label, fields[name].metadata["description"]
         for doc in (owner.__doc__, vars(owner).get("__init__") and owner.__init__.__doc__):
             for entry in entries(inspect.cleandoc(doc or "")):
                 if f"`{name}`" in entry.partition(": ")[0]:
-                    return "", " ".join(entry.split())
+                    return unit, " ".join(entry.split())
     return None
 
 

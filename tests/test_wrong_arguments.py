@@ -349,7 +349,7 @@ def test_elements_that_are_larger_than_the_pitch_circle():
         with pytest.raises(ValueError, match=r"gamma must be >= 0 and below 1, got 1\.5"):
             capacity(9, 0.06, 0.04, 0.0)
     for conformity in (0.5, 0.4, 1.1):
-        with pytest.raises(ValueError, match=r"conformity_inner must be between 0\.5 and 1, and not 0\.5, got"):
+        with pytest.raises(ValueError, match=r"conformity_inner must be above 0\.5 and at most 1, got"):
             ball_static_capacity(9, 8e-3, 0.04, 0.0, conformity)
 
 

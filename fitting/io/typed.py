@@ -58,7 +58,7 @@ def _end(option: str, name: str, text: str) -> float | None:
         return None
     index = NAMES.index(name)
     try:
-        return quantity(text.strip(), _DIMENSIONS[UNITS[index]], "> 0" if POSITIVE[index] else "")
+        return quantity(text.strip(), _DIMENSIONS[UNITS[index]], "> 0" if POSITIVE[index] else "finite")
     except PydanticCustomError as error:
         context = error.context or {}
         raise SceneError(option, name, context["found"], context["expected"]) from None

@@ -9,7 +9,7 @@ import jax.numpy as jnp
 from .._scene import number, optional_number
 from .._types import Scalar
 from ..gaps import AbstractTurbulence, BlendedTurbulence, ShortJournal
-from ..numerics.checks import Checked, given, require
+from ..numerics.checks import Checked, given
 from ..numerics.refusals import refusals_of, refuse_all
 from ..numerics.structure import choice, count
 from .parts import check_between
@@ -42,17 +42,13 @@ class AbstractCage(Checked):
     """Outside diameter = pitch diameter plus this times the element's diameter, where a scene does not give it."""
 
     guidance: Literal["inner_ring", "outer_ring"] = choice("cage.guidance", ("inner_ring", "outer_ring"))
-    guiding_clearance: Scalar = number(bound="> 0")
-    pocket_clearance: Scalar = number(bound="> 0")
-    land_width: Scalar = number(bound="> 0")
-    inner_diameter: Scalar | None = optional_number(bound="> 0")
-    outer_diameter: Scalar | None = optional_number(bound="> 0")
-    n_lands: int | None = count("cage.n_lands", None)
+    guiding_clearance: Scalar = number(bound="> 0", unit="m")
+    pocket_clearance: Scalar = number(bound="> 0", unit="m")
+    land_width: Scalar = number(bound="> 0", unit="m")
+    inner_diameter: Scalar | None = optional_number(bound="> 0", unit="m")
+    outer_diameter: Scalar | None = optional_number(bound="> 0", unit="m")
+    n_lands: int | None = count("cage.n_lands", None, least=1)
     turbulence: AbstractTurbulence = BlendedTurbulence()
-
-    def __check_init__(self):
-        super().__check_init__()
-        require("cage", n_lands=(self.n_lands, "> 0"))
 
     @abc.abstractmethod
     def row(self, geometry: Any) -> tuple[int, Scalar]:

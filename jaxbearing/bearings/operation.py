@@ -117,11 +117,11 @@ class AbstractOperation(Checked):
     def _conflicts(self) -> Iterator[str | ValueError]:
         for name, reason in self.not_carried.items():
             if self._field(name) is not None:
-                yield f"operation.{name}: {reason}"
+                yield f"operation.{name}: expected none: {reason}"
         for freedom, load in LOAD_FIELDS.items():
             held = HELD_FIELDS[freedom]
             if self._field(load) is not None and self._field(held) is not None:
-                yield f"operation.{held}: none beside operation.{load}, {SETS_FREE[freedom]}"
+                yield f"operation.{held}: expected none beside operation.{load}, {SETS_FREE[freedom]}"
 
     def _field(self, path: str) -> Scalar | None:
         part: Any = self
@@ -211,8 +211,8 @@ class Operation(AbstractOperation):
         yield from super()._conflicts()
         if not self._given("radial", "lateral"):
             yield (
-                "operation.radial_load: a cylindrical roller bearing needs one, or a radial_load_lateral, or a "
-                "displacement of the ring across the axis"
+                "operation.radial_load: expected a force, e.g. 10 kN: a cylindrical roller bearing needs one, or a "
+                "radial_load_lateral, or a displacement of the ring across the axis"
             )
         loads = [load for load in map(self.load, ("radial", "lateral")) if load is not None]
         if loads and not self.displaced and given(*loads) is not None:

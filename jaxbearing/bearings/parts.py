@@ -40,8 +40,8 @@ class DragSettings(Checked):
 
     part: ClassVar[str] = "drag"
 
-    coefficient: Scalar | None = optional_number(bound=">= 0")
-    through_flow_fraction: Scalar = number(1.0, bound="between 0 and 1")
+    coefficient: Scalar | None = optional_number(bound=">= 0", unit="1")
+    through_flow_fraction: Scalar = number(1.0, bound="between 0 and 1", unit="1")
 
 
 class Drag(DragSettings):
@@ -53,7 +53,7 @@ class Drag(DragSettings):
     - `through_flow_fraction`: part of the oil flow that passes through the bearing; 1 = under-race supply.
     """
 
-    coefficient: Scalar = number(bound=">= 0")
+    coefficient: Scalar = number(bound=">= 0", unit="1")
 
 
 def drag_density(

@@ -22,11 +22,7 @@ class RollerProfile(eqx.Module):
     """
 
     shape: AbstractProfile | None = None
-    n_laminae: int = count("profile.n_laminae", LAMINAE)
-
-    def __check_init__(self):
-        if self.n_laminae < 1:
-            raise ValueError(f"profile.n_laminae must be >= 1, got {self.n_laminae}")
+    n_laminae: int = count("profile.n_laminae", LAMINAE, least=1)
 
     def line(self, stiffness: Scalar, length: Scalar) -> AbstractTiltedLine:
         """The contact of such a roller over its length. **Arguments:** K, N/m^(19/9); m."""

@@ -47,15 +47,15 @@ class Rating(Checked):
 
     part: ClassVar[str] = "rating"
 
-    dynamic_capacity: Scalar | None = optional_number(bound="> 0")
-    static_capacity: Scalar | None = optional_number(bound="> 0")
-    fatigue_load_limit: Scalar | None = optional_number(bound="> 0")
-    viscosity_ratio: Scalar | None = optional_number(bound="> 0")
-    roughness_rings: Scalar | None = optional_number(bound="> 0")
-    roughness_elements: Scalar | None = optional_number(bound="> 0")
-    reliability: float = constant("rating.reliability", 0.90)
+    dynamic_capacity: Scalar | None = optional_number(bound="> 0", unit="N")
+    static_capacity: Scalar | None = optional_number(bound="> 0", unit="N")
+    fatigue_load_limit: Scalar | None = optional_number(bound="> 0", unit="N")
+    viscosity_ratio: Scalar | None = optional_number(bound="> 0", unit="1")
+    roughness_rings: Scalar | None = optional_number(bound="> 0", unit="m")
+    roughness_elements: Scalar | None = optional_number(bound="> 0", unit="m")
+    reliability: float = constant("rating.reliability", 0.90, among=RELIABILITIES)
     cleanliness: str | None = choice("rating.cleanliness", CLEANLINESS_CLASSES, None)
-    n_laminae: int | None = count("rating.n_laminae", None)
+    n_laminae: int | None = count("rating.n_laminae", None, least=1)
     edge_factor: bool | None = switch("rating.edge_factor", None)
     grooves: Literal["catalogue", "scene"] = choice("rating.grooves", ("catalogue", "scene"), "catalogue")
     tilt: Literal["exact", "iso"] = choice("rating.tilt", ("exact", "iso"), "exact")
@@ -63,11 +63,11 @@ class Rating(Checked):
     def __check_init__(self):
         super().__check_init__()
         if (self.roughness_rings is None) != (self.roughness_elements is None):
-            raise ValueError("rating.roughness_rings: give it and rating.roughness_elements, or neither")
-        if self.reliability not in RELIABILITIES:
-            raise ValueError(f"rating.reliability must be one of {RELIABILITIES}, got {self.reliability!r}")
-        if self.n_laminae is not None and self.n_laminae < 1:
-            raise ValueError(f"rating.n_laminae must be >= 1, got {self.n_laminae}")
+            missing, given = ("rings", "elements") if self.roughness_rings is None else ("elements", "rings")
+            raise ValueError(
+                f"rating.roughness_{missing}: found nothing, expected a length, which 'roughness_{given}' "
+                "needs beside it"
+            )
 
     def groove_assumptions(self) -> tuple[str, ...]:
         """Which grooves the ratings of a ball bearing are computed for, for the user."""

@@ -25,7 +25,7 @@ def labelled(scene: str, changes: list[str] | None) -> str:
     return label.encode("utf-8", "surrogateescape").decode("utf-8", "replace")
 
 
-def option_quantity(option: str, text: str, dimension: Any, bound: str = "") -> float:
+def option_quantity(option: str, text: str, dimension: Any, bound: str = "finite") -> float:
     """The value of an option with a unit, in SI. **Raises:** `SceneError`."""
     from pydantic_core import PydanticCustomError
 

@@ -54,9 +54,9 @@ class ContactLaws(Checked):
     film: AbstractLineFilm
     thermal: AbstractThermalFactor = NoThermalReduction()
     traction: AbstractTraction | None = None
-    entrainment_offset: Scalar = bounded(">= 0", converter=as_float, default=0.0)
+    entrainment_offset: Scalar = bounded(">= 0", unit="m/s", converter=as_float, default=0.0)
     rolling: AbstractRollingResistance | None = None
-    entrainment_smoothing: Scalar = bounded("> 0", converter=as_float, default=SPEED_SMOOTHING)
+    entrainment_smoothing: Scalar = bounded("> 0", unit="m/s", converter=as_float, default=SPEED_SMOOTHING)
 
     def entrainment(self, mean_speed: Values) -> Float[Array, "..."]:
         """Entrainment speed of the film, m/s, > 0. **Arguments:** `mean_speed` (u1 + u2)/2, m/s, of either sign."""

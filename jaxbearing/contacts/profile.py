@@ -28,12 +28,12 @@ class CrownedProfile(AbstractProfile):
     r"""Parabola, $h = h_e[(|x| - x_0)_+/(1 - x_0)]^2$: crowned over the whole length, or beyond a straight middle.
 
     **Arguments:**
-    - `drop`: h_e, at the ends, m, >= 0.
-    - `straight_fraction`: x0, of the length, >= 0 and below 1.
+    - `drop`: h_e, what is ground off at the ends, m, >= 0.
+    - `straight_fraction`: x0, part of the length that is straight, >= 0 and below 1.
     """
 
-    drop: Scalar = bounded(">= 0", converter=as_float)
-    straight_fraction: Scalar = bounded(">= 0 and below 1", converter=as_float, default=0.0)
+    drop: Scalar = bounded(">= 0", unit="m", converter=as_float)
+    straight_fraction: Scalar = bounded(">= 0 and below 1", unit="1", converter=as_float, default=0.0)
 
     def drop_at(self, position: Values) -> Float[Array, "..."]:
         beyond = jnp.maximum(jnp.abs(position) - self.straight_fraction, 0.0)
@@ -49,12 +49,12 @@ class LogarithmicProfile(AbstractProfile):
     ISO 16281, $0.00035D\ln[1/(1 - x^2)]$, has r = 0 and A = 0.00035 D ([M]).
 
     **Arguments:**
-    - `drop`: h_e, at the ends, m, >= 0.
+    - `drop`: h_e, what is ground off at the ends, m, >= 0.
     - `end_ratio`: r, above 0 and below 1: the smaller, the nearer to the ends the roller falls off.
     """
 
-    drop: Scalar = bounded(">= 0", converter=as_float)
-    end_ratio: Scalar = bounded("above 0 and below 1", converter=as_float, default=0.01)
+    drop: Scalar = bounded(">= 0", unit="m", converter=as_float)
+    end_ratio: Scalar = bounded("above 0 and below 1", unit="1", converter=as_float, default=0.01)
 
     def drop_at(self, position: Values) -> Float[Array, "..."]:
         return self.drop * jnp.log1p(-(1.0 - self.end_ratio) * jnp.square(position)) / jnp.log(self.end_ratio)

@@ -33,7 +33,7 @@ class ContactGeometry(Checked):
 
     part: ClassVar[str] = "geometry"
 
-    reduced_radius_rolling: Scalar = number(bound="> 0")
+    reduced_radius_rolling: Scalar = number(bound="> 0", unit="m")
 
 
 class ContactBodies(eqx.Module):
@@ -60,19 +60,10 @@ class FilmModel(Checked):
     part: ClassVar[str] = "contact"
 
     compressible: bool = switch("contact.compressible", True)
-    nodes: int = count("contact.nodes", 501)
-    inlet: float = constant("contact.inlet", INLET)
-    film_limit: Scalar = number(0.5e-9, bound=">= 0")
-    accuracy: float | None = constant("contact.accuracy", None)
-
-    def __check_init__(self):
-        super().__check_init__()
-        if self.accuracy is not None and self.accuracy <= 0.0:
-            raise ValueError(f"contact.accuracy must be > 0, got {self.accuracy:g}")
-        if not FEWEST_NODES <= self.nodes <= MOST_NODES:
-            raise ValueError(f"contact.nodes must be from {FEWEST_NODES} to {MOST_NODES}, got {self.nodes}")
-        if not 2.0 <= self.inlet <= 64.0:
-            raise ValueError(f"contact.inlet must be from 2 to 64 half widths, got {self.inlet:g}")
+    nodes: int = count("contact.nodes", 501, least=FEWEST_NODES, most=MOST_NODES)
+    inlet: float = constant("contact.inlet", INLET, bound="between 2 and 64")
+    film_limit: Scalar = number(0.5e-9, bound=">= 0", unit="m")
+    accuracy: float | None = constant("contact.accuracy", None, bound="> 0")
 
 
 class ContactOperation(Checked):
@@ -87,17 +78,18 @@ class ContactOperation(Checked):
 
     part: ClassVar[str] = "operation"
 
-    entrainment_speed: Scalar = number()
-    oil_temperature: Scalar = number(bound="> 0")
-    load_per_length: Scalar | None = optional_number(bound="> 0")
-    pressure: Scalar | None = optional_number(bound="> 0")
+    entrainment_speed: Scalar = number(unit="m/s")
+    oil_temperature: Scalar = number(bound="> 0", unit="K")
+    load_per_length: Scalar | None = optional_number(bound="> 0", unit="N/m")
+    pressure: Scalar | None = optional_number(bound="> 0", unit="Pa")
 
     def __check_init__(self):
         super().__check_init__()
         if (self.load_per_length is None) == (self.pressure is None):
             found = "neither" if self.pressure is None else "both"
             raise ValueError(
-                f"operation.load_per_length: found {found} of load_per_length and pressure, expected one of the two"
+                f"operation.load_per_length: found {found} of load_per_length and pressure, expected one of the two: a "
+                "load per length or a Hertz (peak) pressure"
             )
 
 

@@ -21,6 +21,6 @@ class FilmSimulation(Checked):
 
     part: ClassVar[str] = "simulation"
 
-    duration: Scalar | None = optional_number(bound="> 0")
+    duration: Scalar | None = optional_number(bound="> 0", unit="s")
     speed: AbstractTimeFactor = Steady()
-    tolerance: Scalar = number(DEFAULT_TOLERANCE, bound="> 0")
+    tolerance: Scalar = number(DEFAULT_TOLERANCE, bound="> 0", unit="1")

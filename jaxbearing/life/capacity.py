@@ -9,7 +9,7 @@ from ..numerics.arguments import require_angle, require_count, require_numbers
 MILLIMETRE = 1e-3
 LARGE_BALL = 25.4
 """Ball diameter, mm, from which on the rating grows with D^1.4 instead of D^1.8."""
-CONFORMITIES, SIZE_RATIOS = "between 0.5 and 1, and not 0.5", ">= 0 and below 1"
+CONFORMITIES, SIZE_RATIOS = "above 0.5 and at most 1", ">= 0 and below 1"
 POLE = 0.505
 """Conformity below which the rating of a groove is not used: it has a pole at 0.5."""
 

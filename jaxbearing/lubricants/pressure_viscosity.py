@@ -49,7 +49,7 @@ class ConstantPressureViscosity(AbstractPressureViscosity):
     **Validity:** a baseline; the coefficient of real oils halves between 0 and 100 C.
     """
 
-    value: Scalar = bounded(">= 0")
+    value: Scalar = bounded("> 0", unit="1/Pa")
 
     def coefficient(self, temperature: Values) -> Batch:
         require_temperature(temperature)
@@ -57,7 +57,7 @@ class ConstantPressureViscosity(AbstractPressureViscosity):
 
 
 ConstantPressureViscosity.__init__.__doc__ = """**Arguments:**
-- `value`: 1/Pa, >= 0.
+- `value`: 1/Pa, > 0; a fluid without one has `NoPressureViscosity`.
 """
 
 
@@ -72,12 +72,12 @@ class FittedPressureViscosity(AbstractPressureViscosity):
     **Reference:** source eq. (93) and table 11.
     """
 
-    offset: Scalar = bounded("finite")
-    a00: Scalar = bounded("finite")
-    a01: Scalar = bounded("finite")
-    pole_temperature: Scalar = bounded("> 0")
-    a10: Scalar = bounded("finite")
-    a11: Scalar = bounded("finite")
+    offset: Scalar = bounded("finite", unit="1/Pa")
+    a00: Scalar = bounded("finite", unit="K/Pa")
+    a01: Scalar = bounded("finite", unit="K^2/Pa")
+    pole_temperature: Scalar = bounded("> 0", unit="K")
+    a10: Scalar = bounded("finite", unit="K/Pa")
+    a11: Scalar = bounded("finite", unit="K^2/Pa")
 
     def coefficient(self, temperature: Values) -> Batch:
         require_temperature(temperature)

@@ -33,15 +33,15 @@ class ExponentialRheology(Checked):
 
     part: ClassVar[str] = "oil.rheology"
 
-    reference_temperature: Scalar = bounded("> 0")
-    shear_modulus: Scalar = bounded("> 0")
-    shear_modulus_pressure: Scalar = bounded("finite")
-    shear_modulus_temperature: Scalar = bounded("finite")
-    stress: Scalar = bounded("> 0")
-    stress_pressure: Scalar = bounded("finite")
-    stress_temperature: Scalar = bounded("finite")
+    reference_temperature: Scalar = bounded("> 0", unit="K")
+    shear_modulus: Scalar = bounded("> 0", unit="Pa")
+    shear_modulus_pressure: Scalar = bounded("finite", unit="1/Pa")
+    shear_modulus_temperature: Scalar = bounded("finite", unit="K", difference=True)
+    stress: Scalar = bounded("> 0", unit="Pa")
+    stress_pressure: Scalar = bounded("finite", unit="1/Pa")
+    stress_temperature: Scalar = bounded("finite", unit="K", difference=True)
     viscous_function: str | None = choice("rheology.viscous_function", VISCOUS_FUNCTIONS, None)
-    exponent: float | None = constant("rheology.exponent", None)
+    exponent: float | None = constant("rheology.exponent", None, bound="> 0")
 
     def misfit(self, viscous_function: str, exponent: Values | None = None) -> tuple[str, ...]:
         """Notes for the user on a traction law with this viscous function: nothing, or that the data were fitted

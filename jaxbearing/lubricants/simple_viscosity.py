@@ -26,7 +26,7 @@ class ConstantViscosity(AbstractViscosity):
     **Validity:** one temperature, and pressures at which the fluid does not thicken (water: below about 0.5 GPa).
     """
 
-    value: Scalar = bounded("> 0")
+    value: Scalar = bounded("> 0", unit="Pa s")
 
     def log_viscosity(self, pressure: Values, temperature: Values) -> Batch:
         require_temperature(temperature)
@@ -50,10 +50,10 @@ class Barus(AbstractViscosity):
     **Reference:** Barus (1893), Am. J. Sci. 45, 87; source eqs. (73)-(74).
     """
 
-    reference_viscosity: Scalar = bounded("> 0")
-    reference_temperature: Scalar = bounded("> 0")
-    pressure_viscosity: Scalar = bounded(">= 0")
-    temperature_viscosity: Scalar = bounded(">= 0")
+    reference_viscosity: Scalar = bounded("> 0", unit="Pa s")
+    reference_temperature: Scalar = bounded("> 0", unit="K")
+    pressure_viscosity: Scalar = bounded("> 0", unit="1/Pa")
+    temperature_viscosity: Scalar = bounded(">= 0", unit="K", difference=True)
 
     def log_viscosity(self, pressure: Values, temperature: Values) -> Batch:
         require_temperature(temperature)
@@ -65,7 +65,7 @@ class Barus(AbstractViscosity):
 Barus.__init__.__doc__ = """**Arguments:**
 - `reference_viscosity`: mu_0, Pa s, > 0.
 - `reference_temperature`: T_0, K, > 0.
-- `pressure_viscosity`: alpha, 1/Pa, >= 0; 0 is an isoviscous oil.
+- `pressure_viscosity`: alpha, 1/Pa, > 0.
 - `temperature_viscosity`: beta, K, >= 0; 0 is a viscosity that does not depend on temperature.
 """
 
@@ -83,10 +83,10 @@ class Roelands(AbstractViscosity):
     **Reference:** Roelands (1966), thesis, TU Delft; source eq. (75), garbled there.
     """
 
-    reference_viscosity: Scalar = bounded("> 6.31e-5 (Roelands' smallest viscosity)")
-    reference_temperature: Scalar = bounded("> 138 (the pole of Roelands' law)")
-    pressure_exponent: Scalar = bounded("> 0")
-    temperature_exponent: Scalar = bounded(">= 0")
+    reference_viscosity: Scalar = bounded("> 0.0632 mPa s (Roelands' smallest viscosity)", unit="Pa s")
+    reference_temperature: Scalar = bounded("> 138 K (the pole of Roelands' law)", unit="K")
+    pressure_exponent: Scalar = bounded("> 0", unit="1")
+    temperature_exponent: Scalar = bounded(">= 0", unit="1")
 
     def log_viscosity(self, pressure: Values, temperature: Values) -> Batch:
         require_temperature(temperature)

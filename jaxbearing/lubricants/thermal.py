@@ -24,9 +24,9 @@ class LinearDensity(Checked):
 
     part: ClassVar[str] = "oil.density"
 
-    value: Scalar = bounded("> 0")
-    slope: Scalar = bounded("finite")
-    reference_temperature: Scalar = bounded("> 0")
+    value: Scalar = bounded("> 0", unit="kg/m^3")
+    slope: Scalar = bounded("finite", unit="kg/(m^3 K)")
+    reference_temperature: Scalar = bounded("> 0", unit="K")
 
     def density(self, temperature: Values) -> Batch:
         """Density, kg/m^3. **Arguments:** `temperature`, K."""
@@ -51,9 +51,9 @@ class LinearConductivity(Checked):
 
     part: ClassVar[str] = "oil.conductivity"
 
-    value: Scalar = bounded("> 0")
-    slope: Scalar = bounded("finite")
-    reference_temperature: Scalar = bounded("> 0")
+    value: Scalar = bounded("> 0", unit="W/(m K)")
+    slope: Scalar = bounded("finite", unit="W/(m K^2)")
+    reference_temperature: Scalar = bounded("> 0", unit="K")
 
     def conductivity(self, temperature: Values) -> Batch:
         """Thermal conductivity, W/(m K). **Arguments:** `temperature`, K."""

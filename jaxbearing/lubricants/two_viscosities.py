@@ -56,12 +56,12 @@ class WaltherRoelands(AbstractViscosity):
     **Reference:** ASTM D341; Walther (1931), Erdoel und Teer 7, 382; Roelands (1966), thesis, TU Delft.
     """
 
-    viscosity_1: Scalar = bounded("> 0.3e-6 (0.3 cSt)")
-    temperature_1: Scalar = bounded("> 0")
-    viscosity_2: Scalar = bounded("> 0.3e-6 (0.3 cSt)")
-    temperature_2: Scalar = bounded("> 0")
+    viscosity_1: Scalar = bounded("> 0.3 cSt (0.3e-6 m^2/s)", unit="m^2/s")
+    temperature_1: Scalar = bounded("> 0", unit="K")
+    viscosity_2: Scalar = bounded("> 0.3 cSt (0.3e-6 m^2/s)", unit="m^2/s")
+    temperature_2: Scalar = bounded("> 0", unit="K")
     density: LinearDensity  # pyright: ignore[reportGeneralTypeIssues]  (the fields before it have no default either)
-    pressure_viscosity: Scalar | None = bounded("> 0", default=None)
+    pressure_viscosity: Scalar | None = bounded("> 0", unit="1/Pa", default=None)
 
     def __check_init__(self):
         super().__check_init__()

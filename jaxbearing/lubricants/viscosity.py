@@ -108,14 +108,14 @@ class ModifiedWLF(AbstractViscosity):
     **Reference:** Yasutomi, Bair and Winer (1984), ASME J. Tribology 106, 291; source eq. (76).
     """
 
-    glass_viscosity: Scalar = bounded("> 0")
-    glass_temperature: Scalar = bounded("> 0")
-    glass_shift: Scalar = bounded("> 0")
-    glass_shift_rate: Scalar = bounded("> 0")
-    expansion_factor: Scalar = bounded("> 0")
-    expansion_rate: Scalar = bounded("> 0")
-    c1: Scalar = bounded("> 0")
-    c2: Scalar = bounded("> 0")
+    glass_viscosity: Scalar = bounded("> 0", unit="Pa s")
+    glass_temperature: Scalar = bounded("> 0", unit="K")
+    glass_shift: Scalar = bounded("> 0", unit="K", difference=True)
+    glass_shift_rate: Scalar = bounded("> 0", unit="1/Pa")
+    expansion_factor: Scalar = bounded("> 0", unit="1")
+    expansion_rate: Scalar = bounded("> 0", unit="1/Pa")
+    c1: Scalar = bounded("> 0", unit="1")
+    c2: Scalar = bounded("> 0", unit="K", difference=True)
 
     def log_viscosity(self, pressure: Values, temperature: Values) -> Batch:
         require_temperature(temperature)

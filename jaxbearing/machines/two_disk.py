@@ -55,14 +55,17 @@ class DiskGeometry(Checked):
 
     part: ClassVar[str] = "geometry"
 
-    reduced_radius_rolling: Scalar = number(bound="> 0")
-    reduced_radius_transverse: Scalar | None = optional_number(bound="> 0")
-    contact_length: Scalar | None = optional_number(bound="> 0")
+    reduced_radius_rolling: Scalar = number(bound="> 0", unit="m")
+    reduced_radius_transverse: Scalar | None = optional_number(bound="> 0", unit="m")
+    contact_length: Scalar | None = optional_number(bound="> 0", unit="m")
 
     def __check_init__(self):
         super().__check_init__()
         if self.contact_length is not None and self.reduced_radius_transverse is not None:
-            raise ValueError("geometry.contact_length: a line contact has no geometry.reduced_radius_transverse")
+            raise ValueError(
+                "geometry.reduced_radius_transverse: expected none beside contact_length: a line contact is "
+                "straight across"
+            )
 
     def contact(self, modulus: Values) -> LineContact | PointContact:
         """**Arguments:** `modulus`: reduced modulus E', Pa."""
@@ -113,9 +116,10 @@ def _values(given: Any) -> Any:
     return given.reshape(1) if getattr(given, "ndim", None) == 0 else given
 
 
-def _axis(unit: str, description: str, **kwargs: Any) -> Any:
-    """Field with one dimension of the family of curves: a number or a list of them."""
-    return eqx.field(converter=lambda v: None if v is None else _values(v), metadata=label(unit, description), **kwargs)
+def _axis(unit: str, description: str, bound: str = "> 0", **kwargs: Any) -> Any:
+    """Field with one dimension of the family of curves: a number or a list of them, each within the bound."""
+    said = {**label(unit, description), "each": bound}
+    return eqx.field(converter=lambda v: None if v is None else _values(v), metadata=said, **kwargs)
 
 
 class DiskOperation(eqx.Module):
@@ -128,19 +132,23 @@ class DiskOperation(eqx.Module):
     - `pressure`: Hertz (peak) pressures, Pa, or `load`: N; one of the two.
     """
 
-    slide_to_roll: Float[Array | np.ndarray, " slide"] = _axis("1", "slide-to-roll ratio, difference over mean speed")
+    slide_to_roll: Float[Array | np.ndarray, " slide"] = _axis(
+        "1", "slide-to-roll ratio, difference over mean speed", "finite"
+    )
     entrainment_speed: Float[Array | np.ndarray, " speed"] = _axis("m/s", "mean surface speed")
     temperature: Float[Array | np.ndarray, " temperature"] = _axis("K", "oil temperature")
     pressure: Float[Array | np.ndarray, " load"] | None = _axis("Pa", "Hertz (peak) pressure", default=None)
     load: Float[Array | np.ndarray, " load"] | None = _axis("N", "normal load", default=None)
 
     def __check_init__(self):
-        _require_each("slide_to_roll", self.slide_to_roll, "finite")
-        for name in ("entrainment_speed", "temperature", "pressure", "load"):
-            _require_each(name, getattr(self, name), "> 0")
+        for field in dataclasses.fields(self):
+            _require_each(field.name, getattr(self, field.name), field.metadata["each"])
         if (self.pressure is None) == (self.load is None):
             found = "neither" if self.pressure is None else "both"
-            raise ValueError(f"operation.pressure: found {found} of pressure and load, expected one of the two")
+            raise ValueError(
+                f"operation.pressure: found {found} of pressure and load, expected one of the two: a Hertz (peak) "
+                "pressure or a normal load"
+            )
 
 
 def _require_each(name: str, values: Any, allowed: str) -> None:

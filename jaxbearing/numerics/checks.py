@@ -46,12 +46,14 @@ RANGES = {
     "above 0 and below 1": Interval(0.0, 1.0),
     ">= 0 and below 1": Interval(0.0, 1.0, low_allowed=True),
     "between 0 and 0.5": Interval(0.0, 0.5, True, True),
-    "between 0.5 and 1, and not 0.5": Interval(0.5, 1.0, high_allowed=True),
+    "between 0 and 2": Interval(0.0, 2.0, True, True),
+    "above 0.5 and at most 1": Interval(0.5, 1.0, high_allowed=True),
     ">= 0 and below 90 degrees": Interval(0.0, 0.5 * np.pi, low_allowed=True),
     "above 0 and below 90 degrees": Interval(0.0, 0.5 * np.pi),
-    "> 6.31e-5 (Roelands' smallest viscosity)": Interval(6.31e-5, np.inf),
-    "> 138 (the pole of Roelands' law)": Interval(138.0, np.inf),
-    "> 0.3e-6 (0.3 cSt)": Interval(0.3e-6, np.inf),
+    "between 2 and 64": Interval(2.0, 64.0, True, True),
+    "> 0.0632 mPa s (Roelands' smallest viscosity)": Interval(6.32e-5, np.inf),
+    "> 138 K (the pole of Roelands' law)": Interval(138.0, np.inf),
+    "> 0.3 cSt (0.3e-6 m^2/s)": Interval(0.3e-6, np.inf),
 }
 """Bounds of fields, by the words of messages."""
 
@@ -68,13 +70,25 @@ class _Record:
 _RECORD: ContextVar[_Record | None] = ContextVar("record of traced checks", default=None)
 
 
-def bounded(bound: str, *, name: str = "", **kwargs: Any) -> Any:
-    """Field that holds one number within a bound of `RANGES`, of a class that is `Checked`.
+def label(unit: str, description: str) -> dict[str, str]:
+    """Metadata of a field: its SI unit and what it is."""
+    return {"unit": unit, "description": description}
 
-    **Arguments:** `name`: of the field in scene files, where that is another one.
+
+def bounded(bound: str, *, unit: str = "", difference: bool = False, name: str = "", **kwargs: Any) -> Any:
+    """Field that holds one number within a bound of `RANGES`, of a class that is `Checked`. Scene files read the number
+    by what is said here (`scenes.table_of`).
+
+    **Arguments:**
+    - `unit`: of SI, "1" for a number without a unit; where `metadata` is a `label`, that says it.
+    - `difference`: whether a number in K is a difference of temperatures.
+    - `name`: of the field in scene files, where that is another one.
     """
     assert bound in RANGES, bound
-    kwargs["metadata"] = {**kwargs.get("metadata", {}), "bound": bound, "name": name}
+    said = {"bound": bound, "name": name, "difference": difference}
+    if unit:
+        said |= label(unit, "")
+    kwargs["metadata"] = {**said, **kwargs.get("metadata", {})}
     return eqx.field(**kwargs)
 
 
@@ -94,7 +108,7 @@ class Checked(eqx.Module):
             bound, value = field.metadata.get("bound"), getattr(self, field.name)
             if bound is None:
                 continue
-            name = field.name if record is not None else field.metadata["name"] or field.name
+            name = field.name if record is not None else field.metadata.get("name") or field.name
             if value is None and field.default is not None:
                 raise ValueError(f"{part}.{name}".lstrip(".") + " must be one number, got None")
             checks[name] = (value, bound)

@@ -16,32 +16,52 @@ from .checks import RANGES
 _WORDS = {int: "a whole number", float: "one finite number", bool: "True or False"}
 
 
-def count(name: str, default: Any = dataclasses.MISSING, *, least: int | None = None, **kwargs: Any) -> Any:
-    """Static field that holds a whole number, not below `least`; `name` as messages have it. `None` passes where it is
-    the default."""
+def count(
+    name: str,
+    default: Any = dataclasses.MISSING,
+    *,
+    least: int | None = None,
+    most: int | None = None,
+    **kwargs: Any,
+) -> Any:
+    """Static field that holds a whole number, not below `least` and not above `most`; `name` as messages have it.
+    `None` passes where it is the default."""
 
     def read(value: Any) -> int:
-        return static_count(name, value, least)
+        number = static_count(name, value, least if most is None else None)
+        if most is not None and not (least or 0) <= number <= most:
+            raise ValueError(f"{name} must be from {least or 0} to {most}, got {number}")
+        return number
 
-    return _field(read, default, kwargs)
+    return _field(read, default, kwargs, {"count": (least, most)})
 
 
-def constant(name: str, default: Any = dataclasses.MISSING, *, bound: str = "finite", **kwargs: Any) -> Any:
-    """Static field that holds one finite number within a bound of `checks.RANGES`; `name` as messages have it. `None`
-    passes where it is the default."""
+def constant(
+    name: str,
+    default: Any = dataclasses.MISSING,
+    *,
+    bound: str = "finite",
+    among: Iterable[float] | None = None,
+    **kwargs: Any,
+) -> Any:
+    """Static field that holds one finite number without a unit, within a bound of `checks.RANGES` or `among` some
+    numbers; `name` as messages have it. `None` passes where it is the default."""
+    numbers = None if among is None else tuple(among)
 
     def read(value: Any) -> float:
         number = static_number(name, value, float)
         if not RANGES[bound].holds(number):
             raise ValueError(f"{name} must be {bound}, got {number:g}")
+        if numbers is not None and number not in numbers:
+            raise ValueError(f"{name} must be one of {numbers}, got {number!r}")
         return number
 
-    return _field(read, default, kwargs)
+    return _field(read, default, kwargs, {"constant": bound, "among": numbers})
 
 
 def switch(name: str, default: Any = dataclasses.MISSING, **kwargs: Any) -> Any:
     """Static field that holds `True` or `False`; `name` as messages have it. `None` passes where it is the default."""
-    return _field(lambda value: static_number(name, value, bool), default, kwargs)
+    return _field(lambda value: static_number(name, value, bool), default, kwargs, {"switch": True})
 
 
 def choice(name: str, choices: Iterable[str], default: Any = dataclasses.MISSING, **kwargs: Any) -> Any:
@@ -53,17 +73,19 @@ def choice(name: str, choices: Iterable[str], default: Any = dataclasses.MISSING
         require_choice(name, value, words)
         return str(value)
 
-    return _field(read, default, kwargs)
+    return _field(read, default, kwargs, {"choices": words})
 
 
-def _field(read: Callable[[Any], Any], default: Any, kwargs: dict[str, Any]) -> Any:
+def _field(read: Callable[[Any], Any], default: Any, kwargs: dict[str, Any], said: dict[str, Any]) -> Any:
+    """**Arguments:** `said`: what scene files read of the field, see `scenes.table_of`."""
     if default is not dataclasses.MISSING:
         kwargs["default"] = default
 
     def converter(value: Any) -> Any:
         return None if value is None and default is None else read(value)
 
-    return eqx.field(static=True, converter=converter, **kwargs)
+    metadata = {**said, **kwargs.pop("metadata", {})}
+    return eqx.field(static=True, converter=converter, metadata=metadata, **kwargs)
 
 
 def static_count(name: str, value: Any, least: int | None = None) -> int:

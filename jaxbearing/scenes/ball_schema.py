@@ -6,37 +6,24 @@ from typing import Annotated, Any, ClassVar, Literal
 
 from pydantic import BeforeValidator
 
+from ..bearings.ball.geometry import BallGeometry
+from ..bearings.ball.gyroscopic import CappedCouple, SharedCouple
+from ..bearings.ball.scene import BallAttitude, BallCage, BallDragSettings, BallOperation
+from ..contacts import PointLaws
 from . import units
-from .bearing_schema import BearingCageTable as BallCageTable
-from .bearing_schema import RatingTable, ThrustOperationTable, require_oil, require_oil_flow
-from .laws import TractionAccuracy
+from .bearing_schema import CageBase, RatingTable, operation_table, require_oil, require_oil_flow
+from .laws import BALL_FILMS, POINT_THERMAL, TRACTIONS, TractionAccuracy
 from .materials import MaterialField
 from .oil_schema import OilTable
 from .table import Problems, Table, check, refusal_at
+from .table_of import table_of
 
 
-class BallGeometryTable(Table):
+class BallGeometryTable(table_of(BallGeometry)):
     instead: ClassVar[Mapping[str, tuple[str, ...]]] = {
         "contact_angle": ("diametral_clearance",),
         "diametral_clearance": ("contact_angle",),
     }
-    n_balls: units.Count
-    pitch_diameter: units.PositiveLength
-    ball_diameter: units.PositiveLength
-    conformity_inner: units.Conformity
-    conformity_outer: units.Conformity
-    contact_angle: units.FlangeAngle | None = None
-    diametral_clearance: units.NonNegativeLength | None = None
-    shoulder_angle_inner: units.FlangeAngle | None = None
-    shoulder_angle_outer: units.FlangeAngle | None = None
-    first_element_angle: units.Angle | None = None
-
-    @check
-    def _one_of_both(self) -> Problems:
-        if (self.contact_angle is None) == (self.diametral_clearance is None):
-            both = "both 'contact_angle' and 'diametral_clearance'"
-            found = both if self.contact_angle is not None else "neither 'contact_angle' nor 'diametral_clearance'"
-            yield refusal_at("contact_angle", "one of the two: each follows from the other", found)
 
 
 class BallMaterialsTable(Table):
@@ -44,19 +31,18 @@ class BallMaterialsTable(Table):
     balls: MaterialField
 
 
-class BallContactTable(Table):
+class BallContactTable(table_of(PointLaws, leave_out=("rolling_resistance",))):
     """Laws of the raceway contacts, by the names in `scenes.laws`, which says what each stands for.
 
     - `traction_accuracy`: relative error of the traction forces for which the march through the Hertz pressure is cut
     """
 
     about: ClassVar[Mapping[str, tuple[str, ...]]] = {"traction": ("traction_accuracy", "heathcote")}
-    film: Literal["nijenbanning", "hamrock_dowson"]
-    thermal: Literal["gupta"] | None = None
-    traction: Literal["maxwell_eyring", "ree_eyring", "bair_winer", "gecim_winer", "elsharkawy_hamrock"] | None = None
+    film: Annotated[str, BALL_FILMS]
+    thermal: Annotated[str, POINT_THERMAL] | None = None
+    traction: Annotated[str, TRACTIONS] | None = None
     traction_accuracy: TractionAccuracy | None = None
     rolling_resistance: Literal["houpert"] | None = None
-    heathcote: units.Switch = False
 
     @check
     def _consistent(self) -> Problems:
@@ -66,23 +52,12 @@ class BallContactTable(Table):
             yield refusal_at("traction", f"a law, without which {' and '.join(given)} {has} no meaning", "nothing")
 
 
-ISOVISCOUS = {"film": ("nijenbanning",)}
-"""The laws of `BallContactTable` that hold for an oil of the same viscosity at every pressure."""
-
-
 def _sign(value: Any) -> float:
     if isinstance(value, bool) or not isinstance(value, int | float) or abs(value) != 1:
         raise units.refusal(
             "1 (Euler's equation) or -1 (as the source prints it), without quotes", units.describe(value)
         )
     return float(value)
-
-
-def _share(value: Any) -> float:
-    share = units.number(value)
-    if not 0.0 <= share <= 2.0:
-        raise units.refusal("a number from 0 to 2", units.describe(value))
-    return share
 
 
 OF_COUPLE = {
@@ -94,23 +69,20 @@ OF_COUPLE = {
 """Field -> the laws of the gyroscopic couple that it is about."""
 
 
-class KinematicsTable(Table):
-    """`inner_share` and `outer_share`: parts of the couple that the friction of each race carries, in units of half of
-    it; one of them is enough, since they add up to 2.
+class KinematicsTable(
+    table_of(
+        *(BallAttitude, SharedCouple, CappedCouple),
+        optional=("attitude", "inner_share", "outer_share", "gyroscopic_friction"),
+    )
+):
+    """`inner_share` and `outer_share`: one of them is enough, since they add up to 2.
 
     - `gyroscopic_sign`: of the force pair that carries the couple
-    - `gyroscopic_friction`: coefficient of friction that caps what a race carries
-    - `inner_share`, `outer_share`: part of the couple that the race carries, in units of half of it
     """
 
     about: ClassVar[Mapping[str, tuple[str, ...]]] = {"gyroscopic": tuple(OF_COUPLE)}
-    attitude: Literal["outer", "inner", "min_power", "equilibrium"] | None = None
     gyroscopic: Literal["off", "shared", "capped", "resolved"] = "off"
     gyroscopic_sign: Annotated[float, BeforeValidator(_sign)] | None = None
-    gyroscopic_friction: units.PositiveNumber | None = None
-    inner_share: Annotated[float, BeforeValidator(_share)] | None = None
-    outer_share: Annotated[float, BeforeValidator(_share)] | None = None
-    orbit: Literal["own", "common"] = "own"
 
     @check
     def _of_the_law(self) -> Problems:
@@ -126,9 +98,16 @@ class KinematicsTable(Table):
             yield refusal_at("outer_share", expected, f"the number {outer:g}")
 
 
-class BallDragTable(Table):
-    coefficient: units.NonNegativeNumber | None = None
-    through_flow_fraction: units.Fraction = 1.0
+class BallCageTable(table_of(BallCage, base=CageBase)):
+    """See `bearings.ball.scene.BallCage`."""
+
+
+class BallOperationTable(operation_table(BallOperation)):
+    """See `bearings.ball.scene.BallOperation`."""
+
+
+class BallDragTable(table_of(BallDragSettings)):
+    """See `bearings.ball.scene.BallDragSettings`."""
 
 
 class BallBearingTable(Table):
@@ -137,7 +116,7 @@ class BallBearingTable(Table):
     kind: Literal["ball_bearing"]
     geometry: BallGeometryTable
     materials: BallMaterialsTable
-    operation: ThrustOperationTable
+    operation: BallOperationTable
     oil: OilTable | None = None
     contact: BallContactTable | None = None
     kinematics: KinematicsTable | None = None
@@ -157,4 +136,4 @@ class BallBearingTable(Table):
             return
         slips = self.contact.traction is not None
         density = "the cage or the drag" if slips and (self.cage is not None or self.drag is not None) else ""
-        yield from require_oil(self.oil, self.operation, self.contact, density, ISOVISCOUS)
+        yield from require_oil(self.oil, self.operation, self.contact, density, {"film": BALL_FILMS})

@@ -7,10 +7,9 @@ import jax
 
 from ..bearings.cage import AbstractCage
 from ..numerics.refusals import refusals_of, refuse_all
-from .bearing_schema import BearingCageTable
 from .drafts import STAND_IN, Unreadable
+from .laws import TURBULENCE
 from .table import Table
-from .turbulence import TURBULENCE
 
 Cage = TypeVar("Cage", bound=AbstractCage)
 Part = TypeVar("Part")
@@ -41,6 +40,6 @@ def part(kind: type[Part], table: Table | None) -> Part | None:
     return None if table is None else kind(**table.model_dump())
 
 
-def cage(kind: type[Cage], table: BearingCageTable | None) -> Cage | None:
+def cage(kind: type[Cage], table: Any) -> Cage | None:
     """The cage that a table describes, where there is one."""
     return None if table is None else kind(**{**table.model_dump(), "turbulence": TURBULENCE[table.turbulence]()})

@@ -1,42 +1,17 @@
 """Laws that the [contact] table of a roller bearing names."""
 
-from collections.abc import Callable
-
 from ..bearings.parts import ContactLaws
-from ..contacts import (
-    AbstractLineFilm,
-    AbstractRollingResistance,
-    AbstractTraction,
-    JoinedRollingResistance,
-    MartinBlend,
-    MeanPressureTraction,
-    RigidRollingResistance,
-)
+from ..contacts import AbstractTraction, MeanPressureTraction
 from ..lubricants import Lubricant
-from .laws import LINE_FILMS, distributed_traction, thermal_factor, viscous_function
+from .laws import ROLLER_FILMS, ROLLING, distributed_traction, thermal_factor, viscous_function
 from .roller_schema import ContactTable
-
-
-def _with_martin(film: type[AbstractLineFilm]) -> Callable[[], AbstractLineFilm]:
-    """An elastohydrodynamic formula alone has a finite film at no load, where an unloaded roller needs Martin's."""
-    return lambda: MartinBlend(film())
-
-
-FILMS: dict[str, Callable[[], AbstractLineFilm]] = {
-    name: film if name == "moes" else _with_martin(film) for name, film in LINE_FILMS.items()
-}
-ROLLING: dict[str, type[AbstractRollingResistance]] = {
-    "rigid_isoviscous": RigidRollingResistance,
-    # under load; a roller outside the loaded zone has the rigid law's
-    "ertel_grubin": JoinedRollingResistance,
-}
 
 
 def contact_laws(table: ContactTable, oil: Lubricant | None) -> ContactLaws:
     """The laws that a table names. Traction laws take the exponent with which the oil's data were fitted."""
     rolling = None if table.rolling_resistance is None else ROLLING[table.rolling_resistance]()
     return ContactLaws(
-        film=FILMS[table.film](),
+        film=ROLLER_FILMS[table.film](),
         thermal=thermal_factor(table.thermal),
         traction=_traction(table, oil),
         rolling=rolling,

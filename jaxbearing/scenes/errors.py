@@ -12,7 +12,11 @@ from ..numerics.refusals import Refusals
 from .fields import is_optional, names_at, path_of, required_names, type_at
 from .units import describe, shortened
 
-_CLASS_MESSAGE = re.compile(r"([a-z_]+(?:\.[a-z_]+)*)(?::| must)")
+LAW_ERROR = "law_name"
+"""Type of the validation error for a name that stands for no law."""
+_CLASS_MESSAGE = re.compile(r"([a-z_0-9]+(?:\.[a-z_0-9]+)*)(:| must)")
+_MUST_BE = re.compile(r"be (?P<expected>.*?)(?:, got [^:]*(?:: (?P<reason>.*))?)?")
+_FOUND_EXPECTED = re.compile(r"(?:found (?P<found>.*?), )?expected (?P<expected>.*)")
 
 
 class SceneError(ValueError):
@@ -110,7 +114,8 @@ def in_words(file: str, path: str, words: Mapping[str, str]) -> SceneError:
 
 
 def from_class(error: ValueError, raw: Mapping[str, Any], file: str) -> SceneError:
-    """The refusals by classes of the library ("table.field: ..." or "table.field must ...")."""
+    """The refusals by classes of the library: "table.field must be ..., got ...: reason", "table.field: found ...,
+    expected ...", "table.field: expected ..." or "table.field: reason"."""
     if isinstance(error, SceneError):
         # of another file
         return error
@@ -120,9 +125,13 @@ def from_class(error: ValueError, raw: Mapping[str, Any], file: str) -> SceneErr
     match = _CLASS_MESSAGE.match(text)
     if match is None:
         return SceneError(file, "", "values that do not fit together", "a scene that can be built", reason=text)
-    path = match[1]
-    reason = text.removeprefix(f"{path}: ")
-    return SceneError(file, path, describe_at(raw, path), "values that fit together", reason=reason)
+    path, said = match[1], text[match.end() :].strip()
+    found = describe_at(raw, path)
+    expectation = (_MUST_BE if match[2] == " must" else _FOUND_EXPECTED).fullmatch(said)
+    if expectation is None:
+        return SceneError(file, path, found, "values that fit together", reason=text.removeprefix(f"{path}: "))
+    words = expectation.groupdict()
+    return SceneError(file, path, words.get("found") or found, words["expected"], reason=words.get("reason") or "")
 
 
 def describe_at(raw: Mapping[str, Any], path: str) -> str:
@@ -157,7 +166,7 @@ def _in_words(detail: Any, model: type[BaseModel]) -> tuple[str, dict[str, str]]
         # a check of several fields names the one to look at
         path = ".".join(part for part in (path, context.get("field", "")) if part)
         return path, {name: context.get(name, "") for name in ("found", "expected", "suggestion")}
-    if kind == "literal_error":
+    if kind in ("literal_error", LAW_ERROR):
         valid = re.findall(r"'([^']*)'", context["expected"])
         given = detail["input"]
         near = nearest(given, valid) if isinstance(given, str) else ""

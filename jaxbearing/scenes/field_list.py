@@ -8,30 +8,12 @@ from typing import Any
 
 from pydantic import BaseModel, TypeAdapter, ValidationError
 
-from .. import lubricants
-from ..bearings.cage import AbstractCage
-from ..bearings.motion.settings import Simulation
-from ..bearings.profile import RollerProfile
-from ..bearings.rating import Rating
-from ..materials import Material
-from ..time_laws import Ramp, RotatingLoad, Sinusoidal
 from .fields import tables_at
 from .inputs import described_argument
 from .reader import schema_of_kind
+from .table import Table
 from .units import Dimension, QuantityValidator
 
-_CLASSES = {
-    "BearingCageTable": AbstractCage,
-    "MaterialTable": Material,
-    "OilTable": lubricants.Lubricant,
-    "PerturbationTable": Sinusoidal,
-    "ProfileTable": RollerProfile,
-    "RampTable": Ramp,
-    "RatingTable": Rating,
-    "RotatingLoadTable": RotatingLoad,
-    "SimulationTable": Simulation,
-}
-"""Tables whose class no field of a scene names. Those of an oil's laws are named after the class."""
 _PLAIN = {"string_type": "text", "bool_type": "true or false", "float_type": "a number", "dict_type": "a table"}
 
 
@@ -69,12 +51,19 @@ def fields(model: type[BaseModel], owner: type | None) -> Iterator[Field]:
         else:
             default = f"{str(info.default).lower() if isinstance(info.default, bool) else info.default} {unit}".strip()
         words = name.replace("_", " ")
-        said = described_argument(owner, name) if owner is not None else ""
+        source, own = model.made_from.get(name, (owner, name)) if issubclass(model, Table) else (owner, name)
+        said = _described(owner, name) or _described(source, own)
         # a field that no class has, or that its class does not explain, is explained by its table
         said = said if said and said != words else described_argument(model, name)
         expected, tables = _expected(model, name, annotation, unit)
         text = " ".join((said.removeprefix(f"{words}: ") or words).split())
         yield Field(name, unit, expected, tables, default, text)
+
+
+def _described(owner: type | None, name: str) -> str:
+    """What a class says of its argument."""
+    text = described_argument(owner, name) if owner is not None else ""
+    return text.removeprefix(f"{name.replace('_', ' ')}: ")
 
 
 def _dimension(annotation: object) -> Dimension | None:
@@ -130,8 +119,8 @@ def class_of(owner: type | None, name: str, table: type[BaseModel]) -> type | No
 
 
 def class_of_table(table: type[BaseModel]) -> type | None:
-    """The class that a table builds, by the name of the table."""
-    return _CLASSES.get(table.__name__) or getattr(lubricants, table.__name__.removesuffix("Table"), None)
+    """The class that a table builds."""
+    return table.builds if issubclass(table, Table) else None
 
 
 def _classes(hint: object) -> list[type]:

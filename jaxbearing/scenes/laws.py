@@ -1,16 +1,23 @@
-"""Names of contact laws in scene files of any kind, and the laws that they stand for."""
+"""Names of laws in scene files, each registered once: the fields that take them, their lists in messages and pages, and
+the laws that are built all follow from here.
 
-from collections.abc import Callable
-from typing import Annotated, Any
+A law of another package is named by an entry point of the group `jaxbearing.laws`, see `docs/adding_a_law.md`.
+"""
 
-from pydantic import BeforeValidator
+from collections.abc import Callable, Iterator, Mapping
+from typing import Annotated, Any, Generic, TypeVar
+
+from pydantic import GetCoreSchemaHandler
+from pydantic_core import CoreSchema, PydanticCustomError, core_schema
 
 from ..contacts import (
     PRESETS,
     AbstractLineFilm,
     AbstractPointFilm,
+    AbstractRollingResistance,
     AbstractThermalFactor,
     AbstractViscousFunction,
+    ChittendenCentral,
     DistributedTraction,
     DowsonHigginson,
     DowsonToyoda,
@@ -18,6 +25,8 @@ from ..contacts import (
     Gupta,
     HamrockDowsonCentral,
     HsuLee,
+    JoinedRollingResistance,
+    MartinBlend,
     Moes,
     NijenbanningVennerMoes,
     NoThermalReduction,
@@ -25,44 +34,182 @@ from ..contacts import (
     ReeEyring,
     Resolution,
     RigidBlend,
+    RigidRollingResistance,
 )
 from ..contacts import viscous_function as viscous_function_named
+from ..contacts.viscous import VISCOUS_LAWS
+from ..gaps import AbstractTurbulence, BlendedTurbulence, FullTurbulence, Laminar
 from ..lubricants import Lubricant
 from . import units
+from .errors import LAW_ERROR
 
-LINE_FILMS: dict[str, type[AbstractLineFilm]] = {
-    "moes": Moes,
-    "dowson_higginson": DowsonHigginson,
-    "dowson_toyoda": DowsonToyoda,
-    "pan_hamrock": PanHamrockCentral,
-    "grubin": Grubin,
-}
-POINT_FILMS: dict[str, type[AbstractPointFilm]] = {
-    "nijenbanning": NijenbanningVennerMoes,
-    "hamrock_dowson": HamrockDowsonCentral,
-}
-BALL_FILMS: dict[str, Callable[[], AbstractPointFilm]] = {
-    "nijenbanning": NijenbanningVennerMoes,
-    # an unloaded ball needs the rigid film of light loads
-    "hamrock_dowson": lambda: RigidBlend(HamrockDowsonCentral()),
-}
-"""Film laws of ball bearings, in which some balls may carry nothing."""
-THERMAL: dict[str, type[AbstractThermalFactor]] = {"gupta": Gupta, "hsu_lee": HsuLee}
+ENTRY_POINTS = "jaxbearing.laws"
+"""Group of the entry points by which other packages name their laws."""
+AnyLaw = TypeVar("AnyLaw")
+
+
+class Laws(Generic[AnyLaw], Mapping[str, Callable[..., AnyLaw]]):
+    """Laws of one kind by their names in scene files: the type of a field that holds such a name is
+    `Annotated[str, laws]`.
+
+    **Arguments:**
+    - `named`: name -> class, or another maker, of the law.
+    - `kinds`: the abstract classes of which a law of another package must be one.
+    """
+
+    def __init__(self, named: Mapping[str, Callable[..., AnyLaw]], *kinds: type):
+        self._named, self._kinds = dict(named), kinds
+
+    def __getitem__(self, name: str) -> Callable[..., AnyLaw]:
+        """The class of a law of this package or, by the name of an entry point, of another."""
+        return self._named[name] if name in self._named else self._loaded(name)
+
+    # a type is compared and hashed with all that annotates it
+    __eq__ = object.__eq__
+    __hash__ = object.__hash__  # pyright: ignore[reportAssignmentType]  (mappings have none)
+
+    def __contains__(self, name: object) -> bool:
+        return name in self._named
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._named)
+
+    def __len__(self) -> int:
+        return len(self._named)
+
+    @property
+    def isoviscous(self) -> tuple[str, ...]:
+        """The names of laws that hold for an oil of the same viscosity at every pressure."""
+        return tuple(name for name in self._named if not self.piezoviscous_only(name))
+
+    def piezoviscous_only(self, name: str) -> bool:
+        """True if the law of this name holds only for oils whose viscosity rises with pressure."""
+        return bool(getattr(self[name], "piezoviscous_only", True))
+
+    def fits(self, name: str) -> bool:
+        """True if the law of this name is one of these. **Raises:** `KeyError` for a name that stands for none."""
+        if name in self._named:
+            return True
+        law = ANY_FILMS[name]
+        return name not in ANY_FILMS and isinstance(law, type) and issubclass(law, self._kinds)
+
+    def name_of(self, law: Any) -> str:
+        """The name of the law of which this is one."""
+        return next(name for name, kind in self._named.items() if type(law) is kind)
+
+    def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
+        return core_schema.no_info_before_validator_function(self.read, handler(source))
+
+    def read(self, given: Any) -> str:
+        """The name, if it stands for a law. **Raises:** `PydanticCustomError` otherwise."""
+        if isinstance(given, str):
+            if given in self._named:
+                return given
+            if given and not given.startswith("<"):
+                try:
+                    self._loaded(given)
+                    return given
+                except KeyError:
+                    pass
+        quoted = [f"'{name}'" for name in self._named]
+        words = " or ".join(filter(None, [", ".join(quoted[:-1]), quoted[-1]]))
+        raise PydanticCustomError(LAW_ERROR, "Input should be {expected}", {"expected": words})
+
+    def _loaded(self, name: str) -> Callable[..., AnyLaw]:
+        """The class that an entry point of this name holds.
+
+        **Raises:** `KeyError` without such an entry point; `PydanticCustomError` for one that cannot be loaded or is of
+        another kind.
+        """
+        from importlib.metadata import entry_points
+
+        found = next(iter(entry_points(group=ENTRY_POINTS, name=name)), None)
+        if found is None:
+            raise KeyError(name)
+        place = f"'{name}', which an entry point says is {found.value}"
+        wanted = " or ".join(kind.__name__ for kind in self._kinds)
+        try:
+            law = found.load()
+        except Exception as error:  # whatever the import of another package raises
+            reason = f"{type(error).__name__}: {error}"
+            raise units.refusal("a law that can be loaded", f"{place}, which fails ({reason})") from error
+        if not (isinstance(law, type) and issubclass(law, self._kinds)):
+            raise units.refusal(f"a subclass of {wanted}", f"{place}, which is none")
+        return law
+
+
+def for_raceways(films: Laws[Any], joined: Callable[[Any], Any]) -> Laws[Any]:
+    """The films of contacts of which some carry nothing.
+
+    A formula for oils whose viscosity rises with pressure alone has a finite film at no load, where an unloaded rolling
+    element needs the rigid film: `joined` puts the two together.
+    """
+    return _RacewayFilms(films, joined)
+
+
+class _RacewayFilms(Laws[Any]):
+    def __init__(self, films: Laws[Any], joined: Callable[[Any], Any]):
+        super().__init__(films._named, *films._kinds)
+        self._joined = joined
+
+    def __getitem__(self, name: str) -> Callable[[], Any]:
+        film = super().__getitem__(name)
+        return (lambda: self._joined(film())) if self.piezoviscous_only(name) else film
+
+    def piezoviscous_only(self, name: str) -> bool:
+        return bool(getattr(super().__getitem__(name), "piezoviscous_only", True))
+
+
+LINE_FILMS: Laws[AbstractLineFilm] = Laws(
+    {
+        "moes": Moes,
+        "dowson_higginson": DowsonHigginson,
+        "dowson_toyoda": DowsonToyoda,
+        "pan_hamrock": PanHamrockCentral,
+        "grubin": Grubin,
+    },
+    AbstractLineFilm,
+)
+POINT_FILMS: Laws[AbstractPointFilm] = Laws(
+    {"nijenbanning": NijenbanningVennerMoes, "hamrock_dowson": HamrockDowsonCentral}, AbstractPointFilm
+)
+ANY_FILMS: Laws[Any] = Laws({**POINT_FILMS, **LINE_FILMS}, AbstractPointFilm, AbstractLineFilm)
+RIB_FILMS: Laws[AbstractPointFilm] = Laws({"chittenden": ChittendenCentral, **POINT_FILMS}, AbstractPointFilm)
+"""Film laws of roller ends on a rib, which roll along the longer axis of the contact."""
+ROLLER_FILMS = for_raceways(LINE_FILMS, MartinBlend)
+BALL_FILMS = for_raceways(POINT_FILMS, RigidBlend)
+"""Film laws of bearings, in which some rolling elements may carry nothing."""
+POINT_THERMAL: Laws[AbstractThermalFactor] = Laws({"gupta": Gupta}, AbstractThermalFactor)
+LINE_THERMAL: Laws[AbstractThermalFactor] = Laws({**POINT_THERMAL, "hsu_lee": HsuLee}, AbstractThermalFactor)
+VISCOUS: Laws[AbstractViscousFunction] = Laws(VISCOUS_LAWS, AbstractViscousFunction)
 MAXWELL_EYRING = "maxwell_eyring"
 """Ree and Eyring's flow with the Maxwell element that every law here has."""
+TRACTIONS: Laws[AbstractViscousFunction] = Laws({MAXWELL_EYRING: ReeEyring, **VISCOUS}, AbstractViscousFunction)
+ROLLING: Laws[AbstractRollingResistance] = Laws(
+    {
+        "rigid_isoviscous": RigidRollingResistance,
+        # under load; a roller outside the loaded zone has the rigid law's
+        "ertel_grubin": JoinedRollingResistance,
+    },
+    AbstractRollingResistance,
+)
+TURBULENCE: Laws[AbstractTurbulence] = Laws(
+    {"laminar": Laminar, "blend": BlendedTurbulence, "pure": FullTurbulence}, AbstractTurbulence
+)
+"""Flow regimes of cage lands."""
 
 DISTRIBUTED_ACCURACY = 1e-3
 """Accuracy of the distributed traction if a scene gives none."""
 
 
 def thermal_factor(name: str | None) -> AbstractThermalFactor:
-    return NoThermalReduction() if name is None else THERMAL[name]()
+    return NoThermalReduction() if name is None else LINE_THERMAL[name]()
 
 
 def viscous_function(name: str, oil: Lubricant | None) -> AbstractViscousFunction:
     """The flow law of this name, with the exponent with which the oil's data were fitted."""
     name = ReeEyring.name if name == MAXWELL_EYRING else name
-    return viscous_function_named(name, None if oil is None else oil.rheology)
+    return viscous_function_named(name, None if oil is None else oil.rheology) if name in VISCOUS else VISCOUS[name]()
 
 
 def distributed_traction(
@@ -74,13 +221,5 @@ def distributed_traction(
     return DistributedTraction(viscous_function(name, oil), resolution)
 
 
-def _accuracy(value: Any) -> float:
-    number = isinstance(value, int | float) and not isinstance(value, bool)
-    if not number or float(value) not in PRESETS:
-        known = ", ".join(f"{key:g}" for key in PRESETS)
-        raise units.refusal(f"one of {known}, without quotes", units.describe(value))
-    return float(value)
-
-
-TractionAccuracy = Annotated[float, BeforeValidator(_accuracy)]
+TractionAccuracy = Annotated[float, units.among_note(PRESETS)]
 """Relative error of the forces for which there is a measured resolution."""

@@ -8,14 +8,13 @@ from pydantic import BeforeValidator, Discriminator, Tag
 from ..materials import CATALOGUE, Material
 from . import units
 from .errors import nearest, one_of
-from .table import Table
+from .table_of import table_of
 
 
-class MaterialTable(Table):
+class MaterialTable(table_of(Material)):
+    """See `materials.Material`."""
+
     tag: ClassVar[str] = "<table>"
-    youngs_modulus: units.PositivePressure
-    poisson_ratio: units.PoissonRatio
-    density: units.PositiveDensity
 
 
 def catalogue_table(name: str) -> dict[str, str]:

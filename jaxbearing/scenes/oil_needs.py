@@ -1,9 +1,12 @@
 """Requirements of a scene on its oil: refused by name of the law that is missing or does not fit."""
 
 from collections.abc import Mapping
+from typing import Any
 
+from ..lubricants import ConstantViscosity
 from .errors import one_of
-from .oil_schema import ConstantViscosityTable, OilTable
+from .laws import Laws
+from .oil_schema import OilTable, builds
 from .table import Problems, Table, refusal_at
 
 
@@ -20,15 +23,15 @@ def require_laws(oil: OilTable, needs: Mapping[str, str]) -> Problems:
             yield refusal_at(f"oil.{law}", f"the law of {law}, which {user} needs", "nothing")
 
 
-def require_piezoviscous(oil: OilTable, contact: Table, isoviscous: Mapping[str, tuple[str, ...]]) -> Problems:
-    """Refusals of a scene that names another law for an oil of the same viscosity at every pressure.
+def require_piezoviscous(oil: OilTable, contact: Table, laws: Mapping[str, Laws[Any]]) -> Problems:
+    """Refusals of a scene that names a law that does not hold for an oil of the same viscosity at every pressure.
 
-    **Arguments:** `isoviscous`: fields of `contact` -> the laws that hold for such an oil.
+    **Arguments:** `laws`: fields of `contact` -> the laws that they may name.
     """
-    if not isinstance(oil.viscosity, ConstantViscosityTable) or oil.pressure_viscosity is not None:
+    if not builds(oil.viscosity, ConstantViscosity) or oil.pressure_viscosity is not None:
         return
-    for name, holds in isoviscous.items():
+    for name, known in laws.items():
         given = getattr(contact, name)
-        if given is not None and given not in holds:
-            expected = f"{one_of(holds)}: the other laws are for oils whose viscosity rises with pressure"
+        if given is not None and known.piezoviscous_only(given):
+            expected = f"{one_of(known.isoviscous)}: the other laws are for oils whose viscosity rises with pressure"
             yield refusal_at(f"contact.{name}", expected, f"'{given}'")

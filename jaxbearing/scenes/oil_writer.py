@@ -11,38 +11,24 @@ from typing import Any
 import numpy as np
 from pydantic_core import PydanticCustomError
 
-from ..lubricants import (
-    ConstantPressureViscosity,
-    FittedPressureViscosity,
-    IntegratedPressureViscosity,
-    Lubricant,
-    NoPressureViscosity,
-    WaltherRoelands,
-)
+from ..lubricants import Lubricant, NoPressureViscosity
 from . import units
 from .errors import printable
 from .oil_files import Origin
 from .oil_schema import (
     DOCUMENTATION,
-    ConstantPressureViscosityTable,
+    PRESSURE_VISCOSITIES,
+    VISCOSITIES,
     ExponentialRheologyTable,
-    FittedPressureViscosityTable,
-    IntegratedPressureViscosityTable,
     Law,
     LinearConductivityTable,
     LinearDensityTable,
-    TwoViscositiesTable,
 )
-from .oils import VISCOSITIES
 
 HEADER = "A value with a unit is a string, a dimensionless value is a number. Every value has its source."
 UNKNOWN_SOURCE = "not known: given in Python"
-_TABLES: dict[type, type[Law]] = {
-    **{law: table for table, law in VISCOSITIES.items()},
-    WaltherRoelands: TwoViscositiesTable,
-    ConstantPressureViscosity: ConstantPressureViscosityTable,
-    FittedPressureViscosity: FittedPressureViscosityTable,
-    IntegratedPressureViscosity: IntegratedPressureViscosityTable,
+_TABLES: dict[type | None, type[Law]] = {
+    table.builds: table for table in (*VISCOSITIES.values(), *PRESSURE_VISCOSITIES.values())
 }
 _READABLE = {
     units.PRESSURE: ("GPa", "MPa", "kPa"),

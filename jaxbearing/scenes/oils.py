@@ -9,45 +9,22 @@ import numpy as np
 from ..lubricants import (
     AbstractPressureViscosity,
     AbstractViscosity,
-    Barus,
     ConstantPressureViscosity,
     ConstantViscosity,
     ExponentialRheology,
-    FittedPressureViscosity,
     IntegratedPressureViscosity,
     LinearConductivity,
     LinearDensity,
     Lubricant,
-    ModifiedWLF,
     NoPressureViscosity,
-    Roelands,
     WaltherRoelands,
 )
 from .data_files import oil_names, oil_text
 from .drafts import read_table
 from .errors import SceneError, nearest, one_of
 from .oil_files import base_of
-from .oil_schema import (
-    DOCUMENTATION,
-    BarusTable,
-    ConstantPressureViscosityTable,
-    ConstantViscosityTable,
-    ExponentialRheologyTable,
-    FittedPressureViscosityTable,
-    IntegratedPressureViscosityTable,
-    Law,
-    ModifiedWLFTable,
-    OilTable,
-    RoelandsTable,
-    TwoViscositiesTable,
-)
+from .oil_schema import DOCUMENTATION, Law, OilTable, builds
 
-VISCOSITIES: dict[type[Law], type[AbstractViscosity]] = {
-    ModifiedWLFTable: ModifiedWLF,
-    BarusTable: Barus,
-    RoelandsTable: Roelands,
-    ConstantViscosityTable: ConstantViscosity,
-}
 ROOM_TEMPERATURE = 293.15
 """K; reference of a linear law without a slope, where it has no effect."""
 
@@ -129,27 +106,21 @@ def lubricant(table: OilTable) -> Lubricant:
 
 
 def _viscosity(table: OilTable, density: LinearDensity | None) -> AbstractViscosity:
-    law = table.viscosity
-    assert law is not None
-    if isinstance(law, TwoViscositiesTable):
-        assert density is not None
-        return WaltherRoelands(density=density, **_parameters(law))
-    return VISCOSITIES[type(law)](**_parameters(law))
+    law: Any = table.viscosity
+    more = {"density": density} if builds(law, WaltherRoelands) else {}
+    return law.builds(**more, **_parameters(law))
 
 
 def _pressure_viscosity(table: OilTable, viscosity: AbstractViscosity) -> AbstractPressureViscosity:
-    law = table.pressure_viscosity
+    law: Any = table.pressure_viscosity
     if isinstance(law, float):
         return ConstantPressureViscosity(np.float64(law))
-    if isinstance(law, ConstantPressureViscosityTable):
-        return ConstantPressureViscosity(**_parameters(law))
-    if isinstance(law, FittedPressureViscosityTable):
-        return FittedPressureViscosity(**_parameters(law))
-    assert law is None or isinstance(law, IntegratedPressureViscosityTable)
+    if law is not None and not builds(law, IntegratedPressureViscosity):
+        return law.builds(**_parameters(law))
     return NoPressureViscosity() if isinstance(viscosity, ConstantViscosity) else IntegratedPressureViscosity(viscosity)
 
 
-def _rheology(table: ExponentialRheologyTable) -> ExponentialRheology:
+def _rheology(table: Any) -> ExponentialRheology:
     # the exponent is static
     return ExponentialRheology(**{**_parameters(table), "exponent": table.exponent})
 

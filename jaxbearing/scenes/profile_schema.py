@@ -4,31 +4,24 @@ from collections.abc import Mapping
 from typing import ClassVar, Literal
 
 from ..bearings.profile import RollerProfile
-from ..bearings.rating import LAMINAE
 from ..contacts.profile import CrownedProfile, LogarithmicProfile
-from . import units
-from .table import Problems, Table, check, refusal_at
+from .table import Problems, check, refusal_at
+from .table_of import table_of
 
 _OF_LAW = {"drop": ("crowned", "logarithmic"), "straight_fraction": ("crowned",), "end_ratio": ("logarithmic",)}
 """Field -> the shapes that it is about."""
 
 
-class ProfileTable(Table):
+class ProfileTable(
+    table_of(*(RollerProfile, CrownedProfile, LogarithmicProfile), optional=("drop", "straight_fraction", "end_ratio"))
+):
     """`shape` and its numbers; see `contacts.profile`.
 
     - `shape`: of the roller along its length
-    - `drop`: what is ground off at the ends
-    - `straight_fraction`: part of the length that is straight
-    - `end_ratio`: of the logarithmic profile, how near to its pole the ends are
-    - `n_laminae`: slices of a roller
     """
 
     about: ClassVar[Mapping[str, tuple[str, ...]]] = {"shape": ("drop", "straight_fraction", "end_ratio")}
     shape: Literal["straight", "crowned", "logarithmic"] = "straight"
-    drop: units.NonNegativeLength | None = None
-    straight_fraction: units.Fraction | None = None
-    end_ratio: units.Fraction | None = None
-    n_laminae: units.Count = LAMINAE
 
     @check
     def _of_the_shape(self) -> Problems:
@@ -41,9 +34,6 @@ class ProfileTable(Table):
             yield refusal_at(
                 "drop", f"a length, the drop at the ends of shape = '{self.shape}', e.g. '8 um'", "nothing"
             )
-        for name in ("straight_fraction", "end_ratio"):
-            if getattr(self, name) == 1.0 or (name == "end_ratio" and self.end_ratio == 0.0):
-                yield refusal_at(name, "a number between 0 and 1", f"the number {getattr(self, name):g}")
 
 
 def roller_profile(table: ProfileTable | None) -> RollerProfile | None:

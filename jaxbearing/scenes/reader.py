@@ -1,49 +1,60 @@
 """From a scene file, or the name of a built-in scene, to a scene."""
 
+import importlib
 import typing
 from collections.abc import Callable, Mapping
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 from pydantic import BaseModel
 
 from .._scene import AbstractScene
-from .ball_build import ball_bearing
-from .ball_schema import BallBearingTable
 from .data_files import builtin_names, builtin_summary, builtin_text
 from .drafts import Unreadable, draft
 from .errors import SceneError, from_class, nearest, one_of
-from .line_contact_build import line_contact
-from .line_contact_schema import LineContactTable
 from .oil_files import Origin, origins
 from .oils import with_catalogue
 from .overrides import REMOVE, Overrides, applied, apply, as_texts, parse_value
-from .roller_build import cylindrical_roller_bearing
-from .roller_schema import CylindricalRollerTable
 from .table import Table
-from .tapered_build import tapered_roller_bearing
-from .tapered_schema import TaperedRollerTable
 from .toml_files import parse_toml, read_text
-from .two_disk_build import two_disk
-from .two_disk_schema import TwoDiskTable
 from .units import describe, shortened
 
 __all__ = ["builtin_names", "builtin_summary", "builtin_text", "load_scene", "scene_from_tables"]
 
 _KIND_EXAMPLE = 'kind = "cylindrical_roller_bearing"'
-_SCHEMAS: dict[str, tuple[type[Table], Callable[[Any], AbstractScene]]] = {
-    "ball_bearing": (BallBearingTable, ball_bearing),
-    "cylindrical_roller_bearing": (CylindricalRollerTable, cylindrical_roller_bearing),
-    "tapered_roller_bearing": (TaperedRollerTable, tapered_roller_bearing),
-    "two_disk": (TwoDiskTable, two_disk),
-    "line_contact": (LineContactTable, line_contact),
+
+
+class _Kind(NamedTuple):
+    """Where to find what belongs to a kind of scene: modules beside this one, and names in them."""
+
+    schema: str
+    table: str
+    build: str
+    function: str
+
+
+_KINDS = {
+    "ball_bearing": _Kind("ball_schema", "BallBearingTable", "ball_build", "ball_bearing"),
+    "cylindrical_roller_bearing": _Kind(
+        "roller_schema", "CylindricalRollerTable", "roller_build", "cylindrical_roller_bearing"
+    ),
+    "tapered_roller_bearing": _Kind("tapered_schema", "TaperedRollerTable", "tapered_build", "tapered_roller_bearing"),
+    "two_disk": _Kind("two_disk_schema", "TwoDiskTable", "two_disk_build", "two_disk"),
+    "line_contact": _Kind("line_contact_schema", "LineContactTable", "line_contact_build", "line_contact"),
 }
-KINDS = tuple(_SCHEMAS)
+"""Kinds of scenes; each is imported when the first scene of it is read."""
+KINDS = tuple(_KINDS)
+
+
+def _table_and_build(kind: str) -> tuple[type[Table], Callable[[Any], AbstractScene]]:
+    one = _KINDS[kind]
+    table = getattr(importlib.import_module(f".{one.schema}", __package__), one.table)
+    return table, getattr(importlib.import_module(f".{one.build}", __package__), one.function)
 
 
 def schema_of_kind(kind: str) -> tuple[type[BaseModel], type]:
     """The schema of the scene files of a kind, one of `KINDS`, and the class of the scenes that they become."""
-    model, build = _SCHEMAS[kind]
+    model, build = _table_and_build(kind)
     return model, typing.get_type_hints(build)["return"]
 
 
@@ -94,7 +105,7 @@ def scene_model(mapping: Mapping[str, Any], overrides: Mapping[str, str], origin
 
 def model_of(scene: AbstractScene) -> type[BaseModel] | None:
     """The schema of the files of such scenes."""
-    return _SCHEMAS[scene.kind][0] if scene.kind in _SCHEMAS else None
+    return _table_and_build(scene.kind)[0] if scene.kind in _KINDS else None
 
 
 def _schema(
@@ -103,7 +114,7 @@ def _schema(
     kind = mapping.get("kind")
     if "kind" in overrides:
         kind = None if overrides["kind"] == REMOVE else parse_value(overrides["kind"])
-    return _SCHEMAS[_known_kind(kind, mapping, origin)]
+    return _table_and_build(_known_kind(kind, mapping, origin))
 
 
 def _with_culprit(problem: SceneError, overrides: Mapping[str, str], origin: str) -> SceneError:

@@ -1,40 +1,23 @@
 """The scene file of a cylindrical roller bearing. Names are the attribute names of the classes that it builds."""
 
 from collections.abc import Mapping
-from typing import ClassVar, Literal
+from typing import Annotated, ClassVar, Literal
 
-from . import units
-from .bearing_schema import (
-    BearingCageTable,
-    BearingOperationTable,
-    RatingTable,
-    in_mm,
-    law_in_words,
-    require_oil,
-    require_oil_flow,
-)
-from .laws import TractionAccuracy
+from ..bearings.cylindrical.scene import RollerCage, RollerFlange, RollerGeometry
+from ..bearings.operation import Operation
+from ..bearings.parts import ContactLaws, Drag
+from .bearing_schema import CageBase, RatingTable, law_in_words, operation_table, require_oil, require_oil_flow
+from .laws import LINE_THERMAL, ROLLER_FILMS, ROLLING, TRACTIONS, TractionAccuracy
 from .materials import MaterialField
 from .oil_schema import OilTable
 from .profile_schema import ProfileTable
 from .simulation_schema import SimulationTable
 from .table import Problems, Table, check, refusal_at
+from .table_of import table_of
 
 
-class GeometryTable(Table):
-    n_rollers: units.Count
-    pitch_diameter: units.PositiveLength
-    roller_diameter: units.PositiveLength
-    roller_length: units.PositiveLength
-    diametral_clearance: units.Length
-    contact_length: units.PositiveLength | None = None
-    first_element_angle: units.Angle | None = None
-
-    @check
-    def _consistent(self) -> Problems:
-        if self.contact_length is not None and self.contact_length > self.roller_length:
-            limit = f"at most the roller length, {in_mm(self.roller_length)}"
-            yield refusal_at("contact_length", limit, in_mm(self.contact_length))
+class GeometryTable(table_of(RollerGeometry)):
+    """See `bearings.cylindrical.scene.RollerGeometry`."""
 
 
 class MaterialsTable(Table):
@@ -43,7 +26,7 @@ class MaterialsTable(Table):
     cage: MaterialField | None = None
 
 
-class ContactTable(Table):
+class ContactTable(table_of(ContactLaws, leave_out=("entrainment_smoothing",))):
     """Laws of the raceway contacts, by the names in `scenes.contact_laws`, which says what each stands for.
 
     - `traction_model`: the law at the mean Hertz pressure, or marched through the pressure
@@ -56,13 +39,12 @@ class ContactTable(Table):
         "traction": ("traction_model", "traction_accuracy"),
         "traction_model": ("traction_accuracy",),
     }
-    film: Literal["moes", "dowson_higginson", "dowson_toyoda", "pan_hamrock", "grubin"]
-    thermal: Literal["gupta", "hsu_lee"] | None = None
-    traction: Literal["maxwell_eyring", "ree_eyring", "bair_winer", "gecim_winer", "elsharkawy_hamrock"] | None = None
+    film: Annotated[str, ROLLER_FILMS]
+    thermal: Annotated[str, LINE_THERMAL] | None = None
+    traction: Annotated[str, TRACTIONS] | None = None
     traction_model: Literal["mean_pressure", "distributed"] = "mean_pressure"
     traction_accuracy: TractionAccuracy | None = None
-    rolling_resistance: Literal["rigid_isoviscous", "ertel_grubin"] | None = None
-    entrainment_offset: units.NonNegativeSurfaceSpeed = 0.0
+    rolling_resistance: Annotated[str, ROLLING] | None = None
 
     @check
     def _consistent(self) -> Problems:
@@ -74,51 +56,27 @@ class ContactTable(Table):
             yield refusal_at("traction_accuracy", expected, f"the number {self.traction_accuracy:g}")
 
 
-ISOVISCOUS = {"film": ("moes",), "rolling_resistance": ("rigid_isoviscous",)}
-"""The laws of `ContactTable` that hold for an oil of the same viscosity at every pressure."""
+RACEWAY_LAWS = {"film": ROLLER_FILMS, "rolling_resistance": ROLLING}
+"""Fields of a roller bearing's [contact] whose laws may need an oil whose viscosity rises with pressure."""
 
 
-class CageTable(BearingCageTable):
-    pocket_axial_clearance: units.PositiveLength | None = None
+class CageTable(table_of(RollerCage, base=CageBase)):
+    """See `bearings.cylindrical.scene.RollerCage`."""
 
 
-class FlangeTable(Table):
-    ring: Literal["inner", "outer", "both"]
-    axial_clearance: units.PositiveLength
-    angle: units.FlangeAngle = 0.0
-    height: units.PositiveLength | None = None
+class FlangeTable(table_of(RollerFlange)):
+    """See `bearings.cylindrical.scene.RollerFlange`."""
 
 
-class DragTable(Table):
-    """Oil drag of the rolling elements.
-
-    - `coefficient`: drag coefficient of one roller in its row
-    - `through_flow_fraction`: part of the oil flow that passes through the bearing; 1: under-race supply
-    """
-
-    coefficient: units.NonNegativeNumber
-    through_flow_fraction: units.Fraction = 1.0
+class DragTable(table_of(Drag)):
+    """See `bearings.parts.Drag`."""
 
 
-class OperationTable(BearingOperationTable):
+class OperationTable(operation_table(Operation)):
+    """See `bearings.operation.Operation`."""
+
     not_yet: ClassVar[Mapping[str, str]] = {"axial_load": "a radial load only, beside a moment or misalignment"}
     needs: ClassVar[tuple[str, ...]] = ("radial_load",)
-    radial_load: units.PositiveForce | None = None
-
-    @check
-    def _axial(self) -> Problems:
-        if self.displacement is not None and self.displacement.axial is not None:
-            expected = "none: nothing holds the inner ring of a cylindrical roller bearing along the axis"
-            yield refusal_at("displacement.axial", expected, in_mm(self.displacement.axial))
-
-    @check
-    def _across(self) -> Problems:
-        held = self.displacement is not None and (
-            self.displacement.radial is not None or self.displacement.lateral is not None
-        )
-        if self.radial_load is None and self.radial_load_lateral is None and not held:
-            expected = "a force, e.g. '10 kN', which is required without radial_load_lateral and operation.displacement"
-            yield refusal_at("radial_load", expected, "nothing")
 
 
 class CylindricalRollerTable(Table):
@@ -168,4 +126,4 @@ class CylindricalRollerTable(Table):
         if self.contact is None:
             return
         density = law_in_words(self.contact, "traction")
-        yield from require_oil(self.oil, self.operation, self.contact, density, ISOVISCOUS)
+        yield from require_oil(self.oil, self.operation, self.contact, density, RACEWAY_LAWS)

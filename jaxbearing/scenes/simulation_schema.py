@@ -1,40 +1,27 @@
 """The table [simulation] of a scene file: what a run in time does beyond the operating point."""
 
-from typing import Literal
-
-from ..bearings.motion.settings import DEFAULT_SOLVER, DEFAULT_TOLERANCE, Simulation
+from ..bearings.motion.settings import Simulation
 from ..time_laws import AbstractTimeFactor, Ramp, RotatingLoad, Sinusoidal, Steady, Tabulated
 from . import units
 from .errors import SceneError
 from .table import Problems, Table, check, refusal_at
+from .table_of import table_of
 from .time_tables import read_time_table
 
 _LAWS = ("perturbation", "ramp", "table")
 
 
-class PerturbationTable(Table):
-    """A factor 1 + amplitude sin(2 pi frequency t).
+class PerturbationTable(table_of(Sinusoidal)):
+    """A factor 1 + amplitude sin(2 pi frequency t); a bearing's speed and load do not reverse."""
 
-    - `frequency`: of the swing
-    - `amplitude`: as a part of the mean value
-    """
-
-    frequency: units.PositiveFrequency
     amplitude: units.Fraction
 
 
-class RampTable(Table):
-    """A factor that goes smoothly from `start` to `stop`.
-
-    - `start`, `stop`: factor before and after
-    - `duration`: of the change
-    - `begin`: when it begins
-    """
+class RampTable(table_of(Ramp)):
+    """A factor that goes smoothly from `start` to `stop`; a bearing's speed and load do not reverse."""
 
     start: units.NonNegativeNumber
     stop: units.NonNegativeNumber = 1.0
-    duration: units.PositiveTime
-    begin: units.NonNegativeTime = 0.0
 
 
 class FileTable(Table):
@@ -46,23 +33,13 @@ class FileTable(Table):
     file: str
 
 
-class RotatingLoadTable(Table):
-    """A turning load beside the radial one.
-
-    - `load`: its size
-    - `speed`: at which it turns
-    - `phase`: its azimuth at time 0
-    """
-
-    load: units.NonNegativeForce
-    speed: units.Speed
-    phase: units.Angle = 0.0
+class RotatingLoadTable(table_of(RotatingLoad)):
+    """A turning load beside the radial one."""
 
 
-class SimulationTable(Table):
-    duration: units.PositiveTime | None = None
-    solver: Literal["tsit5", "dopri8", "kvaerno3", "kvaerno4", "kvaerno5", "implicit_euler"] = DEFAULT_SOLVER
-    tolerance: units.PositiveNumber = DEFAULT_TOLERANCE
+class SimulationTable(table_of(Simulation, leave_out=("entrainment_smoothing",))):
+    """See `bearings.motion.settings.Simulation`."""
+
     speed_perturbation: PerturbationTable | None = None
     speed_ramp: RampTable | None = None
     speed_table: FileTable | None = None

@@ -1,7 +1,7 @@
 """Base of all tables of a scene file."""
 
 from collections.abc import Callable, Iterator, Mapping
-from typing import Any, ClassVar, Self
+from typing import TYPE_CHECKING, Any, ClassVar, Self
 
 from pydantic import BaseModel, ConfigDict, model_validator
 from pydantic_core import PydanticCustomError
@@ -27,21 +27,29 @@ class Table(BaseModel):
     `tag` names a table that is one of several alternatives of a field; `not_yet` are names of later versions with what
     to expect instead; `instead`: field -> those that it stands for: a `--set` of it takes them out; `about`: field ->
     those that say more about it: they go when a `--set` takes it out; `needs`: fields without which, or something in
-    their place, a check refuses the table.
+    their place, a check refuses the table; `builds`: the class that the table describes; `made_from`: field -> the
+    class, and its field, that it was made from.
     """
 
-    model_config = ConfigDict(extra="forbid", strict=True, frozen=True)
+    # a table is compiled when the first file with it is read
+    model_config = ConfigDict(extra="forbid", strict=True, frozen=True, defer_build=True)
     tag: ClassVar[str] = ""
     not_yet: ClassVar[Mapping[str, str]] = {}
     instead: ClassVar[Mapping[str, tuple[str, ...]]] = {}
     about: ClassVar[Mapping[str, tuple[str, ...]]] = {}
     needs: ClassVar[tuple[str, ...]] = ()
+    builds: ClassVar[type | None] = None
+    made_from: ClassVar[Mapping[str, tuple[type, str]]] = {}
+
+    if TYPE_CHECKING:  # a table has the fields of the class that it describes, see `table_of`
+
+        def __getattr__(self, name: str) -> Any: ...
 
     @classmethod
     def checks(cls) -> Iterator[Callable[[Any], Problems]]:
         """The methods marked with `check`, those of the parents first."""
         for owner in reversed(cls.__mro__):
-            yield from (method for method in vars(owner).values() if getattr(method, _IS_CHECK, False))
+            yield from (method for method in tuple(vars(owner).values()) if getattr(method, _IS_CHECK, False))
 
     @model_validator(mode="after")
     def _checked(self) -> Self:

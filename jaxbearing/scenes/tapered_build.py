@@ -11,15 +11,11 @@ from ..contacts import ChittendenCentral, Gupta, MeanPressureTraction, Nijenbann
 from ..contacts.point_laws import PointLaws
 from ..lubricants import Lubricant, NoPressureViscosity
 from .bearing_build import built, part
-from .contact_laws import FILMS, ROLLING
-from .laws import POINT_FILMS, distributed_traction, thermal_factor, viscous_function
+from .laws import RIB_FILMS, ROLLER_FILMS, ROLLING, distributed_traction, thermal_factor, viscous_function
 from .materials import material
 from .oils import lubricant
 from .profile_schema import roller_profile
 from .tapered_schema import TaperedContactTable, TaperedRollerTable
-
-FLANGE_FILMS = {**POINT_FILMS, "chittenden": ChittendenCentral}
-"""Laws by the names of `flange_film`; the names of the other laws are in `laws` and `contact_laws`."""
 
 
 def tapered_roller_bearing(table: TaperedRollerTable) -> TaperedRollerBearing:
@@ -47,7 +43,7 @@ def _laws(table: TaperedContactTable, oil: Lubricant | None) -> ContactLaws:
     rolling = None if table.rolling_resistance is None else ROLLING[table.rolling_resistance]()
     traction = None if table.traction is None else MeanPressureTraction(viscous_function(table.traction, oil))
     return ContactLaws(
-        film=FILMS[table.film](), thermal=thermal_factor(table.thermal), traction=traction, rolling=rolling
+        film=ROLLER_FILMS[table.film](), thermal=thermal_factor(table.thermal), traction=traction, rolling=rolling
     )
 
 
@@ -60,7 +56,7 @@ def _rib_laws(table: TaperedContactTable, oil: Lubricant | None) -> PointLaws:
     if table.traction is not None:
         traction = distributed_traction(table.traction, table.traction_accuracy, oil, spin=True)
     return PointLaws(
-        film=film() if table.flange_film is None else FLANGE_FILMS[table.flange_film](),
+        film=film() if table.flange_film is None else RIB_FILMS[table.flange_film](),
         thermal=NoThermalReduction() if table.thermal is None else Gupta(),
         traction=traction,
     )

@@ -1,27 +1,22 @@
 """The scene file of a tapered roller bearing. Names are the attribute names of the classes that it builds."""
 
 from collections.abc import Mapping
-from typing import ClassVar, Literal
+from typing import Annotated, ClassVar, Literal
 
-from . import units
-from .bearing_schema import RatingTable, ThrustOperationTable, require_oil, require_oil_flow
-from .laws import TractionAccuracy
+from ..bearings.tapered.geometry import TaperedGeometry
+from ..bearings.tapered.scene import TaperedOperation
+from .bearing_schema import RatingTable, operation_table, require_oil, require_oil_flow
+from .laws import LINE_THERMAL, RIB_FILMS, ROLLER_FILMS, ROLLING, TRACTIONS, TractionAccuracy
 from .materials import MaterialField
 from .oil_schema import OilTable
 from .profile_schema import ProfileTable
-from .roller_schema import DragTable
+from .roller_schema import RACEWAY_LAWS, DragTable
 from .table import Problems, Table, check, refusal_at
+from .table_of import table_of
 
 
-class TaperedGeometryTable(Table):
-    n_rollers: units.Count
-    roller_diameter: units.PositiveLength
-    roller_length: units.PositiveLength
-    contact_angle: units.AcuteAngle
-    roller_half_angle: units.AcuteAngle
-    flange_angle: units.AcuteAngle
-    end_radius: units.PositiveLength
-    first_element_angle: units.Angle | None = None
+class TaperedGeometryTable(table_of(TaperedGeometry)):
+    """See `bearings.tapered.geometry.TaperedGeometry`."""
 
 
 class TaperedMaterialsTable(Table):
@@ -40,11 +35,11 @@ class TaperedContactTable(Table):
     """
 
     about: ClassVar[Mapping[str, tuple[str, ...]]] = {"traction": ("traction_accuracy",)}
-    film: Literal["moes", "dowson_higginson", "dowson_toyoda", "pan_hamrock", "grubin"]
-    thermal: Literal["gupta", "hsu_lee"] | None = None
-    rolling_resistance: Literal["rigid_isoviscous", "ertel_grubin"] | None = None
-    flange_film: Literal["chittenden", "hamrock_dowson", "nijenbanning"] | None = None
-    traction: Literal["maxwell_eyring", "ree_eyring", "bair_winer", "gecim_winer", "elsharkawy_hamrock"] | None = None
+    film: Annotated[str, ROLLER_FILMS]
+    thermal: Annotated[str, LINE_THERMAL] | None = None
+    rolling_resistance: Annotated[str, ROLLING] | None = None
+    flange_film: Annotated[str, RIB_FILMS] | None = None
+    traction: Annotated[str, TRACTIONS] | None = None
     traction_accuracy: TractionAccuracy | None = None
 
     @check
@@ -53,23 +48,10 @@ class TaperedContactTable(Table):
             yield refusal_at("traction", "a law, without which traction_accuracy has no meaning", "nothing")
 
 
-ISOVISCOUS = {
-    "film": ("moes",),
-    "rolling_resistance": ("rigid_isoviscous",),
-    "flange_film": ("nijenbanning",),
-}
-"""The laws of `TaperedContactTable` that hold for an oil of the same viscosity at every pressure."""
+class TaperedOperationTable(operation_table(TaperedOperation)):
+    """See `bearings.tapered.scene.TaperedOperation`."""
 
-
-class TaperedOperationTable(ThrustOperationTable):
     needs: ClassVar[tuple[str, ...]] = ("axial_load",)
-    load_position: units.Length = 0.0
-
-    @check
-    def _thrust(self) -> Problems:
-        if self.axial_load is None and (self.displacement is None or self.displacement.axial is None):
-            expected = "a force, e.g. '1 kN', which is required where operation.displacement.axial is not given"
-            yield refusal_at("axial_load", expected, "nothing")
 
 
 class TaperedRollerTable(Table):
@@ -94,4 +76,5 @@ class TaperedRollerTable(Table):
     def _oil(self) -> Problems:
         if self.contact is not None:
             density = "" if self.drag is None else "the drag"
-            yield from require_oil(self.oil, self.operation, self.contact, density, ISOVISCOUS)
+            laws = {**RACEWAY_LAWS, "flange_film": RIB_FILMS}
+            yield from require_oil(self.oil, self.operation, self.contact, density, laws)

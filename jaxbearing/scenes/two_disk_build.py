@@ -8,7 +8,7 @@ from ..contacts import DistributedTraction, FilmHeating, GivenCompliance, Resolu
 from ..lubricants import Lubricant
 from ..machines import DiskGeometry, DiskMaterials, DiskOperation, TwoDisk, TwoDiskLaws
 from .bearing_build import built
-from .laws import LINE_FILMS, POINT_FILMS, thermal_factor, viscous_function
+from .laws import ANY_FILMS, thermal_factor, viscous_function
 from .materials import material
 from .oils import lubricant
 from .two_disk_schema import HALF_SPACE, DiskOperationTable, SlideRange, TwoDiskContactTable, TwoDiskTable
@@ -40,7 +40,7 @@ def _laws(table: TwoDiskContactTable, oil: Lubricant) -> TwoDiskLaws:
         elastic=table.elastic,
     )
     return TwoDiskLaws(
-        film=(LINE_FILMS | POINT_FILMS)[table.film](),
+        film=ANY_FILMS[table.film](),
         traction=traction,
         thermal=thermal_factor(table.thermal),
         warm_inlet=table.inlet == "warm",

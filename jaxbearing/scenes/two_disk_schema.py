@@ -8,13 +8,15 @@ import numpy as np
 from pydantic import BeforeValidator, Discriminator, Tag
 from pydantic_core import PydanticCustomError
 
+from ..machines import DiskGeometry, DiskOperation
 from . import units
 from .errors import nearest, one_of
-from .laws import LINE_FILMS, POINT_FILMS, TractionAccuracy
+from .laws import ANY_FILMS, LINE_FILMS, LINE_THERMAL, POINT_FILMS, POINT_THERMAL, VISCOUS, TractionAccuracy
 from .materials import MaterialField
 from .oil_needs import require_laws, require_piezoviscous
 from .oil_schema import OilTable
 from .table import Problems, Table, check, refusal_at
+from .table_of import table_of
 
 HALF_SPACE = "half_space"
 _SLIDE = "a number (a ratio, 0.05) or a text in per cent ('5 %')"
@@ -80,16 +82,8 @@ def _compliance(value: Any) -> float | str:
         raise units.refusal(expected, (error.context or {})["found"], near) from None
 
 
-class DiskGeometryTable(Table):
-    reduced_radius_rolling: units.PositiveLength
-    reduced_radius_transverse: units.PositiveLength | None = None
-    contact_length: units.PositiveLength | None = None
-
-    @check
-    def _point_or_line(self) -> Problems:
-        if self.contact_length is not None and self.reduced_radius_transverse is not None:
-            expected = "none beside contact_length: a line contact is straight across"
-            yield refusal_at("reduced_radius_transverse", expected, f"{1e3 * self.reduced_radius_transverse:g} mm")
+class DiskGeometryTable(table_of(DiskGeometry)):
+    """See `machines.two_disk.DiskGeometry`."""
 
 
 class DiskMaterialsTable(Table):
@@ -107,11 +101,9 @@ class TwoDiskContactTable(Table):
     - `elastic`: whether the oil is a Maxwell element; false: the viscous limit
     """
 
-    film: Literal[
-        "nijenbanning", "hamrock_dowson", "moes", "dowson_higginson", "dowson_toyoda", "pan_hamrock", "grubin"
-    ]
-    traction: Literal["ree_eyring", "bair_winer", "gecim_winer", "elsharkawy_hamrock"]
-    thermal: Literal["gupta", "hsu_lee"] | None = None
+    film: Annotated[str, ANY_FILMS]
+    traction: Annotated[str, VISCOUS]
+    thermal: Annotated[str, LINE_THERMAL] | None = None
     traction_accuracy: TractionAccuracy = 1e-4
     compliance: Annotated[float | str, BeforeValidator(_compliance)] | None = None
     film_heating: units.Switch = False
@@ -119,23 +111,9 @@ class TwoDiskContactTable(Table):
     elastic: units.Switch = True
 
 
-ISOVISCOUS = {"film": ("moes", "nijenbanning")}
-"""The laws of `TwoDiskContactTable` that hold for an oil of the same viscosity at every pressure."""
-
-
-class DiskOperationTable(Table):
+class DiskOperationTable(table_of(DiskOperation, leave_out=("slide_to_roll",))):
     instead: ClassVar[Mapping[str, tuple[str, ...]]] = {"pressure": ("load",), "load": ("pressure",)}
     slide_to_roll: SlideField
-    entrainment_speed: units.PositiveSurfaceSpeeds
-    temperature: units.Temperatures
-    pressure: units.PositivePressures | None = None
-    load: units.PositiveForces | None = None
-
-    @check
-    def _one_of_both(self) -> Problems:
-        if (self.pressure is None) == (self.load is None):
-            found = "neither of 'pressure' and 'load'" if self.pressure is None else "both 'pressure' and 'load'"
-            yield refusal_at("pressure", "one of the two: a Hertz (peak) pressure or a normal load", found)
 
 
 class TwoDiskTable(Table):
@@ -156,11 +134,11 @@ class TwoDiskTable(Table):
             "line contact (geometry has a contact_length)" if line else "point contact (geometry has no contact_length)"
         )
         films = LINE_FILMS if line else POINT_FILMS
-        if contact.film not in films:
+        if not films.fits(contact.film):
             yield refusal_at("contact.film", f"a film of a {shape}: {one_of(films)}", f"'{contact.film}'")
-        if contact.thermal == "hsu_lee" and not line:
-            expected = f"'gupta', or leave it out: Hsu and Lee's factor is not for a {shape}"
-            yield refusal_at("contact.thermal", expected, "'hsu_lee'")
+        if contact.thermal in LINE_THERMAL and contact.thermal not in POINT_THERMAL and not line:
+            expected = f"{one_of(POINT_THERMAL)}, or leave it out: this factor is not for a {shape}"
+            yield refusal_at("contact.thermal", expected, f"'{contact.thermal}'")
 
     @check
     def _oil(self) -> Problems:
@@ -170,4 +148,4 @@ class TwoDiskTable(Table):
         yield from require_laws(
             self.oil, {"rheology": f"contact.traction = '{contact.traction}'", "conductivity": thermal}
         )
-        yield from require_piezoviscous(self.oil, contact, ISOVISCOUS)
+        yield from require_piezoviscous(self.oil, contact, {"film": ANY_FILMS})

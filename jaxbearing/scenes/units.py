@@ -7,7 +7,7 @@ here first, because pint's own reader of quantities takes "1,5 mm" for 15 mm and
 import functools
 import math
 import re
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
 from contextvars import ContextVar
 from dataclasses import dataclass
@@ -16,6 +16,7 @@ from typing import Annotated, Any
 from pydantic import BeforeValidator
 from pydantic_core import PydanticCustomError
 
+from ..numerics.checks import RANGES
 from .usual_units import USUAL
 
 _NUMBER_AND_UNIT = re.compile(r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*(.*?)\s*", re.DOTALL)
@@ -44,9 +45,10 @@ class Dimension:
     example: str
     offset_allowed: bool = False
 
-    def expected(self, bound: str = "") -> str:
-        """Expected content of a field of this kind, `bound` being "", "> 0" or ">= 0" in SI."""
-        if bound and self.offset_allowed:
+    def expected(self, bound: str = "finite") -> str:
+        """Expected content of a field of this kind within a bound of `numerics.checks.RANGES`."""
+        bound = "" if bound == "finite" else bound
+        if bound == "> 0" and self.offset_allowed:
             bound = "above absolute zero"
         return f"{self.name}{bound and ' '}{bound} with a unit, e.g. '{self.example}'"
 
@@ -74,6 +76,21 @@ KELVIN2_PER_PRESSURE = Dimension("a squared temperature over a pressure", "K^2/P
 TIME = Dimension("a time", "s", "50 ms")
 FREQUENCY = Dimension("a frequency", "1/s", "40 Hz")
 TANGENTIAL_COMPLIANCE = Dimension("a tangential compliance", "m/Pa", "1e-15 m/Pa")
+
+
+_BY_UNIT = {
+    one.si.replace("*", " "): one
+    for one in (
+        *(LENGTH, ANGLE, SPEED, SURFACE_SPEED, FORCE, LINE_LOAD, MOMENT, PRESSURE, INVERSE_PRESSURE, TEMPERATURE, FLOW),
+        *(DENSITY, VISCOSITY, KINEMATIC_VISCOSITY, CONDUCTIVITY, CONDUCTIVITY_SLOPE, KELVIN_PER_PRESSURE),
+        *(KELVIN2_PER_PRESSURE, TIME, FREQUENCY, TANGENTIAL_COMPLIANCE),
+    )
+} | {"kg/(m^3 K)": DENSITY_SLOPE}
+
+
+def dimension_of_unit(unit: str, difference: bool = False) -> Dimension:
+    """The kind of a field whose class has this SI unit; `difference`: of temperatures."""
+    return TEMPERATURE_DIFFERENCE if difference and unit == "K" else _BY_UNIT[unit]
 
 
 @functools.cache
@@ -222,14 +239,10 @@ def _is_proportional(unit: Any) -> bool:
     return zero == 0.0
 
 
-def _within(value: float, bound: str) -> bool:
-    return {"": True, "> 0": value > 0.0, ">= 0": value >= 0.0}[bound]
-
-
-def quantity(given: Any, dimension: Dimension, bound: str = "") -> float:
-    """SI value of a text with a unit that is within a bound, "> 0" or ">= 0"; refuses as `parse` does."""
+def quantity(given: Any, dimension: Dimension, bound: str = "finite") -> float:
+    """SI value of a text with a unit that is within a bound of `numerics.checks.RANGES`; refuses as `parse` does."""
     value = parse(given, dimension)
-    if not _within(value, bound):
+    if not RANGES[bound].holds(value):
         raise refusal(dimension.expected(bound), describe(given))
     return value
 
@@ -241,7 +254,7 @@ class QuantityValidator(BeforeValidator):
     dimension: Dimension | None = None
 
 
-def _quantity(dimension: Dimension, bound: str = "") -> QuantityValidator:
+def _quantity(dimension: Dimension, bound: str = "finite") -> QuantityValidator:
     return QuantityValidator(lambda given: quantity(given, dimension, bound), dimension=dimension)
 
 
@@ -262,9 +275,16 @@ def _item(value: Any, index: int, count: int, read: Callable[[Any], float], expe
         raise refusal(expected, f"{context['found']}{place}", context["suggestion"]) from None
 
 
-def _several(dimension: Dimension, bound: str = "") -> BeforeValidator:
-    expected = f"{dimension.expected(bound)}, or a list of such texts"
-    return BeforeValidator(lambda given: several(given, lambda one: quantity(one, dimension, bound), expected))
+def several_note(bound: str, unit: str = "1") -> BeforeValidator:
+    """Reads one number, or a list of them; arguments as in `number_note`."""
+    if unit == "1":
+        said = "" if bound == "finite" else f" {bound}"
+        expected, read = f"a number{said}, or a list of them", lambda one: number(one, bound)
+    else:
+        dimension = dimension_of_unit(unit)
+        expected = f"{dimension.expected(bound)}, or a list of such texts"
+        read = lambda one: quantity(one, dimension, bound)
+    return BeforeValidator(lambda given: several(given, read, expected))
 
 
 def _switch(value: Any) -> bool:
@@ -273,11 +293,12 @@ def _switch(value: Any) -> bool:
     return value
 
 
-def number(given: Any, bound: str = "") -> float:
-    """A finite number without a unit, within a bound, "> 0" or ">= 0"."""
+def number(given: Any, bound: str = "finite") -> float:
+    """A finite number without a unit, within a bound of `numerics.checks.RANGES`."""
     good = isinstance(given, int | float) and not isinstance(given, bool) and _is_finite(given)
-    if not good or not _within(given, bound):
-        raise refusal(f"a number{bound and ' '}{bound} without a unit and without quotes", describe(given))
+    if not good or not RANGES[bound].holds(float(given)):
+        said = "" if bound == "finite" else f" {bound}"
+        raise refusal(f"a number{said} without a unit and without quotes", describe(given))
     return float(given)
 
 
@@ -285,95 +306,55 @@ LARGEST_COUNT = 1_000_000
 """Largest count in a scene: more would only fill the memory."""
 
 
-def count(value: Any) -> int:
-    """A whole number from 1 to `LARGEST_COUNT`."""
-    if isinstance(value, bool) or not isinstance(value, int) or not 1 <= value <= LARGEST_COUNT:
-        raise refusal(f"a whole number >= 1 and <= {LARGEST_COUNT}, without quotes", describe(value))
-    return value
+def _count_up_to(least: int | None, most: int | None) -> Callable[[Any], int]:
+    low, high = 1 if least is None else least, LARGEST_COUNT if most is None else most
 
-
-def _flange_angle(value: Any) -> float:
-    angle = parse(value, ANGLE)
-    if not 0.0 <= angle < math.pi / 2:
-        raise refusal("an angle from 0 deg to below 90 deg, e.g. '0.375 deg'", describe(value))
-    return angle
-
-
-def _acute_angle(value: Any) -> float:
-    angle = parse(value, ANGLE)
-    if not 0.0 < angle < math.pi / 2:
-        raise refusal("an angle above 0 deg and below 90 deg, e.g. '12.5 deg'", describe(value))
-    return angle
-
-
-def _conformity(given: Any) -> float:
-    value = number(given)
-    if not 0.5 < value <= 1.0:
-        raise refusal("a groove radius over ball diameter, above 0.5 and at most 1, without a unit", describe(given))
-    return value
-
-
-def _between(low: float, high: float) -> Callable[[Any], float]:
-    def read(given: Any) -> float:
-        value = number(given)
-        if not low <= value <= high:
-            raise refusal(f"a number from {low:g} to {high:g}", describe(given))
+    def read(value: Any) -> int:
+        if isinstance(value, bool) or not isinstance(value, int) or not low <= value <= high:
+            raise refusal(f"a whole number >= {low} and <= {high}, without quotes", describe(value))
         return value
 
     return read
 
 
-Count = Annotated[int, BeforeValidator(count)]
+def count_note(least: int | None = None, most: int | None = None) -> BeforeValidator:
+    """Reads a whole number from `least`, or 1, to `most`, or `LARGEST_COUNT`."""
+    return BeforeValidator(_count_up_to(least, most))
+
+
+def number_note(bound: str, unit: str = "1", difference: bool = False) -> BeforeValidator:
+    """Reads one number.
+
+    **Arguments:**
+    - `bound`: one of `numerics.checks.RANGES`.
+    - `unit`: as classes of the library have it; "1" for a number without a unit.
+    - `difference`: whether a number in K is a difference of temperatures.
+    """
+    if unit == "1":
+        return BeforeValidator(lambda given: number(given, bound))
+    return _quantity(dimension_of_unit(unit, difference), bound)
+
+
+def among_note(numbers: Iterable[float]) -> BeforeValidator:
+    """Reads one of some numbers."""
+    known = tuple(numbers)
+
+    def read(value: Any) -> float:
+        given = number(value)
+        if given not in known:
+            words = ", ".join(f"{one:g}" for one in known)
+            raise refusal(f"one of {words}, without quotes", describe(value))
+        return given
+
+    return BeforeValidator(read)
+
+
+# fields that no class has
+Count = Annotated[int, count_note()]
 Switch = Annotated[bool, BeforeValidator(_switch)]
-PositiveTime = Annotated[float, _quantity(TIME, "> 0")]
-NonNegativeTime = Annotated[float, _quantity(TIME, ">= 0")]
-PositiveFrequency = Annotated[float, _quantity(FREQUENCY, "> 0")]
-NonNegativeForce = Annotated[float, _quantity(FORCE, ">= 0")]
-PositiveNumber = Annotated[float, BeforeValidator(lambda value: number(value, "> 0"))]
-NonNegativeNumber = Annotated[float, BeforeValidator(lambda value: number(value, ">= 0"))]
-Number = Annotated[float, BeforeValidator(number)]
-Numbers = Annotated[
-    tuple[float, ...], BeforeValidator(lambda given: several(given, number, "a number, or a list of them"))
-]
-PoissonRatio = Annotated[float, BeforeValidator(_between(0.0, 0.5))]
-Conformity = Annotated[float, BeforeValidator(_conformity)]
-Fraction = Annotated[float, BeforeValidator(_between(0.0, 1.0))]
-
-Length = Annotated[float, _quantity(LENGTH)]
-PositiveLength = Annotated[float, _quantity(LENGTH, "> 0")]
-FlangeAngle = Annotated[float, QuantityValidator(_flange_angle, dimension=ANGLE)]
-"""From 0 to below 90 degrees."""
-AcuteAngle = Annotated[float, QuantityValidator(_acute_angle, dimension=ANGLE)]
-"""Above 0 and below 90 degrees."""
-NonNegativeLength = Annotated[float, _quantity(LENGTH, ">= 0")]
-Speed = Annotated[float, _quantity(SPEED)]
-SurfaceSpeed = Annotated[float, _quantity(SURFACE_SPEED)]
-NonNegativeSurfaceSpeed = Annotated[float, _quantity(SURFACE_SPEED, ">= 0")]
-Angle = Annotated[float, _quantity(ANGLE)]
-Moment = Annotated[float, _quantity(MOMENT)]
-Force = Annotated[float, _quantity(FORCE)]
-PositiveForce = Annotated[float, _quantity(FORCE, "> 0")]
-PositiveLineLoad = Annotated[float, _quantity(LINE_LOAD, "> 0")]
-PositivePressure = Annotated[float, _quantity(PRESSURE, "> 0")]
-InversePressure = Annotated[float, _quantity(INVERSE_PRESSURE)]
-PositiveInversePressure = Annotated[float, _quantity(INVERSE_PRESSURE, "> 0")]
-Temperature = Annotated[float, _quantity(TEMPERATURE, "> 0")]
-TemperatureDifference = Annotated[float, _quantity(TEMPERATURE_DIFFERENCE)]
-NonNegativeTemperatureDifference = Annotated[float, _quantity(TEMPERATURE_DIFFERENCE, ">= 0")]
-PositiveTemperatureDifference = Annotated[float, _quantity(TEMPERATURE_DIFFERENCE, "> 0")]
-NonNegativeFlow = Annotated[float, _quantity(FLOW, ">= 0")]
-PositiveDensity = Annotated[float, _quantity(DENSITY, "> 0")]
-DensitySlope = Annotated[float, _quantity(DENSITY_SLOPE)]
-PositiveViscosity = Annotated[float, _quantity(VISCOSITY, "> 0")]
-PositiveKinematicViscosity = Annotated[float, _quantity(KINEMATIC_VISCOSITY, "> 0")]
-PositiveConductivity = Annotated[float, _quantity(CONDUCTIVITY, "> 0")]
-ConductivitySlope = Annotated[float, _quantity(CONDUCTIVITY_SLOPE)]
-KelvinPerPressure = Annotated[float, _quantity(KELVIN_PER_PRESSURE)]
-Kelvin2PerPressure = Annotated[float, _quantity(KELVIN2_PER_PRESSURE)]
-
-PositiveSurfaceSpeeds = Annotated[tuple[float, ...], _several(SURFACE_SPEED, "> 0")]
-PositiveForces = Annotated[tuple[float, ...], _several(FORCE, "> 0")]
-PositivePressures = Annotated[tuple[float, ...], _several(PRESSURE, "> 0")]
-Times = Annotated[tuple[float, ...], _several(TIME, ">= 0")]
-Temperatures = Annotated[tuple[float, ...], _several(TEMPERATURE, "> 0")]
-"""A text with a unit, or a list of them."""
+PositiveNumber = Annotated[float, number_note("> 0")]
+NonNegativeNumber = Annotated[float, number_note(">= 0")]
+Number = Annotated[float, number_note("finite")]
+Fraction = Annotated[float, number_note("between 0 and 1")]
+Numbers = Annotated[tuple[float, ...], several_note("finite")]
+Times = Annotated[tuple[float, ...], several_note(">= 0", "s")]

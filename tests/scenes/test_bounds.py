@@ -211,7 +211,7 @@ LANES = {
         {
             "geometry.flange_angle": (
                 [np.radians(10.35), -0.1, np.radians(10.35)],
-                "geometry.flange_angle must be > 0",
+                "geometry.flange_angle must be above 0 and below 90 degrees",
             ),
             "geometry.end_radius": ([108e-3, 108e-3, 3e-3], "geometry.end_radius must be above half"),
         },

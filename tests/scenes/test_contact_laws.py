@@ -1,7 +1,6 @@
 """Names of a [contact] table: each builds the law that it says; what does not fit the oil is refused or said."""
 
 import tomllib
-from typing import get_args
 
 import jax
 import jax.numpy as jnp
@@ -32,12 +31,9 @@ from jaxbearing.contacts import (
     RigidRollingResistance,
 )
 from jaxbearing.lubricants import NoPressureViscosity, WaltherRoelands
-from jaxbearing.scenes.contact_laws import FILMS, ROLLING
 from jaxbearing.scenes.errors import SceneError
-from jaxbearing.scenes.laws import BALL_FILMS, THERMAL
+from jaxbearing.scenes.laws import BALL_FILMS, LINE_THERMAL, POINT_THERMAL, RIB_FILMS, ROLLER_FILMS, ROLLING, TRACTIONS
 from jaxbearing.scenes.reader import builtin_text, load_scene, scene_from_tables
-from jaxbearing.scenes.roller_schema import ISOVISCOUS, ContactTable
-from jaxbearing.scenes.tapered_build import FLANGE_FILMS
 
 FILM = {
     "moes": Moes,
@@ -66,12 +62,6 @@ DATA_SHEET = {
 }
 
 
-def names(field):
-    """Valid names of a field of the schema."""
-    annotation = ContactTable.model_fields[field].annotation
-    return {name for part in (annotation, *get_args(annotation)) for name in get_args(part) if isinstance(name, str)}
-
-
 def contact(**changes):
     return load_scene("turbine_roller", {f"contact.{name}": value for name, value in changes.items()}).contact
 
@@ -89,9 +79,9 @@ def test_film(name):
 
 RACE = LineContact(5e-3, 0.014, 2.27e11)
 BALL = PointContact(4e-3, 0.12, 2.27e11)
-NAMED_FILMS = {f"line, {name}": (film, RACE) for name, film in FILMS.items()}
+NAMED_FILMS = {f"line, {name}": (film, RACE) for name, film in ROLLER_FILMS.items()}
 NAMED_FILMS |= {f"ball, {name}": (film, BALL) for name, film in BALL_FILMS.items()}
-NAMED_FILMS |= {f"rib, {name}": (film, PointContact(0.2, 0.02, 2.27e11)) for name, film in FLANGE_FILMS.items()}
+NAMED_FILMS |= {f"rib, {name}": (film, PointContact(0.2, 0.02, 2.27e11)) for name, film in RIB_FILMS.items()}
 
 
 @pytest.mark.parametrize("name", NAMED_FILMS)
@@ -176,10 +166,10 @@ def test_left_out():
 
 
 def test_every_name_is_tested_here():
-    assert names("film") == set(FILM) == set(FILMS)
-    assert names("thermal") == {"gupta", "hsu_lee"} == set(THERMAL)
-    assert names("traction") == set(TRACTION)
-    assert names("rolling_resistance") == {"rigid_isoviscous", "ertel_grubin"} == set(ROLLING)
+    assert set(ROLLER_FILMS) == set(FILM)
+    assert {"gupta", "hsu_lee"} == set(LINE_THERMAL) > set(POINT_THERMAL)
+    assert set(TRACTIONS) == set(TRACTION)
+    assert {"rigid_isoviscous", "ertel_grubin"} == set(ROLLING)
 
 
 def test_exponent_is_that_of_the_oils_data():
@@ -208,9 +198,11 @@ def test_rolling_resistance_of_an_isoviscous_oil():
     assert isinstance(load_scene("turbine_roller", given).contact.film, MartinBlend)
 
 
-def test_schema_and_laws_agree_on_isoviscous_oils():
-    assert ISOVISCOUS["film"] == tuple(name for name, law in FILMS.items() if not law().piezoviscous_only)
-    assert ISOVISCOUS["rolling_resistance"] == tuple(n for n, law in ROLLING.items() if not law().piezoviscous_only)
+def test_laws_for_isoviscous_oils():
+    assert ROLLER_FILMS.isoviscous == tuple(name for name, law in ROLLER_FILMS.items() if not law().piezoviscous_only)
+    assert ROLLER_FILMS.isoviscous == ("moes",)
+    assert ROLLING.isoviscous == ("rigid_isoviscous",)
+    assert BALL_FILMS.isoviscous == RIB_FILMS.isoviscous == ("nijenbanning",)
 
 
 def mentioned(scene, words):

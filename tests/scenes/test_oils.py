@@ -163,7 +163,7 @@ REFUSALS = {
     "viscosity_too_small": (
         {"viscosity": {**TWO_VISCOSITIES, "viscosity_2": "0.29 cSt"}, **DENSE},
         "viscosity.viscosity_2",
-        ["more than 0.3 cSt"],
+        ["> 0.3 cSt"],
     ),
     "density_without_unit": ({"viscosity": TWO_VISCOSITIES, "density": 870}, "density", ["bare number 870", "kg/m^3"]),
     "conductivity_of_another_kind": (

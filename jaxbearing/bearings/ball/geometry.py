@@ -31,14 +31,14 @@ class BallGeometry(Checked):
     part: ClassVar[str] = "geometry"
 
     n_balls: int = count("geometry.n_balls")
-    pitch_diameter: Scalar = number(bound="> 0")
-    ball_diameter: Scalar = number(bound="> 0")
-    conformity_inner: Scalar = number(bound="between 0.5 and 1, and not 0.5")
-    conformity_outer: Scalar = number(bound="between 0.5 and 1, and not 0.5")
-    contact_angle: Scalar | None = optional_number(bound=">= 0 and below 90 degrees")
-    diametral_clearance: Scalar | None = optional_number(bound=">= 0")
-    shoulder_angle_inner: Scalar | None = optional_number(bound="> 0")
-    shoulder_angle_outer: Scalar | None = optional_number(bound="> 0")
+    pitch_diameter: Scalar = number(bound="> 0", unit="m")
+    ball_diameter: Scalar = number(bound="> 0", unit="m")
+    conformity_inner: Scalar = number(bound="above 0.5 and at most 1", unit="1")
+    conformity_outer: Scalar = number(bound="above 0.5 and at most 1", unit="1")
+    contact_angle: Scalar | None = optional_number(bound=">= 0 and below 90 degrees", unit="rad")
+    diametral_clearance: Scalar | None = optional_number(bound=">= 0", unit="m")
+    shoulder_angle_inner: Scalar | None = optional_number(bound="above 0 and below 90 degrees", unit="rad")
+    shoulder_angle_outer: Scalar | None = optional_number(bound="above 0 and below 90 degrees", unit="rad")
     first_element_angle: Scalar | None = optional_number(metadata=FIRST_ELEMENT)
 
     def __check_init__(self):
@@ -48,7 +48,11 @@ class BallGeometry(Checked):
     def _problems(self) -> Iterator[str | ValueError]:
         yield from refusals_of(check_row_fits, self.n_balls, self.ball_diameter, self.pitch_diameter, "ball")
         if (self.contact_angle is None) == (self.diametral_clearance is None):
-            yield "geometry.contact_angle: give it or geometry.diametral_clearance, one of the two"
+            found = "neither contact_angle nor" if self.contact_angle is None else "both contact_angle and"
+            yield (
+                f"geometry.contact_angle: found {found} diametral_clearance, expected one of the two: each follows "
+                "from the other"
+            )
         sizes = given(self.diametral_clearance, self.ball_diameter, self.conformity_inner, self.conformity_outer)
         if sizes is not None:
             yield from refusals_of(

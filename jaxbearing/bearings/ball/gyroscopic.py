@@ -48,12 +48,12 @@ class SharedCouple(AbstractGyroscopic):
     **Limits:** asks an unloaded inner contact for friction: at light load and high speed no equilibrium exists.
 
     **Arguments:**
-    - `inner_share`, `outer_share`: lambda_i and lambda_o, each a part of the couple in units of half of it; together 2.
+    - `inner_share`, `outer_share`: part of the couple that the race carries, in units of half of it; together 2.
     - `sign`: of the force pair, 1 or -1.
     """
 
-    inner_share: Scalar = bounded("finite", converter=as_float, default=1.0)
-    outer_share: Scalar = bounded("finite", converter=as_float, default=1.0)
+    inner_share: Scalar = bounded("between 0 and 2", unit="1", converter=as_float, default=1.0)
+    outer_share: Scalar = bounded("between 0 and 2", unit="1", converter=as_float, default=1.0)
     sign: Scalar = eqx.field(converter=as_float, default=1.0)
 
     def friction(self, couple, diameter, inner_load, outer_load):
@@ -67,11 +67,13 @@ class CappedCouple(AbstractGyroscopic):
     the ball would start to turn about $e_t$, which this law leaves out.
 
     **Arguments:**
-    - `friction_coefficient`: coefficient mu, > 0.
+    - `friction_coefficient`: coefficient of friction mu that caps what a race carries, > 0.
     - `sign`: of the force pair, 1 or -1.
     """
 
-    friction_coefficient: Scalar = bounded("> 0", name="gyroscopic_friction", converter=as_float, default=0.05)
+    friction_coefficient: Scalar = bounded(
+        "> 0", unit="1", name="gyroscopic_friction", converter=as_float, default=0.05
+    )
     sign: Scalar = eqx.field(converter=as_float, default=1.0)
 
     def friction(self, couple, diameter, inner_load, outer_load):

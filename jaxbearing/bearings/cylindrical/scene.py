@@ -66,11 +66,11 @@ class RollerGeometry(Checked):
     part: ClassVar[str] = "geometry"
 
     n_rollers: int = count("geometry.n_rollers")
-    pitch_diameter: Scalar = number(bound="> 0")
-    roller_diameter: Scalar = number(bound="> 0")
-    roller_length: Scalar = number(bound="> 0")
-    diametral_clearance: Scalar = number()
-    contact_length: Scalar | None = optional_number(bound="> 0")
+    pitch_diameter: Scalar = number(bound="> 0", unit="m")
+    roller_diameter: Scalar = number(bound="> 0", unit="m")
+    roller_length: Scalar = number(bound="> 0", unit="m")
+    diametral_clearance: Scalar = number(unit="m")
+    contact_length: Scalar | None = optional_number(bound="> 0", unit="m")
     first_element_angle: Scalar | None = optional_number(metadata=FIRST_ELEMENT)
 
     def __check_init__(self):
@@ -124,7 +124,7 @@ class RollerCage(AbstractCage):
     assumed_inner: ClassVar[float] = ASSUMED_CAGE_INNER
     assumed_outer: ClassVar[float] = ASSUMED_CAGE_OUTER
 
-    pocket_axial_clearance: Scalar | None = optional_number(bound="> 0")
+    pocket_axial_clearance: Scalar | None = optional_number(bound="> 0", unit="m")
 
     def row(self, geometry: RollerGeometry) -> tuple[int, Scalar]:
         return geometry.n_rollers, geometry.roller_diameter
@@ -158,9 +158,9 @@ class RollerFlange(Checked):
     part: ClassVar[str] = "flange"
 
     ring: Literal["inner", "outer", "both"] = choice("flange.ring", ("inner", "outer", "both"))
-    axial_clearance: Scalar = number(bound="> 0")
-    angle: Scalar = number(0.0, bound=">= 0 and below 90 degrees")
-    height: Scalar | None = optional_number(bound="> 0")
+    axial_clearance: Scalar = number(bound="> 0", unit="m")
+    angle: Scalar = number(0.0, bound=">= 0 and below 90 degrees", unit="rad")
+    height: Scalar | None = optional_number(bound="> 0", unit="m")
 
     def rim_height(self, geometry: RollerGeometry) -> Scalar:
         return ASSUMED_FLANGE_HEIGHT * geometry.roller_diameter if self.height is None else self.height

@@ -29,13 +29,13 @@ class Simulation(Checked):
 
     part: ClassVar[str] = "simulation"
 
-    duration: Scalar | None = optional_number(bound="> 0")
+    duration: Scalar | None = optional_number(bound="> 0", unit="s")
     speed: AbstractTimeFactor = Steady()
     load: AbstractTimeFactor = Steady()
     rotating_load: RotatingLoad | None = None
     solver: str = choice("simulation.solver", SOLVERS, DEFAULT_SOLVER)
-    tolerance: Scalar = number(DEFAULT_TOLERANCE, bound="> 0")
-    entrainment_smoothing: Scalar = number(0.05, bound="> 0")
+    tolerance: Scalar = number(DEFAULT_TOLERANCE, bound="> 0", unit="1")
+    entrainment_smoothing: Scalar = number(0.05, bound="> 0", unit="m/s")
 
     @property
     def options(self) -> IntegratorOptions:

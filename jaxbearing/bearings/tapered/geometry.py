@@ -43,12 +43,12 @@ class TaperedGeometry(Checked):
     part: ClassVar[str] = "geometry"
 
     n_rollers: int = count("geometry.n_rollers")
-    roller_diameter: Scalar = number(bound="> 0")
-    roller_length: Scalar = number(bound="> 0")
-    contact_angle: Scalar = number(bound="above 0 and below 90 degrees")
-    roller_half_angle: Scalar = number(bound="> 0")
-    flange_angle: Scalar = number(bound="> 0")
-    end_radius: Scalar = number(bound="> 0")
+    roller_diameter: Scalar = number(bound="> 0", unit="m")
+    roller_length: Scalar = number(bound="> 0", unit="m")
+    contact_angle: Scalar = number(bound="above 0 and below 90 degrees", unit="rad")
+    roller_half_angle: Scalar = number(bound="above 0 and below 90 degrees", unit="rad")
+    flange_angle: Scalar = number(bound="above 0 and below 90 degrees", unit="rad")
+    end_radius: Scalar = number(bound="> 0", unit="m")
     first_element_angle: Scalar | None = optional_number(metadata=FIRST_ELEMENT)
 
     def __check_init__(self):

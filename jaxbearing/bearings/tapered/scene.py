@@ -48,7 +48,10 @@ class TaperedOperation(AbstractOperation):
     def _conflicts(self) -> Iterator[str | ValueError]:
         yield from super()._conflicts()
         if self.load("axial") is None and self.held_at("axial") is None:
-            yield "operation.axial_load: a tapered roller bearing needs one, or operation.displacement.axial"
+            yield (
+                "operation.axial_load: expected a force, e.g. 1 kN: a tapered roller bearing needs one, or "
+                "operation.displacement.axial"
+            )
 
 
 class TaperedRollerBearing(AbstractBearing):

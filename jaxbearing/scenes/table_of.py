@@ -1,0 +1,87 @@
+"""Tables of scene files from the classes that they build: a field is said once, on its class.
+
+The class says of a field the SI unit and the bound (`numerics.checks.bounded`), or the choices, the count, the switch
+(`numerics.structure`), its default and what it is. The table states only what is particular to files: names of laws and
+materials, what excludes each other, what a file may leave out.
+"""
+
+import dataclasses
+import types
+import typing
+from collections.abc import Collection, Iterator, Mapping
+from typing import Annotated, Any, Literal
+
+from pydantic import create_model
+
+from . import units
+from .table import Table
+
+
+def table_of(
+    *classes: type, leave_out: Collection[str] = (), optional: Collection[str] = (), base: type[Table] = Table
+) -> Any:
+    """A table with the fields of classes; a subclass adds what is particular to files.
+
+    Fields that hold a part or a law are left to the subclass, which says how a file names it.
+
+    **Arguments:**
+    - `classes`: what the table builds comes first.
+    - `leave_out`: fields that files do not have.
+    - `optional`: fields that a file may leave out although the class has no default, or another one than `None`.
+    - `base`: table with further fields and checks.
+
+    **Returns:** a `type[Table]`, to a type checker any class, since its fields are made here.
+    """
+    fields: dict[str, Any] = {}
+    made_from: dict[str, tuple[type, str]] = {}
+    for name, owner, field in _fields(classes):
+        if name in leave_out or name in fields:
+            continue
+        kind = type_of(field)
+        if kind is None:
+            continue
+        default = None if name in optional else field.default
+        fields[name] = (kind | None if default is None else kind, ... if default is dataclasses.MISSING else default)
+        made_from[name] = (owner, field.name)
+    unknown = {*leave_out, *optional} - {name for name, _, _ in _fields(classes)}
+    assert not unknown, unknown
+    made: Any = create_model(f"{classes[0].__name__}Fields", __base__=base, __module__=__name__, **fields)
+    made.builds, made.made_from = classes[0], types.MappingProxyType(made_from)
+    return made
+
+
+def type_of(field: Any) -> Any:
+    """The type that reads a field of a class from a file; `None` for a field that holds something else than a number, a
+    word or a truth value."""
+    said: Mapping[str, Any] = field.metadata
+    if "bound" in said:
+        return Annotated[float, units.number_note(said["bound"], said["unit"], said["difference"])]
+    if "each" in said:
+        return Annotated[tuple[float, ...], units.several_note(said["each"], said["unit"])]
+    if "choices" in said:
+        return Literal[said["choices"]]
+    if "count" in said:
+        return Annotated[int, units.count_note(*said["count"])]
+    if "switch" in said:
+        return units.Switch
+    if "constant" in said:
+        among, bound = said["among"], said["constant"]
+        return Annotated[float, units.number_note(bound) if among is None else units.among_note(among)]
+    return None
+
+
+def number_of(owner: type, name: str) -> Any:
+    """The type that reads a field of a class from a file."""
+    return type_of(next(field for field in dataclasses.fields(owner) if field.name == name))
+
+
+def fields_of_class(owner: type) -> Iterator[str]:
+    """Names, in files, of the fields of a class that tables make from it."""
+    yield from (name for name, _, field in _fields((owner,)) if type_of(field) is not None)
+
+
+def _fields(classes: typing.Iterable[type]) -> Iterator[tuple[str, type, Any]]:
+    """Name in files, class and field, of all fields."""
+    for owner in classes:
+        for field in dataclasses.fields(owner):
+            yield field.metadata.get("name") or field.name, owner, field
