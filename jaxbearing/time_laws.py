@@ -72,7 +72,7 @@ class Ramp(AbstractTimeFactor):
     **Arguments:**
     - `start`, `stop`: factor before and after.
     - `duration`: of the change, s, > 0.
-    - `begin`: when it begins, s, >= 0.
+    - `begin`: when it begins, s; below 0: before the run.
     """
 
     part: ClassVar[str] = "ramp"
@@ -80,7 +80,7 @@ class Ramp(AbstractTimeFactor):
     start: Scalar = number(unit="1")
     stop: Scalar = number(unit="1")
     duration: Scalar = number(bound="> 0", unit="s")
-    begin: Scalar = number(0.0, bound=">= 0", unit="s")
+    begin: Scalar = number(0.0, unit="s")
 
     def factor(self, time: Scalar) -> Float[Array, ""]:
         x = jnp.clip((time - self.begin) / self.duration, 0.0, 1.0)
@@ -100,7 +100,7 @@ class LinearRamp(AbstractTimeFactor):
     **Arguments:**
     - `start`, `stop`: factor before and after.
     - `duration`: of the change, s, >= 0.
-    - `begin`: when it begins, s, >= 0.
+    - `begin`: when it begins, s; below 0: before the run.
     """
 
     part: ClassVar[str] = "ramp"
@@ -108,7 +108,7 @@ class LinearRamp(AbstractTimeFactor):
     start: Scalar = number(unit="1")
     stop: Scalar = number(unit="1")
     duration: Scalar = number(bound=">= 0", unit="s")
-    begin: Scalar = number(0.0, bound=">= 0", unit="s")
+    begin: Scalar = number(0.0, unit="s")
 
     def factor(self, time: Scalar) -> Float[Array, ""]:
         return self.start + (self.stop - self.start) * self._risen(time)
