@@ -211,8 +211,8 @@ class Operation(AbstractOperation):
         yield from super()._conflicts()
         if not self._given("radial", "lateral"):
             yield (
-                "operation.radial_load: expected a force, e.g. 10 kN: a cylindrical roller bearing needs one, or a "
-                "radial_load_lateral, or a displacement of the ring across the axis"
+                "operation.radial_load: found nothing, expected a force, e.g. '10 kN', which is required without "
+                "radial_load_lateral and operation.displacement"
             )
         loads = [load for load in map(self.load, ("radial", "lateral")) if load is not None]
         if loads and not self.displaced and given(*loads) is not None:

@@ -188,4 +188,6 @@ def label_of(scene: Any, path: str) -> dict[str, str] | None:
     fields = getattr(type(scene), "__dataclass_fields__", {})
     if last not in fields or "unit" not in fields[last].metadata:
         return None
-    return {"units": udunits(fields[last].metadata["unit"]), "long_name": fields[last].metadata["description"]}
+    said = fields[last].metadata
+    flat = re.sub(r"/\((.+?)\)", lambda under: "/" + under[1].replace(" ", "/"), said["unit"])
+    return {"units": udunits(flat), "long_name": said["description"] or last.replace("_", " ")}

@@ -49,8 +49,8 @@ class TaperedOperation(AbstractOperation):
         yield from super()._conflicts()
         if self.load("axial") is None and self.held_at("axial") is None:
             yield (
-                "operation.axial_load: expected a force, e.g. 1 kN: a tapered roller bearing needs one, or "
-                "operation.displacement.axial"
+                "operation.axial_load: found nothing, expected a force, e.g. '1 kN', which is required where "
+                "operation.displacement.axial is not given"
             )
 
 
