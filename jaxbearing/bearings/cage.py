@@ -2,6 +2,7 @@
 
 import abc
 import math
+from collections.abc import Callable, Iterator
 from typing import Any, ClassVar, Literal
 
 import jax.numpy as jnp
@@ -14,6 +15,7 @@ from ..numerics.refusals import refusals_of, refuse_all
 from ..numerics.structure import choice, count
 from .parts import check_between
 
+Ends = Callable[[], tuple[Any, Any]]
 ASSUMED_LANDS = 2
 """Number of cage lands, where a scene does not give it."""
 
@@ -96,24 +98,33 @@ class AbstractCage(Checked):
 
     def check_fits(self, geometry: Any) -> None:
         """**Raises:** `ValueError` where the cage cannot exist between the rings (where the numbers are known)."""
-        count, diameter = self.row(geometry)
-        sizes = given(
-            geometry.pitch_diameter,
-            diameter,
-            self.bore(geometry),
-            self.outside(geometry),
-            self.pocket_clearance,
+        refuse_all(error for limit in self._limits(geometry) for error in refusals_of(_check_limit, *limit))
+
+    def _limits(self, geometry: Any) -> Iterator[tuple[str, Any, Ends, str, str]]:
+        """Field, its value, what it must lie between, and these limits in words. Each limit is found by itself, so that
+        one is checked also where what another one needs is refused."""
+        pitch, bore, outside = geometry.pitch_diameter, self.bore(geometry), self.outside(geometry)
+
+        def neighbours() -> tuple[Any, Any]:
+            count, diameter = self.row(geometry)
+            return 0.0, pitch * math.sin(math.pi / max(count, 2)) - diameter
+
+        inside = lambda: (pitch - self.row(geometry)[1], outside)
+        beyond = lambda: (bore, pitch + self.row(geometry)[1])
+        yield "inner_diameter", bore, inside, "inner raceway", "cage outside diameter"
+        yield "outer_diameter", outside, beyond, "cage bore", "outer raceway"
+        gap = f"gap between neighbouring {self.element}s"
+        yield "pocket_clearance", self.pocket_clearance, neighbours, "nothing", gap
+        yield (
+            "guiding_clearance",
             self.guiding_clearance,
+            lambda: (0.0, 0.05 * bore),
+            "nothing",
+            "5 % of the land diameter",
         )
-        if sizes is None:
-            return
-        pitch, element, bore, outside, pocket, guiding = sizes
-        gap = pitch * math.sin(math.pi / max(count, 2)) - element
-        neighbours = f"gap between neighbouring {self.element}s"
-        limits = (
-            ("inner_diameter", bore, pitch - element, outside, "inner raceway", "cage outside diameter"),
-            ("outer_diameter", outside, bore, pitch + element, "cage bore", "outer raceway"),
-            ("pocket_clearance", pocket, 0.0, gap, "nothing", neighbours),
-            ("guiding_clearance", guiding, 0.0, 0.05 * bore, "nothing", "5 % of the land diameter"),
-        )
-        refuse_all(error for name, *limit in limits for error in refusals_of(check_between, f"cage.{name}", *limit))
+
+
+def _check_limit(name: str, value: Any, ends: Ends, below: str, above: str) -> None:
+    limits = ends()
+    if given(value, *limits) is not None:
+        check_between(f"cage.{name}", value, *limits, below, above)

@@ -19,7 +19,10 @@ from jax.core import Tracer
 from jaxtyping import Array, Bool
 
 from .precision import as_float
-from .refusals import refuse_all
+from .refusals import is_collecting, refuse_all
+
+STAND_IN = jax.ShapeDtypeStruct((), np.dtype(np.float64))
+"""In the place of a number that is refused."""
 
 
 class Interval(NamedTuple):
@@ -112,6 +115,14 @@ class Checked(eqx.Module):
             if value is None and field.default is not None:
                 raise ValueError(f"{part}.{name}".lstrip(".") + " must be one number, got None")
             checks[name] = (value, bound)
+        if is_collecting():
+            for name, check in checks.items():
+                problems = list(_refused(part, {name: check}))
+                refuse_all(problems)
+                if problems and hasattr(self, name):
+                    # what needs this number is left undecided
+                    object.__setattr__(self, name, STAND_IN)
+            return
         require(part, **checks)
 
 

@@ -1,13 +1,18 @@
 """From the tables that all bearings have to the parts of the library."""
 
+import dataclasses
+import re
+import typing
 from collections.abc import Callable
+from contextlib import suppress
 from typing import Any, TypeVar
 
 import jax
 
 from ..bearings.cage import AbstractCage
-from ..numerics.refusals import refusals_of, refuse_all
-from .drafts import STAND_IN, Unreadable
+from ..numerics.checks import STAND_IN
+from ..numerics.refusals import UNDECIDED, collecting, refusals_of, refuse_all
+from .drafts import Unreadable
 from .laws import TURBULENCE
 from .table import Table
 
@@ -22,17 +27,43 @@ def built(kind: type[Part], **parts: Callable[[], Any]) -> Part:
     already.
     """
     made: dict[str, Any] = {}
-    problems: list[ValueError] = []
     unreadable: Unreadable | None = None
-    for name, make in parts.items():
-        try:
-            problems += refusals_of(lambda name=name, make=make: made.update({name: make()}))
-        except Unreadable as error:
-            unreadable = error
+    with collecting() as problems:
+        for name, make in parts.items():
+            before = len(problems)
+            try:
+                problems += refusals_of(lambda name=name, make=make: made.update({name: make()}))
+            except Unreadable as error:
+                unreadable = error
+            except UNDECIDED:
+                unreadable = Unreadable(name)
+            if name not in made:
+                made[name] = _blank(kind, name)
+            _without_refused(made[name], name, problems[before:])
+        sound = unreadable is None and not problems and all(leaf is not STAND_IN for leaf in jax.tree.leaves(made))
+        if not sound:
+            # rules between the parts, as far as they can be decided
+            with suppress(*UNDECIDED):
+                problems += refusals_of(lambda: kind(**made))
     refuse_all(problems)
-    if unreadable is not None or any(leaf is STAND_IN for leaf in jax.tree.leaves(made)):
+    if not sound:
         raise unreadable or Unreadable(kind.__name__)
     return kind(**made)
+
+
+def _blank(kind: type, name: str) -> Any:
+    """Stands for a part that could not be made: an object of its class without attributes."""
+    hint = typing.get_type_hints(kind)[name]
+    (owner, *_) = [one for one in (hint, *typing.get_args(hint)) if dataclasses.is_dataclass(one)]
+    return object.__new__(owner)  # pyright: ignore[reportArgumentType, reportCallIssue]
+
+
+def _without_refused(part: Any, name: str, problems: list[ValueError]) -> None:
+    """Puts `STAND_IN` in the place of the fields of a part that its own rules refuse, by the paths of the messages."""
+    for problem in problems:
+        found = re.match(rf"{name}\.(\w+)\b(?!\.)", str(problem))
+        if found and hasattr(part, found[1]):
+            object.__setattr__(part, found[1], STAND_IN)
 
 
 def part(kind: type[Part], table: Table | None) -> Part | None:

@@ -6,19 +6,14 @@ import typing
 from collections.abc import Collection, Iterator, Mapping
 from typing import Any, TypeVar
 
-import jax
-import numpy as np
 from pydantic import TypeAdapter, ValidationError
 
+from ..numerics.checks import STAND_IN
 from .errors import SceneError, from_validation, in_words, nearest
 from .fields import plain_table_at, type_at
 from .table import Table
 
 AnyTable = TypeVar("AnyTable", bound=Table)
-
-
-STAND_IN = jax.ShapeDtypeStruct((), np.dtype(np.float64))
-"""In the place of a number that is refused."""
 
 
 class Unreadable(Exception):

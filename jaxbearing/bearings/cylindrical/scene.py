@@ -75,10 +75,14 @@ class RollerGeometry(Checked):
 
     def __check_init__(self):
         super().__check_init__()
-        check_row_fits(self.n_rollers, self.roller_diameter, self.pitch_diameter)
+        refuse_all(self._problems())
+
+    def _problems(self) -> Iterator[str | ValueError]:
+        yield from refusals_of(check_row_fits, self.n_rollers, self.roller_diameter, self.pitch_diameter)
         sizes = given(self.contact_length, self.roller_length)
         if sizes is not None:
-            demand(
+            yield from refusals_of(
+                demand,
                 "geometry.contact_length must be at most the roller length",
                 sizes[0] <= sizes[1],
                 lambda: (

@@ -8,6 +8,7 @@ reconstructed.
 """
 
 import math
+from collections.abc import Iterator
 from typing import Any, ClassVar
 
 import jax.numpy as jnp
@@ -17,6 +18,7 @@ from ..._scene import number, optional_number
 from ..._types import Scalar
 from ...contacts import PointContact
 from ...numerics.checks import Checked, demand, functions, given
+from ...numerics.refusals import refusals_of, refuse_all
 from ...numerics.structure import count
 from ..parts import FIRST_ELEMENT
 
@@ -53,12 +55,16 @@ class TaperedGeometry(Checked):
 
     def __check_init__(self):
         super().__check_init__()
+        refuse_all(self._problems())
+
+    def _problems(self) -> Iterator[str | ValueError]:
         if self.n_rollers < 1:
-            raise ValueError(f"geometry.n_rollers must be >= 1, got {self.n_rollers}")
+            yield f"geometry.n_rollers must be >= 1, got {self.n_rollers}"
+            return
         names = ("roller_diameter", "roller_length", "contact_angle", "roller_half_angle", "flange_angle", "end_radius")
         sizes = given(*(getattr(self, name) for name in names))
         if sizes is not None:
-            _check(self.n_rollers, *sizes)
+            yield from refusals_of(_check, self.n_rollers, *sizes)
 
     @property
     def cone_angle(self) -> Array:
