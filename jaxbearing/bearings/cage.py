@@ -98,7 +98,12 @@ class AbstractCage(Checked):
 
     def check_fits(self, geometry: Any) -> None:
         """**Raises:** `ValueError` where the cage cannot exist between the rings (where the numbers are known)."""
-        refuse_all(error for limit in self._limits(geometry) for error in refusals_of(_check_limit, *limit))
+        problems: dict[str, list[ValueError]] = {}
+        for name, *limit in self._limits(geometry):
+            # the lands are as large as the bore says, where that is sound
+            if name != "guiding_clearance" or not problems["inner_diameter"]:
+                problems[name] = list(refusals_of(_check_limit, name, *limit))
+        refuse_all(error for found in problems.values() for error in found)
 
     def _limits(self, geometry: Any) -> Iterator[tuple[str, Any, Ends, str, str]]:
         """Field, its value, what it must lie between, and these limits in words. Each limit is found by itself, so that

@@ -51,11 +51,22 @@ def built(kind: type[Part], **parts: Callable[[], Any]) -> Part:
     return kind(**made)
 
 
+class _Blank:
+    """Stands for a part that could not be made: it counts as an object of its class, and has no attributes."""
+
+    def __init__(self, owner: type):
+        self._owner = owner
+
+    @property
+    def __class__(self) -> type:  # pyright: ignore[reportIncompatibleMethodOverride]
+        return self._owner
+
+
 def _blank(kind: type, name: str) -> Any:
-    """Stands for a part that could not be made: an object of its class without attributes."""
+    """Stands for the part in a field of a scene."""
     hint = typing.get_type_hints(kind)[name]
     (owner, *_) = [one for one in (hint, *typing.get_args(hint)) if dataclasses.is_dataclass(one)]
-    return object.__new__(owner)  # pyright: ignore[reportArgumentType, reportCallIssue]
+    return _Blank(owner)  # pyright: ignore[reportArgumentType]
 
 
 def _without_refused(part: Any, name: str, problems: list[ValueError]) -> None:

@@ -107,8 +107,8 @@ def static_fields():
     """(class, field) of static fields in what scenes are made of."""
     for package in PARTS:
         folder = importlib.import_module(f"jaxbearing.{package}")
-        for module in pkgutil.iter_modules(folder.__path__):
-            found = importlib.import_module(f"jaxbearing.{package}.{module.name}")
+        for module in pkgutil.walk_packages(folder.__path__, f"jaxbearing.{package}."):
+            found = importlib.import_module(module.name)
             for kind in vars(found).values():
                 if isinstance(kind, type) and issubclass(kind, eqx.Module) and kind.__module__ == found.__name__:
                     for field in dataclasses.fields(kind):

@@ -55,6 +55,14 @@ LINE = {
     "simulation.tolerance": "-1",
 }
 # what the classes refuse when the parts, or the bearing from its parts, are built
+# refused by a part, and between parts: neither hides the other
+BOTH = {
+    "geometry.n_rollers": "100",
+    "flange.height": "50 mm",
+    "cage.inner_diameter": "1 mm",
+    "drag.coefficient": "-1",
+    "operation.inner_speed": "0 rpm",
+}
 CLASSES = {
     "cage.inner_diameter": "120 mm",
     "cage.pocket_clearance": "10 mm",
@@ -97,8 +105,9 @@ def test_of_the_file(name, faults, base):
     together(name, faults, base)
 
 
-def test_of_the_classes():
-    together("turbine_roller", CLASSES, {})
+@pytest.mark.parametrize("faults", [CLASSES, BOTH], ids=["between parts", "of parts and between them"])
+def test_of_the_classes(faults):
+    together("turbine_roller", faults, {})
 
 
 @pytest.mark.parametrize(
