@@ -76,11 +76,13 @@ class AbstractScene(Shown):
         """
         raise TypeError(f"cannot simulate a {type(self).__name__}: its class has no method check_restart")
 
-    def replace(self: Scene, changes: dict[str, Any]) -> Scene:
+    def replace(self: Scene, changes: Any) -> Scene:
         """A copy with other values; keys are dotted paths, values SI numbers (or parts).
 
-        **Raises:** `AttributeError` for a path that the scene does not have.
+        **Raises:** `AttributeError` for a path that the scene does not have; `TypeError` for what is no mapping.
         """
+        if not isinstance(changes, Mapping) or not all(isinstance(path, str) for path in changes):
+            raise TypeError(f"replace takes a mapping from dotted paths to values, got {changes!r}")
         return _replaced(self, {tuple(path.split(".")): value for path, value in changes.items()})
 
     def at_operation(self: Scene, **changes: Any) -> Scene:

@@ -24,6 +24,7 @@ from jaxbearing.contacts import (
     StraightLine,
     palmgren_stiffness,
 )
+from jaxbearing.contacts.viscous import viscous_function
 from jaxbearing.gaps import (
     BallPocket,
     CompliantPocketFace,
@@ -39,7 +40,9 @@ from jaxbearing.gaps import (
     parker_oil_fraction,
     side_leakage_factor,
 )
-from jaxbearing.gaps.drag import air_density
+from jaxbearing.gaps.drag import air_density, cylinder_drag_coefficient, sphere_drag_coefficient
+from jaxbearing.gaps.journal import saturated_eccentricity
+from jaxbearing.gaps.martin import martin_exit, martin_factors, martin_load, martin_rolling, martin_shear
 from jaxbearing.life.basic import basic_life, deep_groove_equivalent_load, tapered_equivalent_load
 from jaxbearing.life.capacity import ball_capacity, ball_factor, roller_capacity, roller_factor
 from jaxbearing.life.modification import (
@@ -58,6 +61,7 @@ from jaxbearing.life.reference import (
 )
 from jaxbearing.life.static import ball_static_capacity, roller_static_capacity
 from jaxbearing.lubricants import Barus, ConstantViscosity, Roelands
+from jaxbearing.lubricants.two_viscosities import wooster_pressure_viscosity
 from jaxbearing.numerics.integrator import IntegratorOptions
 from jaxbearing.scenes.oils import load_oil
 
@@ -99,12 +103,23 @@ CHOICES = {
     "modification_factor": (lambda family: modification_factor(1.0, 0.5, family), "balls", "'ball'"),
     "fatigue_load_limit": (lambda family: fatigue_load_limit(1e4, 0.06, family), "rollers", "'roller'"),
     "contamination_factor": (lambda name: contamination_factor(1.0, 0.06, name), "normal", "'grease_normal'"),
+    "viscous_function": (lambda name: viscous_function(name, None), "ree_eyrin", "'ree_eyring'"),
 }
 
 BATCH = jnp.asarray([[1e3, 2e3], [0.0, 4e3]])
 LIMITS = ball_contact_capacities(1.4e4, 9, 7.94e-3, 39.04e-3, 0.0, 0.52, 0.52)
 RUNNING = (jnp.asarray(True), jnp.asarray(False))
+FILM = {"viscosity": 5e-3, "radius": 6e-3, "length": 0.014, "film": 1e-6}
 FORMULAS = {
+    "martin_load": (martin_load, FILM | {"entrainment_speed": 1.0, "squeeze_rate": 1e-3}, 4),
+    "martin_shear": (martin_shear, FILM | {"sliding_speed": 0.1, "entrainment_speed": 1.0, "squeeze_rate": 1e-3}, 4),
+    "martin_rolling": (martin_rolling, FILM | {"entrainment_speed": 1.0, "squeeze_rate": 1e-3}, 4),
+    "martin_exit": (martin_exit, {"s": 0.3}, 0),
+    "martin_factors": (lambda s: jnp.stack(martin_factors(s)), {"s": 0.3}, 0),
+    "sphere_drag_coefficient": (sphere_drag_coefficient, {"reynolds": 1e3}, 0),
+    "cylinder_drag_coefficient": (cylinder_drag_coefficient, {"reynolds": 1e3}, 0),
+    "saturated_eccentricity": (saturated_eccentricity, {"eccentricity_ratio": 0.5}, 0),
+    "wooster_pressure_viscosity": (wooster_pressure_viscosity, {"viscosity": 0.03}, 1),
     # function, its numbers by name, and how many of them, from the first on, may not be 0
     "basic_life": (lambda **loads: basic_life(exponent=3.0, **loads), {"capacity": 1e4, "equivalent_load": 5e3}, 1),
     "tapered_equivalent_load": (tapered_equivalent_load, {"contact_angle": 0.2, "radial": 1e3, "axial": 2e3}, 1),
@@ -203,7 +218,7 @@ FORMULAS = {
         1,
     ),
 }
-ANY_SIGN = ("shaft_speed",)
+ANY_SIGN = ("shaft_speed", "entrainment_speed", "squeeze_rate", "sliding_speed", "s", "reynolds", "eccentricity_ratio")
 PARTS = {
     # class, its numbers by name, and how many of them, from the first on, may not be 0
     "ShortJournal": (ShortJournal, {"radius": 0.07, "width": 4e-3, "clearance": 1e-4}, 3),
@@ -489,3 +504,26 @@ def test_arguments_of_another_type():
     ):
         assert sum(words in line for line in lines) == 1, words
     assert sum("resolution must be a Resolution, got" in line for line in lines) == 2
+
+
+@pytest.mark.parametrize("values", [["a"], [1j], None, [[1.0], [1.0, 2.0], [3.0]], "5 kN"])
+def test_values_of_a_sweep(values):
+    with pytest.raises(ValueError, match=r"operation\.radial_load: expected .* finite numbers"):
+        jb.sweeps.grid({"operation.radial_load": values})
+    with pytest.raises(ValueError, match=r"operation\.radial_load: expected (lowest and highest|one or more)"):
+        jb.sweeps.random({"operation.radial_load": values}, 3)
+    with pytest.raises(ValueError, match="over must map dotted paths"):
+        jb.sweeps.listed(values)
+
+
+def test_changes_of_a_scene_and_files_of_a_run():
+    with pytest.raises(TypeError, match="replace takes a mapping from dotted paths to values, got 3"):
+        jb.load_scene("reference_roller").replace(3)
+    with pytest.raises(TypeError, match="read_last_state takes the path of a file, got 3"):
+        jb.read_last_state(3)
+
+
+def test_built_in_scenes_inside_of_programs():
+    for name in jb.builtin_names():
+        loaded = jax.jit(lambda x, name=name: x * len(jax.tree.leaves(jb.load_scene(name))))(1.0)
+        assert loaded > 0.0

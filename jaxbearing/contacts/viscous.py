@@ -8,6 +8,7 @@ from jaxtyping import Array, Float
 
 from .._types import Scalar, Values
 from ..lubricants import ExponentialRheology, Lubricant
+from ..numerics.arguments import require_choice
 from ..numerics.checks import Checked, bounded
 from .relaxation import Slopes, limiting_root, sinh_root
 
@@ -199,6 +200,7 @@ ASSUMED = ReeEyring
 def viscous_function(name: str, rheology: ExponentialRheology | None) -> AbstractViscousFunction:
     """The viscous function of this name; that of Elsharkawy and Hamrock has the exponent with which the oil's data
     were fitted, or 2."""
+    require_choice("name", name, VISCOUS_LAWS)
     if name != ElsharkawyHamrock.name or rheology is None or rheology.exponent is None:
         return VISCOUS_LAWS[name]()
     return ElsharkawyHamrock(rheology.exponent)

@@ -90,6 +90,7 @@ def sphere_drag_coefficient(reynolds: Values) -> Batch:
     **Validity:** Re < 3e5 (no drag crisis beyond, by decision).
     **Reference:** Clift and Gauvin (1970); Clift, Grace and Weber (1978), *Bubbles, Drops and Particles*.
     """
+    require_numbers("finite", reynolds=reynolds)
     re = jnp.minimum(smooth_abs(reynolds, REYNOLDS_FLOOR), SPHERE_REYNOLDS_LIMIT)
     return 24.0 / re * (1.0 + 0.15 * re**0.687) + 0.42 / (1.0 + 42500.0 * re**-1.16)
 
@@ -103,6 +104,7 @@ def cylinder_drag_coefficient(reynolds: Values) -> Batch:
     **Validity:** 1e-4 < Re < 2e5; below, Cd Re falls as Re^0.11, within 12 % of Lamb's solution down to 1e-6.
     **Reference:** Sucker and Brauer (1975), Waerme- und Stoffuebertragung 8, 149.
     """
+    require_numbers("finite", reynolds=reynolds)
     re = jnp.minimum(smooth_abs(reynolds, REYNOLDS_FLOOR), CYLINDER_REYNOLDS_LIMIT)
     return 1.18 + 6.8 * re**-0.89 + 1.96 * re**-0.5 - 4e-4 * re / (1.0 + 3.64e-7 * jnp.square(re))
 

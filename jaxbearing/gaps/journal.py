@@ -7,6 +7,7 @@ import jax.numpy as jnp
 from jaxtyping import Array
 
 from .._types import Batch, Scalar, Values
+from ..numerics.arguments import require_numbers
 from ..numerics.checks import Checked, bounded
 from ..numerics.compiling import compiled_by_hand
 from ..numerics.roots import monotone_root
@@ -40,6 +41,7 @@ def saturated_eccentricity(eccentricity_ratio: Values) -> Batch:
     The difference $\epsilon - \epsilon_s$ is the smooth max(eps - 0.995, 0): it underflows to
     0 for eps < 0.25, is 3.1e-10 at 0.98 and $w\ln 2$ at 0.995.
     """
+    require_numbers("finite", eccentricity_ratio=eccentricity_ratio)
     return eccentricity_ratio - eccentricity_overlap(eccentricity_ratio)
 
 

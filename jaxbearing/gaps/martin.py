@@ -7,6 +7,7 @@ import jax
 import jax.numpy as jnp
 
 from .._types import Batch, Values
+from ..numerics.arguments import require_numbers
 from ..numerics.safe import smooth_abs
 from ..numerics.series import horner
 
@@ -125,6 +126,7 @@ def martin_exit(s: Values) -> Batch:
     **Reference:** Martin (1916), Engineering 102, 119; Dowson, Markho and Jones (1976), ASME J.
     Lubr. Technol. 98, 509.
     """
+    require_numbers("finite", s=s)
     return _exit(jnp.asarray(s)).position
 
 
@@ -151,6 +153,7 @@ def martin_factors(s: Values) -> MartinFactors:
     **Limits:** s = 0: `MARTIN_LOAD`, `MARTIN_SHEAR`, `MARTIN_ROLLING`; s -> -inf: $G_w\to-3\pi s$, $G_s\to\pi$,
     $G_r\to4\pi$; s -> +inf: $G_w\to128/(27s^2)$, $G_s\to8/(3s)$, $G_r\to64/(9s)$: the film never pulls.
     """
+    require_numbers("finite", s=s)
     return _factors(1.0, s)
 
 
@@ -170,6 +173,8 @@ def martin_load(
     m/s; `radius`, equivalent, m; `length`, m; `film`, minimum film h0, m, > 0; `squeeze_rate`,
     dh0/dt, m/s, negative when approaching.
     """
+    require_numbers("> 0", viscosity=viscosity, radius=radius, length=length, film=film)
+    require_numbers("finite", entrainment_speed=entrainment_speed, squeeze_rate=squeeze_rate)
     factors = _factors(*_speeds(entrainment_speed, radius, film, squeeze_rate))
     return viscosity * jnp.asarray(radius) * length / film * factors.load
 
@@ -184,6 +189,10 @@ def martin_shear(
     squeeze_rate: Values,
 ) -> Batch:
     r"""Couette force $F_s = \mu(u_1-u_2)L\sqrt{2R/h_0}\,G_s(s)$, N, signed as u1 - u2. Arguments of `martin_load`."""
+    require_numbers("> 0", viscosity=viscosity, radius=radius, length=length, film=film)
+    require_numbers(
+        "finite", sliding_speed=sliding_speed, entrainment_speed=entrainment_speed, squeeze_rate=squeeze_rate
+    )
     factors = _factors(*_speeds(entrainment_speed, radius, film, squeeze_rate))
     return viscosity * sliding_speed * length * jnp.sqrt(2.0 * jnp.asarray(radius) / film) * factors.shear
 
@@ -196,5 +205,7 @@ def martin_rolling(
     With u1 > u2 >= 0, entrainment along body 1: shear on body 1 is -(Fs + P/2), on body 2 Fs - P/2;
     pressure adds +P R/R_k along the motion on body k of radius R_k. Arguments of `martin_load`.
     """
+    require_numbers("> 0", viscosity=viscosity, radius=radius, length=length, film=film)
+    require_numbers("finite", entrainment_speed=entrainment_speed, squeeze_rate=squeeze_rate)
     factors = _factors(*_speeds(entrainment_speed, radius, film, squeeze_rate))
     return viscosity * length * jnp.sqrt(2.0 * jnp.asarray(radius) / film) * factors.rolling

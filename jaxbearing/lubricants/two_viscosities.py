@@ -3,7 +3,7 @@
 import jax.numpy as jnp
 
 from .._types import Batch, Scalar, Values
-from ..numerics.arguments import require_temperature
+from ..numerics.arguments import require_numbers, require_temperature
 from ..numerics.checks import bounded, demand, given
 from ..numerics.safe import softplus_floor
 from .simple_viscosity import LOG_ROELANDS_VISCOSITY, ROELANDS_RATE, log_compression
@@ -36,6 +36,7 @@ def wooster_pressure_viscosity(viscosity: Values) -> Batch:
 
     **Arguments:** `viscosity`, at ambient pressure, Pa s, > 2.4e-4.
     """
+    require_numbers("> 0", viscosity=viscosity)
     return jnp.asarray(1e-8 * (0.6 + 0.965 * jnp.log10(jnp.multiply(viscosity, 1e3))))
 
 

@@ -3,6 +3,7 @@
 import json
 import os
 from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
 import xarray as xr
@@ -19,12 +20,14 @@ _OF_A_FILM = ("time", "pressure", "offset", "mass", "steps", "known", "proposal"
 _PREFIX = "last_state_"
 
 
-def read_last_state(path: str | os.PathLike[str]) -> LastState | FilmState:
+def read_last_state(path: Any) -> LastState | FilmState:
     """For `jaxbearing.simulate(..., restart=...)`: the end of a run, of a bearing or a line contact, that `jaxbearing
     simulate --out` wrote, also of one that was interrupted or stopped early.
 
     **Raises:** `OSError` for a file that cannot be read, `ValueError` for one that is not of a run in time.
     """
+    if not isinstance(path, str | os.PathLike):
+        raise TypeError(f"read_last_state takes the path of a file, got {path!r}")
     name = os.fspath(path)
     # the reader's own message for a missing file is a guess at engines
     check_regular(path)

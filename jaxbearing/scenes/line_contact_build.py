@@ -2,6 +2,7 @@
 
 import dataclasses
 
+import jax
 import numpy as np
 
 from ..ehl import ContactBodies, ContactGeometry, ContactOperation, EHLLineContact, FilmModel, FilmSimulation
@@ -35,7 +36,9 @@ def line_contact(table: LineContactTable) -> EHLLineContact:
         operation=lambda: ContactOperation(**table.operation.model_dump()),
         simulation=lambda: None if table.simulation is None else _simulation(table.simulation),
     )
-    return scene.replace({"contact": _fine_enough(scene, table.contact)})
+    # inside of a program, too, the scene is made of numbers
+    with jax.ensure_compile_time_eval():
+        return scene.replace({"contact": _fine_enough(scene, table.contact)})
 
 
 def _model(table: FilmModelTable) -> FilmModel:

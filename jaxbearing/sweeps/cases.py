@@ -62,7 +62,25 @@ class Cases:
 
 
 def _columns(over: Mapping[str, Any]) -> tuple[tuple[str, ...], tuple[np.ndarray, ...]]:
-    return tuple(over), tuple(np.atleast_1d(np.asarray(values, dtype=np.float64)) for values in over.values())
+    _mapping("over", over)
+    return tuple(over), tuple(_numbers(path, values) for path, values in over.items())
+
+
+def _mapping(name: str, given: Any) -> None:
+    """**Raises:** `ValueError` for what is no mapping from paths of fields."""
+    if not isinstance(given, Mapping) or not all(isinstance(path, str) for path in given):
+        raise ValueError(f"{name} must map dotted paths of fields to values, got {given!r}")
+
+
+def _numbers(path: str, values: Any) -> np.ndarray:
+    """**Raises:** `ValueError` for what are no real numbers."""
+    try:
+        found = np.atleast_1d(np.asarray(values))
+    except (TypeError, ValueError):  # lists of lists of different lengths, and the like
+        found = np.empty(0, object)
+    if found.dtype.kind not in "iuf":
+        raise ValueError(f"{path}: expected one or more finite numbers, got {values!r}")
+    return found.astype(np.float64)
 
 
 def grid(over: Mapping[str, Any]) -> Cases:
@@ -81,6 +99,7 @@ def random(bounds: Mapping[str, Sequence[Any]], count: int, seed: int = 0) -> Ca
     **Arguments:** `bounds`: dotted path -> lowest and highest value in SI, and "log" as a third where the logarithm is
     to be evenly distributed.
     """
+    _mapping("bounds", bounds)
     _positive(count)
     return _within("random", bounds, np.random.default_rng(seed).random((count, len(bounds))))
 
@@ -89,19 +108,24 @@ def latin_hypercube(bounds: Mapping[str, Sequence[Any]], count: int, seed: int =
     """As `random`, but with one case in each of `count` equal parts of every field's range."""
     from scipy.stats import qmc
 
+    _mapping("bounds", bounds)
     _positive(count)
     sampler = qmc.LatinHypercube(max(1, len(bounds)), rng=np.random.default_rng(seed))
     return _within("latin_hypercube", bounds, sampler.random(count))
 
 
 def _positive(count: int) -> None:
-    if not 1 <= count <= MOST_CASES:
+    if isinstance(count, bool) or not isinstance(count, int | np.integer) or not 1 <= count <= MOST_CASES:
         raise ValueError(f"found {count} cases, expected 1 to {MOST_CASES}")
 
 
 def _within(kind: Kind, bounds: Mapping[str, Sequence[Any]], unit: np.ndarray) -> Cases:
     values = {}
-    for (path, (low, high, *spacing)), part in zip(bounds.items(), unit.T, strict=False):
+    for (path, given), part in zip(bounds.items(), unit.T, strict=False):
+        ends = list(given) if isinstance(given, list | tuple | np.ndarray) else []
+        if not 2 <= len(ends) <= 3 or ends[2:] not in ([], ["log"]):
+            raise ValueError(f"{path}: expected lowest and highest value, and 'log' where wanted, got {given!r}")
+        (low, high), spacing = _numbers(path, ends[:2]), ends[2:]
         values[path] = between(float(low), float(high), part, "log" in spacing, path)
     return Cases(kind, *_columns(values))
 
