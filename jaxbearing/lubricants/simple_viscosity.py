@@ -52,7 +52,7 @@ class Barus(AbstractViscosity):
 
     reference_viscosity: Scalar = bounded("> 0", unit="Pa s")
     reference_temperature: Scalar = bounded("> 0", unit="K")
-    pressure_viscosity: Scalar = bounded("> 0", unit="1/Pa")
+    pressure_viscosity: Scalar = bounded(">= 0", unit="1/Pa")
     temperature_viscosity: Scalar = bounded(">= 0", unit="K", difference=True)
 
     def log_viscosity(self, pressure: Values, temperature: Values) -> Batch:

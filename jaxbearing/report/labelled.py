@@ -44,7 +44,7 @@ def labelled(part: Any, above: str = "") -> Iterator[tuple[str, Any, Any]]:
         value = getattr(part, field.name)
         if dataclasses.is_dataclass(value):
             yield from labelled(value, f"{above}{field.name}.")
-        elif value is not None and "unit" in field.metadata:
+        elif value is not None and field.metadata.get("description"):
             yield above + field.name, value, {**field.metadata, "dims": dimensions(field.type)}
 
 

@@ -56,6 +56,15 @@ class _FallingViscosities(Law):
             yield refusal_at("viscosity_2", expected, _cst(self.viscosity_2))
 
 
+class _RisesWithPressure(Law):
+    """In a file a viscosity that does not rise is more likely a slip; the class is used for closed forms too."""
+
+    @check
+    def _rises(self) -> Problems:
+        if self.pressure_viscosity == 0.0:
+            yield refusal_at("pressure_viscosity", units.INVERSE_PRESSURE.expected("> 0"), "0")
+
+
 class _ExponentOfFunction(Law):
     """The rule of the exponent of a viscous function."""
 
@@ -87,7 +96,7 @@ def law_table(name: str, law: type, tag: str | None = None, base: type[Law] = La
 
 VISCOSITIES: dict[str, type[Law]] = {
     "modified_wlf": law_table("modified_wlf", ModifiedWLF),
-    "barus": law_table("barus", Barus),
+    "barus": law_table("barus", Barus, base=_RisesWithPressure),
     "roelands": law_table("roelands", Roelands),
     "constant": law_table("constant", ConstantViscosity),
     "two_viscosities": law_table("two_viscosities", WaltherRoelands, base=_FallingViscosities),

@@ -1,21 +1,28 @@
 """Scenes and plans as data: a text of JSON, and arrays. Reading them makes parts of this package and runs nothing.
 
 A part is its class, named as `jaxbearing.bearings.ball.scene:BallBearing`, and its fields. Only classes of this
-package that are imported already are known by name. Their constructors are not called, no module is imported for a
-file, and arrays are read without pickles.
+package are known by name: those that are imported already, and those of the packages that scenes are made of, whose
+modules only define things. Constructors are not called, nothing else is imported for a file, and arrays are read
+without pickles.
 """
 
 import dataclasses
 import functools
+import importlib
 import json
+import re
 import sys
 from collections.abc import Mapping
+from contextlib import suppress
 from typing import Any
 
 import equinox as eqx
 import numpy as np
 
 _PACKAGE = __name__.partition(".")[0]
+_OF_SCENES = ("bearings", "contacts", "ehl", "gaps", "lubricants", "machines", "materials", "time_laws")
+"""Packages and modules whose classes make up scenes: they are imported when they are needed."""
+_NAME = re.compile(r"\w+(?:\.\w+)*", re.ASCII)
 
 
 class ForeignPartError(TypeError):
@@ -103,6 +110,13 @@ def _kind(name: str) -> type | None:
     module, _, path = name.partition(":")
     if module.partition(".")[0] != _PACKAGE or not path:
         return None
+    if (
+        module not in sys.modules
+        and _NAME.fullmatch(module)
+        and module.partition(".")[2].partition(".")[0] in _OF_SCENES
+    ):
+        with suppress(ImportError):
+            importlib.import_module(module)
     found: Any = sys.modules.get(module)
     for part in path.split("."):
         found = None if found is None else vars(found).get(part)

@@ -242,7 +242,7 @@ def test_random_bearings_converge(kind, couple, request):
 def test_bad_bearings_are_refused():
     with pytest.raises(ValueError, match="one of the two"):
         BallGeometry(20, 153e-3, 20.638e-3, 0.5225, 0.51125)
-    with pytest.raises(ValueError, match=r"between 0\.5 and 1"):
+    with pytest.raises(ValueError, match=r"above 0\.5 and at most 1"):
         BallGeometry(20, 153e-3, 20.638e-3, 0.5, 0.51125, contact_angle=0.5)
     with pytest.raises(ValueError, match="do not fit"):
         BallGeometry(30, 153e-3, 20.638e-3, 0.5225, 0.51125, contact_angle=0.5)

@@ -393,7 +393,7 @@ def test_couple_of_the_file(name):
         ({"gyroscopic": "capped", "gyroscopic_sign": "0.5"}, "gyroscopic_sign", "-1 (as the source prints it)"),
         ({"gyroscopic": "capped", "gyroscopic_sign": "true"}, "gyroscopic_sign", "without quotes"),
         ({"gyroscopic": "capped", "gyroscopic_friction": "0"}, "gyroscopic_friction", "a number > 0"),
-        ({"gyroscopic": "shared", "inner_share": "2.5"}, "inner_share", "from 0 to 2"),
+        ({"gyroscopic": "shared", "inner_share": "2.5"}, "inner_share", "between 0 and 2"),
         ({"gyroscopic": "shared", "inner_share": "1", "outer_share": "0.5"}, "outer_share", "add up to 2"),
     ],
 )
@@ -448,7 +448,7 @@ def test_bad_couples_are_refused():
         CappedCouple(sign=0.5)
     with pytest.raises(ValueError, match=r"kinematics\.gyroscopic_friction must be > 0"):
         CappedCouple(0.0)
-    with pytest.raises(ValueError, match=r"kinematics\.inner_share must be finite"):
+    with pytest.raises(ValueError, match=r"kinematics\.inner_share must be between 0 and 2"):
         SharedCouple(float("nan"), 2.0)
 
 

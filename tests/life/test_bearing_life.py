@@ -163,7 +163,7 @@ def test_gradient_through_the_solve_and_failed_lanes():
 def test_refusals():
     with pytest.raises(ValueError, match=r"rating\.dynamic_capacity must be > 0"):
         Rating(dynamic_capacity=-1.0)
-    with pytest.raises(ValueError, match=r"rating\.roughness_rings"):
+    with pytest.raises(ValueError, match=r"rating\.roughness_elements: found nothing"):
         Rating(roughness_rings=1e-7)
 
 

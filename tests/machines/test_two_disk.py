@@ -314,7 +314,7 @@ def test_laws_that_do_not_fit(changes, words):
 
 
 def test_a_line_contact_has_no_transverse_radius():
-    with pytest.raises(ValueError, match=r"geometry\.contact_length"):
+    with pytest.raises(ValueError, match=r"geometry\.reduced_radius_transverse: expected none beside contact_length"):
         DiskGeometry(0.02, 0.02, 0.01)
     assert DiskGeometry(0.02, contact_length=0.01).contact(2e11).length == 0.01
 
