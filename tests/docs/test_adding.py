@@ -1,0 +1,40 @@
+"""The page on what a change touches names the files that know a family of bearings."""
+
+import re
+from pathlib import Path
+
+import test_layers
+
+from jaxbearing.bearings.bearing import AbstractBearing
+
+PAGE = (Path(__file__).parents[2] / "docs" / "adding.md").read_text(encoding="utf-8")
+FAMILIES = ("ball", "cylindrical", "tapered")
+OWN = tuple(f"bearings/{name}/" for name in (*FAMILIES, "motion"))
+
+
+def test_files_that_know_a_family():
+    known = set()
+    for path in test_layers.modules(test_layers.PACKAGE):
+        name = path.relative_to(test_layers.PACKAGE).as_posix()
+        modules = (f"jaxbearing.bearings.{family}." for family in FAMILIES)
+        if not name.startswith(OWN) and any(
+            f"{imported}.".startswith(module) for module in modules for imported in test_layers.imported_modules(path)
+        ):
+            known.add(name)
+    (listed,) = re.findall(r"^```text\n(.*?)^```", PAGE, flags=re.MULTILINE | re.DOTALL)
+    assert known == set(listed.split())
+
+
+def test_what_a_family_is_asked_is_there():
+    (table,) = re.findall(r"^\| asked by \|.*?\n\n", PAGE, flags=re.MULTILINE | re.DOTALL)
+    asked = {name for row in table.strip().splitlines()[2:] for name in re.findall(r"`(\w+)`", row.split("|")[-2])}
+    assert asked <= set(dir(AbstractBearing))
+    assert set(AbstractBearing.__abstractmethods__) <= asked | {"slips"}
+
+
+def test_files_of_the_table_are_there():
+    (table,) = re.findall(r"^\| to add \|.*?\n\n", PAGE, flags=re.MULTILINE | re.DOTALL)
+    files = re.findall(r"`((?:\w+/)*\w+\.py)`", table)
+    here = {path.relative_to(test_layers.PACKAGE).as_posix() for path in test_layers.modules(test_layers.PACKAGE)}
+    in_families = {"solution.py", "steady.py"}
+    assert set(files) - in_families - {name for name in files if "FAMILY" in name} <= here
