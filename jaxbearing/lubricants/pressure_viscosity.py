@@ -49,7 +49,7 @@ class ConstantPressureViscosity(AbstractPressureViscosity):
     **Validity:** a baseline; the coefficient of real oils halves between 0 and 100 C.
     """
 
-    value: Scalar = bounded("> 0", unit="1/Pa")
+    value: Scalar = bounded(">= 0", unit="1/Pa")
 
     def coefficient(self, temperature: Values) -> Batch:
         require_temperature(temperature)

@@ -56,13 +56,17 @@ class _FallingViscosities(Law):
             yield refusal_at("viscosity_2", expected, _cst(self.viscosity_2))
 
 
+_RISE = units.INVERSE_PRESSURE.expected("> 0")
+
+
 class _RisesWithPressure(Law):
     """In a file a viscosity that does not rise is more likely a slip; the class is used for closed forms too."""
 
     @check
     def _rises(self) -> Problems:
-        if self.pressure_viscosity == 0.0:
-            yield refusal_at("pressure_viscosity", units.INVERSE_PRESSURE.expected("> 0"), "0")
+        for name in ("pressure_viscosity", "value"):
+            if getattr(self, name, None) == 0.0:
+                yield refusal_at(name, _RISE, "0")
 
 
 class _ExponentOfFunction(Law):
@@ -103,7 +107,7 @@ VISCOSITIES: dict[str, type[Law]] = {
 }
 """Laws of viscosity by name."""
 PRESSURE_VISCOSITIES: dict[str, type[Law]] = {
-    "constant": law_table("constant", ConstantPressureViscosity),
+    "constant": law_table("constant", ConstantPressureViscosity, base=_RisesWithPressure),
     "fitted": law_table("fitted", FittedPressureViscosity),
     "integrated": law_table("integrated", IntegratedPressureViscosity),
 }
@@ -176,9 +180,13 @@ def _oil_name(value: Any) -> str:
 
 
 _Viscosity = _law_field("Viscosity", VISCOSITIES, Annotated[None, BeforeValidator(_no_text)])
-_PressureViscosity = _law_field(
-    "PressureViscosity", PRESSURE_VISCOSITIES, number_of(ConstantPressureViscosity, "value")
-)
+_Rise = Annotated[
+    float,
+    units.QuantityValidator(
+        lambda given: units.quantity(given, units.INVERSE_PRESSURE, "> 0"), dimension=units.INVERSE_PRESSURE
+    ),
+]
+_PressureViscosity = _law_field("PressureViscosity", PRESSURE_VISCOSITIES, _Rise)
 
 
 _Density = _linear_field(LinearDensityTable, LinearDensity)

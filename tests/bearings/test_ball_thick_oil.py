@@ -91,3 +91,21 @@ def test_converge_and_close():
     left = found.residual_norm * 0.01 * np.hypot(number["axial_load"], number["radial_load"]) * speed
     loss = np.asarray(found.power_loss.total)
     assert np.all(np.abs(found.drive_power - loss) <= 1e-8 * loss + left)
+
+
+@pytest.mark.parametrize("film", ["nijenbanning", "hamrock_dowson"])
+def test_films_under_too_little_thrust(film):
+    """Most balls of an angular contact bearing lose contact, and those opposite the load lie beyond the centre of their
+    inner groove: the ring is where it is without films, but for the films of the loaded balls."""
+    oil = {"oil.name": "mobil_jet_ii", "operation.oil_temperature": "60 degC", "contact.film": film}
+    scene = jb.load_scene("angular_contact_218", {**oil, "operation.radial_load": "10 kN"})
+    dry = jb.jit_solver(scene.replace({"contact": None, "oil": None}))
+    lubricated = jb.jit_solver(scene)
+    for load in (1e3, 1e4, 5e4):
+        for part in (0.0, 0.005, 0.02, 0.1, 0.2):
+            point = {"radial_load": load, "axial_load": part * load}
+            found, bare = lubricated(**point), dry(**point)
+            assert bool(found.converged), (load, part)
+            # films are about 1 um thick
+            np.testing.assert_allclose(found.ring.radial, bare.ring.radial, atol=5e-6)
+            np.testing.assert_allclose(found.force[:2], [part * load, load], rtol=1e-8, atol=1e-6 * load)

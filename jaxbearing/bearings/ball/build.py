@@ -165,6 +165,8 @@ def _guess(core: BallCore, point: ArrowPoint) -> BallGuess:
     control = jax.nn.sigmoid(CONTROL_AT_EQUAL_LOADS + CONTROL_BY_LOAD * (log_load[1] - log_load[0]))
     low, high = core.kinematics.outer_control(outer), core.kinematics.inner_control(inner)
     ring = point.globals[: len(core.freedoms)] * LENGTH_UNIT
+    # a ball beyond the centre of its inner groove: in a film thicker than the groove's radius, on the near side
+    inner = jnp.where(jnp.abs(inner) > 0.5 * jnp.pi, inner - jnp.pi * jnp.sign(inner), inner)
     guess = BallGuess(log_load[0], inner, high + control * (low - high), ring)
     return jax.lax.stop_gradient(jax.tree.map(lambda leaf: jnp.where(jnp.isfinite(leaf), leaf, 0.0), guess))
 

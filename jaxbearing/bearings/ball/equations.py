@@ -476,8 +476,10 @@ class LubricatedBallSystem(AbstractBallSystem):
         along = groove[0] * jnp.sin(angle[0]) + groove[1] * jnp.cos(angle[0])
         across = groove[0] * jnp.cos(angle[0]) - groove[1] * jnp.sin(angle[0])
         opening = grooves.offset[0] + grooves.offset[1] * cosine - along
-        apart = compression[0] + compression[1] * cosine + jnp.maximum(opening, 0.0)
-        together = film[0] + film[1] * cosine + jnp.maximum(-opening, 0.0)
+        # all terms of both sides are positive, also of contacts whose normals make an obtuse angle
+        same, against = jnp.maximum(cosine, 0.0), jnp.maximum(-cosine, 0.0)
+        apart = compression[0] + compression[1] * same + film[1] * against + jnp.maximum(opening, 0.0)
+        together = film[0] + film[1] * same + compression[1] * against + jnp.maximum(-opening, 0.0)
         fit = jnp.stack([jnp.log(apart / together), (reach * sine - across) / grooves.centre_distance])
         return fit, centre, arm, on_ring
 
