@@ -60,6 +60,12 @@ def test_nothing_but_what_the_program_itself_says(order, cache):
     assert stderr_of(order, cache) == "done\n"
 
 
+@pytest.mark.parametrize("order", ["jaxbearing", "jax, jaxbearing"])
+def test_started_by_a_program_that_uses_jax(order, cache):
+    """JAX sets the level of its compiler to 1 for itself and for what it starts."""
+    assert stderr_of(order, cache, TF_CPP_MIN_LOG_LEVEL="1") == "done\n"
+
+
 def test_the_level_of_the_user_stands(cache):
     """XLA says what it does, whatever the processor; the loader complains on those only whose gathers LLVM tunes (the
     complaint did not come on an older EPYC, with the package as it was either)."""

@@ -28,13 +28,13 @@ def silence_compiler() -> None:
     """Lets the compiler say fatal errors only, unless the user has set its level; for a process in which nothing has
     imported JAX yet, which reads the level once."""
     if "jax" not in sys.modules:
-        os.environ.setdefault(_LEVEL, "3")
-        _State.silent = True
+        # 1 and 2 are what other programs set, JAX itself in a process that starts this one: false alarms pass them
+        _State.silent = os.environ.setdefault(_LEVEL, "3") not in ("1", "2")
 
 
 class _State:
     silent = False
-    """True if the compiler's level of messages has been set, by the package or by the user."""
+    """True if the level of the compiler's messages keeps its false alarms away, or the user asks for all of them."""
 
 
 def compiler_is_loud() -> bool:
