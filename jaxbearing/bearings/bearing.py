@@ -36,7 +36,7 @@ class AbstractBearing(AbstractScene):
     yield_pressure: ClassVar[float] = ROLLER_PRESSURE
     """Hertz pressure beyond which elements and races yield, Pa."""
     without_effect: ClassVar[str] = "traction on the raceways"
-    """What a scene lacks whose `unused_parts` have no effect."""
+    """Part that a scene lacks whose `unused_parts` have no effect."""
 
     geometry: eqx.AbstractVar[Any]
     operation: eqx.AbstractVar[Any]

@@ -1,4 +1,4 @@
-"""What range checks look at: the contacts that a solve states, and the checks of a family of bearings."""
+"""Facts that range checks look at: the contacts that a solve states, and the checks of a family of bearings."""
 
 from collections.abc import Callable
 from typing import Any, NamedTuple

@@ -31,7 +31,7 @@ class Interaction(NamedTuple):
 
 
 class Costs(NamedTuple, Generic[Losses]):
-    """What all interactions together cost: losses and drive power, W, torques on the rings, N m; `None`: no loss is
+    """Costs of all interactions together: losses and drive power, W, torques on the rings, N m; `None`: no loss is
     modelled."""
 
     power_loss: Losses

@@ -1,4 +1,4 @@
-"""What a drawing shows of a bearing: shapes in a section through its axis and one rolling element, mm.
+"""Shapes that a drawing shows of a bearing, in a section through its axis and one rolling element, mm.
 
 The origin is the middle of the element; x points along the axis of the bearing, which lies below, and y outwards.
 """

@@ -1,4 +1,4 @@
-"""What a bearing tells the life of itself: sizes of its raceway contacts, and what they carry."""
+"""Facts that a bearing states for its life: sizes of its raceway contacts, and what they carry."""
 
 from typing import NamedTuple
 

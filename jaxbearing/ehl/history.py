@@ -46,7 +46,7 @@ class LineContactHistory(AbstractSolution):
     """
 
     of: ClassVar[str] = "line contact"
-    """What it is a state of, for messages."""
+    """Name of the thing that it is a state of, for messages."""
 
     status: Int[Array, ""] = eqx.field(metadata=label("1", "how the run ended"))
     time: Float[Array, " time"] = eqx.field(metadata=label("s", "time"))

@@ -31,7 +31,7 @@ class FilmState(eqx.Module):
     """
 
     of: ClassVar[str] = "line contact"
-    """What it is a state of, for messages."""
+    """Name of the thing that it is a state of, for messages."""
 
     x: Float[Array | np.ndarray, " node"] = eqx.field(metadata=label("m", "place of the node along rolling"))
     time: Float[Array | np.ndarray, ""] = eqx.field(metadata=label("s", "time from which a run can go on"))

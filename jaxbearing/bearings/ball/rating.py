@@ -1,4 +1,4 @@
-"""What the life of a ball bearing is computed from."""
+"""Sizes and loads of a ball bearing from which its life is computed."""
 
 from typing import Any
 

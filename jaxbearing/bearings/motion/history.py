@@ -84,7 +84,7 @@ class LastState(eqx.Module):
     """
 
     of: ClassVar[str] = "bearing"
-    """What it is a state of, for messages."""
+    """Name of the thing that it is a state of, for messages."""
 
     time: Float[Array | np.ndarray, ""]
     rollers: Float[Array | np.ndarray, "3 roller"]
@@ -125,7 +125,7 @@ class History(AbstractSolution):
     """
 
     of: ClassVar[str] = "bearing"
-    """What it is a state of, for messages."""
+    """Name of the thing that it is a state of, for messages."""
 
     status: Int[Array, ""] = eqx.field(metadata=label("1", "how the run ended"))
     time: Float[Array, " time"] = eqx.field(metadata=label("s", "time"))

@@ -1,4 +1,4 @@
-"""What the life of a tapered roller bearing is computed from."""
+"""Sizes and loads of a tapered roller bearing from which its life is computed."""
 
 from typing import Any
 
