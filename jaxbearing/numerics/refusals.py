@@ -15,14 +15,14 @@ class Refusals(ValueError):
 
 
 UNDECIDED = (AttributeError, TypeError)
-"""What a rule raises that needs a value which is refused already, where `collecting`."""
+"""Errors of a rule that needs a value which is refused already, where `collecting`."""
 _COLLECTED: ContextVar[list[ValueError] | None] = ContextVar("refusals that are collected", default=None)
 
 
 @contextmanager
 def collecting() -> Iterator[list[ValueError]]:
     """Inside, `refuse_all` adds to this list instead of raising, and rules that cannot be decided are passed over: for
-    objects that are made to find all that is wrong with them, and are used only where nothing is."""
+    objects that are made to find all that is wrong with them, and are not used."""
     found: list[ValueError] = []
     token = _COLLECTED.set(found)
     try:

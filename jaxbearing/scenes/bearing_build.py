@@ -3,7 +3,7 @@
 import dataclasses
 import re
 import typing
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from contextlib import suppress
 from typing import Any, TypeVar
 
@@ -11,7 +11,7 @@ import jax
 
 from ..bearings.cage import AbstractCage
 from ..numerics.checks import STAND_IN
-from ..numerics.refusals import UNDECIDED, collecting, refusals_of, refuse_all
+from ..numerics.refusals import collecting, refusals_of, refuse_all
 from .drafts import Unreadable
 from .laws import TURBULENCE
 from .table import Table
@@ -26,29 +26,30 @@ def built(kind: type[Part], **parts: Callable[[], Any]) -> Part:
     **Raises:** `ValueError` with everything that the classes refuse; `Unreadable` for a part of a table that is refused
     already.
     """
+    error: ValueError | Unreadable = Unreadable(kind.__name__)
+    try:
+        made = {name: make() for name, make in parts.items()}
+        if all(leaf is not STAND_IN for leaf in jax.tree.leaves(made)):
+            return kind(**made)
+    except (ValueError, Unreadable) as found:
+        error = found
+    refuse_all(_problems(kind, parts))
+    raise error
+
+
+def _problems(kind: type[Any], parts: Mapping[str, Callable[[], Any]]) -> list[ValueError]:
+    """All that the rules of the parts, and those between them, refuse, as far as they can be decided."""
     made: dict[str, Any] = {}
-    unreadable: Unreadable | None = None
     with collecting() as problems:
         for name, make in parts.items():
             before = len(problems)
-            try:
+            with suppress(Unreadable):
                 problems += refusals_of(lambda name=name, make=make: made.update({name: make()}))
-            except Unreadable as error:
-                unreadable = error
-            except UNDECIDED:
-                unreadable = Unreadable(name)
             if name not in made:
                 made[name] = _blank(kind, name)
             _without_refused(made[name], name, problems[before:])
-        sound = unreadable is None and not problems and all(leaf is not STAND_IN for leaf in jax.tree.leaves(made))
-        if not sound:
-            # rules between the parts, as far as they can be decided
-            with suppress(*UNDECIDED):
-                problems += refusals_of(lambda: kind(**made))
-    refuse_all(problems)
-    if not sound:
-        raise unreadable or Unreadable(kind.__name__)
-    return kind(**made)
+        problems += refusals_of(lambda: kind(**made))
+    return problems
 
 
 class _Blank:

@@ -61,7 +61,7 @@ def fields(model: type[BaseModel], owner: type | None) -> Iterator[Field]:
 
 
 def _described(owner: type | None, name: str) -> str:
-    """What a class says of its argument."""
+    """Words of a class about its argument."""
     text = described_argument(owner, name) if owner is not None else ""
     return text.removeprefix(f"{name.replace('_', ' ')}: ")
 

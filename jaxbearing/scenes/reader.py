@@ -25,7 +25,7 @@ _KIND_EXAMPLE = 'kind = "cylindrical_roller_bearing"'
 
 
 class _Kind(NamedTuple):
-    """Where to find what belongs to a kind of scene: modules beside this one, and names in them."""
+    """Schema and builder of a kind of scene: modules beside this one, and names in them."""
 
     schema: str
     table: str

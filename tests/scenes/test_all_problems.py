@@ -146,3 +146,14 @@ def test_of_the_changes():
     changes = {"geometry.n_rolers": "none", "contact.film.order": "3", "cagee": "none", "drag.coefficient": "-1"}
     expected = ["geometry.n_rolers", "contact.film.order", "cagee", "drag.coefficient"]
     assert sorted(refused("turbine_roller", changes)) == sorted(expected)
+
+
+def test_an_error_of_the_program_is_no_refusal(monkeypatch):
+    """A rule that breaks by itself is not passed over where nothing is refused."""
+
+    def broken(self):
+        raise TypeError("a rule of the program")
+
+    monkeypatch.setattr(jb.RollerGeometry, "_problems", broken)
+    with pytest.raises(TypeError, match="a rule of the program"):
+        jb.load_scene("turbine_roller")
