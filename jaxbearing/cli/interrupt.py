@@ -16,9 +16,10 @@ from contextlib import contextmanager
 
 import typer
 
-from ..numerics.interrupts import end_now, listening, note_interrupt
+from ..numerics.interrupts import end_now, listening, note_interrupt, say_at_end
 
 NOTHING = "nothing was computed"
+ALL = "all results are there"
 _SHOW_CURSOR = b"\r\x1b[2K\x1b[?25h"
 """A bar that is being drawn hides it."""
 _WAIT = b"\r\ninterrupted: what is under way is finished first; Ctrl-C again ends it at once\r\n"
@@ -68,6 +69,7 @@ def prompt_interrupt() -> Iterator[None]:
         with listening():
             yield
     finally:
+        say_at_end(_words[0]())
         signal.set_wakeup_fd(wakeup)
         os.close(writer)
         watcher.join()

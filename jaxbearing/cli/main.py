@@ -14,7 +14,7 @@ import typer
 from ..numerics.garbage import rare_garbage_collection
 from .fields_verb import fields
 from .fit_verb import fit
-from .interrupt import prompt_interrupt, tell
+from .interrupt import ALL, if_interrupted, prompt_interrupt, tell
 from .messages import BAD_INPUT, INTERRUPTED, NO_OUTPUT, say
 from .quiet import only_news
 from .report_verb import report
@@ -49,6 +49,8 @@ def main() -> None:
     """Entry point of the console script."""
     with prompt_interrupt():
         code = _run()
+        if code == 0:
+            if_interrupted(ALL)
     sys.exit(code)
 
 

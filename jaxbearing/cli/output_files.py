@@ -10,7 +10,7 @@ from typing import NamedTuple
 import typer
 
 from ..numerics.interrupts import INTERRUPTED, deferred_interrupts
-from .interrupt import if_interrupted, tell
+from .interrupt import ALL, if_interrupted, tell
 from .messages import NO_OUTPUT, refuse, say
 
 PICTURES = (".png", ".svg", ".pdf")
@@ -86,9 +86,11 @@ def deliver(show: Callable[[], None], files: Sequence[Output] = (), notes_to_std
         while left:
             code = max(code, _write(left, written))
     except KeyboardInterrupt:
-        if_interrupted(f"not written: {_named(left)}" if left else "all results are there")
+        if_interrupted(f"not written: {_named(left)}" if left else ALL)
         tell()
         code = INTERRUPTED
+    else:
+        if_interrupted(ALL)
     for file in written:
         if file.done:
             typer.echo(file.done, err=notes_to_stderr)

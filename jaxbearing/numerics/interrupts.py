@@ -17,6 +17,8 @@ from pathlib import Path
 from typing import NoReturn
 
 INTERRUPTED = 130
+_end_words = ["nothing was computed"]
+"""Its only entry: what a command says that Ctrl-C ends before or after its work."""
 
 
 class Deferral:
@@ -95,7 +97,12 @@ def end_command_at_interrupt() -> None:
     called before anything large is imported. A program that imports the package keeps its own way."""
     main_thread = threading.current_thread() is threading.main_thread()
     if main_thread and is_the_command() and signal.getsignal(signal.SIGINT) is signal.default_int_handler:
-        signal.signal(signal.SIGINT, lambda number, frame: end_now(b"interrupted: nothing was computed\n"))
+        signal.signal(signal.SIGINT, lambda number, frame: end_now(f"interrupted: {_end_words[0]}\n".encode()))
+
+
+def say_at_end(words: str) -> None:
+    """Sets the text that follows "interrupted: " when Ctrl-C ends a command whose work is done."""
+    _end_words[0] = words
 
 
 def is_the_command() -> bool:

@@ -25,8 +25,8 @@ SWEEP = ("sweep", *DRY, "--over", "operation.radial_load=5 kN:9 kN:4", "--chunk"
 SWINGING = ("--set", "simulation.speed_ramp=none", "--set", "simulation.speed_perturbation.frequency=1 kHz")
 SWINGING = (*SWINGING, "--set", "simulation.speed_perturbation.amplitude=0.5")
 BEARING = ("turbine_roller_dynamic", "--set", "contact.thermal=none")
-_AT_IMPORT = """
-import os, signal, sys, threading, time
+_HOOK = """
+import atexit, os, signal, sys, threading, time
 # tests started in the background of a shell may ignore Ctrl-C, and so would what they start
 signal.signal(signal.SIGINT, signal.default_int_handler)
 reached = []
@@ -34,45 +34,63 @@ def press():
     with open("pressed", "w") as file:
         file.write(repr(time.time()))
     os.kill(os.getpid(), signal.SIGINT)
-def hook(event, arguments):
-    if event == "import" and arguments[0] == {module!r} and not reached:
+def reach():
+    if not reached:
         reached.append(True)
         threading.Timer({delay}, press).start() if {delay} else press()
+listening = []
+def lowered(event, seconds, **more):
+    if event.endswith("jaxpr_to_mlir_module_duration") and seconds > 0.1:
+        reach()
+def hook(event, arguments):
+    if event != "import":
+        return
+    if arguments[0] == {at!r}:
+        reach()
+    monitoring = sys.modules.get("jax._src.monitoring")
+    if {at!r} == COMPILER and not listening and hasattr(monitoring, "register_event_duration_secs_listener"):
+        listening.append(True)
+        monitoring.register_event_duration_secs_listener(lowered)
+if {at!r} == END:
+    atexit.register(reach)
 sys.addaudithook(hook)
 """
-"""Python runs it before anything else: Ctrl-C comes when a module is imported, or so many seconds later."""
+"""Python runs it before anything else: Ctrl-C comes when a module is imported, when a large program goes to the
+compiler, at the end of the process, or so many seconds later."""
+COMPILER, END = "a large program for the compiler", "the end of the process"
 MOMENTS = {
     "the first import": (("scenes",), "jax", 0),
     "an extension that is being loaded": (("solve", *DRY), "jaxlib._jax", 0),
     "the scene that is being read": (("solve", *DRY), "jaxbearing.scenes.drafts", 0),
-    "the program that is being traced or compiled": (("solve", *BALL), "jaxbearing.solve", 0.7),
+    "the program that is being traced": (("solve", *BALL), "jaxbearing.solve", 0.2),
+    "the end of the process": (("solve", *BALL), END, 0),
     "a run that begins": (
         ("simulate", *LINE, "--duration", "2 ms", "--json", "--out", "a.nc"),
-        "jaxbearing.cli.quiet",
-        0.5,
+        COMPILER,
+        0,
     ),
     "a sweep": (SWEEP, "jaxbearing.sweeps.engine", 0.5),
     "a picture that is being drawn": (("solve", *DRY, "--out", "a.nc", "--plot", "a.png"), "matplotlib.figure", 0),
 }
 DEAR = {
-    "a fit": (("fit", str(MEDIAN), "--scene", "two_disk_etm", "--out", "a.toml"), "fitting.fit", 3.0),
-    "a study": (("study", "reference_roller", "--out", "a.nc"), "jaxbearing.studies", 4.0),
-    "stiffness": (("stiffness", *BALL, "--speeds", "1 rpm:9 rpm:20", "--ross", "a.toml"), "jaxbearing.solve", 1.0),
-    "a report": (("report", "turbine_ball", "--out", "a.html"), "jaxbearing.solve", 4.0),
-    "sensitivities": (("solve", "turbine_roller", "--sensitivities"), "jaxbearing.sensitivity", 6.0),
-    "compilation of a run": (("simulate", *BEARING, "--duration", "5 ms", "--out", "a.nc"), "diffrax", 5.0),
+    "a fit": (("fit", str(MEDIAN), "--scene", "two_disk_etm", "--out", "a.toml"), COMPILER, 0.3),
+    "a study": (("study", "reference_roller", "--out", "a.nc"), COMPILER, 0.3),
+    "stiffness": (("stiffness", *BALL, "--speeds", "1 rpm:9 rpm:20", "--ross", "a.toml"), COMPILER, 0.3),
+    "a report": (("report", "turbine_ball", "--out", "a.html"), COMPILER, 0.3),
+    "sensitivities": (("solve", "turbine_roller", "--sensitivities"), COMPILER, 0.3),
+    "compilation of a run": (("simulate", *BEARING, "--duration", "5 ms", "--out", "a.nc"), COMPILER, 0.3),
 }
 PROMPT = 20.0
 """Longest time from Ctrl-C to the end, s: on a machine that is busy with other tests. Alone it takes 0.1 s."""
 
 
-def pressed(folder, arguments, module, delay):
+def pressed(folder, arguments, at, delay):
     """Exit code, stdout, stderr and seconds after Ctrl-C of a command."""
     (folder / "hook").mkdir()
-    (folder / "hook" / "sitecustomize.py").write_text(_AT_IMPORT.format(module=module, delay=delay), encoding="utf-8")
+    (folder / "hook" / "sitecustomize.py").write_text(_program(at, delay), encoding="utf-8")
     place = folder / "work"
     place.mkdir()
-    variables = environment()
+    variables = environment(**({"JAX_COMPILATION_CACHE_DIR": None} if at == COMPILER else {}))
     variables["PYTHONPATH"] = f"{folder / 'hook'}{os.pathsep}{variables['PYTHONPATH']}"
     command = [sys.executable, "-m", "jaxbearing", *arguments]
     done = subprocess.run(command, cwd=place, env=variables, capture_output=True, text=True, timeout=300, check=False)
@@ -82,6 +100,10 @@ def pressed(folder, arguments, module, delay):
     seconds = end - float(mark.read_text(encoding="utf-8"))
     mark.unlink()
     return done, seconds, place
+
+
+def _program(at, delay):
+    return f"COMPILER, END = {COMPILER!r}, {END!r}\n" + _HOOK.format(at=at, delay=delay)
 
 
 def check(done, seconds):
@@ -100,6 +122,9 @@ def test_any_moment(moment, tmp_path):
         assert os.listdir(place) == ["a.nc"]
     elif moment == "a sweep":
         assert re.fullmatch(r"interrupted: (no case is|[24] of 4 cases are) kept.*\n", done.stderr)
+    elif moment == "the end of the process":
+        assert "CONVERGED" in done.stdout
+        assert done.stderr == "interrupted: all results are there\n"
     else:
         assert (done.stdout, os.listdir(place)) == ("", [])
 
