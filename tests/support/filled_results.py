@@ -121,7 +121,7 @@ def _by_annotation(kind, sizes, **given):
 
 def _field(field, sizes):
     if field.name == "identity":
-        return None  # made of the scene, not of annotations; tests/bearings/test_restart.py has it
+        return None  # made of the scene, not of annotations; tests/bearings/motion/test_restart.py has it
     parts = [one for one in (field.type, *typing.get_args(field.type)) if dataclasses.is_dataclass(one)]
     if parts:
         return _by_annotation(parts[0], sizes)
