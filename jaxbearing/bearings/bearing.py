@@ -29,8 +29,6 @@ class AbstractBearing(AbstractScene):
     computed from.
     """
 
-    modelled_freedoms: ClassVar[tuple[str, ...]] = RING_FREEDOMS
-    """Freedoms of the inner ring that its rolling elements feel."""
     element: ClassVar[str] = "roller"
     """Name of a rolling element."""
     yield_pressure: ClassVar[float] = ROLLER_PRESSURE
@@ -133,6 +131,11 @@ class AbstractBearing(AbstractScene):
     def with_lateral_freedom(self: Bearing) -> Bearing:
         """The scene with the freedoms across the axis that the stiffness of a shaft's support needs."""
         return self
+
+    @property
+    def modelled_freedoms(self) -> tuple[str, ...]:
+        """Freedoms of the inner ring that the bearing resists."""
+        return RING_FREEDOMS
 
     @property
     def skewed(self) -> bool:

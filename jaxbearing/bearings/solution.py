@@ -31,8 +31,8 @@ class RingDisplacement(eqx.Module):
     """Displacement of the inner ring; a degree of freedom that the family does not activate is held at 0.
 
     `axial` is 0 in the middle of the play for ball bearings given by their clearance, where the planes of the grooves
-    coincide, and at first contact of elements and races for those given by their contact angle and for tapered
-    bearings.
+    coincide, and for cylindrical roller bearings with flanges; it is 0 at first contact of elements and races for ball
+    bearings given by their contact angle and for tapered bearings.
     """
 
     axial: Float[Array, ""] = eqx.field(

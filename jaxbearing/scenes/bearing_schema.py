@@ -40,8 +40,7 @@ class OperationBase(Table):
 
 def operation_table(operation: type[AbstractOperation]) -> Any:
     """The operating point of a kind of bearing. The oil is needed by lubricated bearings only."""
-    carried = [name for name in operation.not_carried if "." not in name]
-    return table_of(operation, leave_out=carried, optional=("oil_temperature", "oil_flow"), base=OperationBase)
+    return table_of(operation, optional=("oil_temperature", "oil_flow"), base=OperationBase)
 
 
 class RatingTable(table_of(Rating)):

@@ -18,7 +18,7 @@ from .reader import read_tables, scene_model
 _ARGUMENT = re.compile(r"^\s*- (?P<names>`\w+`.*?): (?P<text>.*)$")
 _NO_NEWS = re.compile(
     r"(?:m|s|rad|rad/s|N|N m|N/m|K|Pa|Pa s|Hz|m/s|m\^2/s|m\^3/s|1/Pa|K/Pa|K\^2/Pa|kg/m\^3|kg/\(m\^3 K\)|W/\(m K\)"
-    r"|W/\(m K\^2\)|structure|[<>]=? ?[\d.e-]+)\.?"
+    r"|W/\(m K\^2\)|N/m\^\(10/9\)|structure|[<>]=? ?[\d.e-]+)\.?"
 )
 """Units and bounds in the text of an argument: the value beside it has its unit."""
 

@@ -19,6 +19,8 @@ from .table_of import table_of
 class GeometryTable(table_of(RollerGeometry)):
     """See `bearings.cylindrical.scene.RollerGeometry`."""
 
+    about: ClassVar[Mapping[str, tuple[str, ...]]] = {"flange_stiffness": ("flange_gap", "thrust")}
+
 
 class MaterialsTable(Table):
     rings: MaterialField
@@ -75,7 +77,6 @@ class DragTable(table_of(Drag)):
 class OperationTable(operation_table(Operation)):
     """See `bearings.operation.Operation`."""
 
-    not_yet: ClassVar[Mapping[str, str]] = {"axial_load": "a radial load only, beside a moment or misalignment"}
     needs: ClassVar[tuple[str, ...]] = ("radial_load",)
 
 
