@@ -7,6 +7,7 @@ running (a roller between a turning inner and a fixed outer ring spins clockwise
 `spin_speed`). Pocket face 1 is in front of the roller, face 2 behind it.
 """
 
+import dataclasses
 import math
 from collections.abc import Callable, Iterator, Mapping
 from typing import Any, ClassVar, Literal
@@ -17,6 +18,7 @@ from jaxtyping import Array
 
 from ..._types import Scalar
 from ...lubricants import Lubricant, NoPressureViscosity
+from ...mounting import Fits, PartTemperatures
 from ...numerics.checks import Checked, demand, given
 from ...numerics.newton import NewtonOptions
 from ...numerics.refusals import refusals_of, refuse_all
@@ -25,7 +27,9 @@ from ..bearing import AbstractBearing
 from ..cage import ASSUMED_LANDS as ASSUMED_LANDS
 from ..cage import AbstractCage
 from ..facts import RangeChecks
+from ..growth import Growth, Play
 from ..motion.settings import Simulation
+from ..mounted import mounting_problems
 from ..operation import Operation
 from ..outline import Outline
 from ..parts import (
@@ -61,6 +65,7 @@ class RollerGeometry(Checked):
     - `contact_length`: cylindrical length that carries load, m, > 0; `roller_length` where not given.
     - `diametral_clearance`: DIAMETRAL internal clearance of the assembled bearing, m; negative: preload.
     - `first_element_angle`: azimuth of the first roller, rad; not given: 0, and the load line is a line of symmetry.
+    - `bore`, `outside_diameter`, `width`: boundary dimensions of the bearing, m, for what knows its seats.
     """
 
     part: ClassVar[str] = "geometry"
@@ -72,6 +77,9 @@ class RollerGeometry(Checked):
     diametral_clearance: Scalar = number(unit="m")
     contact_length: Scalar | None = optional_number(bound="> 0", unit="m")
     first_element_angle: Scalar | None = optional_number(metadata=FIRST_ELEMENT)
+    bore: Scalar | None = optional_number(bound="> 0", unit="m")
+    outside_diameter: Scalar | None = optional_number(bound="> 0", unit="m")
+    width: Scalar | None = optional_number(bound="> 0", unit="m")
 
     def __check_init__(self):
         super().__check_init__()
@@ -209,11 +217,14 @@ class CylindricalRollerBearing(AbstractBearing):
     ring_freedom: tuple[str, ...] = eqx.field(static=True, converter=_freedoms, default=("radial",))
     rating: Rating | None = None
     profile: RollerProfile | None = None
+    fits: Fits | None = None
+    temperatures: PartTemperatures | None = None
 
     def __check_init__(self):
         refuse_all(self._problems())
 
     def _problems(self) -> Iterator[str | ValueError]:
+        yield from mounting_problems(self)
         if self.simulation is not None:
             yield from refusals_of(check_run, self.operation)
         if self.contact is None:
@@ -267,6 +278,24 @@ class CylindricalRollerBearing(AbstractBearing):
         from .tilting_steady import solve_tilting
 
         return solve_tilting(self, options, ring)
+
+    @property
+    def raceway_diameters(self) -> tuple[Array, Array]:
+        geometry = self.geometry
+        return (
+            jnp.asarray(geometry.pitch_diameter - geometry.roller_diameter),
+            jnp.asarray(geometry.pitch_diameter + geometry.roller_diameter),
+        )
+
+    def play(self, growth: Growth) -> Play:
+        from .mounting import running_play
+
+        return running_play(self.geometry, growth)
+
+    def grown(self, growth: Growth) -> "CylindricalRollerBearing":
+        from .mounting import running_geometry
+
+        return dataclasses.replace(self, geometry=running_geometry(self.geometry, growth))
 
     def range_checks(self) -> RangeChecks:
         from .checks import CHECKS
