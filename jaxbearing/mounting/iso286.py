@@ -176,7 +176,7 @@ def _step(letter: str, grade: int, width: np.ndarray) -> np.ndarray:
     return step
 
 
-def _place(diameter: Scalar, ends: tuple[float, ...]) -> Array:
+def _place(diameter: Scalar, ends: tuple[int, ...]) -> Array:
     """Range of a diameter. Its round-off in millimetres must not lift a nominal size into the next range."""
     return jnp.searchsorted(jnp.asarray(ends, float), jnp.asarray(diameter) * 1e3 * (1.0 - 1e-12), side="left")
 
