@@ -2,6 +2,8 @@
 
 import abc
 import dataclasses
+import functools
+import operator
 from collections.abc import Callable
 from typing import Any, ClassVar, TypeVar
 
@@ -24,7 +26,7 @@ from .outline import Outline
 from .rated import RatedContacts
 from .rating import Rating
 from .ring import InnerRing
-from .solution import RING_FREEDOMS, TILTS, Reason, Solution
+from .solution import RING_FREEDOMS, TILTS, Solution
 
 Bearing = TypeVar("Bearing", bound="AbstractBearing")
 
@@ -64,11 +66,11 @@ class AbstractBearing(AbstractScene):
         """
         if self.fits is None:
             return solve(self)
-        running, fit, possible = running_scene(self)
+        running, fit, impossible = running_scene(self)
+        possible = ~functools.reduce(operator.or_, (reason.applies for reason in impossible.values()))
         solution = solve(dataclasses.replace(running, operation=void(running.operation, possible)))
         good = solution.converged
         checks = {text: good & (excess > 0) for text, excess in fit_excess(self, fit).items()}
-        reasons = {"fits and temperatures leave the rolling elements no contact": Reason(~possible, jnp.zeros(0))}
         return dataclasses.replace(
             solution,
             status=jnp.where(possible, solution.status, int(Status.INVALID_INPUT)),
@@ -76,7 +78,7 @@ class AbstractBearing(AbstractScene):
             fit=jax.tree.map(lambda one: jnp.where(good, one, jnp.nan), fit),
             checks={**solution.checks, **checks},
             notes=(*solution.notes, *self.fits.assumptions()),
-            reasons={**solution.reasons, **reasons},
+            reasons={**solution.reasons, **impossible},
         )
 
     @property

@@ -11,13 +11,13 @@ from collections.abc import Iterator
 from typing import Any, NamedTuple
 
 import jax.numpy as jnp
-from jaxtyping import Array, Bool
 
 from ..mounting import Annulus, Fit, Fits, FitState, PartTemperatures
 from ..mounting.annulus import REFERENCE_TEMPERATURE
 from ..numerics.refusals import refusals_of
 from .facts import Excess
-from .growth import FitResult, Growth
+from .growth import FitResult, Growth, Play
+from .solution import Reason
 
 HIGHEST_STRESS = 127e6
 """Stress around the bore of the inner ring beyond which makers warn of bursting rings of through-hardened steel, Pa."""
@@ -57,14 +57,14 @@ def mounting_problems(scene: Any) -> Iterator[str | ValueError]:
             yield f"{name}.thermal_expansion: found nothing, {needed}"
 
 
-def running_scene(scene: Any) -> tuple[Any, FitResult | None, Bool[Array, ""]]:
+def running_scene(scene: Any) -> tuple[Any, FitResult | None, dict[str, Reason]]:
     """The bearing that runs: a scene of the same family without seats, whose dimensions are those of the mounted, warm
     and turning bearing.
 
-    **Returns:** the scene, the state of its seats (`None` without them), and whether elements and rings can touch.
+    **Returns:** the scene, the state of its seats (`None` without them), and what of its dimensions may be impossible.
     """
     if scene.fits is None:
-        return scene, None, jnp.asarray(True)
+        return scene, None, {}
     cold = _rings(scene, warm=False, turning=False)
     warm = _rings(scene, warm=True, turning=False) if scene.temperatures is not None else cold
     found = _rings(scene, warm=True, turning=True)
@@ -90,7 +90,21 @@ def running_scene(scene: Any) -> tuple[Any, FitResult | None, Bool[Array, ""]]:
         hoop_stress=of.inner.hoop_stress_at_bore(0.0 if of.on_shaft is None else of.on_shaft.pressure),
     )
     unseated = dataclasses.replace(scene, fits=None, temperatures=None)
-    return unseated.grown(found.growth), result, last.possible
+    return unseated.grown(found.growth), result, _impossible(scene, last)
+
+
+def _impossible(scene: Any, play: Play) -> dict[str, Reason]:
+    """What is wrong with the dimensions: a sentence with a place for a number -> whether it is."""
+    geometry, (inner, outer) = scene.geometry, scene.raceway_diameters
+    return {
+        "geometry.bore must be less than the diameter of the inner raceway, {:.6g} m": Reason(
+            ~(geometry.bore < inner), inner
+        ),
+        "geometry.outside_diameter must be more than the diameter of the outer raceway, {:.6g} m": Reason(
+            ~(geometry.outside_diameter > outer), outer
+        ),
+        "fits and temperatures leave the rolling elements no contact": Reason(~play.possible, jnp.zeros(0)),
+    }
 
 
 def _still() -> Growth:

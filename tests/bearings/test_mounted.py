@@ -157,8 +157,8 @@ def test_parts_add_up(mounted):
 
 def test_solve_of_a_mounted_bearing_is_that_of_its_running_dimensions(mounted):
     scene, solution = mounted
-    running, fit, possible = running_scene(scene)
-    assert bool(possible)
+    running, fit, impossible = running_scene(scene)
+    assert not any(bool(reason.applies) for reason in impossible.values())
     own = jb.solve(running)
     assert own.fit is None
     np.testing.assert_allclose(fit.clearance, solution.fit.clearance, rtol=1e-12)
@@ -271,9 +271,7 @@ def test_seats_of_a_bearing_with_a_given_contact_angle():
     solution = jb.solve(scene)
     assert 20.0 < np.degrees(float(solution.fit.contact_angle)) < 26.5
     assert float(np.min(solution.elements.load_inner)) > 0.0
-    plain = jb.solve(
-        jb.load_scene("turbine_ball", dict.fromkeys(("contact", "cage", "drag", "kinematics"), "none"))
-    )
+    plain = jb.solve(jb.load_scene("turbine_ball", dict.fromkeys(("contact", "cage", "drag", "kinematics"), "none")))
     # a flatter angle: higher loads for the same thrust
     assert np.all(np.asarray(solution.elements.load_outer) > np.asarray(plain.elements.load_outer))
 
@@ -293,6 +291,20 @@ def test_seats_of_a_bearing_with_a_given_contact_angle():
 def test_what_is_wrong_is_named(changes, field):
     with pytest.raises(ValueError, match=field):
         jb.load_scene("deep_groove_6205", SEATS | changes)
+
+
+@pytest.mark.parametrize(
+    ("changes", "field"),
+    [
+        ({"geometry.bore": "31 mm"}, "geometry.bore"),
+        ({"geometry.outside_diameter": "46 mm"}, "geometry.outside_diameter"),
+    ],
+)
+def test_rings_without_a_wall_are_refused(changes, field):
+    scene = jb.load_scene("deep_groove_6205", SEATS | changes)
+    with pytest.raises(jb.SolveError, match=field) as refused:
+        jb.solve(scene)
+    assert refused.value.status.text == "invalid_input"
 
 
 def test_classes_of_tolerances_give_the_interference():
