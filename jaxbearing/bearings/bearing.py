@@ -67,6 +67,7 @@ class AbstractBearing(AbstractScene):
         if self.fits is None:
             return solve(self)
         running, fit, impossible = running_scene(self)
+        assert fit is not None
         possible = ~functools.reduce(operator.or_, (reason.applies for reason in impossible.values()))
         solution = solve(dataclasses.replace(running, operation=void(running.operation, possible)))
         good = solution.converged

@@ -107,6 +107,11 @@ def _impossible(scene: Any, play: Play) -> dict[str, Reason]:
     }
 
 
+def running_play(scene: Any) -> Play:
+    """The play of a scene with seats, mounted, warm and turning at its speeds."""
+    return scene.play(_rings(scene, warm=True, turning=True).growth)
+
+
 def _still() -> Growth:
     zero = jnp.zeros(())
     return Growth(zero, zero, zero, zero, zero)

@@ -203,6 +203,8 @@ class Solution(AbstractSolution, Generic[Point, Elements, Losses]):
             for text, reason in self.reasons.items()
             if bool(reason.applies)
         ]
+        if found and int(self.status) == Status.INVALID_INPUT:
+            return f"{Status.INVALID_INPUT.text}: {'; '.join(found)}"
         return "; ".join([self._ending(), *found])
 
     def _ending(self) -> str:

@@ -104,37 +104,25 @@ class Fits(Checked):
 
     def check_room(self, bore: Scalar | None, outside_diameter: Scalar | None) -> None:
         """**Raises:** `ValueError` where shaft or housing has no wall, or a class has no row for the diameter."""
-        sizes = given(bore, self.shaft_bore)
-        if sizes is not None and self.on_shaft:
+        shaft = given(bore, self.shaft_bore)
+        if shaft is not None and self.on_shaft:
             demand(
                 "fits.shaft_bore must be less than geometry.bore",
-                sizes[1] < sizes[0],
-                lambda: f"fits.shaft_bore must be less than geometry.bore, {sizes[0]:.6g} m, got {sizes[1]:.6g} m",
+                shaft[1] < shaft[0],
+                lambda: f"fits.shaft_bore must be less than geometry.bore, {shaft[0]:.6g} m, got {shaft[1]:.6g} m",
             )
-        sizes = given(outside_diameter, self.housing_outside)
-        if sizes is not None and self.in_housing:
+        wall = given(outside_diameter, self.housing_outside)
+        if wall is not None and self.in_housing:
             demand(
                 "fits.housing_outside must be more than geometry.outside_diameter",
-                sizes[1] > sizes[0],
+                wall[1] > wall[0],
                 lambda: (
-                    f"fits.housing_outside must be more than geometry.outside_diameter, {sizes[0]:.6g} m, got "
-                    f"{sizes[1]:.6g} m"
+                    f"fits.housing_outside must be more than geometry.outside_diameter, {wall[0]:.6g} m, got "
+                    f"{wall[1]:.6g} m"
                 ),
             )
-        for name, tolerance, diameter in (
-            ("shaft_tolerance", self.shaft_tolerance, given(bore)),
-            ("housing_tolerance", self.housing_tolerance, given(outside_diameter)),
-        ):
-            if tolerance is not None and diameter is not None:
-                least, most = iso286.covered(tolerance)
-                demand(
-                    f"fits.{name}: the tables of ISO 286 must hold the diameter of the seat",
-                    (diameter[0] > least) & (diameter[0] <= most),
-                    lambda name=name, tolerance=tolerance, size=diameter[0], least=least, most=most: (
-                        f"fits.{name}: the tables have {tolerance} above {1e3 * least:g} and up to {1e3 * most:g} mm, "
-                        f"the seat has {1e3 * float(size):g} mm; give an interference instead"
-                    ),
-                )
+        _check_covered("shaft_tolerance", self.shaft_tolerance, bore)
+        _check_covered("housing_tolerance", self.housing_tolerance, outside_diameter)
 
     def assumptions(self) -> tuple[str, ...]:
         """Notes for the user."""
@@ -144,6 +132,22 @@ class Fits(Checked):
         if self.in_housing and self.housing_outside is None:
             said.append(f"fits.housing_outside is not given: assumed {ASSUMED_HOUSING:g} times the outside diameter")
         return tuple(said)
+
+
+def _check_covered(name: str, tolerance: str | None, diameter: Scalar | None) -> None:
+    """**Raises:** `ValueError` where the tables do not have this diameter, as far as it is known."""
+    size = given(diameter)
+    if tolerance is None or size is None:
+        return
+    least, most = iso286.covered(tolerance)
+    demand(
+        f"fits.{name}: the tables of ISO 286 must hold the diameter of the seat",
+        (size[0] > least) & (size[0] <= most),
+        lambda: (
+            f"fits.{name}: the tables have {tolerance} above {1e3 * least:g} and up to {1e3 * most:g} mm, the seat has "
+            f"{1e3 * float(size[0]):g} mm; give an interference instead"
+        ),
+    )
 
 
 class PartTemperatures(Checked):

@@ -98,7 +98,7 @@ def seats(table: Any) -> dict[str, Callable[[], Any]]:
 def _fits(table: FitsTable) -> Fits:
     names = ("shaft_material", "housing_material")
     of = {name: getattr(table, name) for name in names}
-    given = {name: material(one, thermal=True) for name, one in of.items() if one is not None}
+    given: dict[str, Any] = {name: material(one, thermal=True) for name, one in of.items() if one is not None}
     return Fits(**table.model_dump(exclude=set(names)), **given)
 
 

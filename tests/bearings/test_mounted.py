@@ -13,10 +13,13 @@ from jaxbearing.bearings.ball.geometry import BallGeometry
 from jaxbearing.bearings.ball.mounting import groove_bottoms, running_geometry, running_play
 from jaxbearing.bearings.cylindrical.mounting import running_play as roller_play
 from jaxbearing.bearings.growth import Growth
+from jaxbearing.bearings.motion.settings import Simulation
+from jaxbearing.bearings.motion.start import build_dynamics
 from jaxbearing.bearings.mounted import running_scene
 from jaxbearing.bearings.tapered.build import build_tapered
 from jaxbearing.bearings.tapered.mounting import closing
 from jaxbearing.bearings.tapered.mounting import running_play as tapered_play
+from jaxbearing.time_laws import LinearRamp
 
 UM = 1e-6
 STEEL, M50, NITRIDE = 12.5e-6, 12.3e-6, 3.2e-6
@@ -305,6 +308,24 @@ def test_rings_without_a_wall_are_refused(changes, field):
     with pytest.raises(jb.SolveError, match=field) as refused:
         jb.solve(scene)
     assert refused.value.status.text == "invalid_input"
+
+
+def test_clearance_in_motion_follows_the_speed():
+    """A roller bearing on its shaft that turns faster and faster: at each speed the clearance of a steady solve."""
+    seats = {
+        "geometry.bore": "118 mm",
+        "geometry.outside_diameter": "175 mm",
+        "fits.shaft_interference": "40 um",
+        "fits.shaft_bore": "90 mm",
+    }
+    scene = jb.load_scene("turbine_roller_dynamic", seats)
+    dynamics = build_dynamics(scene, Simulation(speed=LinearRamp(0.1, 1.0, 1.0)))
+    found = [2.0 * dynamics._radial_clearance(dynamics.motion(time)) for time in (0.0, 0.5, 1.0)]
+    factors = [0.1, 0.55, 1.0]
+    speeds = [float(scene.operation.inner_speed) * factor for factor in factors]
+    steady = [running_scene(scene.at_operation(inner_speed=speed))[1].clearance for speed in speeds]
+    np.testing.assert_allclose(found, steady, rtol=1e-12)
+    assert found[2] < found[1] < found[0]
 
 
 def test_classes_of_tolerances_give_the_interference():
