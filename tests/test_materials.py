@@ -8,7 +8,7 @@ import jax
 import numpy as np
 import pytest
 
-from jaxbearing.materials import CATALOGUE, THERMAL_FIELDS, Material, reduced_modulus
+from jaxbearing.materials import CATALOGUE, THERMAL_FIELDS, Material, catalogue_material, reduced_modulus
 
 
 def test_equal_bodies():
