@@ -153,9 +153,12 @@ def _react_any(
         return dataclasses.replace(solution, status=jnp.where(finite, solution.status, int(Status.INVALID_INPUT)))
 
     def at_displacement(lane: AbstractBearing, displacement: Array, closure: Array, expansion: Array) -> Solution:
-        distance = lane.port_distance if at == "port" else jnp.zeros(())
-        ring = held_ring(displacement, lane.ring_lever, distance, closure, expansion)
-        return lane.solve_ring(options, ring, None if tilt is None else tilt == "exact")
+        def of_running(running: AbstractBearing) -> Solution:
+            distance = running.port_distance if at == "port" else jnp.zeros(())
+            ring = held_ring(displacement, running.ring_lever, distance, closure, expansion)
+            return running.solve_ring(options, ring, None if tilt is None else tilt == "exact")
+
+        return lane.solved_running(of_running)
 
     return with_checked_inputs(scene, react)
 

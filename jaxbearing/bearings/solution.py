@@ -14,6 +14,7 @@ from jaxtyping import Array, Bool, Float, Int
 from .._scene import AbstractSolution
 from .._scene import label as label
 from ..numerics.status import Status
+from .growth import FitResult
 
 INNER_TOLERANCE = 1e-8
 """Residual of a nested solve above which it is named as the reason of a failure."""
@@ -173,6 +174,7 @@ class Solution(AbstractSolution, Generic[Point, Elements, Losses]):
     laminae: LaminaLoads | None = None
     held_freedom: tuple[str, ...] = eqx.field(static=True, default=())
     """Freedoms of the ring that are held where they are, and not free under a given load."""
+    fit: FitResult | None = None
     reasons: dict[str, Reason] = eqx.field(default_factory=dict)
     """Possible causes of a failed solve: a sentence with places for numbers, such as `{:.3g}` -> the numbers."""
     life: Any = None
@@ -201,6 +203,8 @@ class Solution(AbstractSolution, Generic[Point, Elements, Losses]):
             for text, reason in self.reasons.items()
             if bool(reason.applies)
         ]
+        if found and int(self.status) == Status.INVALID_INPUT:
+            return f"{Status.INVALID_INPUT.text}: {'; '.join(found)}"
         return "; ".join([self._ending(), *found])
 
     def _ending(self) -> str:

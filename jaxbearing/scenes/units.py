@@ -77,6 +77,8 @@ KELVIN_PER_PRESSURE = Dimension("a temperature over a pressure", "K/Pa", "-2348.
 KELVIN2_PER_PRESSURE = Dimension("a squared temperature over a pressure", "K^2/Pa", "403871.5 K^2/GPa")
 TIME = Dimension("a time", "s", "50 ms")
 FREQUENCY = Dimension("a frequency", "1/s", "40 Hz")
+THERMAL_EXPANSION = Dimension("a thermal expansion", "1/K", "12.5e-6 1/K")
+HEAT_CAPACITY = Dimension("a specific heat capacity", "J/(kg*K)", "460 J/(kg*K)")
 TANGENTIAL_COMPLIANCE = Dimension("a tangential compliance", "m/Pa", "1e-15 m/Pa")
 
 
@@ -85,7 +87,8 @@ _BY_UNIT = {
     for one in (
         *(LENGTH, ANGLE, SPEED, SURFACE_SPEED, FORCE, LINE_LOAD, MOMENT, PRESSURE, INVERSE_PRESSURE, TEMPERATURE, FLOW),
         *(DENSITY, VISCOSITY, KINEMATIC_VISCOSITY, CONDUCTIVITY, CONDUCTIVITY_SLOPE, KELVIN_PER_PRESSURE),
-        *(KELVIN2_PER_PRESSURE, TIME, FREQUENCY, TANGENTIAL_COMPLIANCE, LINE_CONTACT_STIFFNESS),
+        *(KELVIN2_PER_PRESSURE, TIME, FREQUENCY, TANGENTIAL_COMPLIANCE, LINE_CONTACT_STIFFNESS, THERMAL_EXPANSION),
+        HEAT_CAPACITY,
     )
 } | {"kg/(m^3 K)": DENSITY_SLOPE}
 

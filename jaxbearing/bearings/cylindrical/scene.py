@@ -7,6 +7,7 @@ running (a roller between a turning inner and a fixed outer ring spins clockwise
 `spin_speed`). Pocket face 1 is in front of the roller, face 2 behind it.
 """
 
+import dataclasses
 import math
 from collections.abc import Callable, Iterator, Mapping
 from typing import Any, ClassVar, Literal
@@ -17,6 +18,7 @@ from jaxtyping import Array
 
 from ..._types import Scalar
 from ...lubricants import Lubricant, NoPressureViscosity
+from ...mounting import Fits, PartTemperatures
 from ...numerics.checks import Checked, demand, given
 from ...numerics.newton import NewtonOptions
 from ...numerics.refusals import refusals_of, refuse_all
@@ -25,7 +27,9 @@ from ..bearing import AbstractBearing
 from ..cage import ASSUMED_LANDS as ASSUMED_LANDS
 from ..cage import AbstractCage
 from ..facts import RangeChecks
+from ..growth import Growth, Play
 from ..motion.settings import Simulation
+from ..mounted import mounting_problems
 from ..operation import Operation
 from ..outline import Outline
 from ..parts import (
@@ -72,6 +76,7 @@ class RollerGeometry(Checked):
       >= 0; half of the axial clearance between two flanges; `flange_stiffness` needs it.
     - `thrust`: sense of the axial loads on the inner ring that its flanges carry, "+x" or "-x" (type NJ) or "both"
       (type NUP); not given: both (structure).
+    - `bore`, `outside_diameter`, `width`: boundary dimensions of the bearing, m, for what knows its seats.
     """
 
     part: ClassVar[str] = "geometry"
@@ -86,6 +91,9 @@ class RollerGeometry(Checked):
     flange_stiffness: Scalar | None = optional_number(bound="> 0", unit="N/m^(10/9)")
     flange_gap: Scalar | None = optional_number(bound=">= 0", unit="m")
     thrust: Literal["both", "+x", "-x"] | None = choice("geometry.thrust", SIDES, None)
+    bore: Scalar | None = optional_number(bound="> 0", unit="m")
+    outside_diameter: Scalar | None = optional_number(bound="> 0", unit="m")
+    width: Scalar | None = optional_number(bound="> 0", unit="m")
 
     def __check_init__(self):
         super().__check_init__()
@@ -234,12 +242,15 @@ class CylindricalRollerBearing(AbstractBearing):
     ring_freedom: tuple[str, ...] = eqx.field(static=True, converter=_freedoms, default=("radial",))
     rating: Rating | None = None
     profile: RollerProfile | None = None
+    fits: Fits | None = None
+    temperatures: PartTemperatures | None = None
 
     def __check_init__(self):
         refuse_all(self._problems())
 
     def _problems(self) -> Iterator[str | ValueError]:
         yield from refusals_of(check_axial, self.geometry, self.operation)
+        yield from mounting_problems(self)
         if self.simulation is not None:
             yield from refusals_of(check_run, self.operation)
         if self.contact is None:
@@ -298,6 +309,24 @@ class CylindricalRollerBearing(AbstractBearing):
         from .tilting_steady import solve_tilting
 
         return solve_tilting(self, options, ring)
+
+    @property
+    def raceway_diameters(self) -> tuple[Array, Array]:
+        geometry = self.geometry
+        return (
+            jnp.asarray(geometry.pitch_diameter - geometry.roller_diameter),
+            jnp.asarray(geometry.pitch_diameter + geometry.roller_diameter),
+        )
+
+    def play(self, growth: Growth) -> Play:
+        from .mounting import running_play
+
+        return running_play(self.geometry, growth)
+
+    def grown(self, growth: Growth) -> "CylindricalRollerBearing":
+        from .mounting import running_geometry
+
+        return dataclasses.replace(self, geometry=running_geometry(self.geometry, growth))
 
     def range_checks(self) -> RangeChecks:
         from .checks import CHECKS

@@ -23,6 +23,7 @@ from ..screen import (
     print_table,
     print_warnings,
 )
+from .fit_facts import fit_facts
 from .operation import operating_point
 
 LOADED = 0.02
@@ -162,6 +163,8 @@ def facts(solution: Solution) -> Iterator[tuple[str, str]]:
         place = f"eccentricity ratio {digits(float(cage.eccentricity_ratio), 3)}"
         angle = f"attitude angle {with_unit(float(cage.attitude_angle), 'rad', 3)}"
         yield "Cage", f"{with_unit(float(cage.speed), 'rad/s')}, {slip}, {place}, {angle}"
+    if solution.fit is not None:
+        yield from fit_facts(solution.fit)
     yield "Inner ring", ", ".join(_ring(solution))
     held = ", ".join(_held(solution))
     if held:
