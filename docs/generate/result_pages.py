@@ -13,7 +13,7 @@ from jaxbearing.ehl import solution as film
 from jaxbearing.life.result import Life
 from jaxbearing.machines import two_disk
 from jaxbearing.numerics.status import Status
-from jaxbearing.report.labelled import udunits
+from jaxbearing.report.labels import udunits
 
 FILE = Path(__file__).parents[1] / "results.md"
 """The page is kept in the repository; `python docs/generate/result_pages.py` writes it anew."""

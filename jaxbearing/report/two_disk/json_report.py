@@ -6,15 +6,15 @@ import numpy as np
 
 from ...machines import TwoDiskSolution
 from ...numerics.status import Status
-from ..labelled import labelled
-from ..plain import finite, plain
+from ..backends.json import finite, plain
+from ..labels import labelled
 from .curves import curves_of
 
 _ONCE = ("status", "inner_residual", "deborah_number")
 """Results of each point of which a curve, or the whole family, has one number."""
 
 
-def two_disk_to_dict(solution: TwoDiskSolution) -> dict[str, Any]:
+def to_dict(solution: TwoDiskSolution) -> dict[str, Any]:
     """See `report.json_report.solution_to_dict`.
 
     `deborah_number` of a curve is that at its smallest slide. Points that failed are `None`; `converged` says whether

@@ -6,9 +6,9 @@ from typing import Any
 
 import numpy as np
 
+from .backends.screen import column
 from .display import digits, display_unit, displayed
-from .labelled import labelled
-from .screen import column
+from .labels import labelled
 
 
 @dataclass(frozen=True)
