@@ -7,7 +7,7 @@ import numpy as np
 
 from ...bearings.solution import RING_FREEDOMS, Solution
 from ...numerics.status import Status
-from ..backends.json import field_names, finite, plain
+from ..backends.json import finite, names_of, plain
 from .operation import unused_operation
 
 _INSIDE = (
@@ -39,7 +39,7 @@ def to_dict(solution: Solution) -> dict[str, Any]:
         "warnings": list(solution.warnings),
         "not_modelled": list(solution.not_modelled),
     }
-    for name in field_names(solution):
+    for name in names_of(solution):
         if name not in (*_INSIDE, *_NAMES) and not name.startswith("global_"):
             results[name] = plain(getattr(solution, name))
     results["operation"] |= dict.fromkeys(unused_operation(solution))

@@ -21,6 +21,7 @@ from ..backends.screen import (
     print_warnings,
 )
 from ..display import digits, display_unit, displayed
+from ..tables import derived_facts
 from .azimuth import signed_degrees
 from .facts import facts, not_modelled
 from .operation import operating_point
@@ -56,6 +57,8 @@ def print_summary(solution: Solution, scene_label: str, console: Console) -> Non
     _print_loads(solution, console)
     print_rule("Motion and films", console)
     for name, text in facts(solution):
+        print_line(name, text, console)
+    for name, text in derived_facts(solution):
         print_line(name, text, console)
     print_warnings(solution.warnings, console)
 

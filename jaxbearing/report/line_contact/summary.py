@@ -6,6 +6,7 @@ from ...ehl import LineContactSolution
 from ...numerics.status import Status
 from ..backends.screen import headline, print_failure, print_line, print_rule, print_table, print_warnings
 from ..display import with_unit
+from ..tables import derived_facts
 from .operation import operating_text
 
 
@@ -43,4 +44,6 @@ def print_summary(solution: LineContactSolution, scene_label: str, console: Cons
     place = float(film.minimum_position) / float(hertz.half_width)
     print_line("Smallest at", f"{place:+.4f} half widths from the centre", console)
     print_line("Central pressure", with_unit(float(solution.central_pressure), "Pa"), console)
+    for name, text in derived_facts(solution):
+        print_line(name, text, console)
     print_warnings(solution.warnings, console)

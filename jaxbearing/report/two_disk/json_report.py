@@ -22,6 +22,7 @@ def to_dict(solution: TwoDiskSolution) -> dict[str, Any]:
     """
     slide = plain(solution.operation.slide_to_roll)
     along = {name: value for name, value, found in labelled(solution) if "slide" in found["dims"] and "." not in name}
+    once = {name: plain(value) for name, value, found in labelled(solution) if found["derived"] and name not in along}
     curves = [
         {"slide_to_roll": slide}
         | {name: plain(curve.of(values)) for name, values in along.items() if name not in _ONCE}
@@ -41,4 +42,5 @@ def to_dict(solution: TwoDiskSolution) -> dict[str, Any]:
         "inner_residual": finite(float(np.max(np.asarray(solution.inner_residual)))),
         "operation": plain(solution.operation),
         "curves": curves,
+        **once,
     }

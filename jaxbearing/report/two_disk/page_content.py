@@ -7,6 +7,7 @@ import numpy as np
 from ...machines import TwoDiskSolution
 from ..display import digits
 from ..page_content import Content
+from ..tables import result_rows
 from .curves import Curve, curves_of
 from .panels import curve_name, operating_point, two_disk_panels
 
@@ -30,6 +31,7 @@ def page_content(scene: Any, solution: TwoDiskSolution) -> Content:
         ],
         checks=[(text, bool(broken)) for text, broken in solution.range_checks.items()],
         notes=solution.notes,
+        results=result_rows(solution),
     )
 
 

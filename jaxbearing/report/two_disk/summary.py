@@ -21,6 +21,7 @@ from ..backends.screen import (
     width,
 )
 from ..display import ZERO_CELSIUS, axis_unit, digits
+from ..tables import derived_facts
 from .curves import Curve, curves_of
 
 ROWS = 60
@@ -52,6 +53,8 @@ def print_summary(solution: TwoDiskSolution, scene_label: str, console: Console)
     _print_curves(solution, curves[:ROWS], console)
     if len(curves) > ROWS:
         print_line("", f"and {counted(len(curves) - ROWS, 'curve')} more: see --json or --out", console)
+    for name, text in derived_facts(solution):
+        print_line(name, text, console)
     print_warnings(solution.warnings, console)
 
 
