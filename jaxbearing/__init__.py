@@ -80,7 +80,7 @@ if TYPE_CHECKING:
     from .numerics.status import Status as Status
     from .port import reaction as reaction
     from .program_size import compile_report as compile_report
-    from .report.history_file import read_last_state as read_last_state
+    from .report.last_state import read_last_state as read_last_state
     from .scenes.errors import SceneError as SceneError
     from .scenes.from_python import load_oil as load_oil
     from .scenes.from_python import scene_from_mapping as scene_from_mapping
@@ -132,7 +132,7 @@ _LAZY = {
     "pocket_loads": ".bearings.motion.instants",
     "quasi_static_start": ".bearings.motion.start",
     "reaction": ".port",
-    "read_last_state": ".report.history_file",
+    "read_last_state": ".report.last_state",
     "scene_from_mapping": ".scenes.from_python",
     "sensitivities": ".sensitivity",
     "trajectory": ".bearings.motion.runs",

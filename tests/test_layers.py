@@ -14,6 +14,7 @@ FITTING = ROOT / "fitting"
 RANK = {
     "_types": 0,
     "_checks": 2,
+    "_derived": 2,
     "_scene": 2,
     "_shown": 1,
     "_identity": 2,

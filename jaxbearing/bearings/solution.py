@@ -12,6 +12,7 @@ import numpy as np
 from jaxtyping import Array, Bool, Float, Int
 
 from .._scene import AbstractSolution
+from .._scene import derived as derived
 from .._scene import label as label
 from ..numerics.status import Status
 from .growth import FitResult

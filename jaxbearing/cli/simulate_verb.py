@@ -157,7 +157,7 @@ def _check_animation(path: Path | None) -> None:
 
 def _last_state(path: Path, model: Any, scene: str, duration: float | None) -> Any:
     """The end of an earlier run, which fits the scene; refused otherwise."""
-    from ..report.history_file import read_last_state
+    from ..report.last_state import read_last_state
 
     wanted = "a NetCDF file of an earlier run of this scene, as --out writes it"
     try:
@@ -190,7 +190,7 @@ def _progress(as_json: bool, begin: str, unit: str = "ms", factor: float = 1e3) 
 
 
 def _animate(history: Any, model: Any, label: str, path: Path, as_json: bool) -> None:
-    from ..report.animations import save_animation
+    from ..report.backends.matplotlib.animations import save_animation
     from ..report.histories import animate_history
 
     with _progress(as_json, "drawing", "pictures", 1.0) as progress:

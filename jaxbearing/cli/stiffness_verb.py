@@ -121,7 +121,8 @@ def _write(table: Any, file: Path, scene: str, changes: list[str] | None, angle:
 
 
 def _print(table: Any, label: str, as_json: bool) -> None:
-    from ..report.stiffness import print_stiffness, stiffness_to_dict
+    from ..report.stiffness import stiffness_to_dict
+    from ..report.stiffness_table import print_stiffness
 
     if as_json:
         found = {"converged": True, "failure": None, **stiffness_to_dict(table)}
@@ -135,7 +136,7 @@ def _print_failure(failure: str, label: str, ross: Path | None, as_json: bool) -
         typer.echo(json.dumps({"converged": False, "failure": failure}))
         typer.echo(f"not converged: {label}: {failure}", err=True)
     else:
-        from ..report.screen import print_failure
+        from ..report.backends.screen import print_failure
 
         print_failure(label, "one speed failed", failure, console())
     if ross is not None:

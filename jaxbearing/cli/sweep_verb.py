@@ -271,7 +271,7 @@ def _print_stopped(stopped: Any, label: str, seconds: float, as_json: bool) -> N
         found = {"cases": stopped.cases, "converged": stopped.converged, "failed": stopped.computed - stopped.converged}
         typer.echo(json.dumps(found | {"file": None, "seconds": round(seconds, 3)}))
         return
-    from ..report.screen import headline
+    from ..report.backends.screen import headline
 
     words = f"{stopped.computed} of {stopped.cases} cases computed, {stopped.converged} converged, in {seconds:.1f} s"
     headline(label, "NOT WRITTEN", "bold red", words, console())

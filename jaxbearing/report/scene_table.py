@@ -12,8 +12,8 @@ from rich.console import Console
 from .._scene import AbstractScene
 from ..scenes.fields import dimension_of, is_known, parts_of, tables_at, type_at
 from ..scenes.reader import model_of
+from .backends.screen import print_line, print_rule
 from .display import ZERO_CELSIUS, display_unit, displayed
-from .screen import print_line, print_rule
 
 _NAMES = 40
 """Columns of the names."""

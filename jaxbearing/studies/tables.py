@@ -8,8 +8,9 @@ from rich import box
 from rich.console import Console
 from rich.table import Table
 
+from ..report.backends.json import finite
+from ..report.backends.screen import counted, headline, print_line, print_rule
 from ..report.display import digits
-from ..report.screen import counted, headline, print_line, print_rule
 from .claims import Claim
 from .panels import RADIAL, SPEED, own
 from .power_loss import PowerLossStudy
@@ -74,10 +75,4 @@ def _panel(panel: Any) -> dict[str, Any]:
     losses = [str(name) for name in panel.data_vars if str(name).startswith("power_loss_")]
     fields = str(panel.attrs["sweep_fields"]).split()
     axes = {path: panel[path.replace(".", "_")].values.tolist() for path in fields}
-    return {"fields": axes} | {name: _finite(panel[name].values.tolist()) for name in losses}
-
-
-def _finite(values: Any) -> Any:
-    if isinstance(values, list):
-        return [_finite(value) for value in values]
-    return values if math.isfinite(values) else None
+    return {"fields": axes} | {name: finite(panel[name].values.tolist()) for name in losses}

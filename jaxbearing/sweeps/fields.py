@@ -11,7 +11,7 @@ import numpy as np
 from pydantic import BaseModel, TypeAdapter, ValidationError
 
 from .._scene import AbstractScene
-from ..report.labelled import udunits
+from ..report.labels import udunits
 from ..scenes.errors import SceneError, in_words, unknown_name
 from ..scenes.fields import dimension_of, is_known, parts_of, type_at
 from ..scenes.overrides import REMOVE, parse_value

@@ -14,7 +14,7 @@ import jaxbearing as jb
 from jaxbearing.numerics.status import Status
 from jaxbearing.report.dataset import solution_to_dataset, write_netcdf
 from jaxbearing.report.json_report import solution_to_dict
-from jaxbearing.report.labelled import label_unit, udunits
+from jaxbearing.report.labels import label_unit, udunits
 
 
 @pytest.fixture(scope="module")

@@ -18,7 +18,7 @@ from jaxbearing.bearings.motion.history import History, Instant
 from jaxbearing.ehl import LineContactHistory
 from jaxbearing.numerics.newton import NewtonOptions
 from jaxbearing.numerics.precision import as_float
-from jaxbearing.report.labelled import dimensions
+from jaxbearing.report.labels import dimensions
 from jaxbearing.solve import _solve_any
 
 NODES, INSTANTS = 41, 6

@@ -1,25 +1,25 @@
 """One page of plots of a run in time: orbit of the cage, speeds, power, pocket loads over time and azimuth, sliding."""
 
-import math
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ..bearings.motion.history import History
-from .bearing.plots import INNER, LOSS, OUTER
-from .sheet import FAINT, axis_unit, foot, grid_lines, head, title_of
+from ....bearings.motion.history import History
+from ...backends.matplotlib.sheet import foot, grid_lines, head, title_of
+from ...colours import FAINT, INNER, LOSS, OUTER
+from ...display import axis_unit, displayed
 
 if TYPE_CHECKING:
     import matplotlib.figure
 
-_RPM = 60.0 / (2.0 * math.pi)
+_RPM = displayed(1.0, "rad/s")
 FOLLOWED = 7
 """The roller whose loads are drawn over its azimuth: the eighth, as in the source's figures."""
 
 
-def plot_history(history: History, title: str) -> "matplotlib.figure.Figure":
+def plot(history: History, title: str) -> "matplotlib.figure.Figure":
     """The page; what the scene does not model is not on it."""
-    from .page import Page
+    from ...backends.matplotlib.page import Page
 
     figure, instants = Page(), history.instants
     time = 1e3 * np.asarray(history.time)

@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from .files import check_place, temporary_folder, write_whole
-from .sheet import FAINT, INK
+from ...colours import FAINT, INK
+from ...files import check_place, temporary_folder, write_whole
 
 if TYPE_CHECKING:
     import matplotlib.animation

@@ -6,6 +6,8 @@ import typing
 from collections.abc import Iterator
 from typing import Any
 
+from .._derived import derived_results
+
 _FACTOR = re.compile(r"([A-Za-z]+)(?:\^([2-9]))?")
 
 
@@ -39,22 +41,26 @@ def label_unit(units: str) -> str:
 
 
 def labelled(part: Any, above: str = "") -> Iterator[tuple[str, Any, Any]]:
-    """Path, value and label of every field that has a label, at any depth.
+    """Path, value and label of every result, at any depth: fields that have a label, then what follows from them.
 
-    The label is the field's metadata with `dims`, names of the dimensions of one result (see `dimensions`).
+    The label is the field's metadata with `dims`, names of the dimensions of one result (see `dimensions`), and
+    `derived`, true for what follows from other results.
     """
     for field in dataclasses.fields(part):
         value = getattr(part, field.name)
         if dataclasses.is_dataclass(value):
             yield from labelled(value, f"{above}{field.name}.")
         elif value is not None and field.metadata.get("description"):
-            yield above + field.name, value, {**field.metadata, "dims": dimensions(field.type)}
+            yield above + field.name, value, {**field.metadata, "dims": dimensions(field.type), "derived": False}
+    for name, one in derived_results(type(part)).items():
+        if (value := getattr(part, name)) is not None:
+            yield above + name, value, {**one.metadata, "dims": dimensions(one.annotation), "derived": True}
 
 
 def dimensions(annotation: Any) -> tuple[str, ...]:
-    """Names of the dimensions that the annotation of a field says: of `Float[Array, "time node"] | None` they are
-    `time` and `node`; none of a number."""
+    """Names of the dimensions that an annotation says: of `Float[Array, "time node"] | None` they are `time` and
+    `node`; none of a number. Those of a batch, `*batch`, are no dimensions of one result."""
     shape = getattr(annotation, "dim_str", None)
     if shape is not None:
-        return tuple(name.partition("=")[0] for name in shape.split())
+        return tuple(name.partition("=")[0] for name in shape.split() if not name.startswith("*"))
     return next((found for one in typing.get_args(annotation) if (found := dimensions(one))), ())

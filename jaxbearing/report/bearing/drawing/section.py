@@ -5,12 +5,11 @@ from typing import Any
 
 import numpy as np
 
-from ...bearings.outline import Outline, moved
-from ...bearings.solution import Solution
-from ..display import digits
-from ..drawing import FAINT, RING, ROLLER
-from ..svg import INK, Drawing
-from .plots import INNER, OUTER, RIB
+from ....bearings.outline import Outline, moved
+from ....bearings.solution import Solution
+from ...backends.svg import Drawing
+from ...colours import CENTRE_LINE, INK, INNER, OUTER, RIB, RING, ROLLER
+from ...display import digits
 
 _WIDTH = 115.0
 """Width of the rolling element, points of the page."""
@@ -67,4 +66,4 @@ def draw_outline(drawing: Any, outline: Outline) -> None:
         drawing.circle((0.0, 0.0), 0.5 * outline.diameter, fill=ROLLER, **_EDGE)
     else:
         drawing.polygon(outline.element, fill=ROLLER, **_EDGE)
-    drawing.line(list(outline.line), stroke=FAINT, stroke_width=0.9, stroke_dasharray="6 3 1 3")
+    drawing.line(list(outline.line), stroke=CENTRE_LINE, stroke_width=0.9, stroke_dasharray="6 3 1 3")

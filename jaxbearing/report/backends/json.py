@@ -6,9 +6,12 @@ from typing import Any
 
 import numpy as np
 
+from ..._derived import derived_results
 
-def field_names(part: Any) -> list[str]:
-    return [field.name for field in dataclasses.fields(part)]
+
+def names_of(part: Any) -> list[str]:
+    """Names of the fields of a class, and of the results that follow from them."""
+    return [*(field.name for field in dataclasses.fields(part)), *derived_results(type(part))]
 
 
 def plain(value: Any) -> Any:
@@ -16,7 +19,7 @@ def plain(value: Any) -> Any:
     if value is None or isinstance(value, bool | str):
         return value
     if dataclasses.is_dataclass(value):
-        parts = {name: getattr(value, name) for name in field_names(value)}
+        parts = {name: getattr(value, name) for name in names_of(value)}
         return {name: plain(part) for name, part in parts.items() if part is not None}
     if isinstance(value, dict):
         return {str(key): plain(part) for key, part in value.items()}

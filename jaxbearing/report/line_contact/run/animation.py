@@ -5,10 +5,11 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ...ehl import LineContactHistory
-from ..animations import instants, moving, moving_head
-from ..bearing.plots import INNER, LOSS, OUTER
-from ..sheet import FAINT, axis_unit, grid_lines, title_of
+from ....ehl import LineContactHistory
+from ...backends.matplotlib.animations import instants, moving, moving_head
+from ...backends.matplotlib.sheet import grid_lines, title_of
+from ...colours import FAINT, INNER, LOSS, OUTER
+from ...display import axis_unit
 
 if TYPE_CHECKING:
     import matplotlib.animation
@@ -18,7 +19,7 @@ _SHOWN = 1.5
 _MICRO = 1e6
 
 
-def animate_film_history(history: LineContactHistory, title: str) -> "matplotlib.animation.FuncAnimation":
+def animate(history: LineContactHistory, scene: Any, title: str) -> "matplotlib.animation.FuncAnimation":
     """Evenly spaced times of a run; between two steps what is drawn is interpolated."""
     from matplotlib.figure import Figure
 

@@ -6,13 +6,14 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from ..bearings.cylindrical.scene import CylindricalRollerBearing
-from ..bearings.motion.history import History
-from ..bearings.parts import azimuths
-from .animations import instants, moving, moving_head
-from .bearing.operation import load_angle
-from .bearing.plots import INNER, OUTER
-from .sheet import INK, round_up
+from ....bearings.cylindrical.scene import CylindricalRollerBearing
+from ....bearings.motion.history import History
+from ....bearings.parts import azimuths
+from ...backends.matplotlib.animations import instants, moving, moving_head
+from ...colours import INK, INNER, OUTER
+from ...panels import round_up
+from ..azimuth import place_at
+from ..operation import load_angle
 
 if TYPE_CHECKING:
     import matplotlib.animation
@@ -45,9 +46,7 @@ def exaggeration(scene: CylindricalRollerBearing) -> float:
     return max(1.0, math.floor(factor) if factor < 10.0 else 5.0 * math.floor(factor / 5.0))
 
 
-def animate_history(
-    history: History, scene: CylindricalRollerBearing, title: str
-) -> "matplotlib.animation.FuncAnimation":
+def animate(history: History, scene: CylindricalRollerBearing, title: str) -> "matplotlib.animation.FuncAnimation":
     """Evenly spaced instants of a run as moving pictures; pocket loads are the largest since the picture before."""
     from matplotlib.figure import Figure
 
@@ -61,7 +60,7 @@ def animate_history(
 
 def _on_page(radius: Any, azimuth: Any) -> np.ndarray:
     """Azimuth 0 downwards, counter-clockwise."""
-    return np.stack([radius * np.sin(azimuth), -radius * np.cos(azimuth)], axis=-1)
+    return np.stack(place_at(azimuth, radius), axis=-1)
 
 
 def _picture(history: History, scene: CylindricalRollerBearing, at: int, since: int, factor: float) -> _Picture:

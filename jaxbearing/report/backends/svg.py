@@ -4,7 +4,8 @@ import math
 import xml.etree.ElementTree as ET
 from collections.abc import Iterable, Sequence
 
-INK = "#222222"
+from ..colours import INK
+
 _MARGIN = 8.0
 _LETTER, _LINE = 0.56, 1.25
 """Width of a letter and height of a line, in font sizes: the room that texts are given."""

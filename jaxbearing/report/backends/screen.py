@@ -11,7 +11,7 @@ from rich.rule import Rule
 from rich.table import Table
 from rich.text import Text
 
-from .display import bar, digits, displayed
+from ..display import bar, digits, displayed
 
 _SHORTEST_BAR = 4
 _GAP = 3

@@ -8,17 +8,17 @@ instant have the dimension `time` before their own, those over the rolling eleme
 import numpy as np
 import xarray as xr
 
-from ..bearings.motion.history import History
-from ..numerics.status import Status
-from .history_shocks import FACES, SHOCK, peaks_by_turn, sectors, whirl_ratio
-from .labelled import labelled
-from .variables import attributes, flags, identity_text, variable, without_fill
+from ....bearings.motion.history import History
+from ....numerics.status import Status
+from ...history_shocks import FACES, SHOCK, peaks_by_turn, sectors, whirl_ratio
+from ...labels import labelled
+from ...variables import attributes, flags, identity_text, variable, without_fill
 
 _STATES = {"roller_state": ("q", "v", "u"), "cage_state": ("x", "y", "q", "v_x", "v_y", "v")}
 """Components of the states, along their dimensions."""
 
 
-def history_to_dataset(history: History) -> xr.Dataset:
+def to_dataset(history: History) -> xr.Dataset:
     """All results of a run with `units`, `long_name` and `path` on every variable."""
     dataset = xr.Dataset(attrs=attributes(history, "Motion of a rolling bearing"))
     dataset.attrs |= {"solver": history.solver, "completed": int(history.completed)} | identity_text(history.identity)

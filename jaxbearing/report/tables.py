@@ -6,9 +6,9 @@ from typing import Any
 
 import numpy as np
 
-from .display import digits, display_unit, displayed
-from .labelled import labelled
-from .screen import column
+from .backends.screen import column
+from .display import digits, display_unit, displayed, with_unit
+from .labels import labelled
 
 
 @dataclass(frozen=True)
@@ -61,3 +61,16 @@ def _columns(solution: Any) -> Iterator[Column]:
         # a roller that touches nothing has no film
         shown = [text if np.isfinite(one) else "-" for text, one in zip(texts, array, strict=True)]
         yield Column(path.removeprefix("elements."), display_unit(unit), metadata["description"], shown)
+
+
+def derived_facts(solution: Any) -> Iterator[tuple[str, str]]:
+    """Lines for the screen of the results that follow from others: value and meaning, of many the least and largest
+    value."""
+    head = "Derived"
+    for path, value, metadata in labelled(solution):
+        if metadata["derived"]:
+            numbers, unit = np.asarray(value, dtype=float), metadata["unit"]
+            finite = numbers[np.isfinite(numbers)]
+            ends = [with_unit(float(end), unit) for end in (finite.min(), finite.max())] if finite.size else ["-"]
+            yield head, f"{path} {' to '.join(dict.fromkeys(ends))}: {metadata['description']}"
+            head = ""

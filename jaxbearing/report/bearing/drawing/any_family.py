@@ -8,12 +8,15 @@ from typing import TYPE_CHECKING, Any
 import equinox as eqx
 import numpy as np
 
-from ..bearings.bearing import AbstractBearing
-from ..bearings.operation import LOAD_FIELDS
-from ..bearings.outline import RING_THICKNESS
-from ..bearings.solution import TILTS
-from .bearing.section import draw_outline
-from .drawing import DIMENSION, INK, dimension, draw_front, first_angle, leader, length_text
+from ....bearings.bearing import AbstractBearing
+from ....bearings.operation import LOAD_FIELDS
+from ....bearings.solution import TILTS
+from ...colours import INK
+from .front import draw_front
+from .marks import DIMENSION, dimension, leader, length_text
+from .section import draw_outline
+from .sizes import FrontSizes
+from .view import view
 
 if TYPE_CHECKING:
     import matplotlib.figure
@@ -27,7 +30,7 @@ Label = tuple[str, tuple[float, float]]
 
 
 class _Patches:
-    """Draws on axes of matplotlib what `bearing.section` draws."""
+    """Draws on axes of matplotlib what `section` draws."""
 
     def __init__(self, axes: Any):
         self.axes = axes
@@ -49,37 +52,14 @@ class _Patches:
         self.axes.plot(*zip(*points, strict=True), color=stroke, linewidth=stroke_width, linestyle=dashes, zorder=4)
 
 
-class _Front:
-    """See `drawing.FrontSize`."""
-
-    def __init__(self, scene: Any):
-        geometry = scene.geometry
-        mm = lambda value: 1e3 * float(value)
-        self.counted = f"n_{scene.element}s"
-        self.count = scene.n_elements
-        self.diameter = mm(scene.mean_diameter)
-        self.pitch = mm(geometry.pitch_diameter) / 2.0
-        self.inner, self.outer = self.pitch - self.diameter / 2.0, self.pitch + self.diameter / 2.0
-        self.ring = RING_THICKNESS * self.diameter
-        self.step = 2.0 * math.pi / self.count
-        self.first = first_angle(geometry)
-        between = 2.0 * self.pitch * math.sin(math.pi / max(self.count, 2)) - self.diameter
-        self.pocket = min(0.07 * self.diameter, 0.3 * between)
-        cage = getattr(scene, "cage", None)
-        self.cage = None if cage is None else (mm(cage.bore(geometry)) / 2.0, mm(cage.outside(geometry)) / 2.0)
-
-
 def draw_in_section(scene: AbstractBearing) -> "matplotlib.figure.Figure":
-    """See `drawing.draw_bearing`."""
-    from .page import Page
+    """See `report.drawing.draw_bearing`."""
+    from ...backends.matplotlib.page import Page
 
     figure = Page()
-    front, section = (figure.add_axes(place) for place in ((0.01, 0.09, 0.47, 0.85), (0.50, 0.34, 0.48, 0.60)))
-    for axes, title in ((front, "Seen along the axis"), (section, "One element in a section through the axis")):
-        axes.set_aspect("equal", adjustable="box")
-        axes.axis("off")
-        axes.set_title(title, fontsize=10.5, fontweight="bold", color=INK, pad=4)
-    draw_front(front, scene, _Front(scene))
+    front = view(figure, "Seen along the axis", (0.01, 0.09, 0.47, 0.85))
+    section = view(figure, "One element in a section through the axis", (0.50, 0.34, 0.48, 0.60))
+    draw_front(front, scene, FrontSizes(scene))
     patches = _Patches(section)
     outline, given = scene.outline(), dict(_dimensions(scene))
     draw_outline(patches, outline)

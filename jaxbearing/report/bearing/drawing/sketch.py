@@ -5,12 +5,12 @@ from typing import Any
 
 import numpy as np
 
-from ...bearings.outline import RING_THICKNESS
-from ...bearings.solution import RING_FREEDOMS, Solution
-from ..display import displayed
-from ..drawing import CAGE, FAINT, RING, ROLLER
-from ..svg import INK, Drawing, Point
-from .plots import INNER, OUTER
+from ....bearings.solution import RING_FREEDOMS, Solution
+from ...backends.svg import Drawing
+from ...colours import CAGE, CENTRE_LINE, INK, INNER, OUTER, RING, ROLLER
+from ...display import displayed
+from ..azimuth import place_at
+from .sizes import FrontSizes
 
 _WIDTH = 290.0
 """Width of the outer ring, points of the page."""
@@ -18,32 +18,10 @@ _LONGEST = 0.42
 """Longest arrow, in radii of the bore."""
 
 
-class Sizes:
-    """Radii of the drawing, mm: of the pitch circle, the elements, the rings where elements touch or shoulders end."""
-
-    def __init__(self, scene: Any):
-        geometry = scene.geometry
-        mm = lambda value: 1e3 * float(np.asarray(value))
-        self.pitch = 0.5 * mm(geometry.pitch_diameter)
-        self.diameter, shoulder = mm(scene.mean_diameter), scene.outline().shoulder
-        self.inner, self.outer = self.pitch - shoulder, self.pitch + shoulder
-        self.back = (0.5 + RING_THICKNESS) * self.diameter
-        cage = getattr(scene, "cage", None)
-        self.cage = None if cage is None else (0.5 * mm(cage.bore(geometry)), 0.5 * mm(cage.outside(geometry)))
-
-    @property
-    def bore(self) -> float:
-        return self.pitch - self.back
-
-    @property
-    def outside(self) -> float:
-        return self.pitch + self.back
-
-
 def front_view(scene: Any, solution: Solution) -> str:
     """SVG: rings, elements at their azimuths (0 below, counter-clockwise), the force of each on the rings, the applied
     load."""
-    sizes = Sizes(scene)
+    sizes = FrontSizes(scene, scene.outline().shoulder)
     elements = solution.elements
     drawing = Drawing("The bearing seen along its axis, with the loads of its contacts", _WIDTH / (2.0 * sizes.outside))
     drawing.ring((0.0, 0.0), sizes.outer, sizes.outside, fill=RING, stroke=INK, stroke_width=1.0)
@@ -52,32 +30,33 @@ def front_view(scene: Any, solution: Solution) -> str:
         drawing.ring((0.0, 0.0), *sizes.cage, fill=CAGE, stroke=INK, stroke_width=0.6)
     azimuth = np.asarray(elements.azimuth)
     for angle in azimuth:
-        drawing.circle(at(angle, sizes.pitch), 0.5 * sizes.diameter, fill=ROLLER, stroke=INK, stroke_width=1.0)
+        drawing.circle(place_at(angle, sizes.pitch), 0.5 * sizes.diameter, fill=ROLLER, stroke=INK, stroke_width=1.0)
     _loads(drawing, sizes, azimuth, np.asarray(elements.load_inner), np.asarray(elements.load_outer))
     _applied(drawing, sizes, solution)
-    drawing.text(at(0.0, sizes.pitch), "0", size=9.0)
-    drawing.circle((0.0, 0.0), sizes.pitch, fill="none", stroke=FAINT, stroke_width=0.8, stroke_dasharray="6 3 1 3")
+    drawing.text(place_at(0.0, sizes.pitch), "0", size=9.0)
+    drawing.circle(
+        (0.0, 0.0), sizes.pitch, fill="none", stroke=CENTRE_LINE, stroke_width=0.8, stroke_dasharray="6 3 1 3"
+    )
     return drawing.markup()
 
 
-def at(azimuth: float, radius: float) -> Point:
-    """Azimuth 0 is below, counter-clockwise."""
-    return radius * math.sin(azimuth), -radius * math.cos(azimuth)
-
-
-def _loads(drawing: Drawing, sizes: Sizes, azimuth: np.ndarray, inner: np.ndarray, outer: np.ndarray) -> None:
+def _loads(drawing: Drawing, sizes: FrontSizes, azimuth: np.ndarray, inner: np.ndarray, outer: np.ndarray) -> None:
     largest = float(max(inner.max(), outer.max()))
     if not largest > 0.0:
         return
     length = _LONGEST * sizes.bore / largest
     for angle, on_inner, on_outer in zip(azimuth, inner, outer, strict=True):
         start = sizes.outside
-        drawing.arrow(at(angle, start), at(angle, start + length * on_outer), OUTER, data_load=float(on_outer))
+        drawing.arrow(
+            place_at(angle, start), place_at(angle, start + length * on_outer), OUTER, data_load=float(on_outer)
+        )
         start = sizes.bore
-        drawing.arrow(at(angle, start), at(angle, start - length * on_inner), INNER, data_load=float(on_inner))
+        drawing.arrow(
+            place_at(angle, start), place_at(angle, start - length * on_inner), INNER, data_load=float(on_inner)
+        )
 
 
-def _applied(drawing: Drawing, sizes: Sizes, solution: Solution) -> None:
+def _applied(drawing: Drawing, sizes: FrontSizes, solution: Solution) -> None:
     """Load on the inner ring and its speed, in the middle."""
     operation = solution.operation
     number = lambda freedom: float(given) if (given := operation.load(freedom)) is not None else 0.0
