@@ -41,7 +41,7 @@ def oil_text(
     **Raises:** `ValueError` for a law that files do not know.
     """
     named = {"name": one_line(name), "description": one_line(description)}
-    return comments([*header, HEADER]) + toml_text(named | sourced_laws(oil, origins))
+    return comments([*header, HEADER]) + toml_text(named | sourced_laws(oil, origins), aligned=False)
 
 
 def sourced_laws(oil: Lubricant, origins: Mapping[str, Origin] | None = None) -> Rows:

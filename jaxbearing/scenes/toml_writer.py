@@ -11,9 +11,12 @@ WIDEST = 120
 """Longest line for a list; a longer list has one value a line."""
 
 
-def toml_text(tables: Mapping[str, Any]) -> str:
-    """The text of a file with these tables, in their order."""
-    return "\n".join(_table(tables, ())).lstrip("\n") + "\n"
+def toml_text(tables: Mapping[str, Any], aligned: bool = True) -> str:
+    """The text of a file with these tables, in their order.
+
+    **Arguments:** `aligned`: whether the values of a table stand below each other.
+    """
+    return "\n".join(_table(tables, (), aligned)).lstrip("\n") + "\n"
 
 
 def comments(lines: Iterable[str]) -> str:
@@ -26,15 +29,15 @@ def one_line(text: str) -> str:
     return printable(" ".join(text.split()))
 
 
-def _table(table: Mapping[str, Any], path: tuple[str, ...]) -> Iterator[str]:
+def _table(table: Mapping[str, Any], path: tuple[str, ...], aligned: bool) -> Iterator[str]:
     inner = {name: value for name, value in table.items() if isinstance(value, Mapping)}
     plain = {name: value for name, value in table.items() if name not in inner}
     if path and (plain or not inner):
         yield from ("", f"[{'.'.join(path)}]")
-    width = max(map(len, plain), default=0)
+    width = max(map(len, plain), default=0) if aligned else 0
     yield from (f"{name:<{width}} = {_value(value, width)}" for name, value in plain.items())
     for name, value in inner.items():
-        yield from _table(value, (*path, name))
+        yield from _table(value, (*path, name), aligned)
 
 
 def _value(value: Any, width: int) -> str:

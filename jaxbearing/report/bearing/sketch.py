@@ -5,11 +5,12 @@ from typing import Any
 
 import numpy as np
 
+from ...bearings.operation import LOAD_FIELDS
 from ...bearings.outline import RING_THICKNESS
-from ...bearings.solution import RING_FREEDOMS, Solution
-from ..display import displayed
+from ...bearings.solution import Solution
 from ..drawing import CAGE, FAINT, RING, ROLLER
 from ..svg import INK, Drawing, Point
+from .operation import field_text
 from .plots import INNER, OUTER
 
 _WIDTH = 290.0
@@ -77,22 +78,25 @@ def _loads(drawing: Drawing, sizes: Sizes, azimuth: np.ndarray, inner: np.ndarra
         drawing.arrow(at(angle, start), at(angle, start - length * on_inner), INNER, data_load=float(on_inner))
 
 
+_SAID = {
+    "axial": "axial",
+    "moment": "tilt",
+    "about the load line": "tilt_lateral",
+    "radial": "radial",
+    "lateral": "lateral",
+}
+"""Name of a load, where there is little room, and the freedom of the ring along which it acts."""
+
+
 def _applied(drawing: Drawing, sizes: Sizes, solution: Solution) -> None:
     """Load on the inner ring and its speed, in the middle."""
     operation = solution.operation
     number = lambda freedom: float(given) if (given := operation.load(freedom)) is not None else 0.0
-    axial, radial, lateral, moment, moment_lateral = map(number, RING_FREEDOMS)
-    words = [f"{displayed(float(operation.inner_speed), 'rad/s'):.6g} rpm"]
-    if axial:
-        words.append(f"axial {1e-3 * axial:.5g} kN")
-    if moment:
-        words.append(f"moment {moment:.5g} N m")
-    if moment_lateral:
-        words.append(f"about the load line {moment_lateral:.5g} N m")
-    if radial:
-        words.append(f"radial {1e-3 * radial:.5g} kN")
-    if lateral:
-        words.append(f"lateral {1e-3 * lateral:.5g} kN")
+    radial, lateral = number("radial"), number("lateral")
+    words = [field_text(operation, "inner_speed")]
+    for name, freedom in _SAID.items():
+        if number(freedom):
+            words.append(f"{name} {field_text(operation, LOAD_FIELDS[freedom], 5)}")
     if radial or lateral:
         reach = 0.32 * sizes.bore / math.hypot(radial, lateral)
         drawing.arrow((0.0, 0.0), (reach * lateral, -reach * radial), INK, width=4.0)

@@ -38,7 +38,7 @@ def line_contact_content(solution: LineContactSolution) -> Content:
         ],
         checks=[(text, bool(broken)) for text, broken in solution.range_checks.items()],
         notes=solution.notes,
-        results=result_rows(solution, _SOLVER),
+        results=[row for row in result_rows(solution, _SOLVER) if not row.path.startswith("operation.")],
     )
 
 

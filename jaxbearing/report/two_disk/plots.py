@@ -34,7 +34,8 @@ def plot_two_disk(solution: TwoDiskSolution, title: str) -> "matplotlib.figure.F
     places = places[:PANELS]
     rows, columns = _layout(places)
     figure = Page()
-    varied = "normal load" if solution.operation.pressure is None else "Hertz (peak) pressure"
+    operation = type(solution.operation).__dataclass_fields__
+    varied = operation["load" if solution.operation.pressure is None else "pressure"].metadata["description"]
     text = f"Traction coefficient over slide-to-roll ratio (difference over mean speed), one curve for each {varied}"
     head(figure, title, text)
     bottom = 0.085 + 0.019 * foot(figure, [*left_out, *solution.warnings])
