@@ -86,6 +86,7 @@ if TYPE_CHECKING:
     from .scenes.from_python import scene_from_mapping as scene_from_mapping
     from .scenes.reader import builtin_names as builtin_names
     from .scenes.reader import load_scene as load_scene
+    from .scenes.save import save_scene as save_scene
     from .sensitivity import sensitivities as sensitivities
 
 shown_by(f"{__name__}.report.shown")
@@ -134,6 +135,7 @@ _LAZY = {
     "reaction": ".port",
     "read_last_state": ".report.last_state",
     "scene_from_mapping": ".scenes.from_python",
+    "save_scene": ".scenes.save",
     "sensitivities": ".sensitivity",
     "trajectory": ".bearings.motion.runs",
 }

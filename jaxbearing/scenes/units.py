@@ -289,6 +289,7 @@ def several_note(bound: str, unit: str = "1") -> BeforeValidator:
         dimension = dimension_of_unit(unit)
         expected = f"{dimension.expected(bound)}, or a list of such texts"
         read = lambda one: quantity(one, dimension, bound)
+        return QuantityValidator(lambda given: several(given, read, expected), dimension=dimension)
     return BeforeValidator(lambda given: several(given, read, expected))
 
 
