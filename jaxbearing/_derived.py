@@ -13,7 +13,8 @@ class DerivedResult(property):
     """A property with the label of a result. `annotation`: what it returns, which names its dimensions."""
 
     def __init__(self, function: Callable[[Any], Any], metadata: dict[str, str]):
-        super().__init__(function, doc=function.__doc__ or f"{metadata['description']}, {metadata['unit']}.")
+        super().__init__(function)
+        self.__doc__ = function.__doc__ or f"{metadata['description']}, {metadata['unit']}."
         self.metadata = metadata
         self.annotation = function.__annotations__["return"]
 

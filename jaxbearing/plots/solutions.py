@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
 
 def load_distribution(solution: Solution, *, axes: Any = None) -> "matplotlib.figure.Figure":
-    """Load on each rolling element at both races, polar; the load line points down.
+    """Load on each rolling element at both races and the rib, polar; the load line points down.
 
     **Arguments:** `solution`: one solution of a bearing that converged; `axes`: polar matplotlib axes, a new figure if
     not given.

@@ -32,7 +32,7 @@ def ball_bearing(table: BallBearingTable) -> BallBearing:
     return built(
         BallBearing,
         geometry=lambda: BallGeometry(**table.geometry.model_dump()),
-        materials=lambda: BallMaterials(**solids(table)),
+        materials=lambda: BallMaterials(**solids(table, "rings", "balls")),
         operation=lambda: BallOperation(**table.operation.model_dump(exclude_none=True)),
         kinematics=lambda: _kinematics(table.kinematics, slips()),
         oil=oil,

@@ -102,14 +102,14 @@ def _fits(table: FitsTable) -> Fits:
     return Fits(**table.model_dump(exclude=set(names)), **given)
 
 
-def solids(table: Any) -> dict[str, Material]:
-    """The materials that the table of a bearing names, with thermal properties where its parts have temperatures."""
-    thermal = table.temperatures is not None
-    return {
-        name: material(one, thermal=thermal)
-        for name in type(table.materials).model_fields
-        if (one := getattr(table.materials, name)) is not None
-    }
+def solids(table: Any, *names: str) -> dict[str, Material]:
+    """The materials of these fields, where they are given, with thermal properties where the parts have temperatures."""
+    try:
+        thermal = table.temperatures is not None
+    except Unreadable:
+        thermal = True
+    given = {name: getattr(table.materials, name) for name in names}
+    return {name: material(one, thermal=thermal) for name, one in given.items() if one is not None}
 
 
 def cage(kind: type[Cage], table: Any) -> Cage | None:

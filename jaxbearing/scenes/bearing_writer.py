@@ -9,7 +9,9 @@ from ..bearings.profile import RollerProfile
 from ..contacts import PRESETS, AbstractViscousFunction, DistributedTraction, NoThermalReduction, Resolution
 from ..contacts.profile import CrownedProfile, LogarithmicProfile
 from ..lubricants import Lubricant
-from .bearing_schema import DisplacementTable
+from ..materials import catalogue_material
+from ..mounting import Fits
+from .bearing_schema import DisplacementTable, FitsTable, TemperaturesTable
 from .laws import LINE_THERMAL, ROLLER_FILMS, ROLLING, TRACTIONS, TURBULENCE, Laws, viscous_function
 from .oil_writer import scene_oil
 from .part_writer import Rows, all_rows, given, law_name, material, optional_rows, rows, same, shown, unwritable
@@ -35,10 +37,12 @@ def bearing_tables(scene: Any, tables: Mapping[str, type[Table]], *, geometry: R
         "oil": scene_oil(scene.oil),
         **own,
         **plain,
+        "fits": fits(scene.fits),
+        "temperatures": optional_rows(TemperaturesTable, scene.temperatures),
         "operation": _operation(tables["operation"], scene),
     }
     order = ("geometry", "profile", "materials", "oil", "contact", "kinematics", "cage", "flange", "drag", "rating")
-    order = (*order, "operation", "simulation")
+    order = (*order, "fits", "temperatures", "operation", "simulation")
     assert set(parts) <= set(order), parts
     return {"kind": scene.kind} | given({name: parts.get(name) for name in order})
 
@@ -52,6 +56,16 @@ def _operation(table: type[Table], scene: Any) -> Rows:
             if same(getattr(operation, name), default):
                 del found[name]
     return found | given({"displacement": optional_rows(DisplacementTable, operation.displacement)})
+
+
+def fits(part: Fits | None) -> Rows | None:
+    """The table [fits]."""
+    if part is None:
+        return None
+    solids = {"shaft_material": part.shaft_material, "housing_material": part.housing_material}
+    usual = catalogue_material("steel", thermal=True)
+    named = {name: None if same(one, usual) else material(one) for name, one in solids.items()}
+    return rows(FitsTable, part) | given(named)
 
 
 def cage(table: type[Table], part: AbstractCage | None) -> Rows | None:

@@ -10,7 +10,7 @@ from typing import Any
 import equinox as eqx
 import numpy as np
 
-from ..materials import CATALOGUE, Material
+from ..materials import CATALOGUE, Material, catalogue_material
 from ..time_laws import Tabulated
 from . import units
 from .errors import SceneError, one_of
@@ -83,7 +83,10 @@ def table_rows(law: Tabulated) -> Rows:
 
 def material(one: Material) -> str | Rows:
     """The name in the catalogue, or a table."""
-    return next((name for name, known in CATALOGUE.items() if same(known, one)), rows(MaterialTable, one))
+    for name, plain in CATALOGUE.items():
+        if same(plain, one) or same(catalogue_material(name, thermal=True), one):
+            return name
+    return rows(MaterialTable, one)
 
 
 def law_name(laws: Laws[Any], law: Any, path: str, made: Callable[[str], Any] | None = None) -> str:

@@ -25,7 +25,9 @@ def template(structure: Any, elements: bool, paths: Sequence[str] = ()) -> xr.Da
     **Arguments:** `structure`: a solution with shapes for arrays; `elements`: see `Plan`; `paths`: swept fields.
     """
     one = jax.tree.map(lambda leaf: np.zeros((1, *leaf.shape), leaf.dtype), structure)
-    dataset = solution_to_dataset(one, (CASE,))
+    # a share of nothing, among the results that follow from others, is no news here
+    with np.errstate(all="ignore"):
+        dataset = solution_to_dataset(one, (CASE,))
     if "azimuth" in dataset and "geometry.first_element_angle" in paths:
         # elsewhere in each case
         dataset = dataset.assign_coords(azimuth=dataset["azimuth"].expand_dims({CASE: 1}))
