@@ -27,6 +27,8 @@ RANK = {
     "gaps": 3,
     "ehl": 4,
     "machines": 4,
+    # seats of a bearing, which know no bearing
+    "mounting": 4,
     "bearings": 5,
     "life": 6,
     "solve": 7,

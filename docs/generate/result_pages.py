@@ -4,7 +4,7 @@ import dataclasses
 from pathlib import Path
 
 from jaxbearing._derived import derived_results
-from jaxbearing.bearings import solution
+from jaxbearing.bearings import growth, solution
 from jaxbearing.bearings.ball import solution as ball_solution
 from jaxbearing.bearings.cylindrical import solution as cylindrical_solution
 from jaxbearing.bearings.motion import history
@@ -24,6 +24,7 @@ SECTIONS = {
         "": solution.Solution,
         "ring": solution.RingDisplacement,
         "cage": solution.CageState,
+        "fit": growth.FitResult,
         "life": Life,
     },
     "Rolling elements and power: cylindrical rollers": {

@@ -12,10 +12,13 @@ _FACTOR = re.compile(r"([A-Za-z]+)(?:\^([2-9]))?")
 
 
 def udunits(unit: str) -> str:
-    """A unit of the labels as UDUNITS and the CF conventions write it: "m^3/s" is "m3 s-1".
+    """A unit of the labels as UDUNITS and the CF conventions write it: "m^3/s" is "m3 s-1". A unit with a fractional
+    power, which they do not have, stands as it is: "N/m^(10/9)".
 
     **Raises:** `ValueError` for what is not a product of powers over further units.
     """
+    if "^(" in unit:
+        return unit
     over, *under = unit.split("/")
     factors = [(factor, "") for factor in over.split(" ") if over != "1"] + [(factor, "-") for factor in under]
     powers = []

@@ -195,6 +195,6 @@ def test_an_existing_file_keeps_its_mode_and_a_link_stays_one(dry, tmp_path):
     assert file.stat().st_size > 1000
 
 
-@pytest.mark.parametrize("unit", ["1", "m", "m^3/s", "N m", "rad/s", "1/s", "W/m/K", "kg/m^3", "percent"])
+@pytest.mark.parametrize("unit", ["1", "m", "m^3/s", "N m", "rad/s", "1/s", "W/m/K", "kg/m^3", "percent", "N/m^(10/9)"])
 def test_units_there_and_back(unit):
     assert label_unit(udunits(unit)) == unit

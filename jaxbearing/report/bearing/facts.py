@@ -8,6 +8,7 @@ import numpy as np
 
 from ...bearings.solution import RING_FREEDOMS, Solution, force_units, stiffness_units
 from ..display import digits, with_unit
+from .fit_facts import fit_facts
 
 
 def not_modelled(solution: Solution) -> str:
@@ -24,6 +25,8 @@ def facts(solution: Solution) -> Iterator[tuple[str, str]]:
         place = f"eccentricity ratio {digits(float(cage.eccentricity_ratio), 3)}"
         angle = f"attitude angle {with_unit(float(cage.attitude_angle), 'rad', 3)}"
         yield "Cage", f"{with_unit(float(cage.speed), 'rad/s')}, {slip}, {place}, {angle}"
+    if solution.fit is not None:
+        yield from fit_facts(solution.fit)
     yield "Inner ring", ", ".join(_ring(solution))
     held = ", ".join(_held(solution))
     if held:

@@ -43,12 +43,5 @@ def variables_of(result: Any, title: str, along: tuple[str, ...], names: dict[st
     for path, value, metadata in labelled(result):
         name = "x" if path == "profile.x" else path.replace(".", "_")
         dataset[name] = variable(value, metadata, path, along, names)
-    for name, unit, text in (
-        ("entrainment_speed", "m s-1", "mean surface speed"),
-        ("oil_temperature", "K", "oil temperature"),
-    ):
-        value = np.asarray(getattr(result.operation, name))
-        words = {"units": unit, "long_name": text, "path": f"operation.{name}"}
-        dataset[f"operation_{name}"] = xr.Variable(along[: value.ndim], value, words)
     dataset["status"].attrs |= flags(dataset["status"].dtype, [status.text for status in Status])
     return dataset.set_coords([name for name in dataset if str(name).startswith("operation_")])

@@ -33,5 +33,5 @@ def page_content(scene: Any, solution: LineContactSolution) -> Content:
         ],
         checks=[(text, bool(broken)) for text, broken in solution.range_checks.items()],
         notes=solution.notes,
-        results=result_rows(solution, _SOLVER),
+        results=[row for row in result_rows(solution, _SOLVER) if not row.path.startswith("operation.")],
     )

@@ -32,7 +32,8 @@ def plot(solution: TwoDiskSolution, title: str) -> "matplotlib.figure.Figure":
     places = places[:PANELS]
     rows, columns = _layout(places)
     figure = Page()
-    varied = "normal load" if solution.operation.pressure is None else "Hertz (peak) pressure"
+    operation = type(solution.operation).__dataclass_fields__
+    varied = operation["load" if solution.operation.pressure is None else "pressure"].metadata["description"]
     text = f"Traction coefficient over slide-to-roll ratio (difference over mean speed), one curve for each {varied}"
     head(figure, title, text)
     bottom = 0.085 + 0.019 * foot(figure, [*left_out, *solution.warnings])

@@ -1,7 +1,6 @@
 """A bearing of any family in a drawing: seen along the axis, and one element in a section through the axis."""
 
 import dataclasses
-import math
 from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
 
@@ -10,8 +9,9 @@ import numpy as np
 
 from ....bearings.bearing import AbstractBearing
 from ....bearings.operation import LOAD_FIELDS
-from ....bearings.solution import TILTS
 from ...colours import INK
+from ...display import display_unit, displayed
+from ..operation import field_text
 from .front import draw_front
 from .marks import DIMENSION, dimension, leader, length_text
 from .section import draw_outline
@@ -88,10 +88,6 @@ def _beside(axes: Any, points: np.ndarray, labels: list[Label]) -> None:
     axes.set_ylim(low - 0.08 * height, high + 0.08 * height)
 
 
-_ANGLES = ("angle",)
-_PLAIN = ("conformity", "fraction")
-
-
 def _dimensions(scene: Any) -> Iterator[tuple[str, str]]:
     """Path of each number of geometry and cage, and of the loads that the view does not show, and the text for it."""
     for table in ("geometry", "cage"):
@@ -102,19 +98,16 @@ def _dimensions(scene: Any) -> Iterator[tuple[str, str]]:
                 continue
             name = field.name if table == "geometry" else f"{table}.{field.name}"
             note = " (on the diameter)" if field.name == "guiding_clearance" else ""
-            yield f"{table}.{field.name}", f"{name} {_value(field.name, value)}{note}"
+            yield f"{table}.{field.name}", f"{name} {_value(value, field.metadata.get('unit', ''))}{note}"
     for freedom, name in LOAD_FIELDS.items():
-        load, tilts = scene.operation.load(freedom), freedom in TILTS
-        unit, scale = ("N m", 1.0) if tilts else ("kN", 1e-3)
-        if freedom not in ("radial", "lateral") and load is not None:
-            yield f"operation.{name}", f"operation.{name} {scale * float(load):.6g} {unit}, on the inner ring"
+        if freedom not in ("radial", "lateral") and scene.operation.load(freedom) is not None:
+            yield f"operation.{name}", f"operation.{name} {field_text(scene.operation, name)}, on the inner ring"
 
 
-def _value(name: str, value: Any) -> str:
+def _value(value: Any, unit: str) -> str:
+    """A count, or a number with the unit that its class says."""
     if isinstance(value, int):
         return str(value)
-    if any(word in name for word in _ANGLES):
-        return f"{math.degrees(float(value)):.4g} deg"
-    if any(word in name for word in _PLAIN):
-        return f"{float(value):.5g}"
-    return length_text(value)
+    if unit == "m":
+        return length_text(value)
+    return f"{displayed(float(value), unit):.5g} {display_unit(unit)}".rstrip()

@@ -6,7 +6,7 @@ import numpy as np
 
 from ....bearings.cylindrical.scene import CylindricalRollerBearing
 from ...colours import CAGE, INK, RING, ROLLER
-from ...display import displayed
+from ...display import displayed, with_unit
 from ..azimuth import place_at
 from .front import draw_bars, draw_front, draw_rollers, ring_outline
 from .marks import dimension, extension, leader, length_text, note
@@ -152,6 +152,9 @@ def _label_section(axes: Any, scene: CylindricalRollerBearing, size: _Size, inne
         if float(flange.angle) > 0.0:
             angle = f"flange.angle {displayed(float(flange.angle), 'rad'):.4g} deg\n(of its face)"
             left.append((angle, (-half - size.gap, race)))
+    if geometry.flange_stiffness is not None:
+        text = _thrust_text(scene, geometry.flange_stiffness)
+        right.append((text, (half + size.gap, size.inner)))
     if cage is not None and size.cage is not None:
         middle = half + size.gap + 0.5 * size.land
         end = half + size.gap + size.land
@@ -180,6 +183,17 @@ def _label_section(axes: Any, scene: CylindricalRollerBearing, size: _Size, inne
         note(axes, (end + 0.08 * diameter, high), f"cage.land_width {length_text(cage.land_width)}", ha="left")
     for labels, side in ((left, -1.0), (right, 1.0)):
         _stack(axes, size, labels, side)
+
+
+def _thrust_text(scene: CylindricalRollerBearing, stiffness: Any) -> str:
+    """What holds the inner ring along the axis, and its load."""
+    geometry, load = scene.geometry, scene.operation.axial_load
+    said = [
+        f"flange_gap {length_text(geometry.flange_gap)}, thrust {geometry.thrust or 'both'}",
+        f"flange_stiffness\n{with_unit(float(stiffness), 'N/m^(10/9)')}",
+        *([] if load is None else [f"operation.axial_load {1e-3 * float(load):.6g} kN"]),
+    ]
+    return "\n".join(said)
 
 
 def _stack(axes: Any, size: _Size, labels: list[tuple[str, tuple[float, float]]], side: float) -> None:

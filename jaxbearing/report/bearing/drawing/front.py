@@ -7,8 +7,8 @@ import numpy as np
 
 from ....bearings.operation import LOAD_FIELDS
 from ...colours import CAGE, CENTRE_LINE, INK, RING, ROLLER
-from ...display import displayed
 from ..azimuth import place_at
+from ..operation import field_text
 from .marks import LOAD, arc, dimension, length_text, note
 from .sizes import FrontSizes
 
@@ -33,13 +33,14 @@ def draw_front(axes: Any, scene: Any, size: FrontSizes) -> None:
     style = {"color": LOAD, "linewidth": 2.4, "arrowstyle": "-|>,head_width=0.4,head_length=0.8"}
     loads = {name: scene.operation.load(name) for name in ("radial", "lateral")}
     given = {name: float(load) for name, load in loads.items() if load is not None}
-    said = [f"operation.{LOAD_FIELDS[name]}\n{1e-3 * load:.6g} kN" for name, load in given.items()]
+    fields = [LOAD_FIELDS[name] for name in given]
+    said = [f"operation.{field}\n{field_text(scene.operation, field)}" for field in fields]
     if said:
         radial, lateral = (given.get(name, 0.0) for name in loads)
         along = bore * np.array([lateral, -radial]) / (math.hypot(radial, lateral) or 1.0)
         axes.annotate("", xy=tuple(0.97 * along), xytext=tuple(0.5 * along), arrowprops=style, zorder=6)
         note(axes, (0.0, -0.33 * bore), "\n".join(said) + ", on the inner ring", color=LOAD)
-    speed = f"operation.inner_speed\n{displayed(float(scene.operation.inner_speed), 'rad/s'):.6g} rpm"
+    speed = f"operation.inner_speed\n{field_text(scene.operation, 'inner_speed')}"
     note(axes, (0.0, 0.68 * bore), speed)
     arc(axes, size.inner - 0.5 * size.ring, math.radians(135.0), math.radians(225.0))
 

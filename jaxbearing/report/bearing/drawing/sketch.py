@@ -5,11 +5,12 @@ from typing import Any
 
 import numpy as np
 
-from ....bearings.solution import RING_FREEDOMS, Solution
+from ....bearings.operation import LOAD_FIELDS
+from ....bearings.solution import Solution
 from ...backends.svg import Drawing
 from ...colours import CAGE, CENTRE_LINE, INK, INNER, OUTER, RING, ROLLER
-from ...display import displayed
 from ..azimuth import place_at
+from ..operation import field_text
 from .sizes import FrontSizes
 
 _WIDTH = 290.0
@@ -56,22 +57,25 @@ def _loads(drawing: Drawing, sizes: FrontSizes, azimuth: np.ndarray, inner: np.n
         )
 
 
+_SAID = {
+    "axial": "axial",
+    "moment": "tilt",
+    "about the load line": "tilt_lateral",
+    "radial": "radial",
+    "lateral": "lateral",
+}
+"""Name of a load, where there is little room, and the freedom of the ring along which it acts."""
+
+
 def _applied(drawing: Drawing, sizes: FrontSizes, solution: Solution) -> None:
     """Load on the inner ring and its speed, in the middle."""
     operation = solution.operation
     number = lambda freedom: float(given) if (given := operation.load(freedom)) is not None else 0.0
-    axial, radial, lateral, moment, moment_lateral = map(number, RING_FREEDOMS)
-    words = [f"{displayed(float(operation.inner_speed), 'rad/s'):.6g} rpm"]
-    if axial:
-        words.append(f"axial {1e-3 * axial:.5g} kN")
-    if moment:
-        words.append(f"moment {moment:.5g} N m")
-    if moment_lateral:
-        words.append(f"about the load line {moment_lateral:.5g} N m")
-    if radial:
-        words.append(f"radial {1e-3 * radial:.5g} kN")
-    if lateral:
-        words.append(f"lateral {1e-3 * lateral:.5g} kN")
+    radial, lateral = number("radial"), number("lateral")
+    words = [field_text(operation, "inner_speed")]
+    for name, freedom in _SAID.items():
+        if number(freedom):
+            words.append(f"{name} {field_text(operation, LOAD_FIELDS[freedom], 5)}")
     if radial or lateral:
         reach = 0.32 * sizes.bore / math.hypot(radial, lateral)
         drawing.arrow((0.0, 0.0), (reach * lateral, -reach * radial), INK, width=4.0)

@@ -1,4 +1,4 @@
-"""Random load cases of the tapered roller bearing: python tests/tapered_campaign.py [CASES] [--free]
+"""Random load cases of the tapered roller bearing: python tests/campaign/tapered_campaign.py [CASES] [--free]
 
 Fa 0.2 to 40 kN, Fr 0 to 30 kN, tilt held within 2 mrad, or, with --free, free under a moment; 0 to 10 000 rpm. What
 does not converge must be `no_equilibrium`: linear programming must find no distribution of contact forces that balances
@@ -8,6 +8,9 @@ side. Prints counts, Newton steps, the worst balance and whether all gradients a
 
 import sys
 import time
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).parents[1] / "support"))
 
 import jax
 import jax.numpy as jnp

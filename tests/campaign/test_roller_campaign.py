@@ -1,5 +1,4 @@
-"""Random bearings: operating point, clearance, one or both rings turning. Other guidance and flanges: `tests/campaign`,
-the long run."""
+"""Random bearings: operating point, clearance, one or both rings turning. Other guidance and flanges: the long run."""
 
 import equinox as eqx
 import jax

@@ -10,7 +10,7 @@ from fitting import FitOptions, FitResult, Measurements, Parameter, read_curves
 from fitting.parameters import NAMES
 from fitting.result import CurveFit
 
-DATA = Path(__file__).parent / "fitting" / "data"
+DATA = Path(__file__).parents[1] / "fitting" / "data"
 MEDIAN, SWEEPS = DATA / "traction_etm_median.csv", DATA / "traction_etm_sweeps.csv"
 VALUES = (1.0 / 3.0 * 1e5, 6.11e-9, 2450.0, 5362.815555151545, 2.0 / 3.0 * 1e-9, -786.0)
 HELD = {

@@ -17,7 +17,7 @@ from jaxbearing.studies import claims_of, power_loss_study
 pytestmark = pytest.mark.slow
 
 CLAIMS = PUBLISHED["claims"]
-PAGE = (Path(__file__).parents[2] / "docs" / "claims.md").read_text(encoding="utf-8")
+PAGE = (Path(__file__).parents[3] / "docs" / "claims.md").read_text(encoding="utf-8")
 TABLE = [
     [cell.strip() for cell in line.strip("|").split("|")] for line in PAGE.splitlines() if re.match(r"\| \d", line)
 ]

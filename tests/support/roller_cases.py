@@ -30,7 +30,7 @@ from jaxbearing.materials import CATALOGUE, Material
 
 RPM = 2.0 * math.pi / 60.0
 LITRE_PER_HOUR = 1e-3 / 3600.0
-PUBLISHED = tomllib.loads((Path(__file__).parent / "published" / "cylindrical_roller.toml").read_text())
+PUBLISHED = tomllib.loads((Path(__file__).parents[1] / "published" / "cylindrical_roller.toml").read_text())
 
 REFERENCE_STEEL = Material(np.float64(210e9), np.float64(0.3), np.float64(7850.0))
 REFERENCE_LAWS = ContactLaws(

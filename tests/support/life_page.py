@@ -8,7 +8,7 @@ from pathlib import Path
 
 import jaxbearing as jb
 
-PAGE = (Path(__file__).parents[1] / "docs" / "life.md").read_text(encoding="utf-8")
+PAGE = (Path(__file__).parents[2] / "docs" / "life.md").read_text(encoding="utf-8")
 (PAGE_SCENE,) = re.findall(r"```toml\n(.*?)```", PAGE, flags=re.DOTALL)
 
 

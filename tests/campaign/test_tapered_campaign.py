@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from tapered_campaign import campaign
+from campaign.tapered_campaign import campaign
 
 
 @pytest.mark.slow

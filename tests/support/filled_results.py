@@ -31,7 +31,7 @@ _RATING = {
 
 SCENES = {
     "ball": lambda: jb.load_scene(
-        "turbine_ball", {"kinematics.gyroscopic": "resolved", "contact.heathcote": "true", **_RATING}
+        "turbine_ball_mounted", {"kinematics.gyroscopic": "resolved", "contact.heathcote": "true", **_RATING}
     ),
     "dry ball": lambda: jb.load_scene("deep_groove_6205", {"operation.axial_load": "none"}),
     "roller": lambda: jb.load_scene("turbine_roller", {"contact.rolling_resistance": "ertel_grubin", **_RATING}),
@@ -70,9 +70,7 @@ def filled(structure, lanes=()):
         shape = (*lanes, *leaf.shape)
         if not jnp.issubdtype(leaf.dtype, jnp.floating):
             return jnp.zeros(shape, leaf.dtype)
-        values = np.full(shape, 1.0 + 0.25 / next(count)) * np.linspace(1.0, 1.01, max(1, int(np.prod(shape)))).reshape(
-            shape
-        )
+        values = np.full(shape, 1.0 + 0.25 / next(count)) * np.linspace(1.0, 1.01, int(np.prod(shape))).reshape(shape)
         last = name.rpartition(".")[2]
         if last == "azimuth":
             values = np.broadcast_to(2.0 * np.pi * np.arange(shape[-1]) / shape[-1], shape)
@@ -121,7 +119,7 @@ def _by_annotation(kind, sizes, **given):
 
 def _field(field, sizes):
     if field.name == "identity":
-        return None  # made of the scene, not of annotations; tests/bearings/test_restart.py has it
+        return None  # made of the scene, not of annotations; tests/bearings/motion/test_restart.py has it
     parts = [one for one in (field.type, *typing.get_args(field.type)) if dataclasses.is_dataclass(one)]
     if parts:
         return _by_annotation(parts[0], sizes)

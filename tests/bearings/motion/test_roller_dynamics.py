@@ -19,7 +19,7 @@ from jaxbearing.numerics.integrate import integrate_segment
 from jaxbearing.numerics.integrator import IntegratorOptions
 from jaxbearing.time_laws import LinearRamp, Ramp, RotatingLoad, Sinusoidal, Tabulated
 
-PUBLISHED = tomllib.loads((Path(__file__).parents[1] / "published" / "roller_dynamics.toml").read_text())
+PUBLISHED = tomllib.loads((Path(__file__).parents[2] / "published" / "roller_dynamics.toml").read_text())
 FIELD = PUBLISHED["vector_field"]
 
 
