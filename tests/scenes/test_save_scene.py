@@ -77,7 +77,20 @@ def test_built_in_scenes(name, tmp_path):
 
 
 def _in_order(tables):
-    order = ("kind", "geometry", "materials", "oil", "contact", "kinematics", "cage", "flange", "drag", "rating")
+    order = (
+        "kind",
+        "geometry",
+        "materials",
+        "oil",
+        "contact",
+        "kinematics",
+        "cage",
+        "flange",
+        "drag",
+        "rating",
+        "fits",
+        "temperatures",
+    )
     return [name for name in (*order, "operation", "simulation") if name in tables]
 
 
