@@ -51,10 +51,10 @@ if TYPE_CHECKING:
     from .bearings.ball.scene import BallDragSettings as BallDragSettings
     from .bearings.ball.scene import BallMaterials as BallMaterials
     from .bearings.ball.scene import BallOperation as BallOperation
+    from .bearings.cylindrical.geometry import RollerCage as RollerCage
+    from .bearings.cylindrical.geometry import RollerFlange as RollerFlange
+    from .bearings.cylindrical.geometry import RollerGeometry as RollerGeometry
     from .bearings.cylindrical.scene import CylindricalRollerBearing as CylindricalRollerBearing
-    from .bearings.cylindrical.scene import RollerCage as RollerCage
-    from .bearings.cylindrical.scene import RollerFlange as RollerFlange
-    from .bearings.cylindrical.scene import RollerGeometry as RollerGeometry
     from .bearings.motion.history import History as History
     from .bearings.motion.instants import pocket_loads as pocket_loads
     from .bearings.motion.runs import trajectory as trajectory
@@ -113,9 +113,9 @@ _LAZY = {
     "Operation": ".bearings.operation",
     "PartTemperatures": ".mounting",
     "Rating": ".bearings.rating",
-    "RollerCage": ".bearings.cylindrical.scene",
-    "RollerFlange": ".bearings.cylindrical.scene",
-    "RollerGeometry": ".bearings.cylindrical.scene",
+    "RollerCage": ".bearings.cylindrical.geometry",
+    "RollerFlange": ".bearings.cylindrical.geometry",
+    "RollerGeometry": ".bearings.cylindrical.geometry",
     "RollerProfile": ".bearings.profile",
     "SceneError": ".scenes.errors",
     "Simulation": ".bearings.motion.settings",

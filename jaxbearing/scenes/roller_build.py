@@ -3,7 +3,8 @@ the constructors: nothing runs on JAX."""
 
 from functools import cache
 
-from ..bearings.cylindrical.scene import CylindricalRollerBearing, RollerCage, RollerFlange, RollerGeometry
+from ..bearings.cylindrical.geometry import RollerCage, RollerFlange, RollerGeometry
+from ..bearings.cylindrical.scene import CylindricalRollerBearing
 from ..bearings.motion.settings import Simulation
 from ..bearings.operation import Operation
 from ..bearings.parts import Drag, Materials

@@ -3,7 +3,7 @@
 from collections.abc import Mapping
 from typing import Annotated, ClassVar, Literal
 
-from ..bearings.cylindrical.scene import RollerCage, RollerFlange, RollerGeometry
+from ..bearings.cylindrical.geometry import RollerCage, RollerFlange, RollerGeometry
 from ..bearings.operation import Operation
 from ..bearings.parts import ContactLaws, Drag
 from .bearing_schema import (
@@ -26,7 +26,7 @@ from .table_of import table_of
 
 
 class GeometryTable(table_of(RollerGeometry)):
-    """See `bearings.cylindrical.scene.RollerGeometry`."""
+    """See `bearings.cylindrical.geometry.RollerGeometry`."""
 
     about: ClassVar[Mapping[str, tuple[str, ...]]] = {"flange_stiffness": ("flange_gap", "thrust")}
 
@@ -72,11 +72,11 @@ RACEWAY_LAWS = {"film": ROLLER_FILMS, "rolling_resistance": ROLLING}
 
 
 class CageTable(table_of(RollerCage, base=CageBase)):
-    """See `bearings.cylindrical.scene.RollerCage`."""
+    """See `bearings.cylindrical.geometry.RollerCage`."""
 
 
 class FlangeTable(table_of(RollerFlange)):
-    """See `bearings.cylindrical.scene.RollerFlange`."""
+    """See `bearings.cylindrical.geometry.RollerFlange`."""
 
 
 class DragTable(table_of(Drag)):

@@ -9,7 +9,8 @@ from tapered_cases import tapered
 import jaxbearing as jb
 from jaxbearing.bearings.ball.geometry import BallGeometry
 from jaxbearing.bearings.ball.scene import BallAttitude, BallBearing, BallMaterials, BallOperation
-from jaxbearing.bearings.cylindrical.scene import CylindricalRollerBearing, RollerGeometry
+from jaxbearing.bearings.cylindrical.geometry import RollerGeometry
+from jaxbearing.bearings.cylindrical.scene import CylindricalRollerBearing
 from jaxbearing.bearings.operation import Operation
 from jaxbearing.bearings.parts import Materials
 from jaxbearing.bearings.ring import shift_matrix

@@ -8,7 +8,7 @@ import jax.numpy as jnp
 from jaxtyping import Array
 
 from ..growth import Growth, Play
-from .scene import RollerGeometry
+from .geometry import RollerGeometry
 
 
 def _clearance(geometry: RollerGeometry, growth: Growth) -> Array:
