@@ -146,7 +146,7 @@ def evaluate(system: AbstractArrowSystem, point: ArrowPoint) -> Equations:
 
 
 def linearize(system: AbstractArrowSystem, point: ArrowPoint) -> tuple[Equations, ArrowJacobian]:
-    """Residuals and blocks of the Jacobian, by forward differentiation with m + g tangents."""
+    """Equations and Jacobian blocks, by forward autodiff with m + g tangents."""
     m, n = point.elements.shape
     g = point.globals.shape[0]
 
