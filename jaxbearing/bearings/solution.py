@@ -227,12 +227,12 @@ class Solution(AbstractSolution, Generic[Point, Elements, Losses]):
             steps = int(self.iterations)
             if not steps:
                 return (
-                    f"{Status.NO_EQUILIBRIUM.text}: contacts that only push cannot balance these loads, the inner ring "
-                    "comes out (proved by the loads alone)"
+                    f"{Status.NO_EQUILIBRIUM.text}: compressive contacts cannot balance these loads; the inner ring would "
+                    "separate (proved by the loads alone)"
                 )
             return (
                 f"{Status.NO_EQUILIBRIUM.text}: nothing balances these loads with small tilts and displacements, the "
-                f"inner ring comes out or tilts by more than 0.1 rad (proved after {steps} Newton steps)"
+                f"inner ring would separate or tilt by more than 0.1 rad (proved after {steps} Newton steps)"
             )
         return (
             f"{Status(int(self.status)).text} after {int(self.iterations)} Newton steps: scaled residual "
