@@ -227,8 +227,8 @@ class Solution(AbstractSolution, Generic[Point, Elements, Losses]):
             steps = int(self.iterations)
             if not steps:
                 return (
-                    f"{Status.NO_EQUILIBRIUM.text}: compressive contacts cannot balance these loads; the inner ring would "
-                    "separate (proved by the loads alone)"
+                    f"{Status.NO_EQUILIBRIUM.text}: compressive contacts cannot balance these loads; the inner ring "
+                    "would separate (proved by the loads alone)"
                 )
             return (
                 f"{Status.NO_EQUILIBRIUM.text}: nothing balances these loads with small tilts and displacements, the "
