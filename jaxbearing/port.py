@@ -154,7 +154,8 @@ def _react_any(
 
     def at_displacement(lane: AbstractBearing, displacement: Array, closure: Array, expansion: Array) -> Solution:
         def of_running(running: AbstractBearing) -> Solution:
-            distance = running.port_distance if at == "port" else jnp.zeros(())
+            # the port of a bearing on seats is that of the drawing: a point of the shaft, whatever the rings do
+            distance = lane.port_distance if at == "port" else jnp.zeros(())
             ring = held_ring(displacement, running.ring_lever, distance, closure, expansion)
             return running.solve_ring(options, ring, None if tilt is None else tilt == "exact")
 

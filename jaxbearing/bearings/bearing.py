@@ -15,7 +15,7 @@ from jaxtyping import Array
 from .._scene import AbstractScene
 from ..contacts import PointContact
 from ..mounting import Fits, PartTemperatures
-from ..numerics.checks import void
+from ..numerics.checks import gate, void
 from ..numerics.newton import NewtonOptions
 from ..numerics.status import Status
 from .facts import ROLLER_PRESSURE, RangeChecks
@@ -67,6 +67,7 @@ class AbstractBearing(AbstractScene):
         running, fit, impossible = running_scene(self)
         assert fit is not None
         possible = ~functools.reduce(operator.or_, (reason.applies for reason in impossible.values()))
+        running = gate(running, possible)
         solution = solve(dataclasses.replace(running, operation=void(running.operation, possible)))
         good = solution.converged
         checks = {text: good & (excess > 0) for text, excess in fit_excess(self, fit).items()}

@@ -10,11 +10,13 @@ import dataclasses
 from collections.abc import Iterator
 from typing import Any, NamedTuple
 
+import jax
 import jax.numpy as jnp
 
 from ..mounting import Annulus, Fit, Fits, FitState, PartTemperatures
 from ..mounting.annulus import REFERENCE_TEMPERATURE
-from ..numerics.refusals import refusals_of
+from ..numerics.checks import demand, given
+from ..numerics.refusals import refusals_of, refuse_all
 from .facts import Excess
 from .growth import FitResult, Growth, Play
 from .solution import Reason
@@ -43,6 +45,7 @@ def mounting_problems(scene: Any) -> Iterator[str | ValueError]:
         if getattr(geometry, name) is None:
             yield f"geometry.{name}: found nothing, expected a length, which [fits] needs, e.g. '25 mm'"
     yield from refusals_of(fits.check_room, geometry.bore, geometry.outside_diameter)
+    yield from refusals_of(_check_walls, scene)
     if temperatures is None:
         return
     materials: dict[str, Any] = {
@@ -55,6 +58,26 @@ def mounting_problems(scene: Any) -> Iterator[str | ValueError]:
         if material is not None and material.thermal_expansion is None:
             needed = "expected a number, which [temperatures] needs, e.g. '12.5e-6 1/K'"
             yield f"{name}.thermal_expansion: found nothing, {needed}"
+
+
+def _check_walls(scene: Any) -> None:
+    """**Raises:** `ValueError` where a ring has no wall between its seat and its raceway."""
+    geometry = scene.geometry
+    sizes = given(*(leaf for leaf in jax.tree.leaves(geometry)), geometry.bore, geometry.outside_diameter)
+    if sizes is None:
+        return
+    inner, outer = scene.raceway_diameters
+    problems: list[ValueError] = []
+    for name, word, of, raceway, fine in (
+        ("bore", "less", "inner", inner, geometry.bore < inner),
+        ("outside_diameter", "more", "outer", outer, geometry.outside_diameter > outer),
+    ):
+        text = f"geometry.{name} must be {word} than the diameter of the {of} raceway"
+        said = lambda name=name, text=text, raceway=raceway: (
+            f"{text}, {float(raceway):.6g} m, got {float(getattr(geometry, name)):.6g} m"
+        )
+        problems += refusals_of(demand, text, fine, said)
+    refuse_all(problems)
 
 
 def running_scene(scene: Any) -> tuple[Any, FitResult | None, dict[str, Reason]]:
@@ -90,21 +113,12 @@ def running_scene(scene: Any) -> tuple[Any, FitResult | None, dict[str, Reason]]
         hoop_stress=of.inner.hoop_stress_at_bore(0.0 if of.on_shaft is None else of.on_shaft.pressure),
     )
     unseated = dataclasses.replace(scene, fits=None, temperatures=None)
-    return unseated.grown(found.growth), result, _impossible(scene, last)
+    return unseated.grown(found.growth), result, _impossible(last)
 
 
-def _impossible(scene: Any, play: Play) -> dict[str, Reason]:
-    """What is wrong with the dimensions: a sentence with a place for a number -> whether it is."""
-    geometry, (inner, outer) = scene.geometry, scene.raceway_diameters
-    return {
-        "geometry.bore must be less than the diameter of the inner raceway, {:.6g} m": Reason(
-            ~(geometry.bore < inner), inner
-        ),
-        "geometry.outside_diameter must be more than the diameter of the outer raceway, {:.6g} m": Reason(
-            ~(geometry.outside_diameter > outer), outer
-        ),
-        "fits and temperatures leave the rolling elements no contact": Reason(~play.possible, jnp.zeros(0)),
-    }
+def _impossible(play: Play) -> dict[str, Reason]:
+    """What is wrong with the bearing that runs: a sentence -> whether it is."""
+    return {"fits and temperatures leave the rolling elements no contact": Reason(~play.possible, jnp.zeros(0))}
 
 
 def running_play(scene: Any) -> Play:

@@ -137,7 +137,8 @@ class Fits(Checked):
 def _check_covered(name: str, tolerance: str | None, diameter: Scalar | None) -> None:
     """**Raises:** `ValueError` where the tables do not have this diameter, as far as it is known."""
     size = given(diameter)
-    if tolerance is None or size is None:
+    # neither where none is given, nor where what is given has been refused
+    if not isinstance(tolerance, str) or size is None:
         return
     least, most = iso286.covered(tolerance)
     demand(

@@ -106,7 +106,8 @@ def running_play(geometry: BallGeometry, growth: Growth) -> Play:
     """Clearance, contact angle and axial shift of the grown bearing."""
     grooves = _grown(geometry, growth)
     lift = grooves.clearance / (2.0 * grooves.distance)
-    open_ = lift > 0.0
+    # the angle has an end where the centres coincide, beyond which nothing touches
+    open_ = (lift > 0.0) & (lift < 1.0)
     sine = jnp.where(open_, jnp.sqrt(jnp.where(open_, lift * (2.0 - lift), 1.0)), 0.0)
     angle = jnp.arctan2(sine, jnp.where(open_, 1.0 - lift, 1.0))
     shift = grooves.distance * sine - geometry.centre_distance * geometry.free_sine

@@ -23,6 +23,7 @@ from ...programs import KeptProgram
 from ..checks import input_excess
 from ..cylindrical.scene import CylindricalRollerBearing
 from ..facts import Excess
+from ..mounted import fit_excess, running_scene
 from .checks import largest, run_excess
 from .history import Energy, History, LastState
 from .rates import WORKS
@@ -224,9 +225,11 @@ def _history(
 def _checks(scene: CylindricalRollerBearing, energy: Energy, excess: Excess) -> dict[str, Any]:
     """Warnings of a run: its energy balance, and the range checks that a steady solve makes of the same scene."""
     text = f"the energy balance leaves more than {ENERGY_LIMIT:g} of the drive work open: choose a smaller tolerance"
-    return {text: jnp.abs(energy.error) > ENERGY_LIMIT} | {
-        said: value > 0 for said, value in (input_excess(scene) | excess).items()
-    }
+    found = input_excess(scene) | excess
+    _, fit, _ = running_scene(scene)
+    if fit is not None:
+        found |= fit_excess(scene, fit)
+    return {text: jnp.abs(energy.error) > ENERGY_LIMIT} | {said: value > 0 for said, value in found.items()}
 
 
 def _kept(found: Advanced, times: np.ndarray, first: bool) -> tuple[np.ndarray, Any, Segment]:
@@ -315,6 +318,6 @@ def _lane(scene: CylindricalRollerBearing, simulation: Simulation | None, times:
         energy=energy,
         checks=Checks(_checks(scene, energy, run_excess(scene, found.instants)), inputs.broken, inputs.rules),
         solver=simulation.solver,
-        notes=scene.assumptions(),
+        notes=(*scene.assumptions(), *_of_seats(scene)),
         identity=jax.tree.map(jnp.asarray, identity(scene)),
     )
