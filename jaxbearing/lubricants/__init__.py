@@ -14,6 +14,7 @@ from .simple_viscosity import ConstantViscosity as ConstantViscosity
 from .simple_viscosity import Roelands as Roelands
 from .thermal import LinearConductivity as LinearConductivity
 from .thermal import LinearDensity as LinearDensity
+from .thermal import LinearHeatCapacity as LinearHeatCapacity
 from .two_viscosities import WaltherRoelands as WaltherRoelands
 from .two_viscosities import wooster_pressure_viscosity as wooster_pressure_viscosity
 from .viscosity import AbstractViscosity as AbstractViscosity
