@@ -26,6 +26,7 @@ RANK = {
     "gaps": 3,
     "ehl": 4,
     "machines": 4,
+    "thermal": 4,
     "bearings": 5,
     "life": 6,
     "solve": 7,

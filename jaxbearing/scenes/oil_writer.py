@@ -23,6 +23,7 @@ from .oil_schema import (
     Law,
     LinearConductivityTable,
     LinearDensityTable,
+    LinearHeatCapacityTable,
 )
 
 HEADER = "A value with a unit is a string, a dimensionless value is a number. Every value has its source."
@@ -85,6 +86,7 @@ def _laws(oil: Lubricant) -> dict[str, tuple[type[Law], dict[str, Any]]]:
         ("rheology", ExponentialRheologyTable),
         ("density", LinearDensityTable),
         ("conductivity", LinearConductivityTable),
+        ("heat_capacity", LinearHeatCapacityTable),
     ):
         if getattr(oil, name) is not None:
             found[name] = (table, getattr(oil, name))

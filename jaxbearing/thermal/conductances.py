@@ -186,7 +186,11 @@ def elements_surface(diameter: Values, count: Values, length: Values | None = No
 
 
 def seat_conductance(
-    diameter: Values, width: Values, gap: Values = 0.0, gap_conductivity: Values = 0.13, transfer: Values = SEAT_TRANSFER
+    diameter: Values,
+    width: Values,
+    gap: Values = 0.0,
+    gap_conductivity: Values = 0.13,
+    transfer: Values = SEAT_TRANSFER,
 ) -> Batch:
     r"""Heat flow through a ring's seat, W/K: $\pi d B\,/\,(1/h_c + s/(2 k))$, a tight seat in series with its gap.
 
@@ -250,7 +254,8 @@ class CylindricalHousing(Checked):
 
 
 CylindricalHousing.__init__.__doc__ = """**Arguments:**
-- `diameter`: outside, m, > 0; `area`: of the surface that gives heat off, m^2, > 0.
+- `diameter`: outside, m, > 0.
+- `area`: of the surface that gives heat off, m^2, > 0.
 - `ambient`: temperature of the air and of the surroundings, K, > 0.
 - `emissivity`: of the surface, a number from 0 to 1.
 """

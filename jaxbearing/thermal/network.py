@@ -19,7 +19,7 @@ import numpy as np
 from jaxtyping import Array, Float, Int
 
 from .._types import Scalar
-from ..numerics.checks import Checked, bounded, demand, given, known
+from ..numerics.checks import Checked, bounded, demand, functions, given, known
 from ..numerics.precision import as_float
 from ..numerics.status import Status
 
@@ -122,7 +122,7 @@ class Network(Checked):
         if self.oil is not None and self.oil_node is None:
             raise ValueError(f"an oil flow needs a node named 'oil', got {self.nodes}")
         if given(self.between) is not None:
-            xp = np if known_array(self.between) else jnp
+            xp = functions(self.between)
             fine = xp.all(self.between == xp.swapaxes(self.between, -1, -2)) & xp.all(self.between >= 0)
             demand(
                 "{path}.between must be symmetric, and no conductance negative",
@@ -202,11 +202,6 @@ Network.__init__.__doc__ = """**Arguments:**
 """
 
 
-def known_array(value: Any) -> bool:
-    """True if an array has numbers, and is not traced."""
-    return not isinstance(value, jax.core.Tracer)
-
-
 def network_of(
     nodes: int | tuple[str, ...],
     between: Mapping[tuple[str, str], Scalar],
@@ -234,10 +229,8 @@ def network_of(
     return Network(names, conductances_between(names, between), ways, ambient, oil)
 
 
-def conductances_between(
-    nodes: tuple[str, ...], between: Mapping[tuple[str, str], Scalar]
-) -> Float[Array | np.ndarray, "node node"]:
-    """The symmetric matrix of named conductances.
+def conductances_between(nodes: tuple[str, ...], between: Mapping[tuple[str, str], Scalar]) -> Any:
+    """The symmetric matrix of named conductances, W/K, shape (node, node).
 
     **Arguments:** `nodes`: names; `between`: W/K by the names of two nodes in any order.
 
@@ -254,6 +247,7 @@ def conductances_between(
     plain = all(known(value) is not None for value in places.values())
     rows = [[places.get((min(i, j), max(i, j)), 0.0) for j in range(len(nodes))] for i in range(len(nodes))]
     if plain:
+        # numbers that are known stay so: they are judged
         return np.asarray(rows, dtype=float)
     return jnp.stack([jnp.stack([jnp.asarray(one, dtype=float) for one in row]) for row in rows])
 

@@ -81,9 +81,7 @@ def reference_conductance(area: Values, thrust: bool = False) -> Batch:
     return reference_heat_flow(area, thrust) * area / REFERENCE_RISE
 
 
-def palmgren_torque(
-    speed: Values, viscosity: Values, load: Values, diameter: Values, f0: Values, f1: Values
-) -> Batch:
+def palmgren_torque(speed: Values, viscosity: Values, load: Values, diameter: Values, f0: Values, f1: Values) -> Batch:
     r"""Friction moment of ISO 15312, $10^{-7} f_0 (\nu n)^{2/3} d_m^3 + f_1 P_1 d_m$ in N mm, here N m.
 
     Slower than about nu n = 2000 the first term is $160\cdot10^{-7} f_0 d_m^3$.
@@ -115,9 +113,7 @@ def reference_speed(
     return jnp.exp(root.value)
 
 
-def speed_of_heat(
-    losses: Callable[[Array, Any], Array], args: Any, heat: Scalar, lower: Scalar, upper: Scalar
-) -> Root:
+def speed_of_heat(losses: Callable[[Array, Any], Array], args: Any, heat: Scalar, lower: Scalar, upper: Scalar) -> Root:
     """The speed at which losses are equal to the heat that may leave: with a bearing's own losses, contacts at 70 degC
     and 12 mm^2/s, it is the reference speed of the model instead of the standard's formula.
 
@@ -143,7 +139,7 @@ def _root_in_logarithm(
         own, target = given
         return jnp.log(power(jnp.exp(log_speed), own)) - jnp.log(target)
 
-    return monotone_root(excess, (args, heat), *ends, middle)
+    return monotone_root(excess, (args, heat), ends[0], ends[1], middle)
 
 
 def safe_speed_ratio(lubricant_parameter: Values, load_parameter: Values) -> Float[Array, "..."]:

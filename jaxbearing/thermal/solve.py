@@ -11,18 +11,24 @@ import equinox as eqx
 import jax
 import jax.numpy as jnp
 import numpy as np
-from jaxtyping import Array, Float, Int
+from jaxtyping import Array, Bool, Float, Int
 
 from .._types import Scalar
 from ..numerics.batching import in_turn
 from ..numerics.checks import label
 from ..numerics.status import Status
 from .network import Losses, Network, NodeHeat, Slopes, thermal_margin, thermal_rate
-from .search import Ended, Problem, ThermalOptions, evaluate
+from .point import Problem, ThermalOptions, evaluate
+from .search import Ended
 from .search import search as search_root
 
 LIMIT = 523.15
 """Temperature that no node may pass, K: beyond 250 degC no law of an oil holds."""
+
+UNSTABLE = "unstable: a bearing would leave this state"
+"""Warning of a steady state that is a root and no more."""
+START_NOTE = "a stable steady state need not be reached by a start at speed: only a run in time (warm_up) says so"
+"""Note beside margin and rate."""
 
 
 class ThermalState(eqx.Module):
@@ -61,13 +67,22 @@ class ThermalState(eqx.Module):
         """Index of the hottest node where the search ended: the one that ran away."""
         return jnp.argmax(self.last)
 
+    @property
+    def unstable(self) -> Bool[Array, ""] | None:
+        """True in a state that a bearing would leave: margin not above 0, or a rate above 0; `None` if not computed."""
+        if self.margin is None:
+            return None
+        beyond = self.margin <= 0.0
+        return beyond if self.rate is None else beyond | (self.rate > 0.0)
+
     def sentence(self) -> str:
         """What happened, in one sentence, of one state with known numbers."""
         node = int(np.argmax(np.asarray(self.last)))
         status, there = Status(int(self.status)), float(self.last[node])
         place = f"{self.nodes[node].replace('_', ' ')} at {there:.2f} K ({there - 273.15:.2f} degC)"
         if status == Status.CONVERGED:
-            return f"steady temperatures found in {int(self.solves)} solves; hottest: {place}"
+            warning = "" if self.unstable is None or not bool(self.unstable) else f"; {UNSTABLE}"
+            return f"steady temperatures found in {int(self.solves)} solves; hottest: {place}{warning}"
         if status == Status.THERMAL_RUNAWAY:
             return f"thermal_runaway: no steady state below the limit of temperature was found; hottest: {place}"
         return f"{status.text}: the search for steady temperatures ended with the hottest node, the {place}"
@@ -165,9 +180,7 @@ class _Root(NamedTuple):
 @eqx.filter_custom_jvp
 def _root(problem: Problem, *, options: ThermalOptions) -> _Root:
     ended: Ended = in_turn(lambda given: search_root(given, options), problem)
-    return _Root(
-        ended.temperatures, ended.point.losses, ended.slopes, ended.status, ended.solves, ended.derivatives
-    )
+    return _Root(ended.temperatures, ended.point.losses, ended.slopes, ended.status, ended.solves, ended.derivatives)
 
 
 @_root.def_jvp

@@ -119,10 +119,11 @@ def warm_up(
         del t, args, kwargs
         return jnp.max(y.globals[:size]) - limit
 
+    # diffrax calls the field in many places: so it is traced once
+    field: Any = eqx.filter_jit(rates)
     proper = lambda time, state, args: state.globals
     found = dfx.diffeqsolve(
-        # diffrax calls the field in many places: so it is traced once
-        dfx.ODETerm(eqx.filter_jit(rates)),
+        dfx.ODETerm(field),
         diffrax_solver(options, INTEGRALS),
         jnp.zeros(()),
         times[-1],
@@ -139,7 +140,9 @@ def warm_up(
     ends: Any = found.ts
     reached = (saved[0], saved[1][0], ends[1][0])
     ahead = AHEAD * options.shortest_step
-    beyond = reached[1][:size] + ahead * rates(reached[2], ArrowPoint(jnp.zeros((0, 1)), reached[1]), None).globals[:size]
+    beyond = (
+        reached[1][:size] + ahead * rates(reached[2], ArrowPoint(jnp.zeros((0, 1)), reached[1]), None).globals[:size]
+    )
     status = _status(found.result, reached[1], losses(beyond, reached[2] + ahead).status)
     return _history(first.nodes, begin, capacity, times, flows_at, reached, status, found)
 

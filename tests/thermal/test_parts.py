@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from scipy.integrate import quad
 
-from jaxbearing.lubricants import LinearHeatCapacity
+from jaxbearing.lubricants import ESTER_HEAT_CAPACITY, MINERAL_HEAT_CAPACITY
 from jaxbearing.thermal import conductances, reference_speed, shares
 from jaxbearing.thermal.conductances import Solid
 from jaxbearing.thermal.network import NODES, network_of
@@ -115,9 +115,8 @@ def test_heat_capacities():
     np.testing.assert_allclose(found, 7830.0 * 460.0 * 0.25 * np.pi * (0.0305575**2 - 0.025**2) * 0.015, rtol=1e-12)
     assert float(conductances.oil_capacity(0.01, 1e-5, 900.0, 2000.0)) == 5.0
     np.testing.assert_allclose(conductances.oil_capacity(0.5, 1e-5, 900.0, 2000.0), 9.0)
-    mineral = LinearHeatCapacity(1670.0, 4.3, 273.0)
-    np.testing.assert_allclose(mineral.heat_capacity(jnp.asarray([273.0, 373.0])), [1670.0, 2100.0])
-    np.testing.assert_allclose(LinearHeatCapacity(2150.0, 0.0, 393.15).heat_capacity(300.0), 2150.0)
+    np.testing.assert_allclose(MINERAL_HEAT_CAPACITY.heat_capacity(jnp.asarray([273.0, 373.0])), [1670.0, 2100.0])
+    np.testing.assert_allclose(ESTER_HEAT_CAPACITY.heat_capacity(300.0), 2150.0)
 
 
 @pytest.mark.parametrize("size", [1, 4, 6])
@@ -209,7 +208,9 @@ def test_reference_heat_flow():
     np.testing.assert_allclose(found, np.pi / 4.0 * (0.04 + 0.0361 - 0.0144 - 0.01), rtol=1e-12)
 
 
-@pytest.mark.parametrize(("viscous", "load", "ratio"), [(1, 1, 0.5876798029), (0.5, 2, 0.4370699291), (2, 0.1, 0.6343160515)])
+@pytest.mark.parametrize(
+    ("viscous", "load", "ratio"), [(1, 1, 0.5876798029), (0.5, 2, 0.4370699291), (2, 0.1, 0.6343160515)]
+)
 def test_safe_speed_ratio(viscous, load, ratio):
     found = reference_speed.safe_speed_ratio(float(viscous), float(load))
     np.testing.assert_allclose(found, ratio, rtol=1e-9)
