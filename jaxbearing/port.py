@@ -56,8 +56,9 @@ def reaction(
     Nothing in the stiffness is made symmetric: with each ball's own centrifugal force, with couples or with friction it
     is not. As in the loads of `solve`, friction along the raceways is left out of the force (of `turbine_ball` 0.1 %
     of it, across the load), and of balls that slide the turning of the race under them is left out of the derivatives
-    by the tilts (3e-6). A cylindrical roller bearing has no axial freedom. Its rollers tilt with the ring where they
-    are dry or roll without sliding; where they slide they carry evenly along their length, and the ring must not tilt.
+    by the tilts (3e-6). A cylindrical roller bearing resists an axial displacement by its flanges alone
+    (`geometry.flange_stiffness`). Its rollers tilt with the ring where they are dry or roll without sliding; where they
+    slide they carry evenly along their length, and the ring must not tilt.
 
     **Arguments:**
     - `scene`: a ball, cylindrical or tapered roller bearing.
@@ -152,9 +153,12 @@ def _react_any(
         return dataclasses.replace(solution, status=jnp.where(finite, solution.status, int(Status.INVALID_INPUT)))
 
     def at_displacement(lane: AbstractBearing, displacement: Array, closure: Array, expansion: Array) -> Solution:
-        distance = lane.port_distance if at == "port" else jnp.zeros(())
-        ring = held_ring(displacement, lane.ring_lever, distance, closure, expansion)
-        return lane.solve_ring(options, ring, None if tilt is None else tilt == "exact")
+        def of_running(running: AbstractBearing) -> Solution:
+            distance = running.port_distance if at == "port" else jnp.zeros(())
+            ring = held_ring(displacement, running.ring_lever, distance, closure, expansion)
+            return running.solve_ring(options, ring, None if tilt is None else tilt == "exact")
+
+        return lane.solved_running(of_running)
 
     return with_checked_inputs(scene, react)
 

@@ -12,8 +12,10 @@ import numpy as np
 from jaxtyping import Array, Bool, Float, Int
 
 from .._scene import AbstractSolution
+from .._scene import derived as derived
 from .._scene import label as label
 from ..numerics.status import Status
+from .growth import FitResult
 
 INNER_TOLERANCE = 1e-8
 """Residual of a nested solve above which it is named as the reason of a failure."""
@@ -31,8 +33,8 @@ class RingDisplacement(eqx.Module):
     """Displacement of the inner ring; a degree of freedom that the family does not activate is held at 0.
 
     `axial` is 0 in the middle of the play for ball bearings given by their clearance, where the planes of the grooves
-    coincide, and at first contact of elements and races for those given by their contact angle and for tapered
-    bearings.
+    coincide, and for cylindrical roller bearings with flanges; it is 0 at first contact of elements and races for ball
+    bearings given by their contact angle and for tapered bearings.
     """
 
     axial: Float[Array, ""] = eqx.field(
@@ -173,6 +175,7 @@ class Solution(AbstractSolution, Generic[Point, Elements, Losses]):
     laminae: LaminaLoads | None = None
     held_freedom: tuple[str, ...] = eqx.field(static=True, default=())
     """Freedoms of the ring that are held where they are, and not free under a given load."""
+    fit: FitResult | None = None
     reasons: dict[str, Reason] = eqx.field(default_factory=dict)
     """Possible causes of a failed solve: a sentence with places for numbers, such as `{:.3g}` -> the numbers."""
     life: Any = None
@@ -201,6 +204,8 @@ class Solution(AbstractSolution, Generic[Point, Elements, Losses]):
             for text, reason in self.reasons.items()
             if bool(reason.applies)
         ]
+        if found and int(self.status) == Status.INVALID_INPUT:
+            return f"{Status.INVALID_INPUT.text}: {'; '.join(found)}"
         return "; ".join([self._ending(), *found])
 
     def _ending(self) -> str:

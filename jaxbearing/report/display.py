@@ -1,4 +1,4 @@
-"""Numbers for people: engineer's units, significant digits, bars."""
+"""Numbers for people: engineer's units on screens and axes, significant digits, bars."""
 
 import math
 
@@ -9,10 +9,20 @@ _ENGINEERS: dict[str, tuple[str, float]] = {
     "m": ("um", 1e6),
     "Pa": ("GPa", 1e-9),
     "N/m": ("N/um", 1e-6),
+    "N/m^(10/9)": ("N/um^(10/9)", 1e-6 ** (10.0 / 9.0)),
     "m^3/s": ("l/h", 3.6e6),
     "1": ("", 1.0),
 }
 """SI unit of a result -> the unit on the screen, and the factor. Other units are shown as they are."""
+
+_SCALES = {
+    "N": ((1e3, "kN", 1e-3), (0.0, "N", 1.0)),
+    "m": ((1e-3, "mm", 1e3), (1e-7, "µm", 1e6), (0.0, "nm", 1e9)),
+    "Pa": ((1e8, "GPa", 1e-9), (0.0, "MPa", 1e-6)),
+    "m/s": ((0.1, "m/s", 1.0), (0.0, "mm/s", 1e3)),
+    "W": ((1e4, "kW", 1e-3), (0.0, "W", 1.0)),
+}
+"""SI unit -> (from this largest value on, unit on the axis, factor)."""
 
 ZERO_CELSIUS = 273.15
 """K."""
@@ -27,6 +37,15 @@ def display_unit(unit: str) -> str:
 def displayed(value: float, unit: str) -> float:
     """A result in the unit in which it is shown."""
     return value * _ENGINEERS.get(unit, (unit, 1.0))[1]
+
+
+def axis_unit(unit: str, largest: float) -> tuple[str, float]:
+    """The unit on an axis whose largest value is this, in SI, and the factor from SI."""
+    for limit, name, factor in _SCALES.get(unit, ((0.0, unit, 1.0),)):
+        if largest >= limit:
+            return name, factor
+    # not a number
+    return unit, 1.0
 
 
 def digits(value: float, significant: int = 4) -> str:
@@ -55,3 +74,12 @@ def bar(fraction: float, width: int, ascii_only: bool = False) -> str:
     if eighths == 0 and fraction > 0.0:
         eighths = 1
     return ("█" * (eighths // 8) + _BLOCKS[eighths % 8]).rstrip()
+
+
+def typeset(text: str) -> str:
+    """With the signs of units that a terminal may not have."""
+    return text.replace(" degC", " °C").replace(" um", " µm").replace("/um", "/µm")
+
+
+def pretty(text: str) -> str:
+    return typeset(text).replace(", ", "   ·   ")

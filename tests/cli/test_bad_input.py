@@ -110,7 +110,12 @@ BROKEN = {
     "number_for_a_table": (without_table("cage").replace("kind ", "cage = 3\nkind ", 1), "cage", ["a table"]),
     "lubricated_without_cage": (without_table("cage"), "cage", ["simulate"]),
     "contact_without_oil": (without_table("oil"), "oil", ["[contact] needs"]),
-    "not_yet": (line("oil_flow", 'axial_load = "1 N"'), "operation.axial_load", ["not available in this version"]),
+    "not_yet": (TEXT + "[kinematics]\n", "kinematics", ["not available in this version"]),
+    "no_axial_freedom": (
+        TEXT.replace("[operation]", '[operation]\naxial_load = "1 N"'),
+        "operation.axial_load",
+        ["no axial freedom"],
+    ),
     "kind_unknown": (
         line("kind", 'kind = "cylindrical_roler_bearing"'),
         "kind",
@@ -209,7 +214,7 @@ def test_unreadable_file(jaxbearing_command, folder, monkeypatch):
         ("contact.film.order=3", "contact.film.order", ["a table"]),
         ("cage.guidence=none", "cage.guidence", ["Did you mean 'guidance'"]),
         ("flang.ring=none", "flang", ["unknown name 'flang'", "Did you mean 'flange'"]),
-        ("operation.axial_load=none", "operation.axial_load", ["not available in this version", "radial load only"]),
+        ("kinematics=none", "kinematics", ["not available in this version", "belongs to ball bearings"]),
         ("contact.thermal=off", "contact.thermal", ["or leave it out (--set contact.thermal=none)"]),
         ("kind=none", "kind", ["found nothing", "kind ="]),
     ],

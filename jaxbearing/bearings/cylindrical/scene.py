@@ -7,6 +7,7 @@ running (a roller between a turning inner and a fixed outer ring spins clockwise
 `spin_speed`). Pocket face 1 is in front of the roller, face 2 behind it.
 """
 
+import dataclasses
 import math
 from collections.abc import Callable, Iterator, Mapping
 from typing import Any, ClassVar, Literal
@@ -17,6 +18,7 @@ from jaxtyping import Array
 
 from ..._types import Scalar
 from ...lubricants import Lubricant, NoPressureViscosity
+from ...mounting import Fits, PartTemperatures
 from ...numerics.checks import Checked, demand, given
 from ...numerics.newton import NewtonOptions
 from ...numerics.refusals import refusals_of, refuse_all
@@ -25,7 +27,9 @@ from ..bearing import AbstractBearing
 from ..cage import ASSUMED_LANDS as ASSUMED_LANDS
 from ..cage import AbstractCage
 from ..facts import RangeChecks
+from ..growth import Growth, Play
 from ..motion.settings import Simulation
+from ..mounted import mounting_problems
 from ..operation import Operation
 from ..outline import Outline
 from ..parts import (
@@ -42,7 +46,8 @@ from ..profile import RollerProfile
 from ..rated import RatedContacts
 from ..rating import Rating
 from ..ring import InnerRing
-from ..solution import Solution
+from ..solution import RING_FREEDOMS, Solution
+from .thrust import NOT_MODELLED, SIDES, ThrustFlanges, check_axial, check_flanges
 
 ASSUMED_CAGE_INNER = 7.0 / 12.0
 """Cage bore = pitch diameter minus this times the roller diameter, where a scene does not give it."""
@@ -50,6 +55,10 @@ ASSUMED_CAGE_OUTER = 4.0 / 12.0
 """Cage outside diameter = pitch diameter plus this times the roller diameter, where a scene does not give it."""
 ASSUMED_FLANGE_HEIGHT = 2.5 / 12.0
 """Flange height over roller diameter, where a scene does not give it."""
+
+
+_ACROSS = ("radial", "lateral", "tilt", "tilt_lateral")
+"""Freedoms of the inner ring that the rollers feel."""
 
 
 class RollerGeometry(Checked):
@@ -61,6 +70,13 @@ class RollerGeometry(Checked):
     - `contact_length`: cylindrical length that carries load, m, > 0; `roller_length` where not given.
     - `diametral_clearance`: DIAMETRAL internal clearance of the assembled bearing, m; negative: preload.
     - `first_element_angle`: azimuth of the first roller, rad; not given: 0, and the load line is a line of symmetry.
+    - `flange_stiffness`: k of the axial force k x^(10/9) of a flange, where x is the axial displacement of the inner
+      ring after the touch, N/m^(10/9), > 0; not given: nothing holds the ring along the axis (types N and NU).
+    - `flange_gap`: axial displacement of the inner ring, from the middle of its play, at which it touches a flange, m,
+      >= 0; half of the axial clearance between two flanges; `flange_stiffness` needs it.
+    - `thrust`: sense of the axial loads on the inner ring that its flanges carry, "+x" or "-x" (type NJ) or "both"
+      (type NUP); not given: both (structure).
+    - `bore`, `outside_diameter`, `width`: boundary dimensions of the bearing, m, for what knows its seats.
     """
 
     part: ClassVar[str] = "geometry"
@@ -72,6 +88,12 @@ class RollerGeometry(Checked):
     diametral_clearance: Scalar = number(unit="m")
     contact_length: Scalar | None = optional_number(bound="> 0", unit="m")
     first_element_angle: Scalar | None = optional_number(metadata=FIRST_ELEMENT)
+    flange_stiffness: Scalar | None = optional_number(bound="> 0", unit="N/m^(10/9)")
+    flange_gap: Scalar | None = optional_number(bound=">= 0", unit="m")
+    thrust: Literal["both", "+x", "-x"] | None = choice("geometry.thrust", SIDES, None)
+    bore: Scalar | None = optional_number(bound="> 0", unit="m")
+    outside_diameter: Scalar | None = optional_number(bound="> 0", unit="m")
+    width: Scalar | None = optional_number(bound="> 0", unit="m")
 
     def __check_init__(self):
         super().__check_init__()
@@ -79,6 +101,7 @@ class RollerGeometry(Checked):
 
     def _problems(self) -> Iterator[str | ValueError]:
         yield from refusals_of(check_row_fits, self.n_rollers, self.roller_diameter, self.pitch_diameter)
+        yield from refusals_of(check_flanges, self)
         sizes = given(self.contact_length, self.roller_length)
         if sizes is not None:
             yield from refusals_of(
@@ -95,6 +118,15 @@ class RollerGeometry(Checked):
     def loaded_length(self) -> Scalar:
         """Length of the raceway contacts, m."""
         return self.roller_length if self.contact_length is None else self.contact_length
+
+    @property
+    def thrust_flanges(self) -> ThrustFlanges | None:
+        """The flanges that hold the inner ring along the axis, where there are any."""
+        if self.flange_stiffness is None:
+            return None
+        return ThrustFlanges(
+            jnp.asarray(self.flange_stiffness), jnp.asarray(self.flange_gap), SIDES[self.thrust or "both"]
+        )
 
     @property
     def pitch_radius(self) -> Scalar:
@@ -150,7 +182,8 @@ class RollerCage(AbstractCage):
 
 
 class RollerFlange(Checked):
-    """Flanges that guide the rollers axially, on the inner ring, the outer ring or both.
+    """Flanges that guide the rollers axially, on the inner ring, the outer ring or both: the friction of their films.
+    What holds the inner ring against axial loads is `geometry.flange_stiffness`.
 
     **Arguments:**
     - `ring`: "inner", "outer" or "both".
@@ -188,6 +221,7 @@ class CylindricalRollerBearing(AbstractBearing):
       must have a `simulation`.
     - `profile`, or `operation.misalignment` or `operation.moment`: rollers that tilt, in laminae; with a
       `contact` without traction: films and what rolling costs, for rolling without sliding.
+    - `geometry.flange_stiffness`: the ring's axial freedom, which nothing else depends on.
     - `simulation`: what a run in time does beyond the operating point; a steady solve does not look at it.
 
     **Raises:** `ValueError` for combinations that have no steady state or lack what they need.
@@ -195,7 +229,6 @@ class CylindricalRollerBearing(AbstractBearing):
 
     kind: ClassVar[str] = "cylindrical_roller_bearing"
     runs_in_programs: ClassVar[bool] = True
-    modelled_freedoms: ClassVar[tuple[str, ...]] = ("radial", "lateral", "tilt", "tilt_lateral")
 
     geometry: RollerGeometry
     materials: Materials
@@ -209,11 +242,15 @@ class CylindricalRollerBearing(AbstractBearing):
     ring_freedom: tuple[str, ...] = eqx.field(static=True, converter=_freedoms, default=("radial",))
     rating: Rating | None = None
     profile: RollerProfile | None = None
+    fits: Fits | None = None
+    temperatures: PartTemperatures | None = None
 
     def __check_init__(self):
         refuse_all(self._problems())
 
     def _problems(self) -> Iterator[str | ValueError]:
+        yield from refusals_of(check_axial, self.geometry, self.operation)
+        yield from mounting_problems(self)
         if self.simulation is not None:
             yield from refusals_of(check_run, self.operation)
         if self.contact is None:
@@ -254,6 +291,11 @@ class CylindricalRollerBearing(AbstractBearing):
     def solve_ring(
         self, options: NewtonOptions, ring: InnerRing | None = None, exact_tilt: bool | None = None
     ) -> Solution:
+        solution, flanges = self._solve_across(options, ring), self.geometry.thrust_flanges
+        return solution if flanges is None else flanges.hold(solution, self.operation, ring)
+
+    def _solve_across(self, options: NewtonOptions, ring: InnerRing | None) -> Solution:
+        """The solution without the axial freedom."""
         # dry rollers that carry evenly leave a held ring without unknowns; those that may tilt have the same loads
         evenly = self.slips or not self.tilts
         if ring is not None:
@@ -267,6 +309,24 @@ class CylindricalRollerBearing(AbstractBearing):
         from .tilting_steady import solve_tilting
 
         return solve_tilting(self, options, ring)
+
+    @property
+    def raceway_diameters(self) -> tuple[Array, Array]:
+        geometry = self.geometry
+        return (
+            jnp.asarray(geometry.pitch_diameter - geometry.roller_diameter),
+            jnp.asarray(geometry.pitch_diameter + geometry.roller_diameter),
+        )
+
+    def play(self, growth: Growth) -> Play:
+        from .mounting import running_play
+
+        return running_play(self.geometry, growth)
+
+    def grown(self, growth: Growth) -> "CylindricalRollerBearing":
+        from .mounting import running_geometry
+
+        return dataclasses.replace(self, geometry=running_geometry(self.geometry, growth))
 
     def range_checks(self) -> RangeChecks:
         from .checks import CHECKS
@@ -300,6 +360,15 @@ class CylindricalRollerBearing(AbstractBearing):
         from ..motion.run import check_fits
 
         check_fits(self, restart)
+
+    @property
+    def modelled_freedoms(self) -> tuple[str, ...]:
+        return RING_FREEDOMS if self.geometry.flange_stiffness is not None else _ACROSS
+
+    @property
+    def unknown_freedoms(self) -> tuple[str, ...]:
+        """See `AbstractBearing`; the axial one follows in closed form."""
+        return tuple(name for name in super().unknown_freedoms if name in _ACROSS)
 
     @property
     def may_tilt(self) -> bool:
@@ -350,6 +419,8 @@ class CylindricalRollerBearing(AbstractBearing):
                 "tilting rollers roll without sliding: cage, skidding and sliding friction are not modelled, losses "
                 + ("are not either" if self.contact.rolling is None else "are those of rolling resistance alone")
             )
+        if self.geometry.flange_stiffness is not None:
+            said.append(NOT_MODELLED)
         if self.geometry.contact_length is None:
             said.append("geometry.contact_length is not given: the whole roller length carries load")
         if self.slips and self.cage is not None:
@@ -363,6 +434,9 @@ def check_run(operation: Operation) -> None:
     """**Raises:** `ValueError` where the operating point is none that a run in time can begin at."""
     if operation.displaced:
         raise ValueError("operation.displacement: in a run in time loads move the ring, it is not held")
+    if operation.axial_given:
+        name = "displacement.axial" if operation.axial_load is None else "axial_load"
+        raise ValueError(f"operation.{name}: a run in time moves the ring across the axis only")
     if operation.radial_load is None:
         raise ValueError("operation.radial_load: a run in time needs one")
 

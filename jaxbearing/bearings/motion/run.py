@@ -103,7 +103,7 @@ def resume(scene: CylindricalRollerBearing, simulation: Simulation, last: LastSt
     return Resumed(dynamics, dynamics.scaled(rollers, cage))
 
 
-MAY_CHANGE = ("operation", "oil", "contact", "drag", "simulation", "ring_freedom", "rating")
+MAY_CHANGE = ("operation", "oil", "contact", "drag", "simulation", "ring_freedom", "rating", "temperatures")
 """Parts of a scene that may be others than those of the run from whose end another one goes on."""
 UNKNOWN = (
     "restart: the state does not say of which bearing it is (an earlier version wrote it); only the number of rollers, "
@@ -113,7 +113,7 @@ UNKNOWN = (
 
 
 def identity(scene: CylindricalRollerBearing) -> Identity:
-    """The identity of the bearing: geometry, materials, cage, flanges, profile."""
+    """The identity of the bearing: geometry, materials, cage, flanges, profile, seats."""
     return identity_of(scene, MAY_CHANGE)
 
 

@@ -175,13 +175,17 @@ def simulate_rollers(
             interrupt.seen = True
         interrupted = interrupt.seen and len(done) < pieces
         unknown = last is not None and last.identity is None
-        notes = (*((UNKNOWN,) if unknown else ()), *scene.assumptions())
+        notes = (*((UNKNOWN,) if unknown else ()), *scene.assumptions(), *_of_seats(scene))
         history = _history(scene, chosen, dynamics, done, stop, interrupted, notes)
         interrupt.taken()
     # who interrupts a run wants what there is
     if throw and not interrupted:
         history.raise_if_failed()
     return history
+
+
+def _of_seats(scene: CylindricalRollerBearing) -> tuple[str, ...]:
+    return () if scene.fits is None else scene.fits.assumptions()
 
 
 def _history(
