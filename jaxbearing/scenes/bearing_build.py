@@ -103,7 +103,7 @@ def _fits(table: FitsTable) -> Fits:
 
 
 def solids(table: Any, *names: str) -> dict[str, Material]:
-    """The materials of these fields, where they are given, with thermal properties where the parts have temperatures."""
+    """The materials of these fields, as far as given; with thermal properties where the parts have temperatures."""
     try:
         thermal = table.temperatures is not None
     except Unreadable:

@@ -211,7 +211,13 @@ def unknown_name(location: Sequence[int | str], model: type[BaseModel]) -> dict[
     }
 
 
+_MOST_NAMES = 24
+"""Names that a message lists."""
+
+
 def one_of(names: Iterable[str]) -> str:
-    """A list of valid names in words."""
+    """A list of valid names in words; of a long one the first and the last."""
     quoted = [f"'{name}'" for name in names]
+    if len(quoted) > _MOST_NAMES:
+        return f"one of {', '.join(quoted[:3])}, ..., {quoted[-1]} ({len(quoted)} words)"
     return quoted[0] if len(quoted) == 1 else "one of " + ", ".join(quoted)
