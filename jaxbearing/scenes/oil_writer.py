@@ -4,7 +4,14 @@ import typing
 from collections.abc import Iterable, Mapping
 from typing import Any
 
-from ..lubricants import ConstantPressureViscosity, LinearConductivity, LinearDensity, Lubricant, NoPressureViscosity
+from ..lubricants import (
+    ConstantPressureViscosity,
+    LinearConductivity,
+    LinearDensity,
+    LinearHeatCapacity,
+    Lubricant,
+    NoPressureViscosity,
+)
 from .data_files import oil_names
 from .drafts import read_table
 from .oil_files import Origin
@@ -137,7 +144,7 @@ def _amended(oil: Lubricant, name: str) -> Rows | None:
 def _short(law: Any, table: Rows) -> Any:
     """The value of a law that is one number; any other as its table."""
     constant = isinstance(law, ConstantPressureViscosity)
-    if isinstance(law, LinearDensity | LinearConductivity):
+    if isinstance(law, LinearDensity | LinearConductivity | LinearHeatCapacity):
         constant = same((law.slope, law.reference_temperature), (0.0, ROOM_TEMPERATURE))
     return table["value"] if constant and "note" not in table else table
 

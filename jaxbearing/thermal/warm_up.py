@@ -8,6 +8,7 @@ A steady state that is stable need not be reached: a cold housing may let the in
 the warm bearing would be safe. Neither the thermal margin nor the rate says so; only this run does.
 """
 
+import dataclasses
 from collections.abc import Callable
 from typing import Any, TypeAlias
 
@@ -19,7 +20,6 @@ import optimistix as optx
 from jaxtyping import Array, Float, Int
 
 from .._types import Scalar
-from ..numerics.arrow import ArrowPoint
 from ..numerics.checks import label
 from ..numerics.integrate import diffrax_solver
 from ..numerics.integrator import IntegratorOptions
@@ -107,29 +107,29 @@ def warm_up(
         heat = losses(temperatures, time)
         return heat, at_time(time).flows(temperatures, heat)
 
-    def rates(time: Array, state: ArrowPoint, args: Any) -> ArrowPoint:
+    def rates(time: Array, state: Array, args: Any) -> Array:
         del args
-        heat, flows = flows_at(time, state.globals[:size])
+        heat, flows = flows_at(time, state[:size])
         energies = jnp.stack([jnp.sum(heat.heat), flows.to_oil, flows.to_ambient]) / ENERGY
         rate = jnp.concatenate([(flows.into_nodes + heat.heat) / capacity, energies])
         # NaN lets the step be shortened
-        return ArrowPoint(state.elements, jnp.where(heat.status == Status.CONVERGED, rate, jnp.nan))
+        return jnp.where(heat.status == Status.CONVERGED, rate, jnp.nan)
 
-    def too_hot(t: Any, y: ArrowPoint, args: Any, **kwargs: Any) -> Array:
+    def too_hot(t: Any, y: Array, args: Any, **kwargs: Any) -> Array:
         del t, args, kwargs
-        return jnp.max(y.globals[:size]) - limit
+        return jnp.max(y[:size]) - limit
 
     # diffrax calls the field in many places: so it is traced once
     field: Any = eqx.filter_jit(rates)
-    proper = lambda time, state, args: state.globals
     found = dfx.diffeqsolve(
         dfx.ODETerm(field),
-        diffrax_solver(options, INTEGRALS),
+        # the elimination that has derivatives of the energies
+        diffrax_solver(dataclasses.replace(options, elimination="dense")),
         jnp.zeros(()),
         times[-1],
         None,
-        ArrowPoint(jnp.zeros((0, 1)), jnp.concatenate([begin, jnp.zeros(INTEGRALS)])),
-        saveat=dfx.SaveAt(subs=(dfx.SubSaveAt(ts=times, fn=proper), dfx.SubSaveAt(t1=True, fn=proper))),
+        jnp.concatenate([begin, jnp.zeros(INTEGRALS)]),
+        saveat=dfx.SaveAt(subs=(dfx.SubSaveAt(ts=times), dfx.SubSaveAt(t1=True))),
         stepsize_controller=_control(options, jumps),
         max_steps=options.max_steps,
         event=dfx.Event(too_hot, optx.Newton(EVENT_TOLERANCE, EVENT_TOLERANCE)),
@@ -140,9 +140,7 @@ def warm_up(
     ends: Any = found.ts
     reached = (saved[0], saved[1][0], ends[1][0])
     ahead = AHEAD * options.shortest_step
-    beyond = (
-        reached[1][:size] + ahead * rates(reached[2], ArrowPoint(jnp.zeros((0, 1)), reached[1]), None).globals[:size]
-    )
+    beyond = (reached[1] + ahead * rates(reached[2], reached[1], None))[:size]
     status = _status(found.result, reached[1], losses(beyond, reached[2] + ahead).status)
     return _history(first.nodes, begin, capacity, times, flows_at, reached, status, found)
 

@@ -1,7 +1,5 @@
 """The oil of a scene file: laws, defaults, texts for laws, refusals."""
 
-import tomllib
-
 import jax
 import numpy as np
 import pytest
@@ -95,9 +93,10 @@ def test_heat_capacity_is_read_and_written():
     law = {"value": "1670 J/(kg*K)", "slope": "4.3 J/(kg*K^2)", "reference_temperature": "273 K"}
     linear = read(name="mobil_jet_ii", heat_capacity={"law": "linear", **law})
     np.testing.assert_allclose(linear.heat_capacity.heat_capacity(373.0), 2100.0, rtol=1e-15)
-    written = tomllib.loads("\n".join(oil_writer.law_lines(linear)))["heat_capacity"]
-    again = read(name="mobil_jet_ii", heat_capacity=written)
-    assert again.heat_capacity == linear.heat_capacity
+    for oil in (constant, linear):
+        for written in (oil_writer.scene_oil(oil), {"name": "mobil_jet_ii", **oil_writer.sourced_laws(oil)}):
+            assert read(**written).heat_capacity == oil.heat_capacity
+    assert oil_writer.scene_oil(constant) == {"name": "mobil_jet_ii", "heat_capacity": "2150 J/(kg*K)"}
 
 
 def test_catalogue():
