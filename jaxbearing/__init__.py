@@ -44,6 +44,7 @@ if TYPE_CHECKING:
     from . import mounting as mounting
     from . import plots as plots
     from . import sweeps as sweeps
+    from . import thermal as thermal
     from .bearings.ball.geometry import BallGeometry as BallGeometry
     from .bearings.ball.scene import BallAttitude as BallAttitude
     from .bearings.ball.scene import BallBearing as BallBearing
@@ -140,7 +141,7 @@ _LAZY = {
     "trajectory": ".bearings.motion.runs",
 }
 """Public names that pull in the edge (units, validation) or are only needed by some; imported on first use."""
-_MODULES = ("contacts", "fitting", "gaps", "life", "lubricants", "mounting", "plots", "sweeps")
+_MODULES = ("contacts", "fitting", "gaps", "life", "lubricants", "mounting", "plots", "sweeps", "thermal")
 """Modules that are public as such: the laws, the fit of an oil, sweeps, figures."""
 _AT_ONCE = ("jit_solver", "simulate", "simulate_batch", "solve", "sweep")
 

@@ -29,6 +29,7 @@ RANK = {
     "machines": 4,
     # seats of a bearing, which know no bearing
     "mounting": 4,
+    "thermal": 4,
     "bearings": 5,
     "life": 6,
     "solve": 7,

@@ -49,6 +49,7 @@ RANGES = {
     ">= 0 or infinite": Interval(0.0, np.inf, True, True),
     "between 0 and 1": Interval(0.0, 1.0, True, True),
     "above 0 and below 1": Interval(0.0, 1.0),
+    "above 0 and at most 1": Interval(0.0, 1.0, high_allowed=True),
     ">= 0 and below 1": Interval(0.0, 1.0, low_allowed=True),
     "between 0 and 0.5": Interval(0.0, 0.5, True, True),
     "between 0 and 2": Interval(0.0, 2.0, True, True),

@@ -4,20 +4,11 @@ from ..bearings.ball.gyroscopic import CappedCouple, ResolvedCouple, SharedCoupl
 from ..bearings.ball.scene import BallAttitude, BallBearing
 from ..contacts import PointLaws
 from ..lubricants import Lubricant
-from .ball_schema import (
-    BallCageTable,
-    BallContactTable,
-    BallDragTable,
-    BallGeometryTable,
-    BallOperationTable,
-    KinematicsTable,
-)
-from .bearing_schema import RatingTable
+from .ball_schema import BallBearingTable, BallCageTable, KinematicsTable
 from .bearing_writer import bearing_tables, cage, flow_law, march_accuracy, thermal_law
 from .laws import BALL_FILMS, POINT_THERMAL
 from .part_writer import Rows, given, law_name, rows, shown, unwritable
 
-_PLAIN = {"drag": BallDragTable, "rating": RatingTable, "operation": BallOperationTable}
 _GYROSCOPIC = {type(None): "off", SharedCouple: "shared", CappedCouple: "capped", ResolvedCouple: "resolved"}
 
 
@@ -25,8 +16,7 @@ def ball_tables(scene: BallBearing) -> Rows:
     """The tables that describe a scene. **Raises:** `SceneError` for what a file cannot hold."""
     return bearing_tables(
         scene,
-        _PLAIN,
-        geometry=rows(BallGeometryTable, scene.geometry),
+        BallBearingTable,
         contact=None if scene.contact is None else _laws(scene.contact, scene.oil),
         kinematics=_kinematics(scene.kinematics),
         cage=cage(BallCageTable, scene.cage),
@@ -52,4 +42,4 @@ def _laws(contact: PointLaws, oil: Lubricant | None) -> Rows:
         "traction_accuracy": None if traction is None else march_accuracy(traction, "contact.traction", spin=True),
         "rolling_resistance": "houpert" if contact.rolling_resistance else None,
     }
-    return given(found) | rows(BallContactTable, contact)
+    return given(found)

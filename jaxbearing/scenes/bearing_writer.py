@@ -1,71 +1,56 @@
 """Tables of scene files that all bearings have: operating point, profile, cage, laws of the raceways."""
 
 import dataclasses
-from collections.abc import Mapping
 from typing import Any
 
+from ..bearings.bearing import AbstractBearing
 from ..bearings.cage import AbstractCage
 from ..bearings.profile import RollerProfile
 from ..contacts import PRESETS, AbstractViscousFunction, DistributedTraction, NoThermalReduction, Resolution
 from ..contacts.profile import CrownedProfile, LogarithmicProfile
 from ..lubricants import Lubricant
-from ..materials import catalogue_material
-from ..mounting import Fits
-from .bearing_schema import DisplacementTable, FitsTable, TemperaturesTable
+from .fields import plain_table_at
 from .laws import LINE_THERMAL, ROLLER_FILMS, ROLLING, TRACTIONS, TURBULENCE, Laws, viscous_function
 from .oil_writer import scene_oil
-from .part_writer import Rows, all_rows, given, law_name, material, optional_rows, rows, same, shown, unwritable
-from .profile_schema import ProfileTable
+from .part_writer import Rows, all_rows, given, law_name, rows, same, shown, unwritable
 from .table import Table
 
+_ORDER = (
+    *("geometry", "profile", "materials", "oil", "contact", "kinematics", "cage", "flange", "drag", "rating"),
+    *("operation", "fits", "temperatures", "simulation"),
+)
+"""Tables of the built-in files; a table of another part comes after them."""
 _OF_OIL = ("oil_temperature", "oil_flow")
 """Fields of the operating point that only lubricated bearings need."""
 
 
-def bearing_tables(scene: Any, tables: Mapping[str, type[Table]], *, geometry: Rows, **own: Rows | None) -> Rows:
+def bearing_tables(scene: AbstractBearing, model: type[Table], **own: Rows | None) -> Rows:
     """The tables of a bearing in the order of the built-in files.
 
     **Arguments:**
-    - `tables`: of `operation` and of the parts whose fields all follow from their class, by name.
-    - `geometry`, `own`: the other tables; `None` for a part that is not modelled.
+    - `model`: of the whole file.
+    - `own`: what the tables of parts with laws say beside what follows from their class, by name; `None` for a part
+      that is not modelled.
     """
-    materials = {field.name: getattr(scene.materials, field.name) for field in dataclasses.fields(scene.materials)}
-    plain = {name: optional_rows(tables[name], getattr(scene, name)) for name in tables if name != "operation"}
-    parts = {
-        "geometry": geometry,
-        "materials": {name: material(one) for name, one in materials.items() if one is not None},
-        "oil": scene_oil(scene.oil),
-        **own,
-        **plain,
-        "fits": fits(scene.fits),
-        "temperatures": optional_rows(TemperaturesTable, scene.temperatures),
-        "operation": _operation(tables["operation"], scene),
-    }
-    order = ("geometry", "profile", "materials", "oil", "contact", "kinematics", "cage", "flange", "drag", "rating")
-    order = (*order, "fits", "temperatures", "operation", "simulation")
-    assert set(parts) <= set(order), parts
-    return {"kind": scene.kind} | given({name: parts.get(name) for name in order})
+    tables: Rows = {}
+    for name in sorted(model.model_fields, key=lambda name: _ORDER.index(name) if name in _ORDER else len(_ORDER)):
+        table, part = plain_table_at(model, name), getattr(scene, name, None)
+        if table is None or part is None:
+            continue
+        # files give the materials of a seat thermal properties, those of the bearing where its parts have temperatures
+        thermal = name == "fits" or (name == "materials" and scene.temperatures is not None)
+        tables[name] = scene_oil(part) if name == "oil" else (own.get(name) or {}) | rows(table, part, thermal)
+    tables["operation"] = _operation(tables["operation"], scene)
+    return {"kind": scene.kind} | tables
 
 
-def _operation(table: type[Table], scene: Any) -> Rows:
-    operation = scene.operation
-    found = rows(table, operation)
-    if scene.oil is None and scene.contact is None:
-        assumed = {field.name: field.default for field in dataclasses.fields(operation) if field.name in _OF_OIL}
-        for name, default in assumed.items():
-            if same(getattr(operation, name), default):
-                del found[name]
-    return found | given({"displacement": optional_rows(DisplacementTable, operation.displacement)})
-
-
-def fits(part: Fits | None) -> Rows | None:
-    """The table [fits]."""
-    if part is None:
-        return None
-    solids = {"shaft_material": part.shaft_material, "housing_material": part.housing_material}
-    usual = catalogue_material("steel", thermal=True)
-    named = {name: None if same(one, usual) else material(one) for name, one in solids.items()}
-    return rows(FitsTable, part) | given(named)
+def _operation(found: Rows, scene: AbstractBearing) -> Rows:
+    """The operating point without what a bearing without oil leaves at its default."""
+    if scene.oil is not None or scene.contact is not None:
+        return found
+    assumed = {field.name: field.default for field in dataclasses.fields(scene.operation) if field.name in _OF_OIL}
+    idle = {name for name, default in assumed.items() if same(getattr(scene.operation, name), default)}
+    return {name: value for name, value in found.items() if name not in idle}
 
 
 def cage(table: type[Table], part: AbstractCage | None) -> Rows | None:
@@ -76,14 +61,14 @@ def cage(table: type[Table], part: AbstractCage | None) -> Rows | None:
 
 
 def profile(part: RollerProfile | None) -> Rows | None:
-    """The table [profile]."""
+    """The shape in the table [profile]."""
     if part is None:
         return None
     words = {type(None): "straight", CrownedProfile: "crowned", LogarithmicProfile: "logarithmic"}
     shape = part.shape
     if type(shape) not in words:
         raise unwritable("profile.shape", shown(shape), "a straight, crowned or logarithmic profile")
-    return {"shape": words[type(shape)]} | ({} if shape is None else all_rows(shape)) | rows(ProfileTable, part)
+    return {"shape": words[type(shape)]} | ({} if shape is None else all_rows(shape))
 
 
 def raceway_laws(contact: Any) -> Rows:

@@ -4,7 +4,14 @@ import typing
 from collections.abc import Iterable, Mapping
 from typing import Any
 
-from ..lubricants import ConstantPressureViscosity, LinearConductivity, LinearDensity, Lubricant, NoPressureViscosity
+from ..lubricants import (
+    ConstantPressureViscosity,
+    LinearConductivity,
+    LinearDensity,
+    LinearHeatCapacity,
+    Lubricant,
+    NoPressureViscosity,
+)
 from .data_files import oil_names
 from .drafts import read_table
 from .oil_files import Origin
@@ -15,6 +22,7 @@ from .oil_schema import (
     Law,
     LinearConductivityTable,
     LinearDensityTable,
+    LinearHeatCapacityTable,
     OilTable,
 )
 from .oils import ROOM_TEMPERATURE, load_oil, lubricant, with_catalogue
@@ -71,6 +79,7 @@ def _laws(oil: Lubricant) -> dict[str, Rows]:
         ("rheology", ExponentialRheologyTable),
         ("density", LinearDensityTable),
         ("conductivity", LinearConductivityTable),
+        ("heat_capacity", LinearHeatCapacityTable),
     ):
         if getattr(oil, name) is not None:
             laws[name] = (table, getattr(oil, name))
@@ -135,7 +144,7 @@ def _amended(oil: Lubricant, name: str) -> Rows | None:
 def _short(law: Any, table: Rows) -> Any:
     """The value of a law that is one number; any other as its table."""
     constant = isinstance(law, ConstantPressureViscosity)
-    if isinstance(law, LinearDensity | LinearConductivity):
+    if isinstance(law, LinearDensity | LinearConductivity | LinearHeatCapacity):
         constant = same((law.slope, law.reference_temperature), (0.0, ROOM_TEMPERATURE))
     return table["value"] if constant and "note" not in table else table
 

@@ -14,6 +14,7 @@ from ..materials import CATALOGUE, Material, catalogue_material
 from ..time_laws import Tabulated
 from . import units
 from .errors import SceneError, one_of
+from .fields import plain_table_at
 from .laws import ENTRY_POINTS, Laws
 from .materials import MaterialTable
 from .quantity_texts import quantity_text
@@ -37,17 +38,26 @@ def given(tables: Mapping[str, Any]) -> Rows:
     return {name: value for name, value in tables.items() if value is not None}
 
 
-def rows(table: type[Table], part: Any) -> Rows:
-    """The fields of a part that the table has from its class (`table_of`), as far as they are given."""
+def rows(table: type[Table], part: Any, thermal: bool = False) -> Rows:
+    """The fields of a part that are given and that the table has from its class (`table_of`), its materials and its
+    parts of the same kind. The laws of a part are left to those who know their names.
+
+    **Arguments:** `thermal`: whether the materials have thermal properties.
+    """
     found: Rows = {}
-    for name, (owner, own) in table.made_from.items():
-        if isinstance(part, owner) and getattr(part, own) is not None:
+    for name in table.model_fields:
+        owner, own = table.made_from.get(name, (type(part), name))
+        value = getattr(part, own, None) if isinstance(part, owner) else None
+        if value is None:
+            continue
+        inner = plain_table_at(table, name)
+        if name in table.made_from:
             found[name] = written(part, own)
+        elif isinstance(value, Material):
+            found[name] = material(value, thermal)
+        elif inner is not None:
+            found[name] = rows(inner, value, thermal)
     return found
-
-
-def optional_rows(table: type[Table], part: Any) -> Rows | None:
-    return None if part is None else rows(table, part)
 
 
 def all_rows(part: Any) -> Rows:
@@ -81,12 +91,11 @@ def table_rows(law: Tabulated) -> Rows:
     return {"times": [text(time) for time in times], "factors": factors}
 
 
-def material(one: Material) -> str | Rows:
-    """The name in the catalogue, or a table."""
-    for name, plain in CATALOGUE.items():
-        if same(plain, one) or same(catalogue_material(name, thermal=True), one):
-            return name
-    return rows(MaterialTable, one)
+def material(one: Material, thermal: bool = False) -> str | Rows:
+    """The name in the catalogue, or a table. **Arguments:** `thermal`: whether names stand for materials with thermal
+    properties."""
+    named = (name for name in CATALOGUE if same(catalogue_material(name, thermal=thermal), one))
+    return next(named, rows(MaterialTable, one))
 
 
 def law_name(laws: Laws[Any], law: Any, path: str, made: Callable[[str], Any] | None = None) -> str:

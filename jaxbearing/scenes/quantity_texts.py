@@ -26,17 +26,24 @@ _READABLE = {
     units.KELVIN2_PER_PRESSURE: ("K^2/GPa", "K^2/Pa"),
     units.TIME: ("ms", "s", "us"),
     units.FREQUENCY: ("Hz", "kHz"),
+    units.LINE_CONTACT_STIFFNESS: ("N/um^(10/9)", "N/mm^(10/9)", "N/m^(10/9)"),
 }
 """Units of `usual_units` that people write, the preferred one first; other quantities are written in SI units."""
 _DIGITS = (6, 9, 12, 15, 16, 17)
 
 
 def quantity_text(value: float, dimension: units.Dimension) -> str:
-    """The text of a value in SI that is read as this very value, in the unit in which the number has fewest digits.
+    """The text of a value in SI that is read as this very value, in the unit in which the number is shortest.
 
     A unit is taken only where it gives the value back to the last bit; the SI unit always does.
     """
-    return min(_texts(value, dimension), key=lambda text: len(text.partition(" ")[0].replace(".", "")))
+    return min(_texts(value, dimension), key=_length)
+
+
+def _length(text: str) -> int:
+    """Digits of the number; it should not begin with 0."""
+    number = text.partition(" ")[0].lstrip("-")
+    return len(number.replace(".", "")) + (2 if number.startswith("0.") else 0)
 
 
 def _texts(value: float, dimension: units.Dimension) -> Iterator[str]:

@@ -5,13 +5,10 @@ from ..bearings.motion.settings import Simulation
 from ..contacts import AbstractTraction, DistributedTraction, MeanPressureTraction
 from ..lubricants import Lubricant
 from ..time_laws import AbstractTimeFactor, Ramp, Sinusoidal, Steady, Tabulated
-from .bearing_schema import RatingTable
 from .bearing_writer import bearing_tables, cage, flow_law, march_accuracy, profile, raceway_laws
-from .part_writer import Rows, all_rows, given, optional_rows, rows, shown, table_rows, unwritable
-from .roller_schema import CageTable, ContactTable, DragTable, FlangeTable, GeometryTable, OperationTable
-from .simulation_schema import RotatingLoadTable, SimulationTable
-
-_PLAIN = {"flange": FlangeTable, "drag": DragTable, "rating": RatingTable, "operation": OperationTable}
+from .part_writer import Rows, all_rows, rows, shown, table_rows, unwritable
+from .roller_schema import CageTable, CylindricalRollerTable
+from .simulation_schema import SimulationTable
 
 
 def roller_tables(scene: CylindricalRollerBearing) -> Rows:
@@ -19,11 +16,10 @@ def roller_tables(scene: CylindricalRollerBearing) -> Rows:
     contact = scene.contact
     laws = None
     if contact is not None:
-        laws = raceway_laws(contact) | _traction(contact.traction, scene.oil) | rows(ContactTable, contact)
+        laws = raceway_laws(contact) | _traction(contact.traction, scene.oil)
     return bearing_tables(
         scene,
-        _PLAIN,
-        geometry=rows(GeometryTable, scene.geometry),
+        CylindricalRollerTable,
         profile=profile(scene.profile),
         contact=laws,
         cage=cage(CageTable, scene.cage),
@@ -44,9 +40,7 @@ def _traction(traction: AbstractTraction | None, oil: Lubricant | None) -> Rows:
 
 
 def _simulation(part: Simulation) -> Rows:
-    laws = _factor(part.speed, "speed") | _factor(part.load, "load")
-    turning = {"rotating_load": optional_rows(RotatingLoadTable, part.rotating_load)}
-    return rows(SimulationTable, part) | laws | given(turning)
+    return rows(SimulationTable, part) | _factor(part.speed, "speed") | _factor(part.load, "load")
 
 
 def _factor(law: AbstractTimeFactor, name: str) -> Rows:

@@ -2,22 +2,17 @@
 
 from ..bearings.tapered.scene import TaperedRollerBearing
 from ..contacts import MeanPressureTraction
-from .bearing_schema import RatingTable
 from .bearing_writer import bearing_tables, flow_law, march_accuracy, profile, raceway_laws
 from .laws import RIB_FILMS
-from .part_writer import Rows, law_name, rows, shown, unwritable
-from .roller_schema import DragTable
-from .tapered_schema import TaperedGeometryTable, TaperedOperationTable
-
-_PLAIN = {"drag": DragTable, "rating": RatingTable, "operation": TaperedOperationTable}
+from .part_writer import Rows, law_name, shown, unwritable
+from .tapered_schema import TaperedRollerTable
 
 
 def tapered_tables(scene: TaperedRollerBearing) -> Rows:
     """The tables that describe a scene. **Raises:** `SceneError` for what a file cannot hold."""
     return bearing_tables(
         scene,
-        _PLAIN,
-        geometry=rows(TaperedGeometryTable, scene.geometry),
+        TaperedRollerTable,
         profile=profile(scene.profile),
         contact=_laws(scene),
     )

@@ -73,6 +73,7 @@ VISCOSITY = Dimension("a dynamic viscosity", "Pa*s", "4.7 mPa*s")
 KINEMATIC_VISCOSITY = Dimension("a kinematic viscosity", "m^2/s", "32 cSt")
 CONDUCTIVITY = Dimension("a thermal conductivity", "W/(m*K)", "0.147 W/(m*K)")
 CONDUCTIVITY_SLOPE = Dimension("a change of conductivity with temperature", "W/(m*K^2)", "-2.2e-4 W/(m*K^2)")
+HEAT_CAPACITY_SLOPE = Dimension("a change of heat capacity with temperature", "J/(kg*K^2)", "4.3 J/(kg*K^2)")
 KELVIN_PER_PRESSURE = Dimension("a temperature over a pressure", "K/Pa", "-2348.8 K/GPa")
 KELVIN2_PER_PRESSURE = Dimension("a squared temperature over a pressure", "K^2/Pa", "403871.5 K^2/GPa")
 TIME = Dimension("a time", "s", "50 ms")
@@ -88,7 +89,7 @@ _BY_UNIT = {
         *(LENGTH, ANGLE, SPEED, SURFACE_SPEED, FORCE, LINE_LOAD, MOMENT, PRESSURE, INVERSE_PRESSURE, TEMPERATURE, FLOW),
         *(DENSITY, VISCOSITY, KINEMATIC_VISCOSITY, CONDUCTIVITY, CONDUCTIVITY_SLOPE, KELVIN_PER_PRESSURE),
         *(KELVIN2_PER_PRESSURE, TIME, FREQUENCY, TANGENTIAL_COMPLIANCE, LINE_CONTACT_STIFFNESS, THERMAL_EXPANSION),
-        HEAT_CAPACITY,
+        *(HEAT_CAPACITY, HEAT_CAPACITY_SLOPE),
     )
 } | {"kg/(m^3 K)": DENSITY_SLOPE}
 

@@ -260,6 +260,6 @@ def test_origins_follow_the_scene(file):
 
 def test_numpy_and_jax_numbers_are_written():
     oil = dataclasses.replace(OILS["constant"], viscosity=ConstantViscosity(jax.numpy.asarray(0.25)))
-    assert 'value = "0.25 Pa*s"' in oil_text(oil, "a", "b", [])
+    assert 'value = "250 mPa*s"' in oil_text(oil, "a", "b", [])
     oil = dataclasses.replace(OILS["constant"], viscosity=ConstantViscosity(np.float64(0.25)))
-    assert 'value = "0.25 Pa*s"' in oil_text(oil, "a", "b", [])
+    assert 'value = "250 mPa*s"' in oil_text(oil, "a", "b", [])
