@@ -96,7 +96,9 @@ class Fits(Checked):
         """Loss of an interference by smoothing, m."""
         if self.smoothing is not None:
             return jnp.asarray(self.smoothing)
-        return jnp.clip(interference, 0.0, SMOOTHING)
+        # `where` and no `clip`: at both ends the derivative is that of an interference that loses no more
+        flattened = jnp.where(interference > 0.0, interference, 0.0)
+        return jnp.where(interference >= SMOOTHING, SMOOTHING, flattened)
 
     def housing_diameter(self, outside_diameter: Scalar) -> Scalar:
         """Outside diameter of the housing, m. **Arguments:** `outside_diameter`: of the bearing, m."""

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from jaxbearing.materials import Material
-from jaxbearing.mounting import Annulus, Fit
+from jaxbearing.mounting import Annulus, Fit, Fits
 from jaxbearing.mounting.rectified import rectified_normal
 
 STEEL = Material(208e9, 0.3, 7830.0, 12.5e-6)
@@ -166,6 +166,14 @@ def test_derivatives_at_the_limit_are_those_of_the_tight_fit(interference):
     forward, reverse = jax.jacfwd(growth)(interference), jax.grad(growth)(interference)
     expected = 0.818129755 if interference >= 0.0 else 0.0
     np.testing.assert_allclose([forward, reverse], expected, rtol=1e-8)
+
+
+@pytest.mark.parametrize(("interference", "loss", "slope"), [(-1, 0, 0), (0, 0, 0), (1, 1, 1), (2, 2, 0), (30, 2, 0)])
+def test_smoothing_of_tight_seats(interference, loss, slope):
+    """What a seat loses where the scene does not say; at both ends its slope is one of them, no mean."""
+    lost = Fits(shaft_interference=0.0).smoothed
+    np.testing.assert_allclose(lost(jnp.asarray(interference * UM)), loss * UM, rtol=1e-14, atol=0.0)
+    assert float(jax.grad(lost)(interference * UM)) == slope
 
 
 def test_rectified_normal_against_sums():
