@@ -66,8 +66,8 @@ def reaction(
       the outer one: five numbers in this order, an array of shape (5,), the numbers by their names, or a
       `RingDisplacement` such as `solution.ring`.
     - `at`: the point of the ring that is displaced. "port": on the axis in the plane of the unloaded balls, or in the
-      middle of the rollers; "ring": where `solution.ring` of a solve counts (the plane of the inner groove centres, the
-      reference point of a tapered bearing).
+      middle of the rollers, of a bearing on seats as on the drawing; "ring": where `solution.ring` of a solve counts
+      (the plane of the inner groove centres, the reference point of a tapered bearing).
     - `tilt`: how the inner grooves of a ball bearing move: with the "exact" rotation of the ring, or "linear", to first
       order, as in the standards. The latter is 1e-4 to 1e-2 of the force off at 0.2 mrad, and 2 % at 4 mrad. Left out:
       as a solve of the scene has it, exact where its operating point names a moment or a misalignment.

@@ -34,7 +34,8 @@ class RingDisplacement(eqx.Module):
 
     The zero of `axial` is the middle of the play for ball bearings that are given by their clearance (the planes of the
     grooves coincide there) and for cylindrical roller bearings with flanges. It is the first contact of elements and
-    races for ball bearings that are given by their contact angle and for tapered bearings.
+    races for ball bearings that are given by their contact angle and for tapered bearings, where they have seats that
+    on the drawing.
     """
 
     axial: Float[Array, ""] = eqx.field(

@@ -307,10 +307,8 @@ def test_seats_of_a_bearing_with_a_given_contact_angle():
     ],
 )
 def test_what_is_wrong_is_named(changes, field):
-    with pytest.raises(ValueError, match=field) as refused:
+    with pytest.raises(ValueError, match=field):
         jb.load_scene("deep_groove_6205", SEATS | changes)
-    # no second problem that follows from it
-    assert "problems" not in str(refused.value)
 
 
 @pytest.mark.parametrize(

@@ -310,6 +310,14 @@ def test_as_a_process(name, folder):
     assert os.listdir(folder) == ["scene.toml"]
 
 
+def test_a_tolerance_beside_an_interference_is_one_problem(folder):
+    """The checks of annotations that tests switch on would pass over the second one."""
+    done = process("solve", "deep_groove_6205_mounted", "--set", "fits.shaft_interference=10 um", cwd=folder)
+    assert done.returncode == 2
+    assert done.stderr.count("\n") == 1
+    assert "fits.shaft_tolerance: found the text 'k5'; expected none beside" in done.stderr
+
+
 def test_the_scenes_are_broken_in_one_place_only():
     assert tomllib.loads(TEXT)["kind"]
     assert len(BROKEN) >= 20
