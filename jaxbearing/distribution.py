@@ -20,8 +20,8 @@ class MeanUsedWarning(UserWarning):
 class Distribution:
     """Distribution of one number of a scene, in SI units.
 
-    Makers say tolerances as two limits. A normal distribution has them at three standard deviations from its mean, so that
-    0.27 % of all parts lie beyond; a uniform one has nothing beyond. `Distribution.between` makes one of limits.
+    Makers give a tolerance as two limits. A normal distribution has them at three standard deviations from its mean, so
+    0.27 % of all parts lie beyond them; a uniform one has nothing beyond. `Distribution.between` makes one of limits.
 
     **Arguments:**
     - `mean`: mean value.
@@ -49,7 +49,9 @@ class Distribution:
         if self.shape not in SHAPES:
             raise ValueError(f"shape must be 'normal' or 'uniform', got {self.shape!r}")
         if not self.lowest <= self.mean <= self.highest:
-            raise ValueError(f"low must be at most the mean {self.mean:g}, and high at least, got {self.low}, {self.high}")
+            raise ValueError(
+                f"low must be at most the mean {self.mean:g}, and high at least, got {self.low}, {self.high}"
+            )
 
     @staticmethod
     def between(low: float, high: float, shape: Shape = "normal") -> "Distribution":

@@ -66,11 +66,15 @@ def _read(
     what = no_number(kind)
     where = ".".join(path)
     if what:
-        raise SceneError(file, where, f"a distribution, in {what}", "one value: only a field that is one number scatters")
+        raise SceneError(
+            file, where, f"a distribution, in {what}", "one value: only a field that is one number scatters"
+        )
     unknown = next((str(key) for key in given if key not in _NAMES), None)
     if unknown is not None:
         expected = f"a distribution: {_FORMS}, and 'shape'"
-        raise SceneError(file, f"{where}.{unknown}", f"the unknown name '{unknown}'", expected, nearest(unknown, _NAMES))
+        raise SceneError(
+            file, f"{where}.{unknown}", f"the unknown name '{unknown}'", expected, nearest(unknown, _NAMES)
+        )
     names = [name for name in _NAMES[:4] if name in given]
     if names not in (["mean", "deviation"], ["low", "high"]):
         said = " and ".join(f"'{name}'" for name in names) or "neither"
@@ -102,7 +106,11 @@ def _value(given: Any, name: str, path: tuple[str, ...], model: type[BaseModel],
     except PydanticCustomError as error:
         context = error.context or {}
     raise SceneError(
-        file, where, context.get("found", describe(given)), context.get("expected", "a number"), context.get("suggestion", "")
+        file,
+        where,
+        context.get("found", describe(given)),
+        context.get("expected", "a number"),
+        context.get("suggestion", ""),
     )
 
 

@@ -1,7 +1,8 @@
 r"""The delta method: scatter of results from the derivatives at the means.
 
-$$\mu_y = y(\mu) + \sum_s g_s\,(E[u_s] - u_s(\mu)),\qquad
-\sigma_y^2 = \sum_k \Big(d_k + \sum_s g_s\beta_s a_{sk}\Big)^2\sigma_k^2 + \sum_s g_s^2(\mathrm{Var}\,u_s - \beta_s^2\sigma_s^2)$$
+$$\mu_y = y(\mu) + \sum_s g_s\,(E[u_s] - u_s(\mu))$$
+$$\sigma_y^2 = \sum_k \Big(d_k + \sum_s g_s\beta_s a_{sk}\Big)^2\sigma_k^2
++ \sum_s g_s^2(\mathrm{Var}\,u_s - \beta_s^2\sigma_s^2)$$
 
 $d_k$ is the derivative of the result by field $k$ while the seats press as they do at the mean, $g_s$ that by what
 presses the rings at seat $s$ (`seats`), $a_{sk}$ that of the interference in operation, $\beta_s$ the gain. Without a
@@ -11,7 +12,6 @@ of each other.
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 
@@ -60,29 +60,29 @@ def spreads_of(
     if any(seat.slope == 0.0 for seat in seats.values()):
         at_tight = evaluated(scatter.means | {name_of(seat.name): seat.tight for seat in seats.values()})
     lines = {name: _lines(name, scatter, seats, found, at_tight) for name in names}
-    if "fit.contact_angle" in lines and not any(lines["fit.contact_angle"].direct.values()):
-        # the angle of a bearing without clearance is 0, with the slope 0: its limits are those of the clearance
-        lines["fit.contact_angle"] = _ends_of_clearance(scatter, seats, found, at_tight, lines["fit.contact_angle"])
-    worst = {name: _worst(name, scatter, seats, one, evaluated) for name, one in lines.items()}
     labels = labels_of(found.solution, names)
     spreads = {}
-    for name in names:
-        own = _lines(name, scatter, seats, found, at_tight)
-        mean, shares = _moments(own, scatter, seats)
+    for name, own in lines.items():
+        shift, shares = _moments(own, scatter, seats)
         variance = sum(shares.values())
         gains = {seat: one.slope for seat, one in seats.items()}
+        towards = own
+        if name == "fit.contact_angle" and not any((*own.direct.values(), *own.pressed.values())):
+            # without clearance the angle is 0, and so is its slope: its worst cases are those of the clearance
+            towards = _lines("fit.clearance", scatter, seats, found, at_tight)
+        worst = _worst(name, scatter, seats, towards, evaluated)
         spreads[name] = Spread(
             value=float(found.values[name]),
-            mean=float(found.values[name]) + mean,
+            mean=float(found.values[name]) + shift,
             deviation=float(np.sqrt(variance)),
-            worst_low=worst[name][0],
-            worst_high=worst[name][1],
+            worst_low=worst[0],
+            worst_high=worst[1],
             unit=labels[name].unit,
             description=labels[name].description,
             contributions={path: share / variance if variance > 0.0 else 0.0 for path, share in shares.items()},
             derivatives={path: own.by(path, gains) for path in scatter.fields},
         )
-    return spreads, [*_loose_notes(seats), *_bent_notes(spreads, lines, scatter)]
+    return spreads, [*_loose_notes(seats), *_bent_notes(spreads, scatter)]
 
 
 def _seats(scatter: Scatter, found: Slopes) -> dict[str, Seat]:
@@ -134,13 +134,6 @@ def _moments(lines: _Lines, scatter: Scatter, seats: Mapping[str, Seat]) -> tupl
     return shift, shares
 
 
-def _ends_of_clearance(
-    scatter: Scatter, seats: Mapping[str, Seat], found: Slopes, at_tight: Slopes, own: _Lines
-) -> _Lines:
-    of_clearance = _lines("fit.clearance", scatter, seats, found, at_tight)
-    return own if not any(of_clearance.direct.values()) and not of_clearance.pressed else of_clearance
-
-
 def _corner(scatter: Scatter, seats: Mapping[str, Seat], lines: _Lines, high: bool) -> dict[str, float]:
     """Numbers of the scene with all fields at those of their limits that make a result large, or small."""
     numbers = dict(scatter.means)
@@ -183,18 +176,14 @@ def _percent(share: float) -> str:
     return f"{100.0 * share:.2g} %" if share < 0.995 else f"{100.0 * share:.4g} %"
 
 
-def _bent_notes(spreads: Mapping[str, Spread], lines: Mapping[str, _Lines], scatter: Scatter) -> list[str]:
+def _bent_notes(spreads: Mapping[str, Spread], scatter: Scatter) -> list[str]:
     """Notes on results that do not follow their derivatives as far as the limits of the fields."""
     bent, failed = [], []
     for name, spread in spreads.items():
         if not (np.isfinite(spread.worst_low) and np.isfinite(spread.worst_high)):
             failed.append(name)
             continue
-        slopes = {path: spread.derivatives[path] for path in scatter.fields}
-        reach = [
-            sum(abs(slope) * abs(end(scatter.fields[path], slope) - scatter.fields[path].mean) for path, slope in slopes.items())
-            for end in (_low_end, _high_end)
-        ]
+        reach = [_reach(spread, scatter, high) for high in (False, True)]
         width = max(spread.worst_high - spread.worst_low, sum(reach))
         off = max(abs(spread.value - reach[0] - spread.worst_low), abs(spread.value + reach[1] - spread.worst_high))
         if width > 0.0 and off > _BENT * width:
@@ -210,9 +199,11 @@ def _bent_notes(spreads: Mapping[str, Spread], lines: Mapping[str, _Lines], scat
     return notes
 
 
-def _low_end(field: Any, slope: float) -> float:
-    return field.lowest if slope > 0.0 else field.highest
-
-
-def _high_end(field: Any, slope: float) -> float:
-    return field.highest if slope > 0.0 else field.lowest
+def _reach(spread: Spread, scatter: Scatter, high: bool) -> float:
+    """Distance of a worst case from the result at the means, if the derivatives held as far as that."""
+    reach = 0.0
+    for path, slope in spread.derivatives.items():
+        one = scatter.fields[path]
+        end = one.highest if (slope > 0.0) == high else one.lowest
+        reach += abs(slope * (end - one.mean))
+    return reach

@@ -1,5 +1,6 @@
 """What tolerances make of the results of a scene."""
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any
@@ -28,6 +29,11 @@ class Sampled:
     low: float
     high: float
     values: np.ndarray = field(repr=False)
+
+    @property
+    def below_zero(self) -> float:
+        """Share of the samples in which the result is negative."""
+        return float(np.mean(self.values < 0.0)) if self.values.size else float("nan")
 
 
 @dataclass(frozen=True)
@@ -65,6 +71,14 @@ class Spread:
     def high(self) -> float:
         """Three standard deviations above the mean."""
         return self.mean + SIGMAS * self.deviation
+
+    @property
+    def below_zero(self) -> float:
+        """Share of the bearings in which the result is negative, of a normal distribution; of the clearance the share
+        with radial preload."""
+        if self.deviation == 0.0:
+            return float(self.mean < 0.0)
+        return 0.5 * math.erfc(self.mean / (math.sqrt(2.0) * self.deviation))
 
 
 @dataclass(frozen=True)

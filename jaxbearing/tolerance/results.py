@@ -10,7 +10,7 @@ import jax
 import jax.numpy as jnp
 
 from .._derived import derived_results
-from ..bearings.operation import LOAD_FIELDS
+from ..bearings.operation import LOAD_FIELDS, AbstractOperation
 from ..report.labels import dimensions
 from ..scenes.errors import nearest
 
@@ -111,19 +111,23 @@ def _value(solution: Any, path: str, place: int | None) -> Any:
 def _there(solution: Any, name: str, known: Mapping[str, Any]) -> bool:
     """True if one of the usual results is one of this scene."""
     path, place = _parted(name)
-    if path not in known or known[path]["dims"] == () and place is not None:
+    if path not in known or (known[path]["dims"] == () and place is not None):
         return False
     if path == "power_loss.total":
         # a total of no part at all is no result
         return any(value is not None for part, value in vars(solution.power_loss).items() if part != "total")
+    if path == "fit.axial_shift" and solution.fit.clearance is not None:
+        # the play of tapered bearings only
+        return False
     value = functools.reduce(getattr, path.split("."), solution)
     return value is not None and (place is not None or value.size == 1)
 
 
 def _forces(solution: Any) -> Iterator[str]:
     """Loads that the freedoms need whose displacement is given: the preload."""
-    for place, name in enumerate(tuple(LOAD_FIELDS)[:3]):
-        if name in getattr(solution, "held_freedom", ()):
+    operation = getattr(solution, "operation", None)
+    for place, name in enumerate(LOAD_FIELDS):
+        if isinstance(operation, AbstractOperation) and operation.held_at(name) is not None:
             yield f"force[{place}]"
 
 

@@ -22,8 +22,8 @@ SEATS = {"shaft": ("bore", iso286.shaft_limits, iso286.bore_limits)}
 """Seat -> the dimension of the bearing, deviations of the other part, and deviations of the bearing."""
 SEATS["housing"] = ("outside_diameter", iso286.hole_limits, iso286.outside_limits)
 _NOTHING = (
-    "found no field that scatters; expected one given as {mean = ..., deviation = ...} or {low = ..., high = ...}, or a "
-    "tolerance class in [fits] with at = 'mean'"
+    "found no field that scatters; expected one given as {mean = ..., deviation = ...} or {low = ..., high = ...}, or "
+    "a tolerance class in [fits] with at = 'mean'"
 )
 
 
@@ -84,7 +84,7 @@ def scatter_of(scene: AbstractScene, over: Mapping[str, Any] | None = None) -> S
         raise ValueError(f"over must map dotted paths of fields to distributions, got {over!r}")
     fields = {path: _distribution(path, value) for path, value in given.items()}
     scene = jax.tree.map(as_float, scene)
-    seats = {seat: one for seat, one in _seats(scene, fields)}
+    seats = dict(_seats(scene, fields))
     origins = {name_of(seat): f"{_class_of(scene, seat)} and the normal class of the bearing" for seat in seats}
     notes = tuple(_unscattered(scene))
     changes: dict[str, Any] = {f"fits.{seat}_tolerance": None for seat in seats}
@@ -135,8 +135,8 @@ def _distribution(path: str, given: Any) -> Distribution:
     forms = {"mean", "deviation"}, {"low", "high"}
     if names - {"shape"} not in forms:
         raise ValueError(
-            f"{path}: found {given!r}; expected a Distribution, or a mapping with either mean and deviation, or low and "
-            "high"
+            f"{path}: found {given!r}; expected a Distribution, or a mapping with either mean and deviation, or low "
+            "and high"
         )
     try:
         if "mean" in names:

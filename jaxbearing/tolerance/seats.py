@@ -2,8 +2,8 @@ r"""What a seat whose interference scatters does to the rings: nothing where it 
 
 The interference that presses the rings is a sum of rectified lines, $u = \sum_j s_j \max(I - b_j, 0)$: one line for a
 given smoothing, three where the default one flattens a seat that the temperatures hold. For a normal variable its mean,
-its variance and its covariance with $I$ are exact, and so is the scatter of a result that is linear in $u$ (sheet of
-`numerics`: Stein's lemma, $\mathrm{cov}(u, I) = s^2 \sum_j s_j \Phi((m - b_j)/s)$).
+its variance and its covariance with $I$ are exact, $\mathrm{cov}(u, I) = s^2\sum_j s_j\Phi((m - b_j)/s)$ (Stein's
+lemma), and so is the scatter of a result that is linear in $u$.
 """
 
 from dataclasses import dataclass
