@@ -107,6 +107,7 @@ def sweep(
         fields, cases = _cases(source, over, cases_file, random, latin_hypercube, seed)
         with _refused("--over"):
             recipe = source.recipe(cases, fields)
+            source.warn_of_means(cases, fields)
         check_run_target(target)
         check_plot(plot, cases, recipe.example_scene)
         check_extra(workers, scheduler)

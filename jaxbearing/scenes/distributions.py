@@ -14,6 +14,7 @@ from pydantic_core import PydanticCustomError
 from ..distribution import SHAPES, Distribution
 from .errors import SceneError, nearest, one_of
 from .fields import dimension_of, is_known, parts_of, tables_at, type_at
+from .quantity_texts import quantity_text
 from .units import Dimension, describe, dimension_of_unit, number, quantity
 
 _NAMES = ("mean", "deviation", "low", "high", "shape")
@@ -67,7 +68,7 @@ def _read(
     where = ".".join(path)
     if what:
         raise SceneError(
-            file, where, f"a distribution, in {what}", "one value: only a field that is one number scatters"
+            file, where, f"a distribution of {what}", "one value: only a field that is one number scatters"
         )
     unknown = next((str(key) for key in given if key not in _NAMES), None)
     if unknown is not None:
@@ -87,7 +88,7 @@ def _read(
     if names == ["mean", "deviation"]:
         return given["mean"], Distribution(first, second, shape)
     if first > second:
-        expected = f"at most {describe(given['high']).partition(' ')[2]}, the high limit"
+        expected = f"at most the high limit, {given['high']!r}"
         raise SceneError(file, f"{where}.low", describe(given["low"]), expected)
     distribution = Distribution.between(first, second, shape)
     return text_of(distribution.mean, dimension_of(kind)), distribution
@@ -142,13 +143,8 @@ def text_of(value: float, dimension: Dimension | None) -> Any:
     return float(value) if dimension is None else f"{float(value)!r} {dimension.si}"
 
 
-def said_of(path: str, distribution: Distribution, unit: str) -> str:
+def said_of(path: str, distribution: Distribution, model: type[BaseModel]) -> str:
     """Says that a scene has the mean of a field."""
-    value = f"{distribution.mean:.6g} {unit}".rstrip()
+    dimension = dimension_of(type_at(model, path.split(".")))
+    value = f"{distribution.mean:.6g}" if dimension is None else quantity_text(distribution.mean, dimension)
     return f"{path} is given as a distribution: its mean, {value}, is used; 'jaxbearing tolerances' uses all of it"
-
-
-def units_of(paths: Mapping[str, Any], model: type[BaseModel]) -> dict[str, str]:
-    """SI unit of each field; "" for a number without one."""
-    dimensions = {path: dimension_of(type_at(model, path.split("."))) for path in paths}
-    return {path: "" if one is None else one.si for path, one in dimensions.items()}

@@ -12,7 +12,7 @@ from pydantic import BaseModel
 from .._scene import AbstractScene
 from ..distribution import Distribution, MeanUsedWarning
 from .data_files import builtin_names, builtin_summary, builtin_text
-from .distributions import means_of, said_of, units_of
+from .distributions import means_of, said_of
 from .drafts import Unreadable, draft
 from .errors import SceneError, from_class, nearest, one_of
 from .oil_files import Origin, origins
@@ -132,9 +132,9 @@ def warn_of_means(mapping: Mapping[str, Any], origin: str, overrides: Overrides 
     found = distributions_in(mapping, origin, overrides)
     if not found:
         return
-    units = units_of(found, scene_model(mapping, as_texts(overrides), origin))
+    model = scene_model(mapping, as_texts(overrides), origin)
     for path, distribution in found.items():
-        warnings.warn(said_of(path, distribution, units[path]), MeanUsedWarning, stacklevel=3)
+        warnings.warn(said_of(path, distribution, model), MeanUsedWarning, stacklevel=3)
 
 
 def oil_origins(source: str | Path, overrides: Overrides | None = None) -> dict[str, Origin]:

@@ -82,13 +82,13 @@ class SceneSource:
             raise SceneError(where, path, what, structural(path).partition("expected ")[2])
         return Field(path, dimension_of(kind), kind)
 
-    def recipe(self, cases: Cases, fields: Mapping[str, Field]) -> Direct | Read:
-        """The recipe of cases. Warns of distributions of which all cases have the mean.
-
-        **Raises:** `SceneError`, or `ValueError` for a field that shapes the equations.
-        """
-        swept = {path: field.text(float(cases.part(0, 1)[path][0])) for path, field in fields.items()}
+    def warn_of_means(self, cases: Cases, fields: Mapping[str, Field]) -> None:
+        """Warns of distributions of which all cases have the mean."""
+        swept = {path: fields[path].text(float(values[0])) for path, values in cases.part(0, 1).items()}
         warn_of_means(self.tables, self.label, {**self.overrides, **swept})
+
+    def recipe(self, cases: Cases, fields: Mapping[str, Field]) -> Direct | Read:
+        """**Raises:** `SceneError`, or `ValueError` for a field that shapes the equations."""
         return from_reader(_Reader(self, dict(fields)), cases)
 
 

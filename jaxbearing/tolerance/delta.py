@@ -60,29 +60,32 @@ def spreads_of(
     if any(seat.slope == 0.0 for seat in seats.values()):
         at_tight = evaluated(scatter.means | {name_of(seat.name): seat.tight for seat in seats.values()})
     lines = {name: _lines(name, scatter, seats, found, at_tight) for name in names}
+    corners = {name: _corners(name, scatter, seats, one, found, at_tight) for name, one in lines.items()}
+    cases = [found, *(solved for pair in corners.values() for one in pair if _good(solved := evaluated(one)))]
     labels = labels_of(found.solution, names)
+    gains = {seat: one.slope for seat, one in seats.items()}
     spreads = {}
     for name, own in lines.items():
         shift, shares = _moments(own, scatter, seats)
         variance = sum(shares.values())
-        gains = {seat: one.slope for seat, one in seats.items()}
-        towards = own
-        if name == "fit.contact_angle" and not any((*own.direct.values(), *own.pressed.values())):
-            # without clearance the angle is 0, and so is its slope: its worst cases are those of the clearance
-            towards = _lines("fit.clearance", scatter, seats, found, at_tight)
-        worst = _worst(name, scatter, seats, towards, evaluated)
+        ends = [float(case.values[name]) for case in cases]
         spreads[name] = Spread(
             value=float(found.values[name]),
             mean=float(found.values[name]) + shift,
             deviation=float(np.sqrt(variance)),
-            worst_low=worst[0],
-            worst_high=worst[1],
+            worst_low=min(ends),
+            worst_high=max(ends),
             unit=labels[name].unit,
             description=labels[name].description,
             contributions={path: share / variance if variance > 0.0 else 0.0 for path, share in shares.items()},
             derivatives={path: own.by(path, gains) for path in scatter.fields},
         )
-    return spreads, [*_loose_notes(seats), *_bent_notes(spreads, scatter)]
+    at_ends = {name: tuple(map(evaluated, pair)) for name, pair in corners.items()}
+    return spreads, [*_loose_notes(seats), *_bent_notes(spreads, scatter, at_ends)]
+
+
+def _good(found: Slopes) -> bool:
+    return bool(np.all(found.solution.converged))
 
 
 def _seats(scatter: Scatter, found: Slopes) -> dict[str, Seat]:
@@ -95,7 +98,7 @@ def _seats(scatter: Scatter, found: Slopes) -> dict[str, Seat]:
             for path, one in scatter.fields.items()
         ]
         interference, now = scatter.means[name_of(name)], float(found.values[_OF_SEAT[name]])
-        seat = seat_of(scatter.scene.fits, name, interference, now, float(np.sqrt(np.sum(np.square(of_fields)))))
+        seat = seat_of(scatter.fits, name, interference, now, float(np.sqrt(np.sum(np.square(of_fields)))))
         if seat.bends_within:
             seats[name] = seat
     return seats
@@ -134,26 +137,21 @@ def _moments(lines: _Lines, scatter: Scatter, seats: Mapping[str, Seat]) -> tupl
     return shift, shares
 
 
-def _corner(scatter: Scatter, seats: Mapping[str, Seat], lines: _Lines, high: bool) -> dict[str, float]:
-    """Numbers of the scene with all fields at those of their limits that make a result large, or small."""
-    numbers = dict(scatter.means)
+def _corners(
+    name: str, scatter: Scatter, seats: Mapping[str, Seat], lines: _Lines, found: Slopes, at_tight: Slopes
+) -> tuple[dict[str, float], dict[str, float]]:
+    """Numbers of the scene in both worst cases of a result: all fields at those of their limits that make it small by
+    its derivatives, and large."""
+    if name == "fit.contact_angle" and not any((*lines.direct.values(), *lines.pressed.values())):
+        # without clearance the angle is 0, and so is its slope: its worst cases are those of the clearance
+        lines = _lines("fit.clearance", scatter, seats, found, at_tight)
+    low, high = dict(scatter.means), dict(scatter.means)
     tight = dict.fromkeys(seats, 1.0)
     for path, one in scatter.fields.items():
         slope = lines.by(path, tight)
         if slope:
-            numbers[path] = one.highest if (slope > 0.0) == high else one.lowest
-    return numbers
-
-
-def _worst(
-    name: str, scatter: Scatter, seats: Mapping[str, Seat], lines: _Lines, evaluated: Evaluated
-) -> tuple[float, float]:
-    """The result in both worst cases; NaN where the solve fails."""
-    ends = []
-    for high in (False, True):
-        found = evaluated(_corner(scatter, seats, lines, high))
-        ends.append(float(found.values[name]) if bool(np.all(found.solution.converged)) else float("nan"))
-    return ends[0], ends[1]
+            low[path], high[path] = (one.lowest, one.highest) if slope > 0.0 else (one.highest, one.lowest)
+    return low, high
 
 
 _WHERE = {"shaft": "the inner ring may be loose on the shaft", "housing": "the outer ring may be loose in the housing"}
@@ -176,22 +174,25 @@ def _percent(share: float) -> str:
     return f"{100.0 * share:.2g} %" if share < 0.995 else f"{100.0 * share:.4g} %"
 
 
-def _bent_notes(spreads: Mapping[str, Spread], scatter: Scatter) -> list[str]:
+def _bent_notes(
+    spreads: Mapping[str, Spread], scatter: Scatter, at_ends: Mapping[str, tuple[Slopes, ...]]
+) -> list[str]:
     """Notes on results that do not follow their derivatives as far as the limits of the fields."""
     bent, failed = [], []
     for name, spread in spreads.items():
-        if not (np.isfinite(spread.worst_low) and np.isfinite(spread.worst_high)):
+        if not all(map(_good, at_ends[name])):
             failed.append(name)
             continue
-        reach = [_reach(spread, scatter, high) for high in (False, True)]
-        width = max(spread.worst_high - spread.worst_low, sum(reach))
-        off = max(abs(spread.value - reach[0] - spread.worst_low), abs(spread.value + reach[1] - spread.worst_high))
+        low, high = (float(one.values[name]) for one in at_ends[name])
+        below, above = (_reach(spread, scatter, end) for end in (False, True))
+        width = max(spread.worst_high - spread.worst_low, below + above)
+        off = max(abs(spread.value - below - low), abs(spread.value + above - high))
         if width > 0.0 and off > _BENT * width:
             bent.append(f"{name} ({100.0 * off / width:.0f} %)")
     notes = []
     if bent:
         notes.append(
-            f"not linear within the limits, by this part of the distance between the worst cases: {', '.join(bent)}; "
+            f"not linear within the limits, by so much of the range of the worst cases: {', '.join(bent)}; "
             "compare the delta method with Monte Carlo (samples)"
         )
     if failed:

@@ -60,7 +60,8 @@ def _statistics(values: np.ndarray) -> Sampled:
     values = values[np.isfinite(values)]
     n = values.size
     if n < 2:
-        return Sampled(*(float("nan"),) * 6, values)
+        nothing = float("nan")
+        return Sampled(nothing, nothing, nothing, nothing, nothing, nothing, values)
     mean, deviation = float(np.mean(values)), float(np.std(values, ddof=1))
     fourth = float(np.mean((values - mean) ** 4))
     of_variance = max(fourth - (n - 3) / (n - 1) * deviation**4, 0.0) / n

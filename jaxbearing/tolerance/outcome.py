@@ -44,8 +44,8 @@ class Spread:
     - `value`: result of the scene whose fields have their means.
     - `mean`, `deviation`: by the delta method; what a seat that may come loose does is that of a rectified normal
       variable.
-    - `worst_low`, `worst_high`: all fields at those of their limits that make the result small, or large; NaN where
-      that solve fails.
+    - `worst_low`, `worst_high`: smallest and largest result in the worst cases: for each result all fields at those of
+      their limits that make it small by its derivatives, and large. Those whose solve fails are left out.
     - `contributions`: share of each field in the variance; they add up to 1 (all 0 without a variance).
     - `derivatives`: of the result by each field.
     - `sampled`: `None` without samples.

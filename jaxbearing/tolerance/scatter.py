@@ -10,7 +10,7 @@ import jax
 
 from .._scene import AbstractScene
 from ..distribution import Distribution
-from ..mounting import iso286
+from ..mounting import Fits, iso286
 from ..numerics.precision import as_float
 from ..scenes.errors import SceneError
 from ..scenes.reader import distributions_in, scene_from_tables
@@ -44,16 +44,20 @@ class Scatter:
     notes: tuple[str, ...]
 
     @property
+    def fits(self) -> Fits | None:
+        """The table of the seats, with numbers."""
+        return getattr(self.scene, "fits", None)
+
+    @property
     def seats(self) -> tuple[str, ...]:
         """The seats of the bearing."""
-        fits = getattr(self.scene, "fits", None)
-        return () if fits is None else tuple(seat for seat in SEATS if getattr(fits, interference_of(seat)) is not None)
+        given = lambda seat: getattr(self.fits, interference_of(seat), None) is not None
+        return tuple(seat for seat in SEATS if given(seat))
 
     @property
     def means(self) -> dict[str, float]:
         """Means of all fields that scatter, and the interference of each seat."""
-        fits = getattr(self.scene, "fits", None)
-        seats = {name_of(seat): float(getattr(fits, interference_of(seat))) for seat in self.seats}
+        seats = {name_of(seat): float(getattr(self.fits, interference_of(seat))) for seat in self.seats}
         return seats | {path: one.mean for path, one in self.fields.items()}
 
     def recipe(self, cases: Cases) -> Direct:

@@ -9,6 +9,7 @@ lemma), and so is the scatter of a result that is linear in $u$.
 from dataclasses import dataclass
 from typing import Any
 
+import jax.numpy as jnp
 from jax.scipy.stats import norm
 
 from ..mounting.rectified import rectified_normal
@@ -101,7 +102,7 @@ def seat_of(fits: Any, name: str, interference: float, running: float, deviation
     - `interference`, `running`: as machined, and in operation, m.
     - `deviation`: of that in operation, m.
     """
-    by_state = running - interference + float(fits.smoothed(interference))
+    by_state = running - interference + float(fits.smoothed(jnp.asarray(interference)))
     if fits.smoothing is not None:
         bends = ((1.0, float(fits.smoothing) - by_state),)
     elif by_state <= 0.0:

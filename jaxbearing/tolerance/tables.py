@@ -14,7 +14,7 @@ from .. import __version__
 from ..distribution import Distribution
 from ..report.backends.json import finite
 from ..report.backends.screen import counted, headline, print_line, print_rule, print_warnings
-from ..report.display import digits, display_unit, displayed, with_unit
+from ..report.display import digits, displayed, with_unit
 from ..report.labels import label_unit, udunits
 from .outcome import Sampled, Spread, Tolerances
 
@@ -79,7 +79,7 @@ def _range(low: float, high: float, unit: str) -> str:
 
 def _sampled(one: Sampled, unit: str) -> Iterator[str]:
     for value, error in ((one.mean, one.mean_error), (one.deviation, one.deviation_error)):
-        yield f"{digits(displayed(value, unit))} ± {digits(displayed(error, unit), 2)} {display_unit(unit)}".rstrip()
+        yield f"{digits(displayed(value, unit))} ± {digits(displayed(error, unit), 2)}"
     yield _range(one.low, one.high, unit)
 
 
@@ -148,11 +148,10 @@ def _spread(name: str, one: Spread) -> dict[str, Any]:
     said |= {word: {p: finite(v) for p, v in getattr(one, word).items()} for word in ("contributions", "derivatives")}
     sampled = one.sampled
     words = ("mean", "mean_error", "deviation", "deviation_error", "low", "high")
-    said["monte_carlo"] = None if sampled is None else {word: finite(getattr(sampled, word)) for word in words}
     if name == CLEARANCE:
         said["below_zero"] = one.below_zero
-        if sampled is not None:
-            said["monte_carlo"]["below_zero"] = finite(sampled.below_zero)
+        words = (*words, "below_zero")
+    said["monte_carlo"] = None if sampled is None else {word: finite(getattr(sampled, word)) for word in words}
     return said
 
 
