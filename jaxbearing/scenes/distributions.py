@@ -12,9 +12,9 @@ from pydantic import BaseModel, TypeAdapter, ValidationError
 from pydantic_core import PydanticCustomError
 
 from ..distribution import SHAPES, Distribution
+from ..report.display import with_unit
 from .errors import SceneError, nearest, one_of
 from .fields import dimension_of, is_known, parts_of, tables_at, type_at
-from .quantity_texts import quantity_text
 from .units import Dimension, describe, dimension_of_unit, number, quantity
 
 _NAMES = ("mean", "deviation", "low", "high", "shape")
@@ -146,5 +146,5 @@ def text_of(value: float, dimension: Dimension | None) -> Any:
 def said_of(path: str, distribution: Distribution, model: type[BaseModel]) -> str:
     """Says that a scene has the mean of a field."""
     dimension = dimension_of(type_at(model, path.split(".")))
-    value = f"{distribution.mean:.6g}" if dimension is None else quantity_text(distribution.mean, dimension)
+    value = with_unit(distribution.mean, "1" if dimension is None else dimension.si)
     return f"{path} is given as a distribution: its mean, {value}, is used; 'jaxbearing tolerances' uses all of it"

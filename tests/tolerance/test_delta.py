@@ -28,6 +28,10 @@ def test_check_row_of_the_sheet(mounted, spread_fits):
     np.testing.assert_allclose(plain, 3.10085055, rtol=2e-4)
     np.testing.assert_allclose(sum(spread.contributions.values()), 1.0, rtol=1e-12)
     assert any("outer ring may be loose in the housing" in text and "98 %" in text for text in notes)
+    # 8.5 um below it are the raceways of the sheet
+    spread = spread_fits(scatter_of(mounted, {"geometry.diametral_clearance": Distribution(12 * UM, 2.5 * UM)}))[0]
+    np.testing.assert_allclose(spread["fit.clearance"].mean / UM, 12.7011139 - 8.5, rtol=1e-8)
+    np.testing.assert_allclose(spread["fit.clearance"].deviation / UM, 3.11272706, rtol=3e-4)
 
 
 def test_seats_alone_against_closed_forms(mounted, spread_fits):
