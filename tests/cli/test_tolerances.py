@@ -26,8 +26,8 @@ def made_up(monkeypatch):
 
 @pytest.mark.usefixtures("made_up")
 def test_screen_and_files(jaxbearing_command, folder):
-    command = ("tolerances", SCENE, *SET, "--samples", "30", "--out", "a.nc", "--plot", "a.png")
-    result = jaxbearing_command(*command)
+    command = ("tolerances", SCENE, *SET, "--samples", "30", "--out", "a.nc")
+    result = jaxbearing_command(*command, "--plot", "a.png")
     assert (result.code, result.err) == (0, "")
     for word in (
         "CONVERGED",
