@@ -36,7 +36,11 @@ def tolerances(found: Any, results: "list[str] | None" = None, title: str = "") 
     """
     from ..report.backends.matplotlib.page import Page
 
-    names = [name for name, one in found.results.items() if one.deviation > 0.0] if results is None else list(results)
+    names = (
+        [name for name, one in found.results.items() if one.moves and one.deviation > 0.0]
+        if results is None
+        else list(results)
+    )
     unknown = [name for name in names if name not in found.results]
     if unknown or not names:
         raise ValueError(f"results: found {unknown or 'none that scatters'}; expected some of {list(found.results)}")

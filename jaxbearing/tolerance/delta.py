@@ -180,6 +180,8 @@ def _bent_notes(
     """Notes on results that do not follow their derivatives as far as the limits of the fields."""
     bent, failed = [], []
     for name, spread in spreads.items():
+        if not spread.moves:
+            continue
         if not all(map(_good, at_ends[name])):
             failed.append(name)
             continue

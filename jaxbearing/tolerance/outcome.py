@@ -9,6 +9,9 @@ import numpy as np
 
 from ..distribution import SIGMAS, Distribution
 
+_ROUND_OFF = 1e-9
+"""Scatter relative to a result that the tolerance of the solver alone may cause."""
+
 
 @dataclass(frozen=True)
 class Sampled:
@@ -61,6 +64,11 @@ class Spread:
     contributions: Mapping[str, float]
     derivatives: Mapping[str, float]
     sampled: Sampled | None = None
+
+    @property
+    def moves(self) -> bool:
+        """True if the fields change the result by more than round-off."""
+        return max(self.deviation, self.worst_high - self.worst_low) > _ROUND_OFF * abs(self.value)
 
     @property
     def low(self) -> float:

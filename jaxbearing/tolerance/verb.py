@@ -113,10 +113,12 @@ class Analysis:
 
         names = names_in(found.solution, results)
         spreads, notes = spreads_of(self.scatter, names, found, evaluated)
+        still = [name for name, one in spreads.items() if not one.moves]
+        if still:
+            notes.append(f"these fields do not change {', '.join(still)}")
         if results is None:
             # of the usual results those that these fields move
-            moves = lambda one: one.deviation > 0.0 or one.worst_low < one.worst_high
-            spreads = {name: one for name, one in spreads.items() if moves(one)} or spreads
+            spreads = {name: one for name, one in spreads.items() if one.moves} or spreads
         return Tolerances(
             fields=self.scatter.fields,
             units={path: label_of(self.scatter.scene, path)["units"] for path in self.scatter.fields},

@@ -1,5 +1,7 @@
 """The verb in Python: names of results, what is refused, samples beside derivatives, runs that are stopped."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 import xarray as xr
@@ -8,6 +10,7 @@ from filled_results import MadeUpProgram, slopes_of, solution_of
 import jaxbearing as jb
 from jaxbearing import Distribution, SceneError
 from jaxbearing.plots import tolerances as draw
+from jaxbearing.tolerance import Spread
 from jaxbearing.tolerance.monte_carlo import cases_of, sampled
 from jaxbearing.tolerance.results import Label, labels_of, names_in, values_of
 from jaxbearing.tolerance.scatter import scatter_of
@@ -221,3 +224,10 @@ def test_failed_samples_are_counted():
     assert 5 < failed < 40
     assert all("conformity_inner" in text for text in found.samples.failures)
     assert found["ring.radial"].sampled.values.size == found.samples.converged
+
+
+def test_round_off_is_no_scatter():
+    still = Spread(2.0, 2.0, 1e-12, 2.0, 2.0 + 1e-12, "m", "still", {"a": 1.0}, {"a": 1.0})
+    assert not still.moves
+    assert replace(still, worst_high=2.1).moves
+    assert replace(still, deviation=1e-6).moves
