@@ -25,6 +25,7 @@ from .arrow import (
 )
 from .batching import in_turn
 from .continuation import MOST_STEPS, Continuation, StageEnd, advance, first_guesses
+from .known_roots import at_known_root
 from .newton_steps import NewtonOptions as NewtonOptions
 from .newton_steps import Search, choose, judge, moved_on, propose
 from .status import Status
@@ -156,7 +157,23 @@ def _root(system: AbstractArrowSystem, *, options: NewtonOptions) -> _Root:
 @_root.def_jvp
 def _root_jvp(primals, tangents, *, options: NewtonOptions):
     (system,), (system_dot,) = primals, tangents
-    root = _root(system, options=options)
+    return _implicit(system, system_dot, _root(system, options=options))
+
+
+@eqx.filter_custom_jvp
+def _known_root(system: AbstractArrowSystem, *, root: _Root) -> _Root:
+    """The root of a system that was found before, with the derivatives of a root that is searched for."""
+    return root
+
+
+@_known_root.def_jvp
+def _known_root_jvp(primals, tangents, *, root: _Root):
+    (system,), (system_dot,) = primals, tangents
+    return _implicit(system, system_dot, _known_root(system, root=root))
+
+
+def _implicit(system: Any, system_dot: Any, root: _Root) -> tuple[_Root, _Root]:
+    """A root and its directional derivative, by the implicit function theorem."""
     # Selecting on the tangent that comes in, not only on what goes out, keeps NaN times zero of a failed lane from
     # parameters that lanes share, in both modes.
     select = lambda t: jnp.where(root.solved, t, 0.0)
@@ -199,7 +216,8 @@ def newton_solve(system: System, options: NewtonOptions | None = None) -> tuple[
 
     **Arguments:** `system`: equations and parameters; `options`: tolerances and limits.
     """
-    root = _root(system, options=NewtonOptions() if options is None else options)
+    chosen = NewtonOptions() if options is None else options
+    root = at_known_root(lambda: _root(system, options=chosen), lambda known: _known_root(system, root=known))
     live = jax.tree.map(lambda x: jnp.where(root.solved, x, jax.lax.stop_gradient(x)), system)
     # What is reported was measured one Newton step before the returned point.
     end = root.end

@@ -1,0 +1,207 @@
+"""Derivatives outside of programs: kept programs give what JAX gives inside of one, in every mode and order."""
+
+import sys
+
+import jax
+import jax.numpy as jnp
+import numpy as np
+import pytest
+from springs import flat, springs
+
+import jaxbearing as jb
+from jaxbearing.numerics.known_roots import known_roots, recorded_roots
+from jaxbearing.numerics.newton import newton_solve
+from jaxbearing.programs import differentiated
+
+SCENE = jb.load_scene("reference_roller", {"contact": "none"})
+RATED = ("deep_groove_6205", {"rating": "none"})
+
+
+def shift(load, speed=900.0, scene=SCENE, **options):
+    solution = jb.solve(scene.at_operation(radial_load=load, inner_speed=speed), throw=False, **options)
+    return solution.ring.radial
+
+
+def loads(load):
+    return jb.solve(SCENE.at_operation(radial_load=load), throw=False).elements.load_inner
+
+
+@pytest.fixture
+def asked(monkeypatch):
+    """How often the program of derivatives answered."""
+    found = []
+    real = differentiated._kept_rows
+    monkeypatch.setattr(differentiated, "_kept_rows", lambda *args: (found.append(args), real(*args))[1])
+    return found
+
+
+MODES = {
+    "grad": lambda f: jax.grad(f)(2000.0),
+    "two numbers": lambda f: jax.grad(f, (0, 1))(2000.0, 900.0),
+    "value_and_grad": lambda f: jax.value_and_grad(f)(2000.0),
+    "jacfwd": lambda f: jax.jacfwd(f)(2000.0),
+    "jvp": lambda f: jax.jvp(f, (2000.0,), (3.0,)),
+    "linearize": lambda f: jax.linearize(f, 2000.0)[1](3.0),
+    "function of the root": lambda f: jax.grad(lambda load: jnp.log(f(2.0 * load) + f(load)))(1000.0),
+}
+
+
+@pytest.mark.parametrize("mode", MODES)
+def test_first_derivatives_are_those_of_a_program(mode, asked):
+    found = MODES[mode](shift)
+    assert asked
+    asked.clear()
+    expected = MODES[mode](jax.jit(shift))
+    assert not asked
+    jax.tree.map(lambda a, b: np.testing.assert_allclose(a, b, rtol=1e-12), found, expected)
+
+
+@pytest.mark.parametrize(
+    "mode",
+    [
+        pytest.param(lambda f: jax.hessian(f)(2000.0), id="hessian"),
+        pytest.param(lambda f: jax.vmap(jax.grad(f))(jnp.array([2000.0, 2500.0])), id="vmap(grad)"),
+        pytest.param(lambda f: jax.vmap(f)(jnp.array([2000.0, 2500.0])), id="vmap"),
+    ],
+)
+def test_batches_and_second_derivatives_are_those_of_jax(mode, asked):
+    found = mode(shift)
+    assert not asked
+    np.testing.assert_allclose(found, mode(jax.jit(shift)), rtol=1e-10)
+
+
+def test_an_optimised_solve_is_differentiated_by_jax(asked):
+    slope = jax.grad(lambda load: shift(load, optimised=True))(2000.0)
+    assert not asked
+    np.testing.assert_allclose(slope, jax.grad(shift)(2000.0), rtol=1e-12)
+
+
+def test_of_arrays_and_many_numbers(asked):
+    """Ten numbers: more than the smallest program has rows."""
+    angles = jnp.linspace(0.0, 0.09, 10)
+
+    def sums(numbers):
+        total = jnp.sum(numbers)
+        scene = SCENE.at_operation(radial_load=2000.0 + total)
+        scene = scene.replace_geometry(roller_diameter=SCENE.geometry.roller_diameter * (1.0 + 1e-3 * numbers[3]))
+        return jnp.sum(jb.solve(scene).elements.load_inner ** 2)
+
+    np.testing.assert_allclose(jax.grad(sums)(angles), jax.jit(jax.grad(sums))(angles), rtol=1e-10)
+    np.testing.assert_allclose(jax.jacfwd(loads)(2000.0), jax.jit(jax.jacfwd(loads))(2000.0), rtol=1e-10, atol=1e-13)
+    assert asked
+
+
+def test_a_solve_that_fails():
+    for mode in (jax.value_and_grad, jax.jacfwd):
+        np.testing.assert_array_equal(mode(shift)(1e200), mode(jax.jit(shift))(1e200))
+
+
+def test_a_solve_that_fails_raises_while_it_is_differentiated():
+    message = "diverged after .* Newton steps: scaled residual 1, worst equation: radial load balance"
+    with pytest.raises(jb.SolveError, match=message):
+        jax.grad(lambda load: jb.solve(SCENE.at_operation(radial_load=load)).ring.radial)(1e200)
+    with pytest.raises(jb.SolveError):
+        jax.grad(lambda load: jb.solve(jb.load_scene(*RATED).at_operation(radial_load=load)).ring.radial)(1e200)
+
+
+def test_what_does_not_depend_on_the_numbers_is_plain():
+    def residual(load):
+        solution = jb.solve(SCENE.at_operation(radial_load=load))
+        assert float(solution.residual_norm) < 1e-8  # no traced number, which has no value
+        return solution.ring.radial
+
+    assert np.isfinite(jax.grad(residual)(2000.0))
+
+
+def test_every_number_of_a_scene(asked):
+    scene = jb.load_scene(*RATED)
+    numbers, structure = jax.tree.flatten(jax.tree.map(jnp.asarray, scene))
+
+    def results(numbers):
+        solution = jb.solve(jax.tree.unflatten(structure, numbers))
+        return 1e6 * solution.ring.tilt + 1e-9 * solution.stiffness[1, 1] + 1e-3 * solution.elements.load_outer[0]
+
+    found, expected = jax.grad(results)(numbers), jax.jit(jax.grad(results))(numbers)
+    assert len(asked) == 1
+    assert len(found) > differentiated._FEWEST_ROWS
+    for one, other in zip(found, expected, strict=True):
+        np.testing.assert_allclose(one, other, rtol=1e-8, atol=1e-10 * max(1.0, float(np.max(np.abs(other)))))
+
+
+def test_of_the_port(asked):
+    place = jnp.array([0.0, 2e-5, 0.0, 0.0, 0.0])
+    force = lambda place: jb.reaction(SCENE, place).force
+    np.testing.assert_allclose(jax.jacrev(force)(place), jb.reaction(SCENE, place).stiffness, rtol=1e-9, atol=1e-3)
+    assert asked
+
+
+def test_without_a_root(asked):
+    """Traction curves are no roots of a system."""
+    scene = jb.load_scene("two_disk_etm")
+    curve = lambda speed: jb.solve(scene.replace({"operation.entrainment_speed": speed})).traction_coefficient
+    speed = scene.operation.entrainment_speed
+    found = jax.jvp(curve, (speed,), (jnp.ones_like(speed),))[1]
+    assert asked
+    np.testing.assert_allclose(
+        found, jax.jit(lambda s: jax.jvp(curve, (s,), (jnp.ones_like(s),))[1])(speed), rtol=1e-10
+    )
+
+
+# -- roots that are known ---------------------------------------------------------------------------------------------
+
+
+def root(stiffness):
+    plain = springs()
+    system = type(plain)(stiffness * plain.stiffness, plain.load)
+    live, result = newton_solve(system)
+    return flat(result.point) * jnp.mean(live.stiffness) + result.jacobian.local[0, 0, 0]
+
+
+def at_known(stiffness):
+    with recorded_roots() as roots:
+        root(jax.lax.stop_gradient(stiffness))
+    with known_roots(roots):
+        return root(stiffness)
+
+
+@pytest.mark.parametrize("order", [jax.jacfwd, jax.jacrev, jax.hessian], ids=lambda order: order.__name__)
+def test_known_roots_have_the_derivatives_of_those_searched_for(order):
+    np.testing.assert_allclose(jax.jit(at_known)(1.1), jax.jit(root)(1.1), rtol=1e-14)
+    np.testing.assert_allclose(jax.jit(order(at_known))(1.1), jax.jit(order(root))(1.1), rtol=1e-12)
+
+
+def test_nothing_is_searched_for_at_known_roots():
+    with recorded_roots() as roots:
+        root(1.1)
+    assert len(roots) == 1
+
+    def derivative(stiffness):
+        with known_roots(roots):
+            return jax.jvp(root, (stiffness,), (1.0,))
+
+    assert "while" not in str(jax.make_jaxpr(derivative)(1.1))
+    assert "while" in str(jax.make_jaxpr(root)(1.1))
+
+
+def test_derivatives_by_other_programs_are_right_too():
+    """The root that was noted depends on the number as well; only the search that takes it counts."""
+
+    def both(stiffness):
+        with recorded_roots() as roots:
+            root(stiffness)
+        with known_roots(roots):
+            return root(stiffness)
+
+    np.testing.assert_allclose(jax.jit(jax.jacrev(both))(1.1), jax.jit(jax.jacrev(root))(1.1), rtol=1e-12)
+
+
+def test_the_program_of_a_plain_solve_is_asked_for_its_roots_as_well():
+    solve = sys.modules["jaxbearing.solve"]
+    solution, roots = solve.solve_with_roots(SCENE, jb.NewtonOptions())
+    again = solve.solution_at(roots, SCENE, jb.NewtonOptions())
+    assert len(roots) == 1
+    jax.tree.map(
+        lambda a, b: np.testing.assert_allclose(a, b, rtol=1e-9, atol=1e-9, equal_nan=True),
+        (solution.ring, solution.elements, solution.status),
+        (again.ring, again.elements, again.status),
+    )
