@@ -9,7 +9,7 @@ import jax
 import jax.numpy as jnp
 from jaxtyping import Array, Float
 
-from ._scene import AbstractScene
+from ._scene import AbstractScene, AbstractSolution
 from .bearings.solution import Solution
 from .ehl import EHLLineContact, LineContactSolution
 from .machines import TwoDiskSolution
@@ -74,7 +74,7 @@ def sensitivities(
     return solution, Sensitivities(**{name: _by_path(tree) for name, tree in slopes.items()})
 
 
-def sensitivities_once(scene: AbstractScene) -> tuple[Any, Sensitivities]:
+def sensitivities_once(scene: AbstractScene) -> tuple[AbstractSolution, Sensitivities]:
     """Result of `sensitivities(scene, throw=False)`, for a command."""
     return sensitivities(scene, throw=False)
 
@@ -82,7 +82,10 @@ def sensitivities_once(scene: AbstractScene) -> tuple[Any, Sensitivities]:
 @rare_garbage_collection()
 def _answer(scene: AbstractScene, throw: bool, options: NewtonOptions) -> tuple[Any, dict[str, Any]]:
     if inside_a_program(scene):
-        return _in_a_program(scene, options)
+        solution, slopes = _in_a_program(scene, options)
+        if throw:
+            solution.raise_if_failed()
+        return solution, slopes
     solution, roots = solve_with_roots(scene, options)
     _results(solution)  # refused before another program is compiled
     if throw:
@@ -90,7 +93,7 @@ def _answer(scene: AbstractScene, throw: bool, options: NewtonOptions) -> tuple[
     return solution, _kept_slopes(scene, options, roots)
 
 
-def _results(solution: Any) -> dict[str, Array]:
+def _results(solution: AbstractSolution) -> dict[str, Array]:
     """The results of a solution that have sensitivities, by field of `Sensitivities`. **Raises:** `NoSensitivities`."""
     if isinstance(solution, Solution):
         power, cage, life = solution.power_loss, solution.cage, solution.life
