@@ -80,8 +80,9 @@ def solve_with_roots(scene: AbstractScene, options: NewtonOptions) -> tuple[Any,
 
 
 def solution_at(roots: tuple[Any, ...], scene: AbstractScene, options: NewtonOptions) -> Any:
-    """The solution from its roots, to be differentiated: pure, small, and nothing is searched for."""
-    return at_roots(_solve_any, roots, scene, options)
+    """The solution from its roots, to be differentiated: pure, small, and nothing is searched for. The derivatives of
+    its stiffness are NaN."""
+    return at_roots(_solve_any, roots, scene, options, stiffness=False)
 
 
 @overload

@@ -142,7 +142,8 @@ def _directional(function: Callable, primals: tuple, tangents: tuple) -> Any:
 
 
 def steady_root(problem: Steady, *, key: MeshKey) -> SteadyRoot:
-    return at_known_root(lambda: _root(problem, key=key), lambda root: _known_root(problem, root=root, key=key))
+    """The root of `_root`, or one that is known."""
+    return at_known_root(lambda: _root(problem, key=key), lambda root, _: _known_root(problem, root=root, key=key))
 
 
 def existing(wedge: Scalar, speed: Scalar) -> Bool[Array, ""]:

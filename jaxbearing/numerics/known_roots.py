@@ -16,6 +16,7 @@ import jax
 class _Roots(NamedTuple):
     noted: list[Any]
     known: deque[Any] | None
+    stiffness: bool
 
 
 _ROOTS: ContextVar[_Roots | None] = ContextVar("roots that are recorded or known", default=None)
@@ -25,14 +26,18 @@ _ROOTS: ContextVar[_Roots | None] = ContextVar("roots that are recorded or known
 def recorded_roots() -> Iterator[list[Any]]:
     """For a block that is traced: gives the list of the roots that it finds, filled at its end."""
     noted: list[Any] = []
-    with _set(_Roots(noted, None)):
+    with _set(_Roots(noted, None, True)):
         yield noted
 
 
 @contextmanager
-def known_roots(roots: Any) -> Iterator[None]:
-    """For a block that is traced: its searches take these roots, which `recorded_roots` noted in the same block."""
-    with _set(_Roots([], deque(roots))):
+def known_roots(roots: Any, stiffness: bool = True) -> Iterator[None]:
+    """For a block that is traced: its searches take these roots, which `recorded_roots` noted in the same block.
+
+    **Arguments:** `stiffness`: whether what is computed from a Jacobian, as the stiffness, is differentiated; its
+    derivatives are NaN else, and a third of the time of tracing is saved.
+    """
+    with _set(_Roots([], deque(roots), stiffness)):
         yield
 
 
@@ -45,17 +50,18 @@ def _set(roots: _Roots) -> Iterator[None]:
         _ROOTS.reset(token)
 
 
-def at_known_root(search: Callable[[], Any], known: Callable[[Any], Any]) -> Any:
+def at_known_root(search: Callable[[], Any], known: Callable[[Any, bool], Any]) -> Any:
     """The root of a search.
 
-    **Arguments:** `search`: finds it; `known`: the same with its derivative, from the root that was noted.
+    **Arguments:** `search`: finds it; `known`: the same with its derivatives, from the root that was noted and
+    `stiffness` of `known_roots`.
     """
     roots = _ROOTS.get()
     if roots is None:
         return search()
     if roots.known is not None:
         # a root depends on the numbers of its search, and on nothing else
-        return known(jax.lax.stop_gradient(roots.known.popleft()))
+        return known(jax.lax.stop_gradient(roots.known.popleft()), roots.stiffness)
     root = search()
     roots.noted.append(root)
     return root

@@ -32,9 +32,12 @@ def with_roots(compute: Callable[..., Any], *given: Any) -> tuple[Any, tuple[Any
     return result, tuple(roots)
 
 
-def at_roots(compute: Callable[..., Any], roots: tuple[Any, ...], *given: Any) -> Any:
-    """The result of `compute(*given)` from roots that are known."""
-    with known_roots(roots):
+def at_roots(compute: Callable[..., Any], roots: tuple[Any, ...], *given: Any, stiffness: bool = True) -> Any:
+    """The result of `compute(*given)` from roots that are known.
+
+    **Arguments:** `stiffness`: of `known_roots`.
+    """
+    with known_roots(roots, stiffness):
         return compute(*given)
 
 

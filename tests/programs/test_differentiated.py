@@ -14,7 +14,7 @@ from jaxbearing.numerics.newton import newton_solve
 from jaxbearing.programs import differentiated
 
 SCENE = jb.load_scene("reference_roller", {"contact": "none"})
-RATED = ("deep_groove_6205", {"rating": "none"})
+BALLS = "deep_groove_6205"
 
 
 def shift(load, speed=900.0, scene=SCENE, **options):
@@ -101,7 +101,7 @@ def test_a_solve_that_fails_raises_while_it_is_differentiated():
     with pytest.raises(jb.SolveError, match=message):
         jax.grad(lambda load: jb.solve(SCENE.at_operation(radial_load=load)).ring.radial)(1e200)
     with pytest.raises(jb.SolveError):
-        jax.grad(lambda load: jb.solve(jb.load_scene(*RATED).at_operation(radial_load=load)).ring.radial)(1e200)
+        jax.grad(lambda load: jb.solve(jb.load_scene(BALLS).at_operation(radial_load=load)).ring.radial)(1e200)
 
 
 def test_what_does_not_depend_on_the_numbers_is_plain():
@@ -114,7 +114,7 @@ def test_what_does_not_depend_on_the_numbers_is_plain():
 
 
 def test_every_number_of_a_scene(asked):
-    scene = jb.load_scene(*RATED)
+    scene = jb.load_scene(BALLS)
     numbers, structure = jax.tree.flatten(jax.tree.map(jnp.asarray, scene))
 
     def results(numbers):
@@ -150,10 +150,13 @@ def test_without_a_root(asked):
 # -- roots that are known ---------------------------------------------------------------------------------------------
 
 
-def root(stiffness):
+def springs_times(stiffness):
     plain = springs()
-    system = type(plain)(stiffness * plain.stiffness, plain.load)
-    live, result = newton_solve(system)
+    return type(plain)(stiffness * plain.stiffness, plain.load)
+
+
+def root(stiffness):
+    live, result = newton_solve(springs_times(stiffness))
     return flat(result.point) * jnp.mean(live.stiffness) + result.jacobian.local[0, 0, 0]
 
 
@@ -168,6 +171,23 @@ def at_known(stiffness):
 def test_known_roots_have_the_derivatives_of_those_searched_for(order):
     np.testing.assert_allclose(jax.jit(at_known)(1.1), jax.jit(root)(1.1), rtol=1e-14)
     np.testing.assert_allclose(jax.jit(order(at_known))(1.1), jax.jit(order(root))(1.1), rtol=1e-12)
+
+
+def test_derivatives_of_a_stiffness_that_are_left_out_are_nan():
+    with recorded_roots() as roots:
+        root(1.1)
+
+    def parts(stiffness):
+        with known_roots(roots, stiffness=False):
+            result = newton_solve(springs_times(stiffness))[1]
+        return flat(result.point), result.jacobian.local
+
+    point, local = jax.jit(jax.jacfwd(parts))(1.1)
+    assert np.all(np.isnan(local))
+    whole = jax.jit(jax.jacfwd(lambda s: flat(newton_solve(springs_times(s))[1].point)))
+    np.testing.assert_allclose(point, whole(1.1), rtol=1e-12)
+    curved = jax.jit(jax.hessian(lambda s: parts(s)[0]))(1.1)
+    np.testing.assert_allclose(curved, jax.jit(jax.jacfwd(whole))(1.1), rtol=1e-11)
 
 
 def test_nothing_is_searched_for_at_known_roots():
