@@ -1,6 +1,8 @@
 """Derivatives outside of programs: kept programs give what JAX gives inside of one, in every mode and order."""
 
+import dataclasses
 import sys
+from concurrent.futures import ThreadPoolExecutor
 
 import jax
 import jax.numpy as jnp
@@ -9,9 +11,11 @@ import pytest
 from springs import flat, springs
 
 import jaxbearing as jb
-from jaxbearing.numerics.known_roots import known_roots, recorded_roots
+from jaxbearing.bearings.cylindrical.geometry import RollerGeometry
+from jaxbearing.numerics.known_roots import at_known_root, known_roots, recorded_roots
 from jaxbearing.numerics.newton import newton_solve
-from jaxbearing.programs import differentiated
+from jaxbearing.programs import KeptProgram, differentiated
+from jaxbearing.programs.files import SUFFIX
 
 SCENE = jb.load_scene("reference_roller", {"contact": "none"})
 BALLS = "deep_groove_6205"
@@ -70,6 +74,59 @@ def test_batches_and_second_derivatives_are_those_of_jax(mode, asked):
     np.testing.assert_allclose(found, mode(jax.jit(shift)), rtol=1e-10)
 
 
+PAIR = jnp.array([2000.0, 1e200])
+NESTED = {
+    "jacfwd(jacrev)": lambda f: jax.jacfwd(jax.jacrev(f, (0, 1)), (0, 1))(2000.0, 900.0),
+    "jacrev(jacfwd)": lambda f: jax.jacrev(jax.jacfwd(f, 1), 0)(2000.0, 900.0),
+    "grad(grad), one number each": lambda f: jax.grad(lambda a: jax.grad(lambda b: f(a, b))(900.0))(2000.0),
+    "jvp of a direction": lambda f: jax.jvp(lambda t: jax.jvp(f, (2000.0,), (t,))[1], (2.0,), (3.0,)),
+    "vmap(grad), a lane fails": lambda f: jax.vmap(jax.grad(f))(PAIR),
+    "vmap(jacfwd), a lane fails": lambda f: jax.vmap(jax.jacfwd(f))(PAIR),
+    "vmap(hessian), a lane fails": lambda f: jax.vmap(jax.hessian(f))(PAIR),
+    "map(grad), a lane fails": lambda f: jax.lax.map(jax.grad(f), PAIR),
+    "grad by what lanes share": lambda f: jax.grad(
+        lambda speed: jnp.nansum(jax.vmap(lambda load: f(load, speed))(PAIR))
+    )(900.0),
+    "checkpoint": lambda f: jax.grad(jax.checkpoint(f))(2000.0),
+}
+
+
+IN_SHORT = ("jacfwd(jacrev)", "jvp of a direction", "vmap(grad), a lane fails", "grad by what lanes share")
+
+
+@pytest.mark.parametrize(
+    "way", [way if way in IN_SHORT else pytest.param(way, marks=pytest.mark.slow) for way in NESTED]
+)
+def test_nested_derivatives_and_failed_lanes(way):
+    """Outside of a program and inside of one: the same. A failed lane, whose result is NaN, passes no derivative."""
+    found, expected = NESTED[way](shift), jax.jit(lambda: NESTED[way](shift))()
+    jax.tree.map(lambda a, b: np.testing.assert_allclose(a, b, rtol=1e-9, atol=1e-25), found, expected)
+    for leaf in jax.tree.leaves(found):
+        assert np.isfinite(np.ravel(leaf)[0])
+        assert np.ndim(leaf) == 0 or leaf[1] == 0.0
+
+
+def test_threads_do_not_meet(asked):
+    """Derivatives, plain solves and programs that are traced, at the same time."""
+    expected = [jax.jit(shift)(2000.0), jax.jit(jax.grad(shift))(2000.0)]
+    tasks = [
+        lambda: float(shift(2000.0)),
+        lambda: float(jax.grad(shift)(2000.0)),
+        lambda: float(jax.jit(lambda load: shift(load))(2000.0)),
+        lambda: float(jax.jit(lambda load: jax.grad(shift)(load))(2000.0)),
+    ]
+    with ThreadPoolExecutor(4) as threads:
+        found = list(threads.map(lambda task: task(), 2 * tasks))
+    np.testing.assert_allclose(found, 4 * expected, rtol=1e-12)
+    assert len(asked) == 2
+
+
+def test_no_traced_number_is_left_behind():
+    with jax.checking_leaks():
+        slope = jax.grad(shift)(2000.0)
+        np.testing.assert_allclose(jax.jit(lambda load: jax.grad(shift)(load))(2000.0), slope, rtol=1e-12)
+
+
 def test_an_optimised_solve_is_differentiated_by_jax(asked):
     slope = jax.grad(lambda load: shift(load, optimised=True))(2000.0)
     assert not asked
@@ -113,6 +170,7 @@ def test_what_does_not_depend_on_the_numbers_is_plain():
     assert np.isfinite(jax.grad(residual)(2000.0))
 
 
+@pytest.mark.slow
 def test_every_number_of_a_scene(asked):
     scene = jb.load_scene(BALLS)
     numbers, structure = jax.tree.flatten(jax.tree.map(jnp.asarray, scene))
@@ -133,6 +191,101 @@ def test_of_the_port(asked):
     force = lambda place: jb.reaction(SCENE, place).force
     np.testing.assert_allclose(jax.jacrev(force)(place), jb.reaction(SCENE, place).stiffness, rtol=1e-9, atol=1e-3)
     assert asked
+
+
+@pytest.fixture
+def folder(tmp_path, monkeypatch):
+    """The files of a cache that is switched on, for programs of a process that begins."""
+    monkeypatch.setenv("JAXBEARING_CACHE", str(tmp_path / "cache"))
+    for program in (differentiated.solved, differentiated._kept_rows):
+        monkeypatch.setattr(program, "_ready", {})
+        monkeypatch.setattr(program, "_never", set())
+    return lambda: sorted((tmp_path / "cache").rglob(f"*{SUFFIX}"))
+
+
+def test_both_programs_are_kept(folder, monkeypatch):
+    slope = jax.value_and_grad(shift)(2000.0)
+    assert len(folder()) == 2
+    differentiated.solved._ready.clear()
+    differentiated._kept_rows._ready.clear()
+    with monkeypatch.context() as patch:
+        patch.setattr(KeptProgram, "_made", None)  # none is made again
+        assert jax.value_and_grad(shift)(2000.0) == slope
+        assert shift(2000.0) == slope[0]
+    monkeypatch.setenv("JAXBEARING_CACHE", "off")
+    np.testing.assert_allclose(jax.value_and_grad(shift)(2000.0), slope, rtol=1e-12)
+    assert len(folder()) == 2
+
+
+class OwnGeometry(RollerGeometry):
+    """Code of the user's own."""
+
+
+def test_programs_with_code_of_the_user_are_not_kept(folder):
+    geometry = OwnGeometry(
+        **{field.name: getattr(SCENE.geometry, field.name) for field in dataclasses.fields(OwnGeometry)}
+    )
+    slope = jax.grad(lambda load: shift(load, scene=dataclasses.replace(SCENE, geometry=geometry)))(2000.0)
+    assert folder() == []
+    np.testing.assert_allclose(slope, jax.jit(jax.grad(shift))(2000.0), rtol=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("name", "changes", "result"),
+    [
+        pytest.param(
+            "reference_roller",
+            {"contact": "none"},
+            lambda solution: 1e5 * solution.ring.radial + 1e-9 * solution.stiffness[1, 1],
+            id="dry",
+        ),
+        pytest.param(
+            "deep_groove_6205_mounted",
+            {},
+            lambda solution: solution.fit.clearance * 1e5 + solution.elements.load_inner[0] * 1e-3,
+            id="mounted",
+            marks=pytest.mark.slow,
+        ),
+        pytest.param(
+            "turbine_roller",
+            {"contact": "none", "operation.misalignment": "1 mrad", "rating.grooves": "scene"},
+            lambda solution: jnp.log(solution.life.L10r) + 1e4 * solution.ring.radial,
+            id="tilting",
+            marks=pytest.mark.slow,
+        ),
+        pytest.param(
+            "tapered_example",
+            {"contact": "none"},
+            lambda solution: 1e5 * solution.ring.axial,
+            id="tapered",
+            marks=pytest.mark.slow,
+        ),
+        pytest.param(
+            "turbine_ball_mounted",
+            {"contact.traction_accuracy": 1e-2},
+            lambda solution: jnp.log(solution.power_loss.total) + solution.cage.slip,
+            id="films",
+            marks=pytest.mark.slow,
+        ),
+        pytest.param(
+            "satellite_contact_1",
+            {"contact.accuracy": 1e-2},
+            lambda solution: jnp.log(solution.film.central),
+            id="line contact",
+            marks=pytest.mark.slow,
+        ),
+    ],
+)
+def test_every_number_of_a_kind(name, changes, result, asked):
+    """Geometry, fits, temperatures, materials, oil, loads: all are traced at once."""
+    leaves, structure = jax.tree.flatten(jax.tree.map(jnp.asarray, jb.load_scene(name, changes)))
+    loss = lambda leaves: result(jb.solve(jax.tree.unflatten(structure, leaves)))
+    found, expected = jax.grad(loss)(leaves), jax.jit(jax.grad(loss))(leaves)
+    assert len(asked) == 1
+    for one, other, number in zip(found, expected, leaves, strict=True):
+        assert np.all(np.isfinite(other))
+        # what a change of the number by all of it makes of the result, which is about 1
+        np.testing.assert_allclose(one * number, other * number, rtol=1e-7, atol=1e-9)
 
 
 def test_without_a_root(asked):
@@ -188,6 +341,43 @@ def test_derivatives_of_a_stiffness_that_are_left_out_are_nan():
     np.testing.assert_allclose(point, whole(1.1), rtol=1e-12)
     curved = jax.jit(jax.hessian(lambda s: parts(s)[0]))(1.1)
     np.testing.assert_allclose(curved, jax.jit(jax.jacfwd(whole))(1.1), rtol=1e-11)
+
+
+def test_known_roots_end_with_their_block():
+    """Also where it fails, and inside of another one."""
+    search, known = lambda: 0.0, lambda root, _: float(root)
+
+    def fails():
+        with known_roots([1.0]):
+            raise ZeroDivisionError
+
+    with known_roots([2.0]):
+        for _ in range(2):
+            with pytest.raises(ZeroDivisionError):
+                fails()
+        with recorded_roots() as roots, known_roots([3.0]):
+            assert at_known_root(search, known) == 3.0
+        assert roots == []
+        assert at_known_root(search, known) == 2.0
+    assert at_known_root(search, known) == 0.0
+    with ThreadPoolExecutor(1) as thread, known_roots([4.0]):
+        assert thread.submit(at_known_root, search, known).result() == 0.0
+
+
+def test_a_trace_that_fails_leaves_no_known_roots(monkeypatch):
+    solve = sys.modules["jaxbearing.solve"]
+    real = solve.with_life
+
+    def fails(scene, solution):
+        raise ZeroDivisionError
+
+    monkeypatch.setattr(solve, "with_life", fails)
+    other = jb.load_scene("reference_roller", {"contact": "none", "geometry.n_rollers": 17})
+    with pytest.raises(ZeroDivisionError):
+        jax.grad(lambda load: shift(load, scene=other))(2000.0)
+    monkeypatch.setattr(solve, "with_life", real)
+    slope = jax.grad(lambda load: shift(load, scene=other))(2000.0)
+    np.testing.assert_allclose(slope, jax.jit(jax.grad(lambda load: shift(load, scene=other)))(2000.0), rtol=1e-12)
 
 
 def test_nothing_is_searched_for_at_known_roots():
