@@ -23,6 +23,8 @@ from .kept import KeptProgram
 
 _FEWEST_ROWS = 8
 """Rows of the smallest program of derivatives; each larger one has eight times as many."""
+_MOST_NUMBERS = 512
+"""Of more numbers a pass for each would take seconds at every call; JAX has one reverse pass for all."""
 
 
 def with_roots(compute: Callable[..., Any], *given: Any) -> tuple[Any, tuple[Any, ...]]:
@@ -87,8 +89,8 @@ def _combined(rows: Any, dots: list[Array]) -> Any:
 def differentiable(compute: Callable[..., Any], program: Callable[..., Any], *given: Any) -> Any:
     """The result of `compute(*given)` outside of programs, where some of the numbers are differentiated or batched.
 
-    The programs of this module answer where numbers are differentiated once, and `program` in batches and for second
-    derivatives.
+    The programs of this module answer where numbers are differentiated once, and `program` in batches, for second
+    derivatives and for more than `_MOST_NUMBERS` numbers.
 
     **Arguments:** `compute`: of a module, pure; `program`: the same under `jax.jit`.
     """
@@ -123,11 +125,11 @@ def _answer(numbers: list[Array], *, compute: Any, program: Any, filled: Any, pl
 def _answer_jvp(primals: Any, tangents: Any, *, compute: Any, program: Any, filled: Any, places: Any) -> Any:
     (numbers,), (dots,) = primals, tangents
     given = filled(numbers)
-    if inside_a_program(given):
-        return eqx.filter_jvp(lambda numbers: program(*filled(numbers)), (numbers,), (dots,))
-    result, roots = solved(compute, *given)
     moving = [dot is not None for dot in dots]
     wanted = np.concatenate([place for place, moves in zip(places, moving, strict=True) if moves])
+    if inside_a_program(given) or wanted.size > _MOST_NUMBERS:
+        return eqx.filter_jvp(lambda numbers: program(*filled(numbers)), (numbers,), (dots,))
+    result, roots = solved(compute, *given)
     size = _FEWEST_ROWS
     while size < wanted.size:
         size *= 8

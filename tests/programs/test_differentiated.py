@@ -148,6 +148,15 @@ def test_of_arrays_and_many_numbers(asked):
     assert asked
 
 
+def test_very_many_numbers_are_left_to_jax(monkeypatch, asked):
+    monkeypatch.setattr(differentiated, "_MOST_NUMBERS", 1)
+    found = jax.grad(shift, (0, 1))(2000.0, 900.0)
+    assert not asked
+    np.testing.assert_allclose(found, jax.jit(jax.grad(shift, (0, 1)))(2000.0, 900.0), rtol=1e-12)
+    assert np.isfinite(jax.grad(shift)(2000.0))
+    assert asked
+
+
 def test_a_solve_that_fails():
     for mode in (jax.value_and_grad, jax.jacfwd):
         np.testing.assert_array_equal(mode(shift)(1e200), mode(jax.jit(shift))(1e200))
@@ -277,15 +286,21 @@ def test_programs_with_code_of_the_user_are_not_kept(folder):
     ],
 )
 def test_every_number_of_a_kind(name, changes, result, asked):
-    """Geometry, fits, temperatures, materials, oil, loads: all are traced at once."""
-    leaves, structure = jax.tree.flatten(jax.tree.map(jnp.asarray, jb.load_scene(name, changes)))
-    loss = lambda leaves: result(jb.solve(jax.tree.unflatten(structure, leaves)))
-    found, expected = jax.grad(loss)(leaves), jax.jit(jax.grad(loss))(leaves)
+    """Geometry, fits, temperatures, materials, oil, loads: all are traced at once. Against JAX's forward mode inside of
+    a program, in three random directions."""
+    numbers, structure = jax.tree.flatten(jax.tree.map(jnp.asarray, jb.load_scene(name, changes)))
+    # each number's factor, so that all derivatives have the size of the result, about 1
+    loss = lambda factors: result(jb.solve(jax.tree.unflatten(structure, list(map(jnp.multiply, factors, numbers)))))
+    ones = [jnp.ones_like(number) for number in numbers]
+    found = jax.grad(loss)(ones)
     assert len(asked) == 1
-    for one, other, number in zip(found, expected, leaves, strict=True):
-        assert np.all(np.isfinite(other))
-        # what a change of the number by all of it makes of the result, which is about 1
-        np.testing.assert_allclose(one * number, other * number, rtol=1e-7, atol=1e-9)
+    random = np.random.default_rng(5)
+    directions = [random.normal(size=(3, *one.shape)) for one in ones]
+    along = lambda direction: jax.jvp(loss, (ones,), (direction,))[1]
+    expected = jax.jit(lambda directions: jax.lax.map(along, directions))(directions)
+    sums = sum(np.sum(one * way, axis=tuple(range(1, way.ndim))) for one, way in zip(found, directions, strict=True))
+    assert np.all(np.isfinite(expected))
+    np.testing.assert_allclose(sums, expected, rtol=1e-8, atol=1e-8)
 
 
 def test_without_a_root(asked):
