@@ -83,6 +83,7 @@ if TYPE_CHECKING:
     from .numerics.status import Status as Status
     from .port import reaction as reaction
     from .program_size import compile_report as compile_report
+    from .program_size import quick_compile_options as quick_compile_options
     from .report.last_state import read_last_state as read_last_state
     from .scenes.errors import SceneError as SceneError
     from .scenes.from_python import load_oil as load_oil
@@ -140,6 +141,7 @@ _LAZY = {
     "load_scene": ".scenes.reader",
     "pocket_loads": ".bearings.motion.instants",
     "quasi_static_start": ".bearings.motion.start",
+    "quick_compile_options": ".program_size",
     "reaction": ".port",
     "read_last_state": ".report.last_state",
     "scene_from_mapping": ".scenes.from_python",

@@ -33,7 +33,7 @@ SensitivitiesOption = Annotated[
     typer.Option(
         "--sensitivities",
         help="Also by how much each input moves power loss, cage slip and life, as far as the scene models them; of a "
-        "line contact its film (the first time, this compiles for about a minute).",
+        "line contact its film (the first time, this compiles a second program).",
     ),
 ]
 
