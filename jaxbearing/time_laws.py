@@ -10,7 +10,7 @@ from jaxtyping import Array, Float
 
 from ._scene import number
 from ._types import Scalar
-from .numerics.checks import Checked, demand, functions, given
+from .numerics.checks import Checked, array_module, demand, numbers_or_none
 from .numerics.precision import as_float
 
 
@@ -145,8 +145,8 @@ class Tabulated(AbstractTimeFactor):
             raise ValueError(
                 f"a table needs as many times as factors, two or more; got {shape} and {np.shape(self.factors)}"
             )
-        if given(self.times, self.factors) is not None:
-            xp = functions(self.times, self.factors)
+        if numbers_or_none(self.times, self.factors) is not None:
+            xp = array_module(self.times, self.factors)
             demand(
                 "{path}.times must increase, and all numbers of the table be finite",
                 xp.all(xp.diff(self.times) > 0) & xp.all(xp.isfinite(self.times)) & xp.all(xp.isfinite(self.factors)),

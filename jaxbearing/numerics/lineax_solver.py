@@ -59,7 +59,7 @@ class BlockArrow(lx.AbstractLinearSolver):
         # products come with the seed first; blocks have it second
         return ArrowJacobian(
             local=jnp.swapaxes(products.elements[:m], 0, 1),
-            to_globals=jnp.zeros((m, g, n)).at[:, :active].set(jnp.swapaxes(products.elements[m : m + active], 0, 1)),
+            right_border=jnp.zeros((m, g, n)).at[:, :active].set(jnp.swapaxes(products.elements[m : m + active], 0, 1)),
             contributions=jnp.zeros((g, m, n)).at[:active].set(rows.elements),
             corner=corner,
             chain=jnp.eye(g),
@@ -74,7 +74,7 @@ class BlockArrow(lx.AbstractLinearSolver):
     def transpose(self, state: ArrowJacobian, options: dict[str, Any]) -> tuple[ArrowJacobian, dict[str, Any]]:
         swap = lambda block: jnp.swapaxes(block, 0, 1)
         transposed = ArrowJacobian(
-            swap(state.local), swap(state.contributions), swap(state.to_globals), state.corner.T, state.chain
+            swap(state.local), swap(state.contributions), swap(state.right_border), state.corner.T, state.chain
         )
         return transposed, options
 

@@ -242,7 +242,7 @@ def _of_last_bits(equations: Equations, jacobian: ArrowJacobian, at: ArrowPoint)
     where an unknown is smaller: it then stands for a difference of two of that order)."""
     steep = jax.tree.map(jnp.abs, jacobian)
     own, common = (LAST_BITS * jnp.maximum(jnp.abs(part), 1.0) for part in at)
-    elements = jnp.einsum("ijn,jn->in", steep.local, own) + jnp.einsum("ign,g->in", steep.to_globals, common)
+    elements = jnp.einsum("ijn,jn->in", steep.local, own) + jnp.einsum("ign,g->in", steep.right_border, common)
     carried = jnp.einsum("kjn,jn->k", steep.contributions, own)
     globals_ = steep.corner @ common + steep.chain @ carried
     residual = equations.residual

@@ -10,7 +10,7 @@ from jaxtyping import Array, Float, Int
 from ...gaps import CompliantPocketFace
 from ...materials import CATALOGUE, reduced_modulus
 from ...numerics.arrow import ArrowPoint
-from ...numerics.checks import InputChecks, check_inputs, gate, void
+from ...numerics.checks import InputChecks, check_inputs, gate, nan_unless
 from ...numerics.newton import NewtonOptions, newton_solve
 from ...numerics.status import Status
 from ..cylindrical.equations import LubricatedRollerSystem
@@ -177,4 +177,4 @@ def checked_lane(
     """The checks of traced inputs, and the scene with an operation that is NaN where they are invalid."""
     inputs = check_inputs(dataclasses.replace(scene, simulation=simulation))
     lane = gate(scene, inputs.valid)
-    return dataclasses.replace(lane, operation=void(lane.operation, inputs.valid)), inputs
+    return dataclasses.replace(lane, operation=nan_unless(lane.operation, inputs.valid)), inputs
