@@ -14,7 +14,9 @@ from ..ehl import FilmState
 from ..scenes.input_files import check_regular
 from .variables import IDENTITY
 
-_NEEDED = ("time", "state_rollers", "state_cage", "frame_angle", "frame_speed", "reference_speed", "azimuth")
+_NEEDED = ("time", "state_elements", "state_cage", "frame_angle", "frame_speed", "reference_speed", "azimuth")
+_OLD_NAME = "state_rollers"
+"""Name of `state_elements` in files of earlier versions."""
 _OF_A_FILM = ("time", "pressure", "offset", "mass", "steps", "known", "proposal")
 """Variables of a line contact's last state, without their prefix."""
 _PREFIX = "last_state_"
@@ -46,16 +48,18 @@ def read_last_state(path: Any) -> LastState | FilmState:
 
 
 def _bearing_state(dataset: xr.Dataset) -> LastState:
+    if _OLD_NAME in dataset.variables:
+        dataset = dataset.rename({_OLD_NAME: "state_elements"})
     _require(dataset, _NEEDED)
     if dataset.sizes["time"] == 0:
         raise _Other("it has no instants")
     last = dataset[list(_NEEDED)].isel(time=-1)
     values = {field: np.asarray(last[field].values, dtype=float) for field in _NEEDED}
-    if values["state_rollers"].ndim != 2 or values["state_rollers"].shape[0] != 3 or values["state_cage"].shape != (6,):
+    if (values["state_elements"].ndim, values["state_cage"].ndim) != (2, 1):
         raise _Other("its states have another shape")
     return LastState(
         time=values["time"],
-        rollers=values["state_rollers"],
+        elements=values["state_elements"],
         cage=values["state_cage"],
         frame_angle=values["frame_angle"],
         frame_speed=values["frame_speed"],

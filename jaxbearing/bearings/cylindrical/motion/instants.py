@@ -1,19 +1,21 @@
-"""Report of a moving cylindrical roller bearing at one time."""
+"""Results of a moving cylindrical roller bearing at one time."""
 
 import jax
 import jax.numpy as jnp
 from jaxtyping import Array, Float
 
-from ..._types import Scalar
-from ...numerics.arrow import ArrowPoint
-from ..cylindrical.solution import RollerResults
-from ..cylindrical.steady import cage_slip
-from ..solution import RING_FREEDOMS, RingDisplacement
-from .history import CageMotion, Instant, PocketPeaks
+from ...._types import Scalar
+from ....numerics.arrow import ArrowPoint
+from ...motion.history import CageMotion, PocketPeaks
+from ...solution import RING_FREEDOMS, RingDisplacement
+from ..solution import RollerResults
+from ..steady import cage_slip
+from .energy import kinetic_energy, pocket_energy, power_by_location, raceway_energy
 from .rates import RollerDynamics
+from .results import RollerInstant
 
 
-def observe(dynamics: RollerDynamics, time: Scalar, state: ArrowPoint) -> Instant:
+def observe(dynamics: RollerDynamics, time: Scalar, state: ArrowPoint) -> RollerInstant:
     """All results at one time; pure."""
     now = dynamics.at(time, state)
     system, motion, load, contact = dynamics.system, now.motion, now.distribution.load, now.contact
@@ -54,11 +56,11 @@ def observe(dynamics: RollerDynamics, time: Scalar, state: ArrowPoint) -> Instan
             eccentricity_ratio=now.land.eccentricity_ratio,
         )
     peaks = None if pocket is None else PocketPeaks(front=pocket.front.load, rear=pocket.rear.load)
-    cost = dynamics.costs(now)
+    cost = power_by_location(dynamics, now)
     assert cost.drive_power is not None
     frame_angle, frame_speed, _ = dynamics.frame(time)
     rollers, own, _ = dynamics.unscaled(state)
-    return Instant(
+    return RollerInstant(
         inner_speed=motion.inner_speed,
         radial_load=force["radial"],
         lateral_load=force.get("lateral", zero),
@@ -68,10 +70,10 @@ def observe(dynamics: RollerDynamics, time: Scalar, state: ArrowPoint) -> Instan
         pocket_peaks=peaks,
         power_loss=cost.power_loss,
         drive_power=cost.drive_power,
-        kinetic_energy=dynamics.kinetic_energy(time, state),
-        pocket_energy=dynamics.pocket_energy(now),
-        raceway_energy=dynamics.raceway_energy(now),
-        state_rollers=rollers,
+        kinetic_energy=kinetic_energy(dynamics, time, state),
+        pocket_energy=pocket_energy(dynamics, now),
+        raceway_energy=raceway_energy(dynamics, now),
+        state_elements=rollers,
         state_cage=own,
         frame_angle=frame_angle,
         frame_speed=frame_speed,
@@ -83,17 +85,19 @@ def pocket_loads(dynamics: RollerDynamics, time: Scalar, state: ArrowPoint) -> F
     rollers, cage, _ = dynamics.unscaled(state)
     pitch, (turned, turning, _) = dynamics.system.kinematics.pitch_radius, dynamics.frame(time)
     azimuth = dynamics.system.azimuth + rollers[0] / pitch + turned
-    pocket = dynamics._pocket(tuple(rollers), tuple(cage[:3]), tuple(cage[3:]), azimuth, turning + rollers[1] / pitch)
+    pocket = dynamics.pocket_state(
+        tuple(rollers), tuple(cage[:3]), tuple(cage[3:]), azimuth, turning + rollers[1] / pitch
+    )
     return jnp.stack([pocket.front.load, pocket.rear.load])
 
 
-def pocket_peaks(
-    dynamics: RollerDynamics, times: Float[Array, "interval part"], states: ArrowPoint
-) -> Float[Array, "2 interval roller"]:
-    """Largest loads on the front and the rear walls in each interval, of states at several times within it.
+def pocket_peaks(dynamics: RollerDynamics, times: Float[Array, "interval part"], states: ArrowPoint) -> PocketPeaks:
+    """Largest loads on the front and the rear walls in each interval, shape (interval, roller), of states at several
+    times within it.
 
     **Arguments:** `states`, with `interval * part` in front.
     """
     # one search for all: rollers far from a wall cost as little as the rest
     loads = jax.vmap(lambda time, state: pocket_loads(dynamics, time, state))(times.reshape(-1), states)
-    return jnp.swapaxes(jnp.max(loads.reshape(*times.shape, *loads.shape[1:]), axis=1), 0, 1)
+    front, rear = jnp.swapaxes(jnp.max(loads.reshape(*times.shape, *loads.shape[1:]), axis=1), 0, 1)
+    return PocketPeaks(front=front, rear=rear)

@@ -4,63 +4,42 @@ State of roller j: $q_j = R_m(\Psi_j - \Psi^0_j - \int w)$, $v_j = R_m(W_j - w)$
 centre X, Y, $q_c = R_m(\Psi_c - \int w)$ and the speeds $V_x, V_y, v_c = R_m(W_c - w)$. The frame turns at
 $w = w_{ref}\,\omega_i(t)/\omega_i$, in proportion to the shaft, so that positions stay small and are resolved. All
 are in units (`ROLLER_UNITS`, `CAGE_UNITS`) with which one tolerance serves for all. Loads and ring displacement follow
-from the state (`motion.loads.distributed_loads`): they are no part of it. Frames and signs: see `cylindrical.scene`.
+from the state (`loads.distributed_loads`): they are no part of it. Frames and signs: see `cylindrical.scene`.
 
 $$m\dot v = Q_2 - Q_1 - F_{OL} + F_i - F_o + F_E + F_{Ec} + F_P,\qquad
 J(\dot v/R_m - \dot u/R_R) = R_R(F_{C1} + F_{C2} - F_i - F_o) + M_{flange} + M_{rail} + \tfrac12R_R(P_i + P_o)$$
 
 and the cage by the reactions and by its lands. A pocket wall is a compliant squeeze film (`gaps.CompliantPocketFace`)
-in the gap $H_1 = J_p/2 + q_c - q_j - (X\cos\Psi + Y\sin\Psi)$ in front, $H_2 = J_p - H_1$ behind.
-
-**Energy.** Multiplying each equation of motion by its speed gives, exactly,
-
-$$\frac{dE_{kin}}{dt} = \omega_iT_i + \omega_oT_o - \sum D - \Pi - \Lambda,$$
-
-$E_{kin} = \sum_j[\tfrac12 m R_m^2W_j^2 + \tfrac12J(W_j - s_j)^2] + \tfrac12 m_c(V_x^2 + V_y^2) + \tfrac12J_cW_c^2$,
-T the torques that drive the rings, and
-
-- dissipations D, each its own force times its own sliding speed: raceways $F\,\Delta u$, rolling resistance
-  $P\,u$, pocket friction $(F_{C1} + F_{C2})R_R(s + W_c - W) - (F_{C1} - F_{C2})\,V\cdot n$, flanges, rails, lands,
-  drag;
-- $\Pi = -\sum(Q_1\dot H_1 + Q_2\dot H_2)$: work that closes the pocket films. A part is stored by their elastic
-  flattening, $E_{pocket} = \sum\frac{0.9}{1.9}kQ^{1.9}$, the rest squeezes oil out;
-- $\Lambda = \sum(Q_1 - Q_2)(X\sin\Psi - Y\cos\Psi)W_j$: neglected by the model, which takes the moment of the pocket
-  loads on the cage about the bearing's centre instead of about the cage's (eq. (33)).
-
-The radial direction is quasi-static and a balance of its own (the derivative of eq. (38), weighted by Q):
-
-$$F\cdot\dot d = \frac{dE_{race}}{dt} - \Omega - \sum Q_i\frac{d(h_i + h_o)}{dt} - \sum F_c\frac{d\delta_o}{dt},$$
-
-$E_{race} = \sum\frac{0.9}{1.9}(k_iQ_i^{1.9} + k_oQ_o^{1.9})$: the work of the load on the ring is stored by the
-raceways but for the work on the films, that of the centrifugal force, and $\Omega = \sum Q_i\,(d\cdot t)\,W_j$:
-rollers roll into the wedge between displaced rings, and the model neglects the tangential force $Q_i\,(d\cdot t)/R_m$
-that would pay for it. The identities hold to round-off at every state, and `tests` check them so.
+in the gap $H_1 = J_p/2 + q_c - q_j - (X\cos\Psi + Y\sin\Psi)$ in front, $H_2 = J_p - H_1$ behind. `energy` has the
+balance of energy that follows from these equations.
 """
 
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, ClassVar, NamedTuple
 
 import equinox as eqx
 import jax
 import jax.numpy as jnp
 from jaxtyping import Array, Float
 
-from ..._types import Scalar
-from ...contacts.laws import ContactState
-from ...gaps import CompliantPocketFace
-from ...gaps.pocket import PocketFace
-from ...numerics.arrow import ArrowPoint
-from ...numerics.series import cosine_and_sine
-from ...time_laws import AbstractTimeFactor, RotatingLoad, Steady
-from ..cylindrical.equations import LubricatedRollerSystem
-from ..cylindrical.forces import RollerForces, forces_without_pocket, friction_on_rings, on_cage
-from ..cylindrical.kinematics import RollerKinematics
-from ..cylindrical.solution import PowerLoss
-from ..interactions import Costs, Interaction, costs, of_land
-from ..mounted import running_play
-from .loads import Distribution, RaceLoads, distributed_loads
+from ...._types import Scalar
+from ....contacts.laws import ContactState
+from ....gaps import CompliantPocketFace
+from ....numerics.arrow import ArrowPoint
+from ....numerics.series import cosine_and_sine
+from ....time_laws import AbstractTimeFactor, RotatingLoad, Steady
+from ...motion.family import AbstractDynamics
+from ...motion.history import Energy, Instant, PocketPeaks
+from ...mounted import running_play
+from ..equations import LubricatedRollerSystem
+from ..forces import RollerForces, forces_without_pocket, on_cage
+from ..kinematics import RollerKinematics
+from ..loads import Distribution, RaceLoads, distributed_loads
+from .cage_forces import LandForces, PocketState, RingShift, land_forces, pocket_state
+from .energy import WORKS, energy_of, powers
+from .results import RollerInstant
 
 if TYPE_CHECKING:
-    from ..cylindrical.scene import CylindricalRollerBearing
+    from ..scene import CylindricalRollerBearing
 
 ROLLER_UNITS = (1e-5, 0.1, 1.0)
 """Units of q, m, v and u, m/s: with the same tolerance, absolute in these units and relative, q is held to 1e-9 m, v
@@ -71,35 +50,17 @@ WORK_PART = 0.1
 """Unit of the works that are integrated beside the state, over the rollers' kinetic energy at the operating point: so
 large that they do not steer the step (some 100 J in a turbine), and in proportion also where all turns slowly."""
 LEAST_WORK = 1e-9
-"""That the unit of the works is at least, J."""
-WORKS = ("drive", "dissipation", "pocket_films", "lever_arm", "load")
+"""Lower limit of the unit of the works, J."""
 LOAD_TOLERANCE = 0.3
 """Scaled residual of the load distribution before the last step, which squares it, over the root of the integration's
 tolerance: loads are found to a tenth of that, their derivatives to 1e-7 at 1e-5."""
 FINE = 1e-11
 """Tolerance for which loads are found where none is given."""
 LOAD_STEPS = 40
+"""Newton steps that one load distribution may take."""
 LOAD_FAILURE = 2.0
-"""That residual over its tolerance from which on the rates are NaN: the step is then rejected and shortened."""
-_PALMGREN_ENERGY = 0.9 / 1.9
-
-
-class LandForces(NamedTuple):
-    """Both lands: force and torque on the cage, torque on the guiding ring, dissipation, eccentricity ratio."""
-
-    force: Float[Array, "2"]
-    cage_torque: Float[Array, ""]
-    ring_torque: Float[Array, ""]
-    power: Float[Array, ""]
-    eccentricity_ratio: Float[Array, ""]
-
-
-class PocketState(NamedTuple):
-    """Both walls of every pocket, and the rates at which their gaps open, m/s."""
-
-    front: PocketFace
-    rear: PocketFace
-    gap_rate: Float[Array, " roller"]
+"""The rates are NaN if the residual of the loads is larger than its tolerance times this factor; the integrator then
+rejects the step and shortens it."""
 
 
 class MovingState(NamedTuple):
@@ -125,7 +86,7 @@ class MovingState(NamedTuple):
     cage_moment: Float[Array, ""]
 
 
-class RollerDynamics(eqx.Module):
+class RollerDynamics(AbstractDynamics):
     """Rollers and cage in motion; a part that is `None` is not there.
 
     **Arguments:**
@@ -140,6 +101,8 @@ class RollerDynamics(eqx.Module):
     - `land_speed`: cage speed at which the lands' turbulence is evaluated, rad/s; `None`: the current one.
     - `seats`: the scene on the drawing of a bearing whose clearance follows the current speed; `None`: it stays.
     """
+
+    works: ClassVar[tuple[str, ...]] = WORKS
 
     system: LubricatedRollerSystem
     reference_speed: Float[Array, ""]
@@ -257,7 +220,7 @@ class RollerDynamics(eqx.Module):
         cage_orbit = turning + v_c / pitch
         centre, velocity = jnp.stack([x, y]), jnp.stack([v_x, v_y])
         if self.pocket is not None:
-            pocket = self._pocket((q, v, u), (x, y, q_c), (v_x, v_y, v_c), azimuth, orbit)
+            pocket = self.pocket_state((q, v, u), (x, y, q_c), (v_x, v_y, v_c), azimuth, orbit)
             front, rear = pocket.front, pocket.rear
             tangential = tangential + rear.load - front.load
             moment = moment + motion.roller_radius * (front.friction + rear.friction)
@@ -266,7 +229,9 @@ class RollerDynamics(eqx.Module):
             )
             force, cage_moment = force + jnp.sum(reactions, axis=1), cage_moment + jnp.sum(moments)
         if parts.land is not None:
-            land = self._land(motion, distribution.ring, centre, velocity, cage_orbit)
+            turbulence = cage_orbit if self.land_speed is None else self.land_speed
+            shift = RingShift(distribution.ring, system.freedoms)
+            land = land_forces(parts, system.inlet, motion, shift, centre, velocity, cage_orbit, turbulence)
             force, cage_moment = force + land.force, cage_moment + land.cage_torque
         return MovingState(
             motion=motion,
@@ -295,74 +260,33 @@ class RollerDynamics(eqx.Module):
         along = {"radial": cosine, "lateral": sine}
         return jnp.stack([along[name] for name in self.system.freedoms])
 
-    def _pocket(
+    def pocket_state(
         self,
-        roller: tuple[Array, Array, Array],
-        position: tuple[Array, Array, Array],
+        rollers: tuple[Array, Array, Array],
+        place: tuple[Array, Array, Array],
         velocity: tuple[Array, Array, Array],
-        azimuth: Array,
-        orbit: Array,
+        azimuth: Float[Array, " roller"],
+        orbit: Float[Array, " roller"],
     ) -> PocketState:
-        (q, v, u), (x, y, q_c), (v_x, v_y, v_c) = roller, position, velocity
+        """Both walls of every pocket, see `cage_forces.pocket_state`."""
         assert self.pocket is not None
         assert self.pocket_clearance is not None
-        cosine, sine = cosine_and_sine(azimuth)
-        ahead = (q_c - q) - (x * cosine + y * sine)
-        rate = (v_c - v) - (v_x * cosine + v_y * sine) + (x * sine - y * cosine) * orbit
-        half = 0.5 * self.pocket_clearance
-        # both walls in one search: half as many loops
-        face = self.pocket.face(
-            jnp.stack([half + ahead, half - ahead]),
-            jnp.stack([rate, -rate]),
-            jnp.stack([u, u]),
-            self.system.inlet.viscosity,
-        )
-        front, rear = (jax.tree.map(lambda leaf, i=i: leaf[i], face) for i in (0, 1))
-        return PocketState(front, rear, rate)
-
-    def _land(
-        self, motion: RollerKinematics, ring: Array, centre: Array, velocity: Array, cage_orbit: Array
-    ) -> LandForces:
-        parts, inlet = self.system.cage, self.system.inlet
-        assert parts is not None
-        assert parts.land is not None
-        land = parts.land
-        inner = parts.guidance == "inner_ring"
-        turbulent = cage_orbit if self.land_speed is None else self.land_speed
-        if inner:
-            # ring displacement along azimuths 0 and 90 degrees is (Y, -X); its speed is neglected
-            lateral = ring[1] if "lateral" in self.system.freedoms else jnp.zeros(())
-            offset, rate = jnp.stack([-lateral, ring[0]]) - centre, -velocity
-            journal, bush = motion.inner_speed, cage_orbit
-            k_z, c_f = land.film_factors(inlet.density, inlet.viscosity, motion.inner_speed - turbulent)
-        else:
-            offset, rate, journal, bush = centre, velocity, cage_orbit, motion.outer_speed
-            k_z, c_f = land.film_factors(inlet.density, inlet.viscosity, turbulent - motion.outer_speed)
-        film = land.force_on_journal(offset[0], offset[1], rate[0], rate[1], journal, bush, inlet.viscosity, k_z)
-        found = land.line_of_centres(offset[0], offset[1])
-        along, across = found.direction
-        on_journal, on_bush = land.torques(
-            found.eccentricity_ratio, film[1] * along - film[0] * across, journal, bush, inlet.viscosity, c_f
-        )
-        on_cage, on_ring = (on_bush, on_journal) if inner else (on_journal, on_bush)
-        n, sign = land.n_lands, -1.0 if inner else 1.0
-        heat = land.dissipation(on_journal, on_bush, journal, bush) - film[0] * rate[0] - film[1] * rate[1]
-        return LandForces(sign * n * jnp.stack(film), n * on_cage, n * on_ring, n * heat, found.eccentricity_ratio)
+        viscosity = self.system.inlet.viscosity
+        return pocket_state(self.pocket, self.pocket_clearance, viscosity, rollers, place, velocity, azimuth, orbit)
 
     # -- rates ----------------------------------------------------------------------------------------------------
 
     def rates(self, time: Scalar, state: ArrowPoint) -> ArrowPoint:
         """d state / d time, 1/s; NaN where no load distribution is found."""
-        return self.rates_and_loads(time, state)[0]
+        return self.nested_rates(time, state)[0]
 
-    def rates_and_loads(
-        self, time: Scalar, state: ArrowPoint, closing: ArrowPoint | None = None, tolerance: Scalar = FINE
+    def nested_rates(
+        self, time: Scalar, state: ArrowPoint, guess: ArrowPoint | None = None, tolerance: Scalar = FINE
     ) -> tuple[ArrowPoint, ArrowPoint]:
         """`rates`, and the load distribution that was found, as `RaceLoads.smoothed` gives it: extrapolated over time
-        it is the argument `closing` of states nearby. `tolerance`: of an integration that asks."""
+        it is the argument `guess` of states nearby. `tolerance`: of an integration that asks."""
         loads = self.race_loads(time, state)
-        guess = None if closing is None else loads.unsmoothed(closing)
-        now = self.at(time, state, guess, tolerance)
+        now = self.at(time, state, None if guess is None else loads.unsmoothed(guess), tolerance)
         motion, (_, v, _), cage = now.motion, *self.unscaled(state)[:2]
         acceleration = now.tangential / self.system.roller_mass
         frame_acceleration = motion.pitch_radius * self.frame(time)[2]
@@ -374,83 +298,29 @@ class RollerDynamics(eqx.Module):
             linear = now.cage_force / self.cage_mass
             angular = motion.pitch_radius * now.cage_moment / self.cage_inertia
             moving = jnp.concatenate([cage[3:], linear, (angular - frame_acceleration)[None]])
-        works = self.powers(time, now) / self.work_unit
+        works = powers(self, time, now) / self.work_unit
         rollers = jnp.stack([v, acceleration - frame_acceleration, spinning]) / jnp.asarray(ROLLER_UNITS)[:, None]
         rates = ArrowPoint(rollers, jnp.concatenate([moving / jnp.asarray(CAGE_UNITS), works]))
         good = now.distribution.residual < LOAD_FAILURE * LOAD_TOLERANCE * jnp.sqrt(tolerance)
         return jax.tree.map(lambda rate: jnp.where(good, rate, jnp.nan), rates), loads.smoothed(now.distribution.point)
 
-    def first_closing(self, time: Scalar, state: ArrowPoint) -> ArrowPoint:
-        """The argument `closing` of `rates_and_loads` where nothing is known."""
+    def first_guess(self, time: Scalar, state: ArrowPoint) -> ArrowPoint:
         loads = self.race_loads(time, state)
         return loads.smoothed(loads.initial())
 
-    # -- energy ---------------------------------------------------------------------------------------------------
+    # -- results --------------------------------------------------------------------------------------------------
 
-    def costs(self, now: MovingState) -> Costs[PowerLoss]:
-        """Losses by location, W, and what drives the rings, each from the force and the sliding speed of its own
-        interaction; without the squeezing of the pocket films (see `powers`)."""
-        motion, forces, parts = now.motion, now.forces, self.system.cage
-        assert parts is not None
-        found = friction_on_rings(
-            motion, now.contact, now.sliding_speed, now.mean_speed, forces.inner_flange, forces.outer_flange
-        )
-        cosine, sine = cosine_and_sine(now.azimuth)
-        behind = now.orbit - now.cage_orbit
-        if now.pocket is not None:
-            front, rear = now.pocket.front.friction, now.pocket.rear.friction
-            outward = now.velocity[1] * cosine - now.velocity[0] * sine
-            rubbing = (front + rear) * motion.roller_radius * (now.spin - behind)
-            found.append(Interaction("pocket", jnp.sum(rubbing - (front - rear) * outward)))
-        rails = forces.rails
-        if rails is not None:
-            along = -(now.velocity[0] * cosine + now.velocity[1] * sine)
-            forward = rails.tangential_force * (motion.pitch_radius * behind - along)
-            found.append(Interaction("element_ends", -jnp.sum(forward + rails.moment * (behind - now.spin))))
-        if now.land is not None:
-            found.append(of_land(now.land.power, now.land.ring_torque, parts.guidance))
-        if forces.drag_force is not None:
-            found.append(Interaction("drag", jnp.sum(forces.drag_force * motion.pitch_radius * now.orbit)))
-        return costs(PowerLoss, found, motion)
+    def observe(self, time: Scalar, state: ArrowPoint) -> RollerInstant:
+        from .instants import observe
 
-    def powers(self, time: Scalar, now: MovingState) -> Float[Array, " work"]:
-        r"""Rates of `WORKS`, W. That of the load is $-\dot F\cdot d$: its work is this integral plus the change of
-        $F\cdot d$."""
-        cost = self.costs(now)
-        closing = lever = jnp.zeros(())
-        if now.pocket is not None:
-            push = now.pocket.front.load - now.pocket.rear.load
-            closing = -jnp.sum(push * now.pocket.gap_rate)
-            cosine, sine = cosine_and_sine(now.azimuth)
-            arm = now.centre[0] * sine - now.centre[1] * cosine
-            lever = jnp.sum(push * arm * now.orbit)
-        time = jnp.asarray(time, dtype=float)
-        _, load_rate = jax.jvp(self.ring_load, (time,), (jnp.ones_like(time),))
-        load = -jnp.sum(load_rate * now.distribution.ring)
-        assert cost.drive_power is not None
-        assert cost.power_loss.total is not None
-        return jnp.stack([cost.drive_power, cost.power_loss.total, closing, lever, load])
+        return observe(self, time, state)
 
-    def kinetic_energy(self, time: Scalar, state: ArrowPoint) -> Float[Array, ""]:
-        """Kinetic energy of rollers and cage, J."""
-        motion = self.system.kinematics
-        (_, v, u), (_, _, _, v_x, v_y, v_c), _ = self.unscaled(state)
-        turning = self.frame(time)[1]
-        orbit, cage = turning + v / motion.pitch_radius, turning + v_c / motion.pitch_radius
-        rollers = self.system.roller_mass * jnp.square(motion.pitch_radius * orbit)
-        rollers = rollers + self.roller_inertia * jnp.square(orbit - u / motion.roller_radius)
-        total = 0.5 * jnp.sum(rollers)
-        if self.cage_mass is None or self.cage_inertia is None:
-            return total
-        return total + 0.5 * (self.cage_mass * (v_x * v_x + v_y * v_y) + self.cage_inertia * jnp.square(cage))
+    def peaks(self, times: Float[Array, "interval part"], states: ArrowPoint) -> PocketPeaks | None:
+        from .instants import pocket_peaks
 
-    def pocket_energy(self, now: MovingState) -> Float[Array, ""]:
-        """Elastic energy of the pocket films, J."""
-        if now.pocket is None or self.pocket is None:
-            return jnp.zeros(())
-        return jnp.sum(self.pocket.flattening_energy(jnp.stack([now.pocket.front.load, now.pocket.rear.load])))
+        return None if self.pocket is None else pocket_peaks(self, times, states)
 
-    def raceway_energy(self, now: MovingState) -> Float[Array, ""]:
-        """Elastic energy of the raceway contacts, J."""
-        load = now.distribution.load
-        return _PALMGREN_ENERGY * jnp.sum(load * self.system.contact.palmgren_approach(load))
+    def energy(self, state: ArrowPoint, first: Instant, last: Instant) -> Energy:
+        assert isinstance(first, RollerInstant)
+        assert isinstance(last, RollerInstant)
+        return energy_of(self, state, first, last)
