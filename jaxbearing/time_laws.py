@@ -66,8 +66,10 @@ class Sinusoidal(AbstractTimeFactor):
 
 
 class Ramp(AbstractTimeFactor):
-    r"""From `start` to `stop` between the times `begin` and `begin + duration`, as the quintic that begins and ends
-    without slope and curvature: a jump of the acceleration would be a shock of its own.
+    r"""A factor that goes from `start` to `stop` between the times `begin` and `begin + duration`.
+
+    It is the quintic that begins and ends without slope and curvature: a jump of the acceleration would be a shock of
+    its own.
 
     **Arguments:**
     - `start`, `stop`: factor before and after.
@@ -186,6 +188,6 @@ class RotatingLoad(Checked):
     phase: Scalar = number(0.0, unit="rad")
 
     def components(self, time: Scalar) -> Float[Array, "2"]:
-        """Along azimuths 0 and 90 degrees, N."""
+        """Components of the load along azimuths 0 and 90 degrees, N."""
         angle = self.speed * time + self.phase
         return self.load * jnp.stack([jnp.cos(angle), jnp.sin(angle)])

@@ -28,7 +28,7 @@ _WAIT = b"\r\ninterrupted: what is under way is finished first; Ctrl-C again end
 _words: list[Callable[[], str]] = [lambda: NOTHING]
 """Its only entry: what would be said now."""
 _told: list[bool] = []
-"""Not empty where the user has been told that the command was interrupted."""
+"""This list has an entry once the user has been told that the command was interrupted."""
 
 
 def if_interrupted(words: str | Callable[[], str]) -> None:

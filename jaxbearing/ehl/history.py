@@ -31,7 +31,7 @@ class PressureHistory(eqx.Module):
 
 
 class ProfileHistory(eqx.Module):
-    """Over the contact and time, x along the direction of positive speed."""
+    """Pressure and film over the contact and over time; x points along the direction of positive speed."""
 
     x: Float[Array, " node"] = eqx.field(metadata=label("m", "place along rolling, from the centre"))
     pressure: Float[Array, "time node"] = eqx.field(metadata=label("Pa", "pressure"))

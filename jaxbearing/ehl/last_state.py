@@ -22,7 +22,7 @@ _SAME_PLACE = 1e-9
 
 
 class FilmState(eqx.Module):
-    """From where another run can go on: `LineContactHistory.last_state`, or that of a file.
+    """The state from which another run can go on: `LineContactHistory.last_state`, or that of a file.
 
     **Arguments:** `x`: places of the nodes, m; values at the last three times, newest first: `pressure`, Pa, `offset`
     of the film, m, and `mass`, density over that at ambient pressure times film, m; `steps` between these times, s;

@@ -56,7 +56,7 @@ class Motion(NamedTuple):
 
     time: Float[Array, ""]
     points: Point
-    """With a leading axis of three."""
+    """Unknowns at the last three times, with a leading axis of three."""
     masses: Float[Array, "3 node"]
     steps: Float[Array, "2"]
     known: Int[Array, ""]
@@ -171,7 +171,7 @@ def _select(condition: Array, new: object, old: object):
 
 
 def advance(drive: Drive, motion: Motion, stop: Float[Array, ""], mesh: Mesh) -> Advanced:
-    """Up to `SEGMENT` accepted steps, until `stop` (in a/u_0), the film limit, or a failure."""
+    """Takes up to `SEGMENT` accepted steps, until `stop` (in a/u_0), the film limit, or a failure."""
     empty = jax.tree.map(lambda leaf: jnp.zeros((SEGMENT, *leaf.shape[1:])), motion.points)
     rows = jnp.zeros(SEGMENT)
     begin = Advanced(

@@ -338,8 +338,8 @@ class TwoDisk(AbstractScene):
 
 
 def solve_two_disk(scene: TwoDisk, options: Any = None) -> TwoDiskSolution:
-    """All curves of the scene's operation. `options` is there for the other scenes' sake: nothing is iterated here
-    but scalar roots."""
+    """The traction curves of the scene's operation. `options` has no effect: only scalar roots are iterated. It is
+    there because the solves of other scenes take it."""
     operation = scene.operation
     contact = scene.hertz
     load = operation.load

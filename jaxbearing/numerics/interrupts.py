@@ -39,7 +39,7 @@ class Deferral:
 _blocks: list[Deferral] = []
 """The blocks that wait, the innermost last."""
 _listening: list[bool] = []
-"""Not empty while another thread hears of Ctrl-C."""
+"""This list has an entry while another thread receives Ctrl-C."""
 
 
 @contextmanager

@@ -43,7 +43,7 @@ def compiler_is_loud() -> bool:
 
 
 def compiling_quietly() -> AbstractContextManager[None]:
-    """For a block that compiles or loads a program: without false alarms, where the compiler is loud."""
+    """Context of a block that compiles or loads a program: it suppresses false alarms if the compiler prints any."""
     return without_false_alarms() if compiler_is_loud() else nullcontext()
 
 
@@ -52,7 +52,7 @@ _SEEN: set[Hashable] = set()
 
 @contextmanager
 def quiet_first_time(key: Hashable) -> Iterator[None]:
-    """For a block that compiles a program when it is called the first time with such a key."""
+    """Context of a block that compiles a program only when it is called the first time with this key."""
     if not compiler_is_loud() or key in _SEEN:
         yield
         return

@@ -23,8 +23,9 @@ _PREFIX = "last_state_"
 
 
 def read_last_state(path: Any) -> LastState | FilmState:
-    """For `jaxbearing.simulate(..., restart=...)`: the end of a run, of a bearing or a line contact, that `jaxbearing
-    simulate --out` wrote, also of one that was interrupted or stopped early.
+    """Reads the end of a run from the file of `jaxbearing simulate --out`, for `jaxbearing.simulate(..., restart=...)`.
+
+    The run may be of a bearing or of a line contact, and may have been interrupted or have stopped early.
 
     **Raises:** `OSError` for a file that cannot be read, `ValueError` for one that is not of a run in time.
     """
@@ -85,7 +86,7 @@ def _film_state(dataset: xr.Dataset) -> FilmState:
 
 
 def _identity(dataset: xr.Dataset) -> Identity | None:
-    """Which bearing or contact it is; `None` in files of earlier versions."""
+    """Identity of the bearing or contact; `None` in files of earlier versions."""
     text = dataset.attrs.get(IDENTITY)
     if text is None:
         return None

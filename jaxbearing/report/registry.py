@@ -1,4 +1,4 @@
-"""Which folder makes the outputs of a kind of result: the one list of kinds.
+"""The one list of kinds of results, with the folder that makes the outputs of each.
 
 A folder has a module for each output that the kind has, with the function that `_FUNCTIONS` names. They are imported
 when they are wanted: a solve on the screen needs no reader of files and no library of charts.

@@ -42,7 +42,7 @@ def built(kind: type[Part], **parts: Callable[[], Any]) -> Part:
 
 
 def _problems(kind: type[Any], parts: Mapping[str, Callable[[], Any]]) -> list[ValueError]:
-    """All that the rules of the parts, and those between them, refuse, as far as they can be decided."""
+    """Errors that the rules of the parts and those between parts raise, as far as they can be decided."""
     made: dict[str, Any] = {}
     with collecting() as problems:
         for name, make in parts.items():

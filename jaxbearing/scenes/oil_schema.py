@@ -61,7 +61,8 @@ _RISE = units.INVERSE_PRESSURE.expected("> 0")
 
 
 class _RisesWithPressure(Law):
-    """In a file a viscosity that does not rise is more likely a slip; the class is used for closed forms too."""
+    """A law whose viscosity must rise with pressure in a file, where the opposite is more likely a slip. The class
+    itself allows it, for closed forms."""
 
     @check
     def _rises(self) -> Problems:

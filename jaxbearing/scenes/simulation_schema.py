@@ -92,7 +92,7 @@ class SimulationTable(table_of(Simulation, leave_out=("entrainment_smoothing",))
 
     @check
     def _tables(self) -> Problems:
-        """What a CSV file may not hold either."""
+        """Refuses values in CSV files that the run cannot use."""
         for name, least in (("speed", "> 0: at rest the films vanish"), ("load", ">= 0, the first one > 0")):
             table = getattr(self, f"{name}_table")
             factors = () if table is None or table.factors is None else table.factors

@@ -59,7 +59,7 @@ def columns(solution: AbstractSolution, labels: xr.Dataset) -> dict[str, np.ndar
 
 
 def converged(solution: AbstractSolution) -> np.ndarray:
-    """Which lanes are, shape (lane,)."""
+    """True for each lane that converged, shape (lane,)."""
     status = np.asarray(solution.status)
     return np.all(status == Status.CONVERGED, axis=tuple(range(1, status.ndim)))
 

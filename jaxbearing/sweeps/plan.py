@@ -37,7 +37,7 @@ HEAVY_CHUNK, HEAVY_LANES = 32, 4
 
 @dataclass(frozen=True)
 class Plan:
-    """All that decides the numbers of a sweep.
+    """A plan holds all that decides the numbers of a sweep.
 
     **Arguments:**
     - `recipe`, `cases`: the scenes.

@@ -272,7 +272,7 @@ def _raceway_power(system: LubricatedBallSystem, state: BallsState) -> RacewayPo
 
 
 def _interactions(system: LubricatedBallSystem, state: BallsState, land: LandState | None) -> list[Interaction]:
-    """All friction of balls that slide, each from the force and the speed of its own interaction."""
+    """The friction of sliding balls: one interaction each, with its own force and its own speed."""
     shear, pocket, motion = state.traction, state.pocket, state.motion
     assert shear is not None
     total = lambda power: system.multiplicity * jnp.sum(power)

@@ -1,4 +1,4 @@
-"""What the runs in time ask of a family of bearings: its equations of motion, and the way from a scene to them.
+"""Interface of a family of bearings in motion: its equations of motion, and the way from a scene to them.
 
 A family that moves has a scene that derives from `AbstractMovingBearing` and a folder with two classes: one of
 equations of motion (`AbstractDynamics`) and one that makes them from a scene (`AbstractMotion`). Integration, restart,

@@ -20,8 +20,9 @@ PARTS = 16
 
 
 class Advanced(NamedTuple):
-    """A segment of a run; its times and instants: of its begin, of the times asked for, and of its last state. Beyond
-    the place where it stopped they repeat the last state."""
+    """A segment of a run, with the instants of its start, of the times asked for and of its last state.
+
+    The instants behind the place where the segment stopped repeat its last state."""
 
     segment: Segment
     times: Float[Array, " time"]
@@ -44,7 +45,13 @@ def advance(
     step: Float[Array, ""],
     parts: int = PARTS,
 ) -> Advanced:
-    """From `start` to the last of `times`; pure. **Arguments:** `step`: the first that is tried, s."""
+    """Integrates from `start` to the last of `times`; pure.
+
+    **Arguments:**
+    - `start`, `times`: s.
+    - `step`: first step that is tried, s.
+    - `parts`: number of places in each interval at which pocket loads are looked up.
+    """
     from ...numerics.integrate import integrate_segment  # diffrax, which nothing else needs, takes a second to import
 
     begin = jnp.concatenate([start[None], times[:-1]])

@@ -222,7 +222,7 @@ def _history(
     interrupted: bool,
     notes: tuple[str, ...],
 ) -> History:
-    """From the pieces of a run to the whole."""
+    """The history of a run from its pieces."""
     kept_times, kept, segments, excess = zip(*done, strict=True)
     instants = jax.tree.map(lambda *leaves: np.concatenate(leaves), *kept)
     ends = [jax.tree.map(lambda leaf, at=at: leaf[at], instants) for at in (0, -1)]

@@ -201,8 +201,12 @@ class RollerDynamics(AbstractDynamics):
     def at(
         self, time: Scalar, state: ArrowPoint, guess: ArrowPoint | None = None, tolerance: Scalar = FINE
     ) -> MovingState:
-        """All forces. **Arguments:** `guess` of the load distribution (`Distribution.point` of a state nearby);
-        `tolerance`: of an integration that asks."""
+        """Speeds, films and forces of one state.
+
+        **Arguments:**
+        - `guess`: of the load distribution, `Distribution.point` of a state nearby.
+        - `tolerance`: of the integration, which decides how exactly the loads are found.
+        """
         system, motion = self.system, self.motion(time)
         (q, v, u), (x, y, q_c, v_x, v_y, v_c), _ = self.unscaled(state)
         pitch, (_, turning, _) = motion.pitch_radius, self.frame(time)
@@ -283,8 +287,7 @@ class RollerDynamics(AbstractDynamics):
     def nested_rates(
         self, time: Scalar, state: ArrowPoint, guess: ArrowPoint | None = None, tolerance: Scalar = FINE
     ) -> tuple[ArrowPoint, ArrowPoint]:
-        """`rates`, and the load distribution that was found, as `RaceLoads.smoothed` gives it: extrapolated over time
-        it is the argument `guess` of states nearby. `tolerance`: of an integration that asks."""
+        """`rates`, and the load distribution in the form of `RaceLoads.smoothed`, which changes smoothly over time."""
         loads = self.race_loads(time, state)
         now = self.at(time, state, None if guess is None else loads.unsmoothed(guess), tolerance)
         motion, (_, v, _), cage = now.motion, *self.unscaled(state)[:2]
