@@ -232,7 +232,7 @@ def _length(
     chosen = simulation or scene.simulation or FilmSimulation()
     duration = duration if duration is not None else chosen.duration
     if duration is None:
-        raise ValueError("simulate needs a duration: give it, or name it in the scene's simulation")
+        raise ValueError("simulate needs a duration: pass one, or give the scene a simulation.duration")
     length = static_number("duration", duration, float)
     if not length > 0:
         raise ValueError(f"duration must be > 0 s, got {length:g}")

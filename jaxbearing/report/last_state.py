@@ -42,7 +42,7 @@ def read_last_state(path: Any) -> LastState | FilmState:
                 return _film_state(dataset)
             return _bearing_state(dataset)
     except _Other as error:
-        raise ValueError(f"{name} is not a run in time that can be gone on with: {error}") from None
+        raise ValueError(f"{name} is not a run in time that can be continued: {error}") from None
     # what is no NetCDF file, or half of one, fails in many ways
     except Exception as error:
         raise ValueError(f"{name} is not a NetCDF file that can be read: {_first_line(error)}") from None

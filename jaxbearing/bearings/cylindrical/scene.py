@@ -260,7 +260,7 @@ class CylindricalRollerBearing(AbstractMovingBearing):
 def check_run(operation: Operation) -> None:
     """**Raises:** `ValueError` where the operating point is none that a run in time can begin at."""
     if operation.displaced:
-        raise ValueError("operation.displacement: in a run in time loads move the ring, it is not held")
+        raise ValueError("operation.displacement: expected none in a run in time, where loads move the ring")
     if operation.axial_given:
         name = "displacement.axial" if operation.axial_load is None else "axial_load"
         raise ValueError(f"operation.{name}: a run in time moves the ring across the axis only")

@@ -36,7 +36,7 @@ def simulate_bearing_batch(
     sizes = {np.shape(leaf)[:1] for leaf in jax.tree.leaves(values)}
     if len(sizes) != 1 or () in sizes or (0,) in sizes:
         raise ValueError(
-            "over: as many values for each path are wanted, one or more, as arrays with the lanes in front"
+            "over: expected the same number of values for each path, one or more, as arrays with the lanes in front"
         )
     scene, chosen = (jax.tree.map(as_float, tree) for tree in (scene, chosen))
     pieces = max(1, round(length / interval))

@@ -123,7 +123,7 @@ def requested(
     check_inputs(chosen)
     duration = duration if duration is not None else chosen.duration
     if duration is None:
-        raise ValueError("simulate needs a duration: give it, or name it in the scene's simulation")
+        raise ValueError("simulate needs a duration: pass one, or give the scene a simulation.duration")
     length, interval = static_number("duration", duration, float), static_number("interval", interval, float)
     if not (length > 0 and interval > 0):
         raise ValueError(f"duration and interval must be > 0 s, got {length:g} and {interval:g}")
