@@ -1,7 +1,7 @@
 """The motion layer serves a family that it has never heard of: rollers that coast, whose motion is a closed form."""
 
 import dataclasses
-from typing import ClassVar
+from typing import ClassVar, NamedTuple
 
 import equinox as eqx
 import jax
@@ -83,6 +83,11 @@ class CoastingDynamics(AbstractDynamics):
         return Energy(zero, lost, zero, kinetic, zero, error=(lost + kinetic) / lost)
 
 
+class Begun(NamedTuple):
+    speed: Array
+    status: Array
+
+
 class CoastingMotion(AbstractMotion):
     instant: ClassVar[type[Instant]] = CoastingInstant
 
@@ -92,7 +97,7 @@ class CoastingMotion(AbstractMotion):
 
     def quasi_static(self, scene, options=None):
         speed = FIRST_SPEED * jnp.asarray(scene.operation.inner_speed) * scene.geometry.pitch_radius
-        return speed, jnp.asarray(int(Status.CONVERGED))
+        return Begun(speed, jnp.asarray(int(Status.CONVERGED)))
 
     def _dynamics(self, scene):
         n, geometry = scene.n_elements, scene.geometry
@@ -100,11 +105,11 @@ class CoastingMotion(AbstractMotion):
         return CoastingDynamics(speed, jnp.asarray(azimuths(geometry, n)), jnp.asarray(geometry.pitch_radius))
 
     def begin(self, scene, simulation, found):
-        speed, n = found[0], scene.n_elements
+        n = scene.n_elements
         return Start(
             self._dynamics(scene),
-            ArrowPoint(jnp.stack([jnp.zeros(n), jnp.full(n, speed)]), jnp.zeros(1)),
-            found[1],
+            ArrowPoint(jnp.stack([jnp.zeros(n), jnp.full(n, found.speed)]), jnp.zeros(1)),
+            found.status,
             jnp.zeros(()),
         )
 
