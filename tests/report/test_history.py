@@ -112,12 +112,12 @@ def test_other_bearings_and_other_files_are_refused(scene, file, tmp_path):
 
 
 def test_a_file_of_an_earlier_version(scene, file, tmp_path):
-    """It does not say which bearing it is of: it is gone on from, and the run says so."""
+    """It does not say which bearing it is of: the run goes on from it, and says so."""
     with xr.open_dataset(file, engine="h5netcdf", decode_times=False) as dataset:
         old = dataset.load()
     told = json.loads(old.attrs.pop("scene_identity"))
     assert told["geometry.roller_diameter"] == scene.geometry.roller_diameter
-    old.to_netcdf(tmp_path / "old.nc", engine="h5netcdf")
+    old.rename(state_elements="state_rollers").to_netcdf(tmp_path / "old.nc", engine="h5netcdf")
     history = jb.simulate(scene, SHORT, simulation=TIGHT, restart=jb.read_last_state(tmp_path / "old.nc"))
     assert history.completed
     assert history.warnings[0].startswith("restart: the state does not say of which bearing")

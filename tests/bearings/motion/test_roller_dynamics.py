@@ -16,6 +16,7 @@ from jaxbearing.bearings.cylindrical.motion.energy import (
     WORKS,
     kinetic_energy,
     power_by_location,
+    powers,
     raceway_energy,
 )
 from jaxbearing.bearings.cylindrical.motion.rates import FINE, LOAD_TOLERANCE
@@ -130,8 +131,8 @@ def test_energy_is_balanced_at_every_state(name):
         return kinetic, powers(dynamics, time, now), ring, raceways, film, approach, now
 
     time = jnp.asarray(1e-3)
-    kinetic, powers, ring, raceways, film, approach, now = rates_of_energy(dynamics, time, state)
-    power = dict(zip(WORKS, powers, strict=True))
+    kinetic, watts, ring, raceways, film, approach, now = rates_of_energy(dynamics, time, state)
+    power = dict(zip(WORKS, watts, strict=True))
     balance = power["drive"] - power["dissipation"] - power["pocket_films"] - power["lever_arm"]
     np.testing.assert_allclose(kinetic, balance, atol=1e-12 * sum(map(abs, power.values())))
 
