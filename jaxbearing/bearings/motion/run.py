@@ -16,7 +16,7 @@ from .family import AbstractDynamics, AbstractMovingBearing
 from .history import Instant, LastState
 
 PARTS = 16
-"""Places in each interval at which pocket loads are looked up: a shock is shorter than an interval."""
+"""Number of places in each interval at which pocket loads are evaluated; a shock is shorter than an interval."""
 
 
 class Advanced(NamedTuple):
@@ -50,7 +50,7 @@ def advance(
     **Arguments:**
     - `start`, `times`: s.
     - `step`: first step that is tried, s.
-    - `parts`: number of places in each interval at which pocket loads are looked up.
+    - `parts`: number of places in each interval at which pocket loads are evaluated.
     """
     from ...numerics.integrate import integrate_segment  # diffrax, which nothing else needs, takes a second to import
 
@@ -62,7 +62,7 @@ def advance(
     )
     fine = jnp.minimum(fine, segment.last_time)
     reached = fine.reshape(-1) < segment.last_time
-    # beyond the place where a run stopped there are no states
+    # a run has no states beyond the time at which it stopped
     safe = jax.tree.map(
         lambda ys, end: jnp.where(jnp.reshape(reached, (-1, *(1 for _ in end.shape))), ys, end[None]),
         segment.states,
@@ -83,14 +83,14 @@ def advance(
 
 
 MOST_GROWTH = 1e-2
-"""Growth of the pitch circle on seats, relative, that is taken for the same bearing: 1 % is 800 K of steel."""
+"""Largest relative growth of the pitch circle of the same bearing on seats: 1 % is 800 K of steel."""
 MAY_CHANGE = ("operation", "oil", "contact", "drag", "simulation", "ring_freedom", "rating", "temperatures")
-"""Parts of a scene that may be others than those of the run from whose end another one goes on."""
+"""Parts of a scene that may differ from those of the run that is continued."""
 UNKNOWN = (
     "restart: the state does not say of which bearing it is (an earlier version wrote it); only the number of rollers, "
     "the pitch circle and whether there is a cage have been compared"
 )
-"""The note of such a run."""
+"""Note of a run that continues from a state without identity."""
 
 
 def identity(scene: AbstractMovingBearing) -> Identity:

@@ -29,21 +29,21 @@ from .settings import Simulation
 from .start import at_start
 
 FIRST_STEP = 1e-7
-"""First step that is tried, s."""
+"""First step that the integrator tries, s."""
 SEGMENT = 128
-"""Instants that are computed in one go."""
+"""Number of instants that one call of the compiled program computes."""
 ENERGY_LIMIT = 1e-3
-"""Error of the energy balance from which on a run warns."""
+"""Relative error of the energy balance above which a run warns."""
 MOST_INSTANTS = 1_000_000
-"""Instants that a run may have: each takes some kilobytes."""
+"""Largest number of instants of a run; each takes some kilobytes."""
 Progress = Callable[[float, float], None]
 
 
 def trajectory(start: Start, times: Float[Array, " time"], simulation: Simulation, adjoint: Any = None) -> Segment:
-    """The motion at given times, > 0 and increasing, in one go: pure, jit-able, vmap-able, differentiable.
+    """The motion at given times, in one program: pure, jit-able, vmap-able, differentiable.
 
-    Derivatives have a meaning until the first shocks; behind them trajectories separate. In reverse mode, with
-    checkpoints, explicit solvers only:
+    Derivatives are meaningful until the first shocks; after them neighbouring trajectories separate. Reverse mode uses
+    checkpoints and needs an explicit solver:
 
         def mean_load(clearance):
             start = jb.quasi_static_start(scene.replace({"cage.pocket_clearance": clearance}), simulation)
@@ -53,32 +53,25 @@ def trajectory(start: Start, times: Float[Array, " time"], simulation: Simulatio
 
         jax.jit(jax.grad(mean_load))(300e-6)  # N per m
 
-    A start that was not found takes no steps: its status is that of the trajectory, whose states are NaN.
+    If the start was not found, no step is taken: the trajectory has its status, and its states are NaN.
 
     **Arguments:**
-    - `start`: from `quasi_static_start`.
-    - `times`: s, shape (time,).
-    - `adjoint`: of diffrax, e.g. `diffrax.ForwardMode()`; reverse mode with checkpoints where not given.
+    - `start`: result of `quasi_static_start`.
+    - `times`: positive and increasing, s, shape (time,).
+    - `simulation`: solver and tolerance.
+    - `adjoint`: an adjoint of diffrax such as `diffrax.ForwardMode()`; left out: reverse mode with checkpoints.
     """
     from ...numerics.integrate import integrate_segment  # diffrax, which nothing else needs, takes a second to import
 
     zero, dynamics = jnp.zeros(()), start.dynamics
     options, idle = simulation.options, len(dynamics.works)
-    # a first step that is guessed may be so long that there are no rates at its end: it is then shortened, but its NaN
-    # would come back in reverse mode
+    # a guessed first step may be so long that the rates at its end are NaN. The integrator then shortens it, but
+    # reverse mode would carry the NaN back
     first = jnp.asarray(FIRST_STEP)
     begun = start.status == Status.CONVERGED
     until = jnp.where(begun, times, zero)
     run = integrate_segment(
-        FIELD,
-        start.state,
-        zero,
-        until,
-        start.dynamics,
-        options,
-        first_step=first,
-        adjoint=adjoint,
-        idle=idle,
+        FIELD, start.state, zero, until, dynamics, options, first_step=first, adjoint=adjoint, idle=idle
     )
     states = jax.tree.map(lambda leaf: jnp.where(begun, leaf, jnp.nan), run.states)
     return run._replace(states=states, status=jnp.where(begun, run.status, start.status))
@@ -104,7 +97,7 @@ def _range_excess(scene: AbstractMovingBearing, instants: Instant) -> Excess:
     return scene.motion.range_excess(scene, instants)
 
 
-# solved once a run: to compile takes longer than to run
+# all but `advance` run once, so that compiling them takes longer than running them
 _QUASI_STATIC = KeptProgram(_quasi_static, quick=True)
 _BEGIN = KeptProgram(_begin, quick=True)
 _RESUME = KeptProgram(_resume, quick=True)

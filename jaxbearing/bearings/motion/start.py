@@ -28,14 +28,19 @@ def quasi_static_start(
 ) -> Start:
     """Equations of motion and the state that a run begins with; pure, jit-able.
 
-    Where a traced input is invalid `status` says so, and the state is NaN."""
+    If a traced input is invalid, `status` says so and the state is NaN.
+
+    **Arguments:** `simulation`: speeds and loads over time; `options`: those of the quasi-static solve.
+
+    **Raises:** `ValueError` for a scene that nothing drives, or whose ring is held.
+    """
     lane, inputs = checked_lane(scene, simulation)
     start = lane.motion.begin(lane, simulation, lane.motion.quasi_static(at_start(lane, simulation), options))
     return start._replace(status=jnp.where(inputs.valid, start.status, int(Status.INVALID_INPUT)))
 
 
 def checked_lane(scene: Bearing, simulation: Simulation) -> tuple[Bearing, InputChecks]:
-    """The checks of traced inputs, and the scene with an operation that is NaN where they are invalid."""
+    """The scene with an operation that is NaN if its traced inputs are invalid, and the checks of these inputs."""
     inputs = check_inputs(dataclasses.replace(scene, simulation=simulation))
     lane = gate(scene, inputs.valid)
     return dataclasses.replace(lane, operation=nan_unless(lane.operation, inputs.valid)), inputs

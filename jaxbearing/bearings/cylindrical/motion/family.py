@@ -1,4 +1,4 @@
-"""From the scene of a cylindrical roller bearing to its motion: what `motion.family` asks for."""
+"""Motion of the cylindrical roller bearing, as `motion.family` asks for it."""
 
 from typing import ClassVar
 

@@ -81,7 +81,7 @@ def observe(dynamics: RollerDynamics, time: Scalar, state: ArrowPoint) -> Roller
 
 
 def pocket_loads(dynamics: RollerDynamics, time: Scalar, state: ArrowPoint) -> Float[Array, "2 roller"]:
-    """Loads on the front and the rear walls, N, and nothing else: the part of `observe` that follows shocks."""
+    """Loads on the front and the rear pocket walls, N: a cheap part of `observe`, for shocks between instants."""
     rollers, cage, _ = dynamics.unscaled(state)
     pitch, (turned, turning, _) = dynamics.system.kinematics.pitch_radius, dynamics.frame(time)
     azimuth = dynamics.system.azimuth + rollers[0] / pitch + turned

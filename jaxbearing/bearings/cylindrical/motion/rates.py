@@ -64,7 +64,14 @@ rejects the step and shortens it."""
 
 
 class MovingState(NamedTuple):
-    """Everything that happens at one instant; arrays over rollers, races first where two."""
+    """Speeds, films and forces at one instant; arrays over rollers, the inner and the outer race first.
+
+    - `azimuth`, rad; `orbit`, `spin`: speeds of each roller, rad/s; `cage_orbit`: speed of the cage, rad/s.
+    - `centre`, m, and `velocity`, m/s, of the cage along X and Y.
+    - `mean_speed`, `sliding_speed`: of the surfaces on each race, m/s.
+    - `tangential`, N, and `moment`, N m: sums on each roller; `cage_force` and `cage_moment`: sums on the cage.
+    - The other fields have classes that say what they hold.
+    """
 
     motion: RollerKinematics
     azimuth: Float[Array, " roller"]
@@ -87,12 +94,12 @@ class MovingState(NamedTuple):
 
 
 class RollerDynamics(AbstractDynamics):
-    """Rollers and cage in motion; a part that is `None` is not there.
+    """Equations of motion of rollers and cage; a part that is `None` is not modelled.
 
     **Arguments:**
     - `system`: raceways, roller ends, drag and land, with the oil at its inlet temperature, at the operating point.
       Its rigid pocket films are not used.
-    - `reference_speed`: w_ref, rad/s: of the frame in which positions are counted, at the operating point.
+    - `reference_speed`: w_ref, speed of the frame in which positions are counted, at the operating point, rad/s.
     - `roller_inertia`: J, kg m^2; `cage_mass`, kg; `cage_inertia`: J_c, kg m^2, about the bearing axis; `None` without
       a cage, whose states then stand still.
     - `pocket`: film on one wall of a pocket; `None`: rollers do not meet the cage.
@@ -145,7 +152,7 @@ class RollerDynamics(AbstractDynamics):
 
     @property
     def work_unit(self) -> Float[Array, ""]:
-        """J, see `WORK_PART`."""
+        """Unit of the works, J, see `WORK_PART`."""
         motion = self.system.kinematics
         speed = motion.pitch_radius * self.reference_speed
         rollers = 0.5 * self.system.azimuth.shape[0] * self.system.roller_mass * jnp.square(speed)
@@ -185,8 +192,8 @@ class RollerDynamics(AbstractDynamics):
         )
 
     def _radial_clearance(self, motion: RollerKinematics) -> Float[Array, ""]:
-        """Half the clearance at the current speed: rings and seats grow at once. Other sizes stay as at the operating
-        point."""
+        """Half the clearance at the current speed, which rings and seats follow without delay, m. Other sizes are those
+        of the operating point."""
         if self.seats is None:
             return self.system.radial_clearance
         return 0.5 * running_play(self.seats.at_operation(inner_speed=motion.inner_speed)).measure

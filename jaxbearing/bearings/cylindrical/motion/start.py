@@ -1,4 +1,4 @@
-"""From the scene of a cylindrical roller bearing to its equations of motion and the state that a run begins with."""
+"""Equations of motion of a cylindrical roller bearing from its scene, and the state that a run begins with."""
 
 from typing import NamedTuple
 
@@ -21,15 +21,20 @@ from ..steady import build_system
 from .rates import RollerDynamics
 
 ASSUMED_CAGE = "bronze"
-"""Material of a cage, where a scene does not give it."""
+"""Material of a cage for which the scene gives none."""
 IMMOBILE = (
     "contact.traction: nothing drives the rollers of a bearing without traction on its raceways; simulate needs it"
 )
 
 
 class QuasiStatic(NamedTuple):
-    """Orbital speed of all, rad/s; centre of the cage, m; places of the rollers along the pitch circle from those of
-    equal distances, m; spins, rad/s; how the solve ended."""
+    """Steady state as places and speeds.
+
+    - `orbit`: orbital speed of rollers and cage, rad/s; `spin`: of each roller, rad/s.
+    - `centre`: centre of the cage along X and Y, m.
+    - `position`: distance of each roller along the pitch circle from its place at equal spacing, m.
+    - `status`, `residual`: how the solve ended.
+    """
 
     orbit: Float[Array, ""]
     centre: Float[Array, "2"]
@@ -44,11 +49,11 @@ def build_dynamics(
 ) -> RollerDynamics:
     """Equations of motion, with everything prepared that does not depend on the state.
 
-    **Arguments:** `reference_speed`, rad/s, of the frame in which positions are counted, at the operating point; that
-    of rolling without slip where not given.
+    **Arguments:** `reference_speed`: speed of the frame in which positions are counted, at the operating point, rad/s;
+    left out: orbital speed of rolling without slip.
 
-    **Raises:** `ValueError` for a scene without traction on the raceways: nothing would drive its rollers; and for an
-    operating point that holds the ring somewhere.
+    **Raises:** `ValueError` for a scene without traction on the raceways, which nothing drives, and for an operating
+    point with given displacements.
     """
     if not scene.slips:
         raise ValueError(IMMOBILE)
@@ -90,8 +95,7 @@ def build_dynamics(
 
 
 def quasi_static(scene: CylindricalRollerBearing, options: NewtonOptions | None = None) -> QuasiStatic:
-    """Steady state of the operating point as places and speeds of rollers and cage; pure. Without a cage: rolling
-    without slip."""
+    """Steady state of the operating point, without a cage that of rolling without slip; pure."""
     n, zero = scene.geometry.n_rollers, jnp.zeros(())
     scene, _, _ = running_scene(scene)
     system = build_system(scene)
@@ -109,7 +113,7 @@ def quasi_static(scene: CylindricalRollerBearing, options: NewtonOptions | None 
     assert found.cage_force is not None
     orbit, inner = solved.orbit(result.point.globals[-1]), parts.guidance == "inner_ring"
     land, pull = solved.land_at(result.point, found), jnp.sum(found.cage_force, axis=1)
-    # what the pockets pull the cage with, the lands' film passes on to the ring
+    # the film of the lands passes the pull of the pockets on to the ring
     toward = pull if inner else -pull
     mean_speed = 0.5 * ((motion.inner_speed if inner else motion.outer_speed) + orbit)
     centre = jnp.stack(
@@ -125,11 +129,11 @@ def quasi_static(scene: CylindricalRollerBearing, options: NewtonOptions | None 
 
 
 def begin(scene: CylindricalRollerBearing, simulation: Simulation, found: QuasiStatic) -> Start:
-    """Rollers and cage where the steady films of time 0 hold them, as a state of motion; pure.
+    """Equations of motion, and the state in which the steady films of time 0 hold rollers and cage; pure.
 
-    The speed of time 0 must not be 0 (the films that hold the rollers vanish). The accelerations of this state are not
-    quite 0: the walls of the steady pockets are rigid, and rollers that go round in the pockets of an eccentric cage do
-    not stand still in them. A rotating load is not in it.
+    The speed at time 0 must not be 0, because the films that hold the rollers vanish there. The accelerations of this
+    state are small and not 0: the walls of the steady pockets are rigid, and rollers move in the pockets of an
+    eccentric cage. A rotating load is not part of the state.
     """
     factor = simulation.speed.factor(jnp.zeros(()))
     dynamics = build_dynamics(scene, simulation, found.orbit / factor)
@@ -140,8 +144,9 @@ def begin(scene: CylindricalRollerBearing, simulation: Simulation, found: QuasiS
 
 
 def resume(scene: CylindricalRollerBearing, simulation: Simulation, last: LastState) -> Resumed:
-    """Equations of motion and state that an earlier run ended with, also with other speeds or loads over time: no place
-    and no speed jumps; pure."""
+    """Equations of motion and state that an earlier run ended with; pure.
+
+    Speeds and loads over time may differ from those of that run: positions and speeds in space stay as they were."""
     dynamics = build_dynamics(scene, simulation, jnp.asarray(last.reference_speed))
     turned, turning, _ = dynamics.frame(jnp.asarray(last.time))
     pitch = dynamics.system.kinematics.pitch_radius
