@@ -126,7 +126,7 @@ def _write_line_contact(
     from ..bearings.ball.line_contact_bridge import line_contact_of
     from ..bearings.solution import Solution
     from ..report.files import write_whole
-    from ..scenes.line_contact_writer import line_contact_text
+    from ..scenes.line_contact.writer import line_contact_text
     from ..scenes.overrides import split_assignments
     from ..scenes.reader import oil_origins
 
