@@ -19,7 +19,7 @@ def say(message: str, code: int) -> int:
 
 @contextmanager
 def bad_input() -> Iterator[None]:
-    """Turns what is wrong with the input into one message and exit code 2."""
+    """Context that turns errors of the input into one message and exit code 2."""
     from ..scenes.errors import SceneError
 
     try:

@@ -103,7 +103,7 @@ def solve(
 
 
 def _line_contact(wanted: tuple[str, Path] | None, model: "AbstractScene", scene: str) -> _Contact | None:
-    """The contact, if one is wanted; refused where there is none."""
+    """The contact that `--line-contact` names, checked; `None` without this option."""
     if wanted is None:
         return None
     from ..bearings.ball.scene import BallBearing

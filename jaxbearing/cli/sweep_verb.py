@@ -218,7 +218,7 @@ def _refused(option: str) -> Iterator[None]:
 
 
 def _check_target(target: Path) -> None:
-    """Refuse a place that cannot be written before the work, not after it."""
+    """Refuses a place that cannot be written before the computation starts."""
     from importlib.util import find_spec
 
     from ..sweeps.engine import SweepError, check_target

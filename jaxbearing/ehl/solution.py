@@ -111,7 +111,7 @@ def central_weights(grid: Mesh) -> tuple[int, np.ndarray]:
 
 
 def central_value(values: Float[Array, " node"], grid: Mesh) -> Float[Array, ""]:
-    """At X = 0, by the parabola through three nodes."""
+    """Value at X = 0, by the parabola through three nodes."""
     i, weights = central_weights(grid)
     return jnp.sum(jnp.asarray(weights) * values[i : i + 3])
 

@@ -110,7 +110,7 @@ def _require(dataset: xr.Dataset, fields: Sequence[str]) -> None:
 
 
 class _Other(Exception):
-    """A file of something else."""
+    """Error of a file that holds no run in time."""
 
 
 def _first_line(error: Exception) -> str:

@@ -54,6 +54,9 @@ def output(result: Any, module: str, called: str, kinds: dict[type, str] = FOLDE
 
 
 def check_converged(solution: Any) -> None:
-    """**Raises:** `ValueError` for a solution that did not converge: it has no results."""
+    """Checks that a solution has results.
+
+    **Raises:** `ValueError` for a solution that did not converge.
+    """
     if not bool(np.all(solution.converged)):
         raise ValueError(f"a solve that failed has no results: {solution.failure()}")

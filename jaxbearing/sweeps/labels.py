@@ -65,7 +65,7 @@ def converged(solution: AbstractSolution) -> np.ndarray:
 
 
 def failures(solution: AbstractSolution, reasons: list[str]) -> np.ndarray:
-    """Why a lane failed, in a sentence; "" where it did not."""
+    """The reason why each lane failed, in a sentence; "" if it did not fail."""
     texts = list(reasons)
     for lane in np.flatnonzero(~converged(solution)):
         texts[lane] = texts[lane] or jax.tree.map(lambda leaf, lane=lane: leaf[lane], solution).failure()

@@ -1,4 +1,4 @@
-"""From what a person asks for to the plan of a sweep and to who computes it."""
+"""The plan and the runner of a sweep from the arguments of a user."""
 
 from collections.abc import Mapping
 from typing import Any
