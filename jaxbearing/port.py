@@ -21,7 +21,7 @@ from .bearings.bearing import AbstractBearing
 from .bearings.ring import held_ring
 from .bearings.solution import RING_FREEDOMS, RingDisplacement, Solution
 from .numerics.arguments import require_choice, require_numbers
-from .numerics.checks import void
+from .numerics.checks import nan_unless
 from .numerics.compiling import inside_a_program, is_tracing
 from .numerics.garbage import rare_garbage_collection
 from .numerics.newton import NewtonOptions
@@ -152,7 +152,7 @@ def _react_any(
 
     def react(lane: AbstractBearing) -> Solution:
         displacement, closure, expansion = (jnp.where(finite, one, 0.0) for one in numbers)
-        lane = dataclasses.replace(lane, operation=void(lane.operation, finite))
+        lane = dataclasses.replace(lane, operation=nan_unless(lane.operation, finite))
         solution = at_displacement(lane, displacement, closure, expansion)
         return dataclasses.replace(solution, status=jnp.where(finite, solution.status, int(Status.INVALID_INPUT)))
 

@@ -14,7 +14,7 @@ from jax.core import Tracer
 from ._checks import Checks
 from ._scene import AbstractScene
 from .life.bearing_life import with_life
-from .numerics.checks import check_inputs, gate, void
+from .numerics.checks import check_inputs, gate, nan_unless
 from .numerics.compiling import inside_a_program, is_tracing
 from .numerics.garbage import rare_garbage_collection
 from .numerics.newton import NewtonOptions
@@ -52,7 +52,7 @@ def with_checked_inputs(scene: AbstractScene, compute: Callable[[Any], Any]) -> 
     """Result of `compute` for a scene, with the checks of its inputs. Where one is invalid it ends at once, in NaN."""
     inputs = check_inputs(scene)
     given: Any = gate(scene, inputs.valid)
-    solution = compute(dataclasses.replace(given, operation=void(given.operation, inputs.valid)))
+    solution = compute(dataclasses.replace(given, operation=nan_unless(given.operation, inputs.valid)))
     return dataclasses.replace(
         solution,
         status=jnp.where(inputs.valid, solution.status, int(Status.INVALID_INPUT)),

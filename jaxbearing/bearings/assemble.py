@@ -10,7 +10,7 @@ from ..numerics.newton import NewtonResult
 from .bearing import AbstractBearing
 from .checks import input_excess, result_excess
 from .ring import Port
-from .solution import RING_FREEDOMS, Reason, RingDisplacement, Solution
+from .solution import RING_FREEDOMS, FailureCause, RingDisplacement, Solution
 
 
 def assemble(
@@ -20,7 +20,7 @@ def assemble(
     ring: RingDisplacement,
     port: Port,
     iterations: Int[Array, ""] | None = None,
-    reasons: dict[str, Reason] | None = None,
+    failure_causes: dict[str, FailureCause] | None = None,
     **names: Any,
 ) -> Solution:
     """The `Solution` of a solve: how it ended, and NaN for every result where it failed.
@@ -29,7 +29,7 @@ def assemble(
     - `results`: a named tuple of further fields of the `Solution`, and `facts`, what the range checks look at.
     - `port`: force and stiffness of the ring, in all five freedoms.
     - `iterations`: of all solves together; those of `result` where not given.
-    - `reasons`: of `Solution`; none applies where the solve converged.
+    - `failure_causes`: of `Solution`; none applies where the solve converged.
     - `names`: static fields of the `Solution`.
     """
     good = result.converged
@@ -59,7 +59,9 @@ def assemble(
         unknowns=result.point.elements.size + result.point.globals.size,
         notes=notes,
         element_name=scene.element,
-        reasons={text: Reason(~good & one.applies, one.numbers) for text, one in (reasons or {}).items()},
+        failure_causes={
+            text: FailureCause(~good & one.applies, one.numbers) for text, one in (failure_causes or {}).items()
+        },
         **jax.tree.map(lambda leaf: jnp.where(good, leaf, jnp.nan), shown),
         **names,
     )

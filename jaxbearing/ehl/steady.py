@@ -23,12 +23,12 @@ TOLERANCE = 1e-9
 MAX_STEPS = 60
 """Newton steps on one mesh."""
 COARSEST = 100
-"""A nested start begins with at least so many nodes."""
+"""Least number of nodes of the first mesh of a nested start."""
 SMALLEST_WEDGE = 1e-8
 """Smallest speed number lambda |u| of a steady solve. At rest there is no film: H is 0 in the whole contact and the
 Jacobian singular."""
 LOW_PRESSURE_SIDE = 1.2
-"""Half widths from the centre within which the first guess has its smallest film."""
+"""Region of the smallest film of the first guess: half widths from the centre."""
 
 
 class Steady(eqx.Module):
@@ -70,7 +70,7 @@ def _prolonged(point: Point, coarse: Mesh, fine: Mesh) -> Point:
 
 
 def _solve(problem: Steady, key: MeshKey) -> SteadyRoot:
-    """Every mesh starts from the one before it, or from Hertz where that failed."""
+    """Solves on meshes of growing size. Each starts from the one before it, or from Hertz if that one failed."""
     iterations, root, before = jnp.asarray(0), None, None
     for level in levels(key, COARSEST):
         grid = mesh(level)
@@ -147,7 +147,7 @@ def steady_root(problem: Steady, *, key: MeshKey) -> SteadyRoot:
 
 
 def existing(wedge: Scalar, speed: Scalar) -> Bool[Array, ""]:
-    """True if there is entrainment enough for a steady film."""
+    """True if the entrainment is large enough for a steady film."""
     return jnp.asarray(wedge * jnp.abs(speed) >= SMALLEST_WEDGE)
 
 

@@ -113,17 +113,17 @@ class AbstractArrowSystem(eqx.Module):
 
 
 class ArrowJacobian(NamedTuple):
-    """Blocks of the arrow. $A$ is `local`, $B$ `to_globals`, $C$ = `chain` `contributions`, $D$ `corner`.
+    """Blocks of the arrow. $A$ is `local`, $B$ `right_border`, $C$ = `chain` `contributions`, $D$ `corner`.
 
     - `local`: derivatives of the local residuals with respect to the element's unknowns.
-    - `to_globals`: derivatives of the local residuals with respect to the globals.
+    - `right_border`: derivatives of the local residuals with respect to the globals: the right border of the matrix.
     - `contributions`: derivatives of the contributions with respect to the element's unknowns.
     - `corner`: derivatives of the global residuals with respect to the globals.
     - `chain`: derivatives of the global residuals with respect to the totals.
     """
 
     local: Float[Array, "m m element"]
-    to_globals: Float[Array, "m g element"]
+    right_border: Float[Array, "m g element"]
     contributions: Float[Array, "k m element"]
     corner: Float[Array, "g g"]
     chain: Float[Array, "g k"]
@@ -165,7 +165,7 @@ def linearize(system: AbstractArrowSystem, point: ArrowPoint) -> tuple[Equations
     direct, chain = jax.vmap(pullback)(jnp.eye(g)) if g else (jnp.zeros((0, 0)), jnp.zeros((0, len(totals))))
     jacobian = ArrowJacobian(
         local=tangents[:m, :m],
-        to_globals=tangents[:m, m:],
+        right_border=tangents[:m, m:],
         contributions=tangents[m:, :m],
         corner=direct + chain @ jnp.sum(tangents[m:, m:], axis=-1),
         chain=chain,
@@ -185,7 +185,7 @@ def empty_jacobian(system: AbstractArrowSystem, point: ArrowPoint) -> ArrowJacob
 
 def _eliminated(jacobian: ArrowJacobian) -> tuple[Float[Array, "m g element"], Float[Array, "g g"]]:
     """A^-1 B of every element, and the Schur complement."""
-    coupled = solve_blocks(jacobian.local, jacobian.to_globals)
+    coupled = solve_blocks(jacobian.local, jacobian.right_border)
     carried = jnp.sum(jnp.einsum("kmn,mgn->kgn", jacobian.contributions, coupled), axis=-1)
     return coupled, jacobian.corner - jacobian.chain @ carried
 

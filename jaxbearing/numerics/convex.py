@@ -186,7 +186,7 @@ def descend_settled(system: AbstractConvexArrow, guess: ArrowPoint, *, tolerance
         over = jnp.max(jnp.abs(steps) / system.step_caps().globals[None, :], axis=1, keepdims=True)
         steps = steps / jnp.maximum(over, 1.0)
         steps = (fractions[None, :, None] * steps[:, None, :]).reshape(-1, ring.shape[0])
-        coupled = solve_blocks(jacobian.local, jacobian.to_globals)
+        coupled = solve_blocks(jacobian.local, jacobian.right_border)
 
         def moved(step):
             to = jnp.clip(ring - step, low, high)

@@ -1,4 +1,4 @@
-"""Which folder makes the outputs of a kind of result: the one list of kinds.
+"""The one list of kinds of results, with the folder that makes the outputs of each.
 
 A folder has a module for each output that the kind has, with the function that `_FUNCTIONS` names. They are imported
 when they are wanted: a solve on the screen needs no reader of files and no library of charts.
@@ -50,6 +50,9 @@ def output(result: Any, module: str, called: str, kinds: dict[str, str] = FOLDER
 
 
 def check_converged(solution: Any) -> None:
-    """**Raises:** `ValueError` for a solution that did not converge: it has no results."""
+    """Checks that a solution has results.
+
+    **Raises:** `ValueError` for a solution that did not converge.
+    """
     if not bool(np.all(solution.converged)):
         raise ValueError(f"a solve that failed has no results: {solution.failure()}")

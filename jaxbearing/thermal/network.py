@@ -19,7 +19,7 @@ import numpy as np
 from jaxtyping import Array, Float, Int
 
 from .._types import Scalar
-from ..numerics.checks import Checked, bounded, demand, functions, given, known
+from ..numerics.checks import Checked, array_module, bounded, demand, known, numbers_or_none
 from ..numerics.precision import as_float
 from ..numerics.status import Status
 
@@ -121,8 +121,8 @@ class Network(Checked):
             raise ValueError(f"a network of {size} nodes needs {size} x {size} and {size} conductances, got {shapes}")
         if self.oil is not None and self.oil_node is None:
             raise ValueError(f"an oil flow needs a node named 'oil', got {self.nodes}")
-        if given(self.between) is not None:
-            xp = functions(self.between)
+        if numbers_or_none(self.between) is not None:
+            xp = array_module(self.between)
             fine = xp.all(self.between == xp.swapaxes(self.between, -1, -2)) & xp.all(self.between >= 0)
             demand(
                 "{path}.between must be symmetric, and no conductance negative",

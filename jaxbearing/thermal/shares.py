@@ -1,4 +1,4 @@
-"""Where each loss of a bearing goes: parts of it to the nodes of a thermal network, and the oil temperature it sees.
+"""Shares of each loss of a bearing that go to the nodes of a thermal network, and the oil temperature of the loss.
 
 | loss | to | temperature of its oil |
 |---|---|---|
@@ -138,7 +138,7 @@ class OilTemperatures(NamedTuple):
 
     @property
     def element_ends(self) -> Float[Array, ""]:
-        """Between the element ends and the cage: that of the pockets."""
+        """Temperature of the oil between element ends and cage: that of the pockets."""
         return self.pocket
 
 

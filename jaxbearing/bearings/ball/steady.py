@@ -19,7 +19,7 @@ from ..interactions import Interaction, costs, of_land
 from ..land import LandState
 from ..parts import azimuths
 from ..ring import InnerRing, Port
-from ..solution import RING_FREEDOMS, TILTS, CageState, RacewayPower, Reason, Solution
+from ..solution import RING_FREEDOMS, TILTS, CageState, FailureCause, RacewayPower, Solution
 from .build import build_core, build_lubricated, ring_directions
 from .core import BallCore
 from .equations import SIDES, LubricatedBallSystem
@@ -60,10 +60,10 @@ def solve_ball(
         port,
         iterations=steps,
         ring_freedom=scene.shown_freedoms if ring is None else RING_FREEDOMS,
-        reasons=_without_cage(scene)
+        failure_causes=_without_cage(scene)
         | {
             "the load is {:.3g} times that at which the most loaded ball reaches 4.2 GPa, the limit of the static load "
-            "rating: balls and races would yield": Reason(times > 1.0, times)
+            "rating: balls and races would yield": FailureCause(times > 1.0, times)
         },
         stiffness_freedom=RING_FREEDOMS,
         equation_names=system.equation_names(),
@@ -79,14 +79,14 @@ def _of_lengths(
     return stiffness[free][:, free] * unit[:, None] * unit[None]
 
 
-def _without_cage(scene: BallBearing) -> dict[str, Reason]:
+def _without_cage(scene: BallBearing) -> dict[str, FailureCause]:
     if not scene.slips or scene.cage is not None:
         return {}
     text = (
         "balls that slide have no cage here: where the load lets some of them skid, no steady state is found; give the "
         "scene a [cage], a larger thrust, or leave out contact.traction"
     )
-    return {text: Reason(jnp.asarray(True), jnp.zeros(0))}
+    return {text: FailureCause(jnp.asarray(True), jnp.zeros(0))}
 
 
 def overload(scene: BallBearing) -> Float[Array, ""]:
@@ -272,7 +272,7 @@ def _raceway_power(system: LubricatedBallSystem, state: BallsState) -> RacewayPo
 
 
 def _interactions(system: LubricatedBallSystem, state: BallsState, land: LandState | None) -> list[Interaction]:
-    """All friction of balls that slide, each from the force and the speed of its own interaction."""
+    """The friction of sliding balls: one interaction each, with its own force and its own speed."""
     shear, pocket, motion = state.traction, state.pocket, state.motion
     assert shear is not None
     total = lambda power: system.multiplicity * jnp.sum(power)
@@ -376,7 +376,7 @@ def _all_freedoms(
     corner = jnp.zeros((g, g)).at[:5].set(jnp.sum(tangents[2:, m:], axis=-1) / full.load_scale())
     jacobian = ArrowJacobian(
         local=wide(solved.local),
-        to_globals=jnp.concatenate([by_ring, wide(solved.to_globals[:, freedoms:])], axis=1),
+        right_border=jnp.concatenate([by_ring, wide(solved.right_border[:, freedoms:])], axis=1),
         contributions=jnp.concatenate([tangents[2:, :m], wide(solved.contributions[freedoms:]) / multiplicity]),
         corner=corner.at[5:, 5:].set(solved.corner[freedoms:, freedoms:]),
         chain=chain.at[5:, 5:].set(cage),

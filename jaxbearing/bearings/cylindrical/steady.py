@@ -14,7 +14,6 @@ from ..assemble import assemble
 from ..facts import MEAN_OF_LINE, RACEWAYS, Contacts, Facts
 from ..interactions import Interaction, costs, of_land
 from ..land import LandState
-from ..motion.loads import LEAST_LOAD
 from ..parts import azimuths, drag_density
 from ..profile import pressed_load
 from ..ring import LENGTH_UNIT, InnerRing, Port
@@ -23,6 +22,7 @@ from .equations import IN_PLANE, DryRollerSystem, LubricatedRollerSystem, Roller
 from .forces import CageParts, friction_on_rings, rolling_alone
 from .geometry import RollerCage, RollerGeometry
 from .kinematics import RollerKinematics, roller_kinematics
+from .loads import LEAST_LOAD
 from .ring import roller_ring
 from .scene import CylindricalRollerBearing
 from .solution import PowerLoss, RollerResults

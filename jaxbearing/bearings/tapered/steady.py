@@ -18,7 +18,7 @@ from ..interactions import costs
 from ..parts import azimuths
 from ..rating import LAMINAE, rated_laminae
 from ..ring import InnerRing, Port
-from ..solution import RING_FREEDOMS, CageState, LaminaLoads, Reason, Solution
+from ..solution import RING_FREEDOMS, CageState, FailureCause, LaminaLoads, Solution
 from .build import build_tapered, rolling_motion
 from .friction import TaperedFriction, tapered_friction
 from .scene import TaperedRollerBearing
@@ -61,7 +61,7 @@ def solve_tapered(scene: TaperedRollerBearing, options: NewtonOptions, ring: Inn
         _results(scene, system, result, friction),
         system.ring.displacement(result.point.globals),
         _port(scene, system, result),
-        reasons=_reasons(scene, asked.inertia) if _bounded(scene, ring) else {},
+        failure_causes=_reasons(scene, asked.inertia) if _bounded(scene, ring) else {},
         iterations=jnp.where(sliding, 0, minimum.steps + result.iterations),
         ring_freedom=scene.shown_freedoms if ring is None else RING_FREEDOMS,
         stiffness_freedom=RING_FREEDOMS,
@@ -142,12 +142,12 @@ def _moment_ranges(scene: TaperedRollerBearing) -> dict[str, _MomentRange]:
     return found
 
 
-def _reasons(scene: TaperedRollerBearing, inertia: Inertia) -> dict[str, Reason]:
+def _reasons(scene: TaperedRollerBearing, inertia: Inertia) -> dict[str, FailureCause]:
     """Possible causes of a failed solve: loads beyond the static bounds, with the bounds."""
     sliding, least = slides_out(scene, inertia), least_axial_load(scene, inertia)
     given = jnp.asarray(scene.operation.axial_load)
     found = {
-        "the axial load of {:.6g} N must be at least {:.6g} N to hold the cone in the cup": Reason(
+        "the axial load of {:.6g} N must be at least {:.6g} N to hold the cone in the cup": FailureCause(
             sliding, jnp.stack([given, least * (1.0 + ROUNDED_UP)])
         )
     }
@@ -155,10 +155,10 @@ def _reasons(scene: TaperedRollerBearing, inertia: Inertia) -> dict[str, Reason]
     for name, (moment, middle, most, shift) in ranges.items():
         ends = jnp.stack([moment + shift, middle - most + shift, middle + most + shift])
         text = f"the {name} of {{:.4g}} N m must lie between {{:.4g}} and {{:.4g}} N m"
-        found[text] = Reason(tipping, ends)
+        found[text] = FailureCause(tipping, ends)
     if len(ranges) == 2:
         text = "both moments together, as a vector, at most {:.4g} N m from the middles of these ranges"
-        found[text] = Reason(tipping, ranges["moment"].most[None])
+        found[text] = FailureCause(tipping, ranges["moment"].most[None])
     return found
 
 

@@ -20,7 +20,7 @@ _INSIDE = (
     "equation_names",
     "notes",
     "laminae",
-    "reasons",
+    "failure_causes",
 )
 _NAMES = ("stiffness_freedom", "held_freedom", "element_name")
 """Fields that are not written as they are, but in words or in another order, or not at all."""
