@@ -33,7 +33,7 @@ OUTSIDE = 1e-3
 """Largest residual of the other equations, over the force that pushes a global over its bound."""
 FAST = 0.9
 ROUNDING = 1e-11
-LEAST, HARDER, SOFTER = 1e-11, 8.0, 0.125
+LEAST, HARDER, SOFTER = 1e-5, 8.0, 0.125
 SHORTEST = 4e-16
 
 
@@ -54,6 +54,11 @@ class AbstractConvexArrow(AbstractArrowSystem):
     def element(self, unknowns, shared):
         local, contributions, _ = self.acting(unknowns, shared)
         return local, contributions, jnp.zeros(())
+
+    @property
+    def flight(self) -> float:
+        """Step caps that a step may go at most."""
+        return FLIGHT
 
     def near(self, point: ArrowPoint) -> ArrowPoint:
         """The point with its elements nearer to their minima, where there is a formula for these."""
@@ -97,7 +102,7 @@ def _walk(
         accept = (lower | near) & state.going
         pick = lambda new, last: jax.lax.select(jnp.broadcast_to(accept, new.shape), new, last)
         point, view = jax.tree.map(pick, (point, view), (state.point, old))
-        damping = pick(SOFTER * state.damping, jnp.maximum(HARDER * state.damping, LEAST))
+        damping = pick(_softer(state.damping), _harder(state.damping))
         move, length = step(view, damping)
         going = state.going & (view.size > tolerance) & (length > SHORTEST)
         trial = jax.tree.map(lambda at, by: at - by / jnp.maximum(length, 1.0), point, move)
@@ -137,7 +142,7 @@ def descend(system: AbstractConvexArrow, guess: ArrowPoint, *, tolerance: float,
     def step(view: _View, damping: Array) -> tuple[ArrowPoint, Array]:
         residual, jacobian = view.blocks
         move = solve_arrow(_stiffened(jacobian, damping), residual)
-        return move, jnp.maximum(*(jnp.max(jnp.abs(s) / (FLIGHT * c), initial=0.0) for s, c in zip(move, caps, strict=True)))
+        return move, jnp.maximum(*(jnp.max(jnp.abs(s) / (system.flight * c), initial=0.0) for s, c in zip(move, caps, strict=True)))
 
     end = _walk(look, step, guess, tolerance=tolerance, most=max_steps)
     return Descent(end.point, end.view.size, end.steps)
@@ -153,7 +158,7 @@ def _settled(
     """Every element at the minimum of its own energy, the globals where they are."""
     shared = shared_by_elements(point)
     m = point.elements.shape[0]
-    longest = FLIGHT * system.step_caps().elements
+    longest = system.flight * system.step_caps().elements
 
     def look(elements: Array) -> tuple[Array, _View]:
         values, tangents, energies = element_tangents(system.acting, elements, shared)
@@ -180,7 +185,7 @@ def descend_settled(
     element_steps: int | None = None,
 ) -> Descent:
     """The globals alone, all elements at their minima at every trial."""
-    longest = FLIGHT * system.step_caps().globals
+    longest = system.flight * system.step_caps().globals
     low, high = (bound.globals for bound in system.bounds())
 
     def look(point: ArrowPoint) -> tuple[ArrowPoint, _View]:
@@ -251,3 +256,11 @@ def _stiffened(jacobian: ArrowJacobian, damping: Array) -> ArrowJacobian:
 def _largest(residual: ArrowPoint) -> Array:
     elements = jnp.max(jnp.abs(residual.elements), initial=0.0)
     return jnp.maximum(elements, jnp.max(jnp.abs(residual.globals), initial=0.0))
+
+
+def _softer(damping):
+    return SOFTER * damping
+
+
+def _harder(damping):
+    return jnp.maximum(HARDER * damping, LEAST)

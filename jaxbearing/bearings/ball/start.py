@@ -19,7 +19,7 @@ from ...numerics.safe import positive_power, safe_norm
 
 RING_TOLERANCE = 2e-2
 """Tolerance of the ring's balance, relative to the load: sufficient for a start of the full equations."""
-BALL_TOLERANCE = 1e-9
+BALL_TOLERANCE = 1e-5
 """Tolerance of a ball's balance, relative to its load scale."""
 RING_STEPS, BALL_STEPS = 40, 60
 """Most trials."""
@@ -74,6 +74,10 @@ class CentrifugalProblem(AbstractConvexArrow):
     def step_caps(self) -> ArrowPoint:
         cap = 0.5 * self.centre_distance
         return ArrowPoint(jnp.stack([cap, cap])[:, None], jnp.full(len(self.freedoms), cap))
+
+    @property
+    def flight(self) -> float:
+        return 1.0
 
     def bounds(self) -> tuple[ArrowPoint, ArrowPoint]:
         elements, ring = jnp.full((2, 1), jnp.inf), jnp.full(len(self.freedoms), jnp.inf)
