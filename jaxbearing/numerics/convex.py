@@ -1,8 +1,13 @@
 r"""Block-arrow systems whose equations are the gradient of one convex potential: a start that cannot miss the minimum.
 
-Newton's direction on the potential, damped until the potential falls (Levenberg). Contacts that open have no stiffness:
-the systems add a spring to each block *from where it is* (`anchored`), which stabilises the step and vanishes from the
-equations, so that nothing of it is left in a balance.
+Every search takes Newton steps on the potential, regularised by the residual over a radius, $(H + \frac{|r|}{\rho})s = r$:
+no step is longer than the radius, and near the minimum, where the residual vanishes, the step is Newton's. A trial is
+taken where the potential falls; then the radius grows, otherwise it shrinks (`_descent`). All unknowns descend together
+(`descend`), or each element by itself (`settle`), or the globals with all elements at their minima (`descend_settled`).
+
+Contacts that open have no stiffness: the systems add a spring to each block *from where it is* (`anchored`), which
+stabilises the step and vanishes from the equations, so that nothing of it is left in a balance. Nothing here is
+differentiated: a minimum is the start of an iteration.
 """
 
 import abc
@@ -26,42 +31,46 @@ from .arrow import (
 )
 from .small_linear import solve_blocks, solve_dense
 
-FLIGHT = 256.0
-"""Most caps that an element goes at once while all others wait."""
-QUICK_STEPS, SETTLED_STEPS, ELEMENT_STEPS = 60, 60, 300
+FARTHEST = 256.0
+"""First and largest radius of a step, over the cap of a Newton step: an element that nothing touches has far to go."""
+LONGER, SHORTER = 8.0, 0.25
+"""Factors of the radius after a trial that was taken, and after one that was not. Of random tapered bearings as many
+converge with 3 and 0.5, 4 and 0.25, 16 and 0.1."""
+SHORTEST = 1e-13
+"""Length of a step, over the cap, that is none: only rounding is left."""
+FALLS, ROUNDING = 0.9, 1e-11
+"""A trial that lowers the residual to this part is also taken where the potential falls or rises by rounding, this part
+of itself."""
+TOGETHER_TRIALS, SETTLED_TRIALS, ELEMENT_TRIALS = 80, 80, 300
+"""Most trials of the descent of all unknowns together, of the globals with the elements at their minima, and of these."""
 OUTSIDE = 1e-3
 """Largest residual of the other equations, over the force that pushes a global over its bound."""
-FAST = 0.9
-ROUNDING = 1e-11
-LEAST, HARDER, SOFTER = 1e-5, 8.0, 0.125
-SHORTEST = 4e-16
 
 
 class AbstractConvexArrow(AbstractArrowSystem):
-    """A system whose residuals are, row by row and up to positive factors, the gradient of `potential`."""
+    """A system whose residuals are, block by block and up to positive factors, the gradient of `potential`."""
 
     @abc.abstractmethod
     def acting(
         self, unknowns: Float[Array, "m element"], shared: Float[Array, "g element"]
     ) -> tuple[Float[Array, "m element"], Float[Array, "k element"], Float[Array, " element"]]:
-        """Local residuals and contributions to the totals as those of `element`, and the energy of each element and its
-        contacts."""
+        """Local residuals and contributions to the totals, as those of `element`, and the energy of each element."""
 
     @abc.abstractmethod
     def work(self, globals_: Float[Array, " g"]) -> Float[Array, ""]:
-        """Work of the loads on the globals."""
+        """Work of the loads on the globals, in the unit of the energies."""
 
     def element(self, unknowns, shared):
         local, contributions, _ = self.acting(unknowns, shared)
         return local, contributions, jnp.zeros(())
 
-    @property
-    def flight(self) -> float:
-        """Step caps that a step may go at most."""
-        return FLIGHT
+    def potential(self, point: ArrowPoint) -> Float[Array, ""]:
+        """Convex; need not be bounded below where there is no equilibrium."""
+        energies = self.acting(point.elements, shared_by_elements(point))[2]
+        return jnp.sum(energies) - self.work(point.globals)
 
     def near(self, point: ArrowPoint) -> ArrowPoint:
-        """The point with its elements nearer to their minima, where there is a formula for these."""
+        """The point with its elements nearer to their minima, of a system that has a formula for these."""
         return point
 
 
@@ -71,66 +80,82 @@ def anchored(value: Array, stiffness: float) -> Array:
 
 
 class _View(NamedTuple):
-    energy: Array
-    size: Array
+    """What a search sees at a point: potential, largest scaled residual, and what the step is made of."""
+
+    energy: Float[Array, "*lane"]
+    size: Float[Array, "*lane"]
     blocks: Any
 
 
-class _Walk(NamedTuple):
+class _Search(NamedTuple):
+    """State of a search: the best point so far and what is seen there; the next trial, at `length` from it; and the
+    radius that its step was made for. A lane is an element, or there is one (scalars)."""
+
     trial: Any
+    length: Float[Array, "*lane"]
     point: Any
     view: _View
-    damping: Array
-    going: Array
-    trials: Array
-    steps: Array
+    radius: Float[Array, "*lane"]
+    going: Bool[Array, "*lane"]
+    trials: Int[Array, ""]
+    steps: Int[Array, ""]
 
 
-def _walk(
+def _descent(
     look: Callable[[Any], tuple[Any, _View]],
     step: Callable[[_View, Array], tuple[Any, Array]],
     start: Any,
-    *,
     tolerance: float,
     most: int,
-) -> _Walk:
-    def advance(state: _Walk) -> _Walk:
+) -> _Search:
+    """Descends until the largest residual is below `tolerance`, until only rounding is left, or for `most` trials.
+
+    **Arguments:**
+    - `look`: the trial, or the point that it leads to, and what is seen there.
+    - `step`: what to take from the point seen, and its length over the caps; from the view, and what is to be added to
+      the stiffness of each unknown times its cap.
+    - `start`: a tree of arrays whose last axis is the lane, or, where there is one lane, any.
+    """
+
+    def advance(state: _Search) -> _Search:
         point, view = look(state.trial)
         old = state.view
-        lower = view.energy < old.energy
-        near = (view.size <= FAST * old.size) & (view.energy <= old.energy + ROUNDING * jnp.abs(old.energy))
-        accept = (lower | near) & state.going
-        pick = lambda new, last: jax.lax.select(jnp.broadcast_to(accept, new.shape), new, last)
-        point, view = jax.tree.map(pick, (point, view), (state.point, old))
-        damping = pick(_softer(state.damping), _harder(state.damping))
-        move, length = step(view, damping)
+        rounded = (view.size <= FALLS * old.size) & (view.energy <= old.energy + ROUNDING * jnp.abs(old.energy))
+        taken = ((view.energy < old.energy) | rounded) & state.going
+        choose = lambda new, last: jax.lax.select(jnp.broadcast_to(taken, new.shape), new, last)
+        point, view = jax.tree.map(choose, (point, view), (state.point, old))
+        longer = jnp.minimum(LONGER * state.radius, FARTHEST)
+        radius = choose(longer, SHORTER * jnp.minimum(state.radius, state.length))
+        move, length = step(view, view.size / radius)
+        trial = jax.tree.map(jnp.subtract, point, move)
+        # a first trial without numbers leaves no length
         going = state.going & (view.size > tolerance) & (length > SHORTEST)
-        trial = jax.tree.map(lambda at, by: at - by / jnp.maximum(length, 1.0), point, move)
-        return _Walk(trial, point, view, damping, going, state.trials + 1, state.steps + jnp.any(accept))
+        return _Search(
+            trial, length, point, view, radius, going, state.trials + 1, state.steps + jnp.any(taken).astype(int)
+        )
 
     blank = jax.tree.map(lambda leaf: jnp.zeros(leaf.shape, leaf.dtype), jax.eval_shape(look, start)[1])
     nowhere = blank.energy + jnp.inf
     view = blank._replace(energy=nowhere, size=nowhere)
-    begin = _Walk(start, start, view, blank.energy, nowhere > 0.0, jnp.asarray(0), jnp.asarray(-1))
-    return jax.lax.while_loop(lambda s: jnp.any(s.going) & (s.trials < most), advance, begin)
+    # the first trial is the start itself, and no step
+    begin = _Search(
+        start, nowhere, start, view, blank.energy + FARTHEST, nowhere > 0.0, jnp.asarray(0), jnp.asarray(-1)
+    )
+    return jax.lax.while_loop(lambda state: jnp.any(state.going) & (state.trials < most), advance, begin)
 
 
 class Descent(NamedTuple):
+    """The end of a descent: the point, the largest scaled residual there (with settled elements: of the globals), and
+    the steps taken."""
+
     point: ArrowPoint
     residual: Float[Array, ""]
     steps: Int[Array, ""]
 
 
-class Minimum(NamedTuple):
-    """End of the search for the minimum, its steps, and whether it is proved to lie outside the bounds."""
-
-    point: ArrowPoint
-    steps: Int[Array, ""]
-    outside: Bool[Array, ""]
-
-
-def descend(system: AbstractConvexArrow, guess: ArrowPoint, *, tolerance: float, max_steps: int) -> Descent:
-    """All unknowns together."""
+def descend(system: AbstractConvexArrow, guess: ArrowPoint, *, tolerance: float, trials: int) -> Descent:
+    """Towards the minimum of the potential, all unknowns together."""
+    system, guess = jax.lax.stop_gradient((system, guess))
     caps = system.step_caps()
 
     def look(point: ArrowPoint) -> tuple[ArrowPoint, _View]:
@@ -139,40 +164,40 @@ def descend(system: AbstractConvexArrow, guess: ArrowPoint, *, tolerance: float,
         energy = jnp.sum(energies) - system.work(point.globals)
         return point, _View(energy, _largest(equations.residual), (equations.residual, jacobian))
 
-    def step(view: _View, damping: Array) -> tuple[ArrowPoint, Array]:
+    def step(view: _View, stiffening: Array) -> tuple[ArrowPoint, Array]:
         residual, jacobian = view.blocks
-        move = solve_arrow(_stiffened(jacobian, damping), residual)
-        return move, jnp.maximum(*(jnp.max(jnp.abs(s) / (system.flight * c), initial=0.0) for s, c in zip(move, caps, strict=True)))
+        move = solve_arrow(_stiffened(jacobian, caps, stiffening), residual)
+        over = [jnp.max(jnp.abs(part) / cap, initial=0.0) for part, cap in zip(move, caps, strict=True)]
+        return move, jnp.maximum(*over)
 
-    end = _walk(look, step, guess, tolerance=tolerance, most=max_steps)
+    end = _descent(look, step, guess, tolerance, trials)
     return Descent(end.point, end.view.size, end.steps)
 
 
-def settle(system: AbstractConvexArrow, point: ArrowPoint, *, tolerance: float = 1e-8, max_steps: int | None = None) -> ArrowPoint:
-    return ArrowPoint(_settled(system, point, tolerance, max_steps).point, point.globals)
+def settle(
+    system: AbstractConvexArrow, point: ArrowPoint, *, tolerance: float = 1e-8, trials: int = ELEMENT_TRIALS
+) -> ArrowPoint:
+    """Every element at the minimum of its own energy, the globals where they are; each element takes its own steps."""
+    system, point = jax.lax.stop_gradient((system, point))
+    return ArrowPoint(_settled(system, point, tolerance, trials).point, point.globals)
 
 
-def _settled(
-    system: AbstractConvexArrow, point: ArrowPoint, tolerance: float = 1e-8, max_steps: int | None = None
-) -> _Walk:
-    """Every element at the minimum of its own energy, the globals where they are."""
-    shared = shared_by_elements(point)
+def _settled(system: AbstractConvexArrow, point: ArrowPoint, tolerance: float, trials: int) -> _Search:
+    """The search of `settle`; its blocks are values and tangents, side by side, of `element_tangents`."""
     m = point.elements.shape[0]
-    longest = system.flight * system.step_caps().elements
+    shared, caps = shared_by_elements(point), system.step_caps().elements
 
     def look(elements: Array) -> tuple[Array, _View]:
         values, tangents, energies = element_tangents(system.acting, elements, shared)
         blocks = jnp.concatenate([values[:, None], tangents], axis=1)
         return elements, _View(energies, jnp.max(jnp.abs(values[:m]), axis=0), blocks)
 
-    def step(view: _View, damping: Array) -> tuple[Array, Array]:
+    def step(view: _View, stiffening: Array) -> tuple[Array, Array]:
         residual, local = view.blocks[:m, :1], view.blocks[:m, 1 : 1 + m]
-        scale = jnp.max(jnp.abs(jnp.einsum("mmn->mn", local)), axis=0)
-        damped = local + (damping * scale) * jnp.eye(m)[:, :, None]
-        way = solve_blocks(damped, residual)[:, 0]
-        return way, jnp.max(jnp.abs(way) / longest, axis=0)
+        move = solve_blocks(local + jnp.eye(m)[:, :, None] * (stiffening / caps), residual)[:, 0]
+        return move, jnp.max(jnp.abs(move) / caps, axis=0)
 
-    return _walk(look, step, point.elements, tolerance=tolerance, most=max_steps or ELEMENT_STEPS)
+    return _descent(look, step, point.elements, tolerance, trials)
 
 
 def descend_settled(
@@ -180,35 +205,46 @@ def descend_settled(
     guess: ArrowPoint,
     *,
     tolerance: float,
-    max_steps: int,
+    trials: int,
     element_tolerance: float = 1e-8,
-    element_steps: int | None = None,
+    element_trials: int = ELEMENT_TRIALS,
 ) -> Descent:
-    """The globals alone, all elements at their minima at every trial."""
-    longest = system.flight * system.step_caps().globals
+    """As `descend`, but of the globals alone, all elements at their minima at every trial: dearer a step, and not held
+    up by elements that hardly touch. Globals stay within `bounds`: where one ends at its bound and its equation pushes
+    outwards, the minimum is outside, as the potential is convex."""
+    system, guess = jax.lax.stop_gradient((system, guess))
+    caps = system.step_caps().globals
     low, high = (bound.globals for bound in system.bounds())
 
     def look(point: ArrowPoint) -> tuple[ArrowPoint, _View]:
         inside = ArrowPoint(point.elements, jnp.clip(point.globals, low, high))
-        settled = _settled(system, system.near(inside), element_tolerance, element_steps)
+        settled = _settled(system, system.near(inside), element_tolerance, element_trials)
+        values, tangents = settled.view.blocks[:, 0], settled.view.blocks[:, 1:]
         point = ArrowPoint(settled.point, inside.globals)
-        equations, jacobian = assembled(system, point, settled.view.blocks[:, 0], settled.view.blocks[:, 1:], jnp.zeros(()))
-        residual = equations.residual.globals
-        free = (~pushed_out(system, point, equations.residual)).astype(float)
+        equations, jacobian = assembled(system, point, values, tangents, jnp.zeros(()))
+        held = pushed_out(system, point, equations.residual).astype(float)
         coupled, schur = eliminated(jacobian)
-        matrix = schur * free[:, None] * free[None, :] + jnp.diag(1.0 - free)
-        right = residual * free
-        # in equilibrium the elements' residuals count no more
+        right = equations.residual.globals * (1.0 - held)
+        matrix = schur * (1.0 - held)[:, None] * (1.0 - held)[None, :] + jnp.diag(held)
         energy = jnp.sum(settled.view.energy) - system.work(point.globals)
+        # in equilibrium the elements' residuals count no more
         return point, _View(energy, jnp.max(jnp.abs(right)), (right, matrix, coupled))
 
-    def step(view: _View, damping: Array) -> tuple[ArrowPoint, Array]:
+    def step(view: _View, stiffening: Array) -> tuple[ArrowPoint, Array]:
         right, matrix, coupled = view.blocks
-        way = solve_dense(matrix * (1.0 + damping * jnp.eye(right.size)), right)
-        return ArrowPoint(-jnp.einsum("mgn,g->mn", coupled, way), way), jnp.max(jnp.abs(way) / longest)
+        move = solve_dense(matrix + jnp.diag(stiffening / caps), right)
+        return ArrowPoint(-jnp.einsum("mgn,g->mn", coupled, move), move), jnp.max(jnp.abs(move) / caps)
 
-    end = _walk(look, step, guess, tolerance=tolerance, most=max_steps)
+    end = _descent(look, step, guess, tolerance, trials)
     return Descent(end.point, end.view.size, end.steps)
+
+
+class Minimum(NamedTuple):
+    """End of the search for the minimum, its steps, and whether it is proved to lie outside the bounds."""
+
+    point: ArrowPoint
+    steps: Int[Array, ""]
+    outside: Bool[Array, ""]
 
 
 def find_minimum(system: AbstractConvexArrow, *, tolerance: float, hopeless: Bool[Array, ""] | bool = False) -> Minimum:
@@ -223,8 +259,8 @@ def find_minimum(system: AbstractConvexArrow, *, tolerance: float, hopeless: Boo
     first = system.initial()
     if not first.globals.size:
         return Minimum(settle(system, first), jnp.asarray(0), jnp.asarray(False))
-    quick = descend(system, first, tolerance=tolerance, max_steps=QUICK_STEPS)
-    slowly = lambda _: descend_settled(system, quick.point, tolerance=tolerance, max_steps=SETTLED_STEPS)
+    quick = descend(system, first, tolerance=tolerance, trials=TOGETHER_TRIALS)
+    slowly = lambda _: descend_settled(system, quick.point, tolerance=tolerance, trials=SETTLED_TRIALS)
     low, high = (bound.globals for bound in system.bounds())
     inside = jnp.all((quick.point.globals >= low) & (quick.point.globals <= high))
     done = ((quick.residual <= tolerance) & inside) | hopeless
@@ -244,23 +280,11 @@ def pushed_out(system: AbstractConvexArrow, point: ArrowPoint, residual: ArrowPo
     return ((ring >= high) & (push < 0)) | ((ring <= low) & (push > 0))
 
 
-def _stiffened(jacobian: ArrowJacobian, damping: Array) -> ArrowJacobian:
-    m, g = jacobian.local.shape[0], jacobian.corner.shape[0]
-    local = damping * jnp.max(jnp.abs(jnp.einsum("mmn->mn", jacobian.local)), initial=0.0)
-    corner = damping * jnp.max(jnp.abs(jnp.diagonal(jacobian.corner)))
-    return jacobian._replace(
-        local=jacobian.local + local * jnp.eye(m)[:, :, None], corner=jacobian.corner + corner * jnp.eye(g)
-    )
+def _stiffened(jacobian: ArrowJacobian, caps: ArrowPoint, stiffening: Array) -> ArrowJacobian:
+    local, corner = jnp.diag(stiffening / caps.elements[:, 0]), jnp.diag(stiffening / caps.globals)
+    return jacobian._replace(local=jacobian.local + local[:, :, None], corner=jacobian.corner + corner)
 
 
 def _largest(residual: ArrowPoint) -> Array:
     elements = jnp.max(jnp.abs(residual.elements), initial=0.0)
     return jnp.maximum(elements, jnp.max(jnp.abs(residual.globals), initial=0.0))
-
-
-def _softer(damping):
-    return SOFTER * damping
-
-
-def _harder(damping):
-    return jnp.maximum(HARDER * damping, LEAST)

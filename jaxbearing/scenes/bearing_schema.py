@@ -21,12 +21,6 @@ class CageBase(Table):
 
     turbulence: Annotated[str, TURBULENCE] = TURBULENCE.name_of(TURBULENCE_OF_CAGES)
 
-    @check
-    def _consistent(self) -> Problems:
-        bore, outside = self.inner_diameter, self.outer_diameter
-        if bore is not None and outside is not None and bore >= outside:
-            yield refusal_at("inner_diameter", f"less than the outer diameter, {in_mm(outside)}", in_mm(bore))
-
 
 class DisplacementTable(table_of(HeldDisplacement)):
     """Given displacements of the inner ring."""
@@ -83,7 +77,3 @@ def law_in_words(contact: Table, name: str) -> str:
     """A law of the table as it stands in the file; "" where it names none."""
     law = getattr(contact, name)
     return f"contact.{name} = '{law}'" if law else ""
-
-
-def in_mm(length: float) -> str:
-    return f"{1e3 * length:g} mm"

@@ -12,6 +12,8 @@ import jaxbearing as jb
 from jaxbearing.bearings.ball import start as ball_start
 from jaxbearing.bearings.ball.build import build_core, build_lubricated
 from jaxbearing.bearings.ball.start import free_centres
+from jaxbearing.numerics.arrow import ArrowPoint, evaluate
+from jaxbearing.numerics.precision import as_float
 
 SCENE = jb.load_scene("angular_contact_218", {"operation.axial_load": "10 N"})
 PROBLEM = eqx.filter_jit(lambda scene: build_core(scene)._estimates()[0])(SCENE)
@@ -103,13 +105,31 @@ def test_an_orbital_speed_that_was_not_found_is_no_result():
 @pytest.mark.parametrize("load", [1000.0, np.nan])
 def test_a_lane_without_numbers_is_given_up_at_once(load, monkeypatch):
     """Where lanes are solved at once, all wait for the slowest: one with an invalid input took 2 400 trials."""
-    forces, calls = ball_start._forces, []
-    monkeypatch.setattr(ball_start, "_forces", lambda *given: calls.append(None) or forces(*given))
+    acting, calls = ball_start.CentrifugalProblem.acting, []
+    counted = lambda *given: calls.append(None) or acting(*given)
+    monkeypatch.setattr(ball_start.CentrifugalProblem, "acting", counted)
     problem = dataclasses.replace(PROBLEM, ring_load=load * jnp.ones_like(PROBLEM.ring_load))
     with jax.disable_jit():
         found = ball_start.start(problem, ball_start.ring_estimate(problem))
     assert bool(jnp.all(jnp.isfinite(found.ring))) == np.isfinite(load)
     assert len(calls) < (60 if np.isfinite(load) else 4)
+
+
+def test_equations_are_the_gradient_of_the_potential():
+    scene = jb.load_scene("angular_contact_218", {"operation.radial_load": "5 kN"})
+
+    @eqx.filter_jit
+    def both(scene):
+        problem, centres, rings = build_core(scene)._estimates()
+        point = ArrowPoint(1.01 * centres[0], 1.01 * rings[0])
+        found = evaluate(problem, point).residual
+        scale = problem.load_scale / problem.count + problem.centrifugal
+        forces = problem.multiplicity * found.elements * scale, found.globals * problem.load_scale
+        return jax.grad(problem.potential)(point), forces
+
+    slope, (elements, ring) = both(jax.tree.map(as_float, scene))
+    np.testing.assert_allclose(elements, slope.elements, rtol=1e-10, atol=1e-8)
+    np.testing.assert_allclose(ring, slope.globals, rtol=1e-10, atol=1e-8)
 
 
 @pytest.mark.parametrize("guidance", ["inner_ring", "outer_ring"])

@@ -1,9 +1,8 @@
 r"""First guess of a ball bearing's equilibrium: without friction, at frozen centrifugal forces, it is a convex problem.
 
 $\Pi = \sum_j[\frac25K_o\delta_{o+}^{5/2} + \frac25K_i\delta_{i+}^{5/2} - F_CW] - F\cdot q$: each $\delta$ is the norm
-of an affine map minus a constant, and the power is convex and increasing. Two nested damped Newton iterations, on each
-ball for a given ring and on the ring with every ball in equilibrium, both accepting a step only where the potential
-falls. Nothing here is differentiated: it is the start of an iteration.
+of an affine map minus a constant, and the power is convex and increasing. The ring descends it with every ball in
+equilibrium (`numerics.convex.descend_settled`). Nothing here is differentiated: it is the start of an iteration.
 """
 
 from typing import NamedTuple
@@ -15,29 +14,25 @@ from jaxtyping import Array, Bool, Float, Int
 
 from ...numerics.arrow import ArrowPoint
 from ...numerics.convex import AbstractConvexArrow, anchored, descend_settled, settle
-from ...numerics.safe import positive_power, safe_norm
+from ...numerics.safe import safe_norm
 
 RING_TOLERANCE = 2e-2
 """Tolerance of the ring's balance, relative to the load: sufficient for a start of the full equations."""
 BALL_TOLERANCE = 1e-5
 """Tolerance of a ball's balance, relative to its load scale."""
-RING_STEPS, BALL_STEPS = 40, 60
+RING_TRIALS, BALL_TRIALS = 40, 60
 """Most trials."""
 SOFTEST = 1e2
-"""Added to the ring's stiffness, N/m: where no ball carries anything the ring would be free."""
-ARMIJO = 1e-4
-"""Part of the promised decrease that a step must bring."""
-SHORTEST = 1e-6
-"""Fraction of a step at which it is taken as it is: the decrease is lost in round-off."""
+"""Spring that holds each ball and the ring where it is, N/m: where no ball carries anything the ring would be free."""
 
 
 class CentrifugalProblem(AbstractConvexArrow):
     """Balls between two grooves under given forces. Units m, N; (inner, outer) or (axial, radial) first.
 
-    Unknowns, in units of `LENGTH_UNIT`: the centre of each ball from that of its outer groove, and the displacements of
-    the ring. `groove`: inner groove centre of every ball with the ring at rest; `directions`: its change for a unit of
-    every ring freedom (a length each); `ring_load`: on them; `load_scale`: the size of what the balls carry together; `aligned`: axial
-    displacement at which the planes of the grooves coincide; `multiplicity`: balls that each ball stands for.
+    Unknowns, m: the centre of each ball from that of its outer groove, and the displacements of the ring. `groove`:
+    inner groove centre of every ball with the ring at rest; `directions`: its change for a unit of every ring freedom
+    (a length each); `ring_load`: on them; `load_scale`: size of all the balls carry; `aligned`: axial displacement at
+    which the planes of the grooves coincide; `multiplicity`: balls that each ball stands for.
     """
 
     offset: Float[Array, "2"]
@@ -65,48 +60,44 @@ class CentrifugalProblem(AbstractConvexArrow):
         return self.near(ArrowPoint(self.groove, ring_estimate(self)))
 
     def near(self, point: ArrowPoint) -> ArrowPoint:
-        centre, _ = free_centres(self, self.groove_at(point.globals))
-        return ArrowPoint(centre, point.globals)
+        return ArrowPoint(free_centres(self, self.groove_at(point.globals))[0], point.globals)
 
     def equation_names(self) -> tuple[str, ...]:
-        return ()
+        return ("axial balance of a ball", "radial balance of a ball", *(f"{name} balance" for name in self.freedoms))
 
     def step_caps(self) -> ArrowPoint:
-        cap = 0.5 * self.centre_distance
-        return ArrowPoint(jnp.stack([cap, cap])[:, None], jnp.full(len(self.freedoms), cap))
-
-    @property
-    def flight(self) -> float:
-        return 1.0
+        half = 0.5 * self.centre_distance
+        return ArrowPoint(jnp.stack([half, half])[:, None], jnp.full(len(self.freedoms), half))
 
     def bounds(self) -> tuple[ArrowPoint, ArrowPoint]:
         elements, ring = jnp.full((2, 1), jnp.inf), jnp.full(len(self.freedoms), jnp.inf)
         return ArrowPoint(-elements, -ring), ArrowPoint(elements, ring)
 
-    def acting(self, unknowns: Array, shared: Array) -> tuple[Array, Array, Array]:
-        centre = unknowns
-        groove = self.groove + jnp.einsum("fn,fcn->cn", shared, self.directions)
-        arm = jnp.stack([groove - centre, centre])
+    def acting(self, unknowns, shared):
+        groove = self.groove + jnp.sum(shared[:, None] * self.directions, axis=0)
+        arm = jnp.stack([groove - unknowns, unknowns])
         length = safe_norm(arm[:, 0], arm[:, 1], 1e-30)
         approach = length - self.offset[:, None]
-        load = self.stiffness[:, None] * positive_power(approach, 1.5)
+        closed = approach > 0
+        # `positive_power` would cost a logarithm
+        root = jnp.sqrt(jnp.where(closed, approach, 1.0))
+        load = self.stiffness[:, None] * jnp.where(closed, approach, 0.0) * root
         inner, outer = (load / length)[:, None] * arm
         push = jnp.stack([jnp.zeros_like(self.centrifugal), self.centrifugal])
         balance = outer - inner - push + anchored(unknowns, SOFTEST)
-        totals = self.multiplicity * jnp.einsum("fcn,cn->fn", self.directions, inner)
-        energy = 0.4 * jnp.sum(load * approach, axis=0) - self.centrifugal * centre[1]
+        totals = self.multiplicity * jnp.sum(self.directions * inner, axis=1)
+        energy = 0.4 * jnp.sum(load * approach, axis=0) - self.centrifugal * unknowns[1]
         return balance / (self.load_scale / self.count + self.centrifugal), totals, self.multiplicity * energy
 
-    def global_residual(self, globals_: Array, totals: Array) -> tuple[Array, Array]:
-        balance = totals - self.ring_load + anchored(globals_, SOFTEST)
-        return balance / self.load_scale, jnp.zeros(())
+    def global_residual(self, globals_, totals):
+        return (totals - self.ring_load + anchored(globals_, SOFTEST)) / self.load_scale, jnp.zeros(())
 
-    def work(self, globals_: Array) -> Array:
+    def work(self, globals_):
         return jnp.sum(self.ring_load * globals_)
 
 
 class Start(NamedTuple):
-    """Ball centres from the outer groove centre and ring displacements, m; outer Newton steps."""
+    """Ball centres from the outer groove centre and ring displacements, m; Newton steps of the ring."""
 
     centre: Float[Array, "2 ball"]
     ring: Float[Array, " freedom"]
@@ -143,15 +134,19 @@ def free_centres(
 
 def start(problem: CentrifugalProblem, ring: Float[Array, " freedom"]) -> Start:
     """The minimum of the potential to `RING_TOLERANCE`, from an estimate of the ring's displacement, `ring`, m."""
-    problem = jax.lax.stop_gradient(problem)
     guess = ArrowPoint(problem.groove, ring)
     if not problem.freedoms:
-        found = settle(problem, problem.near(guess), tolerance=BALL_TOLERANCE, max_steps=BALL_STEPS)
+        found = settle(problem, problem.near(guess), tolerance=BALL_TOLERANCE, trials=BALL_TRIALS)
         return Start(found.elements, ring, jnp.asarray(0))
-    found = descend_settled(
-        problem, guess, tolerance=RING_TOLERANCE, max_steps=RING_STEPS, element_tolerance=BALL_TOLERANCE, element_steps=BALL_STEPS
+    end = descend_settled(
+        problem,
+        guess,
+        tolerance=RING_TOLERANCE,
+        trials=RING_TRIALS,
+        element_tolerance=BALL_TOLERANCE,
+        element_trials=BALL_TRIALS,
     )
-    return Start(found.point.elements, found.point.globals, found.steps)
+    return Start(end.point.elements, end.point.globals, end.steps)
 
 
 def together(stiffness: Float[Array, "2"]) -> Float[Array, ""]:
