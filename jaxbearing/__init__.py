@@ -41,8 +41,10 @@ if TYPE_CHECKING:
     from . import gaps as gaps
     from . import life as life
     from . import lubricants as lubricants
+    from . import mounting as mounting
     from . import plots as plots
     from . import sweeps as sweeps
+    from . import thermal as thermal
     from .bearings.ball.geometry import BallGeometry as BallGeometry
     from .bearings.ball.scene import BallAttitude as BallAttitude
     from .bearings.ball.scene import BallBearing as BallBearing
@@ -50,10 +52,10 @@ if TYPE_CHECKING:
     from .bearings.ball.scene import BallDragSettings as BallDragSettings
     from .bearings.ball.scene import BallMaterials as BallMaterials
     from .bearings.ball.scene import BallOperation as BallOperation
+    from .bearings.cylindrical.geometry import RollerCage as RollerCage
+    from .bearings.cylindrical.geometry import RollerFlange as RollerFlange
+    from .bearings.cylindrical.geometry import RollerGeometry as RollerGeometry
     from .bearings.cylindrical.scene import CylindricalRollerBearing as CylindricalRollerBearing
-    from .bearings.cylindrical.scene import RollerCage as RollerCage
-    from .bearings.cylindrical.scene import RollerFlange as RollerFlange
-    from .bearings.cylindrical.scene import RollerGeometry as RollerGeometry
     from .bearings.motion.history import History as History
     from .bearings.motion.instants import pocket_loads as pocket_loads
     from .bearings.motion.runs import trajectory as trajectory
@@ -72,17 +74,20 @@ if TYPE_CHECKING:
     from .ehl import EHLLineContact as EHLLineContact
     from .machines import TwoDisk as TwoDisk
     from .materials import Material as Material
+    from .mounting import Fits as Fits
+    from .mounting import PartTemperatures as PartTemperatures
     from .numerics.newton import NewtonOptions as NewtonOptions
     from .numerics.status import SolveError as SolveError
     from .numerics.status import Status as Status
     from .port import reaction as reaction
     from .program_size import compile_report as compile_report
-    from .report.history_file import read_last_state as read_last_state
+    from .report.last_state import read_last_state as read_last_state
     from .scenes.errors import SceneError as SceneError
     from .scenes.from_python import load_oil as load_oil
     from .scenes.from_python import scene_from_mapping as scene_from_mapping
     from .scenes.reader import builtin_names as builtin_names
     from .scenes.reader import load_scene as load_scene
+    from .scenes.save import save_scene as save_scene
     from .sensitivity import sensitivities as sensitivities
 
 shown_by(f"{__name__}.report.shown")
@@ -100,16 +105,18 @@ _LAZY = {
     "CylindricalRollerBearing": ".bearings.cylindrical.scene",
     "Drag": ".bearings.parts",
     "EHLLineContact": ".ehl",
+    "Fits": ".mounting",
     "HeldDisplacement": ".bearings.operation",
     "History": ".bearings.motion.history",
     "Material": ".materials",
     "Materials": ".bearings.parts",
     "NewtonOptions": ".numerics.newton",
     "Operation": ".bearings.operation",
+    "PartTemperatures": ".mounting",
     "Rating": ".bearings.rating",
-    "RollerCage": ".bearings.cylindrical.scene",
-    "RollerFlange": ".bearings.cylindrical.scene",
-    "RollerGeometry": ".bearings.cylindrical.scene",
+    "RollerCage": ".bearings.cylindrical.geometry",
+    "RollerFlange": ".bearings.cylindrical.geometry",
+    "RollerGeometry": ".bearings.cylindrical.geometry",
     "RollerProfile": ".bearings.profile",
     "SceneError": ".scenes.errors",
     "Simulation": ".bearings.motion.settings",
@@ -127,13 +134,14 @@ _LAZY = {
     "pocket_loads": ".bearings.motion.instants",
     "quasi_static_start": ".bearings.motion.start",
     "reaction": ".port",
-    "read_last_state": ".report.history_file",
+    "read_last_state": ".report.last_state",
     "scene_from_mapping": ".scenes.from_python",
+    "save_scene": ".scenes.save",
     "sensitivities": ".sensitivity",
     "trajectory": ".bearings.motion.runs",
 }
 """Public names that pull in the edge (units, validation) or are only needed by some; imported on first use."""
-_MODULES = ("contacts", "fitting", "gaps", "life", "lubricants", "plots", "sweeps")
+_MODULES = ("contacts", "fitting", "gaps", "life", "lubricants", "mounting", "plots", "sweeps", "thermal")
 """Modules that are public as such: the laws, the fit of an oil, sweeps, figures."""
 _AT_ONCE = ("jit_solver", "simulate", "simulate_batch", "solve", "sweep")
 

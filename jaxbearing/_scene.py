@@ -11,6 +11,7 @@ import numpy as np
 from jaxtyping import Array, Bool
 
 from ._checks import Checks
+from ._derived import derived as derived
 from ._shown import Shown
 from .numerics.checks import bounded
 from .numerics.checks import label as label

@@ -1,5 +1,6 @@
 """Elastic materials of rings, rolling elements and cages."""
 
+import dataclasses
 from typing import ClassVar
 
 import jax.numpy as jnp
@@ -7,7 +8,8 @@ import numpy as np
 from jaxtyping import Array, Float
 
 from ._types import Scalar
-from .numerics.checks import Checked, bounded
+from .numerics.arguments import require_choice
+from .numerics.checks import Checked, bounded, label
 
 
 class Material(Checked):
@@ -22,12 +24,17 @@ class Material(Checked):
     youngs_modulus: Scalar = bounded("> 0", unit="Pa")
     poisson_ratio: Scalar = bounded("between 0 and 0.5", unit="1")
     density: Scalar = bounded("> 0", unit="kg/m^3")
+    thermal_expansion: Scalar | None = bounded(">= 0", default=None, metadata=label("1/K", "thermal expansion"))
+    conductivity: Scalar | None = bounded("> 0", default=None, metadata=label("W/(m K)", "thermal conductivity"))
+    heat_capacity: Scalar | None = bounded("> 0", default=None, metadata=label("J/(kg K)", "specific heat capacity"))
 
 
 Material.__init__.__doc__ = """**Arguments:**
 - `youngs_modulus`: modulus of elasticity, Pa, > 0.
 - `poisson_ratio`: Poisson's ratio.
 - `density`: mass over volume, kg/m^3, > 0.
+- `thermal_expansion`: linear coefficient, 1/K; `conductivity`, W/(m K); `heat_capacity`, J/(kg K): only what depends on
+  temperatures needs them.
 """
 
 
@@ -58,5 +65,38 @@ CATALOGUE: dict[str, Material] = {
     "bronze": _material(110e9, 0.34, 8800.0),
     # Generic steel, the rounded values under which the roller bearing of the source is computed.
     "steel": _material(210e9, 0.30, 7850.0),
+    # Handbook values of wrought aluminium alloys and of grey cast iron, of which housings are made.
+    "aluminium": _material(72e9, 0.33, 2750.0),
+    "cast_iron": _material(110e9, 0.26, 7200.0),
 }
 """Materials by name. A new one is a new line here, or a `Material` built by the user."""
+
+THERMAL_FIELDS = {"thermal_expansion", "conductivity", "heat_capacity"}
+
+_THERMAL: dict[str, tuple[float, float, float]] = {
+    "M50": (12.3e-6, 46.0, 460.0),
+    "52100": (12.5e-6, 46.0, 460.0),
+    "Si3N4": (3.2e-6, 25.0, 700.0),
+    "bronze": (18e-6, 60.0, 380.0),
+    "steel": (12.5e-6, 46.0, 460.0),
+    "aluminium": (23.5e-6, 150.0, 900.0),
+    "cast_iron": (10.5e-6, 50.0, 500.0),
+}
+"""Thermal expansion, 1/K, conductivity, W/(m K), heat capacity, J/(kg K). That of bearing steel comes from a maker's
+catalogue, the others are handbook values: expansions to 5 %, conductivities and heat capacities to 20 %."""
+
+
+def catalogue_material(name: str, *, thermal: bool = False) -> Material:
+    """A material of `CATALOGUE`.
+
+    **Arguments:** `thermal`: with its thermal properties, which only what depends on temperatures needs.
+
+    **Raises:** `ValueError` for a name that the catalogue does not have.
+    """
+    require_choice("name", name, tuple(CATALOGUE))
+    if not thermal:
+        return CATALOGUE[name]
+    expansion, conductivity, capacity = map(np.float64, _THERMAL[name])
+    return dataclasses.replace(
+        CATALOGUE[name], thermal_expansion=expansion, conductivity=conductivity, heat_capacity=capacity
+    )

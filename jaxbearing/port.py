@@ -56,8 +56,9 @@ def reaction(
     Nothing in the stiffness is made symmetric: with each ball's own centrifugal force, with couples or with friction it
     is not. As in the loads of `solve`, friction along the raceways is left out of the force (of `turbine_ball` 0.1 %
     of it, across the load), and of balls that slide the turning of the race under them is left out of the derivatives
-    by the tilts (3e-6). A cylindrical roller bearing has no axial freedom. Its rollers tilt with the ring where they
-    are dry or roll without sliding; where they slide they carry evenly along their length, and the ring must not tilt.
+    by the tilts (3e-6). A cylindrical roller bearing resists an axial displacement by its flanges alone
+    (`geometry.flange_stiffness`). Its rollers tilt with the ring where they are dry or roll without sliding; where they
+    slide they carry evenly along their length, and the ring must not tilt.
 
     **Arguments:**
     - `scene`: a ball, cylindrical or tapered roller bearing.
@@ -65,8 +66,8 @@ def reaction(
       the outer one: five numbers in this order, an array of shape (5,), the numbers by their names, or a
       `RingDisplacement` such as `solution.ring`.
     - `at`: the point of the ring that is displaced. "port": on the axis in the plane of the unloaded balls, or in the
-      middle of the rollers; "ring": where `solution.ring` of a solve counts (the plane of the inner groove centres, the
-      reference point of a tapered bearing).
+      middle of the rollers, of a bearing on seats as on the drawing; "ring": where `solution.ring` of a solve counts
+      (the plane of the inner groove centres, the reference point of a tapered bearing).
     - `tilt`: how the inner grooves of a ball bearing move: with the "exact" rotation of the ring, or "linear", to first
       order, as in the standards. The latter is 1e-4 to 1e-2 of the force off at 0.2 mrad, and 2 % at 4 mrad. Left out:
       as a solve of the scene has it, exact where its operating point names a moment or a misalignment.
@@ -152,9 +153,13 @@ def _react_any(
         return dataclasses.replace(solution, status=jnp.where(finite, solution.status, int(Status.INVALID_INPUT)))
 
     def at_displacement(lane: AbstractBearing, displacement: Array, closure: Array, expansion: Array) -> Solution:
-        distance = lane.port_distance if at == "port" else jnp.zeros(())
-        ring = held_ring(displacement, lane.ring_lever, distance, closure, expansion)
-        return lane.solve_ring(options, ring, None if tilt is None else tilt == "exact")
+        def of_running(running: AbstractBearing) -> Solution:
+            # the port of a bearing on seats is that of the drawing: a point of the shaft, whatever the rings do
+            distance = lane.port_distance if at == "port" else jnp.zeros(())
+            ring = held_ring(displacement, running.ring_lever, distance, closure, expansion)
+            return running.solve_ring(options, ring, None if tilt is None else tilt == "exact")
+
+        return lane.solved_running(of_running)
 
     return with_checked_inputs(scene, react)
 

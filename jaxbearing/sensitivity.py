@@ -1,7 +1,7 @@
 """Which inputs decide the results of a scene: logarithmic sensitivities, all from one solve."""
 
 import dataclasses
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from typing import Any
 
 import equinox as eqx
@@ -9,7 +9,7 @@ import jax
 import jax.numpy as jnp
 from jaxtyping import Array, Float
 
-from ._scene import AbstractScene
+from ._scene import AbstractScene, AbstractSolution
 from .bearings.solution import Solution
 from .ehl import LineContactSolution
 from .machines import TwoDiskSolution
@@ -68,13 +68,15 @@ def sensitivities(
     return _run(scene, throw, NewtonOptions() if options is None else options, _ordinary)
 
 
-def sensitivities_once(scene: AbstractScene) -> tuple[Any, Sensitivities]:
+def sensitivities_once(scene: AbstractScene) -> tuple[AbstractSolution, Sensitivities]:
     """Result of `sensitivities(scene, throw=False)`, for a process that asks once and ends."""
     return _run(scene, False, NewtonOptions(), _once)
 
 
 @rare_garbage_collection()
-def _run(scene: AbstractScene, throw: bool, options: NewtonOptions, function: Any) -> tuple[Any, Sensitivities]:
+def _run(
+    scene: AbstractScene, throw: bool, options: NewtonOptions, function: Callable[..., Any]
+) -> tuple[Any, Sensitivities]:
     require_x64()
     require_solvable(scene)
     solution, slopes = function(jax.tree.map(as_float, scene), options)
@@ -83,7 +85,7 @@ def _run(scene: AbstractScene, throw: bool, options: NewtonOptions, function: An
     return solution, Sensitivities(**{name: _by_path(tree) for name, tree in slopes.items()})
 
 
-def _results(solution: Any) -> dict[str, Array]:
+def _results(solution: AbstractSolution) -> dict[str, Array]:
     """The results of a solution that have sensitivities, by field of `Sensitivities`. **Raises:** `NoSensitivities`."""
     if isinstance(solution, Solution):
         power, cage, life = solution.power_loss, solution.cage, solution.life

@@ -40,6 +40,17 @@ def simulate(
     progress: Progress | None = None,
     restart: "History | LastState | None" = None,
 ) -> "History": ...
+@overload
+def simulate(
+    scene: AbstractScene,
+    duration: float | None = None,
+    *,
+    simulation: "Simulation | FilmSimulation | None" = None,
+    interval: float = INTERVAL,
+    throw: bool = True,
+    progress: Progress | None = None,
+    restart: "History | LastState | LineContactHistory | FilmState | None" = None,
+) -> "History | LineContactHistory": ...
 @rare_garbage_collection()
 def simulate(
     scene: Any,

@@ -14,6 +14,7 @@ FITTING = ROOT / "fitting"
 RANK = {
     "_types": 0,
     "_checks": 2,
+    "_derived": 2,
     "_scene": 2,
     "_shown": 1,
     "_identity": 2,
@@ -26,6 +27,9 @@ RANK = {
     "gaps": 3,
     "ehl": 4,
     "machines": 4,
+    # seats of a bearing, which know no bearing
+    "mounting": 4,
+    "thermal": 4,
     "bearings": 5,
     "life": 6,
     "solve": 7,

@@ -8,7 +8,7 @@ import jax
 import numpy as np
 import pytest
 
-from jaxbearing.materials import CATALOGUE, Material, reduced_modulus
+from jaxbearing.materials import CATALOGUE, THERMAL_FIELDS, Material, catalogue_material, reduced_modulus
 
 
 def test_equal_bodies():
@@ -39,7 +39,9 @@ def test_symmetric_and_differentiable():
 @pytest.mark.parametrize("name", list(CATALOGUE))
 def test_catalogue_is_physical(name):
     material = CATALOGUE[name]
-    assert all(isinstance(getattr(material, f.name), np.float64) for f in dataclasses.fields(material))
+    thermal = catalogue_material(name, thermal=True)
+    assert all(isinstance(getattr(thermal, f.name), np.float64) for f in dataclasses.fields(material))
+    assert {f.name for f in dataclasses.fields(material) if getattr(material, f.name) is None} == THERMAL_FIELDS
     assert 1e10 < material.youngs_modulus < 1e12
     assert 0 < material.poisson_ratio < 0.5
     assert 1e3 < material.density < 2e4

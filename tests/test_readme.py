@@ -29,7 +29,8 @@ def test_python_blocks_run(capsys):
 
 
 @pytest.mark.parametrize("block", blocks(USING, "python"), ids=range(len(blocks(USING, "python"))))
-def test_python_blocks_of_using_it_run(block, capsys):
+def test_python_blocks_of_using_it_run(block, capsys, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)  # one writes a file
     exec(compile(block, "using.md", "exec"), {})
     assert capsys.readouterr().out
 

@@ -10,7 +10,7 @@ import typing
 import equinox as eqx
 import pytest
 
-PACKAGES = ("lubricants", "contacts", "gaps", "bearings", "life", "machines", "ehl")
+PACKAGES = ("lubricants", "contacts", "gaps", "bearings", "life", "machines", "ehl", "thermal")
 MODULES = ("materials", "time_laws", "sensitivity")
 INSIDE = (
     *(f"jaxbearing.bearings.{name}" for name in ("ball_core", "ball_equations", "ball_kinematics", "ball_start")),
@@ -22,7 +22,7 @@ INSIDE = (
 KINDS = re.compile(r"\b(diametral|radial|axial|circumferential|total)\b", re.IGNORECASE)
 UNIT = re.compile(
     r"(?<![\w/'])(1/Pa|1/K|1/s|m\^3/s|m\^2/s|kg/m\^3|kg/\(m\^3 K\)|W/\(m K\)|W/\(m K\^2\)|N m/rad|N m|N/m|rad/s|m/s"
-    r"|m/Pa|K/Pa|K\^2/Pa|Pa s|kg m\^2|Pa|GPa|rad|Hz|kg|mm|K|N|W|m|s|h|1)(?![\w/])"
+    r"|W/K|J/K|J/\(kg K\)|m/Pa|K/Pa|K\^2/Pa|Pa s|kg m\^2|Pa|GPa|rad|Hz|kg|mm|K|N|W|m|s|h|1)(?![\w/])"
 )
 PLAIN = re.compile(
     r"\b(d ln|number|ratio|fraction|part|factor|coefficient|exponent|count|share|relative|dimensionless|conformity"

@@ -3,7 +3,8 @@
 import dataclasses
 from pathlib import Path
 
-from jaxbearing.bearings import solution
+from jaxbearing._derived import derived_results
+from jaxbearing.bearings import growth, solution
 from jaxbearing.bearings.ball import solution as ball_solution
 from jaxbearing.bearings.cylindrical import solution as cylindrical_solution
 from jaxbearing.bearings.motion import history
@@ -13,7 +14,7 @@ from jaxbearing.ehl import solution as film
 from jaxbearing.life.result import Life
 from jaxbearing.machines import two_disk
 from jaxbearing.numerics.status import Status
-from jaxbearing.report.labelled import udunits
+from jaxbearing.report.labels import udunits
 
 FILE = Path(__file__).parents[1] / "results.md"
 """The page is kept in the repository; `python docs/generate/result_pages.py` writes it anew."""
@@ -23,6 +24,7 @@ SECTIONS = {
         "": solution.Solution,
         "ring": solution.RingDisplacement,
         "cage": solution.CageState,
+        "fit": growth.FitResult,
         "life": Life,
     },
     "Rolling elements and power: cylindrical rollers": {
@@ -87,11 +89,12 @@ def page():
 
 
 def rows_of(one, path):
-    """Path, unit and meaning of each labelled field of a result class."""
-    for field in dataclasses.fields(one):
-        if "unit" in field.metadata:
-            name = f"{path}.{field.name}" if path else field.name
-            yield name, udunits(field.metadata["unit"]), field.metadata["description"].replace("|", "\\|")
+    """Path, unit and meaning of each labelled field of a result class, and of each result that follows from them."""
+    labels = {field.name: field.metadata for field in dataclasses.fields(one) if "unit" in field.metadata}
+    labels |= {name: result.metadata for name, result in derived_results(one).items()}
+    for name, found in labels.items():
+        text = found["description"].replace("|", "\\|")
+        yield f"{path}.{name}" if path else name, udunits(found["unit"]), text
 
 
 if __name__ == "__main__":

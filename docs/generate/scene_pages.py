@@ -20,6 +20,10 @@ unit that it wants. Python takes the same names with SI numbers. This page is ma
 `required`: the field must be there when its table is. `optional`: what it stands for is then not modelled, computed
 from the rest, or assumed, which the solution's notes say.
 
+`jb.save_scene(scene, "mine.toml")` writes any scene, `jaxbearing scenes --copy SCENE --set ... --to mine.toml`
+one with changes. What is read from the file is the same scene, every number to the last bit
+([Using it](using.md#saving-a-scene)).
+
 ## Built-in scenes
 
 """

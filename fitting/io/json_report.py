@@ -5,7 +5,7 @@ from typing import Any
 
 import numpy as np
 
-from jaxbearing.report.plain import plain
+from jaxbearing.report.backends.json import plain
 
 from ..comparison import ModelRow
 from ..result import FitResult

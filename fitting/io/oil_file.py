@@ -5,8 +5,8 @@ from collections.abc import Mapping
 from pathlib import Path
 
 from jaxbearing import __version__
+from jaxbearing.report.backends.screen import counted
 from jaxbearing.report.files import write_whole
-from jaxbearing.report.screen import counted
 from jaxbearing.scenes.oil_files import Origin
 from jaxbearing.scenes.oil_writer import oil_text
 

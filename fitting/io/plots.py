@@ -5,8 +5,9 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
+from jaxbearing.report.backends.matplotlib.sheet import foot, grid_lines, head, title_of
+from jaxbearing.report.colours import FAINT, INK
 from jaxbearing.report.display import ZERO_CELSIUS, digits
-from jaxbearing.report.sheet import FAINT, INK, foot, grid_lines, head, title_of
 
 from ..result import CurveFit, FitResult
 from .smooth import smooth_curves
@@ -50,7 +51,7 @@ def plot_fit(result: FitResult, data: str, scene: str, notes: Sequence[str] = ()
     """
     if not result.converged:
         raise ValueError(f"a fit that failed has no results: {result.failure()}")
-    from jaxbearing.report.page import Page
+    from jaxbearing.report.backends.matplotlib.page import Page
 
     figure = Page()
     head(figure, data, f"{scene}   ·   {result.model}   ·   rms of the differences {digits(result.rms, 3)}")

@@ -9,8 +9,8 @@ from rich.padding import Padding
 from rich.table import Table
 from rich.text import Text
 
+from jaxbearing.report.backends.screen import column, counted, headline, print_failure, print_line, print_rule, width
 from jaxbearing.report.display import ZERO_CELSIUS, digits
-from jaxbearing.report.screen import column, counted, headline, print_failure, print_line, print_rule, width
 
 from ..comparison import ModelRow
 from ..result import FitResult

@@ -1,16 +1,26 @@
 """Base of the bearings as scenes: what a family answers, and the unknown freedoms of the inner ring."""
 
 import abc
+import dataclasses
+import functools
+import operator
 from collections.abc import Callable
 from typing import Any, ClassVar, TypeVar
 
 import equinox as eqx
+import jax
+import jax.numpy as jnp
 from jaxtyping import Array
 
 from .._scene import AbstractScene
 from ..contacts import PointContact
+from ..mounting import Fits, PartTemperatures
+from ..numerics.checks import gate, void
 from ..numerics.newton import NewtonOptions
+from ..numerics.status import Status
 from .facts import ROLLER_PRESSURE, RangeChecks
+from .growth import Growth, Play
+from .mounted import fit_excess, running_scene
 from .operation import AbstractOperation
 from .outline import Outline
 from .rated import RatedContacts
@@ -29,8 +39,6 @@ class AbstractBearing(AbstractScene):
     computed from.
     """
 
-    modelled_freedoms: ClassVar[tuple[str, ...]] = RING_FREEDOMS
-    """Freedoms of the inner ring that its rolling elements feel."""
     element: ClassVar[str] = "roller"
     """Name of a rolling element."""
     yield_pressure: ClassVar[float] = ROLLER_PRESSURE
@@ -43,9 +51,51 @@ class AbstractBearing(AbstractScene):
     oil: eqx.AbstractVar[Any]
     contact: eqx.AbstractVar[Any]
     rating: eqx.AbstractVar[Rating | None]
+    fits: eqx.AbstractVar[Fits | None]
+    temperatures: eqx.AbstractVar[PartTemperatures | None]
 
     def steady_solution(self, options: NewtonOptions) -> Solution:
-        return self.solve_ring(options)
+        return self.solved_running(lambda running: running.solve_ring(options))
+
+    def solved_running(self, solve: Callable[[Any], Solution]) -> Solution:
+        """The solution of the bearing that runs: of this scene, or where it has seats of the one that these make of it.
+
+        **Arguments:** `solve`: from a scene without seats to its solution.
+        """
+        if self.fits is None:
+            return solve(self)
+        running, fit, impossible = running_scene(self)
+        assert fit is not None
+        possible = ~functools.reduce(operator.or_, (reason.applies for reason in impossible.values()))
+        running = gate(running, possible)
+        solution = solve(dataclasses.replace(running, operation=void(running.operation, possible)))
+        good = solution.converged
+        checks = {text: good & (excess > 0) for text, excess in fit_excess(self, fit).items()}
+        return dataclasses.replace(
+            solution,
+            status=jnp.where(possible, solution.status, int(Status.INVALID_INPUT)),
+            operation=self.operation,
+            fit=jax.tree.map(lambda one: jnp.where(good, one, jnp.nan), fit),
+            checks={**solution.checks, **checks},
+            notes=(*solution.notes, *self.fits.assumptions()),
+            reasons={**solution.reasons, **impossible},
+        )
+
+    @property
+    @abc.abstractmethod
+    def raceway_diameters(self) -> tuple[Array, Array]:
+        """Diameters of inner and outer raceway, of balls of the bottoms of the grooves, m."""
+
+    @abc.abstractmethod
+    def play(self, growth: Growth) -> Play:
+        """The play of the bearing after its parts have grown."""
+
+    @abc.abstractmethod
+    def grown(self: Bearing, growth: Growth) -> Bearing:
+        """The bearing, without seats, whose parts have grown."""
+
+    play_is_clearance: ClassVar[bool] = True
+    """True if the play is a diametral clearance; it is an axial displacement else."""
 
     @abc.abstractmethod
     def solve_ring(
@@ -133,6 +183,11 @@ class AbstractBearing(AbstractScene):
     def with_lateral_freedom(self: Bearing) -> Bearing:
         """The scene with the freedoms across the axis that the stiffness of a shaft's support needs."""
         return self
+
+    @property
+    def modelled_freedoms(self) -> tuple[str, ...]:
+        """Freedoms of the inner ring that the bearing resists."""
+        return RING_FREEDOMS
 
     @property
     def skewed(self) -> bool:

@@ -90,8 +90,6 @@ class AbstractOperation(Checked):
     """
 
     part: ClassVar[str] = "operation"
-    not_carried: ClassVar[dict[str, str]] = {}
-    """Fields about freedoms that this kind of bearing does not have -> the reason, in words."""
 
     inner_speed: Scalar = number(metadata=label("rad/s", "inner ring speed"))
     axial_load: Scalar | None = optional_number(kw_only=True, metadata=label("N", "axial load"))
@@ -115,9 +113,6 @@ class AbstractOperation(Checked):
         refuse_all(self._conflicts())
 
     def _conflicts(self) -> Iterator[str | ValueError]:
-        for name, reason in self.not_carried.items():
-            if self._field(name) is not None:
-                yield f"operation.{name}: expected none: {reason}"
         for freedom, load in LOAD_FIELDS.items():
             held = HELD_FIELDS[freedom]
             if self._field(load) is not None and self._field(held) is not None:
@@ -188,22 +183,15 @@ class AbstractOperation(Checked):
             )
 
 
-NO_AXIAL_FREEDOM = "a cylindrical roller bearing has no axial freedom: nothing holds its inner ring along the axis"
-
-
 class Operation(AbstractOperation):
     """Operating point of a cylindrical roller bearing: the batched part of a sweep.
 
     It needs a radial load, along either azimuth, or a displacement of the ring across the axis. Moments and
-    misalignments need rollers that may tilt, which are dry or roll without sliding.
+    misalignments need rollers that may tilt, which are dry or roll without sliding; an axial load or displacement needs
+    flanges (`geometry.flange_stiffness`).
 
-    **Arguments:** those of `AbstractOperation` but what is axial; `radial_load` must be > 0.
+    **Arguments:** those of `AbstractOperation`; `radial_load` must be > 0.
     """
-
-    not_carried: ClassVar[dict[str, str]] = {
-        "axial_load": NO_AXIAL_FREEDOM,
-        "displacement.axial": NO_AXIAL_FREEDOM,
-    }
 
     radial_load: Scalar | None = optional_number(bound="> 0", kw_only=True, metadata=label("N", "radial load"))
 
@@ -222,3 +210,13 @@ class Operation(AbstractOperation):
                 functools.reduce(operator.or_, (abs(load) > 0 for load in loads)),
                 lambda: "operation.radial_load_lateral: it is 0, and nothing else loads the bearing",
             )
+
+    @property
+    def displaced(self) -> bool:
+        """True if a displacement across the axis is given: along the axis nothing else depends on it."""
+        return any(self.held_at(name) is not None for name in ("radial", "lateral"))
+
+    @property
+    def axial_given(self) -> bool:
+        """True if something is given along the axis, a load or a displacement."""
+        return self._given("axial")

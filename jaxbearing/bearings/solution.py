@@ -1,6 +1,6 @@
-"""Results of a steady solve, labelled: every quantity carries its unit and description where it is defined.
+"""Results of a steady solve. Every quantity carries its unit and description where it is defined.
 
-The command line, JSON, files and pages read this metadata; nothing keeps a second list.
+The command line, JSON, files and pages read this metadata, so that no second list of units exists.
 """
 
 import dataclasses
@@ -12,27 +12,30 @@ import numpy as np
 from jaxtyping import Array, Bool, Float, Int
 
 from .._scene import AbstractSolution
+from .._scene import derived as derived
 from .._scene import label as label
 from ..numerics.status import Status
+from .growth import FitResult
 
 INNER_TOLERANCE = 1e-8
-"""Residual of a nested solve above which it is named as the reason of a failure."""
+"""A nested solve with a larger residual is named as the cause of a failure."""
 
 RING_FREEDOMS = ("axial", "radial", "lateral", "tilt", "tilt_lateral")
 """Degrees of freedom of the inner ring, in the order of `ring` and `stiffness`."""
 TILTS = ("tilt", "tilt_lateral")
-"""The angles among `RING_FREEDOMS`."""
+"""Those of `RING_FREEDOMS` that are angles."""
 
 _CONJUGATE = {"m": "N", "rad": "N m"}
-"""Unit of a displacement of the ring -> that of its load."""
+"""Unit of a displacement of the ring -> unit of its load."""
 
 
 class RingDisplacement(eqx.Module):
-    """Displacement of the inner ring; a degree of freedom that the family does not activate is held at 0.
+    """Displacement of the inner ring. A degree of freedom that the bearing does not model is 0.
 
-    `axial` is 0 in the middle of the play for ball bearings given by their clearance, where the planes of the grooves
-    coincide, and at first contact of elements and races for those given by their contact angle and for tapered
-    bearings.
+    The zero of `axial` is the middle of the play for ball bearings that are given by their clearance (the planes of the
+    grooves coincide there) and for cylindrical roller bearings with flanges. It is the first contact of elements and
+    races for ball bearings that are given by their contact angle and for tapered bearings, where they have seats that
+    on the drawing.
     """
 
     axial: Float[Array, ""] = eqx.field(
@@ -45,7 +48,7 @@ class RingDisplacement(eqx.Module):
 
 
 def force_units() -> tuple[str, ...]:
-    """Units of the entries of `Solution.force`."""
+    """Units of the entries of `Solution.force`: N and N m."""
     return tuple(_CONJUGATE[field.metadata["unit"]] for field in dataclasses.fields(RingDisplacement))
 
 
@@ -66,7 +69,7 @@ class CageState(eqx.Module):
 
 
 def losses_not_modelled(loss: Any) -> tuple[str, ...]:
-    """Names of the losses that are `None`, and of those that no scene of this kind models.
+    """Names of the losses that this scene does not model (`None`) and of those that no scene of its kind models.
 
     **Arguments:** `loss`: a `PowerLoss`, `BallPowerLoss` or `TaperedPowerLoss`.
     """
@@ -75,8 +78,8 @@ def losses_not_modelled(loss: Any) -> tuple[str, ...]:
 
 
 class RacewayPower(eqx.Module):
-    """Parts of the losses on the raceways of balls, W: spin about the contact normal, sliding along and across the
-    rolling direction, sliding that comes of the curvature of the contact (`None`: taken as flat)."""
+    """Parts of the losses on the raceways of balls: spin about the contact normal, sliding along and across the
+    rolling direction, and Heathcote slip, which the curvature of the contact causes (`None`: it is taken as flat)."""
 
     inner_spin: Float[Array, ""] = eqx.field(metadata=label("W", "spin, inner raceway"))
     inner_rolling: Float[Array, ""] = eqx.field(metadata=label("W", "sliding along rolling, inner raceway"))
@@ -93,11 +96,11 @@ class RacewayPower(eqx.Module):
 
 
 class LaminaLoads(eqx.Module):
-    """Loads of the laminae into which rollers are cut along their length, from the end s = 0.
+    """Loads on the laminae (slices) of rollers along their length, beginning at the end s = 0.
 
     **Arguments:**
-    - `inner`, `outer`: on the raceways, N.
-    - `profiled`: whether the rollers have a profile, which spreads the load near the ends.
+    - `inner`, `outer`: load of each lamina on the inner and outer raceway, N.
+    - `profiled`: True if the rollers have a profile, which spreads the load near the ends.
     """
 
     inner: Float[Array, "element lamina"]
@@ -106,28 +109,33 @@ class LaminaLoads(eqx.Module):
 
 
 class Reason(NamedTuple):
-    """A possible cause of a failure: a flag that says that it applies, and the numbers of its text."""
+    """A possible cause of a failed solve: `applies` is True where it is one, `numbers` fill the places of its text."""
 
     applies: Bool[Array, ""]
     numbers: Float[Array, "..."]
 
 
 Point = TypeVar("Point")
-"""Class of the operating point of a family."""
+"""Class of the operating point of a bearing family."""
 Elements = TypeVar("Elements")
-"""Class of the results of its rolling elements."""
+"""Class of the results of the rolling elements."""
 Losses = TypeVar("Losses")
-"""Class of its losses."""
+"""Class of the power losses."""
 
 
 class Solution(AbstractSolution, Generic[Point, Elements, Losses]):
-    """Result of a steady solve. Where `status` is not converged every result is NaN, never the last iterate.
+    """Result of a steady solve. A solve that did not converge returns NaN for every result, never its last iterate.
 
-    `operation`, `elements` and `power_loss` are those of the kind of bearing, which `BallSolution`, `RollerSolution`
-    and `TaperedSolution` name. Where the scene models no loss there is no drive power and no torque.
+    `BallSolution`, `RollerSolution` and `TaperedSolution` name the classes of `operation`, `elements` and
+    `power_loss` of a bearing family. Drive power and torques are `None` if the scene models no loss.
 
-    **Arguments:** the labels of the fields say what they are, and
+    **Arguments:** the labels of the fields describe them; others are
+    - `checks`: text of a warning or rule -> True if a law leaves its range or an input breaks the rule.
+    - `ring_freedom`: freedoms of the ring whose displacement is a result or was given.
+    - `equation_names`: equations of one rolling element, then those that belong to no single element.
     - `global_equations`: number of equations that belong to no single rolling element.
+    - `notes`: what the model assumes or leaves out.
+    - `element_name`: "ball" or "roller".
     """
 
     status: Int[Array, ""] = eqx.field(metadata=label("1", "how the solve ended"))
@@ -167,27 +175,29 @@ class Solution(AbstractSolution, Generic[Point, Elements, Losses]):
     unknowns: int = eqx.field(static=True, metadata=label("1", "unknowns of the equations"))
     notes: tuple[str, ...] = eqx.field(static=True, default=())
     stiffness_freedom: tuple[str, ...] | None = eqx.field(static=True, default=None)
-    """Rows and columns of `stiffness` that are modelled; `None`: those of `ring_freedom`. The others are 0."""
+    """Freedoms whose rows and columns of `stiffness` are modelled; the others are 0. `None`: those of
+    `ring_freedom`."""
     element_name: str = eqx.field(static=True, default="roller")
     raceway_power: RacewayPower | None = None
     laminae: LaminaLoads | None = None
     held_freedom: tuple[str, ...] = eqx.field(static=True, default=())
-    """Freedoms of the ring that are held where they are, and not free under a given load."""
+    """Modelled freedoms of the ring whose displacement is held and not solved for."""
+    fit: FitResult | None = None
     reasons: dict[str, Reason] = eqx.field(default_factory=dict)
-    """Possible causes of a failed solve: a sentence with places for numbers, such as `{:.3g}` -> the numbers."""
+    """Possible causes of a failed solve: text with places for numbers, such as `{:.3g}` -> its `Reason`."""
     life: Any = None
-    """`life.result.Life`, where the scene has a rating."""
+    """A `life.result.Life` if the scene has a rating."""
 
     @property
     def freedoms_of_stiffness(self) -> tuple[str, ...]:
-        """Names of the rows and columns of `stiffness` that the model has, in the order of `RING_FREEDOMS`; entries of
-        the others are 0 and say nothing about the bearing."""
+        """Freedoms whose rows and columns of `stiffness` are modelled, in the order of `RING_FREEDOMS`. The entries of
+        the others are 0, which says nothing about the bearing."""
         found = self.ring_freedom if self.stiffness_freedom is None else self.stiffness_freedom
         return tuple(name for name in RING_FREEDOMS if name in found)
 
     @property
     def not_modelled(self) -> tuple[str, ...]:
-        """Losses that the scene does not model, by their names in `power_loss`."""
+        """Names in `power_loss` of the losses that the scene does not model."""
         return losses_not_modelled(self.power_loss)
 
     @property
@@ -195,16 +205,18 @@ class Solution(AbstractSolution, Generic[Point, Elements, Losses]):
         return self.status == Status.CONVERGED
 
     def solver_failure(self) -> str:
-        """One sentence on a solve that failed: status, residual, worst equation, and what may have caused it."""
+        """One sentence on a failed solve: status, residual, worst equation and possible causes."""
         found = [
             text.format(*np.atleast_1d(np.asarray(reason.numbers)).tolist())
             for text, reason in self.reasons.items()
             if bool(reason.applies)
         ]
+        if found and int(self.status) == Status.INVALID_INPUT:
+            return f"{Status.INVALID_INPUT.text}: {'; '.join(found)}"
         return "; ".join([self._ending(), *found])
 
     def _ending(self) -> str:
-        """One sentence: status, residual, worst equation."""
+        """One sentence on a failed solve: status, residual and worst equation."""
         local_equations = len(self.equation_names) - self.global_equations
         worst = int(self.worst_equation)
         name = self.equation_names[worst]
@@ -216,12 +228,12 @@ class Solution(AbstractSolution, Generic[Point, Elements, Losses]):
             steps = int(self.iterations)
             if not steps:
                 return (
-                    f"{Status.NO_EQUILIBRIUM.text}: contacts that only push cannot balance these loads, the inner ring "
-                    "comes out (proved by the loads alone)"
+                    f"{Status.NO_EQUILIBRIUM.text}: compressive contacts cannot balance these loads; the inner ring "
+                    "would separate (proved by the loads alone)"
                 )
             return (
                 f"{Status.NO_EQUILIBRIUM.text}: nothing balances these loads with small tilts and displacements, the "
-                f"inner ring comes out or tilts by more than 0.1 rad (proved after {steps} Newton steps)"
+                f"inner ring would separate or tilt by more than 0.1 rad (proved after {steps} Newton steps)"
             )
         return (
             f"{Status(int(self.status)).text} after {int(self.iterations)} Newton steps: scaled residual "

@@ -4,6 +4,7 @@ import os
 import re
 import sys
 import warnings
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -44,13 +45,13 @@ def enable_compilation_cache() -> Path | None:
     return folder
 
 
-def _in_words(folder: Path, show: Any) -> Any:
+def _in_words(folder: Path, show: Callable[..., None]) -> Callable[..., None]:
     """Instead of JAX's warning of an entry that it cannot read, as one that a killed run was writing: the entry goes.
     JAX never writes over one, and would compile and warn in every run that follows. Of entries that cannot be written,
     as on a full disk, one sentence is said."""
     said: set[str] = set()
 
-    def showwarning(message: Any, *where: Any, **options: Any) -> None:
+    def showwarning(message: Warning | str, *where: Any, **options: Any) -> None:
         unwritten = _UNWRITTEN.match(str(message))
         if unwritten is not None:
             if not said:

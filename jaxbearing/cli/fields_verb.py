@@ -56,7 +56,7 @@ def _row(path: str, field: "Field") -> dict[str, Any]:
 def _print(kind: str, tables: "list[tuple[str, list[Field]]]") -> None:
     from rich.table import Table
 
-    from ..report.screen import print_rule
+    from ..report.backends.screen import print_rule
 
     out = console()
     out.print(f'kind = "{kind}"')

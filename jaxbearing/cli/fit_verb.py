@@ -4,7 +4,7 @@ import json
 import sys
 from collections.abc import Callable, Sequence
 from pathlib import Path
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
@@ -12,6 +12,14 @@ from .messages import BAD_INPUT, NOT_CONVERGED, bad_input, refuse, say
 from .options import SCENE_HELP, JsonOption, SetOption, labelled
 from .output_files import PICTURES, Output, check_files, deliver
 from .terminal import console
+
+if TYPE_CHECKING:
+    from fitting.comparison import ModelRow
+    from fitting.measurements import Measurements
+    from fitting.options import FitOptions
+    from fitting.result import FitResult
+
+    from ..machines import TwoDisk
 
 ALL = "all"
 Data = Annotated[
@@ -163,7 +171,7 @@ def _models(given: str | None, known: list[str]) -> list[str | None]:
     return [None if given is None else choice("--model", given, [*known, ALL])]
 
 
-def _check_options(options: Any) -> None:
+def _check_options(options: "FitOptions") -> None:
     """Message on options that do not fit together."""
     both = [name for name in options.fixed if name in options.free]
     if both:
@@ -176,7 +184,7 @@ def _check_options(options: Any) -> None:
         refuse("--relative-error: found 0 without a --floor; expected an error > 0, or a --floor > 0")
 
 
-def _loaded(data: Path, scene: str, changes: list[str] | None) -> tuple[Any, Any, list[str]]:
+def _loaded(data: Path, scene: str, changes: list[str] | None) -> "tuple[TwoDisk, Measurements, list[str]]":
     """The machine, the measurements, and what is to be said of both."""
     from fitting.io import CurveError, read_curves
     from fitting.measurements import MeasurementError, Measurements
@@ -202,8 +210,12 @@ def _loaded(data: Path, scene: str, changes: list[str] | None) -> tuple[Any, Any
 
 
 def _fitted(
-    measurements: Any, machine: Any, models: Sequence[str | None], options: Any, tell: Callable[[str], None]
-) -> tuple[Any, Sequence[Any]]:
+    measurements: "Measurements",
+    machine: "TwoDisk",
+    models: Sequence[str | None],
+    options: "FitOptions",
+    tell: Callable[[str], None],
+) -> "tuple[FitResult, Sequence[ModelRow]]":
     """The fit, or the best of several with their comparison. **Arguments:** `tell`: shows how far it is."""
     from fitting.fit import fit as fit_one
 
@@ -231,7 +243,7 @@ def _silent(text: str) -> None:
     pass
 
 
-def _write_oil(result: Any, out: Path, data: Path, scene: str, changes: list[str] | None) -> None:
+def _write_oil(result: "FitResult", out: Path, data: Path, scene: str, changes: list[str] | None) -> None:
     from fitting.io.oil_file import write_oil
 
     from ..scenes.overrides import split_assignments
@@ -242,7 +254,7 @@ def _write_oil(result: Any, out: Path, data: Path, scene: str, changes: list[str
     write_oil(result, out, data.name, label, origins)
 
 
-def _write_plot(result: Any, plot: Path, data: Path, label: str, notes: list[str]) -> None:
+def _write_plot(result: "FitResult", plot: Path, data: Path, label: str, notes: list[str]) -> None:
     from fitting.io.plots import plot_fit
 
     from ..report.plots import save_plot
@@ -251,7 +263,13 @@ def _write_plot(result: Any, plot: Path, data: Path, label: str, notes: list[str
 
 
 def _print(
-    result: Any, rows: Sequence[Any], data: Path, label: str, notes: list[str], out: Path | None, as_json: bool
+    result: "FitResult",
+    rows: "Sequence[ModelRow]",
+    data: Path,
+    label: str,
+    notes: list[str],
+    out: Path | None,
+    as_json: bool,
 ) -> None:
     if as_json:
         from fitting.io.json_report import fit_to_dict

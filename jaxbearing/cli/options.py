@@ -1,8 +1,11 @@
 """Options that several verbs have."""
 
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated
 
 import typer
+
+if TYPE_CHECKING:
+    from ..scenes.units import Dimension
 
 SCENE_HELP = "A scene file (TOML), or the name of a built-in scene."
 SceneArgument = Annotated[str, typer.Argument(metavar="SCENE", help=SCENE_HELP)]
@@ -25,7 +28,7 @@ def labelled(scene: str, changes: list[str] | None) -> str:
     return label.encode("utf-8", "surrogateescape").decode("utf-8", "replace")
 
 
-def option_quantity(option: str, text: str, dimension: Any, bound: str = "finite") -> float:
+def option_quantity(option: str, text: str, dimension: "Dimension", bound: str = "finite") -> float:
     """The value of an option with a unit, in SI. **Raises:** `SceneError`."""
     from pydantic_core import PydanticCustomError
 

@@ -1,8 +1,9 @@
 """`jaxbearing report`: a solve as one HTML page."""
 
 import json
+from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
@@ -10,6 +11,10 @@ from .messages import NOT_CONVERGED, bad_input
 from .options import JsonOption, SceneArgument, SetOption, labelled
 from .output_files import Output, check_files, deliver
 from .terminal import console
+
+if TYPE_CHECKING:
+    from .._scene import AbstractScene, AbstractSolution
+    from ..scenes.inputs import SceneInput
 
 OutOption = Annotated[
     Path | None,
@@ -60,7 +65,7 @@ def report(scene: SceneArgument, changes: SetOption = None, out: OutOption = Non
         raise typer.Exit(NOT_CONVERGED)
 
 
-def _show(solution: Any, label: str, as_json: bool) -> None:
+def _show(solution: "AbstractSolution", label: str, as_json: bool) -> None:
     """The object; of a solve that failed what `solve` prints: the page, which has it otherwise, is not written then."""
     if as_json:
         from ..report.json_report import solution_to_dict
@@ -70,13 +75,19 @@ def _show(solution: Any, label: str, as_json: bool) -> None:
         _print_summary(solution, label)
 
 
-def _print_summary(solution: Any, label: str) -> None:
+def _print_summary(solution: "AbstractSolution", label: str) -> None:
     from ..report.summary import print_summary
 
     print_summary(solution, label, console())
 
 
-def _write(model: Any, solution: Any, title: str, inputs: Any, target: Path) -> None:
+def _write(
+    model: "AbstractScene",
+    solution: "AbstractSolution",
+    title: str,
+    inputs: "Mapping[str, Sequence[SceneInput]]",
+    target: Path,
+) -> None:
     from datetime import UTC, datetime
 
     from ..report.files import write_whole

@@ -7,6 +7,7 @@ from typing import Annotated
 import typer
 
 from .messages import bad_input, refuse
+from .options import SetOption, labelled
 from .output_files import unwritten
 from .terminal import console
 
@@ -16,19 +17,26 @@ _FULL = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EIO)
 
 def scenes(
     copy: Annotated[
-        str | None, typer.Option("--copy", metavar="NAME", help="Write a built-in scene as a file.")
+        str | None,
+        typer.Option(
+            "--copy",
+            metavar="SCENE",
+            help="Write a built-in scene, as it stands in the package, as a file. With --set: a built-in scene or a "
+            "scene file with these changes, every number to the last digit, without the comments.",
+        ),
     ] = None,
+    changes: SetOption = None,
     to: Annotated[
-        Path | None, typer.Option("--to", metavar="FILE", help="File to write; NAME.toml in this folder if not given.")
+        Path | None, typer.Option("--to", metavar="FILE", help="File to write; SCENE.toml in this folder if not given.")
     ] = None,
     force: Annotated[bool, typer.Option("--force", help="Overwrite an existing file.")] = False,
 ) -> None:
-    """List the built-in scenes, or write one out as a file to edit."""
+    """List the built-in scenes, or write a scene out as a file to edit."""
     with bad_input():
         if copy is not None:
-            _copy(copy, to, force)
-        elif to is not None or force:
-            refuse("--to and --force belong to --copy NAME: found no --copy; expected the name of a built-in scene.")
+            _copy(copy, changes or [], to, force)
+        elif to is not None or force or changes:
+            refuse("--to, --set and --force belong to --copy: found no --copy; expected the name of a built-in scene.")
         else:
             _list()
 
@@ -46,22 +54,39 @@ def _list() -> None:
     console().print(table)
 
 
-def _copy(name: str, to: Path | None, force: bool) -> None:
-    from ..report.files import write_whole
+def _text(scene: str, changes: list[str]) -> str:
+    """The text of the file. **Raises:** `SceneError`."""
     from ..scenes.data_files import builtin_names, builtin_text
-    from ..scenes.errors import SceneError, nearest, one_of
 
-    if name not in builtin_names():
-        near = nearest(name, builtin_names())
-        raise SceneError("--copy", "", f"'{name}'", f"a built-in scene: {one_of(builtin_names())}", near)
-    target = Path(f"{name}.toml") if to is None else to
+    if changes:
+        from ..scenes.overrides import split_assignments
+        from ..scenes.reader import load_scene
+        from ..scenes.save import scene_text
+
+        label = labelled(scene, changes)
+        return scene_text(load_scene(scene, split_assignments(changes)), label, [f"{label}."])
+    if scene not in builtin_names():
+        from ..scenes.errors import SceneError, nearest, one_of
+
+        expected = f"a built-in scene: {one_of(builtin_names())}"
+        raise SceneError("--copy", "", f"'{scene}'", expected, nearest(scene, builtin_names()))
+    return builtin_text(scene)
+
+
+def _copy(scene: str, changes: list[str], to: Path | None, force: bool) -> None:
+    from ..report.files import write_whole
+    from ..scenes.errors import SceneError
+
+    text = _text(scene, changes)
+    file = f"{Path(scene).name.removesuffix('.toml')}.toml"
+    target = Path(file) if to is None else to
     try:
         if target.is_dir():
-            target = target / f"{name}.toml"
+            target = target / file
         if target.exists() and not force:
             found, expected = "a file that exists already", "a new file (--to FILE), or --force to overwrite it"
             raise SceneError(str(target), "", found, expected)
-        write_whole(target, builtin_text(name))
+        write_whole(target, text)
     except SceneError:
         raise
     except (OSError, ValueError) as error:

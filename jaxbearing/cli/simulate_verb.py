@@ -17,6 +17,10 @@ from .output_files import PICTURES, Output, check_files, deliver
 from .terminal import console
 
 if TYPE_CHECKING:
+    from .._scene import AbstractScene
+    from ..bearings.motion.history import History, LastState
+    from ..ehl import LineContactHistory
+    from ..ehl.last_state import FilmState
     from ..numerics.status import SolveError
 
 ANIMATIONS = (".gif", ".html", ".mp4")
@@ -155,9 +159,9 @@ def _check_animation(path: Path | None) -> None:
         )
 
 
-def _last_state(path: Path, model: Any, scene: str, duration: float | None) -> Any:
+def _last_state(path: Path, model: "AbstractScene", scene: str, duration: float | None) -> "LastState | FilmState":
     """The end of an earlier run, which fits the scene; refused otherwise."""
-    from ..report.history_file import read_last_state
+    from ..report.last_state import read_last_state
 
     wanted = "a NetCDF file of an earlier run of this scene, as --out writes it"
     try:
@@ -189,29 +193,31 @@ def _progress(as_json: bool, begin: str, unit: str = "ms", factor: float = 1e3) 
         yield show
 
 
-def _animate(history: Any, model: Any, label: str, path: Path, as_json: bool) -> None:
-    from ..report.animations import save_animation
+def _animate(
+    history: "History | LineContactHistory", model: "AbstractScene", label: str, path: Path, as_json: bool
+) -> None:
+    from ..report.backends.matplotlib.animations import save_animation
     from ..report.histories import animate_history
 
     with _progress(as_json, "drawing", "pictures", 1.0) as progress:
         save_animation(animate_history(history, model, label), path, progress)
 
 
-def _write_data(history: Any, out: Path) -> None:
+def _write_data(history: "History | LineContactHistory", out: Path) -> None:
     from ..report.dataset import write_netcdf
     from ..report.histories import history_to_dataset
 
     write_netcdf(history_to_dataset(history), out)
 
 
-def _write_plot(history: Any, label: str, plot: Path) -> None:
+def _write_plot(history: "History | LineContactHistory", label: str, plot: Path) -> None:
     from ..report.histories import plot_history
     from ..report.plots import save_plot
 
     save_plot(plot_history(history, label), plot)
 
 
-def _print(history: Any, label: str, as_json: bool) -> None:
+def _print(history: "History | LineContactHistory", label: str, as_json: bool) -> None:
     from ..report.histories import history_to_dict, print_history
 
     if as_json:
@@ -222,7 +228,7 @@ def _print(history: Any, label: str, as_json: bool) -> None:
         print_history(history, label, console())
 
 
-def _no_start(error: "SolveError", model: Any, length: float | None, label: str, as_json: bool) -> None:
+def _no_start(error: "SolveError", model: "AbstractScene", length: float | None, label: str, as_json: bool) -> None:
     if as_json:
         from ..report.histories import not_begun_to_dict
 

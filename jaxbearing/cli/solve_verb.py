@@ -2,7 +2,7 @@
 
 import json
 from pathlib import Path
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Literal, NamedTuple
 
 import typer
 
@@ -10,6 +10,11 @@ from .messages import NOT_CONVERGED, bad_input, refuse
 from .options import JsonOption, SceneArgument, SetOption, labelled
 from .output_files import PICTURES, Output, check_files, deliver
 from .terminal import console
+
+if TYPE_CHECKING:
+    from .._scene import AbstractScene, AbstractSolution
+    from ..bearings.ball.scene import BallBearing
+    from ..sensitivity import Sensitivities
 
 OutOption = Annotated[
     Path | None, typer.Option("--out", metavar="FILE.nc", help="Write all results, with units, as NetCDF.")
@@ -40,7 +45,14 @@ LineContactOption = Annotated[
         "of a line contact, for its field solver.",
     ),
 ]
-RACES = ("inner", "outer")
+
+
+class _Contact(NamedTuple):
+    """A contact of a bearing that is to be written as a scene."""
+
+    bearing: "BallBearing"
+    race: Literal["inner", "outer"]
+    path: Path
 
 
 def solve(
@@ -59,7 +71,8 @@ def solve(
         from ..scenes.reader import load_scene
 
         model = load_scene(scene, split_assignments(changes or []))
-        race, contact = _line_contact(line_contact, model, scene)
+        wanted = _line_contact(line_contact, model, scene)
+        contact = None if wanted is None else wanted.path
         files = (("--plot", plot, PICTURES), ("--out", out, (".nc",)), ("--line-contact", contact, (".toml",)))
         check_files(files)
 
@@ -72,7 +85,7 @@ def solve(
         solution, slopes = _solved(model, sensitivities)
         failure = "" if bool(solution.converged) else solution.failure()
         show = lambda: _print_json(solution, slopes) if as_json else _print_screen(solution, slopes, label)
-        bridge = lambda path: _write_line_contact(model, solution, race, path, scene, changes)
+        bridge = lambda _: _write_line_contact(wanted, solution, scene, changes)
         taken = "" if as_json else f"wrote {contact}: take it as a scene, jaxbearing solve {contact}"
         outputs = (
             Output(out, lambda path: _write_data(solution, path)),
@@ -89,45 +102,49 @@ def solve(
         raise typer.Exit(NOT_CONVERGED)
 
 
-def _line_contact(wanted: tuple[str, Path] | None, model: Any, scene: str) -> tuple[str, Path | None]:
-    """Race and file, or no file; refused where there is no such contact."""
+def _line_contact(wanted: tuple[str, Path] | None, model: "AbstractScene", scene: str) -> _Contact | None:
+    """The contact, if one is wanted; refused where there is none."""
     if wanted is None:
-        return "", None
+        return None
     from ..bearings.ball.scene import BallBearing
 
     race, path = wanted
-    if race not in RACES:
+    if race != "inner" and race != "outer":
         refuse(f"--line-contact: found '{race}'; expected inner or outer, and a file")
     if not isinstance(model, BallBearing):
         refuse(f"--line-contact: found '{scene}', a {type(model).__name__}; expected a scene of the kind ball_bearing")
     if model.oil is None:
         refuse(f"--line-contact: found '{scene}', which has no oil; expected a ball bearing with an oil")
-    return race, path
+    return _Contact(model, race, path)
 
 
 def _write_line_contact(
-    model: Any, solution: Any, race: Any, path: Path, scene: str, changes: list[str] | None
+    wanted: _Contact | None, solution: "AbstractSolution", scene: str, changes: list[str] | None
 ) -> None:
     import numpy as np
 
     from ..bearings.ball.line_contact_bridge import line_contact_of
+    from ..bearings.solution import Solution
     from ..report.files import write_whole
     from ..scenes.line_contact_writer import line_contact_text
     from ..scenes.overrides import split_assignments
     from ..scenes.reader import oil_origins
 
+    assert wanted is not None
+    assert isinstance(solution, Solution)
+    race = wanted.race
     ball = int(np.argmax(np.asarray(getattr(solution.elements, f"load_{race}"))))
-    contact = line_contact_of(model, solution, race=race, ball=ball)
+    contact = line_contact_of(wanted.bearing, solution, race=race, ball=ball)
     header = [
         f"Equivalent line contact of ball {ball}, the most loaded one, with the {race} race of",
         labelled(Path(scene).name, changes),
         "Same Hertz pressure and half width along rolling; mean of both surfaces' speeds; no side leakage, no spin.",
     ]
     text = line_contact_text(contact, header, oil_origins(scene, split_assignments(changes or [])))
-    write_whole(path, text)
+    write_whole(wanted.path, text)
 
 
-def _solved(model: Any, sensitivities: bool) -> tuple[Any, Any]:
+def _solved(model: "AbstractScene", sensitivities: bool) -> "tuple[AbstractSolution, Sensitivities | None]":
     if sensitivities:
         from ..sensitivity import NoSensitivities, sensitivities_once
 
@@ -140,19 +157,19 @@ def _solved(model: Any, sensitivities: bool) -> tuple[Any, Any]:
     return solve_once(model), None
 
 
-def _write_data(solution: Any, out: Path) -> None:
+def _write_data(solution: "AbstractSolution", out: Path) -> None:
     from ..report.dataset import solution_to_dataset, write_netcdf
 
     write_netcdf(solution_to_dataset(solution), out)
 
 
-def _write_plot(solution: Any, label: str, plot: Path) -> None:
+def _write_plot(solution: "AbstractSolution", label: str, plot: Path) -> None:
     from ..report.plots import plot_solution, save_plot
 
     save_plot(plot_solution(solution, label), plot)
 
 
-def _print_json(solution: Any, slopes: Any) -> None:
+def _print_json(solution: "AbstractSolution", slopes: "Sensitivities | None") -> None:
     from ..report.json_report import sensitivities_to_dict, solution_to_dict
 
     results = solution_to_dict(solution)
@@ -161,7 +178,7 @@ def _print_json(solution: Any, slopes: Any) -> None:
     typer.echo(json.dumps(results, allow_nan=False))
 
 
-def _print_screen(solution: Any, slopes: Any, label: str) -> None:
+def _print_screen(solution: "AbstractSolution", slopes: "Sensitivities | None", label: str) -> None:
     from ..report.summary import print_summary
 
     print_summary(solution, label, console())

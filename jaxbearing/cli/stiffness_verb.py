@@ -3,7 +3,7 @@
 import json
 import re
 from pathlib import Path
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
@@ -11,6 +11,10 @@ from .messages import NOT_CONVERGED, bad_input, refuse
 from .options import JsonOption, SceneArgument, SetOption, labelled, option_quantity
 from .output_files import Output, check_files, deliver
 from .terminal import console
+
+if TYPE_CHECKING:
+    from .._scene import AbstractScene
+    from ..report.stiffness import StiffnessTable
 
 MOST_SPEEDS = 10_000
 _EXAMPLE = "'2000 rpm:20000 rpm:10'"
@@ -101,7 +105,7 @@ def _speeds(text: str) -> list[float]:
     return [first * (1.0 - step) + last * step for step in steps]
 
 
-def _check(scene: str, model: Any, values: list[float]) -> None:
+def _check(scene: str, model: "AbstractScene", values: list[float]) -> None:
     from ..report.stiffness import at_speeds
 
     try:
@@ -112,7 +116,7 @@ def _check(scene: str, model: Any, values: list[float]) -> None:
         refuse(f"--speeds: {error}")
 
 
-def _write(table: Any, file: Path, scene: str, changes: list[str] | None, angle: float) -> None:
+def _write(table: "StiffnessTable", file: Path, scene: str, changes: list[str] | None, angle: float) -> None:
     from ..report.ross import write_ross
 
     name = Path(scene).stem
@@ -120,8 +124,9 @@ def _write(table: Any, file: Path, scene: str, changes: list[str] | None, angle:
     write_ross(table, file, labelled(Path(scene).name, changes), load_direction=angle, tag=tag)
 
 
-def _print(table: Any, label: str, as_json: bool) -> None:
-    from ..report.stiffness import print_stiffness, stiffness_to_dict
+def _print(table: "StiffnessTable", label: str, as_json: bool) -> None:
+    from ..report.stiffness import stiffness_to_dict
+    from ..report.stiffness_table import print_stiffness
 
     if as_json:
         found = {"converged": True, "failure": None, **stiffness_to_dict(table)}
@@ -135,7 +140,7 @@ def _print_failure(failure: str, label: str, ross: Path | None, as_json: bool) -
         typer.echo(json.dumps({"converged": False, "failure": failure}))
         typer.echo(f"not converged: {label}: {failure}", err=True)
     else:
-        from ..report.screen import print_failure
+        from ..report.backends.screen import print_failure
 
         print_failure(label, "one speed failed", failure, console())
     if ross is not None:

@@ -2,8 +2,9 @@
 
 import json
 import time
+from collections.abc import Sequence
 from pathlib import Path
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
@@ -11,6 +12,10 @@ from .messages import NOT_CONVERGED, bad_input, refuse
 from .options import SCENE_HELP, JsonOption, SetOption, labelled
 from .output_files import PICTURES, Output, check_files, deliver
 from .terminal import console
+
+if TYPE_CHECKING:
+    from ..studies.claims import Claim
+    from ..studies.power_loss import PowerLossStudy
 
 SceneArgument = Annotated[str, typer.Argument(metavar="[SCENE]", help=SCENE_HELP)]
 OutOption = Annotated[
@@ -77,20 +82,20 @@ def study(
         raise typer.Exit(NOT_CONVERGED)
 
 
-def _write_data(found: Any, out: Path) -> None:
+def _write_data(found: "PowerLossStudy", out: Path) -> None:
     from ..report.dataset import write_netcdf
 
     write_netcdf(found.tree(), out)
 
 
-def _write_plot(found: Any, label: str, plot: Path) -> None:
+def _write_plot(found: "PowerLossStudy", label: str, plot: Path) -> None:
     from ..report.plots import save_plot
     from ..studies.pictures import study_page
 
     save_plot(study_page(found, label), plot)
 
 
-def _print(found: Any, claims: Any, label: str, seconds: float, as_json: bool) -> None:
+def _print(found: "PowerLossStudy", claims: "Sequence[Claim]", label: str, seconds: float, as_json: bool) -> None:
     from ..studies.tables import print_study, study_to_dict
 
     if as_json:

@@ -1,16 +1,20 @@
 """The picture of a sweep: against one field the losses stacked (or a result without losses), over two fields a map."""
 
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING
 
 from .messages import refuse
 from .output_files import PICTURES, check_files
+
+if TYPE_CHECKING:
+    from .._scene import AbstractScene
+    from ..sweeps.cases import Cases
 
 MAIN = ("power_loss_total", "film_central", "ring_radial", "ring_axial")
 """Results of which the first that a sweep has is drawn."""
 
 
-def check_plot(plot: Path | None, cases: Any, scene: Any) -> None:
+def check_plot(plot: Path | None, cases: "Cases", scene: "AbstractScene") -> None:
     """Refuse, before anything is computed, a picture that cannot be drawn or written."""
     if plot is None:
         return

@@ -3,10 +3,10 @@
 import json
 import sys
 import time
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
@@ -16,6 +16,11 @@ from .options import JsonOption, SceneArgument, SetOption, labelled
 from .output_files import Output, deliver, unwritten
 from .sweep_plot import check_plot, write_plot
 from .terminal import console
+
+if TYPE_CHECKING:
+    from ..sweeps.cases import Cases
+    from ..sweeps.engine import Outcome, StoppedError, Watcher
+    from ..sweeps.fields import Field, SceneSource
 
 _EXTRA = "pip install 'jaxbearing[cluster]'"
 OverOption = Annotated[
@@ -166,7 +171,9 @@ def sweep(
         raise typer.Exit(NOT_CONVERGED)
 
 
-def _check_modes(over: Any, cases_file: Any, random: Any, latin_hypercube: Any) -> None:
+def _check_modes(
+    over: list[str] | None, cases_file: Path | None, random: int | None, latin_hypercube: int | None
+) -> None:
     if cases_file is not None and (over or random is not None or latin_hypercube is not None):
         refuse("--list: found --over, --random or --latin-hypercube beside it; expected one way to choose the cases")
     if random is not None and latin_hypercube is not None:
@@ -177,7 +184,14 @@ def _check_modes(over: Any, cases_file: Any, random: Any, latin_hypercube: Any) 
         )
 
 
-def _cases(source: Any, over: Any, cases_file: Any, random: Any, latin_hypercube: Any, seed: int) -> tuple[Any, Any]:
+def _cases(
+    source: "SceneSource",
+    over: list[str] | None,
+    cases_file: Path | None,
+    random: int | None,
+    latin_hypercube: int | None,
+    seed: int,
+) -> "tuple[Mapping[str, Field], Cases]":
     from ..sweeps.case_lists import list_of
     from ..sweeps.fields import grid_of, parse_over, samples_of
 
@@ -185,7 +199,7 @@ def _cases(source: Any, over: Any, cases_file: Any, random: Any, latin_hypercube
         with _refused("--list"):
             return list_of(cases_file, source)
     count, kind = (random, "random") if random is not None else (latin_hypercube, "latin_hypercube")
-    fields, ranges = parse_over(over, source, counted=count is None)
+    fields, ranges = parse_over(over or [], source, counted=count is None)
     with _refused("--over" if count is None else f"--{kind.replace('_', '-')}"):
         return fields, grid_of(ranges) if count is None else samples_of(ranges, kind, count, seed)
 
@@ -235,7 +249,7 @@ def _check_extra(workers: int | None, scheduler: str | None) -> None:
 
 
 @contextmanager
-def _watcher(cases: int, as_json: bool) -> Iterator[Any]:
+def _watcher(cases: int, as_json: bool) -> "Iterator[Watcher]":
     """A bar with rate and remaining time on the terminal; sentences go to stderr."""
     from ..sweeps.engine import Watcher
 
@@ -265,19 +279,19 @@ def _watcher(cases: int, as_json: bool) -> Iterator[Any]:
         )
 
 
-def _print_stopped(stopped: Any, label: str, seconds: float, as_json: bool) -> None:
+def _print_stopped(stopped: "StoppedError", label: str, seconds: float, as_json: bool) -> None:
     """Shows the counts of a sweep whose file could not be written."""
     if as_json:
         found = {"cases": stopped.cases, "converged": stopped.converged, "failed": stopped.computed - stopped.converged}
         typer.echo(json.dumps(found | {"file": None, "seconds": round(seconds, 3)}))
         return
-    from ..report.screen import headline
+    from ..report.backends.screen import headline
 
     words = f"{stopped.computed} of {stopped.cases} cases computed, {stopped.converged} converged, in {seconds:.1f} s"
     headline(label, "NOT WRITTEN", "bold red", words, console())
 
 
-def _print(outcome: Any, label: str, target: Path, seconds: float, as_json: bool) -> None:
+def _print(outcome: "Outcome", label: str, target: Path, seconds: float, as_json: bool) -> None:
     if as_json:
         found = {"cases": outcome.cases, "converged": outcome.converged, "failed": outcome.failed}
         typer.echo(json.dumps(found | {"file": str(target), "seconds": round(seconds, 3)}))

@@ -6,7 +6,7 @@ import equinox as eqx
 import jax.numpy as jnp
 from jaxtyping import Array, Bool, Float
 
-from .._scene import AbstractScene, number, optional_number
+from .._scene import AbstractScene, label, number, optional_number
 from .._types import Scalar
 from ..contacts import AbstractLineFilm, DowsonHigginson, DowsonToyoda, LineContact, Moes
 from ..lubricants import Lubricant
@@ -78,8 +78,8 @@ class ContactOperation(Checked):
 
     part: ClassVar[str] = "operation"
 
-    entrainment_speed: Scalar = number(unit="m/s")
-    oil_temperature: Scalar = number(bound="> 0", unit="K")
+    entrainment_speed: Scalar = number(metadata=label("m/s", "mean surface speed (u1 + u2)/2, of either sign"))
+    oil_temperature: Scalar = number(bound="> 0", metadata=label("K", "oil temperature"))
     load_per_length: Scalar | None = optional_number(bound="> 0", unit="N/m")
     pressure: Scalar | None = optional_number(bound="> 0", unit="Pa")
 

@@ -7,7 +7,7 @@ from .._types import Values
 from ..numerics.arguments import require_temperature
 from .pressure_viscosity import AbstractPressureViscosity
 from .rheology import ExponentialRheology
-from .thermal import LinearConductivity, LinearDensity
+from .thermal import LinearConductivity, LinearDensity, LinearHeatCapacity
 from .viscosity import AbstractViscosity
 
 
@@ -40,6 +40,7 @@ class Lubricant(eqx.Module):
     rheology: ExponentialRheology | None = None
     density: LinearDensity | None = None
     conductivity: LinearConductivity | None = None
+    heat_capacity: LinearHeatCapacity | None = None
     notes: tuple[str, ...] = eqx.field(static=True, default=())
 
     def at(self, temperature: Values) -> InletOil:
@@ -62,6 +63,7 @@ Lubricant.__init__.__doc__ = """**Arguments:**
 - `rheology`: shear modulus and stress; a traction law needs it.
 - `density`: needed by drag and by flow rates in mass.
 - `conductivity`: needed by thermal film reduction.
+- `heat_capacity`: needed by thermal networks.
 - `notes`: what whoever uses the oil should know of its data (estimated, assumed), a sentence each; a scene that is
   solved repeats them among its warnings.
 """

@@ -1,4 +1,4 @@
-"""Density and thermal conductivity of a lubricant at ambient pressure."""
+"""Density, thermal conductivity and heat capacity of a lubricant at ambient pressure."""
 
 from typing import ClassVar
 
@@ -67,3 +67,34 @@ LinearConductivity.__init__.__doc__ = """**Arguments:**
 - `slope`: W/(m K^2), usually negative.
 - `reference_temperature`: K.
 """
+
+
+class LinearHeatCapacity(Checked):
+    r"""$c_p = c_r + s (T - T_r)$; a slope of 0 makes it constant.
+
+    **Validity:** within about 5 % from memory: 1670 + 4.3 (T - 273 K) J/(kg K) for mineral oils, 2150 J/(kg K) for
+    ester oils near 120 degC. Pressure is left out.
+    """
+
+    part: ClassVar[str] = "oil.heat_capacity"
+
+    value: Scalar = bounded("> 0", unit="J/(kg K)")
+    slope: Scalar = bounded("finite", unit="J/(kg K^2)")
+    reference_temperature: Scalar = bounded("> 0", unit="K")
+
+    def heat_capacity(self, temperature: Values) -> Batch:
+        """Specific heat capacity, J/(kg K). **Arguments:** `temperature`, K."""
+        require_temperature(temperature)
+        return jnp.asarray(self.value + self.slope * jnp.subtract(temperature, self.reference_temperature))
+
+
+LinearHeatCapacity.__init__.__doc__ = """**Arguments:**
+- `value`: specific heat capacity at the reference temperature, J/(kg K), > 0.
+- `slope`: J/(kg K^2); 0 for a constant.
+- `reference_temperature`: K.
+"""
+
+MINERAL_HEAT_CAPACITY = LinearHeatCapacity(1670.0, 4.3, 273.0)
+"""Of mineral oils, within about 5 %, from memory."""
+ESTER_HEAT_CAPACITY = LinearHeatCapacity(2150.0, 0.0, 393.15)
+"""Of ester oils near 120 degC, within about 5 %, from memory."""

@@ -1,4 +1,4 @@
-"""Checks of the arguments of public functions, where they are known: choices, numbers, angles, temperatures, counts."""
+"""Checks of arguments of public functions: choices, numbers, angles, temperatures, counts. Traced values pass."""
 
 import difflib
 from collections.abc import Iterable
@@ -12,27 +12,27 @@ from .checks import RANGES
 from .compiling import inside_a_program
 
 COLDEST = 150.0
-"""K; every lubricant is a solid there: a lower number is in another unit. There is no such limit above: the laws say
-how they go on."""
+"""Lowest temperature that is accepted, K. Every lubricant is solid there, so a lower number is in another unit. There
+is no upper limit, because the laws state how they continue."""
 
 
 _ARRAYS = np.generic | np.ndarray | jax.Array
 
 
 def _numbers(value: Any) -> np.ndarray | None:
-    """The numbers of an argument; `None` where they are traced, or none of these."""
+    """The numbers of an argument; `None` if they are traced, or if it holds no numbers."""
     if isinstance(value, Tracer) or not isinstance(value, int | float | _ARRAYS):
         return None
     return np.asarray(value)
 
 
 def _judged(name: str, value: Any) -> np.ndarray:
-    """The numbers of an argument; none of them where they are traced.
+    """The numbers of an argument; an empty array if they are traced.
 
-    **Raises:** `ValueError` for what is no number, nor an array of numbers.
+    **Raises:** `ValueError` for anything but a number or an array of numbers.
     """
     if isinstance(value, Tracer) or (hasattr(value, "dtype") and not isinstance(value, _ARRAYS)):
-        # what has a dtype and is no array stands in for a number (`jax.ShapeDtypeStruct`)
+        # an object with a dtype that is no array is a placeholder (`jax.ShapeDtypeStruct`)
         return np.empty(0)
     numbers = _numbers(value)
     if numbers is None or numbers.dtype.kind not in "iuf":
@@ -41,8 +41,13 @@ def _judged(name: str, value: Any) -> np.ndarray:
 
 
 def require_numbers(bound: str, **values: Any) -> None:
-    """**Raises:** `ValueError` for what is no number, nor an array of numbers, within a bound of `checks.RANGES`. A NaN
-    of a failed solve passes, and so do traced values."""
+    """Checks that each value is a number, or an array of numbers, within a bound. NaN passes, because a failed solve
+    returns it, and so do traced values.
+
+    **Arguments:** `bound`: a key of `checks.RANGES`; `values`: name of the argument = its value.
+
+    **Raises:** `ValueError` that names the first argument that is wrong.
+    """
     for name, value in values.items():
         numbers = _judged(name, value)
         wrong = numbers[~(RANGES[bound].holds(numbers) | np.isnan(numbers))].ravel()
@@ -51,16 +56,21 @@ def require_numbers(bound: str, **values: Any) -> None:
 
 
 def require_outside(verb: str, instead: str, *values: Any) -> None:
-    """Check of a function that cannot be part of a program of JAX. **Arguments:** `instead`: what to use there.
+    """Refuses the call of a function that cannot be part of a JAX program.
 
-    **Raises:** `ValueError` where JAX traces, as inside of `jax.jit`, and for traced values.
+    **Arguments:** `verb`: name of the function; `instead`: what to use there; `values`: its arguments.
+
+    **Raises:** `ValueError` while JAX traces (inside `jax.jit`), and if one of `values` is traced.
     """
     if inside_a_program(values):
         raise ValueError(f"{verb} was called inside of jit, vmap or grad, which it cannot be part of: {instead}")
 
 
 def require_choice(name: str, value: Any, choices: Iterable[str]) -> None:
-    """**Raises:** `ValueError` for what is none of the choices, with the nearest one."""
+    """Checks that a value is one of the choices.
+
+    **Raises:** `ValueError` that lists the choices and suggests the nearest one.
+    """
     known_ones = tuple(choices)
     if isinstance(value, str) and value in known_ones:
         return
@@ -70,7 +80,10 @@ def require_choice(name: str, value: Any, choices: Iterable[str]) -> None:
 
 
 def require_angle(name: str, value: Any) -> None:
-    """**Raises:** `ValueError` for an angle, rad, that is not from 0 to below a right angle; degrees are not."""
+    """Checks that angles are in rad, from 0 to below a right angle.
+
+    **Raises:** `ValueError`; for a number that may be in degrees it shows the angle in rad.
+    """
     angles = _judged(name, value)
     wrong = angles[~((angles >= 0.0) & (angles < 0.5 * np.pi))].ravel()
     if len(wrong):
@@ -80,8 +93,11 @@ def require_angle(name: str, value: Any) -> None:
 
 
 def require_temperature(value: Any, name: str = "temperature") -> None:
-    """**Raises:** `ValueError` for a temperature below `COLDEST`, as one in degrees Celsius is. A NaN of a failed solve
-    passes, and so do traced values, such as the trial values of a solver."""
+    """Checks that temperatures are in K: a value in degrees Celsius is below `COLDEST`. NaN passes, because a failed
+    solve returns it, and so do traced values, such as the trial values of a solver.
+
+    **Raises:** `ValueError`; for a number that may be in degrees Celsius it shows the temperature in K.
+    """
     given = _judged(name, value)
     wrong = given[given < COLDEST].ravel()
     if len(wrong):
@@ -91,7 +107,10 @@ def require_temperature(value: Any, name: str = "temperature") -> None:
 
 
 def require_count(name: str, value: Any, least: int = 1) -> None:
-    """**Raises:** `ValueError` for what is not a whole number from `least` on."""
+    """Checks that a value is a whole number, at least `least`. A traced value passes.
+
+    **Raises:** `ValueError`.
+    """
     number = _numbers(value)
     if isinstance(value, Tracer):
         return

@@ -1,12 +1,14 @@
-r"""Block-arrow systems: many small elements that meet only through a few global unknowns.
+r"""Block-arrow systems: many small elements that are coupled only through a few global unknowns.
 
 A rolling bearing is such a system: each rolling element has its own few unknowns, and elements
 couple only through the ring and the cage. The Jacobian
 
 $$J = \begin{pmatrix} A_1 & & & B_1 \\ & \ddots & & \vdots \\ & & A_N & B_N \\ C_1 & \cdots & C_N & D \end{pmatrix}$$
 
-is an arrow. Its blocks come from one forward pass over the element function with m + g tangents, each
-element is eliminated, and the g x g Schur complement $D - \sum_j C_j A_j^{-1} B_j$ is solved: O(N).
+has the shape of an arrow. Forward differentiation of the element function with m + g tangents gives all blocks at once.
+Each element is eliminated, and the g x g Schur complement $D - \sum_j C_j A_j^{-1} B_j$ is solved, so the work is O(N).
+
+Axes of arrays: m unknowns of one element, g globals, k totals (sums of contributions over the elements).
 """
 
 import abc
@@ -24,72 +26,79 @@ System = TypeVar("System", bound="AbstractArrowSystem")
 
 
 class ArrowPoint(NamedTuple):
-    """Unknowns or residuals: component axis first, so that every operation is a vector operation."""
+    """Unknowns or residuals. The component axis comes first, so that operations run over the elements as vectors."""
 
     elements: Float[Array, "m element"]
     globals: Float[Array, " g"]
 
 
 class AbstractArrowSystem(eqx.Module):
-    """Equations of many elements and a few globals. A pytree: its array leaves are the parameters.
+    """Equations of many elements and a few globals. The system is a pytree whose array leaves are its parameters.
 
-    Unknowns and residuals must be scaled to order 1. Where each equation grows with its own unknown at the root, those
-    before it in equilibrium (elements first, then globals, each in its order; the sign of a row is yours to choose),
-    say so by `increasing`. Subclasses are final and hold every number that the equations depend on as a leaf, because
-    derivatives of the solution are taken with respect to the leaves.
+    Unknowns and residuals must be scaled to order 1. `increasing` states whether every pivot of the elimination is
+    positive at a root: each equation then grows with its own unknown while the unknowns before it are in equilibrium
+    (those of the elements first, then the globals). A subclass may choose the sign of each equation for this.
+
+    Subclasses are final. They hold every number that the equations depend on as a leaf, because derivatives of the
+    solution are taken with respect to the leaves.
     """
 
     @abc.abstractmethod
     def initial(self) -> ArrowPoint:
-        """First guess."""
+        """Initial guess, scaled."""
 
     def homotopy(self: System, parameter: Float[Array, ""], path: Int[Array, ""]) -> System:
-        """The system along one of its `homotopies` (0, 1 ...), from parameter 0 (itself) to 1 (easy). The solver
-        walks along them, one after the other, where it fails at once."""
+        """An easier system. If the first attempt fails, the solver follows the homotopies one after the other.
+
+        **Arguments:** `parameter`: 0 gives this system, 1 the easiest one; `path`: number of the homotopy, from 0 on.
+        """
         raise NotImplementedError
 
     @property
     def increasing(self) -> bool:
-        """True if each equation grows with its own unknown at every root: Newton's steps are then turned uphill where
-        one falls."""
+        """True if each equation grows with its own unknown at every root, see the class. Where an equation falls, the
+        solver then uses `uphill_step`."""
         return True
 
     @property
     def lanes_together(self) -> bool:
-        """True if the lanes of a batch are better solved all at once on a CPU: small programs without branches are."""
+        """True if a CPU solves the lanes of a batch faster together than one by one, as in small programs without
+        branches."""
         return False
 
     @property
     def rounding(self) -> float:
-        """Factor by which rounding may keep the scaled residual above its tolerance at a root."""
+        """Factor by which round-off may keep the scaled residual above its tolerance at a root."""
         return 1.0
 
     @property
     def homotopies(self) -> int:
-        """Number of homotopies from an easier system to this one; 0: a solve that fails at once has failed."""
+        """Number of homotopies from an easier system to this one. With 0 there is only the first attempt."""
         return 0
 
     @property
     def extra_totals(self) -> int:
-        """Says how many sums over the elements `global_residual` takes beyond one for each global."""
+        """k - g: number of totals that `global_residual` takes beyond one for each global."""
         return 0
 
     @abc.abstractmethod
     def element(
         self, unknowns: Float[Array, "m element"], shared: Float[Array, "g element"]
     ) -> tuple[Float[Array, "m element"], Float[Array, "k element"], Float[Array, ""]]:
-        """Local residuals, contributions to the totals, and the largest residual of nested solves (0: none).
+        """Local residuals, contributions to the totals, and the largest residual of nested solves (0: there are none).
 
-        Column j depends on column j only. `shared` holds the globals, copied along the element axis: that copy is
-        what lets one forward pass yield every block of the arrow.
+        Column j of a result depends on column j of the arguments only. `shared` holds the globals, copied along the
+        element axis: this copy allows one forward pass to yield every block of the arrow.
         """
 
     @abc.abstractmethod
     def global_residual(
         self, globals_: Float[Array, " g"], totals: Float[Array, " k"]
     ) -> tuple[Float[Array, " g"], Float[Array, ""]]:
-        """Global residuals from the globals and the contributions summed over the elements; and, as in `element`,
-        the largest residual of nested solves."""
+        """Global residuals, and the largest residual of nested solves (0: there are none).
+
+        **Arguments:** `globals_`: global unknowns; `totals`: contributions of `element`, summed over the elements.
+        """
 
     @abc.abstractmethod
     def step_caps(self) -> ArrowPoint:
@@ -97,15 +106,22 @@ class AbstractArrowSystem(eqx.Module):
 
     @abc.abstractmethod
     def bounds(self) -> tuple[ArrowPoint, ArrowPoint]:
-        """Lowest and highest value of each unknown that an iterate may take: shapes (m, 1) and (g,)."""
+        """Lowest and highest allowed value of each unknown: shapes (m, 1) and (g,), in scaled units."""
 
     @abc.abstractmethod
     def equation_names(self) -> tuple[str, ...]:
-        """Names of the m local and then the g global equations, for messages."""
+        """Names of the m local equations, then of the g global ones, for messages."""
 
 
 class ArrowJacobian(NamedTuple):
-    """Blocks of the arrow, and the factor that chains totals into global equations."""
+    """Blocks of the arrow. $A$ is `local`, $B$ `to_globals`, $C$ = `chain` `contributions`, $D$ `corner`.
+
+    - `local`: derivatives of the local residuals with respect to the element's unknowns.
+    - `to_globals`: derivatives of the local residuals with respect to the globals.
+    - `contributions`: derivatives of the contributions with respect to the element's unknowns.
+    - `corner`: derivatives of the global residuals with respect to the globals.
+    - `chain`: derivatives of the global residuals with respect to the totals.
+    """
 
     local: Float[Array, "m m element"]
     to_globals: Float[Array, "m g element"]
@@ -115,14 +131,14 @@ class ArrowJacobian(NamedTuple):
 
 
 class Equations(NamedTuple):
-    """All residuals at a point, and the largest residual of the solves nested inside them."""
+    """All residuals at a point; `inner` is the largest residual of the solves nested inside them."""
 
     residual: ArrowPoint
     inner: Float[Array, ""]
 
 
 def evaluate(system: AbstractArrowSystem, point: ArrowPoint) -> Equations:
-    """All equations at a point."""
+    """All residuals at a point."""
     n = point.elements.shape[1]
     shared = jnp.broadcast_to(point.globals[:, None], (point.globals.shape[0], n))
     local, contribution, inner = system.element(point.elements, shared)
@@ -181,7 +197,7 @@ def assembled(
 
 
 def empty_jacobian(system: AbstractArrowSystem, point: ArrowPoint) -> ArrowJacobian:
-    """Blocks of zeros of the right shapes, to start a loop with."""
+    """A Jacobian of zeros with the right shapes, the initial value of a loop."""
     m, n = point.elements.shape
     g = point.globals.shape[0]
     k = g + system.extra_totals
@@ -203,7 +219,7 @@ def schur_complement(jacobian: ArrowJacobian) -> Float[Array, "g g"]:
 
 
 def condensed(matrix: Float[Array, "g g"], count: int) -> Float[Array, "k k"]:
-    """The Schur complement on the first `count` unknowns of a matrix, those behind them in equilibrium."""
+    """Schur complement of a matrix on its first `count` unknowns: the other unknowns stay in equilibrium."""
     others = matrix[count:, count:]
     if not others.size:
         return matrix
@@ -215,12 +231,14 @@ def condensed(matrix: Float[Array, "g g"], count: int) -> Float[Array, "k k"]:
 def uphill_step(
     jacobian: ArrowJacobian, right: ArrowPoint
 ) -> tuple[ArrowPoint, Bool[Array, " element"], Bool[Array, ""]]:
-    """The solution of J x = right with J changed where a pivot is negative, in which elements one was, and whether one
-    of the globals was.
+    """Newton step J x = right with the sign of every negative pivot of J changed.
 
-    Each equation is meant to grow with its own unknown when those before it are in equilibrium. Where it falls, the
-    Newton step points away from the root behind the hump; with the pivot's sign turned it points across it. Elements
-    of more than 4 unknowns, which LAPACK eliminates, are left as they are.
+    Each equation is expected to grow with its own unknown while the unknowns before it are in equilibrium. Where it
+    falls, the Newton step points away from a root that lies beyond a maximum of the residual; with the sign of the
+    pivot changed, it points towards that root. Elements of more than 4 unknowns, which LAPACK eliminates, keep their
+    pivots.
+
+    **Returns:** the step x; True for each element that has a negative pivot; True if one of the globals has one.
     """
     local, changed = jacobian.local, jnp.zeros(jacobian.local.shape[2:], dtype=bool)
     if local.shape[0] <= UNROLLED_LIMIT:

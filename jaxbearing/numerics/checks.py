@@ -1,9 +1,9 @@
-"""Checks of what a user gives, each stated once: eager ones raise, traced ones become flags of the lane.
+"""Checks of what a user gives: a wrong number that is known raises, a wrong number that is traced sets a flag.
 
-A class states its bounds on its fields (`bounded`, `_scene.number`) and, in `__check_init__`, what several numbers
-together must satisfy (`demand`). Numbers that are known are judged when an object is made, and refused with a message.
-A traced number has no value then: `check_inputs` runs the same checks again where the equations are traced, and
-returns one flag for each of them.
+Each check is stated once. A class states the bounds of single numbers on its fields (`bounded`, `_scene.number`), and
+the rules between several numbers in `__check_init__` (`demand`). Known numbers are checked when the object is made. A
+traced number has no value at that time: `check_inputs` runs the same checks again while the equations are traced, and
+returns one flag for each check. In a batch every lane (one member of the batch) has flags of its own.
 """
 
 import dataclasses
@@ -22,11 +22,13 @@ from .precision import as_float
 from .refusals import is_collecting, refuse_all
 
 STAND_IN = jax.ShapeDtypeStruct((), np.dtype(np.float64))
-"""In the place of a number that is refused."""
+"""Placeholder for a refused number: the remaining checks can go on while problems are collected
+(`refusals.collecting`)."""
 
 
 class Interval(NamedTuple):
-    """Allowed values: from `low` to `high`; whether the ends belong to them. NaN and infinity never do."""
+    """Allowed values between `low` and `high`. The two flags tell whether an end is allowed itself. NaN never is, and
+    infinity only as an allowed end."""
 
     low: float
     high: float
@@ -34,7 +36,7 @@ class Interval(NamedTuple):
     high_allowed: bool = False
 
     def holds(self, value: Any) -> Any:
-        """True if a number, or each of an array, lies inside."""
+        """True where the value lies inside: one answer for a number, one for each entry of an array."""
         above = value >= self.low if self.low_allowed else value > self.low
         return above & (value <= self.high if self.high_allowed else value < self.high)
 
@@ -47,6 +49,7 @@ RANGES = {
     ">= 0 or infinite": Interval(0.0, np.inf, True, True),
     "between 0 and 1": Interval(0.0, 1.0, True, True),
     "above 0 and below 1": Interval(0.0, 1.0),
+    "above 0 and at most 1": Interval(0.0, 1.0, high_allowed=True),
     ">= 0 and below 1": Interval(0.0, 1.0, low_allowed=True),
     "between 0 and 0.5": Interval(0.0, 0.5, True, True),
     "between 0 and 2": Interval(0.0, 2.0, True, True),
@@ -58,34 +61,39 @@ RANGES = {
     "> 138 K (the pole of Roelands' law)": Interval(138.0, np.inf),
     "> 0.3 cSt (0.3e-6 m^2/s)": Interval(0.3e-6, np.inf),
 }
-"""Bounds of fields, by the words of messages."""
+"""Bounds of fields in SI units; each key is the text that messages show."""
 
 
 class _Record:
-    """The traced checks of a scene, as they are met."""
+    """Traced checks, collected while `check_inputs` walks through a scene."""
 
     def __init__(self) -> None:
         self.path = ""
+        """Dotted path of the part that is being checked."""
         self.numbers: dict[str, tuple[Any, Interval]] = {}
+        """Check of one number in words -> the number and its allowed values."""
         self.rules: dict[str, Any] = {}
+        """Rule about several numbers in words -> True where it holds."""
 
 
 _RECORD: ContextVar[_Record | None] = ContextVar("record of traced checks", default=None)
 
 
 def label(unit: str, description: str) -> dict[str, str]:
-    """Metadata of a field: its SI unit and what it is."""
+    """Metadata of a field: its SI unit and its description."""
     return {"unit": unit, "description": description}
 
 
 def bounded(bound: str, *, unit: str = "", difference: bool = False, name: str = "", **kwargs: Any) -> Any:
-    """Field that holds one number within a bound of `RANGES`, of a class that is `Checked`. Scene files read the number
-    by what is said here (`scenes.table_of`).
+    """Field of a `Checked` class that holds one number within a bound. Scene files read the number according to the
+    metadata stored here (`scenes.table_of`).
 
     **Arguments:**
-    - `unit`: of SI, "1" for a number without a unit; where `metadata` is a `label`, that says it.
-    - `difference`: whether a number in K is a difference of temperatures.
-    - `name`: of the field in scene files, where that is another one.
+    - `bound`: a key of `RANGES`.
+    - `unit`: SI unit, "1" for a number without a unit; left out if `metadata` is a `label`, which holds the unit.
+    - `difference`: True if a number in K is a difference of temperatures.
+    - `name`: name of the field in scene files, if it is not the attribute's.
+    - `kwargs`: further arguments of `equinox.field`.
     """
     assert bound in RANGES, bound
     said = {"bound": bound, "name": name, "difference": difference}
@@ -98,11 +106,11 @@ def bounded(bound: str, *, unit: str = "", difference: bool = False, name: str =
 class Checked(eqx.Module):
     """A part of a scene whose fields state their bounds.
 
-    **Raises:** `ValueError`, when it is made, for a number that is known and out of its bound.
+    **Raises:** `ValueError` on construction, for a known number outside its bound.
     """
 
     part: ClassVar[str] = ""
-    """The table of a scene file that holds the fields, for messages."""
+    """Name of the table of a scene file that holds the fields; messages use it."""
 
     def __check_init__(self):
         record = _RECORD.get()
@@ -120,7 +128,7 @@ class Checked(eqx.Module):
                 problems = list(_refused(part, {name: check}))
                 refuse_all(problems)
                 if problems and hasattr(self, name):
-                    # what needs this number is left undecided
+                    # rules that need this number are passed over
                     object.__setattr__(self, name, STAND_IN)
             return
         require(part, **checks)
@@ -131,33 +139,37 @@ def _is_number(value: Any) -> bool:
 
 
 def given(*values: Any) -> tuple[Any, ...] | None:
-    """The values, known or traced; `None` where one is missing or stands in for a number (tree transformations)."""
+    """The values, known or traced; `None` if one is missing or is a placeholder (as in transformations of trees)."""
     return values if all(_is_number(value) for value in values) else None
 
 
 def known(*values: Any) -> tuple[float, ...] | None:
-    """The values as floats, or `None` where one of them is traced or missing, or stands in for a number."""
+    """The values as floats; `None` if one is traced, missing or a placeholder."""
     if given(*values) is None or any(isinstance(value, Tracer) for value in values):
         return None
     return tuple(float(v) for v in values)
 
 
 def functions(*values: Any) -> Any:
-    """numpy, or jax.numpy where one of the values is traced: for rules that need a sine or a root."""
+    """The module whose functions take these values: `jax.numpy` if one is traced, else `numpy`. Rules that need a sine
+    or a root call it."""
     return jnp if any(isinstance(value, Tracer) for value in values) else np
 
 
 def require(part: str, **checks: tuple[Any, str]) -> None:
-    """`checks` maps a field name to (value, range), the range one of `RANGES`; `None` passes, and a traced value is
-    judged by `check_inputs`.
+    """Checks single numbers. `None` passes; a traced value is left to `check_inputs`.
 
-    **Raises:** `ValueError` naming part, field, the value and what is allowed; `Refusals` of several.
+    **Arguments:**
+    - `part`: dotted path of the part that holds the fields, for messages; may be empty.
+    - `checks`: field name -> (value, key of `RANGES`).
+
+    **Raises:** `ValueError` that names part, field, value and what is allowed; `Refusals` if several are wrong.
     """
     refuse_all(_refused(part, checks))
 
 
 def _refused(part: str, checks: dict[str, tuple[Any, str]]) -> Iterator[str]:
-    """Problems of known values, a sentence each; traced ones are recorded."""
+    """Yields one sentence for each wrong known value, and records the traced values for `check_inputs`."""
     record = _RECORD.get()
     for name, (value, allowed) in checks.items():
         field = f"{part}.{name}" if part else name
@@ -167,7 +179,7 @@ def _refused(part: str, checks: dict[str, tuple[Any, str]]) -> Iterator[str]:
             found = f"an array of shape {np.shape(value)}" if isinstance(value, Tracer) else repr(value)
             yield f"{field} must be one number, got {found}"
             continue
-        # what has a dtype and is no array stands in for a number (`jax.ShapeDtypeStruct`)
+        # an object with a dtype that is no array is a placeholder (`jax.ShapeDtypeStruct`)
         if not (_is_number(value) or hasattr(value, "dtype")):
             yield f"{field} must be one number, got {value!r}"
             continue
@@ -181,14 +193,14 @@ def _refused(part: str, checks: dict[str, tuple[Any, str]]) -> Iterator[str]:
 
 
 def demand(rule: str, fine: Any, message: Callable[[], str]) -> None:
-    """A rule about several numbers.
+    """Checks a rule about several numbers.
 
     **Arguments:**
-    - `rule`: it in words, beginning with the dotted path of a field; `{path}` stands for that of the part.
-    - `fine`: whether it holds: a bool, or a traced one, which `check_inputs` collects; False where a number is NaN.
-    - `message`: what to say of known numbers that break it.
+    - `rule`: the rule in words; it begins with the dotted path of a field, where `{path}` stands for that of the part.
+    - `fine`: True if the rule holds, False if a number is NaN; `check_inputs` collects a traced value.
+    - `message`: returns the text of the error, for known numbers that break the rule.
 
-    **Raises:** `ValueError` where it is known that the rule does not hold.
+    **Raises:** `ValueError` if the rule is known not to hold.
     """
     if isinstance(fine, Tracer):
         record = _RECORD.get()
@@ -200,7 +212,7 @@ def demand(rule: str, fine: Any, message: Callable[[], str]) -> None:
 
 
 class InputChecks(NamedTuple):
-    """The rules of the traced inputs in words; whether each is broken; whether none is."""
+    """Checks of traced inputs: `rules` in words, `broken` for each of them, `valid` if none is broken."""
 
     rules: tuple[str, ...]
     broken: Bool[Array, " rule"]
@@ -208,9 +220,9 @@ class InputChecks(NamedTuple):
 
 
 def check_inputs(scene: Any) -> InputChecks:
-    """Runs the checks of a scene and of all its parts again, on traced numbers.
+    """Runs the checks of a scene and of all its parts again and collects the results for traced numbers.
 
-    **Raises:** `ValueError` for a number that is known and breaks a rule.
+    **Raises:** `ValueError` for a known number that breaks a rule.
     """
     record = _Record()
     token = _RECORD.set(record)
@@ -225,7 +237,7 @@ def check_inputs(scene: Any) -> InputChecks:
         _RECORD.reset(token)
     broken = [jnp.zeros(0, bool)]
     if record.numbers:
-        # side by side: few operations however many numbers there are
+        # one comparison of arrays: the program does not grow with the number of checks
         intervals = [interval for _, interval in record.numbers.values()]
         ends = lambda name: np.asarray([getattr(one, name) for one in intervals])
         values = jnp.stack([jnp.asarray(value) for value, _ in record.numbers.values()])
@@ -239,13 +251,13 @@ def check_inputs(scene: Any) -> InputChecks:
 
 
 def void(tree: Any, valid: Bool[Array, ""]) -> Any:
-    """The tree with NaN for every number where the inputs are not valid: a solve of it ends at once."""
+    """Replaces every number of the tree by NaN if the inputs are not valid, so that its solve ends at once."""
     return jax.tree.map(lambda leaf: jnp.where(valid, as_float(leaf), jnp.nan), tree)
 
 
 def gate(tree: Any, valid: Bool[Array, ""]) -> Any:
-    """The tree, whose traced numbers pass no derivative where the inputs are not valid: what is computed from them is
-    NaN, and NaN times zero must not reach a number that lanes share."""
+    """Stops derivatives with respect to the tree's traced numbers if the inputs are not valid. The results of such a
+    lane are NaN, and NaN times zero must not reach the gradient of a number that lanes share."""
 
     def passed(leaf: Any) -> Any:
         return jnp.where(valid, leaf, jax.lax.stop_gradient(leaf)) if isinstance(leaf, Tracer) else leaf
@@ -254,7 +266,7 @@ def gate(tree: Any, valid: Bool[Array, ""]) -> Any:
 
 
 def _parts(node: Any, path: str) -> Iterator[tuple[str, eqx.Module]]:
-    """Every module of a tree with its dotted path."""
+    """Yields every module of a tree with its dotted path, inner modules first."""
     if isinstance(node, eqx.Module):
         inner = [(field.name, getattr(node, field.name, None)) for field in dataclasses.fields(node)]
     elif isinstance(node, dict):
@@ -265,6 +277,6 @@ def _parts(node: Any, path: str) -> Iterator[tuple[str, eqx.Module]]:
         return
     for name, value in inner:
         yield from _parts(value, f"{path}.{name}" if path else str(name))
-    # what is inside first: a part that looks at numbers of its own parts would name a consequence
+    # an outer rule that uses a wrong inner number would report a consequence and not the cause
     if isinstance(node, eqx.Module):
         yield path, node

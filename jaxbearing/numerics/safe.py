@@ -1,8 +1,7 @@
-"""Functions that stay finite, with a finite and right gradient, where the plain formula does not.
+"""Functions whose values and gradients stay finite and correct where those of the plain formula do not.
 
-Every function here states its error against the plain formula. None of them hides a wrong
-answer: outside the stated neighbourhood of the singular point they agree with the plain formula
-to round-off.
+A function that differs from the plain formula states its error; the others agree with it to round-off. No function
+hides a wrong answer.
 """
 
 import jax
@@ -11,15 +10,15 @@ import jax.numpy as jnp
 from .._types import Batch, Values
 
 NORM_FLOOR = 1e-150
-"""Length below which `safe_norm` is smooth instead of exact (in the caller's unit)."""
+"""Length, in the unit of the vector, below which `safe_norm` is smooth and not exact."""
 
 
 @jax.custom_jvp
 def log_add(a: Values, b: Values) -> Batch:
     """ln(e^a + e^b) for finite a, b: no overflow; the derivative is the softmax of (a, b).
 
-    Like `jnp.logaddexp` without its care for infinities and NaN, which more than doubles the operations of a
-    differentiated power sum, and with it the time to compile it.
+    `jnp.logaddexp` also handles infinities and NaN, which more than doubles the operations of a differentiated power
+    sum and the time to compile it.
     """
     return jnp.maximum(a, b) + jnp.log1p(jnp.exp(-jnp.abs(a - b)))
 
@@ -33,7 +32,7 @@ def _log_add_jvp(primals, tangents):
 
 @jax.custom_jvp
 def softplus(x: Values) -> Batch:
-    """ln(1 + e^x) for finite x, without overflow: `log_add(x, 0)` without the derivative by the 0."""
+    """ln(1 + e^x) for finite x, without overflow: `log_add(x, 0)`, differentiated with respect to x only."""
     return jnp.maximum(x, 0.0) + jnp.log1p(jnp.exp(-jnp.abs(jnp.asarray(x))))
 
 
@@ -47,68 +46,83 @@ def _softplus_jvp(primals, tangents):
 def softplus_floor(x: Values, floor: Values, width: Values) -> Batch:
     r"""$f + w\,\ln(1 + e^{(x - f)/w})$: a smooth max(x, floor).
 
-    Above the floor the value is too high by less than $w e^{-(x-f)/w}$ (1e-13 w at 30 w), at the
-    floor by $w \ln 2$.
+    The value is too high: above the floor by less than $w e^{-(x-f)/w}$ (1e-13 w at 30 w), at the floor by
+    $w \ln 2$.
 
-    **Arguments:** `x`; `floor`, the same unit; `width` > 0, the same unit: the smoothing width.
+    **Arguments:** `x`; `floor` f, in the unit of `x`; `width` w > 0, the smoothing width, in the unit of `x`.
     """
     return floor + width * softplus((x - floor) / width)
 
 
 def smooth_abs(x: Values, width: Values) -> Batch:
-    r"""$\sqrt{x^2 + w^2}$: |x| with a slope at 0; too high by $w$ at 0, by $w^2/(2|x|)$ far away."""
+    r"""$\sqrt{x^2 + w^2}$: |x| with slope 0 at 0; too high by $w$ at 0, by $w^2/(2|x|)$ far away.
+
+    **Arguments:** `x`; `width` w > 0, in the unit of `x`.
+    """
     return jnp.sqrt(jnp.square(x) + jnp.square(width))
 
 
 def smooth_sign(x: Values, width: Values) -> Batch:
-    r"""$x/\sqrt{x^2 + w^2}$: odd, 0 at 0; off by $w^2/(2x^2)$ far away."""
+    r"""$x/\sqrt{x^2 + w^2}$: the sign of x, smooth, odd and 0 at 0; too small in modulus by $w^2/(2x^2)$ far away.
+
+    **Arguments:** `x`; `width` w > 0, in the unit of `x`.
+    """
     return x / smooth_abs(x, width)
 
 
 def power(x: Values, exponent: float) -> Batch:
-    """x**exponent for x > 0 as exp(exponent ln x): on a CPU, where XLA leaves the power of doubles to scalar code, an
-    eighth of its time; relative error about 1e-16 |exponent ln x|."""
+    """x**exponent for x > 0, computed as exp(exponent ln x); relative error about 1e-16 |exponent ln x|.
+
+    On a CPU it takes an eighth of the time of x**exponent, for which XLA calls scalar code.
+    """
     return jnp.exp(exponent * jnp.log(x))
 
 
 def regular_power(x: Values, exponent: float, width: float, order: int = 2) -> Batch:
-    r"""$x\,(x^n + w^n)^{(m-1)/n}$: $x^m$ for 0 < m < 1 with a finite slope at 0 (x >= 0).
+    r"""$x\,(x^n + w^n)^{(m-1)/n}$: $x^m$ for 0 < m < 1 with a finite slope at 0.
 
-    Zero at zero, slope $w^{m-1}$ there; relative error $(1-m) w^n/(n x^n)$ for x >> w. (Subtracting
-    an offset, $(x^2+w^2)^{m/2} - w^m$, would keep the offset $w^m$ at every x.)
+    The value at 0 is 0, the slope there $w^{m-1}$. The relative error for x >> w is $(1-m) w^n/(n x^n)$. (The
+    alternative $(x^2+w^2)^{m/2} - w^m$ would keep the offset $w^m$ at every x.)
 
-    **Arguments:** `order`: n, even; 2 or 4.
+    **Arguments:**
+    - `x`: >= 0.
+    - `exponent`: m, above 0 and below 1.
+    - `width`: w > 0, in the unit of `x`.
+    - `order`: n, 2 or 4.
     """
     return x * power(jax.lax.integer_pow(jnp.asarray(x, dtype=float), order) + width**order, (exponent - 1.0) / order)
 
 
 def safe_norm(x: Values, y: Values, floor: float = NORM_FLOOR) -> Batch:
-    r"""$\sqrt{x^2 + y^2 + f^2}$: length of a plane vector, gradient 0 (not NaN) at the origin."""
+    r"""$\sqrt{x^2 + y^2 + f^2}$: length of a plane vector, with gradient 0 (not NaN) at the origin.
+
+    **Arguments:** `x`, `y`: components; `floor`: f > 0, the length at the origin, in their unit.
+    """
     return jnp.sqrt(jnp.square(x) + jnp.square(y) + floor**2)
 
 
 def positive_power(x: Values, exponent: float) -> Batch:
-    """x**exponent for x > 0 and 0 for x <= 0, exponent > 1: value and gradient finite everywhere.
+    """x**exponent for x > 0, 0 for x <= 0: value and gradient are finite everywhere for `exponent` > 1.
 
-    Double `where`: the power is never formed at x <= 0, where its gradient would be NaN.
+    Two `where` keep the power from being formed at x <= 0, where its gradient would be NaN.
     """
     positive = x > 0
     return jnp.where(positive, power(jnp.where(positive, x, 1.0), exponent), 0.0)
 
 
 def smoothstep(t: Values) -> Batch:
-    """t^2 (3 - 2 t) with t clipped to [0, 1]: C1 from 0 to 1."""
+    """t^2 (3 - 2 t) with t clipped to [0, 1]: a step from 0 to 1 with a continuous slope."""
     t = jnp.clip(t, 0.0, 1.0)
     return t * t * (3.0 - 2.0 * t)
 
 
 def nonnegative_pressure(pressure: Values, width: float = 1e6) -> Batch:
-    r"""p for p >= 0, $w(e^{p/w} - 1)$ below: exact value and slope at 0, never below -w.
+    r"""p for p >= 0, $w(e^{p/w} - 1)$ for p < 0: value and slope are exact at 0, and the value stays above -w.
 
-    Newton and autodiff probe pressures slightly below zero, where `log1p(A p)` of a viscosity law
-    would be undefined. A softplus would bias value and slope at p = 0.
+    Newton's method tries pressures slightly below zero, where `log1p(A p)` of a viscosity law would be undefined. A
+    softplus would change value and slope at p = 0.
 
-    **Arguments:** `pressure`, Pa; `width`, Pa.
+    **Arguments:** `pressure` p, Pa; `width` w > 0, Pa.
     """
     negative = jnp.minimum(pressure, 0.0)
     return jnp.where(pressure >= 0, pressure, width * jnp.expm1(negative / width))

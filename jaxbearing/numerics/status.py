@@ -1,28 +1,33 @@
-"""Status of a solve: one enumeration for the solver, the Python result, the JSON and the screen."""
+"""Status of a solve. Solvers, Python results, JSON and the screen share this enumeration."""
 
 import enum
 
 
 class Status(enum.IntEnum):
-    """Outcome of a solve, carried as an integer array so that every lane of a batch has its own."""
+    """Outcome of a solve. Results hold it as an integer array, so that every lane (member of a batch) has its own."""
 
     CONVERGED = 0
     NOT_CONVERGED = 1
+    """The steps ran out, or a nested solve failed."""
     DIVERGED = 2
+    """A value was not finite, or the steps in time became too small."""
     NO_EQUILIBRIUM = 3
+    """There is no steady state: no position balances the loads, or there is too little entrainment for a film."""
     INVALID_INPUT = 4
-    """A traced number is out of its bound: `checks` names the rule."""
+    """Traced numbers break a rule, which `checks` or the failure message names."""
     OUTSIDE_VALIDITY = 5
+    """A law does not describe this operating point."""
     THERMAL_RUNAWAY = 6
+    """Temperatures rise beyond their limit: friction heats a part faster than it is cooled."""
 
     @property
     def text(self) -> str:
-        """The name in lower case, e.g. `not_converged`."""
+        """The name in lower case, such as `not_converged`."""
         return self.name.lower()
 
 
 class SolveError(RuntimeError):
-    """A solve that did not converge; the message names status, residual and worst equation."""
+    """A solve or a run in time failed; the message gives the status and the reason, where known."""
 
     def __init__(self, message: str, status: Status = Status.NOT_CONVERGED):
         super().__init__(message)

@@ -1,4 +1,7 @@
-"""Fields that shape a program: plain Python numbers, truth values and words, static, never traced."""
+"""Fields that determine the structure of a compiled program: static Python numbers, truth values and words.
+
+They are never traced; another value compiles another program.
+"""
 
 import dataclasses
 import math
@@ -24,8 +27,8 @@ def count(
     most: int | None = None,
     **kwargs: Any,
 ) -> Any:
-    """Static field that holds a whole number, not below `least` and not above `most`; `name` as messages have it.
-    `None` passes where it is the default."""
+    """Static field that holds a whole number from `least` to `most`. Without `least` it is at least 0 if `most` is
+    given. Messages call the field `name`. `None` passes if it is the default."""
 
     def read(value: Any) -> int:
         number = static_count(name, value, least if most is None else None)
@@ -44,8 +47,8 @@ def constant(
     among: Iterable[float] | None = None,
     **kwargs: Any,
 ) -> Any:
-    """Static field that holds one finite number without a unit, within a bound of `checks.RANGES` or `among` some
-    numbers; `name` as messages have it. `None` passes where it is the default."""
+    """Static field that holds one finite number without a unit, within `bound` (a key of `checks.RANGES`) and one of
+    the numbers `among`, if they are given. Messages call the field `name`. `None` passes if it is the default."""
     numbers = None if among is None else tuple(among)
 
     def read(value: Any) -> float:
@@ -60,12 +63,12 @@ def constant(
 
 
 def switch(name: str, default: Any = dataclasses.MISSING, **kwargs: Any) -> Any:
-    """Static field that holds `True` or `False`; `name` as messages have it. `None` passes where it is the default."""
+    """Static field that holds `True` or `False`. Messages call it `name`. `None` passes if it is the default."""
     return _field(lambda value: static_number(name, value, bool), default, kwargs, {"switch": True})
 
 
 def choice(name: str, choices: Iterable[str], default: Any = dataclasses.MISSING, **kwargs: Any) -> Any:
-    """Static field that holds one of some words; `name` as messages have it. `None` passes where it is the default."""
+    """Static field that holds one of the words `choices`. Messages call it `name`. `None` passes as the default."""
     words = tuple(choices)
 
     def read(value: Any) -> str:
@@ -77,7 +80,12 @@ def choice(name: str, choices: Iterable[str], default: Any = dataclasses.MISSING
 
 
 def _field(read: Callable[[Any], Any], default: Any, kwargs: dict[str, Any], said: dict[str, Any]) -> Any:
-    """**Arguments:** `said`: what scene files read of the field, see `scenes.table_of`."""
+    """The static field.
+
+    **Arguments:**
+    - `read`: from a given value to the stored one; raises `ValueError`.
+    - `said`: metadata from which scene files make the field (`scenes.table_of`).
+    """
     if default is not dataclasses.MISSING:
         kwargs["default"] = default
 
@@ -89,7 +97,7 @@ def _field(read: Callable[[Any], Any], default: Any, kwargs: dict[str, Any], sai
 
 
 def static_count(name: str, value: Any, least: int | None = None) -> int:
-    """The value as a Python `int`. **Raises:** `ValueError` as `static_number`, and below `least`."""
+    """The value as a Python `int`. **Raises:** `ValueError` as `static_number` does, and for a value below `least`."""
     number = static_number(name, value, int)
     if least is not None and number < least:
         raise ValueError(f"{name} must be >= {least}, got {number}")
@@ -97,9 +105,9 @@ def static_count(name: str, value: Any, least: int | None = None) -> int:
 
 
 def static_number(name: str, value: Any, kind: type) -> Any:
-    """The value as a Python `int`, `float` or `bool`, also of a numpy or JAX scalar.
+    """The value, or that of a numpy or JAX scalar, as Python's `kind`: `int`, `float` or `bool`.
 
-    **Raises:** `ValueError` for a traced value, and for a value of another kind.
+    **Raises:** `ValueError` for a traced value, a value of another kind and a number that is not finite.
     """
     value = _untraced(name, value)
     is_bool = isinstance(value, bool)
@@ -110,7 +118,7 @@ def static_number(name: str, value: Any, kind: type) -> Any:
 
 
 def _untraced(name: str, value: Any) -> Any:
-    """A numpy or JAX scalar as the Python value; any other as it is. **Raises:** `ValueError` for a traced value."""
+    """A numpy or JAX scalar as a Python value; other values unchanged. **Raises:** `ValueError` for a traced value."""
     if isinstance(value, Tracer):
         raise ValueError(
             f"{name}: got a traced value, but it is structure: the program that JAX compiles depends on it. Give a "
@@ -120,7 +128,7 @@ def _untraced(name: str, value: Any) -> Any:
 
 
 def plain(value: Any) -> Any:
-    """A numpy or JAX scalar as the Python value; any other as it is, a traced value too."""
+    """A numpy or JAX scalar as a Python value; other values, traced ones included, unchanged."""
     if isinstance(value, np.generic | np.ndarray | jax.Array) and not isinstance(value, Tracer) and value.ndim == 0:
         return np.asarray(value).item()
     return value

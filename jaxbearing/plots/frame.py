@@ -6,8 +6,8 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from ..report.display import ZERO_CELSIUS, display_unit, displayed
-from ..report.sheet import INK, axis_unit
+from ..report.colours import INK
+from ..report.display import ZERO_CELSIUS, axis_unit, display_unit, displayed
 
 if TYPE_CHECKING:
     import matplotlib.figure
@@ -60,7 +60,7 @@ def drawing(
         if axes.name != (projection or "rectilinear"):
             raise ValueError(f"axes: found the projection '{axes.name}', expected '{projection or 'rectilinear'}'")
         return axes.figure, axes
-    from ..report.page import Page
+    from ..report.backends.matplotlib.page import Page
 
     figure = Page(*size)
     write_below(figure, caption)

@@ -7,11 +7,14 @@ import numpy as np
 from ..bearings.motion.history import History
 from ..bearings.solution import Solution
 from ..machines import TwoDiskSolution
-from ..report.bearing.plots import ROUND, draw_loads, draw_losses, draw_round, power_losses
-from ..report.history_plots import draw_orbit
-from ..report.sheet import INK
+from ..report.backends.matplotlib.panels import draw
+from ..report.bearing.panels import ROUND, load_panel, loss_panel, round_panel
+from ..report.bearing.run.plots import draw_orbit
+from ..report.colours import INK
+from ..report.registry import check_converged
 from ..report.two_disk.curves import curves_of
-from ..report.two_disk.plots import draw_panel
+from ..report.two_disk.panels import traction_panel
+from ..report.two_disk.plots import draw_curves
 from .style import finish, prepare
 
 if TYPE_CHECKING:
@@ -19,7 +22,7 @@ if TYPE_CHECKING:
 
 
 def load_distribution(solution: Solution, *, axes: Any = None) -> "matplotlib.figure.Figure":
-    """Load on each rolling element at both races, polar; the load line points down.
+    """Load on each rolling element at both races and the rib, polar; the load line points down.
 
     **Arguments:** `solution`: one solution of a bearing that converged; `axes`: polar matplotlib axes, a new figure if
     not given.
@@ -28,7 +31,7 @@ def load_distribution(solution: Solution, *, axes: Any = None) -> "matplotlib.fi
     """
     _check(solution)
     own, axes = axes is None, prepare(axes, polar=True)
-    draw_loads(axes, solution)
+    draw(axes, load_panel(solution))
     axes.legend(fontsize=8, frameon=False, loc="upper left", bbox_to_anchor=(1.08, 1.0))
     return finish(axes, "Normal load on each rolling element; azimuth 0 is the load line.", own)
 
@@ -53,11 +56,11 @@ def power_loss(solution: Solution, *, axes: Any = None) -> "matplotlib.figure.Fi
     """Power loss by location, largest first, with its share of the total. Arguments and errors as `load_distribution`,
     and `ValueError` where the scene models no loss."""
     _check(solution)
-    losses = power_losses(solution)
-    if not losses:
+    losses = loss_panel(solution)
+    if losses is None:
         raise ValueError("power_loss: the scene models no power loss")
     own, axes = axes is None, prepare(axes)
-    draw_losses(axes, losses, float(solution.power_loss.total))
+    draw(axes, losses)
     return finish(axes, "Power loss by location; the shares add up to the total.", own)
 
 
@@ -71,15 +74,12 @@ def traction_curves(
 
     **Raises:** `ValueError` for a solution that did not converge; `IndexError` for a number that is not there.
     """
-    if not bool(np.all(solution.converged)):
-        raise ValueError(f"a solve that failed has no results: {solution.failure()}")
+    check_converged(solution)
     curves = [curve for curve in curves_of(solution) if curve.place[:2] == (temperature, speed)]
     if not curves:
         raise IndexError(f"found temperature {temperature} and speed {speed}, expected numbers of those computed")
     own, axes = axes is None, prepare(axes)
-    draw_panel(axes, solution, curves)
-    axes.set_xlabel("slide-to-roll ratio, %", fontsize=9)
-    axes.set_ylabel("traction coefficient", fontsize=9)
+    draw_curves(axes, traction_panel(solution, curves))
     axes.legend(fontsize=8, frameon=False)
     return finish(axes, "Traction coefficient; the slide-to-roll ratio is the speed difference over the mean.", own)
 
@@ -129,10 +129,11 @@ def _guide(history: History) -> tuple[float, float, float]:
 
 def _round(solution: Solution, name: str, caption: str, axes: Any) -> "matplotlib.figure.Figure":
     _check(solution)
-    if not any(getattr(solution.elements, f"{name}_{side}", None) is not None for side in ("inner", "flange")):
+    panel = round_panel(solution, name)
+    if panel is None:
         raise ValueError(f"{ROUND[name][0].lower()}: the scene does not model it")
     own, axes = axes is None, prepare(axes)
-    draw_round(axes, solution, name)
+    draw(axes, panel)
     axes.legend(fontsize=8, frameon=False)
     return finish(axes, caption, own)
 
@@ -140,5 +141,4 @@ def _round(solution: Solution, name: str, caption: str, axes: Any) -> "matplotli
 def _check(solution: Solution) -> None:
     if np.ndim(solution.status) != 0:
         raise ValueError("found a batch of solutions, expected one: take one lane of it")
-    if not bool(solution.converged):
-        raise ValueError(f"a solve that failed has no results: {solution.failure()}")
+    check_converged(solution)

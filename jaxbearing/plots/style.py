@@ -4,7 +4,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ..report.labelled import label_unit
+from ..report.labels import label_unit
 from .frame import HEIGHT, WIDTH, axis_for, write_below
 
 if TYPE_CHECKING:
@@ -19,7 +19,7 @@ def prepare(axes: Any, polar: bool = False) -> Any:
     """The axes given, or those of a new figure."""
     if axes is not None:
         return axes
-    from ..report.page import Page
+    from ..report.backends.matplotlib.page import Page
 
     figure = Page(WIDTH, HEIGHT)
     # before anything is drawn: a colour bar is placed by the engine of its figure

@@ -4,7 +4,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ..report.sheet import INK, axis_unit, grid_lines
+from ..report.backends.matplotlib.sheet import grid_lines
+from ..report.colours import INK
+from ..report.display import axis_unit
 from .style import COLOURS, LINES, axis_name, finish, prepare, shown
 
 if TYPE_CHECKING:

@@ -1,28 +1,20 @@
 """A solution as a labelled xarray data set, whatever its kind, and as a NetCDF file."""
 
-import functools
 import os
 from collections.abc import Sequence
 from typing import Any
 
 import xarray as xr
 
-from ..bearings.solution import Solution
-from ..ehl import LineContactSolution
-from ..machines import TwoDiskSolution
-from .bearing.dataset import bearing_to_dataset
+from .backends.netcdf import netcdf_image
 from .files import write_whole
-from .labelled import udunits as udunits
-from .line_contact.dataset import line_contact_to_dataset
-from .netcdf import netcdf_image
-from .two_disk.dataset import two_disk_to_dataset
+from .registry import output
 
 
-@functools.singledispatch
 def solution_to_dataset(solution: Any, dims: Sequence[str] = ()) -> xr.Dataset:
     """All results with `units`, `long_name` and `path` on every variable; units as UDUNITS writes them ("rad s-1").
 
-    What a kind of solution has as dimensions and coordinates is said by `bearing_to_dataset` and `two_disk_to_dataset`.
+    What a kind of solution has as dimensions and coordinates is said by `to_dataset` of its folder.
     The attributes of the data set hold warnings and notes in words, and the version.
 
     **Arguments:**
@@ -32,12 +24,7 @@ def solution_to_dataset(solution: Any, dims: Sequence[str] = ()) -> xr.Dataset:
     **Raises:** `ValueError` for a single solution that did not converge, and where `dims` does not fit; `TypeError`
     for another kind of solution.
     """
-    raise TypeError(f"no data set of a {type(solution).__name__}")
-
-
-solution_to_dataset.register(Solution, bearing_to_dataset)
-solution_to_dataset.register(TwoDiskSolution, two_disk_to_dataset)
-solution_to_dataset.register(LineContactSolution, line_contact_to_dataset)
+    return output(solution, "dataset", "data set")(solution, dims)
 
 
 def write_netcdf(dataset: xr.Dataset | xr.DataTree, path: str | os.PathLike[str]) -> None:

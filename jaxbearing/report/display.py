@@ -1,4 +1,4 @@
-"""Numbers for people: engineer's units, significant digits, bars."""
+"""Numbers as people read them: engineering units for screens and axes, significant digits, bars of text."""
 
 import math
 
@@ -9,13 +9,24 @@ _ENGINEERS: dict[str, tuple[str, float]] = {
     "m": ("um", 1e6),
     "Pa": ("GPa", 1e-9),
     "N/m": ("N/um", 1e-6),
+    "N/m^(10/9)": ("N/um^(10/9)", 1e-6 ** (10.0 / 9.0)),
     "m^3/s": ("l/h", 3.6e6),
     "1": ("", 1.0),
 }
-"""SI unit of a result -> the unit on the screen, and the factor. Other units are shown as they are."""
+"""SI unit of a result -> (unit on the screen, factor from SI). Other units are shown unchanged."""
+
+_SCALES = {
+    "N": ((1e3, "kN", 1e-3), (0.0, "N", 1.0)),
+    "m": ((1e-3, "mm", 1e3), (1e-7, "µm", 1e6), (0.0, "nm", 1e9)),
+    "Pa": ((1e8, "GPa", 1e-9), (0.0, "MPa", 1e-6)),
+    "m/s": ((0.1, "m/s", 1.0), (0.0, "mm/s", 1e3)),
+    "W": ((1e4, "kW", 1e-3), (0.0, "W", 1.0)),
+}
+"""SI unit -> choices (limit in SI, unit on the axis, factor from SI). The first choice whose limit the largest value of
+the axis reaches is taken."""
 
 ZERO_CELSIUS = 273.15
-"""K."""
+"""0 degC in K."""
 _BLOCKS = " ▏▎▍▌▋▊▉█"
 
 
@@ -29,8 +40,17 @@ def displayed(value: float, unit: str) -> float:
     return value * _ENGINEERS.get(unit, (unit, 1.0))[1]
 
 
+def axis_unit(unit: str, largest: float) -> tuple[str, float]:
+    """Unit of an axis and factor from SI. `largest` is the largest value of the axis in SI units."""
+    for limit, name, factor in _SCALES.get(unit, ((0.0, unit, 1.0),)):
+        if largest >= limit:
+            return name, factor
+    # `largest` is NaN
+    return unit, 1.0
+
+
 def digits(value: float, significant: int = 4) -> str:
-    """A number with so many significant digits, without an exponent where it has an everyday size."""
+    """A number with `significant` digits; it has an exponent below 1e-4 and from 1e8 on. "-" for NaN and infinity."""
     if not math.isfinite(value):
         return "-"
     if value == 0.0:
@@ -42,12 +62,15 @@ def digits(value: float, significant: int = 4) -> str:
 
 
 def with_unit(value: float, unit: str, significant: int = 4) -> str:
-    """A result in engineer's units, "33.57 um"."""
+    """A result in the unit of the screen, such as "33.57 um". `value` is in the SI unit `unit`."""
     return f"{digits(displayed(value, unit), significant)} {display_unit(unit)}".rstrip()
 
 
 def bar(fraction: float, width: int, ascii_only: bool = False) -> str:
-    """A horizontal bar, to an eighth of a character where the terminal can."""
+    """A horizontal bar of text, in steps of an eighth of a character, or of a whole one with `ascii_only`.
+
+    **Arguments:** `fraction`: filled part, 0 to 1; `width`: characters of a full bar.
+    """
     fraction = min(max(fraction, 0.0), 1.0) if math.isfinite(fraction) else 0.0
     if ascii_only:
         return "#" * round(fraction * width)
@@ -55,3 +78,13 @@ def bar(fraction: float, width: int, ascii_only: bool = False) -> str:
     if eighths == 0 and fraction > 0.0:
         eighths = 1
     return ("█" * (eighths // 8) + _BLOCKS[eighths % 8]).rstrip()
+
+
+def typeset(text: str) -> str:
+    """Replaces ASCII units by their signs, such as µm, which a terminal may lack."""
+    return text.replace(" degC", " °C").replace(" um", " µm").replace("/um", "/µm")
+
+
+def pretty(text: str) -> str:
+    """A list with commas for the head of a figure or page: typeset units, and dots in the place of the commas."""
+    return typeset(text).replace(", ", "   ·   ")

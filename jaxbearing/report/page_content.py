@@ -3,8 +3,8 @@
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 
-from .charts import Chart
-from .result_tables import Column, Row
+from .panels import Panel
+from .tables import Column, Row
 
 
 @dataclass(frozen=True)
@@ -38,7 +38,7 @@ class Content:
     life: Sequence[Row] = ()
     losses: Sequence[tuple[str, str, str]] = ()
     not_modelled: str = ""
-    charts: Sequence[Chart] = ()
+    charts: Sequence[Panel] = ()
     convergence: Sequence[tuple[str, str]] = ()
     checks: Sequence[tuple[str, bool]] = ()
     notes: Sequence[str] = ()

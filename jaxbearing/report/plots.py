@@ -1,18 +1,14 @@
 """Pictures of a solution, whatever its kind, and the files they are written to."""
 
-import functools
 import io
 import os
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from ..bearings.solution import Solution
-from ..ehl import LineContactSolution
-from ..machines import TwoDiskSolution
-from .bearing.plots import plot_bearing
+import numpy as np
+
 from .files import write_whole
-from .line_contact.plots import plot_line_contact
-from .two_disk.plots import plot_two_disk
+from .registry import check_converged, output
 
 if TYPE_CHECKING:
     import matplotlib.figure
@@ -21,7 +17,6 @@ SUFFIXES = (".png", ".svg", ".pdf")
 """Kinds of files that a figure can be written to."""
 
 
-@functools.singledispatch
 def plot_solution(solution: Any, title: str) -> "matplotlib.figure.Figure":
     """A page of plots of one solution: of a bearing, power loss, loads, films, pressures and sliding speeds; of a
     two-disk machine, its traction curves.
@@ -30,15 +25,14 @@ def plot_solution(solution: Any, title: str) -> "matplotlib.figure.Figure":
     - `solution`: one solution that converged.
     - `title`: name of the scene, at the head of the page.
 
-    **Raises:** `ValueError` for a solution that did not converge: it has no results; `TypeError` for another kind of
-    solution.
+    **Raises:** `ValueError` for a batch, and for a solution that did not converge: it has no results; `TypeError`
+    for another kind of solution.
     """
-    raise TypeError(f"no plot of a {type(solution).__name__}")
-
-
-plot_solution.register(Solution, plot_bearing)
-plot_solution.register(TwoDiskSolution, plot_two_disk)
-plot_solution.register(LineContactSolution, plot_line_contact)
+    draw = output(solution, "plots", "plot")
+    if np.ndim(solution.converged) != 0:
+        raise ValueError("plot_solution draws one solution, got a batch: take one lane of it")
+    check_converged(solution)
+    return draw(solution, title)
 
 
 def save_plot(figure: Any, path: str | os.PathLike[str]) -> None:

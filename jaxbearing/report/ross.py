@@ -60,7 +60,7 @@ def ross_bearing(
     turn = np.array([[cosine, -sine], [sine, cosine]])
     plane = turn @ table.stiffness[:, across][:, :, across] @ turn.T
     zero = np.zeros(len(table.speed))
-    # 0 of rollers between cylinders, which carry nothing along the axis
+    # 0 of cylindrical rollers without flanges, which carry nothing along the axis
     axial = table.stiffness[:, place["axial"], place["axial"]]
     coefficients = {f"k{a}{b}": plane[:, i, j] for i, a in enumerate("xy") for j, b in enumerate("xy")}
     coefficients |= {"kzz": axial} | dict.fromkeys(_ZERO, zero)

@@ -1,7 +1,7 @@
 """A scene as a table: every field by its path in a scene file, with its unit."""
 
 import dataclasses
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from typing import Any
 
 import equinox as eqx
@@ -10,10 +10,10 @@ from pydantic import BaseModel
 from rich.console import Console
 
 from .._scene import AbstractScene
-from ..scenes.fields import dimension_of, is_known, parts_of, tables_at, type_at
+from ..scenes.fields import is_known, tables_at
 from ..scenes.reader import model_of
+from .backends.screen import print_line, print_rule
 from .display import ZERO_CELSIUS, display_unit, displayed
-from .screen import print_line, print_rule
 
 _NAMES = 40
 """Columns of the names."""
@@ -52,14 +52,12 @@ def _rows(part: Any, inside: tuple[str, ...], model: type[BaseModel]) -> Iterato
             else:
                 yield path, type(value).__name__
             continue
-        kind = type_at(model, path) if is_known(model, path) else None
         if np.ndim(value) == 0 or isinstance(value, str):
-            yield path, _text(value, kind)
+            yield path, _text(value, field.metadata)
         elif isinstance(value, tuple):
             yield path, ", ".join(map(str, value))
         else:
-            several = kind is not None and parts_of(kind)[0] is not float
-            yield path, f"{np.size(value)} values" if several else None
+            yield path, f"{np.size(value)} values" if "each" in field.metadata else None
 
 
 def _is_table(value: eqx.Module, model: type[BaseModel], path: tuple[str, ...]) -> bool:
@@ -67,17 +65,15 @@ def _is_table(value: eqx.Module, model: type[BaseModel], path: tuple[str, ...]) 
     return any(is_known(model, (*path, field.name)) for field in dataclasses.fields(value))
 
 
-def _text(value: Any, kind: Any) -> str:
+def _text(value: Any, said: Mapping[str, Any]) -> str:
+    """**Arguments:** `said`: metadata of the field."""
     if isinstance(value, str | bool | int):
         return str(value).lower() if isinstance(value, bool) else str(value)
-    number = float(value)
-    dimension = None if kind is None else dimension_of(kind)
-    if dimension is None:
-        return f"{number:.6g}"
-    if dimension.offset_allowed:
+    number, si = float(value), said.get("unit", "1")
+    if si == "K" and not said.get("difference"):
         return f"{number - ZERO_CELSIUS:.6g} degC"
-    sizes = _SIZES.get(dimension.si, ())
+    sizes = _SIZES.get(si, ())
     unit, factor = next(((name, by) for least, name, by in sizes if abs(number) >= least), ("", 0.0))
     if unit:
         return f"{number * factor:.6g} {unit}"
-    return f"{displayed(number, dimension.si):.6g} {display_unit(dimension.si)}"
+    return f"{displayed(number, si):.6g} {display_unit(si)}".rstrip()

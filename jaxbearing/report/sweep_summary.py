@@ -12,9 +12,9 @@ from rich.table import Table
 from rich.text import Text
 
 from ..bearings.operation import HELD_FIELDS, LOAD_FIELDS
+from .backends.screen import counted, headline, print_warnings
 from .display import with_unit
-from .labelled import label_unit
-from .screen import counted, headline, print_warnings
+from .labels import label_unit
 
 _MAIN = (
     "power_loss_total",

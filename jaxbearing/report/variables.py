@@ -9,7 +9,7 @@ import numpy as np
 import xarray as xr
 
 from .. import __version__
-from .labelled import udunits
+from .labels import udunits
 
 CHECK = "check"
 """Dimension of the checks of the laws' ranges."""

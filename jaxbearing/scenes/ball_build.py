@@ -17,9 +17,8 @@ from ..bearings.rating import Rating
 from ..contacts import PointLaws
 from ..lubricants import Lubricant
 from .ball_schema import BallBearingTable, BallContactTable, KinematicsTable
-from .bearing_build import built, cage, part
+from .bearing_build import built, cage, part, seats, solids
 from .laws import BALL_FILMS, distributed_traction, thermal_factor
-from .materials import material
 from .oils import lubricant
 
 
@@ -33,7 +32,7 @@ def ball_bearing(table: BallBearingTable) -> BallBearing:
     return built(
         BallBearing,
         geometry=lambda: BallGeometry(**table.geometry.model_dump()),
-        materials=lambda: BallMaterials(rings=material(table.materials.rings), balls=material(table.materials.balls)),
+        materials=lambda: BallMaterials(**solids(table, "rings", "balls")),
         operation=lambda: BallOperation(**table.operation.model_dump(exclude_none=True)),
         kinematics=lambda: _kinematics(table.kinematics, slips()),
         oil=oil,
@@ -41,6 +40,7 @@ def ball_bearing(table: BallBearingTable) -> BallBearing:
         cage=lambda: cage(BallCage, table.cage),
         drag=lambda: part(BallDragSettings, table.drag),
         rating=lambda: part(Rating, table.rating),
+        **seats(table),
     )
 
 

@@ -10,7 +10,15 @@ from ..bearings.ball.gyroscopic import CappedCouple, SharedCouple
 from ..bearings.ball.scene import BallAttitude, BallCage, BallDragSettings, BallOperation
 from ..contacts import PointLaws
 from . import units
-from .bearing_schema import CageBase, RatingTable, operation_table, require_oil, require_oil_flow
+from .bearing_schema import (
+    CageBase,
+    FitsTable,
+    RatingTable,
+    TemperaturesTable,
+    operation_table,
+    require_oil,
+    require_oil_flow,
+)
 from .laws import BALL_FILMS, POINT_THERMAL, TRACTIONS, TractionAccuracy
 from .materials import MaterialField
 from .oil_schema import OilTable
@@ -118,6 +126,8 @@ class BallBearingTable(Table):
     cage: BallCageTable | None = None
     drag: BallDragTable | None = None
     rating: RatingTable | None = None
+    fits: FitsTable | None = None
+    temperatures: TemperaturesTable | None = None
 
     @check
     def _flow(self) -> Problems:

@@ -10,10 +10,14 @@ from typing import Any, TypeVar
 import jax
 
 from ..bearings.cage import AbstractCage
+from ..materials import Material
+from ..mounting import Fits, PartTemperatures
 from ..numerics.checks import STAND_IN
 from ..numerics.refusals import collecting, refusals_of, refuse_all
+from .bearing_schema import FitsTable
 from .drafts import Unreadable
 from .laws import TURBULENCE
+from .materials import material
 from .table import Table
 
 Cage = TypeVar("Cage", bound=AbstractCage)
@@ -81,6 +85,31 @@ def _without_refused(part: Any, name: str, problems: list[ValueError]) -> None:
 def part(kind: type[Part], table: Table | None) -> Part | None:
     """The part whose attributes are the fields of the table, where there is one."""
     return None if table is None else kind(**table.model_dump())
+
+
+def seats(table: Any) -> dict[str, Callable[[], Any]]:
+    """The parts `fits` and `temperatures` of a bearing, as `built` takes them."""
+    return {
+        "fits": lambda: None if table.fits is None else _fits(table.fits),
+        "temperatures": lambda: part(PartTemperatures, table.temperatures),
+    }
+
+
+def _fits(table: FitsTable) -> Fits:
+    names = ("shaft_material", "housing_material")
+    of = {name: getattr(table, name) for name in names}
+    given: dict[str, Any] = {name: material(one, thermal=True) for name, one in of.items() if one is not None}
+    return Fits(**table.model_dump(exclude=set(names)), **given)
+
+
+def solids(table: Any, *names: str) -> dict[str, Material]:
+    """The materials of these fields, as far as given; with thermal properties where the parts have temperatures."""
+    try:
+        thermal = table.temperatures is not None
+    except Unreadable:
+        thermal = True
+    given = {name: getattr(table.materials, name) for name in names}
+    return {name: material(one, thermal=thermal) for name, one in given.items() if one is not None}
 
 
 def cage(kind: type[Cage], table: Any) -> Cage | None:

@@ -7,7 +7,9 @@ from typing import Annotated, Any
 from ..bearings.cage import AbstractCage
 from ..bearings.operation import AbstractOperation, HeldDisplacement
 from ..bearings.rating import Rating
+from ..mounting import Fits, PartTemperatures
 from .laws import TURBULENCE, Laws
+from .materials import MaterialField
 from .oil_needs import require_laws, require_piezoviscous
 from .oil_schema import OilTable
 from .table import Problems, Table, check, refusal_at
@@ -34,8 +36,18 @@ class OperationBase(Table):
 
 def operation_table(operation: type[AbstractOperation]) -> Any:
     """The operating point of a kind of bearing. The oil is needed by lubricated bearings only."""
-    carried = [name for name in operation.not_carried if "." not in name]
-    return table_of(operation, leave_out=carried, optional=("oil_temperature", "oil_flow"), base=OperationBase)
+    return table_of(operation, optional=("oil_temperature", "oil_flow"), base=OperationBase)
+
+
+class FitsTable(table_of(Fits)):
+    """Seats of the rings; see `mounting.seats.Fits`."""
+
+    shaft_material: MaterialField | None = None
+    housing_material: MaterialField | None = None
+
+
+class TemperaturesTable(table_of(PartTemperatures)):
+    """Temperatures of the parts; see `mounting.seats.PartTemperatures`."""
 
 
 class RatingTable(table_of(Rating)):

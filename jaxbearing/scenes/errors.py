@@ -1,5 +1,8 @@
-"""The one error of the edge: what is wrong in which file and field, what was found, what is expected, what is near; all
-problems of a file at once."""
+"""`SceneError`, the error for scenes that cannot be read: file, field, what was found, what is expected, nearest name.
+
+One error reports all problems of a file. This module makes it from the errors of pydantic (`from_validation`) and from
+those of the classes that a scene is built of (`from_class`).
+"""
 
 import difflib
 import re
@@ -13,23 +16,22 @@ from .fields import is_optional, names_at, path_of, required_names, type_at
 from .units import describe, shortened
 
 LAW_ERROR = "law_name"
-"""Type of the validation error for a name that stands for no law."""
+"""Type of the validation error for a name that is not the name of a law."""
 _CLASS_MESSAGE = re.compile(r"([a-z_0-9]+(?:\.[a-z_0-9]+)*)(:| must)")
 _MUST_BE = re.compile(r"be (?P<expected>.*?)(?:, got [^:]*(?:: (?P<reason>.*))?)?")
 _FOUND_EXPECTED = re.compile(r"(?:found (?P<found>.*?), )?expected (?P<expected>.*)")
 
 
 class SceneError(ValueError):
-    """A scene that cannot be read or does not make sense; the message is for a person: one line a problem.
+    """A scene cannot be read or does not make sense. The message has one line for each problem.
 
     **Arguments:**
-    - `file`: the file, or the built-in scene.
-    - `path`: dotted path of the field; empty where the file as a whole is meant.
-    - `found`, `expected`: in words.
-    - `suggestion`: nearest valid name.
+    - `file`: name of the file or of the built-in scene.
+    - `path`: dotted path of the field; empty if the problem concerns the whole file.
+    - `found`, `expected`: what the file holds, and what it should hold, in words.
+    - `suggestion`: nearest valid name; may be empty.
+    - `reason`: why that is expected, in words; may be empty.
     - `others`: the other problems, each a `SceneError`.
-
-    `problems` holds all of them, this one first.
     """
 
     def __init__(
@@ -48,16 +50,17 @@ class SceneError(ValueError):
 
     @staticmethod
     def of_all(problems: Sequence["SceneError"]) -> "SceneError":
-        """One error of one or more problems, the most telling one first."""
+        """One error that holds all these problems; it is the first of them, the others follow in `others`."""
         every = [one for problem in problems for one in problem.problems]
         return every[0]._with(every[1:])
 
     @property
     def problems(self) -> tuple["SceneError", ...]:
+        """All problems, this one first, each as an error of its own."""
         return (self._with(()), *self.others)
 
     def of(self, file: str) -> "SceneError":
-        """The same problem under another name of the file."""
+        """The same error with another name of the file."""
         words = (self.path, self.found, self.expected, self.suggestion, self.reason)
         return SceneError(file, *words, others=self.others)
 
@@ -69,7 +72,7 @@ class SceneError(ValueError):
         if not self.others:
             return self._sentence()
         problems = self.problems
-        # the name of the file once, where it is one
+        # if all problems are in one file, its name stands once
         name = f"{printable(self.file)}: " if len({one.file for one in problems}) == 1 else ""
         lines = [one._sentence().removeprefix(name) for one in problems]
         return "\n  - ".join([f"{name}{len(lines)} problems:", *lines])
@@ -84,24 +87,27 @@ class SceneError(ValueError):
 
 
 def printable(text: str) -> str:
-    """A text for a terminal: what is not printable (escape sequences, null bytes) as in a Python literal."""
+    """A text for a terminal: what cannot be printed (escape sequences, null bytes) is escaped as in Python code."""
     return "".join(char if char.isprintable() else repr(char)[1:-1] for char in text)
 
 
 def nearest(name: str, valid: Iterable[str]) -> str:
-    """The valid name that is spelt most alike, or an empty text."""
+    """The valid name with the most similar spelling; empty if none is similar."""
     by_lower = {candidate.lower(): candidate for candidate in valid}
     close = difflib.get_close_matches(name.lower(), by_lower, n=1, cutoff=0.6)
     return by_lower[close[0]] if close else ""
 
 
 def from_validation(error: ValidationError, model: type[BaseModel], file: str) -> SceneError:
-    """All problems of a validation.
+    """The error for all problems that pydantic found.
 
-    An unknown name goes first, a missing field last, and not at all where an unknown name beside it is meant for it.
+    Unknown names come first and missing fields last. A missing field is left out if an unknown name in the same table
+    resembles it.
+
+    **Arguments:** `error`: of pydantic; `model`: schema of the scene; `file`: its name for messages.
     """
     details = sorted(_causes(error.errors(include_url=False)), key=_rank)
-    problems = [in_words(file, *_in_words(one, model)) for one in details]
+    problems = [in_words(file, *_path_and_words(one, model)) for one in details]
     meant = {".".join([*one.path.split(".")[:-1], one.suggestion]) for one in problems if one.suggestion}
     missing = [detail["type"] == "missing" for detail in details]
     kept = [one for one, absent in zip(problems, missing, strict=True) if not (absent and one.path in meant)]
@@ -109,15 +115,20 @@ def from_validation(error: ValidationError, model: type[BaseModel], file: str) -
 
 
 def in_words(file: str, path: str, words: Mapping[str, str]) -> SceneError:
-    """A problem whose `found`, `expected` and, where there is one, `suggestion` are these."""
+    """One problem. `words` holds `found` and `expected`, and may hold `suggestion`."""
     return SceneError(file, path, words["found"], words["expected"], words.get("suggestion", ""))
 
 
 def from_class(error: ValueError, raw: Mapping[str, Any], file: str) -> SceneError:
-    """The refusals by classes of the library: "table.field must be ..., got ...: reason", "table.field: found ...,
-    expected ...", "table.field: expected ..." or "table.field: reason"."""
+    """The error for refusals by classes of the library.
+
+    Their messages read "table.field must be ..., got ...: reason", "table.field: found ..., expected ...",
+    "table.field: expected ..." or "table.field: reason".
+
+    **Arguments:** `error`: of the class; `raw`: tables of the scene; `file`: its name for messages.
+    """
     if isinstance(error, SceneError):
-        # of another file
+        # already complete: a file that the scene names
         return error
     if isinstance(error, Refusals):
         return SceneError.of_all([from_class(one, raw, file) for one in error.refusals])
@@ -135,7 +146,7 @@ def from_class(error: ValueError, raw: Mapping[str, Any], file: str) -> SceneErr
 
 
 def describe_at(raw: Mapping[str, Any], path: str) -> str:
-    """Content of the scene at a dotted path, in words."""
+    """The value of a scene at a dotted path, in words; "nothing" if there is none."""
     value: Any = raw
     for name in path.split("."):
         if not isinstance(value, Mapping) or name not in value:
@@ -145,16 +156,18 @@ def describe_at(raw: Mapping[str, Any], path: str) -> str:
 
 
 def _causes(details: Sequence[Any]) -> list[Any]:
-    """The problems without those that follow from a wrong `law`: the parameters that another law has or lacks."""
+    """Leaves out the problems that follow from a wrong `law`, such as parameters which another law has or lacks."""
     wrong = {tuple(one["loc"][:-1]) for one in details if one["type"] == "literal_error" and one["loc"][-1] == "law"}
     return [one for one in details if one["loc"][-1:] == ("law",) or tuple(one["loc"][:-1]) not in wrong]
 
 
 def _rank(detail: Any) -> int:
+    """Place of a problem among others: unknown names first, missing fields last."""
     return {"extra_forbidden": 0, "missing": 2}.get(detail["type"], 1)
 
 
-def _in_words(detail: Any, model: type[BaseModel]) -> tuple[str, dict[str, str]]:
+def _path_and_words(detail: Any, model: type[BaseModel]) -> tuple[str, dict[str, str]]:
+    """Dotted path of one problem of pydantic, and the words for `in_words`."""
     kind, location, context = detail["type"], detail["loc"], detail.get("ctx", {})
     path = path_of(location)
     if kind == "extra_forbidden":
@@ -163,7 +176,7 @@ def _in_words(detail: Any, model: type[BaseModel]) -> tuple[str, dict[str, str]]
         wanted = _expected_at(model, location)
         return path, {"found": "nothing", "expected": f"a value for '{location[-1]}', which is required{wanted}"}
     if kind == "scene":
-        # a check of several fields names the one to look at
+        # a check of several fields names the field to look at
         path = ".".join(part for part in (path, context.get("field", "")) if part)
         return path, {name: context.get(name, "") for name in ("found", "expected", "suggestion")}
     if kind in ("literal_error", LAW_ERROR):
@@ -182,7 +195,7 @@ def _in_words(detail: Any, model: type[BaseModel]) -> tuple[str, dict[str, str]]
 
 
 def _expected_at(model: type[BaseModel], location: Sequence[int | str]) -> str:
-    """Expected content of the field at a location, in the words of its refusals."""
+    """What the field at a location expects, in the words of its error messages, after ": "; empty if unknown."""
     wanted = type_at(model, location)
     if wanted is None:
         return ""
@@ -192,13 +205,13 @@ def _expected_at(model: type[BaseModel], location: Sequence[int | str]) -> str:
         TypeAdapter(wanted).validate_python(object())
     except ValidationError as error:
         refused = error.errors(include_url=False)[0]
-        _, words = _in_words({**refused, "loc": tuple(location)}, model)
+        _, words = _path_and_words({**refused, "loc": tuple(location)}, model)
         return f": {words['expected']}"
     return ""
 
 
 def unknown_name(location: Sequence[int | str], model: type[BaseModel]) -> dict[str, str]:
-    """Found, expected and similar names where the schema has no such name."""
+    """Words for `in_words` if the schema has no such name: found, expected, and the nearest name as a suggestion."""
     name, parents = str(location[-1]), location[:-1]
     owner = names_at(model, parents)
     later = owner.not_yet.get(name)
@@ -211,7 +224,13 @@ def unknown_name(location: Sequence[int | str], model: type[BaseModel]) -> dict[
     }
 
 
+_MOST_NAMES = 24
+"""Longest list of names that a message prints in full."""
+
+
 def one_of(names: Iterable[str]) -> str:
-    """A list of valid names in words."""
+    """Valid names in words: "'a'", or "one of 'a', 'b'". Of a long list only the first three and the last are named."""
     quoted = [f"'{name}'" for name in names]
+    if len(quoted) > _MOST_NAMES:
+        return f"one of {', '.join(quoted[:3])}, ..., {quoted[-1]} ({len(quoted)} words)"
     return quoted[0] if len(quoted) == 1 else "one of " + ", ".join(quoted)

@@ -3,7 +3,7 @@
 import dataclasses
 import inspect
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -13,12 +13,12 @@ from pydantic import BaseModel
 from .._scene import AbstractScene
 from .fields import tables_at
 from .overrides import apply
-from .reader import read_tables, scene_model
+from .reader import model_of, read_tables, scene_model
 
 _ARGUMENT = re.compile(r"^\s*- (?P<names>`\w+`.*?): (?P<text>.*)$")
 _NO_NEWS = re.compile(
     r"(?:m|s|rad|rad/s|N|N m|N/m|K|Pa|Pa s|Hz|m/s|m\^2/s|m\^3/s|1/Pa|K/Pa|K\^2/Pa|kg/m\^3|kg/\(m\^3 K\)|W/\(m K\)"
-    r"|W/\(m K\^2\)|structure|[<>]=? ?[\d.e-]+)\.?"
+    r"|W/\(m K\^2\)|N/m\^\(10/9\)|structure|[<>]=? ?[\d.e-]+)\.?"
 )
 """Units and bounds in the text of an argument: the value beside it has its unit."""
 
@@ -74,19 +74,36 @@ def _text(value: Any) -> str:
 
 
 def described_field(scene: AbstractScene, path: tuple[str, ...]) -> str:
-    """Description of a field: the label of the class that holds it, what a law says of itself, or what the class's
-    docstring says of its argument."""
+    """Description of a field: what a law says of itself, the label of the class that holds the field, what the class's
+    docstring says of its argument, or what that of its table says."""
     words = path[-1].replace("_", " ")
-    owner: Any = scene
-    for name in path[:-1]:
-        owner = getattr(owner, name, None)
-    if not dataclasses.is_dataclass(owner):
-        return words
-    law = getattr(owner, path[-1], None)
+    law: Any = scene
+    for name in path:
+        law = getattr(law, name, None)
     if dataclasses.is_dataclass(law):
         summary = _first_sentence(type(law))
         return f"{words}: {summary}" if summary else words
-    return described_argument(type(owner), path[-1]) or words
+    # a field that no class has, or that its class does not explain, is explained by its table
+    places = [owner_of(scene, path), *((table, path[-1]) for table in _tables(scene, path[:-1]))]
+    return next((said for place in places if place and (said := described_argument(*place))), words)
+
+
+def owner_of(scene: AbstractScene, path: Sequence[str]) -> tuple[type, str] | None:
+    """The class that has a field of a scene, and its name there: the class of the part at this place or, of a field
+    that only files have there, the one that its table was made from."""
+    part: Any = scene
+    for name in path[:-1]:
+        part = getattr(part, name, None)
+    if dataclasses.is_dataclass(part) and path[-1] in {field.name for field in dataclasses.fields(part)}:
+        return type(part), path[-1]
+    made = (getattr(table, "made_from", {}) for table in _tables(scene, path[:-1]))
+    return next((one[path[-1]] for one in made if path[-1] in one), None)
+
+
+def _tables(scene: AbstractScene, path: Sequence[str]) -> list[type[BaseModel]]:
+    """The tables that may stand at a place of the files of such scenes."""
+    model = model_of(scene)
+    return [] if model is None else tables_at(model, path)
 
 
 def described_argument(owner: type, name: str) -> str:

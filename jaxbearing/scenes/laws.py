@@ -5,6 +5,7 @@ A law of another package is named by an entry point of the group `jaxbearing.law
 """
 
 from collections.abc import Callable, Iterator, Mapping
+from contextlib import suppress
 from typing import Annotated, Any, Generic, TypeVar
 
 from pydantic import GetCoreSchemaHandler
@@ -92,6 +93,16 @@ class Laws(Generic[AnyLaw], Mapping[str, Callable[..., AnyLaw]]):
             return True
         law = ANY_FILMS[name]
         return name not in ANY_FILMS and isinstance(law, type) and issubclass(law, self._kinds)
+
+    def every(self) -> Iterator[str]:
+        """The names of the laws of this package, then of those of other packages that fit."""
+        from importlib.metadata import entry_points
+
+        yield from self._named
+        for found in entry_points(group=ENTRY_POINTS):
+            with suppress(KeyError, PydanticCustomError):
+                if found.name not in self._named and self._loaded(found.name):
+                    yield found.name
 
     def name_of(self, law: Any) -> str:
         """The name of the law of which this is one."""

@@ -45,7 +45,7 @@ def _model(table: FilmModelTable) -> FilmModel:
     """Before the load is known that says how finely it must be cut."""
     nodes = table.nodes if table.nodes is not None else ACCURACIES[table.accuracy or DEFAULT_ACCURACY]
     inlet = INLET if table.inlet is None else table.inlet
-    accuracy = None if table.nodes is not None else table.accuracy or DEFAULT_ACCURACY
+    accuracy = table.accuracy if table.nodes is not None else table.accuracy or DEFAULT_ACCURACY
     return FilmModel(
         compressible=table.compressible, nodes=nodes, inlet=inlet, film_limit=table.film_limit, accuracy=accuracy
     )

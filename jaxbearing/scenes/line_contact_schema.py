@@ -1,7 +1,6 @@
 """The scene file of a line contact. Names are the attribute names of the classes that it builds, except for how
 accuracy chooses the mesh (see `line_contact_build`)."""
 
-import itertools
 from collections.abc import Mapping
 from typing import Annotated, ClassVar, Literal
 
@@ -14,6 +13,7 @@ from .materials import MaterialField
 from .oil_schema import OilTable
 from .table import Problems, Table, check, refusal_at
 from .table_of import table_of
+from .time_tables import check_lists
 
 ACCURACIES: dict[float, int] = {1e-2: 201, 2e-3: 501, 1e-3: 801, 3e-4: 1601}
 """Relative error of the steady films -> fewest nodes of the mesh, enough at moderate loads; heavy ones take more (see
@@ -34,16 +34,12 @@ class ContactBodiesTable(Table):
 class FilmModelTable(table_of(FilmModel, optional=("nodes", "inlet"))):
     """Numerical settings of the contact.
 
-    - `accuracy`: relative error of the steady films for which mesh and inlet are chosen, by the load of the scene
+    - `accuracy`: relative error of the steady films for which mesh and inlet are chosen, by the load of the scene, as
+      far as they are not given; a warning says where they leave more
     """
 
     instead: ClassVar[Mapping[str, tuple[str, ...]]] = {"accuracy": ("nodes",), "nodes": ("accuracy",)}
     accuracy: Accuracy | None = None
-
-    @check
-    def _one_of_both(self) -> Problems:
-        if self.accuracy is not None and self.nodes is not None:
-            yield refusal_at("nodes", "none beside 'accuracy': one of the two", f"the number {self.nodes}")
 
 
 class ContactOperationTable(table_of(ContactOperation)):
@@ -78,12 +74,7 @@ class SpeedTable(Table):
 
     @check
     def _fits(self) -> Problems:
-        times = self.times
-        if len(times) < 2 or len(times) != len(self.factors):
-            expected = "as many factors as times, two or more"
-            yield refusal_at("factors", expected, f"{len(self.factors)} factors and {len(times)} times")
-        if any(b <= a for a, b in itertools.pairwise(times)):
-            yield refusal_at("times", "times that increase", "some that do not")
+        yield from check_lists(self.times, self.factors)
         if self.factors[0] == 0.0:
             yield refusal_at("factors", "a first number other than 0: at rest there is no film to begin with", "0")
 

@@ -1,53 +1,65 @@
-"""The text of a scene file from a line contact: the way back from `line_contact_build`, to the last digit."""
+"""The tables of a scene file from a line contact: the way back from `line_contact_build`."""
 
 from collections.abc import Iterable, Mapping
-from typing import Any
 
-import numpy as np
-
-from ..ehl import EHLLineContact
+from ..ehl import EHLLineContact, FilmSimulation
 from ..ehl.mesh import INLET
-from . import units
-from .errors import printable
-from .line_contact_schema import ACCURACIES, DEFAULT_ACCURACY
+from ..time_laws import LinearRamp, Ramp, Sinusoidal, Steady, Tabulated
+from .line_contact_schema import (
+    ACCURACIES,
+    DEFAULT_ACCURACY,
+    ContactGeometryTable,
+    ContactOperationTable,
+    FilmModelTable,
+    FilmSimulationTable,
+)
 from .oil_files import Origin
-from .oil_writer import law_lines, quantity_text
+from .oil_writer import scene_oil, sourced_laws
+from .part_writer import Rows, all_rows, given, material, rows, shown, table_rows, unwritable
+from .toml_writer import comments, toml_text
+
+
+def line_contact_tables(scene: EHLLineContact) -> Rows:
+    """The tables that describe a scene. **Raises:** `SceneError` for what a file cannot hold."""
+    bodies = scene.materials
+    tables = {
+        "kind": scene.kind,
+        "geometry": rows(ContactGeometryTable, scene.geometry),
+        "materials": {"body_1": material(bodies.body_1), "body_2": material(bodies.body_2)},
+        "oil": scene_oil(scene.oil),
+        "contact": rows(FilmModelTable, scene.contact),
+        "operation": rows(ContactOperationTable, scene.operation),
+        "simulation": None if scene.simulation is None else _simulation(scene.simulation),
+    }
+    return given(tables)
 
 
 def line_contact_text(scene: EHLLineContact, header: Iterable[str], origins: Mapping[str, Origin] | None = None) -> str:
-    """A scene without a table `simulation`.
+    """The text of a scene file whose oil says where its values come from; its load chooses the mesh, where that of the
+    scene is the default.
 
     **Arguments:** `header`: lines of comment at the top; `origins`: of the laws of the oil, by name.
 
     **Raises:** `ValueError` for a law of the oil that files do not know.
     """
-    lines = [*(f"# {printable(' '.join(text.split()))}".rstrip() for text in header)]
-    lines += ["", 'kind = "line_contact"', "", "[geometry]"]
-    lines += [_quantity("reduced_radius_rolling", scene.geometry.reduced_radius_rolling, units.LENGTH)]
-    for name in ("body_1", "body_2"):
-        body = getattr(scene.materials, name)
-        lines += ["", f"[materials.{name}]", _quantity("youngs_modulus", body.youngs_modulus, units.PRESSURE)]
-        lines += [f"poisson_ratio = {_float(body.poisson_ratio)!r}"]
-        lines += [_quantity("density", body.density, units.DENSITY)]
-    lines += law_lines(scene.oil, origins, "oil.")
-    model, operation = scene.contact, scene.operation
-    lines += ["", "[contact]", f"compressible = {str(model.compressible).lower()}"]
-    # the default is left to the load
-    cut = {"nodes": model.nodes, "inlet": model.inlet}
-    default = cut == {"nodes": ACCURACIES[DEFAULT_ACCURACY], "inlet": INLET}
-    given = {"accuracy": DEFAULT_ACCURACY} if default else cut
-    lines += [f"{name} = {value!r}" for name, value in given.items()]
-    lines += [_quantity("film_limit", model.film_limit, units.LENGTH), "", "[operation]"]
-    load = ("pressure", units.PRESSURE) if operation.load_per_length is None else ("load_per_length", units.LINE_LOAD)
-    lines += [_quantity(load[0], getattr(operation, load[0]), load[1])]
-    lines += [_quantity("entrainment_speed", operation.entrainment_speed, units.SURFACE_SPEED)]
-    lines += [_quantity("oil_temperature", operation.oil_temperature, units.TEMPERATURE)]
-    return "\n".join(lines) + "\n"
+    tables = line_contact_tables(scene) | {"oil": sourced_laws(scene.oil, origins)}
+    if (scene.contact.nodes, scene.contact.inlet) == (ACCURACIES[DEFAULT_ACCURACY], INLET):
+        left = {name: value for name, value in tables["contact"].items() if name not in ("nodes", "inlet")}
+        tables["contact"] = left | {"accuracy": DEFAULT_ACCURACY}
+    return comments(header) + "\n" + toml_text(tables)
 
 
-def _float(value: Any) -> float:
-    return float(np.asarray(value))
-
-
-def _quantity(name: str, value: Any, dimension: units.Dimension) -> str:
-    return f'{name} = "{quantity_text(_float(value), dimension)}"'
+def _simulation(part: FilmSimulation) -> Rows:
+    found = rows(FilmSimulationTable, part)
+    match part.speed:
+        case Steady():
+            return found
+        case Ramp():
+            return found | {"speed_ramp": all_rows(part.speed) | {"shape": "smooth"}}
+        case LinearRamp():
+            return found | {"speed_ramp": all_rows(part.speed) | {"shape": "linear"}}
+        case Sinusoidal():
+            return found | {"speed_perturbation": all_rows(part.speed)}
+        case Tabulated():
+            return found | {"speed_table": table_rows(part.speed)}
+    raise unwritable("simulation.speed", shown(part.speed), "Steady, Ramp, LinearRamp, Sinusoidal or Tabulated")

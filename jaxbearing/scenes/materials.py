@@ -5,7 +5,7 @@ from typing import Annotated, Any, ClassVar
 import numpy as np
 from pydantic import BeforeValidator, Discriminator, Tag
 
-from ..materials import CATALOGUE, Material
+from ..materials import CATALOGUE, THERMAL_FIELDS, Material, catalogue_material
 from . import units
 from .errors import nearest, one_of
 from .table_of import table_of
@@ -19,11 +19,14 @@ class MaterialTable(table_of(Material)):
 
 def catalogue_table(name: str) -> dict[str, str]:
     """A material of the catalogue as the fields of a table."""
-    one = CATALOGUE[name]
+    one = catalogue_material(name, thermal=True)
     return {
         "youngs_modulus": f"{float(one.youngs_modulus) * 1e-9:.6g} GPa",
         "poisson_ratio": f"{float(one.poisson_ratio):.6g}",
         "density": f"{float(one.density):.6g} kg/m^3",
+        "thermal_expansion": f"{one.thermal_expansion:.6g} 1/K",
+        "conductivity": f"{one.conductivity:.6g} W/(m*K)",
+        "heat_capacity": f"{one.heat_capacity:.6g} J/(kg*K)",
     }
 
 
@@ -46,8 +49,10 @@ MaterialField = Annotated[
 """A name of the catalogue, or a table."""
 
 
-def material(given: str | MaterialTable) -> Material:
-    """The material that a valid field means."""
+def material(given: str | MaterialTable, *, thermal: bool = False) -> Material:
+    """The material that a valid field means. **Arguments:** `thermal`: with the thermal properties that it has, which
+    are left out where nothing of the scene depends on temperatures."""
     if isinstance(given, str):
-        return CATALOGUE[given]
-    return Material(**{name: np.float64(value) for name, value in given.model_dump().items()})
+        return catalogue_material(given, thermal=thermal)
+    named = given.model_dump(exclude_none=True, exclude=set() if thermal else THERMAL_FIELDS)
+    return Material(**{name: np.float64(value) for name, value in named.items()})

@@ -19,6 +19,7 @@ from ..lubricants import (
     IntegratedPressureViscosity,
     LinearConductivity,
     LinearDensity,
+    LinearHeatCapacity,
     Lubricant,
     ModifiedWLF,
     Roelands,
@@ -32,7 +33,7 @@ from .table_of import number_of, table_of
 
 DOCUMENTATION = ("name", "file", "description", "law", "sources", "note")
 """Names in an oil table and in the tables of its laws that are no parameters."""
-_LAWS = ("viscosity", "pressure_viscosity", "rheology", "density", "conductivity")
+LAWS = ("viscosity", "pressure_viscosity", "rheology", "density", "conductivity", "heat_capacity")
 
 
 class Law(Table):
@@ -115,6 +116,7 @@ PRESSURE_VISCOSITIES: dict[str, type[Law]] = {
 ExponentialRheologyTable = law_table("exponential", ExponentialRheology, "", _ExponentOfFunction)
 LinearDensityTable = law_table("linear", LinearDensity, "<table>")
 LinearConductivityTable = law_table("linear", LinearConductivity, "<table>")
+LinearHeatCapacityTable = law_table("linear", LinearHeatCapacity, "<table>")
 
 
 def _no_text(value: Any) -> Any:
@@ -191,6 +193,7 @@ _PressureViscosity = _law_field("PressureViscosity", PRESSURE_VISCOSITIES, _Rise
 
 _Density = _linear_field(LinearDensityTable, LinearDensity)
 _Conductivity = _linear_field(LinearConductivityTable, LinearConductivity)
+_HeatCapacity = _linear_field(LinearHeatCapacityTable, LinearHeatCapacity)
 
 
 class OilTable(Table):
@@ -205,10 +208,11 @@ class OilTable(Table):
     - `rheology`: shear modulus and stress, which traction needs
     - `density`: which drag, cage lands and kinematic viscosities need
     - `conductivity`: which thermal factors and film heating need
+    - `heat_capacity`: which thermal networks need
     """
 
     builds: ClassVar[type | None] = Lubricant
-    instead: ClassVar[Mapping[str, tuple[str, ...]]] = {"name": ("file",), "file": ("name", "description", *_LAWS)}
+    instead: ClassVar[Mapping[str, tuple[str, ...]]] = {"name": ("file",), "file": ("name", "description", *LAWS)}
     name: Annotated[str, BeforeValidator(_oil_name)] | None = None
     file: str | None = None
     description: str | None = None
@@ -217,6 +221,7 @@ class OilTable(Table):
     rheology: ExponentialRheologyTable | None = None  # pyright: ignore[reportInvalidTypeForm]
     density: _Density | None = None  # pyright: ignore[reportInvalidTypeForm]
     conductivity: _Conductivity | None = None  # pyright: ignore[reportInvalidTypeForm]
+    heat_capacity: _HeatCapacity | None = None  # pyright: ignore[reportInvalidTypeForm]
 
     @check
     def _complete(self) -> Problems:

@@ -1,105 +1,100 @@
-"""The text of an oil file from a `Lubricant`: the way back from `oils.lubricant`, to the last digit of every number.
+"""A `Lubricant` as the tables of a file: the way back from `oils.lubricant`, to the last digit of every number."""
 
-Written as a template and not by a TOML library: the files hold five flat tables, and comments.
-"""
-
-import json
 import typing
 from collections.abc import Iterable, Mapping
 from typing import Any
 
-import numpy as np
-from pydantic_core import PydanticCustomError
-
-from ..lubricants import Lubricant, NoPressureViscosity
-from . import units
-from .errors import printable
+from ..lubricants import (
+    ConstantPressureViscosity,
+    LinearConductivity,
+    LinearDensity,
+    LinearHeatCapacity,
+    Lubricant,
+    NoPressureViscosity,
+)
+from .data_files import oil_names
+from .drafts import read_table
 from .oil_files import Origin
 from .oil_schema import (
-    DOCUMENTATION,
     PRESSURE_VISCOSITIES,
     VISCOSITIES,
     ExponentialRheologyTable,
     Law,
     LinearConductivityTable,
     LinearDensityTable,
+    LinearHeatCapacityTable,
+    OilTable,
 )
+from .oils import ROOM_TEMPERATURE, load_oil, lubricant, with_catalogue
+from .part_writer import SCENE, Rows, rows, same, unwritable
+from .toml_writer import comments, one_line, toml_text
 
 HEADER = "A value with a unit is a string, a dimensionless value is a number. Every value has its source."
 UNKNOWN_SOURCE = "not known: given in Python"
 _TABLES: dict[type | None, type[Law]] = {
     table.builds: table for table in (*VISCOSITIES.values(), *PRESSURE_VISCOSITIES.values())
 }
-_READABLE = {
-    units.PRESSURE: ("GPa", "MPa", "kPa"),
-    units.INVERSE_PRESSURE: ("1/GPa",),
-    units.KELVIN_PER_PRESSURE: ("K/GPa",),
-    units.KELVIN2_PER_PRESSURE: ("K^2/GPa",),
-    units.VISCOSITY: ("mPa*s",),
-    units.KINEMATIC_VISCOSITY: ("cSt",),
-}
-"""Units besides the SI's in which a number may be shorter."""
-_DIGITS = (6, 9, 12, 15, 17)
 
 
 def oil_text(
     oil: Lubricant, name: str, description: str, header: Iterable[str], origins: Mapping[str, Origin] | None = None
 ) -> str:
-    """**Arguments:**
+    """The text of an oil file.
+
+    **Arguments:**
     - `name`, `description`: of the oil, for whoever reads the file.
     - `header`: lines of comment at the top.
     - `origins`: of the laws, by name; what they do not say is marked as not known.
 
     **Raises:** `ValueError` for a law that files do not know.
     """
-    lines = [*(f"# {_line(text)}" for text in [*header, HEADER])]
-    lines += [f"name = {_string(name)}", f"description = {_string(description)}"]
-    return "\n".join([*lines, *law_lines(oil, origins)]) + "\n"
+    named = {"name": one_line(name), "description": one_line(description)}
+    return comments([*header, HEADER]) + toml_text(named | sourced_laws(oil, origins), aligned=False)
 
 
-def law_lines(oil: Lubricant, origins: Mapping[str, Origin] | None = None, above: str = "") -> list[str]:
-    """The tables of the laws, an empty line before each. **Arguments:** `above`: what stands before their names, "oil."
-    in a scene. **Raises:** `ValueError` for a law that files do not know."""
-    origins, lines = origins or {}, []
-    laws = _laws(oil)
+def sourced_laws(oil: Lubricant, origins: Mapping[str, Origin] | None = None) -> Rows:
+    """The tables of the laws with the sources of their values and with notes.
+
+    **Raises:** `ValueError` for a law that files do not know.
+    """
+    origins, laws = origins or {}, _laws(oil)
     notes = _notes(oil, laws, origins)
-    for law, (table, values) in laws.items():
+    for law, table in laws.items():
         sources = origins[law].sources if law in origins else {}
-        lines += ["", f"[{above}{law}]", f"law = {_string(typing.get_args(table.model_fields['law'].annotation)[0])}"]
-        lines += [f"{key} = {_value(value, table, key)}" for key, value in values.items()]
-        lines += [f"note = {_string(notes[law])}"] if law in notes else []
-        lines += ["", f"[{above}{law}.sources]"] if values else []
-        texts = {key: sources.get(key, UNKNOWN_SOURCE) for key in values}
-        if len(values) > 1 and len(set(texts.values())) == 1:
+        texts = {key: one_line(sources.get(key, UNKNOWN_SOURCE)) for key in table if key != "law"}
+        if len(texts) > 1 and len(set(texts.values())) == 1:
             texts = {"all": next(iter(texts.values()))}
-        lines += [f"{key} = {_string(text)}" for key, text in texts.items()]
-    return lines
+        table |= {"note": one_line(notes[law])} if law in notes else {}
+        table |= {"sources": texts} if texts else {}
+    return laws
 
 
-def _laws(oil: Lubricant) -> dict[str, tuple[type[Law], dict[str, Any]]]:
-    """Name of the law -> its table of the schema, and the parameters."""
-    found: dict[str, tuple[type[Law], Any]] = {"viscosity": (_table(oil.viscosity), oil.viscosity)}
+def _laws(oil: Lubricant) -> dict[str, Rows]:
+    """Name of the law -> its table."""
+    laws: dict[str, tuple[type[Law], Any]] = {"viscosity": (_table(oil.viscosity, "viscosity"), oil.viscosity)}
     if not isinstance(oil.pressure_viscosity, NoPressureViscosity):
-        found["pressure_viscosity"] = (_table(oil.pressure_viscosity), oil.pressure_viscosity)
+        law = oil.pressure_viscosity
+        laws["pressure_viscosity"] = (_table(law, "pressure_viscosity"), law)
     for name, table in (
         ("rheology", ExponentialRheologyTable),
         ("density", LinearDensityTable),
         ("conductivity", LinearConductivityTable),
+        ("heat_capacity", LinearHeatCapacityTable),
     ):
         if getattr(oil, name) is not None:
-            found[name] = (table, getattr(oil, name))
-    return {name: (table, _parameters(table, law)) for name, (table, law) in found.items()}
+            laws[name] = (table, getattr(oil, name))
+    return {name: {"law": _name_of(table)} | rows(table, law) for name, (table, law) in laws.items()}
 
 
-def _table(law: Any) -> type[Law]:
+def _table(law: Any, name: str) -> type[Law]:
     if type(law) not in _TABLES:
-        raise ValueError(f"an oil file cannot hold the law {type(law).__name__}")
+        expected = f"a law that files know: a file cannot hold the law {type(law).__name__}"
+        raise unwritable(f"oil.{name}", type(law).__name__, expected)
     return _TABLES[type(law)]
 
 
-def _parameters(table: type[Law], law: Any) -> dict[str, Any]:
-    named = [key for key in table.model_fields if key not in DOCUMENTATION]
-    return {key: getattr(law, key) for key in named if getattr(law, key) is not None}
+def _name_of(table: type[Law]) -> str:
+    return typing.get_args(table.model_fields["law"].annotation)[0]
 
 
 def _notes(oil: Lubricant, laws: Iterable[str], origins: Mapping[str, Origin]) -> dict[str, str]:
@@ -111,50 +106,65 @@ def _notes(oil: Lubricant, laws: Iterable[str], origins: Mapping[str, Origin]) -
     return found
 
 
-def _value(value: Any, table: type[Law], key: str) -> str:
-    if isinstance(value, str):
-        return _string(value)
-    dimension = _dimension(table.model_fields[key])
-    number = float(np.asarray(value))
-    return repr(number) if dimension is None else _string(quantity_text(number, dimension))
+def scene_oil(oil: Lubricant | None) -> Rows | None:
+    """The table [oil] of a scene: the name in the catalogue, with what differs from it, or all laws.
+
+    **Raises:** `SceneError` for a law that files do not know.
+    """
+    if oil is None:
+        return None
+    whole = _laws(oil)
+    _share_out_notes(oil, whole)
+    whole = {law: _short(getattr(oil, law), table) for law, table in whole.items()}
+    amended = (_amended(oil, name) for name in oil_names())
+    # the fewest changes to an oil of the catalogue
+    return min(filter(None, amended), key=_size, default=whole)
 
 
-def quantity_text(value: float, dimension: units.Dimension) -> str:
-    """The shortest text of a value in SI that is read as this very value."""
-    texts = [f"{value!r} {dimension.si}"]
-    for unit in (dimension.si, *_READABLE.get(dimension, ())):
-        scaled = units.registry().Quantity(value, dimension.si).to(unit).magnitude
-        texts += [f"{scaled:.{digits}g} {unit}" for digits in _DIGITS]
-    return min((text for text in texts if _is_read_as(value, text, dimension)), key=len)
+def _size(table: Mapping[str, Any]) -> int:
+    return sum(_size(value) if isinstance(value, Mapping) else 1 for value in table.values())
 
 
-def _is_read_as(value: float, text: str, dimension: units.Dimension) -> bool:
-    """Digits may be missing, and the factor of a unit may cost the last place."""
-    try:
-        return units.parse(text, dimension) == value
-    except PydanticCustomError:
-        # rounded up beyond the largest number
-        return False
+def _amended(oil: Lubricant, name: str) -> Rows | None:
+    """An oil of the catalogue, which has this viscosity, with what differs; `None` where that is not this oil."""
+    base = load_oil(name)
+    if not same(base.viscosity, oil.viscosity):
+        return None
+    own, theirs = _laws(oil), _laws(base)
+    found: Rows = {"name": name}
+    for law, table in own.items():
+        if same(getattr(oil, law), getattr(base, law)):
+            continue
+        alike = theirs.get(law, {}).get("law") == table["law"]
+        changed = {key: value for key, value in table.items() if not alike or theirs[law].get(key) != value}
+        found[law] = _short(getattr(oil, law), table) if len(changed) == len(table) else changed
+    return found if _is_oil(found, oil) else None
 
 
-def _dimension(info: Any) -> units.Dimension | None:
-    """Dimension of a field of the schema; `None` for a plain number."""
-    for part in (*info.metadata, *_metadata(info.annotation)):
-        if isinstance(part, units.QuantityValidator):
-            return part.dimension
-    return None
+def _short(law: Any, table: Rows) -> Any:
+    """The value of a law that is one number; any other as its table."""
+    constant = isinstance(law, ConstantPressureViscosity)
+    if isinstance(law, LinearDensity | LinearConductivity | LinearHeatCapacity):
+        constant = same((law.slope, law.reference_temperature), (0.0, ROOM_TEMPERATURE))
+    return table["value"] if constant and "note" not in table else table
 
 
-def _metadata(annotation: Any) -> Iterable[Any]:
-    for inner in typing.get_args(annotation):
-        yield inner
-        yield from _metadata(inner)
+def _is_oil(table: Rows, oil: Lubricant) -> bool:
+    return same(lubricant(read_table(OilTable, with_catalogue(table), SCENE)), oil)
 
 
-def _string(text: str) -> str:
-    # what JSON escapes, TOML escapes the same way; the rest is made printable first
-    return json.dumps(_line(text), ensure_ascii=False)
+def _share_out_notes(oil: Lubricant, laws: dict[str, Rows]) -> None:
+    """Puts the notes into tables of laws, in whose order they are read: where one can, into the law that it is about.
 
+    A lubricant does not say which law a note is about.
 
-def _line(text: str) -> str:
-    return printable(" ".join(text.split()))
+    **Raises:** `SceneError` for more notes than laws.
+    """
+    notes, names = list(oil.notes[len(oil.viscosity.notes) :]), list(laws)
+    if len(notes) > len(names):
+        raise unwritable("oil.notes", f"{len(notes)} notes", f"at most {len(names)}, one for each law of the oil")
+    while notes:
+        name, left = names.pop(0), len(names)
+        about = [law for law in names if law.replace("_", " ") in notes[0]]
+        if left < len(notes) or not about:
+            laws[name]["note"] = notes.pop(0)

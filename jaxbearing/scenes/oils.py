@@ -15,6 +15,7 @@ from ..lubricants import (
     IntegratedPressureViscosity,
     LinearConductivity,
     LinearDensity,
+    LinearHeatCapacity,
     Lubricant,
     NoPressureViscosity,
     WaltherRoelands,
@@ -23,7 +24,7 @@ from .data_files import oil_names, oil_text
 from .drafts import read_table
 from .errors import SceneError, nearest, one_of
 from .oil_files import base_of
-from .oil_schema import DOCUMENTATION, Law, OilTable, builds
+from .oil_schema import DOCUMENTATION, LAWS, Law, OilTable, builds
 
 ROOM_TEMPERATURE = 293.15
 """K; reference of a linear law without a slope, where it has no effect."""
@@ -93,7 +94,7 @@ def lubricant(table: OilTable) -> Lubricant:
     """The laws of a valid oil table, its parameters numpy scalars."""
     density = None if table.density is None else LinearDensity(**_linear(table.density))
     viscosity = _viscosity(table, density)
-    laws = (table.viscosity, table.pressure_viscosity, table.rheology, table.density, table.conductivity)
+    laws = [getattr(table, name) for name in LAWS]
     notes = tuple(law.note for law in laws if isinstance(law, Law) and law.note)
     return Lubricant(
         viscosity=viscosity,
@@ -101,6 +102,7 @@ def lubricant(table: OilTable) -> Lubricant:
         rheology=None if table.rheology is None else _rheology(table.rheology),
         density=density,
         conductivity=None if table.conductivity is None else LinearConductivity(**_linear(table.conductivity)),
+        heat_capacity=None if table.heat_capacity is None else LinearHeatCapacity(**_linear(table.heat_capacity)),
         notes=(*viscosity.notes, *notes),
     )
 

@@ -25,22 +25,35 @@ _KIND_EXAMPLE = 'kind = "cylindrical_roller_bearing"'
 
 
 class _Kind(NamedTuple):
-    """Schema and builder of a kind of scene: modules beside this one, and names in them."""
+    """Schema, builder and writer of a kind of scene: modules beside this one, and names in them."""
 
     schema: str
     table: str
     build: str
     function: str
+    writer: str
+    tables: str
 
 
 _KINDS = {
-    "ball_bearing": _Kind("ball_schema", "BallBearingTable", "ball_build", "ball_bearing"),
-    "cylindrical_roller_bearing": _Kind(
-        "roller_schema", "CylindricalRollerTable", "roller_build", "cylindrical_roller_bearing"
+    "ball_bearing": _Kind(
+        *("ball_schema", "BallBearingTable", "ball_build", "ball_bearing"), *("ball_writer", "ball_tables")
     ),
-    "tapered_roller_bearing": _Kind("tapered_schema", "TaperedRollerTable", "tapered_build", "tapered_roller_bearing"),
-    "two_disk": _Kind("two_disk_schema", "TwoDiskTable", "two_disk_build", "two_disk"),
-    "line_contact": _Kind("line_contact_schema", "LineContactTable", "line_contact_build", "line_contact"),
+    "cylindrical_roller_bearing": _Kind(
+        *("roller_schema", "CylindricalRollerTable", "roller_build", "cylindrical_roller_bearing"),
+        *("roller_writer", "roller_tables"),
+    ),
+    "tapered_roller_bearing": _Kind(
+        *("tapered_schema", "TaperedRollerTable", "tapered_build", "tapered_roller_bearing"),
+        *("tapered_writer", "tapered_tables"),
+    ),
+    "two_disk": _Kind(
+        *("two_disk_schema", "TwoDiskTable", "two_disk_build", "two_disk"), *("two_disk_writer", "two_disk_tables")
+    ),
+    "line_contact": _Kind(
+        *("line_contact_schema", "LineContactTable", "line_contact_build", "line_contact"),
+        *("line_contact_writer", "line_contact_tables"),
+    ),
 }
 """Kinds of scenes; each is imported when the first scene of it is read."""
 KINDS = tuple(_KINDS)
@@ -56,6 +69,15 @@ def schema_of_kind(kind: str) -> tuple[type[BaseModel], type]:
     """The schema of the scene files of a kind, one of `KINDS`, and the class of the scenes that they become."""
     model, build = _table_and_build(kind)
     return model, typing.get_type_hints(build)["return"]
+
+
+def tables_of(scene: AbstractScene) -> dict[str, Any]:
+    """The tables of a scene file that describe a scene of a kind in `KINDS`.
+
+    **Raises:** `SceneError` for what a file cannot hold.
+    """
+    one = _KINDS[scene.kind]
+    return getattr(importlib.import_module(f".{one.writer}", __package__), one.tables)(scene)
 
 
 def load_scene(source: str | Path, overrides: Overrides | None = None) -> AbstractScene:

@@ -3,14 +3,14 @@ the constructors: nothing runs on JAX."""
 
 from functools import cache
 
-from ..bearings.cylindrical.scene import CylindricalRollerBearing, RollerCage, RollerFlange, RollerGeometry
+from ..bearings.cylindrical.geometry import RollerCage, RollerFlange, RollerGeometry
+from ..bearings.cylindrical.scene import CylindricalRollerBearing
 from ..bearings.motion.settings import Simulation
 from ..bearings.operation import Operation
 from ..bearings.parts import Drag, Materials
 from ..bearings.rating import Rating
-from .bearing_build import built, cage, part
+from .bearing_build import built, cage, part, seats, solids
 from .contact_laws import contact_laws
-from .materials import material
 from .oils import lubricant
 from .profile_schema import roller_profile
 from .roller_schema import CylindricalRollerTable
@@ -26,11 +26,7 @@ def cylindrical_roller_bearing(table: CylindricalRollerTable) -> CylindricalRoll
     return built(
         CylindricalRollerBearing,
         geometry=lambda: RollerGeometry(**table.geometry.model_dump()),
-        materials=lambda: Materials(
-            rings=material(table.materials.rings),
-            rollers=material(table.materials.rollers),
-            cage=None if table.materials.cage is None else material(table.materials.cage),
-        ),
+        materials=lambda: Materials(**solids(table, "rings", "rollers", "cage")),
         operation=lambda: Operation(**table.operation.model_dump(exclude_none=True)),
         oil=oil,
         contact=lambda: None if table.contact is None else contact_laws(table.contact, oil()),
@@ -39,6 +35,7 @@ def cylindrical_roller_bearing(table: CylindricalRollerTable) -> CylindricalRoll
         drag=lambda: part(Drag, table.drag),
         simulation=lambda: _run(table),
         rating=lambda: part(Rating, table.rating),
+        **seats(table),
         profile=lambda: roller_profile(table.profile),
     )
 

@@ -3,10 +3,19 @@
 from collections.abc import Mapping
 from typing import Annotated, ClassVar, Literal
 
-from ..bearings.cylindrical.scene import RollerCage, RollerFlange, RollerGeometry
+from ..bearings.cylindrical.geometry import RollerCage, RollerFlange, RollerGeometry
 from ..bearings.operation import Operation
 from ..bearings.parts import ContactLaws, Drag
-from .bearing_schema import CageBase, RatingTable, law_in_words, operation_table, require_oil, require_oil_flow
+from .bearing_schema import (
+    CageBase,
+    FitsTable,
+    RatingTable,
+    TemperaturesTable,
+    law_in_words,
+    operation_table,
+    require_oil,
+    require_oil_flow,
+)
 from .laws import LINE_THERMAL, ROLLER_FILMS, ROLLING, TRACTIONS, TractionAccuracy
 from .materials import MaterialField
 from .oil_schema import OilTable
@@ -17,7 +26,9 @@ from .table_of import table_of
 
 
 class GeometryTable(table_of(RollerGeometry)):
-    """See `bearings.cylindrical.scene.RollerGeometry`."""
+    """See `bearings.cylindrical.geometry.RollerGeometry`."""
+
+    about: ClassVar[Mapping[str, tuple[str, ...]]] = {"flange_stiffness": ("flange_gap", "thrust")}
 
 
 class MaterialsTable(Table):
@@ -61,11 +72,11 @@ RACEWAY_LAWS = {"film": ROLLER_FILMS, "rolling_resistance": ROLLING}
 
 
 class CageTable(table_of(RollerCage, base=CageBase)):
-    """See `bearings.cylindrical.scene.RollerCage`."""
+    """See `bearings.cylindrical.geometry.RollerCage`."""
 
 
 class FlangeTable(table_of(RollerFlange)):
-    """See `bearings.cylindrical.scene.RollerFlange`."""
+    """See `bearings.cylindrical.geometry.RollerFlange`."""
 
 
 class DragTable(table_of(Drag)):
@@ -75,7 +86,6 @@ class DragTable(table_of(Drag)):
 class OperationTable(operation_table(Operation)):
     """See `bearings.operation.Operation`."""
 
-    not_yet: ClassVar[Mapping[str, str]] = {"axial_load": "a radial load only, beside a moment or misalignment"}
     needs: ClassVar[tuple[str, ...]] = ("radial_load",)
 
 
@@ -96,6 +106,8 @@ class CylindricalRollerTable(Table):
     drag: DragTable | None = None
     simulation: SimulationTable | None = None
     rating: RatingTable | None = None
+    fits: FitsTable | None = None
+    temperatures: TemperaturesTable | None = None
     profile: ProfileTable | None = None
 
     @check

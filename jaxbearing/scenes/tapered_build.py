@@ -10,9 +10,8 @@ from ..bearings.tapered.scene import TaperedOperation, TaperedRollerBearing
 from ..contacts import ChittendenCentral, Gupta, MeanPressureTraction, NijenbanningVennerMoes, NoThermalReduction
 from ..contacts.point_laws import PointLaws
 from ..lubricants import Lubricant, NoPressureViscosity
-from .bearing_build import built, part
+from .bearing_build import built, part, seats, solids
 from .laws import RIB_FILMS, ROLLER_FILMS, ROLLING, distributed_traction, thermal_factor, viscous_function
-from .materials import material
 from .oils import lubricant
 from .profile_schema import roller_profile
 from .tapered_schema import TaperedContactTable, TaperedRollerTable
@@ -27,7 +26,7 @@ def tapered_roller_bearing(table: TaperedRollerTable) -> TaperedRollerBearing:
     return built(
         TaperedRollerBearing,
         geometry=lambda: TaperedGeometry(**table.geometry.model_dump()),
-        materials=lambda: Materials(rings=material(table.materials.rings), rollers=material(table.materials.rollers)),
+        materials=lambda: Materials(**solids(table, "rings", "rollers")),
         operation=lambda: TaperedOperation(**table.operation.model_dump(exclude_none=True)),
         oil=oil,
         contact=lambda: None if table.contact is None else _laws(table.contact, oil()),
@@ -35,6 +34,7 @@ def tapered_roller_bearing(table: TaperedRollerTable) -> TaperedRollerBearing:
         drag=lambda: part(Drag, table.drag),
         profile=lambda: roller_profile(table.profile),
         rating=lambda: part(Rating, table.rating),
+        **seats(table),
     )
 
 

@@ -1,5 +1,7 @@
-"""Speed or load over time from a CSV file: two columns, units in the header, one row a time."""
+"""Speed or load over time from a CSV file: two columns, units in the header, one row a time; or from lists."""
 
+import itertools
+from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -7,6 +9,7 @@ from pydantic_core import PydanticCustomError
 
 from .csv_files import CsvTable, name_and_unit
 from .errors import SceneError, nearest
+from .table import Problems, refusal_at
 from .units import FORCE, SPEED, TIME, Dimension, describe, parse, shortened
 
 _QUANTITIES = {"speed": (SPEED, "speed [rpm]"), "load": (FORCE, "load [N]")}
@@ -20,6 +23,15 @@ class TimeTable(NamedTuple):
     times: np.ndarray
     values: np.ndarray
     relative: bool
+
+
+def check_lists(times: Sequence[float], factors: Sequence[float]) -> Problems:
+    """Refusals of lists in a scene that are no function of time."""
+    if len(times) < 2 or len(times) != len(factors):
+        expected = "as many factors as times, two or more"
+        yield refusal_at("factors", expected, f"{len(factors)} factors and {len(times)} times")
+    if any(b <= a for a, b in itertools.pairwise(times)):
+        yield refusal_at("times", "times that increase", "some that do not")
 
 
 def read_time_table(file: str, quantity: str, field: str) -> TimeTable:

@@ -21,11 +21,12 @@ from .usual_units import USUAL
 
 _NUMBER_AND_UNIT = re.compile(r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*(.*?)\s*", re.DOTALL)
 _NAME = r"[A-Za-z°µμΩÅ_][A-Za-z0-9°µμΩÅ_]*"
-_POWER = r"(?: *(?:\*\*|\^) *[+-]?[0-9]{1,2}(?![0-9])|⁻?[⁰¹²³⁴⁵⁶⁷⁸⁹]{1,2})"
+_FRACTION = r"\([1-9][0-9]?/[1-9][0-9]?\)"
+_POWER = rf"(?: *(?:\*\*|\^) *(?:[+-]?[0-9]{{1,2}}(?![0-9])|{_FRACTION})|⁻?[⁰¹²³⁴⁵⁶⁷⁸⁹]{{1,2}})"
 _FACTOR = rf"\(* *(?:{_NAME}{_POWER}?|[0-9]+(?:\.[0-9]+)?) *\)*"
 _UNIT = re.compile(rf"{_FACTOR}(?:(?: *[*/·] *| +){_FACTOR})*")
 """Syntax of a unit. Brackets carry no power, so that none is raised to another: pint evaluates what it reads,
-skips comments and ignores characters that it does not know."""
+skips comments and ignores characters that it does not know. A power may be a fraction of whole numbers in brackets."""
 _WORDS = re.compile(r"\b(?:square|sq|squared|cubic|cubed|per)\b", re.IGNORECASE)
 """Words that pint replaces by powers, which the pattern cannot see."""
 _LONGEST_UNIT = 40
@@ -59,6 +60,7 @@ SPEED = Dimension("a rotational speed", "rad/s", "10500 rpm")
 SURFACE_SPEED = Dimension("a speed", "m/s", "1 mm/s")
 FORCE = Dimension("a force", "N", "25 kN")
 LINE_LOAD = Dimension("a load per length", "N/m", "76.31 N/mm")
+LINE_CONTACT_STIFFNESS = Dimension("a stiffness of line contacts", "N/m^(10/9)", "60 N/um^(10/9)")
 MOMENT = Dimension("a moment", "N*m", "50 N*m")
 PRESSURE = Dimension("a pressure or modulus", "Pa", "203 GPa")
 INVERSE_PRESSURE = Dimension("a reciprocal pressure", "1/Pa", "10.4 1/GPa")
@@ -71,10 +73,13 @@ VISCOSITY = Dimension("a dynamic viscosity", "Pa*s", "4.7 mPa*s")
 KINEMATIC_VISCOSITY = Dimension("a kinematic viscosity", "m^2/s", "32 cSt")
 CONDUCTIVITY = Dimension("a thermal conductivity", "W/(m*K)", "0.147 W/(m*K)")
 CONDUCTIVITY_SLOPE = Dimension("a change of conductivity with temperature", "W/(m*K^2)", "-2.2e-4 W/(m*K^2)")
+HEAT_CAPACITY_SLOPE = Dimension("a change of heat capacity with temperature", "J/(kg*K^2)", "4.3 J/(kg*K^2)")
 KELVIN_PER_PRESSURE = Dimension("a temperature over a pressure", "K/Pa", "-2348.8 K/GPa")
 KELVIN2_PER_PRESSURE = Dimension("a squared temperature over a pressure", "K^2/Pa", "403871.5 K^2/GPa")
 TIME = Dimension("a time", "s", "50 ms")
 FREQUENCY = Dimension("a frequency", "1/s", "40 Hz")
+THERMAL_EXPANSION = Dimension("a thermal expansion", "1/K", "12.5e-6 1/K")
+HEAT_CAPACITY = Dimension("a specific heat capacity", "J/(kg*K)", "460 J/(kg*K)")
 TANGENTIAL_COMPLIANCE = Dimension("a tangential compliance", "m/Pa", "1e-15 m/Pa")
 
 
@@ -83,7 +88,8 @@ _BY_UNIT = {
     for one in (
         *(LENGTH, ANGLE, SPEED, SURFACE_SPEED, FORCE, LINE_LOAD, MOMENT, PRESSURE, INVERSE_PRESSURE, TEMPERATURE, FLOW),
         *(DENSITY, VISCOSITY, KINEMATIC_VISCOSITY, CONDUCTIVITY, CONDUCTIVITY_SLOPE, KELVIN_PER_PRESSURE),
-        *(KELVIN2_PER_PRESSURE, TIME, FREQUENCY, TANGENTIAL_COMPLIANCE),
+        *(KELVIN2_PER_PRESSURE, TIME, FREQUENCY, TANGENTIAL_COMPLIANCE, LINE_CONTACT_STIFFNESS, THERMAL_EXPANSION),
+        *(HEAT_CAPACITY, HEAT_CAPACITY_SLOPE),
     )
 } | {"kg/(m^3 K)": DENSITY_SLOPE}
 
@@ -284,6 +290,7 @@ def several_note(bound: str, unit: str = "1") -> BeforeValidator:
         dimension = dimension_of_unit(unit)
         expected = f"{dimension.expected(bound)}, or a list of such texts"
         read = lambda one: quantity(one, dimension, bound)
+        return QuantityValidator(lambda given: several(given, read, expected), dimension=dimension)
     return BeforeValidator(lambda given: several(given, read, expected))
 
 

@@ -4,9 +4,8 @@ The criteria are ours: the source gives no limits; docs/claims.md discusses them
 bearing (Tables 13 and 14); for another roller bearing they keep their ratio to the scene's own operating point.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 
@@ -56,7 +55,7 @@ def _falls(values: np.ndarray) -> bool:
     return bool(np.all(np.diff(values) < 0))
 
 
-def _totals(study: PowerLossStudy, path: str, values: Any, lands: str = "blend") -> np.ndarray:
+def _totals(study: PowerLossStudy, path: str, values: Iterable[float], lands: str = "blend") -> np.ndarray:
     return study.losses("total", path, values, lands)
 
 
@@ -74,7 +73,7 @@ def _in_front(study: PowerLossStudy) -> Found:
     scene = study.scene
     names = ("load_inner", "pocket_film_front", "pocket_film_rear", "azimuth")
     load, front, rear, azimuth = (study.result(name) for name in names)
-    driving, loaded = front < scene.cage.pocket_clearance / 2, load > LOADED
+    driving, loaded = front < (own(scene, "cage.pocket_clearance") or 0.0) / 2, load > LOADED
     radial, lateral = (0.0 if one is None else float(one) for one in map(scene.operation.load, ("radial", "lateral")))
     towards = np.cos(azimuth - np.arctan2(lateral, radial))
     share = float(np.sum((load * towards)[driving])) / float(np.hypot(radial, lateral))
@@ -115,7 +114,7 @@ def _flow_by_windage(study: PowerLossStudy) -> Found:
 
 
 def _order(study: PowerLossStudy) -> Found:
-    def factor(path: str, values: Any) -> float:
+    def factor(path: str, values: np.ndarray) -> float:
         totals = _totals(study, path, values)
         return float(totals.max() / totals.min())
 
@@ -223,7 +222,14 @@ def claims_of(study: PowerLossStudy) -> list[Claim]:
     return [_judged(study, i + 1, *row) for i, row in enumerate(_DATA)]
 
 
-def _judged(study: PowerLossStudy, number: int, statement: str, printed: str, needs: Any, judge: Any) -> Claim:
+def _judged(
+    study: PowerLossStudy,
+    number: int,
+    statement: str,
+    printed: str,
+    needs: Sequence[str],
+    judge: Callable[[PowerLossStudy], Found],
+) -> Claim:
     lacking = [path for path in needs if not own(study.scene, path)]
     if lacking:
         return Claim(number, statement, printed, None, (), f"the scene has no {lacking[0]}, or zero")

@@ -5,12 +5,14 @@ speed, load, flow and clearances keep their ratio to the scene's own values; tem
 """
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
 from ..bearings.ball.scene import BallBearing
+from ..bearings.bearing import AbstractBearing
 
 SPEED, FLOW, TEMPERATURE = "operation.inner_speed", "operation.oil_flow", "operation.oil_temperature"
 RADIAL, AXIAL_LOAD = "operation.radial_load", "operation.axial_load"
@@ -38,7 +40,7 @@ class Panel:
     values: dict[str, np.ndarray]
 
 
-def own(scene: Any, path: str) -> float | None:
+def own(scene: AbstractBearing, path: str) -> float | None:
     """The scene's own value of a field; `None` where it or its part is not there."""
     found: Any = scene
     for name in path.split("."):
@@ -46,7 +48,7 @@ def own(scene: Any, path: str) -> float | None:
     return None if found is None or np.ndim(found) != 0 else float(found)
 
 
-def scaled(scene: Any, path: str, factors: Any) -> np.ndarray:
+def scaled(scene: AbstractBearing, path: str, factors: Sequence[float] | np.ndarray) -> np.ndarray:
     nominal = own(scene, path)
     return np.asarray(factors) * (math.nan if nominal is None else nominal)
 
@@ -55,7 +57,7 @@ def temperatures() -> np.ndarray:
     return np.asarray(CELSIUS) + 273.15
 
 
-def panels_of(scene: Any) -> tuple[list[Panel], list[str]]:
+def panels_of(scene: AbstractBearing) -> tuple[list[Panel], list[str]]:
     """The panels that a scene can have, and a sentence for each that is left out."""
     wanted = _ball(scene) if isinstance(scene, BallBearing) else _roller(scene)
     kept, left_out = [], []
@@ -71,7 +73,7 @@ def panels_of(scene: Any) -> tuple[list[Panel], list[str]]:
     return kept, left_out
 
 
-def _operating(scene: Any, load: str) -> list[Panel]:
+def _operating(scene: AbstractBearing, load: str) -> list[Panel]:
     panel = lambda name, title, values: Panel(
         name, title, {p: v if isinstance(v, np.ndarray) else scaled(scene, p, v) for p, v in values.items()}
     )
@@ -84,11 +86,11 @@ def _operating(scene: Any, load: str) -> list[Panel]:
     ]
 
 
-def _one(scene: Any, name: str, title: str, path: str, factors: Any) -> Panel:
+def _one(scene: AbstractBearing, name: str, title: str, path: str, factors: Sequence[float]) -> Panel:
     return Panel(name, title, {path: scaled(scene, path, factors)})
 
 
-def _roller(scene: Any) -> list[Panel]:
+def _roller(scene: AbstractBearing) -> list[Panel]:
     return [
         *_operating(scene, RADIAL),
         _one(scene, "39c", "by location against radial load", RADIAL, LOADS),
@@ -99,7 +101,7 @@ def _roller(scene: Any) -> list[Panel]:
     ]
 
 
-def _ball(scene: Any) -> list[Panel]:
+def _ball(scene: AbstractBearing) -> list[Panel]:
     axial, radial = own(scene, AXIAL_LOAD), own(scene, RADIAL)
     load, other = (AXIAL_LOAD, RADIAL) if (axial or 0.0) >= (radial or 0.0) else (RADIAL, AXIAL_LOAD)
     # a load that the scene does not name is no unknown's business: with it the bearing would be another program

@@ -4,7 +4,7 @@ import math
 from typing import TYPE_CHECKING, Any
 
 from ..plots import power_loss_against
-from ..report.sheet import INK
+from ..report.colours import INK
 from .power_loss import PowerLossStudy
 
 if TYPE_CHECKING:

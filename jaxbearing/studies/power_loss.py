@@ -1,11 +1,12 @@
 """The power-loss study of one bearing: all cases of its panels in one sweep, each point solved once."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ..bearings.bearing import AbstractBearing
 from ..bearings.cylindrical.scene import CylindricalRollerBearing
 from ..gaps import FullTurbulence
 from ..sweep import sweep
@@ -16,6 +17,9 @@ if TYPE_CHECKING:
     import xarray as xr
 
 Change = Mapping[str, float]
+Progress = Callable[[int], None]
+Places = dict[tuple[str, tuple[float, ...]], int]
+"""Variant of the cage lands and the values of a point -> its place among the cases."""
 
 
 class NotInStudy(Exception):
@@ -31,13 +35,13 @@ class PowerLossStudy:
     - `cases`, `failed`: solves in all, and those without a result: gaps in the panels.
     """
 
-    scene: Any
+    scene: AbstractBearing
     panels: "dict[str, xr.Dataset]"
     left_out: list[str]
     cases: int
     failed: int
     _found: "dict[str, xr.Dataset]"
-    _places: dict[tuple[str, Any], int]
+    _places: Places
     _fields: tuple[str, ...]
 
     def result(self, name: str, change: Change | None = None, lands: str = "blend") -> np.ndarray:
@@ -49,7 +53,7 @@ class PowerLossStudy:
         values = self._found[lands][name]
         return np.asarray(values.isel(case=place) if "case" in values.dims else values)
 
-    def losses(self, location: str, path: str, values: Any, lands: str = "blend") -> np.ndarray:
+    def losses(self, location: str, path: str, values: Iterable[float], lands: str = "blend") -> np.ndarray:
         """Loss at a location, or "total", in W for each value of a field."""
         return np.array([float(self.result(f"power_loss_{location}", {path: v}, lands)) for v in values])
 
@@ -65,7 +69,7 @@ class PowerLossStudy:
         return xr.DataTree.from_dict({f"figure_{name}": found for name, found in self.panels.items()})
 
 
-def power_loss_study(scene: Any, progress: Any = None) -> PowerLossStudy:
+def power_loss_study(scene: AbstractBearing, progress: Progress | None = None) -> PowerLossStudy:
     """Solve the power-loss study of a cylindrical roller or ball bearing.
 
     **Arguments:**
@@ -80,7 +84,8 @@ def power_loss_study(scene: Any, progress: Any = None) -> PowerLossStudy:
     if isinstance(scene, CylindricalRollerBearing) and own(scene, DRAG) is not None:
         points += extra
     fields = tuple(dict.fromkeys(path for point in points for path in point))
-    found, places = {}, {}
+    found: dict[str, xr.Dataset] = {}
+    places: Places = {}
     found["blend"] = _solved(scene, points, fields, "blend", places, progress)
     if isinstance(scene, CylindricalRollerBearing) and own(scene, GUIDING) is not None:
         turbulent = scene.replace({"cage.turbulence": FullTurbulence()})
@@ -98,13 +103,18 @@ def _points(panel: Panel) -> list[Change]:
     ]
 
 
-def _key(scene: Any, change: Change, fields: tuple[str, ...]) -> tuple[float, ...]:
+def _key(scene: AbstractBearing, change: Change, fields: tuple[str, ...]) -> tuple[float, ...]:
     """A point by all its values; the same number written in two ways is one point."""
     return tuple(float(f"{change.get(path, own(scene, path)):.10g}") for path in fields)
 
 
 def _solved(
-    scene: Any, points: Sequence[Change], fields: tuple[str, ...], lands: str, places: dict[Any, int], progress: Any
+    scene: AbstractBearing,
+    points: Sequence[Change],
+    fields: tuple[str, ...],
+    lands: str,
+    places: Places,
+    progress: Progress | None,
 ) -> "xr.Dataset":
     keys = list(dict.fromkeys(_key(scene, point, fields) for point in points))
     places |= {(lands, key): i for i, key in enumerate(keys)}
@@ -113,7 +123,9 @@ def _solved(
     return sweep(scene, listed(columns), progress=progress)
 
 
-def _panel(scene: Any, panel: Panel, found: Any, places: Any, fields: tuple[str, ...]) -> "xr.Dataset":
+def _panel(
+    scene: AbstractBearing, panel: Panel, found: "xr.Dataset", places: Places, fields: tuple[str, ...]
+) -> "xr.Dataset":
     """The cases of a panel as the data set of a sweep over its grid."""
     import xarray as xr
 

@@ -2,17 +2,22 @@
 
 import math
 from collections.abc import Sequence
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from rich import box
 from rich.console import Console
 from rich.table import Table
 
+from ..bearings.bearing import AbstractBearing
+from ..report.backends.json import finite
+from ..report.backends.screen import counted, headline, print_line, print_rule
 from ..report.display import digits
-from ..report.screen import counted, headline, print_line, print_rule
 from .claims import Claim
 from .panels import RADIAL, SPEED, own
 from .power_loss import PowerLossStudy
+
+if TYPE_CHECKING:
+    import xarray as xr
 
 NO_CLAIMS = "The source prints no study of this kind of bearing: there are no statements to compare."
 SCALED = (
@@ -25,7 +30,7 @@ def verdict(claim: Claim) -> str:
     return "left out" if claim.holds is None else "yes" if claim.holds else "no"
 
 
-def _is_the_source_s(scene: Any) -> bool:
+def _is_the_source_s(scene: AbstractBearing) -> bool:
     speed, load = own(scene, SPEED) or 0.0, own(scene, RADIAL) or 0.0
     return math.isclose(speed, 10500 * math.pi / 30, rel_tol=1e-6) and math.isclose(load, 25e3, rel_tol=1e-6)
 
@@ -70,14 +75,8 @@ def study_to_dict(study: PowerLossStudy, claims: Sequence[Claim]) -> dict[str, A
     }
 
 
-def _panel(panel: Any) -> dict[str, Any]:
+def _panel(panel: "xr.Dataset") -> dict[str, Any]:
     losses = [str(name) for name in panel.data_vars if str(name).startswith("power_loss_")]
     fields = str(panel.attrs["sweep_fields"]).split()
     axes = {path: panel[path.replace(".", "_")].values.tolist() for path in fields}
-    return {"fields": axes} | {name: _finite(panel[name].values.tolist()) for name in losses}
-
-
-def _finite(values: Any) -> Any:
-    if isinstance(values, list):
-        return [_finite(value) for value in values]
-    return values if math.isfinite(values) else None
+    return {"fields": axes} | {name: finite(panel[name].values.tolist()) for name in losses}

@@ -11,9 +11,10 @@ import numpy as np
 from pydantic import BaseModel, TypeAdapter, ValidationError
 
 from .._scene import AbstractScene
-from ..report.labelled import udunits
+from ..report.labels import udunits
 from ..scenes.errors import SceneError, in_words, unknown_name
 from ..scenes.fields import dimension_of, is_known, parts_of, type_at
+from ..scenes.inputs import owner_of
 from ..scenes.overrides import REMOVE, parse_value
 from ..scenes.reader import read_tables, scene_from_tables, scene_model
 from ..scenes.units import Dimension, describe
@@ -46,14 +47,6 @@ class Field:
             context = error.errors(include_url=False)[0].get("ctx", {})
             found, expected = context.get("found", describe(given)), context.get("expected", "a number")
             raise SceneError(where, self.path, found, expected) from None
-
-    def metadata(self) -> dict[str, str]:
-        """Attributes of the coordinate, where the library's own classes have none."""
-        words = self.path.rpartition(".")[2].replace("_", " ")
-        if self.dimension is None:
-            return {"units": "1", "long_name": words}
-        flat = re.sub(r"/\((.+?)\)", lambda under: "/" + under[1].replace("*", "/"), self.dimension.si)
-        return {"units": udunits(flat.replace("*", " ")), "long_name": words}
 
 
 @dataclass(frozen=True)
@@ -176,18 +169,14 @@ def samples_of(ranges: Mapping[str, Any], kind: str, count: int, seed: int) -> C
 
 
 def described_fields(fields: Mapping[str, Field], scene: AbstractScene) -> dict[str, dict[str, str]]:
-    """Unit and description of each swept field: of the class that has it, where that says."""
-    return {path: label_of(scene, path) or field.metadata() for path, field in fields.items()}
+    """Unit and description of each swept field."""
+    return {path: label_of(scene, path) for path in fields}
 
 
-def label_of(scene: Any, path: str) -> dict[str, str] | None:
-    """The label of a field of the library's own classes."""
-    *above, last = path.split(".")
-    for name in above:
-        scene = getattr(scene, name, None)
-    fields = getattr(type(scene), "__dataclass_fields__", {})
-    if last not in fields or "unit" not in fields[last].metadata:
-        return None
-    said = fields[last].metadata
-    flat = re.sub(r"/\((.+?)\)", lambda under: "/" + under[1].replace(" ", "/"), said["unit"])
-    return {"units": udunits(flat), "long_name": said["description"] or last.replace("_", " ")}
+def label_of(scene: AbstractScene, path: str) -> dict[str, str]:
+    """Unit and description of a field, as attributes of a coordinate: those of the class that has it."""
+    names = path.split(".")
+    words, owner = names[-1].replace("_", " "), owner_of(scene, names)
+    said = {} if owner is None else owner[0].__dataclass_fields__[owner[1]].metadata
+    flat = re.sub(r"/\((.+?)\)", lambda under: "/" + under[1].replace(" ", "/"), said.get("unit", "1"))
+    return {"units": udunits(flat), "long_name": said.get("description") or words}

@@ -10,7 +10,7 @@ import numpy as np
 import xarray as xr
 
 from ..numerics.interrupts import deferred_interrupts
-from ..report.netcdf import NetcdfStream
+from ..report.backends.netcdf import NetcdfStream
 from ..report.variables import CHECK, without_fill
 from .chunks import KEY, labels_of, read_chunk
 from .labels import CASE, FAILURE, per_case

@@ -8,6 +8,7 @@ import jax
 import numpy as np
 import xarray as xr
 
+from .._scene import AbstractSolution
 from ..numerics.status import Status
 from ..report.dataset import solution_to_dataset
 from ..report.variables import checks, common
@@ -24,7 +25,9 @@ def template(structure: Any, elements: bool, paths: Sequence[str] = ()) -> xr.Da
     **Arguments:** `structure`: a solution with shapes for arrays; `elements`: see `Plan`; `paths`: swept fields.
     """
     one = jax.tree.map(lambda leaf: np.zeros((1, *leaf.shape), leaf.dtype), structure)
-    dataset = solution_to_dataset(one, (CASE,))
+    # a share of nothing, among the results that follow from others, is no news here
+    with np.errstate(all="ignore"):
+        dataset = solution_to_dataset(one, (CASE,))
     if "azimuth" in dataset and "geometry.first_element_angle" in paths:
         # elsewhere in each case
         dataset = dataset.assign_coords(azimuth=dataset["azimuth"].expand_dims({CASE: 1}))
@@ -38,7 +41,7 @@ def per_case(dataset: xr.Dataset) -> list[str]:
     return [str(name) for name, variable in dataset.variables.items() if CASE in variable.dims]
 
 
-def columns(solution: Any, labels: xr.Dataset) -> dict[str, np.ndarray]:
+def columns(solution: AbstractSolution, labels: xr.Dataset) -> dict[str, np.ndarray]:
     """Variables of a batch of solutions: those of each case, and those that all cases share but a template lacks."""
     found = {}
     for name, variable in labels.variables.items():
@@ -55,13 +58,13 @@ def columns(solution: Any, labels: xr.Dataset) -> dict[str, np.ndarray]:
     return found
 
 
-def converged(solution: Any) -> np.ndarray:
+def converged(solution: AbstractSolution) -> np.ndarray:
     """Which lanes are, shape (lane,)."""
     status = np.asarray(solution.status)
     return np.all(status == Status.CONVERGED, axis=tuple(range(1, status.ndim)))
 
 
-def failures(solution: Any, reasons: list[str]) -> np.ndarray:
+def failures(solution: AbstractSolution, reasons: list[str]) -> np.ndarray:
     """Why a lane failed, in a sentence; "" where it did not."""
     texts = list(reasons)
     for lane in np.flatnonzero(~converged(solution)):

@@ -55,7 +55,7 @@ class Direct:
     refused; twice the time of the quickest solves. An operating point cannot fail there, but for its own bounds.
     """
 
-    base: Any
+    base: AbstractScene
     checked: bool
 
     @property
@@ -101,7 +101,7 @@ class Read:
     """Values that the scene does not hold as they are: each case is read like a scene file (5 to 10 ms)."""
 
     read: Reader
-    example_scene: Any
+    example_scene: AbstractScene
     base: Any = None
 
     @staticmethod

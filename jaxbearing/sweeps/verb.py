@@ -9,12 +9,10 @@ from .._scene import AbstractScene
 from ..bearings.bearing import AbstractBearing
 from ..lanes import default_method
 from ..numerics.newton import NewtonOptions
-from ..scenes.fields import is_known, type_at
-from ..scenes.reader import model_of
 from .cases import Cases, grid
 from .cluster import on_workers
 from .engine import Runner, in_process
-from .fields import Field, dimension_of, label_of
+from .fields import label_of
 from .plan import CHUNK, HEAVY_CHUNK, HEAVY_LANES, LANES, QUICK_CASES, VMAP_LANES, Plan, compilation_cache
 from .recipe import Recipe, in_scene
 
@@ -75,19 +73,9 @@ def plan_in_scene(
     """Plan of a sweep over attributes of a scene, in SI. **Raises:** see `jaxbearing.sweep`."""
     cases = over if isinstance(over, Cases) else grid(over)
     recipe = in_scene(scene, cases)
-    metadata = {path: _described(recipe.base, path) for path in cases.paths}
+    metadata = {path: label_of(recipe.base, path) for path in cases.paths}
     label = type(scene).__name__
     return make_plan(recipe, cases, metadata, label, options=options, elements=elements, chunk=chunk)
-
-
-def _described(scene: AbstractScene, path: str) -> dict[str, str]:
-    """Unit and description of a field: from its class, or from the schema of scene files."""
-    found, model = label_of(scene, path), model_of(scene)
-    if found is not None:
-        return found
-    known = model is not None and is_known(model, path.split("."))
-    kind = type_at(model, path.split(".")) if model is not None and known else None
-    return Field(path, None if kind is None else dimension_of(kind), kind).metadata()
 
 
 def runner_of(devices: int | None, workers: int | None, scheduler: str | None) -> Runner:

@@ -202,9 +202,10 @@ def test_a_load_and_a_displacement_of_one_freedom(kind, freedom, load, held):
 def test_what_a_bearing_needs_and_does_not_have():
     with pytest.raises(ValueError, match=r"operation\.radial_load: found nothing, expected a force"):
         Operation(100.0, moment=1.0)
+    rollers = jb.load_scene("reference_roller", DRY)
     for wrong in ({"axial_load": 1.0}, {"displacement": HeldDisplacement(axial=1e-6)}):
         with pytest.raises(ValueError, match=r"operation\.(axial_load|displacement\.axial): .*no axial freedom"):
-            Operation(100.0, radial_load=1e3, **wrong)
+            rollers.at_operation(**wrong)
     with pytest.raises(ValueError, match=r"operation\.axial_load: found nothing, expected a force"):
         TaperedOperation(100.0, radial_load=1e3)
     with pytest.raises(ValueError, match=r"operation\.axial_load: a ball bearing needs"):

@@ -9,7 +9,8 @@ from tapered_cases import tapered
 import jaxbearing as jb
 from jaxbearing.bearings.ball.geometry import BallGeometry
 from jaxbearing.bearings.ball.scene import BallAttitude, BallBearing, BallMaterials, BallOperation
-from jaxbearing.bearings.cylindrical.scene import CylindricalRollerBearing, RollerGeometry
+from jaxbearing.bearings.cylindrical.geometry import RollerGeometry
+from jaxbearing.bearings.cylindrical.scene import CylindricalRollerBearing
 from jaxbearing.bearings.operation import Operation
 from jaxbearing.bearings.parts import Materials
 from jaxbearing.bearings.ring import shift_matrix
@@ -68,8 +69,16 @@ ROWS = {
         {},
     ),
     "A4": (
+        N7.replace_geometry(flange_stiffness=3e8, flange_gap=50e-6),
+        [53.0, 20.0, 5.0, 0.2, 0.1],
+        0.0,
+        [219.0732320, 3015.603280, 755.6441753, 0.9394418602, 0.3037072956],
+        [8.113823408e7, 5.201873945e8, 1.909527048e8, 4332.734343, 1589.543594],
+        {(0, 1): 0.0, (1, 0): 0.0},
+    ),
+    "A4, no flanges": (
         N7,
-        [0.0, 20.0, 5.0, 0.2, 0.1],
+        [53.0, 20.0, 5.0, 0.2, 0.1],
         0.0,
         [0.0, 3015.603280, 755.6441753, 0.9394418602, 0.3037072956],
         [0.0, 5.201873945e8, 1.909527048e8, 4332.734343, 1589.543594],

@@ -25,7 +25,7 @@ if __name__ == "__main__" and os.environ.get("JAX_PLATFORMS", "cpu") == "cpu":
     count = arguments.devices or os.cpu_count() or 1
     os.environ["XLA_FLAGS"] = f"{os.environ.get('XLA_FLAGS', '')} --xla_force_host_platform_device_count={count}"
 
-sys.path.insert(0, str(Path(__file__).parents[1]))
+sys.path.insert(0, str(Path(__file__).parents[1] / "support"))
 
 import dataclasses  # noqa: E402
 

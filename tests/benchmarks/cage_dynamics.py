@@ -28,7 +28,7 @@ parser.add_argument("--quick", action="store_true", help="0.1 turns, two toleran
 parser.add_argument("--scenes", action="store_true", help="all solvers on other scenes instead")
 arguments = parser.parse_args() if __name__ == "__main__" else parser.parse_args(["--quick"])
 
-sys.path.insert(0, str(Path(__file__).parents[1]))
+sys.path.insert(0, str(Path(__file__).parents[1] / "support"))
 
 import equinox as eqx  # noqa: E402
 import jax  # noqa: E402

@@ -17,7 +17,7 @@ parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.R
 parser.add_argument("--quick", action="store_true", help="one point and one perturbation, three turns each")
 arguments = parser.parse_args() if __name__ == "__main__" else parser.parse_args(["--quick"])
 
-sys.path.insert(0, str(Path(__file__).parents[1]))
+sys.path.insert(0, str(Path(__file__).parents[1] / "support"))
 
 import numpy as np  # noqa: E402
 from moving_roller import table_16  # noqa: E402

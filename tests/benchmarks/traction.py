@@ -22,7 +22,7 @@ parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.R
 parser.add_argument("--quick", action="store_true", help="batches of 1 and 1000, fewer settings, no random contacts")
 arguments = parser.parse_args() if __name__ == "__main__" else parser.parse_args(["--quick"])
 
-sys.path.insert(0, str(Path(__file__).parents[1]))
+sys.path.insert(0, str(Path(__file__).parents[1] / "support"))
 
 import equinox as eqx  # noqa: E402
 import jax  # noqa: E402

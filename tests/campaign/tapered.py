@@ -24,7 +24,7 @@ from campaign.bearings import (
 )
 from campaign.draws import Numbers, Range, even, log
 from campaign.structure import Results, Structure
-from tapered_campaign import feasible, runs_away
+from campaign.tapered_campaign import feasible, runs_away
 
 import jaxbearing as jb
 

@@ -6,9 +6,11 @@ import subprocess
 import sys
 import tomllib
 
+import equinox as eqx
 import jax
 import pytest
 
+import jaxbearing as jb
 from jaxbearing.cli.cache import enable_compilation_cache
 from jaxbearing.cli.quiet import without_false_alarms
 from jaxbearing.programs import cache_folder
@@ -64,6 +66,24 @@ def test_copy_unknown(jaxbearing_command, folder):
     assert "Did you mean 'turbine_roller'" in result.err
     assert jaxbearing_command("scenes", "--to", "a.toml").code == 2
     assert os.listdir(folder) == []
+
+
+def test_copy_with_changes(jaxbearing_command, folder):
+    """Of a built-in scene, then of the file; what is read is the same scene."""
+    first = ("--set", "operation.inner_speed=12000 rpm", "--set", "drag=none")
+    assert jaxbearing_command("scenes", "--copy", "turbine_roller", *first, "--to", "a.toml").out == "wrote a.toml\n"
+    second = ("--set", "operation.radial_load=31 kN")
+    assert jaxbearing_command("scenes", "--copy", "a.toml", *second, "--to", "b.toml").code == 0
+    changes = {"operation.inner_speed": "12000 rpm", "drag": "none", "operation.radial_load": "31 kN"}
+    expected = jb.load_scene("turbine_roller", changes)
+    assert eqx.tree_equal(jb.load_scene("b.toml"), expected)
+    assert (folder / "b.toml").read_text(encoding="utf-8").startswith("# a.toml --set operation.radial_load=31 kN.\n")
+    assert jaxbearing_command("scenes", "--copy", "a.toml", *second).code == 2
+    refused = jaxbearing_command("scenes", "--copy", "a.toml", "--set", "operation.radial_load=31 m", "--to", "c.toml")
+    assert (refused.code, refused.err.count("\n")) == (2, 1)
+    assert "operation.radial_load" in refused.err
+    assert jaxbearing_command("scenes", "--set", "drag=none").code == 2
+    assert sorted(os.listdir(folder)) == ["a.toml", "b.toml"]
 
 
 def test_solve_json(jaxbearing_command, folder):

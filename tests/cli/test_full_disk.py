@@ -58,7 +58,7 @@ def made_up_results(monkeypatch):
 )
 def test_results_are_shown_and_nothing_is_left_behind(case, kind, jaxbearing_command, tmp_path, monkeypatch):
     arguments, name, shown = CASES[case]
-    monkeypatch.setattr("jaxbearing.report.animations.PICTURES", 3)
+    monkeypatch.setattr("jaxbearing.report.backends.matplotlib.animations.PICTURES", 3)
     place = tmp_path / "place"
     with no_room(kind, place, monkeypatch):
         result = jaxbearing_command(*arguments, str(place / name))

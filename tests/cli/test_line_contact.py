@@ -69,7 +69,7 @@ def test_run(jaxbearing_command, folder):
 
 def test_restart_and_animation(jaxbearing_command, folder, monkeypatch):
     """2 ms and 1 ms more; 10 of 120 pictures."""
-    monkeypatch.setattr("jaxbearing.report.animations.PICTURES", 10)
+    monkeypatch.setattr("jaxbearing.report.backends.matplotlib.animations.PICTURES", 10)
     first = jaxbearing_command(*SIMULATE, "--json", "--out", "a.nc")
     assert (first.code, first.err) == (0, "")
     more = ("--duration", "1 ms", "--restart", "a.nc", "--json", "--animation", "b.gif", "--out", "b.nc")

@@ -1,4 +1,4 @@
-"""`jaxbearing study` through the command line. Its numbers: tests/bearings/test_claims.py."""
+"""`jaxbearing study` through the command line. Its numbers: tests/bearings/cylindrical/test_claims.py."""
 
 import json
 

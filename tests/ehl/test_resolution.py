@@ -70,3 +70,13 @@ def film(scene, nodes, inlet):
     scene = scene.replace({"contact": dataclasses.replace(scene.contact, nodes=nodes, inlet=inlet)})
     found = jb.solve(scene).film
     return np.array([float(found.central), float(found.minimum)])
+
+
+def test_given_nodes_beside_an_accuracy():
+    """The mesh is as given; the accuracy chooses the inlet, and a warning says where it is missed."""
+    changes = {"contact.inlet": "none", "contact.accuracy": "1e-3"}
+    scene = jb.load_scene("satellite_contact_1", {**changes, "contact.nodes": "101"})
+    assert (scene.contact.nodes, scene.contact.accuracy) == (101, 1e-3)
+    assert scene.contact.inlet == jb.load_scene("satellite_contact_1", changes).contact.inlet
+    # a `--set` of one alone takes the other out
+    assert jb.load_scene("satellite_contact_1", {"contact.nodes": "101"}).contact.accuracy is None

@@ -22,7 +22,7 @@ from fitting.io.summary import print_comparison, print_fit
 from fitting.io.words import parameter_text
 from fitting.parameters import NAMES
 from fitting.result import CurveFit
-from jaxbearing.report.page import Page
+from jaxbearing.report.backends.matplotlib.page import Page
 from jaxbearing.scenes.errors import SceneError
 
 ROWS = [

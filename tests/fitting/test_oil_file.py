@@ -28,8 +28,9 @@ from jaxbearing.scenes.data_files import builtin_text, oil_names
 from jaxbearing.scenes.errors import SceneError
 from jaxbearing.scenes.oil_files import read_oil
 from jaxbearing.scenes.oil_schema import OilTable
-from jaxbearing.scenes.oil_writer import oil_text, quantity_text
+from jaxbearing.scenes.oil_writer import oil_text
 from jaxbearing.scenes.oils import load_oil, lubricant, missing_sources
+from jaxbearing.scenes.quantity_texts import quantity_text
 from jaxbearing.scenes.reader import oil_origins
 
 DENSITY = LinearDensity(850.0, -0.7, 288.75)
@@ -259,6 +260,6 @@ def test_origins_follow_the_scene(file):
 
 def test_numpy_and_jax_numbers_are_written():
     oil = dataclasses.replace(OILS["constant"], viscosity=ConstantViscosity(jax.numpy.asarray(0.25)))
-    assert 'value = "0.25 Pa*s"' in oil_text(oil, "a", "b", [])
+    assert 'value = "250 mPa*s"' in oil_text(oil, "a", "b", [])
     oil = dataclasses.replace(OILS["constant"], viscosity=ConstantViscosity(np.float64(0.25)))
-    assert 'value = "0.25 Pa*s"' in oil_text(oil, "a", "b", [])
+    assert 'value = "250 mPa*s"' in oil_text(oil, "a", "b", [])

@@ -14,7 +14,7 @@ import jaxbearing as jb
 from jaxbearing.numerics.status import Status
 from jaxbearing.report.dataset import solution_to_dataset, write_netcdf
 from jaxbearing.report.json_report import solution_to_dict
-from jaxbearing.report.labelled import label_unit, udunits
+from jaxbearing.report.labels import label_unit, udunits
 
 
 @pytest.fixture(scope="module")
@@ -195,6 +195,6 @@ def test_an_existing_file_keeps_its_mode_and_a_link_stays_one(dry, tmp_path):
     assert file.stat().st_size > 1000
 
 
-@pytest.mark.parametrize("unit", ["1", "m", "m^3/s", "N m", "rad/s", "1/s", "W/m/K", "kg/m^3", "percent"])
+@pytest.mark.parametrize("unit", ["1", "m", "m^3/s", "N m", "rad/s", "1/s", "W/m/K", "kg/m^3", "percent", "N/m^(10/9)"])
 def test_units_there_and_back(unit):
     assert label_unit(udunits(unit)) == unit

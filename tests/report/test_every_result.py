@@ -31,7 +31,7 @@ from jaxbearing.report import histories
 from jaxbearing.report.dataset import solution_to_dataset, write_netcdf
 from jaxbearing.report.html_report import html_report
 from jaxbearing.report.json_report import solution_to_dict
-from jaxbearing.report.labelled import labelled, udunits
+from jaxbearing.report.labels import labelled, udunits
 from jaxbearing.report.plots import plot_solution, save_plot
 from jaxbearing.report.summary import print_summary
 from jaxbearing.report.sweep_summary import print_sweep

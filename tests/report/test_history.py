@@ -16,13 +16,10 @@ import jaxbearing as jb
 from jaxbearing.bearings.motion.run import resume
 from jaxbearing.numerics.status import SolveError, Status
 from jaxbearing.report import histories, history_shocks
-from jaxbearing.report.animations import save_animation
+from jaxbearing.report.backends.matplotlib.animations import save_animation
+from jaxbearing.report.bearing.run.animation import exaggeration
 from jaxbearing.report.dataset import write_netcdf
-from jaxbearing.report.histories import animate_history
-from jaxbearing.report.history_animation import exaggeration
-from jaxbearing.report.history_dataset import history_to_dataset
-from jaxbearing.report.history_plots import plot_history
-from jaxbearing.report.history_summary import history_to_dict
+from jaxbearing.report.histories import animate_history, history_to_dataset, history_to_dict, plot_history
 from jaxbearing.report.plots import save_plot
 from jaxbearing.time_laws import Ramp
 
@@ -185,7 +182,7 @@ def test_plot(whole, tmp_path):
 
 @pytest.mark.parametrize("suffix", [".gif", ".html"])
 def test_animation(suffix, scene, whole, tmp_path, monkeypatch):
-    monkeypatch.setattr("jaxbearing.report.animations.PICTURES", 6)
+    monkeypatch.setattr("jaxbearing.report.backends.matplotlib.animations.PICTURES", 6)
     told = []
     path = tmp_path / f"run{suffix}"
     save_animation(animate_history(whole, scene, "a bearing"), path, lambda done, of: told.append((done, of)))

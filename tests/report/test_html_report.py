@@ -12,10 +12,10 @@ from roller_cases import dry_roller, turbine_roller
 
 import jaxbearing as jb
 from jaxbearing.numerics.status import Status
-from jaxbearing.report.charts import library
+from jaxbearing.report.backends.plotly import library
+from jaxbearing.report.backends.svg import Drawing
 from jaxbearing.report.html_report import html_report
 from jaxbearing.report.json_report import solution_to_dict
-from jaxbearing.report.svg import Drawing
 from jaxbearing.scenes.inputs import SceneInput, described_field, scene_inputs
 
 WHEN = datetime(2026, 1, 2, 3, 4, tzinfo=UTC)

@@ -8,7 +8,7 @@ import pytest
 import xarray as xr
 from full_places import limited
 
-from jaxbearing.report.netcdf import NetcdfStream, netcdf_image
+from jaxbearing.report.backends.netcdf import NetcdfStream, netcdf_image
 
 SLOW = pytest.mark.slow
 DATA = xr.Dataset({"a": ("x", np.arange(5_000.0), {"units": "m"}), "b": ("word", ["one", "other"])})
@@ -18,7 +18,7 @@ import sys
 from pathlib import Path
 from full_places import limited
 from test_netcdf import DATA, MORE
-from jaxbearing.report.netcdf import NetcdfStream
+from jaxbearing.report.backends.netcdf import NetcdfStream
 try:
     with limited(int(sys.argv[2])), NetcdfStream(Path(sys.argv[1])) as stream:
         stream.add(DATA)

@@ -18,8 +18,8 @@ from jaxbearing.life.result import Life
 from jaxbearing.numerics.status import Status
 from jaxbearing.report.display import bar, digits, with_unit
 from jaxbearing.report.json_report import solution_to_dict
-from jaxbearing.report.result_tables import result_rows
 from jaxbearing.report.summary import print_summary
+from jaxbearing.report.tables import result_rows
 
 N = 8
 

@@ -17,7 +17,8 @@ def read(seed, folder):
         return jb.load_scene(str(file))
     except jb.SceneError as error:
         said = str(error)
-    assert len(said) < 3000
+    # each problem has a line that can be read
+    assert len(said) < 450 * (1 + said.count("\n"))
     assert "scene.toml" in said
     return None
 

@@ -10,10 +10,13 @@ from jaxbearing.contacts import DowsonHigginson, Gupta, MartinBlend, Nijenbannin
 from jaxbearing.contacts.viscous import BairWiner
 from jaxbearing.numerics.checks import Checked
 from jaxbearing.scenes.field_list import tables_of_kind
+from jaxbearing.scenes.fields import plain_table_at
+from jaxbearing.scenes.inputs import described_field
 from jaxbearing.scenes.laws import ENTRY_POINTS
-from jaxbearing.scenes.reader import KINDS, schema_of_kind
+from jaxbearing.scenes.reader import KINDS, model_of, schema_of_kind
 from jaxbearing.scenes.table import Table
 from jaxbearing.scenes.table_of import table_of, type_of
+from jaxbearing.sweeps.fields import label_of
 
 RESTATED = {
     ("FilmModelTable", "accuracy"): "files choose the mesh by it: one of the accuracies that were measured",
@@ -174,3 +177,27 @@ def test_a_law_of_another_package_that_does_not_fit(looked_up, scene, field, nam
     assert caught.value.path == f"contact.{field}"
     assert len(caught.value.problems) == 1
     assert all(word in str(caught.value) for word in words), str(caught.value)
+
+
+@pytest.mark.parametrize("name", jb.builtin_names())
+def test_outputs_take_labels_from_the_class(name):
+    """Of every field that a file of this kind may have: unit and words of a swept field, words on the page of inputs,
+    also where only the file has the field (`kinematics.inner_share`)."""
+    scene = jb.load_scene(name)
+    model = model_of(scene)
+    for table in filter(lambda one: plain_table_at(model, one), model.model_fields):
+        for field, (owner, own) in plain_table_at(model, table).made_from.items():
+            said = owner.__dataclass_fields__[own].metadata
+            found, words = label_of(scene, f"{table}.{field}"), said.get("description") or field.replace("_", " ")
+            assert (found["units"] == "1") == (said.get("unit", "1") == "1"), field
+            assert found["long_name"] == words
+            if said.get("description"):
+                assert described_field(scene, (table, field)) == words
+
+
+def test_fields_that_only_files_have_are_described():
+    scene = jb.load_scene("turbine_ball")
+    words = described_field(scene, ("kinematics", "gyroscopic_friction"))
+    assert "coefficient of friction mu that caps what a race carries" in words
+    assert "relative error of the traction forces" in described_field(scene, ("contact", "traction_accuracy"))
+    assert described_field(scene, ("kinematics", "no_such_thing")) == "no such thing"

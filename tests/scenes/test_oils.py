@@ -15,7 +15,7 @@ from jaxbearing.lubricants import (
     Roelands,
     WaltherRoelands,
 )
-from jaxbearing.scenes import oils
+from jaxbearing.scenes import oil_writer, oils
 from jaxbearing.scenes.errors import SceneError, from_validation
 from jaxbearing.scenes.oil_schema import OilTable
 from jaxbearing.scenes.reader import load_scene
@@ -83,6 +83,20 @@ def test_other_laws():
     assert isinstance(water.viscosity, ConstantViscosity)
     assert isinstance(water.pressure_viscosity, NoPressureViscosity)
     assert water.at(300.0).pressure_viscosity == 0.0
+
+
+def test_heat_capacity_is_read_and_written():
+    """A number, or a linear law; no oil of the catalogue has one."""
+    assert all(oils.load_oil(name).heat_capacity is None for name in oils.oil_names())
+    constant = read(name="mobil_jet_ii", heat_capacity="2.15 kJ/(kg*K)")
+    np.testing.assert_allclose(constant.heat_capacity.heat_capacity(400.0), 2150.0, rtol=1e-15)
+    law = {"value": "1670 J/(kg*K)", "slope": "4.3 J/(kg*K^2)", "reference_temperature": "273 K"}
+    linear = read(name="mobil_jet_ii", heat_capacity={"law": "linear", **law})
+    np.testing.assert_allclose(linear.heat_capacity.heat_capacity(373.0), 2100.0, rtol=1e-15)
+    for oil in (constant, linear):
+        for written in (oil_writer.scene_oil(oil), {"name": "mobil_jet_ii", **oil_writer.sourced_laws(oil)}):
+            assert read(**written).heat_capacity == oil.heat_capacity
+    assert oil_writer.scene_oil(constant) == {"name": "mobil_jet_ii", "heat_capacity": "2150 J/(kg*K)"}
 
 
 def test_catalogue():

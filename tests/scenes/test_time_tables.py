@@ -1,6 +1,7 @@
-"""Speed and load over time from CSV files."""
+"""Speed and load over time from CSV files, and from lists in the scene."""
 
 import math
+import tomllib
 
 import numpy as np
 import pytest
@@ -77,3 +78,55 @@ def test_one_course_only(tmp_path):
     changes = {"simulation.speed_table.file": str(tmp_path / "course.csv"), "simulation.speed_ramp.start": "0.1"}
     with pytest.raises(jb.SceneError, match="speed_table"):
         jb.load_scene("turbine_roller_dynamic", changes | {"simulation.speed_ramp.duration": "1 ms"})
+
+
+def listed(changes, table="speed_table"):
+    scene = tomllib.loads(builtin_text("turbine_roller_dynamic"))
+    return jb.scene_from_mapping(scene | {"simulation": {**scene["simulation"], table: changes}})
+
+
+def test_lists_in_the_scene(tmp_path):
+    """As the file with the same numbers; `--set` of one takes the other out."""
+    times, factors = ["0 ms", "10 ms"], [0.5, 1.0]
+    law = listed({"times": times, "factors": factors}).simulation.speed
+    assert str(law) == str(scene_with(tmp_path, SPEED).simulation.speed)
+    (tmp_path / "scene.toml").write_text(
+        builtin_text("turbine_roller_dynamic") + 'speed_table = { times = ["0 s", "1 s"], factors = [1, 2] }\n',
+        encoding="utf-8",
+    )
+    file = {"simulation.speed_table.file": str(tmp_path / "course.csv")}
+    assert jb.load_scene(tmp_path / "scene.toml", file).simulation.speed.factor(0.0) == 0.5
+    changes = {"simulation.speed_table.times": "['0 s', '1 s']", "simulation.speed_table.factors": "[1, 3]"}
+    assert jb.load_scene(tmp_path / "scene.toml", changes).simulation.speed.factor(1.0) == 3.0
+    load = listed({"times": ["-1 ms", "1 s"], "factors": [1, 0]}, "load_table").simulation.load
+    assert (load.times[0], load.factor(1.0)) == (-1e-3, 0.0)
+
+
+BAD_LISTS = {
+    "nothing": ({}, "file: found nothing; expected a CSV file, or times and factors"),
+    "both": ({"file": "a.csv", "times": ["0 s", "1 s"]}, "times: found both; expected none beside 'file'"),
+    "one list": ({"times": ["0 s", "1 s"]}, "factors: found nothing; expected a list as long as 'times'"),
+    "lengths": ({"times": ["0 s", "1 s"], "factors": [1.0]}, "factors: found 1 factors and 2 times"),
+    "order": (
+        {"times": ["1 s", "0 s"], "factors": [1.0, 2.0]},
+        "times: found some that do not; expected times that in",
+    ),
+    "rest": (
+        {"times": ["0 s", "1 s"], "factors": [1.0, 0.0]},
+        "factors: found the number 0; .* at rest the films vanish",
+    ),
+    "no unit": ({"times": ["0", "1 s"], "factors": [1.0, 2.0]}, "times: .*value 1 of 2.*; expected a time"),
+}
+
+
+@pytest.mark.parametrize("name", BAD_LISTS)
+def test_bad_lists_are_refused(name):
+    table, words = BAD_LISTS[name]
+    with pytest.raises(jb.SceneError, match=rf"simulation\.speed_table\.{words}"):
+        listed(table)
+
+
+@pytest.mark.parametrize("factors", [[0.0, 1.0], [1.0, -1.0]])
+def test_loads_that_no_run_begins_with(factors):
+    with pytest.raises(jb.SceneError, match=r"load_table\.factors: found .*; expected numbers >= 0, the first one > 0"):
+        listed({"times": ["0 s", "1 s"], "factors": factors}, "load_table")

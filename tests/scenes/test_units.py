@@ -49,6 +49,9 @@ DEFINITIONS = [
     ("7850 kg/m³", units.DENSITY, 7850.0),
     ("7850 kg·m⁻³", units.DENSITY, 7850.0),
     ("0.147 W / (m K)", units.CONDUCTIVITY, 0.147),
+    ("60 N/um^(10/9)", units.LINE_CONTACT_STIFFNESS, 60.0 * 1e6 ** (10 / 9)),
+    ("8.06e4 N/mm**(10/9)", units.LINE_CONTACT_STIFFNESS, 8.06e4 * 1e3 ** (10 / 9)),
+    ("2 kN / µm^(10/9)", units.LINE_CONTACT_STIFFNESS, 2e3 * 1e6 ** (10 / 9)),
 ]
 
 
@@ -98,6 +101,11 @@ def refusal(value, dimension):
         ("12 m^999", units.LENGTH, "not a unit"),
         ("12 Gm^99", units.LENGTH, "not a unit"),  # beyond the largest float
         ("12 m^0.5", units.LENGTH, "not a unit"),
+        ("12 m^(1/2)", units.LENGTH, "another kind"),
+        ("12 m^(2/1)^9", units.LENGTH, "not a unit"),
+        ("12 m^(9**9)", units.LENGTH, "not a unit"),
+        ("12 m^(1/0)", units.LENGTH, "not a unit"),
+        ("60 N/um", units.LINE_CONTACT_STIFFNESS, "another kind"),
         ("12 square m", units.LENGTH, "not a unit"),
         ("142 mm%", units.LENGTH, "not a unit"),
         ("142 mm;", units.LENGTH, "not a unit"),

@@ -28,9 +28,9 @@ def _angles(result: SolvedBearing) -> Excess:
 def missing_thrust(scene: BallBearing) -> Float[Array, ""]:
     r"""$1.22F_r\tan\alpha - F_a$, N, of an angular contact bearing: positive where fewer than half of its balls are
     loaded (Harris, *Rolling Bearing Analysis*)."""
-    operation, angle = scene.operation, jnp.asarray(scene.geometry.contact_angle)
+    operation, geometry = scene.operation, scene.geometry
     axial = jnp.asarray(0.0 if operation.axial_load is None else operation.axial_load)
-    return 1.22 * operation.radial_size * jnp.tan(angle) - jnp.abs(axial)
+    return 1.22 * operation.radial_size * geometry.free_sine / geometry.free_cosine - jnp.abs(axial)
 
 
 def _thrust(scene: BallBearing) -> Excess:

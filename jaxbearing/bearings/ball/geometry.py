@@ -23,9 +23,10 @@ class BallGeometry(Checked):
     - `pitch_diameter`, `ball_diameter`: m, > 0.
     - `conformity_inner`, `conformity_outer`: groove radius over ball diameter, > 0.5.
     - `contact_angle`: of the unloaded bearing, rad, at least 0 and below pi/2.
-    - `diametral_clearance`: DIAMETRAL internal clearance of the unloaded bearing, m, >= 0.
+    - `diametral_clearance`: DIAMETRAL internal clearance of the unloaded bearing, m; negative: radial preload.
     - `shoulder_angle_inner`, `shoulder_angle_outer`: angle at which the groove ends, rad; not given: no check.
     - `first_element_angle`: azimuth of the first ball, rad; not given: 0, and the load line is a line of symmetry.
+    - `bore`, `outside_diameter`, `width`: boundary dimensions of the bearing, m, for what knows its seats.
     """
 
     part: ClassVar[str] = "geometry"
@@ -36,10 +37,13 @@ class BallGeometry(Checked):
     conformity_inner: Scalar = number(bound="above 0.5 and at most 1", unit="1")
     conformity_outer: Scalar = number(bound="above 0.5 and at most 1", unit="1")
     contact_angle: Scalar | None = optional_number(bound=">= 0 and below 90 degrees", unit="rad")
-    diametral_clearance: Scalar | None = optional_number(bound=">= 0", unit="m")
+    diametral_clearance: Scalar | None = optional_number(unit="m")
     shoulder_angle_inner: Scalar | None = optional_number(bound="above 0 and below 90 degrees", unit="rad")
     shoulder_angle_outer: Scalar | None = optional_number(bound="above 0 and below 90 degrees", unit="rad")
     first_element_angle: Scalar | None = optional_number(metadata=FIRST_ELEMENT)
+    bore: Scalar | None = optional_number(bound="> 0", unit="m")
+    outside_diameter: Scalar | None = optional_number(bound="> 0", unit="m")
+    width: Scalar | None = optional_number(bound="> 0", unit="m")
 
     def __check_init__(self):
         super().__check_init__()
@@ -78,20 +82,26 @@ class BallGeometry(Checked):
         return (self.conformity_outer - 0.5) * jnp.asarray(self.ball_diameter)
 
     @property
+    def free_clearance(self) -> Scalar | None:
+        """Diametral clearance from which the contact angle follows, m; `None`: the contact angle is given."""
+        return self.diametral_clearance
+
+    @property
     def free_cosine(self) -> Array:
-        """Cosine of the contact angle of the unloaded bearing."""
-        if self.contact_angle is not None:
+        """Cosine of the contact angle of the unloaded bearing; with radial preload the distance of the circles of
+        groove centres over `centre_distance`, above 1."""
+        clearance = self.free_clearance
+        if clearance is None:
             return jnp.cos(jnp.asarray(self.contact_angle))
-        assert self.diametral_clearance is not None
-        return 1.0 - self.diametral_clearance / (2.0 * self.centre_distance)
+        return 1.0 - clearance / (2.0 * self.centre_distance)
 
     @property
     def free_sine(self) -> Array:
-        """Sine of that angle; for a clearance of 0 it is 0 with derivative 0."""
-        if self.contact_angle is not None:
+        """Sine of that angle; without clearance it is 0 with derivative 0."""
+        clearance = self.free_clearance
+        if clearance is None:
             return jnp.sin(jnp.asarray(self.contact_angle))
-        assert self.diametral_clearance is not None
-        lift = self.diametral_clearance / (2.0 * self.centre_distance)
+        lift = clearance / (2.0 * self.centre_distance)
         open_ = lift > 0
         return jnp.where(open_, jnp.sqrt(jnp.where(open_, lift * (2.0 - lift), 1.0)), 0.0)
 
@@ -109,7 +119,12 @@ class BallGeometry(Checked):
     @property
     def groove_circle_radius(self) -> Array:
         """R_i: of the circle of the inner groove's centres, m."""
-        return 0.5 * self.pitch_diameter + self.inner_offset * self.free_cosine
+        radius, cosine = 0.5 * self.pitch_diameter, self.free_cosine
+        if self.free_clearance is None:
+            return radius + self.inner_offset * cosine
+        # with radial preload the balls stand in the bottoms of the grooves, and the inner ring is larger
+        pressed = self.centre_distance * jnp.maximum(cosine - 1.0, 0.0)
+        return radius + self.inner_offset * jnp.minimum(cosine, 1.0) + pressed
 
     def contacts(self, inner_cosine: Values, outer_cosine: Values, reduced_modulus: Values) -> PointContact:
         """Both contacts, races first (inner, outer), at given contact angles: shape (2, ...)."""
@@ -122,7 +137,10 @@ class BallGeometry(Checked):
 
     def free_contacts(self, reduced_modulus: Values) -> PointContact:
         """Both contacts at the free contact angle, shape (2,)."""
-        return self.contacts(self.free_cosine, self.free_cosine, reduced_modulus)
+        cosine = self.free_cosine
+        if self.free_clearance is not None:
+            cosine = jnp.minimum(cosine, 1.0)
+        return self.contacts(cosine, cosine, reduced_modulus)
 
     def mass(self, density: Values) -> Float[Array, ""]:
         """Mass of a ball, kg."""

@@ -6,6 +6,7 @@ import jax.numpy as jnp
 from jaxtyping import Array, Float
 
 from ...numerics.newton import NewtonOptions, newton_solve
+from ..mounted import running_scene
 from ..rated import RatedContacts
 from .build import build_core
 from .scene import BallBearing
@@ -30,7 +31,7 @@ def rated_contacts(scene: BallBearing, elements: Any) -> RatedContacts:
     geometry, operation = scene.geometry, scene.operation
     inner, outer = elements.load_inner, elements.load_outer
     if scene.rated_to_first_order:
-        inner, outer = linear_tilt_loads(scene)
+        inner, outer = linear_tilt_loads(running_scene(scene)[0])
     # the catalogue's formula is one of loads that are all known: here of a radial one alone
     given = (operation.axial_load, operation.moment, operation.moment_lateral)
     radial_only = not operation.displaced and all(load is None for load in given)

@@ -6,6 +6,7 @@ or tilt moves azimuth 0 of the inner ring along $+e_x$. Contact angles are posit
 along $+e_x$. The groove is taken as a full circle: `geometry.shoulder_angle_*` says where it ends.
 """
 
+import dataclasses
 import functools
 import operator
 from collections.abc import Callable, Iterator
@@ -20,6 +21,7 @@ from ...contacts import PointContact
 from ...contacts.point_laws import PointLaws
 from ...lubricants import Lubricant, NoPressureViscosity
 from ...materials import Material, reduced_modulus
+from ...mounting import Fits, PartTemperatures
 from ...numerics.checks import demand, given
 from ...numerics.newton import NewtonOptions
 from ...numerics.refusals import refusals_of, refuse_all
@@ -28,6 +30,8 @@ from ..bearing import AbstractBearing
 from ..cage import ASSUMED_LANDS as ASSUMED_LANDS
 from ..cage import AbstractCage
 from ..facts import BALL_PRESSURE, RangeChecks
+from ..growth import Growth, Play
+from ..mounted import mounting_problems
 from ..operation import LOAD_FIELDS, AbstractOperation
 from ..outline import Outline
 from ..parts import DragSettings
@@ -141,11 +145,14 @@ class BallBearing(AbstractBearing):
     cage: BallCage | None = None
     drag: BallDragSettings | None = None
     rating: Rating | None = None
+    fits: Fits | None = None
+    temperatures: PartTemperatures | None = None
 
     def __check_init__(self):
         refuse_all(self._problems())
 
     def _problems(self) -> Iterator[str | ValueError]:
+        yield from mounting_problems(self)
         if not self.slips and self.kinematics.attitude not in ("outer", "inner"):
             yield (
                 f"kinematics.attitude: '{self.kinematics.attitude}' needs traction (contact.traction); without "
@@ -178,6 +185,22 @@ class BallBearing(AbstractBearing):
         from .steady import solve_ball
 
         return solve_ball(self, options, ring, exact_tilt)
+
+    @property
+    def raceway_diameters(self) -> tuple[Array, Array]:
+        from .mounting import groove_bottoms
+
+        return groove_bottoms(self.geometry)
+
+    def play(self, growth: Growth) -> Play:
+        from .mounting import running_play
+
+        return running_play(self.geometry, growth)
+
+    def grown(self, growth: Growth) -> "BallBearing":
+        from .mounting import running_geometry
+
+        return dataclasses.replace(self, geometry=running_geometry(self.geometry, growth))
 
     def range_checks(self) -> RangeChecks:
         from .checks import CHECKS

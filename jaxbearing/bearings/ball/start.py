@@ -167,7 +167,8 @@ def ring_estimate(problem: CentrifugalProblem) -> Float[Array, " freedom"]:
     load = dict(zip(problem.freedoms, problem.ring_load, strict=True))
     zero = jnp.zeros(())
     both = together(problem.stiffness)
-    distance, cosine = problem.centre_distance, problem.free_cosine
+    # with radial preload the rings are nearer than the balls are thick
+    distance, cosine = problem.centre_distance, jnp.minimum(problem.free_cosine, 1.0)
     axial, across = load.get("axial", zero), jnp.stack([load.get("radial", zero), load.get("lateral", zero)])
     radial = jnp.sqrt(jnp.sum(jnp.square(across)))
     tilting = jnp.abs(load.get("tilt", zero)) + jnp.abs(load.get("tilt_lateral", zero))

@@ -9,6 +9,7 @@ from .scene import CylindricalRollerBearing
 def rated_contacts(scene: CylindricalRollerBearing, elements: Any, laminae: Any) -> RatedContacts:
     """**Arguments:** `RollerResults` and, of rollers in laminae, `LaminaLoads` of a solution."""
     geometry, operation = scene.geometry, scene.operation
+    other = operation.tilts or operation.displaced or operation.axial_given
     loads = (elements.load_inner, elements.load_outer) if laminae is None else (laminae.inner, laminae.outer)
     return RatedContacts(
         n_elements=geometry.n_rollers,
@@ -21,5 +22,5 @@ def rated_contacts(scene: CylindricalRollerBearing, elements: Any, laminae: Any)
         outer=loads[1],
         length=geometry.loaded_length,
         profiled=laminae is not None and laminae.profiled,
-        radial_load=None if operation.tilts or operation.displaced else operation.radial_size,
+        radial_load=None if other else operation.radial_size,
     )

@@ -7,167 +7,37 @@ running (a roller between a turning inner and a fixed outer ring spins clockwise
 `spin_speed`). Pocket face 1 is in front of the roller, face 2 behind it.
 """
 
-import math
+import dataclasses
 from collections.abc import Callable, Iterator, Mapping
-from typing import Any, ClassVar, Literal
+from typing import Any, ClassVar
 
 import equinox as eqx
 import jax.numpy as jnp
 from jaxtyping import Array
 
-from ..._types import Scalar
 from ...lubricants import Lubricant, NoPressureViscosity
-from ...numerics.checks import Checked, demand, given
+from ...mounting import Fits, PartTemperatures
 from ...numerics.newton import NewtonOptions
 from ...numerics.refusals import refusals_of, refuse_all
-from ...numerics.structure import choice, count
 from ..bearing import AbstractBearing
 from ..cage import ASSUMED_LANDS as ASSUMED_LANDS
-from ..cage import AbstractCage
 from ..facts import RangeChecks
+from ..growth import Growth, Play
 from ..motion.settings import Simulation
+from ..mounted import mounting_problems
 from ..operation import Operation
 from ..outline import Outline
-from ..parts import (
-    FIRST_ELEMENT,
-    ContactLaws,
-    Drag,
-    Materials,
-    check_between,
-    check_row_fits,
-    number,
-    optional_number,
-)
+from ..parts import ContactLaws, Drag, Materials
 from ..profile import RollerProfile
 from ..rated import RatedContacts
 from ..rating import Rating
 from ..ring import InnerRing
-from ..solution import Solution
+from ..solution import RING_FREEDOMS, Solution
+from .geometry import ASSUMED_FLANGE_HEIGHT, RollerCage, RollerFlange, RollerGeometry, check_height
+from .thrust import NOT_MODELLED, check_axial
 
-ASSUMED_CAGE_INNER = 7.0 / 12.0
-"""Cage bore = pitch diameter minus this times the roller diameter, where a scene does not give it."""
-ASSUMED_CAGE_OUTER = 4.0 / 12.0
-"""Cage outside diameter = pitch diameter plus this times the roller diameter, where a scene does not give it."""
-ASSUMED_FLANGE_HEIGHT = 2.5 / 12.0
-"""Flange height over roller diameter, where a scene does not give it."""
-
-
-class RollerGeometry(Checked):
-    """Main dimensions, m. `diametral_clearance` may be negative (preload).
-
-    **Arguments:**
-    - `n_rollers`: number of rollers (structure: another number recompiles).
-    - `pitch_diameter`, `roller_diameter`, `roller_length` (of the whole roller): m, > 0.
-    - `contact_length`: cylindrical length that carries load, m, > 0; `roller_length` where not given.
-    - `diametral_clearance`: DIAMETRAL internal clearance of the assembled bearing, m; negative: preload.
-    - `first_element_angle`: azimuth of the first roller, rad; not given: 0, and the load line is a line of symmetry.
-    """
-
-    part: ClassVar[str] = "geometry"
-
-    n_rollers: int = count("geometry.n_rollers")
-    pitch_diameter: Scalar = number(bound="> 0", unit="m")
-    roller_diameter: Scalar = number(bound="> 0", unit="m")
-    roller_length: Scalar = number(bound="> 0", unit="m")
-    diametral_clearance: Scalar = number(unit="m")
-    contact_length: Scalar | None = optional_number(bound="> 0", unit="m")
-    first_element_angle: Scalar | None = optional_number(metadata=FIRST_ELEMENT)
-
-    def __check_init__(self):
-        super().__check_init__()
-        refuse_all(self._problems())
-
-    def _problems(self) -> Iterator[str | ValueError]:
-        yield from refusals_of(check_row_fits, self.n_rollers, self.roller_diameter, self.pitch_diameter)
-        sizes = given(self.contact_length, self.roller_length)
-        if sizes is not None:
-            yield from refusals_of(
-                demand,
-                "geometry.contact_length must be at most the roller length",
-                sizes[0] <= sizes[1],
-                lambda: (
-                    f"geometry.contact_length must be at most the roller length, {float(sizes[1]):.6g} m, got "
-                    f"{float(sizes[0]):.6g} m"
-                ),
-            )
-
-    @property
-    def loaded_length(self) -> Scalar:
-        """Length of the raceway contacts, m."""
-        return self.roller_length if self.contact_length is None else self.contact_length
-
-    @property
-    def pitch_radius(self) -> Scalar:
-        return self.pitch_diameter / 2.0
-
-    @property
-    def roller_radius(self) -> Scalar:
-        return self.roller_diameter / 2.0
-
-    @property
-    def inner_radius(self) -> Scalar:
-        """Inner raceway."""
-        return self.pitch_radius - self.roller_radius
-
-    @property
-    def outer_radius(self) -> Scalar:
-        """Outer raceway."""
-        return self.pitch_radius + self.roller_radius
-
-
-class RollerCage(AbstractCage):
-    """One-piece cage, guided by one ring on `n_lands` lands, with a pocket film in front of and behind each roller.
-
-    **Arguments:** those of `AbstractCage`, and
-    - `pocket_clearance`: TOTAL circumferential clearance of a roller in its pocket, m, > 0.
-    - `pocket_axial_clearance`: TOTAL axial clearance of a roller between the cage rails, m; not given: the films
-      between roller ends and rails are not modelled.
-    """
-
-    element: ClassVar[str] = "roller"
-    assumed_inner: ClassVar[float] = ASSUMED_CAGE_INNER
-    assumed_outer: ClassVar[float] = ASSUMED_CAGE_OUTER
-
-    pocket_axial_clearance: Scalar | None = optional_number(bound="> 0", unit="m")
-
-    def row(self, geometry: RollerGeometry) -> tuple[int, Scalar]:
-        return geometry.n_rollers, geometry.roller_diameter
-
-    def mass_and_inertia(self, geometry: RollerGeometry, density: Scalar) -> tuple[Scalar, Scalar]:
-        """Mass, kg, and moment of inertia about the axis, kg m^2: a ring as wide as rollers, their axial clearance and
-        the lands, less a rectangular pocket for each roller (in the inertia as a point in the middle of the ring: its
-        own extent would take off another 0.4 %)."""
-        inner, outer = self.bore(geometry) / 2.0, self.outside(geometry) / 2.0
-        axial = 0.0 if self.pocket_axial_clearance is None else self.pocket_axial_clearance
-        pocket_width = geometry.roller_length + axial
-        width = pocket_width + self.lands * self.land_width
-        ring = density * math.pi * (outer * outer - inner * inner) * width
-        length, depth = geometry.roller_diameter + self.pocket_clearance, outer - inner
-        pockets = geometry.n_rollers * density * pocket_width * length * depth
-        middle = 0.5 * (inner + outer)
-        inertia = 0.5 * ring * (inner * inner + outer * outer) - pockets * middle * middle
-        return ring - pockets, inertia
-
-
-class RollerFlange(Checked):
-    """Flanges that guide the rollers axially, on the inner ring, the outer ring or both.
-
-    **Arguments:**
-    - `ring`: "inner", "outer" or "both".
-    - `axial_clearance`: TOTAL axial clearance of a roller between its two flanges, m.
-    - `angle`: flange opening angle, rad.
-    - `height`: of the flange above the raceway, m; assumed from the roller size where not given.
-    """
-
-    part: ClassVar[str] = "flange"
-
-    ring: Literal["inner", "outer", "both"] = choice("flange.ring", ("inner", "outer", "both"))
-    axial_clearance: Scalar = number(bound="> 0", unit="m")
-    angle: Scalar = number(0.0, bound=">= 0 and below 90 degrees", unit="rad")
-    height: Scalar | None = optional_number(bound="> 0", unit="m")
-
-    def rim_height(self, geometry: RollerGeometry) -> Scalar:
-        return ASSUMED_FLANGE_HEIGHT * geometry.roller_diameter if self.height is None else self.height
+_ACROSS = ("radial", "lateral", "tilt", "tilt_lateral")
+"""Freedoms of the inner ring that the rollers feel."""
 
 
 def _freedoms(value: Any) -> tuple[str, ...]:
@@ -188,6 +58,7 @@ class CylindricalRollerBearing(AbstractBearing):
       must have a `simulation`.
     - `profile`, or `operation.misalignment` or `operation.moment`: rollers that tilt, in laminae; with a
       `contact` without traction: films and what rolling costs, for rolling without sliding.
+    - `geometry.flange_stiffness`: the ring's axial freedom, which nothing else depends on.
     - `simulation`: what a run in time does beyond the operating point; a steady solve does not look at it.
 
     **Raises:** `ValueError` for combinations that have no steady state or lack what they need.
@@ -195,7 +66,6 @@ class CylindricalRollerBearing(AbstractBearing):
 
     kind: ClassVar[str] = "cylindrical_roller_bearing"
     runs_in_programs: ClassVar[bool] = True
-    modelled_freedoms: ClassVar[tuple[str, ...]] = ("radial", "lateral", "tilt", "tilt_lateral")
 
     geometry: RollerGeometry
     materials: Materials
@@ -209,11 +79,15 @@ class CylindricalRollerBearing(AbstractBearing):
     ring_freedom: tuple[str, ...] = eqx.field(static=True, converter=_freedoms, default=("radial",))
     rating: Rating | None = None
     profile: RollerProfile | None = None
+    fits: Fits | None = None
+    temperatures: PartTemperatures | None = None
 
     def __check_init__(self):
         refuse_all(self._problems())
 
     def _problems(self) -> Iterator[str | ValueError]:
+        yield from refusals_of(check_axial, self.geometry, self.operation)
+        yield from mounting_problems(self)
         if self.simulation is not None:
             yield from refusals_of(check_run, self.operation)
         if self.contact is None:
@@ -230,7 +104,7 @@ class CylindricalRollerBearing(AbstractBearing):
         if self.cage is not None:
             yield from refusals_of(self.cage.check_fits, self.geometry)
         if self.flange is not None:
-            yield from refusals_of(_check_height, self.flange, self.geometry)
+            yield from refusals_of(check_height, self.flange, self.geometry)
         yield from refusals_of(self.operation.check_rings_turn)
         if self.slips and self.cage is None and self.simulation is None:
             yield (
@@ -254,6 +128,11 @@ class CylindricalRollerBearing(AbstractBearing):
     def solve_ring(
         self, options: NewtonOptions, ring: InnerRing | None = None, exact_tilt: bool | None = None
     ) -> Solution:
+        solution, flanges = self._solve_across(options, ring), self.geometry.thrust_flanges
+        return solution if flanges is None else flanges.hold(solution, self.operation, ring)
+
+    def _solve_across(self, options: NewtonOptions, ring: InnerRing | None) -> Solution:
+        """The solution without the axial freedom."""
         # dry rollers that carry evenly leave a held ring without unknowns; those that may tilt have the same loads
         evenly = self.slips or not self.tilts
         if ring is not None:
@@ -267,6 +146,24 @@ class CylindricalRollerBearing(AbstractBearing):
         from .tilting_steady import solve_tilting
 
         return solve_tilting(self, options, ring)
+
+    @property
+    def raceway_diameters(self) -> tuple[Array, Array]:
+        geometry = self.geometry
+        return (
+            jnp.asarray(geometry.pitch_diameter - geometry.roller_diameter),
+            jnp.asarray(geometry.pitch_diameter + geometry.roller_diameter),
+        )
+
+    def play(self, growth: Growth) -> Play:
+        from .mounting import running_play
+
+        return running_play(self.geometry, growth)
+
+    def grown(self, growth: Growth) -> "CylindricalRollerBearing":
+        from .mounting import running_geometry
+
+        return dataclasses.replace(self, geometry=running_geometry(self.geometry, growth))
 
     def range_checks(self) -> RangeChecks:
         from .checks import CHECKS
@@ -300,6 +197,15 @@ class CylindricalRollerBearing(AbstractBearing):
         from ..motion.run import check_fits
 
         check_fits(self, restart)
+
+    @property
+    def modelled_freedoms(self) -> tuple[str, ...]:
+        return RING_FREEDOMS if self.geometry.flange_stiffness is not None else _ACROSS
+
+    @property
+    def unknown_freedoms(self) -> tuple[str, ...]:
+        """See `AbstractBearing`; the axial one follows in closed form."""
+        return tuple(name for name in super().unknown_freedoms if name in _ACROSS)
 
     @property
     def may_tilt(self) -> bool:
@@ -350,6 +256,8 @@ class CylindricalRollerBearing(AbstractBearing):
                 "tilting rollers roll without sliding: cage, skidding and sliding friction are not modelled, losses "
                 + ("are not either" if self.contact.rolling is None else "are those of rolling resistance alone")
             )
+        if self.geometry.flange_stiffness is not None:
+            said.append(NOT_MODELLED)
         if self.geometry.contact_length is None:
             said.append("geometry.contact_length is not given: the whole roller length carries load")
         if self.slips and self.cage is not None:
@@ -363,6 +271,9 @@ def check_run(operation: Operation) -> None:
     """**Raises:** `ValueError` where the operating point is none that a run in time can begin at."""
     if operation.displaced:
         raise ValueError("operation.displacement: in a run in time loads move the ring, it is not held")
+    if operation.axial_given:
+        name = "displacement.axial" if operation.axial_load is None else "axial_load"
+        raise ValueError(f"operation.{name}: a run in time moves the ring across the axis only")
     if operation.radial_load is None:
         raise ValueError("operation.radial_load: expected a force, which a run in time needs")
 
@@ -379,12 +290,3 @@ def _misfit(contact: ContactLaws, oil: Lubricant) -> list[str]:
             "loaded contact (ertel_grubin has it)"
         )
     return said
-
-
-def _check_height(flange: RollerFlange, geometry: RollerGeometry) -> None:
-    """**Raises:** `ValueError` where the flange cannot exist between the rings (where the numbers are known)."""
-    sizes = given(flange.rim_height(geometry), geometry.roller_diameter)
-    if sizes is not None:
-        height, roller = sizes
-        limit = roller / 2.0 if flange.ring == "both" else roller
-        check_between("flange.height", height, 0.0, limit, "raceway", "what the roller leaves to it")

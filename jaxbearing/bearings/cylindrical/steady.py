@@ -19,9 +19,10 @@ from ..ring import LENGTH_UNIT, InnerRing, Port
 from ..solution import CageState, Solution
 from .equations import IN_PLANE, DryRollerSystem, LubricatedRollerSystem, RollerState, outward
 from .forces import CageParts, friction_on_rings, rolling_alone
+from .geometry import RollerCage, RollerGeometry
 from .kinematics import RollerKinematics, roller_kinematics
 from .ring import roller_ring
-from .scene import CylindricalRollerBearing, RollerCage, RollerGeometry
+from .scene import CylindricalRollerBearing
 from .solution import PowerLoss, RollerResults
 
 

@@ -64,7 +64,7 @@ def build_tilting(scene: CylindricalRollerBearing, ring: InnerRing | None = None
 
 def _columns(azimuth: Float[Array, " roller"], lever: Array) -> Float[Array, "5 2 roller"]:
     """(towards the roller, slope of the inner race) for a unit of each of `RING_FREEDOMS`; tilts times `lever` are
-    lengths. Nothing holds the ring axially."""
+    lengths. The rollers do not feel the axial freedom."""
     zero, cosine, sine = jnp.zeros_like(azimuth), jnp.cos(azimuth), jnp.sin(azimuth)
     pairs = ((zero, zero), (cosine, zero), (sine, zero), (zero, -cosine / lever), (zero, -sine / lever))
     return jnp.stack([jnp.stack(pair) for pair in pairs])

@@ -37,7 +37,7 @@ rollers roll into the wedge between displaced rings, and the model neglects the 
 that would pay for it. The identities hold to round-off at every state, and `tests` check them so.
 """
 
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import equinox as eqx
 import jax
@@ -56,7 +56,11 @@ from ..cylindrical.forces import RollerForces, forces_without_pocket, friction_o
 from ..cylindrical.kinematics import RollerKinematics
 from ..cylindrical.solution import PowerLoss
 from ..interactions import Costs, Interaction, costs, of_land
+from ..mounted import running_play
 from .loads import Distribution, RaceLoads, distributed_loads
+
+if TYPE_CHECKING:
+    from ..cylindrical.scene import CylindricalRollerBearing
 
 ROLLER_UNITS = (1e-5, 0.1, 1.0)
 """Units of q, m, v and u, m/s: with the same tolerance, absolute in these units and relative, q is held to 1e-9 m, v
@@ -134,6 +138,7 @@ class RollerDynamics(eqx.Module):
     - `speed`, `load`: the inner ring's speed and the radial load over those of the operating point.
     - `rotating_load`: a further, turning load; it needs a ring that is free in both directions.
     - `land_speed`: cage speed at which the lands' turbulence is evaluated, rad/s; `None`: the current one.
+    - `seats`: the scene on the drawing of a bearing whose clearance follows the current speed; `None`: it stays.
     """
 
     system: LubricatedRollerSystem
@@ -147,6 +152,7 @@ class RollerDynamics(eqx.Module):
     load: AbstractTimeFactor = Steady()
     rotating_load: RotatingLoad | None = None
     land_speed: Float[Array, ""] | None = None
+    seats: "CylindricalRollerBearing | None" = None
 
     def __check_init__(self):
         if self.rotating_load is not None and "lateral" not in self.system.freedoms:
@@ -212,8 +218,15 @@ class RollerDynamics(eqx.Module):
             sliding_speed=sliding,
             centrifugal=system.centrifugal(orbit),
             ring_load=self.ring_load(time),
-            radial_clearance=system.radial_clearance,
+            radial_clearance=self._radial_clearance(motion),
         )
+
+    def _radial_clearance(self, motion: RollerKinematics) -> Float[Array, ""]:
+        """Half the clearance at the current speed: rings and seats grow at once. Other sizes stay as at the operating
+        point."""
+        if self.seats is None:
+            return self.system.radial_clearance
+        return 0.5 * running_play(self.seats.at_operation(inner_speed=motion.inner_speed)).measure
 
     def _places(self, time: Scalar, state: ArrowPoint) -> tuple[Array, Array, Array]:
         """Azimuths, rad, orbital speeds and spins, rad/s, of the rollers."""

@@ -23,6 +23,7 @@ from ...programs import KeptProgram
 from ..checks import input_excess
 from ..cylindrical.scene import CylindricalRollerBearing
 from ..facts import Excess
+from ..mounted import fit_excess, running_scene
 from .checks import largest, run_excess
 from .history import Energy, History, LastState
 from .rates import WORKS
@@ -175,13 +176,17 @@ def simulate_rollers(
             interrupt.seen = True
         interrupted = interrupt.seen and len(done) < pieces
         unknown = last is not None and last.identity is None
-        notes = (*((UNKNOWN,) if unknown else ()), *scene.assumptions())
+        notes = (*((UNKNOWN,) if unknown else ()), *scene.assumptions(), *_of_seats(scene))
         history = _history(scene, chosen, dynamics, done, stop, interrupted, notes)
         interrupt.taken()
     # who interrupts a run wants what there is
     if throw and not interrupted:
         history.raise_if_failed()
     return history
+
+
+def _of_seats(scene: CylindricalRollerBearing) -> tuple[str, ...]:
+    return () if scene.fits is None else scene.fits.assumptions()
 
 
 def _history(
@@ -220,9 +225,11 @@ def _history(
 def _checks(scene: CylindricalRollerBearing, energy: Energy, excess: Excess) -> dict[str, Any]:
     """Warnings of a run: its energy balance, and the range checks that a steady solve makes of the same scene."""
     text = f"the energy balance leaves more than {ENERGY_LIMIT:g} of the drive work open: choose a smaller tolerance"
-    return {text: jnp.abs(energy.error) > ENERGY_LIMIT} | {
-        said: value > 0 for said, value in (input_excess(scene) | excess).items()
-    }
+    found = input_excess(scene) | excess
+    _, fit, _ = running_scene(scene)
+    if fit is not None:
+        found |= fit_excess(scene, fit)
+    return {text: jnp.abs(energy.error) > ENERGY_LIMIT} | {said: value > 0 for said, value in found.items()}
 
 
 def _kept(found: Advanced, times: np.ndarray, first: bool) -> tuple[np.ndarray, Any, Segment]:
@@ -311,6 +318,6 @@ def _lane(scene: CylindricalRollerBearing, simulation: Simulation | None, times:
         energy=energy,
         checks=Checks(_checks(scene, energy, run_excess(scene, found.instants)), inputs.broken, inputs.rules),
         solver=simulation.solver,
-        notes=scene.assumptions(),
+        notes=(*scene.assumptions(), *_of_seats(scene)),
         identity=jax.tree.map(jnp.asarray, identity(scene)),
     )

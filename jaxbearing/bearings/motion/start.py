@@ -16,6 +16,7 @@ from ...numerics.status import Status
 from ..cylindrical.equations import LubricatedRollerSystem
 from ..cylindrical.scene import CylindricalRollerBearing, check_run
 from ..cylindrical.steady import build_system
+from ..mounted import running_scene
 from ..ring import LENGTH_UNIT
 from .rates import RollerDynamics
 from .settings import Simulation
@@ -66,6 +67,8 @@ def build_dynamics(
     check_run(scene.operation)
     if simulation.rotating_load is not None and not scene.skewed:
         scene = scene.replace({"ring_freedom": ("radial", "lateral")})
+    seats = None if scene.fits is None else scene
+    scene, _, _ = running_scene(scene)
     system = build_system(scene)
     assert isinstance(system, LubricatedRollerSystem)
     smoothing = jnp.asarray(simulation.entrainment_smoothing)
@@ -94,6 +97,7 @@ def build_dynamics(
         speed=simulation.speed,
         load=simulation.load,
         rotating_load=simulation.rotating_load,
+        seats=seats,
     )
 
 
@@ -101,6 +105,7 @@ def quasi_static(scene: CylindricalRollerBearing, options: NewtonOptions | None 
     """Steady state of the operating point as places and speeds of rollers and cage; pure. Without a cage: rolling
     without slip."""
     n, zero = scene.geometry.n_rollers, jnp.zeros(())
+    scene, _, _ = running_scene(scene)
     system = build_system(scene)
     assert isinstance(system, LubricatedRollerSystem)
     if scene.cage is None:

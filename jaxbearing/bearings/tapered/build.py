@@ -115,6 +115,7 @@ def build_tapered(scene: TaperedRollerBearing, ring: InnerRing | None = None) ->
         columns=ring.of_unknown(columns),
         held=held if ring.expansion is None else held.at[1].add(ring.expansion),
         ring=ring,
+        closing=scene.closing,
         guess=None,
         seated=None,
         multiplicity=geometry.n_rollers // azimuth.size,

@@ -38,6 +38,7 @@ class TaperedGeometry(Checked):
     - `flange_angle`: of the NORMAL of the rib to the bearing axis, alpha_f, rad; less than gamma = alpha_o - epsilon.
     - `end_radius`: R_s, of the sphere of the roller's big end, m.
     - `first_element_angle`: azimuth of the first roller, rad; not given: 0, and the load line is a line of symmetry.
+    - `bore`, `outside_diameter`, `width`: boundary dimensions of the bearing, m, for what knows its seats.
 
     **Raises:** `ValueError` naming the field that makes the bearing impossible.
     """
@@ -52,6 +53,9 @@ class TaperedGeometry(Checked):
     flange_angle: Scalar = number(bound="above 0 and below 90 degrees", unit="rad")
     end_radius: Scalar = number(bound="> 0", unit="m")
     first_element_angle: Scalar | None = optional_number(metadata=FIRST_ELEMENT)
+    bore: Scalar | None = optional_number(bound="> 0", unit="m")
+    outside_diameter: Scalar | None = optional_number(bound="> 0", unit="m")
+    width: Scalar | None = optional_number(bound="> 0", unit="m")
 
     def __check_init__(self):
         super().__check_init__()

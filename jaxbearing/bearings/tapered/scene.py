@@ -7,21 +7,25 @@ Loads and displacements are those of the *reference point* on the axis, `operati
 default the apex itself. (The source's tilt t and moment M_1 have the opposite sense: $t = -$tilt.)
 """
 
+import dataclasses
 from collections.abc import Callable, Iterator
 from typing import Any, ClassVar
 
 import jax.numpy as jnp
-from jaxtyping import Array
+from jaxtyping import Array, Float
 
 from ..._scene import label, number
 from ..._types import Scalar
 from ...contacts.laws import ContactLaws
 from ...contacts.point_laws import PointLaws
 from ...lubricants import Lubricant
+from ...mounting import Fits, PartTemperatures
 from ...numerics.newton import NewtonOptions
 from ...numerics.refusals import refusals_of, refuse_all
 from ..bearing import AbstractBearing
 from ..facts import RangeChecks
+from ..growth import Growth, Play
+from ..mounted import mounting_problems
 from ..operation import AbstractOperation
 from ..outline import Outline
 from ..parts import Drag, Materials
@@ -64,6 +68,9 @@ class TaperedRollerBearing(AbstractBearing):
     - `rib`: laws of the roller ends on the rib: film, and where named the traction of what slides there.
     - `drag`: of the oil on the orbiting rollers.
     - `profile`: without one rollers are straight, and contacts integrated in closed form.
+    - `fits`, `temperatures`: seats of the rings and temperatures of the parts.
+    - `closing`: what growth adds to the approaches of inner race, outer race and rib, m (`mounting.closing`); a
+      scene that has seats makes it.
 
     **Raises:** `ValueError` for combinations that lack what they need.
     """
@@ -80,11 +87,15 @@ class TaperedRollerBearing(AbstractBearing):
     rating: Rating | None = None
     rib: PointLaws | None = None
     drag: Drag | None = None
+    fits: Fits | None = None
+    temperatures: PartTemperatures | None = None
+    closing: Float[Array, "3"] | None = None
 
     def __check_init__(self):
         refuse_all(self._problems())
 
     def _problems(self) -> Iterator[str | ValueError]:
+        yield from mounting_problems(self)
         if self.contact is None:
             if self.rib is not None:
                 yield "contact: a scene with laws of the rib needs those of the raceways"
@@ -103,6 +114,24 @@ class TaperedRollerBearing(AbstractBearing):
         from .steady import solve_tapered
 
         return solve_tapered(self, options, ring)
+
+    play_is_clearance: ClassVar[bool] = False
+
+    @property
+    def raceway_diameters(self) -> tuple[Array, Array]:
+        from .mounting import raceway_diameters
+
+        return raceway_diameters(self.geometry)
+
+    def play(self, growth: Growth) -> Play:
+        from .mounting import running_play
+
+        return running_play(self.geometry, growth)
+
+    def grown(self, growth: Growth) -> "TaperedRollerBearing":
+        from .mounting import closing
+
+        return dataclasses.replace(self, closing=closing(self.geometry, growth))
 
     def range_checks(self) -> RangeChecks:
         from .checks import CHECKS

@@ -109,6 +109,8 @@ class TaperedSystem(AbstractConvexArrow):
     seated: ArrowPoint | None
     """First guess at parameter 1 of the homotopy."""
     multiplicity: int = eqx.field(static=True)
+    closing: Float[Array, "3"] | None = None
+    """What growth adds to the approaches of inner race, outer race and rib, m."""
 
     @property
     def freedoms(self) -> tuple[str, ...]:
@@ -232,7 +234,8 @@ class TaperedSystem(AbstractConvexArrow):
         """Displacement of the cone's raceway towards each roller, in its middle, m; of the cone's (Da, Dr, t)."""
         axial, radial, turn = motion
         normal = axial * jnp.sin(self.form.cone_angle) + radial * jnp.cos(self.form.cone_angle)
-        return normal - turn * (self.form.apex_distance - 0.5 * self.line.length)
+        normal = normal - turn * (self.form.apex_distance - 0.5 * self.line.length)
+        return normal if self.closing is None else normal + self.closing[0] + self.closing[1]
 
     def approaches(
         self, place: Float[Array, "3 roller"], motion: Float[Array, "3 roller"]
@@ -245,6 +248,8 @@ class TaperedSystem(AbstractConvexArrow):
         rib = axial * jnp.cos(form.flange_angle) - radial * jnp.sin(form.flange_angle) + turn * form.flange_arm
         below = jnp.sin(form.flange_tilt)
         flange = rib - along * jnp.cos(form.flange_tilt) - (across + tilt * form.end_height) * below
+        if self.closing is not None:
+            inner, outer, flange = (one + more for one, more in zip((inner, outer, flange), self.closing, strict=True))
         return jnp.stack([inner, outer]), jnp.stack([turn - tilt, tilt]), flange
 
     def _loaded(self, approach: Array, slope: Array, flange: Array) -> TaperedState:

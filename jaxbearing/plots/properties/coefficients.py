@@ -11,9 +11,9 @@ import numpy as np
 from ...contacts.point import PointContact
 from ...contacts.point_film import NijenbanningVennerMoes
 from ...lubricants import AbstractViscosity, IntegratedPressureViscosity
+from ...report.colours import CURVES
 from ..frame import drawing
 from .curves import (
-    COLOURS,
     DISK_RADIUS,
     STEEL_MODULUS,
     finish,
@@ -45,9 +45,9 @@ def alpha_of_models(axes: Any = None) -> "matplotlib.figure.Figure":
     )
     figure, axes = drawing(axes, caption)
     celsius = np.linspace(0.0, 200.0, 101)
-    for colour, (label, law) in zip(COLOURS, mobil_laws().items(), strict=False):
+    for colour, (label, law) in zip(CURVES, mobil_laws().items(), strict=False):
         axes.plot(celsius, alpha_at(law, celsius), color=colour, label=label)
-    axes.plot([*PRINTED], [*PRINTED.values()], "o", color=COLOURS[-1], label="source, table 6")
+    axes.plot([*PRINTED], [*PRINTED.values()], "o", color=CURVES[-1], label="source, table 6")
     axes.set_ylim(bottom=0.0)
     axes.set_xlim(-2.0, 200.0)
     finish(axes, "α* of Mobil Jet II by viscosity law", _TEMPERATURE, _ALPHA)
@@ -71,7 +71,7 @@ def alpha_of_oils(
     )
     figure, axes = drawing(axes, caption)
     celsius = np.linspace(*range_celsius, 101)
-    for colour, oil in zip(COLOURS, oils, strict=False):
+    for colour, oil in zip(CURVES, oils, strict=False):
         lubricant, name = oil_named(oil)
         axes.plot(celsius, alpha_at(lubricant.viscosity, celsius), color=colour, label=name)
         fitted = 1e9 * np.asarray(lubricant.pressure_viscosity.coefficient(kelvin(celsius[::10])))
@@ -96,7 +96,7 @@ def film_of_models(pressure: float = 1.05e9, axes: Any = None) -> "matplotlib.fi
     )
     figure, axes = drawing(axes, caption)
     celsius = np.linspace(50.0, 200.0, 101)
-    for colour, (label, law) in zip(COLOURS, mobil_laws().items(), strict=False):
+    for colour, (label, law) in zip(CURVES, mobil_laws().items(), strict=False):
         axes.semilogy(celsius, film_at(law, celsius, pressure), color=colour, label=label)
     axes.set_xlim(50.0, 200.0)
     axes.minorticks_off()

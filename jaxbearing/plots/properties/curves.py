@@ -6,15 +6,13 @@ import jax.numpy as jnp
 import numpy as np
 
 from ...lubricants import AbstractViscosity, Barus, Lubricant, Roelands
+from ...report.backends.matplotlib.sheet import grid_lines, title_of
 from ...report.display import ZERO_CELSIUS
-from ...report.sheet import grid_lines, title_of
 from ...scenes.oils import load_oil
 
 if TYPE_CHECKING:
     import jax
 
-# Okabe and Ito's colours, which all kinds of colour vision tell apart
-COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#56B4E9", "#E69F00", "#222222")
 NAMES = {
     "mobil_jet_ii": "Mobil Jet II",
     "pennzane_x2000": "Pennzane SHF X2000",

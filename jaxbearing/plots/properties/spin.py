@@ -12,8 +12,9 @@ from ...contacts.point import PointContact
 from ...contacts.point_film import NijenbanningVennerMoes
 from ...contacts.resolution import Resolution
 from ...contacts.shear import Sliding
+from ...report.colours import CURVES
 from ..frame import drawing
-from .curves import COLOURS, finish, oil_named
+from .curves import finish, oil_named
 
 if TYPE_CHECKING:
     import matplotlib.figure
@@ -51,7 +52,7 @@ def spin_friction(
     )
     figure, axes = drawing(axes, caption)
     ratios = np.concatenate([[0.0], np.geomspace(0.002, 1.0, 60)])
-    for colour, pressure in zip(COLOURS, pressures, strict=False):
+    for colour, pressure in zip(CURVES, pressures, strict=False):
         values = spin_coefficient(ratios, pressure, temperature)
         axes.plot(ratios, values, color=colour, label=f"{pressure / 1e9:.2f} GPa")
     axes.set_xlim(0.0, 1.0)

@@ -8,8 +8,9 @@ import numpy as np
 
 from ...contacts.point import PointContact
 from ...contacts.thermal import Gupta
+from ...report.colours import CURVES
 from ..frame import drawing
-from .curves import COLOURS, DISK_RADIUS, STEEL_MODULUS, finish, kelvin, oil_named
+from .curves import DISK_RADIUS, STEEL_MODULUS, finish, kelvin, oil_named
 
 if TYPE_CHECKING:
     import matplotlib.figure
@@ -31,7 +32,7 @@ def thermal_factor(
     )
     figure, axes = drawing(axes, caption)
     loading = jnp.logspace(-3.0, np.log10(20.0), 120)
-    for colour, slide in zip(COLOURS, slide_ratios, strict=False):
+    for colour, slide in zip(CURVES, slide_ratios, strict=False):
         axes.semilogx(loading, factor_at(loading, slide, pressure), color=colour, label=f"{slide:g}")
     axes.set_ylim(0.0, 1.02)
     finish(axes, "Thermal reduction of the film", "thermal loading L", "film over isothermal film", "slide ratio S")

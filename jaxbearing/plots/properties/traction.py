@@ -14,8 +14,9 @@ from ...contacts.point_film import NijenbanningVennerMoes
 from ...contacts.resolution import Resolution
 from ...contacts.shear import Sliding
 from ...lubricants import Lubricant
+from ...report.colours import CURVES
 from ..frame import drawing
-from .curves import COLOURS, DISK_RADIUS, STEEL_MODULUS, finish, oil_named
+from .curves import DISK_RADIUS, STEEL_MODULUS, finish, oil_named
 
 if TYPE_CHECKING:
     import matplotlib.figure
@@ -46,7 +47,7 @@ def traction_models(axes: Any = None) -> "matplotlib.figure.Figure":
         "point contact (2D), 8 steps, 4 strips": (False, Resolution(8, 4), "--"),
         "point contact (2D), 128 steps, 24 strips": (False, FINE, "-"),
     }
-    for colour, (label, (line, resolution, style)) in zip(COLOURS, models.items(), strict=False):
+    for colour, (label, (line, resolution, style)) in zip(CURVES, models.items(), strict=False):
         _draw(axes, oil_named("mobil_jet_ii")[0], label, colour, style, line, resolution)
     _finish(axes, "Traction by contact model and mesh")
     return figure
@@ -84,7 +85,7 @@ def traction_stress(
 
 def _varied(field: str, symbol: str, factors: Sequence[float], caption: str, axes: Any) -> "matplotlib.figure.Figure":
     figure, axes = drawing(axes, caption)
-    for colour, factor in zip(COLOURS, factors, strict=False):
+    for colour, factor in zip(CURVES, factors, strict=False):
         _draw(axes, scaled(oil_named("mobil_jet_ii")[0], field, factor), f"{factor:g} {symbol}", colour)
     _finish(axes, f"Traction against {symbol}")
     return figure

@@ -7,9 +7,10 @@ import jax.numpy as jnp
 import numpy as np
 
 from ...lubricants import Lubricant
+from ...report.colours import CURVES
 from ...report.display import ZERO_CELSIUS
 from ..frame import drawing
-from .curves import COLOURS, MATCHED, NAMES, finish, kelvin, matched_barus, matched_roelands, oil_named
+from .curves import MATCHED, NAMES, finish, kelvin, matched_barus, matched_roelands, oil_named
 
 if TYPE_CHECKING:
     import matplotlib.figure
@@ -43,7 +44,7 @@ def viscosity_pressure(
     figure, axes = drawing(axes, caption)
     pressure = jnp.linspace(0.0, highest_pressure, 141)
     for number, celsius in enumerate(temperatures):
-        colour = COLOURS[number % len(COLOURS)]
+        colour = CURVES[number % len(CURVES)]
         values = lubricant.viscosity.viscosity(pressure, kelvin(celsius))
         axes.semilogy(1e-6 * np.asarray(pressure), values, color=colour, label=f"{celsius:g} °C")
         if other is not None:
@@ -74,7 +75,7 @@ def viscosity_models(oil: str | Lubricant = "mobil_jet_ii", axes: Any = None) ->
     )
     figure, axes = drawing(axes, caption)
     pressure = jnp.linspace(0.0, 1e9, 161)
-    for colour, (label, law) in zip(COLOURS, laws.items(), strict=False):
+    for colour, (label, law) in zip(CURVES, laws.items(), strict=False):
         for temperature, line in zip(MATCHED, ("-", "--"), strict=True):
             shown = f"{label}, {temperature - ZERO_CELSIUS:.0f} °C"
             values = law.viscosity(pressure, temperature)
@@ -98,7 +99,7 @@ def viscosity_temperature(
     )
     figure, axes = drawing(axes, caption)
     celsius = np.linspace(*range_celsius, 181)
-    for colour, oil in zip(COLOURS, oils, strict=False):
+    for colour, oil in zip(CURVES, oils, strict=False):
         lubricant, name = oil_named(oil)
         axes.semilogy(celsius, lubricant.viscosity.viscosity(0.0, kelvin(celsius)), color=colour, label=name)
         if oil == "mobil_jet_ii":

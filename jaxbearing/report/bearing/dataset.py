@@ -17,7 +17,8 @@ import xarray as xr
 
 from ...bearings.solution import RING_FREEDOMS, Solution, force_units, stiffness_units
 from ...numerics.status import Status
-from ..labelled import labelled, udunits
+from ..labels import labelled, udunits
+from ..registry import check_converged
 from ..variables import CHECK, attributes, checks, common, flags, variable, without_fill
 from .operation import unused_operation
 
@@ -26,7 +27,7 @@ _FREEDOMS = ("freedom", "freedom_displaced")
 """Rows and columns of the stiffness: the load along the first by a displacement along the second."""
 
 
-def bearing_to_dataset(solution: Solution, dims: Sequence[str] = ()) -> xr.Dataset:
+def to_dataset(solution: Solution, dims: Sequence[str] = ()) -> xr.Dataset:
     """See `report.dataset.solution_to_dataset`.
 
     The operating point and the azimuths are coordinates. `status` has its meanings in the attributes `flag_values`
@@ -47,8 +48,8 @@ def bearing_to_dataset(solution: Solution, dims: Sequence[str] = ()) -> xr.Datas
     if len(dims) != len(batch):
         found = f"{len(batch)} leading dimensions {batch}"
         raise ValueError(f"dims: got {len(dims)} names {dims}; the solution has {found}")
-    if not dims and not bool(solution.converged):
-        raise ValueError(f"a solve that failed has no results: {solution.failure()}")
+    if not dims:
+        check_converged(solution)
     words = attributes(solution, "Steady state of a rolling bearing")
     dataset = xr.Dataset(attrs=words | {"not_modelled": ", ".join(solution.not_modelled)})
     unused = {f"operation.{name}" for name in unused_operation(solution)}

@@ -7,7 +7,7 @@ import numpy as np
 
 from ...bearings.solution import RING_FREEDOMS, Solution
 from ...numerics.status import Status
-from ..plain import field_names, finite, plain
+from ..backends.json import finite, names_of, plain
 from .operation import unused_operation
 
 _INSIDE = (
@@ -26,7 +26,7 @@ _NAMES = ("stiffness_freedom", "held_freedom", "element_name")
 """Fields that are not written as they are, but in words or in another order, or not at all."""
 
 
-def bearing_to_dict(solution: Solution) -> dict[str, Any]:
+def to_dict(solution: Solution) -> dict[str, Any]:
     """See `report.json_report.solution_to_dict`.
 
     Parts that the scene does not model are left out, except `cage`, which is `None` then. Where the solve failed,
@@ -39,7 +39,7 @@ def bearing_to_dict(solution: Solution) -> dict[str, Any]:
         "warnings": list(solution.warnings),
         "not_modelled": list(solution.not_modelled),
     }
-    for name in field_names(solution):
+    for name in names_of(solution):
         if name not in (*_INSIDE, *_NAMES) and not name.startswith("global_"):
             results[name] = plain(getattr(solution, name))
     results["operation"] |= dict.fromkeys(unused_operation(solution))

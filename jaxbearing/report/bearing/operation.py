@@ -50,10 +50,16 @@ def _numbers(part: Any) -> Iterator[tuple[dataclasses.Field[Any], Any]]:
             yield field, given
 
 
-def _with_unit(value: float, unit: str) -> str:
+def field_text(operation: AbstractOperation, name: str, significant: int = 6) -> str:
+    """A number of the operating point, which is given, with its unit."""
+    unit = type(operation).__dataclass_fields__[name].metadata["unit"]
+    return _with_unit(float(np.asarray(getattr(operation, name))), unit, significant)
+
+
+def _with_unit(value: float, unit: str, significant: int = 6) -> str:
     """Applied loads are shown in kN, and the temperatures of an operating point are not differences."""
     if unit == "K":
-        return f"{value - ZERO_CELSIUS:.6g} degC"
+        return f"{value - ZERO_CELSIUS:.{significant}g} degC"
     if unit == "N":
-        return f"{value * 1e-3:.6g} kN"
-    return f"{displayed(value, unit):.6g} {display_unit(unit)}"
+        return f"{value * 1e-3:.{significant}g} kN"
+    return f"{displayed(value, unit):.{significant}g} {display_unit(unit)}"

@@ -7,16 +7,14 @@ import numpy as np
 
 from ...bearings.solution import RING_FREEDOMS, Solution
 from ...numerics.status import Status
-from ..display import digits, with_unit
+from ..display import digits, pretty, with_unit
 from ..page_content import Content, Sketch
-from ..result_tables import element_columns, result_rows
-from ..sheet import pretty
-from .charts import bearing_charts
+from ..tables import element_columns, result_rows
+from .drawing.section import section
+from .drawing.sketch import front_view
+from .facts import facts, not_modelled
 from .operation import operating_point, unused_operation
-from .plots import power_losses
-from .section import section
-from .sketch import front_view
-from .summary import facts, not_modelled
+from .panels import bearing_panels, power_losses
 
 _SOLVER = ("status", "iterations", "residual_norm", "inner_residual", "worst_equation", "worst_element", "unknowns")
 _LIFE = ("Life", "Rating", "Lubrication")
@@ -33,7 +31,7 @@ _SECTION = (
 )
 
 
-def bearing_content(scene: Any, solution: Solution) -> Content:
+def page_content(scene: Any, solution: Solution) -> Content:
     """See `report.html_report.html_report`."""
     losses = power_losses(solution)
     total = float(solution.power_loss.total) if losses else 0.0
@@ -54,7 +52,7 @@ def bearing_content(scene: Any, solution: Solution) -> Content:
         life=[row for row in results if row.path.startswith("life.")],
         losses=[*rows, ("total", digits(total), "100")] if rows else [],
         not_modelled=not_modelled(solution) if solution.not_modelled else "",
-        charts=bearing_charts(solution),
+        charts=bearing_panels(solution),
         convergence=list(_convergence(solution, total if losses else None)),
         checks=[(text, bool(broken)) for text, broken in solution.range_checks.items()],
         notes=solution.notes,

@@ -6,25 +6,26 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from ...ehl import LineContactHistory, LineContactSolution
+from ...ehl import LineContactSolution
 from ...numerics.status import Status
-from ..labelled import labelled
-from ..variables import CHECK, attributes, checks, flags, identity_text, variable, without_fill
+from ..labels import labelled
+from ..registry import check_converged
+from ..variables import CHECK, attributes, checks, flags, variable, without_fill
 
-_ALONG_X = {"node": "x"}
+ALONG_X = {"node": "x"}
 """Name of the dimension of profiles that all have the same nodes: their places."""
 
 
-def line_contact_to_dataset(solution: LineContactSolution, dims: Sequence[str] = ()) -> xr.Dataset:
+def to_dataset(solution: LineContactSolution, dims: Sequence[str] = ()) -> xr.Dataset:
     """See `report.dataset.solution_to_dataset`. The profile has the dimension `x`; in a batch it is `node`, and `x` a
     coordinate along it that differs from lane to lane."""
     dims = tuple(dims)
     if np.ndim(solution.status) != len(dims):
         batch = np.ndim(solution.status)
         raise ValueError(f"dims: got {len(dims)} names {dims}; the solution is a batch of {batch} dimensions")
-    if not dims and not bool(solution.converged):
-        raise ValueError(f"a solve that failed has no results: {solution.failure()}")
-    dataset = _variables(solution, "Film and pressure of a line contact", dims, {} if dims else _ALONG_X)
+    if not dims:
+        check_converged(solution)
+    dataset = variables_of(solution, "Film and pressure of a line contact", dims, {} if dims else ALONG_X)
     if dims:
         dataset = dataset.set_coords("x")
         dataset["out_of_range"] = checks(solution, dims)
@@ -33,25 +34,14 @@ def line_contact_to_dataset(solution: LineContactSolution, dims: Sequence[str] =
     return without_fill(dataset)
 
 
-def film_history_to_dataset(history: LineContactHistory) -> xr.Dataset:
-    """All results of a run: dimensions `time` (every step) and `x`."""
-    dataset = _variables(history, "Film and pressure of a line contact over time", (), _ALONG_X)
-    dataset.attrs |= {"solver": history.solver, "completed": int(history.completed)}
-    dataset.attrs |= identity_text(history.last_state.identity)
-    return without_fill(dataset)
+def variables_of(result: Any, title: str, along: tuple[str, ...], names: dict[str, str]) -> xr.Dataset:
+    """The results of a solve or a run, and its operating point.
 
-
-def _variables(result: Any, title: str, along: tuple[str, ...], names: dict[str, str]) -> xr.Dataset:
+    **Arguments:** `along`: dimensions of a batch; `names`: other names for dimensions of the labels.
+    """
     dataset = xr.Dataset(attrs=attributes(result, title))
     for path, value, metadata in labelled(result):
         name = "x" if path == "profile.x" else path.replace(".", "_")
         dataset[name] = variable(value, metadata, path, along, names)
-    for name, unit, text in (
-        ("entrainment_speed", "m s-1", "mean surface speed"),
-        ("oil_temperature", "K", "oil temperature"),
-    ):
-        value = np.asarray(getattr(result.operation, name))
-        words = {"units": unit, "long_name": text, "path": f"operation.{name}"}
-        dataset[f"operation_{name}"] = xr.Variable(along[: value.ndim], value, words)
     dataset["status"].attrs |= flags(dataset["status"].dtype, [status.text for status in Status])
     return dataset.set_coords([name for name in dataset if str(name).startswith("operation_")])

@@ -7,11 +7,12 @@ import xarray as xr
 
 from ...machines import TwoDiskSolution
 from ...numerics.status import Status
-from ..labelled import labelled
+from ..labels import labelled
+from ..registry import check_converged
 from ..variables import CHECK, attributes, checks, common, flags, variable, without_fill
 
 
-def two_disk_to_dataset(solution: TwoDiskSolution, dims: Sequence[str] = ()) -> xr.Dataset:
+def to_dataset(solution: TwoDiskSolution, dims: Sequence[str] = ()) -> xr.Dataset:
     """See `report.dataset.solution_to_dataset`.
 
     The dimensions are `temperature`, `entrainment_speed`, `pressure` or `load` (the one that the operation gives; the
@@ -22,8 +23,8 @@ def two_disk_to_dataset(solution: TwoDiskSolution, dims: Sequence[str] = ()) -> 
     if np.ndim(solution.traction_coefficient) != 4 + len(dims):
         batch = np.ndim(solution.traction_coefficient) - 4
         raise ValueError(f"dims: got {len(dims)} names {dims}; the curves are a batch of {batch} dimensions")
-    if not dims and not bool(solution.converged):
-        raise ValueError(f"a solve that failed has no results: {solution.failure()}")
+    if not dims:
+        check_converged(solution)
     loaded = "load" if solution.operation.pressure is None else "pressure"
     axes = ("temperature", "entrainment_speed", loaded, "slide_to_roll")
     names = {"speed": "entrainment_speed", "load": loaded, "slide": "slide_to_roll"}

@@ -6,15 +6,15 @@ import numpy as np
 
 from ...machines import TwoDiskSolution
 from ...numerics.status import Status
-from ..labelled import labelled
-from ..plain import finite, plain
+from ..backends.json import finite, plain
+from ..labels import labelled
 from .curves import curves_of
 
 _ONCE = ("status", "inner_residual", "deborah_number")
 """Results of each point of which a curve, or the whole family, has one number."""
 
 
-def two_disk_to_dict(solution: TwoDiskSolution) -> dict[str, Any]:
+def to_dict(solution: TwoDiskSolution) -> dict[str, Any]:
     """See `report.json_report.solution_to_dict`.
 
     `deborah_number` of a curve is that at its smallest slide. Points that failed are `None`; `converged` says whether
@@ -22,6 +22,7 @@ def two_disk_to_dict(solution: TwoDiskSolution) -> dict[str, Any]:
     """
     slide = plain(solution.operation.slide_to_roll)
     along = {name: value for name, value, found in labelled(solution) if "slide" in found["dims"] and "." not in name}
+    once = {name: plain(value) for name, value, found in labelled(solution) if found["derived"] and name not in along}
     curves = [
         {"slide_to_roll": slide}
         | {name: plain(curve.of(values)) for name, values in along.items() if name not in _ONCE}
@@ -41,4 +42,5 @@ def two_disk_to_dict(solution: TwoDiskSolution) -> dict[str, Any]:
         "inner_residual": finite(float(np.max(np.asarray(solution.inner_residual)))),
         "operation": plain(solution.operation),
         "curves": curves,
+        **once,
     }

@@ -8,8 +8,7 @@ from rich.text import Text
 
 from ...machines import TwoDiskSolution
 from ...numerics.status import Status
-from ..display import ZERO_CELSIUS, digits
-from ..screen import (
+from ..backends.screen import (
     column,
     counted,
     headline,
@@ -21,7 +20,8 @@ from ..screen import (
     print_warnings,
     width,
 )
-from ..sheet import axis_unit
+from ..display import ZERO_CELSIUS, axis_unit, digits
+from ..tables import derived_facts
 from .curves import Curve, curves_of
 
 ROWS = 60
@@ -33,7 +33,7 @@ _SMALLEST_SHOWN = 1e-3
 """Slide-to-roll ratio from which on curves differ visibly."""
 
 
-def print_two_disk(solution: TwoDiskSolution, scene_label: str, console: Console) -> None:
+def print_summary(solution: TwoDiskSolution, scene_label: str, console: Console) -> None:
     """See `report.summary.print_summary`."""
     if not bool(solution.converged):
         status = Status(int(np.max(np.asarray(solution.status)))).text
@@ -53,6 +53,8 @@ def print_two_disk(solution: TwoDiskSolution, scene_label: str, console: Console
     _print_curves(solution, curves[:ROWS], console)
     if len(curves) > ROWS:
         print_line("", f"and {counted(len(curves) - ROWS, 'curve')} more: see --json or --out", console)
+    for name, text in derived_facts(solution):
+        print_line(name, text, console)
     print_warnings(solution.warnings, console)
 
 

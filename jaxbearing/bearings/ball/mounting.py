@@ -1,0 +1,114 @@
+r"""What the growth of the rings and the balls makes of a ball bearing's geometry.
+
+Diameters of the groove bottoms: $G_i = d_m + (2f_i-1)D\cos\alpha - 2f_iD$, $G_o = d_m - (2f_o-1)D\cos\alpha + 2f_oD$.
+They grow by what the rings grow there; the radius of a groove scales with the temperature of its ring alone (its change
+by the strain of the ring drops out of the clearance, and moves $\cos\alpha$ by some 1e-5). With circles of groove
+centres of radii $R_i$ and $R_o$, $A_r = R_i - R_o$ and $BD = r_i + r_o - D$: clearance $2(BD - A_r)$,
+$\cos\alpha = A_r/BD$.
+"""
+
+from typing import NamedTuple
+
+import jax.numpy as jnp
+from jaxtyping import Array, Float
+
+from ..._scene import number
+from ..._types import Scalar
+from ..growth import Growth, Play
+from .geometry import BallGeometry
+
+
+class RunningBallGeometry(BallGeometry):
+    """Geometry of a ball bearing that has grown. The contact angle or clearance on the drawing stays what it was, for
+    what is made for the nominal bearing, such as its ratings.
+
+    **Arguments:** those of `BallGeometry`, and
+    - `running_clearance`: diametral, m; negative: radial preload.
+    - `axial_rest`: axial distance of the grooves' planes where displacements count from, m: that of first contact on
+      the drawing, 0 of a bearing given by its clearance. It does not change with the clearance, so that displacements
+      are smooth where that passes 0.
+    """
+
+    running_clearance: Scalar = number(kw_only=True, unit="m")
+    axial_rest: Scalar = number(kw_only=True, unit="m")
+
+    @property
+    def free_clearance(self) -> Scalar:
+        return self.running_clearance
+
+    @property
+    def aligned(self) -> Array:
+        return -jnp.asarray(self.axial_rest)
+
+
+class _Grooves(NamedTuple):
+    """Radii of both grooves and of the circles of their centres, diameter of the balls, m."""
+
+    radii: tuple[Array, Array]
+    circles: tuple[Array, Array]
+    ball: Array
+
+    @property
+    def distance(self) -> Array:
+        return self.radii[0] + self.radii[1] - self.ball
+
+    @property
+    def across(self) -> Array:
+        """A_r."""
+        return self.circles[0] - self.circles[1]
+
+    @property
+    def clearance(self) -> Array:
+        return 2.0 * (self.distance - self.across)
+
+
+def groove_bottoms(geometry: BallGeometry) -> tuple[Float[Array, ""], Float[Array, ""]]:
+    """Diameters of the bottoms of the inner and outer groove, m."""
+    ball, cosine = geometry.ball_diameter, jnp.minimum(geometry.free_cosine, 1.0)
+    inner = geometry.pitch_diameter + 2.0 * (geometry.inner_offset * cosine - geometry.conformity_inner * ball)
+    outer = geometry.pitch_diameter - 2.0 * (geometry.outer_offset * cosine - geometry.conformity_outer * ball)
+    # a bearing on whose drawing there is a preload: the inner ring is that much larger
+    return inner + 2.0 * geometry.centre_distance * jnp.maximum(geometry.free_cosine - 1.0, 0.0), outer
+
+
+def _grown(geometry: BallGeometry, growth: Growth) -> _Grooves:
+    inner, outer = groove_bottoms(geometry)
+    radii = (
+        geometry.conformity_inner * geometry.ball_diameter * (1.0 + growth.inner_strain),
+        geometry.conformity_outer * geometry.ball_diameter * (1.0 + growth.outer_strain),
+    )
+    circles = (0.5 * (inner + growth.inner) + radii[0], 0.5 * (outer + growth.outer) - radii[1])
+    return _Grooves(radii, circles, geometry.ball_diameter * (1.0 + growth.element_strain))
+
+
+def running_geometry(geometry: BallGeometry, growth: Growth) -> RunningBallGeometry:
+    """The geometry of the grown bearing."""
+    grooves = _grown(geometry, growth)
+    cosine = jnp.minimum(grooves.across / grooves.distance, 1.0)
+    middle = grooves.circles[1] + (grooves.radii[1] - 0.5 * grooves.ball) * cosine
+    return RunningBallGeometry(
+        n_balls=geometry.n_balls,
+        pitch_diameter=2.0 * middle,
+        ball_diameter=grooves.ball,
+        conformity_inner=grooves.radii[0] / grooves.ball,
+        conformity_outer=grooves.radii[1] / grooves.ball,
+        contact_angle=geometry.contact_angle,
+        diametral_clearance=geometry.diametral_clearance,
+        shoulder_angle_inner=geometry.shoulder_angle_inner,
+        shoulder_angle_outer=geometry.shoulder_angle_outer,
+        first_element_angle=geometry.first_element_angle,
+        running_clearance=grooves.clearance,
+        axial_rest=-geometry.aligned,
+    )
+
+
+def running_play(geometry: BallGeometry, growth: Growth) -> Play:
+    """Clearance, contact angle and axial shift of the grown bearing."""
+    grooves = _grown(geometry, growth)
+    lift = grooves.clearance / (2.0 * grooves.distance)
+    # the angle has an end where the centres coincide, beyond which nothing touches
+    open_ = (lift > 0.0) & (lift < 1.0)
+    sine = jnp.where(open_, jnp.sqrt(jnp.where(open_, lift * (2.0 - lift), 1.0)), 0.0)
+    angle = jnp.arctan2(sine, jnp.where(open_, 1.0 - lift, 1.0))
+    shift = grooves.distance * sine - geometry.centre_distance * geometry.free_sine
+    return Play(grooves.clearance, angle, shift, grooves.across > 0.0)

@@ -1,0 +1,173 @@
+"""Geometry of a cylindrical roller bearing, of its cage, and of the flanges that guide its rollers."""
+
+import math
+from collections.abc import Iterator
+from typing import ClassVar, Literal
+
+import jax.numpy as jnp
+
+from ..._types import Scalar
+from ...numerics.checks import Checked, demand, given
+from ...numerics.refusals import refusals_of, refuse_all
+from ...numerics.structure import choice, count
+from ..cage import AbstractCage
+from ..parts import FIRST_ELEMENT, check_between, check_row_fits, number, optional_number
+from .thrust import SIDES, ThrustFlanges, check_flanges
+
+ASSUMED_CAGE_INNER = 7.0 / 12.0
+"""Cage bore = pitch diameter minus this times the roller diameter, where a scene does not give it."""
+ASSUMED_CAGE_OUTER = 4.0 / 12.0
+"""Cage outside diameter = pitch diameter plus this times the roller diameter, where a scene does not give it."""
+ASSUMED_FLANGE_HEIGHT = 2.5 / 12.0
+"""Flange height over roller diameter, where a scene does not give it."""
+
+
+class RollerGeometry(Checked):
+    """Main dimensions, m. `diametral_clearance` may be negative (preload).
+
+    **Arguments:**
+    - `n_rollers`: number of rollers (structure: another number recompiles).
+    - `pitch_diameter`, `roller_diameter`, `roller_length` (of the whole roller): m, > 0.
+    - `contact_length`: cylindrical length that carries load, m, > 0; `roller_length` where not given.
+    - `diametral_clearance`: DIAMETRAL internal clearance of the assembled bearing, m; negative: preload.
+    - `first_element_angle`: azimuth of the first roller, rad; not given: 0, and the load line is a line of symmetry.
+    - `flange_stiffness`: k of the axial force k x^(10/9) of a flange, where x is the axial displacement of the inner
+      ring after the touch, N/m^(10/9), > 0; not given: nothing holds the ring along the axis (types N and NU).
+    - `flange_gap`: axial displacement of the inner ring, from the middle of its play, at which it touches a flange, m,
+      >= 0; half of the axial clearance between two flanges; `flange_stiffness` needs it.
+    - `thrust`: sense of the axial loads on the inner ring that its flanges carry, "+x" or "-x" (type NJ) or "both"
+      (type NUP); not given: both (structure).
+    - `bore`, `outside_diameter`, `width`: boundary dimensions of the bearing, m, for what knows its seats.
+    """
+
+    part: ClassVar[str] = "geometry"
+
+    n_rollers: int = count("geometry.n_rollers")
+    pitch_diameter: Scalar = number(bound="> 0", unit="m")
+    roller_diameter: Scalar = number(bound="> 0", unit="m")
+    roller_length: Scalar = number(bound="> 0", unit="m")
+    diametral_clearance: Scalar = number(unit="m")
+    contact_length: Scalar | None = optional_number(bound="> 0", unit="m")
+    first_element_angle: Scalar | None = optional_number(metadata=FIRST_ELEMENT)
+    flange_stiffness: Scalar | None = optional_number(bound="> 0", unit="N/m^(10/9)")
+    flange_gap: Scalar | None = optional_number(bound=">= 0", unit="m")
+    thrust: Literal["both", "+x", "-x"] | None = choice("geometry.thrust", SIDES, None)
+    bore: Scalar | None = optional_number(bound="> 0", unit="m")
+    outside_diameter: Scalar | None = optional_number(bound="> 0", unit="m")
+    width: Scalar | None = optional_number(bound="> 0", unit="m")
+
+    def __check_init__(self):
+        super().__check_init__()
+        refuse_all(self._problems())
+
+    def _problems(self) -> Iterator[str | ValueError]:
+        yield from refusals_of(check_row_fits, self.n_rollers, self.roller_diameter, self.pitch_diameter)
+        yield from refusals_of(check_flanges, self)
+        sizes = given(self.contact_length, self.roller_length)
+        if sizes is not None:
+            yield from refusals_of(
+                demand,
+                "geometry.contact_length must be at most the roller length",
+                sizes[0] <= sizes[1],
+                lambda: (
+                    f"geometry.contact_length must be at most the roller length, {float(sizes[1]):.6g} m, got "
+                    f"{float(sizes[0]):.6g} m"
+                ),
+            )
+
+    @property
+    def loaded_length(self) -> Scalar:
+        """Length of the raceway contacts, m."""
+        return self.roller_length if self.contact_length is None else self.contact_length
+
+    @property
+    def thrust_flanges(self) -> ThrustFlanges | None:
+        """The flanges that hold the inner ring along the axis, where there are any."""
+        if self.flange_stiffness is None:
+            return None
+        return ThrustFlanges(
+            jnp.asarray(self.flange_stiffness), jnp.asarray(self.flange_gap), SIDES[self.thrust or "both"]
+        )
+
+    @property
+    def pitch_radius(self) -> Scalar:
+        return self.pitch_diameter / 2.0
+
+    @property
+    def roller_radius(self) -> Scalar:
+        return self.roller_diameter / 2.0
+
+    @property
+    def inner_radius(self) -> Scalar:
+        """Inner raceway."""
+        return self.pitch_radius - self.roller_radius
+
+    @property
+    def outer_radius(self) -> Scalar:
+        """Outer raceway."""
+        return self.pitch_radius + self.roller_radius
+
+
+class RollerCage(AbstractCage):
+    """One-piece cage, guided by one ring on `n_lands` lands, with a pocket film in front of and behind each roller.
+
+    **Arguments:** those of `AbstractCage`, and
+    - `pocket_clearance`: TOTAL circumferential clearance of a roller in its pocket, m, > 0.
+    - `pocket_axial_clearance`: TOTAL axial clearance of a roller between the cage rails, m; not given: the films
+      between roller ends and rails are not modelled.
+    """
+
+    element: ClassVar[str] = "roller"
+    assumed_inner: ClassVar[float] = ASSUMED_CAGE_INNER
+    assumed_outer: ClassVar[float] = ASSUMED_CAGE_OUTER
+
+    pocket_axial_clearance: Scalar | None = optional_number(bound="> 0", unit="m")
+
+    def row(self, geometry: RollerGeometry) -> tuple[int, Scalar]:
+        return geometry.n_rollers, geometry.roller_diameter
+
+    def mass_and_inertia(self, geometry: RollerGeometry, density: Scalar) -> tuple[Scalar, Scalar]:
+        """Mass, kg, and moment of inertia about the axis, kg m^2: a ring as wide as rollers, their axial clearance and
+        the lands, less a rectangular pocket for each roller (in the inertia as a point in the middle of the ring: its
+        own extent would take off another 0.4 %)."""
+        inner, outer = self.bore(geometry) / 2.0, self.outside(geometry) / 2.0
+        axial = 0.0 if self.pocket_axial_clearance is None else self.pocket_axial_clearance
+        pocket_width = geometry.roller_length + axial
+        width = pocket_width + self.lands * self.land_width
+        ring = density * math.pi * (outer * outer - inner * inner) * width
+        length, depth = geometry.roller_diameter + self.pocket_clearance, outer - inner
+        pockets = geometry.n_rollers * density * pocket_width * length * depth
+        middle = 0.5 * (inner + outer)
+        inertia = 0.5 * ring * (inner * inner + outer * outer) - pockets * middle * middle
+        return ring - pockets, inertia
+
+
+class RollerFlange(Checked):
+    """Flanges that guide the rollers axially, on the inner ring, the outer ring or both: the friction of their films.
+    What holds the inner ring against axial loads is `geometry.flange_stiffness`.
+
+    **Arguments:**
+    - `ring`: "inner", "outer" or "both".
+    - `axial_clearance`: TOTAL axial clearance of a roller between its two flanges, m.
+    - `angle`: flange opening angle, rad.
+    - `height`: of the flange above the raceway, m; assumed from the roller size where not given.
+    """
+
+    part: ClassVar[str] = "flange"
+
+    ring: Literal["inner", "outer", "both"] = choice("flange.ring", ("inner", "outer", "both"))
+    axial_clearance: Scalar = number(bound="> 0", unit="m")
+    angle: Scalar = number(0.0, bound=">= 0 and below 90 degrees", unit="rad")
+    height: Scalar | None = optional_number(bound="> 0", unit="m")
+
+    def rim_height(self, geometry: RollerGeometry) -> Scalar:
+        return ASSUMED_FLANGE_HEIGHT * geometry.roller_diameter if self.height is None else self.height
+
+
+def check_height(flange: RollerFlange, geometry: RollerGeometry) -> None:
+    """**Raises:** `ValueError` where the flange cannot exist between the rings (where the numbers are known)."""
+    sizes = given(flange.rim_height(geometry), geometry.roller_diameter)
+    if sizes is not None:
+        height, roller = sizes
+        limit = roller / 2.0 if flange.ring == "both" else roller
+        check_between("flange.height", height, 0.0, limit, "raceway", "what the roller leaves to it")

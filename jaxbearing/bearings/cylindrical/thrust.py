@@ -1,0 +1,126 @@
+r"""Flanges that hold the inner ring of a cylindrical roller bearing along its axis.
+
+$F = \pm k(|x| - g)_+^{10/9}$, x the axial displacement of the inner ring from the middle of its play, g the gap of a
+flange. The stiffness k is a number of the user, since the geometry of the ribs is not modelled. Nothing couples the
+axial freedom with the others, so that force and displacement follow from each other in closed form, after the solve.
+"""
+
+import dataclasses
+from typing import Any
+
+import equinox as eqx
+import jax
+import jax.numpy as jnp
+from jaxtyping import Array, Float
+
+from ...numerics.checks import demand, given
+from ...numerics.safe import positive_power, power
+from ..operation import Operation
+from ..ring import InnerRing
+from ..solution import RING_FREEDOMS, Solution
+
+EXPONENT = 10.0 / 9.0
+"""Of the force over the displacement, that of a line contact."""
+SIDES = {"both": (1.0, -1.0), "+x": (1.0,), "-x": (-1.0,)}
+"""Word of a scene for the axial loads that flanges carry -> their signs."""
+NO_AXIAL_FREEDOM = (
+    "a cylindrical roller bearing without geometry.flange_stiffness has no axial freedom: nothing holds its inner ring "
+    "along the axis"
+)
+NOT_MODELLED = (
+    "the flanges (geometry.flange_stiffness) hold the inner ring along the axis and do nothing else: rib geometry, "
+    "friction of the ribs under the axial load, the tilt that it gives the rollers and its effect on the life are not "
+    "modelled; without an axial load the ring stands at 0, inside its play"
+)
+"""What a solution with flanges says."""
+
+
+class ThrustFlanges(eqx.Module):
+    """See the module.
+
+    **Arguments:**
+    - `stiffness`: k, N/m^(10/9).
+    - `gap`: axial displacement at which a flange is touched, from the middle of the play, m.
+    - `sides`: signs of the loads that are carried.
+    """
+
+    stiffness: Float[Array, ""]
+    gap: Float[Array, ""]
+    sides: tuple[float, ...] = eqx.field(static=True)
+
+    def force(self, displacement: Array) -> Array:
+        """Axial load that holds the ring at a displacement, N.
+
+        It has a slope everywhere, 0 inside the play. The slope of the slope has no bound where a flange is touched;
+        at the touch itself its derivative here is 0, that of the play.
+        """
+        pressed = [side * positive_power(side * displacement - self.gap, EXPONENT) for side in self.sides]
+        return self.stiffness * sum(pressed)
+
+    def under(self, load: Array) -> tuple[Array, Array]:
+        """Displacement, m, and stiffness, N/m, under an axial load, N, towards a flange.
+
+        A load of 0 leaves the ring anywhere in its play: it is put at 0, with no stiffness. The derivatives of both by
+        the load have no bound as it vanishes, and are 0 at 0.
+        """
+        loaded = load != 0
+        size = jnp.abs(jnp.where(loaded, load, 1.0))
+        pressed = power(size / self.stiffness, 1.0 / EXPONENT)
+        displacement = jnp.where(loaded, jnp.sign(load) * (self.gap + pressed), 0.0)
+        return displacement, jnp.where(loaded, EXPONENT * size / pressed, 0.0)
+
+    def hold(self, solution: Solution, operation: Operation, ring: InnerRing | None) -> Solution:
+        """The solution of a bearing with its axial force, displacement and stiffness.
+
+        **Arguments:** `ring`: that was held instead of the one of the operating point, or `None`.
+        """
+        held = operation.held_at("axial") if ring is None else ring.held[0]
+        load, place = operation.load("axial"), solution.ring.axial
+        if held is None:
+            load = jnp.zeros(()) if load is None else jnp.asarray(load)
+            place, stiffness = self.under(load)
+        else:
+            load, stiffness = jax.value_and_grad(self.force)(jnp.asarray(held))
+        load, place, stiffness = (jnp.where(solution.converged, one, jnp.nan) for one in (load, place, stiffness))
+        named = lambda names: tuple(name for name in RING_FREEDOMS if name == "axial" or name in names)
+        holds, stiff = solution.held_freedom, solution.stiffness_freedom
+        return dataclasses.replace(
+            solution,
+            ring=dataclasses.replace(solution.ring, axial=place),
+            force=solution.force.at[0].set(load),
+            stiffness=solution.stiffness.at[0, 0].set(stiffness),
+            ring_freedom=named(solution.ring_freedom),
+            stiffness_freedom=None if stiff is None else named(stiff),
+            held_freedom=tuple(name for name in holds if name != "axial") if held is None else named(holds),
+        )
+
+
+def check_flanges(geometry: Any) -> None:
+    """**Raises:** `ValueError` for flanges of which something is missing."""
+    if geometry.flange_stiffness is not None and geometry.flange_gap is None:
+        raise ValueError(
+            "geometry.flange_gap: found nothing, expected a length, which geometry.flange_stiffness needs, e.g. '50 um'"
+        )
+    for name in ("flange_gap", "thrust"):
+        if geometry.flange_stiffness is None and getattr(geometry, name) is not None:
+            raise ValueError(f"geometry.{name}: expected none without geometry.flange_stiffness")
+
+
+def check_axial(geometry: Any, operation: Operation) -> None:
+    """**Raises:** `ValueError` for an axial load or displacement that no flange stands against: a known load that
+    points away from the only flange, or either without flanges."""
+    load = operation.load("axial")
+    if geometry.flange_stiffness is None:
+        for name, value in (("axial_load", load), ("displacement.axial", operation.held_at("axial"))):
+            if value is not None:
+                raise ValueError(f"operation.{name}: expected none: {NO_AXIAL_FREEDOM}")
+    elif load is not None and given(load) is not None:
+        sides = SIDES[geometry.thrust or "both"]
+        word = "a force >= 0" if sides == (1.0,) else "a force <= 0"
+        where = f"the flange carries no load the other way (geometry.thrust = '{geometry.thrust}')"
+        if len(sides) == 1:
+            demand(
+                f"operation.axial_load must be {word}: {where}",
+                sides[0] * load >= 0,
+                lambda: f"operation.axial_load must be {word}, got {float(load):g} N: {where}",
+            )

@@ -1,0 +1,186 @@
+"""The seats of a bearing as tables of a scene: fits on shaft and housing, temperatures of the parts."""
+
+from collections.abc import Iterator
+from typing import Any, ClassVar, Literal
+
+import equinox as eqx
+import jax.numpy as jnp
+from jaxtyping import Array, Float
+
+from .._scene import label, number, optional_number
+from .._types import Scalar
+from ..materials import Material, catalogue_material
+from ..numerics.checks import Checked, demand, given
+from ..numerics.refusals import refuse_all
+from ..numerics.structure import choice
+from . import iso286
+from .iso286 import HOLE_CLASSES, SHAFT_CLASSES, Limits
+
+SMOOTHING = 2e-6
+"""Loss of interference of a ground seat where none is given, m: ISO 286 knows none; makers' catalogues say 1 to 2.5 um
+for ground and 5 to 7 um for turned seats."""
+ASSUMED_HOUSING = 1.5
+"""Outside of the housing over the outside diameter of the bearing, where a scene does not give it."""
+
+
+def _seat_material(value: Any) -> Material:
+    return catalogue_material("steel", thermal=True) if value is None else value
+
+
+class Fits(Checked):
+    """Seats of the bearing's rings. A ring without an interference and without a tolerance class has no seat: it grows
+    freely.
+
+    **Arguments:**
+    - `shaft_interference`, `housing_interference`: diametral, as machined, m; positive: tight.
+    - `shaft_tolerance`, `housing_tolerance`: instead of a number a tolerance class of ISO 286, such as "k5" and "J7";
+      the bearing has the normal class of ISO 492.
+    - `at`: which interference of the tolerance classes counts: the mean one, the tightest or the loosest.
+    - `shaft_bore`: of a hollow shaft, m; 0: solid.
+    - `housing_outside`: outside diameter of the housing, m; not given: 1.5 times that of the bearing.
+    - `shaft_material`, `housing_material`: steel where not given.
+    - `smoothing`: loss of interference of each seat by flattened asperities, m; not given: 2 um of a tight seat, not
+      more than the interference.
+    """
+
+    part: ClassVar[str] = "fits"
+
+    shaft_interference: Scalar | None = optional_number(metadata=label("m", "interference of the inner ring"))
+    housing_interference: Scalar | None = optional_number(metadata=label("m", "interference of the outer ring"))
+    shaft_tolerance: str | None = choice("fits.shaft_tolerance", SHAFT_CLASSES, None)
+    housing_tolerance: str | None = choice("fits.housing_tolerance", HOLE_CLASSES, None)
+    at: Literal["mean", "tightest", "loosest"] = choice("fits.at", ("mean", "tightest", "loosest"), "mean")
+    shaft_bore: Scalar = number(0.0, bound=">= 0", metadata=label("m", "bore of the shaft"))
+    housing_outside: Scalar | None = optional_number(bound="> 0", metadata=label("m", "outside of the housing"))
+    shaft_material: Material = eqx.field(converter=_seat_material, default=None)
+    housing_material: Material = eqx.field(converter=_seat_material, default=None)
+    smoothing: Scalar | None = optional_number(bound=">= 0", metadata=label("m", "smoothing of the seats"))
+
+    def __check_init__(self):
+        super().__check_init__()
+        refuse_all(self._problems())
+
+    def _problems(self) -> Iterator[str | ValueError]:
+        for seat in ("shaft", "housing"):
+            if getattr(self, f"{seat}_interference") is not None and getattr(self, f"{seat}_tolerance") is not None:
+                yield f"fits.{seat}_tolerance: expected none beside fits.{seat}_interference, which says the same"
+
+    @property
+    def on_shaft(self) -> bool:
+        """True if the inner ring has a seat."""
+        return self.shaft_interference is not None or self.shaft_tolerance is not None
+
+    @property
+    def in_housing(self) -> bool:
+        """True if the outer ring has a seat."""
+        return self.housing_interference is not None or self.housing_tolerance is not None
+
+    def limits(self, seat: Literal["shaft", "housing"], diameter: Scalar) -> Limits:
+        """Smallest and largest interference of a seat, m. **Arguments:** `diameter`: of the seat, m."""
+        interference = getattr(self, f"{seat}_interference")
+        if interference is not None:
+            return Limits(jnp.asarray(interference), jnp.asarray(interference))
+        return getattr(iso286, f"{seat}_interference")(getattr(self, f"{seat}_tolerance"), diameter)
+
+    def interference(self, seat: Literal["shaft", "housing"], diameter: Scalar) -> Float[Array, ""]:
+        """Interference of a seat that counts, m, before smoothing."""
+        low, high = self.limits(seat, diameter)
+        match self.at:
+            case "tightest":
+                return high
+            case "loosest":
+                return low
+        return 0.5 * (low + high)
+
+    def smoothed(self, interference: Array) -> Float[Array, ""]:
+        """Loss of an interference by smoothing, m."""
+        if self.smoothing is not None:
+            return jnp.asarray(self.smoothing)
+        # `where` and no `clip`: at both ends the derivative is that of an interference that loses no more
+        flattened = jnp.where(interference > 0.0, interference, 0.0)
+        return jnp.where(interference >= SMOOTHING, SMOOTHING, flattened)
+
+    def housing_diameter(self, outside_diameter: Scalar) -> Scalar:
+        """Outside diameter of the housing, m. **Arguments:** `outside_diameter`: of the bearing, m."""
+        return ASSUMED_HOUSING * outside_diameter if self.housing_outside is None else self.housing_outside
+
+    def check_room(self, bore: Scalar | None, outside_diameter: Scalar | None) -> None:
+        """**Raises:** `ValueError` where shaft or housing has no wall, or a class has no row for the diameter."""
+        shaft = given(bore, self.shaft_bore)
+        if shaft is not None and self.on_shaft:
+            demand(
+                "fits.shaft_bore must be less than geometry.bore",
+                shaft[1] < shaft[0],
+                lambda: f"fits.shaft_bore must be less than geometry.bore, {shaft[0]:.6g} m, got {shaft[1]:.6g} m",
+            )
+        wall = given(outside_diameter, self.housing_outside)
+        if wall is not None and self.in_housing:
+            demand(
+                "fits.housing_outside must be more than geometry.outside_diameter",
+                wall[1] > wall[0],
+                lambda: (
+                    f"fits.housing_outside must be more than geometry.outside_diameter, {wall[0]:.6g} m, got "
+                    f"{wall[1]:.6g} m"
+                ),
+            )
+        _check_covered("shaft_tolerance", self.shaft_tolerance, bore)
+        _check_covered("housing_tolerance", self.housing_tolerance, outside_diameter)
+
+    def assumptions(self) -> tuple[str, ...]:
+        """Notes for the user."""
+        said = []
+        if self.smoothing is None and (self.on_shaft or self.in_housing):
+            said.append("fits.smoothing is not given: each tight seat loses 2 um, as ground ones do")
+        if self.in_housing and self.housing_outside is None:
+            said.append(f"fits.housing_outside is not given: assumed {ASSUMED_HOUSING:g} times the outside diameter")
+        return tuple(said)
+
+
+def _check_covered(name: str, tolerance: Any, diameter: Scalar | None) -> None:
+    """**Raises:** `ValueError` where the tables do not have this diameter, as far as it is known."""
+    size = given(diameter)
+    # neither where none is given, nor where what is given has been refused
+    if not isinstance(tolerance, str) or size is None:
+        return
+    least, most = iso286.covered(tolerance)
+    demand(
+        f"fits.{name}: the tables of ISO 286 must hold the diameter of the seat",
+        (size[0] > least) & (size[0] <= most),
+        lambda: (
+            f"fits.{name}: the tables have {tolerance} above {1e3 * least:g} and up to {1e3 * most:g} mm, the seat has "
+            f"{1e3 * float(size[0]):g} mm; give an interference instead"
+        ),
+    )
+
+
+class PartTemperatures(Checked):
+    """Temperatures of the parts of a mounted bearing, K, each uniform. Dimensions on the drawing hold at 20 degC.
+
+    **Arguments:**
+    - `inner_ring`, `outer_ring`: must be given.
+    - `elements`: of the rolling elements; not given: the mean of both rings.
+    - `shaft`, `housing`: not given: those of the rings on them.
+    """
+
+    part: ClassVar[str] = "temperatures"
+
+    inner_ring: Scalar = number(bound="> 0", metadata=label("K", "temperature of the inner ring"))
+    outer_ring: Scalar = number(bound="> 0", metadata=label("K", "temperature of the outer ring"))
+    elements: Scalar | None = optional_number(bound="> 0", metadata=label("K", "temperature of the rolling elements"))
+    shaft: Scalar | None = optional_number(bound="> 0", metadata=label("K", "temperature of the shaft"))
+    housing: Scalar | None = optional_number(bound="> 0", metadata=label("K", "temperature of the housing"))
+
+    @property
+    def of_elements(self) -> Scalar:
+        """Temperature of the rolling elements, K."""
+        return 0.5 * (self.inner_ring + self.outer_ring) if self.elements is None else self.elements
+
+    @property
+    def of_shaft(self) -> Scalar:
+        """Temperature of the shaft, K."""
+        return self.inner_ring if self.shaft is None else self.shaft
+
+    @property
+    def of_housing(self) -> Scalar:
+        """Temperature of the housing, K."""
+        return self.outer_ring if self.housing is None else self.housing

@@ -1,0 +1,53 @@
+"""The content of a report as one HTML page that needs no network."""
+
+import platform
+from collections.abc import Mapping, Sequence
+from datetime import datetime
+from importlib.metadata import version
+from typing import Any
+
+from ... import __version__
+from ..display import typeset
+from ..page_content import Content
+from .plotly import chart_of, library
+
+_OF_PACKAGES = ("jax", "jaxlib", "plotly")
+
+
+def page(
+    content: Content, title: str, inputs: Mapping[str, Sequence[Any]], results: Mapping[str, Any], when: datetime
+) -> str:
+    """The page.
+
+    **Arguments:**
+    - `title`: name of the scene.
+    - `inputs`: fields of the scene by table, of `scenes.inputs.scene_inputs`.
+    - `results`: all results, as JSON has them.
+    - `when`: the date that the page bears.
+    """
+    from jinja2 import Environment, PackageLoader, StrictUndefined, select_autoescape
+    from markupsafe import Markup
+
+    loader = PackageLoader("jaxbearing.report.backends", "templates")
+    escaped = select_autoescape(default=True, default_for_string=True)
+    environment = Environment(
+        loader=loader, autoescape=escaped, undefined=StrictUndefined, trim_blocks=True, lstrip_blocks=True
+    )
+    environment.filters["typeset"] = typeset
+    return environment.get_template("report.html").render(
+        title=title,
+        page=content,
+        inputs=inputs,
+        results=results,
+        sketches=[(one.title, Markup(one.markup), one.caption) for one in content.sketches],
+        charts=[(chart, chart.data()) for chart in map(chart_of, content.charts)],
+        library=Markup(library()) if content.charts else "",
+        versions=versions(),
+        when=when.strftime("%Y-%m-%d %H:%M %Z").strip(),
+    )
+
+
+def versions() -> dict[str, str]:
+    """Versions of everything that the results depend on."""
+    found = {"jaxbearing": __version__} | {name: version(name) for name in _OF_PACKAGES}
+    return found | {"Python": platform.python_version(), "system": f"{platform.system()} {platform.machine()}"}

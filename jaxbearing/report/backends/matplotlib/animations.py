@@ -1,0 +1,79 @@
+"""Moving pictures of a run, whatever is drawn: which instants, the heading with its clock, the file."""
+
+import os
+import shutil
+import subprocess
+from collections.abc import Callable
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ...colours import FAINT, INK
+from ...files import check_place, temporary_folder, write_whole
+
+if TYPE_CHECKING:
+    import matplotlib.animation
+
+SUFFIXES = (".gif", ".html", ".mp4")
+PICTURES = 120
+"""Pictures of an animation; less where a run has fewer instants."""
+PER_SECOND = 15
+_DOTS = 72
+"""Dots per inch: 120 pictures stay below 5 MB."""
+
+
+def instants(first: float, last: float, at_most: int = PICTURES) -> np.ndarray:
+    """As many evenly spaced numbers as there are pictures."""
+    return np.linspace(first, last, min(PICTURES, at_most))
+
+
+def moving_head(figure: Any, title: str, words: str) -> Any:
+    """Title, a line in small print, and the text below them that changes with the clock."""
+    shown = title if len(title) <= 80 else title[:77] + "..."
+    figure.text(0.03, 0.965, shown, fontsize=11, fontweight="bold", color=INK, va="center", parse_math=False)
+    figure.text(0.03, 0.93, words, fontsize=8.5, color=FAINT, va="center")
+    return figure.text(0.03, 0.895, "", fontsize=9.5, color=INK, va="center")
+
+
+def moving(figure: Any, update: Callable[[int], Any], pictures: int) -> "matplotlib.animation.FuncAnimation":
+    """**Arguments:** `update`: makes the figure the picture of a number."""
+    import matplotlib.animation
+
+    return matplotlib.animation.FuncAnimation(figure, update, frames=pictures, interval=1000.0 / PER_SECOND)
+
+
+def save_animation(
+    animation: Any, path: str | os.PathLike[str], progress: Callable[[float, float], None] | None = None
+) -> None:
+    """Write a gif, an html page or (with the program ffmpeg) an mp4; the file appears whole or not at all.
+
+    **Raises:** `ValueError` for another suffix; `OSError` where the place cannot be written or ffmpeg is not there.
+    """
+    import matplotlib as mpl
+    from matplotlib.animation import FFMpegWriter, HTMLWriter, PillowWriter
+
+    suffix = Path(path).suffix.lower()
+    if suffix not in SUFFIXES:
+        raise ValueError(f"an animation is written as {', '.join(SUFFIXES[:-1])} or {SUFFIXES[-1]}; found {path}")
+    if suffix == ".mp4" and shutil.which("ffmpeg") is None:
+        raise OSError(2, "the program ffmpeg, which makes .mp4, is not there", os.fspath(path))
+    kinds: dict[str, Any] = {".gif": PillowWriter, ".mp4": FFMpegWriter}
+    writer = kinds[suffix](fps=PER_SECOND) if suffix in kinds else HTMLWriter(fps=PER_SECOND, embed_frames=True)
+    told = None if progress is None else lambda number, count: progress(float(number + 1), float(count))
+    check_place(path)
+    # the writers go by the suffix, and leave further files behind where they fail
+    with temporary_folder() as folder:
+        made = folder / f"animation{suffix}"
+        try:
+            with mpl.rc_context():
+                mpl.rcParams["animation.embed_limit"] = 100.0
+                animation.save(made, writer=writer, dpi=_DOTS, progress_callback=told)
+            content = made.read_bytes()
+        except OSError as error:
+            reason = f"{error.strerror or error} (in the folder for temporary files, {folder.parent})"
+            raise OSError(error.errno or 5, reason, os.fspath(path)) from None
+        except subprocess.CalledProcessError as error:
+            said = (error.stderr or b"").decode(errors="replace").strip().splitlines()
+            raise OSError(5, f"ffmpeg failed: {said[-1] if said else error}", os.fspath(path)) from None
+        write_whole(path, content)

@@ -1,0 +1,132 @@
+"""Panels on paper: what `panels` describes, drawn on axes of matplotlib."""
+
+import math
+from typing import Any
+
+import numpy as np
+
+from ...colours import FAINT, GRID, INK
+from ...display import digits
+from ...panels import Axis, Bars, Curves, Panel, Polar, headed, round_up
+from .sheet import grid_lines, title_of
+
+_LINES = {"solid": "-", "dash": "--", "dot": ":", "dashdot": "-."}
+_POINTS = {
+    "": None,
+    "circle": "o",
+    "square": "s",
+    "triangle-up": "^",
+    "diamond": "D",
+    "triangle-down": "v",
+    "triangle-left": "<",
+    "triangle-right": ">",
+}
+_SCALE_AZIMUTH = math.radians(157.5)
+"""Angle of the numbers of the polar plot: away from the load line."""
+
+
+def draw(axes: Any, panel: Panel, marked: bool = True) -> None:
+    """Draws a panel on axes, polar ones for `Polar`; its legend is the caller's.
+
+    **Arguments:** `marked`: False for curves without their markers.
+    """
+    match panel:
+        case Bars():
+            _bars(axes, panel)
+        case Polar():
+            _polar(axes, panel)
+        case Curves():
+            _curves(axes, panel, marked)
+
+
+def _bars(axes: Any, panel: Bars) -> None:
+    column = list(panel.values)
+    bars = axes.barh(list(panel.names), column, color=panel.colour, height=0.68)
+    axes.invert_yaxis()
+    shown = zip(column, panel.shares, strict=True)
+    texts = [f"{_power(value, column)} {panel.unit}   {share}" for value, share in shown]
+    axes.bar_label(bars, texts, padding=5, fontsize=9, color=INK)
+    largest, lowest = max([0.0, *column]), min([0.0, *column])
+    axes.set_xlim(1.25 * lowest, 1.3 * largest if largest > 0.0 else 1.0)
+    title_of(axes, f"{panel.title}, {panel.unit}: total {_power(panel.total, column)} {panel.unit}", pad=16)
+    axes.tick_params(axis="y", length=0, labelsize=9.5)
+    axes.tick_params(axis="x", labelsize=8.5)
+    axes.grid(axis="x", color=GRID, linewidth=0.7)
+    axes.set_axisbelow(True)
+    axes.spines[["top", "right", "left"]].set_visible(False)
+
+
+def _power(value: float, column: list[float]) -> str:
+    """With as many decimals as the largest of the column needs for four digits."""
+    _, _, decimals = digits(max(column, key=abs), 4).partition(".")
+    return f"{value:.{len(decimals)}f}" if "e" not in decimals else digits(value)
+
+
+def _polar(axes: Any, panel: Polar) -> None:
+    axes.set_theta_zero_location("S")
+    for one in panel.series:
+        closed, values = np.append(one.x, one.x[0] + 2.0 * math.pi), np.append(one.y, one.y[0])
+        marker = _POINTS[one.marker]
+        axes.plot(closed, values, color=one.colour, marker=marker, markersize=3.2, linewidth=1.2, label=one.name)
+        axes.fill(closed, values, color=one.colour, alpha=0.12, linewidth=0)
+    top = round_up(max(float(np.max(one.y)) for one in panel.series))
+    axes.set_ylim(0.0, top)
+    axes.set_yticks([top / 2.0, top], [])
+    halo = {"facecolor": "white", "edgecolor": "none", "alpha": 0.8, "pad": 0.6}
+    for radius, text in ((top / 2.0, f"{top / 2.0:g}"), (top, f"{top:g} {panel.unit}")):
+        axes.text(_SCALE_AZIMUTH, radius, text, fontsize=8, color=INK, ha="center", va="center", bbox=halo, zorder=5)
+    ticks = np.arange(0, 360, 45)
+    axes.set_thetagrids(ticks, [f"{tick}°" for tick in ticks], fontsize=8.5, color=INK)
+    axes.tick_params(axis="x", pad=2)
+    axes.grid(color="#D8D8D8", linewidth=0.7)
+    axes.spines["polar"].set_color(FAINT)
+    if panel.arrow is not None:
+        _load_arrow(axes, panel.arrow)
+    title_of(axes, headed(panel), pad=16)
+
+
+def _load_arrow(axes: Any, angle: float) -> None:
+    """Beside the picture; azimuth 0 is below, counter-clockwise."""
+    arrow = {"arrowstyle": "-|>,head_width=0.35,head_length=0.7", "linewidth": 2.2, "color": INK}
+    place, half = np.array([1.05, 0.07]), 0.07 * np.array([math.sin(angle), -math.cos(angle)])
+    axes.annotate("", xy=tuple(place + half), xytext=tuple(place - half), xycoords="axes fraction", arrowprops=arrow)
+    axes.text(1.05, 0.165, "load", transform=axes.transAxes, fontsize=9, color=INK, ha="center")
+
+
+def _curves(axes: Any, panel: Curves, marked: bool) -> None:
+    for one in panel.series:
+        marker = _POINTS[one.marker] if marked else None
+        width = 1.0 if one.faint else 1.2 if marker else 1.5
+        style = {"linestyle": _LINES[one.dash], "marker": marker, "markersize": 3.2, "linewidth": width}
+        axes.plot(one.x, one.y, color=one.colour, label=one.name, **style)
+    for mark in panel.marks:
+        axes.plot(mark.x, mark.y, "o", color=panel.series[0].colour, markersize=5)
+        place = {"xytext": (0, -16), "textcoords": "offset points"}
+        axes.annotate(mark.text, (mark.x, mark.y), fontsize=9, ha="center", **place)
+    for level in panel.levels:
+        axes.axhline(level.y, color=level.colour, linewidth=0.9, linestyle=_LINES[level.dash], label=level.name)
+    if panel.of_elements and not panel.y.logarithmic:
+        axes.margins(y=0.1)
+        axes.ticklabel_format(axis="y", useOffset=False)
+    _scale(axes, "y", panel.y)
+    _scale(axes, "x", panel.x)
+    title_of(axes, headed(panel))
+    grid_lines(axes)
+
+
+def _scale(axes: Any, which: str, axis: Axis) -> None:
+    """Ends, ticks and title of one axis."""
+    if axis.logarithmic:
+        axes.set(**{f"{which}scale": "log"})
+    if axis.limits is not None:
+        axes.set(**{f"{which}lim": axis.limits})
+    if axis.from_zero:
+        axes.set(**{f"{which}lim": (0.0, None)})
+    if axis.ticks:
+        # an axis of logarithms would write powers of ten
+        texts = [f"{tick:g}" for tick in axis.ticks] if axis.logarithmic else None
+        getattr(axes, f"set_{which}ticks")(axis.ticks, texts)
+    if axis.logarithmic:
+        getattr(axes, f"set_{which}ticks")([], minor=True)
+    if axis.title:
+        getattr(axes, f"set_{which}label")(axis.title, fontsize=9)

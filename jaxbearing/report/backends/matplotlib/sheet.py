@@ -1,0 +1,44 @@
+"""Common parts of pages of plots: head and foot, titles and grids of axes."""
+
+import textwrap
+from collections.abc import Iterable
+from typing import Any
+
+from .... import __version__
+from ...colours import FAINT, GRID, INK
+
+_WARNING_LINES = 4
+"""Lines of warnings at the foot of the page; more are counted."""
+_LINE_LENGTH = 170
+_LONG_TITLE = 65
+
+
+def head(figure: Any, title: str, operation: str) -> None:
+    """Title, operating point and version at the top of a page."""
+    size = 15 if len(title) <= _LONG_TITLE else 10
+    shown = title if len(title) <= 2 * _LONG_TITLE else title[: 2 * _LONG_TITLE] + "..."
+    # names of files are not formulas, whatever signs are in them
+    figure.text(0.03, 0.955, shown, fontsize=size, fontweight="bold", color=INK, va="center", parse_math=False)
+    figure.text(0.03, 0.92, operation, fontsize=9.5, color=INK, va="center")
+    figure.text(0.985, 0.955, f"jaxbearing {__version__}", fontsize=8, color=FAINT, va="center", ha="right")
+
+
+def foot(figure: Any, warnings: Iterable[str]) -> int:
+    """Warnings and notes in small print; returns the number of lines."""
+    lines = [line for text in warnings for line in textwrap.wrap(f"- {text}", _LINE_LENGTH)]
+    if len(lines) > _WARNING_LINES:
+        lines = [*lines[: _WARNING_LINES - 1], "- and more: see the summary"]
+    figure.text(0.03, 0.015, "\n".join(lines), fontsize=7, color="#8A4B00", va="bottom", linespacing=1.35)
+    return len(lines)
+
+
+def title_of(axes: Any, text: str, pad: float = 6.0) -> None:
+    axes.set_title(text, fontsize=10.5, fontweight="bold", color=INK, pad=pad)
+
+
+def grid_lines(axes: Any) -> None:
+    """A light grid behind the curves, and no frame at the top and the right."""
+    axes.tick_params(labelsize=8.5)
+    axes.grid(color=GRID, linewidth=0.7)
+    axes.set_axisbelow(True)
+    axes.spines[["top", "right"]].set_visible(False)

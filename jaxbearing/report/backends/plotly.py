@@ -1,0 +1,156 @@
+"""Panels as interactive charts of a page: plotly figures in one style, and what a page needs to show them without a
+network."""
+
+import functools
+import json
+import math
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from ..colours import FAINT, GRID, INK
+from ..display import digits, displayed
+from ..panels import Axis, Bars, Curves, Panel, Polar, Series, headed
+
+_POLAR_GRID = "#DDDDDD"
+
+
+@dataclass(frozen=True)
+class Chart:
+    """A figure with its heading, a caption, and what is to be said of it to who cannot see it."""
+
+    name: str
+    title: str
+    caption: str
+    figure: Any
+    height: int = 340
+
+    def data(self) -> dict[str, Any]:
+        """The figure as JSON has it; what is not finite is null."""
+        return json.loads(self.figure.to_json(engine="json"))
+
+
+def chart_of(panel: Panel) -> Chart:
+    """The panel as a chart."""
+    match panel:
+        case Bars():
+            return Chart(panel.name, panel.title, panel.caption, _bars(panel), 110 + 38 * len(panel.names))
+        case Polar():
+            return Chart(panel.name, headed(panel), panel.caption, _polar(panel), 400)
+        case Curves():
+            return Chart(panel.name, headed(panel), panel.caption, _curves(panel))
+
+
+def _figure(*traces: Any, **layout: Any) -> Any:
+    """A plotly figure in the style of the page."""
+    import plotly.graph_objects as go
+
+    axis = {"gridcolor": GRID, "linecolor": FAINT, "zeroline": False, "automargin": True, "ticks": "outside"}
+    style = {
+        "font": {"family": "system-ui, sans-serif", "size": 13, "color": INK},
+        "paper_bgcolor": "#ffffff",
+        "plot_bgcolor": "#ffffff",
+        "margin": {"l": 50, "r": 12, "t": 30, "b": 44},
+        "legend": {"orientation": "h", "x": 0, "y": 1.02, "yanchor": "bottom"},
+        "showlegend": True,
+        "hovermode": "closest",
+        "xaxis": axis,
+        "yaxis": axis,
+        "template": "none",
+    }
+    figure = go.Figure(list(traces), layout=style)
+    figure.update_layout(**layout)
+    return figure
+
+
+def _bars(panel: Bars) -> Any:
+    import plotly.graph_objects as go
+
+    shown = zip(panel.values, panel.shares, strict=True)
+    bars = go.Bar(
+        x=list(panel.values),
+        y=list(panel.names),
+        orientation="h",
+        text=[f"{digits(value)} {panel.unit} · {share}" for value, share in shown],
+        textposition="outside",
+        cliponaxis=False,
+        hovertemplate="%{y}: %{text}<extra></extra>",
+        marker={"color": panel.colour},
+    )
+    largest, lowest = max([0.0, *panel.values]), min([0.0, *panel.values])
+    ends = [1.3 * lowest, 2.1 * largest if largest > 0.0 else 1.0]
+    return _figure(
+        bars,
+        xaxis={"title": f"{panel.quantity}, {panel.unit}", "range": ends},
+        yaxis={"autorange": "reversed", "ticks": "", "ticksuffix": " "},
+        bargap=0.35,
+        showlegend=False,
+        margin={"t": 8},
+    )
+
+
+def _polar(panel: Polar) -> Any:
+    import plotly.graph_objects as go
+
+    traces = []
+    for one in panel.series:
+        degrees = displayed(1.0, "rad") * np.asarray(one.x)
+        traces.append(
+            go.Scatterpolar(
+                theta=np.append(degrees, degrees[0] + 360.0).tolist(),
+                r=np.append(one.y, one.y[0]).tolist(),
+                name=one.name,
+                mode="lines+markers",
+                line={"color": one.colour, "width": 1.6},
+                marker={"symbol": one.marker, "size": 6},
+                hovertemplate=f"{one.name} at %{{theta:.1f}}°: %{{r:.4g}} {panel.unit}<extra></extra>",
+            )
+        )
+    polar = {
+        # azimuth 0, the load line, points down as in the drawing
+        "angularaxis": {"rotation": 270, "direction": "counterclockwise", "gridcolor": _POLAR_GRID, "dtick": 45},
+        "radialaxis": {"gridcolor": _POLAR_GRID, "angle": 67.5, "tickangle": 67.5, "rangemode": "tozero", "nticks": 5},
+        "bgcolor": "#ffffff",
+    }
+    return _figure(*traces, polar=polar, margin={"l": 46, "r": 46, "t": 54, "b": 30})
+
+
+def _curves(panel: Curves) -> Any:
+    traces = [_curve(one, panel) for one in panel.series]
+    return _figure(*traces, xaxis=_axis(panel.x, ""), yaxis=_axis(panel.y, panel.unit))
+
+
+def _curve(one: Series, panel: Curves) -> Any:
+    import plotly.graph_objects as go
+
+    line = {"color": one.colour, "width": 1.4 if one.faint else 1.8}
+    if one.dash != "solid":
+        line["dash"] = one.dash
+    style: dict[str, Any] = {"mode": "lines"}
+    if panel.of_elements:
+        hover = f"{one.name} at %{{x:.1f}}°: %{{y:.4g}} {panel.unit}<extra></extra>"
+        style = {"mode": "lines+markers", "marker": {"symbol": one.marker, "size": 6}, "hovertemplate": hover}
+    values = [float(value) if np.isfinite(value) else None for value in np.asarray(one.y)]
+    return go.Scatter(x=np.asarray(one.x).tolist(), y=values, name=one.name, line=line, **style)
+
+
+def _axis(axis: Axis, unit: str) -> dict[str, Any]:
+    found: dict[str, Any] = {"title": axis.title or unit}
+    if axis.ticks:
+        found["tickvals"] = list(axis.ticks)
+    if axis.from_zero:
+        found["rangemode"] = "tozero"
+    if axis.logarithmic:
+        found |= {"type": "log", "ticktext": [f"{tick:g}" for tick in axis.ticks]}
+    if axis.limits is not None:
+        found["range"] = [math.log10(end) for end in axis.limits] if axis.logarithmic else list(axis.limits)
+    return found
+
+
+@functools.cache
+def library() -> str:
+    """The code that draws the charts in a browser."""
+    from plotly.offline import get_plotlyjs
+
+    return get_plotlyjs()

@@ -1,0 +1,116 @@
+"""Parts of a summary on the screen: headline, lines, tables with bars, warnings. Tables come in pieces where a terminal
+is too narrow: numbers are never cut."""
+
+from collections.abc import Iterable, Iterator
+
+import numpy as np
+from rich import box
+from rich.console import Console
+from rich.padding import Padding
+from rich.rule import Rule
+from rich.table import Table
+from rich.text import Text
+
+from ..display import bar, digits, displayed
+
+_SHORTEST_BAR = 4
+_GAP = 3
+"""Columns between two columns of a table."""
+
+
+def counted(number: int, noun: str) -> str:
+    return f"{number} {noun}{'' if number == 1 else 's'}"
+
+
+def headline(label: str, status: str, style: str, state: str, console: Console) -> None:
+    grid = Table.grid(expand=True)
+    grid.add_column(overflow="fold")
+    grid.add_column(justify="right", no_wrap=True)
+    grid.add_row(Text(label, style="bold"), Text(status, style=style))
+    console.print(grid)
+    console.print(Text(f"  {state}", style="dim"))
+
+
+def print_failure(label: str, status: str, reason: str, console: Console) -> None:
+    """Message instead of results."""
+    headline(label, "NOT CONVERGED", "bold red", f"status: {status}", console)
+    console.print(Padding(Text(reason, style="red"), (0, 2)))
+    console.print(Padding(Text("No results: the point where the iteration stopped is not a solution."), (0, 2)))
+
+
+def print_warnings(warnings: Iterable[str], console: Console) -> None:
+    texts = list(warnings)
+    if texts:
+        console.print(Rule("Warnings", align="left", style="yellow"))
+    for text in texts:
+        console.print(Padding(Text(f"- {text}", style="yellow"), (0, 2)))
+
+
+def print_rule(title: str, console: Console) -> None:
+    console.print(Rule(title, align="left", style="dim"))
+
+
+def print_line(name: str, text: str, console: Console, columns: int = 18) -> None:
+    """A name, in so many columns, and what is said of it."""
+    grid = Table.grid(padding=(0, 2, 0, 0))
+    grid.add_column(width=columns, no_wrap=True)
+    grid.add_column(overflow="fold")
+    grid.add_row(Text(f"  {name}"), Text(text))
+    console.print(grid)
+
+
+def print_table(
+    columns: dict[str, list[str]], fractions: list[float], longest: int, style: str, console: Console
+) -> None:
+    """Columns of texts, the first row's title above each; bars at the right where there is room.
+
+    A text more than there are fractions is a total, below a line.
+    """
+    used = width(columns)
+    room = min(longest, console.width - used - _GAP)
+    total = len(next(iter(columns.values()))) > len(fractions)
+    table = Table(box=box.SIMPLE_HEAD, pad_edge=False, padding=(0, 1), show_footer=total, header_style="")
+    for title, texts in columns.items():
+        named = title == "Power loss"
+        footer = texts[-1] if total else ""
+        table.add_column(title, justify="left" if named else "right", footer=footer, no_wrap=True)
+    if room >= _SHORTEST_BAR:
+        table.add_column("", width=room)
+    for i, fraction in enumerate(fractions):
+        bars = [_bar(fraction, room, style, console)] if room >= _SHORTEST_BAR else []
+        table.add_row(*(texts[i] for texts in columns.values()), *bars)
+    console.print(Padding(table, (0, 1)))
+
+
+def width(columns: dict[str, list[str]]) -> int:
+    """Width of the table of these columns, margins included."""
+    widths = [max(map(len, [*title.split("\n"), *texts])) for title, texts in columns.items()]
+    return sum(widths) + _GAP * (len(widths) - 1) + 4
+
+
+def _bar(fraction: float, width: int, style: str, console: Console) -> Text:
+    return Text(bar(fraction, width, console.options.ascii_only), style=style)
+
+
+def pieces(
+    first: dict[str, list[str]], columns: dict[str, list[str]], room: int, together: int = 1
+) -> Iterator[dict[str, list[str]]]:
+    """The columns, so many of them together, in tables that fit the width; each begins with the first columns."""
+    piece = dict(first)
+    items = list(columns.items())
+    for i in range(0, len(items), together):
+        group = items[i : i + together]
+        if len(piece) > len(first) and width(piece | dict(group)) > room:
+            yield piece
+            piece = dict(first)
+        piece |= dict(group)
+    yield piece
+
+
+def column(values: np.ndarray, unit: str) -> list[str]:
+    """The numbers of a column, with as many decimals as its largest needs for four digits."""
+    shown = [displayed(float(value), unit) for value in values]
+    if not shown:
+        return []
+    _, _, decimals = digits(max(shown, key=abs), 4).partition(".")
+    return [f"{value:.{len(decimals)}f}" for value in shown]

@@ -1,0 +1,69 @@
+"""The most loaded rolling element and its contacts in a section through the axis, to scale."""
+
+import math
+from typing import Any
+
+import numpy as np
+
+from ....bearings.outline import Outline, moved
+from ....bearings.solution import Solution
+from ...backends.svg import Drawing
+from ...colours import CENTRE_LINE, INK, INNER, OUTER, RIB, RING, ROLLER
+from ...display import digits
+
+_WIDTH = 115.0
+"""Width of the rolling element, points of the page."""
+_LONGEST = 0.9
+"""Longest arrow, in diameters of the element."""
+_EDGE = {"stroke": INK, "stroke_width": 1.0}
+
+
+def section(scene: Any, solution: Solution) -> str:
+    """SVG; the axis of the bearing lies below, its positive direction points to the right."""
+    elements = solution.elements
+    j = int(np.argmax(np.asarray(elements.load_inner)))
+    of = lambda name: float(np.asarray(getattr(elements, name))[j])
+    outline = scene.outline(of)
+    diameter, name, contacts = outline.diameter, solution.element_name, outline.contacts
+    drawing = Drawing(f"Section through the axis and the most loaded {name}", _WIDTH / diameter)
+    draw_outline(drawing, outline)
+    loads = {side: of(f"load_{side}") for side in contacts}
+    largest, lowest = max(loads.values()), 0.0
+    for side, (place, direction) in contacts.items():
+        length = _LONGEST * diameter * loads[side] / largest if largest > 0.0 else 0.0
+        end = moved(place, direction, length)
+        colour = {"inner": INNER, "outer": OUTER, "flange": RIB}[side]
+        drawing.arrow(place, end, colour, width=3.0, data_load=loads[side])
+        # that of the rib stands beside the ring
+        gap, anchor = (0.45 * diameter, "end") if side == "flange" else (18.0 / drawing.scale, "middle")
+        beside = moved(end, direction, gap)
+        drawing.text(beside, f"{_SAID[side]} {digits(loads[side])} N", anchor=anchor, fill=colour)
+        lowest = beside[1] if side == "inner" else lowest
+    _axial_load(drawing, solution, contacts["inner"][0][0], lowest, diameter)
+    return drawing.markup()
+
+
+def _axial_load(drawing: Drawing, solution: Solution, x: float, lowest: float, diameter: float) -> None:
+    """On the inner ring, below all that is drawn of it."""
+    axial = getattr(solution.operation, "axial_load", None)
+    if axial is None or float(axial) == 0.0:
+        return
+    reach = math.copysign(0.35 * diameter, float(axial))
+    y = lowest - 32.0 / drawing.scale
+    drawing.arrow((x - reach, y), (x + reach, y), INK, width=4.0)
+    below = x, y - 18.0 / drawing.scale
+    drawing.text(below, f"axial load on the inner ring {1e-3 * float(axial):.5g} kN")
+
+
+_SAID = {"inner": "inner race", "outer": "outer race", "flange": "rib"}
+
+
+def draw_outline(drawing: Any, outline: Outline) -> None:
+    """Draws rings and element. **Arguments:** `drawing`: takes polygons, circles and lines, as `svg.Drawing` does."""
+    for ring in outline.rings:
+        drawing.polygon(ring, fill=RING, **_EDGE)
+    if outline.element is None:
+        drawing.circle((0.0, 0.0), 0.5 * outline.diameter, fill=ROLLER, **_EDGE)
+    else:
+        drawing.polygon(outline.element, fill=ROLLER, **_EDGE)
+    drawing.line(list(outline.line), stroke=CENTRE_LINE, stroke_width=0.9, stroke_dasharray="6 3 1 3")

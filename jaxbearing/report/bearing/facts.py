@@ -1,0 +1,173 @@
+"""What an engineer wants to know of a solution besides losses and loads, in words: for the screen and the page."""
+
+import dataclasses
+from collections.abc import Iterator
+from typing import Any
+
+import numpy as np
+
+from ...bearings.solution import RING_FREEDOMS, Solution, force_units, stiffness_units
+from ..display import digits, with_unit
+from .fit_facts import fit_facts
+
+
+def not_modelled(solution: Solution) -> str:
+    """Losses that the scene does not model, in words."""
+    names = ", ".join(name.replace("_", " ") for name in solution.not_modelled)
+    return f"all power losses ({names})" if solution.power_loss.total is None else names
+
+
+def facts(solution: Solution) -> Iterator[tuple[str, str]]:
+    """Name and text of what an engineer wants to know besides losses and loads."""
+    if solution.cage is not None:
+        cage = solution.cage
+        slip = f"slip {digits(100.0 * float(cage.slip), 3)} %"
+        place = f"eccentricity ratio {digits(float(cage.eccentricity_ratio), 3)}"
+        angle = f"attitude angle {with_unit(float(cage.attitude_angle), 'rad', 3)}"
+        yield "Cage", f"{with_unit(float(cage.speed), 'rad/s')}, {slip}, {place}, {angle}"
+    if solution.fit is not None:
+        yield from fit_facts(solution.fit)
+    yield "Inner ring", ", ".join(_ring(solution))
+    held = ", ".join(_held(solution))
+    if held:
+        yield "Held by", held
+    yield from _ball_facts(solution)
+    yield from _tapered_facts(solution)
+    yield "Stiffness", ", ".join(_stiffness(solution))
+    for title, name, pick in (("Thinnest film", "film", np.nanargmin), ("Highest pressure", "pressure", np.argmax)):
+        text = ", ".join(_extremes(solution.elements, name, pick))
+        if text:
+            yield title, text
+    yield from _life(solution)
+
+
+def _life(solution: Solution) -> Iterator[tuple[str, str]]:
+    """Ratings, reference life and what modifies it."""
+    life = solution.life
+    if life is None:
+        return
+    of = lambda name: float(np.asarray(getattr(life, name)))
+    kilonewton = lambda name: f"{digits(1e-3 * of(name))} kN"
+    lasting = lambda name, hours: f"{digits(of(hours))} h ({_revolutions(of(name))})"
+    lives = (
+        ("Lnmr", "Lnmr_hours", "modified life Lnmr"),
+        ("L10r", "L10r_hours", "basic reference life L10r"),
+        ("L10", "L10h", "ISO 281 L10"),
+    )
+    known = [f"{words} {lasting(name, hours)}" for name, hours, words in lives if getattr(life, name) is not None]
+    yield "Life", "; ".join(known)
+    yield "Rating", f"C {kilonewton('dynamic_capacity')}, C0 {kilonewton('static_capacity')}"
+    said = [] if life.viscosity_ratio is None else [f"kappa {digits(of('viscosity_ratio'), 3)}"]
+    if life.film_ratio_inner is not None:
+        ratios = [np.asarray(getattr(life, f"film_ratio_{side}")) for side in ("inner", "outer")]
+        thinnest = float(np.nanmin(ratios))  # NaN: a roller that touches nothing
+        said.append(f"smallest lambda ratio {digits(thinnest, 3)}")
+    if life.Lnmr is not None:
+        said.append(f"a_ISO {digits(of('modification_factor'), 3)}")
+    if said:
+        yield "Lubrication", ", ".join(said)
+
+
+def _revolutions(millions: float) -> str:
+    return f"{digits(millions)} million revolutions"
+
+
+def _ball_facts(solution: Solution) -> Iterator[tuple[str, str]]:
+    """Contact angles, attitude and spin of the most loaded ball."""
+    elements = solution.elements
+    if getattr(elements, "attitude_angle", None) is None:
+        return
+    j = int(np.argmax(np.asarray(elements.load_inner)))
+    of = lambda name: float(np.asarray(getattr(elements, name))[j])
+    degrees = lambda name: f"{np.degrees(of(name)):.2f} deg"
+    yield "Contact angles", f"inner {degrees('contact_angle_inner')}, outer {degrees('contact_angle_outer')}"
+    control = f"raceway control {of('raceway_control'):.1f} % (100: outer, 0: inner)"
+    yield "Ball's spin", f"{with_unit(of('spin_speed'), 'rad/s')} at {degrees('attitude_angle')}, {control}"
+    ratios = f"inner {digits(of('spin_to_roll_inner'), 3)}, outer {digits(of('spin_to_roll_outer'), 3)}"
+    yield "Spin to roll", ratios
+    power = solution.raceway_power
+    if power is not None:
+        parts = {
+            kind: sum(float(getattr(power, f"{side}_{kind}")) for side in ("inner", "outer"))
+            for kind in _KINDS
+            if getattr(power, f"inner_{kind}") is not None
+        }
+        yield "Raceways", ", ".join(f"{digits(watts)} W {_KINDS[kind]}" for kind, watts in parts.items())
+
+
+def _tapered_facts(solution: Solution) -> Iterator[tuple[str, str]]:
+    """Load and pressure of the roller ends on the rib, and the rollers' tilt."""
+    elements = solution.elements
+    if getattr(elements, "load_flange", None) is None:
+        return
+    load, pressure = (np.asarray(getattr(elements, f"{name}_flange")) for name in ("load", "pressure"))
+    j = int(np.argmax(load))
+    at = f"(at {np.degrees(float(np.asarray(elements.azimuth)[j])):.0f} deg)"
+    yield "Rib", f"largest load {digits(float(load[j]))} N, pressure {with_unit(float(pressure[j]), 'Pa')} {at}"
+    if elements.film_flange is None or load[j] <= 0.0:
+        return
+    of = lambda name: np.asarray(getattr(elements, name))[j]
+    said = [
+        f"film {with_unit(float(of('film_flange')), 'm')}",
+        f"sliding {with_unit(float(of('sliding_flange')), 'm/s')}",
+    ]
+    if elements.traction_flange is not None:
+        said.append(f"traction {digits(float(of('traction_flange')), 3)} N")
+    yield "", ", ".join(said)
+
+
+_KINDS = {
+    "spin": "of spin",
+    "rolling": "of sliding along rolling",
+    "transverse": "of sliding across",
+    "curvature": "of Heathcote slip",
+}
+
+
+NOTHING = 1e-9
+"""Least force on the ring that is shown, over the largest one, N; moments with a lever of 1 m, N m."""
+_LOADS = {
+    "axial": "axial load",
+    "radial": "radial load",
+    "lateral": "lateral load",
+    "tilt": "moment",
+    "tilt_lateral": "moment about the load line",
+}
+
+
+def _ring(solution: Solution) -> Iterator[str]:
+    for field in dataclasses.fields(solution.ring):
+        if field.name in solution.ring_freedom:
+            value = float(getattr(solution.ring, field.name))
+            yield f"{field.metadata['description']} {with_unit(value, field.metadata['unit'])}"
+
+
+def _held(solution: Solution) -> Iterator[str]:
+    """The loads that freedoms which are held need, but for those that are nothing beside the others."""
+    force = np.asarray(solution.force)
+    least = NOTHING * np.max(np.abs(force[:3]))
+    for name, unit, value in zip(RING_FREEDOMS, force_units(), force, strict=True):
+        if name in solution.held_freedom and abs(value) > least:
+            yield f"{_LOADS[name]} {with_unit(float(value), unit)}"
+
+
+def _stiffness(solution: Solution) -> Iterator[str]:
+    """The diagonal: of each freedom that the model has, the others held."""
+    matrix, units = np.asarray(solution.stiffness), stiffness_units()
+    for i, name in enumerate(RING_FREEDOMS):
+        if name in solution.freedoms_of_stiffness:
+            yield f"{name.replace('_', ' ')} {with_unit(float(matrix[i, i]), units[i][i])}"
+    others = [name.replace("_", " ") for name in RING_FREEDOMS if name not in solution.freedoms_of_stiffness]
+    if others:
+        yield f"not modelled: {', '.join(others)}"
+
+
+def _extremes(elements: Any, name: str, pick: Any) -> Iterator[str]:
+    for field in dataclasses.fields(elements):
+        values = getattr(elements, field.name)
+        touches = values is not None and not np.all(np.isnan(np.asarray(values)))
+        if touches and field.name in (f"{name}_inner", f"{name}_outer"):
+            j = int(pick(np.asarray(values)))
+            side = field.name.removeprefix(f"{name}_")
+            at = f"{np.degrees(float(np.asarray(elements.azimuth)[j])):.0f} deg"
+            yield f"{side} race {with_unit(float(np.asarray(values)[j]), field.metadata['unit'])} (at {at})"

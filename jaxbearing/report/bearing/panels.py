@@ -1,0 +1,122 @@
+"""Charts of a bearing's steady solve: power loss by location and, round the bearing, loads, films, pressures and
+sliding speeds; what the scene does not model has none."""
+
+import dataclasses
+
+import numpy as np
+
+from ...bearings.solution import Solution
+from ..colours import INNER, LOSS, OUTER, RIB
+from ..display import axis_unit, digits
+from ..panels import Axis, Bars, Curves, Panel, Polar, Series, log_ticks
+from .azimuth import signed_degrees
+from .operation import load_angle
+
+SIDES = (
+    ("outer", OUTER, "square", "outer race"),
+    ("inner", INNER, "circle", "inner race"),
+    ("flange", RIB, "triangle-up", "rib"),
+)
+LOG_FROM = 20.0
+"""Largest over smallest value from which on an axis is logarithmic: the films of the loaded zone must be readable."""
+ROUND = {
+    "film": ("Central film", False, "At the middle of each contact."),
+    "pressure": ("Hertz (peak) pressure", True, "Peak of the Hertz pressure of each contact."),
+    "sliding": ("Sliding speed", False, "Difference of the surface speeds of ring and rolling element."),
+}
+"""Results of raceways or rib: title, whether the axis begins at 0, caption."""
+
+
+def bearing_panels(solution: Solution) -> list[Panel]:
+    """All that the scene models of them."""
+    losses = loss_panel(solution)
+    return [*([losses] if losses is not None else []), load_panel(solution), *round_panels(solution)]
+
+
+def power_losses(solution: Solution) -> dict[str, float]:
+    """Dissipation by location, W, largest first, without the total; empty where nothing is dissipated."""
+    loss = solution.power_loss
+    named = {field.name: getattr(loss, field.name) for field in dataclasses.fields(loss) if field.name != "total"}
+    watts = {name: float(value) for name, value in named.items() if value is not None}
+    return dict(sorted(watts.items(), key=lambda entry: -entry[1]))
+
+
+def loss_panel(solution: Solution) -> Bars | None:
+    """Power loss by location; `None` where the scene models none."""
+    losses = power_losses(solution)
+    if not losses:
+        return None
+    total = float(solution.power_loss.total)
+    unit, factor = axis_unit("W", max(abs(watts) for watts in losses.values()))
+    return Bars(
+        name="power",
+        title="Power loss by location",
+        caption=f"Dissipated at each place; together {digits(total)} W.",
+        quantity="power loss",
+        unit=unit,
+        names=[name.replace("_", " ") for name in losses],
+        values=[factor * watts for watts in losses.values()],
+        shares=[f"{100.0 * watts / total:.1f} %" if total else "-" for watts in losses.values()],
+        total=factor * total,
+        colour=LOSS,
+    )
+
+
+def load_panel(solution: Solution) -> Polar:
+    """Loads round the bearing."""
+    values = _by_side(solution, "load")
+    unit, factor = axis_unit("N", max(float(np.max(load)) for load in values.values()))
+    azimuth, name = np.asarray(solution.elements.azimuth), solution.element_name
+    first = float(np.degrees(azimuth[0]))
+    return Polar(
+        name="load",
+        title=f"Load on each {name}",
+        caption=f"Normal load of each {name} on its contacts; azimuth 0 is below, {name} 0 stands at {first:.4g}°.",
+        series=_series(azimuth, {side: factor * load for side, load in values.items()}),
+        unit=unit,
+        arrow=load_angle(solution.operation),
+    )
+
+
+def round_panels(solution: Solution) -> list[Curves]:
+    """Films, pressures and sliding speeds."""
+    return [panel for panel in (round_panel(solution, name) for name in ROUND) if panel is not None]
+
+
+def round_panel(solution: Solution, name: str) -> Curves | None:
+    """One of `ROUND` over the azimuth; `None` where the scene does not model it."""
+    values = _by_side(solution, name)
+    if not values:
+        return None
+    title, from_zero, caption = ROUND[name]
+    finite = np.concatenate([array[np.isfinite(array)] for array in values.values()])
+    smallest, largest = float(finite.min()), float(finite.max())
+    labels = {field.name: field.metadata for field in dataclasses.fields(solution.elements)}
+    unit, factor = axis_unit(labels[f"{name}_{next(iter(values))}"]["unit"], max(abs(largest), abs(smallest)))
+    across = Axis(from_zero=from_zero)
+    if not from_zero and smallest > 0.0 and largest > LOG_FROM * smallest:
+        ends = 0.8 * factor * smallest, 1.25 * factor * largest
+        across = Axis(limits=ends, ticks=log_ticks(*ends), logarithmic=True)
+    degrees = signed_degrees(solution.elements.azimuth)
+    order = np.argsort(degrees)
+    return Curves(
+        name=name,
+        title=title,
+        caption=caption,
+        series=_series(degrees[order], {side: factor * array[order] for side, array in values.items()}),
+        unit=unit,
+        x=Axis("azimuth from the load line, deg", (-188.0, 188.0), (-180, -90, 0, 90, 180)),
+        y=across,
+        of_elements=True,
+    )
+
+
+def _series(x: np.ndarray, values: dict[str, np.ndarray]) -> list[Series]:
+    return [Series(label, x, values[side], colour, marker) for side, colour, marker, label in SIDES if side in values]
+
+
+def _by_side(solution: Solution, name: str) -> dict[str, np.ndarray]:
+    """Values of raceways and rib, as far as the scene models them and some contact has results."""
+    found = {side: getattr(solution.elements, f"{name}_{side}", None) for side, *_ in SIDES}
+    arrays = {side: np.asarray(value) for side, value in found.items() if value is not None}
+    return {side: array for side, array in arrays.items() if np.any(np.isfinite(array))}

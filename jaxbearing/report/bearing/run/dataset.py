@@ -1,0 +1,64 @@
+"""A run in time as a labelled xarray data set.
+
+Every field that carries a label in the result classes becomes one variable, as in `bearing.dataset`; those of an
+instant have the dimension `time` before their own, those over the rolling elements (`load_inner`) `time` and `element`.
+`state_rollers` and `state_cage` are the state itself, in SI units and in the frame of the run.
+"""
+
+import numpy as np
+import xarray as xr
+
+from ....bearings.motion.history import History
+from ....numerics.status import Status
+from ...history_shocks import FACES, SHOCK, peaks_by_turn, sectors, whirl_ratio
+from ...labels import labelled
+from ...variables import attributes, flags, identity_text, variable, without_fill
+
+_STATES = {"roller_state": ("q", "v", "u"), "cage_state": ("x", "y", "q", "v_x", "v_y", "v")}
+"""Components of the states, along their dimensions."""
+
+
+def to_dataset(history: History) -> xr.Dataset:
+    """All results of a run with `units`, `long_name` and `path` on every variable."""
+    dataset = xr.Dataset(attrs=attributes(history, "Motion of a rolling bearing"))
+    dataset.attrs |= {"solver": history.solver, "completed": int(history.completed)} | identity_text(history.identity)
+    dataset.attrs["not_modelled"] = ", ".join(history.not_modelled)
+    for path, value, metadata in labelled(history):
+        short = path.removeprefix("instants.")
+        name = short.removeprefix("elements.").replace(".", "_")
+        dataset[name] = variable(value, metadata, short, () if short == path else ("time",))
+    dataset["status"].attrs |= flags(dataset["status"].dtype, [status.text for status in Status])
+    count = dataset.sizes["element"]
+    dataset = dataset.assign(_statistics(history))
+    names = {"element": (np.arange(count), "number of the rolling element; azimuth says where it is")}
+    names |= {dim: (list(parts), "component of the state") for dim, parts in _STATES.items()}
+    coordinates = {
+        dim: xr.Variable((dim,), values, {"units": "1", "long_name": text}) for dim, (values, text) in names.items()
+    }
+    dataset = dataset.assign_coords(coordinates).set_coords([n for n in dataset if str(n).startswith("operation_")])
+    return without_fill(dataset)
+
+
+def _statistics(history: History) -> dict[str, xr.Variable]:
+    """Shocks turn by turn and round the azimuth, and the whirl of the cage."""
+    found: dict[str, xr.Variable] = {}
+    say = lambda unit, text: {"units": unit, "long_name": text, "path": "summary"}
+    whirl, peaks, spread = whirl_ratio(history), peaks_by_turn(history), sectors(history)
+    if whirl is not None:
+        text = "mean angular speed of the cage's centre about its mean place over the mean cage speed"
+        found["whirl_ratio"] = xr.Variable((), whirl, say("1", text))
+    if peaks is not None and spread is not None:
+        text = "largest pocket load of each rolling element in each turn of the cage; the last turn may be a part"
+        found["turn_peak"] = xr.Variable(("face", "turn", "element"), peaks, say("N", text))
+        text = f"a pocket load above this is a shock: {SHOCK}"
+        found["shock_threshold"] = xr.Variable((), spread.threshold, say("N", text))
+        text = "number of shocks by azimuth"
+        found["shock_count"] = xr.Variable(("face", "sector"), spread.number, say("1", text))
+        text = "mean peak of the shocks by azimuth"
+        found["shock_mean_peak"] = xr.Variable(("face", "sector"), spread.mean_peak, say("N", text))
+        text = "azimuth from the load line at which the sector begins"
+        found["sector"] = xr.Variable(("sector",), spread.edges[:-1], say("rad", text))
+        found["face"] = xr.Variable(("face",), list(FACES), say("1", "wall of the pocket"))
+        turns = np.arange(1, peaks.shape[1] + 1)
+        found["turn"] = xr.Variable(("turn",), turns, say("1", "turn of the cage since the start of the run"))
+    return found

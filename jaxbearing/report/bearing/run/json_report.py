@@ -1,0 +1,95 @@
+"""A run in time of a bearing: its statistics, and the run as plain numbers and texts."""
+
+import math
+from typing import Any
+
+import numpy as np
+
+from ....bearings.motion.history import History
+from ....numerics.status import Status
+from ...backends.json import finite, plain
+from ...history_shocks import FACES, Sectors, sectors, shocks, whirl_ratio
+
+
+def statistics(history: History) -> dict[str, Any]:
+    """Means and extremes over the run, SI."""
+    instants = history.instants
+    found: dict[str, Any] = {
+        "inner_speed": _spread(instants.inner_speed),
+        "ring": {"radial": _spread(instants.ring.radial)},
+        "power_loss": {name: float(np.mean(value)) for name, value in _losses(history).items()},
+        "drive_power": float(np.mean(instants.drive_power)),
+        "power": {"loss": _spread(instants.power_loss.total), "drive": _spread(instants.drive_power)}
+        | _stored(history),
+        "pressure_max": float(max(np.max(instants.elements.pressure_inner), np.max(instants.elements.pressure_outer))),
+        "sliding_max": float(
+            max(np.abs(instants.elements.sliding_inner).max(), np.abs(instants.elements.sliding_outer).max())
+        ),
+    }
+    if instants.cage is not None:
+        found["cage"] = {
+            "speed": _spread(instants.cage.speed),
+            "slip": _spread(instants.cage.slip),
+            "eccentricity_ratio": _spread(instants.cage.eccentricity_ratio),
+            "whirl_ratio": whirl_ratio(history),
+        }
+    peaks = shocks(history)
+    if peaks:
+        found["pocket_load"] = {
+            face: {"max": max(entry["max"] for entry in peaks[face]), "turns": peaks[face]} for face in FACES
+        }
+    spread = sectors(history)
+    if spread is not None:
+        found["shocks"] = _by_sector(spread)
+    return found
+
+
+def _by_sector(spread: Sectors) -> dict[str, Any]:
+    faces = {
+        face: {"count": spread.number[i].tolist(), "mean_peak": finite(spread.mean_peak[i].tolist())}
+        for i, face in enumerate(FACES)
+    }
+    return {"threshold": spread.threshold, "sector_edges": spread.edges.tolist()} | faces
+
+
+def _spread(values: Any) -> dict[str, float]:
+    values = np.asarray(values)
+    return {
+        "mean": float(values.mean()),
+        "min": float(values.min()),
+        "max": float(values.max()),
+        "end": float(values[-1]),
+    }
+
+
+def _stored(history: History) -> dict[str, float]:
+    """Drive power beside the dissipation, as means over the run, W."""
+    energy, time = history.energy, float(history.time[-1] - history.time[0])
+    works = {"pocket_films": energy.pocket_films, "lever_arm": energy.lever_arm, "kinetic": energy.kinetic}
+    return {name: float(work) / time if time > 0 else math.nan for name, work in works.items()}
+
+
+def _losses(history: History) -> dict[str, Any]:
+    loss = history.instants.power_loss
+    return {name: getattr(loss, name) for name in ("total", *vars(loss)) if getattr(loss, name) is not None}
+
+
+def to_dict(history: History) -> dict[str, Any]:
+    """The run as plain numbers and texts in SI units, ready for `json.dumps`; what is not finite is `None`. A run that
+    did not begin has no time and no summary."""
+    begun = np.size(history.time) > 0
+    ends = (float(history.time[0]), float(history.time[-1])) if begun else (None, None)
+    return {
+        "completed": history.completed,
+        "status": Status(int(history.status)).text,
+        "interrupted": history.interrupted,
+        "warnings": list(history.warnings),
+        "not_modelled": list(history.not_modelled),
+        "time": {"start": ends[0], "stop": ends[1], "wanted": float(history.stop)},
+        "steps": {"accepted": int(history.accepted), "rejected": int(history.rejected)},
+        "solver": history.solver,
+        "energy_error": finite(float(history.energy.error)),
+        "energy": plain(history.energy),
+        "operation": plain(history.operation),
+        "summary": plain(statistics(history)) if begun else {},
+    }

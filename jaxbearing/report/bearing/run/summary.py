@@ -1,0 +1,83 @@
+"""A run in time of a bearing on the screen."""
+
+import math
+from typing import TYPE_CHECKING, Any
+
+from ....bearings.motion.history import History
+from ...display import with_unit
+from ...history_shocks import FACES, SHOCK
+from .json_report import statistics
+
+if TYPE_CHECKING:
+    from rich.console import Console
+
+
+def print_summary(history: History, label: str, console: "Console") -> None:
+    """The run on the screen."""
+    from rich.table import Table
+    from rich.text import Text
+
+    found = statistics(history)
+    console.print(Text(label, style="bold"))
+    steps = f"{int(history.accepted)} steps ({int(history.rejected)} more tried)"
+    console.print(f"{1e3 * float(history.time[-1]):.6g} ms in {steps}, {history.solver}")
+    if float(history.time[0]) > 0.0:
+        console.print(f"goes on from {1e3 * float(history.time[0]):.6g} ms")
+    if not history.completed:
+        console.print(Text(history.failure(), style="bold red"))
+    table = Table("", "mean", "least", "largest", "at the end", box=None, pad_edge=False)
+    rows = [("inner ring speed", found["inner_speed"], "rad/s"), ("ring displacement", found["ring"]["radial"], "m")]
+    if "cage" in found:
+        cage = found["cage"]
+        rows += [("cage speed", cage["speed"], "rad/s"), ("cage slip", cage["slip"], "1")]
+        rows += [("cage eccentricity ratio", cage["eccentricity_ratio"], "1")]
+    rows += [("power loss", found["power"]["loss"], "W"), ("drive power", found["power"]["drive"], "W")]
+    for name, spread, unit in rows:
+        table.add_row(name, *(with_unit(spread[key], unit) for key in ("mean", "min", "max", "end")))
+    console.print(table)
+    if "pocket_load" in found:
+        console.print("\nLargest pocket load of a roller in a turn of the cage, N (mean over the rollers, largest)")
+        table = Table("turn", "front", "", "rear", "", box=None, pad_edge=False)
+        front, rear = (found["pocket_load"][face]["turns"] for face in FACES)
+        for number, (a, b) in enumerate(zip(front, rear, strict=True), 1):
+            name = f"{number}" if a["part"] > 0.95 else f"{number} ({100 * a['part']:.0f} % of it)"
+            table.add_row(name, *(with_unit(v, "N") for v in (a["mean"], a["max"], b["mean"], b["max"])))
+        console.print(table)
+    if "cage" in found and found["cage"]["whirl_ratio"] is not None:
+        console.print(f"The cage's centre whirls with {found['cage']['whirl_ratio']:.3g} of the cage speed.")
+    if "shocks" in found:
+        _print_sectors(found["shocks"], console)
+    console.print("\nMean power")
+    table = Table("", "", box=None, pad_edge=False, show_header=False)
+    for name, watts in sorted(found["power_loss"].items(), key=lambda item: (item[0] != "total", -item[1])):
+        table.add_row(name.replace("_", " "), with_unit(watts, "W"))
+    for name, key in (("pocket films, squeezed", "pocket_films"), ("into kinetic energy", "kinetic")):
+        table.add_row(name, with_unit(found["power"][key], "W"))
+    table.add_row("drive power", with_unit(found["drive_power"], "W"))
+    console.print(table)
+    if history.not_modelled:
+        console.print("Not modelled: " + ", ".join(history.not_modelled).replace("_", " "))
+    console.print(
+        f"\nThe energy balance leaves {float(history.energy.error):.1e} of the drive work open. Shocks are not "
+        "repeatable turn by turn: compare statistics, to 10-20 %."
+    )
+    for text in history.warnings:
+        console.print(Text(f"- {text}", style="yellow"))
+
+
+def _print_sectors(found: dict[str, Any], console: "Console") -> None:
+    """Prints the places of the shocks: two lines a face, or one where there are none."""
+    from rich.table import Table
+
+    threshold = with_unit(found["threshold"], "N")
+    if not any(sum(found[face]["count"]) for face in FACES):
+        console.print(f"\nNo shock: no pocket load above {threshold}, {SHOCK}.")
+        return
+    console.print(f"\nShocks (above {threshold}: {SHOCK}) by azimuth from the load line, deg")
+    edges = [round(math.degrees(edge)) for edge in found["sector_edges"][:-1]]
+    table = Table("from", *(f"{edge}" for edge in edges), box=None, pad_edge=False)
+    for face in FACES:
+        table.add_row(f"{face}: number", *(f"{count}" for count in found[face]["count"]))
+        peaks = ("" if peak is None else f"{peak:.3g}" for peak in found[face]["mean_peak"])
+        table.add_row("  mean peak, N", *peaks)
+    console.print(table)

@@ -1,0 +1,66 @@
+"""The labels of results: units, and the dimensions of what is labelled."""
+
+import dataclasses
+import re
+import typing
+from collections.abc import Iterator
+from typing import Any
+
+from .._derived import derived_results
+
+_FACTOR = re.compile(r"([A-Za-z]+)(?:\^([2-9]))?")
+
+
+def udunits(unit: str) -> str:
+    """A unit of the labels as UDUNITS and the CF conventions write it: "m^3/s" is "m3 s-1". A unit with a fractional
+    power, which they do not have, stands as it is: "N/m^(10/9)".
+
+    **Raises:** `ValueError` for what is not a product of powers over further units.
+    """
+    if "^(" in unit:
+        return unit
+    over, *under = unit.split("/")
+    factors = [(factor, "") for factor in over.split(" ") if over != "1"] + [(factor, "-") for factor in under]
+    powers = []
+    for factor, sign in factors:
+        parted = _FACTOR.fullmatch(factor)
+        if parted is None:
+            raise ValueError(f"unit {unit!r}: {factor!r} is not a unit with a power, as in 'm^3'")
+        powers.append(f"{parted[1]}{sign}{parted[2] or ('1' if sign else '')}")
+    return " ".join(powers) or "1"
+
+
+def label_unit(units: str) -> str:
+    """The way back: a unit of a data set, "m3 s-1", as the labels write it, "m^3/s"."""
+    powers = [re.fullmatch(r"([A-Za-z]+)(-?)([2-9]?)1?", factor) for factor in units.split()]
+    if not powers or any(power is None for power in powers):
+        return units
+    named = [(f"{power[1]}^{power[3]}" if power[3] else power[1], power[2]) for power in powers if power is not None]
+    over = " ".join(name for name, under in named if not under) or "1"
+    return over + "".join(f"/{name}" for name, under in named if under)
+
+
+def labelled(part: Any, above: str = "") -> Iterator[tuple[str, Any, Any]]:
+    """Path, value and label of every result, at any depth: fields that have a label, then what follows from them.
+
+    The label is the field's metadata with `dims`, names of the dimensions of one result (see `dimensions`), and
+    `derived`, true for what follows from other results.
+    """
+    for field in dataclasses.fields(part):
+        value = getattr(part, field.name)
+        if dataclasses.is_dataclass(value):
+            yield from labelled(value, f"{above}{field.name}.")
+        elif value is not None and field.metadata.get("description"):
+            yield above + field.name, value, {**field.metadata, "dims": dimensions(field.type), "derived": False}
+    for name, one in derived_results(type(part)).items():
+        if (value := getattr(part, name)) is not None:
+            yield above + name, value, {**one.metadata, "dims": dimensions(one.annotation), "derived": True}
+
+
+def dimensions(annotation: Any) -> tuple[str, ...]:
+    """Names of the dimensions that an annotation says: of `Float[Array, "time node"] | None` they are `time` and
+    `node`; none of a number. Those of a batch, `*batch`, are no dimensions of one result."""
+    shape = getattr(annotation, "dim_str", None)
+    if shape is not None:
+        return tuple(name.partition("=")[0] for name in shape.split() if not name.startswith("*"))
+    return next((found for one in typing.get_args(annotation) if (found := dimensions(one))), ())

@@ -1,0 +1,1 @@
+"""Output of a run in time of a line contact."""

@@ -1,0 +1,76 @@
+"""Results as rows of tables, from the labels that the result classes carry."""
+
+from collections.abc import Collection, Iterator
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from .backends.screen import column
+from .display import digits, display_unit, displayed, with_unit
+from .labels import labelled
+
+
+@dataclass(frozen=True)
+class Row:
+    """One number: dotted path of the Python result, value in its unit, what it is."""
+
+    path: str
+    value: str
+    unit: str
+    description: str
+
+
+@dataclass(frozen=True)
+class Column:
+    """A result of each of many: name, unit, what it is, values."""
+
+    name: str
+    unit: str
+    description: str
+    values: list[str]
+
+
+def result_rows(solution: Any, left_out: Collection[str] = ()) -> list[Row]:
+    """All results that are one number, but for those at these paths."""
+    return [
+        _row(path, np.asarray(value), metadata)
+        for path, value, metadata in labelled(solution)
+        if np.ndim(value) == 0 and path not in left_out
+    ]
+
+
+def _row(path: str, value: np.ndarray, metadata: Any) -> Row:
+    unit = metadata["unit"]
+    whole = np.issubdtype(value.dtype, np.integer)
+    shown = str(int(value)) if whole else digits(displayed(float(value), unit), 5)
+    return Row(path, shown, display_unit(unit), metadata["description"])
+
+
+def element_columns(solution: Any) -> list[Column]:
+    """All results that have one value for each rolling element, whichever part of the solution they are in."""
+    return list(_columns(solution))
+
+
+def _columns(solution: Any) -> Iterator[Column]:
+    for path, value, metadata in labelled(solution):
+        if metadata["dims"] != ("element",):
+            continue
+        array, unit = np.asarray(value), metadata["unit"]
+        texts = column(np.where(np.isfinite(array), array, 0.0), unit)
+        # a roller that touches nothing has no film
+        shown = [text if np.isfinite(one) else "-" for text, one in zip(texts, array, strict=True)]
+        yield Column(path.removeprefix("elements."), display_unit(unit), metadata["description"], shown)
+
+
+def derived_facts(solution: Any) -> Iterator[tuple[str, str]]:
+    """Lines for the screen of the results that follow from others: value and meaning, of many the least and largest
+    value."""
+    head = "Derived"
+    for path, value, metadata in labelled(solution):
+        if metadata["derived"]:
+            numbers, unit = np.asarray(value, dtype=float), metadata["unit"]
+            finite = numbers[np.isfinite(numbers)]
+            ends = [with_unit(float(end), unit) for end in (finite.min(), finite.max())] if finite.size else ["-"]
+            yield head, f"{path} {' to '.join(dict.fromkeys(ends))}: {metadata['description']}"
+            head = ""

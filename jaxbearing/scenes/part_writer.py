@@ -1,0 +1,154 @@
+"""Parts of a scene as tables of a scene file: the way back from the `..._build` modules, to the last bit.
+
+What can be written is what a file can hold. The rest is refused here, by the name of the field.
+"""
+
+import dataclasses
+from collections.abc import Callable, Iterator, Mapping
+from typing import Any
+
+import equinox as eqx
+import numpy as np
+
+from ..materials import CATALOGUE, Material, catalogue_material
+from ..time_laws import Tabulated
+from . import units
+from .errors import SceneError, one_of
+from .fields import plain_table_at
+from .laws import ENTRY_POINTS, Laws
+from .materials import MaterialTable
+from .quantity_texts import quantity_text
+from .table import Table
+
+Rows = dict[str, Any]
+"""A table: texts with units, numbers, words, lists and further tables by name."""
+_MANY = 1000
+"""Rows of a table up to which each time has a unit of its own."""
+SCENE = "scene"
+"""The name of the scene in refusals, before the file is known."""
+
+
+def unwritable(path: str, found: str, expected: str) -> SceneError:
+    """The error for a field that a file cannot hold."""
+    return SceneError(SCENE, path, found, expected)
+
+
+def given(tables: Mapping[str, Any]) -> Rows:
+    """The tables and fields that are there."""
+    return {name: value for name, value in tables.items() if value is not None}
+
+
+def rows(table: type[Table], part: Any, thermal: bool = False) -> Rows:
+    """The fields of a part that are given and that the table has from its class (`table_of`), its materials and its
+    parts of the same kind. The laws of a part are left to those who know their names.
+
+    **Arguments:** `thermal`: whether the materials have thermal properties.
+    """
+    found: Rows = {}
+    for name in table.model_fields:
+        owner, own = table.made_from.get(name, (type(part), name))
+        value = getattr(part, own, None) if isinstance(part, owner) else None
+        if value is None:
+            continue
+        inner = plain_table_at(table, name)
+        if name in table.made_from:
+            found[name] = written(part, own)
+        elif isinstance(value, Material):
+            found[name] = material(value, thermal)
+        elif inner is not None:
+            found[name] = rows(inner, value, thermal)
+    return found
+
+
+def all_rows(part: Any) -> Rows:
+    """The fields of a part, by their names in its class."""
+    return given({field.name: written(part, field.name) for field in dataclasses.fields(part)})
+
+
+def written(part: Any, name: str) -> Any:
+    """The value of a field of a part, as a file has it."""
+    value = getattr(part, name)
+    said = next(field.metadata for field in dataclasses.fields(part) if field.name == name)
+    if "bound" in said:
+        return number(value, said["unit"], said["difference"])
+    if "each" in said:
+        values = [number(one, said["unit"]) for one in np.asarray(value)]
+        return values[0] if len(values) == 1 else values
+    return value
+
+
+def number(value: Any, unit: str, difference: bool = False) -> float | str:
+    """A number, or its text in a unit. **Arguments:** as for `units.number_note`."""
+    plain = float(np.asarray(value))
+    return plain if unit == "1" else quantity_text(plain, units.dimension_of_unit(unit, difference))
+
+
+def table_rows(law: Tabulated) -> Rows:
+    """A factor over time by its table."""
+    times, factors = np.asarray(law.times).tolist(), np.asarray(law.factors).tolist()
+    # which unit is the shortest takes longer than all else
+    text = (lambda time: number(time, "s")) if len(times) <= _MANY else (lambda time: f"{time!r} s")
+    return {"times": [text(time) for time in times], "factors": factors}
+
+
+def material(one: Material, thermal: bool = False) -> str | Rows:
+    """The name in the catalogue, or a table. **Arguments:** `thermal`: whether names stand for materials with thermal
+    properties."""
+    named = (name for name in CATALOGUE if same(catalogue_material(name, thermal=thermal), one))
+    return next(named, rows(MaterialTable, one))
+
+
+def law_name(laws: Laws[Any], law: Any, path: str, made: Callable[[str], Any] | None = None) -> str:
+    """The name by which files know a law.
+
+    **Arguments:** `path`: of the law in the scene, for messages; `made`: the law of a name, where it is not that of
+    `laws` alone.
+
+    **Raises:** `SceneError` for a law without a name, and for one whose numbers are others than those of its name.
+    """
+    for name in laws.every():
+        try:
+            found = (made or (lambda one: laws[one]()))(name)
+        except Exception:  # whatever the class of another package raises
+            continue
+        if same(found, law):
+            return name
+    expected = f"a law that a file has a name for: {one_of(laws)}, or that of an entry point of '{ENTRY_POINTS}'"
+    raise unwritable(path, shown(law), expected)
+
+
+def optional_law(laws: Laws[Any], law: Any, absent: Any, path: str) -> str | None:
+    """The name of a law; `None` for the one that stands for an absent name."""
+    return None if same(law, absent) else law_name(laws, law, path)
+
+
+def shown(value: Any) -> str:
+    """A value of a scene, for messages: a part on one line."""
+    return units.shortened(" ".join(repr(value).split()))
+
+
+def same(one: Any, other: Any) -> bool:
+    """True if two parts are of the same classes and hold the same values, numbers to the last bit."""
+    return next(differences(one, other), None) is None
+
+
+def differences(one: Any, other: Any, path: str = "") -> Iterator[tuple[str, Any, Any]]:
+    """Dotted path and both values of what two parts differ in."""
+    if isinstance(one, eqx.Module) and type(one) is type(other):
+        for field in dataclasses.fields(one):
+            inside = f"{path}.{field.name}".lstrip(".")
+            yield from differences(getattr(one, field.name), getattr(other, field.name), inside)
+    elif isinstance(one, tuple) and isinstance(other, tuple) and len(one) == len(other):
+        for i, (mine, yours) in enumerate(zip(one, other, strict=True)):
+            yield from differences(mine, yours, f"{path}.{i}".lstrip("."))
+    elif not _alike(one, other):
+        yield path, one, other
+
+
+def _alike(one: Any, other: Any) -> bool:
+    if eqx.is_array_like(one) and eqx.is_array_like(other):
+        if isinstance(one, bool) or isinstance(other, bool):
+            return one is other
+        bits = [np.asarray(value, dtype=np.float64) for value in (one, other)]
+        return bits[0].shape == bits[1].shape and bits[0].tobytes() == bits[1].tobytes()
+    return type(one) is type(other) and bool(one == other)

@@ -1,0 +1,68 @@
+"""Texts of numbers with units that are read as these very numbers, to the last bit."""
+
+import math
+from collections.abc import Iterator
+
+from pydantic_core import PydanticCustomError
+
+from . import units
+from .usual_units import USUAL
+
+_READABLE = {
+    units.LENGTH: ("mm", "um", "nm", "m"),
+    units.ANGLE: ("deg", "mrad", "rad"),
+    units.SPEED: ("rpm", "rad/s"),
+    units.SURFACE_SPEED: ("m/s", "mm/s", "um/s"),
+    units.FORCE: ("N", "kN", "MN"),
+    units.LINE_LOAD: ("N/mm", "kN/m", "N/m"),
+    units.MOMENT: ("N*m", "kN*m", "N*mm"),
+    units.PRESSURE: ("GPa", "MPa", "kPa", "Pa"),
+    units.INVERSE_PRESSURE: ("1/GPa", "1/Pa"),
+    units.TEMPERATURE: ("degC", "K"),
+    units.FLOW: ("l/h", "m^3/s"),
+    units.VISCOSITY: ("Pa*s", "mPa*s"),
+    units.KINEMATIC_VISCOSITY: ("cSt", "m^2/s"),
+    units.KELVIN_PER_PRESSURE: ("K/GPa", "K/Pa"),
+    units.KELVIN2_PER_PRESSURE: ("K^2/GPa", "K^2/Pa"),
+    units.TIME: ("ms", "s", "us"),
+    units.FREQUENCY: ("Hz", "kHz"),
+    units.LINE_CONTACT_STIFFNESS: ("N/um^(10/9)", "N/mm^(10/9)", "N/m^(10/9)"),
+}
+"""Units of `usual_units` that people write, the preferred one first; other quantities are written in SI units."""
+_DIGITS = (6, 9, 12, 15, 16, 17)
+
+
+def quantity_text(value: float, dimension: units.Dimension) -> str:
+    """The text of a value in SI that is read as this very value, in the unit in which the number is shortest.
+
+    A unit is taken only where it gives the value back to the last bit; the SI unit always does.
+    """
+    return min(_texts(value, dimension), key=_length)
+
+
+def _length(text: str) -> int:
+    """Digits of the number; it should not begin with 0."""
+    number = text.partition(" ")[0].lstrip("-")
+    return len(number.replace(".", "")) + (2 if number.startswith("0.") else 0)
+
+
+def _texts(value: float, dimension: units.Dimension) -> Iterator[str]:
+    """The exact texts, those in preferred units first."""
+    for unit in _READABLE.get(dimension, (dimension.si,)):
+        factor, zero = USUAL[dimension.si][unit]
+        scaled = (value - zero) / factor
+        texts = (f"{scaled:.{digits}g} {unit}" for digits in _DIGITS)
+        exact = next((text for text in texts if _is_read_as(value, text, dimension)), None)
+        if exact is not None:
+            yield exact
+    yield f"{value!r} {dimension.si}"
+
+
+def _is_read_as(value: float, text: str, dimension: units.Dimension) -> bool:
+    """Digits may be missing, and the factor of a unit may cost the last place."""
+    try:
+        found = units.parse(text, dimension)
+    except PydanticCustomError:
+        # rounded up beyond the largest number, or no number at all
+        return False
+    return found == value and math.copysign(1.0, found) == math.copysign(1.0, value)

@@ -1,0 +1,116 @@
+"""A scene as a scene file, from which `load_scene` makes an equal scene: every number to the last bit."""
+
+import dataclasses
+from collections.abc import Iterable, Iterator, Mapping
+from pathlib import Path
+from typing import Any
+
+import equinox as eqx
+import jax
+import numpy as np
+from jax.core import Tracer
+
+from .._scene import AbstractScene
+from .errors import SceneError, one_of
+from .input_files import LARGEST_TEXT
+from .part_writer import SCENE, differences, shown, unwritable
+from .reader import KINDS, scene_from_tables, schema_of_kind, tables_of
+from .toml_files import parse_toml
+from .toml_writer import comments, toml_text
+
+_ONE = "one number; of a batch, take one scene: jax.tree.map(lambda leaf: leaf[0], scenes)"
+_MOST = 3
+"""Numbers that a message names: in a batch all of them are refused."""
+_KNOWN = "a known number; save the scene outside of jax.jit, jax.vmap and jax.grad"
+
+
+def save_scene(scene: AbstractScene, path: str | Path) -> None:
+    """Write a scene as a scene file (TOML), from which `jb.load_scene` makes an equal scene: the same parts, laws,
+    words and counts, and every number to the last bit.
+
+    What a scene holds is written, and not how it was made: numbers that a file or a law left open stand in the file,
+    each in a usual unit in which it comes back exactly. An oil and materials of the catalogue are written by
+    their names, an oil that differs in some values by its name and these. The file is read back before it is written;
+    it appears whole or not at all, in the place of a file of this name.
+
+    **Arguments:**
+    - `scene`: of any kind that files know; its numbers must be known, finite and single.
+    - `path`: of the file, usually ending in ".toml".
+
+    **Raises:** `SceneError`, which is a `ValueError`, that names the field that a file cannot hold: a law without a
+    name in files (see `docs/adding_a_law.md` for laws of other packages), a setting that only Python has, a number that
+    is traced, of a batch, or not finite. `TypeError` for something else than a scene. `OSError` where the place cannot
+    be written.
+    """
+    from ..report.files import write_whole
+
+    write_whole(path, scene_text(scene, str(path), [f"A scene of the kind {_kind(scene)}."]))
+
+
+def scene_text(scene: AbstractScene, label: str, header: Iterable[str]) -> str:
+    """The text of the file of a scene. **Arguments:** `label`: of the file, for messages; `header`: lines of comment.
+
+    **Raises:** as `save_scene`, but for `OSError`.
+    """
+    try:
+        kind = _kind(scene)
+        problems = list(_problems(scene, "", {}))
+        if problems:
+            raise SceneError.of_all(problems[:_MOST])
+        text = _headed(header) + toml_text(tables_of(scene))
+        _require_readable(text)
+        read = scene_from_tables(parse_toml(text, label, "a scene"), label)
+        path, found, other = next(differences(scene, read), ("", None, None))
+    except SceneError as error:
+        raise SceneError.of_all([one.of(label) for one in error.problems]) from None
+    if path:
+        expected = f"{shown(other)}, which is what a scene file of the kind {kind} has here"
+        raise SceneError(label, path, shown(found), expected)
+    return text
+
+
+def _headed(lines: Iterable[str]) -> str:
+    from .. import __version__
+
+    said = f"Written by jaxbearing {__version__}: what is not here is not modelled, or computed from the rest."
+    return comments([*lines, said]) + "\n"
+
+
+def _kind(scene: Any) -> str:
+    """**Raises:** `TypeError` for something else than a scene; `SceneError` for a kind that files do not know."""
+    if not isinstance(scene, AbstractScene):
+        raise TypeError(f"save_scene takes a scene, got a {type(scene).__name__}")
+    if scene.kind not in KINDS or type(scene) is not schema_of_kind(scene.kind)[1]:
+        known = one_of(schema_of_kind(kind)[1].__name__ for kind in KINDS)
+        raise unwritable("kind", f"a {type(scene).__name__}", f"a scene of a class that files know: {known}")
+    return scene.kind
+
+
+def _problems(node: Any, path: str, said: Mapping[str, Any]) -> Iterator[SceneError]:
+    """Refusals of the numbers of a scene that no file holds, whatever its laws. **Arguments:** `said`: metadata of the
+    field."""
+    if isinstance(node, eqx.Module):
+        for field in dataclasses.fields(node):
+            yield from _problems(getattr(node, field.name), f"{path}.{field.name}".lstrip("."), field.metadata)
+        return
+    if isinstance(node, Tracer | jax.ShapeDtypeStruct):
+        yield unwritable(path, "a traced number", _KNOWN)
+    elif eqx.is_array_like(node):
+        values, most = np.asarray(node), 0 if "bound" in said else 1
+        if values.ndim > most:
+            yield unwritable(path, f"an array of shape {values.shape}", _ONE)
+        elif values.dtype not in (np.float64, np.int64, np.bool_):
+            yield unwritable(path, f"a number of type {values.dtype}", "one with 64 bits")
+        elif not np.all(np.isfinite(values)):
+            yield unwritable(path, f"{values[~np.isfinite(values)].flat[0]:g}, which is not finite", "a finite number")
+
+
+def _require_readable(text: str) -> None:
+    """**Raises:** `SceneError` for a text that `load_scene` refuses as a file."""
+    try:
+        size = len(text.encode("utf-8"))
+    except UnicodeEncodeError:
+        raise unwritable("oil.notes", "characters that UTF-8 does not have", "a text in UTF-8") from None
+    if size > LARGEST_TEXT:
+        expected = f"a scene of at most {LARGEST_TEXT >> 20} MiB; tables of a run in time are shorter as CSV files"
+        raise SceneError(SCENE, "", f"{size >> 20} MiB of text", expected)

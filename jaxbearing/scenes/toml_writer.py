@@ -1,0 +1,48 @@
+"""Tables as TOML text, laid out as the built-in files are; values are written by the library for TOML."""
+
+from collections.abc import Iterable, Iterator, Mapping
+from typing import Any
+
+import tomli_w
+
+from .errors import printable
+
+WIDEST = 120
+"""Longest line for a list; a longer list has one value a line."""
+
+
+def toml_text(tables: Mapping[str, Any], aligned: bool = True) -> str:
+    """The text of a file with these tables, in their order.
+
+    **Arguments:** `aligned`: whether the values of a table stand below each other.
+    """
+    return "\n".join(_table(tables, (), aligned)).lstrip("\n") + "\n"
+
+
+def comments(lines: Iterable[str]) -> str:
+    """Lines of comment at the top of a file."""
+    return "".join(f"# {one_line(text)}".rstrip() + "\n" for text in lines)
+
+
+def one_line(text: str) -> str:
+    """A text on one line, without what is not printable."""
+    return printable(" ".join(text.split()))
+
+
+def _table(table: Mapping[str, Any], path: tuple[str, ...], aligned: bool) -> Iterator[str]:
+    inner = {name: value for name, value in table.items() if isinstance(value, Mapping)}
+    plain = {name: value for name, value in table.items() if name not in inner}
+    if path and (plain or not inner):
+        yield from ("", f"[{'.'.join(path)}]")
+    width = max(map(len, plain), default=0) if aligned else 0
+    yield from (f"{name:<{width}} = {_value(value, width)}" for name, value in plain.items())
+    for name, value in inner.items():
+        yield from _table(value, (*path, name), aligned)
+
+
+def _value(value: Any, width: int) -> str:
+    if isinstance(value, list):
+        line = f"[{', '.join(_value(one, 0) for one in value)}]"
+        if width + len(line) + 3 <= WIDEST:
+            return line
+    return tomli_w.dumps({"value": value}).removeprefix("value = ").rstrip("\n")

@@ -1,0 +1,211 @@
+r"""Steady temperatures of a network whose losses depend on them.
+
+The losses may be a bearing solve: everything that the function closes over (speed, load, oil, clearance ...) is a
+parameter of the root. Its derivative is that of the implicit function, $dT/dp = -J^{-1}\partial R/\partial p$, in both
+modes and to any order; the Jacobian is computed for it only where a derivative is asked for.
+"""
+
+from typing import Any, NamedTuple
+
+import equinox as eqx
+import jax
+import jax.numpy as jnp
+import numpy as np
+from jaxtyping import Array, Bool, Float, Int
+
+from .._types import Scalar
+from ..numerics.batching import in_turn
+from ..numerics.checks import label
+from ..numerics.status import Status
+from .network import Losses, Network, NodeHeat, Slopes, thermal_margin, thermal_rate
+from .point import Problem, ThermalOptions, evaluate
+from .search import Ended
+from .search import search as search_root
+
+LIMIT = 523.15
+"""Temperature that no node may pass, K: beyond 250 degC no law of an oil holds."""
+
+UNSTABLE = "unstable: a bearing would leave this state"
+"""Warning of a steady state that is a root and no more."""
+START_NOTE = "a stable steady state need not be reached by a start at speed: only a run in time (warm_up) says so"
+"""Note beside margin and rate."""
+
+
+class ThermalState(eqx.Module):
+    """Steady state of a network. Every result is NaN where `status` is not `CONVERGED`, but for `last`."""
+
+    nodes: tuple[str, ...] = eqx.field(static=True)
+    status: Int[Array, ""] = eqx.field(metadata=label("1", "status of the search, index of the list of statuses"))
+    temperatures: Float[Array, " node"] = eqx.field(metadata=label("K", "temperature of each node"))
+    heat: Float[Array, " node"] = eqx.field(metadata=label("W", "heat of the losses into each node"))
+    total: Float[Array, ""] = eqx.field(metadata=label("W", "total loss"))
+    heat_to_oil: Float[Array, ""] = eqx.field(metadata=label("W", "heat that leaves with the oil"))
+    heat_to_ambient: Float[Array, ""] = eqx.field(metadata=label("W", "heat that leaves to the ambient"))
+    balance_error: Float[Array, ""] = eqx.field(
+        metadata=label("1", "total loss less the heat that leaves, relative to the total loss")
+    )
+    oil_out: Float[Array, ""] | None = eqx.field(metadata=label("K", "temperature of the oil that leaves"))
+    margin: Float[Array, ""] | None = eqx.field(
+        metadata=label("1", "thermal margin: 1 without feedback, 0 at a fold; a ratio")
+    )
+    rate: Float[Array, ""] | None = eqx.field(
+        metadata=label("1/s", "largest growth rate of a disturbance of the temperatures; stable if negative")
+    )
+    losses: NodeHeat = eqx.field(metadata=label("", "losses at these temperatures, with all that they carry"))
+    last: Float[Array, " node"] = eqx.field(
+        metadata=label("K", "temperature of each node where the search ended, of one that failed too")
+    )
+    solves: Int[Array, ""] = eqx.field(metadata=label("1", "count of evaluations of the losses"))
+    derivatives: Int[Array, ""] = eqx.field(metadata=label("1", "count of those with the derivative of the losses"))
+
+    def temperature(self, node: str) -> Float[Array, ""]:
+        """Temperature of the node of this name, K."""
+        return self.temperatures[self.nodes.index(node)]
+
+    @property
+    def hottest(self) -> Int[Array, ""]:
+        """Index of the hottest node where the search ended: the one that ran away."""
+        return jnp.argmax(self.last)
+
+    @property
+    def unstable(self) -> Bool[Array, ""] | None:
+        """True in a state that a bearing would leave: margin not above 0, or a rate above 0; `None` if not computed."""
+        if self.margin is None:
+            return None
+        beyond = self.margin <= 0.0
+        return beyond if self.rate is None else beyond | (self.rate > 0.0)
+
+    def sentence(self) -> str:
+        """What happened, in one sentence, of one state with known numbers."""
+        node = int(np.argmax(np.asarray(self.last)))
+        status, there = Status(int(self.status)), float(self.last[node])
+        place = f"{self.nodes[node].replace('_', ' ')} at {there:.2f} K ({there - 273.15:.2f} degC)"
+        if status == Status.CONVERGED:
+            warning = "" if self.unstable is None or not bool(self.unstable) else f"; {UNSTABLE}"
+            return f"steady temperatures found in {int(self.solves)} solves; hottest: {place}{warning}"
+        if status == Status.THERMAL_RUNAWAY:
+            return f"thermal_runaway: no steady state below the limit of temperature was found; hottest: {place}"
+        return f"{status.text}: the search for steady temperatures ended with the hottest node, the {place}"
+
+
+def solve_network(
+    network: Network,
+    losses: Losses,
+    *,
+    start: Float[Array, " node"] | None = None,
+    capacity: Float[Array, " node"] | None = None,
+    limit: Scalar = LIMIT,
+    options: ThermalOptions | None = None,
+) -> ThermalState:
+    """The steady temperatures of a network; never raises for a search that fails.
+
+    Under `jax.vmap` each lane has its own status, and a lane that fails changes no other. With several steady states
+    the cold start ends in the coolest one in all cases tried; where a real start runs away although a steady state is
+    there, only `warm_up` says so.
+
+    **Arguments:**
+    - `losses(temperatures)`: heat into the nodes at node temperatures, K, shape (node,). It may close over traced
+      numbers; a bearing solve inside starts from its own guess each time.
+    - `start`: temperatures of the first evaluation, K; `Network.start` where not given. It is not differentiated.
+    - `capacity`: heat capacity of each node, J/K, > 0: for `rate`, and for the pseudo-transient, which otherwise gives
+      each node a time constant of 100 s.
+    - `limit`: temperature, K: a node that passes it ends the search with `THERMAL_RUNAWAY`.
+    - `options`: tolerance, limits, and whether `margin` and `rate` are computed (`stability`). They carry no derivative
+      here: differentiate `thermal_margin(slopes_at(...))` at the temperatures found.
+    """
+    options = ThermalOptions() if options is None else options
+    begin = network.start() if start is None else jnp.asarray(start, dtype=float)
+    if begin.shape != (len(network.nodes),):
+        raise ValueError(f"start must have a temperature for each of {len(network.nodes)} nodes, got {begin.shape}")
+    held = jax.lax.stop_gradient((begin, capacity, jnp.asarray(limit, dtype=float)))
+    problem = _closed(network, losses, *held)
+    found = _root(problem, options=options)
+    solved = found.status == Status.CONVERGED
+    flows = problem.flows(found.temperatures, found.losses)
+    masked = lambda value: jnp.where(solved, value, jnp.nan)
+    total = jnp.sum(found.losses.heat)
+    leaving = flows.to_oil + flows.to_ambient
+    margin, rate = _stability(found.slopes, solved, held[1])
+    oil_out = network.oil_out(found.temperatures)
+    return ThermalState(
+        nodes=network.nodes,
+        status=found.status,
+        temperatures=masked(found.temperatures),
+        heat=masked(found.losses.heat),
+        total=masked(total),
+        heat_to_oil=masked(flows.to_oil),
+        heat_to_ambient=masked(flows.to_ambient),
+        balance_error=masked((total - leaving) / jnp.where(total == 0.0, 1.0, total)),
+        oil_out=None if oil_out is None else masked(oil_out),
+        margin=None if margin is None else masked(margin),
+        rate=None if rate is None else masked(rate),
+        losses=jax.tree.map(lambda leaf: masked(leaf) if eqx.is_inexact_array(leaf) else leaf, found.losses),
+        last=jax.lax.stop_gradient(found.temperatures),
+        solves=found.solves,
+        derivatives=found.derivatives,
+    )
+
+
+def _closed(network: Network, losses: Losses, start: Array, capacity: Array | None, limit: Array) -> Problem:
+    """The problem with functions that close over nothing: what they closed over are leaves. Each is traced once."""
+
+    def of_arrays(temperatures: Array) -> NodeHeat:
+        return jax.tree.map(jnp.asarray, losses(temperatures))
+
+    heat = eqx.filter_closure_convert(of_arrays, start)
+    flows = eqx.filter_closure_convert(network.flows, start, jax.eval_shape(heat, start))
+    return Problem(heat, flows, start, capacity, limit)
+
+
+def _stability(slopes: Slopes | None, solved: Array, capacity: Array | None) -> tuple[Array | None, Array | None]:
+    """Margin and rate where the slopes are known; of a lane that failed, finite numbers that mean nothing."""
+    if slopes is None:
+        return None, None
+    slopes = jax.lax.stop_gradient(slopes)
+    there = Slopes(*(jnp.where(solved, matrix, jnp.eye(matrix.shape[0])) for matrix in slopes))
+    return thermal_margin(there), None if capacity is None else thermal_rate(there, capacity)
+
+
+class _Root(NamedTuple):
+    """Temperatures, finite, and the losses there; of a lane that failed, no root."""
+
+    temperatures: Float[Array, " node"]
+    losses: NodeHeat
+    slopes: Slopes | None
+    status: Int[Array, ""]
+    solves: Int[Array, ""]
+    derivatives: Int[Array, ""]
+
+
+@eqx.filter_custom_jvp
+def _root(problem: Problem, *, options: ThermalOptions) -> _Root:
+    ended: Ended = in_turn(lambda given: search_root(given, options), problem)
+    return _Root(ended.temperatures, ended.point.losses, ended.slopes, ended.status, ended.solves, ended.derivatives)
+
+
+@_root.def_jvp
+def _root_jvp(primals: Any, tangents: Any, *, options: ThermalOptions) -> tuple[_Root, _Root]:
+    (problem,), (problem_dot,) = primals, tangents
+    root = _root(problem, options=options)
+    solved = root.status == Status.CONVERGED
+    # a lane that failed passes no derivative, in either direction: NaN times zero must not reach what lanes share
+    select = lambda dot: jnp.where(solved, dot, 0.0)
+    problem_dot = jax.tree.map(select, problem_dot)
+    moved, fixed = eqx.partition(
+        problem, jax.tree.map(lambda dot: dot is not None, problem_dot, is_leaf=lambda dot: dot is None)
+    )
+
+    def balances(given: Any, temperatures: Array) -> tuple[Array, Any]:
+        into, heat, losses, _ = evaluate(eqx.combine(given, fixed), temperatures)
+        return into + heat, eqx.filter(losses, eqx.is_inexact_array)
+
+    # one trace of the losses for all directions
+    push = jax.linearize(balances, moved, root.temperatures)[1]
+    still = jax.tree.map(jnp.zeros_like, problem_dot)
+    rest = jnp.zeros_like(root.temperatures)
+    jacobian = jax.vmap(lambda seed: push(still, seed)[0], out_axes=-1)(jnp.eye(rest.size))
+    jacobian = jnp.where(solved, jacobian, jnp.eye(rest.size))
+    temperatures_dot = select(-jnp.linalg.solve(jacobian, select(push(problem_dot, rest)[0])))
+    losses_dot = jax.tree.map(select, push(problem_dot, temperatures_dot)[1])
+    nothing = jax.tree.map(lambda _: None, root)
+    return root, nothing._replace(temperatures=temperatures_dot, losses=losses_dot)

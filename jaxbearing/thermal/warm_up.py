@@ -1,0 +1,214 @@
+r"""Temperatures of a network in time, $C_k\,dT_k/dt = R_k(T, t)$: warm-up, changes of speed and load, overheating.
+
+The bearing behind the losses is in its steady state for the temperatures of each instant: its own motion is faster by
+five orders. The equations are stiff (times of seconds to hours) and integrated by an ESDIRK method with the dense
+Jacobian of the few temperatures.
+
+A steady state that is stable need not be reached: a cold housing may let the inner ring run away at speeds at which
+the warm bearing would be safe. Neither the thermal margin nor the rate says so; only this run does.
+"""
+
+import dataclasses
+from collections.abc import Callable
+from typing import Any, TypeAlias
+
+import diffrax as dfx
+import equinox as eqx
+import jax
+import jax.numpy as jnp
+import optimistix as optx
+from jaxtyping import Array, Float, Int
+
+from .._types import Scalar
+from ..numerics.checks import label
+from ..numerics.integrate import diffrax_solver
+from ..numerics.integrator import IntegratorOptions
+from ..numerics.status import Status
+from .network import HeatFlows, Network, NodeHeat
+from .solve import LIMIT
+
+LossesInTime: TypeAlias = Callable[[Array, Array], NodeHeat]
+"""Function of the node temperatures, K, shape (node,), and the time, s, to the heat into the nodes."""
+NetworkInTime: TypeAlias = Callable[[Array], Network]
+"""Function of the time, s, to the network: for an oil inlet, a flow or an ambient that change."""
+
+INTEGRALS = 3
+"""Energies that are integrated beside the temperatures: of the losses, to the oil, to the ambient."""
+ENERGY = 1e3
+"""Unit of these, J: with it one tolerance serves for temperatures and energies."""
+EVENT_TOLERANCE = 1e-6
+"""Of the time at which a node passes the limit, relative, and absolute in s."""
+SHORTEST_STEP = 1e-6
+"""A run whose steps would have to be shorter has failed, s, where the options do not say: no time constant of a bearing
+is as short."""
+AHEAD = 1e3
+"""How far, in shortest steps, the losses are looked at beyond the end of a run that has failed."""
+
+
+class WarmUp(eqx.Module):
+    """Temperatures and heat flows of a run in time. Instants that it has not reached are NaN."""
+
+    nodes: tuple[str, ...] = eqx.field(static=True)
+    status: Int[Array, ""] = eqx.field(metadata=label("1", "status of the run, index of the list of statuses"))
+    times: Float[Array, " time"] = eqx.field(metadata=label("s", "instants"))
+    temperatures: Float[Array, "time node"] = eqx.field(metadata=label("K", "temperature of each node"))
+    total: Float[Array, " time"] = eqx.field(metadata=label("W", "total loss"))
+    heat_to_oil: Float[Array, " time"] = eqx.field(metadata=label("W", "heat that leaves with the oil"))
+    heat_to_ambient: Float[Array, " time"] = eqx.field(metadata=label("W", "heat that leaves to the ambient"))
+    end: Float[Array, ""] = eqx.field(metadata=label("s", "time that the run has reached"))
+    last: Float[Array, " node"] = eqx.field(metadata=label("K", "temperature of each node there"))
+    losses_energy: Float[Array, ""] = eqx.field(metadata=label("J", "energy of all losses up to there"))
+    oil_energy: Float[Array, ""] = eqx.field(metadata=label("J", "energy that left with the oil"))
+    ambient_energy: Float[Array, ""] = eqx.field(metadata=label("J", "energy that left to the ambient"))
+    energy_error: Float[Array, ""] = eqx.field(
+        metadata=label("1", "energy of the losses less what left and what the nodes stored, relative to the first")
+    )
+    accepted: Int[Array, ""] = eqx.field(metadata=label("1", "count of accepted steps"))
+    rejected: Int[Array, ""] = eqx.field(metadata=label("1", "count of rejected steps"))
+
+
+def warm_up(
+    network: Network | NetworkInTime,
+    losses: LossesInTime,
+    capacity: Float[Array, " node"],
+    times: Float[Array, " time"],
+    *,
+    start: Float[Array, " node"] | None = None,
+    limit: Scalar = LIMIT,
+    options: IntegratorOptions | None = None,
+    jumps: Float[Array, " jump"] | None = None,
+    adjoint: Any = None,
+) -> WarmUp:
+    """Temperatures from time 0 on; never raises for a run that fails.
+
+    A node that passes `limit` ends the run at that instant, with the status `THERMAL_RUNAWAY`. Where the losses cannot
+    be computed, steps are shortened; a run that cannot go on has the status of the losses just beyond its end, or
+    `DIVERGED` if they can be computed there.
+
+    **Arguments:**
+    - `network`: or a function of the time, s, to it, with the same nodes at all times.
+    - `losses(temperatures, time)`: heat into the nodes; tables of speed or load are read by the time, s.
+    - `capacity`: heat capacity of each node, J/K, > 0.
+    - `times`: instants that are wanted, s, increasing, > 0; the last one ends the run.
+    - `start`: temperatures at time 0, K; that of the ambient where not given.
+    - `limit`: temperature that no node may pass, K.
+    - `options`: solver by name, tolerance relative and in units of 1 K and 1 kJ; `kvaerno5` and 1e-5 where not given.
+    - `jumps`: times at which a table has a jump or a kink, s: a step ends there.
+    - `adjoint`: of diffrax; reverse mode where not given, `diffrax.ForwardMode()` for the other.
+    """
+    if options is None:
+        options = IntegratorOptions(solver="kvaerno5", max_steps=4096, shortest_step=SHORTEST_STEP)
+    at_time: NetworkInTime = (lambda time: network) if isinstance(network, Network) else network
+    first = at_time(jnp.zeros(()))
+    begin = jnp.full(len(first.nodes), first.ambient) if start is None else jnp.asarray(start, dtype=float)
+    size = begin.size
+
+    def flows_at(time: Array, temperatures: Array) -> tuple[NodeHeat, HeatFlows]:
+        heat = losses(temperatures, time)
+        return heat, at_time(time).flows(temperatures, heat)
+
+    def rates(time: Array, state: Array, args: Any) -> Array:
+        del args
+        heat, flows = flows_at(time, state[:size])
+        energies = jnp.stack([jnp.sum(heat.heat), flows.to_oil, flows.to_ambient]) / ENERGY
+        rate = jnp.concatenate([(flows.into_nodes + heat.heat) / capacity, energies])
+        # NaN lets the step be shortened
+        return jnp.where(heat.status == Status.CONVERGED, rate, jnp.nan)
+
+    def too_hot(t: Any, y: Array, args: Any, **kwargs: Any) -> Array:
+        del t, args, kwargs
+        return jnp.max(y[:size]) - limit
+
+    # diffrax calls the field in many places: so it is traced once
+    field: Any = eqx.filter_jit(rates)
+    found = dfx.diffeqsolve(
+        dfx.ODETerm(field),
+        # the elimination that has derivatives of the energies
+        diffrax_solver(dataclasses.replace(options, elimination="dense")),
+        jnp.zeros(()),
+        times[-1],
+        None,
+        jnp.concatenate([begin, jnp.zeros(INTEGRALS)]),
+        saveat=dfx.SaveAt(subs=(dfx.SubSaveAt(ts=times), dfx.SubSaveAt(t1=True))),
+        stepsize_controller=_control(options, jumps),
+        max_steps=options.max_steps,
+        event=dfx.Event(too_hot, optx.Newton(EVENT_TOLERANCE, EVENT_TOLERANCE)),
+        throw=False,
+        **({} if adjoint is None else {"adjoint": adjoint}),
+    )
+    saved: Any = found.ys
+    ends: Any = found.ts
+    reached = (saved[0], saved[1][0], ends[1][0])
+    ahead = AHEAD * options.shortest_step
+    beyond = (reached[1] + ahead * rates(reached[2], reached[1], None))[:size]
+    status = _status(found.result, reached[1], losses(beyond, reached[2] + ahead).status)
+    return _history(first.nodes, begin, capacity, times, flows_at, reached, status, found)
+
+
+def _control(options: IntegratorOptions, jumps: Array | None) -> Any:
+    tolerance = jnp.asarray(options.tolerance)
+    control: Any = dfx.PIDController(
+        rtol=tolerance,
+        atol=tolerance,
+        pcoeff=0.3,
+        icoeff=0.4,
+        dcoeff=0.0,
+        dtmin=options.shortest_step,
+        force_dtmin=False,
+        norm=optx.rms_norm,
+    )
+    return control if jumps is None else dfx.ClipStepSizeController(control, jump_ts=jnp.asarray(jumps, dtype=float))
+
+
+def _history(
+    nodes: tuple[str, ...],
+    begin: Array,
+    capacity: Array,
+    times: Array,
+    flows_at: Callable[[Array, Array], tuple[NodeHeat, HeatFlows]],
+    reached: tuple[Array, Array, Array],
+    status: Array,
+    found: Any,
+) -> WarmUp:
+    """Heat flows at the instants, and energies at the end. `reached`: states, last state, its time."""
+    states, last, end = reached
+    size = begin.size
+    temperatures, energies = last[:size], ENERGY * last[size:]
+    stored = jnp.sum(capacity * (temperatures - begin))
+    there = times <= end
+
+    def heats(instant: tuple[Array, Array, Array]) -> tuple[Array, Array, Array, Array]:
+        time, state, passed = instant
+        trial = jnp.where(passed, state[:size], begin)
+        heat, flows = flows_at(time, trial)
+        values = (trial, jnp.sum(heat.heat), flows.to_oil, flows.to_ambient)
+        return jax.tree.map(lambda value: jnp.where(passed, value, jnp.nan), values)
+
+    shown, total, to_oil, to_ambient = jax.lax.map(heats, (times, states, there))
+    return WarmUp(
+        nodes=nodes,
+        status=status,
+        times=times,
+        temperatures=shown,
+        total=total,
+        heat_to_oil=to_oil,
+        heat_to_ambient=to_ambient,
+        end=end,
+        last=temperatures,
+        losses_energy=energies[0],
+        oil_energy=energies[1],
+        ambient_energy=energies[2],
+        energy_error=(energies[0] - energies[1] - energies[2] - stored) / jnp.where(energies[0] == 0, 1.0, energies[0]),
+        accepted=found.stats["num_accepted_steps"],
+        rejected=found.stats["num_rejected_steps"],
+    )
+
+
+def _status(result: Any, last: Array, of_losses: Array) -> Int[Array, ""]:
+    """**Arguments:** `of_losses`: their status just beyond the end."""
+    finite = jnp.all(jnp.isfinite(last))
+    failed = jnp.where(result == dfx.RESULTS.max_steps_reached, int(Status.NOT_CONVERGED), int(Status.DIVERGED))
+    failed = jnp.where(of_losses == Status.CONVERGED, failed, of_losses)
+    hot = finite & (result == dfx.RESULTS.event_occurred)
+    good = finite & (result == dfx.RESULTS.successful)
+    return jnp.where(good, int(Status.CONVERGED), jnp.where(hot, int(Status.THERMAL_RUNAWAY), failed))

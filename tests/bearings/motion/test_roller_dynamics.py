@@ -1,0 +1,240 @@
+"""Rates of the moving cylindrical roller bearing: published values, balances, limits, hard states."""
+
+import tomllib
+from pathlib import Path
+
+import equinox as eqx
+import jax
+import jax.numpy as jnp
+import numpy as np
+import pytest
+from moving_roller import ZERO, all_at, built, rolling, shaken, start_of, table_16
+from roller_cases import reference_roller
+
+from jaxbearing.bearings.motion.loads import LENGTH_UNIT
+from jaxbearing.bearings.motion.rates import FINE, LOAD_TOLERANCE, WORKS
+from jaxbearing.bearings.motion.settings import Simulation
+from jaxbearing.numerics.arrow import ArrowPoint
+from jaxbearing.numerics.integrate import integrate_segment
+from jaxbearing.numerics.integrator import IntegratorOptions
+from jaxbearing.time_laws import LinearRamp, Ramp, RotatingLoad, Sinusoidal, Tabulated
+
+PUBLISHED = tomllib.loads((Path(__file__).parents[2] / "published" / "roller_dynamics.toml").read_text())
+FIELD = PUBLISHED["vector_field"]
+
+
+@pytest.mark.parametrize("row", FIELD["row"], ids=lambda row: f"drag {row['drag']}")
+def test_vector_field_rows(row):
+    # the dynamic reference closure: no offset of the entrainment, turbulence of the lands at the reference speed
+    scene = table_16(row["drag"]).replace({"contact.entrainment_offset": 0.0})
+    dynamics = built(scene, Simulation())
+    w_ref, motion = dynamics.reference_speed, dynamics.system.kinematics
+    dynamics = eqx.tree_at(lambda d: d.land_speed, dynamics, w_ref, is_leaf=lambda leaf: leaf is None)
+    j = jnp.arange(30.0)
+    rollers = jnp.stack(
+        [
+            row["amplitude"] * jnp.sin(1.0 + j),
+            0.05 * jnp.cos(j),
+            w_ref * motion.outer_radius + 0.1 * jnp.sin(2.0 * j),
+        ]
+    )
+    state = dynamics.scaled(rollers, jnp.asarray([*row["centre"], 3e-6, 2e-3, -1e-3, 0.01]))
+    now, rates = all_at(dynamics, ZERO, state)
+    roller_rates, cage_rates, _ = dynamics.unscaled(rates)
+    load, pocket = now.distribution.load[0], now.pocket
+    ours = [now.distribution.ring[0], load[0], load[4], pocket.front.load[0], pocket.rear.load[0]]
+    ours += [roller_rates[1, 0], roller_rates[1, 7], roller_rates[1, 15], roller_rates[2, 0], roller_rates[2, 7]]
+    ours += [cage_rates[3], cage_rates[4], cage_rates[5]]
+    for name, value, expected in zip(FIELD["quantities"], ours, row["values"], strict=True):
+        np.testing.assert_allclose(value, expected, rtol=FIELD["rtol"], err_msg=name)
+
+
+def test_residual_accelerations_of_the_quasi_static_start():
+    start = start_of()
+    _, rates = all_at(start.dynamics, ZERO, start.state)
+    rollers, cage, _ = start.dynamics.unscaled(rates)
+    np.testing.assert_allclose(np.abs(rollers[1]).max(), PUBLISHED["start"]["orbital"], rtol=0.01)
+    np.testing.assert_allclose(np.abs(rollers[2]).max(), PUBLISHED["start"]["spin"], rtol=0.04)
+    # about 1 N on rollers and cage
+    assert np.abs(rollers[1]).max() * start.dynamics.system.roller_mass < 1.5
+    assert np.hypot(*cage[3:5]) * start.dynamics.cage_mass < 5.0
+
+
+def test_loads_come_from_a_smooth_function_of_time():
+    """`smoothed` and back: the same loads, of 1e-15 N to 1e7 N; and what is found does not depend on the guess."""
+    dynamics, state = rolling()
+
+    @eqx.filter_jit
+    def there_and_back(dynamics, state):
+        loads = dynamics.race_loads(ZERO, state)
+        point = ArrowPoint(jnp.linspace(-34.0, 16.0, 30)[None, :], jnp.ones(loads.ring_load.shape))
+        smoothed = loads.smoothed(point)
+        return point, smoothed, loads.unsmoothed(smoothed)
+
+    point, smoothed, back = there_and_back(dynamics, state)
+    np.testing.assert_allclose(back.elements, point.elements, atol=1e-12)
+    np.testing.assert_array_equal(back.globals, point.globals)
+    assert np.all(np.diff(smoothed.elements[0]) > 0)
+    cold, closing = eqx.filter_jit(dynamics.rates_and_loads)(ZERO, state)
+    off = jax.tree.map(lambda leaf: 1.05 * leaf, closing)
+    warm, again = eqx.filter_jit(dynamics.rates_and_loads)(ZERO, state, off)
+    for a, b in ((cold, warm), (closing, again)):
+        for one, other in zip(a, b, strict=True):
+            np.testing.assert_allclose(one, other, rtol=1e-9, atol=1e-9 * np.max(np.abs(one)))
+
+
+def test_loads_balance_and_close_the_gaps():
+    dynamics, state = rolling()
+    now, _ = all_at(dynamics, ZERO, shaken(dynamics, state))
+    system, found = dynamics.system, now.distribution
+    assert found.residual < LOAD_TOLERANCE * np.sqrt(FINE)
+    load, azimuth = np.asarray(found.load), np.asarray(now.azimuth)
+    np.testing.assert_allclose(np.sum(load[0] * np.cos(azimuth)), 25e3, rtol=1e-12)
+    approach = np.asarray(eqx.filter_jit(lambda contact, load: contact.palmgren_approach(load))(system.contact, load))
+    gap = float(system.radial_clearance) + np.sum(approach - np.asarray(now.contact.film), axis=0)
+    np.testing.assert_allclose(gap, float(found.ring[0]) * np.cos(azimuth), atol=1e-10 * LENGTH_UNIT)
+
+
+DRIVEN = {
+    "steady": Simulation(),
+    "speed, load and load direction vary": Simulation(
+        speed=Sinusoidal(40.0, 0.1), load=Ramp(1.0, 0.3, 4e-3), rotating_load=RotatingLoad(3e3, 1400.0, 0.4)
+    ),
+}
+
+
+@pytest.mark.parametrize("name", DRIVEN)
+def test_energy_is_balanced_at_every_state(name):
+    """Both identities in the docstring of `motion.rates`, term by term from forces and local speeds."""
+    dynamics, state = rolling(simulation=DRIVEN[name])
+    state = shaken(dynamics, state)
+
+    @eqx.filter_jit
+    def rates_of_energy(dynamics, time, state):
+        tangent = (jnp.ones(()), dynamics.rates(time, state))
+        kinetic = jax.jvp(dynamics.kinetic_energy, (time, state), tangent)[1]
+
+        def radial(time, state):
+            now = dynamics.at(time, state)
+            approach = dynamics.system.contact.palmgren_approach(now.distribution.load)
+            return now.distribution.ring, dynamics.raceway_energy(now), now.contact.film, approach
+
+        (ring, raceways, film, approach) = jax.jvp(radial, (time, state), tangent)[1]
+        now = dynamics.at(time, state)
+        return kinetic, dynamics.powers(time, now), ring, raceways, film, approach, now
+
+    time = jnp.asarray(1e-3)
+    kinetic, powers, ring, raceways, film, approach, now = rates_of_energy(dynamics, time, state)
+    power = dict(zip(WORKS, powers, strict=True))
+    balance = power["drive"] - power["dissipation"] - power["pocket_films"] - power["lever_arm"]
+    np.testing.assert_allclose(kinetic, balance, atol=1e-12 * sum(map(abs, power.values())))
+
+    # the radial direction: work of the load on the ring
+    load, centrifugal = now.distribution.load, now.distribution.load[1] - now.distribution.load[0]
+    work = jnp.sum(dynamics.ring_load(time) * ring)
+    tangential = {"radial": -jnp.sin(now.azimuth), "lateral": jnp.cos(now.azimuth)}
+    names = dynamics.system.freedoms
+    slope = sum(d * tangential[name] for name, d in zip(names, now.distribution.ring, strict=True))
+    wedge = jnp.sum(load[0] * slope * now.orbit)
+    on_films = jnp.sum(load[0] * jnp.sum(film, axis=0))
+    thrown_out = jnp.sum(centrifugal * approach[1])
+    size = jnp.sum(jnp.abs(load[0] * slope * now.orbit))
+    np.testing.assert_allclose(work, raceways - wedge - on_films - thrown_out, atol=1e-9 * size)
+
+
+def test_every_dissipation_is_positive():
+    dynamics, state = rolling()
+    for seed in range(3):
+        now, _ = all_at(dynamics, ZERO, shaken(dynamics, state, seed=seed))
+        loss = dynamics.costs(now).power_loss
+        named = ("inner_raceway", "outer_raceway", "pocket", "flange", "element_ends", "cage_pilot", "drag")
+        assert all(getattr(loss, name) > 0 for name in named)
+
+
+def test_turned_by_one_pitch():
+    """A load that points to roller 1 does to roller j + 1 what one to roller 0 does to roller j."""
+    pitch = 2.0 * np.pi / 30.0
+    simulation = Simulation(rotating_load=RotatingLoad(0.0, 0.0))
+    dynamics, state = rolling(simulation=simulation)
+    state = shaken(dynamics, state)
+    rates = all_at(dynamics, ZERO, state)[1]
+    turned_load = jnp.asarray([np.cos(pitch), np.sin(pitch)]) * dynamics.system.ring.load[0]
+    turned = eqx.tree_at(lambda d: d.system.ring.load, dynamics, turned_load)
+    cosine, sine = np.cos(pitch), np.sin(pitch)
+
+    def turn(point):
+        x, y, q, v_x, v_y, v, *works = point.globals
+        cage = [
+            cosine * x - sine * y,
+            sine * x + cosine * y,
+            q,
+            cosine * v_x - sine * v_y,
+            sine * v_x + cosine * v_y,
+            v,
+        ]
+        return point._replace(elements=jnp.roll(point.elements, 1, axis=1), globals=jnp.stack([*cage, *works]))
+
+    expected, ours = turn(rates), all_at(turned, ZERO, turn(state))[1]
+    # the land's law shifts its offset by 1e-7 of the clearance along x
+    for a, b in zip(ours, expected, strict=True):
+        np.testing.assert_allclose(a, b, rtol=1e-4, atol=1e-5 * np.abs(b).max())
+
+
+def test_cage_without_forces_keeps_its_momentum():
+    dynamics, rolls = rolling()
+    none = lambda leaf: leaf is None
+    parts = eqx.tree_at(lambda c: (c.land, c.rails), dynamics.system.cage, (None, None), is_leaf=none)
+    free = eqx.tree_at(lambda d: (d.pocket, d.system.cage), dynamics, (None, parts), is_leaf=none)
+    cage = jnp.asarray([10e-6, -20e-6, 0.0, 1e-3, 2e-3, 0.05])
+    state = free.scaled(free.unscaled(rolls)[0], cage)
+    times = jnp.asarray([0.5e-3, 1e-3])
+    field = lambda t, y, dynamics: dynamics.rates(t, y)
+    run = eqx.filter_jit(lambda d, y: integrate_segment(field, y, ZERO, times, d, IntegratorOptions(tolerance=1e-4)))
+    after = free.unscaled(run(free, state).last)[1]
+    np.testing.assert_allclose(after[3:], cage[3:], rtol=1e-10)
+    np.testing.assert_allclose(after[:3], cage[:3] + 1e-3 * cage[3:], rtol=1e-10)
+
+
+HARD = {
+    "cold oil": {"operation.oil_temperature": 273.15},
+    "light load": {"operation.radial_load": 300.0},
+    "preload": {"geometry.diametral_clearance": -20e-6},
+    "fast": {"operation.inner_speed": 20000 * np.pi / 30.0},
+    "no drag": {"drag.coefficient": 0.0},
+}
+
+
+@pytest.mark.parametrize("name", HARD)
+def test_hard_states_have_rates_and_derivatives(name):
+    """Rollers pressed 20 um into the walls, stopped, spinning backwards: finite, and the slopes too."""
+    dynamics = built(reference_roller().replace(HARD[name]), Simulation())
+    j = jnp.arange(30.0)
+    rollers = jnp.stack([170e-6 * jnp.sin(j), jnp.cos(j), 40.0 * jnp.cos(j) ** 3])
+    state = dynamics.scaled(rollers, jnp.asarray([239e-6, 0.0, 0.0, 0.05, -0.05, 0.1]))
+
+    @eqx.filter_jit
+    def value_and_slope(dynamics, state):
+        ones = jax.tree.map(jnp.ones_like, state)
+        return jax.jvp(lambda y: dynamics.rates(ZERO, y), (state,), (ones,))
+
+    for leaf in jax.tree.leaves(value_and_slope(dynamics, state)):
+        assert np.all(np.isfinite(leaf))
+
+
+LAWS = [
+    Sinusoidal(40.0, 0.1),
+    Ramp(0.1, 1.0, 2e-3, 1e-3),
+    Ramp(0.1, 1.0, 2e-3, -1e-3),
+    LinearRamp(0.1, 1.0, 2e-3, 1e-3),
+    Tabulated(np.asarray([1e-3, 2e-3, 4e-3]), np.asarray([1.0, 3.0, 2.0])),
+    Tabulated(np.asarray([-1e-2, 0.0, 1.0]), np.asarray([0.5, 1.0, 1.0])),
+]
+
+
+@pytest.mark.parametrize("law", LAWS, ids=lambda law: type(law).__name__)
+def test_integral_of_a_time_law(law):
+    np.testing.assert_allclose(law.integral(0.0), 0.0, atol=1e-18)
+    slope_at = jax.jit(jax.grad(law.integral))
+    for time in (0.5e-3, 1.7e-3, 2.5e-3, 6e-3):
+        slope = slope_at(time)
+        np.testing.assert_allclose(slope, law.factor(time), rtol=1e-12)

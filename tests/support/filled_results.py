@@ -1,0 +1,132 @@
+"""Results without a solve: their structure comes from tracing, which takes seconds, their numbers are made up.
+
+For tests of what is done with results: whatever the solution of a scene holds is in them.
+"""
+
+import dataclasses
+import itertools
+import typing
+
+import equinox as eqx
+import jax
+import jax.numpy as jnp
+import numpy as np
+from life_page import page_scene
+
+import jaxbearing as jb
+from jaxbearing.bearings.motion.history import History, Instant
+from jaxbearing.ehl import LineContactHistory
+from jaxbearing.numerics.newton import NewtonOptions
+from jaxbearing.numerics.precision import as_float
+from jaxbearing.report.labels import dimensions
+from jaxbearing.solve import _solve_any
+
+NODES, INSTANTS = 41, 6
+"""Sizes of a run of a line contact."""
+_RATING = {
+    "rating.roughness_rings": "0.1 um",
+    "rating.roughness_elements": "0.2 um",
+    "rating.cleanliness": "online_filter_15",
+}
+
+SCENES = {
+    "ball": lambda: jb.load_scene(
+        "turbine_ball_mounted", {"kinematics.gyroscopic": "resolved", "contact.heathcote": "true", **_RATING}
+    ),
+    "dry ball": lambda: jb.load_scene("deep_groove_6205", {"operation.axial_load": "none"}),
+    "roller": lambda: jb.load_scene("turbine_roller", {"contact.rolling_resistance": "ertel_grubin", **_RATING}),
+    "dry roller": lambda: jb.load_scene("turbine_roller", dict.fromkeys(("contact", "cage", "flange", "drag"), "none")),
+    "misaligned roller": lambda: page_scene(),
+    "tapered": lambda: jb.load_scene("tapered_example", _RATING),
+    "two-disk": lambda: jb.load_scene("two_disk_etm"),
+    "warm two-disk": lambda: jb.load_scene("two_disk_mobil_jet_ii", {"contact.film_heating": "true"}),
+    "line contact": lambda: jb.load_scene("satellite_contact_1"),
+}
+"""Every kind of scene, with all of its optional parts (several where parts exclude each other) and with none."""
+
+_traced: list[tuple[typing.Any, typing.Any]] = []
+
+
+def structure_of(scene):
+    """The solution of a scene with shapes for arrays; traced once for each structure of a scene."""
+    scene = jax.tree.map(as_float, scene)
+    key = jax.tree.structure(scene), [np.shape(leaf) for leaf in jax.tree.leaves(scene)]
+    found = next((one for known, one in _traced if known == key), None)
+    if found is None:
+        found = jax.eval_shape(lambda one: _solve_any(one, NewtonOptions()), scene)
+        _traced.append((key, found))
+    return found
+
+
+def filled(structure, lanes=()):
+    """A result of this structure that converged, every number another one; unloaded contacts have no film.
+
+    **Arguments:** `lanes`: shape of a batch of them.
+    """
+    count = itertools.count(1)
+
+    def number(path, leaf):
+        name = jax.tree_util.keystr(path, simple=True, separator=".")
+        shape = (*lanes, *leaf.shape)
+        if not jnp.issubdtype(leaf.dtype, jnp.floating):
+            return jnp.zeros(shape, leaf.dtype)
+        values = np.full(shape, 1.0 + 0.25 / next(count)) * np.linspace(1.0, 1.01, int(np.prod(shape))).reshape(shape)
+        last = name.rpartition(".")[2]
+        if last == "azimuth":
+            values = np.broadcast_to(2.0 * np.pi * np.arange(shape[-1]) / shape[-1], shape)
+        elif last in ("x", "time"):
+            values = np.broadcast_to(np.linspace(-2.0 if last == "x" else 0.0, 2.0, shape[-1]), shape) if shape else 2.0
+        elif "film_" in last and leaf.ndim == 1:
+            values = np.where(np.arange(shape[-1]) == shape[-1] - 1, np.nan, values)
+        return jnp.asarray(values)
+
+    return jax.tree_util.tree_map_with_path(number, structure)
+
+
+def solution_of(scene, lanes=()):
+    """A solution of a scene. The operating point is the scene's."""
+    found = filled(structure_of(scene), lanes)
+    operation = jax.tree.map(lambda leaf: jnp.broadcast_to(as_float(leaf), (*lanes, *np.shape(leaf))), scene.operation)
+    return eqx.tree_at(lambda one: one.operation, found, operation, is_leaf=lambda leaf: leaf is None)
+
+
+def history_of(scene, duration=1e-3):
+    """A run of a scene, with every field that its classes have."""
+    if isinstance(scene, jb.CylindricalRollerBearing):
+        sizes = {"element": scene.geometry.n_rollers, "roller_state": 3, "cage_state": 6}
+        instants = filled(_by_annotation(Instant, sizes), (INSTANTS,))
+        found = filled(_by_annotation(History, sizes | {"time": INSTANTS}, instants=None, solver="dopri5"))
+        found = eqx.tree_at(lambda run: run.instants, found, instants, is_leaf=lambda leaf: leaf is None)
+    else:
+        sizes = {"time": INSTANTS, "node": NODES, "last_time": 3, "last_step": 2}
+        found = filled(_by_annotation(LineContactHistory, sizes))
+    time = jnp.linspace(0.0, duration, INSTANTS)
+    return eqx.tree_at(
+        lambda run: (run.time, run.stop, run.operation),
+        found,
+        (time, time[-1], scene.operation),
+        is_leaf=lambda leaf: leaf is None,
+    )
+
+
+def _by_annotation(kind, sizes, **given):
+    """A part of a result with shapes for arrays, as the annotations of its fields say."""
+    made = object.__new__(kind)  # its own checks would want numbers
+    for field in dataclasses.fields(kind):
+        object.__setattr__(made, field.name, given[field.name] if field.name in given else _field(field, sizes))
+    return made
+
+
+def _field(field, sizes):
+    if field.name == "identity":
+        return None  # made of the scene, not of annotations; tests/bearings/motion/test_restart.py has it
+    parts = [one for one in (field.type, *typing.get_args(field.type)) if dataclasses.is_dataclass(one)]
+    if parts:
+        return _by_annotation(parts[0], sizes)
+    if field.name == "checks":
+        return {"beyond a range": jax.ShapeDtypeStruct((), bool)}
+    if field.metadata.get("static", False) or field.type is typing.Any:
+        return None if field.default is dataclasses.MISSING else field.default
+    whole = "int64" in getattr(field.type, "dtypes", ())
+    shape = tuple(sizes[name] for name in dimensions(field.type))
+    return jax.ShapeDtypeStruct(shape, jnp.int64 if whole else jnp.float64)
