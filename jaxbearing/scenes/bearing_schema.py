@@ -12,7 +12,7 @@ from .laws import TURBULENCE, Laws
 from .materials import MaterialField
 from .oil_needs import require_laws, require_piezoviscous
 from .oil_schema import OilTable
-from .table import Problems, Table, check, refusal_at
+from .table import Problems, Table, refusal_at
 from .table_of import table_of
 
 TURBULENCE_OF_CAGES = {field.name: field for field in dataclasses.fields(AbstractCage)}["turbulence"].default

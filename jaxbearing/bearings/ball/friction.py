@@ -74,7 +74,9 @@ def with_traction(system: AbstractLubricatedBalls, state: BallsState, contact: P
     return state._replace(rows=_rows(system, state, contact, axis, radius, tangential))
 
 
-def _friction(system: AbstractLubricatedBalls, state: BallsState, contact: PointContact) -> tuple[Traction, Array | None, Array | None]:
+def _friction(
+    system: AbstractLubricatedBalls, state: BallsState, contact: PointContact
+) -> tuple[Traction, Array | None, Array | None]:
     """Traction of both contacts; moments against the roll by the film's pressure and by Heathcote slip, N m;
     `None`: not modelled."""
     races = state.races
@@ -121,7 +123,12 @@ def _on_cage(system: AbstractLubricatedBalls, pocket: BallPocketFilm) -> tuple[A
 
 
 def _rows(
-    system: AbstractLubricatedBalls, state: BallsState, contact: PointContact, axis: Array, radius: Array, tangential: Array
+    system: AbstractLubricatedBalls,
+    state: BallsState,
+    contact: PointContact,
+    axis: Array,
+    radius: Array,
+    tangential: Array,
 ) -> tuple[Array, ...]:
     """Residuals of the ball's motion, in the order of its unknowns; moments over half of its diameter, N."""
     scale, shear, pocket = system.friction_scale(), state.traction, state.pocket

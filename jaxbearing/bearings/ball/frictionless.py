@@ -18,7 +18,6 @@ from ...contacts.point_laws import PointFilm, PointLaws
 from ...lubricants import InletOil, Lubricant
 from ...numerics.precision import as_float
 from ...numerics.safe import safe_norm
-from ..ring import LENGTH_UNIT
 from .geometry import BallGeometry
 from .kinematics import BallMotion
 from .state import BallCageParts, BallDrag, BallGuess, BallsState
@@ -284,4 +283,3 @@ class AbstractLubricatedBalls(AbstractBallSystem):
         together = film[0] + film[1] * same + compression[1] * against + jnp.maximum(-opening, 0.0)
         fit = jnp.stack([jnp.log(apart / together), (reach * sine - across) / grooves.centre_distance])
         return fit, centre, arm, on_ring
-

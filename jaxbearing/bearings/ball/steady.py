@@ -189,7 +189,9 @@ def _dry_results(scene: BallBearing, system: BallCore, result: NewtonResult) -> 
     return Results(elements, Costs(BallPowerLoss()), Facts((contacts,)))
 
 
-def _lubricated(scene: BallBearing, system: LubricatedBallSystem, result: NewtonResult, state: BallsState) -> Results[BallResults, BallPowerLoss]:
+def _lubricated(
+    scene: BallBearing, system: LubricatedBallSystem, result: NewtonResult, state: BallsState
+) -> Results[BallResults, BallPowerLoss]:
     motion = system.kinematics
     film, shear, pocket = state.film, state.traction, state.pocket
     more: dict[str, Array | None] = {"film_inner": film.film[0], "film_outer": film.film[1]}
@@ -232,7 +234,9 @@ def _lubricated(scene: BallBearing, system: LubricatedBallSystem, result: Newton
     return Results(elements, cost, facts, cage=cage, raceway_power=parts)
 
 
-def _rolling_alone(system: LubricatedBallSystem, state: BallsState, elements: BallResults, facts: Facts) -> Results[BallResults, BallPowerLoss]:
+def _rolling_alone(
+    system: LubricatedBallSystem, state: BallsState, elements: BallResults, facts: Facts
+) -> Results[BallResults, BallPowerLoss]:
     """Results of balls that roll without sliding: what rolling costs, where the scene models it."""
     balance, found = rolling_balance(system, state), []
     if balance is not None:

@@ -90,7 +90,9 @@ def solve_tilting(scene: CylindricalRollerBearing, options: NewtonOptions, ring:
     )
 
 
-def _results(scene: CylindricalRollerBearing, system: TiltingRollers, state: TiltingState) -> Results[RollerResults, PowerLoss]:
+def _results(
+    scene: CylindricalRollerBearing, system: TiltingRollers, state: TiltingState
+) -> Results[RollerResults, PowerLoss]:
     motion, zero, ones = (
         roller_kinematics(scene.geometry, scene.operation),
         jnp.zeros(()),
