@@ -69,6 +69,12 @@ class AbstractConvexArrow(AbstractArrowSystem):
         energies = self.acting(point.elements, shared_by_elements(point))[2]
         return jnp.sum(energies) - self.work(point.globals)
 
+    def tangents(
+        self, unknowns: Float[Array, "m element"], shared: Float[Array, "g element"]
+    ) -> tuple[Float[Array, "m+k element"], Float[Array, "m+k m+g element"], Float[Array, " element"]]:
+        """Values of `acting`, their derivatives by unknowns and globals (`arrow.element_tangents`), and the energies."""
+        return element_tangents(self.acting, unknowns, shared)
+
     def near(self, point: ArrowPoint) -> ArrowPoint:
         """The point with its elements nearer to their minima, of a system that has a formula for these."""
         return point
@@ -77,6 +83,12 @@ class AbstractConvexArrow(AbstractArrowSystem):
 def anchored(value: Array, stiffness: float) -> Array:
     """0, with the derivative of stiffness times `value`: a spring from where it is."""
     return stiffness * (value - jax.lax.stop_gradient(value))
+
+
+@jax.jit
+def _tangents(system: AbstractConvexArrow, unknowns: Array, shared: Array) -> tuple[Array, Array, Array]:
+    """`system.tangents`, as one function of the program, however often it is called."""
+    return system.tangents(unknowns, shared)
 
 
 class _View(NamedTuple):
@@ -159,7 +171,7 @@ def descend(system: AbstractConvexArrow, guess: ArrowPoint, *, tolerance: float,
     caps = system.step_caps()
 
     def look(point: ArrowPoint) -> tuple[ArrowPoint, _View]:
-        values, tangents, energies = element_tangents(system.acting, point.elements, shared_by_elements(point))
+        values, tangents, energies = _tangents(system, point.elements, shared_by_elements(point))
         equations, jacobian = assembled(system, point, values, tangents, jnp.zeros(()))
         energy = jnp.sum(energies) - system.work(point.globals)
         return point, _View(energy, _largest(equations.residual), (equations.residual, jacobian))
@@ -179,25 +191,24 @@ def settle(
 ) -> ArrowPoint:
     """Every element at the minimum of its own energy, the globals where they are; each element takes its own steps."""
     system, point = jax.lax.stop_gradient((system, point))
-    return ArrowPoint(_settled(system, point, tolerance, trials).point, point.globals)
+    return _settled(system, point, tolerance, trials)
 
 
-def _settled(system: AbstractConvexArrow, point: ArrowPoint, tolerance: float, trials: int) -> _Search:
-    """The search of `settle`; its blocks are values and tangents, side by side, of `element_tangents`."""
+def _settled(system: AbstractConvexArrow, point: ArrowPoint, tolerance: float, trials: int) -> ArrowPoint:
     m = point.elements.shape[0]
     shared, caps = shared_by_elements(point), system.step_caps().elements
 
     def look(elements: Array) -> tuple[Array, _View]:
-        values, tangents, energies = element_tangents(system.acting, elements, shared)
-        blocks = jnp.concatenate([values[:, None], tangents], axis=1)
+        values, tangents, energies = _tangents(system, elements, shared)
+        blocks = jnp.concatenate([values[:m, None], tangents[:m, :m]], axis=1)
         return elements, _View(energies, jnp.max(jnp.abs(values[:m]), axis=0), blocks)
 
     def step(view: _View, stiffening: Array) -> tuple[Array, Array]:
-        residual, local = view.blocks[:m, :1], view.blocks[:m, 1 : 1 + m]
+        residual, local = view.blocks[:, :1], view.blocks[:, 1:]
         move = solve_blocks(local + jnp.eye(m)[:, :, None] * (stiffening / caps), residual)[:, 0]
         return move, jnp.max(jnp.abs(move) / caps, axis=0)
 
-    return _descent(look, step, point.elements, tolerance, trials)
+    return ArrowPoint(_descent(look, step, point.elements, tolerance, trials).point, point.globals)
 
 
 def descend_settled(
@@ -218,15 +229,14 @@ def descend_settled(
 
     def look(point: ArrowPoint) -> tuple[ArrowPoint, _View]:
         inside = ArrowPoint(point.elements, jnp.clip(point.globals, low, high))
-        settled = _settled(system, system.near(inside), element_tolerance, element_trials)
-        values, tangents = settled.view.blocks[:, 0], settled.view.blocks[:, 1:]
-        point = ArrowPoint(settled.point, inside.globals)
+        point = _settled(system, system.near(inside), element_tolerance, element_trials)
+        values, tangents, energies = _tangents(system, point.elements, shared_by_elements(point))
         equations, jacobian = assembled(system, point, values, tangents, jnp.zeros(()))
         held = pushed_out(system, point, equations.residual).astype(float)
         coupled, schur = eliminated(jacobian)
         right = equations.residual.globals * (1.0 - held)
         matrix = schur * (1.0 - held)[:, None] * (1.0 - held)[None, :] + jnp.diag(held)
-        energy = jnp.sum(settled.view.energy) - system.work(point.globals)
+        energy = jnp.sum(energies) - system.work(point.globals)
         # in equilibrium the elements' residuals count no more
         return point, _View(energy, jnp.max(jnp.abs(right)), (right, matrix, coupled))
 

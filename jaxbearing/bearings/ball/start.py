@@ -74,20 +74,34 @@ class CentrifugalProblem(AbstractConvexArrow):
         return ArrowPoint(-elements, -ring), ArrowPoint(elements, ring)
 
     def acting(self, unknowns, shared):
+        values, _, energies = self.tangents(unknowns, shared)
+        return values[:2], values[2:], energies
+
+    def tangents(self, unknowns, shared):
+        """See `AbstractConvexArrow`; written out, since this is what the search computes most."""
         groove = self.groove + jnp.sum(shared[:, None] * self.directions, axis=0)
         arm = jnp.stack([groove - unknowns, unknowns])
         length = safe_norm(arm[:, 0], arm[:, 1], 1e-30)
-        approach = length - self.offset[:, None]
-        closed = approach > 0
-        # `positive_power` would cost a logarithm
-        root = jnp.sqrt(jnp.where(closed, approach, 1.0))
-        load = self.stiffness[:, None] * jnp.where(closed, approach, 0.0) * root
-        inner, outer = (load / length)[:, None] * arm
+        depth = jnp.maximum(length - self.offset[:, None], 0.0)
+        root = self.stiffness[:, None] * jnp.sqrt(depth)
+        load = root * depth
+        across = load / length
+        along = (1.5 * root - across) / jnp.square(length)
+        identity = jnp.eye(2)[:, :, None]
+        stiffness = along[:, None, None] * arm[:, :, None] * arm[:, None] + across[:, None, None] * identity
+        inner, outer = across[:, None] * arm
         push = jnp.stack([jnp.zeros_like(self.centrifugal), self.centrifugal])
-        balance = outer - inner - push + anchored(unknowns, SOFTEST)
+        energies = 0.4 * jnp.sum(load * depth, axis=0) - self.centrifugal * unknowns[1]
+        # per unit of each freedom: force on the inner groove, and what that is along each freedom
+        turned = jnp.sum(stiffness[0] * self.directions[:, None], axis=2)
+        along_freedoms = self.multiplicity * jnp.sum(self.directions[:, None] * turned[None], axis=2)
+        scale = self.load_scale / self.count + self.centrifugal
         totals = self.multiplicity * jnp.sum(self.directions * inner, axis=1)
-        energy = 0.4 * jnp.sum(load * approach, axis=0) - self.centrifugal * unknowns[1]
-        return balance / (self.load_scale / self.count + self.centrifugal), totals, self.multiplicity * energy
+        local = stiffness[0] + stiffness[1] + SOFTEST * identity
+        own = jnp.concatenate([local, -jnp.swapaxes(turned, 0, 1)], axis=1) / scale
+        of_ring = jnp.concatenate([-self.multiplicity * turned, along_freedoms], axis=1)
+        values = jnp.concatenate([(outer - inner - push) / scale, totals])
+        return values, jnp.concatenate([own, of_ring]), self.multiplicity * energies
 
     def global_residual(self, globals_, totals):
         return (totals - self.ring_load + anchored(globals_, SOFTEST)) / self.load_scale, jnp.zeros(())
