@@ -161,7 +161,7 @@ def element_tangents(
     element: Callable[[Array, Array], tuple[Array, Array, Array]],
     unknowns: Float[Array, "m element"],
     shared: Float[Array, "g element"],
-) -> tuple[Float[Array, "m+k element"], Float[Array, "m+k m+g element"], Array]:
+) -> tuple[Float[Array, "row element"], Float[Array, "row m+g element"], Array]:
     """Local residuals and contributions to totals of `element`, their derivatives by the element's unknowns and the
     globals, and its third result."""
     m, n = unknowns.shape

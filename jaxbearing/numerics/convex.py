@@ -71,7 +71,7 @@ class AbstractConvexArrow(AbstractArrowSystem):
 
     def tangents(
         self, unknowns: Float[Array, "m element"], shared: Float[Array, "g element"]
-    ) -> tuple[Float[Array, "m+k element"], Float[Array, "m+k m+g element"], Float[Array, " element"]]:
+    ) -> tuple[Float[Array, "row element"], Float[Array, "row m+g element"], Float[Array, " element"]]:
         """Values of `acting`, their derivatives by unknowns and globals (`arrow.element_tangents`), and the energies."""
         return element_tangents(self.acting, unknowns, shared)
 
@@ -205,7 +205,7 @@ def _settled(system: AbstractConvexArrow, point: ArrowPoint, tolerance: float, t
 
     def step(view: _View, stiffening: Array) -> tuple[Array, Array]:
         residual, local = view.blocks[:, :1], view.blocks[:, 1:]
-        move = solve_blocks(local + jnp.eye(m)[:, :, None] * (stiffening / caps), residual)[:, 0]
+        move = solve_blocks(local + jnp.eye(m)[:, :, None] * (stiffening[None] / caps)[None], residual)[:, 0]
         return move, jnp.max(jnp.abs(move) / caps, axis=0)
 
     return ArrowPoint(_descent(look, step, point.elements, tolerance, trials).point, point.globals)

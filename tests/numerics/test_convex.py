@@ -29,7 +29,7 @@ class Beads(AbstractConvexArrow):
         depths = jnp.stack([-x, x - shared[0] + self.gap])
         closed = depths > 0
         depth = jnp.where(closed, depths, 0.0)
-        force = self.stiffness * depth * jnp.sqrt(jnp.where(closed, depths, 1.0))
+        force = self.stiffness[None] * depth * jnp.sqrt(jnp.where(closed, depths, 1.0))
         local = jnp.stack([force[1] - force[0], self.across * (y - 3.0)]) + anchored(unknowns, 1e-9)
         energy = 0.4 * jnp.sum(force * depth, axis=0) + 0.5 * self.across * jnp.square(y - 3.0)
         return local, -force[1:], energy

@@ -88,19 +88,19 @@ class CentrifugalProblem(AbstractConvexArrow):
         across = load / length
         along = (1.5 * root - across) / jnp.square(length)
         identity = jnp.eye(2)[:, :, None]
-        stiffness = along[:, None, None] * arm[:, :, None] * arm[:, None] + across[:, None, None] * identity
+        stiffness = along[:, None, None] * arm[:, :, None] * arm[:, None] + across[:, None, None] * identity[None]
         inner, outer = across[:, None] * arm
         push = jnp.stack([jnp.zeros_like(self.centrifugal), self.centrifugal])
         energies = 0.4 * jnp.sum(load * depth, axis=0) - self.centrifugal * unknowns[1]
         # per unit of each freedom: force on the inner groove, and what that is along each freedom
-        turned = jnp.sum(stiffness[0] * self.directions[:, None], axis=2)
+        turned = jnp.sum(stiffness[:1] * self.directions[:, None], axis=2)
         along_freedoms = self.multiplicity * jnp.sum(self.directions[:, None] * turned[None], axis=2)
         scale = self.load_scale / self.count + self.centrifugal
-        totals = self.multiplicity * jnp.sum(self.directions * inner, axis=1)
+        totals = self.multiplicity * jnp.sum(self.directions * inner[None], axis=1)
         local = stiffness[0] + stiffness[1] + SOFTEST * identity
-        own = jnp.concatenate([local, -jnp.swapaxes(turned, 0, 1)], axis=1) / scale
+        own = jnp.concatenate([local, -jnp.swapaxes(turned, 0, 1)], axis=1) / scale[None, None]
         of_ring = jnp.concatenate([-self.multiplicity * turned, along_freedoms], axis=1)
-        values = jnp.concatenate([(outer - inner - push) / scale, totals])
+        values = jnp.concatenate([(outer - inner - push) / scale[None], totals])
         return values, jnp.concatenate([own, of_ring]), self.multiplicity * energies
 
     def global_residual(self, globals_, totals):

@@ -12,7 +12,7 @@ import jaxbearing as jb
 from jaxbearing.bearings.ball import start as ball_start
 from jaxbearing.bearings.ball.build import build_core, build_lubricated
 from jaxbearing.bearings.ball.start import free_centres
-from jaxbearing.numerics.arrow import ArrowPoint, evaluate
+from jaxbearing.numerics.arrow import ArrowPoint, element_tangents, evaluate
 from jaxbearing.numerics.precision import as_float
 
 SCENE = jb.load_scene("angular_contact_218", {"operation.axial_load": "10 N"})
@@ -115,21 +115,30 @@ def test_a_lane_without_numbers_is_given_up_at_once(load, monkeypatch):
     assert len(calls) < (60 if np.isfinite(load) else 4)
 
 
-def test_equations_are_the_gradient_of_the_potential():
-    scene = jb.load_scene("angular_contact_218", {"operation.radial_load": "5 kN"})
+def test_forces_and_stiffness_are_derivatives_of_the_potential():
+    """At loaded balls; they are written out."""
+    scene = jb.load_scene("angular_contact_218", {"operation.axial_load": "20 kN", "operation.radial_load": "5 kN"})
 
     @eqx.filter_jit
     def both(scene):
         problem, centres, rings = build_core(scene)._estimates()
-        point = ArrowPoint(1.01 * centres[0], 1.01 * rings[0])
+        point = ArrowPoint(centres[0], rings[0])
         found = evaluate(problem, point).residual
         scale = problem.load_scale / problem.count + problem.centrifugal
-        forces = problem.multiplicity * found.elements * scale, found.globals * problem.load_scale
-        return jax.grad(problem.potential)(point), forces
+        forces = ArrowPoint(problem.multiplicity * found.elements * scale[None], found.globals * problem.load_scale)
+        shared = jnp.broadcast_to(point.globals[:, None], (point.globals.size, point.elements.shape[1]))
+        written, derived = (
+            way(point.elements, shared) for way in (problem.tangents, lambda *at: element_tangents(problem.acting, *at))
+        )
+        # the springs from where they are, which forces do not have
+        spring = ball_start.SOFTEST * jnp.eye(2)[:, :, None] / scale[None, None]
+        derived = derived[0], derived[1].at[:2, :2].add(spring), derived[2]
+        return (jax.grad(problem.potential)(point), derived), (forces, written)
 
-    slope, (elements, ring) = both(jax.tree.map(as_float, scene))
-    np.testing.assert_allclose(elements, slope.elements, rtol=1e-10, atol=1e-8)
-    np.testing.assert_allclose(ring, slope.globals, rtol=1e-10, atol=1e-8)
+    expected, found = both(jax.tree.map(as_float, scene))
+    for one, other in zip(jax.tree.leaves(expected), jax.tree.leaves(found), strict=True):
+        assert np.all(np.isfinite(one))
+        np.testing.assert_allclose(other, one, rtol=1e-9, atol=1e-11 * np.max(np.abs(one)))
 
 
 @pytest.mark.parametrize("guidance", ["inner_ring", "outer_ring"])
