@@ -33,7 +33,7 @@ class _Rings(NamedTuple):
 
 
 def mounting_problems(scene: Any) -> Iterator[str | ValueError]:
-    """What a scene with seats lacks."""
+    """Yields a sentence for everything that a scene with seats lacks."""
     fits: Fits | None = scene.fits
     temperatures: PartTemperatures | None = scene.temperatures
     if fits is None:
@@ -117,7 +117,7 @@ def running_scene(scene: Any) -> tuple[Any, FitResult | None, dict[str, Reason]]
 
 
 def _impossible(play: Play) -> dict[str, Reason]:
-    """What is wrong with the bearing that runs: a sentence -> whether it is."""
+    """Maps a sentence to whether it applies: causes that leave the running bearing without contacts."""
     return {"fits and temperatures leave the rolling elements no contact": Reason(~play.possible, jnp.zeros(0))}
 
 
@@ -168,7 +168,7 @@ def _fit(fits: Fits, seat: Any, inner: Annulus, outer: Annulus, diameter: Any) -
 
 
 def fit_excess(scene: Any, fit: FitResult) -> Excess:
-    """What is to be said of the seats: text -> number, positive where it applies."""
+    """Maps each warning about the seats to a number that is positive where the warning applies."""
     operation, found = scene.operation, {}
     if fit.interference_inner is not None:
         turning = jnp.abs(jnp.asarray(operation.inner_speed)) > 0.0

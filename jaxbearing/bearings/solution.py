@@ -23,7 +23,7 @@ INNER_TOLERANCE = 1e-8
 RING_FREEDOMS = ("axial", "radial", "lateral", "tilt", "tilt_lateral")
 """Degrees of freedom of the inner ring, in the order of `ring` and `stiffness`."""
 TILTS = ("tilt", "tilt_lateral")
-"""Those of `RING_FREEDOMS` that are angles."""
+"""Freedoms among `RING_FREEDOMS` that are angles."""
 
 _CONJUGATE = {"m": "N", "rad": "N m"}
 """Unit of a displacement of the ring -> unit of its load."""

@@ -95,6 +95,6 @@ LinearHeatCapacity.__init__.__doc__ = """**Arguments:**
 """
 
 MINERAL_HEAT_CAPACITY = LinearHeatCapacity(1670.0, 4.3, 273.0)
-"""Of mineral oils, within about 5 %, from memory."""
+"""Heat capacity of mineral oils, within about 5 %, from memory."""
 ESTER_HEAT_CAPACITY = LinearHeatCapacity(2150.0, 0.0, 393.15)
-"""Of ester oils near 120 degC, within about 5 %, from memory."""
+"""Heat capacity of ester oils near 120 degC, within about 5 %, from memory."""

@@ -204,6 +204,7 @@ def test_port_takes_the_running_bearing(mounted):
     np.testing.assert_allclose(back.fit.clearance, solution.fit.clearance, rtol=1e-12)
 
 
+@pytest.mark.slow
 def test_clearance_may_pass_zero():
     """Loads go on through zero clearance, and so does their slope."""
     scene = jb.load_scene("deep_groove_6205", SEATS | {"fits.housing_interference": "-1 um"})

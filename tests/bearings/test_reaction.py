@@ -116,6 +116,7 @@ def test_check_values_of_a_mirrored_bearing_from_another_point():
     np.testing.assert_allclose(stiffness[3, 3], 617649.4767, rtol=1e-7)
 
 
+@pytest.mark.slow
 def test_the_exact_tilt_differs_by_what_the_docstring_says():
     for row, size in (("A1", 1e-3), ("A2", 2e-2)):
         scene, displacement, _, force, *_ = ROWS[row]
@@ -239,6 +240,7 @@ def test_ways_to_give_displacements():
         np.testing.assert_array_equal(jb.reaction(scene, given).force, force)
 
 
+@pytest.mark.slow
 def test_a_failed_lane_says_so_and_leaves_the_others_alone():
     """Both lanes share the geometry, on which the point of the ring that is shown depends."""
     scene, displacement, *_ = ROWS["A1"]
@@ -306,6 +308,7 @@ def test_what_it_does_not_take():
     assert int(invalid(-1.0)) == jb.Status.INVALID_INPUT
 
 
+@pytest.mark.slow
 def test_rollers_that_slide_are_held_where_a_solve_brings_them():
     """Cage, losses and stiffness are those of the solve; a tilt is an invalid input."""
     scene = jb.load_scene("reference_roller").replace({"ring_freedom": ("radial", "lateral")})

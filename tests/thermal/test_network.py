@@ -284,6 +284,7 @@ def test_derivatives_in_both_modes():
         np.testing.assert_allclose(forward[:, column], difference, rtol=1e-6, atol=1e-6 * size, err_msg=name)
 
 
+@pytest.mark.slow
 def test_second_derivatives_and_batches_of_derivatives():
     total = lambda speed: of_parameters(PARAMETERS.at[0].set(speed)).total
     second = jax.jit(jax.grad(jax.grad(total)))(6000.0)
@@ -295,6 +296,7 @@ def test_second_derivatives_and_batches_of_derivatives():
     np.testing.assert_allclose(together, sum(slope(speed) for speed in speeds), rtol=1e-12)
 
 
+@pytest.mark.slow
 def test_margin_has_a_derivative_at_the_temperatures_found():
     margin = lambda speed: thermal_margin(slopes_of(speed, solved(speed).temperatures))
     slope = jax.grad(margin)(7000.0)

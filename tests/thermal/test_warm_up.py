@@ -66,6 +66,7 @@ with_feedback = jax.jit(
 )
 
 
+@pytest.mark.slow
 def test_runs_away_after_four_minutes():
     """1.1 times the speed of the fold: a node passes 250 degC after 3.87 min, and the run ends there."""
     found = with_feedback(1.1 * 9237.123042, AMBIENT, 523.15)
@@ -100,6 +101,7 @@ def test_ends_at_the_steady_state_with_feedback():
     np.testing.assert_allclose(found.last, steady.temperatures, rtol=1e-8)
 
 
+@pytest.mark.slow
 def test_tables_of_time():
     """A speed that doubles and an oil inlet that cools, both at given times."""
     speeds = lambda time: jnp.where(time < 100.0, 3000.0, 6000.0)
@@ -133,6 +135,7 @@ def test_losses_that_fail_end_the_run():
     np.testing.assert_allclose(found.last[0], 310.0, atol=1e-3)
 
 
+@pytest.mark.slow
 def test_derivatives_of_a_run():
     """Temperatures and energies."""
 
@@ -146,6 +149,7 @@ def test_derivatives_of_a_run():
     np.testing.assert_allclose(forward, (evaluate(6003.0) - evaluate(5997.0)) / 6.0, rtol=2e-5)
 
 
+@pytest.mark.slow
 def test_lanes_of_a_batch():
     speeds = jnp.asarray([4000.0, 10_000.0])
     found = jax.vmap(lambda speed: with_feedback(speed, AMBIENT, 523.15))(speeds)

@@ -1,4 +1,4 @@
-r"""What the growth of the rings and the balls makes of a ball bearing's geometry.
+r"""Growth of a ball bearing: it changes clearance, contact angle and grooves.
 
 Diameters of the groove bottoms: $G_i = d_m + (2f_i-1)D\cos\alpha - 2f_iD$, $G_o = d_m - (2f_o-1)D\cos\alpha + 2f_oD$.
 They grow by what the rings grow there; the radius of a groove scales with the temperature of its ring alone (its change

@@ -1,6 +1,8 @@
-r"""What the growth of the rings and the rollers makes of a cylindrical roller bearing's geometry: raceways of diameters
-$d_m \mp D_w$ grow with their rings, $P_d' = P_d + \Delta G_o - \Delta G_i - 2\Delta D_w$; rollers scale with their
-temperature."""
+r"""Growth of a cylindrical roller bearing: it changes the clearance and the size of the rollers.
+
+The raceways, of diameters $d_m \mp D_w$, grow with their rings: $P_d' = P_d + \Delta G_o - \Delta G_i - 2\Delta D_w$.
+Rollers scale with their temperature.
+"""
 
 import dataclasses
 

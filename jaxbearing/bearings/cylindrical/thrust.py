@@ -20,7 +20,7 @@ from ..ring import InnerRing
 from ..solution import RING_FREEDOMS, Solution
 
 EXPONENT = 10.0 / 9.0
-"""Of the force over the displacement, that of a line contact."""
+"""The exponent of the force over the displacement is that of a line contact."""
 SIDES = {"both": (1.0, -1.0), "+x": (1.0,), "-x": (-1.0,)}
 """Word of a scene for the axial loads that flanges carry -> their signs."""
 NO_AXIAL_FREEDOM = (
@@ -32,7 +32,7 @@ NOT_MODELLED = (
     "friction of the ribs under the axial load, the tilt that it gives the rollers and its effect on the life are not "
     "modelled; without an axial load the ring stands at 0, inside its play"
 )
-"""What a solution with flanges says."""
+"""A solution of a bearing with flanges has this note."""
 
 
 class ThrustFlanges(eqx.Module):

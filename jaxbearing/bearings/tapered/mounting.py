@@ -1,5 +1,4 @@
-r"""What the growth of the rings and the rollers makes of a tapered roller bearing: constants in the approaches of its
-contacts.
+r"""Growth of a tapered roller bearing: it adds constants to the approaches of the contacts.
 
 $u_k = \Delta G_k/2$ at the middle of the raceways. Rollers grow by the strain $\varepsilon$, which moves every face of
 a cone scaled about the centre of its big end by a constant. Angles stay as they are:

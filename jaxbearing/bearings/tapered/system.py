@@ -110,7 +110,7 @@ class TaperedSystem(AbstractConvexArrow):
     """First guess at parameter 1 of the homotopy."""
     multiplicity: int = eqx.field(static=True)
     closing: Float[Array, "3"] | None = None
-    """What growth adds to the approaches of inner race, outer race and rib, m."""
+    """Growth adds these lengths to the approaches of inner race, outer race and rib, m."""
 
     @property
     def freedoms(self) -> tuple[str, ...]:

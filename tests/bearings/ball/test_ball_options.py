@@ -312,6 +312,7 @@ def test_common_orbit_under_combined_load(model):
         np.testing.assert_allclose(common.power_loss.total, own.power_loss.total, rtol=0.01)
 
 
+@pytest.mark.slow
 def test_common_orbit_gradients_against_differences():
     """Asked: 1e-6; also of a bearing at rest, where all speeds are 0."""
     scene = turbine(**DRY, **STRONG, **COMMON)

@@ -58,6 +58,7 @@ def test_balls_are_in_balance(solver, inner, outer):
         np.testing.assert_allclose(left, 0.0, atol=1e-11 * float(jnp.max(balls.load_outer)))
 
 
+@pytest.mark.slow
 def test_a_ball_that_is_caught_behind_the_groove_is_warned_of():
     """A radial load far above the axial one, and a moment: the groove of the model is a full circle."""
     scene = jb.load_scene("angular_contact_218", {"operation.radial_load": "5 kN", "operation.moment": "10 N*m"})

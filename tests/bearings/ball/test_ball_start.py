@@ -84,6 +84,7 @@ def test_films_that_fill_the_play_of_a_light_bearing(light):
     assert abs(axial - 4.0) < 1e-4 * scale
 
 
+@pytest.mark.slow
 def test_an_orbital_speed_that_was_not_found_is_no_result():
     """Rings that turn against each other, heavy balls and hardly any load: two orbital speeds belong to one angle."""
     scene = jb.load_scene("angular_contact_218", FILMS)

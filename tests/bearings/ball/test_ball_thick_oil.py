@@ -74,6 +74,7 @@ def in_turn(scene, numbers):
     return jax.jit(lambda batch: jax.lax.map(one, batch))({key: jnp.asarray(value) for key, value in numbers.items()})
 
 
+@pytest.mark.slow
 def test_thick_oil_under_axial_load():
     found = in_turn(jb.load_scene("turbine_ball", AXIAL), AXIAL_NUMBERS)
     assert np.all(found.converged), found.status
@@ -93,6 +94,7 @@ def test_converge_and_close():
     assert np.all(np.abs(found.drive_power - loss) <= 1e-8 * loss + left)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("film", ["nijenbanning", "hamrock_dowson"])
 def test_films_under_too_little_thrust(film):
     """Most balls of an angular contact bearing lose contact, and those opposite the load lie beyond the centre of their
