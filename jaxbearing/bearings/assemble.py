@@ -26,8 +26,8 @@ from .solution import (
 
 
 class Results(NamedTuple, Generic[Elements, Losses]):
-    """Results of a family, as fields of the `Solution`, before those of a solve that failed are masked; `facts`: what
-    the range checks look at."""
+    """Results of a family, as fields of the `Solution`, before `assemble` masks those of a failed solve. The range
+    checks look at `facts`."""
 
     elements: Elements
     costs: Costs[Losses]
@@ -50,7 +50,7 @@ def assemble(
     """The `Solution` of a solve: how it ended, and NaN for every result where it failed.
 
     **Arguments:**
-    - `results`: of the family.
+    - `results`: those of the family.
     - `port`: force and stiffness of the ring, in all five freedoms.
     - `iterations`: of all solves together; those of `result` where not given.
     - `reasons`: of `Solution`; none applies where the solve converged.

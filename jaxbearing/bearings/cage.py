@@ -54,7 +54,7 @@ class AbstractCage(Checked):
 
     def __check_init__(self):
         super().__check_init__()
-        # of traced numbers `check_fits` says it
+        # `check_fits` checks traced numbers
         sizes = known(self.inner_diameter, self.outer_diameter)
         if sizes is not None and not sizes[0] < sizes[1]:
             raise ValueError(

@@ -1,12 +1,14 @@
 r"""Block-arrow systems whose equations are the gradient of one convex potential: a start that cannot miss the minimum.
 
-Every search takes Newton steps on the potential, regularised by the residual over a radius, $(H + \frac{|r|}{\rho})s = r$:
-no step is longer than the radius, and near the minimum, where the residual vanishes, the step is Newton's. A trial is
-taken where the potential falls; then the radius grows, otherwise it shrinks (`_descent`). All unknowns descend together
-(`descend`), or each element by itself (`settle`), or the globals with all elements at their minima (`descend_settled`).
+All searches use one step and one rule. The step is Newton's with a regularisation in proportion to the residual (Li,
+Fukushima, Qi and Yamashita, Comput. Optim. Appl. 28 (2004) 131): $(H + \frac{|r|}{\rho}C^{-1})s = r$, where C are the
+caps of the unknowns. Over the caps, it is hardly longer than the radius $\rho$; near the minimum, where the residual
+vanishes, it is Newton's. The rule (`_descent`): a trial is taken if the potential falls there. The radius grows after a
+trial that was taken and shrinks after another one.
 
-Contacts that open have no stiffness: the systems add a spring to each block *from where it is* (`anchored`), which
-stabilises the step and vanishes from the equations, so that nothing of it is left in a balance. Nothing here is
+The unknowns descend all together (`descend`), each element descends by itself (`settle`), or the globals descend with
+all elements at their minima (`descend_settled`). Contacts that open have no stiffness: the systems add a spring to each
+block *from where it is* (`anchored`), which stabilises the step and vanishes from the equations. Nothing here is
 differentiated: a minimum is the start of an iteration.
 """
 
@@ -32,17 +34,17 @@ from .arrow import (
 from .small_linear import solve_blocks, solve_dense
 
 FARTHEST = 256.0
-"""First and largest radius of a step, over the cap of a Newton step: an element that nothing touches has far to go."""
+"""First and largest radius, in caps of a Newton step: an element that nothing touches has far to go."""
 LONGER, SHORTER = 8.0, 0.25
-"""Factors of the radius after a trial that was taken, and after one that was not. Of random tapered bearings as many
+"""Factors of the radius after a trial that was taken, and after one that was not. As many random tapered bearings
 converge with 3 and 0.5, 4 and 0.25, 16 and 0.1."""
 SHORTEST = 1e-13
-"""Length of a step, over the cap, that is none: only rounding is left."""
+"""Shortest step, in caps: a shorter one is rounding, and ends the search."""
 FALLS, ROUNDING = 0.9, 1e-11
-"""A trial that lowers the residual to this part is also taken where the potential falls or rises by rounding, this part
-of itself."""
+"""A trial is also taken if it lowers the residual to the part `FALLS` and raises the potential by the part `ROUNDING`
+at most: near the minimum the fall of the potential is lost in rounding."""
 TOGETHER_TRIALS, SETTLED_TRIALS, ELEMENT_TRIALS = 80, 80, 300
-"""Most trials of the descent of all unknowns together, of the globals with the elements at their minima, and of these."""
+"""Most trials of `descend`, `descend_settled` and `settle`."""
 OUTSIDE = 1e-3
 """Largest residual of the other equations, over the force that pushes a global over its bound."""
 
@@ -72,11 +74,12 @@ class AbstractConvexArrow(AbstractArrowSystem):
     def tangents(
         self, unknowns: Float[Array, "m element"], shared: Float[Array, "g element"]
     ) -> tuple[Float[Array, "row element"], Float[Array, "row m+g element"], Float[Array, " element"]]:
-        """Values of `acting`, their derivatives by unknowns and globals (`arrow.element_tangents`), and the energies."""
+        """Values of `acting`, their derivatives by unknowns and globals (`arrow.element_tangents`), and the energies. A
+        system that writes them out saves time."""
         return element_tangents(self.acting, unknowns, shared)
 
     def near(self, point: ArrowPoint) -> ArrowPoint:
-        """The point with its elements nearer to their minima, of a system that has a formula for these."""
+        """The point with its elements near their minima, if the system has a formula for these; otherwise itself."""
         return point
 
 
@@ -87,12 +90,12 @@ def anchored(value: Array, stiffness: float) -> Array:
 
 @jax.jit
 def _tangents(system: AbstractConvexArrow, unknowns: Array, shared: Array) -> tuple[Array, Array, Array]:
-    """`system.tangents`, as one function of the program, however often it is called."""
+    """`system.tangents`; the compiled program contains it once, however often it is called."""
     return system.tangents(unknowns, shared)
 
 
 class _View(NamedTuple):
-    """What a search sees at a point: potential, largest scaled residual, and what the step is made of."""
+    """What a search knows of a point: potential, largest scaled residual, and the blocks that give the step."""
 
     energy: Float[Array, "*lane"]
     size: Float[Array, "*lane"]
@@ -100,8 +103,8 @@ class _View(NamedTuple):
 
 
 class _Search(NamedTuple):
-    """State of a search: the best point so far and what is seen there; the next trial, at `length` from it; and the
-    radius that its step was made for. A lane is an element, or there is one (scalars)."""
+    """State of a search: the best point so far and its view; the next trial, at `length` from it in caps; the radius of
+    that step. Each element is a lane if the elements search alone; otherwise there is one lane (scalars)."""
 
     trial: Any
     length: Float[Array, "*lane"]
@@ -123,10 +126,9 @@ def _descent(
     """Descends until the largest residual is below `tolerance`, until only rounding is left, or for `most` trials.
 
     **Arguments:**
-    - `look`: the trial, or the point that it leads to, and what is seen there.
-    - `step`: what to take from the point seen, and its length over the caps; from the view, and what is to be added to
-      the stiffness of each unknown times its cap.
-    - `start`: a tree of arrays whose last axis is the lane, or, where there is one lane, any.
+    - `look`: trial -> the point that it leads to (itself, or with its elements settled), and the view of that point.
+    - `step`: (view, |r|/rho) -> step to be subtracted from the point, and its length in caps.
+    - `start`: a tree of arrays; if there are several lanes, they are the last axis of each array.
     """
 
     def advance(state: _Search) -> _Search:
@@ -140,19 +142,17 @@ def _descent(
         radius = choose(longer, SHORTER * jnp.minimum(state.radius, state.length))
         move, length = step(view, view.size / radius)
         trial = jax.tree.map(jnp.subtract, point, move)
-        # a first trial without numbers leaves no length
+        # if the start has no numbers, the length has none either, and the search ends
         going = state.going & (view.size > tolerance) & (length > SHORTEST)
-        return _Search(
-            trial, length, point, view, radius, going, state.trials + 1, state.steps + jnp.any(taken).astype(int)
-        )
+        # the first trial is the start itself
+        stepped = (state.trials > 0) & jnp.any(taken)
+        return _Search(trial, length, point, view, radius, going, state.trials + 1, state.steps + stepped.astype(int))
 
     blank = jax.tree.map(lambda leaf: jnp.zeros(leaf.shape, leaf.dtype), jax.eval_shape(look, start)[1])
     nowhere = blank.energy + jnp.inf
     view = blank._replace(energy=nowhere, size=nowhere)
-    # the first trial is the start itself, and no step
-    begin = _Search(
-        start, nowhere, start, view, blank.energy + FARTHEST, nowhere > 0.0, jnp.asarray(0), jnp.asarray(-1)
-    )
+    none = jnp.asarray(0)
+    begin = _Search(start, nowhere, start, view, blank.energy + FARTHEST, nowhere > 0.0, none, none)
     return jax.lax.while_loop(lambda state: jnp.any(state.going) & (state.trials < most), advance, begin)
 
 
@@ -166,7 +166,7 @@ class Descent(NamedTuple):
 
 
 def descend(system: AbstractConvexArrow, guess: ArrowPoint, *, tolerance: float, trials: int) -> Descent:
-    """Towards the minimum of the potential, all unknowns together."""
+    """Descends towards the minimum of the potential with all unknowns together; `bounds` do not hold it."""
     system, guess = jax.lax.stop_gradient((system, guess))
     caps = system.step_caps()
 
@@ -189,7 +189,8 @@ def descend(system: AbstractConvexArrow, guess: ArrowPoint, *, tolerance: float,
 def settle(
     system: AbstractConvexArrow, point: ArrowPoint, *, tolerance: float = 1e-8, trials: int = ELEMENT_TRIALS
 ) -> ArrowPoint:
-    """Every element at the minimum of its own energy, the globals where they are; each element takes its own steps."""
+    """The point with every element at the minimum of its own energy, for the given globals. Each element takes its own
+    steps."""
     system, point = jax.lax.stop_gradient((system, point))
     return _settled(system, point, tolerance, trials)
 
@@ -220,9 +221,9 @@ def descend_settled(
     element_tolerance: float = 1e-8,
     element_trials: int = ELEMENT_TRIALS,
 ) -> Descent:
-    """As `descend`, but of the globals alone, all elements at their minima at every trial: dearer a step, and not held
-    up by elements that hardly touch. Globals stay within `bounds`: where one ends at its bound and its equation pushes
-    outwards, the minimum is outside, as the potential is convex."""
+    """Descends with the globals alone, all elements at their minima at every trial: a step is dearer than one of
+    `descend`, and elements that hardly touch do not hold it up. The globals stay within `bounds`: if one ends at its
+    bound and its equation pushes outwards, the minimum is outside, as the potential is convex."""
     system, guess = jax.lax.stop_gradient((system, guess))
     caps = system.step_caps().globals
     low, high = (bound.globals for bound in system.bounds())
@@ -237,7 +238,7 @@ def descend_settled(
         right = equations.residual.globals * (1.0 - held)
         matrix = schur * (1.0 - held)[:, None] * (1.0 - held)[None, :] + jnp.diag(held)
         energy = jnp.sum(energies) - system.work(point.globals)
-        # in equilibrium the elements' residuals count no more
+        # the elements are in equilibrium: only the residuals of the globals count
         return point, _View(energy, jnp.max(jnp.abs(right)), (right, matrix, coupled))
 
     def step(view: _View, stiffening: Array) -> tuple[ArrowPoint, Array]:

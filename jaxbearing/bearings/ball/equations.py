@@ -6,8 +6,8 @@ the spin of a skidding ball turns round through 0); with a resolved gyroscopic c
 tangent; without a cage the orbital speed, with one the radial friction of the pocket. Globally: ring displacements,
 with a cage its speed (all balls orbit with it), and without traction, on request, one orbital speed for all.
 
-What the balls do without traction, and the two equations that the centres fit, stand in `frictionless`; friction on the
-balls and the equations of their motion in `friction`.
+`frictionless` has the balls without traction and the two equations by which their centres fit; `friction` has the
+friction on the balls and the equations of their motion.
 
 The massless cage hands the pocket forces on to its lands, and where the inner ring guides it they stand in that ring's
 balance, $F_r = \sum p_r\cos\psi + W_{FCi}\cos\chi$, $W_{FCi}\cos\chi = \sum(F_{C2} - F_{C1})\cos\psi$ (source eqs.

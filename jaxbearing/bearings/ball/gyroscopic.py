@@ -64,7 +64,7 @@ class SharedCouple(AbstractGyroscopic):
                 abs(self.inner_share + self.outer_share - 2.0) <= 2e-9,
                 lambda: (
                     f"kinematics.outer_share must be {2.0 - float(self.inner_share):g}, got "
-                    f"{float(self.outer_share):g}: the shares add up to 2 (in a scene file one of them is enough)"
+                    f"{float(self.outer_share):g}: the shares add up to 2; a scene file may leave one out"
                 ),
             )
 

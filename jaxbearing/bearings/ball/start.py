@@ -1,8 +1,8 @@
 r"""First guess of a ball bearing's equilibrium: without friction, at frozen centrifugal forces, it is a convex problem.
 
 $\Pi = \sum_j[\frac25K_o\delta_{o+}^{5/2} + \frac25K_i\delta_{i+}^{5/2} - F_CW] - F\cdot q$: each $\delta$ is the norm
-of an affine map minus a constant, and the power is convex and increasing. The ring descends it with every ball in
-equilibrium (`numerics.convex.descend_settled`). Nothing here is differentiated: it is the start of an iteration.
+of an affine map minus a constant, and the power is convex and increasing. The ring's displacements descend it, every
+ball in equilibrium (`numerics.convex.descend_settled`). Nothing here is differentiated: an iteration starts from it.
 """
 
 from typing import NamedTuple
@@ -21,7 +21,7 @@ RING_TOLERANCE = 2e-2
 BALL_TOLERANCE = 1e-5
 """Tolerance of a ball's balance, relative to its load scale."""
 RING_TRIALS, BALL_TRIALS = 40, 60
-"""Most trials."""
+"""Most trials of the search for the ring, and of that for the balls at one place of the ring."""
 SOFTEST = 1e2
 """Spring that holds each ball and the ring where it is, N/m: where no ball carries anything the ring would be free."""
 
@@ -31,7 +31,7 @@ class CentrifugalProblem(AbstractConvexArrow):
 
     Unknowns, m: the centre of each ball from that of its outer groove, and the displacements of the ring. `groove`:
     inner groove centre of every ball with the ring at rest; `directions`: its change for a unit of every ring freedom
-    (a length each); `ring_load`: on them; `load_scale`: size of all the balls carry; `aligned`: axial displacement at
+    (a length each); `ring_load`: on them; `load_scale`: of the ring's balances, N; `aligned`: axial displacement at
     which the planes of the grooves coincide; `multiplicity`: balls that each ball stands for.
     """
 
@@ -92,7 +92,7 @@ class CentrifugalProblem(AbstractConvexArrow):
         inner, outer = across[:, None] * arm
         push = jnp.stack([jnp.zeros_like(self.centrifugal), self.centrifugal])
         energies = 0.4 * jnp.sum(load * depth, axis=0) - self.centrifugal * unknowns[1]
-        # per unit of each freedom: force on the inner groove, and what that is along each freedom
+        # per unit of each freedom: change of the force on the inner groove, and its part along each freedom
         turned = jnp.sum(stiffness[:1] * self.directions[:, None], axis=2)
         along_freedoms = self.multiplicity * jnp.sum(self.directions[:, None] * turned[None], axis=2)
         scale = self.load_scale / self.count + self.centrifugal

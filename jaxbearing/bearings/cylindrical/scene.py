@@ -108,8 +108,8 @@ class CylindricalRollerBearing(AbstractBearing):
         yield from refusals_of(self.operation.check_rings_turn)
         if self.slips and self.cage is None and self.simulation is None:
             yield (
-                "cage: expected a cage, which contact.traction needs: without one a roller outside the loaded zone slows "
-                "down for ever (leave out contact.traction, or use simulate)"
+                "cage: expected a cage, which contact.traction needs: without one a roller outside the loaded zone "
+                "slows down for ever (leave out contact.traction, or use simulate)"
             )
         if self.oil is None:
             yield "oil: a scene with a [contact] table needs an oil"
