@@ -34,10 +34,14 @@ from .arrow import (
 from .small_linear import solve_blocks, solve_dense
 
 FARTHEST = 256.0
-"""First and largest radius, in caps of a Newton step: an element that nothing touches has far to go."""
-LONGER, SHORTER = 8.0, 0.25
+"""Largest radius, in caps of a Newton step: an element that nothing touches has far to go. `descend` and `settle` begin
+with it."""
+NEAR = 1.0
+"""First radius of the globals with settled elements. Of dry ball bearings that may tilt, 300 random ones take 6 % fewer
+steps than with `FARTHEST`."""
+LONGER, SHORTER = 8.0, 0.5
 """Factors of the radius after a trial that was taken, and after one that was not. As many random tapered bearings
-converge with 3 and 0.5, 4 and 0.25, 16 and 0.1."""
+converge with 3 and 0.5, 8 and 0.25, 16 and 0.1."""
 SHORTEST = 1e-13
 """Shortest step, in caps: a shorter one is rounding, and ends the search."""
 FALLS, ROUNDING = 0.9, 1e-11
@@ -122,6 +126,7 @@ def _descent(
     start: Any,
     tolerance: float,
     most: int,
+    radius: float = FARTHEST,
 ) -> _Search:
     """Descends until the largest residual is below `tolerance`, until only rounding is left, or for `most` trials.
 
@@ -129,6 +134,7 @@ def _descent(
     - `look`: trial -> the point that it leads to (itself, or with its elements settled), and the view of that point.
     - `step`: (view, |r|/rho) -> step to be subtracted from the point, and its length in caps.
     - `start`: a tree of arrays; if there are several lanes, they are the last axis of each array.
+    - `radius`: of the first step, in caps.
     """
 
     def advance(state: _Search) -> _Search:
@@ -140,19 +146,21 @@ def _descent(
         point, view = jax.tree.map(choose, (point, view), (state.point, old))
         longer = jnp.minimum(LONGER * state.radius, FARTHEST)
         radius = choose(longer, SHORTER * jnp.minimum(state.radius, state.length))
+        # the first trial is the start itself
+        first = state.trials == 0
+        radius = jnp.where(first, state.radius, radius)
         move, length = step(view, view.size / radius)
         trial = jax.tree.map(jnp.subtract, point, move)
         # if the start has no numbers, the length has none either, and the search ends
         going = state.going & (view.size > tolerance) & (length > SHORTEST)
-        # the first trial is the start itself
-        stepped = (state.trials > 0) & jnp.any(taken)
+        stepped = ~first & jnp.any(taken)
         return _Search(trial, length, point, view, radius, going, state.trials + 1, state.steps + stepped.astype(int))
 
     blank = jax.tree.map(lambda leaf: jnp.zeros(leaf.shape, leaf.dtype), jax.eval_shape(look, start)[1])
     nowhere = blank.energy + jnp.inf
     view = blank._replace(energy=nowhere, size=nowhere)
     none = jnp.asarray(0)
-    begin = _Search(start, nowhere, start, view, blank.energy + FARTHEST, nowhere > 0.0, none, none)
+    begin = _Search(start, nowhere, start, view, blank.energy + radius, nowhere > 0.0, none, none)
     return jax.lax.while_loop(lambda state: jnp.any(state.going) & (state.trials < most), advance, begin)
 
 
@@ -246,7 +254,7 @@ def descend_settled(
         move = solve_dense(matrix + jnp.diag(stiffening / caps), right)
         return ArrowPoint(-jnp.einsum("mgn,g->mn", coupled, move), move), jnp.max(jnp.abs(move) / caps)
 
-    end = _descent(look, step, guess, tolerance, trials)
+    end = _descent(look, step, guess, tolerance, trials, NEAR)
     return Descent(end.point, end.view.size, end.steps)
 
 
