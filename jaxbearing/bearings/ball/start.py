@@ -18,7 +18,7 @@ from ...numerics.safe import safe_norm
 
 RING_TOLERANCE = 2e-2
 """Tolerance of the ring's balance, relative to the load: sufficient for a start of the full equations."""
-BALL_TOLERANCE = 1e-3
+BALL_TOLERANCE = 1e-5
 """Tolerance of a ball's balance, relative to its load scale."""
 RING_TRIALS, BALL_TRIALS = 40, 60
 """Most trials of the search for the ring, and of that for the balls at one place of the ring."""
