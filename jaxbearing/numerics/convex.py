@@ -34,14 +34,10 @@ from .arrow import (
 from .small_linear import solve_blocks, solve_dense
 
 FARTHEST = 256.0
-"""Largest radius, in caps of a Newton step: an element that nothing touches has far to go. `descend` and `settle` begin
-with it."""
-NEAR = 1.0
-"""First radius of the globals with settled elements. Of dry ball bearings that may tilt, 300 random ones take 6 % fewer
-steps than with `FARTHEST`."""
+"""First and largest radius, in caps of a Newton step: an element that nothing touches has far to go."""
 LONGER, SHORTER = 8.0, 0.5
 """Factors of the radius after a trial that was taken, and after one that was not. As many random tapered bearings
-converge with 3 and 0.5, 8 and 0.25, 16 and 0.1."""
+converge with 3 and 0.5, 8 and 0.25, 30 and 0.5."""
 SHORTEST = 1e-13
 """Shortest step, in caps: a shorter one is rounding, and ends the search."""
 FALLS, ROUNDING = 0.9, 1e-11
@@ -49,6 +45,8 @@ FALLS, ROUNDING = 0.9, 1e-11
 at most: near the minimum the fall of the potential is lost in rounding."""
 TOGETHER_TRIALS, SETTLED_TRIALS, ELEMENT_TRIALS = 80, 80, 300
 """Most trials of `descend`, `descend_settled` and `settle`."""
+ELEMENT_TOLERANCE = 1e-8
+"""Largest scaled residual of an element that is settled."""
 OUTSIDE = 1e-3
 """Largest residual of the other equations, over the force that pushes a global over its bound."""
 
@@ -75,17 +73,6 @@ class AbstractConvexArrow(AbstractArrowSystem):
         energies = self.acting(point.elements, shared_by_elements(point))[2]
         return jnp.sum(energies) - self.work(point.globals)
 
-    def tangents(
-        self, unknowns: Float[Array, "m element"], shared: Float[Array, "g element"]
-    ) -> tuple[Float[Array, "row element"], Float[Array, "row m+g element"], Float[Array, " element"]]:
-        """Values of `acting`, their derivatives by unknowns and globals (`arrow.element_tangents`), and the energies. A
-        system that writes them out saves time."""
-        return element_tangents(self.acting, unknowns, shared)
-
-    def near(self, point: ArrowPoint) -> ArrowPoint:
-        """The point with its elements near their minima, if the system has a formula for these; otherwise itself."""
-        return point
-
 
 def anchored(value: Array, stiffness: float) -> Array:
     """0, with the derivative of stiffness times `value`: a spring from where it is."""
@@ -94,8 +81,9 @@ def anchored(value: Array, stiffness: float) -> Array:
 
 @jax.jit
 def _tangents(system: AbstractConvexArrow, unknowns: Array, shared: Array) -> tuple[Array, Array, Array]:
-    """`system.tangents`; the compiled program contains it once, however often it is called."""
-    return system.tangents(unknowns, shared)
+    """Values of `acting`, their derivatives by unknowns and globals, and the energies. The compiled program contains
+    this function once, however often it is called."""
+    return element_tangents(system.acting, unknowns, shared)
 
 
 class _View(NamedTuple):
@@ -126,7 +114,6 @@ def _descent(
     start: Any,
     tolerance: float,
     most: int,
-    radius: float = FARTHEST,
 ) -> _Search:
     """Descends until the largest residual is below `tolerance`, until only rounding is left, or for `most` trials.
 
@@ -134,7 +121,6 @@ def _descent(
     - `look`: trial -> the point that it leads to (itself, or with its elements settled), and the view of that point.
     - `step`: (view, |r|/rho) -> step to be subtracted from the point, and its length in caps.
     - `start`: a tree of arrays; if there are several lanes, they are the last axis of each array.
-    - `radius`: of the first step, in caps.
     """
 
     def advance(state: _Search) -> _Search:
@@ -146,21 +132,19 @@ def _descent(
         point, view = jax.tree.map(choose, (point, view), (state.point, old))
         longer = jnp.minimum(LONGER * state.radius, FARTHEST)
         radius = choose(longer, SHORTER * jnp.minimum(state.radius, state.length))
-        # the first trial is the start itself
-        first = state.trials == 0
-        radius = jnp.where(first, state.radius, radius)
         move, length = step(view, view.size / radius)
         trial = jax.tree.map(jnp.subtract, point, move)
         # if the start has no numbers, the length has none either, and the search ends
         going = state.going & (view.size > tolerance) & (length > SHORTEST)
-        stepped = ~first & jnp.any(taken)
+        # the first trial is the start itself
+        stepped = (state.trials > 0) & jnp.any(taken)
         return _Search(trial, length, point, view, radius, going, state.trials + 1, state.steps + stepped.astype(int))
 
     blank = jax.tree.map(lambda leaf: jnp.zeros(leaf.shape, leaf.dtype), jax.eval_shape(look, start)[1])
     nowhere = blank.energy + jnp.inf
     view = blank._replace(energy=nowhere, size=nowhere)
     none = jnp.asarray(0)
-    begin = _Search(start, nowhere, start, view, blank.energy + radius, nowhere > 0.0, none, none)
+    begin = _Search(start, nowhere, start, view, blank.energy + FARTHEST, nowhere > 0.0, none, none)
     return jax.lax.while_loop(lambda state: jnp.any(state.going) & (state.trials < most), advance, begin)
 
 
@@ -194,16 +178,10 @@ def descend(system: AbstractConvexArrow, guess: ArrowPoint, *, tolerance: float,
     return Descent(end.point, end.view.size, end.steps)
 
 
-def settle(
-    system: AbstractConvexArrow, point: ArrowPoint, *, tolerance: float = 1e-8, trials: int = ELEMENT_TRIALS
-) -> ArrowPoint:
+def settle(system: AbstractConvexArrow, point: ArrowPoint) -> ArrowPoint:
     """The point with every element at the minimum of its own energy, for the given globals. Each element takes its own
     steps."""
     system, point = jax.lax.stop_gradient((system, point))
-    return _settled(system, point, tolerance, trials)
-
-
-def _settled(system: AbstractConvexArrow, point: ArrowPoint, tolerance: float, trials: int) -> ArrowPoint:
     m = point.elements.shape[0]
     shared, caps = shared_by_elements(point), system.step_caps().elements
 
@@ -217,18 +195,11 @@ def _settled(system: AbstractConvexArrow, point: ArrowPoint, tolerance: float, t
         move = solve_blocks(local + jnp.eye(m)[:, :, None] * (stiffening[None] / caps)[None], residual)[:, 0]
         return move, jnp.max(jnp.abs(move) / caps, axis=0)
 
-    return ArrowPoint(_descent(look, step, point.elements, tolerance, trials).point, point.globals)
+    end = _descent(look, step, point.elements, ELEMENT_TOLERANCE, ELEMENT_TRIALS)
+    return ArrowPoint(end.point, point.globals)
 
 
-def descend_settled(
-    system: AbstractConvexArrow,
-    guess: ArrowPoint,
-    *,
-    tolerance: float,
-    trials: int,
-    element_tolerance: float = 1e-8,
-    element_trials: int = ELEMENT_TRIALS,
-) -> Descent:
+def descend_settled(system: AbstractConvexArrow, guess: ArrowPoint, *, tolerance: float, trials: int) -> Descent:
     """Descends with the globals alone, all elements at their minima at every trial: a step is dearer than one of
     `descend`, and elements that hardly touch do not hold it up. The globals stay within `bounds`: if one ends at its
     bound and its equation pushes outwards, the minimum is outside, as the potential is convex."""
@@ -238,7 +209,7 @@ def descend_settled(
 
     def look(point: ArrowPoint) -> tuple[ArrowPoint, _View]:
         inside = ArrowPoint(point.elements, jnp.clip(point.globals, low, high))
-        point = _settled(system, system.near(inside), element_tolerance, element_trials)
+        point = settle(system, inside)
         values, tangents, energies = _tangents(system, point.elements, shared_by_elements(point))
         equations, jacobian = assembled(system, point, values, tangents, jnp.zeros(()))
         held = pushed_out(system, point, equations.residual).astype(float)
@@ -254,7 +225,7 @@ def descend_settled(
         move = solve_dense(matrix + jnp.diag(stiffening / caps), right)
         return ArrowPoint(-jnp.einsum("mgn,g->mn", coupled, move), move), jnp.max(jnp.abs(move) / caps)
 
-    end = _descent(look, step, guess, tolerance, trials, NEAR)
+    end = _descent(look, step, guess, tolerance, trials)
     return Descent(end.point, end.view.size, end.steps)
 
 

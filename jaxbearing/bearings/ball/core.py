@@ -211,7 +211,7 @@ class BallCore(AbstractBallSystem):
             groove=self._groove_at_rest(),
             directions=self.directions,
             ring_load=self.ring.load,
-            load_scale=self.load_scale(),
+            held_load=self.ring.held_load,
             centrifugal=self.outward_force(self.motion(angle)),
             multiplicity=self.multiplicity,
             centre_distance=self.grooves.centre_distance,

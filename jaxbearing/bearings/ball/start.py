@@ -1,8 +1,9 @@
 r"""First guess of a ball bearing's equilibrium: without friction, at frozen centrifugal forces, it is a convex problem.
 
 $\Pi = \sum_j[\frac25K_o\delta_{o+}^{5/2} + \frac25K_i\delta_{i+}^{5/2} - F_CW] - F\cdot q$: each $\delta$ is the norm
-of an affine map minus a constant, and the power is convex and increasing. The ring's displacements descend it, every
-ball in equilibrium (`numerics.convex.descend_settled`). Nothing here is differentiated: an iteration starts from it.
+of an affine map minus a constant, and the power is convex and increasing. Two nested damped Newton iterations, on each
+ball for a given ring and on the ring with every ball in equilibrium, both accepting a step only where the potential
+falls. Nothing here is differentiated: it is the start of an iteration.
 """
 
 from typing import NamedTuple
@@ -12,27 +13,29 @@ import jax
 import jax.numpy as jnp
 from jaxtyping import Array, Bool, Float, Int
 
-from ...numerics.arrow import ArrowPoint
-from ...numerics.convex import AbstractConvexArrow, anchored, descend_settled, settle
 from ...numerics.safe import safe_norm
+from ...numerics.small_linear import solve_blocks, solve_dense
 
 RING_TOLERANCE = 2e-2
 """Tolerance of the ring's balance, relative to the load: sufficient for a start of the full equations."""
-BALL_TOLERANCE = 1e-5
+BALL_TOLERANCE = 1e-9
 """Tolerance of a ball's balance, relative to its load scale."""
-RING_TRIALS, BALL_TRIALS = 40, 60
-"""Most trials of the search for the ring, and of that for the balls at one place of the ring."""
+RING_STEPS, BALL_STEPS = 40, 60
+"""Most trials."""
 SOFTEST = 1e2
-"""Spring that holds each ball and the ring where it is, N/m: where no ball carries anything the ring would be free."""
+"""Added to the ring's stiffness, N/m: where no ball carries anything the ring would be free."""
+ARMIJO = 1e-4
+"""Part of the promised decrease that a step must bring."""
+SHORTEST = 1e-6
+"""Fraction of a step at which it is taken as it is: the decrease is lost in round-off."""
 
 
-class CentrifugalProblem(AbstractConvexArrow):
+class CentrifugalProblem(eqx.Module):
     """Balls between two grooves under given forces. Units m, N; (inner, outer) or (axial, radial) first.
 
-    Unknowns, m: the centre of each ball from that of its outer groove, and the displacements of the ring. `groove`:
-    inner groove centre of every ball with the ring at rest; `directions`: its change for a unit of every ring freedom
-    (a length each); `ring_load`: on them; `load_scale`: of the ring's balances, N; `aligned`: axial displacement at
-    which the planes of the grooves coincide; `multiplicity`: balls that each ball stands for.
+    `groove`: inner groove centre of every ball with the ring at rest; `directions`: its change for a unit of every
+    ring freedom (a length each); `ring_load`: on them; `held_load`: of `InnerRing`; `aligned`: axial
+    displacement at which the planes of the grooves coincide; `multiplicity`: balls that each ball stands for.
     """
 
     offset: Float[Array, "2"]
@@ -40,7 +43,7 @@ class CentrifugalProblem(AbstractConvexArrow):
     groove: Float[Array, "2 ball"]
     directions: Float[Array, "freedom 2 ball"]
     ring_load: Float[Array, " freedom"]
-    load_scale: Float[Array, ""]
+    held_load: Float[Array, ""] | None
     centrifugal: Float[Array, " ball"]
     centre_distance: Float[Array, ""]
     free_cosine: Float[Array, ""]
@@ -48,74 +51,49 @@ class CentrifugalProblem(AbstractConvexArrow):
     multiplicity: int = eqx.field(static=True)
     freedoms: tuple[str, ...] = eqx.field(static=True)
 
-    @property
-    def count(self) -> int:
-        """Number of balls that carry the load."""
-        return self.groove.shape[1] * self.multiplicity
-
     def groove_at(self, ring: Float[Array, " freedom"]) -> Float[Array, "2 ball"]:
         return self.groove + jnp.einsum("f,fcn->cn", ring, self.directions)
 
-    def initial(self) -> ArrowPoint:
-        return self.near(ArrowPoint(self.groove, ring_estimate(self)))
-
-    def near(self, point: ArrowPoint) -> ArrowPoint:
-        return ArrowPoint(free_centres(self, self.groove_at(point.globals))[0], point.globals)
-
-    def equation_names(self) -> tuple[str, ...]:
-        return ("axial balance of a ball", "radial balance of a ball", *(f"{name} balance" for name in self.freedoms))
-
-    def step_caps(self) -> ArrowPoint:
-        half = 0.5 * self.centre_distance
-        return ArrowPoint(jnp.stack([half, half])[:, None], jnp.full(len(self.freedoms), half))
-
-    def bounds(self) -> tuple[ArrowPoint, ArrowPoint]:
-        elements, ring = jnp.full((2, 1), jnp.inf), jnp.full(len(self.freedoms), jnp.inf)
-        return ArrowPoint(-elements, -ring), ArrowPoint(elements, ring)
-
-    def acting(self, unknowns, shared):
-        values, _, energies = self.tangents(unknowns, shared)
-        return values[:2], values[2:], energies
-
-    def tangents(self, unknowns, shared):
-        """See `AbstractConvexArrow`; written out, since this is what the search computes most."""
-        groove = self.groove + jnp.sum(shared[:, None] * self.directions, axis=0)
-        arm = jnp.stack([groove - unknowns, unknowns])
-        length = safe_norm(arm[:, 0], arm[:, 1], 1e-30)
-        depth = jnp.maximum(length - self.offset[:, None], 0.0)
-        root = self.stiffness[:, None] * jnp.sqrt(depth)
-        load = root * depth
-        across = load / length
-        along = (1.5 * root - across) / jnp.square(length)
-        identity = jnp.eye(2)[:, :, None]
-        stiffness = along[:, None, None] * arm[:, :, None] * arm[:, None] + across[:, None, None] * identity[None]
-        inner, outer = across[:, None] * arm
-        push = jnp.stack([jnp.zeros_like(self.centrifugal), self.centrifugal])
-        energies = 0.4 * jnp.sum(load * depth, axis=0) - self.centrifugal * unknowns[1]
-        # per unit of each freedom: change of the force on the inner groove, and its part along each freedom
-        turned = jnp.sum(stiffness[:1] * self.directions[:, None], axis=2)
-        along_freedoms = self.multiplicity * jnp.sum(self.directions[:, None] * turned[None], axis=2)
-        scale = self.load_scale / self.count + self.centrifugal
-        totals = self.multiplicity * jnp.sum(self.directions * inner[None], axis=1)
-        local = stiffness[0] + stiffness[1] + SOFTEST * identity
-        own = jnp.concatenate([local, -jnp.swapaxes(turned, 0, 1)], axis=1) / scale[None, None]
-        of_ring = jnp.concatenate([-self.multiplicity * turned, along_freedoms], axis=1)
-        values = jnp.concatenate([(outer - inner - push) / scale[None], totals])
-        return values, jnp.concatenate([own, of_ring]), self.multiplicity * energies
-
-    def global_residual(self, globals_, totals):
-        return (totals - self.ring_load + anchored(globals_, SOFTEST)) / self.load_scale, jnp.zeros(())
-
-    def work(self, globals_):
-        return jnp.sum(self.ring_load * globals_)
-
 
 class Start(NamedTuple):
-    """Ball centres from the outer groove centre and ring displacements, m; Newton steps of the ring."""
+    """Ball centres from the outer groove centre and ring displacements, m; outer Newton steps."""
 
     centre: Float[Array, "2 ball"]
     ring: Float[Array, " freedom"]
     steps: Int[Array, ""]
+
+
+class _Forces(NamedTuple):
+    """Energy, forces and stiffness of the two springs at a ball, for given centres of ball and inner groove."""
+
+    energy: Float[Array, " ball"]
+    balance: Float[Array, "2 ball"]
+    """d energy / d centre."""
+    inner: Float[Array, "2 ball"]
+    """d energy / d groove centre: force on the inner ring."""
+    stiffness_outer: Float[Array, "2 2 ball"]
+    stiffness_inner: Float[Array, "2 2 ball"]
+
+
+def _spring(arm: Float[Array, "2 ball"], offset: Array, constant: Array) -> tuple[Array, Array, Array]:
+    """Energy, force and stiffness of one contact, whose centres are `arm` apart."""
+    length = safe_norm(arm[0], arm[1], 1e-30)
+    approach = jnp.maximum(length - offset, 0.0)
+    root = jnp.sqrt(approach)
+    load = constant * approach * root
+    normal = arm / length[None]
+    along = normal[:, None] * normal[None, :]
+    across = jnp.eye(2)[:, :, None] - along
+    stiffness = (1.5 * constant * root)[None, None] * along + (load / length)[None, None] * across
+    return 0.4 * load * approach, load[None] * normal, stiffness
+
+
+def _forces(problem: CentrifugalProblem, centre: Array, groove: Array) -> _Forces:
+    inner_energy, inner, inner_stiffness = _spring(groove - centre, problem.offset[0], problem.stiffness[0])
+    outer_energy, outer, outer_stiffness = _spring(centre, problem.offset[1], problem.stiffness[1])
+    push = jnp.stack([jnp.zeros_like(problem.centrifugal), problem.centrifugal])
+    energy = inner_energy + outer_energy - problem.centrifugal * centre[1]
+    return _Forces(energy, outer - inner - push, inner, outer_stiffness, inner_stiffness)
 
 
 def free_centres(
@@ -146,21 +124,128 @@ def free_centres(
     return jnp.where(lost[None], resting, centre), lost
 
 
+class _Balls(NamedTuple):
+    centre: Array
+    step: Array
+    energy: Array
+    slope: Array
+    fraction: Array
+    done: Bool[Array, " ball"]
+    trials: Int[Array, ""]
+
+
+def _equilibrium(problem: CentrifugalProblem, groove: Array, scale: Array, cap: Array) -> Float[Array, "2 ball"]:
+    """Ball centres that minimise each ball's potential for given inner grooves."""
+    first, lost = free_centres(problem, groove)
+
+    def propose(centre: Array, forces: _Forces):
+        matrix = forces.stiffness_outer + forces.stiffness_inner + SOFTEST * jnp.eye(2)[:, :, None]
+        step = -solve_blocks(matrix, forces.balance[:, None, :])[:, 0]
+        step = step * jnp.minimum(1.0, cap / safe_norm(step[0], step[1], 1e-30))[None]
+        small = jnp.max(jnp.abs(forces.balance), axis=0) <= BALL_TOLERANCE * scale
+        return step, jnp.sum(step * forces.balance, axis=0), small | (jnp.max(jnp.abs(step), axis=0) < 1e-15)
+
+    def advance(state: _Balls) -> _Balls:
+        trial = state.centre + state.fraction[None] * state.step
+        forces = _forces(problem, trial, groove)
+        enough = forces.energy <= state.energy + ARMIJO * state.fraction * state.slope
+        # near the minimum the decrease is lost in the round-off of the energy
+        near = jnp.abs(state.slope) <= 1e-12 * jnp.abs(forces.energy) + 1e-18
+        accept = (enough | near | (state.fraction < SHORTEST)) & ~state.done
+        step, slope, small = propose(trial, forces)
+        # a lane that begins without numbers has none later, and the others would wait for it
+        hopeless = (state.trials == 0) & jnp.isnan(forces.energy)
+        return _Balls(
+            centre=jnp.where(accept[None], trial, state.centre),
+            step=jnp.where(accept[None], step, state.step),
+            energy=jnp.where(accept, forces.energy, state.energy),
+            slope=jnp.where(accept, slope, state.slope),
+            fraction=jnp.where(accept, 1.0, jnp.where(state.done, state.fraction, 0.3 * state.fraction)),
+            done=state.done | (accept & small) | hopeless,
+            trials=state.trials + 1,
+        )
+
+    # the first trial is the start itself, taken in any case
+    zeros = jnp.zeros_like(first[0])
+    begin = _Balls(first, jnp.zeros_like(first), zeros + jnp.inf, zeros, zeros + 1.0, lost, jnp.asarray(0))
+    going = lambda state: (state.trials < BALL_STEPS) & ~jnp.all(state.done)
+    return jax.lax.while_loop(going, advance, begin).centre
+
+
+class _Ring(NamedTuple):
+    ring: Array
+    centre: Array
+    step: Array
+    energy: Array
+    slope: Array
+    fraction: Array
+    done: Bool[Array, ""]
+    trials: Int[Array, ""]
+    steps: Int[Array, ""]
+
+
 def start(problem: CentrifugalProblem, ring: Float[Array, " freedom"]) -> Start:
     """The minimum of the potential to `RING_TOLERANCE`, from an estimate of the ring's displacement, `ring`, m."""
-    guess = ArrowPoint(problem.groove, ring)
+    problem = jax.lax.stop_gradient(problem)
+    total, count = _scale(problem)
+    scale = total / count + problem.centrifugal
+    cap = 0.5 * problem.centre_distance
     if not problem.freedoms:
-        found = settle(problem, problem.near(guess), tolerance=BALL_TOLERANCE, trials=BALL_TRIALS)
-        return Start(found.elements, ring, jnp.asarray(0))
-    end = descend_settled(
-        problem,
-        guess,
-        tolerance=RING_TOLERANCE,
-        trials=RING_TRIALS,
-        element_tolerance=BALL_TOLERANCE,
-        element_trials=BALL_TRIALS,
+        return Start(_equilibrium(problem, problem.groove, scale, cap), ring, jnp.asarray(0))
+
+    def evaluate(ring: Array):
+        groove = problem.groove_at(ring)
+        centre = _equilibrium(problem, groove, scale, cap)
+        forces = _forces(problem, centre, groove)
+        # stiffness of a ball in equilibrium: the two springs in series
+        series = forces.stiffness_outer + forces.stiffness_inner + 1e-3 * SOFTEST * jnp.eye(2)[:, :, None]
+        reduced = forces.stiffness_inner - jnp.einsum(
+            "ijn,jkn->ikn", forces.stiffness_inner, solve_blocks(series, forces.stiffness_inner)
+        )
+        balance = problem.multiplicity * jnp.einsum("fcn,cn->f", problem.directions, forces.inner) - problem.ring_load
+        matrix = problem.multiplicity * jnp.einsum("fan,abn,gbn->fg", problem.directions, reduced, problem.directions)
+        step = -solve_dense(matrix + SOFTEST * jnp.eye(matrix.shape[0]), balance)
+        step = step * jnp.minimum(1.0, cap / jnp.maximum(jnp.max(jnp.abs(step)), 1e-30))
+        energy = problem.multiplicity * jnp.sum(forces.energy) - jnp.sum(problem.ring_load * ring)
+        small = jnp.max(jnp.abs(balance)) <= RING_TOLERANCE * total
+        return centre, step, energy, jnp.sum(balance * step), small
+
+    def advance(state: _Ring) -> _Ring:
+        trial = state.ring + state.fraction * state.step
+        centre, step, energy, slope, small = evaluate(trial)
+        enough = energy <= state.energy + ARMIJO * state.fraction * state.slope
+        near = jnp.abs(state.slope) <= 1e-12 * jnp.abs(energy) + 1e-18
+        accept = enough | near | (state.fraction < SHORTEST)
+        pick = lambda new, old: jnp.where(accept, new, old)
+        hopeless = (state.trials == 0) & jnp.isnan(energy)
+        return _Ring(
+            ring=pick(trial, state.ring),
+            centre=pick(centre, state.centre),
+            step=pick(step, state.step),
+            energy=pick(energy, state.energy),
+            slope=pick(slope, state.slope),
+            fraction=pick(1.0, 0.3 * state.fraction),
+            done=(accept & small) | hopeless,
+            trials=state.trials + 1,
+            steps=state.steps + (accept & ~small).astype(int),
+        )
+
+    none, one = jnp.asarray(0), jnp.ones(())
+    begin = _Ring(
+        ring, jnp.zeros_like(problem.groove), jnp.zeros_like(ring), one * jnp.inf, 0.0 * one, one, none > 0, none, none
     )
-    return Start(end.point.elements, end.point.globals, end.steps)
+    going = lambda state: (state.trials < RING_STEPS) & ~state.done
+    end = jax.lax.while_loop(going, advance, begin)
+    return Start(end.centre, end.ring, end.steps)
+
+
+def _scale(problem: CentrifugalProblem) -> tuple[Array, int]:
+    """Size of the load on the ring, N, and the number of balls that carry it."""
+    count = problem.groove.shape[1] * problem.multiplicity
+    size = jnp.sqrt(jnp.sum(jnp.square(problem.ring_load)))
+    if problem.held_load is not None:
+        size = size + problem.held_load
+    return size + 1e-3 * count, count
 
 
 def together(stiffness: Float[Array, "2"]) -> Float[Array, ""]:
@@ -177,7 +262,7 @@ def ring_estimate(problem: CentrifugalProblem) -> Float[Array, " freedom"]:
     """
     if not problem.freedoms:
         return jnp.zeros(0)
-    count = problem.count
+    total, count = _scale(problem)
     load = dict(zip(problem.freedoms, problem.ring_load, strict=True))
     zero = jnp.zeros(())
     both = together(problem.stiffness)
@@ -204,7 +289,7 @@ def ring_estimate(problem: CentrifugalProblem) -> Float[Array, " freedom"]:
     depth = distance * jnp.sin(angle - free) / jnp.cos(angle)
     pushed = jnp.where(axial < 0, -1.0, 1.0)
     mixed = 1.0 - 0.6 * jnp.minimum(1.0, radial * tangent / jnp.maximum(jnp.abs(axial), 1e-3))
-    alone = (jnp.abs(axial) + tilting) <= 1e-9 * problem.load_scale
+    alone = (jnp.abs(axial) + tilting) <= 1e-9 * total
     inward = jnp.where(alone, problem.aligned, problem.aligned + pushed * (distance * sine + depth * mixed))
     moved = (5.0 * radial / (count * cosine * both)) ** (2.0 / 3.0)
     moved = moved + jnp.where(alone, distance * (1.0 - cosine), 0.0)
