@@ -45,7 +45,7 @@ FALLS, ROUNDING = 0.9, 1e-11
 at most: near the minimum the fall of the potential is lost in rounding."""
 TOGETHER_TRIALS, SETTLED_TRIALS, ELEMENT_TRIALS = 80, 80, 300
 """Most trials of `descend`, `descend_settled` and `settle`."""
-ELEMENT_TOLERANCE = 1e-8
+ELEMENT_TOLERANCE = 1e-12
 """Largest scaled residual of an element that is settled."""
 OUTSIDE = 1e-3
 """Largest residual of the other equations, over the force that pushes a global over its bound."""

@@ -37,8 +37,9 @@ from ..ring import ANCHOR, LENGTH_UNIT, TILTS, InnerRing
 
 LOAD_FLOOR = 1e-3
 """Added to the scale of loads, N."""
-START_TOLERANCE = 1e-7
-"""Scaled residual at which the descent of the potential hands over to Newton."""
+START_TOLERANCE = 1e-11
+"""Scaled residual at which the descent of the potential hands over to Newton. With 1e-7, random tapered bearings take a
+fifth more steps in all, and 12 instead of 8 of 1 000 tilted cylindrical ones fail."""
 LONGEST_STEP = 1e-4
 """Largest change of a displacement in one Newton step, m."""
 FARTHEST = 100.0
