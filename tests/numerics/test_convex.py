@@ -1,5 +1,7 @@
 """Descents of a convex potential: beads between two plates, held by contacts that only push."""
 
+from typing import Any
+
 import equinox as eqx
 import jax
 import jax.numpy as jnp
@@ -52,7 +54,11 @@ class Beads(AbstractConvexArrow):
 
 
 def beads(**changes):
-    fields = {"stiffness": jnp.asarray([1.0, 1e4, 30.0]), "gap": jnp.asarray([0.0, 2.0, 5.0]), "load": jnp.asarray(7.0)}
+    fields: dict[str, Any] = {
+        "stiffness": jnp.asarray([1.0, 1e4, 30.0]),
+        "gap": jnp.asarray([0.0, 2.0, 5.0]),
+        "load": jnp.asarray(7.0),
+    }
     return Beads(**(fields | changes))
 
 
@@ -114,5 +120,5 @@ def test_a_start_without_numbers_is_given_up_at_once(way, monkeypatch):
     system = beads(load=jnp.asarray(np.nan))
     with jax.disable_jit():
         end = WAYS[way](system, system.initial())
-    assert int(end.steps) <= 0
+    assert int(end.steps) == 0
     assert len(calls) < 80

@@ -27,7 +27,7 @@ from ..land import LandState, guided_land
 from ..ring import LENGTH_UNIT
 from .core import orbit_row, orbit_totals
 from .friction import with_traction
-from .frictionless import AbstractLubricatedBalls
+from .frictionless import AbstractLubricatedBallSystem
 from .state import BallsState
 
 LOG_LOAD_RANGE = (-200.0, 18.0)
@@ -38,7 +38,7 @@ THINNEST_FILM = 1e-3
 """Part of the films that the easiest system has."""
 
 
-class LubricatedBallSystem(AbstractLubricatedBalls):
+class LubricatedBallSystem(AbstractLubricatedBallSystem):
     """Lubricated ball bearing; see the module."""
 
     # -- solver contract ------------------------------------------------------------------------------------------

@@ -35,7 +35,7 @@ from ...contacts.distributed import Traction
 from ...contacts.shear import Sliding
 from ...gaps.ball_pocket import BallPocketFilm
 from ...numerics.roots import monotone_root
-from .frictionless import AbstractLubricatedBalls
+from .frictionless import AbstractLubricatedBallSystem
 from .state import BallsState
 
 SIDES = np.array([[1.0], [-1.0]])
@@ -44,7 +44,7 @@ PART_TOLERANCE = 1e-12
 """Tolerance of the attitude of least spin power, as a part of the way from outer to inner control."""
 
 
-def with_traction(system: AbstractLubricatedBalls, state: BallsState, contact: PointContact) -> BallsState:
+def with_traction(system: AbstractLubricatedBallSystem, state: BallsState, contact: PointContact) -> BallsState:
     """The state with all friction on the balls, and the equations of their motion."""
     motion = state.motion
     shear, rolling, curvature = _friction(system, state, contact)
@@ -75,7 +75,7 @@ def with_traction(system: AbstractLubricatedBalls, state: BallsState, contact: P
 
 
 def _friction(
-    system: AbstractLubricatedBalls, state: BallsState, contact: PointContact
+    system: AbstractLubricatedBallSystem, state: BallsState, contact: PointContact
 ) -> tuple[Traction, Array | None, Array | None]:
     """Traction of both contacts; moments against the roll by the film's pressure and by Heathcote slip, N m;
     `None`: not modelled."""
@@ -93,7 +93,11 @@ def _friction(
 
 
 def _moments(
-    system: AbstractLubricatedBalls, angle: Array, forward: Array, about: Array, resistances: tuple[Array | None, ...]
+    system: AbstractLubricatedBallSystem,
+    angle: Array,
+    forward: Array,
+    about: Array,
+    resistances: tuple[Array | None, ...],
 ) -> tuple[Array, Array]:
     """Moments on each ball about the bearing's axis and about the radius, over half of the ball's diameter, N.
 
@@ -110,7 +114,7 @@ def _moments(
     return axis, radius
 
 
-def _on_cage(system: AbstractLubricatedBalls, pocket: BallPocketFilm) -> tuple[Array, Array]:
+def _on_cage(system: AbstractLubricatedBallSystem, pocket: BallPocketFilm) -> tuple[Array, Array]:
     """Moment, N m, and force, N, of each ball on the cage, (along, across) the load line."""
     forward, outward = pocket.load_front - pocket.load_rear, pocket.friction_front - pocket.friction_rear
     moment = 0.5 * (system.kinematics.pitch_diameter * forward - system.kinematics.ball_diameter * pocket.friction)
@@ -123,7 +127,7 @@ def _on_cage(system: AbstractLubricatedBalls, pocket: BallPocketFilm) -> tuple[A
 
 
 def _rows(
-    system: AbstractLubricatedBalls,
+    system: AbstractLubricatedBallSystem,
     state: BallsState,
     contact: PointContact,
     axis: Array,
@@ -150,13 +154,13 @@ def _rows(
     return tuple(rows[name] for name in system.own_unknowns)
 
 
-def _patch_radius(system: AbstractLubricatedBalls) -> Float[Array, "2 1"]:
+def _patch_radius(system: AbstractLubricatedBallSystem) -> Float[Array, "2 1"]:
     """R_k = 2 f_k D/(2 f_k + 1): of the surface in which ball and race meet, across rolling, (inner, outer), m."""
     conformities = jnp.stack([jnp.asarray(system.geometry.conformity_inner), system.geometry.conformity_outer])
     return (2.0 * conformities * system.geometry.ball_diameter / (2.0 * conformities + 1.0))[:, None]
 
 
-def _least_power(system: AbstractLubricatedBalls, state: BallsState, contact: PointContact) -> Array:
+def _least_power(system: AbstractLubricatedBallSystem, state: BallsState, contact: PointContact) -> Array:
     """Attitude of the least spin power between those of outer and inner control, rad.
 
     The power is that of rolling without sliding at frozen loads, angles and films. Where it rises from one end on,

@@ -30,7 +30,7 @@ FRICTION_PASSES = 3
 """Load and angle of the outer contact under the friction that carries the couple: the error falls as fast."""
 
 
-class AbstractLubricatedBalls(AbstractBallSystem):
+class AbstractLubricatedBallSystem(AbstractBallSystem):
     """Geometry, laws and parts of lubricated balls, and what they do without traction; see the module."""
 
     geometry: BallGeometry
