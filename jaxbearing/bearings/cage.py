@@ -10,7 +10,7 @@ import jax.numpy as jnp
 from .._scene import number, optional_number
 from .._types import Scalar
 from ..gaps import AbstractTurbulence, BlendedTurbulence, ShortJournal
-from ..numerics.checks import Checked, given, known
+from ..numerics.checks import Checked, given
 from ..numerics.refusals import refusals_of, refuse_all
 from ..numerics.structure import choice, count
 from .parts import check_between
@@ -51,15 +51,6 @@ class AbstractCage(Checked):
     outer_diameter: Scalar | None = optional_number(bound="> 0", unit="m")
     n_lands: int | None = count("cage.n_lands", None, least=1)
     turbulence: AbstractTurbulence = BlendedTurbulence()
-
-    def __check_init__(self):
-        super().__check_init__()
-        # `check_fits` checks traced numbers
-        sizes = known(self.inner_diameter, self.outer_diameter)
-        if sizes is not None and not sizes[0] < sizes[1]:
-            raise ValueError(
-                f"cage.inner_diameter must be less than the outer diameter, {sizes[1]:.6g} m, got {sizes[0]:.6g} m"
-            )
 
     @abc.abstractmethod
     def row(self, geometry: Any) -> tuple[int, Scalar]:

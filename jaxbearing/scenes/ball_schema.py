@@ -1,5 +1,6 @@
 """The scene file of a ball bearing. Names are the attribute names of the classes that it builds."""
 
+import math
 from collections.abc import Mapping
 from typing import Annotated, Any, ClassVar, Literal
 
@@ -99,6 +100,10 @@ class KinematicsTable(
                 wanted = " or ".join(f"'{law}'" for law in laws)
                 expected = f"none with gyroscopic = '{self.gyroscopic}': it is about {wanted}"
                 yield refusal_at(name, expected, f"the number {given:g}")
+        inner, outer = self.inner_share, self.outer_share
+        if inner is not None and outer is not None and not math.isclose(inner + outer, 2.0, rel_tol=1e-9):
+            expected = f"{2.0 - inner:g}, or leave it out: the shares add up to 2"
+            yield refusal_at("outer_share", expected, f"the number {outer:g}")
 
 
 class BallCageTable(table_of(BallCage, base=CageBase)):

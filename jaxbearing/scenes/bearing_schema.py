@@ -12,7 +12,7 @@ from .laws import TURBULENCE, Laws
 from .materials import MaterialField
 from .oil_needs import require_laws, require_piezoviscous
 from .oil_schema import OilTable
-from .table import Problems, Table, refusal_at
+from .table import Problems, Table, check, refusal_at
 from .table_of import table_of
 
 TURBULENCE_OF_CAGES = {field.name: field for field in dataclasses.fields(AbstractCage)}["turbulence"].default
@@ -22,6 +22,12 @@ class CageBase(Table):
     """- `turbulence`: flow regime of the lands."""
 
     turbulence: Annotated[str, TURBULENCE] = TURBULENCE.name_of(TURBULENCE_OF_CAGES)
+
+    @check
+    def _consistent(self) -> Problems:
+        bore, outside = self.inner_diameter, self.outer_diameter
+        if bore is not None and outside is not None and bore >= outside:
+            yield refusal_at("inner_diameter", f"less than the outer diameter, {in_mm(outside)}", in_mm(bore))
 
 
 class DisplacementTable(table_of(HeldDisplacement)):
@@ -89,3 +95,7 @@ def law_in_words(contact: Table, name: str) -> str:
     """A law of the table as it stands in the file; "" where it names none."""
     law = getattr(contact, name)
     return f"contact.{name} = '{law}'" if law else ""
+
+
+def in_mm(length: float) -> str:
+    return f"{1e3 * length:g} mm"

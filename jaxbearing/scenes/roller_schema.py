@@ -118,6 +118,22 @@ class CylindricalRollerTable(Table):
             yield from require_oil_flow(self.drag, self.operation)
 
     @check
+    def _run(self) -> Problems:
+        if self.simulation is not None and self.operation.radial_load is None:
+            yield refusal_at("operation.radial_load", "a force, which a run in time needs, e.g. '10 kN'", "nothing")
+
+    @check
+    def _cage(self) -> Problems:
+        slips = self.contact is not None and self.contact.traction is not None
+        if slips and self.cage is None and self.simulation is None:
+            expected = (
+                "a table [cage], which contact.traction needs: without one a roller outside the loaded zone slows "
+            )
+            yield refusal_at(
+                "cage", expected + "down for ever (leave out contact.traction, or use simulate)", "nothing"
+            )
+
+    @check
     def _oil(self) -> Problems:
         if self.contact is None:
             return

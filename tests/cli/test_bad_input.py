@@ -101,7 +101,7 @@ BROKEN = {
         "geometry.contact_length",
         ["14"],
     ),
-    "cage_inside_out": (line("inner_diameter", 'inner_diameter = "147 mm"'), "cage.inner_diameter", ["0.146 m"]),
+    "cage_inside_out": (line("inner_diameter", 'inner_diameter = "147 mm"'), "cage.inner_diameter", ["146 mm"]),
     "flange_angle": (line("angle", 'angle = "90 deg"'), "flange.angle", ["below 90 deg"]),
     "below_absolute_zero": (line("oil_temperature", 'oil_temperature = "-300 degC"'), "operation.oil_temperature", []),
     "enum": (line("guidance", 'guidance = "inner"'), "cage.guidance", ["'inner_ring'", "Did you mean"]),

@@ -56,18 +56,6 @@ class SharedCouple(AbstractGyroscopic):
     outer_share: Scalar = bounded("between 0 and 2", unit="1", converter=as_float, default=1.0)
     sign: Scalar = eqx.field(converter=as_float, default=1.0)
 
-    def __check_init__(self):
-        super().__check_init__()
-        if given(self.inner_share, self.outer_share) is not None:
-            demand(
-                "kinematics.outer_share must be 2 less kinematics.inner_share",
-                abs(self.inner_share + self.outer_share - 2.0) <= 2e-9,
-                lambda: (
-                    f"kinematics.outer_share must be {2.0 - float(self.inner_share):g}, got "
-                    f"{float(self.outer_share):g}: the shares add up to 2; a scene file may leave one out"
-                ),
-            )
-
     def friction(self, couple, diameter, inner_load, outer_load):
         return self.inner_share * couple / diameter, self.outer_share * couple / diameter
 

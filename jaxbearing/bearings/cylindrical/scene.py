@@ -108,8 +108,8 @@ class CylindricalRollerBearing(AbstractBearing):
         yield from refusals_of(self.operation.check_rings_turn)
         if self.slips and self.cage is None and self.simulation is None:
             yield (
-                "cage: expected a cage, which contact.traction needs: without one a roller outside the loaded zone "
-                "slows down for ever (leave out contact.traction, or use simulate)"
+                "cage: a lubricated bearing with traction and without a cage has no steady state (a roller outside the "
+                "loaded zone slows down for ever); give it a cage, leave out contact.traction, or use simulate"
             )
         if self.oil is None:
             yield "oil: a scene with a [contact] table needs an oil"
@@ -275,7 +275,7 @@ def check_run(operation: Operation) -> None:
         name = "displacement.axial" if operation.axial_load is None else "axial_load"
         raise ValueError(f"operation.{name}: a run in time moves the ring across the axis only")
     if operation.radial_load is None:
-        raise ValueError("operation.radial_load: expected a force, which a run in time needs")
+        raise ValueError("operation.radial_load: a run in time needs one")
 
 
 def _misfit(contact: ContactLaws, oil: Lubricant) -> list[str]:
