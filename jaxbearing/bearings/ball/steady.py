@@ -1,7 +1,7 @@
 """Steady state of a ball bearing: from the scene to the equations, and from the roots to the results."""
 
 import dataclasses
-from typing import Any, NamedTuple
+from typing import Any
 
 import jax
 import jax.numpy as jnp
@@ -13,16 +13,17 @@ from ...contacts.point_laws import PointFilm
 from ...materials import reduced_modulus
 from ...numerics.arrow import ArrowJacobian, ArrowPoint, linearize
 from ...numerics.newton import NewtonOptions, NewtonResult, newton_solve
-from ..assemble import assemble
+from ..assemble import Results, assemble
 from ..facts import MEAN_OF_POINT, RACEWAYS, Contacts, Facts
-from ..interactions import Interaction, costs, of_land
+from ..interactions import Costs, Interaction, costs, of_land
 from ..land import LandState
 from ..parts import azimuths
 from ..ring import InnerRing, Port
 from ..solution import RING_FREEDOMS, TILTS, CageState, FailureCause, RacewayPower, Solution
 from .build import build_core, build_lubricated, ring_directions
 from .core import BallCore
-from .equations import SIDES, LubricatedBallSystem
+from .equations import LubricatedBallSystem
+from .friction import SIDES
 from .kinematics import BallMotion
 from .rolling import common_orbit_torques, rolling_balance
 from .scene import BallBearing
@@ -114,19 +115,6 @@ def overload(scene: BallBearing) -> Float[Array, ""]:
     return equivalent / (0.2 * geometry.n_balls * jnp.cos(angle) * ball)
 
 
-class _Results(NamedTuple):
-    """Results before masking; `facts`: what the range checks look at."""
-
-    cage: CageState | None
-    elements: BallResults
-    power_loss: BallPowerLoss
-    raceway_power: RacewayPower | None
-    drive_power: Array | None
-    inner_torque: Array | None
-    outer_torque: Array | None
-    facts: Facts
-
-
 def _every(scene: BallBearing, values: Array) -> Float[Array, " ball"]:
     """One value a ball, also where one ball was solved for all."""
     return jnp.broadcast_to(values, (scene.geometry.n_balls,))
@@ -195,13 +183,15 @@ def _contact(scene: BallBearing, cosine: Array) -> PointContact:
     return scene.geometry.contacts(cosine[0], cosine[1], modulus)
 
 
-def _dry_results(scene: BallBearing, system: BallCore, result: NewtonResult) -> _Results:
+def _dry_results(scene: BallBearing, system: BallCore, result: NewtonResult) -> Results[BallResults, BallPowerLoss]:
     state = system.at(result.point)
     elements, contacts = _ball_results(scene, system, state.load, state.angle, state.motion)
-    return _Results(None, elements, BallPowerLoss(), None, None, None, None, Facts((contacts,)))
+    return Results(elements, Costs(BallPowerLoss()), Facts((contacts,)))
 
 
-def _lubricated(scene: BallBearing, system: LubricatedBallSystem, result: NewtonResult, state: BallsState) -> _Results:
+def _lubricated(
+    scene: BallBearing, system: LubricatedBallSystem, result: NewtonResult, state: BallsState
+) -> Results[BallResults, BallPowerLoss]:
     motion = system.kinematics
     film, shear, pocket = state.film, state.traction, state.pocket
     more: dict[str, Array | None] = {"film_inner": film.film[0], "film_outer": film.film[1]}
@@ -241,10 +231,12 @@ def _lubricated(scene: BallBearing, system: LubricatedBallSystem, result: Newton
         cage = CageState(orbit, slip, eccentricity, land.attitude_angle)
     parts = _raceway_power(system, state)
     cost = costs(BallPowerLoss, _interactions(system, state, land), motion)
-    return _Results(cage, elements, cost.power_loss, parts, *cost[1:], facts)
+    return Results(elements, cost, facts, cage=cage, raceway_power=parts)
 
 
-def _rolling_alone(system: LubricatedBallSystem, state: BallsState, elements: BallResults, facts: Facts) -> _Results:
+def _rolling_alone(
+    system: LubricatedBallSystem, state: BallsState, elements: BallResults, facts: Facts
+) -> Results[BallResults, BallPowerLoss]:
     """Results of balls that roll without sliding: what rolling costs, where the scene models it."""
     balance, found = rolling_balance(system, state), []
     if balance is not None:
@@ -255,7 +247,7 @@ def _rolling_alone(system: LubricatedBallSystem, state: BallsState, elements: Ba
             torques = _ball_torques(system, state, balance.forward, balance.about, (balance.resistance,))
         found = [Interaction("rolling_resistance", power, *torques)]
     cost = costs(BallPowerLoss, found, system.kinematics)
-    return _Results(None, elements, cost.power_loss, None, *cost[1:], facts)
+    return Results(elements, cost, facts)
 
 
 def _raceway_power(system: LubricatedBallSystem, state: BallsState) -> RacewayPower:

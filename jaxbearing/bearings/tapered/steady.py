@@ -12,13 +12,13 @@ from ...numerics.arrow import ArrowPoint, linearize
 from ...numerics.newton import NewtonOptions, NewtonResult, newton_solve
 from ...numerics.safe import safe_norm
 from ...numerics.status import Status
-from ..assemble import assemble
+from ..assemble import Results, assemble
 from ..facts import MEAN_OF_LINE, MEAN_OF_POINT, RACEWAYS, Contacts, Facts
 from ..interactions import costs
 from ..parts import azimuths
 from ..rating import LAMINAE, rated_laminae
 from ..ring import InnerRing, Port
-from ..solution import RING_FREEDOMS, CageState, FailureCause, LaminaLoads, Solution
+from ..solution import RING_FREEDOMS, FailureCause, LaminaLoads, Solution
 from .build import build_tapered, rolling_motion
 from .friction import TaperedFriction, tapered_friction
 from .scene import TaperedRollerBearing
@@ -178,25 +178,12 @@ def _with_nested(result: NewtonResult, friction: TaperedFriction, options: Newto
     return result._replace(status=status, inner_residual=jnp.maximum(result.inner_residual, residual))
 
 
-class _Results(NamedTuple):
-    """Results before masking; `facts`: what the range checks look at."""
-
-    cage: CageState | None
-    elements: TaperedResults
-    power_loss: TaperedPowerLoss
-    drive_power: Array | None
-    inner_torque: Array | None
-    outer_torque: Array | None
-    laminae: LaminaLoads
-    facts: Facts
-
-
 def _results(
     scene: TaperedRollerBearing,
     system: TaperedSystem,
     result: NewtonResult,
     friction: TaperedFriction | None,
-) -> _Results:
+) -> Results[TaperedResults, TaperedPowerLoss]:
     geometry, state = scene.geometry, system.at(result.point)
     count = geometry.n_rollers
     every = lambda values: jnp.broadcast_to(values, (count,))
@@ -234,14 +221,13 @@ def _results(
         jnp.broadcast_to(side, (count, rated)) for side in (laminae if rated == own else cut(rated))
     )
     cost = costs(TaperedPowerLoss, [], scene.operation) if friction is None else friction.costs
-    return _Results(
-        cage=None,
-        elements=elements,
-        **cost._asdict(),
+    return Results(
+        elements,
+        cost,
+        _facts(scene, state, friction, pressure, flange, laminae, place[2]),
         laminae=LaminaLoads(
             inner_laminae, outer_laminae, scene.profile is not None and scene.profile.shape is not None
         ),
-        facts=_facts(scene, state, friction, pressure, flange, laminae, place[2]),
     )
 
 
