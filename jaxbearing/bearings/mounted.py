@@ -46,7 +46,7 @@ def mounting_problems(scene: Any) -> Iterator[str | ValueError]:
             yield f"geometry.{name}: found nothing, expected a length, which [fits] needs, e.g. '25 mm'"
     yield from refusals_of(fits.check_room, geometry.bore, geometry.outside_diameter)
     yield from refusals_of(_check_walls, scene)
-    if temperatures is None:
+    if temperatures is None and scene.thermal is None:
         return
     materials: dict[str, Any] = {
         "materials.rings": scene.materials.rings,
@@ -56,7 +56,8 @@ def mounting_problems(scene: Any) -> Iterator[str | ValueError]:
     }
     for name, material in materials.items():
         if material is not None and material.thermal_expansion is None:
-            needed = "expected a number, which [temperatures] needs, e.g. '12.5e-6 1/K'"
+            who = "[temperatures]" if scene.thermal is None else "[thermal]"
+            needed = f"expected a number, which {who} needs, e.g. '12.5e-6 1/K'"
             yield f"{name}.thermal_expansion: found nothing, {needed}"
 
 

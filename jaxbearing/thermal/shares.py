@@ -13,15 +13,17 @@ In a network of one node everything goes there, and has its temperature. The las
 others, so no heat is lost between a bearing and its network.
 """
 
+import dataclasses
 from collections.abc import Mapping
-from typing import NamedTuple
+from typing import Any
 
+import equinox as eqx
 import jax.numpy as jnp
 from jaxtyping import Array, Float
 
 from .._types import Scalar
 from ..numerics.arguments import require_choice, require_numbers
-from ..numerics.checks import known
+from ..numerics.checks import known, label
 from .network import NODES
 
 LOSSES = (
@@ -126,18 +128,22 @@ def node_heat(
     return jnp.sum(jnp.stack([loss * shares[name] for name, loss in there.items()]), axis=0)
 
 
-class OilTemperatures(NamedTuple):
-    """Temperature of the oil in each interaction, K."""
+def _of_oil(place: str) -> Any:
+    return eqx.field(metadata=label("K", f"temperature of the oil {place}"))
 
-    inner_raceway: Float[Array, ""]
-    outer_raceway: Float[Array, ""]
-    flange: Float[Array, ""]
-    pocket: Float[Array, ""]
-    cage_pilot: Float[Array, ""]
-    drag: Float[Array, ""]
+
+class OilTemperatures(eqx.Module):
+    """Temperature of the oil that enters each interaction, K."""
+
+    inner_raceway: Scalar = _of_oil("at the inner raceway")
+    outer_raceway: Scalar = _of_oil("at the outer raceway")
+    flange: Scalar = _of_oil("at the flanges or the rib")
+    pocket: Scalar = _of_oil("in the cage pockets and at the element ends")
+    cage_pilot: Scalar = _of_oil("in the cage lands")
+    drag: Scalar = _of_oil("that drags on the elements")
 
     @property
-    def element_ends(self) -> Float[Array, ""]:
+    def element_ends(self) -> Scalar:
         """Between the element ends and the cage: that of the pockets."""
         return self.pocket
 
@@ -158,7 +164,7 @@ def oil_temperatures(
     require_choice("guiding_ring", guiding_ring, RINGS)
     require_choice("flange_ring", flange_ring, FLANGE_RINGS)
     if len(nodes) == 1:
-        return OilTemperatures(*(temperatures[0] for _ in OilTemperatures._fields))
+        return OilTemperatures(*(temperatures[0] for _ in dataclasses.fields(OilTemperatures)))
     part = dict(zip(nodes, temperatures, strict=True))
     elements, oil = part["elements"], part["oil"]
     flanged = 0.5 * (part["inner_ring"] + part["outer_ring"]) if flange_ring == "both" else part[flange_ring]

@@ -62,6 +62,7 @@ from ...numerics.arrow import ArrowPoint
 from ...numerics.precision import as_float
 from ...numerics.roots import monotone_root
 from ...numerics.safe import safe_norm
+from ..inlet import OilElsewhere
 from ..land import LandState, guided_land
 from ..ring import LENGTH_UNIT
 from .core import orbit_row, orbit_totals
@@ -113,6 +114,8 @@ class LubricatedBallSystem(AbstractBallSystem):
     """The easiest load over the load on the ring."""
     film_share: Scalar = eqx.field(converter=as_float, default=1.0)
     """Part of the films that keeps the surfaces apart: 1, less in an easier system."""
+    elsewhere: OilElsewhere | None = None
+    """Oil of the other interactions where it is not that of the raceways, `inlet`."""
 
     # -- structure ------------------------------------------------------------------------------------------------
 
@@ -138,6 +141,10 @@ class LubricatedBallSystem(AbstractBallSystem):
     @property
     def global_orbit(self) -> bool:
         return self.cage is not None or self.common_orbit
+
+    def oil_of(self, place: str) -> InletOil:
+        """The oil that enters an interaction beside the raceways."""
+        return self.inlet if self.elsewhere is None else getattr(self.elsewhere, place)
 
     # -- scales ---------------------------------------------------------------------------------------------------
 
@@ -287,7 +294,14 @@ class LubricatedBallSystem(AbstractBallSystem):
         cage, motion = self.cage, self.kinematics
         assert cage is not None
         return guided_land(
-            cage.land, cage.guidance, motion.inner_speed, motion.outer_speed, orbit, force_x, force_y, self.inlet
+            cage.land,
+            cage.guidance,
+            motion.inner_speed,
+            motion.outer_speed,
+            orbit,
+            force_x,
+            force_y,
+            self.oil_of("cage_pilot"),
         )
 
     def land_at(self, point: ArrowPoint, state: BallsState) -> LandState:
@@ -492,10 +506,11 @@ class LubricatedBallSystem(AbstractBallSystem):
         tangential, drag_force, pocket = forward[0] + forward[1], None, None
         if self.drag is not None:
             speed = 0.5 * self.kinematics.pitch_diameter * motion.orbital_speed
-            drag_force = self.drag.force(speed, self.inlet.viscosity)
+            drag_force = self.drag.force(speed, self.oil_of("drag").viscosity)
             tangential = tangential - drag_force
         if self.cage is not None:
-            pocket = self.cage.pocket.balance(tangential, motion.axial_spin, motion.radial_spin, self.inlet.viscosity)
+            viscosity = self.oil_of("pocket").viscosity
+            pocket = self.cage.pocket.balance(tangential, motion.axial_spin, motion.radial_spin, viscosity)
             axis, radius = axis + pocket.friction, radius - pocket.transverse
         if self.resolved:
             couple = 2.0 / self.kinematics.ball_diameter * self.inertia * motion.orbital_speed

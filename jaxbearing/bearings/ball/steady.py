@@ -124,6 +124,7 @@ class _Results(NamedTuple):
     drive_power: Array | None
     inner_torque: Array | None
     outer_torque: Array | None
+    rolling_by_race: Array | None
     facts: Facts
 
 
@@ -198,7 +199,7 @@ def _contact(scene: BallBearing, cosine: Array) -> PointContact:
 def _dry_results(scene: BallBearing, system: BallCore, result: NewtonResult) -> _Results:
     state = system.at(result.point)
     elements, contacts = _ball_results(scene, system, state.load, state.angle, state.motion)
-    return _Results(None, elements, BallPowerLoss(), None, None, None, None, Facts((contacts,)))
+    return _Results(None, elements, BallPowerLoss(), None, None, None, None, None, Facts((contacts,)))
 
 
 def _lubricated(scene: BallBearing, system: LubricatedBallSystem, result: NewtonResult, state: BallsState) -> _Results:
@@ -220,11 +221,12 @@ def _lubricated(scene: BallBearing, system: LubricatedBallSystem, result: Newton
     elements, contacts = _ball_results(scene, system, state.load, state.angle, state.motion, **more)
     contacts = contacts._replace(
         laws=system.laws,
+        inlet=system.inlet,
         mean_speed=state.races.mean_speed,
         sliding=state.races.rolling,
         temperature=film.temperature,
     )
-    facts = Facts((contacts,), inlet=system.inlet)
+    facts = Facts((contacts,))
     land = None if system.cage is None else system.land_at(result.point, state)
     if shear is None:
         return _rolling_alone(system, state, elements, facts)
@@ -253,7 +255,7 @@ def _rolling_alone(system: LubricatedBallSystem, state: BallsState, elements: Ba
             torques = common_orbit_torques(system, state, balance.resistance)
         else:
             torques = _ball_torques(system, state, balance.forward, balance.about, (balance.resistance,))
-        found = [Interaction("rolling_resistance", power, *torques)]
+        found = [Interaction("rolling_resistance", power, *torques, _by_race(system, state, balance.resistance))]
     cost = costs(BallPowerLoss, found, system.kinematics)
     return _Results(None, elements, cost.power_loss, None, *cost[1:], facts)
 
@@ -285,7 +287,8 @@ def _interactions(system: LubricatedBallSystem, state: BallsState, land: LandSta
     if state.rolling is not None:
         nothing = jnp.zeros_like(state.rolling)
         torques = _ball_torques(system, state, nothing, nothing, (state.rolling,))
-        found.append(Interaction("rolling_resistance", total(SIDES * state.rolling * state.races.roll), *torques))
+        power = total(SIDES * state.rolling * state.races.roll)
+        found.append(Interaction("rolling_resistance", power, *torques, _by_race(system, state, state.rolling)))
     if pocket is not None:
         radius = 0.5 * system.kinematics.ball_diameter
         power = pocket.friction * motion.axial_spin + pocket.transverse * motion.radial_spin
@@ -296,6 +299,14 @@ def _interactions(system: LubricatedBallSystem, state: BallsState, land: LandSta
         speed = 0.5 * system.kinematics.pitch_diameter * motion.orbital_speed
         found.append(Interaction("drag", total(state.drag_force * speed)))
     return found
+
+
+def _by_race(system: LubricatedBallSystem, state: BallsState, resistance: Array) -> Float[Array, "2"] | None:
+    """Power of the rolling resistance of each race, W, where a thermal network asks for it. **Arguments:** of each
+    ball, N m."""
+    if system.elsewhere is None:
+        return None
+    return system.multiplicity * jnp.sum(SIDES * resistance * state.races.roll, axis=1)
 
 
 def _ball_torques(

@@ -28,6 +28,10 @@ ASSUMED_CAGE = "bronze"
 IMMOBILE = (
     "contact.traction: nothing drives the rollers of a bearing without traction on its raceways; simulate needs it"
 )
+NO_NETWORK = (
+    "thermal: a run in time of the rollers has no thermal network; leave [thermal] out, and give the temperatures that "
+    "a solve has found as operation.oil_temperature and [temperatures]"
+)
 
 
 class Start(NamedTuple):
@@ -65,6 +69,8 @@ def build_dynamics(
     if not scene.slips:
         raise ValueError(IMMOBILE)
     check_run(scene.operation)
+    if scene.thermal is not None:
+        raise ValueError(NO_NETWORK)
     if simulation.rotating_load is not None and not scene.skewed:
         scene = scene.replace({"ring_freedom": ("radial", "lateral")})
     seats = None if scene.fits is None else scene
