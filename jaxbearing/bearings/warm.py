@@ -26,8 +26,8 @@ from ..thermal.solve import START_NOTE, UNSTABLE, ThermalState, solve_network
 from .heat import bearing_heat, bearing_network, heat_capacities, outside_nodes, rings_of
 from .solution import Solution
 
-MOST_BROYDEN = 15
-"""Solves of Broyden's iteration before Newton's."""
+MOST_BROYDEN = {"when_needed": 15, "never": 60}
+"""Solves of Broyden's iteration before Newton's, or before steps in time where there is no exact Jacobian."""
 
 
 def thermal_problems(scene: Any) -> Iterator[str | ValueError]:
@@ -132,7 +132,9 @@ def solve_warm(scene: Any, solve: Callable[[Any], Solution]) -> Solution:
         capacity=heat_capacities(scene),
         limit=thermal.limit,
         options=ThermalOptions(
-            jacobian=thermal.jacobian, stability=thermal.stability, quasi_newton_solves=MOST_BROYDEN
+            jacobian=thermal.exact_jacobian,
+            stability=thermal.stability,
+            quasi_newton_solves=MOST_BROYDEN[thermal.exact_jacobian],
         ),
     )
     return _answer(scene, network, state)

@@ -129,8 +129,8 @@ class Thermal(Checked):
     - `limit`: temperature that no node may pass, K: beyond 250 degC no law of an oil holds.
     - `start`: temperature of all nodes where the search begins, K; not given: that of oil inlet or ambient, whichever
       is higher.
-    - `jacobian`: `when_needed`: Newton's iteration goes on where Broyden's fails. `never`: it does not, and the program
-      is compiled sooner.
+    - `jacobian`: `when_needed`: Newton's iteration goes on where Broyden's fails, before steps in time do. `never`: it
+      does not, and the program is compiled in half the time. Not given: `when_needed` with `stability`, else `never`.
     - `stability`: whether margin and rate are computed; it takes one Jacobian more.
     - `housing_diameter`, `housing_area`: outside diameter, m, and surface, m^2, of a housing in still air; not given:
       the reference heat flow of ISO 15312 leads to the ambient.
@@ -147,7 +147,7 @@ class Thermal(Checked):
     rolling_to_oil: Scalar = number(0.5, bound="between 0 and 1", unit="1")
     limit: Scalar = number(LIMIT, bound="> 0", metadata=label("K", "temperature that no node may pass"))
     start: Scalar | None = optional_number(bound="> 0", metadata=label("K", "temperature where the search begins"))
-    jacobian: Literal["when_needed", "never"] = choice("thermal.jacobian", ("when_needed", "never"), "when_needed")
+    jacobian: Literal["when_needed", "never"] | None = choice("thermal.jacobian", ("when_needed", "never"), None)
     stability: bool = switch("thermal.stability", False)
     housing_diameter: Scalar | None = optional_number(bound="> 0", metadata=label("m", "outside of a housing in air"))
     housing_area: Scalar | None = optional_number(bound="> 0", metadata=label("m^2", "surface of a housing in air"))
@@ -166,6 +166,13 @@ class Thermal(Checked):
         if (self.housing_diameter is None) != (self.housing_area is None):
             missing, given = ("diameter", "area") if self.housing_diameter is None else ("area", "diameter")
             raise ValueError(f"thermal.housing_{missing}: found nothing, housing_{given} needs it beside it")
+
+    @property
+    def exact_jacobian(self) -> Literal["when_needed", "never"]:
+        """`jacobian` as it is given, or as `stability` needs it."""
+        if self.jacobian is not None:
+            return self.jacobian
+        return "when_needed" if self.stability else "never"
 
     @property
     def node_names(self) -> tuple[str, ...]:

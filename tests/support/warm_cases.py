@@ -1,0 +1,48 @@
+"""Bearings with a thermal network whose programs are small: elements that roll without sliding, few of them solved for."""
+
+import jaxbearing as jb
+
+OIL = {
+    "oil.name": "mobil_jet_ii",
+    "oil.heat_capacity": "2150 J/(kg*K)",
+    "operation.oil_temperature": "60 degC",
+    "operation.oil_flow": "2 l/h",
+}
+BALLS = OIL | {
+    "geometry.bore": "25 mm",
+    "geometry.outside_diameter": "52 mm",
+    "geometry.width": "15 mm",
+    "contact.film": "nijenbanning",
+    "contact.rolling_resistance": "houpert",
+    "operation.radial_load": "none",
+    "operation.moment": "none",
+}
+SEATS = {"fits.shaft_interference": "10 um", "fits.housing_interference": "4 um", "fits.housing_outside": "80 mm"}
+ROLLING = dict.fromkeys(("contact.traction", "contact.thermal", "cage", "flange", "drag"), "none")
+ROLLERS = OIL | {
+    **ROLLING,
+    "contact.traction_model": "none",
+    "contact.traction_accuracy": "none",
+    "contact.rolling_resistance": "ertel_grubin",
+    "geometry.bore": "118 mm",
+    "geometry.outside_diameter": "166 mm",
+    "geometry.width": "22 mm",
+    "operation.oil_flow": "60 l/h",
+}
+TAPERED = OIL | {
+    **dict.fromkeys(("contact.traction", "contact.traction_accuracy", "drag", "operation.radial_load"), "none"),
+    "contact.rolling_resistance": "ertel_grubin",
+    "materials.rings": "52100",
+    "materials.rollers": "52100",
+    "geometry.bore": "110 mm",
+    "geometry.outside_diameter": "180 mm",
+    "geometry.width": "38 mm",
+}
+NAMES = {"ball": "deep_groove_6205", "roller": "turbine_roller", "tapered": "tapered_example"}
+CHANGES = {"ball": BALLS, "roller": ROLLERS, "tapered": TAPERED}
+
+
+def warm(kind, nodes=4, **changes):
+    """A scene with a network. **Arguments:** `changes`: of fields of `[thermal]`, and of others with `__` for the dot."""
+    own = {(name.replace("__", ".") if "__" in name else f"thermal.{name}"): value for name, value in changes.items()}
+    return jb.load_scene(NAMES[kind], CHANGES[kind] | {"thermal.nodes": str(nodes)} | own)
