@@ -165,11 +165,14 @@ def _contacts(scene: Any, solution: Solution) -> ContactHeat:
     load, film = both("load"), both("film")
     angle = both("contact_angle") if hasattr(elements, "contact_angle_inner") else jnp.zeros((2, 1))
     tilt = getattr(elements, "attitude_angle", None)
-    rolling = 1.0 if tilt is None else jnp.cos(angle - tilt)
+    rolling = 1.0 if tilt is None else jnp.cos(angle - tilt[None])
     diameter = scene.mean_diameter
     radius = 0.5 * (scene.geometry.pitch_diameter + jnp.asarray([[-1.0], [1.0]]) * diameter * jnp.cos(angle))
     ring_speed = jnp.stack([jnp.asarray(operation.inner_speed), jnp.asarray(operation.outer_speed)])[:, None]
-    speeds = ((ring_speed - elements.orbital_speed) * radius, 0.5 * elements.spin_speed * diameter * rolling)
+    speeds = (
+        (ring_speed - elements.orbital_speed[None]) * radius,
+        0.5 * elements.spin_speed[None] * diameter * rolling,
+    )
     oil = scene.oil.conductivity
     own = scene.oil_temperatures
     conductivity = oil.conductivity(jnp.stack([jnp.asarray(own.inner_raceway), jnp.asarray(own.outer_raceway)]))

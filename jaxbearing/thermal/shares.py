@@ -52,7 +52,7 @@ def loss_shares(
     rolling_to_oil: Scalar = 0.5,
     guiding_ring: str = "inner_ring",
     flange_ring: str = "inner_ring",
-    given: Mapping[str, Mapping[str, Scalar]] | None = None,
+    given: Mapping[str, Mapping[str, Scalar | None]] | None = None,
 ) -> dict[str, Float[Array, " node"]]:
     """The part of each loss that goes to each node, shape (node,), by the name of the loss.
 
@@ -68,7 +68,7 @@ def loss_shares(
     """
     require_choice("guiding_ring", guiding_ring, RINGS)
     require_choice("flange_ring", flange_ring, FLANGE_RINGS)
-    parts: dict[str, dict[str, Scalar]] = {
+    parts: dict[str, dict[str, Scalar | None]] = {
         "inner_raceway": {"inner_ring": inner_ring, "elements": None},
         "outer_raceway": {"outer_ring": outer_ring, "elements": None},
         "inner_rolling_resistance": _rolling("inner_ring", inner_ring, rolling_to_oil),
@@ -87,11 +87,11 @@ def loss_shares(
     return {name: _row(name, nodes, own) for name, own in parts.items()}
 
 
-def _rolling(ring: str, to_ring: Scalar, to_oil: Scalar) -> dict[str, Scalar]:
+def _rolling(ring: str, to_ring: Scalar, to_oil: Scalar) -> dict[str, Scalar | None]:
     return {"oil": to_oil, ring: (1.0 - to_oil) * to_ring, "elements": None}
 
 
-def _row(name: str, nodes: tuple[str, ...], parts: Mapping[str, Scalar]) -> Float[Array, " node"]:
+def _row(name: str, nodes: tuple[str, ...], parts: Mapping[str, Scalar | None]) -> Float[Array, " node"]:
     """Parts by node, the last that is named formed from the others."""
     names = NODES[4] if len(nodes) == 1 else nodes
     wrong = [node for node in parts if node not in names]

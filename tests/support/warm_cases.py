@@ -1,4 +1,4 @@
-"""Bearings with a thermal network whose programs are small: elements that roll without sliding, few of them solved for."""
+"""Bearings with a thermal network whose programs are small: their elements roll without sliding."""
 
 import jaxbearing as jb
 
@@ -43,6 +43,6 @@ CHANGES = {"ball": BALLS, "roller": ROLLERS, "tapered": TAPERED}
 
 
 def warm(kind, nodes=4, **changes):
-    """A scene with a network. **Arguments:** `changes`: of fields of `[thermal]`, and of others with `__` for the dot."""
+    """A scene with a network. **Arguments:** `changes`: fields of `[thermal]`, and with `__` for the dot any others."""
     own = {(name.replace("__", ".") if "__" in name else f"thermal.{name}"): value for name, value in changes.items()}
     return jb.load_scene(NAMES[kind], CHANGES[kind] | {"thermal.nodes": str(nodes)} | own)

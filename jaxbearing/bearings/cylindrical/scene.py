@@ -41,6 +41,10 @@ from ..warm import thermal_problems
 from .geometry import ASSUMED_FLANGE_HEIGHT, RollerCage, RollerFlange, RollerGeometry, check_height
 from .thrust import NOT_MODELLED, check_axial
 
+NO_NETWORK = (
+    "thermal: a run in time of the rollers has no thermal network; leave [thermal] out, and give the temperatures that "
+    "a solve has found as operation.oil_temperature and [temperatures]"
+)
 _ACROSS = ("radial", "lateral", "tilt", "tilt_lateral")
 """Freedoms of the inner ring that the rollers feel."""
 
@@ -194,12 +198,19 @@ class CylindricalRollerBearing(AbstractBearing):
     def simulated(self, duration: float | None, **settings: Any) -> Any:
         from ..motion.runs import simulate_rollers
 
+        self._check_no_network()
         return simulate_rollers(self, duration, **settings)
 
     def simulated_batch(self, duration: float, over: Mapping[str, Any], **settings: Any) -> Any:
         from ..motion.runs import simulate_roller_batch
 
+        self._check_no_network()
         return simulate_roller_batch(self, duration, over, **settings)
+
+    def _check_no_network(self) -> None:
+        """**Raises:** `ValueError` for a scene with a thermal network, which a run in time does not have."""
+        if self.thermal is not None:
+            raise ValueError(NO_NETWORK)
 
     def check_restart(self, restart: Any, duration: float | None = None) -> None:
         from ..motion.run import check_fits

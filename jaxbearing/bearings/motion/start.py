@@ -14,7 +14,7 @@ from ...numerics.checks import InputChecks, check_inputs, gate, void
 from ...numerics.newton import NewtonOptions, newton_solve
 from ...numerics.status import Status
 from ..cylindrical.equations import LubricatedRollerSystem
-from ..cylindrical.scene import CylindricalRollerBearing, check_run
+from ..cylindrical.scene import NO_NETWORK, CylindricalRollerBearing, check_run
 from ..cylindrical.steady import build_system
 from ..mounted import running_scene
 from ..ring import LENGTH_UNIT
@@ -27,10 +27,6 @@ ASSUMED_CAGE = "bronze"
 
 IMMOBILE = (
     "contact.traction: nothing drives the rollers of a bearing without traction on its raceways; simulate needs it"
-)
-NO_NETWORK = (
-    "thermal: a run in time of the rollers has no thermal network; leave [thermal] out, and give the temperatures that "
-    "a solve has found as operation.oil_temperature and [temperatures]"
 )
 
 
