@@ -42,7 +42,12 @@ NAMES = {"ball": "deep_groove_6205", "roller": "turbine_roller", "tapered": "tap
 CHANGES = {"ball": BALLS, "roller": ROLLERS, "tapered": TAPERED}
 
 
+OTHERS = ("operation", "fits", "rating", "geometry")
+"""Tables whose fields `warm` takes by their paths."""
+
+
 def warm(kind, nodes=4, **changes):
-    """A scene with a network. **Arguments:** `changes`: fields of `[thermal]`, and with `__` for the dot any others."""
-    own = {(name.replace("__", ".") if "__" in name else f"thermal.{name}"): value for name, value in changes.items()}
+    """A scene with a network. **Arguments:** `changes`: fields of `[thermal]` and of `OTHERS`, with `__` for dots."""
+    own = {name.replace("__", "."): value for name, value in changes.items()}
+    own = {(path if path.startswith(OTHERS) else f"thermal.{path}"): value for path, value in own.items()}
     return jb.load_scene(NAMES[kind], CHANGES[kind] | {"thermal.nodes": str(nodes)} | own)
