@@ -42,6 +42,9 @@ def bearing_tables(scene: AbstractBearing, model: type[Table], **own: Rows | Non
         thermal = name == "fits" or (name == "materials" and warm)
         tables[name] = scene_oil(part) if name == "oil" else (own.get(name) or {}) | rows(table, part, thermal)
     tables["operation"] = _operation(tables["operation"], scene)
+    if "thermal" in tables:
+        # parts of which nothing is given
+        tables["thermal"] = {name: value for name, value in tables["thermal"].items() if value != {}}
     return {"kind": scene.kind} | tables
 
 
