@@ -28,25 +28,15 @@ from ..thermal.conductances import (
     ring_surface,
     seat_conductance,
 )
-from ..thermal.network import Network, NodeHeat, OilFlow, conductances_between, network_of
+from ..thermal.network import NODES, Network, NodeHeat, OilFlow, conductances_between, network_of
 from ..thermal.reference_speed import radial_seat_area, reference_conductance
 from ..thermal.settings import Thermal
 from ..thermal.shares import loss_shares, node_heat
 from .solution import Solution
 
-PAIRS = (
-    *(("inner_ring", "elements"), ("outer_ring", "elements")),
-    *(("inner_ring", "oil"), ("outer_ring", "oil"), ("elements", "oil"), ("housing", "oil")),
-    *(("inner_ring", "shaft"), ("outer_ring", "housing")),
-)
-"""Nodes between which heat flows."""
-SIDES = {"inner_ring": -1.0, "outer_ring": 1.0}
+OUTSIDE = {1: ("bearing",), 4: ("inner_ring", "outer_ring"), 6: ("shaft", "housing")}
+"""Nodes from which heat flows to the ambient, by the number of nodes."""
 GUIDED = {"inner": "inner_ring", "outer": "outer_ring", "both": "both"}
-
-
-def outside_nodes(thermal: Thermal) -> tuple[str, ...]:
-    """Nodes from which heat flows to the ambient."""
-    return {1: ("bearing",), 4: ("inner_ring", "outer_ring"), 6: ("shaft", "housing")}[thermal.nodes]
 
 
 def inlet_temperature(scene: Any) -> Any:
@@ -72,7 +62,7 @@ def has_flow(scene: Any) -> bool:
 def bearing_network(scene: Any) -> Network:
     """Nodes, oil flow and ambient of a scene; conductances that depend on the solution come with it."""
     thermal: Thermal = scene.thermal
-    ways: dict[str, Any] = dict.fromkeys(outside_nodes(thermal), 0.0)
+    ways: dict[str, Any] = dict.fromkeys(OUTSIDE[thermal.nodes], 0.0)
     if thermal.housing_diameter is not None:
         size = (thermal.housing_diameter, thermal.factor.ambient * thermal.housing_area)
         housing = {1: "bearing", 4: "outer_ring", 6: "housing"}[thermal.nodes]
@@ -245,7 +235,7 @@ def _oil_transfer(scene: Any, solution: Solution, temperature: Array) -> Any:
 def _to_ambient(scene: Any, thermal: Thermal) -> dict[str, Any]:
     """Conductances to the ambient beside that of a housing in air, W/K."""
     found = {}
-    for node in outside_nodes(thermal):
+    for node in OUTSIDE[thermal.nodes]:
         own = getattr(thermal.conductance, f"{node}_ambient")
         found[node] = thermal.factor.ambient * (_seat_to_ambient(scene, thermal, node) if own is None else own)
     return found
@@ -267,21 +257,15 @@ def _seat_to_ambient(scene: Any, thermal: Thermal, node: str) -> Any:
 def heat_capacities(scene: Any) -> Float[Array, " node"] | None:
     """Heat capacities of the nodes, J/K; `None` where one is not known."""
     thermal: Thermal = scene.thermal
-    given = thermal.capacity
-    if thermal.nodes == 1 and given.bearing is not None:
-        return jnp.stack([jnp.asarray(given.bearing, dtype=float)])
-    computed = _own_capacities(scene)
-    parts = {
-        name: getattr(given, name) if getattr(given, name) is not None else computed.get(name)
-        for name in ("inner_ring", "outer_ring", "elements", "oil", "shaft", "housing")
-    }
-    if thermal.nodes == 1:
-        own = [parts[name] for name in ("inner_ring", "outer_ring", "elements", "oil")]
-        return (
-            None if any(one is None for one in own) else jnp.stack([sum(jnp.asarray(one, dtype=float) for one in own)])
-        )
-    values = [parts[name] for name in thermal.node_names]
-    return None if any(one is None for one in values) else jnp.stack([jnp.asarray(one, dtype=float) for one in values])
+    parts: dict[str, Any] = _own_capacities(scene)
+    parts |= {name: value for name, value in vars(thermal.capacity).items() if value is not None}
+    inside = [parts.get(name) for name in NODES[4]]
+    if "bearing" not in parts and all(one is not None for one in inside):
+        parts["bearing"] = jnp.sum(jnp.stack([jnp.asarray(one, dtype=float) for one in inside]))
+    values = [parts.get(name) for name in thermal.node_names]
+    if any(one is None for one in values):
+        return None
+    return jnp.stack([jnp.asarray(one, dtype=float) for one in values])
 
 
 def _own_capacities(scene: Any) -> dict[str, Any]:

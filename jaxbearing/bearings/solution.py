@@ -223,7 +223,8 @@ class Solution(AbstractSolution, Generic[Point, Elements, Losses]):
 
     def _thermal_ending(self, thermal: ThermalResult) -> str:
         """One sentence on a failed search for temperatures."""
-        status, speed = Status(int(self.status)), float(np.asarray(self.operation.inner_speed)) * 30.0 / np.pi
+        operation: Any = self.operation
+        status, speed = Status(int(self.status)), float(np.asarray(operation.inner_speed)) * 30.0 / np.pi
         ending = f"{thermal.ending(status)}, inner ring at {speed:.6g} rpm"
         if status == Status.THERMAL_RUNAWAY:
             return ending

@@ -23,7 +23,7 @@ from ..thermal.result import HeatPaths, NodeTemperatures, ThermalResult, named
 from ..thermal.settings import Thermal
 from ..thermal.shares import oil_temperatures
 from ..thermal.solve import START_NOTE, UNSTABLE, ThermalState, solve_network
-from .heat import bearing_heat, bearing_network, heat_capacities, outside_nodes, rings_of
+from .heat import OUTSIDE, bearing_heat, bearing_network, heat_capacities, rings_of
 from .solution import Solution
 
 MOST_BROYDEN = {"when_needed": 15, "never": 60}
@@ -73,7 +73,7 @@ def _lacking_of_oil(scene: Any, thermal: Thermal) -> Iterator[str]:
 
 
 def _lacking_sizes(scene: Any, thermal: Thermal) -> Iterator[str]:
-    outside = [f"{node}_ambient" for node in outside_nodes(thermal)]
+    outside = [f"{node}_ambient" for node in OUTSIDE[thermal.nodes]]
     needed = {"width"} if _of_oil(thermal) and _computed(thermal, "inner_ring_oil", "outer_ring_oil") else set()
     if _computed(thermal, *outside):
         needed |= {"width", "bore", "outside_diameter"}
@@ -104,9 +104,9 @@ def at_temperatures(scene: Any, temperatures: Float[Array, " node"]) -> Any:
     oil = oil_temperatures(nodes, temperatures, **rings_of(scene))
     parts = None
     if scene.fits is not None:
-        by_name = dict(zip(nodes, temperatures, strict=True))
+        by_name: dict[str, Array] = dict(zip(nodes, temperatures, strict=True))
         if len(nodes) == 1:
-            by_name = dict.fromkeys(("inner_ring", "outer_ring", "elements"), temperatures[0])
+            by_name |= dict.fromkeys(("inner_ring", "outer_ring", "elements"), temperatures[0])
         given = ("inner_ring", "outer_ring", "elements", "shaft", "housing")
         parts = PartTemperatures(**{name: by_name[name] for name in given if name in by_name})
     return dataclasses.replace(scene, thermal=None, temperatures=parts, oil_temperatures=oil)
@@ -190,24 +190,18 @@ def _paths(network: Network, state: ThermalState) -> HeatPaths:
     for i, first in enumerate(nodes):
         for j, second in enumerate(nodes):
             flows[f"{first}_{second}"] = between[i, j] * (temperatures[i] - temperatures[j])
-        law = network.to_ambient[i]
+        law: Any = network.to_ambient[i]
         own = outside[i] + (law(temperatures[i]) if callable(law) else law)
         flows[f"{first}_ambient"] = own * (temperatures[i] - network.ambient)
-    ends = outside_nodes_of(nodes)
-    return named(HeatPaths, {name: flow for name, flow in flows.items() if name not in ends})
-
-
-def outside_nodes_of(nodes: tuple[str, ...]) -> set[str]:
-    """Names of paths to the ambient that a network of these nodes does not have."""
-    there = {1: ("bearing",), 4: ("inner_ring", "outer_ring"), 6: ("shaft", "housing")}[len(nodes)]
-    return {f"{name}_ambient" for name in nodes if name not in there}
+    closed = {f"{name}_ambient" for name in nodes if name not in OUTSIDE[len(nodes)]}
+    return named(HeatPaths, {name: flow for name, flow in flows.items() if name not in closed})
 
 
 def thermal_notes(scene: Any) -> tuple[str, ...]:
     """Notes for the user: what the network assumes, and what a steady state does not say."""
     thermal: Thermal = scene.thermal
     said = [f"thermal: {START_NOTE}"]
-    outside = [f"{node}_ambient" for node in outside_nodes(thermal)]
+    outside = [f"{node}_ambient" for node in OUTSIDE[thermal.nodes]]
     if thermal.housing_diameter is None and _computed(thermal, *outside):
         said.append(
             "thermal: conductances to the ambient that are not given are those of the reference heat flow of ISO "
