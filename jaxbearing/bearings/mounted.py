@@ -45,7 +45,7 @@ def mounting_problems(scene: Any) -> Iterator[str | ValueError]:
         if getattr(geometry, name) is None:
             yield f"geometry.{name}: found nothing, expected a length, which [fits] needs, e.g. '25 mm'"
     yield from refusals_of(fits.check_room, geometry.bore, geometry.outside_diameter)
-    yield from refusals_of(_check_walls, scene)
+    yield from refusals_of(check_walls, scene)
     if temperatures is None and scene.thermal is None:
         return
     materials: dict[str, Any] = {
@@ -61,7 +61,7 @@ def mounting_problems(scene: Any) -> Iterator[str | ValueError]:
             yield f"{name}.thermal_expansion: found nothing, {needed}"
 
 
-def _check_walls(scene: Any) -> None:
+def check_walls(scene: Any) -> None:
     """**Raises:** `ValueError` where a ring has no wall between its seat and its raceway."""
     geometry = scene.geometry
     sizes = given(*(leaf for leaf in jax.tree.leaves(geometry)), geometry.bore, geometry.outside_diameter)

@@ -16,6 +16,7 @@ from jaxtyping import Array, Float
 
 from ..mounting import PartTemperatures
 from ..numerics.checks import known
+from ..numerics.refusals import refusals_of
 from ..numerics.status import Status
 from ..thermal.network import Network
 from ..thermal.point import ThermalOptions
@@ -24,6 +25,7 @@ from ..thermal.settings import Thermal
 from ..thermal.shares import oil_temperatures
 from ..thermal.solve import START_NOTE, UNSTABLE, ThermalState, solve_network
 from .heat import OUTSIDE, bearing_heat, bearing_network, heat_capacities, rings_of
+from .mounted import check_walls
 from .solution import Solution
 
 MOST_BROYDEN = {"when_needed": 15, "never": 60}
@@ -47,6 +49,8 @@ def thermal_problems(scene: Any) -> Iterator[str | ValueError]:
         return
     yield from _lacking_of_oil(scene, thermal)
     yield from _lacking_sizes(scene, thermal)
+    if scene.fits is None:
+        yield from refusals_of(check_walls, scene)
     yield from _lacking_of_materials(scene, thermal)
 
 

@@ -56,13 +56,21 @@ def test_energy_closes(kind, nodes):
 @pytest.mark.parametrize(
     ("name", "changes"),
     [
-        ("reference_roller", {"geometry.bore": "118 mm", "geometry.outside_diameter": "166 mm"}),
+        (
+            "reference_roller",
+            {
+                "geometry.bore": "118 mm",
+                "geometry.outside_diameter": "166 mm",
+                "materials.rings": "steel",
+                "materials.rollers": "steel",
+            },
+        ),
         ("turbine_ball", {"geometry.bore": "120 mm", "geometry.outside_diameter": "190 mm"}),
         (
             "tapered_example",
             {
-                "geometry.bore": "110 mm",
-                "geometry.outside_diameter": "180 mm",
+                "geometry.bore": "30 mm",
+                "geometry.outside_diameter": "62 mm",
                 "materials.rings": "52100",
                 "materials.rollers": "52100",
             },

@@ -34,9 +34,9 @@ TAPERED = OIL | {
     "contact.rolling_resistance": "ertel_grubin",
     "materials.rings": "52100",
     "materials.rollers": "52100",
-    "geometry.bore": "110 mm",
-    "geometry.outside_diameter": "180 mm",
-    "geometry.width": "38 mm",
+    "geometry.bore": "30 mm",
+    "geometry.outside_diameter": "62 mm",
+    "geometry.width": "17 mm",
 }
 NAMES = {"ball": "deep_groove_6205", "roller": "turbine_roller", "tapered": "tapered_example"}
 CHANGES = {"ball": BALLS, "roller": ROLLERS, "tapered": TAPERED}
