@@ -16,6 +16,8 @@ from jaxbearing.life.result import Life
 from jaxbearing.machines import two_disk
 from jaxbearing.numerics.status import Status
 from jaxbearing.report.labels import udunits
+from jaxbearing.thermal import result as thermal_result
+from jaxbearing.thermal.shares import OilTemperatures
 
 FILE = Path(__file__).parents[1] / "results.md"
 """The page is kept in the repository; `python docs/generate/result_pages.py` writes it anew."""
@@ -26,6 +28,10 @@ SECTIONS = {
         "ring": solution.RingDisplacement,
         "cage": solution.CageState,
         "fit": growth.FitResult,
+        "thermal": thermal_result.ThermalResult,
+        "thermal.temperatures": thermal_result.NodeTemperatures,
+        "thermal.oil": OilTemperatures,
+        "thermal.flows": thermal_result.HeatPaths,
         "life": Life,
     },
     "Rolling elements and power: cylindrical rollers": {

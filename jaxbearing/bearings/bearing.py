@@ -13,11 +13,13 @@ import jax.numpy as jnp
 from jaxtyping import Array
 
 from .._scene import AbstractScene
-from ..contacts import PointContact
+from ..contacts import LineContact, PointContact
 from ..mounting import Fits, PartTemperatures
 from ..numerics.checks import gate, nan_unless
 from ..numerics.newton import NewtonOptions
 from ..numerics.status import Status
+from ..thermal.settings import Thermal
+from ..thermal.shares import OilTemperatures
 from .facts import ROLLER_PRESSURE, RangeChecks
 from .growth import Growth, Play
 from .mounted import fit_excess, running_scene
@@ -27,6 +29,7 @@ from .rated import RatedContacts
 from .rating import Rating
 from .ring import InnerRing
 from .solution import RING_FREEDOMS, TILTS, Solution
+from .warm import settled, solve_warm
 
 Bearing = TypeVar("Bearing", bound="AbstractBearing")
 
@@ -53,15 +56,20 @@ class AbstractBearing(AbstractScene):
     rating: eqx.AbstractVar[Rating | None]
     fits: eqx.AbstractVar[Fits | None]
     temperatures: eqx.AbstractVar[PartTemperatures | None]
+    thermal: eqx.AbstractVar[Thermal | None]
+    oil_temperatures: eqx.AbstractVar[OilTemperatures | None]
 
     def steady_solution(self, options: NewtonOptions) -> Solution:
         return self.solved_running(lambda running: running.solve_ring(options))
 
     def solved_running(self, solve: Callable[[Any], Solution]) -> Solution:
-        """The solution of the bearing that runs: of this scene, or where it has seats of the one that these make of it.
+        """The solution of the bearing that runs: of this scene, or where it has seats of the one that these make of it,
+        at the temperatures of its thermal network where it has one.
 
-        **Arguments:** `solve`: from a scene without seats to its solution.
+        **Arguments:** `solve`: from a scene without network and seats to its solution.
         """
+        if self.thermal is not None:
+            return solve_warm(self, solve)
         if self.fits is None:
             return solve(self)
         running, fit, impossible = running_scene(self)
@@ -80,6 +88,15 @@ class AbstractBearing(AbstractScene):
             notes=(*solution.notes, *self.fits.assumptions()),
             failure_causes={**solution.failure_causes, **impossible},
         )
+
+    def settled(self, solution: Solution) -> Any:
+        """The scene at the temperatures that its thermal network has found; itself without one."""
+        return settled(self, solution)
+
+    @property
+    @abc.abstractmethod
+    def dissipates(self) -> bool:
+        """True if the scene models a loss."""
 
     @property
     @abc.abstractmethod
@@ -140,6 +157,10 @@ class AbstractBearing(AbstractScene):
 
     def point_contacts(self, elements: Any) -> PointContact | None:
         """Raceway contacts of a solution where they are points, races first, shape (2, element); `None`: lines."""
+        return None
+
+    def race_lines(self, elements: Any) -> LineContact | None:
+        """Raceway contacts as lines that carry evenly, races first, shape (2, 1); `None`: points."""
         return None
 
     @property

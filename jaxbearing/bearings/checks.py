@@ -98,10 +98,8 @@ def _sheared(result: SolvedBearing) -> Excess:
 
 
 def _gupta(result: SolvedBearing) -> Excess:
-    inlet = result.facts.inlet
-
     def fitted(contacts: Contacts) -> Excess:
-        thermal = None if contacts.laws is None else contacts.laws.thermal
+        thermal, inlet = None if contacts.laws is None else contacts.laws.thermal, contacts.inlet
         if not isinstance(thermal, Gupta) or contacts.mean_speed is None or inlet is None:
             return {}
         loading = contacts.most(thermal.thermal_loading(contacts.mean_speed, inlet))

@@ -29,8 +29,8 @@ class Contacts(NamedTuple):
     """Contacts of one kind, as the checks see them; what is not modelled, or has no limit, is `None`.
 
     - `places`: names of the rows; `load`, N; `pressure`, peak of Hertz's, Pa; `mean_share`: mean over peak.
-    - `laws`: of the film and what shears it; `mean_speed` and `sliding` along rolling, m/s; `temperature` of the oil in
-      the contact, K.
+    - `laws`: of the film and what shears it; `inlet`: the oil that enters; `mean_speed` and `sliding` along rolling,
+      m/s; `temperature` of the oil in the contact, K.
     - `laminae`: loads along the rollers, N.
     - `angle`: contact angle, rad.
     - `past_edge`: by how much a contact ellipse passes the end of what it rests on, positive where it is cut off, for
@@ -42,6 +42,7 @@ class Contacts(NamedTuple):
     pressure: Float[Array, "place element"]
     mean_share: float
     laws: ContactLaws | PointLaws | None = None
+    inlet: InletOil | None = None
     mean_speed: Float[Array, "place _"] | None = None
     sliding: Float[Array, "place element"] | None = None
     temperature: Float[Array, "place element"] | None = None
@@ -70,14 +71,12 @@ class Facts(NamedTuple):
     """Facts that a steady solve states for the checks.
 
     - `contacts`: kinds of contacts.
-    - `inlet`: the oil that enters the bearing.
     - `traction_reserve`: of tapered rollers that roll by constraint, what the films could carry less what it takes, N.
     - `roller_tilt`: of rollers that may tilt, rad.
     - `stiffness`: tangent stiffness of a ring that is free to tilt, of its freedoms counted as lengths, N/m.
     """
 
     contacts: tuple[Contacts, ...]
-    inlet: InletOil | None = None
     traction_reserve: Float[Array, "2 roller"] | None = None
     roller_tilt: Float[Array, " roller"] | None = None
     stiffness: Float[Array, "freedom freedom"] | None = None

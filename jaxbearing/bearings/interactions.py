@@ -22,22 +22,25 @@ class Interaction(NamedTuple):
     - `power`: dissipation, W.
     - `inner_torque`, `outer_torque`: N m, by which the ring must be driven against it; `None`: it does not act on that
       ring.
+    - `by_race`: its power on the inner and the outer raceway, W, where a thermal network asks for it.
     """
 
     location: str
     power: Float[Array, ""] | None = None
     inner_torque: Float[Array, ""] | None = None
     outer_torque: Float[Array, ""] | None = None
+    by_race: Float[Array, "2"] | None = None
 
 
 class Costs(NamedTuple, Generic[Losses]):
     """Costs of all interactions together: losses and drive power, W, torques on the rings, N m; `None`: no loss is
-    modelled."""
+    modelled. `rolling_by_race`: the rolling resistance of the inner and the outer raceway, W, where it is asked for."""
 
     power_loss: Losses
     drive_power: Float[Array, ""] | None = None
     inner_torque: Float[Array, ""] | None = None
     outer_torque: Float[Array, ""] | None = None
+    rolling_by_race: Float[Array, "2"] | None = None
 
 
 def costs(losses: Callable[..., Losses], interactions: Sequence[Interaction], motion: Any) -> Costs[Losses]:
@@ -57,7 +60,8 @@ def costs(losses: Callable[..., Losses], interactions: Sequence[Interaction], mo
         for ring in ("inner", "outer")
     )
     drive = motion.inner_speed * inner + motion.outer_speed * outer
-    return Costs(losses(total=_sum(list(powers.values())), **powers), drive, inner, outer)
+    rolling = next((one.by_race for one in interactions if one.by_race is not None), None)
+    return Costs(losses(total=_sum(list(powers.values())), **powers), drive, inner, outer, rolling)
 
 
 def _sum(values: Sequence[Array]) -> Float[Array, ""]:

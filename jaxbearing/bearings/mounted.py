@@ -45,8 +45,8 @@ def mounting_problems(scene: Any) -> Iterator[str | ValueError]:
         if getattr(geometry, name) is None:
             yield f"geometry.{name}: found nothing, expected a length, which [fits] needs, e.g. '25 mm'"
     yield from refusals_of(fits.check_room, geometry.bore, geometry.outside_diameter)
-    yield from refusals_of(_check_walls, scene)
-    if temperatures is None:
+    yield from refusals_of(check_walls, scene)
+    if temperatures is None and scene.thermal is None:
         return
     materials: dict[str, Any] = {
         "materials.rings": scene.materials.rings,
@@ -56,11 +56,12 @@ def mounting_problems(scene: Any) -> Iterator[str | ValueError]:
     }
     for name, material in materials.items():
         if material is not None and material.thermal_expansion is None:
-            needed = "expected a number, which [temperatures] needs, e.g. '12.5e-6 1/K'"
+            who = "[temperatures]" if scene.thermal is None else "[thermal]"
+            needed = f"expected a number, which {who} needs, e.g. '12.5e-6 1/K'"
             yield f"{name}.thermal_expansion: found nothing, {needed}"
 
 
-def _check_walls(scene: Any) -> None:
+def check_walls(scene: Any) -> None:
     """**Raises:** `ValueError` where a ring has no wall between its seat and its raceway."""
     geometry = scene.geometry
     sizes = numbers_or_none(*(leaf for leaf in jax.tree.leaves(geometry)), geometry.bore, geometry.outside_diameter)

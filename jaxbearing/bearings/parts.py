@@ -57,9 +57,14 @@ class Drag(DragSettings):
 
 
 def drag_density(
-    oil: Lubricant, operation: AbstractOperation, pitch_diameter: Scalar, through_flow_fraction: Scalar
+    oil: Lubricant,
+    operation: AbstractOperation,
+    pitch_diameter: Scalar,
+    through_flow_fraction: Scalar,
+    temperature: Scalar,
 ) -> Float[Array, ""]:
-    """Density of the mixture of oil and air between the rings, which drags on the rolling elements, kg/m^3."""
+    """Density of the mixture of oil and air between the rings, which drags on the rolling elements, kg/m^3.
+    **Arguments:** `temperature`: of the oil there, K."""
     assert oil.density is not None
     fraction = saturated_oil_fraction(
         operation.oil_flow,
@@ -68,7 +73,7 @@ def drag_density(
         pitch_diameter,
         through_flow_fraction,
     )
-    temperature = jnp.asarray(operation.oil_temperature)
+    temperature = jnp.asarray(temperature)
     return mixture_density(fraction, oil.density.density(temperature), air_density(temperature))
 
 

@@ -15,6 +15,7 @@ from .._scene import AbstractSolution
 from .._scene import derived as derived
 from .._scene import label as label
 from ..numerics.status import Status
+from ..thermal.result import ThermalResult
 from .growth import FitResult
 
 INNER_TOLERANCE = 1e-8
@@ -183,10 +184,14 @@ class Solution(AbstractSolution, Generic[Point, Elements, Losses]):
     held_freedom: tuple[str, ...] = eqx.field(static=True, default=())
     """Modelled freedoms of the ring whose displacement is held and not solved for."""
     fit: FitResult | None = None
+    thermal: ThermalResult | None = None
     failure_causes: dict[str, FailureCause] = eqx.field(default_factory=dict)
     """Possible causes of a failed solve: text with places for numbers, such as `{:.3g}` -> its `FailureCause`."""
     life: Any = None
     """A `life.result.Life` if the scene has a rating."""
+    rolling_by_race: Float[Array, "2"] | None = None
+    """Rolling resistance of the inner and the outer raceway, W, of a scene whose interactions have oil temperatures of
+    their own."""
 
     @property
     def freedoms_of_stiffness(self) -> tuple[str, ...]:
@@ -213,7 +218,18 @@ class Solution(AbstractSolution, Generic[Point, Elements, Losses]):
         ]
         if found and int(self.status) == Status.INVALID_INPUT:
             return f"{Status.INVALID_INPUT.text}: {'; '.join(found)}"
-        return "; ".join([self._ending(), *found])
+        ending = self._ending() if self.thermal is None else self._thermal_ending(self.thermal)
+        return "; ".join([ending, *found])
+
+    def _thermal_ending(self, thermal: ThermalResult) -> str:
+        """One sentence on a failed search for temperatures."""
+        operation: Any = self.operation
+        status, speed = Status(int(self.status)), float(np.asarray(operation.inner_speed)) * 30.0 / np.pi
+        ending = f"{thermal.ending(status)}, inner ring at {speed:.6g} rpm"
+        if status == Status.THERMAL_RUNAWAY:
+            return ending
+        name = self.equation_names[int(self.worst_equation)]
+        return f"{ending}; of the last solve of the bearing the worst equation is: {name}"
 
     def _ending(self) -> str:
         """One sentence on a failed solve: status, residual and worst equation."""

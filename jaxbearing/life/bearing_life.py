@@ -10,6 +10,7 @@ import numpy as np
 from jaxtyping import Array, Bool, Float
 
 from ..bearings.bearing import AbstractBearing
+from ..bearings.inlet import race_temperatures
 from ..bearings.rated import RatedContacts
 from ..bearings.rating import CATALOGUE_CONFORMITY, Rating, rated_laminae
 from ..bearings.solution import Solution
@@ -67,6 +68,7 @@ def with_life(scene: Any, solution: Any) -> Any:
     rating = getattr(scene, "rating", None)
     if rating is None:
         return solution
+    scene = scene.settled(solution)
     life = bearing_life(scene, solution)
     checks = dict(solution.checks)
     if life.modification_factor is not None and life.viscosity_ratio is not None:
@@ -173,13 +175,16 @@ def _turning(operation: Any) -> tuple[Bool[Array, ""], Bool[Array, ""]]:
 
 
 def _viscosity_ratio(scene: Any, pitch_diameter: Array, speed: Array) -> Float[Array, ""] | None:
-    """kappa as given, or from the oil at its inlet temperature; `None` where the scene says neither."""
+    """kappa as given, or from the oil at its inlet temperature; where the raceways have temperatures of their own at
+    that of the hotter one. `None` where the scene says neither."""
     if scene.rating.viscosity_ratio is not None:
         return jnp.asarray(scene.rating.viscosity_ratio)
     oil: Lubricant | None = scene.oil
     if oil is None or oil.density is None:
         return None
-    temperature = jnp.asarray(scene.operation.oil_temperature)
+    temperature = jnp.asarray(race_temperatures(scene))
+    if temperature.ndim:
+        temperature = jnp.max(temperature)
     kinematic = oil.viscosity.viscosity(0.0, temperature) / oil.density.density(temperature)
     return kinematic / reference_viscosity(speed, pitch_diameter)
 

@@ -6,6 +6,7 @@ import jax.numpy as jnp
 from jaxtyping import Array, Float
 
 from ..bearings.bearing import AbstractBearing
+from ..bearings.inlet import oil_of_races
 from ..contacts import (
     AbstractLineFilm,
     DowsonHigginson,
@@ -54,7 +55,7 @@ def _line_share(law: AbstractLineFilm) -> Array:
 
 def _point_share(scene: AbstractBearing, contact: PointContact, elements: Any) -> Float[Array, "2 element"]:
     load = jnp.stack([elements.load_inner, elements.load_outer])
-    operation, inlet = scene.operation, scene.oil.at(scene.operation.oil_temperature)
+    operation, inlet = scene.operation, oil_of_races(scene)
     speed = 0.25 * scene.geometry.pitch_diameter * (jnp.asarray(operation.inner_speed) - operation.outer_speed)
     state = (contact, load, speed, inlet.viscosity, inlet.pressure_viscosity)
     ratio = HamrockDowsonMinimum().log_thickness(*state) - HamrockDowsonCentral().log_thickness(*state)

@@ -42,7 +42,14 @@ def known_roots(roots: Any, stiffness: bool = True) -> Iterator[None]:
 
 
 @contextmanager
-def _set(roots: _Roots) -> Iterator[None]:
+def own_roots() -> Iterator[None]:
+    """For a block whose searches are parts of another search: their roots are neither noted nor known."""
+    with _set(None):
+        yield
+
+
+@contextmanager
+def _set(roots: _Roots | None) -> Iterator[None]:
     token = _ROOTS.set(roots)
     try:
         yield

@@ -80,6 +80,9 @@ TIME = Dimension("a time", "s", "50 ms")
 FREQUENCY = Dimension("a frequency", "1/s", "40 Hz")
 THERMAL_EXPANSION = Dimension("a thermal expansion", "1/K", "12.5e-6 1/K")
 HEAT_CAPACITY = Dimension("a specific heat capacity", "J/(kg*K)", "460 J/(kg*K)")
+HEAT_CONDUCTANCE = Dimension("a heat conductance", "W/K", "2.5 W/K")
+BODY_HEAT_CAPACITY = Dimension("a heat capacity", "J/K", "120 J/K")
+AREA = Dimension("an area", "m^2", "0.02 m^2")
 TANGENTIAL_COMPLIANCE = Dimension("a tangential compliance", "m/Pa", "1e-15 m/Pa")
 
 
@@ -89,7 +92,7 @@ _BY_UNIT = {
         *(LENGTH, ANGLE, SPEED, SURFACE_SPEED, FORCE, LINE_LOAD, MOMENT, PRESSURE, INVERSE_PRESSURE, TEMPERATURE, FLOW),
         *(DENSITY, VISCOSITY, KINEMATIC_VISCOSITY, CONDUCTIVITY, CONDUCTIVITY_SLOPE, KELVIN_PER_PRESSURE),
         *(KELVIN2_PER_PRESSURE, TIME, FREQUENCY, TANGENTIAL_COMPLIANCE, LINE_CONTACT_STIFFNESS, THERMAL_EXPANSION),
-        *(HEAT_CAPACITY, HEAT_CAPACITY_SLOPE),
+        *(HEAT_CAPACITY, HEAT_CAPACITY_SLOPE, HEAT_CONDUCTANCE, BODY_HEAT_CAPACITY, AREA),
     )
 } | {"kg/(m^3 K)": DENSITY_SLOPE}
 

@@ -106,7 +106,7 @@ class Network(Checked):
     """Nodes, conductances between them and to the ambient, and an oil flow; `network_of` makes one from names."""
 
     nodes: tuple[str, ...] = eqx.field(static=True)
-    between: Float[Array, "node node"]
+    between: Float[Array, "node node"] | Float[np.ndarray, "node node"]
     to_ambient: tuple[Any, ...]
     ambient: Scalar = bounded("> 0", unit="K", converter=as_float)
     oil: OilFlow | None = None

@@ -52,6 +52,13 @@ class ThermalOptions(eqx.Module):
             raise ValueError("stability = True needs the Jacobian: only with jacobian = 'when_needed'")
 
 
+@eqx.filter_jit
+def _evaluated(losses: Callable[[Array], NodeHeat], temperatures: Array) -> NodeHeat:
+    """All loops of the search share one trace of the losses."""
+    found = losses(temperatures)
+    return jax.tree.map(lambda one: jnp.asarray(one, dtype=jnp.result_type(one)), found)
+
+
 class Problem(NamedTuple):
     """Input of a search: a pytree whose leaves are the parameters.
 
@@ -68,7 +75,7 @@ class Problem(NamedTuple):
 
     def losses_at(self, temperatures: Array) -> NodeHeat:
         """The losses, all of them arrays: what is constant leaves a traced function as a plain number."""
-        return jax.tree.map(lambda one: jnp.asarray(one, dtype=jnp.result_type(one)), self.losses(temperatures))
+        return _evaluated(self.losses, temperatures)
 
 
 class Point(NamedTuple):

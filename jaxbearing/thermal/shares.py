@@ -13,15 +13,17 @@ In a network of one node everything goes there, and has its temperature. The las
 others, so no heat is lost between a bearing and its network.
 """
 
+import dataclasses
 from collections.abc import Mapping
-from typing import NamedTuple
+from typing import Any
 
+import equinox as eqx
 import jax.numpy as jnp
 from jaxtyping import Array, Float
 
 from .._types import Scalar
 from ..numerics.arguments import require_choice, require_numbers
-from ..numerics.checks import known
+from ..numerics.checks import known, label
 from .network import NODES
 
 LOSSES = (
@@ -50,7 +52,7 @@ def loss_shares(
     rolling_to_oil: Scalar = 0.5,
     guiding_ring: str = "inner_ring",
     flange_ring: str = "inner_ring",
-    given: Mapping[str, Mapping[str, Scalar]] | None = None,
+    given: Mapping[str, Mapping[str, Scalar | None]] | None = None,
 ) -> dict[str, Float[Array, " node"]]:
     """The part of each loss that goes to each node, shape (node,), by the name of the loss.
 
@@ -66,7 +68,7 @@ def loss_shares(
     """
     require_choice("guiding_ring", guiding_ring, RINGS)
     require_choice("flange_ring", flange_ring, FLANGE_RINGS)
-    parts: dict[str, dict[str, Scalar]] = {
+    parts: dict[str, dict[str, Scalar | None]] = {
         "inner_raceway": {"inner_ring": inner_ring, "elements": None},
         "outer_raceway": {"outer_ring": outer_ring, "elements": None},
         "inner_rolling_resistance": _rolling("inner_ring", inner_ring, rolling_to_oil),
@@ -85,11 +87,11 @@ def loss_shares(
     return {name: _row(name, nodes, own) for name, own in parts.items()}
 
 
-def _rolling(ring: str, to_ring: Scalar, to_oil: Scalar) -> dict[str, Scalar]:
+def _rolling(ring: str, to_ring: Scalar, to_oil: Scalar) -> dict[str, Scalar | None]:
     return {"oil": to_oil, ring: (1.0 - to_oil) * to_ring, "elements": None}
 
 
-def _row(name: str, nodes: tuple[str, ...], parts: Mapping[str, Scalar]) -> Float[Array, " node"]:
+def _row(name: str, nodes: tuple[str, ...], parts: Mapping[str, Scalar | None]) -> Float[Array, " node"]:
     """Parts by node, the last that is named formed from the others."""
     names = NODES[4] if len(nodes) == 1 else nodes
     wrong = [node for node in parts if node not in names]
@@ -98,8 +100,9 @@ def _row(name: str, nodes: tuple[str, ...], parts: Mapping[str, Scalar]) -> Floa
     *others, last = parts
     for node in others:
         require_numbers("between 0 and 1", **{f"the share of {name} to {node}": parts[node]})
-    rest = 1.0 - sum(parts[node] for node in others)
-    numbers = known(parts[last], *(parts[node] for node in others))
+    given: list[Any] = [parts[node] for node in others]
+    rest = 1.0 - sum(given)
+    numbers = known(parts[last], *given)
     if numbers is not None and abs(sum(numbers) - 1.0) > SUM_ERROR:
         raise ValueError(f"the shares of {name} must add up to 1, got {sum(numbers):g}")
     require_numbers("between 0 and 1", **{f"the share of {name} to {last}": rest})
@@ -126,18 +129,22 @@ def node_heat(
     return jnp.sum(jnp.stack([loss * shares[name] for name, loss in there.items()]), axis=0)
 
 
-class OilTemperatures(NamedTuple):
-    """Temperature of the oil in each interaction, K."""
+def _of_oil(place: str) -> Any:
+    return eqx.field(metadata=label("K", f"temperature of the oil {place}"))
 
-    inner_raceway: Float[Array, ""]
-    outer_raceway: Float[Array, ""]
-    flange: Float[Array, ""]
-    pocket: Float[Array, ""]
-    cage_pilot: Float[Array, ""]
-    drag: Float[Array, ""]
+
+class OilTemperatures(eqx.Module):
+    """Temperature of the oil that enters each interaction, K."""
+
+    inner_raceway: Scalar = _of_oil("at the inner raceway")
+    outer_raceway: Scalar = _of_oil("at the outer raceway")
+    flange: Scalar = _of_oil("at the flanges or the rib")
+    pocket: Scalar = _of_oil("in the cage pockets and at the element ends")
+    cage_pilot: Scalar = _of_oil("in the cage lands")
+    drag: Scalar = _of_oil("that drags on the elements")
 
     @property
-    def element_ends(self) -> Float[Array, ""]:
+    def element_ends(self) -> Scalar:
         """Temperature of the oil between element ends and cage: that of the pockets."""
         return self.pocket
 
@@ -158,7 +165,7 @@ def oil_temperatures(
     require_choice("guiding_ring", guiding_ring, RINGS)
     require_choice("flange_ring", flange_ring, FLANGE_RINGS)
     if len(nodes) == 1:
-        return OilTemperatures(*(temperatures[0] for _ in OilTemperatures._fields))
+        return OilTemperatures(*(temperatures[0] for _ in dataclasses.fields(OilTemperatures)))
     part = dict(zip(nodes, temperatures, strict=True))
     elements, oil = part["elements"], part["oil"]
     flanged = 0.5 * (part["inner_ring"] + part["outer_ring"]) if flange_ring == "both" else part[flange_ring]

@@ -16,6 +16,7 @@ from jaxtyping import Array, Bool, Float, Int
 from .._types import Scalar
 from ..numerics.batching import in_turn
 from ..numerics.checks import label
+from ..numerics.known_roots import at_known_root, own_roots
 from ..numerics.status import Status
 from .network import Losses, Network, NodeHeat, Slopes, thermal_margin, thermal_rate
 from .point import Problem, ThermalOptions, evaluate
@@ -118,8 +119,10 @@ def solve_network(
     if begin.shape != (len(network.nodes),):
         raise ValueError(f"start must have a temperature for each of {len(network.nodes)} nodes, got {begin.shape}")
     held = jax.lax.stop_gradient((begin, capacity, jnp.asarray(limit, dtype=float)))
-    problem = _closed(network, losses, *held)
-    found = _root(problem, options=options)
+    # the searches of a bearing inside are parts of this one
+    with own_roots():
+        problem = _closed(network, losses, *held)
+        found = _root(problem, options=options)
     solved = found.status == Status.CONVERGED
     flows = problem.flows(found.temperatures, found.losses)
     masked = lambda value: jnp.where(solved, value, jnp.nan)

@@ -36,6 +36,8 @@ from jaxbearing.report.plots import plot_solution, save_plot
 from jaxbearing.report.summary import print_summary
 from jaxbearing.report.sweep_summary import print_sweep
 from jaxbearing.sweeps import labels
+from jaxbearing.thermal.result import HeatPaths, NodeTemperatures, ThermalResult
+from jaxbearing.thermal.shares import OilTemperatures
 
 WHEN = datetime(2026, 1, 1, tzinfo=UTC)
 OTHERS = ("two-disk", "warm two-disk", "line contact")
@@ -57,6 +59,10 @@ PARTS = (
     tapered_solution.TaperedResults,
     tapered_solution.TaperedPowerLoss,
     Life,
+    ThermalResult,
+    NodeTemperatures,
+    OilTemperatures,
+    HeatPaths,
     LineContactSolution,
     film.FilmResult,
     film.HertzResult,

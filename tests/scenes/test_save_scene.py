@@ -78,7 +78,7 @@ def test_built_in_scenes(name, tmp_path):
 
 def _in_order(tables):
     order = ("kind", "geometry", "materials", "oil", "contact", "kinematics", "cage", "flange", "drag", "rating")
-    return [name for name in (*order, "operation", "fits", "temperatures", "simulation") if name in tables]
+    return [name for name in (*order, "operation", "fits", "temperatures", "thermal", "simulation") if name in tables]
 
 
 def test_units_are_those_that_people_use(tmp_path):
@@ -177,10 +177,26 @@ VARIED = [
         MOUNTED,
         # as steel of the catalogue, but without its thermal properties
         {
-            "temperatures": "none",
+            "thermal": "none",
             "fits.shaft_material": "{youngs_modulus = '210 GPa', poisson_ratio = 0.3, density = '7850 kg/m^3'}",
         },
     ),
+    (
+        MOUNTED,
+        {
+            "thermal.nodes": "6",
+            "thermal.stability": "true",
+            "thermal.oil_inlet": "35.5 degC",
+            "thermal.conductance.housing_oil": "1.25 W/K",
+            "thermal.capacity.shaft": "900 J/K",
+            "thermal.capacity.housing": "4000 J/K",
+            "thermal.factor.oil": "2.5",
+            "thermal.share.inner_raceway": "0.4",
+            "thermal.housing_diameter": "80 mm",
+            "thermal.housing_area": "0.0123 m^2",
+        },
+    ),
+    (MOUNTED, {"thermal": "none", "temperatures.inner_ring": "80 degC", "temperatures.outer_ring": "70 degC"}),
     ("turbine_roller", {"geometry.flange_stiffness": "60 N/um^(10/9)", "geometry.flange_gap": "15 um"}),
     ("angular_contact_218", {"geometry.contact_angle": "none", "geometry.diametral_clearance": "0.1 mm"}),
     (

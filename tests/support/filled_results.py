@@ -12,6 +12,7 @@ import jax
 import jax.numpy as jnp
 import numpy as np
 from life_page import page_scene
+from warm_cases import warm
 
 import jaxbearing as jb
 from jaxbearing.bearings.cylindrical.motion.results import RollerEnergy, RollerInstant
@@ -41,6 +42,9 @@ SCENES = {
     "dry roller": lambda: jb.load_scene("turbine_roller", dict.fromkeys(("contact", "cage", "flange", "drag"), "none")),
     "misaligned roller": lambda: page_scene(),
     "tapered": lambda: jb.load_scene("tapered_example", _RATING),
+    "one temperature": lambda: warm("roller", 1),
+    "four temperatures": lambda: warm("roller", 4, stability="true"),
+    "six temperatures": lambda: warm("roller", 6, fits__shaft_interference="30 um"),
     "two-disk": lambda: jb.load_scene("two_disk_etm"),
     "warm two-disk": lambda: jb.load_scene("two_disk_mobil_jet_ii", {"contact.film_heating": "true"}),
     "line contact": lambda: jb.load_scene("satellite_contact_1"),

@@ -12,6 +12,7 @@ from ...gaps.ball_pocket import BallPocket
 from ...materials import reduced_modulus
 from ...numerics.arrow import ArrowPoint
 from ...numerics.safe import safe_norm
+from ..inlet import oil_elsewhere, oil_of_races, oil_temperature
 from ..parts import azimuths, drag_density
 from ..ring import LENGTH_UNIT, InnerRing, inner_ring
 from .core import FORCE_FLOOR, BallCore
@@ -131,7 +132,8 @@ def build_lubricated(scene: BallBearing, core: BallCore) -> LubricatedBallSystem
         reduced_modulus=reduced_modulus(scene.materials.rings, scene.materials.balls),
         laws=scene.contact,
         oil=scene.oil,
-        inlet=scene.oil.at(scene.operation.oil_temperature),
+        inlet=oil_of_races(scene),
+        elsewhere=oil_elsewhere(scene),
         **_guesses(core, scene.slips),
         reference=reference,
         orbit_unit=motion.orbit_scale(reference.orbital_speed),
@@ -192,4 +194,5 @@ def _drag(scene: BallBearing) -> BallDrag:
     law: ReynoldsDrag | RollerDrag = ReynoldsDrag(diameter=diameter, area=area, shape="sphere")
     if drag.coefficient is not None:
         law = RollerDrag(coefficient=jnp.asarray(drag.coefficient), area=area)
-    return BallDrag(law, drag_density(oil, scene.operation, geometry.pitch_diameter, drag.through_flow_fraction))
+    fraction, temperature = drag.through_flow_fraction, oil_temperature(scene, "drag")
+    return BallDrag(law, drag_density(oil, scene.operation, geometry.pitch_diameter, fraction, temperature))

@@ -173,7 +173,14 @@ class LubricatedBallSystem(AbstractLubricatedBallSystem):
         cage, motion = self.cage, self.kinematics
         assert cage is not None
         return guided_land(
-            cage.land, cage.guidance, motion.inner_speed, motion.outer_speed, orbit, force_x, force_y, self.inlet
+            cage.land,
+            cage.guidance,
+            motion.inner_speed,
+            motion.outer_speed,
+            orbit,
+            force_x,
+            force_y,
+            self.oil_of("cage_pilot"),
         )
 
     def land_at(self, point: ArrowPoint, state: BallsState) -> LandState:

@@ -53,10 +53,11 @@ def with_traction(system: AbstractLubricatedBallSystem, state: BallsState, conta
     tangential, drag_force, pocket = forward[0] + forward[1], None, None
     if system.drag is not None:
         speed = 0.5 * system.kinematics.pitch_diameter * motion.orbital_speed
-        drag_force = system.drag.force(speed, system.inlet.viscosity)
+        drag_force = system.drag.force(speed, system.oil_of("drag").viscosity)
         tangential = tangential - drag_force
     if system.cage is not None:
-        pocket = system.cage.pocket.balance(tangential, motion.axial_spin, motion.radial_spin, system.inlet.viscosity)
+        viscosity = system.oil_of("pocket").viscosity
+        pocket = system.cage.pocket.balance(tangential, motion.axial_spin, motion.radial_spin, viscosity)
         axis, radius = axis + pocket.friction, radius - pocket.transverse
     if system.resolved:
         couple = 2.0 / system.kinematics.ball_diameter * system.inertia * motion.orbital_speed

@@ -18,6 +18,7 @@ from ...contacts.point_laws import PointFilm, PointLaws
 from ...lubricants import InletOil, Lubricant
 from ...numerics.precision import as_float
 from ...numerics.safe import safe_norm
+from ..inlet import OilElsewhere
 from .geometry import BallGeometry
 from .kinematics import BallMotion
 from .state import BallCageParts, BallDrag, BallGuess, BallsState
@@ -56,6 +57,8 @@ class AbstractLubricatedBallSystem(AbstractBallSystem):
     """The easiest load over the load on the ring."""
     film_share: Scalar = eqx.field(converter=as_float, default=1.0)
     """Part of the films that keeps the surfaces apart: 1, less in an easier system."""
+    elsewhere: OilElsewhere | None = None
+    """Oil of the other interactions where it is not that of the raceways, `inlet`."""
 
     # -- structure ------------------------------------------------------------------------------------------------
 
@@ -81,6 +84,10 @@ class AbstractLubricatedBallSystem(AbstractBallSystem):
     @property
     def global_orbit(self) -> bool:
         return self.cage is not None or self.common_orbit
+
+    def oil_of(self, place: str) -> InletOil:
+        """The oil that enters an interaction beside the raceways."""
+        return self.inlet if self.elsewhere is None else getattr(self.elsewhere, place)
 
     # -- scales ---------------------------------------------------------------------------------------------------
 

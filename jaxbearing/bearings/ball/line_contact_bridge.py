@@ -8,6 +8,7 @@ from ...ehl import ContactBodies, ContactGeometry, ContactOperation, EHLLineCont
 from ...materials import reduced_modulus
 from ...numerics.arguments import require_choice
 from ...numerics.checks import known
+from ..inlet import oil_temperature
 from ..solution import Solution
 from .kinematics import BallKinematics, BallMotion
 from .scene import BallBearing
@@ -80,7 +81,7 @@ def line_contact_of(
         contact=FilmModel() if model is None else model,
         operation=ContactOperation(
             entrainment_speed=surfaces.mean_speed[ball],
-            oil_temperature=operation.oil_temperature,
+            oil_temperature=oil_temperature(scene.settled(solution), f"{race}_raceway"),
             load_per_length=0.5 * jnp.pi * half_width * pressure,
         ),
         simulation=simulation,

@@ -26,6 +26,8 @@ from ...numerics.checks import demand, numbers_or_none
 from ...numerics.newton import NewtonOptions
 from ...numerics.refusals import refusals_of, refuse_all
 from ...numerics.structure import choice
+from ...thermal.settings import Thermal
+from ...thermal.shares import OilTemperatures
 from ..bearing import AbstractBearing
 from ..cage import ASSUMED_LANDS as ASSUMED_LANDS
 from ..cage import AbstractCage
@@ -39,6 +41,7 @@ from ..rated import RatedContacts
 from ..rating import Rating
 from ..ring import InnerRing
 from ..solution import Solution
+from ..warm import thermal_problems
 from .geometry import BallGeometry
 from .gyroscopic import AbstractGyroscopic, ResolvedCouple
 
@@ -147,12 +150,15 @@ class BallBearing(AbstractBearing):
     rating: Rating | None = None
     fits: Fits | None = None
     temperatures: PartTemperatures | None = None
+    thermal: Thermal | None = None
+    oil_temperatures: OilTemperatures | None = None
 
     def __check_init__(self):
         refuse_all(self._problems())
 
     def _problems(self) -> Iterator[str | ValueError]:
         yield from mounting_problems(self)
+        yield from thermal_problems(self)
         if not self.slips and self.kinematics.attitude not in ("outer", "inner"):
             yield (
                 f"kinematics.attitude: '{self.kinematics.attitude}' needs traction (contact.traction); without "
@@ -229,6 +235,10 @@ class BallBearing(AbstractBearing):
     def slips(self) -> bool:
         """True if the balls' speeds are unknowns; without traction they follow from rolling without sliding."""
         return self.contact is not None and self.contact.traction is not None
+
+    @property
+    def dissipates(self) -> bool:
+        return self.contact is not None and (self.slips or self.contact.rolling_resistance)
 
     @property
     def ring_lever(self) -> Array:

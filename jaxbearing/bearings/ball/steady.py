@@ -210,11 +210,12 @@ def _lubricated(
     elements, contacts = _ball_results(scene, system, state.load, state.angle, state.motion, **more)
     contacts = contacts._replace(
         laws=system.laws,
+        inlet=system.inlet,
         mean_speed=state.races.mean_speed,
         sliding=state.races.rolling,
         temperature=film.temperature,
     )
-    facts = Facts((contacts,), inlet=system.inlet)
+    facts = Facts((contacts,))
     land = None if system.cage is None else system.land_at(result.point, state)
     if shear is None:
         return _rolling_alone(system, state, elements, facts)
@@ -245,7 +246,7 @@ def _rolling_alone(
             torques = common_orbit_torques(system, state, balance.resistance)
         else:
             torques = _ball_torques(system, state, balance.forward, balance.about, (balance.resistance,))
-        found = [Interaction("rolling_resistance", power, *torques)]
+        found = [Interaction("rolling_resistance", power, *torques, _by_race(system, state, balance.resistance))]
     cost = costs(BallPowerLoss, found, system.kinematics)
     return Results(elements, cost, facts)
 
@@ -277,7 +278,8 @@ def _interactions(system: LubricatedBallSystem, state: BallsState, land: LandSta
     if state.rolling is not None:
         nothing = jnp.zeros_like(state.rolling)
         torques = _ball_torques(system, state, nothing, nothing, (state.rolling,))
-        found.append(Interaction("rolling_resistance", total(SIDES * state.rolling * state.races.roll), *torques))
+        power = total(SIDES * state.rolling * state.races.roll)
+        found.append(Interaction("rolling_resistance", power, *torques, _by_race(system, state, state.rolling)))
     if pocket is not None:
         radius = 0.5 * system.kinematics.ball_diameter
         power = pocket.friction * motion.axial_spin + pocket.transverse * motion.radial_spin
@@ -288,6 +290,14 @@ def _interactions(system: LubricatedBallSystem, state: BallsState, land: LandSta
         speed = 0.5 * system.kinematics.pitch_diameter * motion.orbital_speed
         found.append(Interaction("drag", total(state.drag_force * speed)))
     return found
+
+
+def _by_race(system: LubricatedBallSystem, state: BallsState, resistance: Array) -> Float[Array, "2"] | None:
+    """Power of the rolling resistance of each race, W, where a thermal network asks for it. **Arguments:** of each
+    ball, N m."""
+    if system.elsewhere is None:
+        return None
+    return system.multiplicity * jnp.sum(SIDES * resistance * state.races.roll, axis=1)
 
 
 def _ball_torques(

@@ -40,6 +40,7 @@ from ...gaps import EndForces, PocketFilm
 from ...lubricants import InletOil, Lubricant
 from ...numerics.arrow import AbstractArrowSystem, ArrowPoint
 from ...numerics.roots import monotone_root
+from ..inlet import OilElsewhere
 from ..land import LandState, guided_land
 from ..ring import LENGTH_UNIT, InnerRing
 from .forces import CageParts, forces_without_pocket, on_cage
@@ -131,6 +132,12 @@ class LubricatedRollerSystem(_InPlane):
     roller_mass: Float[Array, ""]
     held: Float[Array, " roller"] | None = None
     cage: CageParts | None = None
+    elsewhere: OilElsewhere | None = None
+    """Oil of the other interactions where it is not that of the raceways, `inlet`."""
+
+    def oil_of(self, place: str) -> InletOil:
+        """The oil that enters an interaction beside the raceways."""
+        return self.inlet if self.elsewhere is None else getattr(self.elsewhere, place)
 
     # -- scales ---------------------------------------------------------------------------------------------------
 
@@ -283,7 +290,7 @@ class LubricatedRollerSystem(_InPlane):
         assert cage.pocket is not None
         forces = forces_without_pocket(motion, self.contact, state.contact, cage, state.orbital_speed, spin)
         # tangential balance: the pocket films carry what is left; front minus rear load
-        pocket = cage.pocket.balance(forces.tangential, spin, self.inlet.viscosity)
+        pocket = cage.pocket.balance(forces.tangential, spin, self.oil_of("pocket").viscosity)
         moment = forces.moment + motion.roller_radius * (pocket.friction_front + pocket.friction_rear)
         cage_moment, cage_force = on_cage(
             motion,
@@ -309,7 +316,14 @@ class LubricatedRollerSystem(_InPlane):
         assert cage is not None
         assert cage.land is not None
         return guided_land(
-            cage.land, cage.guidance, motion.inner_speed, motion.outer_speed, orbit, force_x, force_y, self.inlet
+            cage.land,
+            cage.guidance,
+            motion.inner_speed,
+            motion.outer_speed,
+            orbit,
+            force_x,
+            force_y,
+            self.oil_of("cage_pilot"),
         )
 
     def land_at(self, point: ArrowPoint, state: RollerState) -> LandState:

@@ -16,6 +16,7 @@ from ...numerics.arrow import AbstractArrowSystem, ArrowPoint
 from ...numerics.plain_newton import plain_newton
 from ...numerics.roots import monotone_root
 from ...numerics.safe import positive_power, safe_norm
+from ..inlet import of_inner_race
 from ..ring import LENGTH_UNIT
 
 LOG_LOAD_RANGE = (-40.0, 18.0)
@@ -63,7 +64,7 @@ def guessed_loads(
     film = jnp.sum(jnp.exp(film))
     # Martin's film of a rigid roller
     size = per_race(contact.reduced_radius * contact.length)[0]
-    martin = MARTIN_CONSTANT * inlet.viscosity * jnp.abs(mean_speed[0]) * size
+    martin = MARTIN_CONSTANT * of_inner_race(inlet.viscosity) * jnp.abs(mean_speed[0]) * size
     stiff = jnp.sum(kappa)
 
     def loads(shift, args):

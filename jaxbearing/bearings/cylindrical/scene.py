@@ -15,10 +15,14 @@ import equinox as eqx
 import jax.numpy as jnp
 from jaxtyping import Array
 
+from ...contacts import LineContact
 from ...lubricants import Lubricant, NoPressureViscosity
+from ...materials import reduced_modulus
 from ...mounting import Fits, PartTemperatures
 from ...numerics.newton import NewtonOptions
 from ...numerics.refusals import refusals_of, refuse_all
+from ...thermal.settings import Thermal
+from ...thermal.shares import OilTemperatures
 from ..cage import ASSUMED_LANDS as ASSUMED_LANDS
 from ..facts import RangeChecks
 from ..growth import Growth, Play
@@ -33,6 +37,7 @@ from ..rated import RatedContacts
 from ..rating import Rating
 from ..ring import InnerRing
 from ..solution import RING_FREEDOMS, Solution
+from ..warm import thermal_problems
 from .geometry import ASSUMED_FLANGE_HEIGHT, RollerCage, RollerFlange, RollerGeometry, check_height
 from .thrust import NOT_MODELLED, check_axial
 
@@ -80,6 +85,8 @@ class CylindricalRollerBearing(AbstractMovingBearing):
     profile: RollerProfile | None = None
     fits: Fits | None = None
     temperatures: PartTemperatures | None = None
+    thermal: Thermal | None = None
+    oil_temperatures: OilTemperatures | None = None
 
     def __check_init__(self):
         refuse_all(self._problems())
@@ -87,6 +94,7 @@ class CylindricalRollerBearing(AbstractMovingBearing):
     def _problems(self) -> Iterator[str | ValueError]:
         yield from refusals_of(check_axial, self.geometry, self.operation)
         yield from mounting_problems(self)
+        yield from thermal_problems(self)
         if self.simulation is not None:
             yield from refusals_of(check_run, self.operation)
         if self.contact is None:
@@ -225,6 +233,16 @@ class CylindricalRollerBearing(AbstractMovingBearing):
     def slips(self) -> bool:
         """True if roller and cage speeds are unknowns; without traction they follow from rolling without slip."""
         return self.contact is not None and self.contact.traction is not None
+
+    @property
+    def dissipates(self) -> bool:
+        return self.contact is not None and (self.slips or self.contact.rolling is not None)
+
+    def race_lines(self, elements: Any) -> LineContact:
+        length = jnp.asarray(self.geometry.loaded_length)
+        roller, races = 0.5 * jnp.asarray(self.geometry.roller_diameter), jnp.stack(self.raceway_diameters)[:, None]
+        radii = 1.0 / (1.0 / roller + jnp.asarray([[2.0], [-2.0]]) / races)
+        return LineContact(radii, length, reduced_modulus(self.materials.rings, self.materials.rollers))
 
     def unused_parts(self) -> tuple[str, ...]:
         """Tables that the scene names but that have no effect without traction on the raceways."""

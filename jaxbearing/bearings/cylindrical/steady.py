@@ -10,6 +10,7 @@ from ...numerics.arrow import ArrowPoint, condensed, linearize, schur_complement
 from ...numerics.newton import NewtonOptions, NewtonResult, newton_solve
 from ..assemble import Results, assemble
 from ..facts import MEAN_OF_LINE, RACEWAYS, Contacts, Facts
+from ..inlet import oil_elsewhere, oil_of_races, oil_temperature
 from ..interactions import Costs, Interaction, costs, of_land
 from ..land import LandState
 from ..parts import azimuths, drag_density
@@ -73,7 +74,8 @@ def build_system(
         **common,
         laws=scene.contact,
         oil=scene.oil,
-        inlet=scene.oil.at(operation.oil_temperature),
+        inlet=oil_of_races(scene),
+        elsewhere=oil_elsewhere(scene),
         cage=_cage_parts(scene, motion) if scene.slips else None,
     )
 
@@ -81,7 +83,9 @@ def build_system(
 def _cage_parts(scene: CylindricalRollerBearing, motion: RollerKinematics) -> CageParts:
     cage, oil, geometry, operation = scene.cage, scene.oil, scene.geometry, scene.operation
     assert oil is not None
-    viscosity = oil.viscosity.viscosity(0.0, jnp.asarray(operation.oil_temperature))
+    viscosity_at = lambda place: oil.viscosity.viscosity(0.0, jnp.asarray(oil_temperature(scene, place)))
+    at_flanges = viscosity_at("flange")
+    at_rails = at_flanges if scene.oil_temperatures is None else viscosity_at("element_ends")
     rails = None
     if cage is not None and cage.pocket_axial_clearance is not None:
         edge = PocketEdge(
@@ -91,7 +95,7 @@ def _cage_parts(scene: CylindricalRollerBearing, motion: RollerKinematics) -> Ca
             pitch_radius=motion.pitch_radius,
             roller_radius=motion.roller_radius,
         )
-        rails = edge.coefficients(viscosity)
+        rails = edge.coefficients(at_rails)
 
     def flange(ring: str, race: Array, outward: float):
         part = scene.flange
@@ -104,12 +108,13 @@ def _cage_parts(scene: CylindricalRollerBearing, motion: RollerKinematics) -> Ca
             angle=jnp.asarray(part.angle),
             pitch_radius=motion.pitch_radius,
             roller_radius=motion.roller_radius,
-        ).coefficients(viscosity)
+        ).coefficients(at_flanges)
 
     drag, density = None, None
     if scene.drag is not None:
         drag = RollerDrag(coefficient=jnp.asarray(scene.drag.coefficient), area=drag_area(geometry, cage))
-        density = drag_density(oil, operation, geometry.pitch_diameter, scene.drag.through_flow_fraction)
+        fraction, temperature = scene.drag.through_flow_fraction, oil_temperature(scene, "drag")
+        density = drag_density(oil, operation, geometry.pitch_diameter, fraction, temperature)
     pocket = None
     if cage is not None:
         pocket = Pocket(
@@ -230,13 +235,14 @@ def _lubricated(system: LubricatedRollerSystem, result: NewtonResult) -> Results
         pressure,
         MEAN_OF_LINE,
         laws=system.laws,
+        inlet=system.inlet,
         mean_speed=state.mean_speed,
         sliding=state.sliding_speed,
         temperature=None if rise is None else system.inlet.temperature + rise,
     )
-    facts = Facts((contacts,), inlet=system.inlet)
+    facts = Facts((contacts,))
     if system.cage is None:
-        cost = rolling_alone(system.contact, motion, contact.rolling_force)
+        cost = rolling_alone(system.contact, motion, contact.rolling_force, system.elsewhere is not None)
         return Results(elements, cost, facts)
 
     land = system.land_at(result.point, state)
@@ -265,9 +271,8 @@ def _interactions(system: LubricatedRollerSystem, state: RollerState, land: Land
     motion, pocket, cage = system.kinematics, state.pocket, system.cage
     assert pocket is not None
     assert cage is not None
-    found = friction_on_rings(
-        motion, state.contact, state.sliding_speed, state.mean_speed, state.inner_flange, state.outer_flange
-    )
+    speeds, flanges = (state.sliding_speed, state.mean_speed), (state.inner_flange, state.outer_flange)
+    found = friction_on_rings(motion, state.contact, *speeds, *flanges, by_race=system.elsewhere is not None)
     friction = pocket.friction_front + pocket.friction_rear
     found.append(Interaction("pocket", jnp.sum(friction * motion.roller_radius * state.spin_speed)))
     if state.rails is not None:

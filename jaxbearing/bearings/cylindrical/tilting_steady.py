@@ -7,17 +7,20 @@ tractions that rolling without sliding needs balance each roller; ring torques a
 
 import dataclasses
 
+import jax
 import jax.numpy as jnp
 from jaxtyping import Array, Float
 
 from ...contacts import LineContact, palmgren_stiffness
 from ...contacts.laws import ContactState
+from ...lubricants import InletOil
 from ...materials import reduced_modulus
 from ...numerics.arrow import ArrowPoint, linearize
 from ...numerics.newton import NewtonOptions, newton_solve
 from ...numerics.status import Status
 from ..assemble import Results, assemble
 from ..facts import MEAN_OF_LINE, RACEWAYS, Contacts, Facts
+from ..inlet import oil_of_races
 from ..parts import azimuths
 from ..profile import RollerProfile, pressed_load
 from ..rating import rated_laminae
@@ -125,16 +128,16 @@ def _results(
         **more,
     )
     profiled = scene.profile is not None and scene.profile.shape is not None
-    costs = rolling_alone(contact, motion, rolling)
+    costs = rolling_alone(contact, motion, rolling, scene.oil_temperatures is not None)
     contacts = Contacts(RACEWAYS, state.load, peaks, MEAN_OF_LINE, laminae=laminae)
     facts = Facts((contacts,))
     if scene.contact is not None and scene.oil is not None:
         rises = [more[name] for name in ("temperature_rise_inner", "temperature_rise_outer") if name in more]
-        inlet = scene.oil.at(scene.operation.oil_temperature)
+        inlet = oil_of_races(scene)
         speed = motion.surface_speeds(zero, zero)[0][:, None]
         temperature = inlet.temperature + jnp.stack(rises) if rises else None
-        contacts = contacts._replace(laws=scene.contact, mean_speed=speed, temperature=temperature)
-        facts = facts._replace(contacts=(contacts,), inlet=inlet)
+        contacts = contacts._replace(laws=scene.contact, inlet=inlet, mean_speed=speed, temperature=temperature)
+        facts = facts._replace(contacts=(contacts,))
     laminae = LaminaLoads(inner_laminae, outer_laminae, profiled)
     return Results(elements, costs, facts, laminae=laminae)
 
@@ -152,17 +155,19 @@ def _films(
     laws, oil = scene.contact, scene.oil
     if laws is None or oil is None:
         return {}, None
-    inlet = oil.at(scene.operation.oil_temperature)
+    inlet = oil_of_races(scene)
+    # of laminae, the last axis
+    inlet_along = jax.tree.map(lambda values: values[..., None] if jnp.ndim(values) else values, inlet)
     speed = motion.surface_speeds(jnp.zeros(()), jnp.zeros(()))[0][:, None]
 
-    def loaded(one: LineContact, load: Array, speed: Array) -> tuple[Array, ContactState]:
+    def loaded(one: LineContact, load: Array, speed: Array, inlet: InletOil) -> tuple[Array, ContactState]:
         carries = load > 0
         safe = jnp.where(carries, load, 1.0)
         return carries, laws.evaluate(one, safe, speed + 0.0 * safe, 0.0 * safe, oil, inlet)
 
-    carries, whole = loaded(contact, jnp.sum(laminae, axis=2), speed)
+    carries, whole = loaded(contact, jnp.sum(laminae, axis=2), speed, inlet)
     each = LineContact(contact.reduced_radius[..., None], contact.length / laminae.shape[2], contact.reduced_modulus)
-    carried, parts = loaded(each, laminae, speed[..., None])
+    carried, parts = loaded(each, laminae, speed[..., None], inlet_along)
     blank = lambda values: jnp.where(carries, values, jnp.nan)
     film = blank(whole.film)
     least = blank(jnp.min(jnp.where(carried, parts.film, jnp.inf), axis=2))

@@ -45,6 +45,7 @@ from ...contacts.point_laws import PointFilm
 from ...gaps import RollerDrag
 from ...lubricants import InletOil, Lubricant
 from ...materials import reduced_modulus
+from ..inlet import oil_elsewhere, oil_of_races, oil_temperature
 from ..interactions import Costs, Interaction, costs
 from ..parts import drag_density
 from .build import TaperedMotion, rolling_motion
@@ -137,14 +138,19 @@ def tapered_friction(scene: TaperedRollerBearing, state: TaperedState) -> Tapere
     geometry, operation, oil = scene.geometry, scene.operation, scene.oil
     assert scene.contact is not None
     assert oil is not None
-    motion, inlet = rolling_motion(geometry, operation), oil.at(operation.oil_temperature)
+    motion, inlet, elsewhere = rolling_motion(geometry, operation), oil_of_races(scene), oil_elsewhere(scene)
     modulus = reduced_modulus(scene.materials.rings, scene.materials.rollers)
     roller = _roller(geometry)
     races = _races(geometry, scene.contact, state.load, roller.reach, motion, modulus, oil, inlet)
-    rib = None if scene.rib is None else _rib(scene, state.flange_load, motion, modulus, inlet)
+    rib = (
+        None
+        if scene.rib is None
+        else _rib(scene, state.flange_load, motion, modulus, inlet if elsewhere is None else elsewhere.flange)
+    )
     drag = None
     if scene.drag is not None:
-        density = drag_density(oil, operation, geometry.pitch_diameter, scene.drag.through_flow_fraction)
+        fraction, temperature = scene.drag.through_flow_fraction, oil_temperature(scene, "drag")
+        density = drag_density(oil, operation, geometry.pitch_diameter, fraction, temperature)
         area = jnp.asarray(geometry.roller_length) * geometry.mean_roller_diameter
         speed = 0.5 * geometry.pitch_diameter * motion.orbital_speed
         drag = RollerDrag(jnp.asarray(scene.drag.coefficient), area).force(speed, density)
@@ -159,7 +165,9 @@ def tapered_friction(scene: TaperedRollerBearing, state: TaperedState) -> Tapere
     # what keeps the rollers rolling acts on the rings and does no work
     found = [Interaction("", None, inner, outer)]
     if races.rolling is not None:
-        found.append(Interaction("rolling_resistance", jnp.sum(total(races.rolling * races.speed))))
+        powers = total(races.rolling * races.speed)
+        own = None if elsewhere is None else powers
+        found.append(Interaction("rolling_resistance", jnp.sum(powers), by_race=own))
     if traction is not None:
         found.append(Interaction("flange", total(traction.power)))
     if drag is not None:

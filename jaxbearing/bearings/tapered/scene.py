@@ -16,12 +16,16 @@ from jaxtyping import Array, Float
 
 from ..._scene import label, number
 from ..._types import Scalar
+from ...contacts import LineContact
 from ...contacts.laws import ContactLaws
 from ...contacts.point_laws import PointLaws
 from ...lubricants import Lubricant
+from ...materials import reduced_modulus
 from ...mounting import Fits, PartTemperatures
 from ...numerics.newton import NewtonOptions
 from ...numerics.refusals import refusals_of, refuse_all
+from ...thermal.settings import Thermal
+from ...thermal.shares import OilTemperatures
 from ..bearing import AbstractBearing
 from ..facts import RangeChecks
 from ..growth import Growth, Play
@@ -34,6 +38,7 @@ from ..rated import RatedContacts
 from ..rating import Rating
 from ..ring import InnerRing
 from ..solution import Solution
+from ..warm import thermal_problems
 from .geometry import TaperedGeometry
 
 
@@ -89,6 +94,8 @@ class TaperedRollerBearing(AbstractBearing):
     drag: Drag | None = None
     fits: Fits | None = None
     temperatures: PartTemperatures | None = None
+    thermal: Thermal | None = None
+    oil_temperatures: OilTemperatures | None = None
     closing: Float[Array, "3"] | None = None
 
     def __check_init__(self):
@@ -96,6 +103,7 @@ class TaperedRollerBearing(AbstractBearing):
 
     def _problems(self) -> Iterator[str | ValueError]:
         yield from mounting_problems(self)
+        yield from thermal_problems(self)
         if self.contact is None:
             if self.rib is not None:
                 yield "contact: a scene with laws of the rib needs those of the raceways"
@@ -156,6 +164,18 @@ class TaperedRollerBearing(AbstractBearing):
     def slips(self) -> bool:
         """Rollers roll without sliding on the raceways."""
         return False
+
+    @property
+    def dissipates(self) -> bool:
+        if self.contact is None:
+            return False
+        slides = self.rib is not None and self.rib.traction is not None
+        return self.contact.rolling is not None or slides or self.drag is not None
+
+    def race_lines(self, elements: Any) -> LineContact:
+        radii = self.geometry.race_reduced_radii(jnp.asarray(0.5))[:, None]
+        modulus = reduced_modulus(self.materials.rings, self.materials.rollers)
+        return LineContact(radii, jnp.asarray(self.geometry.roller_length), modulus)
 
     @property
     def ring_lever(self) -> Array:

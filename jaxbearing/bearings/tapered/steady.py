@@ -14,6 +14,7 @@ from ...numerics.safe import safe_norm
 from ...numerics.status import Status
 from ..assemble import Results, assemble
 from ..facts import MEAN_OF_LINE, MEAN_OF_POINT, RACEWAYS, Contacts, Facts
+from ..inlet import oil_elsewhere, oil_of_races
 from ..interactions import costs
 from ..parts import azimuths
 from ..rating import LAMINAE, rated_laminae
@@ -275,16 +276,18 @@ def _facts(
     )
     if friction is None or scene.contact is None or scene.oil is None:
         return Facts((races, rib), roller_tilt=tilt)
-    inlet, of_races, of_rib = scene.oil.at(scene.operation.oil_temperature), friction.races, friction.rib
-    warm = lambda rise: None if rise is None else inlet.temperature + rise
-    races = races._replace(laws=scene.contact, mean_speed=of_races.speed, temperature=warm(of_races.temperature_rise))
+    inlet, of_races, of_rib = oil_of_races(scene), friction.races, friction.rib
+    warm = lambda oil, rise: None if rise is None else oil.temperature + rise
+    warm_races = warm(inlet, of_races.temperature_rise)
+    races = races._replace(laws=scene.contact, inlet=inlet, mean_speed=of_races.speed, temperature=warm_races)
     if of_rib is not None:
-        rise = of_rib.temperature_rise
-        rib = rib._replace(laws=scene.rib, temperature=warm(None if rise is None else rise[None]))
+        rise, elsewhere = of_rib.temperature_rise, oil_elsewhere(scene)
+        oil = inlet if elsewhere is None else elsewhere.flange
+        rib = rib._replace(laws=scene.rib, inlet=oil, temperature=warm(oil, None if rise is None else rise[None]))
     reserve = None
     if of_races.capacity is not None and friction.balance is not None:
         reserve = of_races.capacity - jnp.abs(friction.balance.traction)
-    return Facts((races, rib), inlet=inlet, traction_reserve=reserve, roller_tilt=tilt)
+    return Facts((races, rib), traction_reserve=reserve, roller_tilt=tilt)
 
 
 def line_pressure(scene: TaperedRollerBearing, system: TaperedSystem, state: TaperedState) -> Float[Array, "2 roller"]:

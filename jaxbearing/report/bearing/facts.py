@@ -9,6 +9,7 @@ import numpy as np
 from ...bearings.solution import RING_FREEDOMS, Solution, force_units, stiffness_units
 from ..display import digits, with_unit
 from .fit_facts import fit_facts
+from .thermal_facts import thermal_facts
 
 
 def not_modelled(solution: Solution) -> str:
@@ -27,6 +28,8 @@ def facts(solution: Solution) -> Iterator[tuple[str, str]]:
         yield "Cage", f"{with_unit(float(cage.speed), 'rad/s')}, {slip}, {place}, {angle}"
     if solution.fit is not None:
         yield from fit_facts(solution.fit)
+    if solution.thermal is not None:
+        yield from thermal_facts(solution.thermal)
     yield "Inner ring", ", ".join(_ring(solution))
     held = ", ".join(_held(solution))
     if held:

@@ -17,7 +17,7 @@ def unused_operation(solution: Solution) -> set[str]:
     unused = set()
     if solution.elements.film_inner is None:
         unused.add("oil_temperature")
-    if solution.power_loss.drag is None:
+    if solution.power_loss.drag is None and solution.thermal is None:
         unused.add("oil_flow")
     return unused
 

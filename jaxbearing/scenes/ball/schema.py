@@ -16,6 +16,7 @@ from ..bearing.schema import (
     FitsTable,
     RatingTable,
     TemperaturesTable,
+    ThermalTable,
     operation_table,
     require_oil,
     require_oil_flow,
@@ -133,6 +134,7 @@ class BallBearingTable(Table):
     rating: RatingTable | None = None
     fits: FitsTable | None = None
     temperatures: TemperaturesTable | None = None
+    thermal: ThermalTable | None = None
 
     @check
     def _flow(self) -> Problems:

@@ -14,6 +14,7 @@ from ...materials import Material
 from ...mounting import Fits, PartTemperatures
 from ...numerics.checks import STAND_IN
 from ...numerics.refusals import collecting, refusals_of, refuse_all
+from ...thermal.settings import Thermal
 from ..drafts import Unreadable
 from ..laws import TURBULENCE
 from ..materials import material
@@ -82,16 +83,17 @@ def _without_refused(part: Any, name: str, problems: list[ValueError]) -> None:
             object.__setattr__(part, found[1], STAND_IN)
 
 
-def part(kind: type[Part], table: Table | None) -> Part | None:
+def part(kind: type[Part], table: Table | None, exclude_none: bool = False) -> Part | None:
     """The part whose attributes are the fields of the table, where there is one."""
-    return None if table is None else kind(**table.model_dump())
+    return None if table is None else kind(**table.model_dump(exclude_none=exclude_none))
 
 
 def seats(table: Any) -> dict[str, Callable[[], Any]]:
-    """The parts `fits` and `temperatures` of a bearing, as `built` takes them."""
+    """The parts `fits`, `temperatures` and `thermal` of a bearing, as `built` takes them."""
     return {
         "fits": lambda: None if table.fits is None else _fits(table.fits),
         "temperatures": lambda: part(PartTemperatures, table.temperatures),
+        "thermal": lambda: part(Thermal, table.thermal, exclude_none=True),
     }
 
 
@@ -105,7 +107,7 @@ def _fits(table: FitsTable) -> Fits:
 def solids(table: Any, *names: str) -> dict[str, Material]:
     """The materials of these fields, as far as given; with thermal properties where the parts have temperatures."""
     try:
-        thermal = table.temperatures is not None
+        thermal = table.temperatures is not None or table.thermal is not None
     except Unreadable:
         thermal = True
     given = {name: getattr(table.materials, name) for name in names}

@@ -8,6 +8,7 @@ from ...bearings.cage import AbstractCage
 from ...bearings.operation import AbstractOperation, HeldDisplacement
 from ...bearings.rating import Rating
 from ...mounting import Fits, PartTemperatures
+from ...thermal.settings import Capacities, ConductanceFactors, Conductances, Shares, Thermal
 from ..laws import TURBULENCE, Laws
 from ..materials import MaterialField
 from ..oil.needs import require_laws, require_piezoviscous
@@ -54,6 +55,37 @@ class FitsTable(table_of(Fits)):
 
 class TemperaturesTable(table_of(PartTemperatures)):
     """Temperatures of the parts; see `mounting.seats.PartTemperatures`."""
+
+
+class ConductanceTable(table_of(Conductances)):
+    """Conductances that are given instead of computed."""
+
+
+class CapacityTable(table_of(Capacities)):
+    """Heat capacities that are given instead of computed."""
+
+
+class ConductanceFactorTable(table_of(ConductanceFactors)):
+    """Factors of groups of conductances."""
+
+
+class ShareTable(table_of(Shares)):
+    """Parts of the losses that heat the first of two bodies."""
+
+
+class ThermalTable(table_of(Thermal)):
+    """The thermal network; see `thermal.settings.Thermal`.
+
+    - `conductance`: conductances that are given instead of computed
+    - `capacity`: heat capacities that are given instead of computed
+    - `factor`: factors of groups of conductances
+    - `share`: parts of the losses that heat the first of two bodies
+    """
+
+    conductance: ConductanceTable | None = None
+    capacity: CapacityTable | None = None
+    factor: ConductanceFactorTable | None = None
+    share: ShareTable | None = None
 
 
 class RatingTable(table_of(Rating)):

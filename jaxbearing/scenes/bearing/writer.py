@@ -17,7 +17,7 @@ from ..table import Table
 
 _ORDER = (
     *("geometry", "profile", "materials", "oil", "contact", "kinematics", "cage", "flange", "drag", "rating"),
-    *("operation", "fits", "temperatures", "simulation"),
+    *("operation", "fits", "temperatures", "thermal", "simulation"),
 )
 """Tables of the built-in files; a table of another part comes after them."""
 _OF_OIL = ("oil_temperature", "oil_flow")
@@ -38,9 +38,13 @@ def bearing_tables(scene: AbstractBearing, model: type[Table], **own: Rows | Non
         if table is None or part is None:
             continue
         # files give the materials of a seat thermal properties, those of the bearing where its parts have temperatures
-        thermal = name == "fits" or (name == "materials" and scene.temperatures is not None)
+        warm = scene.temperatures is not None or scene.thermal is not None
+        thermal = name == "fits" or (name == "materials" and warm)
         tables[name] = scene_oil(part) if name == "oil" else (own.get(name) or {}) | rows(table, part, thermal)
     tables["operation"] = _operation(tables["operation"], scene)
+    if "thermal" in tables:
+        # parts of which nothing is given
+        tables["thermal"] = {name: value for name, value in tables["thermal"].items() if value != {}}
     return {"kind": scene.kind} | tables
 
 

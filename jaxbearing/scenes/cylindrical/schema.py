@@ -12,6 +12,7 @@ from ..bearing.schema import (
     FitsTable,
     RatingTable,
     TemperaturesTable,
+    ThermalTable,
     law_in_words,
     operation_table,
     require_oil,
@@ -108,6 +109,7 @@ class CylindricalRollerTable(Table):
     rating: RatingTable | None = None
     fits: FitsTable | None = None
     temperatures: TemperaturesTable | None = None
+    thermal: ThermalTable | None = None
     profile: ProfileTable | None = None
 
     @check

@@ -6,7 +6,15 @@ from typing import Annotated, ClassVar, Literal
 from ...bearings.tapered.geometry import TaperedGeometry
 from ...bearings.tapered.scene import TaperedOperation
 from ..bearing.profile import ProfileTable
-from ..bearing.schema import FitsTable, RatingTable, TemperaturesTable, operation_table, require_oil, require_oil_flow
+from ..bearing.schema import (
+    FitsTable,
+    RatingTable,
+    TemperaturesTable,
+    ThermalTable,
+    operation_table,
+    require_oil,
+    require_oil_flow,
+)
 from ..cylindrical.schema import RACEWAY_LAWS, DragTable
 from ..laws import LINE_THERMAL, RIB_FILMS, ROLLER_FILMS, ROLLING, TRACTIONS, TractionAccuracy
 from ..materials import MaterialField
@@ -68,6 +76,7 @@ class TaperedRollerTable(Table):
     rating: RatingTable | None = None
     fits: FitsTable | None = None
     temperatures: TemperaturesTable | None = None
+    thermal: ThermalTable | None = None
 
     @check
     def _flow(self) -> Problems:

@@ -43,6 +43,7 @@ def run_excess(scene: CylindricalRollerBearing, instants: RollerInstant) -> Exce
         together(elements.pressure_inner, elements.pressure_outer),
         MEAN_OF_LINE,
         laws=scene.contact,
+        inlet=inlet,
         mean_speed=together(*mean_speed),
         sliding=together(*sliding),
         temperature=None if rise[0] is None else inlet.temperature + together(*rise),
@@ -50,5 +51,5 @@ def run_excess(scene: CylindricalRollerBearing, instants: RollerInstant) -> Exce
     zero, own = jnp.zeros(()), instants.cage
     ring = RingDisplacement(**dict.fromkeys(RING_FREEDOMS, zero))  # a ring that moves does not tilt
     cage = None if own is None else CageState(zero, zero, jnp.nanmax(jnp.asarray(own.eccentricity_ratio)), zero)
-    found = result_excess(scene, Facts((contacts,), inlet=inlet), ring, cage)
+    found = result_excess(scene, Facts((contacts,)), ring, cage)
     return {AT_SOME_TIME + text: value for text, value in found.items()}

@@ -20,8 +20,7 @@ class RollerMotion(AbstractMotion):
     instant: ClassVar[type[Instant]] = RollerInstant
 
     def require_moving(self, scene: CylindricalRollerBearing) -> None:
-        if not scene.slips:
-            raise ValueError(start.IMMOBILE)
+        start.require_moving(scene)
 
     def quasi_static(self, scene: CylindricalRollerBearing, options: NewtonOptions | None = None) -> QuasiStatic:
         return start.quasi_static(scene, options)

@@ -25,6 +25,10 @@ ASSUMED_CAGE = "bronze"
 IMMOBILE = (
     "contact.traction: nothing drives the rollers of a bearing without traction on its raceways; simulate needs it"
 )
+NO_NETWORK = (
+    "thermal: a run in time of the rollers has no thermal network; leave [thermal] out, and give the temperatures that "
+    "a solve has found as operation.oil_temperature and [temperatures]"
+)
 
 
 class QuasiStatic(NamedTuple):
@@ -44,6 +48,14 @@ class QuasiStatic(NamedTuple):
     residual: Float[Array, ""]
 
 
+def require_moving(scene: CylindricalRollerBearing) -> None:
+    """**Raises:** `ValueError` for a scene whose rollers nothing drives, or with a thermal network."""
+    if not scene.slips:
+        raise ValueError(IMMOBILE)
+    if scene.thermal is not None:
+        raise ValueError(NO_NETWORK)
+
+
 def build_dynamics(
     scene: CylindricalRollerBearing, simulation: Simulation, reference_speed: Array | None = None
 ) -> RollerDynamics:
@@ -55,8 +67,7 @@ def build_dynamics(
     **Raises:** `ValueError` for a scene without traction on the raceways, which nothing drives, and for an operating
     point with given displacements.
     """
-    if not scene.slips:
-        raise ValueError(IMMOBILE)
+    require_moving(scene)
     check_run(scene.operation)
     if simulation.rotating_load is not None and not scene.skewed:
         scene = scene.replace({"ring_freedom": ("radial", "lateral")})

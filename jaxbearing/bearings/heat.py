@@ -1,0 +1,296 @@
+"""The thermal network of a bearing: conductances, heat capacities, and where its losses go, from a solved bearing.
+
+Boundary dimensions are those of the drawing: what temperatures and fits change of them does not matter for heat.
+"""
+
+import math
+from collections.abc import Mapping
+from typing import Any
+
+import jax.numpy as jnp
+from jaxtyping import Array, Float
+
+from ..gaps import saturated_oil_fraction
+from ..lubricants import InletOil
+from ..materials import Material
+from ..numerics.safe import safe_norm
+from ..thermal.conductances import (
+    ContactHeat,
+    CylindricalHousing,
+    Solid,
+    elements_surface,
+    ellipse_contact_heat,
+    line_contact_heat,
+    oil_capacity,
+    oil_filling_conductance,
+    oil_heat_transfer,
+    ring_capacity,
+    ring_surface,
+    seat_conductance,
+)
+from ..thermal.network import NODES, Network, NodeHeat, OilFlow, conductances_between, network_of
+from ..thermal.reference_speed import radial_seat_area, reference_conductance
+from ..thermal.settings import Thermal
+from ..thermal.shares import loss_shares, node_heat
+from .solution import Solution
+
+OUTSIDE = {1: ("bearing",), 4: ("inner_ring", "outer_ring"), 6: ("shaft", "housing")}
+"""Nodes from which heat flows to the ambient, by the number of nodes."""
+GUIDED = {"inner": "inner_ring", "outer": "outer_ring", "both": "both"}
+
+
+def inlet_temperature(scene: Any) -> Any:
+    """Temperature at which oil enters the network, K."""
+    own = scene.thermal.oil_inlet
+    return scene.operation.oil_temperature if own is None else own
+
+
+def rings_of(scene: Any) -> dict[str, str]:
+    """The ring that guides the cage, and the one with the flanges, as `loss_shares` takes them."""
+    cage, flange = getattr(scene, "cage", None), getattr(scene, "flange", None)
+    return {
+        "guiding_ring": "inner_ring" if cage is None else cage.guidance,
+        "flange_ring": "inner_ring" if flange is None else GUIDED[flange.ring],
+    }
+
+
+def has_flow(scene: Any) -> bool:
+    """True if oil flows through the bearing, as far as the scene says it."""
+    return scene.oil.heat_capacity is not None and scene.oil.density is not None
+
+
+def bearing_network(scene: Any) -> Network:
+    """Nodes, oil flow and ambient of a scene; conductances that depend on the solution come with it."""
+    thermal: Thermal = scene.thermal
+    ways: dict[str, Any] = dict.fromkeys(OUTSIDE[thermal.nodes], 0.0)
+    if thermal.housing_diameter is not None:
+        size = (thermal.housing_diameter, thermal.factor.ambient * thermal.housing_area)
+        housing = {1: "bearing", 4: "outer_ring", 6: "housing"}[thermal.nodes]
+        if getattr(thermal.conductance, f"{housing}_ambient") is None:
+            ways[housing] = CylindricalHousing(*size, thermal.ambient, thermal.emissivity)
+    oil = None
+    if has_flow(scene):
+        inlet = inlet_temperature(scene)
+        mass = scene.oil.density.density(inlet) * scene.operation.oil_flow
+        oil = OilFlow(mass * scene.oil.heat_capacity.heat_capacity(inlet), inlet, thermal.mixing)
+    return network_of(thermal.node_names, {}, ways, thermal.ambient, oil)
+
+
+def bearing_heat(scene: Any, thermal: Thermal, solution: Solution, temperatures: Float[Array, " node"]) -> NodeHeat:
+    """Heat into the nodes and conductances of a bearing that was solved at node temperatures.
+
+    **Arguments:** `scene`: with the temperatures of its oil, without the network; `temperatures`: K.
+    """
+    nodes = thermal.node_names
+    loss, by_race = solution.power_loss, solution.rolling_by_race
+    losses = {name: value for name, value in vars(loss).items() if name not in ("total", "rolling_resistance")}
+    if by_race is not None:
+        losses |= {"inner_rolling_resistance": by_race[0], "outer_rolling_resistance": by_race[1]}
+    between: dict[tuple[str, str], Any] = {}
+    to_rings = {"inner_ring": 0.5, "outer_ring": 0.5}
+    if len(nodes) > 1:
+        contacts = _contacts(scene, solution)
+        between = _between(scene, thermal, solution, contacts, dict(zip(nodes, temperatures, strict=True)))
+        load = jnp.stack([solution.elements.load_inner, solution.elements.load_outer])
+        carried = jnp.sum(load, axis=1)
+        # heat is made where the load is
+        parts = jnp.sum(load * contacts.share, axis=1) / jnp.where(carried > 0.0, carried, 1.0)
+        to_rings = dict(zip(to_rings, jnp.where(carried > 0.0, parts, 0.5), strict=True))
+    shares = loss_shares(
+        nodes,
+        **to_rings,
+        rolling_to_oil=thermal.rolling_to_oil,
+        **rings_of(scene),
+        given=_given_shares(scene, thermal),
+    )
+    own, outside = _to_ambient(scene, thermal), [jnp.zeros(())] * len(nodes)
+    for node, conductance in own.items():
+        outside[nodes.index(node)] = jnp.asarray(conductance, dtype=float)
+    return NodeHeat(
+        node_heat(losses, shares),
+        solution.status,
+        jnp.asarray(conductances_between(nodes, between), dtype=float),
+        jnp.stack(outside),
+        solution,
+    )
+
+
+def _given_shares(scene: Any, thermal: Thermal) -> dict[str, dict[str, Any]]:
+    """Shares of the scene as `loss_shares` takes them."""
+    rings, found = rings_of(scene), {}
+    second = {
+        "inner_raceway": ("inner_ring", "elements"),
+        "outer_raceway": ("outer_ring", "elements"),
+        "flange": (rings["flange_ring"], "elements"),
+        "element_ends": ("elements", "oil"),
+        "pocket": ("elements", "oil"),
+        "cage_pilot": (rings["guiding_ring"], "oil"),
+        "drag": ("elements", "oil"),
+    }
+    for name, (first, last) in second.items():
+        part = getattr(thermal.share, name)
+        if part is None:
+            continue
+        if first == "both":
+            found[name] = {"inner_ring": 0.5 * part, "outer_ring": 0.5 * part, last: None}
+        else:
+            found[name] = {first: part, last: None}
+    return found
+
+
+def _elements_of(scene: Any) -> Material:
+    return getattr(scene.materials, f"{scene.element}s")
+
+
+def _solid(material: Material) -> Solid:
+    assert material.conductivity is not None
+    assert material.heat_capacity is not None
+    return Solid(material.conductivity, material.density, material.heat_capacity)
+
+
+def _contacts(scene: Any, solution: Solution) -> ContactHeat:
+    """Heat flow of all raceway contacts, races first, from the ring to the element."""
+    elements, operation = solution.elements, scene.operation
+    both = lambda name: jnp.stack([getattr(elements, f"{name}_inner"), getattr(elements, f"{name}_outer")])
+    load, film = both("load"), both("film")
+    angle = both("contact_angle") if hasattr(elements, "contact_angle_inner") else jnp.zeros((2, 1))
+    tilt = getattr(elements, "attitude_angle", None)
+    rolling = 1.0 if tilt is None else jnp.cos(angle - tilt[None])
+    diameter = scene.mean_diameter
+    radius = 0.5 * (scene.geometry.pitch_diameter + jnp.asarray([[-1.0], [1.0]]) * diameter * jnp.cos(angle))
+    ring_speed = jnp.stack([jnp.asarray(operation.inner_speed), jnp.asarray(operation.outer_speed)])[:, None]
+    speeds = (
+        (ring_speed - elements.orbital_speed[None]) * radius,
+        0.5 * elements.spin_speed[None] * diameter * rolling,
+    )
+    oil = scene.oil.conductivity
+    own = scene.oil_temperatures
+    conductivity = oil.conductivity(jnp.stack([jnp.asarray(own.inner_raceway), jnp.asarray(own.outer_raceway)]))
+    bodies = (_solid(scene.materials.rings), _solid(_elements_of(scene)))
+    points, lines = scene.point_contacts(elements), scene.race_lines(elements)
+    # an empty contact has no size
+    some = load > 0.0
+    pressing = jnp.where(some, load, 1.0)
+    if points is not None:
+        ellipse = points.ellipse(pressing)
+        sizes = (jnp.where(some, ellipse.rolling, 0.0), jnp.where(some, ellipse.transverse, 0.0))
+        return ellipse_contact_heat(*sizes, film, conductivity[:, None], bodies, speeds)
+    width = jnp.where(some, lines.half_width(pressing), 0.0)
+    return line_contact_heat(width, lines.length, film, conductivity[:, None], bodies, speeds)
+
+
+def _between(
+    scene: Any, thermal: Thermal, solution: Solution, contacts: ContactHeat, temperatures: Mapping[str, Any]
+) -> dict[tuple[str, str], Any]:
+    """Conductances between the nodes, W/K."""
+    geometry, given = scene.geometry, thermal.conductance
+    through = jnp.sum(contacts.conductance, axis=1) + oil_filling_conductance(
+        _elements_of(scene).conductivity, scene.mean_diameter, float(scene.n_elements)
+    )
+    inner, outer = scene.raceway_diameters
+    transfer, fit = _oil_transfer(scene, solution, temperatures["oil"]), solution.fit
+    gap = lambda name: 0.0 if fit is None or getattr(fit, name) is None else -getattr(fit, name)
+    width = geometry.width
+    computed = {
+        ("inner_ring", "elements"): lambda: through[0],
+        ("outer_ring", "elements"): lambda: through[1],
+        ("inner_ring", "oil"): lambda: transfer() * ring_surface(inner, width),
+        ("outer_ring", "oil"): lambda: transfer() * ring_surface(outer, width),
+        ("elements", "oil"): lambda: transfer() * _surface(scene),
+        ("housing", "oil"): lambda: 0.0,
+        ("inner_ring", "shaft"): lambda: seat_conductance(geometry.bore, width, gap("interference_inner")),
+        ("outer_ring", "housing"): lambda: seat_conductance(
+            geometry.outside_diameter, width, gap("interference_outer")
+        ),
+    }
+    found = {}
+    for pair, compute in computed.items():
+        if not set(pair) <= set(temperatures):
+            continue
+        own = getattr(given, "_".join(pair))
+        group = "contacts" if pair[1] == "elements" else "oil" if pair[1] == "oil" else "seats"
+        found[pair] = getattr(thermal.factor, group) * (compute() if own is None else own)
+    return found
+
+
+def _surface(scene: Any) -> Array:
+    length = None if not scene.line_contacts else scene.geometry.roller_length
+    return elements_surface(scene.mean_diameter, float(scene.n_elements), length)
+
+
+def _oil_transfer(scene: Any, solution: Solution, temperature: Array) -> Any:
+    """Function to the heat transfer from the oil to rings and elements, W/(m^2 K); asked only where it is needed."""
+
+    def transfer() -> Array:
+        oil: InletOil = scene.oil.at(temperature)
+        capacity = scene.oil.heat_capacity.heat_capacity(temperature)
+        pitch = scene.geometry.pitch_diameter
+        orbit = jnp.mean(solution.elements.orbital_speed) if solution.cage is None else solution.cage.speed
+        prandtl = oil.viscosity * capacity / oil.conductivity
+        return oil_heat_transfer(0.5 * pitch * orbit, pitch, oil.conductivity, prandtl, oil.viscosity / oil.density)
+
+    return transfer
+
+
+def _to_ambient(scene: Any, thermal: Thermal) -> dict[str, Any]:
+    """Conductances to the ambient beside that of a housing in air, W/K."""
+    found = {}
+    for node in OUTSIDE[thermal.nodes]:
+        own = getattr(thermal.conductance, f"{node}_ambient")
+        found[node] = thermal.factor.ambient * (_seat_to_ambient(scene, thermal, node) if own is None else own)
+    return found
+
+
+def _seat_to_ambient(scene: Any, thermal: Thermal, node: str) -> Any:
+    """By the reference heat flow of ISO 15312 through the seats, each seat by its area; a housing in air has a law of
+    its own."""
+    geometry = scene.geometry
+    area = radial_seat_area(geometry.bore, geometry.outside_diameter, geometry.width)
+    whole = reference_conductance(area)
+    inside = whole * geometry.bore / (geometry.bore + geometry.outside_diameter)
+    outside = 0.0 if thermal.housing_diameter is not None else whole - inside
+    if node == "bearing":
+        return inside + outside
+    return inside if node in ("inner_ring", "shaft") else outside
+
+
+def heat_capacities(scene: Any) -> Float[Array, " node"] | None:
+    """Heat capacities of the nodes, J/K; `None` where one is not known."""
+    thermal: Thermal = scene.thermal
+    parts: dict[str, Any] = _own_capacities(scene)
+    parts |= {name: value for name, value in vars(thermal.capacity).items() if value is not None}
+    inside = [parts.get(name) for name in NODES[4]]
+    if "bearing" not in parts and all(one is not None for one in inside):
+        parts["bearing"] = jnp.sum(jnp.stack([jnp.asarray(one, dtype=float) for one in inside]))
+    values = [parts.get(name) for name in thermal.node_names]
+    if any(one is None for one in values):
+        return None
+    return jnp.stack([jnp.asarray(one, dtype=float) for one in values])
+
+
+def _own_capacities(scene: Any) -> dict[str, Any]:
+    """Heat capacities of rings, elements and oil as far as they follow from the scene."""
+    geometry, rings, balls, oil = scene.geometry, scene.materials.rings, _elements_of(scene), scene.oil
+    sizes = (geometry.bore, geometry.outside_diameter, geometry.width)
+    if any(size is None for size in sizes) or rings.heat_capacity is None or balls.heat_capacity is None:
+        return {}
+    inner, outer = scene.raceway_diameters
+    of_ring = (geometry.width, rings.density, rings.heat_capacity)
+    one = math.pi / 6.0 * jnp.power(scene.mean_diameter, 3.0)
+    if scene.line_contacts:
+        one = 0.25 * math.pi * jnp.square(scene.mean_diameter) * geometry.roller_length
+    volume = scene.n_elements * one
+    found = {
+        "inner_ring": ring_capacity(geometry.bore, inner, *of_ring),
+        "outer_ring": ring_capacity(outer, geometry.outside_diameter, *of_ring),
+        "elements": volume * balls.density * balls.heat_capacity,
+    }
+    if has_flow(scene):
+        operation, inlet = scene.operation, inlet_temperature(scene)
+        speed = safe_norm(operation.inner_speed, operation.outer_speed)
+        fraction = saturated_oil_fraction(operation.oil_flow, speed, geometry.pitch_diameter)
+        free = 0.25 * math.pi * (jnp.square(outer) - jnp.square(inner)) * geometry.width - volume
+        found["oil"] = oil_capacity(
+            fraction, jnp.maximum(free, 0.0), oil.density.density(inlet), oil.heat_capacity.heat_capacity(inlet)
+        )
+    return found

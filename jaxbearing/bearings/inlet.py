@@ -1,0 +1,51 @@
+"""Oil that enters the interactions of a bearing: all of it at the inlet temperature of the operating point, or each
+interaction with a temperature of its own, which a thermal network knows."""
+
+from typing import Any, NamedTuple
+
+import jax.numpy as jnp
+from jaxtyping import Array, Float
+
+from .._types import Scalar
+from ..lubricants import InletOil
+
+
+class OilElsewhere(NamedTuple):
+    """Oil that enters the interactions beside the raceways."""
+
+    flange: InletOil
+    pocket: InletOil
+    cage_pilot: InletOil
+    drag: InletOil
+
+
+def oil_of_races(scene: Any) -> InletOil:
+    """The oil that enters the raceway contacts: one for both, or with fields of shape (2, 1), races first."""
+    return scene.oil.at(race_temperatures(scene))
+
+
+def oil_elsewhere(scene: Any) -> OilElsewhere | None:
+    """The oil that enters the other interactions; `None` where it is that of the raceways."""
+    own = scene.oil_temperatures
+    if own is None:
+        return None
+    return OilElsewhere(*(scene.oil.at(getattr(own, place)) for place in OilElsewhere._fields))
+
+
+def oil_temperature(scene: Any, place: str) -> Scalar:
+    """Temperature of the oil of an interaction, K. **Arguments:** `place`: field of `OilTemperatures`."""
+    own = scene.oil_temperatures
+    return scene.operation.oil_temperature if own is None else getattr(own, place)
+
+
+def race_temperatures(scene: Any) -> Scalar | Float[Array, "2 1"]:
+    """Temperature of the oil that enters the raceway contacts, K: one for both, or of shape (2, 1), races first."""
+    own = scene.oil_temperatures
+    if own is None:
+        return scene.operation.oil_temperature
+    return jnp.stack([jnp.asarray(own.inner_raceway), jnp.asarray(own.outer_raceway)])[:, None]
+
+
+def of_inner_race(values: Array) -> Float[Array, ""]:
+    """A property of the oil in the inner raceway. **Arguments:** `values`: one, or of shape (2, 1)."""
+    return values[0, 0] if jnp.ndim(values) else values

@@ -1,0 +1,225 @@
+"""Bearings with a thermal network: an outer iteration on the node temperatures around the whole solve of the bearing.
+
+Every trial of node temperatures gives each interaction the temperature of its oil, and where the bearing has seats the
+temperatures of its parts, and with them its clearance. The bearing is solved from its own guess each time, so it fails
+or not by itself; its losses and its contacts give the balances of the nodes. The derivative of the answer is that of
+the implicit function at the temperatures found. The stiffness of the ring is that with these temperatures held: a load
+that changes quickly meets a bearing whose temperatures have not changed yet.
+"""
+
+import dataclasses
+from collections.abc import Callable, Iterator
+from typing import Any
+
+import jax.numpy as jnp
+from jaxtyping import Array, Float
+
+from ..mounting import PartTemperatures
+from ..numerics.checks import known
+from ..numerics.refusals import refusals_of
+from ..numerics.status import Status
+from ..thermal.network import Network
+from ..thermal.point import ThermalOptions
+from ..thermal.result import HeatPaths, NodeTemperatures, ThermalResult, named
+from ..thermal.settings import Thermal
+from ..thermal.shares import oil_temperatures
+from ..thermal.solve import START_NOTE, UNSTABLE, ThermalState, solve_network
+from .heat import OUTSIDE, bearing_heat, bearing_network, heat_capacities, rings_of
+from .mounted import check_walls
+from .solution import Solution
+
+MOST_BROYDEN = {"when_needed": 15, "never": 60}
+"""Solves of Broyden's iteration before Newton's, or before steps in time where there is no exact Jacobian."""
+
+
+def thermal_problems(scene: Any) -> Iterator[str | ValueError]:
+    """Yields a sentence for everything that a scene with a thermal network lacks."""
+    thermal: Thermal | None = scene.thermal
+    if thermal is None:
+        return
+    if scene.temperatures is not None:
+        yield "temperatures: expected none beside [thermal], which computes them"
+    if not scene.dissipates:
+        yield (
+            "thermal: the scene has no losses; expected an oil and a [contact] table with traction or rolling "
+            "resistance"
+        )
+        return
+    if scene.oil is None:
+        return
+    yield from _lacking_of_oil(scene, thermal)
+    yield from _lacking_sizes(scene, thermal)
+    if scene.fits is None:
+        yield from refusals_of(check_walls, scene)
+    yield from _lacking_of_materials(scene, thermal)
+
+
+def _computed(thermal: Thermal, *names: str) -> bool:
+    """True if one of these conductances is not given."""
+    return any(getattr(thermal.conductance, name) is None for name in names)
+
+
+def _of_oil(thermal: Thermal) -> bool:
+    return thermal.nodes > 1 and _computed(thermal, "inner_ring_oil", "outer_ring_oil", "elements_oil")
+
+
+def _lacking_of_oil(scene: Any, thermal: Thermal) -> Iterator[str]:
+    flow = known(scene.operation.oil_flow)
+    flows = flow is None or flow[0] > 0.0
+    needs = {
+        "heat_capacity": ("2150 J/(kg*K)", flows or _of_oil(thermal)),
+        "density": ("950 kg/m^3", flows or _of_oil(thermal)),
+        "conductivity": ("0.147 W/(m*K)", thermal.nodes > 1),
+    }
+    for name, (example, needed) in needs.items():
+        if needed and getattr(scene.oil, name) is None:
+            yield f"oil.{name}: found nothing, expected a number or a law, which [thermal] needs, e.g. '{example}'"
+
+
+def _lacking_sizes(scene: Any, thermal: Thermal) -> Iterator[str]:
+    outside = [f"{node}_ambient" for node in OUTSIDE[thermal.nodes]]
+    needed = {"width"} if _of_oil(thermal) and _computed(thermal, "inner_ring_oil", "outer_ring_oil") else set()
+    if _computed(thermal, *outside):
+        needed |= {"width", "bore", "outside_diameter"}
+    if thermal.nodes == 6 and _computed(thermal, "inner_ring_shaft", "outer_ring_housing"):
+        needed |= {"width", "bore", "outside_diameter"}
+    for name in ("bore", "outside_diameter", "width"):
+        if name in needed and getattr(scene.geometry, name) is None:
+            yield (
+                f"geometry.{name}: found nothing, expected a length, which conductances of [thermal] need that are not "
+                "given, e.g. '25 mm'"
+            )
+
+
+def _lacking_of_materials(scene: Any, thermal: Thermal) -> Iterator[str]:
+    if thermal.nodes == 1:
+        return
+    names = ("rings", f"{scene.element}s")
+    for name in names:
+        for field, example in (("conductivity", "46 W/(m*K)"), ("heat_capacity", "460 J/(kg*K)")):
+            if getattr(getattr(scene.materials, name), field) is None:
+                path, needed = f"materials.{name}.{field}", "expected a number, which [thermal] needs"
+                yield f"{path}: found nothing, {needed}, e.g. '{example}'"
+
+
+def at_temperatures(scene: Any, temperatures: Float[Array, " node"]) -> Any:
+    """The scene without its network, whose oil and parts have the temperatures of the nodes, K."""
+    nodes = scene.thermal.node_names
+    oil = oil_temperatures(nodes, temperatures, **rings_of(scene))
+    parts = None
+    if scene.fits is not None:
+        by_name: dict[str, Array] = dict(zip(nodes, temperatures, strict=True))
+        if len(nodes) == 1:
+            by_name |= dict.fromkeys(("inner_ring", "outer_ring", "elements"), temperatures[0])
+        given = ("inner_ring", "outer_ring", "elements", "shaft", "housing")
+        parts = PartTemperatures(**{name: by_name[name] for name in given if name in by_name})
+    return dataclasses.replace(scene, thermal=None, temperatures=parts, oil_temperatures=oil)
+
+
+def solve_warm(scene: Any, solve: Callable[[Any], Solution]) -> Solution:
+    """The solution at the temperatures where all heat that is made leaves.
+
+    **Arguments:** `solve`: from a scene without network and seats to its solution.
+    """
+    thermal: Thermal = scene.thermal
+    network, nodes = bearing_network(scene), len(thermal.node_names)
+
+    def losses(temperatures: Array) -> Any:
+        lane = at_temperatures(scene, temperatures)
+        return bearing_heat(lane, thermal, lane.solved_running(solve), temperatures)
+
+    start = None if thermal.start is None else jnp.full(nodes, jnp.asarray(thermal.start, dtype=float))
+    state = solve_network(
+        network,
+        losses,
+        start=start,
+        capacity=heat_capacities(scene),
+        limit=thermal.limit,
+        options=ThermalOptions(
+            jacobian=thermal.exact_jacobian,
+            stability=thermal.stability,
+            quasi_newton_solves=MOST_BROYDEN[thermal.exact_jacobian],
+        ),
+    )
+    return _answer(scene, network, state)
+
+
+def _answer(scene: Any, network: Network, state: ThermalState) -> Solution:
+    """The solution of the bearing at the temperatures found, with these; of a lane that failed, NaN."""
+    solution: Solution = state.losses.other
+    good = state.status == Status.CONVERGED
+    from .checks import input_excess
+
+    result, inputs = _result(scene, network, state), input_excess(scene)
+    checks = {text: broken & (good | (text in inputs)) for text, broken in solution.checks.items()}
+    if result.unstable is not None:
+        checks[UNSTABLE] = good & result.unstable
+    return dataclasses.replace(
+        solution,
+        status=state.status,
+        operation=scene.operation,
+        checks=checks,
+        notes=(*solution.notes, *thermal_notes(scene)),
+        thermal=result,
+        rolling_by_race=None,
+    )
+
+
+def _result(scene: Any, network: Network, state: ThermalState) -> ThermalResult:
+    nodes = network.nodes
+    by_name = dict(zip(nodes, state.temperatures, strict=True))
+    return ThermalResult(
+        temperatures=named(NodeTemperatures, by_name),
+        oil=oil_temperatures(nodes, state.temperatures, **rings_of(scene)),
+        flows=_paths(network, state),
+        oil_out=state.oil_out,
+        heat_to_oil=state.heat_to_oil,
+        heat_to_ambient=state.heat_to_ambient,
+        balance_error=state.balance_error,
+        margin=state.margin,
+        rate=state.rate,
+        solves=state.solves,
+        last=state.last,
+        nodes=nodes,
+    )
+
+
+def _paths(network: Network, state: ThermalState) -> HeatPaths:
+    """Heat along each conductance, W."""
+    nodes, temperatures = network.nodes, state.temperatures
+    between, outside = state.losses.between, state.losses.to_ambient
+    assert between is not None
+    assert outside is not None
+    flows = {}
+    for i, first in enumerate(nodes):
+        for j, second in enumerate(nodes):
+            flows[f"{first}_{second}"] = between[i, j] * (temperatures[i] - temperatures[j])
+        law: Any = network.to_ambient[i]
+        own = outside[i] + jnp.asarray(law(temperatures[i]) if callable(law) else law)
+        flows[f"{first}_ambient"] = own * (temperatures[i] - network.ambient)
+    closed = {f"{name}_ambient" for name in nodes if name not in OUTSIDE[len(nodes)]}
+    return named(HeatPaths, {name: flow for name, flow in flows.items() if name not in closed})
+
+
+def thermal_notes(scene: Any) -> tuple[str, ...]:
+    """Notes for the user: what the network assumes, and what a steady state does not say."""
+    thermal: Thermal = scene.thermal
+    said = [f"thermal: {START_NOTE}"]
+    outside = [f"{node}_ambient" for node in OUTSIDE[thermal.nodes]]
+    if thermal.housing_diameter is None and _computed(thermal, *outside):
+        said.append(
+            "thermal: conductances to the ambient that are not given are those of the reference heat flow of ISO "
+            "15312, within a factor of 2"
+        )
+    if _of_oil(thermal):
+        said.append("thermal: the heat transfer from the oil is that of a flat plate, within a factor of 3")
+    return tuple(said)
+
+
+def settled(scene: Any, solution: Solution) -> Any:
+    """The scene at the temperatures that its solution has found; itself without a network. Of a solution that failed,
+    at finite temperatures without meaning."""
+    if scene.thermal is None or solution.thermal is None:
+        return scene
+    found = solution.thermal.node_temperatures()
+    return at_temperatures(scene, jnp.where(solution.converged, found, scene.thermal.ambient))
