@@ -137,6 +137,8 @@ class Solution(AbstractSolution, Generic[Point, Elements, Losses]):
     - `global_equations`: number of equations that belong to no single rolling element.
     - `notes`: what the model assumes or leaves out.
     - `element_name`: "ball" or "roller".
+    - `rolling_by_race`: rolling resistance of the inner and the outer raceway, W, of a scene whose interactions have
+      oil temperatures of their own: for the thermal network around it.
     """
 
     status: Int[Array, ""] = eqx.field(metadata=label("1", "how the solve ended"))
@@ -190,8 +192,6 @@ class Solution(AbstractSolution, Generic[Point, Elements, Losses]):
     life: Any = None
     """A `life.result.Life` if the scene has a rating."""
     rolling_by_race: Float[Array, "2"] | None = None
-    """Rolling resistance of the inner and the outer raceway, W, of a scene whose interactions have oil temperatures of
-    their own."""
 
     @property
     def freedoms_of_stiffness(self) -> tuple[str, ...]:

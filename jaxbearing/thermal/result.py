@@ -55,7 +55,12 @@ class HeatPaths(eqx.Module):
 
 
 class ThermalResult(eqx.Module):
-    """Steady temperatures of a bearing, and where its losses go."""
+    """Steady temperatures of a bearing, and where its losses go. Results of a search that failed are NaN.
+
+    **Arguments:** the labels of the fields describe them; others are
+    - `last`: temperature of each node where the search ended, K, of one that failed too.
+    - `nodes`: names.
+    """
 
     temperatures: NodeTemperatures
     oil: OilTemperatures
@@ -74,7 +79,6 @@ class ThermalResult(eqx.Module):
     )
     solves: Int[Array, ""] = eqx.field(metadata=label("1", "solves of the bearing behind these temperatures"))
     last: Float[Array, " node"]
-    """Temperature of each node where the search ended, K, of one that failed too."""
     nodes: tuple[str, ...] = eqx.field(static=True)
 
     @property
