@@ -48,6 +48,12 @@ def own_roots() -> Iterator[None]:
         yield
 
 
+def recording() -> bool:
+    """True in a block of `recorded_roots`."""
+    roots = _ROOTS.get()
+    return roots is not None and roots.known is None
+
+
 @contextmanager
 def _set(roots: _Roots | None) -> Iterator[None]:
     token = _ROOTS.set(roots)

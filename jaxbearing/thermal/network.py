@@ -71,6 +71,7 @@ class NodeHeat(eqx.Module):
     between: Float[Array, "node node"] | None = None
     to_ambient: Float[Array, " node"] | None = None
     other: Any = None
+    roots: tuple[Any, ...] = ()
 
 
 NodeHeat.__init__.__doc__ = """**Arguments:**
@@ -81,6 +82,7 @@ NodeHeat.__init__.__doc__ = """**Arguments:**
   solution behind the losses, such as those of its contacts. `None`: none.
 - `to_ambient`: further conductances to the ambient, W/K, shape (node,). `None`: none.
 - `other`: a pytree of arrays for the caller, such as the whole solution.
+- `roots`: of the searches behind it; filled by `solve_network` where they are recorded (`numerics.known_roots`).
 """
 
 Losses: TypeAlias = Callable[[Array], NodeHeat]
