@@ -185,7 +185,7 @@ def _between(
     """Conductances between the nodes, W/K."""
     geometry, given = scene.geometry, thermal.conductance
     through = jnp.sum(contacts.conductance, axis=1) + oil_filling_conductance(
-        _elements_of(scene).conductivity, scene.mean_diameter, float(scene.n_elements)
+        _elements_of(scene).conductivity, scene.mean_diameter, scene.n_elements
     )
     inner, outer = scene.raceway_diameters
     transfer, fit = _oil_transfer(scene, solution, temperatures["oil"]), solution.fit
@@ -215,7 +215,7 @@ def _between(
 
 def _surface(scene: Any) -> Array:
     length = None if not scene.line_contacts else scene.geometry.roller_length
-    return elements_surface(scene.mean_diameter, float(scene.n_elements), length)
+    return elements_surface(scene.mean_diameter, scene.n_elements, length)
 
 
 def _oil_transfer(scene: Any, solution: Solution, temperature: Array) -> Any:

@@ -194,9 +194,9 @@ def _paths(network: Network, state: ThermalState) -> HeatPaths:
     for i, first in enumerate(nodes):
         for j, second in enumerate(nodes):
             flows[f"{first}_{second}"] = between[i, j] * (temperatures[i] - temperatures[j])
-        law: Any = network.to_ambient[i]
-        own = outside[i] + jnp.asarray(law(temperatures[i]) if callable(law) else law)
-        flows[f"{first}_ambient"] = own * (temperatures[i] - network.ambient)
+        law = network.to_ambient[i]
+        way: Any = law(temperatures[i]) if callable(law) else law
+        flows[f"{first}_ambient"] = (outside[i] + way) * (temperatures[i] - network.ambient)
     closed = {f"{name}_ambient" for name in nodes if name not in OUTSIDE[len(nodes)]}
     return named(HeatPaths, {name: flow for name, flow in flows.items() if name not in closed})
 

@@ -137,7 +137,7 @@ def _contact(loaded: Array, area: Array, resistances: list[Array]) -> ContactHea
     return ContactHeat(jnp.where(loaded, area / both, 0.0), jnp.where(loaded, second / both, 0.5))
 
 
-def oil_filling_conductance(conductivity: Values, diameter: Values, count: Values) -> Batch:
+def oil_filling_conductance(conductivity: Values, diameter: Values, count: Values | int) -> Batch:
     """Heat flow through the oil that fills the gaps beside the contacts of one race, W/K: 0.05 k D/2 an element.
 
     **Reference:** the radial conductance of bearings in the library Thermca, which cites Jungnickel (2010), not checked
@@ -179,7 +179,7 @@ def ring_surface(groove_diameter: Values, width: Values) -> Batch:
     return jnp.asarray(math.pi * groove_diameter * width)
 
 
-def elements_surface(diameter: Values, count: Values, length: Values | None = None) -> Batch:
+def elements_surface(diameter: Values, count: Values | int, length: Values | None = None) -> Batch:
     """Surface of all elements, m^2. **Arguments:** `diameter`, m; `count`; `length` of rollers, m, `None` for balls."""
     one = jnp.square(diameter) if length is None else diameter * length + 0.5 * jnp.square(diameter)
     return jnp.asarray(count * math.pi * one)

@@ -151,8 +151,8 @@ def solve_network(
         rate=None if rate is None else masked(rate),
         losses=jax.tree.map(lambda leaf: masked(leaf) if eqx.is_inexact_array(leaf) else leaf, found.losses),
         last=jax.lax.stop_gradient(found.temperatures),
-        solves=found.solves,
-        derivatives=found.derivatives,
+        solves=jnp.asarray(found.solves),
+        derivatives=jnp.asarray(found.derivatives),
     )
 
 

@@ -152,7 +152,7 @@ def warned(scene, contacts, **facts):
     zero = jnp.zeros(())
     ring = RingDisplacement(zero, zero, zero, facts.pop("tilt", zero), zero)
     cage = CageState(zero, zero, facts.pop("eccentricity", zero), zero)
-    found = result_excess(scene, Facts((contacts,), inlet=inlet, **facts), ring, cage)
+    found = result_excess(scene, Facts((contacts._replace(inlet=inlet),), **facts), ring, cage)
     return {kind_and_place(text) for text, excess in found.items() if float(excess) > 0}
 
 
