@@ -71,6 +71,8 @@ if TYPE_CHECKING:
     from .bearings.tapered.geometry import TaperedGeometry as TaperedGeometry
     from .bearings.tapered.scene import TaperedOperation as TaperedOperation
     from .bearings.tapered.scene import TaperedRollerBearing as TaperedRollerBearing
+    from .distribution import Distribution as Distribution
+    from .distribution import MeanUsedWarning as MeanUsedWarning
     from .ehl import EHLLineContact as EHLLineContact
     from .machines import TwoDisk as TwoDisk
     from .materials import Material as Material
@@ -86,9 +88,11 @@ if TYPE_CHECKING:
     from .scenes.from_python import load_oil as load_oil
     from .scenes.from_python import scene_from_mapping as scene_from_mapping
     from .scenes.reader import builtin_names as builtin_names
+    from .scenes.reader import load_distributions as load_distributions
     from .scenes.reader import load_scene as load_scene
     from .scenes.save import save_scene as save_scene
     from .sensitivity import sensitivities as sensitivities
+    from .tolerance.verb import tolerances as tolerances
 
 shown_by(f"{__name__}.report.shown")
 
@@ -104,12 +108,14 @@ _LAZY = {
     "BallOperation": ".bearings.ball.scene",
     "CylindricalRollerBearing": ".bearings.cylindrical.scene",
     "Drag": ".bearings.parts",
+    "Distribution": ".distribution",
     "EHLLineContact": ".ehl",
     "Fits": ".mounting",
     "HeldDisplacement": ".bearings.operation",
     "History": ".bearings.motion.history",
     "Material": ".materials",
     "Materials": ".bearings.parts",
+    "MeanUsedWarning": ".distribution",
     "NewtonOptions": ".numerics.newton",
     "Operation": ".bearings.operation",
     "PartTemperatures": ".mounting",
@@ -129,6 +135,7 @@ _LAZY = {
     "TwoDisk": ".machines",
     "builtin_names": ".scenes.reader",
     "compile_report": ".program_size",
+    "load_distributions": ".scenes.reader",
     "load_oil": ".scenes.from_python",
     "load_scene": ".scenes.reader",
     "pocket_loads": ".bearings.motion.instants",
@@ -138,6 +145,7 @@ _LAZY = {
     "scene_from_mapping": ".scenes.from_python",
     "save_scene": ".scenes.save",
     "sensitivities": ".sensitivity",
+    "tolerances": ".tolerance.verb",
     "trajectory": ".bearings.motion.runs",
 }
 """Public names that pull in the edge (units, validation) or are only needed by some; imported on first use."""

@@ -19,6 +19,7 @@ RANK = {
     "_shown": 1,
     "_identity": 2,
     "time_laws": 2,
+    "distribution": 2,
     "numerics": 1,
     "programs": 2,
     "materials": 2,
@@ -47,6 +48,8 @@ RANK = {
     "sweep": 10,
     # many solves of one bearing: sweeps with statements about them
     "studies": 11,
+    # tolerances are sampled by sweeps
+    "tolerance": 11,
     "cli": 12,
     "exact": 12,
     # a second name of the package beside this one

@@ -24,6 +24,7 @@ from .solve_verb import solve
 from .stiffness_verb import stiffness
 from .study_verb import study
 from .sweep_verb import sweep
+from .tolerances_verb import tolerances
 
 _EPILOG = """\b
 Exit codes: 0 solved; 1 the output cannot be written; 2 bad input;
@@ -118,5 +119,5 @@ def _options(
     pass
 
 
-for _verb in (scenes, fields, solve, report, sweep, study, simulate, stiffness, fit):
+for _verb in (scenes, fields, solve, report, sweep, tolerances, study, simulate, stiffness, fit):
     app.command()(_verb)

@@ -1,5 +1,6 @@
 """Exit codes, and the one message on stderr that goes with each."""
 
+import warnings
 from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import NoReturn
@@ -18,14 +19,30 @@ def say(message: str, code: int) -> int:
 
 
 @contextmanager
-def bad_input() -> Iterator[None]:
-    """Turns what is wrong with the input into one message and exit code 2."""
+def bad_input(notes: list[str] | None = None) -> Iterator[None]:
+    """Turns what is wrong with the input into one message and exit code 2.
+
+    **Arguments:** `notes`: takes what is to be known about the input; not given: it is said on stderr.
+    """
+    from ..distribution import MeanUsedWarning
     from ..scenes.errors import SceneError
 
+    said: list[str] = []
     try:
-        yield
+        with warnings.catch_warnings(record=True) as caught:
+            warnings.simplefilter("always", MeanUsedWarning)
+            yield
+        for one in caught:
+            if issubclass(one.category, MeanUsedWarning):
+                said.append(str(one.message))
+            else:
+                warnings.warn_explicit(one.message, one.category, one.filename, one.lineno)
     except SceneError as error:
         refuse(str(error))
+    for text in said if notes is None else ():
+        typer.echo(f"note: {text}", err=True)
+    if notes is not None:
+        notes += said
 
 
 def refuse(message: str) -> NoReturn:

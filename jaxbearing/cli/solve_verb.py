@@ -1,5 +1,6 @@
 """`jaxbearing solve`: one steady state on the screen, as JSON, as a picture, as a file."""
 
+import dataclasses
 import json
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Literal, NamedTuple
@@ -66,7 +67,8 @@ def solve(
 ) -> None:
     """Steady state: power loss, loads, films, pressures, speeds; of a two-disk machine, its traction curves; of a line
     contact, its film."""
-    with bad_input():
+    said: list[str] = []
+    with bad_input(said):
         from ..scenes.overrides import split_assignments
         from ..scenes.reader import load_scene
 
@@ -83,6 +85,7 @@ def solve(
     enable_compilation_cache()
     with without_false_alarms():
         solution, slopes = _solved(model, sensitivities)
+        solution = dataclasses.replace(solution, notes=(*solution.notes, *said)) if said else solution
         failure = "" if bool(solution.converged) else solution.failure()
         show = lambda: _print_json(solution, slopes) if as_json else _print_screen(solution, slopes, label)
         bridge = lambda _: _write_line_contact(wanted, solution, scene, changes)

@@ -1,7 +1,6 @@
 """`jaxbearing sweep`: many steady states in one labelled file."""
 
 import json
-import sys
 import time
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
@@ -14,15 +13,25 @@ from .interrupt import if_interrupted
 from .messages import NO_OUTPUT, NOT_CONVERGED, bad_input, refuse, say
 from .options import JsonOption, SceneArgument, SetOption, labelled
 from .output_files import Output, deliver, unwritten
+from .sweep_parts import (
+    ChunkOption,
+    DevicesOption,
+    OverwriteOption,
+    SchedulerOption,
+    SeedOption,
+    WorkersOption,
+    check_extra,
+    check_run_target,
+    shown_progress,
+)
 from .sweep_plot import check_plot, write_plot
 from .terminal import console
 
 if TYPE_CHECKING:
     from ..sweeps.cases import Cases
-    from ..sweeps.engine import Outcome, StoppedError, Watcher
+    from ..sweeps.engine import Outcome, StoppedError
     from ..sweeps.fields import Field, SceneSource
 
-_EXTRA = "pip install 'jaxbearing[cluster]'"
 OverOption = Annotated[
     list[str] | None,
     typer.Option(
@@ -45,7 +54,6 @@ HypercubeOption = Annotated[
     int | None,
     typer.Option("--latin-hypercube", metavar="COUNT", help="As --random, evenly spread over the range of each field."),
 ]
-SeedOption = Annotated[int, typer.Option("--seed", metavar="NUMBER", min=0, help="Of the random numbers.")]
 OutOption = Annotated[
     Path | None,
     typer.Option(
@@ -62,36 +70,8 @@ PlotOption = Annotated[
         help="Picture of a grid, .png, .svg or .pdf: power loss by location against one field, a map over two.",
     ),
 ]
-OverwriteOption = Annotated[
-    bool, typer.Option("--overwrite", help="Replace the file, and drop what is there of another sweep.")
-]
 NoElementsOption = Annotated[
     bool, typer.Option("--without-elements", help="Leave out the results of each rolling element, most of the file.")
-]
-ChunkOption = Annotated[
-    int | None,
-    typer.Option("--chunk", metavar="COUNT", min=1, help="Cases computed and kept at a time; what a kill can cost."),
-]
-DevicesOption = Annotated[
-    int | None,
-    typer.Option(
-        "--devices",
-        metavar="COUNT",
-        min=1,
-        help="Cores to use (or GPUs); all that the cases can keep busy if not given.",
-    ),
-]
-WorkersOption = Annotated[
-    int | None,
-    typer.Option("--workers", metavar="COUNT", min=1, help="Compute in so many processes (needs the extra cluster)."),
-]
-SchedulerOption = Annotated[
-    str | None,
-    typer.Option(
-        "--scheduler",
-        metavar="ADDRESS",
-        help="Compute on a running Dask cluster, e.g. tcp://host:8786 (extra cluster).",
-    ),
 ]
 
 
@@ -127,9 +107,10 @@ def sweep(
         fields, cases = _cases(source, over, cases_file, random, latin_hypercube, seed)
         with _refused("--over"):
             recipe = source.recipe(cases, fields)
-        _check_target(target)
+            source.warn_of_means(cases, fields)
+        check_run_target(target)
         check_plot(plot, cases, recipe.example_scene)
-        _check_extra(workers, scheduler)
+        check_extra(workers, scheduler)
 
     from .cache import enable_compilation_cache
     from .devices import cores, use_cores
@@ -149,7 +130,7 @@ def sweep(
             metadata = described_fields(fields, recipe.example_scene)
             plan = make_plan(recipe, cases, metadata, label, elements=not without_elements, chunk=chunk)
             if_interrupted(lambda: kept_words(plan, target))
-            with _watcher(len(cases), as_json) as watcher:
+            with shown_progress(len(cases), as_json) as watcher:
                 outcome = run(plan, target, runner=runner, overwrite=overwrite, watcher=watcher)
         except StoppedError as stopped:
             _print_stopped(stopped, label, time.monotonic() - begin, as_json)
@@ -215,68 +196,6 @@ def _refused(option: str) -> Iterator[None]:
         raise
     except ValueError as error:
         refuse(f"{option}: {error}")
-
-
-def _check_target(target: Path) -> None:
-    """Refuse a place that cannot be written before the work, not after it."""
-    from importlib.util import find_spec
-
-    from ..sweeps.engine import SweepError, check_target
-    from .output_files import try_to_write
-
-    try:
-        check_target(target)
-    except SweepError as error:
-        refuse(f"--out: {error}")
-    if target.suffix.lower() == ".zarr" and find_spec("zarr") is None:
-        refuse(f"--out: found '{target}', which needs the extra 'cluster'; expected .nc, or {_EXTRA}")
-    if not target.parent.is_dir():
-        refuse(f"--out: found '{target}'; expected a file in an existing folder")
-    try:
-        try_to_write(target)
-    except OSError as error:
-        raise typer.Exit(unwritten(target, error)) from None
-
-
-def _check_extra(workers: int | None, scheduler: str | None) -> None:
-    from importlib.util import find_spec
-
-    if workers is not None and scheduler is not None:
-        refuse("--scheduler: found --workers beside it; expected one of the two")
-    if (workers is not None or scheduler is not None) and find_spec("distributed") is None:
-        option = "--workers" if workers is not None else "--scheduler"
-        refuse(f"{option}: found no Dask, which it needs; expected the extra 'cluster': {_EXTRA}")
-
-
-@contextmanager
-def _watcher(cases: int, as_json: bool) -> "Iterator[Watcher]":
-    """A bar with rate and remaining time on the terminal; sentences go to stderr."""
-    from ..sweeps.engine import Watcher
-
-    note = lambda text: typer.echo(f"note: {text}", err=True)
-    if as_json or not sys.stdout.isatty():
-        yield Watcher(note=note)
-        return
-    from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
-
-    columns = (
-        TextColumn("{task.description}"),
-        BarColumn(),
-        MofNCompleteColumn(),
-        TextColumn("{task.fields[rate]}"),
-        TimeRemainingColumn(),
-    )
-    with Progress(*columns, console=console(), transient=True) as bar:
-        task = bar.add_task("compiling", total=cases, rate="")
-
-        def done(count: int) -> None:
-            bar.update(task, advance=count, description="solving")
-            speed = bar.tasks[0].speed
-            bar.update(task, rate=f"{speed:.0f} cases/s" if speed else "")
-
-        yield Watcher(
-            done, lambda text: bar.update(task, description=text), lambda text: bar.console.print(f"note: {text}")
-        )
 
 
 def _print_stopped(stopped: "StoppedError", label: str, seconds: float, as_json: bool) -> None:

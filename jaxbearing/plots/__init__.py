@@ -16,3 +16,4 @@ from .sweeps import map_of as map_of
 from .sweeps import power_loss_against as power_loss_against
 from .sweeps import raceway_control_map as raceway_control_map
 from .sweeps import result_against as result_against
+from .tolerances import tolerances as tolerances

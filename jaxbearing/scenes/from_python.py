@@ -15,7 +15,7 @@ from .data_files import oil_names
 from .drafts import read_table
 from .oil_files import read_oil
 from .oil_schema import OilTable
-from .reader import scene_from_tables
+from .reader import scene_from_tables, warn_of_means
 from .units import bare_numbers_are_si
 
 
@@ -23,7 +23,8 @@ def scene_from_mapping(mapping: Mapping[str, Any]) -> AbstractScene:
     """A scene from the tables of a scene file, {"kind": ..., "geometry": {...}, ...}.
 
     A number of a field with a unit is an SI value here; a text carries its own unit, as in a file. The numbers must be
-    known: in place of traced ones make the scene first, and change it with `replace`.
+    known: in place of traced ones make the scene first, and change it with `replace`. A field that is given as a
+    distribution has its mean in the scene: a `MeanUsedWarning` says so.
 
     **Raises:** `SceneError` with all that is wrong; `TypeError` for something else than a mapping, and for traced
     numbers.
@@ -31,7 +32,9 @@ def scene_from_mapping(mapping: Mapping[str, Any]) -> AbstractScene:
     if not isinstance(mapping, Mapping):
         raise TypeError(f"scene_from_mapping takes the tables of a scene, got a {type(mapping).__name__}")
     with bare_numbers_are_si():
-        return scene_from_tables(_plain(mapping, ""), "scene")
+        tables = _plain(mapping, "")
+        warn_of_means(tables, "scene")
+        return scene_from_tables(tables, "scene")
 
 
 def load_oil(source: str | Path) -> Lubricant:

@@ -2,6 +2,7 @@
 
 import importlib
 import typing
+import warnings
 from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -9,7 +10,9 @@ from typing import Any, NamedTuple
 from pydantic import BaseModel
 
 from .._scene import AbstractScene
+from ..distribution import Distribution, MeanUsedWarning
 from .data_files import builtin_names, builtin_summary, builtin_text
+from .distributions import means_of, said_of
 from .drafts import Unreadable, draft
 from .errors import SceneError, from_class, nearest, one_of
 from .oil_files import Origin, origins
@@ -90,10 +93,48 @@ def load_scene(source: str | Path, overrides: Overrides | None = None) -> Abstra
       value "none" takes an optional table or field out. `oil.file` and the files of `simulation` are relative to the
       working folder here, and to the file's own folder in a scene file.
 
+    A field that is given as a distribution has its mean in the scene: a `MeanUsedWarning` says so.
+
     **Raises:** `SceneError` with file, field, what was found and what is expected.
     """
     label, mapping = read_tables(source)
+    warn_of_means(mapping, label, overrides)
     return scene_from_tables(mapping, label, overrides)
+
+
+def load_distributions(source: str | Path, overrides: Overrides | None = None) -> dict[str, Distribution]:
+    """The fields of a scene that are given as a distribution, by dotted path, in SI; arguments as those of
+    `load_scene`.
+
+    **Raises:** as `load_scene`.
+    """
+    label, mapping = read_tables(source)
+    return distributions_in(mapping, label, overrides)
+
+
+def distributions_in(
+    mapping: Mapping[str, Any], origin: str, overrides: Overrides | None = None
+) -> dict[str, Distribution]:
+    """The distributions in the tables of a scene; arguments as those of `scene_from_tables`. **Raises:** `SceneError`
+    with what is wrong with them; what else is wrong with the scene is not looked at."""
+    overrides = as_texts(overrides)
+    try:
+        model, _ = _schema(mapping, overrides, origin)
+        raw, _ = applied(mapping, overrides, model, origin)
+        return means_of(raw, model, origin)[1]
+    except SceneError as error:
+        raise SceneError.of_all([_with_culprit(one, overrides, origin) for one in error.problems]) from None
+
+
+def warn_of_means(mapping: Mapping[str, Any], origin: str, overrides: Overrides | None = None) -> None:
+    """Warns of each distribution of which a scene has the mean; arguments and errors as those of
+    `distributions_in`."""
+    found = distributions_in(mapping, origin, overrides)
+    if not found:
+        return
+    model = scene_model(mapping, as_texts(overrides), origin)
+    for path, distribution in found.items():
+        warnings.warn(said_of(path, distribution, model), MeanUsedWarning, stacklevel=3)
 
 
 def oil_origins(source: str | Path, overrides: Overrides | None = None) -> dict[str, Origin]:
@@ -115,6 +156,7 @@ def scene_from_tables(
     try:
         model, build = _schema(mapping, overrides, origin)
         raw, problems = applied(mapping, overrides, model, origin)
+        raw, _ = means_of(raw, model, origin)
         return _build(raw, model, build, origin, problems)
     except SceneError as error:
         raise SceneError.of_all([_with_culprit(one, overrides, origin) for one in error.problems]) from None

@@ -1,7 +1,6 @@
 """Fields of a scene file that can be swept: their units, and values of them as a person writes them."""
 
 import re
-import typing
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
@@ -12,11 +11,12 @@ from pydantic import BaseModel, TypeAdapter, ValidationError
 
 from .._scene import AbstractScene
 from ..report.labels import udunits
+from ..scenes.distributions import no_number
 from ..scenes.errors import SceneError, in_words, unknown_name
-from ..scenes.fields import dimension_of, is_known, parts_of, type_at
+from ..scenes.fields import dimension_of, is_known, type_at
 from ..scenes.inputs import owner_of
 from ..scenes.overrides import REMOVE, parse_value
-from ..scenes.reader import read_tables, scene_from_tables, scene_model
+from ..scenes.reader import read_tables, scene_from_tables, scene_model, warn_of_means
 from ..scenes.units import Dimension, describe
 from .cases import MOST_CASES, Cases, between, grid, latin_hypercube, random
 from .recipe import Direct, Read, from_reader, structural
@@ -77,10 +77,15 @@ class SceneSource:
             known = next((n for n in range(1, len(names) + 1) if not is_known(self.model, names[:n])), len(names))
             raise in_words(where, ".".join(names[:known]), unknown_name(names[:known], self.model))
         kind = type_at(self.model, names)
-        what = _no_number(kind)
+        what = no_number(kind)
         if what:
             raise SceneError(where, path, what, structural(path).partition("expected ")[2])
         return Field(path, dimension_of(kind), kind)
+
+    def warn_of_means(self, cases: Cases, fields: Mapping[str, Field]) -> None:
+        """Warns of distributions of which all cases have the mean."""
+        swept = {path: fields[path].text(float(values[0])) for path, values in cases.part(0, 1).items()}
+        warn_of_means(self.tables, self.label, {**self.overrides, **swept})
 
     def recipe(self, cases: Cases, fields: Mapping[str, Field]) -> Direct | Read:
         """**Raises:** `SceneError`, or `ValueError` for a field that shapes the equations."""
@@ -103,22 +108,6 @@ class _Reader:
             "overrides": self.source.overrides,
             "paths": tuple(self.fields),
         }
-
-
-def _no_number(kind: Any) -> str:
-    """Description of a field that is not one number; "" for one that is."""
-    base = parts_of(kind)[0]
-    if base is float:
-        return ""
-    if base is int:
-        return "a whole number, which shapes the equations"
-    if base is bool:
-        return "a switch, which shapes the equations"
-    if typing.get_origin(base) is tuple:
-        return "a field that takes a list of its own"
-    if isinstance(base, type) and issubclass(base, BaseModel):
-        return "a table"
-    return "a choice of words"
 
 
 def parse_over(texts: list[str], source: SceneSource, counted: bool) -> tuple[dict[str, Field], dict[str, Any]]:

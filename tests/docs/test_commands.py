@@ -14,7 +14,7 @@ from pathlib import Path
 import fit_results
 import jax.numpy as jnp
 import pytest
-from filled_results import history_of, solution_of, structure_of
+from filled_results import MadeUpProgram, history_of, slopes_of, solution_of
 
 from fitting import fit as _fit  # noqa: F401  (the module of this name is in sys.modules)
 from jaxbearing import CylindricalRollerBearing, EHLLineContact
@@ -115,15 +115,6 @@ def _few(cases):
 def made_up(monkeypatch, one_process):
     """Results of every solver without a solve."""
 
-    class Program:
-        def __init__(self, make, base, example, **_):
-            self.scene = make(base, example)
-            self.structure = structure_of(self.scene)
-
-        def __call__(self, inputs, active, progress):
-            progress(len(active))
-            return solution_of(self.scene, (len(active),))
-
     def slopes(scene):
         numbers = {"operation.inner_speed": jnp.asarray(1.0), "geometry.pitch_diameter": jnp.asarray(-0.5)}
         return solution_of(scene), Sensitivities(numbers, numbers)
@@ -135,7 +126,8 @@ def made_up(monkeypatch, one_process):
     # a made up state is that of no bearing
     for kind in (CylindricalRollerBearing, EHLLineContact):
         monkeypatch.setattr(kind, "check_restart", lambda *_: None)
-    monkeypatch.setattr("jaxbearing.sweeps.plan.LaneProgram", Program)
+    monkeypatch.setattr("jaxbearing.sweeps.plan.LaneProgram", MadeUpProgram)
+    monkeypatch.setattr("jaxbearing.tolerance.verb.slopes_at", slopes_of)
     fit = lambda measurements, machine, options: fit_results.made_up(machine, "curves.csv")
     monkeypatch.setattr(sys.modules["fitting.fit"], "fit", fit)
 

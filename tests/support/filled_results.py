@@ -21,6 +21,8 @@ from jaxbearing.numerics.newton import NewtonOptions
 from jaxbearing.numerics.precision import as_float
 from jaxbearing.report.labels import dimensions
 from jaxbearing.solve import _solve_any
+from jaxbearing.tolerance.derivatives import Slopes, computed
+from jaxbearing.tolerance.results import values_of
 
 NODES, INSTANTS = 41, 6
 """Sizes of a run of a line contact."""
@@ -134,3 +136,23 @@ def _field(field, sizes):
     whole = "int64" in getattr(field.type, "dtypes", ())
     shape = tuple(sizes[name] for name in dimensions(field.type))
     return jax.ShapeDtypeStruct(shape, jnp.int64 if whole else jnp.float64)
+
+
+def slopes_of(scene, numbers, wanted, options, once=False):
+    """Stands for `tolerance.derivatives.slopes_at`: made up results, each with a slope by each number."""
+    solution = solution_of(scene.replace(dict(numbers)))
+    values = values_of(solution, computed(solution, wanted))
+    slopes = {path: jnp.asarray(0.1 * place) for place, path in enumerate(numbers, 1)}
+    return Slopes(solution, values, dict.fromkeys(values, slopes))
+
+
+class MadeUpProgram:
+    """Stands for `lanes.LaneProgram`: made up results of every lane."""
+
+    def __init__(self, make, base, example, **_):
+        self.scene = make(base, example)
+        self.structure = structure_of(self.scene)
+
+    def __call__(self, inputs, active, progress):
+        progress(len(active))
+        return solution_of(self.scene, (len(active),))

@@ -1,0 +1,150 @@
+"""Fields of a scene file that are given as a distribution: read as their mean, and what scatters about it.
+
+`{mean = "12 um", deviation = "2 um"}` or `{low = "5 um", high = "20 um"}`, with `shape = "normal"` (where not given)
+or `"uniform"`. Any field that is one number may be given so.
+"""
+
+import typing
+from collections.abc import Mapping
+from typing import Any
+
+from pydantic import BaseModel, TypeAdapter, ValidationError
+from pydantic_core import PydanticCustomError
+
+from ..distribution import SHAPES, Distribution
+from ..report.display import with_unit
+from .errors import SceneError, nearest, one_of
+from .fields import dimension_of, is_known, parts_of, tables_at, type_at
+from .units import Dimension, describe, dimension_of_unit, number, quantity
+
+_NAMES = ("mean", "deviation", "low", "high", "shape")
+_FORMS = "'mean' and 'deviation', or 'low' and 'high'"
+
+
+def means_of(
+    raw: Mapping[str, Any], model: type[BaseModel], file: str
+) -> tuple[dict[str, Any], dict[str, Distribution]]:
+    """The tables with a mean in the place of each distribution, and the distributions by dotted path, in SI.
+
+    **Raises:** `SceneError` with all that is wrong with distributions.
+    """
+    found: dict[str, Distribution] = {}
+    problems: list[SceneError] = []
+    plain = _plain(raw, (), model, file, found, problems)
+    if problems:
+        raise SceneError.of_all(problems)
+    return plain, found
+
+
+def _plain(
+    table: Mapping[str, Any],
+    inside: tuple[str, ...],
+    model: type[BaseModel],
+    file: str,
+    found: dict[str, Distribution],
+    problems: list[SceneError],
+) -> dict[str, Any]:
+    plain = dict(table)
+    for name, value in table.items():
+        path = (*inside, str(name))
+        if not isinstance(value, Mapping):
+            continue
+        if tables_at(model, path):
+            plain[name] = _plain(value, path, model, file, found, problems)
+        elif is_known(model, path) and any(key in _NAMES for key in value):
+            try:
+                plain[name], found[".".join(path)] = _read(value, path, model, file)
+            except SceneError as error:
+                problems.append(error)
+    return plain
+
+
+def _read(
+    given: Mapping[str, Any], path: tuple[str, ...], model: type[BaseModel], file: str
+) -> tuple[Any, Distribution]:
+    """What stands for a distribution in the tables, and the distribution. **Raises:** `SceneError`."""
+    kind = type_at(model, path)
+    what = no_number(kind)
+    where = ".".join(path)
+    if what:
+        raise SceneError(
+            file, where, f"a distribution of {what}", "one value: only a field that is one number scatters"
+        )
+    unknown = next((str(key) for key in given if key not in _NAMES), None)
+    if unknown is not None:
+        expected = f"a distribution: {_FORMS}, and 'shape'"
+        raise SceneError(
+            file, f"{where}.{unknown}", f"the unknown name '{unknown}'", expected, nearest(unknown, _NAMES)
+        )
+    names = [name for name in _NAMES[:4] if name in given]
+    if names not in (["mean", "deviation"], ["low", "high"]):
+        said = " and ".join(f"'{name}'" for name in names) or "neither"
+        raise SceneError(file, where, f"a distribution with {said}", f"either {_FORMS}")
+    shape = given.get("shape", SHAPES[0])
+    if shape not in SHAPES:
+        near = nearest(shape, SHAPES) if isinstance(shape, str) else ""
+        raise SceneError(file, f"{where}.shape", describe(shape), one_of(SHAPES), near)
+    first, second = (_value(given[name], name, path, model, file) for name in names)
+    if names == ["mean", "deviation"]:
+        return given["mean"], Distribution(first, second, shape)
+    if first > second:
+        expected = f"at most the high limit, {given['high']!r}"
+        raise SceneError(file, f"{where}.low", describe(given["low"]), expected)
+    distribution = Distribution.between(first, second, shape)
+    return text_of(distribution.mean, dimension_of(kind)), distribution
+
+
+def _value(given: Any, name: str, path: tuple[str, ...], model: type[BaseModel], file: str) -> float:
+    """SI value of a number of a distribution, within the bounds of its field. **Raises:** `SceneError`."""
+    kind = type_at(model, path)
+    where = f"{'.'.join(path)}.{name}"
+    try:
+        if name == "deviation":
+            return _deviation(given, dimension_of(kind))
+        return float(TypeAdapter(kind).validate_python(given))
+    except ValidationError as error:
+        context = error.errors(include_url=False)[0].get("ctx", {})
+    except PydanticCustomError as error:
+        context = error.context or {}
+    raise SceneError(
+        file,
+        where,
+        context.get("found", describe(given)),
+        context.get("expected", "a number"),
+        context.get("suggestion", ""),
+    )
+
+
+def _deviation(given: Any, dimension: Dimension | None) -> float:
+    if dimension is None:
+        return number(given, ">= 0")
+    # a deviation of a temperature is a difference
+    return quantity(given, dimension_of_unit("K", difference=True) if dimension.offset_allowed else dimension, ">= 0")
+
+
+def no_number(kind: Any) -> str:
+    """Description of a field that is not one number; "" for one that is."""
+    base = parts_of(kind)[0]
+    if base is float:
+        return ""
+    if base is int:
+        return "a whole number, which shapes the equations"
+    if base is bool:
+        return "a switch, which shapes the equations"
+    if typing.get_origin(base) is tuple:
+        return "a field that takes a list of its own"
+    if isinstance(base, type) and issubclass(base, BaseModel):
+        return "a table"
+    return "a choice of words"
+
+
+def text_of(value: float, dimension: Dimension | None) -> Any:
+    """A value in SI as a file has it: a number where the field has no unit."""
+    return float(value) if dimension is None else f"{float(value)!r} {dimension.si}"
+
+
+def said_of(path: str, distribution: Distribution, model: type[BaseModel]) -> str:
+    """Says that a scene has the mean of a field."""
+    dimension = dimension_of(type_at(model, path.split(".")))
+    value = with_unit(distribution.mean, "1" if dimension is None else dimension.si)
+    return f"{path} is given as a distribution: its mean, {value}, is used; 'jaxbearing tolerances' uses all of it"

@@ -1,0 +1,212 @@
+r"""The delta method: scatter of results from the derivatives at the means.
+
+$$\mu_y = y(\mu) + \sum_s g_s\,(E[u_s] - u_s(\mu))$$
+$$\sigma_y^2 = \sum_k \Big(d_k + \sum_s g_s\beta_s a_{sk}\Big)^2\sigma_k^2
++ \sum_s g_s^2(\mathrm{Var}\,u_s - \beta_s^2\sigma_s^2)$$
+
+$d_k$ is the derivative of the result by field $k$ while the seats press as they do at the mean, $g_s$ that by what
+presses the rings at seat $s$ (`seats`), $a_{sk}$ that of the interference in operation, $\beta_s$ the gain. Without a
+seat that may come loose this is $\sigma_y^2 = \sum_k (\partial y/\partial x_k)^2\sigma_k^2$. All fields are independent
+of each other.
+"""
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from .derivatives import Slopes
+from .outcome import Spread
+from .results import labels_of
+from .scatter import Scatter, name_of
+from .seats import Seat, seat_of
+
+Evaluated = Callable[[Mapping[str, float]], Slopes]
+"""Results and derivatives at other numbers of the scene."""
+_OF_SEAT = {"shaft": "fit.interference_inner", "housing": "fit.interference_outer"}
+_BENT = 0.1
+"""Departure from a straight line, of the distance between the worst cases, that a note is made of."""
+
+
+@dataclass(frozen=True)
+class _Lines:
+    """Derivatives of one result.
+
+    **Arguments:**
+    - `direct`: by each field, while the seats press as they do at the mean.
+    - `pressed`: by what presses the rings, seat by seat.
+    - `running`: of the interference in operation by each field, seat by seat.
+    """
+
+    direct: dict[str, float]
+    pressed: dict[str, float]
+    running: dict[str, dict[str, float]]
+
+    def by(self, path: str, gains: Mapping[str, float]) -> float:
+        """Derivative by a field, where the seats follow their interference by so much."""
+        seats = (slope * gains[seat] * self.running[seat][path] for seat, slope in self.pressed.items())
+        return self.direct[path] + sum(seats)
+
+
+def spreads_of(
+    scatter: Scatter, names: tuple[str, ...], found: Slopes, evaluated: Evaluated
+) -> tuple[dict[str, Spread], list[str]]:
+    """Scatter of each result, and notes in words.
+
+    **Arguments:** `found`: at the means, of a solve that converged; `evaluated`: gives it elsewhere.
+    """
+    seats = _seats(scatter, found)
+    at_tight = found
+    if any(seat.slope == 0.0 for seat in seats.values()):
+        at_tight = evaluated(scatter.means | {name_of(seat.name): seat.tight for seat in seats.values()})
+    lines = {name: _lines(name, scatter, seats, found, at_tight) for name in names}
+    corners = {name: _corners(name, scatter, seats, one, found, at_tight) for name, one in lines.items()}
+    cases = [found, *(solved for pair in corners.values() for one in pair if _good(solved := evaluated(one)))]
+    labels = labels_of(found.solution, names)
+    gains = {seat: one.slope for seat, one in seats.items()}
+    spreads = {}
+    for name, own in lines.items():
+        shift, shares = _moments(own, scatter, seats)
+        variance = sum(shares.values())
+        ends = [float(case.values[name]) for case in cases]
+        spreads[name] = Spread(
+            value=float(found.values[name]),
+            mean=float(found.values[name]) + shift,
+            deviation=float(np.sqrt(variance)),
+            worst_low=min(ends),
+            worst_high=max(ends),
+            unit=labels[name].unit,
+            description=labels[name].description,
+            contributions={path: share / variance if variance > 0.0 else 0.0 for path, share in shares.items()},
+            derivatives={path: own.by(path, gains) for path in scatter.fields},
+        )
+    at_ends = {name: tuple(map(evaluated, pair)) for name, pair in corners.items()}
+    return spreads, [*_loose_notes(seats), *_bent_notes(spreads, scatter, at_ends)]
+
+
+def _good(found: Slopes) -> bool:
+    return bool(np.all(found.solution.converged))
+
+
+def _seats(scatter: Scatter, found: Slopes) -> dict[str, Seat]:
+    """The seats whose pressing part may bend within the scatter."""
+    seats = {}
+    for name in scatter.seats:
+        running = found.slopes[_OF_SEAT[name]]
+        of_fields = [
+            (1.0 if path == name_of(name) else float(running[path])) * one.deviation
+            for path, one in scatter.fields.items()
+        ]
+        interference, now = scatter.means[name_of(name)], float(found.values[_OF_SEAT[name]])
+        seat = seat_of(scatter.fits, name, interference, now, float(np.sqrt(np.sum(np.square(of_fields)))))
+        if seat.bends_within:
+            seats[name] = seat
+    return seats
+
+
+def _lines(name: str, scatter: Scatter, seats: Mapping[str, Seat], found: Slopes, at_tight: Slopes) -> _Lines:
+    slopes = {path: float(found.slopes[name][path]) for path in scatter.fields}
+    if name in _OF_SEAT.values():
+        # the interference itself does not bend
+        return _Lines(slopes, {}, {})
+    pressed = {seat: float(at_tight.slopes[name][name_of(seat)]) for seat in seats}
+    running = {seat: {p: float(found.slopes[_OF_SEAT[seat]][p]) for p in scatter.fields} for seat in seats}
+    for seat, one in seats.items():
+        running[seat][name_of(seat)] = 1.0
+        for path in scatter.fields:
+            slopes[path] -= pressed[seat] * one.slope * running[seat][path]
+        if name_of(seat) in slopes:
+            # an interference acts by what presses the rings, and not otherwise
+            slopes[name_of(seat)] = 0.0
+    return _Lines(slopes, pressed, running)
+
+
+def _moments(lines: _Lines, scatter: Scatter, seats: Mapping[str, Seat]) -> tuple[float, dict[str, float]]:
+    """Shift of the mean, and the part of each field in the variance."""
+    gains = {seat: one.gain for seat, one in seats.items()}
+    shares = {path: (lines.by(path, gains) * one.deviation) ** 2 for path, one in scatter.fields.items()}
+    shift = 0.0
+    for seat, slope in lines.pressed.items():
+        one = seats[seat]
+        mean, variance = one.moments()
+        shift += slope * (mean - one.pressing)
+        rest = slope**2 * max(variance - (one.gain * one.deviation) ** 2, 0.0)
+        for path, field in scatter.fields.items():
+            part = (lines.running[seat][path] * field.deviation / one.deviation) ** 2 if one.deviation > 0.0 else 0.0
+            shares[path] += rest * part
+    return shift, shares
+
+
+def _corners(
+    name: str, scatter: Scatter, seats: Mapping[str, Seat], lines: _Lines, found: Slopes, at_tight: Slopes
+) -> tuple[dict[str, float], dict[str, float]]:
+    """Numbers of the scene in both worst cases of a result: all fields at those of their limits that make it small by
+    its derivatives, and large."""
+    if name == "fit.contact_angle" and not any((*lines.direct.values(), *lines.pressed.values())):
+        # without clearance the angle is 0, and so is its slope: its worst cases are those of the clearance
+        lines = _lines("fit.clearance", scatter, seats, found, at_tight)
+    low, high = dict(scatter.means), dict(scatter.means)
+    tight = dict.fromkeys(seats, 1.0)
+    for path, one in scatter.fields.items():
+        slope = lines.by(path, tight)
+        if slope:
+            low[path], high[path] = (one.lowest, one.highest) if slope > 0.0 else (one.highest, one.lowest)
+    return low, high
+
+
+_WHERE = {"shaft": "the inner ring may be loose on the shaft", "housing": "the outer ring may be loose in the housing"}
+
+
+def _loose_notes(seats: Mapping[str, Seat]) -> list[str]:
+    """Notes on seats that are loose in some bearings and tight in others."""
+    found = []
+    for name, seat in seats.items():
+        if any(abs(seat.mean - bend) < 3.0 * seat.deviation for _, bend in seat.bends):
+            share = seat.loose_share
+            found.append(
+                f"{_WHERE[name]} within the limits ({_percent(share)} of the bearings): the delta method takes what "
+                "presses the rings as a rectified normal variable; compare with Monte Carlo (samples)"
+            )
+    return found
+
+
+def _percent(share: float) -> str:
+    return f"{100.0 * share:.2g} %" if share < 0.995 else f"{100.0 * share:.4g} %"
+
+
+def _bent_notes(
+    spreads: Mapping[str, Spread], scatter: Scatter, at_ends: Mapping[str, tuple[Slopes, ...]]
+) -> list[str]:
+    """Notes on results that do not follow their derivatives as far as the limits of the fields."""
+    bent, failed = [], []
+    for name, spread in spreads.items():
+        if not spread.moves:
+            continue
+        if not all(map(_good, at_ends[name])):
+            failed.append(name)
+            continue
+        low, high = (float(one.values[name]) for one in at_ends[name])
+        below, above = (_reach(spread, scatter, end) for end in (False, True))
+        width = max(spread.worst_high - spread.worst_low, below + above)
+        off = max(abs(spread.value - below - low), abs(spread.value + above - high))
+        if width > 0.0 and off > _BENT * width:
+            bent.append(f"{name} ({100.0 * off / width:.0f} %)")
+    notes = []
+    if bent:
+        notes.append(
+            f"not linear within the limits, by so much of the range of the worst cases: {', '.join(bent)}; "
+            "compare the delta method with Monte Carlo (samples)"
+        )
+    if failed:
+        notes.append(f"the solve fails in a worst case of {', '.join(failed)}")
+    return notes
+
+
+def _reach(spread: Spread, scatter: Scatter, high: bool) -> float:
+    """Distance of a worst case from the result at the means, if the derivatives held as far as that."""
+    reach = 0.0
+    for path, slope in spread.derivatives.items():
+        one = scatter.fields[path]
+        end = one.highest if (slope > 0.0) == high else one.lowest
+        reach += abs(slope * (end - one.mean))
+    return reach

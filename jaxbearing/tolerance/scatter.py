@@ -1,0 +1,176 @@
+"""Which numbers of a scene scatter: fields that are given as distributions, and seats that have a tolerance class."""
+
+import dataclasses
+import math
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+from typing import Any
+
+import jax
+
+from .._scene import AbstractScene
+from ..distribution import Distribution
+from ..mounting import Fits, iso286
+from ..numerics.precision import as_float
+from ..scenes.errors import SceneError
+from ..scenes.reader import distributions_in, scene_from_tables
+from ..sweeps.cases import Cases, listed
+from ..sweeps.fields import SceneSource
+from ..sweeps.recipe import Direct, in_scene
+
+SEATS = {"shaft": ("bore", iso286.shaft_limits, iso286.bore_limits)}
+"""Seat -> the dimension of the bearing, deviations of the other part, and deviations of the bearing."""
+SEATS["housing"] = ("outside_diameter", iso286.hole_limits, iso286.outside_limits)
+_NOTHING = (
+    "found no field that scatters; expected one given as {mean = ..., deviation = ...} or {low = ..., high = ...}, or "
+    "a tolerance class in [fits] with at = 'mean'"
+)
+
+
+@dataclasses.dataclass(frozen=True)
+class Scatter:
+    """A scene and what scatters in it.
+
+    **Arguments:**
+    - `scene`: with the means; seats that have a tolerance class have numbers instead.
+    - `fields`: distribution of each number that scatters, by dotted path, in SI.
+    - `origins`: where the distribution of a seat comes from, in words.
+    - `notes`: for the user.
+    """
+
+    scene: AbstractScene
+    fields: dict[str, Distribution]
+    origins: dict[str, str]
+    notes: tuple[str, ...]
+
+    @property
+    def fits(self) -> Fits | None:
+        """The table of the seats, with numbers."""
+        return getattr(self.scene, "fits", None)
+
+    @property
+    def seats(self) -> tuple[str, ...]:
+        """The seats of the bearing."""
+        given = lambda seat: getattr(self.fits, interference_of(seat), None) is not None
+        return tuple(seat for seat in SEATS if given(seat))
+
+    @property
+    def means(self) -> dict[str, float]:
+        """Means of all fields that scatter, and the interference of each seat."""
+        seats = {name_of(seat): float(getattr(self.fits, interference_of(seat))) for seat in self.seats}
+        return seats | {path: one.mean for path, one in self.fields.items()}
+
+    def recipe(self, cases: Cases) -> Direct:
+        """Scenes of samples. **Raises:** as `scatter_of`."""
+        return in_scene(self.scene, cases)
+
+
+def interference_of(seat: str) -> str:
+    return f"{seat}_interference"
+
+
+def name_of(seat: str) -> str:
+    """Dotted path of the interference of a seat."""
+    return f"fits.{interference_of(seat)}"
+
+
+def scatter_of(scene: AbstractScene, over: Mapping[str, Any] | None = None) -> Scatter:
+    """What scatters in a scene.
+
+    **Arguments:** `over`: dotted path -> `Distribution`, or a mapping {"mean": ..., "deviation": ...} or {"low": ...,
+    "high": ...} with a "shape" where it is uniform; SI numbers.
+
+    **Raises:** `ValueError` for what is no distribution, for a field that is no number of the scene, and where nothing
+    scatters; `AttributeError` for a field that is not there.
+    """
+    given = {} if over is None else over
+    if not isinstance(given, Mapping) or not all(isinstance(path, str) for path in given):
+        raise ValueError(f"over must map dotted paths of fields to distributions, got {over!r}")
+    fields = {path: _distribution(path, value) for path, value in given.items()}
+    scene = jax.tree.map(as_float, scene)
+    seats = dict(_seats(scene, fields))
+    origins = {name_of(seat): f"{_class_of(scene, seat)} and the normal class of the bearing" for seat in seats}
+    notes = tuple(_unscattered(scene))
+    changes: dict[str, Any] = {f"fits.{seat}_tolerance": None for seat in seats}
+    changes |= {name_of(seat): one.mean for seat, one in seats.items()}
+    changes |= {path: one.mean for path, one in fields.items()}
+    fields |= {name_of(seat): one for seat, one in seats.items()}
+    fields = {path: one for path, one in fields.items() if one.deviation > 0.0 or one.lowest < one.highest}
+    if not fields:
+        raise ValueError(_NOTHING)
+    ends = listed({path: [one.mean, one.lowest, one.highest] for path, one in fields.items()})
+    scene = jax.tree.map(as_float, scene.replace(changes))
+    in_scene(scene, ends)
+    return Scatter(scene, fields, origins, notes)
+
+
+def scatter_of_source(source: str | Path, overrides: Mapping[str, str] | None = None) -> tuple[str, Scatter]:
+    """Name of a scene file or built-in scene, and what scatters in it.
+
+    **Raises:** `SceneError`; `ValueError` where nothing scatters.
+    """
+    read = SceneSource.of(source, overrides)
+    found = distributions_in(read.tables, read.label, read.overrides)
+    scene = scene_from_tables(read.tables, read.label, read.overrides)
+    for path, one in found.items():
+        _require_plain(read, path, one)
+    return read.label, scatter_of(scene, found)
+
+
+def _require_plain(read: SceneSource, path: str, one: Distribution) -> None:
+    """**Raises:** `SceneError` for a field that the scene does not hold as the file has it."""
+    cases = listed({path: [one.mean, one.lowest, one.highest]})
+    try:
+        plain = isinstance(read.recipe(cases, {path: read.field(path, read.label)}), Direct)
+    except SceneError:
+        raise
+    except ValueError:
+        plain = False
+    if not plain:
+        expected = "one value: this field is a setting from which the scene computes others, it does not scatter"
+        raise SceneError(read.label, path, "a distribution", expected)
+
+
+def _distribution(path: str, given: Any) -> Distribution:
+    """**Raises:** `ValueError` that names the field."""
+    if isinstance(given, Distribution):
+        return given
+    names = set(given) if isinstance(given, Mapping) else set()
+    forms = {"mean", "deviation"}, {"low", "high"}
+    if names - {"shape"} not in forms:
+        raise ValueError(
+            f"{path}: found {given!r}; expected a Distribution, or a mapping with either mean and deviation, or low "
+            "and high"
+        )
+    try:
+        if "mean" in names:
+            return Distribution(**given)
+        return Distribution.between(**given)
+    except (TypeError, ValueError) as error:
+        raise ValueError(f"{path}: {error}") from None
+
+
+def _class_of(scene: Any, seat: str) -> str | None:
+    return None if getattr(scene, "fits", None) is None else getattr(scene.fits, f"{seat}_tolerance")
+
+
+def _seats(scene: Any, fields: Mapping[str, Distribution]) -> Iterator[tuple[str, Distribution]]:
+    """Distribution of the interference of each seat that has a tolerance class.
+
+    Shaft and bore, and hole and outside diameter, are made apart: their variances add up, each a sixth of its tolerance
+    squared. The limits are those of both parts together.
+    """
+    for seat, (dimension, of_part, of_bearing) in SEATS.items():
+        tolerance = _class_of(scene, seat)
+        if tolerance is None or scene.fits.at != "mean" or name_of(seat) in fields:
+            continue
+        diameter = getattr(scene.geometry, dimension)
+        widths = [float(limits.upper - limits.lower) for limits in (of_part(tolerance, diameter), of_bearing(diameter))]
+        low, high = (float(limit) for limit in scene.fits.limits(seat, diameter))
+        yield seat, Distribution(0.5 * (low + high), math.hypot(*widths) / 6.0, "normal", low, high)
+
+
+def _unscattered(scene: Any) -> Iterator[str]:
+    fits = getattr(scene, "fits", None)
+    if fits is not None and fits.at != "mean" and any(_class_of(scene, seat) is not None for seat in SEATS):
+        yield f"fits.at = '{fits.at}': seats with a tolerance class stand at this limit and do not scatter"

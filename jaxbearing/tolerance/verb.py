@@ -1,0 +1,186 @@
+"""The verb for tolerances: what scatters in a scene in, the scatter of its results out."""
+
+import os
+import tempfile
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from .._scene import AbstractScene
+from ..numerics.arguments import require_outside
+from ..numerics.garbage import rare_garbage_collection
+from ..numerics.newton import NewtonOptions
+from ..numerics.precision import require_x64
+from ..solve import require_solvable
+from .delta import spreads_of
+from .derivatives import Slopes, slopes_at
+from .outcome import Samples, Tolerances
+from .results import labels_of, names_in
+from .scatter import Scatter, scatter_of, scatter_of_source
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+    from ..sweeps.plan import Plan
+
+
+@rare_garbage_collection()
+def tolerances(
+    scene: AbstractScene | str | os.PathLike[str],
+    over: Mapping[str, Any] | None = None,
+    *,
+    results: Sequence[str] | None = None,
+    samples: int = 0,
+    seed: int = 0,
+    out: str | os.PathLike[str] | None = None,
+    options: NewtonOptions | None = None,
+    chunk: int | None = None,
+    devices: int | None = None,
+    workers: int | None = None,
+    scheduler: str | None = None,
+    overwrite: bool = False,
+    progress: Callable[[int], None] | None = None,
+) -> Tolerances:
+    """Scatter of the results of a scene whose fields have tolerances.
+
+        scene = jb.load_scene("deep_groove_6205_mounted")
+        found = jb.tolerances(scene, {"geometry.diametral_clearance": {"low": 5e-6, "high": 20e-6}}, samples=10_000)
+        found["fit.clearance"].mean, found["fit.clearance"].deviation, found["fit.clearance"].contributions
+
+    Mean, standard deviation and contributions follow from one solve and its exact derivatives (delta method); with
+    `samples` random samples are solved too, as a sweep. All fields are independent of each other.
+
+    **Arguments:**
+    - `scene`: from `load_scene`, or built from parts; or a scene file or the name of a built-in scene, of which those
+      fields scatter that it gives as a distribution. Seats that have a tolerance class scatter in any case, where
+      `fits.at` is "mean": shaft and bore, hole and outside diameter each have six standard deviations in their
+      tolerance.
+    - `over`: dotted path of a field -> `Distribution`, or a mapping with `mean` and `deviation`, or `low` and `high`,
+      and `shape`, "normal" (if not given) or "uniform"; SI units.
+    - `results`: paths of results, or their names in data sets ("fit.clearance", "power_loss_total"); those of a
+      rolling element with its number, "contact_angle_inner[0]". Not given: clearance, contact angles, displacements,
+      power loss, life, as far as the scene has them.
+    - `samples`: number of random samples, 0 or at least 2; `seed`: of their random numbers.
+    - `out`: file of the samples, `.nc` or `.zarr`. A run that is stopped goes on where it was when it is called again.
+    - `options`: of the solver.
+    - `chunk`, `devices`, `workers`, `scheduler`, `overwrite`, `progress`: as those of `jaxbearing.sweep`.
+
+    **Raises:** `SolveError` where the solve at the means fails; `ValueError` where nothing scatters, for a field or a
+    result that is not one number, for what is no distribution; `AttributeError` for a field that is not there;
+    `SceneError` for a file that cannot be read.
+    """
+    require_x64()
+    if isinstance(scene, AbstractScene):
+        require_solvable(scene)
+        instead = "it looks at the numbers; jax.grad and jax.jvp of solve can"
+        require_outside("tolerances", instead, scene)
+        label, scatter = type(scene).__name__, scatter_of(scene, over)
+    else:
+        label, scatter = scatter_of_source(os.fspath(scene))
+        if over:
+            scatter = scatter_of(scatter.scene, scatter.fields | dict(over))
+    analysis = Analysis(scatter, label, NewtonOptions() if options is None else options)
+    found = analysis.tolerances(results)
+    if samples:
+        plan = analysis.plan(found, samples, seed, chunk)
+        found = _with_samples(analysis, found, plan, seed, out, devices, workers, scheduler, overwrite, progress)
+    return found
+
+
+@dataclass(frozen=True)
+class Analysis:
+    """What scatters, and how it is solved. `once`: for a process that asks few times and ends."""
+
+    scatter: Scatter
+    label: str
+    options: NewtonOptions
+    once: bool = False
+
+    def tolerances(self, results: Sequence[str] | None = None) -> Tolerances:
+        """Scatter by the delta method. **Raises:** `SolveError`; `ValueError` for an unknown result."""
+        from ..sweeps.fields import label_of
+
+        found = self._at(self.scatter.means, results)
+        found.solution.raise_if_failed()
+        known: dict[tuple[float, ...], Slopes] = {}
+
+        def evaluated(numbers: Mapping[str, float]) -> Slopes:
+            key = tuple(numbers[path] for path in self.scatter.means)
+            if key not in known:
+                known[key] = self._at({path: numbers[path] for path in self.scatter.means}, results)
+            return known[key]
+
+        names = names_in(found.solution, results)
+        spreads, notes = spreads_of(self.scatter, names, found, evaluated)
+        still = [name for name, one in spreads.items() if not one.moves]
+        if still:
+            notes.append(f"these fields do not change {', '.join(still)}")
+        if results is None:
+            # of the usual results those that these fields move
+            spreads = {name: one for name, one in spreads.items() if one.moves} or spreads
+        return Tolerances(
+            fields=self.scatter.fields,
+            units={path: label_of(self.scatter.scene, path)["units"] for path in self.scatter.fields},
+            origins=self.scatter.origins,
+            results=spreads,
+            samples=None,
+            warnings=(*self.scatter.notes, *notes, *found.solution.warnings),
+            solution=found.solution,
+        )
+
+    def plan(self, found: Tolerances, count: int, seed: int, chunk: int | None) -> "Plan":
+        """The samples as a sweep. **Raises:** `ValueError` for counts that are not possible."""
+        from ..sweeps.fields import label_of
+        from ..sweeps.verb import make_plan
+        from .monte_carlo import cases_of
+
+        cases = cases_of(self.scatter, count, seed)
+        metadata = {path: label_of(self.scatter.scene, path) for path in cases.paths}
+        elements = any("[" in name for name in found.results)
+        return make_plan(
+            *(self.scatter.recipe(cases), cases, metadata, self.label),
+            options=self.options,
+            elements=elements,
+            chunk=chunk,
+        )
+
+    def with_samples(self, found: Tolerances, dataset: "xr.Dataset", seed: int, file: str | None) -> Tolerances:
+        """The scatter with the statistics of samples, which a sweep has solved."""
+        from .monte_carlo import failures_in, sampled
+
+        statistics = sampled(dataset, labels_of(found.solution, tuple(found.results)))
+        spreads = {name: replace(one, sampled=statistics[name]) for name, one in found.results.items()}
+        failures = failures_in(dataset)
+        count = int(dataset["failure"].size)
+        samples = Samples(count, count - sum(failures.values()), seed, failures, file)
+        return replace(found, results=spreads, samples=samples)
+
+    def _at(self, numbers: Mapping[str, float], results: Sequence[str] | None) -> Slopes:
+        return slopes_at(self.scatter.scene, numbers, results, self.options, once=self.once)
+
+
+def _with_samples(
+    analysis: Analysis,
+    found: Tolerances,
+    plan: "Plan",
+    seed: int,
+    out: str | os.PathLike[str] | None,
+    devices: int | None,
+    workers: int | None,
+    scheduler: str | None,
+    overwrite: bool,
+    progress: Callable[[int], None] | None,
+) -> Tolerances:
+    import xarray as xr
+
+    from ..sweeps.engine import Watcher, run
+    from ..sweeps.verb import runner_of
+
+    runner = runner_of(devices, workers, scheduler)
+    watcher = Watcher() if progress is None else Watcher(cases=progress)
+    with tempfile.TemporaryDirectory(prefix="jaxbearing-tolerances-") as folder:
+        target = Path(folder) / "samples.nc" if out is None else Path(out)
+        run(plan, target, runner=runner, overwrite=overwrite, watcher=watcher)
+        with xr.open_dataset(target, engine="zarr" if target.is_dir() else "h5netcdf") as dataset:
+            return analysis.with_samples(found, dataset, seed, None if out is None else os.fspath(out))
