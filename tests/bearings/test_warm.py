@@ -239,6 +239,7 @@ def test_reaction_and_stiffness_at_its_own_temperatures():
     np.testing.assert_allclose(solution.stiffness, frozen.stiffness, rtol=1e-9)
 
 
+@SLOW
 def test_stability():
     """Margin and rate where they are asked for. Thinner oil gives a margin above 1 with one node, and of 1 where no
     loss depends on the temperature of the oil."""
