@@ -44,7 +44,7 @@ def tolerances(
 ) -> Tolerances:
     """Scatter of the results of a scene whose fields have tolerances.
 
-        scene = jb.load_scene("deep_groove_6205_mounted")
+        scene = jb.load_scene("deep_groove_6205_fitted")
         found = jb.tolerances(scene, {"geometry.diametral_clearance": {"low": 5e-6, "high": 20e-6}}, samples=10_000)
         found["fit.clearance"].mean, found["fit.clearance"].deviation, found["fit.clearance"].contributions
 

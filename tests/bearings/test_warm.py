@@ -13,6 +13,7 @@ from jaxbearing.bearings.heat import bearing_network
 from jaxbearing.bearings.warm import at_temperatures
 from jaxbearing.life.bearing_life import with_life
 from jaxbearing.numerics.status import Status
+from jaxbearing.thermal.shares import OilTemperatures
 from jaxbearing.thermal.solve import UNSTABLE
 
 SLOW = pytest.mark.slow
@@ -87,6 +88,27 @@ def test_energy_of_all_losses_closes(name, changes):
     if solution.cage is not None:
         parts = [float(getattr(oil, place)) for place in ("inner_raceway", "pocket", "cage_pilot", "drag")]
         assert len(set(parts)) == len(parts)
+
+
+def test_oil_temperatures_of_their_own():
+    """Without a network: those of the inlet change nothing, hotter oil of one race thins the film there."""
+    plain = dataclasses.replace(warm("roller", 4), thermal=None)
+    inlet = float(plain.operation.oil_temperature)
+    places = [field.name for field in dataclasses.fields(OilTemperatures)]
+    at = lambda **own: OilTemperatures(**{name: own.get(name, inlet) for name in places})
+    cold = jb.solve(plain)
+    same, hot = (
+        jb.solve(dataclasses.replace(plain, oil_temperatures=own)) for own in (at(), at(inner_raceway=inlet + 30.0))
+    )
+    for name in ("load_inner", "film_inner", "film_outer"):
+        np.testing.assert_allclose(getattr(same.elements, name), getattr(cold.elements, name), rtol=1e-12)
+    np.testing.assert_allclose(same.power_loss.total, cold.power_loss.total, rtol=1e-12)
+    np.testing.assert_allclose(np.sum(same.rolling_by_race), same.power_loss.rolling_resistance, rtol=1e-14)
+    # others hang in their films
+    loaded = np.asarray(cold.elements.load_inner) > 1e3
+    assert np.all(np.asarray(hot.elements.film_inner)[loaded] < 0.7 * np.asarray(cold.elements.film_inner)[loaded])
+    np.testing.assert_allclose(hot.elements.film_outer[loaded], cold.elements.film_outer[loaded], rtol=0.05)
+    assert float(hot.rolling_by_race[0]) < 0.8 * float(same.rolling_by_race[0])
 
 
 def test_strong_cooling_is_the_isothermal_bearing():
@@ -239,6 +261,7 @@ def test_reaction_and_stiffness_at_its_own_temperatures():
     np.testing.assert_allclose(solution.stiffness, frozen.stiffness, rtol=1e-9)
 
 
+@SLOW
 def test_stability():
     """Margin and rate where they are asked for. Thinner oil gives a margin above 1 with one node, and of 1 where no
     loss depends on the temperature of the oil."""

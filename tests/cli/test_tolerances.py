@@ -12,7 +12,7 @@ from filled_results import MadeUpProgram, slopes_of, solution_of
 import jaxbearing as jb
 from jaxbearing.numerics.status import SolveError, Status
 
-SCENE = "deep_groove_6205_mounted"
+SCENE = "deep_groove_6205_fitted"
 CLEARANCE = 'geometry.diametral_clearance={low="13 um", high="28 um"}'
 SET = ("--set", CLEARANCE)
 

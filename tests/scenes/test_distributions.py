@@ -8,7 +8,7 @@ import pytest
 import jaxbearing as jb
 from jaxbearing import Distribution, MeanUsedWarning, SceneError
 
-SCENE = "deep_groove_6205_mounted"
+SCENE = "deep_groove_6205_fitted"
 CLEARANCE = "geometry.diametral_clearance"
 
 

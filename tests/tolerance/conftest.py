@@ -34,7 +34,7 @@ def mounted():
     """The 6205 of the sheet: one steel, at rest, at 20 degC."""
     changes = {"fits.shaft_material": "52100", "fits.housing_material": "52100"}
     changes |= {"operation.inner_speed": "0 rpm", "temperatures": "none"}
-    return jb.load_scene("deep_groove_6205_mounted", changes)
+    return jb.load_scene("deep_groove_6205_fitted", changes)
 
 
 @pytest.fixture(scope="session")

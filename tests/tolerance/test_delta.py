@@ -90,7 +90,7 @@ WARM = {
 @pytest.mark.parametrize("smoothing", [None, 2 * UM])
 def test_temperatures_that_hold_a_seat_against_samples(spread_fits, sample_fits, smoothing):
     """The outer ring is warmer than the housing: its seat is tight in about half of the bearings."""
-    scene = jb.load_scene("deep_groove_6205_mounted", {"temperatures.elements": "none"})
+    scene = jb.load_scene("deep_groove_6205_fitted", {"temperatures.elements": "none"})
     scatter = scatter_of(scene.replace({"fits.smoothing": smoothing}), WARM)
     spread = spread_fits(scatter)[0]["fit.clearance"]
     values = sample_fits(scatter, 400_000, 1)

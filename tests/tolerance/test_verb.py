@@ -29,7 +29,7 @@ def made_up(monkeypatch):
 
 @pytest.fixture(scope="module")
 def mounted_scene():
-    return jb.load_scene("deep_groove_6205_mounted")
+    return jb.load_scene("deep_groove_6205_fitted")
 
 
 def test_classes_of_seats_become_distributions(mounted_scene):
@@ -175,7 +175,7 @@ def test_outputs(mounted_scene, tmp_path):
 @pytest.fixture(scope="module")
 def rated():
     """The mounted 6205 with a life, dry: its losses are none."""
-    return jb.load_scene("deep_groove_6205_mounted", {"rating.grooves": "scene"})
+    return jb.load_scene("deep_groove_6205_fitted", {"rating.grooves": "scene"})
 
 
 FIELDS = CLEARANCE | {"operation.radial_load": {"mean": 1500.0, "deviation": 60.0}}
