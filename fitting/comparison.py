@@ -1,4 +1,4 @@
-"""Which viscous function describes the curves best: misfit, information criteria, prediction of curves left out."""
+"""Comparison of viscous functions for measured curves: misfit, information criteria, prediction of curves left out."""
 
 from collections.abc import Mapping
 from typing import NamedTuple
@@ -13,7 +13,7 @@ from .result import FitResult
 from .search import Search
 
 DISPLACED = np.array([0.7, -1.0, -0.5, -0.7, 0.5, 0.2])
-"""From where the fits without a curve start, in natural coordinates from the fit of all."""
+"""Distance of the start of a fit without one curve from the fit of all, in natural coordinates."""
 
 
 class ModelRow(NamedTuple):

@@ -94,7 +94,7 @@ def fit_models(
 
 
 class _Held(NamedTuple):
-    """Which parameters are fitted; why others cannot be told; natural coordinates of those at a bound."""
+    """Flags of the fitted parameters, reasons why others cannot be told, natural coordinates of those at a bound."""
 
     free: np.ndarray
     reasons: dict[int, str]

@@ -1,4 +1,4 @@
-"""Which parameters the data can tell: by rule before a fit, by their uncertainty after it; in words."""
+"""Identifiability: parameters that the data can tell, by rule before a fit, by their uncertainty after it; in words."""
 
 import numpy as np
 

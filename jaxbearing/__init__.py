@@ -55,9 +55,9 @@ if TYPE_CHECKING:
     from .bearings.cylindrical.geometry import RollerCage as RollerCage
     from .bearings.cylindrical.geometry import RollerFlange as RollerFlange
     from .bearings.cylindrical.geometry import RollerGeometry as RollerGeometry
+    from .bearings.cylindrical.motion.instants import pocket_loads as pocket_loads
     from .bearings.cylindrical.scene import CylindricalRollerBearing as CylindricalRollerBearing
     from .bearings.motion.history import History as History
-    from .bearings.motion.instants import pocket_loads as pocket_loads
     from .bearings.motion.runs import trajectory as trajectory
     from .bearings.motion.settings import Simulation as Simulation
     from .bearings.motion.start import quasi_static_start as quasi_static_start
@@ -83,6 +83,7 @@ if TYPE_CHECKING:
     from .numerics.status import Status as Status
     from .port import reaction as reaction
     from .program_size import compile_report as compile_report
+    from .program_size import quick_compile_options as quick_compile_options
     from .report.last_state import read_last_state as read_last_state
     from .scenes.errors import SceneError as SceneError
     from .scenes.from_python import load_oil as load_oil
@@ -138,8 +139,9 @@ _LAZY = {
     "load_distributions": ".scenes.reader",
     "load_oil": ".scenes.from_python",
     "load_scene": ".scenes.reader",
-    "pocket_loads": ".bearings.motion.instants",
+    "pocket_loads": ".bearings.cylindrical.motion.instants",
     "quasi_static_start": ".bearings.motion.start",
+    "quick_compile_options": ".program_size",
     "reaction": ".port",
     "read_last_state": ".report.last_state",
     "scene_from_mapping": ".scenes.from_python",

@@ -24,7 +24,7 @@ class Identity(eqx.Module):
     words: tuple[tuple[str, str], ...] = eqx.field(static=True)
 
     def told(self) -> dict[str, Any]:
-        """All of it as plain numbers, lists and texts."""
+        """The identity as plain numbers, lists and texts, for files."""
         return dict(self.words) | {path: np.asarray(value).tolist() for path, value in self.numbers.items()}
 
 

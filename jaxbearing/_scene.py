@@ -154,7 +154,8 @@ class AbstractSolution(Shown):
         except jax.errors.ConcretizationTypeError:
             return
         if failed:
-            raise SolveError(self.failure(), Status(int(np.max(np.asarray(self.status)))))
+            numbers = jax.lax.stop_gradient(self)  # those that are differentiated have no digits to print
+            raise SolveError(numbers.failure(), Status(int(np.max(np.asarray(self.status)))))
 
 
 def _replaced(part: Any, changes: dict[tuple[str, ...], Any], above: str = "") -> Any:

@@ -37,7 +37,7 @@ _COMPILING = threading.Semaphore(2)
 
 
 def default_method() -> Method:
-    """On a CPU one by one, 4 to 9 times faster than in step; on a GPU the answer reverses."""
+    """The faster way to solve many scenes: on a CPU one by one ("map", 4 to 9 times faster), on a GPU in step."""
     return "map" if jax.default_backend() == "cpu" else "vmap"
 
 

@@ -21,14 +21,14 @@ from .bearings.bearing import AbstractBearing
 from .bearings.ring import held_ring
 from .bearings.solution import RING_FREEDOMS, RingDisplacement, Solution
 from .numerics.arguments import require_choice, require_numbers
-from .numerics.checks import void
-from .numerics.compiling import inside_a_program
+from .numerics.checks import nan_unless
+from .numerics.compiling import inside_a_program, is_tracing
 from .numerics.garbage import rare_garbage_collection
 from .numerics.newton import NewtonOptions
 from .numerics.precision import as_float, require_x64
 from .numerics.quiet import quiet_first_time
 from .numerics.status import Status
-from .programs import KeptProgram
+from .programs.differentiated import differentiable, solved
 from .solve import chosen_options, with_checked_inputs
 
 _POINTS, _TILTS = ("port", "ring"), ("exact", "linear")
@@ -95,8 +95,12 @@ def reaction(
     lengths = [_number(name, value) for name, value in (("closure", closure), ("expansion", expansion))]
     numbers: Any = (jax.tree.map(as_float, scene), five, *lengths)
     inside = inside_a_program(numbers)
-    function: Any = _react if inside else _react_quickly
-    with nullcontext() if inside else quiet_first_time((reaction, jax.tree.structure(scene), at, tilt)):
+    if inside:
+        function: Any = _react if is_tracing() else _react_differentiated
+    else:
+        function = _react_quickly
+    quiet = nullcontext() if inside else quiet_first_time((reaction, jax.tree.structure(scene), at, tilt))
+    with rare_garbage_collection(), quiet:  # derivatives are traced here too
         solution = function(*numbers, chosen_options(options), at, tilt)
         if throw:
             solution.raise_if_failed()
@@ -148,7 +152,7 @@ def _react_any(
 
     def react(lane: AbstractBearing) -> Solution:
         displacement, closure, expansion = (jnp.where(finite, one, 0.0) for one in numbers)
-        lane = dataclasses.replace(lane, operation=void(lane.operation, finite))
+        lane = dataclasses.replace(lane, operation=nan_unless(lane.operation, finite))
         solution = at_displacement(lane, displacement, closure, expansion)
         return dataclasses.replace(solution, status=jnp.where(finite, solution.status, int(Status.INVALID_INPUT)))
 
@@ -165,4 +169,11 @@ def _react_any(
 
 
 _react = eqx.filter_jit(_react_any)
-_react_quickly = KeptProgram(_react_any, quick=True)
+
+
+def _react_quickly(*given: Any) -> Solution:
+    return solved(_react_any, *given)[0]
+
+
+def _react_differentiated(*given: Any) -> Solution:
+    return differentiable(_react_any, _react, *given)

@@ -11,13 +11,14 @@ from jaxtyping import Array, Float
 
 from ._scene import AbstractScene, AbstractSolution
 from .bearings.solution import Solution
-from .ehl import LineContactSolution
+from .ehl import EHLLineContact, LineContactSolution
 from .machines import TwoDiskSolution
+from .numerics.compiling import inside_a_program
 from .numerics.garbage import rare_garbage_collection
 from .numerics.newton import NewtonOptions
 from .numerics.precision import as_float, require_x64
 from .programs import KeptProgram
-from .solve import _solve_any, require_solvable
+from .solve import require_solvable, solution_at, solve_with_roots
 
 _Slopes = dict[str, Float[Array, ""]]
 
@@ -58,31 +59,38 @@ def sensitivities(
 ) -> tuple[Any, Sensitivities]:
     """Solve a scene and differentiate its main results with respect to every number in it.
 
-    The results are those of `Sensitivities` that the scene models. One solve and one reverse pass through the implicit
-    function theorem: the cost does not grow with the number of inputs. May be called inside `jax.jit` and `jax.vmap`.
+    The results are those of `Sensitivities` that the scene models. One solve, by the program of `solve`, and a second
+    program with one pass for every input through the implicit function theorem, each the cost of a residual; of a line
+    contact one reverse pass for all. May be called inside `jax.jit` and `jax.vmap`.
 
     Returns the solution, that of `solve`, and the sensitivities; those of a solve that failed are NaN.
 
     **Raises:** `ValueError` for a scene with none of these results; as `solve` otherwise.
     """
-    return _run(scene, throw, NewtonOptions() if options is None else options, _ordinary)
+    chosen = NewtonOptions() if options is None else options
+    require_x64()
+    require_solvable(scene)
+    solution, slopes = _answer(jax.tree.map(as_float, scene), throw, chosen)
+    return solution, Sensitivities(**{name: _by_path(tree) for name, tree in slopes.items()})
 
 
 def sensitivities_once(scene: AbstractScene) -> tuple[AbstractSolution, Sensitivities]:
-    """Result of `sensitivities(scene, throw=False)`, for a process that asks once and ends."""
-    return _run(scene, False, NewtonOptions(), _once)
+    """Result of `sensitivities(scene, throw=False)`, for a command."""
+    return sensitivities(scene, throw=False)
 
 
 @rare_garbage_collection()
-def _run(
-    scene: AbstractScene, throw: bool, options: NewtonOptions, function: Callable[..., Any]
-) -> tuple[Any, Sensitivities]:
-    require_x64()
-    require_solvable(scene)
-    solution, slopes = function(jax.tree.map(as_float, scene), options)
+def _answer(scene: AbstractScene, throw: bool, options: NewtonOptions) -> tuple[Any, dict[str, Any]]:
+    if inside_a_program(scene):
+        solution, slopes = _in_a_program(scene, options)
+        if throw:
+            solution.raise_if_failed()
+        return solution, slopes
+    solution, roots = solve_with_roots(scene, options)
+    _results(solution)  # refused before another program is compiled
     if throw:
         solution.raise_if_failed()
-    return solution, Sensitivities(**{name: _by_path(tree) for name, tree in slopes.items()})
+    return solution, _kept_slopes(scene, options, roots)
 
 
 def _results(solution: AbstractSolution) -> dict[str, Array]:
@@ -117,27 +125,60 @@ def _results(solution: AbstractSolution) -> dict[str, Array]:
     raise NoSensitivities(f"found a {type(solution).__name__}, which has no sensitivities; expected a bearing")
 
 
-def _differentiated(scene: AbstractScene, options: NewtonOptions) -> tuple[Any, dict[str, Any]]:
+def _slopes(scene: AbstractScene, options: NewtonOptions, roots: tuple[Any, ...]) -> dict[str, Any]:
+    """Sensitivities of each result, a tree like the numbers of the scene; NaN where the solve failed.
+
+    **Arguments:** `roots`: of the scene's solve.
+    """
     numbers, rest = eqx.partition(scene, eqx.is_inexact_array)
 
-    def outputs(numbers_: Any) -> tuple[dict[str, Array], Any]:
-        solution = _solve_any(eqx.combine(numbers_, rest), options)
-        return _results(solution), solution
+    def results(numbers: Any) -> tuple[dict[str, Array], Array]:
+        solution = solution_at(roots, eqx.combine(numbers, rest), options)
+        return _results(solution), solution.converged
 
-    values, pull_back, solution = jax.vjp(outputs, numbers, has_aux=True)
+    slopes = _backward if isinstance(scene, EHLLineContact) else _forward
+    values, found, converged = slopes(results, numbers)
+
+    def scaled(name: str) -> Any:
+        scale = 1.0 if name == "slip" else values[name]
+        return jax.tree.map(lambda slope: jnp.where(converged, slope / scale, jnp.nan), found[name])
+
+    return {name: scaled(name) for name in values}
+
+
+_Found = tuple[dict[str, Array], dict[str, Any], Array]
+"""Results; derivatives of each by ln of every number, a tree like the numbers; the flag."""
+
+
+def _forward(results: Callable[[Any], tuple[dict[str, Array], Array]], numbers: Any) -> _Found:
+    """One number after the other in forward mode: the smallest program (see `programs.differentiated`)."""
+    leaves, structure = jax.tree.flatten(numbers)
+
+    def along(place: Array) -> Any:
+        moved = [jnp.where(place == i, leaf, 0.0) for i, leaf in enumerate(leaves)]
+        return jax.jvp(results, (numbers,), (jax.tree.unflatten(structure, moved),), has_aux=True)
+
+    values, slopes, converged = jax.lax.map(along, jnp.arange(len(leaves)))
+    of_each = {name: jax.tree.unflatten(structure, list(row)) for name, row in slopes.items()}
+    return {name: value[0] for name, value in values.items()}, of_each, converged[0]
+
+
+def _backward(results: Callable[[Any], tuple[dict[str, Array], Array]], numbers: Any) -> _Found:
+    """All numbers at once in reverse mode, of a film: its large matrix is then factored once."""
+    values, pull_back, converged = jax.vjp(results, numbers, has_aux=True)
     unit = jnp.eye(len(values))
     (rows,) = jax.vmap(pull_back)({name: unit[:, i] for i, name in enumerate(values)})
-
-    def scaled(i: int, name: str) -> Any:
-        scale = 1.0 if name == "slip" else values[name]
-        slope = lambda x, rows_: jnp.where(solution.converged, jnp.sum(x * rows_[i]) / scale, jnp.nan)
-        return jax.tree.map(slope, numbers, rows)
-
-    return solution, {name: scaled(i, name) for i, name in enumerate(values)}
+    slopes = lambda i: jax.tree.map(lambda leaf, row: jnp.sum(leaf * row[i]), numbers, rows)
+    return values, {name: slopes(i) for i, name in enumerate(values)}, converged
 
 
-_ordinary = eqx.filter_jit(_differentiated)
-_once = KeptProgram(_differentiated, quick=True)
+_kept_slopes = KeptProgram(_slopes, quick=True)
+
+
+@eqx.filter_jit
+def _in_a_program(scene: AbstractScene, options: NewtonOptions) -> tuple[Any, dict[str, Any]]:
+    solution, roots = solve_with_roots(scene, options)
+    return solution, _slopes(scene, options, roots)
 
 
 def _by_path(tree: Any) -> dict[str, Float[Array, ""]]:

@@ -9,7 +9,7 @@ from .numerics.garbage import rare_garbage_collection
 from .numerics.precision import require_x64
 
 if TYPE_CHECKING:
-    from .bearings.cylindrical.scene import CylindricalRollerBearing
+    from .bearings.motion.family import AbstractMovingBearing
     from .bearings.motion.history import History, LastState
     from .bearings.motion.settings import Simulation
     from .ehl import EHLLineContact, FilmSimulation, FilmState, LineContactHistory
@@ -31,7 +31,7 @@ def simulate(
 ) -> "LineContactHistory": ...
 @overload
 def simulate(
-    scene: "CylindricalRollerBearing",
+    scene: "AbstractMovingBearing",
     duration: float | None = None,
     *,
     simulation: "Simulation | None" = None,

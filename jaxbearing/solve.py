@@ -14,14 +14,15 @@ from jax.core import Tracer
 from ._checks import Checks
 from ._scene import AbstractScene
 from .life.bearing_life import with_life
-from .numerics.checks import check_inputs, gate, void
-from .numerics.compiling import inside_a_program
+from .numerics.checks import check_inputs, gate, nan_unless
+from .numerics.compiling import inside_a_program, is_tracing
 from .numerics.garbage import rare_garbage_collection
 from .numerics.newton import NewtonOptions
 from .numerics.precision import as_float, require_x64
 from .numerics.quiet import compiling_quietly, quiet_first_time
 from .numerics.status import Status
 from .programs import KeptProgram
+from .programs.differentiated import at_roots, differentiable, solved, with_roots
 
 if TYPE_CHECKING:
     from .bearings.ball.scene import BallBearing
@@ -51,7 +52,7 @@ def with_checked_inputs(scene: AbstractScene, compute: Callable[[Any], Any]) -> 
     """Result of `compute` for a scene, with the checks of its inputs. Where one is invalid it ends at once, in NaN."""
     inputs = check_inputs(scene)
     given: Any = gate(scene, inputs.valid)
-    solution = compute(dataclasses.replace(given, operation=void(given.operation, inputs.valid)))
+    solution = compute(dataclasses.replace(given, operation=nan_unless(given.operation, inputs.valid)))
     return dataclasses.replace(
         solution,
         status=jnp.where(inputs.valid, solution.status, int(Status.INVALID_INPUT)),
@@ -62,7 +63,26 @@ def with_checked_inputs(scene: AbstractScene, compute: Callable[[Any], Any]) -> 
 
 _solve = eqx.filter_jit(_solve_any)
 _solve_optimised = KeptProgram(_solve_any, quick=False)
-_solve_quickly = KeptProgram(_solve_any, quick=True)
+
+
+def _solve_quickly(scene: AbstractScene, options: NewtonOptions) -> Any:
+    return solve_with_roots(scene, options)[0]
+
+
+def _solve_differentiated(scene: AbstractScene, options: NewtonOptions) -> Any:
+    """The solve outside of programs, where numbers of the scene are differentiated or batched."""
+    return differentiable(_solve_any, _solve, scene, options)
+
+
+def solve_with_roots(scene: AbstractScene, options: NewtonOptions) -> tuple[Any, tuple[Any, ...]]:
+    """The solution, outside of programs by the kept one of `solve`, and the roots that `solution_at` takes."""
+    return (with_roots if inside_a_program(scene) else solved)(_solve_any, scene, options)
+
+
+def solution_at(roots: tuple[Any, ...], scene: AbstractScene, options: NewtonOptions) -> Any:
+    """The solution from its roots, to be differentiated: pure, small, and nothing is searched for. The derivatives of
+    its stiffness are NaN."""
+    return at_roots(_solve_any, roots, scene, options, stiffness=False)
 
 
 @overload
@@ -104,14 +124,16 @@ def solve(
 
     On a CPU the program is compiled quickly, in about a fifth of the time, and runs 2 to 5 times slower, milliseconds:
     one answer comes first that way. Where a scene is solved thousands of times, `optimised` or `jit_solver` pays.
-    Inside a program, or where something is differentiated or batched, JAX compiles as it is told to.
+    First derivatives outside of `jax.jit` come from a second program, which is compiled quickly too and makes one pass
+    for each number that is differentiated. Inside a program, in a batch and for second derivatives JAX compiles as it
+    is told to; `quick_compile_options` are the options for a quick compilation.
 
     **Arguments:**
     - `scene`: from `load_scene`, or built from parts.
     - `throw`: raise where the solve fails. Inside `jit` or `vmap` nothing can be raised for one lane alone: look at
       `solution.status`; the results of a failed lane are NaN and those of the others are not touched.
     - `options`: tolerances of the Newton iteration; two-disk machines and line contacts have none.
-    - `optimised`: compile with all of XLA's optimisations.
+    - `optimised`: compile with all of XLA's optimisations. Derivatives are then those of one program.
 
     **Raises:** `SolveError` with status, residual and worst equation; `TypeError` for 32-bit numbers or an unknown
     kind of scene; `RuntimeError` where 64-bit floats are switched off.
@@ -119,9 +141,13 @@ def solve(
     require_x64()
     require_solvable(scene)
     inside = inside_a_program(scene)
-    function = _solve if inside else _solve_optimised if optimised else _solve_quickly
+    if inside:
+        function = _solve if optimised or is_tracing() else _solve_differentiated
+    else:
+        function = _solve_optimised if optimised else _solve_quickly
     # small programs beside the large one are compiled too
-    with nullcontext() if inside else quiet_first_time((solve, optimised, jax.tree.structure(scene))):
+    quiet = nullcontext() if inside else quiet_first_time((solve, optimised, jax.tree.structure(scene)))
+    with rare_garbage_collection(), quiet:  # derivatives are traced here too
         solution = function(jax.tree.map(as_float, scene), chosen_options(options))
         if throw:
             solution.raise_if_failed()

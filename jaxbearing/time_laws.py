@@ -10,7 +10,7 @@ from jaxtyping import Array, Float
 
 from ._scene import number
 from ._types import Scalar
-from .numerics.checks import Checked, demand, functions, given
+from .numerics.checks import Checked, array_module, demand, numbers_or_none
 from .numerics.precision import as_float
 
 
@@ -66,8 +66,10 @@ class Sinusoidal(AbstractTimeFactor):
 
 
 class Ramp(AbstractTimeFactor):
-    r"""From `start` to `stop` between the times `begin` and `begin + duration`, as the quintic that begins and ends
-    without slope and curvature: a jump of the acceleration would be a shock of its own.
+    r"""A factor that goes from `start` to `stop` between the times `begin` and `begin + duration`.
+
+    It is the quintic that begins and ends without slope and curvature: a jump of the acceleration would be a shock of
+    its own.
 
     **Arguments:**
     - `start`, `stop`: factor before and after.
@@ -145,8 +147,8 @@ class Tabulated(AbstractTimeFactor):
             raise ValueError(
                 f"a table needs as many times as factors, two or more; got {shape} and {np.shape(self.factors)}"
             )
-        if given(self.times, self.factors) is not None:
-            xp = functions(self.times, self.factors)
+        if numbers_or_none(self.times, self.factors) is not None:
+            xp = array_module(self.times, self.factors)
             demand(
                 "{path}.times must increase, and all numbers of the table be finite",
                 xp.all(xp.diff(self.times) > 0) & xp.all(xp.isfinite(self.times)) & xp.all(xp.isfinite(self.factors)),
@@ -186,6 +188,6 @@ class RotatingLoad(Checked):
     phase: Scalar = number(0.0, unit="rad")
 
     def components(self, time: Scalar) -> Float[Array, "2"]:
-        """Along azimuths 0 and 90 degrees, N."""
+        """Components of the load along azimuths 0 and 90 degrees, N."""
         angle = self.speed * time + self.phase
         return self.load * jnp.stack([jnp.cos(angle), jnp.sin(angle)])

@@ -51,7 +51,6 @@ RANK = {
     # tolerances are sampled by sweeps
     "tolerance": 11,
     "cli": 12,
-    "exact": 12,
     # a second name of the package beside this one
     "fitting": 12,
     "__init__": 12,
@@ -118,7 +117,6 @@ def test_imports_go_down(path):
             continue
         assert RANK.get(inside, 0) <= RANK[here], f"{path.name} imports {inside}, a layer above {here}"
         assert (here, inside) not in SIBLINGS, f"{path.name} imports its sibling layer {inside}"
-        assert inside != "exact", f"{path.name} imports exact, which is for tests and notebooks only"
 
 
 @pytest.mark.parametrize("path", modules(FITTING), ids=lambda p: str(p.relative_to(FITTING)))

@@ -12,7 +12,7 @@ import pytest
 from moving_roller import start_of, table_16
 
 import jaxbearing as jb
-from jaxbearing.bearings.motion.instants import pocket_loads
+from jaxbearing.bearings.cylindrical.motion.instants import pocket_loads
 from jaxbearing.bearings.motion.runs import trajectory
 from jaxbearing.bearings.motion.settings import Simulation
 from jaxbearing.bearings.motion.start import quasi_static_start
@@ -68,7 +68,7 @@ def test_a_run_that_stops_early_keeps_what_it_has():
     assert "diverged" in history.failure()
     np.testing.assert_allclose(history.time[-1], 1e-3, rtol=1e-3)
     assert history.instants.cage.speed.shape == history.time.shape
-    assert np.all(np.isfinite(history.instants.state_rollers))
+    assert np.all(np.isfinite(history.instants.state_elements))
     with pytest.raises(jb.SolveError, match="is kept"):
         history.raise_if_failed()
 
@@ -210,7 +210,7 @@ def test_lanes_of_a_batch_are_single_runs(method):
         assert lane.completed
         np.testing.assert_allclose(lane.time, one.time[::8], rtol=1e-12, atol=1e-18)
         np.testing.assert_allclose(lane.instants.cage.speed, one.instants.cage.speed[::8], rtol=1e-6)
-        np.testing.assert_allclose(lane.instants.state_rollers[-1, 0], one.instants.state_rollers[-1, 0], atol=1e-8)
+        np.testing.assert_allclose(lane.instants.state_elements[-1, 0], one.instants.state_elements[-1, 0], atol=1e-8)
         assert abs(lane.energy.error) < 1e-5
     assert runs.lane(1).time.shape == (0,)
 

@@ -63,7 +63,7 @@ from jaxbearing.life.static import ball_static_capacity, roller_static_capacity
 from jaxbearing.lubricants import Barus, ConstantViscosity, Roelands
 from jaxbearing.lubricants.two_viscosities import wooster_pressure_viscosity
 from jaxbearing.numerics.integrator import IntegratorOptions
-from jaxbearing.scenes.oils import load_oil
+from jaxbearing.scenes.oil.catalogue import load_oil
 
 OIL = load_oil("mobil_jet_ii")
 TEMPERATURES = {

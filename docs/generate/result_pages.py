@@ -7,6 +7,7 @@ from jaxbearing._derived import derived_results
 from jaxbearing.bearings import growth, solution
 from jaxbearing.bearings.ball import solution as ball_solution
 from jaxbearing.bearings.cylindrical import solution as cylindrical_solution
+from jaxbearing.bearings.cylindrical.motion import results as roller_motion
 from jaxbearing.bearings.motion import history
 from jaxbearing.bearings.tapered import solution as tapered_solution
 from jaxbearing.ehl import history as film_history
@@ -48,10 +49,10 @@ SECTIONS = {
     },
     "Motion of rollers and cage": {
         "": history.History,
-        "instants": history.Instant,
+        "instants": roller_motion.RollerInstant,
         "instants.cage": history.CageMotion,
         "pocket_peaks": history.PocketPeaks,
-        "energy": history.Energy,
+        "energy": roller_motion.RollerEnergy,
         "last": history.LastState,
     },
     "Line contact": {

@@ -12,7 +12,7 @@ TEMPERATURE_STEP = 2.0
 
 _SHOWN = {"pressure": (1e9, 0.0, "GPa"), "load": (1.0, 0.0, "N"), "entrainment_speed": (1.0, 0.0, "m/s")}
 _SHOWN |= {"temperature": (1.0, 273.15, "degC")}
-"""How names of curves show a condition: SI value over the first, less the second, and the unit."""
+"""Display of a condition in names of curves: SI value over the first, less the second, and the unit."""
 
 
 def group(

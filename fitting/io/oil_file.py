@@ -7,8 +7,8 @@ from pathlib import Path
 from jaxbearing import __version__
 from jaxbearing.report.backends.screen import counted
 from jaxbearing.report.files import write_whole
-from jaxbearing.scenes.oil_files import Origin
-from jaxbearing.scenes.oil_writer import oil_text
+from jaxbearing.scenes.oil.files import Origin
+from jaxbearing.scenes.oil.writer import oil_text
 
 from ..result import FitResult, Parameter
 from .words import SYMBOL, conditions, held, parameter_text, percent

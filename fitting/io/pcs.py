@@ -117,7 +117,7 @@ class _Reader:
         return np.abs(coefficient) * sense, "Traction coefficients have the sign of the traction force."
 
     def notes(self) -> list[str]:
-        """Which conditions are not in the export, and which thermometer was taken."""
+        """Notes on conditions that are not in the export, and on the thermometer that was taken."""
         absent = [name for name in _SOURCES if name not in self.chosen]
         notes = [f"Not every traction step has '{_SOURCES[name][0]}': {name} is not read." for name in absent]
         if "temperature" in self.chosen:

@@ -217,7 +217,7 @@ def _varies(curves: Sequence[CurveFit], condition: _Condition) -> bool:
 
 
 def _draw_legend(figure: Any, axes: Any, result: FitResult, looks: list[_Look]) -> None:
-    """Beside the diagrams; what all curves have in common is its title."""
+    """Draws the legend beside the diagrams; its title says what all curves have in common."""
     from matplotlib.lines import Line2D
 
     handles, names = axes.get_legend_handles_labels()

@@ -47,7 +47,8 @@ def smooth_curves(result: FitResult, numbers: list[int], logarithmic: bool) -> l
 
 
 def _abscissae(slide: np.ndarray, logarithmic: bool) -> np.ndarray:
-    """Over the measured range and to 0, on an axis of logarithms to the smallest slide; on both sides if measured."""
+    """Abscissae of a smooth curve: over the measured range and to 0, on both sides if measured; on a logarithmic axis
+    down to the smallest slide."""
     low, high = float(slide.min()), float(slide.max())
     if low < 0.0 < high:
         half = POINTS // 2 - _NEAR_ZERO

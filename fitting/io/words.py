@@ -13,7 +13,7 @@ from ..result import FitResult, Parameter
 SYMBOL: dict[str, str] = dict(zip(NAMES, SYMBOLS, strict=True))
 _SI: dict[str, str] = dict(zip(NAMES, UNITS, strict=True))
 _PRESSURES = ((1e8, "GPa", 1e-9), (1e5, "MPa", 1e-6), (1e2, "kPa", 1e-3), (0.0, "Pa", 1.0))
-"""From this value on, unit, factor from SI."""
+"""Units of a pressure: smallest value that is shown in it, unit, factor from SI."""
 _MOST_DIGITS = 7
 _ERROR_DIGITS = 2
 

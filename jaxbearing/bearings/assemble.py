@@ -1,6 +1,6 @@
 """From the root of a bearing's equations to its `Solution`, for every kind of bearing."""
 
-from typing import Any
+from typing import Any, Generic, NamedTuple
 
 import jax
 import jax.numpy as jnp
@@ -9,35 +9,60 @@ from jaxtyping import Array, Int
 from ..numerics.newton import NewtonResult
 from .bearing import AbstractBearing
 from .checks import input_excess, result_excess
+from .facts import Facts
+from .interactions import Costs
 from .ring import Port
-from .solution import RING_FREEDOMS, Reason, RingDisplacement, Solution
+from .solution import (
+    RING_FREEDOMS,
+    CageState,
+    Elements,
+    FailureCause,
+    LaminaLoads,
+    Losses,
+    RacewayPower,
+    RingDisplacement,
+    Solution,
+)
+
+
+class Results(NamedTuple, Generic[Elements, Losses]):
+    """Results of a family, as fields of the `Solution`, before `assemble` masks those of a failed solve. The range
+    checks look at `facts`."""
+
+    elements: Elements
+    costs: Costs[Losses]
+    facts: Facts
+    cage: CageState | None = None
+    raceway_power: RacewayPower | None = None
+    laminae: LaminaLoads | None = None
 
 
 def assemble(
     scene: AbstractBearing,
     result: NewtonResult,
-    results: Any,
+    results: Results[Any, Any],
     ring: RingDisplacement,
     port: Port,
     iterations: Int[Array, ""] | None = None,
-    reasons: dict[str, Reason] | None = None,
+    failure_causes: dict[str, FailureCause] | None = None,
     **names: Any,
 ) -> Solution:
     """The `Solution` of a solve: how it ended, and NaN for every result where it failed.
 
     **Arguments:**
-    - `results`: a named tuple of further fields of the `Solution`, and `facts`, what the range checks look at.
+    - `results`: those of the family.
     - `port`: force and stiffness of the ring, in all five freedoms.
     - `iterations`: of all solves together; those of `result` where not given.
-    - `reasons`: of `Solution`; none applies where the solve converged.
+    - `failure_causes`: of `Solution`; none applies where the solve converged.
     - `names`: static fields of the `Solution`.
     """
     good = result.converged
     held = not port.free
     modelled = names.get("stiffness_freedom") or names["ring_freedom"]
     names["held_freedom"] = tuple(name for name in RING_FREEDOMS if name in modelled and name not in port.free)
-    shown = {**results._asdict(), "ring": ring, "force": port.force, "stiffness": port.stiffness}
-    facts = shown.pop("facts")
+    own = results._asdict()
+    facts, costs = own.pop("facts"), own.pop("costs")
+    shown = own | costs._asdict() | {"ring": ring, "force": port.force, "stiffness": port.stiffness}
     checks = {text: value > 0 for text, value in input_excess(scene, held).items()}
     checks |= {
         text: good & (value > 0) for text, value in result_excess(scene, facts, ring, results.cage, held).items()
@@ -59,7 +84,9 @@ def assemble(
         unknowns=result.point.elements.size + result.point.globals.size,
         notes=notes,
         element_name=scene.element,
-        reasons={text: Reason(~good & one.applies, one.numbers) for text, one in (reasons or {}).items()},
+        failure_causes={
+            text: FailureCause(~good & one.applies, one.numbers) for text, one in (failure_causes or {}).items()
+        },
         **jax.tree.map(lambda leaf: jnp.where(good, leaf, jnp.nan), shown),
         **names,
     )

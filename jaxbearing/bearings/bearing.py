@@ -15,7 +15,7 @@ from jaxtyping import Array
 from .._scene import AbstractScene
 from ..contacts import LineContact, PointContact
 from ..mounting import Fits, PartTemperatures
-from ..numerics.checks import gate, void
+from ..numerics.checks import gate, nan_unless
 from ..numerics.newton import NewtonOptions
 from ..numerics.status import Status
 from ..thermal.settings import Thermal
@@ -74,9 +74,9 @@ class AbstractBearing(AbstractScene):
             return solve(self)
         running, fit, impossible = running_scene(self)
         assert fit is not None
-        possible = ~functools.reduce(operator.or_, (reason.applies for reason in impossible.values()))
+        possible = ~functools.reduce(operator.or_, (cause.applies for cause in impossible.values()))
         running = gate(running, possible)
-        solution = solve(dataclasses.replace(running, operation=void(running.operation, possible)))
+        solution = solve(dataclasses.replace(running, operation=nan_unless(running.operation, possible)))
         good = solution.converged
         checks = {text: good & (excess > 0) for text, excess in fit_excess(self, fit).items()}
         return dataclasses.replace(
@@ -86,7 +86,7 @@ class AbstractBearing(AbstractScene):
             fit=jax.tree.map(lambda one: jnp.where(good, one, jnp.nan), fit),
             checks={**solution.checks, **checks},
             notes=(*solution.notes, *self.fits.assumptions()),
-            reasons={**solution.reasons, **impossible},
+            failure_causes={**solution.failure_causes, **impossible},
         )
 
     def settled(self, solution: Solution) -> Any:

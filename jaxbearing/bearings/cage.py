@@ -10,7 +10,7 @@ import jax.numpy as jnp
 from .._scene import number, optional_number
 from .._types import Scalar
 from ..gaps import AbstractTurbulence, BlendedTurbulence, ShortJournal
-from ..numerics.checks import Checked, given
+from ..numerics.checks import Checked, numbers_or_none
 from ..numerics.refusals import refusals_of, refuse_all
 from ..numerics.structure import choice, count
 from .parts import check_between
@@ -131,5 +131,5 @@ class AbstractCage(Checked):
 
 def _check_limit(name: str, value: Any, ends: Ends, below: str, above: str) -> None:
     limits = ends()
-    if given(value, *limits) is not None:
+    if numbers_or_none(value, *limits) is not None:
         check_between(f"cage.{name}", value, *limits, below, above)

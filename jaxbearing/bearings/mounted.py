@@ -15,11 +15,11 @@ import jax.numpy as jnp
 
 from ..mounting import Annulus, Fit, Fits, FitState, PartTemperatures
 from ..mounting.annulus import REFERENCE_TEMPERATURE
-from ..numerics.checks import demand, given
+from ..numerics.checks import demand, numbers_or_none
 from ..numerics.refusals import refusals_of, refuse_all
 from .facts import Excess
 from .growth import FitResult, Growth, Play
-from .solution import Reason
+from .solution import FailureCause
 
 HIGHEST_STRESS = 127e6
 """Stress around the bore of the inner ring beyond which makers warn of bursting rings of through-hardened steel, Pa."""
@@ -64,7 +64,7 @@ def mounting_problems(scene: Any) -> Iterator[str | ValueError]:
 def check_walls(scene: Any) -> None:
     """**Raises:** `ValueError` where a ring has no wall between its seat and its raceway."""
     geometry = scene.geometry
-    sizes = given(*(leaf for leaf in jax.tree.leaves(geometry)), geometry.bore, geometry.outside_diameter)
+    sizes = numbers_or_none(*(leaf for leaf in jax.tree.leaves(geometry)), geometry.bore, geometry.outside_diameter)
     if sizes is None:
         return
     inner, outer = scene.raceway_diameters
@@ -81,7 +81,7 @@ def check_walls(scene: Any) -> None:
     refuse_all(problems)
 
 
-def running_scene(scene: Any) -> tuple[Any, FitResult | None, dict[str, Reason]]:
+def running_scene(scene: Any) -> tuple[Any, FitResult | None, dict[str, FailureCause]]:
     """The bearing that runs: a scene of the same family without seats, whose dimensions are those of the mounted, warm
     and turning bearing.
 
@@ -117,9 +117,9 @@ def running_scene(scene: Any) -> tuple[Any, FitResult | None, dict[str, Reason]]
     return unseated.grown(found.growth), result, _impossible(last)
 
 
-def _impossible(play: Play) -> dict[str, Reason]:
+def _impossible(play: Play) -> dict[str, FailureCause]:
     """Maps a sentence to whether it applies: causes that leave the running bearing without contacts."""
-    return {"fits and temperatures leave the rolling elements no contact": Reason(~play.possible, jnp.zeros(0))}
+    return {"fits and temperatures leave the rolling elements no contact": FailureCause(~play.possible, jnp.zeros(0))}
 
 
 def running_play(scene: Any) -> Play:

@@ -11,7 +11,7 @@ from jaxtyping import Array
 
 from .._scene import label, number, optional_number
 from .._types import Scalar
-from ..numerics.checks import Checked, demand, given
+from ..numerics.checks import Checked, demand, numbers_or_none
 from ..numerics.refusals import refusals_of, refuse_all
 from ..numerics.safe import safe_norm
 
@@ -171,7 +171,7 @@ class AbstractOperation(Checked):
 
     def check_rings_turn(self) -> None:
         """**Raises:** `ValueError` where the rings turn alike and no film can form (where the numbers are known)."""
-        speeds = given(self.inner_speed, self.outer_speed)
+        speeds = numbers_or_none(self.inner_speed, self.outer_speed)
         if speeds is not None:
             demand(
                 "operation.inner_speed of a lubricated bearing must differ from operation.outer_speed",
@@ -203,7 +203,7 @@ class Operation(AbstractOperation):
                 "radial_load_lateral and operation.displacement"
             )
         loads = [load for load in map(self.load, ("radial", "lateral")) if load is not None]
-        if loads and not self.displaced and given(*loads) is not None:
+        if loads and not self.displaced and numbers_or_none(*loads) is not None:
             yield from refusals_of(
                 demand,
                 "operation.radial_load or radial_load_lateral must differ from 0",

@@ -14,7 +14,7 @@ from ..contacts.laws import ContactLaws
 from ..gaps import air_density, mixture_density, saturated_oil_fraction
 from ..lubricants import Lubricant
 from ..materials import Material
-from ..numerics.checks import Checked, demand, given, known
+from ..numerics.checks import Checked, demand, known, numbers_or_none
 from ..numerics.safe import safe_norm
 from .operation import AbstractOperation
 
@@ -95,7 +95,7 @@ def check_row_fits(count: int, diameter: Any, pitch_diameter: Any, element: str 
     name = f"geometry.n_{element}s"
     if count < 1:
         raise ValueError(f"{name} must be >= 1, got {count}")
-    sizes = given(diameter, pitch_diameter)
+    sizes = numbers_or_none(diameter, pitch_diameter)
     if sizes is None:
         return
     chord = sizes[1] * math.sin(math.pi / max(count, 2))

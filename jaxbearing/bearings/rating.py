@@ -70,7 +70,7 @@ class Rating(Checked):
             )
 
     def groove_assumptions(self) -> tuple[str, ...]:
-        """Which grooves the ratings of a ball bearing are computed for, for the user."""
+        """Notes for the user about the grooves that the ratings of a ball bearing assume."""
         missing = [name for name in ("dynamic_capacity", "static_capacity") if getattr(self, name) is None]
         if not missing:
             return ()

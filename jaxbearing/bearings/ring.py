@@ -1,7 +1,7 @@
-"""The inner ring of bearings whose elements follow it in all freedoms.
+"""The inner ring: its five freedoms, given loads and displacements, and its port.
 
-Five freedoms, the loads on those that are unknown, the displacements of the others, and the port: what the ring needs
-where it is.
+A load is given for each unknown freedom, and a displacement for each of the others. The port is the reaction of the
+bearing at a displacement of the ring, with its derivatives.
 
 Frame and signs: $e_x$ along the axis, azimuths from the load line towards 90 degrees. `tilt` moves azimuth 0,
 `tilt_lateral` azimuth 90 degrees along $+e_x$. Loads are conjugate to displacements: force times displacement, or
@@ -29,14 +29,18 @@ LENGTH_UNIT = 1e-5
 """Scale of displacements, m."""
 
 ANCHOR = 1e-4
-"""Spring that holds what nothing touches, a roller or a ring, where it is, N/m: 1e-12 of a loaded contact's stiffness
-in derivatives (a hundred times as much spoils those of rollers that hardly touch by 6e-6), nothing in balances."""
+"""Spring that holds a roller or a ring that nothing touches, N/m. It appears only in derivatives, never in balances. It
+is 1e-12 of the stiffness of a loaded contact; 100 times as much would change derivatives of barely loaded rollers by
+6e-6."""
 
 
 class Port(NamedTuple):
-    """Reaction of the inner ring at its place: `force`, the loads on its five freedoms, N and N m; `stiffness`, their
-    derivatives by the displacements, everything else in equilibrium, N/m, N/rad, N m/m, N m/rad. Nothing in it is made
-    symmetric: with centrifugal forces, couples or friction it is not."""
+    """Reaction of the inner ring at a displacement.
+
+    - `force`: loads on its five freedoms, N and N m.
+    - `stiffness`: their derivatives with respect to the displacements, everything else in equilibrium, N/m, N/rad,
+      N m/m and N m/rad. It is not symmetric with centrifugal forces, gyroscopic couples or friction.
+    """
 
     force: Float[Array, "5"]
     stiffness: Float[Array, "5 5"]
@@ -48,16 +52,16 @@ class InnerRing(eqx.Module):
     """Loads and given displacements of the inner ring, as lengths.
 
     **Arguments:**
-    - `load`: on the freedoms that are unknown, N.
-    - `held`: displacements of all five, m; 0 where they are unknown.
-    - `lever`: length that a tilt is multiplied by, m.
-    - `freedoms`: names of the unknown ones, in the order of `RING_FREEDOMS`.
-    - `expansion`: growth of the inner raceway's radius less that of the outer one, m; `None`: none.
-    - `distance`: of the point of the ring whose displacements these are, from the one that is shown, along $+e_x$, m;
-      `None`: it is the same point.
-    - `closure`: part of the axial displacement that is not shown, m; `None`: none.
-    - `held_load`: size of the load that the given displacements ask for, N, about: a scale; `None`: not needed.
-    - `asks`: whether the loads leave open what the given displacements ask for.
+    - `load`: loads on the unknown freedoms, N.
+    - `held`: displacements of all five freedoms, m; 0 for the unknown ones.
+    - `lever`: length by which a tilt is multiplied, m.
+    - `freedoms`: names of the unknown freedoms, in the order of `RING_FREEDOMS`.
+    - `expansion`: growth of the inner raceway's radius less that of the outer one, m; `None` if there is none.
+    - `distance`: position along $+e_x$ of the point that these displacements belong to, from the point that results
+      show, m; `None` if they are the same point.
+    - `closure`: part of the axial displacement that results do not show, m; `None` if there is none.
+    - `held_load`: approximate load that the given displacements need, N, as a scale; `None` if it is not needed.
+    - `asks`: True if the given displacements need loads of a size that the given loads do not tell.
     """
 
     load: Float[Array, " freedom"]
@@ -81,7 +85,7 @@ class InnerRing(eqx.Module):
         return 1.0 / _levers(self.lever)
 
     def moved(self, shift: Float[Array, "freedom ..."]) -> Float[Array, "5 ..."]:
-        """All five displacements as lengths, m, from the unknown ones in units of `LENGTH_UNIT`."""
+        """The five displacements as lengths, m; `shift` holds the unknown ones in units of `LENGTH_UNIT`."""
         held = self.held.reshape((5,) + (1,) * (shift.ndim - 1))
         return jnp.broadcast_to(held, (5, *shift.shape[1:])).at[self.places].set(LENGTH_UNIT * shift)
 
@@ -90,19 +94,21 @@ class InnerRing(eqx.Module):
         return every[self.places]
 
     def of_each(self, value: Callable[[str], Scalar]) -> Float[Array, " freedom"]:
-        """A number for each unknown freedom, by its name."""
+        """The value of a function of the name, for each unknown freedom."""
         numbers = [jnp.asarray(value(name), dtype=float) for name in self.freedoms]
         return jnp.stack(numbers) if numbers else jnp.zeros(0)
 
     def across(self) -> Float[Array, " freedom"]:
-        """Direction of the load across the axis, in the unknown freedoms; 0 where there is none."""
+        """Direction of the load across the axis, in the unknown freedoms; 0 if there is no such load."""
         load = jnp.where(np.asarray([name in ("radial", "lateral") for name in self.freedoms], bool), self.load, 0.0)
         square = jnp.sum(jnp.square(load))
         return load / jnp.sqrt(jnp.where(square > 0, square, 1.0))
 
     def displacement(self, globals_: Float[Array, " g"]) -> RingDisplacement:
-        """The displacement that is shown, m and rad, from the global unknowns, whose first ones are those of the
-        ring."""
+        """The displacement that results show, m and rad.
+
+        **Arguments:** `globals_`: global unknowns, beginning with those of the ring.
+        """
         every = self.moved(globals_[: len(self.freedoms)]) * self.units
         if self.closure is not None:
             every = every.at[0].add(-self.closure)
@@ -115,11 +121,11 @@ class InnerRing(eqx.Module):
         return dataclasses.replace(self, load=load)
 
     def asking(self, load: Float[Array, ""]) -> "InnerRing":
-        """The same ring, whose given displacements ask for about this load, N."""
+        """The same ring with the approximate load that its given displacements need, N."""
         return dataclasses.replace(self, held_load=jax.lax.stop_gradient(load))
 
     def size(self) -> Float[Array, ""]:
-        """The size of the load on the ring, given or made by what it is held at, N."""
+        """Size of the load on the ring, N: the given loads, and those that the given displacements need."""
         if len(self.freedoms) == 1:
             size = jnp.abs(self.load[0])
         else:
@@ -127,25 +133,29 @@ class InnerRing(eqx.Module):
         return size if self.held_load is None else size + self.held_load
 
     def equation_names(self) -> tuple[str, ...]:
+        """Names of the equations of the unknown freedoms, for messages."""
         return tuple(f"{name} load balance of the ring" for name in self.freedoms)
 
     def released(self, size: Float[Array, ""]) -> "InnerRing":
-        """The ring with all five freedoms unknown, under a load of this size, N, which scales the equations."""
+        """The ring with all five freedoms unknown, under a load of this size, N, which only scales the equations."""
         load, held = jnp.full(5, size / jnp.sqrt(5.0)), jnp.zeros(5)
         return dataclasses.replace(self, load=load, held=held, freedoms=RING_FREEDOMS, held_load=None, asks=False)
 
     def released_unknowns(self, globals_: Float[Array, " g"]) -> Float[Array, " g5"]:
-        """The global unknowns of the `released` ring where this one has `globals_`."""
+        """The global unknowns of the `released` ring for the unknowns `globals_` of this one."""
         count = len(self.freedoms)
         return jnp.concatenate([self.moved(globals_[:count]) / LENGTH_UNIT, globals_[count:]])
 
     def port(
         self, jacobian: ArrowJacobian, force: Float[Array, "5"], scale: Float[Array, ""], free: tuple[str, ...]
     ) -> Port:
-        """The port of a `released` ring, at the point that is shown.
+        """The port of a `released` ring, at the point that results show.
 
-        **Arguments:** `jacobian`: with the ring's freedoms first among the globals, of residuals that are forces over
-        `scale`, N; `force`: what the elements ask of every freedom, N; `free`: of `Port`.
+        **Arguments:**
+        - `jacobian`: Jacobian of residuals that are forces over `scale`; the ring's freedoms are the first globals.
+        - `force`: loads on the five freedoms that balance the rolling elements, N.
+        - `scale`: N.
+        - `free`: see `Port`.
         """
         arm = _levers(self.lever)
         stiffness = condensed(schur_complement(jacobian), 5) * (scale / LENGTH_UNIT) * arm[:, None] * arm[None, :]
@@ -157,7 +167,7 @@ class InnerRing(eqx.Module):
 
 
 def _levers(lever: Float[Array, ""]) -> Float[Array, "5"]:
-    """Factors that make each of `RING_FREEDOMS` a length."""
+    """Factors that turn each of `RING_FREEDOMS` into a length."""
     return jnp.stack([lever if name in TILTS else jnp.ones(()) for name in RING_FREEDOMS])
 
 
@@ -172,7 +182,7 @@ def held_ring(
 ) -> InnerRing:
     """A ring that is held in all freedoms.
 
-    **Arguments:** `displacement`, m and rad, of the point that is shown; the others are those of `InnerRing`.
+    **Arguments:** `displacement`: of the point that results show, m and rad; for the others see `InnerRing`.
     """
     lever = jnp.asarray(lever)
     held = (shift_matrix(distance) @ displacement).at[0].add(closure) * _levers(lever)
@@ -180,9 +190,9 @@ def held_ring(
 
 
 def inner_ring(operation: AbstractOperation, freedoms: tuple[str, ...], lever: Array) -> InnerRing:
-    """The ring of an operating point: held where a displacement is given, and at 0 where neither is.
+    """The ring of an operating point. A freedom with neither load nor displacement is held at 0.
 
-    **Arguments:** `operation`: of any family; `freedoms`: those that are unknown; `lever`: of `InnerRing`, m.
+    **Arguments:** `operation`: of any family; `freedoms`: the unknown ones; `lever`: see `InnerRing`, m.
     """
     lever = jnp.asarray(lever)
     number = lambda value: jnp.zeros(()) if value is None else jnp.asarray(value)

@@ -109,7 +109,7 @@ class LaminaLoads(eqx.Module):
     profiled: bool = eqx.field(static=True, default=False)
 
 
-class Reason(NamedTuple):
+class FailureCause(NamedTuple):
     """A possible cause of a failed solve: `applies` is True where it is one, `numbers` fill the places of its text."""
 
     applies: Bool[Array, ""]
@@ -187,8 +187,8 @@ class Solution(AbstractSolution, Generic[Point, Elements, Losses]):
     """Modelled freedoms of the ring whose displacement is held and not solved for."""
     fit: FitResult | None = None
     thermal: ThermalResult | None = None
-    reasons: dict[str, Reason] = eqx.field(default_factory=dict)
-    """Possible causes of a failed solve: text with places for numbers, such as `{:.3g}` -> its `Reason`."""
+    failure_causes: dict[str, FailureCause] = eqx.field(default_factory=dict)
+    """Possible causes of a failed solve: text with places for numbers, such as `{:.3g}` -> its `FailureCause`."""
     life: Any = None
     """A `life.result.Life` if the scene has a rating."""
     rolling_by_race: Float[Array, "2"] | None = None
@@ -212,9 +212,9 @@ class Solution(AbstractSolution, Generic[Point, Elements, Losses]):
     def solver_failure(self) -> str:
         """One sentence on a failed solve: status, residual, worst equation and possible causes."""
         found = [
-            text.format(*np.atleast_1d(np.asarray(reason.numbers)).tolist())
-            for text, reason in self.reasons.items()
-            if bool(reason.applies)
+            text.format(*np.atleast_1d(np.asarray(cause.numbers)).tolist())
+            for text, cause in self.failure_causes.items()
+            if bool(cause.applies)
         ]
         if found and int(self.status) == Status.INVALID_INPUT:
             return f"{Status.INVALID_INPUT.text}: {'; '.join(found)}"

@@ -234,7 +234,7 @@ def _fitted(
 
 
 def _tell(text: str) -> None:
-    """On a terminal only."""
+    """Prints what the command is doing, on a terminal only."""
     if sys.stdout.isatty():
         typer.echo(f"{text} ...")
 

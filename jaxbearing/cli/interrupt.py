@@ -21,14 +21,14 @@ from ..numerics.interrupts import end_now, listening, note_interrupt, say_at_end
 NOTHING = "nothing was computed"
 ALL = "all results are there"
 _SHOW_CURSOR = b"\r\x1b[2K\x1b[?25h"
-"""A bar that is being drawn hides it."""
+"""Escape sequence that shows the cursor again, which a progress bar hides."""
 _WAIT = b"\r\ninterrupted: what is under way is finished first; Ctrl-C again ends it at once\r\n"
 
 
 _words: list[Callable[[], str]] = [lambda: NOTHING]
-"""Its only entry: what would be said now."""
+"""Function of the text that Ctrl-C would print now; the list has one entry."""
 _told: list[bool] = []
-"""Not empty where the user has been told that the command was interrupted."""
+"""This list has an entry once the user has been told that the command was interrupted."""
 
 
 def if_interrupted(words: str | Callable[[], str]) -> None:

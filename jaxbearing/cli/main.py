@@ -15,6 +15,7 @@ from ..numerics.garbage import rare_garbage_collection
 from .fields_verb import fields
 from .fit_verb import fit
 from .interrupt import ALL, if_interrupted, prompt_interrupt, tell
+from .leaving import leave
 from .messages import BAD_INPUT, INTERRUPTED, NO_OUTPUT, say
 from .quiet import only_news
 from .report_verb import report
@@ -52,7 +53,7 @@ def main() -> None:
         code = _run()
         if code == 0:
             if_interrupted(ALL)
-    sys.exit(code)
+    leave(code)
 
 
 def _run() -> int:

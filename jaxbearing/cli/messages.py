@@ -20,9 +20,9 @@ def say(message: str, code: int) -> int:
 
 @contextmanager
 def bad_input(notes: list[str] | None = None) -> Iterator[None]:
-    """Turns what is wrong with the input into one message and exit code 2.
+    """Context that turns errors of the input into one message and exit code 2.
 
-    **Arguments:** `notes`: takes what is to be known about the input; not given: it is said on stderr.
+    **Arguments:** `notes`: list that gets notes on the input; left out: they are printed on stderr.
     """
     from ..distribution import MeanUsedWarning
     from ..scenes.errors import SceneError

@@ -49,14 +49,17 @@ def check_files(wanted: Iterable[tuple[str, Path | None, tuple[str, ...]]]) -> N
 
 
 def try_to_write(path: Path) -> None:
-    """**Raises:** `OSError` where no file can be made, or one that is there is write-protected."""
+    """Checks that a file can be written.
+
+    **Raises:** `OSError` if no file can be made, or if one that is there is write-protected.
+    """
     if path.exists() and not os.access(path, os.W_OK):
         raise PermissionError(13, "Permission denied")
     tempfile.TemporaryFile(dir=path.parent).close()
 
 
 def unwritten(path: Path, error: Exception) -> int:
-    """One message for what keeps a file from being written; returns the exit code."""
+    """Prints why a file cannot be written, in one line; returns the exit code."""
     reason = getattr(error, "strerror", None) or str(error) or type(error).__name__
     return say(f"the output cannot be written: {path}: {reason}", NO_OUTPUT)
 

@@ -1,4 +1,4 @@
-"""Keeps what changes nothing for the user off stderr, which belongs to messages for the user."""
+"""Removal of messages without consequences from stderr, which is for messages to the user."""
 
 import logging
 

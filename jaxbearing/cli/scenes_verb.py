@@ -1,4 +1,4 @@
-"""`jaxbearing scenes`: what comes with the package."""
+"""`jaxbearing scenes`: the scenes that come with the package."""
 
 import errno
 from pathlib import Path

@@ -152,7 +152,7 @@ def _check_instants(length: float, every: float | None) -> None:
 
 
 def _check_animation(path: Path | None) -> None:
-    """Without ffmpeg there are no films of this kind; said before the run, not after it."""
+    """Refuses a film that needs ffmpeg before the run, if ffmpeg is missing."""
     if path is not None and path.suffix.lower() == ".mp4" and shutil.which("ffmpeg") is None:
         refuse(
             f"--animation: found '{path}'; expected .gif or .html: .mp4 needs the program ffmpeg, which is not there"
@@ -160,7 +160,7 @@ def _check_animation(path: Path | None) -> None:
 
 
 def _last_state(path: Path, model: "AbstractScene", scene: str, duration: float | None) -> "LastState | FilmState":
-    """The end of an earlier run, which fits the scene; refused otherwise."""
+    """The end of an earlier run, checked against the scene."""
     from ..report.last_state import read_last_state
 
     wanted = "a NetCDF file of an earlier run of this scene, as --out writes it"
@@ -177,7 +177,7 @@ def _last_state(path: Path, model: "AbstractScene", scene: str, duration: float 
 
 @contextmanager
 def _progress(as_json: bool, begin: str, unit: str = "ms", factor: float = 1e3) -> Iterator[Progress | None]:
-    """A bar on the terminal; nothing where nobody looks."""
+    """Progress bar on a terminal; otherwise nothing is shown."""
     if as_json or not sys.stdout.isatty():
         yield None
         return

@@ -33,7 +33,7 @@ SensitivitiesOption = Annotated[
     typer.Option(
         "--sensitivities",
         help="Also by how much each input moves power loss, cage slip and life, as far as the scene models them; of a "
-        "line contact its film (the first time, this compiles for about a minute).",
+        "line contact its film (the first time, this compiles a second program).",
     ),
 ]
 
@@ -106,7 +106,7 @@ def solve(
 
 
 def _line_contact(wanted: tuple[str, Path] | None, model: "AbstractScene", scene: str) -> _Contact | None:
-    """The contact, if one is wanted; refused where there is none."""
+    """The contact that `--line-contact` names, checked; `None` without this option."""
     if wanted is None:
         return None
     from ..bearings.ball.scene import BallBearing
@@ -129,7 +129,7 @@ def _write_line_contact(
     from ..bearings.ball.line_contact_bridge import line_contact_of
     from ..bearings.solution import Solution
     from ..report.files import write_whole
-    from ..scenes.line_contact_writer import line_contact_text
+    from ..scenes.line_contact.writer import line_contact_text
     from ..scenes.overrides import split_assignments
     from ..scenes.reader import oil_origins
 

@@ -11,11 +11,11 @@ if TYPE_CHECKING:
     from ..sweeps.cases import Cases
 
 MAIN = ("power_loss_total", "film_central", "ring_radial", "ring_axial")
-"""Results of which the first that a sweep has is drawn."""
+"""Results in order of preference: the first one that a sweep has is drawn."""
 
 
 def check_plot(plot: Path | None, cases: "Cases", scene: "AbstractScene") -> None:
-    """Refuse, before anything is computed, a picture that cannot be drawn or written."""
+    """Refuses a picture that cannot be drawn or written before anything is computed."""
     if plot is None:
         return
     from ..machines import TwoDisk

@@ -1,4 +1,4 @@
-"""Which limit of the traction law a contact is near, and the closed forms there."""
+"""Limits of the traction law: the one that a contact is near, and the closed forms there."""
 
 import jax.numpy as jnp
 from jaxtyping import Array, Float

@@ -145,7 +145,8 @@ class _Elliptic(NamedTuple):
 
 
 def _elliptic(log_k: Array) -> _Elliptic:
-    """By the arithmetic-geometric mean; regular at m = 0, where K - E and E - (1 - m) K would cancel."""
+    """Complete elliptic integrals by the arithmetic-geometric mean. They are regular at m = 0, where K - E and
+    E - (1 - m) K would cancel."""
     m = -jnp.expm1(-2.0 * log_k)
     arithmetic, geometric = jnp.ones_like(log_k), jnp.exp(-log_k)
     excess = term = jnp.zeros_like(log_k)  # D/K = 1/2 + m excess

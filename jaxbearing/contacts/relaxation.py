@@ -45,7 +45,7 @@ def _sinh_root_jvp(primals, tangents):
 
 
 def _sinh_and_cosh(s: Array) -> tuple[Array, Array]:
-    """With one exponential, to round-off also where s is small."""
+    """sinh(s) and cosh(s) from one exponential, exact to round-off for small s too."""
     grown = jnp.expm1(s)
     shrunk = grown / (grown + 1.0)
     return 0.5 * (grown + shrunk), 1.0 + 0.5 * (grown - shrunk)

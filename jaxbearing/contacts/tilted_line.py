@@ -145,7 +145,7 @@ def _straight(f: Array, g: Array, length: Array) -> tuple[Array, Array]:
 
 @_straight.defjvp
 def _straight_jvp(primals, tangents):
-    """By the integrals of the slope, (10/9) delta^(1/9) s^m."""
+    """Derivatives by the integrals of the slope, (10/9) delta^(1/9) s^m."""
     (f, g, length), (f_dot, g_dot, length_dot) = primals, tangents
     load, moment = _straight(f, g, length)
     slopes = [EXPONENT * one for one in _sums(f, g, length, power=0, orders=3)]

@@ -11,7 +11,7 @@ from ..lubricants.viscosity import AbstractViscosity
 from .mesh import Mesh
 
 LARGEST_LOG_RATIO = 600.0
-"""ln(eta/eta_0) is cut here: exp(-600) is still a number; no flow is left long before."""
+"""Upper limit of ln(eta/eta_0): exp(-600) is still a normal number, and the flow vanishes long before."""
 
 
 class Fluid(eqx.Module):
@@ -45,7 +45,7 @@ class Fluid(eqx.Module):
 
 
 class Equations(eqx.Module):
-    r"""Parameters of the equations of one solve beside mesh and unknowns (dimensionless but for the fluid).
+    r"""Parameters of the equations of one solve besides mesh and unknowns, all dimensionless except those of the fluid.
 
     X = x/a, P = p/p_h, H = h R'/a^2, time t u_0/a; $\varepsilon = \bar\rho H^3 e^{-\ln(\eta/\eta_0)}/\lambda$,
     $m = \bar\rho H$, $\lambda = 12\eta_0 u_0 R'^2/(a^3 p_h)$, u_0 a fixed reference speed:
@@ -116,10 +116,10 @@ def reynolds_residual(
 
 
 def steady_equations(fluid: Fluid, wedge: Scalar, speed: Scalar, nodes: int) -> Equations:
-    """Equations without a time derivative."""
+    """The steady equations, which have no time derivative."""
     return Equations(fluid, wedge, speed, jnp.zeros(()), jnp.zeros(nodes))
 
 
 def held(equations: Equations) -> Equations:
-    """Without a gradient."""
+    """The same equations, held constant in differentiation."""
     return jax.lax.stop_gradient(equations)

@@ -16,7 +16,7 @@ SOLVER = "bdf2"
 
 
 class FilmHistory(eqx.Module):
-    """Film over time; the minimum is that of the nodes: a parabola may undershoot 0 at the kink of a stop."""
+    """Film over time. The minimum is the lowest value at a node: a parabola may undershoot 0 at the kink of a stop."""
 
     central: Float[Array, " time"] = eqx.field(metadata=label("m", "film at the centre"))
     minimum: Float[Array, " time"] = eqx.field(metadata=label("m", "smallest film"))
@@ -31,7 +31,7 @@ class PressureHistory(eqx.Module):
 
 
 class ProfileHistory(eqx.Module):
-    """Over the contact and time, x along the direction of positive speed."""
+    """Pressure and film over the contact and over time; x points along the direction of positive speed."""
 
     x: Float[Array, " node"] = eqx.field(metadata=label("m", "place along rolling, from the centre"))
     pressure: Float[Array, "time node"] = eqx.field(metadata=label("Pa", "pressure"))
@@ -46,7 +46,7 @@ class LineContactHistory(AbstractSolution):
     """
 
     of: ClassVar[str] = "line contact"
-    """Name of the thing that it is a state of, for messages."""
+    """Kind of the scenes that have this state, for messages."""
 
     status: Int[Array, ""] = eqx.field(metadata=label("1", "how the run ended"))
     time: Float[Array, " time"] = eqx.field(metadata=label("s", "time"))

@@ -16,13 +16,13 @@ from .mesh import Mesh, MeshKey, mesh
 from .stepping import Motion
 
 ALIKE = 1e-6
-"""Relative difference of loads and films up to which a state is one of a scene."""
+"""Largest relative difference of loads and films between a state and its scene."""
 _SAME_PLACE = 1e-9
 """Largest difference between nodes, half widths."""
 
 
 class FilmState(eqx.Module):
-    """From where another run can go on: `LineContactHistory.last_state`, or that of a file.
+    """The state from which another run can go on: `LineContactHistory.last_state`, or that of a file.
 
     **Arguments:** `x`: places of the nodes, m; values at the last three times, newest first: `pressure`, Pa, `offset`
     of the film, m, and `mass`, density over that at ambient pressure times film, m; `steps` between these times, s;
@@ -31,7 +31,7 @@ class FilmState(eqx.Module):
     """
 
     of: ClassVar[str] = "line contact"
-    """Name of the thing that it is a state of, for messages."""
+    """Kind of the scenes that have this state, for messages."""
 
     x: Float[Array | np.ndarray, " node"] = eqx.field(metadata=label("m", "place of the node along rolling"))
     time: Float[Array | np.ndarray, ""] = eqx.field(metadata=label("s", "time from which a run can go on"))
@@ -57,7 +57,7 @@ UNKNOWN = (
     "restart: the state does not say of which contact it is (an earlier version wrote it); only its mesh, its load and "
     "its film have been compared"
 )
-"""The note of such a run."""
+"""Note of a run that continues from a state without identity."""
 
 
 def state_of(motion: Motion, scales: Scales, key: MeshKey, scene: EHLLineContact) -> FilmState:
@@ -77,7 +77,7 @@ def state_of(motion: Motion, scales: Scales, key: MeshKey, scene: EHLLineContact
 
 
 def motion_of(state: FilmState, scales: Scales) -> Motion:
-    """The way back, also at another speed, which is the unit of time."""
+    """The motion from a state in SI units, also for another reference speed, which is the unit of time."""
     unit = scales.half_width / scales.reference_speed
     return Motion(
         jnp.asarray(state.time) / unit,

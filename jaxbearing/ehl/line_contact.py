@@ -19,7 +19,7 @@ from .simulation import FilmSimulation
 from .steady import Steady, existing
 
 SMALLEST_MOES_LOAD = 3.0
-"""Moes load number M below which a contact is all but rigid: its Hertz half width no longer measures the film, and the
+"""Moes load number M below which a contact is nearly rigid: its Hertz half width no longer measures the film, and the
 domain would have to be many times longer."""
 FEWEST_NODES, MOST_NODES = 51, 3201
 
@@ -184,7 +184,7 @@ class EHLLineContact(AbstractScene):
         )
 
     def fluid(self, scales: Scales) -> Fluid:
-        """The oil over this contact's pressure."""
+        """The oil as functions of this contact's dimensionless pressure."""
         temperature = jnp.asarray(self.operation.oil_temperature, dtype=float)
         return Fluid(self.oil.viscosity, temperature, scales.hertz_pressure, self.contact.compressible)
 

@@ -15,10 +15,10 @@ from .mesh import Mesh
 LONGEST_STEP = 0.3
 """Largest change of a pressure in one step, in Hertz pressures."""
 DEEPEST_FALL = 0.8
-"""Largest part of the film at a node that one step takes away."""
+"""Largest part of the film at a node that one step may remove."""
 
 ROUNDING = 1e-14
-"""A change of an unknown that is rounding."""
+"""Largest change of an unknown that counts as round-off."""
 
 
 class Root(NamedTuple):

@@ -28,11 +28,11 @@ from .steady import SteadyRoot, existing, judged, steady_root
 from .stepping import SEGMENT, Advanced, Drive, Motion, advance, at_rest
 
 LOOKS = 2_001
-"""Times at which the speed is looked at, to see whether it turns negative."""
+"""Number of times at which the speed is evaluated, to find out if it becomes negative."""
 
 
 class Begun(NamedTuple):
-    """A steady start, and what drives the run from there."""
+    """Steady start of a run, with the scales and the drive of the equations."""
 
     scales: Scales
     drive: Drive
@@ -118,7 +118,7 @@ def check_restart(scene: EHLLineContact, simulation: FilmSimulation, state: Film
 
 
 def _no_start(begun: Begun) -> str:
-    """Why there is no steady film, in words."""
+    """The reason why there is no steady film, in words."""
     root, scales = begun.root, begun.scales
     if bool(root.iterations):
         reason = f"Newton's last step was {float(root.step):.3g}"
@@ -232,7 +232,7 @@ def _length(
     chosen = simulation or scene.simulation or FilmSimulation()
     duration = duration if duration is not None else chosen.duration
     if duration is None:
-        raise ValueError("simulate needs a duration: give it, or name it in the scene's simulation")
+        raise ValueError("simulate needs a duration: pass one, or give the scene a simulation.duration")
     length = static_number("duration", duration, float)
     if not length > 0:
         raise ValueError(f"duration must be > 0 s, got {length:g}")
@@ -240,7 +240,10 @@ def _length(
 
 
 def _require_film(state: Any) -> None:
-    """**Raises:** `ValueError` for what is no state of a line contact."""
+    """Checks the kind of a state.
+
+    **Raises:** `ValueError` for a state that is not one of a line contact.
+    """
     if not isinstance(state, FilmState):
         found = getattr(state, "of", type(state).__name__)
         raise ValueError(f"restart: a state of a {found}, for a scene of a line contact")

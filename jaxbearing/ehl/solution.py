@@ -39,7 +39,7 @@ class HertzResult(eqx.Module):
 
 
 class Profile(eqx.Module):
-    """Over the contact, x along the direction of positive speed."""
+    """Pressure and film over the contact; x points along the direction of positive speed."""
 
     x: Float[Array, " node"] = eqx.field(metadata=label("m", "place along rolling, from the centre"))
     pressure: Float[Array, " node"] = eqx.field(metadata=label("Pa", "pressure"))
@@ -111,7 +111,7 @@ def central_weights(grid: Mesh) -> tuple[int, np.ndarray]:
 
 
 def central_value(values: Float[Array, " node"], grid: Mesh) -> Float[Array, ""]:
-    """At X = 0, by the parabola through three nodes."""
+    """Value at X = 0, by the parabola through three nodes."""
     i, weights = central_weights(grid)
     return jnp.sum(jnp.asarray(weights) * values[i : i + 3])
 
@@ -180,7 +180,10 @@ def solve_line_contact(scene: EHLLineContact, options: Any = None) -> LineContac
 
 
 def range_checks(scene: EHLLineContact, scales: Scales, film: Any = None) -> dict[str, Bool[Array, ""]]:
-    """Which ranges are left. **Arguments:** `film`: by Moes' formula, where it is known."""
+    """Range checks: text -> True if the range of a law or of the mesh is left.
+
+    **Arguments:** `film`: film thickness by Moes' formula, if it is known.
+    """
     temperature, (low, high) = jnp.asarray(scene.operation.oil_temperature), FITTED_TEMPERATURES
     ratio, model = scene.film_ratio(scales, film), scene.contact
     by_mesh, by_inlet = mesh_error(model.nodes, ratio, scales.moes_material), cut_error(model.inlet, ratio)

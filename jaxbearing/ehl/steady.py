@@ -11,6 +11,7 @@ from jaxtyping import Array, Bool, Float, Int
 
 from .._types import Scalar
 from ..numerics.dense import solve_dense
+from ..numerics.known_roots import at_known_root
 from ..numerics.status import Status
 from .equations import Equations, Fluid, Point, film_shape, steady_equations
 from .linear import Equilibrium, as_point, linearize
@@ -22,12 +23,12 @@ TOLERANCE = 1e-9
 MAX_STEPS = 60
 """Newton steps on one mesh."""
 COARSEST = 100
-"""A nested start begins with at least so many nodes."""
+"""Least number of nodes of the first mesh of a nested start."""
 SMALLEST_WEDGE = 1e-8
 """Smallest speed number lambda |u| of a steady solve. At rest there is no film: H is 0 in the whole contact and the
 Jacobian singular."""
 LOW_PRESSURE_SIDE = 1.2
-"""Half widths from the centre within which the first guess has its smallest film."""
+"""Region of the smallest film of the first guess: half widths from the centre."""
 
 
 class Steady(eqx.Module):
@@ -69,7 +70,7 @@ def _prolonged(point: Point, coarse: Mesh, fine: Mesh) -> Point:
 
 
 def _solve(problem: Steady, key: MeshKey) -> SteadyRoot:
-    """Every mesh starts from the one before it, or from Hertz where that failed."""
+    """Solves on meshes of growing size. Each starts from the one before it, or from Hertz if that one failed."""
     iterations, root, before = jnp.asarray(0), None, None
     for level in levels(key, COARSEST):
         grid = mesh(level)
@@ -93,7 +94,7 @@ def _solve(problem: Steady, key: MeshKey) -> SteadyRoot:
 
 
 @eqx.filter_custom_jvp
-def steady_root(problem: Steady, *, key: MeshKey) -> SteadyRoot:
+def _root(problem: Steady, *, key: MeshKey) -> SteadyRoot:
     """Solve; the derivative is that of the implicit function with the set of cavitated nodes held, in both modes.
 
     Where a node changes sides the true derivative jumps (a mesh effect of second order); nothing is differentiated
@@ -102,10 +103,26 @@ def steady_root(problem: Steady, *, key: MeshKey) -> SteadyRoot:
     return _solve(jax.lax.stop_gradient(problem), key)
 
 
-@steady_root.def_jvp
+@_root.def_jvp
 def _steady_root_jvp(primals, tangents, *, key: MeshKey):
     (problem,), (problem_dot,) = primals, tangents
-    root = steady_root(problem, key=key)
+    return _implicit(problem, problem_dot, _root(problem, key=key), key)
+
+
+@eqx.filter_custom_jvp
+def _known_root(problem: Steady, *, root: SteadyRoot, key: MeshKey) -> SteadyRoot:
+    """The root of a problem that was found before, with the derivatives of a root that is searched for."""
+    return root
+
+
+@_known_root.def_jvp
+def _known_root_jvp(primals, tangents, *, root: SteadyRoot, key: MeshKey):
+    (problem,), (problem_dot,) = primals, tangents
+    return _implicit(problem, problem_dot, _known_root(problem, root=root, key=key), key)
+
+
+def _implicit(problem: Any, problem_dot: Any, root: SteadyRoot, key: MeshKey) -> tuple[SteadyRoot, SteadyRoot]:
+    """A root and its directional derivative, by the implicit function theorem."""
     grid = mesh(key)
     # on the tangent that comes in, so that NaN of a failed lane reaches no parameter that lanes share
     problem_dot = jax.tree.map(lambda t: jnp.where(root.solved, t, 0.0), problem_dot)
@@ -124,8 +141,13 @@ def _directional(function: Callable, primals: tuple, tangents: tuple) -> Any:
     return jnp.zeros_like(value) if dot is None else dot
 
 
+def steady_root(problem: Steady, *, key: MeshKey) -> SteadyRoot:
+    """The root of `_root`, or one that is known."""
+    return at_known_root(lambda: _root(problem, key=key), lambda root, _: _known_root(problem, root=root, key=key))
+
+
 def existing(wedge: Scalar, speed: Scalar) -> Bool[Array, ""]:
-    """True if there is entrainment enough for a steady film."""
+    """True if the entrainment is large enough for a steady film."""
     return jnp.asarray(wedge * jnp.abs(speed) >= SMALLEST_WEDGE)
 
 

@@ -31,20 +31,20 @@ FIRST_STEP = 1e-4
 """First step that is tried, in a/u_0. Steps far below 1e-7 would show the rounding of m in the
 balance of mass (1e-8)."""
 SHORTEST_STEP = 1e-13
-"""A run whose steps would have to be shorter has failed, in a/u_0."""
+"""Shortest step, in a/u_0; a run that would need a shorter one has failed."""
 LARGEST_GROWTH, SMALLEST_GROWTH = 2.0, 0.2
 CLOSEST_KINK = 1e-6
-"""A kink of the speed that is nearer is passed over, in a/u_0."""
+"""Distance in time within which a kink of the speed is skipped, in a/u_0."""
 JUMP = 1e-9
 """Change of the speed at one time, over the reference speed, that is more than rounding."""
 SAFETY = 0.85
 AFTER_FAILURE = 0.3
-"""The part of a step that is tried after its equations were not solved."""
+"""Length of the next trial, over that of a step whose equations were not solved."""
 NEWTON_TOLERANCE = 1e-9
 """Largest change of an unknown by the last Newton step."""
 NEWTON_STEPS = 12
 SEGMENT = 32
-"""Steps that are taken in one go."""
+"""Number of steps that one call of the compiled program takes."""
 
 
 class Motion(NamedTuple):
@@ -56,7 +56,7 @@ class Motion(NamedTuple):
 
     time: Float[Array, ""]
     points: Point
-    """With a leading axis of three."""
+    """Unknowns at the last three times, with a leading axis of three."""
     masses: Float[Array, "3 node"]
     steps: Float[Array, "2"]
     known: Int[Array, ""]
@@ -171,7 +171,7 @@ def _select(condition: Array, new: object, old: object):
 
 
 def advance(drive: Drive, motion: Motion, stop: Float[Array, ""], mesh: Mesh) -> Advanced:
-    """Up to `SEGMENT` accepted steps, until `stop` (in a/u_0), the film limit, or a failure."""
+    """Takes up to `SEGMENT` accepted steps, until `stop` (in a/u_0), the film limit, or a failure."""
     empty = jax.tree.map(lambda leaf: jnp.zeros((SEGMENT, *leaf.shape[1:])), motion.points)
     rows = jnp.zeros(SEGMENT)
     begin = Advanced(

@@ -36,7 +36,7 @@ def groove_ratio(
 
 
 def roller_ratio(gamma: Scalar, constant: float) -> Float[Array, ""]:
-    """As `groove_ratio`, for rollers: `constant` 1.04 in ISO 281, 1.038 in ISO 16281."""
+    """Ratio of `groove_ratio` for rollers; `constant` is 1.04 in ISO 281 and 1.038 in ISO 16281."""
     require_numbers(SIZE_RATIOS, gamma=gamma)
     return jnp.asarray(constant * ((1.0 - gamma) / (1.0 + gamma)) ** (143.0 / 108.0))
 

@@ -124,7 +124,7 @@ class IntegratedPressureViscosity(AbstractPressureViscosity):
         super().__check_init__()
         if isinstance(self.viscosity, ConstantViscosity):
             raise ValueError(
-                "pressure_viscosity: a constant viscosity has no coefficient to integrate, its law is none"
+                "pressure_viscosity: a constant viscosity has no coefficient to integrate; use NoPressureViscosity"
             )
 
     def coefficient(self, temperature: Values) -> Batch:

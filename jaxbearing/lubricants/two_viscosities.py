@@ -4,7 +4,7 @@ import jax.numpy as jnp
 
 from .._types import Batch, Scalar, Values
 from ..numerics.arguments import require_numbers, require_temperature
-from ..numerics.checks import bounded, demand, given
+from ..numerics.checks import bounded, demand, numbers_or_none
 from ..numerics.safe import softplus_floor
 from .simple_viscosity import LOG_ROELANDS_VISCOSITY, ROELANDS_RATE, log_compression
 from .thermal import LinearDensity
@@ -66,7 +66,7 @@ class WaltherRoelands(AbstractViscosity):
 
     def __check_init__(self):
         super().__check_init__()
-        points = given(self.viscosity_1, self.viscosity_2, self.temperature_1, self.temperature_2)
+        points = numbers_or_none(self.viscosity_1, self.viscosity_2, self.temperature_1, self.temperature_2)
         if points is not None:
             demand(
                 "oil.viscosity must fall with the temperature between its two points",

@@ -32,7 +32,7 @@ from ..contacts.heated_film import heated_film
 from ..lubricants import Lubricant, NoPressureViscosity
 from ..lubricants.ranges import FITTED_PRESSURE, FITTED_TEMPERATURES
 from ..materials import Material, reduced_modulus
-from ..numerics.checks import RANGES, Checked, demand, functions
+from ..numerics.checks import RANGES, Checked, array_module, demand
 from ..numerics.precision import as_float
 from ..numerics.refusals import refuse_all
 from ..numerics.status import Status
@@ -160,7 +160,7 @@ def _require_each(name: str, values: Any, allowed: str) -> None:
     inside = RANGES[allowed].holds(values)
     demand(
         f"operation.{name} must be {allowed}",
-        functions(values).all(inside),
+        array_module(values).all(inside),
         lambda: f"operation.{name} must be {allowed}, got {np.asarray(values)[~np.asarray(inside)][0]:g}",
     )
 
@@ -338,8 +338,8 @@ class TwoDisk(AbstractScene):
 
 
 def solve_two_disk(scene: TwoDisk, options: Any = None) -> TwoDiskSolution:
-    """All curves of the scene's operation. `options` is there for the other scenes' sake: nothing is iterated here
-    but scalar roots."""
+    """The traction curves of the scene's operation. `options` has no effect: only scalar roots are iterated. It is
+    there because the solves of other scenes take it."""
     operation = scene.operation
     contact = scene.hertz
     load = operation.load

@@ -10,7 +10,7 @@ from jaxtyping import Array, Float
 from .._scene import label, number, optional_number
 from .._types import Scalar
 from ..materials import Material, catalogue_material
-from ..numerics.checks import Checked, demand, given
+from ..numerics.checks import Checked, demand, numbers_or_none
 from ..numerics.refusals import refuse_all
 from ..numerics.structure import choice
 from . import iso286
@@ -106,14 +106,14 @@ class Fits(Checked):
 
     def check_room(self, bore: Scalar | None, outside_diameter: Scalar | None) -> None:
         """**Raises:** `ValueError` where shaft or housing has no wall, or a class has no row for the diameter."""
-        shaft = given(bore, self.shaft_bore)
+        shaft = numbers_or_none(bore, self.shaft_bore)
         if shaft is not None and self.on_shaft:
             demand(
                 "fits.shaft_bore must be less than geometry.bore",
                 shaft[1] < shaft[0],
                 lambda: f"fits.shaft_bore must be less than geometry.bore, {shaft[0]:.6g} m, got {shaft[1]:.6g} m",
             )
-        wall = given(outside_diameter, self.housing_outside)
+        wall = numbers_or_none(outside_diameter, self.housing_outside)
         if wall is not None and self.in_housing:
             demand(
                 "fits.housing_outside must be more than geometry.outside_diameter",
@@ -138,7 +138,7 @@ class Fits(Checked):
 
 def _check_covered(name: str, tolerance: Any, diameter: Scalar | None) -> None:
     """**Raises:** `ValueError` where the tables do not have this diameter, as far as it is known."""
-    size = given(diameter)
+    size = numbers_or_none(diameter)
     # neither where none is given, nor where what is given has been refused
     if not isinstance(tolerance, str) or size is None:
         return

@@ -12,6 +12,7 @@ Axes of arrays: m unknowns of one element, g globals, k totals (sums of contribu
 """
 
 import abc
+from collections.abc import Callable
 from typing import NamedTuple, TypeVar
 
 import equinox as eqx
@@ -113,17 +114,17 @@ class AbstractArrowSystem(eqx.Module):
 
 
 class ArrowJacobian(NamedTuple):
-    """Blocks of the arrow. $A$ is `local`, $B$ `to_globals`, $C$ = `chain` `contributions`, $D$ `corner`.
+    """Blocks of the arrow. $A$ is `local`, $B$ `right_border`, $C$ = `chain` `contributions`, $D$ `corner`.
 
     - `local`: derivatives of the local residuals with respect to the element's unknowns.
-    - `to_globals`: derivatives of the local residuals with respect to the globals.
+    - `right_border`: derivatives of the local residuals with respect to the globals: the right border of the matrix.
     - `contributions`: derivatives of the contributions with respect to the element's unknowns.
     - `corner`: derivatives of the global residuals with respect to the globals.
     - `chain`: derivatives of the global residuals with respect to the totals.
     """
 
     local: Float[Array, "m m element"]
-    to_globals: Float[Array, "m g element"]
+    right_border: Float[Array, "m g element"]
     contributions: Float[Array, "k m element"]
     corner: Float[Array, "g g"]
     chain: Float[Array, "g k"]
@@ -147,25 +148,47 @@ def evaluate(system: AbstractArrowSystem, point: ArrowPoint) -> Equations:
 
 def linearize(system: AbstractArrowSystem, point: ArrowPoint) -> tuple[Equations, ArrowJacobian]:
     """Equations and Jacobian blocks, by forward autodiff with m + g tangents."""
-    m, n = point.elements.shape
-    g = point.globals.shape[0]
+    values, tangents, inner = element_tangents(system.element, point.elements, shared_by_elements(point))
+    return assembled(system, point, values, tangents, inner)
+
+
+def shared_by_elements(point: ArrowPoint) -> Float[Array, "g element"]:
+    """The globals, copied along the element axis."""
+    return jnp.broadcast_to(point.globals[:, None], (point.globals.shape[0], point.elements.shape[1]))
+
+
+def element_tangents(
+    element: Callable[[Array, Array], tuple[Array, Array, Array]],
+    unknowns: Float[Array, "m element"],
+    shared: Float[Array, "g element"],
+) -> tuple[Float[Array, "row element"], Float[Array, "row m+g element"], Array]:
+    """Local residuals and contributions to totals of `element`, their derivatives by the element's unknowns and the
+    globals, and its third result."""
+    m, n = unknowns.shape
+    width = m + shared.shape[0]
 
     def columns(v):
-        local, contribution, inner = system.element(v[:m], v[m:])
-        return jnp.concatenate([local, contribution]), inner
+        local, contribution, more = element(v[:m], v[m:])
+        return jnp.concatenate([local, contribution]), more
 
-    v = jnp.concatenate([point.elements, jnp.broadcast_to(point.globals[:, None], (g, n))])
-    seeds = jnp.broadcast_to(jnp.eye(m + g)[:, :, None], (m + g, m + g, n))
+    v = jnp.concatenate([unknowns, shared])
+    seeds = jnp.broadcast_to(jnp.eye(width)[:, :, None], (width, width, n))
     push = lambda seed: jax.jvp(columns, (v,), (seed,), has_aux=True)
-    values, tangents, inner = jax.vmap(push, out_axes=(None, 0, None))(seeds)
-    tangents = jnp.swapaxes(tangents, 0, 1)  # (m + k outputs, m + g inputs, element)
+    values, tangents, more = jax.vmap(push, out_axes=(None, 0, None))(seeds)
+    return values, jnp.swapaxes(tangents, 0, 1), more
 
+
+def assembled(
+    system: AbstractArrowSystem, point: ArrowPoint, values: Array, tangents: Array, inner: Array
+) -> tuple[Equations, ArrowJacobian]:
+    """Equations and Jacobian blocks from those of the elements (`element_tangents`)."""
+    m, g = point.elements.shape[0], point.globals.shape[0]
     totals = jnp.sum(values[m:], axis=1)
     global_part, pullback, global_inner = jax.vjp(system.global_residual, point.globals, totals, has_aux=True)
     direct, chain = jax.vmap(pullback)(jnp.eye(g)) if g else (jnp.zeros((0, 0)), jnp.zeros((0, len(totals))))
     jacobian = ArrowJacobian(
         local=tangents[:m, :m],
-        to_globals=tangents[:m, m:],
+        right_border=tangents[:m, m:],
         contributions=tangents[m:, :m],
         corner=direct + chain @ jnp.sum(tangents[m:, m:], axis=-1),
         chain=chain,
@@ -183,16 +206,16 @@ def empty_jacobian(system: AbstractArrowSystem, point: ArrowPoint) -> ArrowJacob
     )
 
 
-def _eliminated(jacobian: ArrowJacobian) -> tuple[Float[Array, "m g element"], Float[Array, "g g"]]:
+def eliminated(jacobian: ArrowJacobian) -> tuple[Float[Array, "m g element"], Float[Array, "g g"]]:
     """A^-1 B of every element, and the Schur complement."""
-    coupled = solve_blocks(jacobian.local, jacobian.to_globals)
+    coupled = solve_blocks(jacobian.local, jacobian.right_border)
     carried = jnp.sum(jnp.einsum("kmn,mgn->kgn", jacobian.contributions, coupled), axis=-1)
     return coupled, jacobian.corner - jacobian.chain @ carried
 
 
 def schur_complement(jacobian: ArrowJacobian) -> Float[Array, "g g"]:
     """D - sum_j C_j A_j^-1 B_j: stiffness of the globals with every element in equilibrium."""
-    return _eliminated(jacobian)[1]
+    return eliminated(jacobian)[1]
 
 
 def condensed(matrix: Float[Array, "g g"], count: int) -> Float[Array, "k k"]:
@@ -221,7 +244,7 @@ def uphill_step(
     if local.shape[0] <= UNROLLED_LIMIT:
         local, changed = with_positive_pivots(local)
     jacobian = jacobian._replace(local=local)
-    coupled, schur = _eliminated(jacobian)
+    coupled, schur = eliminated(jacobian)
     shifted, schur_changed = with_positive_pivots(schur)
     return _solved(jacobian, coupled, shifted, right), changed, schur_changed
 
@@ -231,7 +254,7 @@ def solve_arrow(jacobian: ArrowJacobian, right: ArrowPoint) -> ArrowPoint:
 
     Matrix and right side are eliminated apart: in one array, autodiff could not see that x is linear in `right`.
     """
-    coupled, schur = _eliminated(jacobian)
+    coupled, schur = eliminated(jacobian)
     return _solved(jacobian, coupled, schur, right)
 
 

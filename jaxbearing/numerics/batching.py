@@ -1,9 +1,9 @@
-"""A search in a batch takes lane after lane, where that is faster than all at once.
+"""Batched searches that take one lane after the other on a CPU, where this is faster than all lanes at once.
 
 Under `jax.vmap` a `while_loop` runs until its slowest lane has ended, and executes every branch of a `cond` for all of
-them. On a CPU, which gains little by working on lanes side by side, that made a batch of bearings up to 19 times slower
-than `jax.lax.map`. A search that goes through `in_turn` is mapped instead, under any `jax.vmap`; on other devices it is
-batched as usual. What is differentiated must not pass through: the derivative of a root stands outside of its search.
+them. A CPU gains little from this: a batch of bearings was up to 19 times slower than with `jax.lax.map`. A search that
+goes through `in_turn` is mapped under any `jax.vmap` on a CPU; on other devices it is batched as usual. Differentiated
+values must not pass through it: the derivative of a root is computed outside of its search.
 """
 
 from collections.abc import Callable
@@ -16,10 +16,10 @@ Result = TypeVar("Result")
 
 
 def in_turn(search: Callable[[Any], Result], given: Any) -> Result:
-    """`search(given)`, one lane after the other where it is batched on a CPU.
+    """`search(given)`; if it is batched on a CPU, one lane after the other.
 
-    **Arguments:** `search`: from a pytree to a pytree of arrays; it closes over nothing that is traced. `given`:
-    everything it depends on; not differentiated.
+    **Arguments:** `search`: function from a pytree to a pytree of arrays that closes over no traced value; `given`: all
+    values that it depends on, not differentiated.
     """
     arrays, static = eqx.partition(given, eqx.is_array)
     whole = lambda arrays: search(eqx.combine(arrays, static))

@@ -138,19 +138,19 @@ def _is_number(value: Any) -> bool:
     return isinstance(value, int | float | np.generic | np.ndarray | jax.Array | Tracer)
 
 
-def given(*values: Any) -> tuple[Any, ...] | None:
+def numbers_or_none(*values: Any) -> tuple[Any, ...] | None:
     """The values, known or traced; `None` if one is missing or is a placeholder (as in transformations of trees)."""
     return values if all(_is_number(value) for value in values) else None
 
 
 def known(*values: Any) -> tuple[float, ...] | None:
     """The values as floats; `None` if one is traced, missing or a placeholder."""
-    if given(*values) is None or any(isinstance(value, Tracer) for value in values):
+    if numbers_or_none(*values) is None or any(isinstance(value, Tracer) for value in values):
         return None
     return tuple(float(v) for v in values)
 
 
-def functions(*values: Any) -> Any:
+def array_module(*values: Any) -> Any:
     """The module whose functions take these values: `jax.numpy` if one is traced, else `numpy`. Rules that need a sine
     or a root call it."""
     return jnp if any(isinstance(value, Tracer) for value in values) else np
@@ -250,7 +250,7 @@ def check_inputs(scene: Any) -> InputChecks:
     return InputChecks((*record.numbers, *record.rules), flags, ~jnp.any(flags))
 
 
-def void(tree: Any, valid: Bool[Array, ""]) -> Any:
+def nan_unless(tree: Any, valid: Bool[Array, ""]) -> Any:
     """Replaces every number of the tree by NaN if the inputs are not valid, so that its solve ends at once."""
     return jax.tree.map(lambda leaf: jnp.where(valid, as_float(leaf), jnp.nan), tree)
 

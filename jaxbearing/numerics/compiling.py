@@ -1,4 +1,4 @@
-"""Programs that run a few times: compile time counts, run time does not."""
+"""Quick compilation of programs that run only a few times, so that compile time matters more than run time."""
 
 import functools
 from collections.abc import Callable
@@ -18,8 +18,8 @@ IDLE_PASSES = (
     "while-loop-constant-sinking",
     "while-loop-invariant-code-motion",
 )
-"""Passes of XLA that cost more than one run gains. What the reshape mover does the algebraic simplifier undoes: of a
-large program all passes ran 25 times, the most that XLA allows."""
+"""XLA passes that take more time than they save in one run. The algebraic simplifier undoes what the reshape mover
+does: on a large program both repeated until XLA's limit of 25 rounds."""
 _QUICK = {
     "xla_cpu_use_fusion_emitters": False,
     "xla_backend_optimization_level": 0,
@@ -27,17 +27,18 @@ _QUICK = {
     "xla_cpu_parallel_codegen_split_count": 4,
     "xla_disable_hlo_passes": ",".join(IDLE_PASSES),
 }
-"""On a CPU, XLA's older way to emit loops, and LLVM without its optimizations: a bearing compiles in 0.65 of the time
-and 0.4 of the processor time; its programs run 2 to 3 times slower, milliseconds for one solve. Without the passes
-above all of a first `jaxbearing solve` takes 0.75 to 0.95 of that. XLA cuts LLVM's work into 32 parts, each of which
-costs something: on two cores a large program in four parts takes 0.92 of the processor time. Four on every machine, as
-the number of parts changes last bits. None of it on a GPU, where the options stand for something else."""
+"""Compiler options for a CPU: XLA's older loop emitter, and LLVM without its optimizations.
+
+A bearing compiles in 0.65 of the time and 0.4 of the processor time. Its programs run 2 to 3 times slower, which is
+milliseconds for one solve. Without the passes above, a first `jaxbearing solve` takes 0.75 to 0.95 of that time in
+total. XLA splits LLVM's work into 32 parts, and each part has a cost: on two cores, a large program in four parts takes
+0.92 of the processor time. The number is four on every machine, because it changes the last bits of results. The
+options are not used on a GPU, where they have another meaning."""
 
 
 @functools.cache
 def quick_options() -> dict[str, Any]:
-    """Options of XLA for quick compilation, those that this jaxlib knows: jaxlib 0.12 has dropped the older way to emit
-    loops."""
+    """The options for quick compilation that this jaxlib knows; jaxlib 0.12 has no older loop emitter."""
     nothing = jax.jit(lambda: None).lower()
 
     def known(options: dict[str, Any]) -> bool:
@@ -53,19 +54,22 @@ def quick_options() -> dict[str, Any]:
 
 
 def is_tracing() -> bool:
-    """True while JAX traces a program: every new array is traced then. A number that is only moved compiles nothing."""
+    """True while JAX traces a program, when every new array is traced. The test moves a number and compiles nothing."""
     return isinstance(jax.device_put(np.zeros(())), Tracer)
 
 
 def inside_a_program(arguments: Any) -> bool:
-    """True while a program is being traced, or where one of the arguments is differentiated or batched: JAX takes
-    options of the compiler only from the outermost call, which is then not ours."""
+    """True while a program is being traced, or if one of the arguments is differentiated or batched.
+
+    JAX takes compiler options only from the outermost call, which is then not ours."""
     return any(isinstance(leaf, Tracer) for leaf in jax.tree.leaves(arguments)) or is_tracing()
 
 
 def compiled_by_hand(function: Callable[..., Any]) -> Callable[..., Any]:
-    """Compiles a law with a loop inside once for each shape where it is called by hand: JAX would compile the loop at
-    every call. Plain numbers are arrays then. Inside a program nothing changes."""
+    """Compiles a law that has a loop inside, once for each shape of its arguments.
+
+    Without this, JAX would compile the loop at every call from Python. Plain numbers become arrays. Calls inside a
+    program are not changed."""
     compiled = eqx.filter_jit(function)
 
     def number(leaf: Any) -> Any:
@@ -82,7 +86,7 @@ def compiled_by_hand(function: Callable[..., Any]) -> Callable[..., Any]:
 
 
 def quickly_compiled(function: Callable[..., Any]) -> Callable[..., Any]:
-    """`equinox.filter_jit(function)`, on a CPU compiled fast. Not to be called where `inside_a_program`."""
+    """`equinox.filter_jit(function)` with the quick options on a CPU. It must not be called `inside_a_program`."""
     ordinary = eqx.filter_jit(function)
 
     @functools.cache

@@ -1,4 +1,4 @@
-"""Continuation: a solve that fails at once begins with an easier system and walks from there to the one asked for.
+"""Continuation: if the first attempt fails, the solver starts from an easier system and walks to the one asked for.
 
 A system states one or more homotopies, `homotopy(parameter, path)`: at parameter 1 it is easy, at 0 it is itself. Each
 try walks along one of them in stages, every stage from where the last one ended.
@@ -14,31 +14,31 @@ from .arrow import AbstractArrowSystem, ArrowPoint, System
 from .newton_steps import choose
 
 LONGEST_STAGE = 0.25
-"""First length of a stage, in the homotopy's parameter."""
+"""Length of the first stage, in the homotopy parameter."""
 SHORTEST_STAGE = 0.02
-"""A try in which stages would have to be shorter than this has failed."""
+"""Lower limit of the length of a stage; a try that would need a shorter one has failed."""
 NOTHING_SOLVED = 2.0
-"""In the place of the parameter of the last stage solved."""
+"""Value of `solved_parameter` before any stage has been solved."""
 STAGES_PER_TRY = 3
-"""A stage starts near its end, and gets this part of the Newton steps of a first try."""
+"""The first try has this many times the Newton steps of a stage, which starts near its root."""
 MOST_STEPS = 4
-"""Newton steps of all continuations together, in units of `max_steps` a homotopy."""
+"""Newton steps of all continuations together, in units of `max_steps` for each homotopy."""
 
 
 class Continuation(NamedTuple):
-    """State of the tries: the first is at the system itself, each of the others walks along a homotopy."""
+    """State of the tries: the first one solves the system itself, each of the others follows one homotopy."""
 
     parameter: Float[Array, ""]
     """Homotopy parameter of the stage being solved; 0 in the first try."""
     solved_parameter: Float[Array, ""]
-    """Parameter of the last stage solved; above 1: none."""
+    """Parameter of the last stage that was solved; above 1 if there is none."""
     solved: ArrowPoint
     length: Float[Array, ""]
     """Length of this stage."""
     steps: Int[Array, ""]
     """Newton steps of this stage."""
     tries: Int[Array, ""]
-    """Begun; 1: at the system itself."""
+    """Number of tries begun; the first one is that of the system itself."""
 
     @classmethod
     def begun(cls, start: ArrowPoint) -> "Continuation":
@@ -51,7 +51,7 @@ class Continuation(NamedTuple):
 
     @property
     def at_system(self) -> Bool[Array, ""]:
-        """True where the stage is the system itself."""
+        """True if the stage is the system itself."""
         return self.parameter == 0.0
 
     def step_limit(self, max_steps: int) -> Int[Array, ""]:
@@ -60,7 +60,7 @@ class Continuation(NamedTuple):
 
 
 def first_guesses(system: AbstractArrowSystem) -> tuple[ArrowPoint, ArrowPoint]:
-    """First guess of the system, and those at parameter 1 of its homotopies, a leading axis over them."""
+    """Initial guess of the system, and those of its homotopies at parameter 1, with a leading axis over them."""
     homotopies = system.homotopies
     parameter, path = jnp.asarray([0.0] + [1.0] * homotopies), jnp.asarray([0, *range(homotopies)])
     guesses = jax.vmap(lambda e, w: system.homotopy(e, w).initial())(parameter, path)
@@ -69,10 +69,12 @@ def first_guesses(system: AbstractArrowSystem) -> tuple[ArrowPoint, ArrowPoint]:
 
 
 class StageEnd(NamedTuple):
-    """End of a Newton step for its stage.
+    """Result of a Newton step for its stage.
 
-    The root was found (`converged`); it `failed`; its root is one at which a nested solve fails (`hopeless`: this try
-    has come to its end, and another one may end elsewhere); no Newton steps are left for further stages (`spent`).
+    - `converged`: the root was found.
+    - `failed`: the stage has failed.
+    - `hopeless`: a nested solve fails at the root. This try ends; another one may find another root.
+    - `spent`: no Newton steps are left for further stages.
     """
 
     converged: Bool[Array, ""]
@@ -84,10 +86,14 @@ class StageEnd(NamedTuple):
 def advance(
     state: Continuation, steps: Int[Array, ""], end: StageEnd, trial: ArrowPoint, easiest: ArrowPoint, most_tries: int
 ) -> tuple[Continuation, Bool[Array, ""], ArrowPoint, Bool[Array, ""]]:
-    """The continuation after a Newton step, whether a stage begins anew, from which point, and whether all is lost.
+    """The continuation after a Newton step.
 
-    A stage that fails is tried again half as far from the last one that was solved, and so are those after it.
-    `easiest`: of `first_guesses`.
+    A stage that fails is tried again at half the distance from the last solved stage, and so are those after it.
+
+    **Arguments:** `steps`: Newton steps of this stage; `end`: result of the step; `trial`: the point it led to;
+    `easiest`: initial guesses of the homotopies, of `first_guesses`; `most_tries`: number of tries.
+
+    **Returns:** the new state; True if a stage starts; its starting point; True if no try is left.
     """
     found = end.converged & (state.parameter > 0.0)
     solved_parameter = jnp.where(found, state.parameter, state.solved_parameter)

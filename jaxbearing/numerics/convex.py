@@ -1,69 +1,77 @@
 r"""Block-arrow systems whose equations are the gradient of one convex potential: a start that cannot miss the minimum.
 
-Newton's direction on the potential, with a line search on the potential itself. Contacts that open have no stiffness:
-the systems add a spring to each block *from where it is* (`anchored`), which stabilises the step and vanishes from the
-equations, so that nothing of it is left in a balance.
+All searches use one step and one rule. The step is Newton's with a regularisation in proportion to the residual (Li,
+Fukushima, Qi and Yamashita, Comput. Optim. Appl. 28 (2004) 131): $(H + \frac{|r|}{\rho}C^{-1})s = r$, where C are the
+caps of the unknowns. Over the caps, it is hardly longer than the radius $\rho$; near the minimum, where the residual
+vanishes, it is Newton's. The rule (`_descent`): a trial is taken if the potential falls there. The radius grows after a
+trial that was taken and shrinks after another one.
+
+The unknowns descend all together (`descend`), each element descends by itself (`settle`), or the globals descend with
+all elements at their minima (`descend_settled`). Contacts that open have no stiffness: the systems add a spring to each
+block *from where it is* (`anchored`), which stabilises the step and vanishes from the equations. Nothing here is
+differentiated: a minimum is the start of an iteration.
 """
 
 import abc
-from typing import NamedTuple
+from collections.abc import Callable
+from typing import Any, NamedTuple
 
 import jax
 import jax.numpy as jnp
-import numpy as np
 from jaxtyping import Array, Bool, Float, Int
 
 from .arrow import (
     AbstractArrowSystem,
     ArrowJacobian,
     ArrowPoint,
+    assembled,
+    element_tangents,
+    eliminated,
     evaluate,
-    linearize,
-    schur_complement,
+    shared_by_elements,
     solve_arrow,
 )
 from .small_linear import solve_blocks, solve_dense
 
-TOGETHER = (1024.0, 22)
-"""First fraction of the capped step that is tried, and how many, each half of the one before: all at once."""
-SPLIT = (4.0, 8)
-"""The same for the step with each block capped alone: longer where an element flies freely, but not surely downhill."""
-STIFFENED = (16.0, 12)
-"""The same for the step with all diagonals stiffened: surely downhill, and no element flies."""
-STIFFENING = 1e-3
-"""Added to diagonals there, over the largest of them."""
-DAMPING, SETTLING = np.array([0.0, 1e-6, 1e-3, 1.0]), 0.25 ** np.arange(14)
-"""Added to the diagonals of each element alone, over the largest of them, and the fractions of each such step, after it
-was shortened to `FLIGHT` times its cap: an element that nothing touches has a direction, but no length to go."""
-FLIGHT = 256.0
-TRIED = np.array([256.0, 16.0, 1.0, 0.125, 0.01])
-"""Fractions of the capped step of the globals, all elements at their minima."""
-HARDENING = np.array([1e-10, 1e-5, 1e-1])
-"""Added to the diagonal of the globals' stiffness, relative to itself: rows of unequal scale keep theirs."""
-QUICK_STEPS, SETTLED_STEPS = 60, 60
-"""Most steps of the descent of all unknowns together, and of the globals with the elements at their minima."""
+FARTHEST = 256.0
+"""First and largest radius, in caps of a Newton step: an element that nothing touches has far to go."""
+LONGER, SHORTER = 8.0, 0.5
+"""Factors of the radius after a trial that was taken, and after one that was not. As many random tapered bearings
+converge with 3 and 0.5, 8 and 0.25, 30 and 0.5."""
+SHORTEST = 1e-13
+"""Shortest step, in caps: a shorter one is rounding, and ends the search."""
+FALLS, ROUNDING = 0.9, 1e-11
+"""A trial is also taken if it lowers the residual to the part `FALLS` and raises the potential by the part `ROUNDING`
+at most: near the minimum the fall of the potential is lost in rounding."""
+TOGETHER_TRIALS, SETTLED_TRIALS, ELEMENT_TRIALS = 80, 80, 300
+"""Most trials of `descend`, `descend_settled` and `settle`."""
+ELEMENT_TOLERANCE = 1e-12
+"""Largest scaled residual of an element that is settled."""
 OUTSIDE = 1e-3
 """Largest residual of the other equations, over the force that pushes a global over its bound."""
-FAST = 0.5
-"""A whole Newton step that lowers the potential, and the residual to this part, is taken without a search."""
 
 
 class AbstractConvexArrow(AbstractArrowSystem):
-    """A system whose residuals are, row by row and up to positive factors, the gradient of `potential`."""
+    """A system whose residuals are, block by block and up to positive factors, the gradient of `potential`."""
 
     @abc.abstractmethod
-    def energies(
+    def acting(
         self, unknowns: Float[Array, "m element"], shared: Float[Array, "g element"]
-    ) -> Float[Array, " element"]:
-        """Energy of each element and its contacts; arguments as those of `element`."""
+    ) -> tuple[Float[Array, "m element"], Float[Array, "k element"], Float[Array, " element"]]:
+        """Local residuals and contributions to the totals, as those of `element`, and the energy of each element."""
 
     @abc.abstractmethod
     def work(self, globals_: Float[Array, " g"]) -> Float[Array, ""]:
-        """Work of the loads on the globals."""
+        """Work of the loads on the globals, in the unit of the energies."""
+
+    def element(self, unknowns, shared):
+        local, contributions, _ = self.acting(unknowns, shared)
+        return local, contributions, jnp.zeros(())
 
     def potential(self, point: ArrowPoint) -> Float[Array, ""]:
-        """Convex, in any unit; need not be bounded below where there is no equilibrium."""
-        return jnp.sum(self.energies(point.elements, _shared(point))) - self.work(point.globals)
+        """Convex; need not be bounded below where there is no equilibrium."""
+        energies = self.acting(point.elements, shared_by_elements(point))[2]
+        return jnp.sum(energies) - self.work(point.globals)
 
 
 def anchored(value: Array, stiffness: float) -> Array:
@@ -71,141 +79,154 @@ def anchored(value: Array, stiffness: float) -> Array:
     return stiffness * (value - jax.lax.stop_gradient(value))
 
 
-class Descent(NamedTuple):
-    """The end of a descent.
+@jax.jit
+def _tangents(system: AbstractConvexArrow, unknowns: Array, shared: Array) -> tuple[Array, Array, Array]:
+    """Values of `acting`, their derivatives by unknowns and globals, and the energies. The compiled program contains
+    this function once, however often it is called."""
+    return element_tangents(system.acting, unknowns, shared)
 
-    `residual` is the largest scaled one that was still to be brought down where it was last looked at (with settled
-    elements: of the globals); `steps` counts Newton steps."""
+
+class _View(NamedTuple):
+    """What a search knows of a point: potential, largest scaled residual, and the blocks that give the step."""
+
+    energy: Float[Array, "*lane"]
+    size: Float[Array, "*lane"]
+    blocks: Any
+
+
+class _Search(NamedTuple):
+    """State of a search: the best point so far and its view; the next trial, at `length` from it in caps; the radius of
+    that step. Each element is a lane if the elements search alone; otherwise there is one lane (scalars)."""
+
+    trial: Any
+    length: Float[Array, "*lane"]
+    point: Any
+    view: _View
+    radius: Float[Array, "*lane"]
+    going: Bool[Array, "*lane"]
+    trials: Int[Array, ""]
+    steps: Int[Array, ""]
+
+
+def _descent(
+    look: Callable[[Any], tuple[Any, _View]],
+    step: Callable[[_View, Array], tuple[Any, Array]],
+    start: Any,
+    tolerance: float,
+    most: int,
+) -> _Search:
+    """Descends until the largest residual is below `tolerance`, until only rounding is left, or for `most` trials.
+
+    **Arguments:**
+    - `look`: trial -> the point that it leads to (itself, or with its elements settled), and the view of that point.
+    - `step`: (view, |r|/rho) -> step to be subtracted from the point, and its length in caps.
+    - `start`: a tree of arrays; if there are several lanes, they are the last axis of each array.
+    """
+
+    def advance(state: _Search) -> _Search:
+        point, view = look(state.trial)
+        old = state.view
+        rounded = (view.size <= FALLS * old.size) & (view.energy <= old.energy + ROUNDING * jnp.abs(old.energy))
+        taken = ((view.energy < old.energy) | rounded) & state.going
+        choose = lambda new, last: jax.lax.select(jnp.broadcast_to(taken, new.shape), new, last)
+        point, view = jax.tree.map(choose, (point, view), (state.point, old))
+        longer = jnp.minimum(LONGER * state.radius, FARTHEST)
+        radius = choose(longer, SHORTER * jnp.minimum(state.radius, state.length))
+        move, length = step(view, view.size / radius)
+        trial = jax.tree.map(jnp.subtract, point, move)
+        # if the start has no numbers, the length has none either, and the search ends
+        going = state.going & (view.size > tolerance) & (length > SHORTEST)
+        # the first trial is the start itself
+        stepped = (state.trials > 0) & jnp.any(taken)
+        return _Search(trial, length, point, view, radius, going, state.trials + 1, state.steps + stepped.astype(int))
+
+    blank = jax.tree.map(lambda leaf: jnp.zeros(leaf.shape, leaf.dtype), jax.eval_shape(look, start)[1])
+    nowhere = blank.energy + jnp.inf
+    view = blank._replace(energy=nowhere, size=nowhere)
+    none = jnp.asarray(0)
+    begin = _Search(start, nowhere, start, view, blank.energy + FARTHEST, nowhere > 0.0, none, none)
+    return jax.lax.while_loop(lambda state: jnp.any(state.going) & (state.trials < most), advance, begin)
+
+
+class Descent(NamedTuple):
+    """The end of a descent: the point, the largest scaled residual there (with settled elements: of the globals), and
+    the steps taken."""
 
     point: ArrowPoint
     residual: Float[Array, ""]
     steps: Int[Array, ""]
 
 
-class _State(NamedTuple):
-    point: ArrowPoint
-    residual: Array
-    steps: Array
-    going: Bool[Array, ""]
-
-
-def descend(system: AbstractConvexArrow, guess: ArrowPoint, *, tolerance: float, max_steps: int) -> Descent:
-    """Towards the minimum of the potential, until the scaled residual is below `tolerance`, or until no trial along
-    Newton's direction lowers the potential (round-off). Not differentiated: the start of an iteration."""
+def descend(system: AbstractConvexArrow, guess: ArrowPoint, *, tolerance: float, trials: int) -> Descent:
+    """Descends towards the minimum of the potential with all unknowns together; `bounds` do not hold it."""
     system, guess = jax.lax.stop_gradient((system, guess))
-    ways = (TOGETHER, SPLIT, STIFFENED)
-    fractions = jnp.asarray(np.concatenate([first * 0.5 ** np.arange(count) for first, count in ways]))
-    way_of = jnp.asarray(np.repeat(np.arange(len(ways)), [count for _, count in ways]))
+    caps = system.step_caps()
 
-    def advance(state: _State) -> _State:
-        equations, jacobian = linearize(system, state.point)
-        together, split = _capped(system, solve_arrow(jacobian, equations.residual))
-        residual, whole = _largest(equations.residual), jax.tree.map(jnp.subtract, state.point, together)
-        value, at_whole = jax.vmap(system.potential)(_stacked(state.point, whole))
-        gain = _largest(evaluate(system, whole).residual) <= FAST * residual
-        fast = gain & (at_whole < value)
+    def look(point: ArrowPoint) -> tuple[ArrowPoint, _View]:
+        values, tangents, energies = _tangents(system, point.elements, shared_by_elements(point))
+        equations, jacobian = assembled(system, point, values, tangents, jnp.zeros(()))
+        energy = jnp.sum(energies) - system.work(point.globals)
+        return point, _View(energy, _largest(equations.residual), (equations.residual, jacobian))
 
-        def search(_):
-            stiff, _ = _capped(system, solve_arrow(_stiffened(jacobian), equations.residual))
-            steps = _stacked(together, split, stiff)
-            move = lambda t, way: jax.tree.map(lambda y, s: y - t * s[way], state.point, steps)
-            values = jax.vmap(lambda t, way: system.potential(move(t, way)))(fractions, way_of)
-            values = jnp.where(jnp.isfinite(values), values, jnp.inf)
-            best = jnp.argmin(values)
-            return move(fractions[best], way_of[best]), values[best] < value
+    def step(view: _View, stiffening: Array) -> tuple[ArrowPoint, Array]:
+        residual, jacobian = view.blocks
+        move = solve_arrow(_stiffened(jacobian, caps, stiffening), residual)
+        over = [jnp.max(jnp.abs(part) / cap, initial=0.0) for part, cap in zip(move, caps, strict=True)]
+        return move, jnp.maximum(*over)
 
-        trial, lower = jax.lax.cond(fast, lambda _: (whole, jnp.asarray(True)), search, None)
-        go = lower & (residual > tolerance)
-        point = ArrowPoint(*(jnp.where(go, new, old) for new, old in zip(trial, state.point, strict=True)))
-        return _State(point, residual, state.steps + go.astype(int), go)
-
-    start = _State(guess, jnp.asarray(jnp.inf), jnp.asarray(0), jnp.asarray(True))
-    end = jax.lax.while_loop(lambda s: s.going & (s.steps < max_steps), advance, start)
-    # that of a descent which was cut short is the one before its last step
-    return Descent(end.point, end.residual, end.steps)
+    end = _descent(look, step, guess, tolerance, trials)
+    return Descent(end.point, end.view.size, end.steps)
 
 
-class _Settling(NamedTuple):
-    elements: Array
-    going: Bool[Array, " element"]
-    steps: Array
-
-
-def settle(
-    system: AbstractConvexArrow, point: ArrowPoint, *, tolerance: float = 1e-8, max_steps: int = 40
-) -> ArrowPoint:
-    """Every element at the minimum of its own energy, the globals where they are: the best of several dampings and
-    lengths of Newton's step, each element its own."""
-    shared = _shared(point)
+def settle(system: AbstractConvexArrow, point: ArrowPoint) -> ArrowPoint:
+    """The point with every element at the minimum of its own energy, for the given globals. Each element takes its own
+    steps."""
+    system, point = jax.lax.stop_gradient((system, point))
     m = point.elements.shape[0]
-    fractions = jnp.asarray(SETTLING)[None, :, None, None]
-    seeds = jnp.broadcast_to(jnp.eye(m)[:, :, None], (m, *point.elements.shape))
+    shared, caps = shared_by_elements(point), system.step_caps().elements
 
-    def advance(state: _Settling) -> _Settling:
-        residual, push = jax.linearize(lambda u: system.element(u, shared)[0], state.elements)
-        local = jnp.swapaxes(jax.vmap(push)(seeds), 0, 1)
-        scale = jnp.max(jnp.abs(jnp.einsum("mmn->mn", local)), axis=0)
-        identity = scale[None, None, :] * jnp.eye(m)[:, :, None]
-        along = lambda damping: solve_blocks(local + damping * identity, residual[:, None, :])
-        ways = jax.vmap(along)(jnp.asarray(DAMPING))[:, :, 0]
-        longest = FLIGHT * system.step_caps().elements[None]
-        ways = ways / jnp.maximum(jnp.max(jnp.abs(ways) / longest, axis=1, keepdims=True), 1.0)
-        trials = (state.elements[None, None] - fractions * ways[:, None]).reshape(-1, *state.elements.shape)
-        values = jax.vmap(lambda u: system.energies(u, shared))(jnp.append(state.elements[None], trials, 0))
-        here, values = values[0], jnp.where(jnp.isfinite(values), values, jnp.inf)[1:]
-        best = jnp.argmin(values, axis=0)
-        lower = jnp.take_along_axis(values, best[None], axis=0)[0] < here
-        going = state.going & lower & (jnp.max(jnp.abs(residual), axis=0) > tolerance)
-        moved = jnp.take_along_axis(trials, best[None, None, :], axis=0)[0]
-        return _Settling(jnp.where(going, moved, state.elements), going, state.steps + 1)
+    def look(elements: Array) -> tuple[Array, _View]:
+        values, tangents, energies = _tangents(system, elements, shared)
+        blocks = jnp.concatenate([values[:m, None], tangents[:m, :m]], axis=1)
+        return elements, _View(energies, jnp.max(jnp.abs(values[:m]), axis=0), blocks)
 
-    start = _Settling(point.elements, jnp.ones(point.elements.shape[1], dtype=bool), jnp.asarray(0))
-    end = jax.lax.while_loop(lambda s: jnp.any(s.going) & (s.steps < max_steps), advance, start)
-    return ArrowPoint(end.elements, point.globals)
+    def step(view: _View, stiffening: Array) -> tuple[Array, Array]:
+        residual, local = view.blocks[:, :1], view.blocks[:, 1:]
+        move = solve_blocks(local + jnp.eye(m)[:, :, None] * (stiffening[None] / caps)[None], residual)[:, 0]
+        return move, jnp.max(jnp.abs(move) / caps, axis=0)
+
+    end = _descent(look, step, point.elements, ELEMENT_TOLERANCE, ELEMENT_TRIALS)
+    return ArrowPoint(end.point, point.globals)
 
 
-def descend_settled(system: AbstractConvexArrow, guess: ArrowPoint, *, tolerance: float, max_steps: int) -> Descent:
-    """As `descend`, but of the globals alone, all elements at their minima at every trial: dearer a step, and not held
-    up by elements that hardly touch. Globals stay within `bounds`: where one ends at its bound and its equation pushes
-    outwards, the minimum is outside, as the potential is convex."""
+def descend_settled(system: AbstractConvexArrow, guess: ArrowPoint, *, tolerance: float, trials: int) -> Descent:
+    """Descends with the globals alone, all elements at their minima at every trial: a step is dearer than one of
+    `descend`, and elements that hardly touch do not hold it up. The globals stay within `bounds`: if one ends at its
+    bound and its equation pushes outwards, the minimum is outside, as the potential is convex."""
     system, guess = jax.lax.stop_gradient((system, guess))
+    caps = system.step_caps().globals
     low, high = (bound.globals for bound in system.bounds())
-    fractions = jnp.asarray(TRIED)
 
-    def advance(state: _State) -> _State:
-        equations, jacobian = linearize(system, state.point)
-        ring = state.point.globals
-        held = pushed_out(system, state.point, equations.residual)
-        free = (~held).astype(float)
-        schur = schur_complement(jacobian) * free[:, None] * free[None, :] + jnp.diag(held.astype(float))
-        right = equations.residual.globals * free
-        # in equilibrium the elements' residuals count no more
-        size = jnp.max(jnp.abs(right))
-        diagonal = jnp.diag(jnp.diagonal(schur))
-        steps = jax.vmap(lambda damping: solve_dense(schur + damping * diagonal, right))(jnp.asarray(HARDENING))
-        over = jnp.max(jnp.abs(steps) / system.step_caps().globals[None, :], axis=1, keepdims=True)
-        steps = steps / jnp.maximum(over, 1.0)
-        steps = (fractions[None, :, None] * steps[:, None, :]).reshape(-1, ring.shape[0])
-        coupled = solve_blocks(jacobian.local, jacobian.to_globals)
+    def look(point: ArrowPoint) -> tuple[ArrowPoint, _View]:
+        inside = ArrowPoint(point.elements, jnp.clip(point.globals, low, high))
+        point = settle(system, inside)
+        values, tangents, energies = _tangents(system, point.elements, shared_by_elements(point))
+        equations, jacobian = assembled(system, point, values, tangents, jnp.zeros(()))
+        held = pushed_out(system, point, equations.residual).astype(float)
+        coupled, schur = eliminated(jacobian)
+        right = equations.residual.globals * (1.0 - held)
+        matrix = schur * (1.0 - held)[:, None] * (1.0 - held)[None, :] + jnp.diag(held)
+        energy = jnp.sum(energies) - system.work(point.globals)
+        # the elements are in equilibrium: only the residuals of the globals count
+        return point, _View(energy, jnp.max(jnp.abs(right)), (right, matrix, coupled))
 
-        def moved(step):
-            to = jnp.clip(ring - step, low, high)
-            follow = jnp.einsum("mgn,g->mn", coupled, to - ring)
-            return settle(system, ArrowPoint(state.point.elements - follow, to))
+    def step(view: _View, stiffening: Array) -> tuple[ArrowPoint, Array]:
+        right, matrix, coupled = view.blocks
+        move = solve_dense(matrix + jnp.diag(stiffening / caps), right)
+        return ArrowPoint(-jnp.einsum("mgn,g->mn", coupled, move), move), jnp.max(jnp.abs(move) / caps)
 
-        trials = jax.vmap(moved)(steps)
-        points = jax.tree.map(lambda here, there: jnp.append(here[None], there, 0), state.point, trials)
-        values = jax.vmap(system.potential)(points)
-        here, values = values[0], jnp.where(jnp.isfinite(values), values, jnp.inf)[1:]
-        best = jnp.argmin(values)
-        go = (values[best] < here) & (size > tolerance)
-        point = ArrowPoint(*(jnp.where(go, new[best], old) for new, old in zip(trials, state.point, strict=True)))
-        return _State(point, size, state.steps + go.astype(int), go)
-
-    inside = ArrowPoint(guess.elements, jnp.clip(guess.globals, low, high))
-    start = _State(settle(system, inside), jnp.asarray(jnp.inf), jnp.asarray(0), jnp.asarray(max_steps > 0))
-    end = jax.lax.while_loop(lambda s: s.going & (s.steps < max_steps), advance, start)
-    return Descent(end.point, end.residual, end.steps)
+    end = _descent(look, step, guess, tolerance, trials)
+    return Descent(end.point, end.view.size, end.steps)
 
 
 class Minimum(NamedTuple):
@@ -228,8 +249,8 @@ def find_minimum(system: AbstractConvexArrow, *, tolerance: float, hopeless: Boo
     first = system.initial()
     if not first.globals.size:
         return Minimum(settle(system, first), jnp.asarray(0), jnp.asarray(False))
-    quick = descend(system, first, tolerance=tolerance, max_steps=QUICK_STEPS)
-    slowly = lambda _: descend_settled(system, quick.point, tolerance=tolerance, max_steps=SETTLED_STEPS)
+    quick = descend(system, first, tolerance=tolerance, trials=TOGETHER_TRIALS)
+    slowly = lambda _: descend_settled(system, quick.point, tolerance=tolerance, trials=SETTLED_TRIALS)
     low, high = (bound.globals for bound in system.bounds())
     inside = jnp.all((quick.point.globals >= low) & (quick.point.globals <= high))
     done = ((quick.residual <= tolerance) & inside) | hopeless
@@ -249,31 +270,9 @@ def pushed_out(system: AbstractConvexArrow, point: ArrowPoint, residual: ArrowPo
     return ((ring >= high) & (push < 0)) | ((ring <= low) & (push > 0))
 
 
-def _stacked(*points: ArrowPoint) -> ArrowPoint:
-    return jax.tree.map(lambda *leaves: jnp.stack(leaves), *points)
-
-
-def _shared(point: ArrowPoint) -> Array:
-    return jnp.broadcast_to(point.globals[:, None], (point.globals.shape[0], point.elements.shape[1]))
-
-
-def _stiffened(jacobian: ArrowJacobian) -> ArrowJacobian:
-    m, g = jacobian.local.shape[0], jacobian.corner.shape[0]
-    local = STIFFENING * jnp.max(jnp.abs(jnp.einsum("mmn->mn", jacobian.local)), initial=0.0)
-    corner = STIFFENING * jnp.max(jnp.abs(jnp.diagonal(jacobian.corner)))
-    return jacobian._replace(
-        local=jacobian.local + local * jnp.eye(m)[:, :, None], corner=jacobian.corner + corner * jnp.eye(g)
-    )
-
-
-def _capped(system: AbstractArrowSystem, step: ArrowPoint) -> tuple[ArrowPoint, ArrowPoint]:
-    """The step shortened as a whole, direction kept, to the caps; and each block alone."""
-    caps = system.step_caps()
-    over = lambda s, c: jnp.maximum(jnp.max(jnp.abs(s) / c, axis=0, initial=0.0, keepdims=True), 1.0)
-    each, ring = over(step.elements, caps.elements), over(step.globals, caps.globals)
-    whole = jnp.maximum(jnp.max(each, initial=1.0), jnp.max(ring))
-    together = ArrowPoint(step.elements / whole, step.globals / whole)
-    return together, ArrowPoint(step.elements / each, step.globals / ring)
+def _stiffened(jacobian: ArrowJacobian, caps: ArrowPoint, stiffening: Array) -> ArrowJacobian:
+    local, corner = jnp.diag(stiffening / caps.elements[:, 0]), jnp.diag(stiffening / caps.globals)
+    return jacobian._replace(local=jacobian.local + local[:, :, None], corner=jacobian.corner + corner)
 
 
 def _largest(residual: ArrowPoint) -> Array:

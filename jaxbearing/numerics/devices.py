@@ -1,4 +1,4 @@
-"""Lanes shared out among the devices of this process."""
+"""Distribution of the lanes of a batch over the devices of this process."""
 
 from collections.abc import Callable
 from typing import Any
@@ -11,12 +11,17 @@ AXIS = "lane"
 
 
 def shared_out(run: Callable[..., Any]) -> Callable[..., Any]:
-    """A function of lanes (a pytree with the lanes in front of every array) and of what all lanes share, of which each
-    device runs a part for itself; unchanged where there is one device, or the lanes are no multiple of the devices.
+    """The function, run by each device for its part of the lanes.
 
-    For the inside of `jax.jit`, where `may_be_shared_out` says so of what is given from outside. On a CPU, two devices
-    on two cores go through lanes in step (`vmap`) in half of the time of one, which shares out its small operations
-    one by one.
+    It is used inside of `jax.jit`, if `may_be_shared_out` is True for the arguments of the outermost call. On a CPU,
+    two devices on two cores take half of the time of one device for lanes in step (`vmap`), because one device
+    distributes each small operation by itself.
+
+    **Arguments:** `run`: function of a pytree with the lanes in front of every array, and of values that all lanes
+    share.
+
+    **Returns:** the same function; it is not distributed if there is one device, or if the number of lanes is no
+    multiple of the number of devices.
     """
 
     def split(lanes: Any, *shared: Any) -> Any:
@@ -32,8 +37,8 @@ def shared_out(run: Callable[..., Any]) -> Callable[..., Any]:
 
 
 def may_be_shared_out(given: Any) -> bool:
-    """True if nobody has chosen devices already: by `jax.device_put`, by a mesh, by a default, or by a transformation
-    of JAX around the call, of which nothing is known."""
+    """True if no devices have been chosen yet, by `jax.device_put`, a mesh, a default, or a transformation of JAX
+    around the call (of which nothing is known)."""
     if getattr(jax.config, "jax_default_device", None) is not None or not jax.sharding.get_abstract_mesh().empty:
         return False
     chosen = lambda leaf: isinstance(leaf, Tracer) or getattr(leaf, "committed", False)

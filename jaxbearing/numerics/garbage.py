@@ -1,4 +1,4 @@
-"""Python's collector of garbage, which looks again and again through what imports and traces make."""
+"""Fewer runs of Python's garbage collector, which would search the objects of imports and traces again and again."""
 
 import gc
 import threading
@@ -6,11 +6,12 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 
 RARELY = (100_000, 20, 10)
-"""New objects that Python's collector of garbage waits for, and collections of the young before one of the older."""
+"""Thresholds of Python's garbage collector: new objects before a collection, and collections before one of older
+objects."""
 
 
 class _Depth:
-    """Holds how many are inside `rare_garbage_collection`, of all threads, and the thresholds of before."""
+    """Number of blocks of all threads inside `rare_garbage_collection`, and the thresholds before the first one."""
 
     lock = threading.Lock()
     inside = 0
@@ -19,9 +20,11 @@ class _Depth:
 
 @contextmanager
 def rare_garbage_collection() -> Iterator[None]:
-    """Traces programs in 0.65 of the time: a trace makes millions of objects that live until it ends, and Python's
-    collector of garbage would look through them again and again. The thresholds are those of the process: the first
-    thread in sets them, the last one out sets them back."""
+    """Context in which programs are traced in 0.65 of the time.
+
+    A trace makes millions of objects that live until it ends, and the garbage collector would search them again and
+    again. Its thresholds belong to the process: the first thread that enters sets them, and the last one that leaves
+    restores them."""
     with _Depth.lock:
         if _Depth.inside == 0:
             _Depth.before = gc.get_threshold()

@@ -1,13 +1,13 @@
-r"""Differential equations through diffrax: a solver by its name, one tolerance, and a status instead of an exception.
+r"""Integration of differential equations by diffrax: a solver by its name, one tolerance, a status and no exception.
 
 The state is an `ArrowPoint`, elements and globals, in units in which one tolerance serves for all components: the step
 control compares each error with $\epsilon(1 + |y|)$. Implicit solvers (Kvaerno's ESDIRK methods, implicit Euler) solve
-their stage equations by Newton with the block-arrow elimination of `lineax_solver`, O(number of elements), or with a
-dense one. Where algebraic unknowns couple all elements, the arrow misses a term of low rank: Newton then converges a
-little more slowly, to the same stages (and gradients want the dense elimination).
+their stage equations by Newton's method, with the block-arrow elimination of `lineax_solver`, O(number of elements), or
+with a dense one. If algebraic unknowns couple all elements, the arrow lacks a term of low rank: Newton's method then
+converges a little more slowly to the same stages, and gradients need the dense elimination.
 
-A run goes segment by segment (`integrate_segment`): whoever runs it can show progress, keep what was computed, and stop
-in between.
+A run consists of segments (`integrate_segment`). Between two of them the caller can show progress, keep results, and
+stop.
 """
 
 from typing import Any, NamedTuple
@@ -38,11 +38,14 @@ _CLASSES: dict[str, Any] = {
 
 
 STAGE_ERROR = 1.0
-"""Error to which stage equations are solved, in units of the tolerance."""
+"""Error of the stage equations, in units of the tolerance."""
 
 
 def diffrax_solver(options: IntegratorOptions, idle: int = 0) -> Any:
-    """The solver of diffrax that the name stands for. **Arguments:** `idle`: see `lineax_solver.BlockArrow`."""
+    """The solver of diffrax for a name of `SOLVERS`.
+
+    **Arguments:** `idle`: see `lineax_solver.BlockArrow`.
+    """
     kind = _CLASSES[options.solver]
     if options.solver not in IMPLICIT:
         return kind()
@@ -55,7 +58,8 @@ def diffrax_solver(options: IntegratorOptions, idle: int = 0) -> Any:
 
 
 class _Problem(NamedTuple):
-    """Problem for diffrax: vector field, solver, state and arguments; the norm of an error; the state proper."""
+    """Problem for diffrax: vector field, solver, state, arguments, norm of an error, and `proper`, the function that
+    takes the state of the run from that of the solver."""
 
     field: Any
     solver: Any
@@ -114,15 +118,15 @@ def integrate_segment(
     adjoint: Any = None,
     idle: int = 0,
 ) -> Segment:
-    """Integrate from `start` to the last of `times`; never raises for a run that fails.
+    """Integrates from `start` to the last of `times`; a run that fails has a status and raises no exception.
 
     **Arguments:**
-    - `field(t, y, args)`: rates; NaN makes the step be rejected and shortened. With a solve inside a `NestedField`:
-      explicit solvers then begin it with what they found before.
-    - `times`: increasing, after `start`.
-    - `first_step`, s; chosen where not given.
-    - `idle`: number of globals, the last ones, that are integrals along the way: nothing depends on them.
-    - `adjoint`: of diffrax, for gradients; reverse mode with checkpoints where not given.
+    - `field(t, y, args)`: rates; after NaN the step is rejected and shortened. In a `NestedField`, explicit solvers
+      start the solve inside from its extrapolated last solution.
+    - `times`: increasing, after `start`, s.
+    - `first_step`: s; left out: diffrax chooses it.
+    - `idle`: number of globals at the end that are integrals along the way, on which nothing depends.
+    - `adjoint`: an adjoint of diffrax, for gradients; left out: reverse mode with checkpoints.
     """
     tolerance = jnp.asarray(options.tolerance)
     problem = _problem(field, state, start, args, options, idle)
@@ -170,7 +174,7 @@ def integrate_segment(
 
 
 def _status(result: Any, last: ArrowPoint) -> Int[Array, ""]:
-    """Out of steps is not converged; steps that shrink to nothing, and states that are not finite, have diverged."""
+    """Status of a run: not converged if steps ran out, diverged if they became too short or a state is not finite."""
     finite: Bool[Array, ""] = jnp.all(jnp.isfinite(last.elements)) & jnp.all(jnp.isfinite(last.globals))
     good = (result == dfx.RESULTS.successful) & finite
     ran_out = (result == dfx.RESULTS.max_steps_reached) & finite

@@ -1,4 +1,4 @@
-"""Options and results of an integration in time; apart from `integrate`, which pulls in diffrax."""
+"""Options and results of an integration in time. They are apart from `integrate`, which imports diffrax."""
 
 from collections.abc import Callable
 from typing import Any, Literal, NamedTuple, get_args
@@ -18,10 +18,10 @@ Field = Callable[[Any, ArrowPoint, Any], ArrowPoint]
 
 
 class NestedField(NamedTuple):
-    """A vector field with a solve inside, which goes on from a guess.
+    """A vector field with equations that are solved inside it, from a guess of their solution.
 
-    - `rates(time, state, args, guess, tolerance)`: rates, and what the solve found; `tolerance`: of the integration.
-    - `guess(time, state, args)`: a first guess of that, for a state that nothing is known about.
+    - `rates(time, state, args, guess, tolerance)`: rates, and the solution inside; `tolerance`: of the integration.
+    - `guess(time, state, args)`: first guess of the solution, for a state that nothing is known about.
     """
 
     rates: Callable[[Any, ArrowPoint, Any, ArrowPoint, Scalar], tuple[ArrowPoint, ArrowPoint]]
@@ -33,10 +33,10 @@ class IntegratorOptions(Checked):
 
     **Arguments:**
     - `solver`: one of `SOLVERS`.
-    - `tolerance`: relative, and absolute in the units of the state.
-    - `max_steps`: of one segment, rejected ones included.
-    - `elimination`: of the stage equations of implicit solvers: "arrow", or "dense" for comparison.
-    - `shortest_step`: s; a run whose steps would have to be shorter has failed.
+    - `tolerance`: relative tolerance, and absolute one in the units of the state.
+    - `max_steps`: limit of the steps of one segment, rejected ones included.
+    - `elimination`: elimination of the stage equations of implicit solvers: "arrow", or "dense" for comparison.
+    - `shortest_step`: lower limit of the step, s; a run that would need a shorter one has failed.
     """
 
     solver: str = choice("solver", SOLVERS, "tsit5")
@@ -47,9 +47,12 @@ class IntegratorOptions(Checked):
 
 
 class Segment(NamedTuple):
-    """States at the times asked for (inf beyond the place where it stopped), the last state reached, and how it ended.
+    """Result of one segment of an integration.
 
-    `step`: mean accepted step, s, with which the next segment may begin.
+    - `states`: at the given times; infinite behind the time at which the segment stopped.
+    - `last`, `last_time`: last state that was reached, and its time, s.
+    - `status`: how the segment ended; `accepted`, `rejected`: numbers of steps.
+    - `step`: mean accepted step, s, with which the next segment may begin.
     """
 
     states: ArrowPoint

@@ -1,9 +1,9 @@
 """Ctrl-C while compiled programs run, and while files are written.
 
-Python's own way, an exception at any place, does not suit a process with XLA in it: the exception leaves the call, a
-thread goes on compiling or computing, and where the interpreter then ends the program is taken from under that thread
-(signal 11). An extension module that was being loaded ends in the same way. So a command ends at once, without
-unwinding (`end_command_at_interrupt`), and what has results to keep is told, and stops where nothing is under way
+Python raises an exception at any place, which does not suit a process that runs XLA. The exception leaves the call, but
+a thread goes on compiling or computing; if the interpreter then ends, this thread crashes (signal 11). An extension
+module that is being loaded crashes in the same way. A command therefore ends at once, without unwinding
+(`end_command_at_interrupt`). Code that has results to keep is notified, and stops between two computations
 (`deferred_interrupts`).
 """
 
@@ -18,11 +18,14 @@ from typing import NoReturn
 
 INTERRUPTED = 130
 _end_words = ["nothing was computed"]
-"""Its only entry: what a command says that Ctrl-C ends before or after its work."""
+"""Text of a command that Ctrl-C ends before or after its work; the list has one entry."""
 
 
 class Deferral:
-    """**Attribute:** `seen`: whether Ctrl-C was pressed since the block began. Who has dealt with it calls `taken`."""
+    """Record of a block of `deferred_interrupts`.
+
+    **Attribute:** `seen`: True if Ctrl-C was pressed since the block began. Code that has dealt with it calls `taken`.
+    """
 
     def __init__(self):
         self.seen, self._dealt_with = False, False
@@ -37,16 +40,18 @@ class Deferral:
 
 
 _blocks: list[Deferral] = []
-"""The blocks that wait, the innermost last."""
+"""Records of the blocks that are open, the innermost last."""
 _listening: list[bool] = []
-"""Not empty while another thread hears of Ctrl-C."""
+"""This list has an entry while another thread receives Ctrl-C."""
 
 
 @contextmanager
 def deferred_interrupts() -> Iterator[Deferral]:
-    """The first Ctrl-C inside the block is noted, and raised as `KeyboardInterrupt` at its end unless it was dealt
-    with; the second one has its usual effect at once. In another thread than the main one, and where Ctrl-C is ignored,
-    it changes nothing."""
+    """Context that delays Ctrl-C to the end of the block.
+
+    The first Ctrl-C is recorded. At the end of the block `KeyboardInterrupt` is raised, unless `Deferral.taken` was
+    called. The second Ctrl-C has its usual effect at once. The context has no effect outside of the main thread, or if
+    Ctrl-C is ignored."""
     found = Deferral()
     previous = signal.getsignal(signal.SIGINT)
     if threading.current_thread() is not threading.main_thread() or not callable(previous):
@@ -73,8 +78,8 @@ def deferred_interrupts() -> Iterator[Deferral]:
 
 @contextmanager
 def listening() -> Iterator[None]:
-    """Inside this block another thread hears of Ctrl-C, before Python's handlers do, and tells by `note_interrupt`;
-    Python's handlers do nothing."""
+    """Context in which another thread receives Ctrl-C before Python's handlers and calls `note_interrupt`. Python's
+    handlers do nothing."""
     previous = signal.signal(signal.SIGINT, lambda number, frame: None)
     _listening.append(True)
     try:
@@ -85,7 +90,7 @@ def listening() -> Iterator[None]:
 
 
 def note_interrupt() -> bool:
-    """Ctrl-C was pressed: whether a block takes note of it, for the first time."""
+    """Records a Ctrl-C in the innermost block; True if there is a block and this is the first one in it."""
     if not _blocks or _blocks[-1].seen:
         return False
     _blocks[-1].seen = True
@@ -93,8 +98,9 @@ def note_interrupt() -> bool:
 
 
 def end_command_at_interrupt() -> None:
-    """Makes Ctrl-C end the process with code 130 from now on, if it is the command `jaxbearing`. To be
-    called before anything large is imported. A program that imports the package keeps its own way."""
+    """Makes Ctrl-C end the process with code 130 from now on, if the process is the command `jaxbearing`.
+
+    It must be called before anything large is imported. A program that imports the package keeps its own handler."""
     main_thread = threading.current_thread() is threading.main_thread()
     if main_thread and is_the_command() and signal.getsignal(signal.SIGINT) is signal.default_int_handler:
         signal.signal(signal.SIGINT, lambda number, frame: end_now(f"interrupted: {_end_words[0]}\n".encode()))
@@ -119,7 +125,10 @@ def is_the_command() -> bool:
 
 
 def end_now(message: bytes, stream: int = 2) -> NoReturn:
-    """End the process with code 130, without unwinding. **Arguments:** `stream`: descriptor for the message."""
+    """Ends the process with code 130, without unwinding.
+
+    **Arguments:** `stream`: file descriptor that gets the message.
+    """
     try:
         os.write(stream, message)
     except OSError:

@@ -1,4 +1,4 @@
-"""Block-arrow systems through lineax and optimistix: their root finders on our equations, in O(N).
+"""Block-arrow systems in lineax and optimistix: their root finders solve our equations in O(N).
 
     import optimistix as optx
 
@@ -7,7 +7,7 @@
         arrow_residual, solver, system.initial(), args=system, adjoint=optx.ImplicitAdjoint(linear_solver=BlockArrow())
     )
 
-`newton_solve` is what the library uses: it adds caps, bounds, backtracking, continuation and a status a lane.
+The library itself uses `newton_solve`, which adds caps, bounds, backtracking, continuation and a status for each lane.
 """
 
 from typing import Any
@@ -20,19 +20,19 @@ from .arrow import AbstractArrowSystem, ArrowJacobian, ArrowPoint, evaluate, sol
 
 
 def arrow_residual(point: ArrowPoint, system: AbstractArrowSystem) -> ArrowPoint:
-    """Residuals of a system at a point, as optimistix wants its functions: `fn(y, args)`."""
+    """Residuals of a system at a point, with the arguments of a function of optimistix, `fn(y, args)`."""
     return evaluate(system, point).residual
 
 
 class BlockArrow(lx.AbstractLinearSolver):
     """Direct solve with a linear operator from `ArrowPoint` to `ArrowPoint` whose matrix is a block arrow.
 
-    The blocks are read off the operator with m + 2g products, whatever the number of elements; that rows of element j
-    depend on element j and the globals only is taken for granted, not checked.
+    m + 2g products with the operator give all blocks, for any number of elements. The rows of element j must depend on
+    element j and the globals only; this is not checked.
 
-    **Arguments:** `idle`: number of globals, the last ones, on which no other row depends (integrals along the way).
-    Nothing is asked about their rows but the diagonal: an iteration finds them one step after the others, and a
-    derivative through this solver misses them.
+    **Arguments:** `idle`: number of globals at the end on which no other row depends (integrals along the way). Only
+    the diagonal of their rows is used: an iteration finds them one step after the others, and a derivative through
+    this solver leaves them out.
     """
 
     idle: int = 0
@@ -59,7 +59,7 @@ class BlockArrow(lx.AbstractLinearSolver):
         # products come with the seed first; blocks have it second
         return ArrowJacobian(
             local=jnp.swapaxes(products.elements[:m], 0, 1),
-            to_globals=jnp.zeros((m, g, n)).at[:, :active].set(jnp.swapaxes(products.elements[m : m + active], 0, 1)),
+            right_border=jnp.zeros((m, g, n)).at[:, :active].set(jnp.swapaxes(products.elements[m : m + active], 0, 1)),
             contributions=jnp.zeros((g, m, n)).at[:active].set(rows.elements),
             corner=corner,
             chain=jnp.eye(g),
@@ -74,7 +74,7 @@ class BlockArrow(lx.AbstractLinearSolver):
     def transpose(self, state: ArrowJacobian, options: dict[str, Any]) -> tuple[ArrowJacobian, dict[str, Any]]:
         swap = lambda block: jnp.swapaxes(block, 0, 1)
         transposed = ArrowJacobian(
-            swap(state.local), swap(state.contributions), swap(state.to_globals), state.corner.T, state.chain
+            swap(state.local), swap(state.contributions), swap(state.right_border), state.corner.T, state.chain
         )
         return transposed, options
 

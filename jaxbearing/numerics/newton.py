@@ -25,6 +25,7 @@ from .arrow import (
 )
 from .batching import in_turn
 from .continuation import MOST_STEPS, Continuation, StageEnd, advance, first_guesses
+from .known_roots import at_known_root
 from .newton_steps import NewtonOptions as NewtonOptions
 from .newton_steps import Search, choose, judge, moved_on, propose
 from .status import Status
@@ -156,7 +157,25 @@ def _root(system: AbstractArrowSystem, *, options: NewtonOptions) -> _Root:
 @_root.def_jvp
 def _root_jvp(primals, tangents, *, options: NewtonOptions):
     (system,), (system_dot,) = primals, tangents
-    root = _root(system, options=options)
+    return _implicit(system, system_dot, _root(system, options=options))
+
+
+@eqx.filter_custom_jvp
+def _known_root(system: AbstractArrowSystem, *, root: _Root, stiffness: bool) -> _Root:
+    """The root of a system that was found before, with the derivatives of a root that is searched for."""
+    return root
+
+
+@_known_root.def_jvp
+def _known_root_jvp(primals, tangents, *, root: _Root, stiffness: bool):
+    (system,), (system_dot,) = primals, tangents
+    # second derivatives of the point take the first ones of the Jacobian
+    return _implicit(system, system_dot, _known_root(system, root=root, stiffness=True), stiffness)
+
+
+def _implicit(system: Any, system_dot: Any, root: _Root, stiffness: bool = True) -> tuple[_Root, _Root]:
+    """A root and its directional derivative, by the implicit function theorem; without `stiffness` that of the Jacobian
+    is NaN."""
     # Selecting on the tangent that comes in, not only on what goes out, keeps NaN times zero of a failed lane from
     # parameters that lanes share, in both modes.
     select = lambda t: jnp.where(root.solved, t, 0.0)
@@ -164,7 +183,10 @@ def _root_jvp(primals, tangents, *, options: NewtonOptions):
     residual_dot = _directional(lambda s: evaluate(s, root.point).residual, (system,), (system_dot,))
     step = solve_arrow(root.jacobian, residual_dot)
     point_dot = jax.tree.map(lambda t: select(-t), step)
-    jacobian_dot = _directional(lambda s, p: linearize(s, p)[1], (system, root.point), (system_dot, point_dot))
+    if stiffness:
+        jacobian_dot = _directional(lambda s, p: linearize(s, p)[1], (system, root.point), (system_dot, point_dot))
+    else:
+        jacobian_dot = jax.tree.map(lambda block: jnp.full_like(block, jnp.nan), root.jacobian)
     rest = jax.tree.map(lambda _: None, (root.solved, root.end))
     return root, _Root(point_dot, jax.tree.map(select, jacobian_dot), *rest)
 
@@ -199,7 +221,11 @@ def newton_solve(system: System, options: NewtonOptions | None = None) -> tuple[
 
     **Arguments:** `system`: equations and parameters; `options`: tolerances and limits.
     """
-    root = _root(system, options=NewtonOptions() if options is None else options)
+    chosen = NewtonOptions() if options is None else options
+    root = at_known_root(
+        lambda: _root(system, options=chosen),
+        lambda known, stiffness: _known_root(system, root=known, stiffness=stiffness),
+    )
     live = jax.tree.map(lambda x: jnp.where(root.solved, x, jax.lax.stop_gradient(x)), system)
     # What is reported was measured one Newton step before the returned point.
     end = root.end

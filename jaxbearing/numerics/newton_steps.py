@@ -1,4 +1,4 @@
-"""One step of the damped Newton iteration, in parts: what it proposes, how a trial is judged, how far a step goes."""
+"""One step of the damped Newton iteration in three parts: proposal, judgement of a trial, choice of the next one."""
 
 from typing import NamedTuple
 
@@ -19,42 +19,42 @@ from .arrow import (
 from .structure import constant, count, switch
 
 BACKTRACK = (1.0, 0.3, 0.05)
-"""Fractions of the Newton step that are tried, in this order; the last is taken in any case."""
+"""Fractions of the Newton step that are tried, in this order; the last one is always accepted."""
 LAST_ATTEMPT = len(BACKTRACK) - 1
 GROWTH = 4.0
-"""A trial of the first try may let the residual grow by this factor: to ask for a decrease breaks steps that lead over
-a rise (measured on random roller bearings with both rings turning: with 1.5, three times as many solves of more than
-20 steps). The stages of a continuation, begun nearer to their root, ask for a decrease: a residual that saturates never
-grows by that factor."""
+"""Largest growth of the residual that the first try accepts. A required decrease would reject steps that lead over a
+rise (random roller bearings with both rings turning: with 1.5, three times as many solves take more than 20 steps). The
+stages of a continuation start nearer to their root and require a decrease, because a residual that saturates never
+grows by this factor."""
 LEAST_FALL = 0.1
-"""Least decrease of the residual over the one that its linearization predicts, for a step of a continuation."""
+"""Required decrease of the residual in a continuation, over the decrease that the linearization predicts."""
 TURNING_BACK = 0.5
-"""A step that takes back the one before it goes at most this part of its length: as in bisection, what two steps that
-oppose each other enclose is halved. Newton's iteration in a kink goes back and forth for ever."""
+"""Largest length of a step that reverses the one before it, over the length of that one. As in bisection, two opposed
+steps halve the interval between them; without this, Newton's iteration at a kink would oscillate for ever."""
 ROUNDED_STEP = 1e-12
-"""A root that Newton's step locates to this (scaled) is found although rounding keeps the residual above its tolerance:
-by no more than the system's `rounding`, or than the last bits of the unknowns make of each equation."""
+"""Scaled Newton step below which a root counts as found although round-off keeps the residual above its tolerance. The
+residual may then be as large as the system's `rounding` allows, or as the last bits of the unknowns explain."""
 LAST_BITS = 10.0 * 2.0**-52
-"""Relative change of every unknown, or of its scale where it is smaller, that a residual of rounding stands for."""
+"""Relative change of the unknowns, or of their scale if they are smaller, that explains a residual of round-off."""
 MOST_ROUNDED = 1e-5
-"""No larger scaled residual counts as rounding, however steep the equation is there."""
+"""Largest scaled residual that can count as round-off, however steep the equation is."""
 
 
 class NewtonOptions(eqx.Module):
     """Tolerances and limits of the Newton iteration; plain numbers, none of them differentiated.
 
     **Arguments:**
-    - `residual_tolerance`: largest scaled residual of a converged solve. Where the Newton step is below 1e-12 and only
-      rounding is left of the residual, times the system's `rounding`, or what the last bits of the unknowns make, up to
-      1e-5.
+    - `residual_tolerance`: largest scaled residual of a converged solve. If the Newton step is below 1e-12, the
+      residual may be larger by the system's `rounding`, or as large as the last bits of the unknowns explain (at most
+      1e-5).
     - `step_tolerance`: largest scaled Newton step of a converged solve. Convergence asks for both: a small
       residual alone says nothing where the Jacobian is nearly singular.
     - `inner_tolerance`: largest scaled residual of solves nested in the equations.
     - `max_steps`: Newton steps of the first try, rejected trials counted; continuations together may take four times as
       many for each homotopy of the system.
-    - `continuation`: whether a solve that fails at once is tried again by continuation along the system's homotopies.
-      Where all lanes of a batch are solved at once (on a GPU, and systems that say `lanes_together`), a batch waits for
-      its slowest lane: for `max_steps` at most without continuation.
+    - `continuation`: True if a solve whose first try fails is tried again by continuation along the system's
+      homotopies. If all lanes of a batch are solved at once (on a GPU, or with `lanes_together`), a batch waits for its
+      slowest lane; without continuation that is at most `max_steps`.
     """
 
     residual_tolerance: float = constant("residual_tolerance", 1e-10, bound="> 0")
@@ -81,7 +81,7 @@ class Search(NamedTuple):
         return cls(start, start, nowhere, jnp.asarray(jnp.inf), jnp.asarray(1.0), jnp.asarray(0))
 
     def begun_anew(self, where: Bool[Array, ""], start: ArrowPoint) -> "Search":
-        """The search, or where it is told to begin anew, that from another start."""
+        """This search, or one from another start if `where` is True."""
         nowhere = jax.tree.map(jnp.zeros_like, start)
         return self._replace(
             trial=choose(where, start, self.trial),
@@ -93,8 +93,12 @@ class Search(NamedTuple):
 
 
 class Proposal(NamedTuple):
-    """Equations at a trial, and Newton's step from there: `falling` elements are on a branch where an equation falls
-    with its own unknown, and their steps were turned uphill; `turned`: some step was."""
+    """Equations at a trial, and Newton's step from there.
+
+    - `falling`: True for elements on a branch where an equation falls with its own unknown; `uphill_step` changed the
+      sign of a pivot for them.
+    - `turned`: True if this was done for any element or global.
+    """
 
     equations: Equations
     jacobian: ArrowJacobian
@@ -104,10 +108,13 @@ class Proposal(NamedTuple):
 
 
 class Verdict(NamedTuple):
-    """Judgement of a trial by the equations there.
+    """Judgement of a trial.
 
-    It is a root (`settled`), of the nested solves too (`converged`); it is taken (`accepted`); there is no usable step
-    left (`stuck`). `norm`: of the residual.
+    - `norm`: Euclidean norm of the residual.
+    - `settled`: the trial is a root of the equations.
+    - `converged`: the solves nested in the equations have converged there too.
+    - `accepted`: the iteration goes on from the trial.
+    - `stuck`: no usable step is left.
     """
 
     norm: Float[Array, ""]
@@ -135,10 +142,10 @@ def judge(
     rounding: float,
     first_try: Bool[Array, ""] | None,
 ) -> Verdict:
-    """Judges a trial by the residual and the step there.
+    """Judges a trial by the residual and the Newton step there.
 
-    **Arguments:** `rounding`: of the system; `first_try`: false in a continuation, whose steps must bring a decrease;
-    `None`: there is no continuation.
+    **Arguments:** `rounding`: that of the system; `first_try`: False in a continuation, whose steps must decrease the
+    residual; `None` if there is no continuation.
     """
     residual, jacobian = proposal.equations.residual, proposal.jacobian
     norm = norm_of(residual)
@@ -159,7 +166,7 @@ def judge(
 
 
 def moved_on(system: AbstractArrowSystem, search: Search, proposal: Proposal, verdict: Verdict) -> Search:
-    """The next trial: along the new step where the last one was accepted, otherwise less far along the old one."""
+    """The next trial: along the new step if the last trial was accepted, otherwise a shorter part of the old one."""
     accepted = verdict.accepted
     attempt = jnp.where(accepted, 0, jnp.minimum(search.attempt + 1, LAST_ATTEMPT))
     base = choose(accepted, search.trial, search.base)
@@ -168,7 +175,7 @@ def moved_on(system: AbstractArrowSystem, search: Search, proposal: Proposal, ve
     step = choose(accepted, paced, search.step)
     whole = norm_of(proposal.step)
     share = jnp.minimum(norm_of(paced) / jnp.where(whole > 0, whole, 1.0), 1.0)
-    # across a hump the residual grows first
+    # the residual must be allowed to grow across a maximum
     base_norm = jnp.where(proposal.turned, jnp.inf, verdict.norm)
     return Search(
         trial=_move(system, base, step, jnp.asarray(BACKTRACK)[attempt]),
@@ -202,7 +209,7 @@ def _move(system: AbstractArrowSystem, base: ArrowPoint, step: ArrowPoint, fract
 
 
 def _capped(system: AbstractArrowSystem, step: ArrowPoint) -> ArrowPoint:
-    """The step shortened, direction kept, until no unknown moves further than its cap."""
+    """The step, shortened in its direction so that no unknown moves further than its cap."""
     caps = system.step_caps()
     over = jnp.maximum(
         jnp.max(jnp.abs(step.elements) / caps.elements, initial=0.0),
@@ -215,11 +222,11 @@ def _capped(system: AbstractArrowSystem, step: ArrowPoint) -> ArrowPoint:
 def _paced(
     system: AbstractArrowSystem, step: ArrowPoint, last: ArrowPoint, falling: Bool[Array, " element"]
 ) -> ArrowPoint:
-    """The step with each element's part, and that of the globals, measured against the last one taken.
+    """The step, with the part of each element and that of the globals limited by the last step taken.
 
-    What turns back is shortened (`TURNING_BACK`): elements meet their kinks one by one, so no common fraction of the
-    step suits all of them. An element on a falling branch (`falling`) that goes on is made no slower: towards a cusp
-    its slope grows without bound and Newton's steps vanish before they cross it.
+    A part that reverses the last one is shortened (`TURNING_BACK`). Each element has its own factor, because elements
+    reach their kinks one by one. An element on a falling branch (`falling`) that keeps its direction is not slowed
+    down: towards a cusp its slope grows without bound, and Newton's steps would vanish before they cross it.
     """
     caps = system.step_caps()
     size = lambda part, cap: jnp.max(jnp.abs(part) / cap, axis=0, keepdims=True, initial=0.0)
@@ -238,11 +245,12 @@ def _paced(
 
 
 def _of_last_bits(equations: Equations, jacobian: ArrowJacobian, at: ArrowPoint) -> Bool[Array, ""]:
-    """True if every residual is within the round-off of a change of the unknowns by their last bits (by those of 1
-    where an unknown is smaller: it then stands for a difference of two of that order)."""
+    """True if every residual is within the change that the last bits of the unknowns cause.
+
+    An unknown below 1 counts as 1, because it then stands for a difference of two numbers of that order."""
     steep = jax.tree.map(jnp.abs, jacobian)
     own, common = (LAST_BITS * jnp.maximum(jnp.abs(part), 1.0) for part in at)
-    elements = jnp.einsum("ijn,jn->in", steep.local, own) + jnp.einsum("ign,g->in", steep.to_globals, common)
+    elements = jnp.einsum("ijn,jn->in", steep.local, own) + jnp.einsum("ign,g->in", steep.right_border, common)
     carried = jnp.einsum("kjn,jn->k", steep.contributions, own)
     globals_ = steep.corner @ common + steep.chain @ carried
     residual = equations.residual

@@ -1,4 +1,4 @@
-"""Highest value of a smooth function that is known at some places only."""
+"""Maximum of a smooth function that is known at a few points only."""
 
 import jax.numpy as jnp
 from jaxtyping import Array, Float
@@ -7,12 +7,13 @@ from .._types import Values
 
 
 def peak(positions: Values, values: Float[Array, "... place"]) -> Float[Array, "..."]:
-    """Highest value of the parabola through the highest of the values and its two neighbours.
+    """Maximum of the parabola through the highest value and its two neighbours.
 
-    **Limits:** exact for a parabola; the error at a peak inside is of third order in the distance of the places, and
-    never below the highest of the values. Of a peak outside, and of fewer than three places: the highest value.
+    **Limits:** exact for a parabola. The error of an inner maximum is of third order in the distance of the points, and
+    the result is never below the highest value. For fewer than three points, and for a maximum outside of them, the
+    result is the highest value.
 
-    **Arguments:** `positions`, increasing along the last axis, broadcast against the `values`.
+    **Arguments:** `positions`: increasing along the last axis, broadcast against the `values`.
     """
     values = jnp.asarray(values)
     count = values.shape[-1]

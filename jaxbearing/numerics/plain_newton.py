@@ -1,4 +1,4 @@
-"""Newton on a block-arrow system from a good guess, cheap enough for the inside of a vector field."""
+"""Newton's method on a block-arrow system from a good guess, cheap enough to run inside a vector field."""
 
 from typing import NamedTuple
 
@@ -12,8 +12,12 @@ from .arrow import AbstractArrowSystem, ArrowJacobian, ArrowPoint, Equations, ev
 
 
 class PlainRoot(NamedTuple):
-    """A root, its largest scaled residual (or that of nested solves, if larger) before the last step, and the Newton
-    steps taken before the last one."""
+    """Result of `plain_newton`.
+
+    - `point`: the root.
+    - `residual`: largest scaled residual before the last step, or that of nested solves if it is larger.
+    - `steps`: Newton steps before the last one.
+    """
 
     point: ArrowPoint
     residual: Float[Array, ""]
@@ -28,12 +32,14 @@ class _Iterate(NamedTuple):
 
 
 def plain_newton(system: AbstractArrowSystem, guess: ArrowPoint, *, tolerance: Values, max_steps: int) -> PlainRoot:
-    r"""Capped Newton steps until the scaled residual is below `tolerance`; one more follows, so the error is about
-    the square of it.
+    r"""Takes capped Newton steps until the scaled residual is below `tolerance`, and one more, whose error is about the
+    square of that.
 
-    That last step $y - J^{-1}F(y, p)$ carries the derivative: with y and J held it is the implicit function's,
-    $-J^{-1}\partial F/\partial p$, in both modes; first derivatives only. No line search, no second try:
-    `newton_solve` has them.
+    The last step $y - J^{-1}F(y, p)$ carries the derivative: for fixed y and J, its derivative
+    $-J^{-1}\partial F/\partial p$ is that of the implicit function. It holds in both modes, for first derivatives only.
+    There is no line search and no second try; `newton_solve` has both.
+
+    **Arguments:** `guess`: initial guess, scaled; `max_steps`: limit of the Newton steps before the last one.
     """
     held = jax.lax.stop_gradient(system)
     caps, (low, high) = held.step_caps(), held.bounds()
@@ -59,7 +65,7 @@ def plain_newton(system: AbstractArrowSystem, guess: ArrowPoint, *, tolerance: V
 
 @eqx.filter_custom_jvp
 def _known(system: AbstractArrowSystem, *, point: ArrowPoint, residual: ArrowPoint) -> ArrowPoint:
-    """The residual at a point, which is known already, with its derivative with respect to the system."""
+    """The known `residual` at a point, with its derivative with respect to the system."""
     return residual
 
 
@@ -71,5 +77,5 @@ def _known_jvp(primals, tangents, *, point, residual):
 
 
 def _largest(residual: ArrowPoint) -> Array:
-    """Largest modulus."""
+    """Largest absolute value of all residuals."""
     return jnp.maximum(jnp.max(jnp.abs(residual.elements)), jnp.max(jnp.abs(residual.globals)))

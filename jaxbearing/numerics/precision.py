@@ -7,11 +7,11 @@ _HINT = "jaxbearing needs 64-bit floats: its tolerances of 1e-10 mean nothing in
 
 
 def as_float(value):
-    """A float64 leaf: converter of the numeric fields of a scene.
+    """The value as a float64 leaf; converter of the numeric fields of a scene.
 
-    Python and numpy numbers become 0-d numpy arrays, so that they are traced (a new value never recompiles)
-    and cost no dispatch; 64-bit arrays and tracers pass through; what is not a number (the placeholders of
-    tree transformations) passes through for the type checker or the validator to judge.
+    Python and numpy numbers become 0-d numpy arrays, so that they are traced (a new value never recompiles) and cost no
+    dispatch. 64-bit arrays and tracers pass through. So do values that are no numbers, such as the placeholders of tree
+    transformations: type checker and validator judge them.
 
     **Raises:** `TypeError` for a float narrower than 64 bits, and for complex numbers.
     """
@@ -31,6 +31,9 @@ def as_float(value):
 
 
 def require_x64() -> None:
-    """**Raises:** `RuntimeError` where 64-bit floats were switched off after the import."""
+    """Checks that 64-bit floats are on.
+
+    **Raises:** `RuntimeError` if they were switched off after the import.
+    """
     if not jax.config.read("jax_enable_x64"):
         raise RuntimeError(f"{_HINT}; jax_enable_x64 is off: remove what switched it off")

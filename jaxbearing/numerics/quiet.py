@@ -1,4 +1,4 @@
-"""Keeps false alarms of the compiler off stderr."""
+"""Removal of the compiler's false alarms from stderr."""
 
 import os
 import sys
@@ -14,10 +14,12 @@ _FALSE_ALARMS = (
     b"Very slow compile",
     b"*" * 32,
 )
-"""Loading a cached program complains about the tuning flags prefer-no-gather and prefer-no-scatter, which no processor
-lists (jax issue 38445, openxla/xla issue 44565). The program is sound: the cache is kept apart by processor. The
-simplifier says that it stopped rewriting one form into another and back; both are right. The alarm of a slow
-compilation is framed by lines of stars."""
+"""Texts in lines that are false alarms.
+
+The loader of cached programs complains about the tuning flags prefer-no-gather and prefer-no-scatter, which no
+processor lists (jax issue 38445, openxla/xla issue 44565). The program is correct, because each kind of processor has
+its own cache. The simplifier reports that it stopped rewriting one form into another and back; both are correct. The
+alarm of a slow compilation is framed by lines of stars."""
 
 
 _HOLDING = threading.Lock()
@@ -25,8 +27,9 @@ _LEVEL = "TF_CPP_MIN_LOG_LEVEL"
 
 
 def silence_compiler() -> None:
-    """Lets the compiler say fatal errors only, unless the user has set its level; for a process in which nothing has
-    imported JAX yet, which reads the level once."""
+    """Makes the compiler print fatal errors only, unless the user has set its level.
+
+    It has no effect once JAX has been imported, which reads the level only then."""
     if "jax" not in sys.modules:
         # 1 and 2 are what other programs set, JAX itself in a process that starts this one: false alarms pass them
         _State.silent = os.environ.setdefault(_LEVEL, "3") not in ("1", "2")
@@ -34,16 +37,16 @@ def silence_compiler() -> None:
 
 class _State:
     silent = False
-    """True if the level of the compiler's messages keeps its false alarms away, or the user asks for all of them."""
+    """True if the level of the compiler's messages suppresses false alarms, or the user asks for all messages."""
 
 
 def compiler_is_loud() -> bool:
-    """True if JAX was imported before its level could be set, and the user does not ask for all of its lines."""
+    """True if JAX was imported before its level could be set, and the user does not ask for all messages."""
     return not _State.silent and os.environ.get(_LEVEL) != "0"
 
 
 def compiling_quietly() -> AbstractContextManager[None]:
-    """For a block that compiles or loads a program: without false alarms, where the compiler is loud."""
+    """Context of a block that compiles or loads a program: it suppresses false alarms if the compiler prints any."""
     return without_false_alarms() if compiler_is_loud() else nullcontext()
 
 
@@ -52,7 +55,7 @@ _SEEN: set[Hashable] = set()
 
 @contextmanager
 def quiet_first_time(key: Hashable) -> Iterator[None]:
-    """For a block that compiles a program when it is called the first time with such a key."""
+    """Context of a block that compiles a program only when it is called the first time with this key."""
     if not compiler_is_loud() or key in _SEEN:
         yield
         return
@@ -63,8 +66,8 @@ def quiet_first_time(key: Hashable) -> Iterator[None]:
 
 @contextmanager
 def without_false_alarms() -> Iterator[None]:
-    """Holds back what anyone writes to stderr, compiled libraries too; passes it on at the end, less the alarms. Does
-    nothing where another thread does it already."""
+    """Context that holds back all output to stderr, also of compiled libraries, and prints it at the end without the
+    false alarms. It has no effect if another thread is inside it."""
     if not _HOLDING.acquire(blocking=False):
         yield
         return

@@ -1,4 +1,4 @@
-"""Several refusals told at once."""
+"""Errors of an input reported together: a message names everything that is wrong, and not only the first."""
 
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
@@ -7,7 +7,7 @@ from typing import Any
 
 
 class Refusals(ValueError):
-    """Several things are wrong; the message has a line for each. `refusals`: the errors one by one."""
+    """Error of an input that is wrong in several ways: one line of the message for each of the errors `refusals`."""
 
     def __init__(self, refusals: Iterable[ValueError]):
         self.refusals = tuple(refusals)
@@ -15,14 +15,16 @@ class Refusals(ValueError):
 
 
 UNDECIDED = (AttributeError, TypeError)
-"""Errors of a rule that needs a value which is refused already, where `collecting`."""
+"""Errors of a rule that needs a value which has been refused already; they are passed over while `collecting`."""
 _COLLECTED: ContextVar[list[ValueError] | None] = ContextVar("refusals that are collected", default=None)
 
 
 @contextmanager
 def collecting() -> Iterator[list[ValueError]]:
-    """Inside, `refuse_all` adds to this list instead of raising, and rules that cannot be decided are passed over: for
-    objects that are made to find all that is wrong with them, and are not used."""
+    """Context in which `refuse_all` adds errors to this list and does not raise them.
+
+    Rules that cannot be decided are passed over. An object that is made inside serves to find what is wrong with it
+    and is not used."""
     found: list[ValueError] = []
     token = _COLLECTED.set(found)
     try:
@@ -32,11 +34,15 @@ def collecting() -> Iterator[list[ValueError]]:
 
 
 def is_collecting() -> bool:
+    """True inside of `collecting`."""
     return _COLLECTED.get() is not None
 
 
 def refuse_all(problems: Iterable[str | ValueError]) -> None:
-    """**Raises:** `ValueError` with what is wrong, `Refusals` where that is several things."""
+    """Raises the problems, or adds them to the list of `collecting`.
+
+    **Raises:** `ValueError` for one problem, `Refusals` for several.
+    """
     collected = _COLLECTED.get()
     if collected is not None:
         try:

@@ -26,7 +26,7 @@ class Memory(NamedTuple):
     bend: Float[Array, " found"]
 
     def at(self, time: Scalar) -> Float[Array, " found"]:
-        """Extrapolated."""
+        """The value extrapolated to another time."""
         later = time - self.time
         return self.value + later * (self.slope + later * self.bend)
 
@@ -34,8 +34,8 @@ class Memory(NamedTuple):
 class Remembering(dfx.AbstractAdaptiveSolver, dfx.AbstractWrappedSolver):
     """A Runge-Kutta method of diffrax whose vector field gets `(args, Memory)` instead of `args`.
 
-    **Arguments:** `solver`, explicit; the state ends with as many components as `Memory` has, whose rates are what was
-    found.
+    **Arguments:** `solver`: an explicit one. The state ends with as many components as `Memory` has (none if there is
+    no solve inside); their rates are the solution that was found.
     """
 
     solver: Any
@@ -81,7 +81,8 @@ class Remembering(dfx.AbstractAdaptiveSolver, dfx.AbstractWrappedSolver):
         found = self.solver.step(terms, t0, t1, y0, (args[0], memory), inner, made_jump)
         y1, error, dense, inner, result = found
         # rates times the step, of the stages at its begin, between, and at its end
-        length, stages = t1 - t0, dense["k"][:, -memory.value.shape[0] :]
+        length, rates = t1 - t0, dense["k"]
+        stages = rates[:, rates.shape[1] - memory.value.shape[0] :]
         middle, place = self._between
         last = stages[-1] / length
         back = (last - stages[0] / length) / length

@@ -11,7 +11,7 @@ from jaxtyping import Array, Bool, Float, PyTree
 from .._types import Values
 
 SHORT = 100.0
-"""Times the tolerance: a Newton step as short as that is taken whatever the bracket says."""
+"""A Newton step shorter than the tolerance times this factor is taken even if it leaves the bracket."""
 
 
 class Root(NamedTuple):

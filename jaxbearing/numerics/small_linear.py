@@ -55,8 +55,8 @@ def solve_dense(matrix: Float[Array, "g g"], right: Float[Array, " g"]) -> Float
 def with_positive_pivots(
     matrix: Float[Array, "m m *batch"],
 ) -> tuple[Float[Array, "m m *batch"], Bool[Array, "*batch"]]:
-    """The matrix with just so much added to its diagonal that every pivot of its elimination without pivoting keeps
-    its modulus and becomes positive; and whether anything was added."""
+    """The matrix with additions to its diagonal that make negative pivots of its elimination positive, with the same
+    absolute value; and True where something was added."""
     m = matrix.shape[0]
     rows = [[matrix[i, j] for j in range(m)] for i in range(m)]
     changed = jnp.zeros(matrix.shape[2:], dtype=bool)

@@ -15,7 +15,7 @@ SHOCK_OVER_MEDIAN, SHOCK_OVER_LARGEST = 10.0, 0.1
 """A pocket load counts as a shock above this many times the median of all pocket loads of the run, and above this part
 of the largest one."""
 SHOCK = "a tenth of the largest and ten times the median pocket load"
-"""From where on a pocket load is a shock, in words."""
+"""Smallest pocket load that counts as a shock, in words."""
 
 
 class Sectors(NamedTuple):

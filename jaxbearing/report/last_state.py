@@ -14,15 +14,18 @@ from ..ehl import FilmState
 from ..scenes.input_files import check_regular
 from .variables import IDENTITY
 
-_NEEDED = ("time", "state_rollers", "state_cage", "frame_angle", "frame_speed", "reference_speed", "azimuth")
+_NEEDED = ("time", "state_elements", "state_cage", "frame_angle", "frame_speed", "reference_speed", "azimuth")
+_OLD_NAME = "state_rollers"
+"""Name of `state_elements` in files of earlier versions."""
 _OF_A_FILM = ("time", "pressure", "offset", "mass", "steps", "known", "proposal")
 """Variables of a line contact's last state, without their prefix."""
 _PREFIX = "last_state_"
 
 
 def read_last_state(path: Any) -> LastState | FilmState:
-    """For `jaxbearing.simulate(..., restart=...)`: the end of a run, of a bearing or a line contact, that `jaxbearing
-    simulate --out` wrote, also of one that was interrupted or stopped early.
+    """Reads the end of a run from the file of `jaxbearing simulate --out`, for `jaxbearing.simulate(..., restart=...)`.
+
+    The run may be of a bearing or of a line contact, and may have been interrupted or have stopped early.
 
     **Raises:** `OSError` for a file that cannot be read, `ValueError` for one that is not of a run in time.
     """
@@ -39,23 +42,25 @@ def read_last_state(path: Any) -> LastState | FilmState:
                 return _film_state(dataset)
             return _bearing_state(dataset)
     except _Other as error:
-        raise ValueError(f"{name} is not a run in time that can be gone on with: {error}") from None
+        raise ValueError(f"{name} is not a run in time that can be continued: {error}") from None
     # what is no NetCDF file, or half of one, fails in many ways
     except Exception as error:
         raise ValueError(f"{name} is not a NetCDF file that can be read: {_first_line(error)}") from None
 
 
 def _bearing_state(dataset: xr.Dataset) -> LastState:
+    if _OLD_NAME in dataset.variables:
+        dataset = dataset.rename({_OLD_NAME: "state_elements"})
     _require(dataset, _NEEDED)
     if dataset.sizes["time"] == 0:
         raise _Other("it has no instants")
     last = dataset[list(_NEEDED)].isel(time=-1)
     values = {field: np.asarray(last[field].values, dtype=float) for field in _NEEDED}
-    if values["state_rollers"].ndim != 2 or values["state_rollers"].shape[0] != 3 or values["state_cage"].shape != (6,):
+    if (values["state_elements"].ndim, values["state_cage"].ndim) != (2, 1):
         raise _Other("its states have another shape")
     return LastState(
         time=values["time"],
-        rollers=values["state_rollers"],
+        elements=values["state_elements"],
         cage=values["state_cage"],
         frame_angle=values["frame_angle"],
         frame_speed=values["frame_speed"],
@@ -81,7 +86,7 @@ def _film_state(dataset: xr.Dataset) -> FilmState:
 
 
 def _identity(dataset: xr.Dataset) -> Identity | None:
-    """Which bearing or contact it is; `None` in files of earlier versions."""
+    """Identity of the bearing or contact; `None` in files of earlier versions."""
     text = dataset.attrs.get(IDENTITY)
     if text is None:
         return None
@@ -105,7 +110,7 @@ def _require(dataset: xr.Dataset, fields: Sequence[str]) -> None:
 
 
 class _Other(Exception):
-    """A file of something else."""
+    """Error of a file that holds no run in time."""
 
 
 def _first_line(error: Exception) -> str:

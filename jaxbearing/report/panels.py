@@ -29,7 +29,7 @@ class Series:
 
 @dataclass(frozen=True)
 class Axis:
-    """What stands at an axis, its ends and its ticks; what is left out follows from the curves."""
+    """Title, ends and ticks of an axis; those that are left out follow from the curves."""
 
     title: str = ""
     limits: tuple[float, float] | None = None

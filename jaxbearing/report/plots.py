@@ -48,7 +48,10 @@ def save_plot(figure: Any, path: str | os.PathLike[str]) -> None:
 
 
 def check_suffix(path: str | os.PathLike[str]) -> None:
-    """**Raises:** `ValueError` where a figure cannot be written to a file of this name."""
+    """Checks the suffix of a figure's file.
+
+    **Raises:** `ValueError` for a suffix that no figure can have.
+    """
     suffix = Path(path).suffix.lower()
     if suffix not in SUFFIXES:
         found = f"{os.fspath(path)} has {f'the suffix {suffix!r}' if suffix else 'no suffix'}"

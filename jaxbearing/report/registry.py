@@ -1,4 +1,4 @@
-"""Which folder makes the outputs of a kind of result: the one list of kinds.
+"""The one list of kinds of results, with the folder that makes the outputs of each.
 
 A folder has a module for each output that the kind has, with the function that `_FUNCTIONS` names. They are imported
 when they are wanted: a solve on the screen needs no reader of files and no library of charts.
@@ -10,20 +10,15 @@ from typing import Any
 
 import numpy as np
 
-from ..bearings.motion.history import History
-from ..bearings.solution import Solution
-from ..ehl import LineContactHistory, LineContactSolution
-from ..machines import TwoDiskSolution
-
-FOLDERS: dict[type, str] = {
-    Solution: "bearing",
-    TwoDiskSolution: "two_disk",
-    LineContactSolution: "line_contact",
+FOLDERS = {
+    "jaxbearing.bearings.solution.Solution": "bearing",
+    "jaxbearing.machines.two_disk.TwoDiskSolution": "two_disk",
+    "jaxbearing.ehl.solution.LineContactSolution": "line_contact",
 }
-"""Kinds of steady results."""
-RUNS: dict[type, str] = {
-    History: "bearing.run",
-    LineContactHistory: "line_contact.run",
+"""Kinds of steady results, by their names: the classes of kinds that are not shown need not be imported."""
+RUNS = {
+    "jaxbearing.bearings.motion.history.History": "bearing.run",
+    "jaxbearing.ehl.history.LineContactHistory": "line_contact.run",
 }
 """Kinds of runs in time."""
 _FUNCTIONS = {
@@ -37,7 +32,7 @@ _FUNCTIONS = {
 """Module of an output -> its function."""
 
 
-def output(result: Any, module: str, called: str, kinds: dict[type, str] = FOLDERS) -> Callable[..., Any]:
+def output(result: Any, module: str, called: str, kinds: dict[str, str] = FOLDERS) -> Callable[..., Any]:
     """The function that makes an output of this kind of result.
 
     **Arguments:**
@@ -46,7 +41,8 @@ def output(result: Any, module: str, called: str, kinds: dict[type, str] = FOLDE
 
     **Raises:** `TypeError` for a kind that is not listed.
     """
-    folder = next((folder for kind, folder in kinds.items() if isinstance(result, kind)), None)
+    names = (f"{kind.__module__}.{kind.__qualname__}" for kind in type(result).__mro__)
+    folder = next((kinds[name] for name in names if name in kinds), None)
     if folder is None:
         raise TypeError(f"no {called} of a {type(result).__name__}")
     found: Callable[..., Any] = getattr(importlib.import_module(f".{folder}.{module}", __package__), _FUNCTIONS[module])
@@ -54,6 +50,9 @@ def output(result: Any, module: str, called: str, kinds: dict[type, str] = FOLDE
 
 
 def check_converged(solution: Any) -> None:
-    """**Raises:** `ValueError` for a solution that did not converge: it has no results."""
+    """Checks that a solution has results.
+
+    **Raises:** `ValueError` for a solution that did not converge.
+    """
     if not bool(np.all(solution.converged)):
         raise ValueError(f"a solve that failed has no results: {solution.failure()}")

@@ -14,9 +14,9 @@ from ..sensitivity import Sensitivities, largest
 from .display import digits
 
 SHOWN = 5
-"""Inputs a result."""
+"""Number of inputs that are shown for each result."""
 UNCERTAIN = ("drag.coefficient",)
-"""Inputs that nobody knows well: shown wherever they rank."""
+"""Poorly known inputs, which are always shown."""
 LAW_CONSTANTS = ("oil.", "contact.")
 """Constants of laws: an engineer does not choose them one by one; the oil's temperature stands for them here."""
 

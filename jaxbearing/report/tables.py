@@ -23,7 +23,7 @@ class Row:
 
 @dataclass(frozen=True)
 class Column:
-    """A result of each of many: name, unit, what it is, values."""
+    """A result with one value for each element: name, unit, description, values."""
 
     name: str
     unit: str

@@ -46,7 +46,7 @@ def flags(dtype: np.dtype, meanings: Sequence[str]) -> dict[str, Any]:
 
 
 def checks(solution: Any, dims: tuple[str, ...]) -> xr.Variable:
-    """Which checks of the laws' ranges were left."""
+    """The range checks of the laws as a variable: 1 if a law is used beyond its range."""
     broken = np.stack([np.asarray(value) for value in solution.range_checks.values()], axis=-1).astype(np.int8)
     attributes = {"units": "1", "long_name": "whether a law is used beyond its range", "path": "checks"}
     return xr.Variable((*dims, CHECK), broken, attributes | flags(broken.dtype, ("within", "beyond")))
@@ -66,7 +66,7 @@ def common(values: np.ndarray, own: int, name: str) -> np.ndarray:
 
 
 def without_fill(dataset: xr.Dataset) -> xr.Dataset:
-    """Nothing is missing in a coordinate, and the conventions allow no mark for it."""
+    """Removes the mark of missing values from coordinates: they have none, and the conventions forbid the mark."""
     for coordinate in dataset.coords.values():
         coordinate.encoding["_FillValue"] = None
     return dataset

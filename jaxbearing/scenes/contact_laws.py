@@ -3,8 +3,8 @@
 from ..bearings.parts import ContactLaws
 from ..contacts import AbstractTraction, MeanPressureTraction
 from ..lubricants import Lubricant
+from .cylindrical.schema import ContactTable
 from .laws import ROLLER_FILMS, ROLLING, distributed_traction, thermal_factor, viscous_function
-from .roller_schema import ContactTable
 
 
 def contact_laws(table: ContactTable, oil: Lubricant | None) -> ContactLaws:

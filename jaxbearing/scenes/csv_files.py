@@ -15,7 +15,7 @@ from .toml_files import read_text
 from .units import describe
 
 SEPARATORS = {",": "','", ";": "';'", "\t": "a tab"}
-"""Between columns, with their names in messages. A decimal comma needs one of the latter two."""
+"""Separators of columns, with their names in messages. A decimal comma needs one of the latter two."""
 _HEADER = re.compile(r"(?P<name>[^\[\]]*?)\s*(?:\[\s*(?P<unit>[^\[\]]*?)\s*\])?")
 # Stricter than `float`, which takes "1_000", digits of other scripts and "infinity".
 _NUMBER = re.compile(r"[+-]?(?:[0-9]+(?P<mark>[.,])?[0-9]*|(?P<leading_mark>[.,])[0-9]+)(?:[eE][+-]?[0-9]+)?")

@@ -195,7 +195,7 @@ def _path_and_words(detail: Any, model: type[BaseModel]) -> tuple[str, dict[str,
 
 
 def _expected_at(model: type[BaseModel], location: Sequence[int | str]) -> str:
-    """What the field at a location expects, in the words of its error messages, after ": "; empty if unknown."""
+    """The values that the field at a location takes, in the words of its messages, after ": "; empty if unknown."""
     wanted = type_at(model, location)
     if wanted is None:
         return ""

@@ -1,4 +1,4 @@
-"""Which names a scene file may use where: read from the schema's classes, for messages and `--set`."""
+"""Names that a scene file may use, and their places, from the schema's classes: for messages and `--set`."""
 
 import typing
 from collections.abc import Mapping, Sequence

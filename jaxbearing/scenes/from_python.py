@@ -10,11 +10,11 @@ from jax.core import Tracer
 
 from .._scene import AbstractScene
 from ..lubricants import Lubricant
-from . import oils
 from .data_files import oil_names
 from .drafts import read_table
-from .oil_files import read_oil
-from .oil_schema import OilTable
+from .oil import catalogue as oils
+from .oil.files import read_oil
+from .oil.schema import OilTable
 from .reader import scene_from_tables, warn_of_means
 from .units import bare_numbers_are_si
 

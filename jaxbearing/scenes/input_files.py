@@ -54,7 +54,10 @@ def read_bytes(path: str | os.PathLike[str], largest: int = LARGEST_TEXT) -> byt
 
 
 def check_regular(path: str | os.PathLike[str]) -> None:
-    """For readers that open a file themselves. **Raises:** `OSError` where there is none, or none that is regular."""
+    """Checks a file for readers that open it themselves.
+
+    **Raises:** `OSError` if there is no such file, or if it is not a regular one.
+    """
     try:
         _check(os.stat(path))
     except UnfitFileError as error:

@@ -14,7 +14,7 @@ from ..numerics.structure import plain
 from .errors import SceneError, describe_at, in_words, unknown_name
 from .fields import is_known, names_at
 from .materials import CATALOGUE, MaterialTable, catalogue_table
-from .oil_files import base_of
+from .oil.files import base_of
 from .units import describe
 
 Overrides = Mapping[str, str | float | np.generic | np.ndarray | jax.Array]

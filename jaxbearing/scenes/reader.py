@@ -5,6 +5,7 @@ import typing
 import warnings
 from collections.abc import Callable, Mapping
 from pathlib import Path
+from types import ModuleType
 from typing import Any, NamedTuple
 
 from pydantic import BaseModel
@@ -15,8 +16,8 @@ from .data_files import builtin_names, builtin_summary, builtin_text
 from .distributions import means_of, said_of
 from .drafts import Unreadable, draft
 from .errors import SceneError, from_class, nearest, one_of
-from .oil_files import Origin, origins
-from .oils import with_catalogue
+from .oil.catalogue import with_catalogue
+from .oil.files import Origin, origins
 from .overrides import REMOVE, Overrides, applied, apply, as_texts, parse_value
 from .table import Table
 from .toml_files import parse_toml, read_text
@@ -28,44 +29,35 @@ _KIND_EXAMPLE = 'kind = "cylindrical_roller_bearing"'
 
 
 class _Kind(NamedTuple):
-    """Schema, builder and writer of a kind of scene: modules beside this one, and names in them."""
+    """Folder of a kind of scene, with the modules `schema`, `build` and `writer`, and the names in them."""
 
-    schema: str
+    folder: str
     table: str
-    build: str
     function: str
-    writer: str
     tables: str
 
 
 _KINDS = {
-    "ball_bearing": _Kind(
-        *("ball_schema", "BallBearingTable", "ball_build", "ball_bearing"), *("ball_writer", "ball_tables")
-    ),
+    "ball_bearing": _Kind("ball", "BallBearingTable", "ball_bearing", "ball_tables"),
     "cylindrical_roller_bearing": _Kind(
-        *("roller_schema", "CylindricalRollerTable", "roller_build", "cylindrical_roller_bearing"),
-        *("roller_writer", "roller_tables"),
+        "cylindrical", "CylindricalRollerTable", "cylindrical_roller_bearing", "roller_tables"
     ),
-    "tapered_roller_bearing": _Kind(
-        *("tapered_schema", "TaperedRollerTable", "tapered_build", "tapered_roller_bearing"),
-        *("tapered_writer", "tapered_tables"),
-    ),
-    "two_disk": _Kind(
-        *("two_disk_schema", "TwoDiskTable", "two_disk_build", "two_disk"), *("two_disk_writer", "two_disk_tables")
-    ),
-    "line_contact": _Kind(
-        *("line_contact_schema", "LineContactTable", "line_contact_build", "line_contact"),
-        *("line_contact_writer", "line_contact_tables"),
-    ),
+    "tapered_roller_bearing": _Kind("tapered", "TaperedRollerTable", "tapered_roller_bearing", "tapered_tables"),
+    "two_disk": _Kind("two_disk", "TwoDiskTable", "two_disk", "two_disk_tables"),
+    "line_contact": _Kind("line_contact", "LineContactTable", "line_contact", "line_contact_tables"),
 }
 """Kinds of scenes; each is imported when the first scene of it is read."""
 KINDS = tuple(_KINDS)
 
 
+def _module(kind: _Kind, name: str) -> ModuleType:
+    return importlib.import_module(f".{kind.folder}.{name}", __package__)
+
+
 def _table_and_build(kind: str) -> tuple[type[Table], Callable[[Any], AbstractScene]]:
     one = _KINDS[kind]
-    table = getattr(importlib.import_module(f".{one.schema}", __package__), one.table)
-    return table, getattr(importlib.import_module(f".{one.build}", __package__), one.function)
+    table = getattr(_module(one, "schema"), one.table)
+    return table, getattr(_module(one, "build"), one.function)
 
 
 def schema_of_kind(kind: str) -> tuple[type[BaseModel], type]:
@@ -80,7 +72,7 @@ def tables_of(scene: AbstractScene) -> dict[str, Any]:
     **Raises:** `SceneError` for what a file cannot hold.
     """
     one = _KINDS[scene.kind]
-    return getattr(importlib.import_module(f".{one.writer}", __package__), one.tables)(scene)
+    return getattr(_module(one, "writer"), one.tables)(scene)
 
 
 def load_scene(source: str | Path, overrides: Overrides | None = None) -> AbstractScene:

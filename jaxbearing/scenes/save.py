@@ -1,4 +1,4 @@
-"""A scene as a scene file, from which `load_scene` makes an equal scene: every number to the last bit."""
+"""Writes a scene as a scene file, from which `load_scene` makes an equal scene: every number to the last bit."""
 
 import dataclasses
 from collections.abc import Iterable, Iterator, Mapping
@@ -28,19 +28,18 @@ def save_scene(scene: AbstractScene, path: str | Path) -> None:
     """Write a scene as a scene file (TOML), from which `jb.load_scene` makes an equal scene: the same parts, laws,
     words and counts, and every number to the last bit.
 
-    What a scene holds is written, and not how it was made: numbers that a file or a law left open stand in the file,
-    each in a usual unit in which it comes back exactly. An oil and materials of the catalogue are written by
-    their names, an oil that differs in some values by its name and these. The file is read back before it is written;
-    it appears whole or not at all, in the place of a file of this name.
+    The file holds the values of the scene, also those that were defaults when it was made. Each number has a usual
+    unit in which it comes back exactly. Oils and materials of the catalogue are written by their names; an oil that
+    differs in some values is written as its name and these values. The text is read back before the file is written.
+    A file of the same name is replaced; the new one appears whole or not at all.
 
     **Arguments:**
     - `scene`: of any kind that files know; its numbers must be known, finite and single.
     - `path`: of the file, usually ending in ".toml".
 
-    **Raises:** `SceneError`, which is a `ValueError`, that names the field that a file cannot hold: a law without a
-    name in files (see `docs/adding_a_law.md` for laws of other packages), a setting that only Python has, a number that
-    is traced, of a batch, or not finite. `TypeError` for something else than a scene. `OSError` where the place cannot
-    be written.
+    **Raises:** `SceneError` (a `ValueError`) that names a field which a file cannot hold: a law without a name in files
+    (see `docs/adding_a_law.md` for laws of other packages), a setting that only Python has, a number that is traced, of
+    a batch, or not finite. `TypeError` for an object that is no scene. `OSError` if the file cannot be written.
     """
     from ..report.files import write_whole
 
@@ -48,7 +47,9 @@ def save_scene(scene: AbstractScene, path: str | Path) -> None:
 
 
 def scene_text(scene: AbstractScene, label: str, header: Iterable[str]) -> str:
-    """The text of the file of a scene. **Arguments:** `label`: of the file, for messages; `header`: lines of comment.
+    """The text of the file of a scene.
+
+    **Arguments:** `label`: name of the file, for messages; `header`: lines of comment.
 
     **Raises:** as `save_scene`, but for `OSError`.
     """
@@ -72,12 +73,15 @@ def scene_text(scene: AbstractScene, label: str, header: Iterable[str]) -> str:
 def _headed(lines: Iterable[str]) -> str:
     from .. import __version__
 
-    said = f"Written by jaxbearing {__version__}: what is not here is not modelled, or computed from the rest."
+    said = f"Written by jaxbearing {__version__}. Parts that are not here are not modelled, or follow from the others."
     return comments([*lines, said]) + "\n"
 
 
 def _kind(scene: Any) -> str:
-    """**Raises:** `TypeError` for something else than a scene; `SceneError` for a kind that files do not know."""
+    """Kind of a scene, checked.
+
+    **Raises:** `TypeError` for an object that is no scene; `SceneError` for a kind that files do not know.
+    """
     if not isinstance(scene, AbstractScene):
         raise TypeError(f"save_scene takes a scene, got a {type(scene).__name__}")
     if scene.kind not in KINDS or type(scene) is not schema_of_kind(scene.kind)[1]:
@@ -87,8 +91,10 @@ def _kind(scene: Any) -> str:
 
 
 def _problems(node: Any, path: str, said: Mapping[str, Any]) -> Iterator[SceneError]:
-    """Refusals of the numbers of a scene that no file holds, whatever its laws. **Arguments:** `said`: metadata of the
-    field."""
+    """Yields an error for each number of a scene that no file can hold.
+
+    **Arguments:** `said`: metadata of the field.
+    """
     if isinstance(node, eqx.Module):
         for field in dataclasses.fields(node):
             yield from _problems(getattr(node, field.name), f"{path}.{field.name}".lstrip("."), field.metadata)
@@ -106,7 +112,10 @@ def _problems(node: Any, path: str, said: Mapping[str, Any]) -> Iterator[SceneEr
 
 
 def _require_readable(text: str) -> None:
-    """**Raises:** `SceneError` for a text that `load_scene` refuses as a file."""
+    """Checks the size and the characters of the text.
+
+    **Raises:** `SceneError` for a text that `load_scene` would refuse.
+    """
     try:
         size = len(text.encode("utf-8"))
     except UnicodeEncodeError:

@@ -72,4 +72,4 @@ USUAL: dict[str, dict[str, tuple[float, float]]] = {
     "1/s": {"1/s": (1.0, 0.0), "Hz": (1.0, 0.0), "kHz": (1000.0, 0.0)},
     "m/Pa": {"m/Pa": (1.0, 0.0)},
 }
-"""By SI unit of a dimension and text of a unit: factor to SI, and the unit's own zero in SI."""
+"""Units by the SI unit of their dimension: text of the unit -> factor to SI, and the unit's own zero in SI."""

@@ -14,7 +14,7 @@ _COLUMNS = 3
 
 
 def study_page(study: PowerLossStudy, title: str) -> "matplotlib.figure.Figure":
-    """All panels of a study; cases that failed are gaps."""
+    """Page with the panels of a study; cases that failed are gaps."""
     from matplotlib.figure import Figure
 
     rows = math.ceil(len(study.panels) / _COLUMNS)

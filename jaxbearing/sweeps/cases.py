@@ -1,4 +1,4 @@
-"""Which cases a sweep has: a grid, a list, or random samples of fields; SI numbers."""
+"""The cases of a sweep: a grid, a list, or random samples of fields; SI numbers."""
 
 import math
 from collections.abc import Mapping, Sequence
@@ -55,7 +55,7 @@ class Cases:
         return {path: values[at] for path, values, at in zip(self.paths, self.values, places, strict=True)}
 
     def corners(self) -> list[dict[str, float]]:
-        """All fields at their first values, at their last, smallest and largest ones."""
+        """Four cases, with every field at its first, at its last, at its smallest and at its largest value."""
         ends = ([v[0] for v in self.values], [v[-1] for v in self.values])
         ends += ([v.min() for v in self.values], [v.max() for v in self.values])
         return [dict(zip(self.paths, map(float, values), strict=True)) for values in ends]
@@ -105,7 +105,7 @@ def random(bounds: Mapping[str, Sequence[Any]], count: int, seed: int = 0) -> Ca
 
 
 def latin_hypercube(bounds: Mapping[str, Sequence[Any]], count: int, seed: int = 0) -> Cases:
-    """As `random`, but with one case in each of `count` equal parts of every field's range."""
+    """Random cases (see `random`), with one case in each of `count` equal parts of every field's range."""
     from scipy.stats import qmc
 
     _mapping("bounds", bounds)

@@ -55,7 +55,7 @@ def on_workers(count: int | None = None, scheduler: str | None = None) -> Runner
 
 
 def _run_remotely(folder: str, index: int, plan: Plan, key: str) -> tuple[int, int]:
-    """In a worker: JAX keeps its compiled programs where those of the sweep are."""
+    """Runs in a worker, where JAX keeps its compiled programs in the folder of the sweep."""
     import jax
 
     require_key(plan, key)

@@ -56,7 +56,8 @@ class Outcome:
 
 @dataclass(frozen=True)
 class Watcher:
-    """Who is told what happens: `cases`: that so many more are done; `stage`: what is done now; `note`: a sentence."""
+    """Functions that a sweep calls: `cases` with the number of cases just done, `stage` with the name of the current
+    stage, `note` with a sentence."""
 
     cases: Callable[[int], None] = lambda count: None
     stage: Callable[[str], None] = lambda text: None

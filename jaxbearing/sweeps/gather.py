@@ -132,7 +132,10 @@ def _warnings(broken: np.ndarray, texts: list[str]) -> Iterator[str]:
 
 
 def _require_space(plan: Plan, labels: xr.Dataset, folder: Path) -> None:
-    """Said before the work of writing, which would end in the same. **Raises:** `OSError`."""
+    """Checks that there is room on the disk before anything is written.
+
+    **Raises:** `OSError` if there is not.
+    """
     each = sum(v.dtype.itemsize * math.prod(v.shape) for v in labels.variables.values() if CASE in v.dims)
     needed = int(1.02 * each * len(plan.cases)) + 2_000_000
     free = shutil.disk_usage(folder).free
@@ -160,7 +163,7 @@ class _Zarr(contextlib.AbstractContextManager["_Zarr", None]):
 
 
 def _replace(temporary: Path, target: Path) -> None:
-    """Into its place at once; of a folder that is already there, as near to that as folders allow."""
+    """Moves the result to its place in one step, or in two if a folder is already there."""
     if target.is_dir():
         _remove(target)
     temporary.replace(target)

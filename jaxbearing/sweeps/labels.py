@@ -59,13 +59,13 @@ def columns(solution: AbstractSolution, labels: xr.Dataset) -> dict[str, np.ndar
 
 
 def converged(solution: AbstractSolution) -> np.ndarray:
-    """Which lanes are, shape (lane,)."""
+    """True for each lane that converged, shape (lane,)."""
     status = np.asarray(solution.status)
     return np.all(status == Status.CONVERGED, axis=tuple(range(1, status.ndim)))
 
 
 def failures(solution: AbstractSolution, reasons: list[str]) -> np.ndarray:
-    """Why a lane failed, in a sentence; "" where it did not."""
+    """The reason why each lane failed, in a sentence; "" if it did not fail."""
     texts = list(reasons)
     for lane in np.flatnonzero(~converged(solution)):
         texts[lane] = texts[lane] or jax.tree.map(lambda leaf, lane=lane: leaf[lane], solution).failure()

@@ -37,7 +37,7 @@ HEAVY_CHUNK, HEAVY_LANES = 32, 4
 
 @dataclass(frozen=True)
 class Plan:
-    """All that decides the numbers of a sweep.
+    """A plan holds all that decides the numbers of a sweep.
 
     **Arguments:**
     - `recipe`, `cases`: the scenes.
@@ -115,7 +115,7 @@ class Plan:
 
 
 def _structure(tree: Any) -> str:
-    """Everything in a scene but its numbers; addresses in memory are no part of it."""
+    """Description of all in a scene but its numbers; it contains no addresses in memory."""
     shapes = [np.shape(leaf) for leaf in jax.tree.leaves(tree)]
     return re.sub(r" at 0x[0-9a-f]+", "", f"{jax.tree.structure(tree)} {shapes}")
 
@@ -200,7 +200,10 @@ def _as_fields(plan: Plan) -> dict[str, Any]:
 
 
 def _of_fields(fields: dict[str, Any]) -> Plan:
-    """**Raises:** `ValueError`, `KeyError` or `TypeError` for what is no plan."""
+    """The plan from its data.
+
+    **Raises:** `ValueError`, `KeyError` or `TypeError` for data that are no plan.
+    """
     cases = Cases(**fields["cases"])
     chunk, lanes = fields["chunk"], fields["lanes"]
     if not all(isinstance(count, int) and count >= 1 for count in (chunk, lanes)):

@@ -92,7 +92,7 @@ class Reader(Protocol):
     def __call__(self, values: dict[str, float], /) -> AbstractScene: ...
 
     def as_data(self) -> dict[str, Any]:
-        """The texts that the reader reads."""
+        """The values as texts for the reader."""
         ...
 
 
@@ -166,7 +166,10 @@ def _possible(make: Callable[[dict[str, float]], AbstractScene], corners: list[d
 
 
 def _require_number(scene: AbstractScene, path: str) -> None:
-    """**Raises:** `ValueError` where the field is part of the structure."""
+    """Checks that a field is no part of the structure.
+
+    **Raises:** `ValueError` if it is.
+    """
     part: Any = scene
     *above, last = path.split(".")
     for name in above:
@@ -184,7 +187,7 @@ def _require_number(scene: AbstractScene, path: str) -> None:
 
 
 def structural(path: str, what: str = "a field that shapes the equations") -> str:
-    """Why a field cannot be swept."""
+    """The reason why a field cannot be swept."""
     return (
         f"{path}: found {what}; expected a number that varies from case to case (another structure is another "
         "program: run a sweep for each)"

@@ -1,4 +1,4 @@
-"""From what a person asks for to the plan of a sweep and to who computes it."""
+"""The plan and the runner of a sweep from the arguments of a user."""
 
 from collections.abc import Mapping
 from typing import Any
@@ -79,7 +79,10 @@ def plan_in_scene(
 
 
 def runner_of(devices: int | None, workers: int | None, scheduler: str | None) -> Runner:
-    """Who computes the chunks. **Raises:** `ValueError` for counts that are not possible."""
+    """The runner that computes the chunks: here, on several devices, or on workers.
+
+    **Raises:** `ValueError` for counts that are not possible.
+    """
     for name, count in (("devices", devices), ("workers", workers)):
         if count is not None and count < 1:
             raise ValueError(f"{name}: found {count}, expected 1 or more")

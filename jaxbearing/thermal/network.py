@@ -19,7 +19,7 @@ import numpy as np
 from jaxtyping import Array, Float, Int
 
 from .._types import Scalar
-from ..numerics.checks import Checked, bounded, demand, functions, given, known
+from ..numerics.checks import Checked, array_module, bounded, demand, known, numbers_or_none
 from ..numerics.precision import as_float
 from ..numerics.status import Status
 
@@ -71,6 +71,7 @@ class NodeHeat(eqx.Module):
     between: Float[Array, "node node"] | None = None
     to_ambient: Float[Array, " node"] | None = None
     other: Any = None
+    roots: tuple[Any, ...] = ()
 
 
 NodeHeat.__init__.__doc__ = """**Arguments:**
@@ -81,6 +82,7 @@ NodeHeat.__init__.__doc__ = """**Arguments:**
   solution behind the losses, such as those of its contacts. `None`: none.
 - `to_ambient`: further conductances to the ambient, W/K, shape (node,). `None`: none.
 - `other`: a pytree of arrays for the caller, such as the whole solution.
+- `roots`: of the searches behind it; filled by `solve_network` where they are recorded (`numerics.known_roots`).
 """
 
 Losses: TypeAlias = Callable[[Array], NodeHeat]
@@ -121,8 +123,8 @@ class Network(Checked):
             raise ValueError(f"a network of {size} nodes needs {size} x {size} and {size} conductances, got {shapes}")
         if self.oil is not None and self.oil_node is None:
             raise ValueError(f"an oil flow needs a node named 'oil', got {self.nodes}")
-        if given(self.between) is not None:
-            xp = functions(self.between)
+        if numbers_or_none(self.between) is not None:
+            xp = array_module(self.between)
             fine = xp.all(self.between == xp.swapaxes(self.between, -1, -2)) & xp.all(self.between >= 0)
             demand(
                 "{path}.between must be symmetric, and no conductance negative",

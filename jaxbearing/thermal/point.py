@@ -1,4 +1,4 @@
-"""What the search for steady temperatures works on: the problem, an evaluation of it, a step from one to the next."""
+"""Parts of the search for steady temperatures: the problem, an evaluation of it, a step from one to the next."""
 
 from collections.abc import Callable
 from typing import Any, NamedTuple
@@ -13,7 +13,7 @@ from ..numerics.structure import choice, constant, count, switch
 from .network import LAST_BITS, HeatFlows, NodeHeat, Slopes
 
 GOING = -1
-"""In the place of a status while a search goes on."""
+"""Status of a search that has not ended."""
 STEP_CAP = 40.0
 """Longest step of one node, K."""
 SHORT_STEP = 1e-6
@@ -60,7 +60,7 @@ def _evaluated(losses: Callable[[Array], NodeHeat], temperatures: Array) -> Node
 
 
 class Problem(NamedTuple):
-    """All that a search depends on; a pytree whose leaves are the parameters.
+    """Input of a search: a pytree whose leaves are the parameters.
 
     `losses(temperatures)`, `flows(temperatures, heat)`: the losses, and the flows of the network with the conductances
     that they add; they close over nothing. `start`: temperatures, K; `capacity`: heat capacities, J/K, or `None`;

@@ -31,7 +31,7 @@ from .point import (
 )
 
 FIRST_TIME_STEP = 1.0
-"""Of the pseudo-transient, s."""
+"""First step of the pseudo-transient, s."""
 SHORTEST_TIME_STEP = 1e-9
 """A pseudo-transient whose steps become shorter has failed, s."""
 LONGEST_TIME_STEP = 1e12

@@ -1,4 +1,4 @@
-"""Where each loss of a bearing goes: parts of it to the nodes of a thermal network, and the oil temperature it sees.
+"""Shares of each loss of a bearing that go to the nodes of a thermal network, and the oil temperature of the loss.
 
 | loss | to | temperature of its oil |
 |---|---|---|
@@ -145,7 +145,7 @@ class OilTemperatures(eqx.Module):
 
     @property
     def element_ends(self) -> Scalar:
-        """Between the element ends and the cage: that of the pockets."""
+        """Temperature of the oil between element ends and cage: that of the pockets."""
         return self.pocket
 
 

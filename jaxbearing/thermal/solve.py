@@ -5,6 +5,7 @@ parameter of the root. Its derivative is that of the implicit function, $dT/dp =
 modes and to any order; the Jacobian is computed for it only where a derivative is asked for.
 """
 
+import dataclasses
 from typing import Any, NamedTuple
 
 import equinox as eqx
@@ -16,6 +17,7 @@ from jaxtyping import Array, Bool, Float, Int
 from .._types import Scalar
 from ..numerics.batching import in_turn
 from ..numerics.checks import label
+from ..numerics.known_roots import at_known_root, known_roots, own_roots, recorded_roots, recording
 from ..numerics.status import Status
 from .network import Losses, Network, NodeHeat, Slopes, thermal_margin, thermal_rate
 from .point import Problem, ThermalOptions, evaluate
@@ -121,10 +123,18 @@ def solve_network(
     if begin.shape != (len(network.nodes),):
         raise ValueError(f"start must have a temperature for each of {len(network.nodes)} nodes, got {begin.shape}")
     held = jax.lax.stop_gradient((begin, capacity, jnp.asarray(limit, dtype=float)))
-    problem = _closed(network, losses, *held)
-    found = _root(problem, options=options)
+
+    def search() -> _Root:
+        noted = recording()
+        with own_roots():  # those of a bearing inside are parts of this one
+            return _root(_closed(network, _with_roots(losses) if noted else losses, *held), options=options)
+
+    def known(root: _Root, stiffness: bool) -> _Root:
+        return _at_known_root(network, losses, root, stiffness)
+
+    found = at_known_root(search, known)
     solved = found.status == Status.CONVERGED
-    flows = problem.flows(found.temperatures, found.losses)
+    flows = network.flows(found.temperatures, found.losses)
     masked = lambda value: jnp.where(solved, value, jnp.nan)
     total = jnp.sum(found.losses.heat)
     leaving = flows.to_oil + flows.to_ambient
@@ -213,3 +223,44 @@ def _root_jvp(primals: Any, tangents: Any, *, options: ThermalOptions) -> tuple[
     losses_dot = jax.tree.map(select, push(problem_dot, temperatures_dot)[1])
     nothing = jax.tree.map(lambda _: None, root)
     return root, nothing._replace(temperatures=temperatures_dot, losses=losses_dot)
+
+
+def _with_roots(losses: Losses) -> Losses:
+    """The same losses, with the roots of the searches behind them."""
+
+    def noting(temperatures: Array) -> NodeHeat:
+        with recorded_roots() as roots:
+            heat = losses(temperatures)
+        return dataclasses.replace(heat, roots=tuple(roots))
+
+    return noting
+
+
+def _at_known_root(network: Network, losses: Losses, root: _Root, stiffness: bool) -> _Root:
+    """The root that was found before, with its first derivatives: one step of Newton's iteration with the Jacobian
+    held, $T - J^{-1}R$, which moves nothing but derivatives. Nothing is searched for, neither here nor behind the
+    losses."""
+    solved, here = root.status == Status.CONVERGED, root.temperatures
+
+    def balances(temperatures: Array) -> tuple[Array, Any]:
+        with known_roots(root.losses.roots, stiffness):
+            heat = losses(temperatures)
+        into = network.flows(temperatures, heat).into_nodes
+        return into + heat.heat, eqx.filter(dataclasses.replace(heat, roots=()), eqx.is_inexact_array)
+
+    closed = eqx.filter_closure_convert(balances, here)
+    residual, found = closed(here)
+    # with all but the temperatures held: derivatives of these slopes are not asked for
+    held = jax.tree.map(lambda leaf: jax.lax.stop_gradient(leaf) if eqx.is_array(leaf) else leaf, closed)
+    push = jax.linearize(held, here)[1]
+    jacobian, slopes = jax.vmap(push, out_axes=-1)(jnp.eye(here.size))
+    jacobian = jnp.where(solved, jacobian, jnp.eye(here.size))
+    moving = residual - jax.lax.stop_gradient(residual)
+    move = -jnp.linalg.solve(jacobian, jnp.where(solved, moving, 0.0))
+
+    def at(value: Array, slope: Array) -> Array:
+        return jnp.where(solved, value + slope @ move, jax.lax.stop_gradient(value))
+
+    _, rest = eqx.partition(root.losses, eqx.is_inexact_array)
+    moved = eqx.combine(jax.tree.map(at, found, slopes), dataclasses.replace(rest, roots=()))
+    return root._replace(temperatures=here + move, losses=moved)

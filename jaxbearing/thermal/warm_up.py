@@ -37,12 +37,12 @@ INTEGRALS = 3
 ENERGY = 1e3
 """Unit of these, J: with it one tolerance serves for temperatures and energies."""
 EVENT_TOLERANCE = 1e-6
-"""Of the time at which a node passes the limit, relative, and absolute in s."""
+"""Tolerance of the time at which a node passes the limit: relative, and absolute in s."""
 SHORTEST_STEP = 1e-6
 """A run whose steps would have to be shorter has failed, s, where the options do not say: no time constant of a bearing
 is as short."""
 AHEAD = 1e3
-"""How far, in shortest steps, the losses are looked at beyond the end of a run that has failed."""
+"""Distance beyond the end of a failed run at which the losses are evaluated, in shortest steps."""
 
 
 class WarmUp(eqx.Module):

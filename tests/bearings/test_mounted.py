@@ -12,13 +12,14 @@ import jaxbearing as jb
 from jaxbearing.bearings.ball.checks import missing_thrust
 from jaxbearing.bearings.ball.geometry import BallGeometry
 from jaxbearing.bearings.ball.mounting import groove_bottoms, running_geometry, running_play
+from jaxbearing.bearings.cylindrical.motion.results import RollerEnergy
+from jaxbearing.bearings.cylindrical.motion.start import build_dynamics
 from jaxbearing.bearings.cylindrical.mounting import running_play as roller_play
 from jaxbearing.bearings.growth import Growth
-from jaxbearing.bearings.motion.history import Energy, LastState
+from jaxbearing.bearings.motion.history import LastState
 from jaxbearing.bearings.motion.run import check_fits, identity
-from jaxbearing.bearings.motion.runs import _checks
+from jaxbearing.bearings.motion.runs import run_checks
 from jaxbearing.bearings.motion.settings import Simulation
-from jaxbearing.bearings.motion.start import build_dynamics
 from jaxbearing.bearings.mounted import running_scene
 from jaxbearing.bearings.ring import shift_matrix
 from jaxbearing.bearings.solution import RING_FREEDOMS
@@ -395,7 +396,7 @@ def test_a_run_may_go_on_from_rollers_off_their_places():
     azimuth = dynamics._places(0.0, dynamics.scaled(jnp.asarray(rollers), jnp.zeros(6)))[0]
     state = LastState(
         time=zero,
-        rollers=rollers,
+        elements=rollers,
         cage=np.zeros(6),
         frame_angle=zero,
         frame_speed=zero,
@@ -412,8 +413,8 @@ def test_a_run_may_go_on_from_rollers_off_their_places():
 
 def test_runs_warn_of_loose_rings():
     scene = jb.load_scene("turbine_roller_dynamic", MOVING | {"fits.shaft_interference": "0 um"})
-    energy = Energy(*(np.zeros(()) for _ in dataclasses.fields(Energy)))
-    assert any("loose on the shaft" in text and bool(said) for text, said in _checks(scene, energy, {}).items())
+    energy = RollerEnergy(*(np.zeros(()) for _ in dataclasses.fields(RollerEnergy)))
+    assert any("loose on the shaft" in text and bool(said) for text, said in run_checks(scene, energy, {}).items())
 
 
 def test_classes_of_tolerances_give_the_interference():

@@ -42,7 +42,7 @@ def check(solution, operation):
 
 @pytest.mark.parametrize("attitude", ["outer", "inner"])
 def test_constraint_forces_balance_each_ball(attitude):
-    """Moments about the axis and about the radius and the force along the orbit, as `ball.equations` prints them."""
+    """Moments about the axis and about the radius and the force along the orbit, as `ball.friction` prints them."""
     angle = np.asarray([[0.7, 0.3], [0.45, 0.52]])
 
     @eqx.filter_jit

@@ -40,7 +40,7 @@ from jaxbearing.ehl.resolution import chosen, cut_error, mesh_error
 from jaxbearing.ehl.solution import solve_line_contact
 from jaxbearing.lubricants import Lubricant
 from jaxbearing.numerics.quadrature import gauss_legendre
-from jaxbearing.scenes.line_contact_schema import ACCURACIES
+from jaxbearing.scenes.line_contact.schema import ACCURACIES
 from jaxbearing.time_laws import LinearRamp
 
 Rows = Iterator[tuple[str, ...]]

@@ -38,7 +38,8 @@ from benchmark_tools import best_time, sharded, time_at  # noqa: E402
 from moving_roller import start_of, started, table_16  # noqa: E402
 from scipy.integrate import solve_ivp  # noqa: E402
 
-from jaxbearing.bearings.motion.rates import CAGE_UNITS, ROLLER_UNITS, WORKS  # noqa: E402
+from jaxbearing.bearings.cylindrical.motion.energy import WORKS  # noqa: E402
+from jaxbearing.bearings.cylindrical.motion.rates import CAGE_UNITS, ROLLER_UNITS  # noqa: E402
 from jaxbearing.bearings.motion.run import FIELD  # noqa: E402
 from jaxbearing.bearings.motion.settings import Simulation  # noqa: E402
 from jaxbearing.numerics.arrow import ArrowPoint  # noqa: E402
@@ -74,7 +75,7 @@ def field_of(dynamics):
         n = dynamics.system.azimuth.shape[0]
         cage = jnp.concatenate([y[ATOMS * n :], jnp.zeros(len(WORKS))])
         state = ArrowPoint(y[: ATOMS * n].reshape(ATOMS, n), cage)
-        found, _ = moving.rates_and_loads(t, state, tolerance=tolerance)
+        found, _ = moving.nested_rates(t, state, tolerance=tolerance)
         return jnp.concatenate([found.elements.ravel(), found.globals[: len(CAGE_UNITS)]])
 
     return jax.jit(field), jax.jit(jax.jacfwd(field, argnums=2))

@@ -85,7 +85,13 @@ IN_PYTHON = "import sys, jaxbearing as jb\nprint(jb.solve(jb.load_scene(sys.argv
 GRADIENT = """
 import sys, jax, jaxbearing as jb
 scene = jb.load_scene(sys.argv[1])
-print(jax.jit(jax.grad(lambda d: jb.solve(scene.replace_geometry(pitch_diameter=d)).ring.radial))(0.05))
+slope = jax.grad(lambda d: jb.solve(scene.replace_geometry(pitch_diameter=d)).ring.radial)
+ways = {
+    "jit": lambda: jax.jit(slope),
+    "quick": lambda: jax.jit(slope, compiler_options=jb.quick_compile_options()),
+    "alone": lambda: slope,
+}
+print(ways[sys.argv[2]]()(0.05))
 """
 CURVE = """\
 slide_to_roll [%], traction_coefficient, pressure [GPa], temperature [degC]
@@ -169,7 +175,9 @@ def processes(quick: bool = False) -> dict[str, list[str]]:
         return found
     machine = ("--scene", "two_disk_mobil_jet_ii", "--set", "operation.entrainment_speed=20 m/s", "--out", "oil.toml")
     return found | {
-        "first jit(grad), deep_groove_6205": ["-c", GRADIENT, "deep_groove_6205"],
+        "first jit(grad), deep_groove_6205": ["-c", GRADIENT, "deep_groove_6205", "jit"],
+        "the same, quick options": ["-c", GRADIENT, "deep_groove_6205", "quick"],
+        "first grad, deep_groove_6205": ["-c", GRADIENT, "deep_groove_6205", "alone"],
         "--sensitivities, turbine_ball": command("solve", "turbine_ball", "--sensitivities", "--json"),
         "simulate, 1 ms": command("simulate", "turbine_roller_dynamic", "--duration", "1 ms", "--json"),
         "sweep, 10 tapered cases": command(

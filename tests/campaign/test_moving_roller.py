@@ -90,7 +90,7 @@ def test_a_run_that_cannot_go_on_says_so_and_keeps_its_state():
     history = jb.simulate(moving(), 3e-3, simulation=simulation, interval=1e-4, throw=False)
     assert not history.completed
     assert 0.999e-3 < float(history.time[-1]) < 2e-3
-    assert np.all(np.isfinite(history.instants.state_rollers))
+    assert np.all(np.isfinite(history.instants.state_elements))
     assert "what was computed until then is kept" in history.failure()
 
 

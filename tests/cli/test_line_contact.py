@@ -91,7 +91,7 @@ def test_restart_and_animation(jaxbearing_command, folder, monkeypatch):
 def test_restart_from_something_else_is_refused(jaxbearing_command, folder):
     jaxbearing_command(*SIMULATE, "--duration", "0.1 ms", "--out", "a.nc", "--json")
     (folder / "half.nc").write_bytes((folder / "a.nc").read_bytes()[:5000])
-    fields = {"state_rollers": (3, 30), "state_cage": (6,), "azimuth": (30,)}
+    fields = {"state_elements": (3, 30), "state_cage": (6,), "azimuth": (30,)}
     fields |= dict.fromkeys(("frame_angle", "frame_speed", "reference_speed"), ())
     variables = {
         name: (("time", *(f"{name}_{i}" for i in range(len(shape)))), np.zeros((1, *shape)))

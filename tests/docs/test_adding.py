@@ -6,10 +6,11 @@ from pathlib import Path
 import test_layers
 
 from jaxbearing.bearings.bearing import AbstractBearing
+from jaxbearing.bearings.motion.family import AbstractDynamics, AbstractMotion
 
 PAGE = (Path(__file__).parents[2] / "docs" / "adding.md").read_text(encoding="utf-8")
 FAMILIES = ("ball", "cylindrical", "tapered")
-OWN = tuple(f"bearings/{name}/" for name in (*FAMILIES, "motion"))
+OWN = tuple(f"{layer}/{name}/" for layer in ("bearings", "scenes") for name in FAMILIES)
 
 
 def test_files_that_know_a_family():
@@ -36,5 +37,14 @@ def test_files_of_the_table_are_there():
     (table,) = re.findall(r"^\| to add \|.*?\n\n", PAGE, flags=re.MULTILINE | re.DOTALL)
     files = re.findall(r"`((?:\w+/)*\w+\.py)`", table)
     here = {path.relative_to(test_layers.PACKAGE).as_posix() for path in test_layers.modules(test_layers.PACKAGE)}
-    in_families = {"solution.py", "steady.py"}
-    assert set(files) - in_families - {name for name in files if "FAMILY" in name} <= here
+    in_families = {"scene.py", "solution.py", "steady.py", "schema.py", "build.py", "writer.py"}
+    assert set(files) - in_families <= here
+
+
+def test_what_a_moving_family_is_asked_is_there():
+    section = PAGE.split("## What a family that moves answers")[1].partition("## Files")[0]
+    _, motion, dynamics = section.split("| asked |")
+    for part, kind in ((motion, AbstractMotion), (dynamics, AbstractDynamics)):
+        rows = [row.split("|")[1] for row in part.splitlines() if row.startswith("| `")]
+        asked = {name for row in rows for name in re.findall(r"`(\w+)`", row)}
+        assert set(kind.__abstractmethods__) <= asked <= set(dir(kind))

@@ -14,7 +14,7 @@ import jaxbearing as jb
 from jaxbearing.ehl import ContactBodies, ContactGeometry, ContactOperation, EHLLineContact, FilmModel
 from jaxbearing.lubricants import ConstantPressureViscosity, Lubricant, Roelands
 from jaxbearing.lubricants.compression import dowson_higginson_ratio
-from jaxbearing.scenes.oils import load_oil
+from jaxbearing.scenes.oil.catalogue import load_oil
 
 ROWS = tomllib.loads((Path(__file__).parents[1] / "published" / "line_contact_field.toml").read_text())["oil"]
 

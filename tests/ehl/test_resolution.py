@@ -9,7 +9,7 @@ from line_contacts import by_moes
 import jaxbearing as jb
 from jaxbearing.ehl.resolution import NODES, chosen, cut_error, mesh_error
 from jaxbearing.ehl.solution import range_checks
-from jaxbearing.scenes.line_contact_schema import ACCURACIES
+from jaxbearing.scenes.line_contact.schema import ACCURACIES
 
 
 @pytest.mark.parametrize("accuracy", ACCURACIES)

@@ -16,7 +16,7 @@ from jaxbearing.ehl import ContactBodies, ContactGeometry, ContactOperation, EHL
 from jaxbearing.ehl.mesh import mesh
 from jaxbearing.ehl.solution import solve_line_contact
 from jaxbearing.numerics.status import SolveError, Status
-from jaxbearing.scenes.oils import load_oil
+from jaxbearing.scenes.oil.catalogue import load_oil
 
 PUBLISHED = tomllib.loads((Path(__file__).parents[1] / "published" / "line_contact_field.toml").read_text())
 

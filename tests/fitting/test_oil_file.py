@@ -26,10 +26,10 @@ from jaxbearing.lubricants import (
 from jaxbearing.scenes import units
 from jaxbearing.scenes.data_files import builtin_text, oil_names
 from jaxbearing.scenes.errors import SceneError
-from jaxbearing.scenes.oil_files import read_oil
-from jaxbearing.scenes.oil_schema import OilTable
-from jaxbearing.scenes.oil_writer import oil_text
-from jaxbearing.scenes.oils import load_oil, lubricant, missing_sources
+from jaxbearing.scenes.oil.catalogue import load_oil, lubricant, missing_sources
+from jaxbearing.scenes.oil.files import read_oil
+from jaxbearing.scenes.oil.schema import OilTable
+from jaxbearing.scenes.oil.writer import oil_text
 from jaxbearing.scenes.quantity_texts import quantity_text
 from jaxbearing.scenes.reader import oil_origins
 

@@ -18,7 +18,7 @@ from jaxbearing.contacts import (
 from jaxbearing.contacts.heated_film import heated_film
 from jaxbearing.gaps import ShortJournal
 from jaxbearing.numerics.compiling import compiled_by_hand
-from jaxbearing.scenes.oils import load_oil
+from jaxbearing.scenes.oil.catalogue import load_oil
 
 COMPILATION = "/jax/core/compile/backend_compile_duration"
 OIL = load_oil("mobil_jet_ii")

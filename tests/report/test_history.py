@@ -13,7 +13,7 @@ from filled_results import history_of
 from moving_roller import table_16
 
 import jaxbearing as jb
-from jaxbearing.bearings.motion.run import resume
+from jaxbearing.bearings.cylindrical.motion.start import resume
 from jaxbearing.numerics.status import SolveError, Status
 from jaxbearing.report import histories, history_shocks
 from jaxbearing.report.backends.matplotlib.animations import save_animation
@@ -53,7 +53,7 @@ def test_two_halves_make_a_whole(scene, whole, file):
     np.testing.assert_allclose(half.time, whole.time[-n:], rtol=1e-14)
     np.testing.assert_allclose(half.stop, 2 * SHORT, rtol=1e-14)
     # to the tolerance of the integration, times what the path with a first shock makes of it
-    for name, unit in (("state_rollers", [1e-5, 0.1, 1.0]), ("state_cage", [1e-5] * 3 + [0.1] * 3)):
+    for name, unit in (("state_elements", [1e-5, 0.1, 1.0]), ("state_cage", [1e-5] * 3 + [0.1] * 3)):
         one, other = np.asarray(getattr(half.instants, name)), np.asarray(getattr(whole.instants, name)[-n:])
         scale = np.reshape(unit, (-1, *(1,) * (one.ndim - 2))) * (1.0 + np.abs(other).max())
         assert np.abs((one - other) / scale).max() < 1e-4
@@ -78,7 +78,7 @@ def test_nothing_jumps_where_the_speed_goes_on_otherwise(scene, file):
         np.testing.assert_allclose(u / 6e-3, old["spin_speed"][-1], rtol=1e-13)
         np.testing.assert_allclose(turning + v_c / pitch, old["cage_speed"][-1], rtol=1e-13)
         np.testing.assert_allclose(x, old["cage_x"][-1], rtol=1e-13)
-    np.testing.assert_allclose(q_c - q, last.cage[2] - last.rollers[0], atol=1e-14)
+    np.testing.assert_allclose(q_c - q, last.cage[2] - last.elements[0], atol=1e-14)
 
 
 def test_other_bearings_and_other_files_are_refused(scene, file, tmp_path):
@@ -95,7 +95,7 @@ def test_other_bearings_and_other_files_are_refused(scene, file, tmp_path):
         jb.simulate(
             scene.replace_geometry(pitch_diameter=0.1425), SHORT, restart=dataclasses.replace(last, identity=None)
         )
-    broken = eqx.tree_at(lambda s: s.rollers, last, np.full((3, 30), np.nan))
+    broken = eqx.tree_at(lambda s: s.elements, last, np.full((3, 30), np.nan))
     with pytest.raises(ValueError, match="not finite"):
         jb.simulate(scene, SHORT, restart=broken)
     with pytest.raises(FileNotFoundError):
@@ -107,17 +107,17 @@ def test_other_bearings_and_other_files_are_refused(scene, file, tmp_path):
             jb.read_last_state(path)
     other = tmp_path / "other.nc"
     write_netcdf(xr.Dataset({"time": ("time", np.zeros(3), {"units": "s"})}), other)
-    with pytest.raises(ValueError, match="it has no state_rollers"):
+    with pytest.raises(ValueError, match="it has no state_elements"):
         jb.read_last_state(other)
 
 
 def test_a_file_of_an_earlier_version(scene, file, tmp_path):
-    """It does not say which bearing it is of: it is gone on from, and the run says so."""
+    """It does not say which bearing it is of: the run goes on from it, and says so."""
     with xr.open_dataset(file, engine="h5netcdf", decode_times=False) as dataset:
         old = dataset.load()
     told = json.loads(old.attrs.pop("scene_identity"))
     assert told["geometry.roller_diameter"] == scene.geometry.roller_diameter
-    old.to_netcdf(tmp_path / "old.nc", engine="h5netcdf")
+    old.rename(state_elements="state_rollers").to_netcdf(tmp_path / "old.nc", engine="h5netcdf")
     history = jb.simulate(scene, SHORT, simulation=TIGHT, restart=jb.read_last_state(tmp_path / "old.nc"))
     assert history.completed
     assert history.warnings[0].startswith("restart: the state does not say of which bearing")

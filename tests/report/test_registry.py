@@ -23,6 +23,13 @@ def test_outputs_are_there(folder, module):
     assert callable(getattr(found, registry._FUNCTIONS[module]))
 
 
+@pytest.mark.parametrize("name", [*registry.FOLDERS, *registry.RUNS])
+def test_kinds_are_classes(name):
+    module, _, kind = name.rpartition(".")
+    found = getattr(importlib.import_module(module), kind)
+    assert f"{found.__module__}.{found.__qualname__}" == name
+
+
 def test_another_kind_is_named():
     with pytest.raises(TypeError, match="no summary of a str"):
         registry.output("a text", "summary", "summary")

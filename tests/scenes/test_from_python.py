@@ -8,7 +8,7 @@ import pytest
 
 import jaxbearing as jb
 from jaxbearing.scenes.data_files import builtin_text
-from jaxbearing.scenes.oil_writer import oil_text
+from jaxbearing.scenes.oil.writer import oil_text
 
 
 def tables(name="deep_groove_6205"):

@@ -28,7 +28,7 @@ from jaxbearing.lubricants import ConstantPressureViscosity, FittedPressureVisco
 from jaxbearing.machines import TwoDisk
 from jaxbearing.scenes.data_files import oil_names
 from jaxbearing.scenes.errors import SceneError
-from jaxbearing.scenes.oils import load_oil, missing_sources, oil_data
+from jaxbearing.scenes.oil.catalogue import load_oil, missing_sources, oil_data
 from jaxbearing.scenes.overrides import parse_value, split_assignments
 from jaxbearing.scenes.reader import builtin_names, builtin_summary, builtin_text, load_scene, scene_from_tables
 

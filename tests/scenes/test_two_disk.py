@@ -297,7 +297,7 @@ def test_one_message(case):
 
 def conductivity_left_out(**contact_fields):
     """The oil without its conductivity, which its name would bring back."""
-    from jaxbearing.scenes.oils import oil_data
+    from jaxbearing.scenes.oil.catalogue import oil_data
 
     tables = raw()
     tables["oil"] = {name: law for name, law in oil_data("mobil_jet_ii").items() if name != "conductivity"}

@@ -15,7 +15,8 @@ from life_page import page_scene
 from warm_cases import warm
 
 import jaxbearing as jb
-from jaxbearing.bearings.motion.history import History, Instant
+from jaxbearing.bearings.cylindrical.motion.results import RollerEnergy, RollerInstant
+from jaxbearing.bearings.motion.history import History
 from jaxbearing.ehl import LineContactHistory
 from jaxbearing.numerics.newton import NewtonOptions
 from jaxbearing.numerics.precision import as_float
@@ -99,9 +100,17 @@ def solution_of(scene, lanes=()):
 def history_of(scene, duration=1e-3):
     """A run of a scene, with every field that its classes have."""
     if isinstance(scene, jb.CylindricalRollerBearing):
-        sizes = {"element": scene.geometry.n_rollers, "roller_state": 3, "cage_state": 6}
-        instants = filled(_by_annotation(Instant, sizes), (INSTANTS,))
-        found = filled(_by_annotation(History, sizes | {"time": INSTANTS}, instants=None, solver="dopri5"))
+        sizes = {"element": scene.geometry.n_rollers, "element_state": 3, "cage_state": 6}
+        instants = filled(_by_annotation(RollerInstant, sizes), (INSTANTS,))
+        found = filled(
+            _by_annotation(
+                History,
+                sizes | {"time": INSTANTS},
+                instants=None,
+                energy=_by_annotation(RollerEnergy, sizes),
+                solver="dopri5",
+            )
+        )
         found = eqx.tree_at(lambda run: run.instants, found, instants, is_leaf=lambda leaf: leaf is None)
     else:
         sizes = {"time": INSTANTS, "node": NODES, "last_time": 3, "last_step": 2}

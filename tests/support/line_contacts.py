@@ -7,7 +7,7 @@ import numpy as np
 from jaxbearing.ehl import ContactBodies, ContactGeometry, ContactOperation, EHLLineContact, FilmModel
 from jaxbearing.lubricants import Barus, ConstantPressureViscosity, Lubricant
 from jaxbearing.materials import Material
-from jaxbearing.scenes.oils import load_oil
+from jaxbearing.scenes.oil.catalogue import load_oil
 
 STEEL = Material(np.float64(205e9), np.float64(0.3), np.float64(7850.0))
 MODULUS = 205e9 / 0.91

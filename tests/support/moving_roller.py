@@ -5,8 +5,9 @@ import jax
 import jax.numpy as jnp
 from roller_cases import RPM, reference_roller
 
+from jaxbearing.bearings.cylindrical.motion.start import build_dynamics
 from jaxbearing.bearings.motion.settings import Simulation
-from jaxbearing.bearings.motion.start import build_dynamics, quasi_static_start
+from jaxbearing.bearings.motion.start import quasi_static_start
 
 ZERO = jnp.zeros(())
 

@@ -5,7 +5,7 @@ import numpy as np
 from jaxbearing.contacts import DistributedTraction, NijenbanningVennerMoes, ReeEyring, Resolution
 from jaxbearing.machines import DiskGeometry, DiskMaterials, DiskOperation, TwoDisk, TwoDiskLaws
 from jaxbearing.materials import Material
-from jaxbearing.scenes.oils import load_oil
+from jaxbearing.scenes.oil.catalogue import load_oil
 
 STEEL = Material(np.float64(205e9), np.float64(0.3), np.float64(7850.0))
 COARSE = Resolution.for_accuracy(1e-2)

@@ -9,7 +9,7 @@ from jaxtyping import Array, Float
 from ..._scene import number, optional_number
 from ..._types import Scalar, Values
 from ...contacts import PointContact
-from ...numerics.checks import Checked, demand, given
+from ...numerics.checks import Checked, demand, numbers_or_none
 from ...numerics.refusals import refusals_of, refuse_all
 from ...numerics.structure import count
 from ..parts import FIRST_ELEMENT, check_row_fits
@@ -57,7 +57,9 @@ class BallGeometry(Checked):
                 f"geometry.contact_angle: found {found} diametral_clearance, expected one of the two: each follows "
                 "from the other"
             )
-        sizes = given(self.diametral_clearance, self.ball_diameter, self.conformity_inner, self.conformity_outer)
+        sizes = numbers_or_none(
+            self.diametral_clearance, self.ball_diameter, self.conformity_inner, self.conformity_outer
+        )
         if sizes is not None:
             yield from refusals_of(
                 demand,

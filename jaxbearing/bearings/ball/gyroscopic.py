@@ -8,7 +8,7 @@ import jax.numpy as jnp
 from jaxtyping import Array, Float
 
 from ..._types import Scalar, Values
-from ...numerics.checks import Checked, bounded, demand, given
+from ...numerics.checks import Checked, bounded, demand, numbers_or_none
 from ...numerics.precision import as_float
 
 NO_LOAD = 1e-9
@@ -28,7 +28,7 @@ class AbstractGyroscopic(Checked):
 
     def __check_init__(self):
         super().__check_init__()
-        if given(self.sign) is not None:
+        if numbers_or_none(self.sign) is not None:
             demand(
                 "kinematics.gyroscopic.sign must be 1 or -1",
                 abs(self.sign) == 1.0,

@@ -3,7 +3,7 @@ r"""Rolling resistance of balls that roll without sliding: what the frictionless
 Without a traction law the motion of a ball is that of race control: no sliding along rolling on either race, no spin on
 the controlling one. The forces that keep it so, $F_{ti} = -F_{to}$ along the orbit and the moment $M_s$ about the
 normal of the controlling race, do no work; they follow from the balance of the ball against its rolling resistances
-$M_{ri}, M_{ro}$ (`equations`: moments about the axis and about the radius, force along the tangent). With
+$M_{ri}, M_{ro}$ (`friction`: moments about the axis and about the radius, force along the tangent). With
 $c = \cos(\alpha_o - \alpha_i)$, $s = \sin(\alpha_o - \alpha_i)$:
 
 - outer control: $F_{ti} = \frac2D\frac{M_{ro} + cM_{ri}}{1 + c}$, $M_{so} = \frac{s}{1 + c}(M_{ro} - M_{ri})$;
@@ -32,7 +32,7 @@ from .state import BallsState
 
 
 class RollingBalance(NamedTuple):
-    """Resistances of each ball, races first: M_r against the roll, N m, of the sign that `equations` gives
+    """Resistances of each ball, races first: M_r against the roll, N m, of the sign that `friction` gives
     them, and the constraint forces F_t along the orbit, N, and moments M_s about the normals, N m."""
 
     resistance: Float[Array, "2 ball"]

@@ -22,7 +22,7 @@ from ...contacts.point_laws import PointLaws
 from ...lubricants import Lubricant, NoPressureViscosity
 from ...materials import Material, reduced_modulus
 from ...mounting import Fits, PartTemperatures
-from ...numerics.checks import demand, given
+from ...numerics.checks import demand, numbers_or_none
 from ...numerics.newton import NewtonOptions
 from ...numerics.refusals import refusals_of, refuse_all
 from ...numerics.structure import choice
@@ -67,7 +67,7 @@ class BallOperation(AbstractOperation):
             yield (
                 "operation.axial_load: a ball bearing needs an axial_load, a radial_load or a moment, or a displacement"
             )
-        elif given(*loads) is not None:
+        elif numbers_or_none(*loads) is not None:
             yield from refusals_of(
                 demand,
                 "operation.axial_load, radial_load or moment must differ from 0",

@@ -1,7 +1,7 @@
 """Steady state of a ball bearing: from the scene to the equations, and from the roots to the results."""
 
 import dataclasses
-from typing import Any, NamedTuple
+from typing import Any
 
 import jax
 import jax.numpy as jnp
@@ -13,16 +13,17 @@ from ...contacts.point_laws import PointFilm
 from ...materials import reduced_modulus
 from ...numerics.arrow import ArrowJacobian, ArrowPoint, linearize
 from ...numerics.newton import NewtonOptions, NewtonResult, newton_solve
-from ..assemble import assemble
+from ..assemble import Results, assemble
 from ..facts import MEAN_OF_POINT, RACEWAYS, Contacts, Facts
-from ..interactions import Interaction, costs, of_land
+from ..interactions import Costs, Interaction, costs, of_land
 from ..land import LandState
 from ..parts import azimuths
 from ..ring import InnerRing, Port
-from ..solution import RING_FREEDOMS, TILTS, CageState, RacewayPower, Reason, Solution
+from ..solution import RING_FREEDOMS, TILTS, CageState, FailureCause, RacewayPower, Solution
 from .build import build_core, build_lubricated, ring_directions
 from .core import BallCore
-from .equations import SIDES, LubricatedBallSystem
+from .equations import LubricatedBallSystem
+from .friction import SIDES
 from .kinematics import BallMotion
 from .rolling import common_orbit_torques, rolling_balance
 from .scene import BallBearing
@@ -60,10 +61,10 @@ def solve_ball(
         port,
         iterations=steps,
         ring_freedom=scene.shown_freedoms if ring is None else RING_FREEDOMS,
-        reasons=_without_cage(scene)
+        failure_causes=_without_cage(scene)
         | {
             "the load is {:.3g} times that at which the most loaded ball reaches 4.2 GPa, the limit of the static load "
-            "rating: balls and races would yield": Reason(times > 1.0, times)
+            "rating: balls and races would yield": FailureCause(times > 1.0, times)
         },
         stiffness_freedom=RING_FREEDOMS,
         equation_names=system.equation_names(),
@@ -79,14 +80,14 @@ def _of_lengths(
     return stiffness[free][:, free] * unit[:, None] * unit[None]
 
 
-def _without_cage(scene: BallBearing) -> dict[str, Reason]:
+def _without_cage(scene: BallBearing) -> dict[str, FailureCause]:
     if not scene.slips or scene.cage is not None:
         return {}
     text = (
         "balls that slide have no cage here: where the load lets some of them skid, no steady state is found; give the "
         "scene a [cage], a larger thrust, or leave out contact.traction"
     )
-    return {text: Reason(jnp.asarray(True), jnp.zeros(0))}
+    return {text: FailureCause(jnp.asarray(True), jnp.zeros(0))}
 
 
 def overload(scene: BallBearing) -> Float[Array, ""]:
@@ -112,20 +113,6 @@ def overload(scene: BallBearing) -> Float[Array, ""]:
     spread = 6.0 * jnp.square(ellipticity) * integral * radius / (jnp.pi * modulus)
     ball = (jnp.pi * scene.yield_pressure / (1.5 * ellipticity)) ** 3 * jnp.square(spread)
     return equivalent / (0.2 * geometry.n_balls * jnp.cos(angle) * ball)
-
-
-class _Results(NamedTuple):
-    """Results before masking; `facts`: what the range checks look at."""
-
-    cage: CageState | None
-    elements: BallResults
-    power_loss: BallPowerLoss
-    raceway_power: RacewayPower | None
-    drive_power: Array | None
-    inner_torque: Array | None
-    outer_torque: Array | None
-    rolling_by_race: Array | None
-    facts: Facts
 
 
 def _every(scene: BallBearing, values: Array) -> Float[Array, " ball"]:
@@ -196,13 +183,15 @@ def _contact(scene: BallBearing, cosine: Array) -> PointContact:
     return scene.geometry.contacts(cosine[0], cosine[1], modulus)
 
 
-def _dry_results(scene: BallBearing, system: BallCore, result: NewtonResult) -> _Results:
+def _dry_results(scene: BallBearing, system: BallCore, result: NewtonResult) -> Results[BallResults, BallPowerLoss]:
     state = system.at(result.point)
     elements, contacts = _ball_results(scene, system, state.load, state.angle, state.motion)
-    return _Results(None, elements, BallPowerLoss(), None, None, None, None, None, Facts((contacts,)))
+    return Results(elements, Costs(BallPowerLoss()), Facts((contacts,)))
 
 
-def _lubricated(scene: BallBearing, system: LubricatedBallSystem, result: NewtonResult, state: BallsState) -> _Results:
+def _lubricated(
+    scene: BallBearing, system: LubricatedBallSystem, result: NewtonResult, state: BallsState
+) -> Results[BallResults, BallPowerLoss]:
     motion = system.kinematics
     film, shear, pocket = state.film, state.traction, state.pocket
     more: dict[str, Array | None] = {"film_inner": film.film[0], "film_outer": film.film[1]}
@@ -243,10 +232,12 @@ def _lubricated(scene: BallBearing, system: LubricatedBallSystem, result: Newton
         cage = CageState(orbit, slip, eccentricity, land.attitude_angle)
     parts = _raceway_power(system, state)
     cost = costs(BallPowerLoss, _interactions(system, state, land), motion)
-    return _Results(cage, elements, cost.power_loss, parts, *cost[1:], facts)
+    return Results(elements, cost, facts, cage=cage, raceway_power=parts)
 
 
-def _rolling_alone(system: LubricatedBallSystem, state: BallsState, elements: BallResults, facts: Facts) -> _Results:
+def _rolling_alone(
+    system: LubricatedBallSystem, state: BallsState, elements: BallResults, facts: Facts
+) -> Results[BallResults, BallPowerLoss]:
     """Results of balls that roll without sliding: what rolling costs, where the scene models it."""
     balance, found = rolling_balance(system, state), []
     if balance is not None:
@@ -257,7 +248,7 @@ def _rolling_alone(system: LubricatedBallSystem, state: BallsState, elements: Ba
             torques = _ball_torques(system, state, balance.forward, balance.about, (balance.resistance,))
         found = [Interaction("rolling_resistance", power, *torques, _by_race(system, state, balance.resistance))]
     cost = costs(BallPowerLoss, found, system.kinematics)
-    return _Results(None, elements, cost.power_loss, None, *cost[1:], facts)
+    return Results(elements, cost, facts)
 
 
 def _raceway_power(system: LubricatedBallSystem, state: BallsState) -> RacewayPower:
@@ -274,7 +265,7 @@ def _raceway_power(system: LubricatedBallSystem, state: BallsState) -> RacewayPo
 
 
 def _interactions(system: LubricatedBallSystem, state: BallsState, land: LandState | None) -> list[Interaction]:
-    """All friction of balls that slide, each from the force and the speed of its own interaction."""
+    """The friction of sliding balls: one interaction each, with its own force and its own speed."""
     shear, pocket, motion = state.traction, state.pocket, state.motion
     assert shear is not None
     total = lambda power: system.multiplicity * jnp.sum(power)
@@ -387,7 +378,7 @@ def _all_freedoms(
     corner = jnp.zeros((g, g)).at[:5].set(jnp.sum(tangents[2:, m:], axis=-1) / full.load_scale())
     jacobian = ArrowJacobian(
         local=wide(solved.local),
-        to_globals=jnp.concatenate([by_ring, wide(solved.to_globals[:, freedoms:])], axis=1),
+        right_border=jnp.concatenate([by_ring, wide(solved.right_border[:, freedoms:])], axis=1),
         contributions=jnp.concatenate([tangents[2:, :m], wide(solved.contributions[freedoms:]) / multiplicity]),
         corner=corner.at[5:, 5:].set(solved.corner[freedoms:, freedoms:]),
         chain=chain.at[5:, 5:].set(cage),

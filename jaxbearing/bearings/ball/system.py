@@ -56,8 +56,10 @@ class Grooves(NamedTuple):
 
 
 class InnerArm(NamedTuple):
-    """From ball centres to the nearest inner groove centres: components in the half-plane of the ball (axial, outward)
-    and along the orbit, distance, m; `turned`: of the groove by the tilt (`RingFrame.turned`). Both are None where the
+    """Vectors from the ball centres to the nearest inner groove centres, m.
+
+    Components in the half-plane of the ball (axial, outward) and along the orbit, and the distance. `turned` is the
+    rotation of the groove by the tilt (`RingFrame.turned`). It and the component along the orbit are `None` where the
     ring cannot tilt."""
 
     in_plane: Float[Array, "2 ball"]

@@ -42,10 +42,10 @@ from ...numerics.arrow import AbstractArrowSystem, ArrowPoint
 from ...numerics.roots import monotone_root
 from ..inlet import OilElsewhere
 from ..land import LandState, guided_land
-from ..motion.loads import LOG_LOAD_RANGE, approach_error, guessed_loads, per_race
 from ..ring import LENGTH_UNIT, InnerRing
 from .forces import CageParts, forces_without_pocket, on_cage
 from .kinematics import RollerKinematics
+from .loads import LOG_LOAD_RANGE, approach_error, guessed_loads, per_race
 
 EASED_ENTRAINMENT = 0.3
 """Entrainment speed that a solve which failed at once is given first, over that of rolling without slip."""

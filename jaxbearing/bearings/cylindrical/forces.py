@@ -12,8 +12,8 @@ from ...contacts.laws import ContactState
 from ...gaps import EndForces, FlangeCoefficients, Pocket, PocketEdgeCoefficients, RollerDrag, ShortJournal
 from ...numerics.series import cosine_and_sine
 from ..interactions import Costs, Interaction, costs
-from ..motion.loads import per_race
 from .kinematics import RollerKinematics
+from .loads import per_race
 from .solution import PowerLoss
 
 

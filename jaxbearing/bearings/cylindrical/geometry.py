@@ -7,7 +7,7 @@ from typing import ClassVar, Literal
 import jax.numpy as jnp
 
 from ..._types import Scalar
-from ...numerics.checks import Checked, demand, given
+from ...numerics.checks import Checked, demand, numbers_or_none
 from ...numerics.refusals import refusals_of, refuse_all
 from ...numerics.structure import choice, count
 from ..cage import AbstractCage
@@ -63,7 +63,7 @@ class RollerGeometry(Checked):
     def _problems(self) -> Iterator[str | ValueError]:
         yield from refusals_of(check_row_fits, self.n_rollers, self.roller_diameter, self.pitch_diameter)
         yield from refusals_of(check_flanges, self)
-        sizes = given(self.contact_length, self.roller_length)
+        sizes = numbers_or_none(self.contact_length, self.roller_length)
         if sizes is not None:
             yield from refusals_of(
                 demand,
@@ -166,7 +166,7 @@ class RollerFlange(Checked):
 
 def check_height(flange: RollerFlange, geometry: RollerGeometry) -> None:
     """**Raises:** `ValueError` where the flange cannot exist between the rings (where the numbers are known)."""
-    sizes = given(flange.rim_height(geometry), geometry.roller_diameter)
+    sizes = numbers_or_none(flange.rim_height(geometry), geometry.roller_diameter)
     if sizes is not None:
         height, roller = sizes
         limit = roller / 2.0 if flange.ring == "both" else roller

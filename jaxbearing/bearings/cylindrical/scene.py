@@ -8,7 +8,7 @@ running (a roller between a turning inner and a fixed outer ring spins clockwise
 """
 
 import dataclasses
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator
 from typing import Any, ClassVar
 
 import equinox as eqx
@@ -23,10 +23,10 @@ from ...numerics.newton import NewtonOptions
 from ...numerics.refusals import refusals_of, refuse_all
 from ...thermal.settings import Thermal
 from ...thermal.shares import OilTemperatures
-from ..bearing import AbstractBearing
 from ..cage import ASSUMED_LANDS as ASSUMED_LANDS
 from ..facts import RangeChecks
 from ..growth import Growth, Play
+from ..motion.family import AbstractMotion, AbstractMovingBearing
 from ..motion.settings import Simulation
 from ..mounted import mounting_problems
 from ..operation import Operation
@@ -41,10 +41,6 @@ from ..warm import thermal_problems
 from .geometry import ASSUMED_FLANGE_HEIGHT, RollerCage, RollerFlange, RollerGeometry, check_height
 from .thrust import NOT_MODELLED, check_axial
 
-NO_NETWORK = (
-    "thermal: a run in time of the rollers has no thermal network; leave [thermal] out, and give the temperatures that "
-    "a solve has found as operation.oil_temperature and [temperatures]"
-)
 _ACROSS = ("radial", "lateral", "tilt", "tilt_lateral")
 """Freedoms of the inner ring that the rollers feel."""
 
@@ -56,7 +52,7 @@ def _freedoms(value: Any) -> tuple[str, ...]:
     raise ValueError(f"ring_freedom must be ('radial',) or ('radial', 'lateral'), got {value!r}")
 
 
-class CylindricalRollerBearing(AbstractBearing):
+class CylindricalRollerBearing(AbstractMovingBearing):
     """A steady cylindrical roller bearing under radial load; every part but geometry, materials and operation may
     be `None`, and is then not modelled: no unknown, no equation, no run time.
 
@@ -74,7 +70,6 @@ class CylindricalRollerBearing(AbstractBearing):
     """
 
     kind: ClassVar[str] = "cylindrical_roller_bearing"
-    runs_in_programs: ClassVar[bool] = True
 
     geometry: RollerGeometry
     materials: Materials
@@ -195,27 +190,11 @@ class CylindricalRollerBearing(AbstractBearing):
     def with_lateral_freedom(self) -> "CylindricalRollerBearing":
         return self if self.tilts else self.replace({"ring_freedom": ("radial", "lateral")})
 
-    def simulated(self, duration: float | None, **settings: Any) -> Any:
-        from ..motion.runs import simulate_rollers
+    @property
+    def motion(self) -> AbstractMotion:
+        from .motion.family import RollerMotion
 
-        self._check_no_network()
-        return simulate_rollers(self, duration, **settings)
-
-    def simulated_batch(self, duration: float, over: Mapping[str, Any], **settings: Any) -> Any:
-        from ..motion.runs import simulate_roller_batch
-
-        self._check_no_network()
-        return simulate_roller_batch(self, duration, over, **settings)
-
-    def _check_no_network(self) -> None:
-        """**Raises:** `ValueError` for a scene with a thermal network, which a run in time does not have."""
-        if self.thermal is not None:
-            raise ValueError(NO_NETWORK)
-
-    def check_restart(self, restart: Any, duration: float | None = None) -> None:
-        from ..motion.run import check_fits
-
-        check_fits(self, restart)
+        return RollerMotion()
 
     @property
     def modelled_freedoms(self) -> tuple[str, ...]:
@@ -299,7 +278,7 @@ class CylindricalRollerBearing(AbstractBearing):
 def check_run(operation: Operation) -> None:
     """**Raises:** `ValueError` where the operating point is none that a run in time can begin at."""
     if operation.displaced:
-        raise ValueError("operation.displacement: in a run in time loads move the ring, it is not held")
+        raise ValueError("operation.displacement: expected none in a run in time, where loads move the ring")
     if operation.axial_given:
         name = "displacement.axial" if operation.axial_load is None else "axial_load"
         raise ValueError(f"operation.{name}: a run in time moves the ring across the axis only")

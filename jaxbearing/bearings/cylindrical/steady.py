@@ -1,7 +1,5 @@
 """Steady state of a cylindrical roller bearing: from the scene to the equations, and from the root to the results."""
 
-from typing import NamedTuple
-
 import jax.numpy as jnp
 from jaxtyping import Array, Float
 
@@ -10,12 +8,11 @@ from ...gaps import Flange, Pocket, PocketEdge, RollerDrag
 from ...materials import reduced_modulus
 from ...numerics.arrow import ArrowPoint, condensed, linearize, schur_complement
 from ...numerics.newton import NewtonOptions, NewtonResult, newton_solve
-from ..assemble import assemble
+from ..assemble import Results, assemble
 from ..facts import MEAN_OF_LINE, RACEWAYS, Contacts, Facts
 from ..inlet import oil_elsewhere, oil_of_races, oil_temperature
-from ..interactions import Interaction, costs, of_land
+from ..interactions import Costs, Interaction, costs, of_land
 from ..land import LandState
-from ..motion.loads import LEAST_LOAD
 from ..parts import azimuths, drag_density
 from ..profile import pressed_load
 from ..ring import LENGTH_UNIT, InnerRing, Port
@@ -24,6 +21,7 @@ from .equations import IN_PLANE, DryRollerSystem, LubricatedRollerSystem, Roller
 from .forces import CageParts, friction_on_rings, rolling_alone
 from .geometry import RollerCage, RollerGeometry
 from .kinematics import RollerKinematics, roller_kinematics
+from .loads import LEAST_LOAD
 from .ring import roller_ring
 from .scene import CylindricalRollerBearing
 from .solution import PowerLoss, RollerResults
@@ -169,19 +167,6 @@ def solve_steady(scene: CylindricalRollerBearing, options: NewtonOptions, ring: 
     )
 
 
-class _Results(NamedTuple):
-    """Results before masking; `facts`: what the range checks look at."""
-
-    cage: CageState | None
-    elements: RollerResults
-    power_loss: PowerLoss
-    drive_power: Array | None
-    inner_torque: Array | None
-    outer_torque: Array | None
-    rolling_by_race: Array | None
-    facts: Facts
-
-
 def _port(
     system: DryRollerSystem | LubricatedRollerSystem, result: NewtonResult, load: Float[Array, " roller"]
 ) -> Port:
@@ -202,7 +187,7 @@ def _port(
     return Port(force, jnp.zeros((5, 5)).at[free[:, None], free[None, :]].set(ring), system.freedoms)
 
 
-def _dry_results(system: DryRollerSystem, result: NewtonResult) -> _Results:
+def _dry_results(system: DryRollerSystem, result: NewtonResult) -> Results[RollerResults, PowerLoss]:
     load, _ = system.loads(system.inward_shift(result.point))
     motion, ones = system.kinematics, jnp.ones_like(system.azimuth)
     pressure = jnp.where(load > 0, system.contact.hertz_pressure(load), 0.0)
@@ -216,10 +201,10 @@ def _dry_results(system: DryRollerSystem, result: NewtonResult) -> _Results:
         spin_speed=motion.free_spin * ones,
     )
     facts = Facts((Contacts(RACEWAYS, load, pressure, MEAN_OF_LINE),))
-    return _Results(None, elements, PowerLoss(), None, None, None, None, facts)
+    return Results(elements, Costs(PowerLoss()), facts)
 
 
-def _lubricated(system: LubricatedRollerSystem, result: NewtonResult) -> _Results:
+def _lubricated(system: LubricatedRollerSystem, result: NewtonResult) -> Results[RollerResults, PowerLoss]:
     state, motion = system.at(result.point), system.kinematics
     pressure = system.contact.hertz_pressure(state.load)
     contact, pocket, rise = state.contact, state.pocket, state.contact.temperature_rise
@@ -258,7 +243,7 @@ def _lubricated(system: LubricatedRollerSystem, result: NewtonResult) -> _Result
     facts = Facts((contacts,))
     if system.cage is None:
         cost = rolling_alone(system.contact, motion, contact.rolling_force, system.elsewhere is not None)
-        return _Results(cage=None, elements=elements, facts=facts, **cost._asdict())
+        return Results(elements, cost, facts)
 
     land = system.land_at(result.point, state)
     orbit = system.orbit(result.point.globals[-1])
@@ -269,7 +254,7 @@ def _lubricated(system: LubricatedRollerSystem, result: NewtonResult) -> _Result
         attitude_angle=land.attitude_angle,
     )
     cost = costs(PowerLoss, _interactions(system, state, land), motion)
-    return _Results(cage=cage, elements=elements, facts=facts, **cost._asdict())
+    return Results(elements, cost, facts, cage=cage)
 
 
 def cage_slip(orbit: Array, motion: RollerKinematics) -> Array:

@@ -13,7 +13,7 @@ import jax
 import jax.numpy as jnp
 from jaxtyping import Array, Float
 
-from ...numerics.checks import demand, given
+from ...numerics.checks import demand, numbers_or_none
 from ...numerics.safe import positive_power, power
 from ..operation import Operation
 from ..ring import InnerRing
@@ -114,7 +114,7 @@ def check_axial(geometry: Any, operation: Operation) -> None:
         for name, value in (("axial_load", load), ("displacement.axial", operation.held_at("axial"))):
             if value is not None:
                 raise ValueError(f"operation.{name}: expected none: {NO_AXIAL_FREEDOM}")
-    elif load is not None and given(load) is not None:
+    elif load is not None and numbers_or_none(load) is not None:
         sides = SIDES[geometry.thrust or "both"]
         word = "a force >= 0" if sides == (1.0,) else "a force <= 0"
         where = f"the flange carries no load the other way (geometry.thrust = '{geometry.thrust}')"

@@ -99,22 +99,20 @@ class TiltingRollers(AbstractConvexArrow):
         half = 0.5 * (inward - self.radial_clearance) / LENGTH_UNIT
         return ArrowPoint(jnp.stack([half, jnp.zeros_like(half)]), ring)
 
-    def element(self, unknowns, shared):
+    def acting(self, unknowns, shared):
+        """See `AbstractConvexArrow`; the energy of a roller is that of its contacts less the work of its centrifugal
+        force, J."""
         state = self.state(unknowns, shared)
         balance = self.balance(state) + anchored(unknowns, ANCHOR * LENGTH_UNIT)
         totals = jnp.einsum("fcn,cn->fn", self.columns, self.ring_force(state))
-        return balance / self.roller_scale(), totals, jnp.zeros(())
+        out, tilt = self.units() * unknowns
+        energy = jnp.sum(self.line.energy(state.approach, state.slope), axis=0)
+        energy = energy - self.centrifugal * (out + 0.5 * self.line.length * tilt)
+        return balance / self.roller_scale(), totals, energy
 
     def global_residual(self, globals_, totals):
         held = anchored(globals_, ANCHOR * LENGTH_UNIT)
         return (totals - self.ring.load + held) / self.load_scale(), jnp.zeros(())
-
-    def energies(self, unknowns, shared):
-        """Energy of the contacts of each roller less the work of its centrifugal force, J."""
-        state = self.state(unknowns, shared)
-        out, tilt = self.units() * unknowns
-        energy = jnp.sum(self.line.energy(state.approach, state.slope), axis=0)
-        return energy - self.centrifugal * (out + 0.5 * self.line.length * tilt)
 
     def work(self, globals_):
         """Work of the ring's loads, J."""

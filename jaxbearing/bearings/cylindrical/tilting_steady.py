@@ -6,7 +6,6 @@ tractions that rolling without sliding needs balance each roller; ring torques a
 """
 
 import dataclasses
-from typing import NamedTuple
 
 import jax
 import jax.numpy as jnp
@@ -19,14 +18,14 @@ from ...materials import reduced_modulus
 from ...numerics.arrow import ArrowPoint, linearize
 from ...numerics.newton import NewtonOptions, newton_solve
 from ...numerics.status import Status
-from ..assemble import assemble
+from ..assemble import Results, assemble
 from ..facts import MEAN_OF_LINE, RACEWAYS, Contacts, Facts
 from ..inlet import oil_of_races
 from ..parts import azimuths
 from ..profile import RollerProfile, pressed_load
 from ..rating import rated_laminae
 from ..ring import InnerRing, Port
-from ..solution import CageState, LaminaLoads, Solution
+from ..solution import LaminaLoads, Solution
 from .forces import rolling_alone
 from .kinematics import RollerKinematics, roller_kinematics
 from .ring import roller_ring
@@ -94,21 +93,9 @@ def solve_tilting(scene: CylindricalRollerBearing, options: NewtonOptions, ring:
     )
 
 
-class _Results(NamedTuple):
-    """Results before masking; `facts`: what the range checks look at."""
-
-    cage: CageState | None
-    elements: RollerResults
-    power_loss: PowerLoss
-    drive_power: Array | None
-    inner_torque: Array | None
-    outer_torque: Array | None
-    rolling_by_race: Array | None
-    laminae: LaminaLoads
-    facts: Facts
-
-
-def _results(scene: CylindricalRollerBearing, system: TiltingRollers, state: TiltingState) -> _Results:
+def _results(
+    scene: CylindricalRollerBearing, system: TiltingRollers, state: TiltingState
+) -> Results[RollerResults, PowerLoss]:
     motion, zero, ones = (
         roller_kinematics(scene.geometry, scene.operation),
         jnp.zeros(()),
@@ -152,7 +139,7 @@ def _results(scene: CylindricalRollerBearing, system: TiltingRollers, state: Til
         contacts = contacts._replace(laws=scene.contact, inlet=inlet, mean_speed=speed, temperature=temperature)
         facts = facts._replace(contacts=(contacts,))
     laminae = LaminaLoads(inner_laminae, outer_laminae, profiled)
-    return _Results(cage=None, elements=elements, laminae=laminae, facts=facts, **costs._asdict())
+    return Results(elements, costs, facts, laminae=laminae)
 
 
 def _films(

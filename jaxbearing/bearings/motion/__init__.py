@@ -1,1 +1,1 @@
-"""Runs of bearings in time: settings, start, rates, integration, instants, history."""
+"""Bearings in motion: integration, restart, batches and history, for every family with equations of motion."""

@@ -1,59 +1,12 @@
-"""Range checks of a run in time of cylindrical rollers: those of `bearings.checks`, over all instants together."""
-
-import dataclasses
-from typing import Any
+"""Range checks of a run in time: the largest excess of all its pieces."""
 
 import jax
 import jax.numpy as jnp
-from jaxtyping import Array
 
-from ..checks import result_excess
-from ..cylindrical.kinematics import roller_kinematics
-from ..cylindrical.scene import CylindricalRollerBearing
-from ..facts import MEAN_OF_LINE, RACEWAYS, Contacts, Excess, Facts
-from ..solution import RING_FREEDOMS, CageState, RingDisplacement
-from .history import Instant
+from ..facts import Excess
 
 AT_SOME_TIME = "at some time of the run: "
-
-
-def run_excess(scene: CylindricalRollerBearing, instants: Instant) -> Excess:
-    """Excess of the results of a run over the ranges of laws and bearings: text -> the largest number of all
-    instants, positive where the check applies. Pure.
-
-    **Arguments:** `instants`, of a run or of a piece of it, with the times in front of every array. All contacts of a
-    raceway at all these times are looked at together: those count that carry a part of the largest load. Instants with
-    a load that is not finite, at which a run breaks off, count nothing.
-    """
-    oil, elements = scene.oil, instants.elements
-    assert oil is not None
-
-    def at_once(inner_speed: Array, orbital_speed: Array, spin_speed: Array) -> tuple[Array, Array]:
-        motion = roller_kinematics(scene.geometry, dataclasses.replace(scene.operation, inner_speed=inner_speed))
-        return motion.surface_speeds(orbital_speed - motion.free_orbit, spin_speed - motion.free_spin)
-
-    moving = (instants.inner_speed, elements.orbital_speed, elements.spin_speed)
-    mean_speed, sliding = jax.vmap(at_once, out_axes=1)(*(jnp.asarray(speed) for speed in moving))
-    inlet = oil.at(jnp.asarray(scene.operation.oil_temperature))
-    together: Any = lambda *races: jnp.stack([jnp.reshape(jnp.asarray(race), -1) for race in races])
-    rise = (elements.temperature_rise_inner, elements.temperature_rise_outer)
-    load = together(elements.load_inner, elements.load_outer)
-    contacts = Contacts(
-        RACEWAYS,
-        jnp.where(jnp.isfinite(load), load, 0.0),
-        together(elements.pressure_inner, elements.pressure_outer),
-        MEAN_OF_LINE,
-        laws=scene.contact,
-        inlet=inlet,
-        mean_speed=together(*mean_speed),
-        sliding=together(*sliding),
-        temperature=None if rise[0] is None else inlet.temperature + together(*rise),
-    )
-    zero, own = jnp.zeros(()), instants.cage
-    ring = RingDisplacement(**dict.fromkeys(RING_FREEDOMS, zero))  # a ring that moves does not tilt
-    cage = None if own is None else CageState(zero, zero, jnp.nanmax(jnp.asarray(own.eccentricity_ratio)), zero)
-    found = result_excess(scene, Facts((contacts,)), ring, cage)
-    return {AT_SOME_TIME + text: value for text, value in found.items()}
+"""First words of each check that holds for a run."""
 
 
 def largest(pieces: list[Excess]) -> Excess:

@@ -1,6 +1,7 @@
 """Results of a run in time, labelled: every quantity carries its unit and description where it is defined.
 
-The command line, JSON, files and plots read this metadata; nothing keeps a second list.
+The command line, JSON, files and plots read this metadata; nothing keeps a second list. A family derives its own
+classes of an instant and of the energy balance from `Instant` and `Energy`, with what only it has.
 """
 
 from collections.abc import Mapping
@@ -15,7 +16,6 @@ from jaxtyping import Array, Bool, Float, Int
 from ..._identity import Identity
 from ..._scene import AbstractSolution
 from ...numerics.status import Status
-from ..cylindrical.solution import PowerLoss, RollerResults
 from ..solution import RingDisplacement, label, losses_not_modelled
 
 
@@ -43,78 +43,77 @@ class PocketPeaks(eqx.Module):
 
 
 class Instant(eqx.Module):
-    """State and results at one time; in a `History` every array has the times in front."""
+    """State and results at one time; in a `History` every array has the times in front.
+
+    **Arguments:** the labels of the fields describe them; others are those of the steady solution of the family.
+    """
+
+    element_state: ClassVar[tuple[str, ...]] = ()
+    """Names of the components of `state_elements`."""
+    cage_state: ClassVar[tuple[str, ...]] = ()
+    """Names of the components of `state_cage`."""
 
     inner_speed: Float[Array, ""] = eqx.field(metadata=label("rad/s", "inner ring speed"))
     radial_load: Float[Array, ""] = eqx.field(metadata=label("N", "load on the inner ring along the load line"))
     lateral_load: Float[Array, ""] = eqx.field(metadata=label("N", "load on the inner ring across the load line"))
     ring: RingDisplacement
     cage: CageMotion | None
-    elements: RollerResults
+    elements: Any
     pocket_peaks: PocketPeaks | None
-    power_loss: PowerLoss
+    power_loss: Any
     drive_power: Float[Array, ""] = eqx.field(metadata=label("W", "sum over both rings of torque times speed"))
     kinetic_energy: Float[Array, ""] = eqx.field(metadata=label("J", "kinetic energy of rolling elements and cage"))
     pocket_energy: Float[Array, ""] = eqx.field(metadata=label("J", "elastic energy of the pocket films"))
     raceway_energy: Float[Array, ""] = eqx.field(metadata=label("J", "elastic energy of the raceway contacts"))
-    state_rollers: Float[Array, "roller_state element"] = eqx.field(
-        metadata=label("1", "state of the rolling elements: position, orbital and spin speed in the frame of the run")
+    state_elements: Float[Array, "element_state element"] = eqx.field(
+        metadata=label("1", "state of the rolling elements in the frame of the run")
     )
     state_cage: Float[Array, " cage_state"] = eqx.field(
-        metadata=label(
-            "1", "state of the cage: x, y, angle times pitch radius in the frame of the run, and their rates"
-        )
+        metadata=label("1", "state of the cage in the frame of the run")
     )
     frame_angle: Float[Array, ""] = eqx.field(metadata=label("rad", "angle of the frame of the state"))
     frame_speed: Float[Array, ""] = eqx.field(metadata=label("rad/s", "speed of that frame"))
 
 
 class LastState(eqx.Module):
-    """From where another run can go on: `History.last_state`, or that of a file.
+    """The state from which another run can go on: `History.last_state`, or that of a file.
 
     **Arguments:**
     - `time`: s.
-    - `rollers`: rows q, m, v and u, m/s, of each roller.
-    - `cage`: X, Y, q, m, and their rates, m/s.
-    - `frame_angle`, `frame_speed`: of the frame in which they are counted, rad and rad/s.
-    - `reference_speed`: of that frame at the operating point, rad/s.
-    - `azimuth`: of the rollers, rad.
-    - `has_cage`: whether there is a cage.
-    - `identity`: which bearing it is (`None`: not known, as in files of earlier versions).
+    - `elements`: state of each rolling element, with the components that the family names (`Instant.element_state`).
+    - `cage`: state of the cage, likewise (`Instant.cage_state`).
+    - `frame_angle`, `frame_speed`: angle and speed of the frame in which positions are counted, rad and rad/s.
+    - `reference_speed`: speed of that frame at the operating point, rad/s.
+    - `azimuth`: azimuths of the rolling elements, rad.
+    - `has_cage`: True if there is a cage.
+    - `identity`: identity of the bearing; `None` if it is not known, as in files of earlier versions.
     """
 
     of: ClassVar[str] = "bearing"
-    """Name of the thing that it is a state of, for messages."""
+    """Kind of the scenes that have this state, for messages."""
 
     time: Float[Array | np.ndarray, ""]
-    rollers: Float[Array | np.ndarray, "3 roller"]
-    cage: Float[Array | np.ndarray, "6"]
+    elements: Float[Array | np.ndarray, "component element"]
+    cage: Float[Array | np.ndarray, " cage_component"]
     frame_angle: Float[Array | np.ndarray, ""]
     frame_speed: Float[Array | np.ndarray, ""]
     reference_speed: Float[Array | np.ndarray, ""]
-    azimuth: Float[Array | np.ndarray, " roller"]
+    azimuth: Float[Array | np.ndarray, " element"]
     has_cage: bool = eqx.field(static=True)
     identity: Identity | None = None
 
 
 class Energy(eqx.Module):
-    """Works and energies over the run, J (see `motion.rates`). `drive` = `kinetic` + `dissipation` + `pocket_films`
-    + `lever_arm`, up to `error`; `load_on_ring` is balanced within the raceways, which are quasi-static."""
+    """Works and energies over the run, J. `drive` = `kinetic` + `dissipation` + `pocket_films`, up to `error`, and
+    what the class of a family adds."""
 
     drive: Float[Array, ""] = eqx.field(metadata=label("J", "work of the torques that drive the rings"))
     dissipation: Float[Array, ""] = eqx.field(metadata=label("J", "dissipated, but for the squeezed pocket films"))
     pocket_films: Float[Array, ""] = eqx.field(
         metadata=label("J", "work that closed the pocket films: oil squeezed out, and elastic energy")
     )
-    lever_arm: Float[Array, ""] = eqx.field(
-        metadata=label(
-            "J", "neglected by the model: moment of the pocket loads about the cage's centre, not the bearing's"
-        )
-    )
     kinetic: Float[Array, ""] = eqx.field(metadata=label("J", "gain of kinetic energy"))
     pocket_elastic: Float[Array, ""] = eqx.field(metadata=label("J", "gain of elastic energy of the pocket films"))
-    raceway_elastic: Float[Array, ""] = eqx.field(metadata=label("J", "gain of elastic energy of the raceways"))
-    load_on_ring: Float[Array, ""] = eqx.field(metadata=label("J", "work of the radial load on the ring"))
     error: Float[Array, ""] = eqx.field(metadata=label("1", "what the balance leaves open, over the drive work"))
 
 
@@ -125,7 +124,7 @@ class History(AbstractSolution):
     """
 
     of: ClassVar[str] = "bearing"
-    """Name of the thing that it is a state of, for messages."""
+    """Kind of the scenes that have this state, for messages."""
 
     status: Int[Array, ""] = eqx.field(metadata=label("1", "how the run ended"))
     time: Float[Array, " time"] = eqx.field(metadata=label("s", "time"))
@@ -157,6 +156,7 @@ class History(AbstractSolution):
 
     @property
     def completed(self) -> bool:
+        """True if the run reached its end (one run only)."""
         return bool(self.converged)
 
     def last_state(self) -> LastState:
@@ -169,7 +169,7 @@ class History(AbstractSolution):
         last = jax.tree.map(lambda leaf: np.asarray(leaf[-1]), self.instants)
         return LastState(
             time=np.asarray(self.time[-1]),
-            rollers=last.state_rollers,
+            elements=last.state_elements,
             cage=last.state_cage,
             frame_angle=last.frame_angle,
             frame_speed=last.frame_speed,

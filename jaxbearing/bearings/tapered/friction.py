@@ -105,7 +105,7 @@ class RollerBalance(NamedTuple):
 
 
 class TaperedFriction(NamedTuple):
-    """All of it. `balance` is None where the scene models no friction."""
+    """Friction of races and rib, and the balance of the rollers; `balance` is `None` if the scene models none."""
 
     races: RaceFriction
     rib: RibFriction | None

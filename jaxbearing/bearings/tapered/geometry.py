@@ -17,7 +17,7 @@ from jaxtyping import Array
 from ..._scene import number, optional_number
 from ..._types import Scalar
 from ...contacts import PointContact
-from ...numerics.checks import Checked, demand, functions, given
+from ...numerics.checks import Checked, array_module, demand, numbers_or_none
 from ...numerics.refusals import refusals_of, refuse_all
 from ...numerics.structure import count
 from ..parts import FIRST_ELEMENT
@@ -66,7 +66,7 @@ class TaperedGeometry(Checked):
             yield f"geometry.n_rollers must be >= 1, got {self.n_rollers}"
             return
         names = ("roller_diameter", "roller_length", "contact_angle", "roller_half_angle", "flange_angle", "end_radius")
-        sizes = given(*(getattr(self, name) for name in names))
+        sizes = numbers_or_none(*(getattr(self, name) for name in names))
         if sizes is not None:
             yield from refusals_of(_check, self.n_rollers, *sizes)
 
@@ -138,7 +138,7 @@ class TaperedGeometry(Checked):
 
 def _check(n_rollers: int, diameter: Any, length: Any, cup: Any, half: Any, flange: Any, end_radius: Any) -> None:
     """Numbers known or traced. **Raises:** `ValueError` for a bearing that is known to be impossible."""
-    xp = functions(diameter, length, cup, half, flange, end_radius)
+    xp = array_module(diameter, length, cup, half, flange, end_radius)
     degrees = lambda angle: f"{math.degrees(float(angle)):g} degrees"
     metres = lambda size: f"{float(size):g} m"
     gamma, cone = cup - half, cup - 2.0 * half

@@ -53,7 +53,7 @@ def _cup(big: Point, small: Point, thick: float) -> list[Point]:
 
 
 def _cone(big: Point, small: Point, axis: float, height: float, side: float, thick: float) -> list[Point]:
-    """With the rib at the big ends."""
+    """Cross-section of the inner ring (cone), with the rib at the big ends of the rollers."""
     top = moved(big, (math.sin(axis), math.cos(axis)), height)
     bottom = min(big[1], small[1]) - thick
     left = big[0] - 1.4 * side

@@ -12,14 +12,14 @@ from ...numerics.arrow import ArrowPoint, linearize
 from ...numerics.newton import NewtonOptions, NewtonResult, newton_solve
 from ...numerics.safe import safe_norm
 from ...numerics.status import Status
-from ..assemble import assemble
+from ..assemble import Results, assemble
 from ..facts import MEAN_OF_LINE, MEAN_OF_POINT, RACEWAYS, Contacts, Facts
 from ..inlet import oil_elsewhere, oil_of_races
 from ..interactions import costs
 from ..parts import azimuths
 from ..rating import LAMINAE, rated_laminae
 from ..ring import InnerRing, Port
-from ..solution import RING_FREEDOMS, CageState, LaminaLoads, Reason, Solution
+from ..solution import RING_FREEDOMS, FailureCause, LaminaLoads, Solution
 from .build import build_tapered, rolling_motion
 from .friction import TaperedFriction, tapered_friction
 from .scene import TaperedRollerBearing
@@ -62,7 +62,7 @@ def solve_tapered(scene: TaperedRollerBearing, options: NewtonOptions, ring: Inn
         _results(scene, system, result, friction),
         system.ring.displacement(result.point.globals),
         _port(scene, system, result),
-        reasons=_reasons(scene, asked.inertia) if _bounded(scene, ring) else {},
+        failure_causes=_reasons(scene, asked.inertia) if _bounded(scene, ring) else {},
         iterations=jnp.where(sliding, 0, minimum.steps + result.iterations),
         ring_freedom=scene.shown_freedoms if ring is None else RING_FREEDOMS,
         stiffness_freedom=RING_FREEDOMS,
@@ -143,12 +143,12 @@ def _moment_ranges(scene: TaperedRollerBearing) -> dict[str, _MomentRange]:
     return found
 
 
-def _reasons(scene: TaperedRollerBearing, inertia: Inertia) -> dict[str, Reason]:
+def _reasons(scene: TaperedRollerBearing, inertia: Inertia) -> dict[str, FailureCause]:
     """Possible causes of a failed solve: loads beyond the static bounds, with the bounds."""
     sliding, least = slides_out(scene, inertia), least_axial_load(scene, inertia)
     given = jnp.asarray(scene.operation.axial_load)
     found = {
-        "the axial load of {:.6g} N must be at least {:.6g} N to hold the cone in the cup": Reason(
+        "the axial load of {:.6g} N must be at least {:.6g} N to hold the cone in the cup": FailureCause(
             sliding, jnp.stack([given, least * (1.0 + ROUNDED_UP)])
         )
     }
@@ -156,10 +156,10 @@ def _reasons(scene: TaperedRollerBearing, inertia: Inertia) -> dict[str, Reason]
     for name, (moment, middle, most, shift) in ranges.items():
         ends = jnp.stack([moment + shift, middle - most + shift, middle + most + shift])
         text = f"the {name} of {{:.4g}} N m must lie between {{:.4g}} and {{:.4g}} N m"
-        found[text] = Reason(tipping, ends)
+        found[text] = FailureCause(tipping, ends)
     if len(ranges) == 2:
         text = "both moments together, as a vector, at most {:.4g} N m from the middles of these ranges"
-        found[text] = Reason(tipping, ranges["moment"].most[None])
+        found[text] = FailureCause(tipping, ranges["moment"].most[None])
     return found
 
 
@@ -179,26 +179,12 @@ def _with_nested(result: NewtonResult, friction: TaperedFriction, options: Newto
     return result._replace(status=status, inner_residual=jnp.maximum(result.inner_residual, residual))
 
 
-class _Results(NamedTuple):
-    """Results before masking; `facts`: what the range checks look at."""
-
-    cage: CageState | None
-    elements: TaperedResults
-    power_loss: TaperedPowerLoss
-    drive_power: Array | None
-    inner_torque: Array | None
-    outer_torque: Array | None
-    rolling_by_race: Array | None
-    laminae: LaminaLoads
-    facts: Facts
-
-
 def _results(
     scene: TaperedRollerBearing,
     system: TaperedSystem,
     result: NewtonResult,
     friction: TaperedFriction | None,
-) -> _Results:
+) -> Results[TaperedResults, TaperedPowerLoss]:
     geometry, state = scene.geometry, system.at(result.point)
     count = geometry.n_rollers
     every = lambda values: jnp.broadcast_to(values, (count,))
@@ -236,14 +222,13 @@ def _results(
         jnp.broadcast_to(side, (count, rated)) for side in (laminae if rated == own else cut(rated))
     )
     cost = costs(TaperedPowerLoss, [], scene.operation) if friction is None else friction.costs
-    return _Results(
-        cage=None,
-        elements=elements,
-        **cost._asdict(),
+    return Results(
+        elements,
+        cost,
+        _facts(scene, state, friction, pressure, flange, laminae, place[2]),
         laminae=LaminaLoads(
             inner_laminae, outer_laminae, scene.profile is not None and scene.profile.shape is not None
         ),
-        facts=_facts(scene, state, friction, pressure, flange, laminae, place[2]),
     )
 
 

@@ -8,7 +8,7 @@ import numpy as np
 from ...lubricants import AbstractViscosity, Barus, Lubricant, Roelands
 from ...report.backends.matplotlib.sheet import grid_lines, title_of
 from ...report.display import ZERO_CELSIUS
-from ...scenes.oils import load_oil
+from ...scenes.oil.catalogue import load_oil
 
 if TYPE_CHECKING:
     import jax

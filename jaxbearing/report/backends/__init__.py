@@ -1,1 +1,1 @@
-"""What outputs are made with: they know formats and libraries, and no kind of result."""
+"""Backends that make outputs: they know formats and libraries, and no kind of result."""

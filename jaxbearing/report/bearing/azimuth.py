@@ -8,7 +8,7 @@ from ..display import displayed
 
 
 def place_at(azimuth: Any, radius: Any) -> tuple[Any, Any]:
-    """To the right and upwards, of the bearing's axis."""
+    """Distances from the bearing's axis on the page, to the right and upwards."""
     return radius * np.sin(azimuth), -radius * np.cos(azimuth)
 
 

@@ -1,4 +1,4 @@
-"""What an engineer wants to know of a solution besides losses and loads, in words: for the screen and the page."""
+"""Facts about a solution besides losses and loads, in words, for the screen and the page."""
 
 import dataclasses
 from collections.abc import Iterator

@@ -1,4 +1,4 @@
-"""What an engineer wants to know of the seats of a mounted bearing, in words."""
+"""Facts about the seats of a mounted bearing, in words."""
 
 from collections.abc import Iterator
 

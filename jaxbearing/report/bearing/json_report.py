@@ -20,7 +20,7 @@ _INSIDE = (
     "equation_names",
     "notes",
     "laminae",
-    "reasons",
+    "failure_causes",
     "rolling_by_race",
 )
 _NAMES = ("stiffness_freedom", "held_freedom", "element_name")

@@ -29,7 +29,7 @@ def load_angle(operation: AbstractOperation) -> float | None:
 
 
 def operating_point(solution: Solution) -> str:
-    """As in "inner ring speed 10500 rpm, radial load 25 kN"; an outer ring at rest is not mentioned."""
+    """The operating point in words: "inner ring speed 10500 rpm, radial load 25 kN". A fixed outer ring is not said."""
     hidden, operation = unused_operation(solution), solution.operation
     said = []
     for field, given in _numbers(operation):

@@ -28,7 +28,7 @@ ROUND = {
 
 
 def bearing_panels(solution: Solution) -> list[Panel]:
-    """All that the scene models of them."""
+    """The charts of a solution, of what its scene models: losses, loads, and results over the azimuth."""
     losses = loss_panel(solution)
     return [*([losses] if losses is not None else []), load_panel(solution), *round_panels(solution)]
 

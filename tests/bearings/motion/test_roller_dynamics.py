@@ -11,8 +11,15 @@ import pytest
 from moving_roller import ZERO, all_at, built, rolling, shaken, start_of, table_16
 from roller_cases import reference_roller
 
-from jaxbearing.bearings.motion.loads import LENGTH_UNIT
-from jaxbearing.bearings.motion.rates import FINE, LOAD_TOLERANCE, WORKS
+from jaxbearing.bearings.cylindrical.loads import LENGTH_UNIT
+from jaxbearing.bearings.cylindrical.motion.energy import (
+    WORKS,
+    kinetic_energy,
+    power_by_location,
+    powers,
+    raceway_energy,
+)
+from jaxbearing.bearings.cylindrical.motion.rates import FINE, LOAD_TOLERANCE
 from jaxbearing.bearings.motion.settings import Simulation
 from jaxbearing.numerics.arrow import ArrowPoint
 from jaxbearing.numerics.integrate import integrate_segment
@@ -75,10 +82,10 @@ def test_loads_come_from_a_smooth_function_of_time():
     np.testing.assert_allclose(back.elements, point.elements, atol=1e-12)
     np.testing.assert_array_equal(back.globals, point.globals)
     assert np.all(np.diff(smoothed.elements[0]) > 0)
-    cold, closing = eqx.filter_jit(dynamics.rates_and_loads)(ZERO, state)
-    off = jax.tree.map(lambda leaf: 1.05 * leaf, closing)
-    warm, again = eqx.filter_jit(dynamics.rates_and_loads)(ZERO, state, off)
-    for a, b in ((cold, warm), (closing, again)):
+    cold, loads = eqx.filter_jit(dynamics.nested_rates)(ZERO, state)
+    off = jax.tree.map(lambda leaf: 1.05 * leaf, loads)
+    warm, again = eqx.filter_jit(dynamics.nested_rates)(ZERO, state, off)
+    for a, b in ((cold, warm), (loads, again)):
         for one, other in zip(a, b, strict=True):
             np.testing.assert_allclose(one, other, rtol=1e-9, atol=1e-9 * np.max(np.abs(one)))
 
@@ -105,27 +112,27 @@ DRIVEN = {
 
 @pytest.mark.parametrize("name", DRIVEN)
 def test_energy_is_balanced_at_every_state(name):
-    """Both identities in the docstring of `motion.rates`, term by term from forces and local speeds."""
+    """Both identities in the docstring of `cylindrical.motion.energy`, term by term from forces and local speeds."""
     dynamics, state = rolling(simulation=DRIVEN[name])
     state = shaken(dynamics, state)
 
     @eqx.filter_jit
     def rates_of_energy(dynamics, time, state):
         tangent = (jnp.ones(()), dynamics.rates(time, state))
-        kinetic = jax.jvp(dynamics.kinetic_energy, (time, state), tangent)[1]
+        kinetic = jax.jvp(lambda time, state: kinetic_energy(dynamics, time, state), (time, state), tangent)[1]
 
         def radial(time, state):
             now = dynamics.at(time, state)
             approach = dynamics.system.contact.palmgren_approach(now.distribution.load)
-            return now.distribution.ring, dynamics.raceway_energy(now), now.contact.film, approach
+            return now.distribution.ring, raceway_energy(dynamics, now), now.contact.film, approach
 
         (ring, raceways, film, approach) = jax.jvp(radial, (time, state), tangent)[1]
         now = dynamics.at(time, state)
-        return kinetic, dynamics.powers(time, now), ring, raceways, film, approach, now
+        return kinetic, powers(dynamics, time, now), ring, raceways, film, approach, now
 
     time = jnp.asarray(1e-3)
-    kinetic, powers, ring, raceways, film, approach, now = rates_of_energy(dynamics, time, state)
-    power = dict(zip(WORKS, powers, strict=True))
+    kinetic, watts, ring, raceways, film, approach, now = rates_of_energy(dynamics, time, state)
+    power = dict(zip(WORKS, watts, strict=True))
     balance = power["drive"] - power["dissipation"] - power["pocket_films"] - power["lever_arm"]
     np.testing.assert_allclose(kinetic, balance, atol=1e-12 * sum(map(abs, power.values())))
 
@@ -146,7 +153,7 @@ def test_every_dissipation_is_positive():
     dynamics, state = rolling()
     for seed in range(3):
         now, _ = all_at(dynamics, ZERO, shaken(dynamics, state, seed=seed))
-        loss = dynamics.costs(now).power_loss
+        loss = power_by_location(dynamics, now).power_loss
         named = ("inner_raceway", "outer_raceway", "pocket", "flange", "element_ends", "cage_pilot", "drag")
         assert all(getattr(loss, name) > 0 for name in named)
 

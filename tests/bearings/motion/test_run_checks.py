@@ -11,7 +11,8 @@ from filled_results import history_of
 
 import jaxbearing as jb
 from jaxbearing.bearings.cylindrical.kinematics import roller_kinematics
-from jaxbearing.bearings.motion.checks import AT_SOME_TIME, largest, run_excess
+from jaxbearing.bearings.cylindrical.motion.checks import run_excess
+from jaxbearing.bearings.motion.checks import AT_SOME_TIME, largest
 
 SCENE = jb.load_scene("turbine_roller_dynamic")
 excess = eqx.filter_jit(run_excess)

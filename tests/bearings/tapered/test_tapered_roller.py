@@ -238,7 +238,7 @@ def test_no_equilibrium(ratio):
     short = fast(axial_load=ratio * radial * np.tan(CUP))
     assert int(short.status) == Status.NO_EQUILIBRIUM
     # the bound, with the little that holds the centrifugal forces
-    (needed,) = [float(reason.numbers[1]) for reason in short.reasons.values() if bool(reason.applies)]
+    (needed,) = [float(reason.numbers[1]) for reason in short.failure_causes.values() if bool(reason.applies)]
     assert radial * np.tan(CUP) <= needed < 1.01 * radial * np.tan(CUP)
     assert f"must be at least {needed:.6g} N" in short.failure()
     assert bool(fast(axial_load=1.01 * needed).converged)

@@ -24,7 +24,7 @@ _DOTS = 72
 
 
 def instants(first: float, last: float, at_most: int = PICTURES) -> np.ndarray:
-    """As many evenly spaced numbers as there are pictures."""
+    """Evenly spaced numbers from `first` to `last`, one for each picture."""
     return np.linspace(first, last, min(PICTURES, at_most))
 
 

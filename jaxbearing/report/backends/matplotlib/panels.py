@@ -57,7 +57,7 @@ def _bars(axes: Any, panel: Bars) -> None:
 
 
 def _power(value: float, column: list[float]) -> str:
-    """With as many decimals as the largest of the column needs for four digits."""
+    """The number as text, with as many decimals as the largest one of its column needs for four digits."""
     _, _, decimals = digits(max(column, key=abs), 4).partition(".")
     return f"{value:.{len(decimals)}f}" if "e" not in decimals else digits(value)
 
@@ -86,7 +86,7 @@ def _polar(axes: Any, panel: Polar) -> None:
 
 
 def _load_arrow(axes: Any, angle: float) -> None:
-    """Beside the picture; azimuth 0 is below, counter-clockwise."""
+    """Draws the direction of the load beside the picture; azimuth 0 is below, and azimuths count counter-clockwise."""
     arrow = {"arrowstyle": "-|>,head_width=0.35,head_length=0.7", "linewidth": 2.2, "color": INK}
     place, half = np.array([1.05, 0.07]), 0.07 * np.array([math.sin(angle), -math.cos(angle)])
     axes.annotate("", xy=tuple(place + half), xytext=tuple(place - half), xycoords="axes fraction", arrowprops=arrow)

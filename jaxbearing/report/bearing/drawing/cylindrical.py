@@ -115,7 +115,7 @@ def _shoulders(scene: CylindricalRollerBearing, size: _Size) -> tuple[float, flo
 
 
 def _draw_roller_outline(axes: Any, size: _Size) -> None:
-    """With the corners that carry no load; their depth is drawn visible."""
+    """Draws a roller with the corners that carry no load; their depth is exaggerated so that it can be seen."""
     half, flat, radius = size.length / 2.0, size.loaded / 2.0, size.diameter / 2.0
     corner = min(half - flat, 0.12 * size.diameter)
     x = np.array([-half, -flat, flat, half, half, flat, -flat, -half])
@@ -186,7 +186,7 @@ def _label_section(axes: Any, scene: CylindricalRollerBearing, size: _Size, inne
 
 
 def _thrust_text(scene: CylindricalRollerBearing, stiffness: Any) -> str:
-    """What holds the inner ring along the axis, and its load."""
+    """Text about the flanges that hold the inner ring along the axis, and its axial load."""
     geometry, load = scene.geometry, scene.operation.axial_load
     said = [
         f"flange_gap {length_text(geometry.flange_gap)}, thrust {geometry.thrust or 'both'}",

@@ -44,7 +44,7 @@ def section(scene: Any, solution: Solution) -> str:
 
 
 def _axial_load(drawing: Drawing, solution: Solution, x: float, lowest: float, diameter: float) -> None:
-    """On the inner ring, below all that is drawn of it."""
+    """Draws the axial load on the inner ring, below the ring."""
     axial = getattr(solution.operation, "axial_load", None)
     if axial is None or float(axial) == 0.0:
         return

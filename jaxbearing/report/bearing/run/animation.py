@@ -103,7 +103,7 @@ def _draw(
     title: str,
     factor: float,
 ) -> Callable[[int], Any]:
-    """Everything that stands still; returns what moves the rest."""
+    """Draws all that stands still, and returns the function that moves the rest."""
     from matplotlib.cm import ScalarMappable
     from matplotlib.collections import EllipseCollection, LineCollection
     from matplotlib.colors import SymLogNorm

@@ -2,7 +2,7 @@
 
 Every field that carries a label in the result classes becomes one variable, as in `bearing.dataset`; those of an
 instant have the dimension `time` before their own, those over the rolling elements (`load_inner`) `time` and `element`.
-`state_rollers` and `state_cage` are the state itself, in SI units and in the frame of the run.
+`state_elements` and `state_cage` are the state itself, in SI units and in the frame of the run.
 """
 
 import numpy as np
@@ -13,9 +13,6 @@ from ....numerics.status import Status
 from ...history_shocks import FACES, SHOCK, peaks_by_turn, sectors, whirl_ratio
 from ...labels import labelled
 from ...variables import attributes, flags, identity_text, variable, without_fill
-
-_STATES = {"roller_state": ("q", "v", "u"), "cage_state": ("x", "y", "q", "v_x", "v_y", "v")}
-"""Components of the states, along their dimensions."""
 
 
 def to_dataset(history: History) -> xr.Dataset:
@@ -31,7 +28,8 @@ def to_dataset(history: History) -> xr.Dataset:
     count = dataset.sizes["element"]
     dataset = dataset.assign(_statistics(history))
     names = {"element": (np.arange(count), "number of the rolling element; azimuth says where it is")}
-    names |= {dim: (list(parts), "component of the state") for dim, parts in _STATES.items()}
+    states = {"element_state": history.instants.element_state, "cage_state": history.instants.cage_state}
+    names |= {dim: (list(parts), "component of the state") for dim, parts in states.items()}
     coordinates = {
         dim: xr.Variable((dim,), values, {"units": "1", "long_name": text}) for dim, (values, text) in names.items()
     }

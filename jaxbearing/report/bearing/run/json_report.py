@@ -65,7 +65,8 @@ def _spread(values: Any) -> dict[str, float]:
 def _stored(history: History) -> dict[str, float]:
     """Drive power beside the dissipation, as means over the run, W."""
     energy, time = history.energy, float(history.time[-1] - history.time[0])
-    works = {"pocket_films": energy.pocket_films, "lever_arm": energy.lever_arm, "kinetic": energy.kinetic}
+    names = ("pocket_films", "lever_arm", "kinetic")
+    works = {name: getattr(energy, name) for name in names if hasattr(energy, name)}
     return {name: float(work) / time if time > 0 else math.nan for name, work in works.items()}
 
 

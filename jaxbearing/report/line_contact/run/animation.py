@@ -29,7 +29,7 @@ def animate(history: LineContactHistory, scene: Any, title: str) -> "matplotlib.
 
 
 def _draw(figure: Any, history: LineContactHistory, times: np.ndarray, title: str) -> Callable[[int], Any]:
-    """Everything that stands still; returns what moves the rest."""
+    """Draws all that stands still, and returns the function that moves the rest."""
     time, speed = np.asarray(history.time), np.asarray(history.entrainment_speed)
     central, minimum = np.asarray(history.film.central), np.asarray(history.film.minimum)
     pressure, film = np.asarray(history.profile.pressure), np.asarray(history.profile.film)

@@ -1,0 +1,193 @@
+r"""Friction on lubricated balls: traction, rolling resistance, drag and pockets, and the equations of a ball's motion.
+
+Forces on the ball, $F_{tk}$ along $e_t$, moments $M_{sk}$ about $n_k$, $M_{rk}$ against the relative roll; in terms
+of the traction law $F_{tk} = -sF_x(s\,u_t, s\,u_b, \omega_s)$, s = 1 inside, -1 outside. Equations (source eqs.
+(16)-(17) and the moment about the radius, which the source replaces by a hypothesis on beta):
+
+- about the axis: $F_{to}\cos\alpha_o - F_{ti}\cos\alpha_i + \frac2D(M_{so}\sin\alpha_o - M_{si}\sin\alpha_i
+  + M_{ro}\cos\alpha_o + M_{ri}\cos\alpha_i) + F_{C1} + F_{C2} = 0$;
+- about the radius: $-F_{to}\sin\alpha_o + F_{ti}\sin\alpha_i + \frac2D(M_{so}\cos\alpha_o - M_{si}\cos\alpha_i
+  - M_{ro}\sin\alpha_o - M_{ri}\sin\alpha_i) - F_{C1x} - F_{C2x} + \frac2DJ\omega_m\omega_t = 0$;
+- about the tangent (resolved couple): $F_{bo} + F_{bi} + \frac2DsJ\omega_m\omega_R\sin\beta = 0$;
+- along the tangent: $F_{to} + F_{ti} - F_{ol} = Q_{C1} - Q_{C2}$, solved by the pocket films in closed form, or,
+  without a cage, an equation for the orbital speed.
+
+Heathcote slip (`PointLaws.heathcote`). Ball and race meet in a surface that bends around the ball across rolling, by
+$z = -y^2/(2R_k)$ along $n_k$, $1/R_k$ the mean of the curvatures $2/D$ and $1/(f_kD)$. The relative roll
+$\omega_{rk}$ about $b_k$ adds $\omega_{rk}z\,b_k\times n_k = \omega_{rk}z\,e_t$ to the sliding: along $e_t$ it is
+$u_t - \omega_sy - \omega_ry^2/(2R_k)$. The traction law's x is $s\,e_t$ and its y is $s\,b_k$: its sliding along x is s
+times that, and lacks $c\,y^2$ with $c = s\,\omega_{rk}/(2R_k)$ at both races; c > 0 in normal running, where
+$s\,\omega_{rk} > 0$. The stress $\tau_x$ on the race acts on the ball as $-s\tau_xe_t$ at $z\,n_k$ from the contact's
+centre: the moment $z(-s\tau_x)\,n_k\times e_t = s\tau_xy^2/(2R_k)\,b_k$ on the ball. A rolling resistance $M_{rk}$ is
+$-sM_{rk}b_k$ on the ball, hence slip by curvature is one more, $M_{ck} = -\int\tau_xy^2dA/(2R_k)$, in the same places:
+the moments about axis and radius, the torques on the rings, and the power, $sM_{ck}\omega_{rk} = -c\int\tau_xy^2dA$,
+which is what $\int\tau\cdot\Delta u\,dA$ has beside sliding of the centre and spin. The least spin power of
+`"min_power"` stays that of flat patches, as the source has it.
+"""
+
+import jax
+import jax.numpy as jnp
+import numpy as np
+from jaxtyping import Array, Float
+
+from ...contacts import PointContact
+from ...contacts.distributed import Traction
+from ...contacts.shear import Sliding
+from ...gaps.ball_pocket import BallPocketFilm
+from ...numerics.roots import monotone_root
+from .frictionless import AbstractLubricatedBallSystem
+from .state import BallsState
+
+SIDES = np.array([[1.0], [-1.0]])
+"""Inner, outer: the sense of the contact's x axis along the orbit."""
+PART_TOLERANCE = 1e-12
+"""Tolerance of the attitude of least spin power, as a part of the way from outer to inner control."""
+
+
+def with_traction(system: AbstractLubricatedBallSystem, state: BallsState, contact: PointContact) -> BallsState:
+    """The state with all friction on the balls, and the equations of their motion."""
+    motion = state.motion
+    shear, rolling, curvature = _friction(system, state, contact)
+    forward, about = jnp.asarray(-SIDES * shear.rolling), -shear.moment
+    axis, radius = _moments(system, state.angle, forward, about, (rolling, curvature))
+    tangential, drag_force, pocket = forward[0] + forward[1], None, None
+    if system.drag is not None:
+        speed = 0.5 * system.kinematics.pitch_diameter * motion.orbital_speed
+        drag_force = system.drag.force(speed, system.oil_of("drag").viscosity)
+        tangential = tangential - drag_force
+    if system.cage is not None:
+        viscosity = system.oil_of("pocket").viscosity
+        pocket = system.cage.pocket.balance(tangential, motion.axial_spin, motion.radial_spin, viscosity)
+        axis, radius = axis + pocket.friction, radius - pocket.transverse
+    if system.resolved:
+        couple = 2.0 / system.kinematics.ball_diameter * system.inertia * motion.orbital_speed
+        radius = radius + couple * motion.transverse
+    cage_moment, cage_force = (None, None) if pocket is None else _on_cage(system, pocket)
+    state = state._replace(
+        traction=shear,
+        rolling=rolling,
+        curvature=curvature,
+        pocket=pocket,
+        drag_force=drag_force,
+        cage_moment=cage_moment,
+        cage_force=cage_force,
+    )
+    return state._replace(rows=_rows(system, state, contact, axis, radius, tangential))
+
+
+def _friction(
+    system: AbstractLubricatedBallSystem, state: BallsState, contact: PointContact
+) -> tuple[Traction, Array | None, Array | None]:
+    """Traction of both contacts; moments against the roll by the film's pressure and by Heathcote slip, N m;
+    `None`: not modelled."""
+    races = state.races
+    slide = system.slide_share * SIDES
+    transverse = slide * races.transverse if system.resolved else None
+    bend = 0.5 / _patch_radius(system) if system.laws.heathcote else None
+    curved = None if bend is None else bend * slide * races.roll
+    sliding = Sliding(slide * races.rolling, transverse, system.slide_share * races.spin, curved)
+    shear = system.laws.shear(contact, state.load, state.film, races.mean_speed, sliding, system.oil)
+    turn = SIDES * races.roll
+    rolling = system.laws.rolling_moment(contact, state.load, state.film, races.mean_speed, turn, system.inlet)
+    curvature = None if bend is None or shear.curvature is None else -bend * shear.curvature
+    return shear, rolling, curvature
+
+
+def _moments(
+    system: AbstractLubricatedBallSystem,
+    angle: Array,
+    forward: Array,
+    about: Array,
+    resistances: tuple[Array | None, ...],
+) -> tuple[Array, Array]:
+    """Moments on each ball about the bearing's axis and about the radius, over half of the ball's diameter, N.
+
+    **Arguments:** on the ball, races first: `forward`, force along the orbit, N; `about`, moment about the normal,
+    and `resistances`, moments against the roll, N m.
+    """
+    sine, cosine, arm = jnp.sin(angle), jnp.cos(angle), 2.0 / system.kinematics.ball_diameter
+    axis = forward[1] * cosine[1] - forward[0] * cosine[0] + arm * (about[1] * sine[1] - about[0] * sine[0])
+    radius = forward[0] * sine[0] - forward[1] * sine[1] + arm * (about[1] * cosine[1] - about[0] * cosine[0])
+    for resistance in resistances:
+        if resistance is not None:
+            axis = axis + arm * (resistance[1] * cosine[1] + resistance[0] * cosine[0])
+            radius = radius - arm * (resistance[1] * sine[1] + resistance[0] * sine[0])
+    return axis, radius
+
+
+def _on_cage(system: AbstractLubricatedBallSystem, pocket: BallPocketFilm) -> tuple[Array, Array]:
+    """Moment, N m, and force, N, of each ball on the cage, (along, across) the load line."""
+    forward, outward = pocket.load_front - pocket.load_rear, pocket.friction_front - pocket.friction_rear
+    moment = 0.5 * (system.kinematics.pitch_diameter * forward - system.kinematics.ball_diameter * pocket.friction)
+    cosine, sine = jnp.cos(system.azimuth), jnp.sin(system.azimuth)
+    # t = (-sin, cos), n = (cos, sin) in the plane of the bearing, the load along x
+    force = jnp.stack([-forward * sine + outward * cosine, forward * cosine + outward * sine])
+    if system.multiplicity > 1:  # all balls alike: the pockets hold each other
+        force = jnp.zeros_like(force)
+    return moment, force
+
+
+def _rows(
+    system: AbstractLubricatedBallSystem,
+    state: BallsState,
+    contact: PointContact,
+    axis: Array,
+    radius: Array,
+    tangential: Array,
+) -> tuple[Array, ...]:
+    """Residuals of the ball's motion, in the order of its unknowns; moments over half of its diameter, N."""
+    scale, shear, pocket = system.friction_scale(), state.traction, state.pocket
+    assert shear is not None
+    rows = {
+        "spin": axis / scale,
+        "axial spin": axis / scale,
+        "radial spin": -radius / scale,
+        "orbit": -tangential / scale,
+    }
+    if state.pocket_force is not None and pocket is not None:
+        rows["outward"] = (state.pocket_force + (pocket.friction_front - pocket.friction_rear)) / scale
+    if system.resolved:
+        assert state.friction is not None
+        sideways = state.friction - SIDES * shear.transverse
+        rows["transverse"], rows["carried"] = (sideways[0] + sideways[1]) / scale, sideways[0] / scale
+    if system.attitude == "min_power":
+        rows["attitude"] = state.motion.attitude - _least_power(system, state, contact)
+    return tuple(rows[name] for name in system.own_unknowns)
+
+
+def _patch_radius(system: AbstractLubricatedBallSystem) -> Float[Array, "2 1"]:
+    """R_k = 2 f_k D/(2 f_k + 1): of the surface in which ball and race meet, across rolling, (inner, outer), m."""
+    conformities = jnp.stack([jnp.asarray(system.geometry.conformity_inner), system.geometry.conformity_outer])
+    return (2.0 * conformities * system.geometry.ball_diameter / (2.0 * conformities + 1.0))[:, None]
+
+
+def _least_power(system: AbstractLubricatedBallSystem, state: BallsState, contact: PointContact) -> Array:
+    """Attitude of the least spin power between those of outer and inner control, rad.
+
+    The power is that of rolling without sliding at frozen loads, angles and films. Where it rises from one end on,
+    the attitude is that end's, and follows it.
+    """
+    inner, outer = state.angle
+
+    def slope(part: Array, args):
+        balls, angle, load, film, contact = args
+        motion = balls.kinematics
+        low, high = motion.outer_control(angle[1]), motion.inner_control(angle[0])
+
+        def power(part: Array) -> Array:
+            rolling = motion.rolling(angle[0], angle[1], low + part * (high - low))
+            races = [motion.inner_race(rolling, angle[0]), motion.outer_race(rolling, angle[1])]
+            spin = jnp.stack([race.spin for race in races])
+            speed = jnp.stack([race.mean_speed for race in races])
+            sliding = Sliding(jnp.zeros_like(spin), None, spin)
+            shear = balls.laws.shear(contact, load, film, speed, sliding, balls.oil)
+            return jnp.sum(shear.moment * spin, axis=0)
+
+        rise = jax.jvp(power, (part,), (jnp.ones_like(part),))[1]
+        return rise / (balls.friction_scale() * balls.spin_unit() * motion.ball_diameter)
+
+    args = (system, state.angle, state.load, state.film, contact)
+    half = jnp.full_like(inner, 0.5)
+    part = monotone_root(slope, args, 0.0, 1.0, half, tolerance=PART_TOLERANCE).value
+    low, high = system.kinematics.outer_control(outer), system.kinematics.inner_control(inner)
+    return low + part * (high - low)

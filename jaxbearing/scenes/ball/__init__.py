@@ -1,0 +1,1 @@
+"""Scene files of ball bearings: schema, builder, writer."""

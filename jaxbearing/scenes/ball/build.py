@@ -1,0 +1,88 @@
+"""From a valid table of a ball bearing to the scene of the library. Only Python and numpy numbers enter the
+constructors: nothing runs on JAX."""
+
+from functools import cache
+
+from ...bearings.ball.geometry import BallGeometry
+from ...bearings.ball.gyroscopic import AbstractGyroscopic, CappedCouple, ResolvedCouple, SharedCouple
+from ...bearings.ball.scene import (
+    BallAttitude,
+    BallBearing,
+    BallCage,
+    BallDragSettings,
+    BallMaterials,
+    BallOperation,
+)
+from ...bearings.rating import Rating
+from ...contacts import PointLaws
+from ...lubricants import Lubricant
+from ..bearing.build import built, cage, part, seats, solids
+from ..laws import BALL_FILMS, distributed_traction, thermal_factor
+from ..oil.catalogue import lubricant
+from .schema import BallBearingTable, BallContactTable, KinematicsTable
+
+
+def ball_bearing(table: BallBearingTable) -> BallBearing:
+    """The scene that a table describes.
+
+    **Raises:** `ValueError` for combinations that the classes refuse.
+    """
+    oil = cache(lambda: None if table.oil is None else lubricant(table.oil))
+    slips = lambda: table.contact is not None and table.contact.traction is not None
+    return built(
+        BallBearing,
+        geometry=lambda: BallGeometry(**table.geometry.model_dump()),
+        materials=lambda: BallMaterials(**solids(table, "rings", "balls")),
+        operation=lambda: BallOperation(**table.operation.model_dump(exclude_none=True)),
+        kinematics=lambda: _kinematics(table.kinematics, slips()),
+        oil=oil,
+        contact=lambda: None if table.contact is None else _laws(table.contact, oil()),
+        cage=lambda: cage(BallCage, table.cage),
+        drag=lambda: part(BallDragSettings, table.drag),
+        rating=lambda: part(Rating, table.rating),
+        **seats(table),
+    )
+
+
+def _kinematics(table: KinematicsTable | None, slips: bool) -> BallAttitude:
+    """Left out: in equilibrium with traction, without it outer race control."""
+    attitude = None if table is None else table.attitude
+    if attitude is None:
+        attitude = "equilibrium" if slips else "outer"
+    if table is None:
+        return BallAttitude(attitude)
+    return BallAttitude(attitude, _gyroscopic(table, attitude), table.orbit)
+
+
+def _gyroscopic(table: KinematicsTable, attitude: str) -> AbstractGyroscopic | ResolvedCouple | None:
+    """Model that carries the couple, for an attitude of the balls."""
+    sign = 1.0 if table.gyroscopic_sign is None else table.gyroscopic_sign
+    match table.gyroscopic:
+        case "shared":
+            # all of it at the outer race where that controls the ball (source eqs. (14)-(15))
+            inner = 0.0 if attitude == "outer" else 1.0
+            if table.inner_share is not None:
+                inner = table.inner_share
+            elif table.outer_share is not None:
+                inner = 2.0 - table.outer_share
+            return SharedCouple(inner, 2.0 - inner if table.outer_share is None else table.outer_share, sign)
+        case "capped" if table.gyroscopic_friction is None:
+            return CappedCouple(sign=sign)
+        case "capped":
+            return CappedCouple(table.gyroscopic_friction, sign)
+        case "resolved":
+            return ResolvedCouple()
+    return None
+
+
+def _laws(table: BallContactTable, oil: Lubricant | None) -> PointLaws:
+    traction = None
+    if table.traction is not None:
+        traction = distributed_traction(table.traction, table.traction_accuracy, oil, spin=True)
+    return PointLaws(
+        film=BALL_FILMS[table.film](),
+        thermal=thermal_factor(table.thermal),
+        traction=traction,
+        rolling_resistance=table.rolling_resistance is not None,
+        heathcote=table.heathcote,
+    )

@@ -1,0 +1,1 @@
+"""Tables of scene files that all bearings have: schema, builder, writer."""

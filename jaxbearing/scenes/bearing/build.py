@@ -1,0 +1,119 @@
+"""From the tables that all bearings have to the parts of the library."""
+
+import dataclasses
+import re
+import typing
+from collections.abc import Callable, Mapping
+from contextlib import suppress
+from typing import Any, TypeVar
+
+import jax
+
+from ...bearings.cage import AbstractCage
+from ...materials import Material
+from ...mounting import Fits, PartTemperatures
+from ...numerics.checks import STAND_IN
+from ...numerics.refusals import collecting, refusals_of, refuse_all
+from ...thermal.settings import Thermal
+from ..drafts import Unreadable
+from ..laws import TURBULENCE
+from ..materials import material
+from ..table import Table
+from .schema import FitsTable
+
+Cage = TypeVar("Cage", bound=AbstractCage)
+Part = TypeVar("Part")
+
+
+def built(kind: type[Part], **parts: Callable[[], Any]) -> Part:
+    """The scene of these parts, each made by its function; all are tried before one is refused.
+
+    **Raises:** `ValueError` with everything that the classes refuse; `Unreadable` for a part of a table that is refused
+    already.
+    """
+    error: ValueError | Unreadable = Unreadable(kind.__name__)
+    try:
+        made = {name: make() for name, make in parts.items()}
+        if all(leaf is not STAND_IN for leaf in jax.tree.leaves(made)):
+            return kind(**made)
+    except (ValueError, Unreadable) as found:
+        error = found
+    refuse_all(_problems(kind, parts))
+    raise error
+
+
+def _problems(kind: type[Any], parts: Mapping[str, Callable[[], Any]]) -> list[ValueError]:
+    """Errors that the rules of the parts and those between parts raise, as far as they can be decided."""
+    made: dict[str, Any] = {}
+    with collecting() as problems:
+        for name, make in parts.items():
+            before = len(problems)
+            with suppress(Unreadable):
+                problems += refusals_of(lambda name=name, make=make: made.update({name: make()}))
+            if name not in made:
+                made[name] = _blank(kind, name)
+            _without_refused(made[name], name, problems[before:])
+        problems += refusals_of(lambda: kind(**made))
+    return problems
+
+
+class _Blank:
+    """Stands for a part that could not be made: it counts as an object of its class, and has no attributes."""
+
+    def __init__(self, owner: type):
+        self._owner = owner
+
+    @property
+    def __class__(self) -> type:  # pyright: ignore[reportIncompatibleMethodOverride]
+        return self._owner
+
+
+def _blank(kind: type, name: str) -> Any:
+    """Stands for the part in a field of a scene."""
+    hint = typing.get_type_hints(kind)[name]
+    (owner, *_) = [one for one in (hint, *typing.get_args(hint)) if dataclasses.is_dataclass(one)]
+    return _Blank(owner)  # pyright: ignore[reportArgumentType]
+
+
+def _without_refused(part: Any, name: str, problems: list[ValueError]) -> None:
+    """Puts `STAND_IN` in the place of the fields of a part that its own rules refuse, by the paths of the messages."""
+    for problem in problems:
+        found = re.match(rf"{name}\.(\w+)\b(?!\.)", str(problem))
+        if found and hasattr(part, found[1]):
+            object.__setattr__(part, found[1], STAND_IN)
+
+
+def part(kind: type[Part], table: Table | None, exclude_none: bool = False) -> Part | None:
+    """The part whose attributes are the fields of the table, where there is one."""
+    return None if table is None else kind(**table.model_dump(exclude_none=exclude_none))
+
+
+def seats(table: Any) -> dict[str, Callable[[], Any]]:
+    """The parts `fits`, `temperatures` and `thermal` of a bearing, as `built` takes them."""
+    return {
+        "fits": lambda: None if table.fits is None else _fits(table.fits),
+        "temperatures": lambda: part(PartTemperatures, table.temperatures),
+        "thermal": lambda: part(Thermal, table.thermal, exclude_none=True),
+    }
+
+
+def _fits(table: FitsTable) -> Fits:
+    names = ("shaft_material", "housing_material")
+    of = {name: getattr(table, name) for name in names}
+    given: dict[str, Any] = {name: material(one, thermal=True) for name, one in of.items() if one is not None}
+    return Fits(**table.model_dump(exclude=set(names)), **given)
+
+
+def solids(table: Any, *names: str) -> dict[str, Material]:
+    """The materials of these fields, as far as given; with thermal properties where the parts have temperatures."""
+    try:
+        thermal = table.temperatures is not None or table.thermal is not None
+    except Unreadable:
+        thermal = True
+    given = {name: getattr(table.materials, name) for name in names}
+    return {name: material(one, thermal=thermal) for name, one in given.items() if one is not None}
+
+
+def cage(kind: type[Cage], table: Any) -> Cage | None:
+    """The cage that a table describes, where there is one."""
+    return None if table is None else kind(**{**table.model_dump(), "turbulence": TURBULENCE[table.turbulence]()})

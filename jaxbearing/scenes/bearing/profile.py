@@ -1,0 +1,47 @@
+"""The table [profile] of a scene file: the rollers' generators, and the laminae into which they are cut."""
+
+from collections.abc import Mapping
+from typing import ClassVar, Literal
+
+from ...bearings.profile import RollerProfile
+from ...contacts.profile import CrownedProfile, LogarithmicProfile
+from ..table import Problems, check, refusal_at
+from ..table_of import table_of
+
+_OF_LAW = {"drop": ("crowned", "logarithmic"), "straight_fraction": ("crowned",), "end_ratio": ("logarithmic",)}
+"""Field -> the shapes that it is about."""
+
+
+class ProfileTable(
+    table_of(*(RollerProfile, CrownedProfile, LogarithmicProfile), optional=("drop", "straight_fraction", "end_ratio"))
+):
+    """`shape` and its numbers; see `contacts.profile`.
+
+    - `shape`: of the roller along its length
+    """
+
+    about: ClassVar[Mapping[str, tuple[str, ...]]] = {"shape": ("drop", "straight_fraction", "end_ratio")}
+    shape: Literal["straight", "crowned", "logarithmic"] = "straight"
+
+    @check
+    def _of_the_shape(self) -> Problems:
+        for name, shapes in _OF_LAW.items():
+            given = getattr(self, name)
+            if given is not None and self.shape not in shapes:
+                wanted = " or ".join(f"'{shape}'" for shape in shapes)
+                yield refusal_at(name, f"none with shape = '{self.shape}': it is about {wanted}", f"{given:g}")
+        if self.shape != "straight" and self.drop is None:
+            yield refusal_at(
+                "drop", f"a length, the drop at the ends of shape = '{self.shape}', e.g. '8 um'", "nothing"
+            )
+
+
+def roller_profile(table: ProfileTable | None) -> RollerProfile | None:
+    """The part that a table describes, where there is one."""
+    if table is None:
+        return None
+    given = table.model_dump(include={"drop", "straight_fraction", "end_ratio"}, exclude_none=True)
+    shape = None
+    if table.shape != "straight":
+        shape = {"crowned": CrownedProfile, "logarithmic": LogarithmicProfile}[table.shape](**given)
+    return RollerProfile(shape, table.n_laminae)

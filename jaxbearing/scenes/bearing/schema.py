@@ -1,0 +1,133 @@
+"""Common tables of the scene files of all bearings: cage, operating point, and what these need of the oil."""
+
+import dataclasses
+from collections.abc import Mapping
+from typing import Annotated, Any
+
+from ...bearings.cage import AbstractCage
+from ...bearings.operation import AbstractOperation, HeldDisplacement
+from ...bearings.rating import Rating
+from ...mounting import Fits, PartTemperatures
+from ...thermal.settings import Capacities, ConductanceFactors, Conductances, Shares, Thermal
+from ..laws import TURBULENCE, Laws
+from ..materials import MaterialField
+from ..oil.needs import require_laws, require_piezoviscous
+from ..oil.schema import OilTable
+from ..table import Problems, Table, check, refusal_at
+from ..table_of import table_of
+
+TURBULENCE_OF_CAGES = {field.name: field for field in dataclasses.fields(AbstractCage)}["turbulence"].default
+
+
+class CageBase(Table):
+    """- `turbulence`: flow regime of the lands."""
+
+    turbulence: Annotated[str, TURBULENCE] = TURBULENCE.name_of(TURBULENCE_OF_CAGES)
+
+    @check
+    def _consistent(self) -> Problems:
+        bore, outside = self.inner_diameter, self.outer_diameter
+        if bore is not None and outside is not None and bore >= outside:
+            yield refusal_at("inner_diameter", f"less than the outer diameter, {in_mm(outside)}", in_mm(bore))
+
+
+class DisplacementTable(table_of(HeldDisplacement)):
+    """Given displacements of the inner ring."""
+
+
+class OperationBase(Table):
+    """The operating point; which loads and displacements a kind of bearing needs its class says."""
+
+    displacement: DisplacementTable | None = None
+
+
+def operation_table(operation: type[AbstractOperation]) -> Any:
+    """The operating point of a kind of bearing. The oil is needed by lubricated bearings only."""
+    return table_of(operation, optional=("oil_temperature", "oil_flow"), base=OperationBase)
+
+
+class FitsTable(table_of(Fits)):
+    """Seats of the rings; see `mounting.seats.Fits`."""
+
+    shaft_material: MaterialField | None = None
+    housing_material: MaterialField | None = None
+
+
+class TemperaturesTable(table_of(PartTemperatures)):
+    """Temperatures of the parts; see `mounting.seats.PartTemperatures`."""
+
+
+class ConductanceTable(table_of(Conductances)):
+    """Conductances that are given instead of computed."""
+
+
+class CapacityTable(table_of(Capacities)):
+    """Heat capacities that are given instead of computed."""
+
+
+class ConductanceFactorTable(table_of(ConductanceFactors)):
+    """Factors of groups of conductances."""
+
+
+class ShareTable(table_of(Shares)):
+    """Parts of the losses that heat the first of two bodies."""
+
+
+class ThermalTable(table_of(Thermal)):
+    """The thermal network; see `thermal.settings.Thermal`.
+
+    - `conductance`: conductances that are given instead of computed
+    - `capacity`: heat capacities that are given instead of computed
+    - `factor`: factors of groups of conductances
+    - `share`: parts of the losses that heat the first of two bodies
+    """
+
+    conductance: ConductanceTable | None = None
+    capacity: CapacityTable | None = None
+    factor: ConductanceFactorTable | None = None
+    share: ShareTable | None = None
+
+
+class RatingTable(table_of(Rating)):
+    """Inputs of the life; see `bearings.rating.Rating`."""
+
+
+def require_oil_flow(drag: Table | None, operation: Any) -> Problems:
+    """Refusal of a scene with drag that does not say how much oil flows."""
+    if drag is not None and operation.oil_flow is None:
+        yield refusal_at("operation.oil_flow", "a volume flow, which [drag] needs, e.g. '150 l/h'", "nothing")
+
+
+def require_oil(
+    oil: OilTable | None,
+    operation: Any,
+    contact: Table,
+    density: str,
+    laws: Mapping[str, Laws[Any]],
+) -> Problems:
+    """Refusals of a scene that lacks what the laws of the raceway contacts need.
+
+    **Arguments:**
+    - `contact`: with the fields `thermal` and `traction`.
+    - `density`: what needs the density of the oil, in words; "" where nothing does.
+    - `laws`: fields of `contact` whose laws may need an oil whose viscosity rises with pressure -> their laws.
+    """
+    if operation.oil_temperature is None:
+        expected = "a temperature, which [contact] needs, e.g. '100 degC'"
+        yield refusal_at("operation.oil_temperature", expected, "nothing")
+    if oil is None:
+        yield refusal_at("oil", "an oil, which [contact] needs: a table [oil] with a 'name'", "nothing")
+        return
+    thermal, traction = law_in_words(contact, "thermal"), law_in_words(contact, "traction")
+    yield from require_laws(oil, {"conductivity": thermal, "rheology": traction, "density": density})
+    yield from require_piezoviscous(oil, contact, laws)
+
+
+def law_in_words(contact: Table, name: str) -> str:
+    """A law of the table as it stands in the file; "" where it names none."""
+    law = getattr(contact, name)
+    return f"contact.{name} = '{law}'" if law else ""
+
+
+def in_mm(length: float) -> str:
+    return f"{1e3 * length:g} mm"

@@ -1,0 +1,1 @@
+"""Scene files of cylindrical roller bearings: schema, builder, writer."""

@@ -1,0 +1,1 @@
+"""Scene files of line contacts: schema, builder, writer."""

@@ -1,0 +1,1 @@
+"""The table [oil] and oil files: schema, catalogue, writer."""

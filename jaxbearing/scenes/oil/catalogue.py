@@ -1,0 +1,140 @@
+"""Oils: the data files of the catalogue, and the `Lubricant` that an oil table describes."""
+
+import tomllib
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+
+from ...lubricants import (
+    AbstractPressureViscosity,
+    AbstractViscosity,
+    ConstantPressureViscosity,
+    ConstantViscosity,
+    ExponentialRheology,
+    IntegratedPressureViscosity,
+    LinearConductivity,
+    LinearDensity,
+    LinearHeatCapacity,
+    Lubricant,
+    NoPressureViscosity,
+    WaltherRoelands,
+)
+from ..data_files import oil_names, oil_text
+from ..drafts import read_table
+from ..errors import SceneError, nearest, one_of
+from .files import base_of
+from .schema import DOCUMENTATION, LAWS, Law, OilTable, builds
+
+ROOM_TEMPERATURE = 293.15
+"""K; reference of a linear law without a slope, where it has no effect."""
+
+
+def load_oil(name: str) -> Lubricant:
+    """An oil of the catalogue.
+
+    **Raises:** `SceneError` for a name that the catalogue does not have.
+    """
+    if name not in oil_names():
+        near = nearest(name, oil_names()) if isinstance(name, str) else ""
+        raise SceneError(str(name), "name", f"'{name}'", f"an oil of the catalogue: {one_of(oil_names())}", near)
+    return lubricant(read_table(OilTable, with_catalogue({"name": name}), f"{name}.toml"))
+
+
+def oil_data(name: str) -> dict[str, Any]:
+    """The tables of an oil's data file."""
+    return tomllib.loads(oil_text(name))
+
+
+def with_catalogue(oil: Mapping[str, Any]) -> dict[str, Any]:
+    """An oil table together with what its `name` or its `file` stands for; what the table itself says prevails.
+
+    A law table without `law`, or with the law of the catalogue, changes single parameters; with another law it
+    replaces the catalogue's. The catalogue's pressure-viscosity coefficient belongs to its viscosity: where that is
+    changed, the coefficient is integrated anew. The same goes for the laws of a file. An unknown name is left for the
+    validation to refuse.
+
+    **Raises:** `SceneError` for a file that cannot be read or is not an oil.
+    """
+    merged = base_of(oil)
+    if merged is None:
+        return dict(oil)
+    if "viscosity" in oil and _changes(oil["viscosity"], merged["viscosity"]):
+        merged.pop("pressure_viscosity", None)
+    for key, own in oil.items():
+        theirs = merged.get(key)
+        if isinstance(own, Mapping) and isinstance(theirs, Mapping) and own.get("law", theirs["law"]) == theirs["law"]:
+            # a note on the catalogue's values does not speak for those that replace them
+            kept = {name: value for name, value in theirs.items() if name != "note" or not _changes(own, theirs)}
+            if own.get("viscous_function", kept.get("viscous_function")) != kept.get("viscous_function"):
+                # it belongs to the viscous function that is replaced
+                kept.pop("exponent", None)
+            merged[key] = {**kept, **own}
+        else:
+            merged[key] = own
+    return merged
+
+
+def _changes(own: Any, theirs: Mapping[str, Any]) -> bool:
+    return not isinstance(own, Mapping) or any(theirs.get(key) != value for key, value in own.items())
+
+
+def missing_sources(data: Mapping[str, Any]) -> list[str]:
+    """Dotted paths of the values of an oil file whose source is not given (`all` speaks for a whole law)."""
+    missing = []
+    for law, table in data.items():
+        if isinstance(table, Mapping):
+            sources = table.get("sources", {})
+            named = set(table) - set(DOCUMENTATION)
+            missing += [f"{law}.{key}" for key in sorted(named) if not sources.get("all", sources.get(key))]
+    return missing
+
+
+def lubricant(table: OilTable) -> Lubricant:
+    """The laws of a valid oil table, its parameters numpy scalars."""
+    density = None if table.density is None else LinearDensity(**_linear(table.density))
+    viscosity = _viscosity(table, density)
+    laws = [getattr(table, name) for name in LAWS]
+    notes = tuple(law.note for law in laws if isinstance(law, Law) and law.note)
+    return Lubricant(
+        viscosity=viscosity,
+        pressure_viscosity=_pressure_viscosity(table, viscosity),
+        rheology=None if table.rheology is None else _rheology(table.rheology),
+        density=density,
+        conductivity=None if table.conductivity is None else LinearConductivity(**_linear(table.conductivity)),
+        heat_capacity=None if table.heat_capacity is None else LinearHeatCapacity(**_linear(table.heat_capacity)),
+        notes=(*viscosity.notes, *notes),
+    )
+
+
+def _viscosity(table: OilTable, density: LinearDensity | None) -> AbstractViscosity:
+    law: Any = table.viscosity
+    more = {"density": density} if builds(law, WaltherRoelands) else {}
+    return law.builds(**more, **_parameters(law))
+
+
+def _pressure_viscosity(table: OilTable, viscosity: AbstractViscosity) -> AbstractPressureViscosity:
+    law: Any = table.pressure_viscosity
+    if isinstance(law, float):
+        return ConstantPressureViscosity(np.float64(law))
+    if law is not None and not builds(law, IntegratedPressureViscosity):
+        return law.builds(**_parameters(law))
+    return NoPressureViscosity() if isinstance(viscosity, ConstantViscosity) else IntegratedPressureViscosity(viscosity)
+
+
+def _rheology(table: Any) -> ExponentialRheology:
+    # the exponent is static
+    return ExponentialRheology(**{**_parameters(table), "exponent": table.exponent})
+
+
+def _linear(law: float | Law) -> dict[str, Any]:
+    """Parameters of a linear law; a number is the same at every temperature."""
+    if isinstance(law, Law):
+        return _parameters(law)
+    return {"value": np.float64(law), "slope": np.float64(0.0), "reference_temperature": np.float64(ROOM_TEMPERATURE)}
+
+
+def _parameters(law: Law) -> dict[str, Any]:
+    # numpy scalars are leaves of the scene; plain Python floats would be compiled in as constants
+    given = law.model_dump(exclude=set(DOCUMENTATION), exclude_none=True)
+    return {name: np.float64(value) if isinstance(value, float) else value for name, value in given.items()}

@@ -1,0 +1,79 @@
+"""Oils in files of their own, and where the numbers of a scene's oil come from."""
+
+from collections.abc import Mapping
+from typing import Any, NamedTuple
+
+from ..data_files import oil_names, oil_text
+from ..drafts import read_table
+from ..errors import SceneError
+from ..toml_files import parse_toml, read_text
+from .schema import DOCUMENTATION, OilTable
+
+_EXPECTED = "an oil file: the tables of [oil] in a scene, such as [viscosity], as 'jaxbearing fit --out' writes them"
+
+
+class Origin(NamedTuple):
+    """Origin of a law: `sources` of its parameters, in words; `note` that solutions with it repeat, or ""."""
+
+    sources: dict[str, str]
+    note: str
+
+
+def read_oil(path: str) -> dict[str, Any]:
+    """The tables of an oil file, less its own name.
+
+    **Raises:** `SceneError` for a file that cannot be read or is not an oil.
+    """
+    data = parse_toml(read_text(path, _EXPECTED), path, _EXPECTED)
+    if "kind" in data:
+        raise SceneError(path, "kind", "a scene", _EXPECTED)
+    if "file" in data:
+        raise SceneError(path, "file", "another file", "the laws themselves: an oil file stands alone")
+    tables = {key: value for key, value in data.items() if key != "name"}
+    read_table(OilTable, tables, path)
+    return tables
+
+
+def base_of(oil: Mapping[str, Any]) -> dict[str, Any] | None:
+    """The tables that the `name` or the `file` of an oil table stands for; `None` without one of them, and where the
+    validation is to refuse them.
+
+    **Raises:** `SceneError` for a file that cannot be read or is not an oil.
+    """
+    name, file = oil.get("name"), oil.get("file")
+    if name is None and isinstance(file, str):
+        return read_oil(file)
+    if file is None and isinstance(name, str) and name in oil_names():
+        return parse_toml(oil_text(name), name, _EXPECTED)
+    return None
+
+
+def origins(oil: Mapping[str, Any], scene: str) -> dict[str, Origin]:
+    """Origin of each law of a valid oil table, as it stands in a scene of this name: the sources that the catalogue or
+    the oil file gives, and the scene itself for what it sets."""
+    base = base_of(oil) or {}
+    found = {}
+    for law in dict.fromkeys([*base, *oil]):
+        theirs, own = _law(base.get(law)), _law(oil.get(law))
+        if law in DOCUMENTATION or not (theirs or own):
+            continue
+        replaced = law in oil and own.get("law", theirs.get("law")) != theirs.get("law")
+        sources = {} if replaced else _sources(theirs, "")
+        sources |= _sources(own, f"as in {scene}")
+        note = own.get("note") or ("" if own else theirs.get("note", ""))
+        found[law] = Origin(sources, note)
+    return found
+
+
+def _law(value: Any) -> Mapping[str, Any]:
+    """The table of a law; a plain value is that of the parameter `value`."""
+    if value is None:
+        return {}
+    return value if isinstance(value, Mapping) else {"value": value}
+
+
+def _sources(law: Mapping[str, Any], otherwise: str) -> dict[str, str]:
+    given = law.get("sources", {})
+    named = [key for key in law if key not in DOCUMENTATION]
+    texts = {key: given.get(key) or given.get("all") or otherwise for key in named}
+    return {key: text for key, text in texts.items() if text}

@@ -1,0 +1,240 @@
+"""The oil of a scene file: one table a law, each with `law = "..."`; the parameters are those of the classes.
+
+The names of the laws are registered here, once: tables, lists in messages, the reading and the writing of oils follow.
+"""
+
+from collections.abc import Callable, Mapping
+from functools import reduce
+from operator import or_
+from typing import Annotated, Any, ClassVar, Literal
+
+from pydantic import BeforeValidator, ConfigDict, Discriminator, Tag, create_model
+
+from ...lubricants import (
+    Barus,
+    ConstantPressureViscosity,
+    ConstantViscosity,
+    ExponentialRheology,
+    FittedPressureViscosity,
+    IntegratedPressureViscosity,
+    LinearConductivity,
+    LinearDensity,
+    LinearHeatCapacity,
+    Lubricant,
+    ModifiedWLF,
+    Roelands,
+    WaltherRoelands,
+)
+from .. import units
+from ..data_files import oil_names
+from ..errors import nearest, one_of
+from ..table import Problems, Table, check, refusal_at
+from ..table_of import number_of, table_of
+
+DOCUMENTATION = ("name", "file", "description", "law", "sources", "note")
+"""Names in an oil table and in the tables of its laws that are no parameters."""
+LAWS = ("viscosity", "pressure_viscosity", "rheology", "density", "conductivity", "heat_capacity")
+
+
+class Law(Table):
+    """A law; `sources` says where each parameter comes from and is for the reader of the file only, `note` is what a
+    solution that uses the oil repeats among its warnings."""
+
+    sources: dict[str, str] | None = None
+    note: str | None = None
+
+
+class _FallingViscosities(Law):
+    """The rule of two viscosities, in the units of data sheets."""
+
+    @check
+    def _falls_with_temperature(self) -> Problems:
+        if self.temperature_2 <= self.temperature_1:
+            expected = f"a temperature above temperature_1, {_celsius(self.temperature_1)}"
+            yield refusal_at("temperature_2", expected, _celsius(self.temperature_2))
+        if self.viscosity_2 >= self.viscosity_1:
+            expected = f"less than viscosity_1, {_cst(self.viscosity_1)}: viscosity falls with temperature"
+            yield refusal_at("viscosity_2", expected, _cst(self.viscosity_2))
+
+
+_RISE = units.INVERSE_PRESSURE.expected("> 0")
+
+
+class _RisesWithPressure(Law):
+    """A law whose viscosity must rise with pressure in a file, where the opposite is more likely a slip. The class
+    itself allows it, for closed forms."""
+
+    @check
+    def _rises(self) -> Problems:
+        for name in ("pressure_viscosity", "value"):
+            if getattr(self, name, None) == 0.0:
+                yield refusal_at(name, _RISE, "0")
+
+
+class _ExponentOfFunction(Law):
+    """The rule of the exponent of a viscous function."""
+
+    @check
+    def _exponent_where_there_is_one(self) -> Problems:
+        needed = self.viscous_function == "elsharkawy_hamrock"
+        if needed and self.exponent is None:
+            yield refusal_at("exponent", "the exponent of 'elsharkawy_hamrock', e.g. 2", "nothing")
+        if not needed and self.exponent is not None:
+            expected = "no exponent: only the viscous_function 'elsharkawy_hamrock' has one"
+            yield refusal_at("exponent", expected, f"the number {self.exponent:g}")
+
+
+def _law_named(*names: str) -> dict[str, Any]:
+    """The field `law`, for `create_model`."""
+    return {"__module__": __name__, "law": (Literal[names], ...)}
+
+
+def law_table(name: str, law: type, tag: str | None = None, base: type[Law] = Law) -> type[Law]:
+    """The table of a law of an oil.
+
+    **Arguments:** `name`: in files; `law`: the class that has the parameters; `tag`: of the alternative, where it is
+    not the name, or "" where there is none; `base`: with further rules.
+    """
+    made: Any = create_model(f"{law.__name__}Table", __base__=table_of(law, base=base), **_law_named(name))
+    made.tag, made.__doc__ = f"<{name}>" if tag is None else tag, law.__doc__
+    return made
+
+
+VISCOSITIES: dict[str, type[Law]] = {
+    "modified_wlf": law_table("modified_wlf", ModifiedWLF),
+    "barus": law_table("barus", Barus, base=_RisesWithPressure),
+    "roelands": law_table("roelands", Roelands),
+    "constant": law_table("constant", ConstantViscosity),
+    "two_viscosities": law_table("two_viscosities", WaltherRoelands, base=_FallingViscosities),
+}
+"""Laws of viscosity by name."""
+PRESSURE_VISCOSITIES: dict[str, type[Law]] = {
+    "constant": law_table("constant", ConstantPressureViscosity, base=_RisesWithPressure),
+    "fitted": law_table("fitted", FittedPressureViscosity),
+    "integrated": law_table("integrated", IntegratedPressureViscosity),
+}
+"""Laws of the pressure-viscosity coefficient by name."""
+ExponentialRheologyTable = law_table("exponential", ExponentialRheology, "", _ExponentOfFunction)
+LinearDensityTable = law_table("linear", LinearDensity, "<table>")
+LinearConductivityTable = law_table("linear", LinearConductivity, "<table>")
+LinearHeatCapacityTable = law_table("linear", LinearHeatCapacity, "<table>")
+
+
+def _no_text(value: Any) -> Any:
+    raise units.refusal("a table with a 'law'", units.describe(value))
+
+
+def _law_field(title: str, laws: Mapping[str, type[Law]], text: Any) -> Any:
+    """The type of a field that holds a table with a law.
+
+    **Arguments:** `title`: for the stand-in of a table whose `law` is absent or unknown: it only raises the error;
+    `laws`: by name; `text`: the type of what may stand instead of a table.
+    """
+    unknown: Any = create_model(f"Unknown{title}Table", __base__=_Unknown, **_law_named(*laws))
+
+    def tag(value: Any) -> str:
+        if not isinstance(value, dict):
+            return "<value>"
+        law = value.get("law")
+        return f"<{law}>" if isinstance(law, str) and law in laws else "<unknown>"
+
+    tables = {f"<{name}>": table for name, table in laws.items()}
+    return _alternatives({"<value>": text, **tables, "<unknown>": unknown}, tag)
+
+
+class _Unknown(Law):
+    model_config = ConfigDict(extra="allow")
+    tag: ClassVar[str] = "<unknown>"
+
+
+def _text_or_table(value: Any) -> str:
+    return "<table>" if isinstance(value, dict) else "<value>"
+
+
+def _linear_field(table: type[Law], law: type) -> Any:
+    """The type of a field that holds a number, the same at every temperature, or a linear law."""
+    return _alternatives({"<value>": number_of(law, "value"), "<table>": table}, _text_or_table)
+
+
+def _alternatives(kinds: Mapping[str, Any], tag: Callable[[Any], str]) -> Any:
+    """The type of a field that holds one of these, by the tag of what is given."""
+    return Annotated[reduce(or_, [Annotated[kind, Tag(name)] for name, kind in kinds.items()]), Discriminator(tag)]
+
+
+def _celsius(temperature: float) -> str:
+    return f"{temperature - 273.15:g} degC"
+
+
+def _cst(viscosity: float) -> str:
+    return f"{1e6 * viscosity:g} cSt"
+
+
+def builds(table: Any, law: type) -> bool:
+    """True if what stands in a field is the table of this law."""
+    return isinstance(table, Law) and table.builds is law
+
+
+def _oil_name(value: Any) -> str:
+    names = oil_names()
+    if not isinstance(value, str) or value not in names:
+        near = nearest(value, names) if isinstance(value, str) else ""
+        raise units.refusal(f"an oil of the catalogue: {one_of(names)}", units.describe(value), near)
+    return value
+
+
+_Viscosity = _law_field("Viscosity", VISCOSITIES, Annotated[None, BeforeValidator(_no_text)])
+_Rise = Annotated[
+    float,
+    units.QuantityValidator(
+        lambda given: units.quantity(given, units.INVERSE_PRESSURE, "> 0"), dimension=units.INVERSE_PRESSURE
+    ),
+]
+_PressureViscosity = _law_field("PressureViscosity", PRESSURE_VISCOSITIES, _Rise)
+
+
+_Density = _linear_field(LinearDensityTable, LinearDensity)
+_Conductivity = _linear_field(LinearConductivityTable, LinearConductivity)
+_HeatCapacity = _linear_field(LinearHeatCapacityTable, LinearHeatCapacity)
+
+
+class OilTable(Table):
+    """`name` takes the laws of an oil of the catalogue, `file` those of an oil file; further tables replace or amend
+    them. A `--set` of the file is of the whole oil.
+
+    - `name`: of the catalogue
+    - `file`: an oil file
+    - `description`: for the reader
+    - `viscosity`: law of viscosity
+    - `pressure_viscosity`: coefficient of film formulas; not given: by integral
+    - `rheology`: shear modulus and stress, which traction needs
+    - `density`: which drag, cage lands and kinematic viscosities need
+    - `conductivity`: which thermal factors and film heating need
+    - `heat_capacity`: which thermal networks need
+    """
+
+    builds: ClassVar[type | None] = Lubricant
+    instead: ClassVar[Mapping[str, tuple[str, ...]]] = {"name": ("file",), "file": ("name", "description", *LAWS)}
+    name: Annotated[str, BeforeValidator(_oil_name)] | None = None
+    file: str | None = None
+    description: str | None = None
+    viscosity: _Viscosity | None = None  # pyright: ignore[reportInvalidTypeForm]
+    pressure_viscosity: _PressureViscosity | None = None  # pyright: ignore[reportInvalidTypeForm]
+    rheology: ExponentialRheologyTable | None = None  # pyright: ignore[reportInvalidTypeForm]
+    density: _Density | None = None  # pyright: ignore[reportInvalidTypeForm]
+    conductivity: _Conductivity | None = None  # pyright: ignore[reportInvalidTypeForm]
+    heat_capacity: _HeatCapacity | None = None  # pyright: ignore[reportInvalidTypeForm]
+
+    @check
+    def _complete(self) -> Problems:
+        if self.name is not None and self.file is not None:
+            yield refusal_at("file", "none beside 'name': one of the two", units.describe(self.file))
+            return
+        if self.viscosity is None:
+            expected = "the law of viscosity, the 'name' of an oil of the catalogue, or the 'file' of an oil"
+            yield refusal_at("viscosity", expected, "nothing")
+        if builds(self.viscosity, WaltherRoelands) and self.density is None:
+            expected = "a density, which makes the kinematic viscosities of 'two_viscosities' dynamic ones, e.g. "
+            yield refusal_at("density", expected + "density = '870 kg/m^3'", "nothing")
+        if builds(self.viscosity, ConstantViscosity) and builds(self.pressure_viscosity, IntegratedPressureViscosity):
+            expected = "a law other than 'integrated' (left out: 0), the viscosity being constant"
+            yield refusal_at("pressure_viscosity.law", expected, "'integrated'")

@@ -1,0 +1,170 @@
+"""A `Lubricant` as the tables of a file: the way back from `oils.lubricant`, to the last digit of every number."""
+
+import typing
+from collections.abc import Iterable, Mapping
+from typing import Any
+
+from ...lubricants import (
+    ConstantPressureViscosity,
+    LinearConductivity,
+    LinearDensity,
+    LinearHeatCapacity,
+    Lubricant,
+    NoPressureViscosity,
+)
+from ..data_files import oil_names
+from ..drafts import read_table
+from ..part_writer import SCENE, Rows, rows, same, unwritable
+from ..toml_writer import comments, one_line, toml_text
+from .catalogue import ROOM_TEMPERATURE, load_oil, lubricant, with_catalogue
+from .files import Origin
+from .schema import (
+    PRESSURE_VISCOSITIES,
+    VISCOSITIES,
+    ExponentialRheologyTable,
+    Law,
+    LinearConductivityTable,
+    LinearDensityTable,
+    LinearHeatCapacityTable,
+    OilTable,
+)
+
+HEADER = "A value with a unit is a string, a dimensionless value is a number. Every value has its source."
+UNKNOWN_SOURCE = "not known: given in Python"
+_TABLES: dict[type | None, type[Law]] = {
+    table.builds: table for table in (*VISCOSITIES.values(), *PRESSURE_VISCOSITIES.values())
+}
+
+
+def oil_text(
+    oil: Lubricant, name: str, description: str, header: Iterable[str], origins: Mapping[str, Origin] | None = None
+) -> str:
+    """The text of an oil file.
+
+    **Arguments:**
+    - `name`, `description`: of the oil, for whoever reads the file.
+    - `header`: lines of comment at the top.
+    - `origins`: of the laws, by name; what they do not say is marked as not known.
+
+    **Raises:** `ValueError` for a law that files do not know.
+    """
+    named = {"name": one_line(name), "description": one_line(description)}
+    return comments([*header, HEADER]) + toml_text(named | sourced_laws(oil, origins), aligned=False)
+
+
+def sourced_laws(oil: Lubricant, origins: Mapping[str, Origin] | None = None) -> Rows:
+    """The tables of the laws with the sources of their values and with notes.
+
+    **Raises:** `ValueError` for a law that files do not know.
+    """
+    origins, laws = origins or {}, _laws(oil)
+    notes = _notes(oil, laws, origins)
+    for law, table in laws.items():
+        sources = origins[law].sources if law in origins else {}
+        texts = {key: one_line(sources.get(key, UNKNOWN_SOURCE)) for key in table if key != "law"}
+        if len(texts) > 1 and len(set(texts.values())) == 1:
+            texts = {"all": next(iter(texts.values()))}
+        table |= {"note": one_line(notes[law])} if law in notes else {}
+        table |= {"sources": texts} if texts else {}
+    return laws
+
+
+def _laws(oil: Lubricant) -> dict[str, Rows]:
+    """Name of the law -> its table."""
+    laws: dict[str, tuple[type[Law], Any]] = {"viscosity": (_table(oil.viscosity, "viscosity"), oil.viscosity)}
+    if not isinstance(oil.pressure_viscosity, NoPressureViscosity):
+        law = oil.pressure_viscosity
+        laws["pressure_viscosity"] = (_table(law, "pressure_viscosity"), law)
+    for name, table in (
+        ("rheology", ExponentialRheologyTable),
+        ("density", LinearDensityTable),
+        ("conductivity", LinearConductivityTable),
+        ("heat_capacity", LinearHeatCapacityTable),
+    ):
+        if getattr(oil, name) is not None:
+            laws[name] = (table, getattr(oil, name))
+    return {name: {"law": _name_of(table)} | rows(table, law) for name, (table, law) in laws.items()}
+
+
+def _table(law: Any, name: str) -> type[Law]:
+    if type(law) not in _TABLES:
+        expected = f"a law that files know: a file cannot hold the law {type(law).__name__}"
+        raise unwritable(f"oil.{name}", type(law).__name__, expected)
+    return _TABLES[type(law)]
+
+
+def _name_of(table: type[Law]) -> str:
+    return typing.get_args(table.model_fields["law"].annotation)[0]
+
+
+def _notes(oil: Lubricant, laws: Iterable[str], origins: Mapping[str, Origin]) -> dict[str, str]:
+    """Notes of the laws; those that no law is known for go with the viscosity."""
+    found = {law: origins[law].note for law in laws if law in origins and origins[law].note}
+    rest = [note for note in oil.notes if note not in (*found.values(), *oil.viscosity.notes)]
+    if rest:
+        found["viscosity"] = ". ".join([found["viscosity"], *rest] if "viscosity" in found else rest)
+    return found
+
+
+def scene_oil(oil: Lubricant | None) -> Rows | None:
+    """The table [oil] of a scene: the name in the catalogue, with what differs from it, or all laws.
+
+    **Raises:** `SceneError` for a law that files do not know.
+    """
+    if oil is None:
+        return None
+    whole = _laws(oil)
+    _share_out_notes(oil, whole)
+    whole = {law: _short(getattr(oil, law), table) for law, table in whole.items()}
+    amended = (_amended(oil, name) for name in oil_names())
+    # the fewest changes to an oil of the catalogue
+    return min(filter(None, amended), key=_size, default=whole)
+
+
+def _size(table: Mapping[str, Any]) -> int:
+    return sum(_size(value) if isinstance(value, Mapping) else 1 for value in table.values())
+
+
+def _amended(oil: Lubricant, name: str) -> Rows | None:
+    """An oil of the catalogue, which has this viscosity, with what differs; `None` where that is not this oil."""
+    base = load_oil(name)
+    if not same(base.viscosity, oil.viscosity):
+        return None
+    own, theirs = _laws(oil), _laws(base)
+    found: Rows = {"name": name}
+    for law, table in own.items():
+        if same(getattr(oil, law), getattr(base, law)):
+            continue
+        alike = theirs.get(law, {}).get("law") == table["law"]
+        changed = {key: value for key, value in table.items() if not alike or theirs[law].get(key) != value}
+        found[law] = _short(getattr(oil, law), table) if len(changed) == len(table) else changed
+    return found if _is_oil(found, oil) else None
+
+
+def _short(law: Any, table: Rows) -> Any:
+    """The value of a law that is one number; any other as its table."""
+    constant = isinstance(law, ConstantPressureViscosity)
+    if isinstance(law, LinearDensity | LinearConductivity | LinearHeatCapacity):
+        constant = same((law.slope, law.reference_temperature), (0.0, ROOM_TEMPERATURE))
+    return table["value"] if constant and "note" not in table else table
+
+
+def _is_oil(table: Rows, oil: Lubricant) -> bool:
+    return same(lubricant(read_table(OilTable, with_catalogue(table), SCENE)), oil)
+
+
+def _share_out_notes(oil: Lubricant, laws: dict[str, Rows]) -> None:
+    """Puts the notes into tables of laws, in whose order they are read: where one can, into the law that it is about.
+
+    A lubricant does not say which law a note is about.
+
+    **Raises:** `SceneError` for more notes than laws.
+    """
+    notes, names = list(oil.notes[len(oil.viscosity.notes) :]), list(laws)
+    if len(notes) > len(names):
+        raise unwritable("oil.notes", f"{len(notes)} notes", f"at most {len(names)}, one for each law of the oil")
+    while notes:
+        name, left = names.pop(0), len(names)
+        about = [law for law in names if law.replace("_", " ") in notes[0]]
+        if left < len(notes) or not about:
+            laws[name]["note"] = notes.pop(0)

@@ -1,0 +1,1 @@
+"""Scene files of tapered roller bearings: schema, builder, writer."""

@@ -1,0 +1,91 @@
+"""The scene file of a tapered roller bearing. Names are the attribute names of the classes that it builds."""
+
+from collections.abc import Mapping
+from typing import Annotated, ClassVar, Literal
+
+from ...bearings.tapered.geometry import TaperedGeometry
+from ...bearings.tapered.scene import TaperedOperation
+from ..bearing.profile import ProfileTable
+from ..bearing.schema import (
+    FitsTable,
+    RatingTable,
+    TemperaturesTable,
+    ThermalTable,
+    operation_table,
+    require_oil,
+    require_oil_flow,
+)
+from ..cylindrical.schema import RACEWAY_LAWS, DragTable
+from ..laws import LINE_THERMAL, RIB_FILMS, ROLLER_FILMS, ROLLING, TRACTIONS, TractionAccuracy
+from ..materials import MaterialField
+from ..oil.schema import OilTable
+from ..table import Problems, Table, check, refusal_at
+from ..table_of import table_of
+
+
+class TaperedGeometryTable(table_of(TaperedGeometry)):
+    """See `bearings.tapered.geometry.TaperedGeometry`."""
+
+
+class TaperedMaterialsTable(Table):
+    rings: MaterialField
+    rollers: MaterialField
+
+
+class TaperedContactTable(Table):
+    """Laws of the contacts, by the names in `tapered.build`. `film`, `rolling_resistance`: of the raceways;
+    `flange_film`: of the roller ends on the rib; `thermal`: of both, on the rib always Gupta's, the other one is made
+    for lines; `traction`: of what slides on the rib, and what the raceways could carry.
+
+    - `traction_accuracy`: relative error of the traction forces for which the march through the Hertz pressure is cut
+    - `rolling_resistance`: of the raceways; not given: none
+    - `flange_film`: film law of the roller ends on the rib
+    """
+
+    about: ClassVar[Mapping[str, tuple[str, ...]]] = {"traction": ("traction_accuracy",)}
+    film: Annotated[str, ROLLER_FILMS]
+    thermal: Annotated[str, LINE_THERMAL] | None = None
+    rolling_resistance: Annotated[str, ROLLING] | None = None
+    flange_film: Annotated[str, RIB_FILMS] | None = None
+    traction: Annotated[str, TRACTIONS] | None = None
+    traction_accuracy: TractionAccuracy | None = None
+
+    @check
+    def _consistent(self) -> Problems:
+        if self.traction_accuracy is not None and self.traction is None:
+            yield refusal_at("traction", "a law, without which traction_accuracy has no meaning", "nothing")
+
+
+class TaperedOperationTable(operation_table(TaperedOperation)):
+    """See `bearings.tapered.scene.TaperedOperation`."""
+
+    needs: ClassVar[tuple[str, ...]] = ("axial_load",)
+
+
+class TaperedRollerTable(Table):
+    """The whole file. A table that is left out is not modelled."""
+
+    kind: Literal["tapered_roller_bearing"]
+    geometry: TaperedGeometryTable
+    materials: TaperedMaterialsTable
+    operation: TaperedOperationTable
+    oil: OilTable | None = None
+    contact: TaperedContactTable | None = None
+    drag: DragTable | None = None
+    profile: ProfileTable | None = None
+    rating: RatingTable | None = None
+    fits: FitsTable | None = None
+    temperatures: TemperaturesTable | None = None
+    thermal: ThermalTable | None = None
+
+    @check
+    def _flow(self) -> Problems:
+        if self.contact is not None:
+            yield from require_oil_flow(self.drag, self.operation)
+
+    @check
+    def _oil(self) -> Problems:
+        if self.contact is not None:
+            density = "" if self.drag is None else "the drag"
+            laws = {**RACEWAY_LAWS, "flange_film": RIB_FILMS}
+            yield from require_oil(self.oil, self.operation, self.contact, density, laws)

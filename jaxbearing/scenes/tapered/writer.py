@@ -1,0 +1,36 @@
+"""The tables of a scene file from a tapered roller bearing: the way back from `tapered.build`."""
+
+from ...bearings.tapered.scene import TaperedRollerBearing
+from ...contacts import MeanPressureTraction
+from ..bearing.writer import bearing_tables, flow_law, march_accuracy, profile, raceway_laws
+from ..laws import RIB_FILMS
+from ..part_writer import Rows, law_name, shown, unwritable
+from .schema import TaperedRollerTable
+
+
+def tapered_tables(scene: TaperedRollerBearing) -> Rows:
+    """The tables that describe a scene. **Raises:** `SceneError` for what a file cannot hold."""
+    return bearing_tables(
+        scene,
+        TaperedRollerTable,
+        profile=profile(scene.profile),
+        contact=_laws(scene),
+    )
+
+
+def _laws(scene: TaperedRollerBearing) -> Rows | None:
+    """A file describes raceways and rib in one table; what of the rib does not follow from it shows when it is read."""
+    contact, rib = scene.contact, scene.rib
+    if contact is None:
+        return None
+    if rib is None:
+        raise unwritable("rib", "None", "the laws of the rib, which files have wherever they have those of raceways")
+    found = raceway_laws(contact) | {"flange_film": law_name(RIB_FILMS, rib.film, "rib.film")}
+    if contact.traction is None:
+        return found
+    if not isinstance(contact.traction, MeanPressureTraction):
+        raise unwritable("contact.traction", shown(contact.traction), "a MeanPressureTraction")
+    if rib.traction is None:
+        raise unwritable("rib.traction", "None", "a DistributedTraction, with the flow law of contact.traction")
+    name = flow_law(contact.traction.viscous, scene.oil, "contact.traction.viscous")
+    return found | {"traction": name, "traction_accuracy": march_accuracy(rib.traction, "rib.traction", spin=True)}

@@ -1,0 +1,1 @@
+"""Scene files of two-disk machines: schema, builder, writer."""
