@@ -160,7 +160,7 @@ def _answer(scene: Any, network: Network, state: ThermalState) -> Solution:
         status=state.status,
         residual_norm=ended.residual_norm,
         inner_residual=ended.inner_residual,
-        reasons=ended.reasons,
+        failure_causes=ended.failure_causes,
         operation=scene.operation,
         checks=checks,
         notes=(*solution.notes, *thermal_notes(scene)),
