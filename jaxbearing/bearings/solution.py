@@ -218,11 +218,15 @@ class Solution(AbstractSolution, Generic[Point, Elements, Losses]):
         ]
         if found and int(self.status) == Status.INVALID_INPUT:
             return f"{Status.INVALID_INPUT.text}: {'; '.join(found)}"
-        ending = self._ending() if self.thermal is None else self._thermal_ending(self.thermal)
+        # loads without an equilibrium have none at any temperature
+        mechanical = self.thermal is None or int(self.status) == Status.NO_EQUILIBRIUM
+        ending = self._ending() if mechanical else self._thermal_ending()
         return "; ".join([ending, *found])
 
-    def _thermal_ending(self, thermal: ThermalResult) -> str:
+    def _thermal_ending(self) -> str:
         """One sentence on a failed search for temperatures."""
+        thermal = self.thermal
+        assert thermal is not None
         operation: Any = self.operation
         status, speed = Status(int(self.status)), float(np.asarray(operation.inner_speed)) * 30.0 / np.pi
         ending = f"{thermal.ending(status)}, inner ring at {speed:.6g} rpm"

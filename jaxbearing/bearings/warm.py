@@ -147,6 +147,7 @@ def solve_warm(scene: Any, solve: Callable[[Any], Solution]) -> Solution:
 def _answer(scene: Any, network: Network, state: ThermalState) -> Solution:
     """The solution of the bearing at the temperatures found, with these; of a lane that failed, NaN."""
     solution: Solution = state.losses.other
+    ended: Solution = state.ended.other
     good = state.status == Status.CONVERGED
     from .checks import input_excess
 
@@ -157,6 +158,9 @@ def _answer(scene: Any, network: Network, state: ThermalState) -> Solution:
     return dataclasses.replace(
         solution,
         status=state.status,
+        residual_norm=ended.residual_norm,
+        inner_residual=ended.inner_residual,
+        failure_causes=ended.failure_causes,
         operation=scene.operation,
         checks=checks,
         notes=(*solution.notes, *thermal_notes(scene)),

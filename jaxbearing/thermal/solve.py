@@ -34,7 +34,7 @@ START_NOTE = "a stable steady state need not be reached by a start at speed: onl
 
 
 class ThermalState(eqx.Module):
-    """Steady state of a network. Every result is NaN where `status` is not `CONVERGED`, but for `last`."""
+    """Steady state of a network. Every result is NaN where `status` is not `CONVERGED`, but for `last` and `ended`."""
 
     nodes: tuple[str, ...] = eqx.field(static=True)
     status: Int[Array, ""] = eqx.field(metadata=label("1", "status of the search, index of the list of statuses"))
@@ -54,6 +54,9 @@ class ThermalState(eqx.Module):
         metadata=label("1/s", "largest growth rate of a disturbance of the temperatures; stable if negative")
     )
     losses: NodeHeat = eqx.field(metadata=label("", "losses at these temperatures, with all that they carry"))
+    ended: NodeHeat = eqx.field(
+        metadata=label("", "losses where the search ended, of one that failed too; without derivatives")
+    )
     last: Float[Array, " node"] = eqx.field(
         metadata=label("K", "temperature of each node where the search ended, of one that failed too")
     )
@@ -150,6 +153,7 @@ def solve_network(
         margin=None if margin is None else masked(margin),
         rate=None if rate is None else masked(rate),
         losses=jax.tree.map(lambda leaf: masked(leaf) if eqx.is_inexact_array(leaf) else leaf, found.losses),
+        ended=jax.lax.stop_gradient(found.losses),
         last=jax.lax.stop_gradient(found.temperatures),
         solves=jnp.asarray(found.solves),
         derivatives=jnp.asarray(found.derivatives),

@@ -337,3 +337,14 @@ def test_network_of_a_scene():
     np.testing.assert_allclose(network.oil.capacity_rate, flow, rtol=1e-12)
     assert float(network.oil.inlet) == 323.15
     assert float(network.oil.mixing) == 0.5
+
+
+@SLOW
+def test_loads_without_an_equilibrium_are_told():
+    """The bearing itself has none, whatever its temperatures; the numbers of the reason are there."""
+    scene = warm("tapered", 4, operation__radial_load="5 kN", operation__axial_load="100 N")
+    solution = jb.solve(scene, throw=False)
+    assert int(solution.status) == Status.NO_EQUILIBRIUM
+    assert "the axial load of 100 N must be at least" in solution.failure()
+    assert "nan" not in solution.failure()
+    assert all(np.all(np.isnan(leaf)) for leaf in jax.tree.leaves(solution.elements))
