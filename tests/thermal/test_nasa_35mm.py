@@ -15,8 +15,8 @@ SHEET = {
     64_000: (1676.0, 1263.0, 444.3),
     72_000: (2142.0, 1559.0, 456.1),
 }
-"""Speed, rpm -> heat with all oil at the inlet, W; of one node, W, and its temperature, K. Computed with the same laws by
-another program around an earlier version of this one."""
+"""Speed, rpm -> heat with all oil at the inlet, W; of one node, W, and its temperature, K. Computed with the same laws
+by another program around an earlier version of this one."""
 
 
 @pytest.fixture(scope="module")
