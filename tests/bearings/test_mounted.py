@@ -244,6 +244,7 @@ OPTIONS = jb.NewtonOptions(residual_tolerance=1e-13, step_tolerance=1e-12)
 PATHS = ("fits.shaft_interference", "temperatures.inner_ring", "materials.rings.thermal_expansion")
 
 
+@pytest.mark.slow
 def test_derivatives_of_loads_and_clearance(mounted):
     scene, _ = mounted
 

@@ -177,7 +177,7 @@ def test_displacements_of_a_solve_need_its_loads(name):
     np.testing.assert_allclose(back.elements.load_inner, solved.elements.load_inner, atol=1e-9 * size)
 
 
-@pytest.mark.parametrize("row", ["A1", "A2", "A3", "A4"])
+@pytest.mark.parametrize("row", ["A2", *(pytest.param(row, marks=pytest.mark.slow) for row in ("A1", "A3", "A4"))])
 def test_stiffness_is_the_derivative_of_the_force(row):
     scene, displacement, *_ = ROWS[row]
     place = displacement * MICRO
@@ -212,6 +212,7 @@ def test_turning_everything_by_one_pitch_turns_the_force(row):
     np.testing.assert_allclose(turned, turn @ np.asarray(force), rtol=1e-9, atol=1e-9 * np.max(np.abs(force)))
 
 
+@pytest.mark.slow
 def test_gradient_by_a_number_of_the_scene():
     scene, displacement, *_ = ROWS["A1"]
     force = jax.jit(lambda w: jb.reaction(scene.at_operation(inner_speed=w), displacement * MICRO).force)

@@ -190,6 +190,7 @@ def test_derivative_of_the_temperatures_of_rollers():
     np.testing.assert_allclose(slope, found, rtol=1e-6)
 
 
+@SLOW
 def test_lanes_are_independent():
     """A lane that runs away is NaN with its own status, and changes no bit of the others."""
     scene = warm("roller", 1)
@@ -230,6 +231,7 @@ def test_a_runaway_is_told():
         solution.raise_if_failed()
 
 
+@SLOW
 def test_life_takes_the_oil_of_the_races():
     """kappa is that of the hotter raceway, and the solution of the settled scene is the same."""
     scene = warm("roller", 4, rating__roughness_rings="0.2 um", rating__roughness_elements="0.2 um")
@@ -275,6 +277,7 @@ def test_stability():
     np.testing.assert_allclose(plain.thermal.node_temperatures(), solution.thermal.node_temperatures(), rtol=1e-10)
 
 
+@SLOW
 def test_given_conductances_and_factors():
     """What is given takes the place of what is computed, a factor multiplies either."""
     given = jb.solve(warm("roller", 4, conductance__outer_ring_ambient="7 W/K", factor__ambient="2"))

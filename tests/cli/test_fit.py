@@ -82,6 +82,7 @@ def test_the_oil_file_in_a_scene(etm):
     assert float(np.sqrt(np.mean(difference**2))) == pytest.approx(found["rms"], rel=1e-9)
 
 
+@pytest.mark.slow
 def test_raw_sweeps_and_a_robust_loss(jaxbearing_command):
     """Sweeps with outliers as they were measured, on the screen."""
     options = ("--loss", "soft_l1", "--starts", "1", "--set", "contact.traction_accuracy=1e-2")

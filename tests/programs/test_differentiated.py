@@ -162,6 +162,7 @@ def test_a_solve_that_fails():
         np.testing.assert_array_equal(mode(shift)(1e200), mode(jax.jit(shift))(1e200))
 
 
+@pytest.mark.slow
 def test_a_solve_that_fails_raises_while_it_is_differentiated():
     message = "diverged after .* Newton steps: scaled residual 1, worst equation: radial load balance"
     with pytest.raises(jb.SolveError, match=message):

@@ -175,7 +175,9 @@ HARD = {
 }
 
 
-@pytest.mark.parametrize("name", HARD)
+@pytest.mark.parametrize(
+    "name", [pytest.param(name, marks=pytest.mark.slow if name == "steep, radial" else ()) for name in HARD]
+)
 def test_hard_cases_have_finite_results_and_derivatives(name):
     scene = HARD[name]
     assert bool(jb.solve(scene).converged)

@@ -72,6 +72,7 @@ def light():
     return jb.solve(jb.load_scene("angular_contact_218", FILMS))
 
 
+@pytest.mark.slow
 def test_films_that_fill_the_play_of_a_light_bearing(light):
     """They push the rings back until the balls run in the middle of the grooves; forces balance all the same."""
     e, angle = light.elements, np.asarray(light.elements.contact_angle_inner)

@@ -130,7 +130,11 @@ def test_numbers_never_recompile():
     assert len(set(deepest)) == 3
 
 
-@pytest.mark.parametrize("scene", SCENES.values(), ids=SCENES.keys())
+@pytest.mark.parametrize(
+    "scene",
+    [SCENES["reference"], pytest.param(SCENES["turbine"], marks=pytest.mark.slow)],
+    ids=SCENES.keys(),
+)
 def test_random_operating_points(scene):
     """60 points over Table 14 times clearance: converged, finite, closed."""
     n = 60
