@@ -261,6 +261,6 @@ def _at_known_root(network: Network, losses: Losses, root: _Root, stiffness: boo
     def at(value: Array, slope: Array) -> Array:
         return jnp.where(solved, value + slope @ move, jax.lax.stop_gradient(value))
 
-    _, rest = eqx.partition(root.losses, eqx.is_inexact_array)
-    moved = eqx.combine(jax.tree.map(at, found, slopes), dataclasses.replace(rest, roots=()))
+    rest = eqx.filter(dataclasses.replace(root.losses, roots=()), eqx.is_inexact_array, inverse=True)
+    moved = eqx.combine(jax.tree.map(at, found, slopes), rest)
     return root._replace(temperatures=here + move, losses=moved)
