@@ -1,4 +1,4 @@
-"""What the verbs that run a sweep share: options, checks before the work, progress."""
+"""Parts that the verbs share which run a sweep: options, checks before the work, progress."""
 
 import sys
 from collections.abc import Iterator

@@ -87,7 +87,7 @@ def _tangents(system: AbstractConvexArrow, unknowns: Array, shared: Array) -> tu
 
 
 class _View(NamedTuple):
-    """What a search knows of a point: potential, largest scaled residual, and the blocks that give the step."""
+    """A point as a search sees it: potential, largest scaled residual, and the blocks that give the step."""
 
     energy: Float[Array, "*lane"]
     size: Float[Array, "*lane"]

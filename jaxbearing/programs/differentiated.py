@@ -24,7 +24,7 @@ from .kept import KeptProgram
 _FEWEST_ROWS = 8
 """Rows of the smallest program of derivatives; each larger one has eight times as many."""
 _MOST_NUMBERS = 512
-"""Of more numbers a pass for each would take seconds at every call; JAX has one reverse pass for all."""
+"""Most numbers that get a pass each: more would take seconds at every call, and JAX has one reverse pass for all."""
 
 
 def with_roots(compute: Callable[..., Any], *given: Any) -> tuple[Any, tuple[Any, ...]]:

@@ -62,7 +62,7 @@ def _plain(
 def _read(
     given: Mapping[str, Any], path: tuple[str, ...], model: type[BaseModel], file: str
 ) -> tuple[Any, Distribution]:
-    """What stands for a distribution in the tables, and the distribution. **Raises:** `SceneError`."""
+    """Gives the number that stands for a distribution in the tables, and the distribution. **Raises:** `SceneError`."""
     kind = type_at(model, path)
     what = no_number(kind)
     where = ".".join(path)

@@ -1,4 +1,4 @@
-"""What tolerances make of the results of a scene."""
+"""The scatter that tolerances give the results of a scene."""
 
 import math
 from collections.abc import Mapping

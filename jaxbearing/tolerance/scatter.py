@@ -75,7 +75,7 @@ def name_of(seat: str) -> str:
 
 
 def scatter_of(scene: AbstractScene, over: Mapping[str, Any] | None = None) -> Scatter:
-    """What scatters in a scene.
+    """The numbers of a scene that scatter.
 
     **Arguments:** `over`: dotted path -> `Distribution`, or a mapping {"mean": ..., "deviation": ...} or {"low": ...,
     "high": ...} with a "shape" where it is uniform; SI numbers.

@@ -1,4 +1,4 @@
-r"""What a seat whose interference scatters does to the rings: nothing where it is loose.
+r"""The effect on the rings of a seat whose interference scatters: none where it is loose.
 
 The interference that presses the rings is a sum of rectified lines, $u = \sum_j s_j \max(I - b_j, 0)$: one line for a
 given smoothing, three where the default one flattens a seat that the temperatures hold. For a normal variable its mean,
@@ -39,7 +39,7 @@ class Seat:
 
     @property
     def pressing(self) -> float:
-        """What presses the rings at the mean, m."""
+        """Interference that presses the rings at the mean, m."""
         return sum(slope * max(self.mean - bend, 0.0) for slope, bend in self.bends)
 
     @property

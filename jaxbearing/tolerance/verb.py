@@ -90,7 +90,7 @@ def tolerances(
 
 @dataclass(frozen=True)
 class Analysis:
-    """What scatters, and how it is solved. `once`: for a process that asks few times and ends."""
+    """The numbers that scatter, and how they are solved. `once`: for a process that asks few times and ends."""
 
     scatter: Scatter
     label: str

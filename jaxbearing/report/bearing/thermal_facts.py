@@ -1,4 +1,4 @@
-"""What an engineer wants to know of the temperatures of a bearing, in words."""
+"""Words about the temperatures of a bearing, for the screen."""
 
 from collections.abc import Iterator
 from typing import Any
