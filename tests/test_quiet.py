@@ -60,6 +60,7 @@ def test_nothing_but_what_the_program_itself_says(order, cache):
     assert stderr_of(order, cache) == "done\n"
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("order", ["jaxbearing", "jax, jaxbearing"])
 def test_started_by_a_program_that_uses_jax(order, cache):
     """JAX sets the level of its compiler to 1 for itself and for what it starts."""

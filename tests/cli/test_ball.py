@@ -21,6 +21,7 @@ def test_screen(jaxbearing_command):
     assert max(map(len, result.out.splitlines())) <= 100
 
 
+@pytest.mark.slow
 def test_json_and_files(jaxbearing_command, folder):
     arguments = ("solve", "deep_groove_6205", "--json", "--plot", "a.svg", "--out", "a.nc")
     result = jaxbearing_command(*arguments)

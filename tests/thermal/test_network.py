@@ -272,6 +272,7 @@ def shown(parameters):
     return jnp.concatenate([state.temperatures, jnp.stack([state.total, state.heat_to_oil, state.losses.heat[2]])])
 
 
+@pytest.mark.slow
 def test_derivatives_in_both_modes():
     forward, reverse = (np.asarray(mode(shown)(PARAMETERS)) for mode in (jax.jacfwd, jax.jacrev))
     np.testing.assert_allclose(reverse, forward, rtol=1e-10, atol=1e-13)

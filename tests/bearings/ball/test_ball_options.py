@@ -237,7 +237,8 @@ ENERGY = {
 }
 
 
-@pytest.mark.parametrize("name", [pytest.param(n, marks=pytest.mark.slow if i else ()) for i, n in enumerate(ENERGY)])
+@pytest.mark.slow
+@pytest.mark.parametrize("name", ENERGY)
 def test_energy_closes_with_heathcote_slip(name):
     """The power of the rings' torques is all that is dissipated, to 1e-10, and its parts add up."""
     solution = jb.solve(turbine(**COARSE, **HEATHCOTE, **ENERGY[name]))

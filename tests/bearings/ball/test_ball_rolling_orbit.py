@@ -37,6 +37,7 @@ def solver():
     return scene, jb.jit_solver(scene)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("inner", "outer"), [(1170.6, 0.0), (1170.6, -1170.6), (-800.0, 1500.0), (2000.0, 1500.0)])
 def test_balls_are_in_balance(solver, inner, outer):
     scene, solve = solver

@@ -98,6 +98,7 @@ def test_2000_solves_with_lanes_that_fail(operations, mapped):
         assert np.all(np.isfinite(np.asarray(gradient)))
 
 
+@pytest.mark.slow
 def test_numbers_never_recompile():
     traces = []
     counted = jax.jit(lambda s: (traces.append(1), jb.solve(s, throw=False).power_loss.total)[1])
