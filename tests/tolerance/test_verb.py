@@ -136,6 +136,7 @@ def test_statistics_of_samples_and_their_errors():
     repeats = [sampled(_dataset(row), {"loss": Label("W", "loss", "loss", None)})["loss"] for row in values]
     for word in ("mean", "deviation"):
         spread = np.std([getattr(one, word) for one in repeats])
+        # the spread of 400 repeats is itself known to 1/sqrt(800) = 3.5 %: four times that
         np.testing.assert_allclose(np.mean([getattr(one, f"{word}_error") for one in repeats]), spread, rtol=0.15)
     row = _dataset(values[0], failed=(3, 5))
     found = sampled(row, {"loss": Label("W", "loss", "loss", None)})["loss"]
