@@ -35,7 +35,7 @@ _UPRIGHT = 32.0
 
 
 def network_diagram(thermal: ThermalResult) -> Diagram:
-    """Nodes with temperatures, losses that heat them, heat between them, to the ambient and to the oil that leaves.
+    """Draws the nodes with their temperatures and, as arrows, the losses and all heat flows.
 
     **Arguments:** `thermal`: of one solution that converged.
     """
@@ -70,8 +70,8 @@ def _caption(thermal: ThermalResult, total: float) -> str:
     oil = "" if thermal.oil_out is None else f"{_watts(float(thermal.heat_to_oil))} to the oil that leaves and "
     return (
         f"{_watts(total)} of losses heat the nodes; {oil}{_watts(float(thermal.heat_to_ambient))} to the ambient. "
-        "Widths of the arrows are proportional to the heat; the thinnest stand for all that is less. Arrows of the "
-        "losses show which node they heat."
+        "Arrow widths are proportional to the heat, down to a smallest width that still can be seen. Blue-grey arrows "
+        "are the parts of the losses that heat each node."
     )
 
 
@@ -140,7 +140,9 @@ def _oil(thermal: ThermalResult, heat: float, scale: float) -> tuple[list[Box], 
         Box((x + away, y), WIDE, HIGH, f"oil out\n{_degrees(thermal.oil_out)}", "none"),
     ]
     inlet = Arrow((x - away + edge, y), (x - edge, y), "", (x, y), THINNEST, OIL)
-    taken = Arrow((x + edge, y), (x + away - edge, y), _watts(heat), (x + away / 2.0, y + 15.0), _width(heat, scale), OIL)
+    taken = Arrow(
+        (x + edge, y), (x + away - edge, y), _watts(heat), (x + away / 2.0, y + 15.0), _width(heat, scale), OIL
+    )
     return boxes, [inlet, taken]
 
 
