@@ -28,7 +28,8 @@ def plot(solution: Solution, title: str) -> "matplotlib.figure.Figure":
         _charts(whole, solution, title)
         return whole
     whole = Page(height=HEIGHT + _DIAGRAM * len(diagrams))
-    upper, *lower = whole.subfigures(1 + len(diagrams), 1, height_ratios=(HEIGHT, *([_DIAGRAM] * len(diagrams))))
+    heights = HEIGHT, *([_DIAGRAM] * len(diagrams))
+    upper, *lower = whole.subfigures(len(heights), 1, squeeze=False, height_ratios=heights)[:, 0]
     _charts(upper, solution, title)
     for part, diagram in zip(lower, diagrams, strict=True):
         draw_diagram(part.add_axes((0.03, 0.03, 0.94, 0.87)), diagram)

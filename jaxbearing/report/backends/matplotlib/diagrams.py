@@ -19,7 +19,7 @@ def draw_diagram(axes: Any, diagram: Diagram) -> None:
     axes.set_axis_off()
     title_of(axes, diagram.title)
     room = axes.get_window_extent()
-    dots = axes.get_figure(root=True).dpi / _POINTS
+    dots = axes.figure.dpi / _POINTS
     scale = min(room.width / diagram.size[0], room.height / diagram.size[1]) / dots
     style = {"fontsize": scale * TEXT, "ha": "center", "va": "center", "color": INK}
     for arrow in diagram.arrows:
