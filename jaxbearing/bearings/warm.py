@@ -15,7 +15,7 @@ import jax.numpy as jnp
 from jaxtyping import Array, Float
 
 from ..mounting import PartTemperatures
-from ..numerics.checks import known
+from ..numerics.checks import known, nan_unless
 from ..numerics.refusals import refusals_of
 from ..numerics.status import Status
 from ..thermal.network import Network
@@ -172,10 +172,13 @@ def _answer(scene: Any, network: Network, state: ThermalState) -> Solution:
 def _result(scene: Any, network: Network, state: ThermalState) -> ThermalResult:
     nodes = network.nodes
     by_name = dict(zip(nodes, state.temperatures, strict=True))
+    masked = lambda value: nan_unless(value, state.status == Status.CONVERGED)
     return ThermalResult(
         temperatures=named(NodeTemperatures, by_name),
         oil=oil_temperatures(nodes, state.temperatures, **rings_of(scene)),
         flows=_paths(network, state),
+        ambient=masked(network.ambient),
+        oil_in=None if network.oil is None else masked(network.oil.inlet),
         oil_out=state.oil_out,
         heat_to_oil=state.heat_to_oil,
         heat_to_ambient=state.heat_to_ambient,

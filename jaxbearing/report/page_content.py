@@ -3,6 +3,7 @@
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 
+from .diagrams import Diagram
 from .panels import Panel
 from .tables import Column, Row
 
@@ -39,6 +40,7 @@ class Content:
     losses: Sequence[tuple[str, str, str]] = ()
     not_modelled: str = ""
     charts: Sequence[Panel] = ()
+    diagrams: Sequence[Diagram] = ()
     convergence: Sequence[tuple[str, str]] = ()
     checks: Sequence[tuple[str, bool]] = ()
     notes: Sequence[str] = ()

@@ -1,6 +1,7 @@
 """Temperatures and heat flows of a bearing with a thermal network, labelled."""
 
 import dataclasses
+import itertools
 from typing import Any
 
 import equinox as eqx
@@ -65,6 +66,8 @@ class ThermalResult(eqx.Module):
     temperatures: NodeTemperatures
     oil: OilTemperatures
     flows: HeatPaths
+    ambient: _Number = eqx.field(metadata=label("K", "temperature of the ambient"))
+    oil_in: _Number | None = eqx.field(metadata=label("K", "temperature of the oil that enters"))
     oil_out: _Number | None = eqx.field(metadata=label("K", "temperature of the oil that leaves"))
     heat_to_oil: _Number = eqx.field(metadata=label("W", "heat that leaves with the oil"))
     heat_to_ambient: _Number = eqx.field(metadata=label("W", "heat that leaves to the ambient"))
@@ -92,6 +95,26 @@ class ThermalResult(eqx.Module):
     def node_temperatures(self) -> Float[Array, " node"]:
         """Temperatures in the order of the nodes, K."""
         return jnp.stack([getattr(self.temperatures, name) for name in self.nodes])
+
+    def paths(self) -> dict[tuple[str, str], _Number]:
+        """Heat that flows from the first to the second of two nodes, W; the second may be `ambient`. A negative number
+        flows the other way round."""
+        ends = itertools.product(self.nodes, (*self.nodes, "ambient"))
+        found = {(first, second): getattr(self.flows, f"{first}_{second}", None) for first, second in ends}
+        return {pair: flow for pair, flow in found.items() if flow is not None}
+
+    def losses(self) -> dict[str, _Number]:
+        """The part of the power loss that heats each node directly, W. In a steady state this is the heat that flows
+        away from the node, to other nodes, the ambient and the oil that leaves."""
+        made = dict.fromkeys(self.nodes, jnp.zeros(()))
+        for (first, second), flow in self.paths().items():
+            made[first] = made[first] + flow
+            if second in made:
+                made[second] = made[second] - flow
+        if self.oil_out is not None:
+            place = "oil" if "oil" in made else self.nodes[0]
+            made[place] = made[place] + self.heat_to_oil
+        return made
 
     def ending(self, status: Status) -> str:
         """One sentence on a search that failed: status, hottest node, its temperature."""

@@ -31,6 +31,8 @@ def balanced(solution):
     # heat to the ambient is what leaves along the paths that lead there
     ways = [float(value) for name, value in vars(thermal.flows).items() if value is not None and "ambient" in name]
     np.testing.assert_allclose(sum(ways), float(thermal.heat_to_ambient), rtol=1e-12)
+    # what heats the nodes is the whole loss
+    np.testing.assert_allclose(sum(map(float, thermal.losses().values())), total, rtol=DISSIPATED)
 
 
 @pytest.mark.parametrize(
@@ -51,6 +53,12 @@ def test_energy_closes(kind, nodes):
     assert int(solution.thermal.solves) <= 20
     assert solution.thermal.nodes == warm(kind, nodes).thermal.node_names
     assert solution.rolling_by_race is None
+    scene = warm(kind, nodes)
+    assert float(solution.thermal.ambient) == float(scene.thermal.ambient)
+    assert float(solution.thermal.oil_in) == float(scene.operation.oil_temperature)
+    if nodes > 1:
+        # rolling resistance is the only loss, and half of it stays in the oil
+        np.testing.assert_allclose(solution.thermal.losses()["oil"], 0.5 * solution.power_loss.total, rtol=1e-9)
 
 
 @SLOW

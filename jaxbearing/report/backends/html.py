@@ -10,6 +10,7 @@ from ... import __version__
 from ..display import typeset
 from ..page_content import Content
 from .plotly import chart_of, library
+from .svg import diagram_markup
 
 _OF_PACKAGES = ("jax", "jaxlib", "plotly")
 
@@ -40,6 +41,7 @@ def page(
         inputs=inputs,
         results=results,
         sketches=[(one.title, Markup(one.markup), one.caption) for one in content.sketches],
+        diagrams=[(one.title, Markup(diagram_markup(one)), one.caption) for one in content.diagrams],
         charts=[(chart, chart.data()) for chart in map(chart_of, content.charts)],
         library=Markup(library()) if content.charts else "",
         versions=versions(),

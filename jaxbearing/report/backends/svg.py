@@ -4,7 +4,8 @@ import math
 import xml.etree.ElementTree as ET
 from collections.abc import Iterable, Sequence
 
-from ..colours import INK
+from ..colours import FAINT, INK
+from ..diagrams import TEXT, Diagram
 
 _MARGIN = 8.0
 _LETTER, _LINE = 0.56, 1.25
@@ -99,3 +100,21 @@ class Drawing:
             for name, value in attributes.items()
         }
         return ET.SubElement(self._root, kind, written)
+
+
+def diagram_markup(diagram: Diagram) -> str:
+    """A diagram as one element, whose texts grow and shrink with it."""
+    drawing = Drawing(f"{diagram.title}. {diagram.caption}", 1.0)
+    for arrow in diagram.arrows:
+        drawing.polygon(arrow.outline(), fill=arrow.colour)
+    for box in diagram.boxes:
+        if box.fill != "none":
+            x, y = box.width / 2.0, box.height / 2.0
+            corners = [(-x, -y), (x, -y), (x, y), (-x, y)]
+            places = [(box.centre[0] + right, box.centre[1] + up) for right, up in corners]
+            drawing.polygon(places, fill=box.fill, stroke=FAINT, stroke_width=0.8)
+        drawing.text(box.centre, box.text, size=TEXT)
+    for arrow in diagram.arrows:
+        if arrow.text:
+            drawing.text(arrow.at, arrow.text, size=TEXT)
+    return drawing.markup()

@@ -14,7 +14,7 @@ from .drawing.section import section
 from .drawing.sketch import front_view
 from .facts import facts, not_modelled
 from .operation import operating_point, unused_operation
-from .panels import bearing_panels, power_losses
+from .panels import bearing_diagrams, bearing_panels, power_losses
 
 _SOLVER = ("status", "iterations", "residual_norm", "inner_residual", "worst_equation", "worst_element", "unknowns")
 _LIFE = ("Life", "Rating", "Lubrication")
@@ -53,6 +53,7 @@ def page_content(scene: Any, solution: Solution) -> Content:
         losses=[*rows, ("total", digits(total), "100")] if rows else [],
         not_modelled=not_modelled(solution) if solution.not_modelled else "",
         charts=bearing_panels(solution),
+        diagrams=bearing_diagrams(solution),
         convergence=list(_convergence(solution, total if losses else None)),
         checks=[(text, bool(broken)) for text, broken in solution.range_checks.items()],
         notes=solution.notes,

@@ -7,9 +7,11 @@ import numpy as np
 
 from ...bearings.solution import Solution
 from ..colours import INNER, LOSS, OUTER, RIB
+from ..diagrams import Diagram
 from ..display import axis_unit, digits
 from ..panels import Axis, Bars, Curves, Panel, Polar, Series, log_ticks
 from .azimuth import signed_degrees
+from .network import network_diagram
 from .operation import load_angle
 
 SIDES = (
@@ -31,6 +33,11 @@ def bearing_panels(solution: Solution) -> list[Panel]:
     """The charts of a solution, of what its scene models: losses, loads, and results over the azimuth."""
     losses = loss_panel(solution)
     return [*([losses] if losses is not None else []), load_panel(solution), *round_panels(solution)]
+
+
+def bearing_diagrams(solution: Solution) -> list[Diagram]:
+    """The thermal network of a scene that has one."""
+    return [] if solution.thermal is None else [network_diagram(solution.thermal)]
 
 
 def power_losses(solution: Solution) -> dict[str, float]:

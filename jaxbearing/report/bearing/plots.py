@@ -3,23 +3,42 @@
 from typing import TYPE_CHECKING, Any
 
 from ...bearings.solution import Solution
+from ..backends.matplotlib.diagrams import draw_diagram
 from ..backends.matplotlib.panels import draw
 from ..backends.matplotlib.sheet import foot, head
 from ..display import pretty
 from .operation import operating_point
-from .panels import SIDES, load_panel, loss_panel, round_panels
+from .panels import SIDES, bearing_diagrams, load_panel, loss_panel, round_panels
 
 if TYPE_CHECKING:
     import matplotlib.figure
 
+_DIAGRAM = 4.2
+"""Height of a diagram on the page, inches."""
+
 
 def plot(solution: Solution, title: str) -> "matplotlib.figure.Figure":
     """See `report.plots.plot_solution`: a page with the power loss by location and, round the bearing, loads, films,
-    pressures and sliding speeds."""
-    from ..backends.matplotlib.page import Page
+    pressures and sliding speeds. A thermal network stands below, and makes the page longer."""
+    from ..backends.matplotlib.page import HEIGHT, Page
 
+    diagrams = bearing_diagrams(solution)
+    if not diagrams:
+        whole = Page()
+        _charts(whole, solution, title)
+        return whole
+    whole = Page(height=HEIGHT + _DIAGRAM * len(diagrams))
+    heights = HEIGHT, *([_DIAGRAM] * len(diagrams))
+    upper, *lower = whole.subfigures(len(heights), 1, squeeze=False, height_ratios=heights)[:, 0]
+    _charts(upper, solution, title)
+    for part, diagram in zip(lower, diagrams, strict=True):
+        draw_diagram(part.add_axes((0.03, 0.03, 0.94, 0.87)), diagram)
+    return whole
+
+
+def _charts(figure: Any, solution: Solution, title: str) -> None:
+    """All but the diagrams, on a page of paper A4 or a part of one of this size."""
     losses, rounds = loss_panel(solution), round_panels(solution)
-    figure = Page()
     head(figure, title, pretty(operating_point(solution)))
     bottom = 0.075 + 0.019 * foot(figure, solution.warnings)
     if losses is not None:
@@ -40,7 +59,6 @@ def plot(solution: Solution, title: str) -> "matplotlib.figure.Figure":
         draw(figure.add_subplot(place), panel)
     handles, names = _legend(figure)
     figure.legend(handles, names, loc="center right", bbox_to_anchor=(0.99, 0.92), ncols=2, fontsize=9.5, frameon=False)
-    return figure
 
 
 def _legend(figure: Any) -> tuple[list[Any], list[str]]:

@@ -6,13 +6,15 @@ from matplotlib.figure import Figure
 
 NOTEBOOK_RESOLUTION = 90
 """Dots per inch of a page that a notebook shows."""
+WIDTH, HEIGHT = 11.69, 8.27
+"""Paper A4 landscape, inches."""
 
 
 class Page(Figure):
     """White, A4 landscape if no size in inches is given. Made without pyplot: no window, no state, no display; a
     notebook shows it by itself."""
 
-    def __init__(self, width: float = 11.69, height: float = 8.27):
+    def __init__(self, width: float = WIDTH, height: float = HEIGHT):
         super().__init__(figsize=(width, height), facecolor="white")
 
     def _repr_png_(self) -> bytes:

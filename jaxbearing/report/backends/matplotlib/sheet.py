@@ -11,6 +11,8 @@ _WARNING_LINES = 4
 """Lines of warnings at the foot of the page; more are counted."""
 _LINE_LENGTH = 170
 _LONG_TITLE = 65
+_LONG_OPERATION = 95
+"""Letters of an operating point from which on they are smaller: a legend may stand at their right."""
 
 
 def head(figure: Any, title: str, operation: str) -> None:
@@ -19,7 +21,8 @@ def head(figure: Any, title: str, operation: str) -> None:
     shown = title if len(title) <= 2 * _LONG_TITLE else title[: 2 * _LONG_TITLE] + "..."
     # names of files are not formulas, whatever signs are in them
     figure.text(0.03, 0.955, shown, fontsize=size, fontweight="bold", color=INK, va="center", parse_math=False)
-    figure.text(0.03, 0.92, operation, fontsize=9.5, color=INK, va="center")
+    small = 9.5 if len(operation) <= _LONG_OPERATION else 8
+    figure.text(0.03, 0.92, operation, fontsize=small, color=INK, va="center")
     figure.text(0.985, 0.955, f"jaxbearing {__version__}", fontsize=8, color=FAINT, va="center", ha="right")
 
 

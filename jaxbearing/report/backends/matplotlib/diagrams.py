@@ -1,0 +1,34 @@
+"""Diagrams on paper: what `diagrams` describes, drawn on axes of matplotlib."""
+
+from typing import Any
+
+from ...colours import FAINT, INK
+from ...diagrams import TEXT, Diagram
+from .sheet import title_of
+
+_HALO = {"facecolor": "white", "edgecolor": "none", "alpha": 0.85, "pad": 0.6}
+_POINTS = 72.0
+"""Points of an inch."""
+
+
+def draw_diagram(axes: Any, diagram: Diagram) -> None:
+    """Draws a diagram on axes, as large as they allow; shapes and texts to one scale."""
+    from matplotlib.patches import Polygon, Rectangle
+
+    axes.set(xlim=(diagram.low[0], diagram.high[0]), ylim=(diagram.low[1], diagram.high[1]), aspect="equal")
+    axes.set_axis_off()
+    title_of(axes, diagram.title)
+    room = axes.get_window_extent()
+    dots = axes.figure.dpi / _POINTS
+    scale = min(room.width / diagram.size[0], room.height / diagram.size[1]) / dots
+    style = {"fontsize": scale * TEXT, "ha": "center", "va": "center", "color": INK}
+    for arrow in diagram.arrows:
+        axes.add_patch(Polygon(arrow.outline(), closed=True, facecolor=arrow.colour, edgecolor="none"))
+    for box in diagram.boxes:
+        corner = box.centre[0] - box.width / 2.0, box.centre[1] - box.height / 2.0
+        if box.fill != "none":
+            axes.add_patch(Rectangle(corner, box.width, box.height, facecolor=box.fill, edgecolor=FAINT, linewidth=0.8))
+        axes.text(*box.centre, box.text, **style)
+    for arrow in diagram.arrows:
+        if arrow.text:
+            axes.text(*arrow.at, arrow.text, bbox=_HALO, **style)

@@ -1,0 +1,158 @@
+"""The thermal network of a bearing as a diagram: temperatures in boxes, heat along arrows."""
+
+from collections.abc import Iterator
+from typing import Any
+
+from ...thermal.result import ThermalResult
+from ..colours import CAGE, CURVES, LOSS, ROLLER
+from ..diagrams import Arrow, Box, Diagram, Place
+from ..display import ZERO_CELSIUS, with_unit
+
+HEAT, OIL = CURVES[1], CURVES[0]
+"""Colours of the heat between the nodes, and of the oil that flows."""
+PLACES: dict[str, Place] = {
+    "shaft": (0.0, 0.0),
+    "inner_ring": (160.0, 0.0),
+    "elements": (320.0, 0.0),
+    "bearing": (320.0, 0.0),
+    "outer_ring": (480.0, 0.0),
+    "housing": (640.0, 0.0),
+    "oil": (320.0, 125.0),
+}
+"""Centre of each node: the row from shaft to housing, the oil above it."""
+MIDDLE = PLACES["elements"][0]
+WIDE, HIGH = 90.0, 44.0
+"""Size of a node's box."""
+AMBIENT = -115.0
+"""Height of the ambient below the row."""
+BESIDE = 26.0
+"""Distance of the middle of an upright arrow's text from its line."""
+THICKEST, THINNEST = 9.0, 0.75
+"""Widths of the arrow with most heat, and of those too small to be in proportion."""
+WITHOUT_LOSSES = ("shaft", "housing")
+_UPRIGHT = 32.0
+"""Distance from the middle of a box to the upright arrows at either side of it."""
+
+
+def network_diagram(thermal: ThermalResult) -> Diagram:
+    """Draws the nodes with their temperatures and, as arrows, the losses and all heat flows.
+
+    **Arguments:** `thermal`: of one solution that converged.
+    """
+    watts = {pair: float(flow) for pair, flow in thermal.paths().items()}
+    losses = {node: float(heat) for node, heat in thermal.losses().items() if node not in WITHOUT_LOSSES}
+    flows_oil = thermal.oil_out is not None
+    to_oil = float(thermal.heat_to_oil)
+    largest = max(map(abs, (*watts.values(), *losses.values(), *([to_oil] if flows_oil else []))))
+    scale = THICKEST / largest if largest > 0.0 else 0.0
+    boxes = [*_nodes(thermal), _ambient(thermal, watts)]
+    arrows = [
+        *(_between(pair, heat, scale) for pair, heat in watts.items()),
+        *(_loss(node, heat, scale) for node, heat in losses.items()),
+    ]
+    if flows_oil:
+        more, inlet_outlet = _oil(thermal, to_oil, scale)
+        boxes, arrows = [*boxes, *more], [*arrows, *inlet_outlet]
+    across = [box.centre[0] + side * box.width / 2.0 for box in boxes for side in (-1.0, 1.0)]
+    top = max(box.centre[1] for box in boxes) + HIGH / 2.0 + 56.0
+    return Diagram(
+        name="network",
+        title="Temperatures and heat flows",
+        caption=_caption(thermal, sum(losses.values())),
+        boxes=boxes,
+        arrows=arrows,
+        low=(min(across) - 6.0, AMBIENT - 18.0),
+        high=(max(across) + 6.0, top),
+    )
+
+
+def _caption(thermal: ThermalResult, total: float) -> str:
+    oil = "" if thermal.oil_out is None else f"{_watts(float(thermal.heat_to_oil))} to the oil that leaves and "
+    return (
+        f"{_watts(total)} of losses heat the nodes; {oil}{_watts(float(thermal.heat_to_ambient))} to the ambient. "
+        "Arrow widths are proportional to the heat, down to a smallest width that still can be seen. Blue-grey arrows "
+        "are the parts of the losses that heat each node."
+    )
+
+
+def _nodes(thermal: ThermalResult) -> Iterator[Box]:
+    for node in thermal.nodes:
+        text = f"{node.replace('_', ' ')}\n{_degrees(getattr(thermal.temperatures, node))}"
+        yield Box(PLACES[node], WIDE, HIGH, text, **({"fill": CAGE} if node == "oil" else {}))
+
+
+def _ambient(thermal: ThermalResult, watts: dict[tuple[str, str], float]) -> Box:
+    """A bar below all nodes from which heat flows to the ambient."""
+    above = [PLACES[first][0] for first, second in watts if second == "ambient"] or [MIDDLE]
+    width = max(above) - min(above) + WIDE + 60.0
+    centre = 0.5 * (max(above) + min(above)), AMBIENT
+    return Box(centre, width, 24.0, f"ambient {_degrees(thermal.ambient)}", ROLLER)
+
+
+def _between(pair: tuple[str, str], heat: float, scale: float) -> Arrow:
+    """Heat along a path, from the warmer to the colder end."""
+    first, second = pair
+    x, y = PLACES[first]
+    if second == "ambient":
+        x += _UPRIGHT
+        start, end, at = (x, y - HIGH / 2.0), (x, AMBIENT + 12.0), (x + BESIDE, 0.5 * (AMBIENT - 5.0))
+    elif second == "oil":
+        start, end = (x, y + HIGH / 2.0), _oil_side(x)
+        share = 0.5 if x == MIDDLE else 0.42
+        at = (start[0] + share * (end[0] - start[0]), start[1] + share * (end[1] - start[1]))
+        at = (at[0] + BESIDE, at[1]) if x == MIDDLE else at
+    else:
+        other = PLACES[second][0]
+        side = 1.0 if other > x else -1.0
+        start, end = (x + side * WIDE / 2.0, y), (other - side * WIDE / 2.0, y)
+        at = (0.5 * (x + other), y + 15.0)
+    if heat < 0.0:
+        start, end = end, start
+    return Arrow(start, end, _watts(abs(heat)), at, _width(heat, scale), HEAT)
+
+
+def _oil_side(x: float) -> Place:
+    """Where an arrow from the row meets the oil's box: farther out for nodes that are farther away."""
+    oil_x, oil_y = PLACES["oil"]
+    away = (x - oil_x) / (PLACES["outer_ring"][0] - oil_x)
+    if abs(away) > 1.0:
+        return oil_x + (1.0 if away > 0.0 else -1.0) * WIDE / 2.0, oil_y - 8.0
+    return oil_x + away * 0.4 * WIDE, oil_y - HIGH / 2.0
+
+
+def _loss(node: str, heat: float, scale: float) -> Arrow:
+    """The losses that heat a node, from above the oil and a whole bearing, from below the others."""
+    x, y = PLACES[node]
+    side = 1.0 if node in ("oil", "bearing") else -1.0
+    x -= 0.0 if side > 0.0 else _UPRIGHT * 0.7
+    near, far = y + side * HIGH / 2.0, y + side * (HIGH / 2.0 + 34.0)
+    start, end = ((x, far), (x, near)) if heat >= 0.0 else ((x, near), (x, far))
+    return Arrow(start, end, f"loss {_watts(heat)}", (x, far + side * 9.0), _width(heat, scale), LOSS)
+
+
+def _oil(thermal: ThermalResult, heat: float, scale: float) -> tuple[list[Box], list[Arrow]]:
+    """Oil that enters at the left and leaves at the right of the node that holds it, with the heat that it takes."""
+    x, y = PLACES["oil" if "oil" in thermal.nodes else thermal.nodes[0]]
+    y += 10.0
+    away, edge = 178.0, WIDE / 2.0
+    boxes = [
+        Box((x - away, y), WIDE, HIGH, f"oil in\n{_degrees(thermal.oil_in)}", "none"),
+        Box((x + away, y), WIDE, HIGH, f"oil out\n{_degrees(thermal.oil_out)}", "none"),
+    ]
+    inlet = Arrow((x - away + edge, y), (x - edge, y), "", (x, y), THINNEST, OIL)
+    taken = Arrow(
+        (x + edge, y), (x + away - edge, y), _watts(heat), (x + away / 2.0, y + 15.0), _width(heat, scale), OIL
+    )
+    return boxes, [inlet, taken]
+
+
+def _width(heat: float, scale: float) -> float:
+    return max(THINNEST, scale * abs(heat))
+
+
+def _degrees(value: Any) -> str:
+    return f"{float(value) - ZERO_CELSIUS:.1f} °C"
+
+
+def _watts(heat: float) -> str:
+    return with_unit(heat, "W", 3)
