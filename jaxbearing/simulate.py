@@ -35,7 +35,7 @@ def simulate(
     duration: float | None = None,
     *,
     simulation: "Simulation | None" = None,
-    interval: float = INTERVAL,
+    interval: float | None = None,
     throw: bool = True,
     progress: Progress | None = None,
     restart: "History | LastState | None" = None,
@@ -46,7 +46,7 @@ def simulate(
     duration: float | None = None,
     *,
     simulation: "Simulation | FilmSimulation | None" = None,
-    interval: float = INTERVAL,
+    interval: float | None = None,
     throw: bool = True,
     progress: Progress | None = None,
     restart: "History | LastState | LineContactHistory | FilmState | None" = None,
@@ -57,7 +57,7 @@ def simulate(
     duration: float | None = None,
     *,
     simulation: Any = None,
-    interval: float = INTERVAL,
+    interval: float | None = None,
     throw: bool = True,
     progress: Progress | None = None,
     restart: Any = None,
@@ -94,6 +94,8 @@ def simulate(
         f"a run in time goes on piece by piece, by what it finds; {instead}call simulate outside, with plain numbers",
         (scene, duration, simulation, interval, restart),
     )
+    if interval is None and getattr(scene, "thermal", None) is None:
+        interval = INTERVAL
     return scene.simulated(
         duration, simulation=simulation, interval=interval, throw=throw, progress=progress, restart=restart
     )
@@ -106,7 +108,7 @@ def _require_moving(scene: Any, method: str) -> None:
     """**Raises:** `TypeError` for what is no scene, or for a kind that does not move."""
     if isinstance(scene, AbstractScene) and getattr(type(scene), method) is not getattr(AbstractScene, method):
         return
-    name, taken = ("simulate", "a cylindrical roller bearing or a line contact")
+    name, taken = ("simulate", "any bearing with [thermal], a cylindrical roller bearing or a line contact")
     if method == "simulated_batch":
         name, taken = ("simulate_batch", "a cylindrical roller bearing")
     raise TypeError(f"cannot simulate a {type(scene).__name__}; {name} takes: {taken}")

@@ -214,8 +214,13 @@ def heat_paths(network: Network, temperatures: Float[Array, " node"], losses: No
 
 def thermal_notes(scene: Any) -> tuple[str, ...]:
     """Notes for the user: what the network assumes, and what a steady state does not say."""
+    return f"thermal: {START_NOTE}", *network_notes(scene)
+
+
+def network_notes(scene: Any) -> tuple[str, ...]:
+    """Notes for the user: what the network assumes."""
     thermal: Thermal = scene.thermal
-    said = [f"thermal: {START_NOTE}"]
+    said: list[str] = []
     outside = [f"{node}_ambient" for node in OUTSIDE[thermal.nodes]]
     if thermal.housing_diameter is None and _computed(thermal, *outside):
         said.append(
