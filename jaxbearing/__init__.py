@@ -68,11 +68,11 @@ if TYPE_CHECKING:
     from .bearings.profile import RollerProfile as RollerProfile
     from .bearings.rating import Rating as Rating
     from .bearings.solution import Solution as Solution
-    from .bearings.warming.history import WarmUpHistory as WarmUpHistory
-    from .bearings.warming.settings import WarmUpSimulation as WarmUpSimulation
     from .bearings.tapered.geometry import TaperedGeometry as TaperedGeometry
     from .bearings.tapered.scene import TaperedOperation as TaperedOperation
     from .bearings.tapered.scene import TaperedRollerBearing as TaperedRollerBearing
+    from .bearings.warming.history import WarmUpHistory as WarmUpHistory
+    from .bearings.warming.settings import WarmUpSimulation as WarmUpSimulation
     from .distribution import Distribution as Distribution
     from .distribution import MeanUsedWarning as MeanUsedWarning
     from .ehl import EHLLineContact as EHLLineContact

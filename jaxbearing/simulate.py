@@ -104,9 +104,10 @@ def simulate(
       `thermal` may differ too, but for the number of nodes.
 
     **Raises:** `SolveError` where the quasi-static start is not found or (with `throw`) the run stops early;
-    `ValueError` without a duration, for a scene that does not move or whose heat capacities are not known, inside of `jax.jit`, `jax.vmap` and `jax.grad`
-    (`simulate_batch`, or `quasi_static_start` and `trajectory`, are for them), or for a `restart` from another bearing
-    (the fields that differ are named, with both values); `TypeError` for another kind of scene.
+    `ValueError` without a duration, for a scene that does not move or whose heat capacities are not known, inside of
+    `jax.jit`, `jax.vmap` and `jax.grad` (`simulate_batch`, or `quasi_static_start` and `trajectory`, are for them), or
+    for a `restart` from another bearing (the fields that differ are named, with both values); `TypeError` for another
+    kind of scene.
     """
     require_x64()
     _require_moving(scene, "simulated")

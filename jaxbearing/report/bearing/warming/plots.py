@@ -42,10 +42,16 @@ def times_of(history: WarmUpHistory) -> tuple[np.ndarray, str]:
     return time / length, unit
 
 
+def _root(values: np.ndarray) -> np.ndarray:
+    return np.sqrt(np.maximum(values, 0.0))
+
+
 def _finish(axes: Any, history: WarmUpHistory, title: str) -> None:
     time, unit = times_of(history)
-    axes.set_xlim(time[0], max(time[-1], time[0] + 1e-9))
-    axes.set_xlabel(f"time, {unit}", fontsize=9)
+    # most happens at the start
+    axes.set_xscale("function", functions=(_root, np.square))
+    axes.set_xlim(time[0], time[-1])
+    axes.set_xlabel(f"time, {unit}, on a scale of square roots", fontsize=9)
     title_of(axes, title)
     grid_lines(axes)
 
