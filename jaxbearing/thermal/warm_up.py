@@ -17,6 +17,7 @@ import equinox as eqx
 import jax
 import jax.numpy as jnp
 import optimistix as optx
+from equinox.internal import nondifferentiable
 from jaxtyping import Array, Bool, Float, Int
 
 from .._types import Scalar
@@ -41,6 +42,8 @@ EVENT_TOLERANCE = 1e-6
 SHORTEST_STEP = 1e-6
 """A run whose steps would have to be shorter has failed, s, where the options do not say: no time constant of a bearing
 is as short."""
+DIFFERENCE = 1e-3
+"""Difference of temperature of which a matrix of differences is made, K."""
 AHEAD = 1e3
 """Distance beyond the end of a failed run at which the losses are evaluated, in shortest steps."""
 
@@ -156,10 +159,13 @@ def integrate(
     jumps: Float[Array, " jump"] | None = None,
     adjoint: Any = None,
     first_step: Scalar | None = None,
+    differences: bool = False,
 ) -> Reached:
     """Integrates from time 0 and energies of 0 to the last of the times.
 
-    **Arguments:** as those of `warm_up`; `first_step`: that is tried first, s; it is guessed where not given.
+    **Arguments:** as those of `warm_up`; `first_step`: that is tried first, s; it is guessed where not given;
+    `differences`: whether the matrix of the stages is made of differences. The program is smaller then, takes the same
+    steps, and cannot be differentiated.
     """
     size = begin.size
 
@@ -168,7 +174,7 @@ def integrate(
         return jnp.max(y[:size]) - limit
 
     # diffrax calls the field in many places: so it is traced once
-    field: Any = eqx.filter_jit(balance.rates)
+    field: Any = eqx.filter_jit(_with_differences(balance.rates, begin) if differences else balance.rates)
     found = dfx.diffeqsolve(
         dfx.ODETerm(field),
         # the elimination that has derivatives of the energies
@@ -199,6 +205,34 @@ def integrate(
         accepted=found.stats["num_accepted_steps"],
         rejected=found.stats["num_rejected_steps"],
     )
+
+
+def _with_differences(
+    rates: Callable[[Array, Array, Any], Array], begin: Float[Array, " node"]
+) -> Callable[[Array, Array, Any], Array]:
+    """The rates, whose derivative by the temperatures is made of differences. Nothing depends on the energies, and the
+    derivative by the time, which the integrator does not ask for, is left out."""
+    size, example = begin.size, jnp.concatenate([begin, jnp.zeros(INTEGRALS)])
+    closed = eqx.filter_closure_convert(lambda time, state: rates(time, state, None), jnp.zeros(()), example)
+    numbers, rest = eqx.partition(closed, eqx.is_array)
+    # a derivative by anything else would be wrong: it is refused
+    numbers = nondifferentiable(numbers)
+    # one function of the program, which is called from many places
+    evaluate = jax.jit(lambda numbers, time, state: eqx.combine(numbers, rest)(time, state))
+
+    @jax.custom_jvp
+    def field(numbers: Any, time: Array, state: Array) -> Array:
+        return evaluate(numbers, time, state)
+
+    @field.defjvp
+    def slope(primals: tuple[Any, Array, Array], tangents: tuple[Any, Array, Array]) -> tuple[Array, Array]:
+        (numbers, time, state), along = primals, tangents[2]
+        here = field(numbers, time, state)
+        steps = DIFFERENCE * jnp.eye(size, state.size)
+        columns = jax.lax.map(lambda step: (field(numbers, time, state + step) - here) / DIFFERENCE, steps)
+        return here, along[:size] @ columns
+
+    return lambda time, state, args: field(numbers, time, state)
 
 
 def _control(options: IntegratorOptions, jumps: Array | None) -> Any:

@@ -76,6 +76,7 @@ def _advance(
         settings.options,
         adjoint=dfx.ForwardMode(),
         first_step=jnp.minimum(step, lengths[-1]),
+        differences=True,
     )
 
 
