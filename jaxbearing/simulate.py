@@ -9,11 +9,10 @@ from .numerics.garbage import rare_garbage_collection
 from .numerics.precision import require_x64
 
 if TYPE_CHECKING:
-    from .bearings.ball.scene import BallBearing
+    from .bearings.bearing import AbstractBearing
     from .bearings.motion.family import AbstractMovingBearing
     from .bearings.motion.history import History, LastState
     from .bearings.motion.settings import Simulation
-    from .bearings.tapered.scene import TaperedRollerBearing
     from .bearings.warming.history import WarmState, WarmUpHistory
     from .bearings.warming.settings import WarmUpSimulation
     from .ehl import EHLLineContact, FilmSimulation, FilmState, LineContactHistory
@@ -35,17 +34,6 @@ def simulate(
 ) -> "LineContactHistory": ...
 @overload
 def simulate(
-    scene: "BallBearing | TaperedRollerBearing",
-    duration: float | None = None,
-    *,
-    simulation: "WarmUpSimulation | None" = None,
-    interval: float | None = None,
-    throw: bool = True,
-    progress: Progress | None = None,
-    restart: "WarmUpHistory | WarmState | None" = None,
-) -> "WarmUpHistory": ...
-@overload
-def simulate(
     scene: "AbstractMovingBearing",
     duration: float | None = None,
     *,
@@ -55,6 +43,17 @@ def simulate(
     progress: Progress | None = None,
     restart: "History | LastState | None" = None,
 ) -> "History": ...
+@overload
+def simulate(
+    scene: "AbstractBearing",
+    duration: float | None = None,
+    *,
+    simulation: "WarmUpSimulation | None" = None,
+    interval: float | None = None,
+    throw: bool = True,
+    progress: Progress | None = None,
+    restart: "WarmUpHistory | WarmState | None" = None,
+) -> "WarmUpHistory": ...
 @overload
 def simulate(
     scene: AbstractScene,

@@ -162,11 +162,13 @@ def _check_instants(length: float, every: float | None) -> None:
 def _check_warm_up(model: Any, length: float | None, every: float | None) -> None:
     """Refuses a run of temperatures whose heat capacities are not known, or with too many instants."""
     from ..bearings.warming.runs import require_capacities, settings_of, wanted_times
+    from ..numerics.structure import static_number
 
     try:
         require_capacities(model)
-        settings = settings_of(model, None)
-        wanted_times(0.0, float(settings.duration) if length is None else length, every)
+        # without a length of its own the scene has one
+        duration = settings_of(model, None).duration if length is None else length
+        wanted_times(0.0, static_number("duration", duration, float), every)
     except ValueError as error:
         refuse(str(error))
 

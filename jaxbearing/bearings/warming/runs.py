@@ -270,7 +270,7 @@ class _Run:
         instants: WarmInstant = jax.tree.map(
             lambda *leaves: jnp.asarray(np.concatenate(leaves)), *(one.seen.instant for one in self.done)
         )
-        energies = sum(one.energies for one in self.done)
+        energies = np.sum([one.energies for one in self.done], axis=0)
         capacity = np.asarray(heat_capacities(scene))
         stored = float(np.sum(capacity * (self.now - self.first)))
         losses, to_oil, to_ambient = (float(one) for one in energies)
