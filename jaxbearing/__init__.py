@@ -71,6 +71,8 @@ if TYPE_CHECKING:
     from .bearings.tapered.geometry import TaperedGeometry as TaperedGeometry
     from .bearings.tapered.scene import TaperedOperation as TaperedOperation
     from .bearings.tapered.scene import TaperedRollerBearing as TaperedRollerBearing
+    from .bearings.warming.history import WarmUpHistory as WarmUpHistory
+    from .bearings.warming.settings import WarmUpSimulation as WarmUpSimulation
     from .distribution import Distribution as Distribution
     from .distribution import MeanUsedWarning as MeanUsedWarning
     from .ehl import EHLLineContact as EHLLineContact
@@ -134,6 +136,8 @@ _LAZY = {
     "TaperedOperation": ".bearings.tapered.scene",
     "TaperedRollerBearing": ".bearings.tapered.scene",
     "TwoDisk": ".machines",
+    "WarmUpHistory": ".bearings.warming.history",
+    "WarmUpSimulation": ".bearings.warming.settings",
     "builtin_names": ".scenes.reader",
     "compile_report": ".program_size",
     "load_distributions": ".scenes.reader",

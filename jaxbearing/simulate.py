@@ -9,9 +9,12 @@ from .numerics.garbage import rare_garbage_collection
 from .numerics.precision import require_x64
 
 if TYPE_CHECKING:
+    from .bearings.bearing import AbstractBearing
     from .bearings.motion.family import AbstractMovingBearing
     from .bearings.motion.history import History, LastState
     from .bearings.motion.settings import Simulation
+    from .bearings.warming.history import WarmState, WarmUpHistory
+    from .bearings.warming.settings import WarmUpSimulation
     from .ehl import EHLLineContact, FilmSimulation, FilmState, LineContactHistory
 
 INTERVAL = 20e-6
@@ -35,34 +38,49 @@ def simulate(
     duration: float | None = None,
     *,
     simulation: "Simulation | None" = None,
-    interval: float = INTERVAL,
+    interval: float | None = None,
     throw: bool = True,
     progress: Progress | None = None,
     restart: "History | LastState | None" = None,
 ) -> "History": ...
 @overload
 def simulate(
+    scene: "AbstractBearing",
+    duration: float | None = None,
+    *,
+    simulation: "WarmUpSimulation | None" = None,
+    interval: float | None = None,
+    throw: bool = True,
+    progress: Progress | None = None,
+    restart: "WarmUpHistory | WarmState | None" = None,
+) -> "WarmUpHistory": ...
+@overload
+def simulate(
     scene: AbstractScene,
     duration: float | None = None,
     *,
-    simulation: "Simulation | FilmSimulation | None" = None,
-    interval: float = INTERVAL,
+    simulation: Any = None,
+    interval: float | None = None,
     throw: bool = True,
     progress: Progress | None = None,
-    restart: "History | LastState | LineContactHistory | FilmState | None" = None,
-) -> "History | LineContactHistory": ...
+    restart: Any = None,
+) -> Any: ...
 @rare_garbage_collection()
 def simulate(
     scene: Any,
     duration: float | None = None,
     *,
     simulation: Any = None,
-    interval: float = INTERVAL,
+    interval: float | None = None,
     throw: bool = True,
     progress: Progress | None = None,
     restart: Any = None,
 ) -> Any:
     """Run a bearing in time from the quasi-static state of its operating point, or a line contact from its steady film.
+
+    A bearing with `[thermal]` runs in another way, whatever its family: the run is of its temperatures, from cold, and
+    the bearing is in its steady state at each instant. A run of the rollers needs the table left out. The result is a
+    `WarmUpHistory`. It ends with the status `thermal_runaway` where a node passes `thermal.limit`.
 
     A run that is interrupted by Ctrl-C comes back with what was computed until then (`history.completed`); so does one
     that fails, with `throw=False`.
@@ -70,8 +88,10 @@ def simulate(
     **Arguments:**
     - `duration`: s; that of the scene's simulation where not given.
     - `simulation`: speeds and loads over time, solver, tolerance; the scene's where not given, or else a steady
-      operating point with the default solver.
-    - `interval`: about the time between the instants of the history, s; of a line contact every step is kept.
+      operating point with the default solver. Of temperatures a `WarmUpSimulation`; of a `Simulation` speed, load and
+      tolerance are taken.
+    - `interval`: about the time between the instants of the history, s, 20 us where not given; of a line contact every
+      step is kept. Of temperatures 192 instants where not given, closer together at the start.
     - `throw`: raise where the run stops early.
     - `progress`: called with the time reached and the time of the end, s.
     - `restart`: an earlier run, or its last state (`jaxbearing.read_last_state` of a NetCDF file): it goes on from
@@ -79,12 +99,14 @@ def simulate(
       `operation`, `oil`, `contact` (laws), `drag`, `simulation` or `rating`; all that describes the bearing (geometry,
       materials, cage, flanges, profile) must be the same to 1e-9. Of a line contact `oil`, `simulation`,
       `contact.film_limit`, speed and temperature may differ; load, mesh and all else may not. A file of an earlier
-      version, which does not say what it is of, is taken, and a note of the history says so.
+      version, which does not say what it is of, is taken, and a note of the history says so. Of temperatures
+      `thermal` may differ too, but for the number of nodes.
 
     **Raises:** `SolveError` where the quasi-static start is not found or (with `throw`) the run stops early;
-    `ValueError` without a duration, for a scene that does not move, inside of `jax.jit`, `jax.vmap` and `jax.grad`
-    (`simulate_batch`, or `quasi_static_start` and `trajectory`, are for them), or for a `restart` from another bearing
-    (the fields that differ are named, with both values); `TypeError` for another kind of scene.
+    `ValueError` without a duration, for a scene that does not move or whose heat capacities are not known, inside of
+    `jax.jit`, `jax.vmap` and `jax.grad` (`simulate_batch`, or `quasi_static_start` and `trajectory`, are for them), or
+    for a `restart` from another bearing (the fields that differ are named, with both values); `TypeError` for another
+    kind of scene.
     """
     require_x64()
     _require_moving(scene, "simulated")
@@ -94,6 +116,8 @@ def simulate(
         f"a run in time goes on piece by piece, by what it finds; {instead}call simulate outside, with plain numbers",
         (scene, duration, simulation, interval, restart),
     )
+    if interval is None and getattr(scene, "thermal", None) is None:
+        interval = INTERVAL
     return scene.simulated(
         duration, simulation=simulation, interval=interval, throw=throw, progress=progress, restart=restart
     )
@@ -106,7 +130,7 @@ def _require_moving(scene: Any, method: str) -> None:
     """**Raises:** `TypeError` for what is no scene, or for a kind that does not move."""
     if isinstance(scene, AbstractScene) and getattr(type(scene), method) is not getattr(AbstractScene, method):
         return
-    name, taken = ("simulate", "a cylindrical roller bearing or a line contact")
+    name, taken = ("simulate", "any bearing with [thermal], a cylindrical roller bearing or a line contact")
     if method == "simulated_batch":
         name, taken = ("simulate_batch", "a cylindrical roller bearing")
     raise TypeError(f"cannot simulate a {type(scene).__name__}; {name} takes: {taken}")

@@ -31,6 +31,8 @@ from .ring import InnerRing
 from .solution import RING_FREEDOMS, TILTS, Solution
 from .warm import settled, solve_warm
 
+TAKEN = "simulate takes: any bearing with [thermal], a cylindrical roller bearing, a line contact"
+"""Second half of the message about a scene that does not move."""
 Bearing = TypeVar("Bearing", bound="AbstractBearing")
 
 
@@ -61,6 +63,21 @@ class AbstractBearing(AbstractScene):
 
     def steady_solution(self, options: NewtonOptions) -> Solution:
         return self.solved_running(lambda running: running.solve_ring(options))
+
+    def simulated(self, duration: float | None, **settings: Any) -> Any:
+        """A run of the temperatures in time, of a scene with a thermal network."""
+        if self.thermal is None:
+            raise TypeError(f"cannot simulate a {type(self).__name__} without [thermal]; {TAKEN}")
+        from .warming.runs import simulate_warm_up
+
+        return simulate_warm_up(self, duration, **settings)
+
+    def check_restart(self, restart: Any, duration: float | None = None) -> None:
+        if self.thermal is None:
+            raise TypeError(f"cannot simulate a {type(self).__name__} without [thermal]; {TAKEN}")
+        from .warming.runs import check_restart
+
+        check_restart(self, restart)
 
     def solved_running(self, solve: Callable[[Any], Solution]) -> Solution:
         """The solution of the bearing that runs: of this scene, or where it has seats of the one that these make of it,

@@ -256,16 +256,26 @@ def _seat_to_ambient(scene: Any, thermal: Thermal, node: str) -> Any:
 
 def heat_capacities(scene: Any) -> Float[Array, " node"] | None:
     """Heat capacities of the nodes, J/K; `None` where one is not known."""
+    found = [value for _, value in _capacities(scene)]
+    if any(one is None for one in found):
+        return None
+    return jnp.stack([jnp.asarray(one, dtype=float) for one in found])
+
+
+def unknown_capacities(scene: Any) -> tuple[str, ...]:
+    """Names of the nodes whose heat capacity is not known."""
+    return tuple(name for name, value in _capacities(scene) if value is None)
+
+
+def _capacities(scene: Any) -> list[tuple[str, Any]]:
+    """Name and heat capacity, J/K, of each node; `None` for what is not known."""
     thermal: Thermal = scene.thermal
     parts: dict[str, Any] = _own_capacities(scene)
     parts |= {name: value for name, value in vars(thermal.capacity).items() if value is not None}
     inside = [parts.get(name) for name in NODES[4]]
     if "bearing" not in parts and all(one is not None for one in inside):
         parts["bearing"] = jnp.sum(jnp.stack([jnp.asarray(one, dtype=float) for one in inside]))
-    values = [parts.get(name) for name in thermal.node_names]
-    if any(one is None for one in values):
-        return None
-    return jnp.stack([jnp.asarray(one, dtype=float) for one in values])
+    return [(name, parts.get(name)) for name in thermal.node_names]
 
 
 def _own_capacities(scene: Any) -> dict[str, Any]:

@@ -18,7 +18,7 @@ from ..mounting import PartTemperatures
 from ..numerics.checks import known, nan_unless
 from ..numerics.refusals import refusals_of
 from ..numerics.status import Status
-from ..thermal.network import Network
+from ..thermal.network import Network, NodeHeat
 from ..thermal.point import ThermalOptions
 from ..thermal.result import HeatPaths, NodeTemperatures, ThermalResult, named
 from ..thermal.settings import Thermal
@@ -116,6 +116,15 @@ def at_temperatures(scene: Any, temperatures: Float[Array, " node"]) -> Any:
     return dataclasses.replace(scene, thermal=None, temperatures=parts, oil_temperatures=oil)
 
 
+def heat_at(scene: Any, temperatures: Float[Array, " node"], solve: Callable[[Any], Solution]) -> NodeHeat:
+    """Heat into the nodes of the bearing that is solved at node temperatures, K; `other` of it is the solution.
+
+    **Arguments:** `solve`: from a scene without network and seats to its solution.
+    """
+    lane = at_temperatures(scene, temperatures)
+    return bearing_heat(lane, scene.thermal, lane.solved_running(solve), temperatures)
+
+
 def solve_warm(scene: Any, solve: Callable[[Any], Solution]) -> Solution:
     """The solution at the temperatures where all heat that is made leaves.
 
@@ -124,9 +133,8 @@ def solve_warm(scene: Any, solve: Callable[[Any], Solution]) -> Solution:
     thermal: Thermal = scene.thermal
     network, nodes = bearing_network(scene), len(thermal.node_names)
 
-    def losses(temperatures: Array) -> Any:
-        lane = at_temperatures(scene, temperatures)
-        return bearing_heat(lane, thermal, lane.solved_running(solve), temperatures)
+    def losses(temperatures: Array) -> NodeHeat:
+        return heat_at(scene, temperatures, solve)
 
     start = None if thermal.start is None else jnp.full(nodes, jnp.asarray(thermal.start, dtype=float))
     state = solve_network(
@@ -176,7 +184,7 @@ def _result(scene: Any, network: Network, state: ThermalState) -> ThermalResult:
     return ThermalResult(
         temperatures=named(NodeTemperatures, by_name),
         oil=oil_temperatures(nodes, state.temperatures, **rings_of(scene)),
-        flows=_paths(network, state),
+        flows=heat_paths(network, state.temperatures, state.losses),
         ambient=masked(network.ambient),
         oil_in=None if network.oil is None else masked(network.oil.inlet),
         oil_out=state.oil_out,
@@ -191,10 +199,9 @@ def _result(scene: Any, network: Network, state: ThermalState) -> ThermalResult:
     )
 
 
-def _paths(network: Network, state: ThermalState) -> HeatPaths:
-    """Heat along each conductance, W."""
-    nodes, temperatures = network.nodes, state.temperatures
-    between, outside = state.losses.between, state.losses.to_ambient
+def heat_paths(network: Network, temperatures: Float[Array, " node"], losses: NodeHeat) -> HeatPaths:
+    """Heat along each conductance, W. **Arguments:** `temperatures`: K; `losses`: of the bearing at these."""
+    nodes, between, outside = network.nodes, losses.between, losses.to_ambient
     assert between is not None
     assert outside is not None
     flows = {}
@@ -210,8 +217,13 @@ def _paths(network: Network, state: ThermalState) -> HeatPaths:
 
 def thermal_notes(scene: Any) -> tuple[str, ...]:
     """Notes for the user: what the network assumes, and what a steady state does not say."""
+    return f"thermal: {START_NOTE}", *network_notes(scene)
+
+
+def network_notes(scene: Any) -> tuple[str, ...]:
+    """Notes for the user: what the network assumes."""
     thermal: Thermal = scene.thermal
-    said = [f"thermal: {START_NOTE}"]
+    said: list[str] = []
     outside = [f"{node}_ambient" for node in OUTSIDE[thermal.nodes]]
     if thermal.housing_diameter is None and _computed(thermal, *outside):
         said.append(

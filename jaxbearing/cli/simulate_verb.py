@@ -19,6 +19,7 @@ from .terminal import console
 if TYPE_CHECKING:
     from .._scene import AbstractScene
     from ..bearings.motion.history import History, LastState
+    from ..bearings.warming.history import WarmState, WarmUpHistory
     from ..ehl import LineContactHistory
     from ..ehl.last_state import FilmState
     from ..numerics.status import SolveError
@@ -34,7 +35,8 @@ Interval = Annotated[
     typer.Option(
         "--interval",
         metavar="TIME",
-        help="Of a bearing: about the time between the results that are kept, 20 us if not given.",
+        help="Of a bearing: about the time between the results that are kept, 20 us if not given; of temperatures 192 "
+        "results if not given, closer together at the start.",
     ),
 ]
 OutOption = Annotated[
@@ -43,7 +45,9 @@ OutOption = Annotated[
 PlotOption = Annotated[
     Path | None,
     typer.Option(
-        "--plot", metavar="FILE", help="Draw orbit, speeds, loads and power, or films over time; .png, .svg or .pdf."
+        "--plot",
+        metavar="FILE",
+        help="Draw orbit, speeds, loads and power, or temperatures or films over time; .png, .svg or .pdf.",
     ),
 ]
 AnimationOption = Annotated[
@@ -51,7 +55,8 @@ AnimationOption = Annotated[
     typer.Option(
         "--animation",
         metavar="FILE",
-        help="Show rollers, cage and loads, or pressure and film, in motion; .gif, .html, or .mp4 (needs ffmpeg).",
+        help="Show rollers, cage and loads, temperatures, or pressure and film, in motion; .gif, .html, or .mp4 (needs "
+        "ffmpeg).",
     ),
 ]
 RestartOption = Annotated[
@@ -74,8 +79,8 @@ def simulate(
     restart: RestartOption = None,
 ) -> None:
     """A run in time, from the steady state of the operating point: motion of rolling elements and cage, shocks between
-    them, power; of a line contact, the film while its speed changes. Ctrl-C ends the run and keeps what was
-    computed."""
+    them, power; of a bearing with [thermal], its temperatures from cold; of a line contact, the film while its speed
+    changes. Ctrl-C ends the run and keeps what was computed."""
     with bad_input():
         from ..ehl import EHLLineContact
         from ..scenes.errors import SceneError
@@ -88,18 +93,20 @@ def simulate(
         every = None if interval is None else option_quantity("--interval", interval, TIME, "> 0")
         if length is None and getattr(getattr(model, "simulation", None), "duration", None) is None:
             raise SceneError("--duration", "", "nothing", "a time with a unit, e.g. '50 ms'")
-        film = isinstance(model, EHLLineContact)
-        if not film and not (getattr(model, "slips", False) and hasattr(model, "simulation")):
+        film, warms = isinstance(model, EHLLineContact), getattr(model, "thermal", None) is not None
+        if not film and not warms and not (getattr(model, "slips", False) and hasattr(model, "simulation")):
             refuse(
-                f"SCENE: found '{scene}'; expected a cylindrical roller bearing with contact.traction, or a line "
-                "contact"
+                f"SCENE: found '{scene}'; expected a bearing with [thermal], a cylindrical roller bearing with "
+                "contact.traction, or a line contact"
             )
         if film and every is not None:
             refuse(
                 f"--interval: found '{interval}' for a line contact; expected none: every step is kept "
                 "(simulation.tolerance says how long they are)"
             )
-        if not film:
+        if warms:
+            _check_warm_up(model, length, every)
+        elif not film:
             _check_instants(length or float(model.simulation.duration), every)
         check_files((("--plot", plot, PICTURES), ("--out", out, (".nc",)), ("--animation", animation, ANIMATIONS)))
         _check_animation(animation)
@@ -115,7 +122,8 @@ def simulate(
         from ..simulate import simulate as run
 
         try:
-            with _progress(as_json, "start and compilation") as shown:
+            unit = ("min", 1.0 / 60.0) if warms else ("ms", 1e3)
+            with _progress(as_json, "start and compilation", *unit) as shown:
 
                 def progress(reached: float, stop: float) -> None:
                     # for a second Ctrl-C
@@ -151,6 +159,20 @@ def _check_instants(length: float, every: float | None) -> None:
         )
 
 
+def _check_warm_up(model: Any, length: float | None, every: float | None) -> None:
+    """Refuses a run of temperatures whose heat capacities are not known, or with too many instants."""
+    from ..bearings.warming.runs import require_capacities, settings_of, wanted_times
+    from ..numerics.structure import static_number
+
+    try:
+        require_capacities(model)
+        # without a length of its own the scene has one
+        duration = settings_of(model, None).duration if length is None else length
+        wanted_times(0.0, static_number("duration", duration, float), every)
+    except ValueError as error:
+        refuse(str(error))
+
+
 def _check_animation(path: Path | None) -> None:
     """Refuses a film that needs ffmpeg before the run, if ffmpeg is missing."""
     if path is not None and path.suffix.lower() == ".mp4" and shutil.which("ffmpeg") is None:
@@ -159,7 +181,9 @@ def _check_animation(path: Path | None) -> None:
         )
 
 
-def _last_state(path: Path, model: "AbstractScene", scene: str, duration: float | None) -> "LastState | FilmState":
+def _last_state(
+    path: Path, model: "AbstractScene", scene: str, duration: float | None
+) -> "LastState | FilmState | WarmState":
     """The end of an earlier run, checked against the scene."""
     from ..report.last_state import read_last_state
 
@@ -194,7 +218,11 @@ def _progress(as_json: bool, begin: str, unit: str = "ms", factor: float = 1e3) 
 
 
 def _animate(
-    history: "History | LineContactHistory", model: "AbstractScene", label: str, path: Path, as_json: bool
+    history: "History | LineContactHistory | WarmUpHistory",
+    model: "AbstractScene",
+    label: str,
+    path: Path,
+    as_json: bool,
 ) -> None:
     from ..report.backends.matplotlib.animations import save_animation
     from ..report.histories import animate_history
@@ -203,21 +231,21 @@ def _animate(
         save_animation(animate_history(history, model, label), path, progress)
 
 
-def _write_data(history: "History | LineContactHistory", out: Path) -> None:
+def _write_data(history: "History | LineContactHistory | WarmUpHistory", out: Path) -> None:
     from ..report.dataset import write_netcdf
     from ..report.histories import history_to_dataset
 
     write_netcdf(history_to_dataset(history), out)
 
 
-def _write_plot(history: "History | LineContactHistory", label: str, plot: Path) -> None:
+def _write_plot(history: "History | LineContactHistory | WarmUpHistory", label: str, plot: Path) -> None:
     from ..report.histories import plot_history
     from ..report.plots import save_plot
 
     save_plot(plot_history(history, label), plot)
 
 
-def _print(history: "History | LineContactHistory", label: str, as_json: bool) -> None:
+def _print(history: "History | LineContactHistory | WarmUpHistory", label: str, as_json: bool) -> None:
     from ..report.histories import history_to_dict, print_history
 
     if as_json:

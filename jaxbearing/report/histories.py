@@ -25,9 +25,12 @@ def not_begun_to_dict(scene: Any, duration: float | None, error: SolveError) -> 
     """A run whose start was not found, with the keys that `history_to_dict` has and nothing in those of results."""
     from ..bearings.checks import input_excess
     from ..bearings.motion.settings import Simulation
+    from ..bearings.warming.settings import SOLVER as WARM_UP_SOLVER
     from .backends.json import plain
 
-    film, simulation = isinstance(scene, EHLLineContact), scene.simulation
+    film, simulation = isinstance(scene, EHLLineContact), getattr(scene, "simulation", None)
+    rollers = (simulation or Simulation()).solver
+    solver = SOLVER if film else rollers if scene.thermal is None else WARM_UP_SOLVER
     wanted = duration if duration is not None else getattr(simulation, "duration", None)
     common = {
         "completed": False,
@@ -36,7 +39,7 @@ def not_begun_to_dict(scene: Any, duration: float | None, error: SolveError) -> 
         "warnings": [] if film else [text for text, excess in input_excess(scene).items() if excess > 0],
         "time": {"start": None, "stop": None, "wanted": None if wanted is None else float(wanted)},
         "steps": {"accepted": 0, "rejected": 0},
-        "solver": SOLVER if film else (simulation or Simulation()).solver,
+        "solver": solver,
         "energy_error": None,
         "operation": plain(scene.operation),
         "summary": {},

@@ -10,9 +10,10 @@ import xarray as xr
 
 from .._identity import Identity, identity_from
 from ..bearings.motion.history import LastState
+from ..bearings.warming.history import WarmState
 from ..ehl import FilmState
 from ..scenes.input_files import check_regular
-from .variables import IDENTITY
+from .variables import IDENTITY, NODES
 
 _NEEDED = ("time", "state_elements", "state_cage", "frame_angle", "frame_speed", "reference_speed", "azimuth")
 _OLD_NAME = "state_rollers"
@@ -22,10 +23,11 @@ _OF_A_FILM = ("time", "pressure", "offset", "mass", "steps", "known", "proposal"
 _PREFIX = "last_state_"
 
 
-def read_last_state(path: Any) -> LastState | FilmState:
+def read_last_state(path: Any) -> LastState | FilmState | WarmState:
     """Reads the end of a run from the file of `jaxbearing simulate --out`, for `jaxbearing.simulate(..., restart=...)`.
 
-    The run may be of a bearing or of a line contact, and may have been interrupted or have stopped early.
+    The run may be of a bearing, of its temperatures or of a line contact, and may have been interrupted or have stopped
+    early.
 
     **Raises:** `OSError` for a file that cannot be read, `ValueError` for one that is not of a run in time.
     """
@@ -40,6 +42,8 @@ def read_last_state(path: Any) -> LastState | FilmState:
         with xr.open_dataset(path, engine="h5netcdf", decode_times=False) as dataset:
             if any(str(field).startswith(_PREFIX) for field in dataset.variables):
                 return _film_state(dataset)
+            if NODES in dataset.attrs:
+                return _warm_state(dataset)
             return _bearing_state(dataset)
     except _Other as error:
         raise ValueError(f"{name} is not a run in time that can be continued: {error}") from None
@@ -69,6 +73,19 @@ def _bearing_state(dataset: xr.Dataset) -> LastState:
         has_cage="cage_speed" in dataset.variables,
         identity=_identity(dataset),
     )
+
+
+def _warm_state(dataset: xr.Dataset) -> WarmState:
+    nodes = tuple(str(dataset.attrs[NODES]).split(","))
+    names = [f"temperatures_{name}" for name in nodes]
+    _require(dataset, ["time", *names])
+    if dataset.sizes.get("time", 0) == 0:
+        raise _Other("it has no instants")
+    values = [np.asarray(dataset[name].values, dtype=float) for name in ("time", *names)]
+    if any(value.ndim != 1 for value in values):
+        raise _Other("its temperatures have another shape")
+    last = [value[-1] for value in values]
+    return WarmState(np.asarray(last[0]), np.asarray(last[1:]), nodes, _identity(dataset))
 
 
 def _film_state(dataset: xr.Dataset) -> FilmState:

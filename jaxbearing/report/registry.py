@@ -18,6 +18,7 @@ FOLDERS = {
 """Kinds of steady results, by their names: the classes of kinds that are not shown need not be imported."""
 RUNS = {
     "jaxbearing.bearings.motion.history.History": "bearing.run",
+    "jaxbearing.bearings.warming.history.WarmUpHistory": "bearing.warming",
     "jaxbearing.ehl.history.LineContactHistory": "line_contact.run",
 }
 """Kinds of runs in time."""

@@ -84,6 +84,8 @@ def attributes(solution: Any, title: str) -> dict[str, str]:
     }
 
 
+NODES = "nodes"
+"""Attribute of the file of a run of temperatures: names of the nodes, with commas between them."""
 IDENTITY = "scene_identity"
 """Attribute of the file of a run in time: which bearing or contact it is, as JSON."""
 

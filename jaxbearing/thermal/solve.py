@@ -29,7 +29,7 @@ LIMIT = 523.15
 
 UNSTABLE = "unstable: a bearing would leave this state"
 """Warning of a steady state that is a root and no more."""
-START_NOTE = "a stable steady state need not be reached by a start at speed: only a run in time (warm_up) says so"
+START_NOTE = "a stable steady state need not be reached by a start at speed: only a run in time (simulate) says so"
 """Note beside margin and rate."""
 
 

@@ -10,14 +10,15 @@ the warm bearing would be safe. Neither the thermal margin nor the rate says so;
 
 import dataclasses
 from collections.abc import Callable
-from typing import Any, TypeAlias
+from typing import Any, NamedTuple, TypeAlias
 
 import diffrax as dfx
 import equinox as eqx
 import jax
 import jax.numpy as jnp
 import optimistix as optx
-from jaxtyping import Array, Float, Int
+from equinox.internal import nondifferentiable
+from jaxtyping import Array, Bool, Float, Int
 
 from .._types import Scalar
 from ..numerics.checks import label
@@ -41,6 +42,8 @@ EVENT_TOLERANCE = 1e-6
 SHORTEST_STEP = 1e-6
 """A run whose steps would have to be shorter has failed, s, where the options do not say: no time constant of a bearing
 is as short."""
+DIFFERENCE = 1e-3
+"""Difference of temperature of which a matrix of differences is made, K."""
 AHEAD = 1e3
 """Distance beyond the end of a failed run at which the losses are evaluated, in shortest steps."""
 
@@ -96,38 +99,89 @@ def warm_up(
     - `jumps`: times at which a table has a jump or a kink, s: a step ends there.
     - `adjoint`: of diffrax; reverse mode where not given, `diffrax.ForwardMode()` for the other.
     """
-    if options is None:
-        options = IntegratorOptions(solver="kvaerno5", max_steps=4096, shortest_step=SHORTEST_STEP)
+    chosen = usual_options() if options is None else options
     at_time: NetworkInTime = (lambda time: network) if isinstance(network, Network) else network
     first = at_time(jnp.zeros(()))
     begin = jnp.full(len(first.nodes), first.ambient) if start is None else jnp.asarray(start, dtype=float)
-    size = begin.size
+    balance = Balance(at_time, losses, capacity)
+    found = integrate(balance, begin, times, limit, chosen, jumps=jumps, adjoint=adjoint)
+    ahead = AHEAD * chosen.shortest_step
+    beyond = found.last + ahead * balance.rates(found.end, found.last, None)
+    status = run_status(found, losses(beyond[: begin.size], found.end + ahead).status)
+    return _history(first.nodes, begin, capacity, times, balance.flows_at, found, status)
 
-    def flows_at(time: Array, temperatures: Array) -> tuple[NodeHeat, HeatFlows]:
-        heat = losses(temperatures, time)
-        return heat, at_time(time).flows(temperatures, heat)
 
-    def rates(time: Array, state: Array, args: Any) -> Array:
+def usual_options() -> IntegratorOptions:
+    """Options of a run that says none."""
+    return IntegratorOptions(solver="kvaerno5", max_steps=4096, shortest_step=SHORTEST_STEP)
+
+
+class Balance(NamedTuple):
+    """The equations of a run: temperatures, K, and behind them the energies, in `ENERGY`, in one state."""
+
+    network: NetworkInTime
+    losses: LossesInTime
+    capacity: Float[Array, " node"]
+
+    def flows_at(self, time: Array, temperatures: Array) -> tuple[NodeHeat, HeatFlows]:
+        heat = self.losses(temperatures, time)
+        return heat, self.network(time).flows(temperatures, heat)
+
+    def rates(self, time: Array, state: Array, args: Any) -> Array:
+        """Rates of the state, 1/s; NaN where the losses cannot be computed, so that the step is shortened."""
         del args
-        heat, flows = flows_at(time, state[:size])
+        heat, flows = self.flows_at(time, state[:-INTEGRALS])
         energies = jnp.stack([jnp.sum(heat.heat), flows.to_oil, flows.to_ambient]) / ENERGY
-        rate = jnp.concatenate([(flows.into_nodes + heat.heat) / capacity, energies])
-        # NaN lets the step be shortened
+        rate = jnp.concatenate([(flows.into_nodes + heat.heat) / self.capacity, energies])
         return jnp.where(heat.status == Status.CONVERGED, rate, jnp.nan)
+
+
+class Reached(NamedTuple):
+    """States at the instants, not finite beyond the end; the last state and its time, s; how it ended; its steps."""
+
+    states: Float[Array, "time component"]
+    last: Float[Array, " component"]
+    end: Float[Array, ""]
+    finished: Bool[Array, ""]
+    hot: Bool[Array, ""]
+    out_of_steps: Bool[Array, ""]
+    accepted: Int[Array, ""]
+    rejected: Int[Array, ""]
+
+
+def integrate(
+    balance: Balance,
+    begin: Float[Array, " node"],
+    times: Float[Array, " time"],
+    limit: Scalar,
+    options: IntegratorOptions,
+    *,
+    jumps: Float[Array, " jump"] | None = None,
+    adjoint: Any = None,
+    first_step: Scalar | None = None,
+    differences: bool = False,
+) -> Reached:
+    """Integrates from time 0 and energies of 0 to the last of the times.
+
+    **Arguments:** as those of `warm_up`; `first_step`: that is tried first, s; it is guessed where not given;
+    `differences`: whether the matrix of the stages is made of differences. The program is smaller then, takes the same
+    steps, and cannot be differentiated.
+    """
+    size = begin.size
 
     def too_hot(t: Any, y: Array, args: Any, **kwargs: Any) -> Array:
         del t, args, kwargs
         return jnp.max(y[:size]) - limit
 
     # diffrax calls the field in many places: so it is traced once
-    field: Any = eqx.filter_jit(rates)
+    field: Any = eqx.filter_jit(_with_differences(balance.rates, begin) if differences else balance.rates)
     found = dfx.diffeqsolve(
         dfx.ODETerm(field),
         # the elimination that has derivatives of the energies
         diffrax_solver(dataclasses.replace(options, elimination="dense")),
         jnp.zeros(()),
         times[-1],
-        None,
+        first_step,
         jnp.concatenate([begin, jnp.zeros(INTEGRALS)]),
         saveat=dfx.SaveAt(subs=(dfx.SubSaveAt(ts=times), dfx.SubSaveAt(t1=True))),
         stepsize_controller=_control(options, jumps),
@@ -138,11 +192,47 @@ def warm_up(
     )
     saved: Any = found.ys
     ends: Any = found.ts
-    reached = (saved[0], saved[1][0], ends[1][0])
-    ahead = AHEAD * options.shortest_step
-    beyond = (reached[1] + ahead * rates(reached[2], reached[1], None))[:size]
-    status = _status(found.result, reached[1], losses(beyond, reached[2] + ahead).status)
-    return _history(first.nodes, begin, capacity, times, flows_at, reached, status, found)
+    result: Any = found.result
+    last = saved[1][0]
+    finite = jnp.all(jnp.isfinite(last))
+    return Reached(
+        states=saved[0],
+        last=last,
+        end=ends[1][0],
+        finished=finite & (result == dfx.RESULTS.successful),
+        hot=finite & (result == dfx.RESULTS.event_occurred),
+        out_of_steps=result == dfx.RESULTS.max_steps_reached,
+        accepted=found.stats["num_accepted_steps"],
+        rejected=found.stats["num_rejected_steps"],
+    )
+
+
+def _with_differences(
+    rates: Callable[[Array, Array, Any], Array], begin: Float[Array, " node"]
+) -> Callable[[Array, Array, Any], Array]:
+    """The rates, whose derivative by the temperatures is made of differences. Nothing depends on the energies, and the
+    derivative by the time, which the integrator does not ask for, is left out."""
+    size, example = begin.size, jnp.concatenate([begin, jnp.zeros(INTEGRALS)])
+    closed = eqx.filter_closure_convert(lambda time, state: rates(time, state, None), jnp.zeros(()), example)
+    numbers, rest = eqx.partition(closed, eqx.is_array)
+    # a derivative by anything else would be wrong: it is refused
+    numbers = nondifferentiable(numbers)
+    # one function of the program, which is called from many places
+    evaluate = jax.jit(lambda numbers, time, state: eqx.combine(numbers, rest)(time, state))
+
+    @jax.custom_jvp
+    def field(numbers: Any, time: Array, state: Array) -> Array:
+        return evaluate(numbers, time, state)
+
+    @field.defjvp
+    def slope(primals: tuple[Any, Array, Array], tangents: tuple[Any, Array, Array]) -> tuple[Array, Array]:
+        (numbers, time, state), along = primals, tangents[2]
+        here = field(numbers, time, state)
+        steps = DIFFERENCE * jnp.eye(size, state.size)
+        columns = jax.lax.map(lambda step: (field(numbers, time, state + step) - here) / DIFFERENCE, steps)
+        return here, along[:size] @ columns
+
+    return lambda time, state, args: field(numbers, time, state)
 
 
 def _control(options: IntegratorOptions, jumps: Array | None) -> Any:
@@ -166,16 +256,14 @@ def _history(
     capacity: Array,
     times: Array,
     flows_at: Callable[[Array, Array], tuple[NodeHeat, HeatFlows]],
-    reached: tuple[Array, Array, Array],
+    found: Reached,
     status: Array,
-    found: Any,
 ) -> WarmUp:
-    """Heat flows at the instants, and energies at the end. `reached`: states, last state, its time."""
-    states, last, end = reached
+    """Heat flows at the instants, and energies at the end."""
     size = begin.size
-    temperatures, energies = last[:size], ENERGY * last[size:]
+    temperatures, energies = found.last[:size], ENERGY * found.last[size:]
     stored = jnp.sum(capacity * (temperatures - begin))
-    there = times <= end
+    there = times <= found.end
 
     def heats(instant: tuple[Array, Array, Array]) -> tuple[Array, Array, Array, Array]:
         time, state, passed = instant
@@ -184,7 +272,7 @@ def _history(
         values = (trial, jnp.sum(heat.heat), flows.to_oil, flows.to_ambient)
         return jax.tree.map(lambda value: jnp.where(passed, value, jnp.nan), values)
 
-    shown, total, to_oil, to_ambient = jax.lax.map(heats, (times, states, there))
+    shown, total, to_oil, to_ambient = jax.lax.map(heats, (times, found.states, there))
     return WarmUp(
         nodes=nodes,
         status=status,
@@ -193,22 +281,20 @@ def _history(
         total=total,
         heat_to_oil=to_oil,
         heat_to_ambient=to_ambient,
-        end=end,
+        end=found.end,
         last=temperatures,
         losses_energy=energies[0],
         oil_energy=energies[1],
         ambient_energy=energies[2],
         energy_error=(energies[0] - energies[1] - energies[2] - stored) / jnp.where(energies[0] == 0, 1.0, energies[0]),
-        accepted=found.stats["num_accepted_steps"],
-        rejected=found.stats["num_rejected_steps"],
+        accepted=found.accepted,
+        rejected=found.rejected,
     )
 
 
-def _status(result: Any, last: Array, of_losses: Array) -> Int[Array, ""]:
-    """**Arguments:** `of_losses`: their status just beyond the end."""
-    finite = jnp.all(jnp.isfinite(last))
-    failed = jnp.where(result == dfx.RESULTS.max_steps_reached, int(Status.NOT_CONVERGED), int(Status.DIVERGED))
+def run_status(found: Reached, of_losses: Array) -> Int[Array, ""]:
+    """How a run ended. **Arguments:** `of_losses`: their status just beyond the end."""
+    failed = jnp.where(found.out_of_steps, int(Status.NOT_CONVERGED), int(Status.DIVERGED))
     failed = jnp.where(of_losses == Status.CONVERGED, failed, of_losses)
-    hot = finite & (result == dfx.RESULTS.event_occurred)
-    good = finite & (result == dfx.RESULTS.successful)
-    return jnp.where(good, int(Status.CONVERGED), jnp.where(hot, int(Status.THERMAL_RUNAWAY), failed))
+    ended = jnp.where(found.hot, int(Status.THERMAL_RUNAWAY), failed)
+    return jnp.where(found.finished, int(Status.CONVERGED), ended)

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 import xarray as xr
 from typer.testing import CliRunner
+from warm_cases import ROLLERS
 
 from jaxbearing.cli.main import app
 
@@ -155,3 +156,35 @@ def test_bad_input_is_refused(name):
     assert result.exit_code == 2
     assert hint in result.stderr
     assert result.stdout == ""
+
+
+def of_temperatures(*more):
+    """A run of the temperatures of the cheapest bearing."""
+    changes = [f"{path}={value}" for path, value in (ROLLERS | {"thermal.nodes": "4"}).items()]
+    scene = ["simulate", "turbine_roller", *(part for change in changes for part in ("--set", change))]
+    return CliRunner().invoke(app, [*scene, *more])
+
+
+@pytest.mark.slow
+def test_temperatures_in_time(tmp_path):
+    files = ["--out", str(tmp_path / "run.nc"), "--plot", str(tmp_path / "run.png")]
+    result = of_temperatures("--duration", "1 h", "--json", *files)
+    assert result.exit_code == 0
+    found = json.loads(result.stdout)
+    assert found["completed"] is True
+    np.testing.assert_allclose(found["time"]["stop"], 3600.0)
+    assert abs(found["energy_error"]) < 1e-4
+    assert found["summary"]["temperatures"]["oil"]["start"] == 293.15
+    assert (tmp_path / "run.png").stat().st_size > 10_000
+    again = of_temperatures("--duration", "1 min", "--json", "--restart", str(tmp_path / "run.nc"))
+    assert again.exit_code == 0
+    assert json.loads(again.stdout)["time"] == {"start": 3600.0, "stop": 3660.0, "wanted": 3660.0}
+    hot = of_temperatures("--duration", "1 h", "--set", "thermal.limit=130 degC")
+    assert hot.exit_code == 3
+    assert "a node passed thermal.limit" in hot.output
+
+
+def test_temperatures_need_heat_capacities():
+    found = of_temperatures("--duration", "1 h", "--set", "thermal.nodes=6")
+    assert found.exit_code == 2
+    assert "thermal.capacity.shaft, thermal.capacity.housing: found nothing, expected a number" in found.output

@@ -142,6 +142,8 @@ class AbstractMovingBearing(AbstractBearing):
         """The motion of the family."""
 
     def simulated(self, duration: float | None, **settings: Any) -> Any:
+        if self.thermal is not None:
+            return super().simulated(duration, **settings)
         from .runs import simulate_bearing
 
         return simulate_bearing(self, duration, **settings)
@@ -152,6 +154,9 @@ class AbstractMovingBearing(AbstractBearing):
         return simulate_bearing_batch(self, duration, over, **settings)
 
     def check_restart(self, restart: Any, duration: float | None = None) -> None:
+        if self.thermal is not None:
+            super().check_restart(restart, duration)
+            return
         from .run import check_fits
 
         check_fits(self, restart)

@@ -26,8 +26,9 @@ IMMOBILE = (
     "contact.traction: nothing drives the rollers of a bearing without traction on its raceways; simulate needs it"
 )
 NO_NETWORK = (
-    "thermal: a run in time of the rollers has no thermal network; leave [thermal] out, and give the temperatures that "
-    "a solve has found as operation.oil_temperature and [temperatures]"
+    "thermal: a run in time of the rollers has no thermal network (simulate runs the temperatures of such a scene); "
+    "leave [thermal] out, and give the temperatures that a solve has found as operation.oil_temperature and "
+    "[temperatures]"
 )
 
 

@@ -1,0 +1,133 @@
+"""Results of a run of the temperatures of a bearing, labelled."""
+
+from collections.abc import Mapping
+from typing import Any, ClassVar
+
+import equinox as eqx
+import jax
+import jax.numpy as jnp
+import numpy as np
+from jaxtyping import Array, Bool, Float, Int
+
+from ..._identity import Identity
+from ..._scene import AbstractSolution, label
+from ...numerics.status import Status
+from ...thermal.result import HeatPaths, NodeTemperatures
+from ..growth import FitResult
+from ..solution import CageState, RingDisplacement, losses_not_modelled
+from .settings import SOLVER
+
+_Number = Float[Array, ""]
+
+
+class WarmInstant(eqx.Module):
+    """The bearing at one instant; in a `WarmUpHistory` every array has the times in front."""
+
+    inner_speed: _Number = eqx.field(metadata=label("rad/s", "inner ring speed"))
+    oil_inlet: _Number = eqx.field(metadata=label("K", "temperature of the oil that enters"))
+    temperatures: NodeTemperatures
+    flows: HeatPaths
+    oil_out: _Number | None = eqx.field(metadata=label("K", "temperature of the oil that leaves"))
+    heat_to_oil: _Number = eqx.field(metadata=label("W", "heat that leaves with the oil"))
+    heat_to_ambient: _Number = eqx.field(metadata=label("W", "heat that leaves to the ambient"))
+    heat_stored: _Number = eqx.field(metadata=label("W", "heat that warms the nodes"))
+    power_loss: Any
+    drive_power: _Number | None = eqx.field(metadata=label("W", "sum over both rings of torque times speed"))
+    ring: RingDisplacement
+    cage: CageState | None
+    fit: FitResult | None
+    largest_load: _Number = eqx.field(metadata=label("N", "largest load of all raceway contacts"))
+    largest_pressure: _Number = eqx.field(metadata=label("Pa", "largest Hertz pressure of all raceway contacts"))
+    smallest_film: _Number | None = eqx.field(metadata=label("m", "smallest central film on the raceways"))
+
+
+class WarmEnergy(eqx.Module):
+    """Energies over the run, J: what the losses made is what left and what the nodes stored, up to `error`."""
+
+    losses: _Number = eqx.field(metadata=label("J", "energy of all losses"))
+    to_oil: _Number = eqx.field(metadata=label("J", "energy that left with the oil"))
+    to_ambient: _Number = eqx.field(metadata=label("J", "energy that left to the ambient"))
+    stored: _Number = eqx.field(metadata=label("J", "energy that the nodes have stored"))
+    error: _Number = eqx.field(metadata=label("1", "what the balance leaves open, over the energy of the losses"))
+
+
+class WarmState(eqx.Module):
+    """The state from which another run can go on: `WarmUpHistory.last_state`.
+
+    **Arguments:** `time`: s; `temperatures`: of the nodes, K, in the order of `nodes`; `identity`: of the bearing.
+    """
+
+    of: ClassVar[str] = "bearing with [thermal]"
+    """Kind of the scenes that have this state, for messages."""
+
+    time: Float[Array | np.ndarray, ""]
+    temperatures: Float[Array | np.ndarray, " node"]
+    nodes: tuple[str, ...] = eqx.field(static=True)
+    identity: Identity | None = None
+
+
+class WarmUpHistory(AbstractSolution):
+    """Result of a run of temperatures: all instants up to the last good one, also where it stopped early.
+
+    `instants` holds the results with the times in front: `history.instants.temperatures.inner_ring` has the shape of
+    `time`. A run in which a node passes `thermal.limit` has the status `thermal_runaway`, and its last instant is that
+    one.
+    """
+
+    of: ClassVar[str] = "bearing with [thermal]"
+    """Kind of the scenes that have this state, for messages."""
+
+    status: Int[Array, ""] = eqx.field(metadata=label("1", "how the run ended"))
+    time: Float[Array, " time"] = eqx.field(metadata=label("s", "time"))
+    stop: Float[Array, ""] = eqx.field(metadata=label("s", "time to which the run was to go"))
+    accepted: Int[Array, ""] = eqx.field(metadata=label("1", "steps taken"))
+    rejected: Int[Array, ""] = eqx.field(metadata=label("1", "steps tried and not taken"))
+    operation: Any
+    instants: WarmInstant
+    energy: WarmEnergy
+    checks: Mapping[str, Bool[Array, ""]]
+    nodes: tuple[str, ...] = eqx.field(static=True)
+    solver: str = eqx.field(static=True, default=SOLVER)
+    interrupted: bool = eqx.field(static=True, default=False)
+    element_name: str = eqx.field(static=True, default="roller")
+    notes: tuple[str, ...] = eqx.field(static=True, default=())
+    identity: Identity | None = None
+
+    @property
+    def converged(self) -> Bool[Array, "*batch"]:
+        """True if the run reached its end."""
+        return jnp.asarray(self.status) == Status.CONVERGED
+
+    @property
+    def completed(self) -> bool:
+        """True if the run reached its end."""
+        return bool(self.converged)
+
+    @property
+    def not_modelled(self) -> tuple[str, ...]:
+        """Losses that the scene does not model, by their names in `instants.power_loss`."""
+        return losses_not_modelled(self.instants.power_loss)
+
+    def node_temperatures(self) -> Float[Array, "time node"]:
+        """Temperatures in the order of the nodes, K."""
+        return jnp.stack([getattr(self.instants.temperatures, name) for name in self.nodes], axis=-1)
+
+    def last_state(self) -> WarmState:
+        """The state of the last instant, for `jaxbearing.simulate(..., restart=...)`."""
+        last = np.asarray(self.node_temperatures())[-1]
+        return WarmState(np.asarray(self.time[-1]), last, self.nodes, self.identity)
+
+    def at(self, index: int) -> WarmInstant:
+        """One instant. **Arguments:** `index`: from 0; -1 is the last one."""
+        found: WarmInstant = jax.tree.map(lambda leaf: leaf[index], self.instants)
+        return found
+
+    def solver_failure(self) -> str:
+        reached, stop = float(self.time[-1]), float(self.stop)
+        last = np.asarray(self.node_temperatures())[-1]
+        node = int(np.argmax(last))
+        why = "interrupted" if self.interrupted else Status(int(self.status)).text
+        hottest = f"the hottest node, the {self.nodes[node].replace('_', ' ')}, at {last[node] - 273.15:.1f} degC"
+        where = f"{reached:.6g} s of {stop:.6g} s, after {int(self.accepted)} steps"
+        limit = "a node passed thermal.limit; " if int(self.status) == Status.THERMAL_RUNAWAY else ""
+        return f"{why}: {limit}the run stopped at {where}, with {hottest}; what was computed until then is kept"

@@ -1,0 +1,127 @@
+"""The two programs of a run of temperatures: a piece of it, and the bearing at instants."""
+
+from typing import Any, NamedTuple
+
+import diffrax as dfx
+import jax
+import jax.numpy as jnp
+from jaxtyping import Array, Bool, Float, Int
+
+from ..._types import Scalar
+from ...numerics.newton import NewtonOptions
+from ...programs import KeptProgram
+from ...thermal.network import Network, NodeHeat
+from ...thermal.result import NodeTemperatures, named
+from ...thermal.warm_up import Balance, Reached, integrate
+from ..heat import bearing_network, heat_capacities, inlet_temperature
+from ..solution import Solution
+from ..warm import heat_at, heat_paths
+from .history import WarmInstant
+from .settings import WarmUpSimulation, at_instant
+
+
+class Seen(NamedTuple):
+    """The bearing at an instant.
+
+    - `instant`: its results; `status`: of its solve.
+    - `rates`: of the node temperatures, K/s.
+    - `checks`: text of a warning -> whether it applies.
+    """
+
+    instant: WarmInstant
+    status: Int[Array, ""]
+    rates: Float[Array, " node"]
+    checks: dict[str, Bool[Array, ""]]
+
+
+def _heat(scene: Any, temperatures: Array) -> NodeHeat:
+    options = NewtonOptions()
+    return heat_at(scene, temperatures, lambda running: running.solve_ring(options))
+
+
+def _capacity(scene: Any) -> Array:
+    capacity = heat_capacities(scene)
+    assert capacity is not None
+    return capacity
+
+
+def _balance(scene: Any, settings: WarmUpSimulation, begin: Scalar) -> Balance:
+    """The equations of a run whose time counts from `begin`, s."""
+
+    def network(time: Array) -> Network:
+        return bearing_network(at_instant(scene, settings, begin + time))
+
+    def losses(temperatures: Array, time: Array) -> NodeHeat:
+        found = _heat(at_instant(scene, settings, begin + time), temperatures)
+        # the whole solution is of no use inside the steps
+        return NodeHeat(found.heat, found.status, found.between, found.to_ambient)
+
+    return Balance(network, losses, _capacity(scene))
+
+
+def _advance(
+    scene: Any,
+    settings: WarmUpSimulation,
+    temperatures: Float[Array, " node"],
+    begin: Float[Array, ""],
+    lengths: Float[Array, " time"],
+    step: Float[Array, ""],
+) -> Reached:
+    """A piece of a run. **Arguments:** `begin`: s; `lengths`: times from there, s; `step`: first that is tried, s."""
+    return integrate(
+        _balance(scene, settings, begin),
+        temperatures,
+        lengths,
+        scene.thermal.limit,
+        settings.options,
+        adjoint=dfx.ForwardMode(),
+        first_step=jnp.minimum(step, lengths[-1]),
+        differences=True,
+    )
+
+
+def _look(
+    scene: Any, settings: WarmUpSimulation, times: Float[Array, " time"], temperatures: Float[Array, "time node"]
+) -> Seen:
+    """The bearing at each of the times, s, with these node temperatures, K."""
+    capacity = _capacity(scene)
+
+    def one(given: tuple[Array, Array]) -> Seen:
+        time, nodes = given
+        lane = at_instant(scene, settings, time)
+        network, heat = bearing_network(lane), _heat(lane, nodes)
+        flows, solution = network.flows(nodes, heat), heat.other
+        into = flows.into_nodes + heat.heat
+        return Seen(_instant(lane, network, nodes, heat, into), heat.status, into / capacity, dict(solution.checks))
+
+    return jax.lax.map(one, (times, temperatures))
+
+
+def _instant(lane: Any, network: Network, nodes: Array, heat: NodeHeat, into: Array) -> WarmInstant:
+    solution: Solution = heat.other
+    elements, flows = solution.elements, network.flows(nodes, heat)
+    both = lambda name: jnp.stack([getattr(elements, f"{name}_inner"), getattr(elements, f"{name}_outer")])
+    filmless = getattr(elements, "film_inner", None) is None
+    return WarmInstant(
+        inner_speed=jnp.asarray(lane.operation.inner_speed, dtype=float),
+        oil_inlet=jnp.asarray(inlet_temperature(lane), dtype=float),
+        temperatures=named(NodeTemperatures, dict(zip(network.nodes, nodes, strict=True))),
+        flows=heat_paths(network, nodes, heat),
+        oil_out=network.oil_out(nodes),
+        heat_to_oil=flows.to_oil,
+        heat_to_ambient=flows.to_ambient,
+        heat_stored=jnp.sum(into),
+        power_loss=solution.power_loss,
+        drive_power=solution.drive_power,
+        ring=solution.ring,
+        cage=solution.cage,
+        fit=solution.fit,
+        largest_load=jnp.max(both("load")),
+        largest_pressure=jnp.max(both("pressure")),
+        # where nothing touches there is no film
+        smallest_film=None if filmless else jnp.nanmin(both("film")),
+    )
+
+
+ADVANCE = KeptProgram(_advance, quick=True)
+LOOK = KeptProgram(_look, quick=True)

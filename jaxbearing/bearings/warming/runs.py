@@ -1,0 +1,308 @@
+"""Runs of the temperatures of a bearing of any family, piece after piece."""
+
+import contextlib
+import dataclasses
+import math
+from collections.abc import Callable, Iterator
+from typing import Any, NamedTuple
+
+import jax
+import jax.numpy as jnp
+import numpy as np
+
+from ..._identity import Identity, identity_of, require_same
+from ...numerics.checks import check_inputs
+from ...numerics.interrupts import Deferral, deferred_interrupts
+from ...numerics.precision import as_float
+from ...numerics.status import SolveError, Status
+from ...numerics.structure import static_number
+from ...thermal.warm_up import AHEAD, ENERGY, run_status
+from ..checks import input_excess
+from ..heat import heat_capacities, unknown_capacities
+from ..motion.checks import AT_SOME_TIME
+from ..motion.settings import Simulation
+from ..warm import network_notes
+from .history import WarmEnergy, WarmInstant, WarmState, WarmUpHistory
+from .programs import ADVANCE, LOOK, Seen
+from .settings import WarmUpSimulation
+
+INSTANTS = 192
+"""Number of instants of a run whose interval is not given."""
+PIECE = 16
+"""Number of instants that one call of the compiled programs computes."""
+FIRST_STEP = 1e-3
+"""First step that the integrator tries, s."""
+MOST_INSTANTS = 100_000
+"""Largest number of instants of a run."""
+MAY_CHANGE = ("operation", "oil", "contact", "drag", "simulation", "rating", "ring_freedom", "thermal")
+"""Parts of a scene that may differ from those of the run that is continued."""
+ENERGY_FACTOR = 10.0
+"""A run warns where its energy balance leaves more open than this, in tolerances."""
+ROTATING = (
+    "simulation.rotating_load: a run of the temperatures has none; leave it out, or leave [thermal] out for a run of "
+    "the rollers"
+)
+SLOWLY = "the bearing is in its steady state at each instant; its own motion is not simulated"
+Progress = Callable[[float, float], None]
+
+
+def settings_of(scene: Any, given: Any) -> WarmUpSimulation:
+    """The settings of a run: given, or those of the scene, whose `[simulation]` may be one of rollers.
+
+    **Raises:** `TypeError` for another class; `ValueError` for a load that turns with the shaft.
+    """
+    chosen = getattr(scene, "simulation", None) if given is None else given
+    if chosen is None:
+        return WarmUpSimulation()
+    if isinstance(chosen, Simulation):
+        if chosen.rotating_load is not None:
+            raise ValueError(ROTATING)
+        return WarmUpSimulation(
+            duration=chosen.duration, speed=chosen.speed, load=chosen.load, tolerance=chosen.tolerance
+        )
+    if not isinstance(chosen, WarmUpSimulation):
+        raise TypeError(f"simulation must be a WarmUpSimulation or a Simulation, got {chosen!r}")
+    return chosen
+
+
+def require_capacities(scene: Any) -> None:
+    """**Raises:** `ValueError` that names each heat capacity that is not known."""
+    unknown = unknown_capacities(scene)
+    if unknown:
+        names = ", ".join(f"thermal.capacity.{name}" for name in unknown)
+        raise ValueError(f"{names}: found nothing, expected a number, which a run in time needs, e.g. '500 J/K'")
+
+
+def identity(scene: Any) -> Identity:
+    """The identity of the bearing: geometry, materials, cage, flanges, profile, seats."""
+    return identity_of(scene, MAY_CHANGE)
+
+
+def check_restart(scene: Any, last: Any) -> None:
+    """**Raises:** `ValueError` where the state is not one of this bearing and its nodes."""
+    if not isinstance(last, WarmState):
+        of = getattr(last, "of", type(last).__name__)
+        raise ValueError(f"restart: a state of a {of}, for a scene of a bearing with [thermal]")
+    if last.nodes != scene.thermal.node_names:
+        raise ValueError(f"restart: a state of {len(last.nodes)} nodes, for a scene with {scene.thermal.nodes}")
+    if not np.all(np.isfinite(np.append(last.temperatures, last.time))):
+        raise ValueError("restart: a state with numbers that are not finite")
+    if last.identity is not None:
+        require_same(last.identity, identity(scene), "bearing")
+
+
+def wanted_times(begin: float, length: float, interval: float | None) -> np.ndarray:
+    """Instants after the first one, s: evenly where an interval is given, and closer together at the start else."""
+    if interval is None:
+        return begin + length * np.square(np.arange(1, INSTANTS + 1) / INSTANTS)
+    count = max(1, round(length / interval))
+    if count > MOST_INSTANTS:
+        raise ValueError(
+            f"duration and interval must make at most {MOST_INSTANTS} instants, got {length:g} and {interval:g} s"
+        )
+    return begin + length * np.arange(1, count + 1) / count
+
+
+class _Piece(NamedTuple):
+    """Beginning and instants of a piece, s; its last one is among those to keep or not."""
+
+    begin: float
+    times: np.ndarray
+    end_wanted: bool
+
+
+def pieces_of(begin: float, times: np.ndarray, kinks: np.ndarray) -> Iterator[_Piece]:
+    """Pieces of at most `PIECE` instants; each kink of a table ends one."""
+    stops = np.unique(kinks[(kinks > begin) & (kinks < times[-1])])
+    for until in [*stops, times[-1]]:
+        inside = times[(times > begin) & (times <= until)]
+        wanted = bool(inside.size) and inside[-1] == until
+        inside = inside if wanted else np.append(inside, until)
+        for first in range(0, inside.size, PIECE):
+            part = inside[first : first + PIECE]
+            yield _Piece(begin, part, wanted or first + PIECE < inside.size)
+            begin = float(part[-1])
+
+
+class _Done(NamedTuple):
+    """What a piece has added."""
+
+    times: np.ndarray
+    seen: Seen
+    energies: np.ndarray
+    accepted: int
+    rejected: int
+
+
+def simulate_warm_up(
+    scene: Any,
+    duration: float | None,
+    *,
+    simulation: Any,
+    interval: float | None,
+    throw: bool,
+    progress: Progress | None,
+    restart: Any,
+) -> WarmUpHistory:
+    """See `jaxbearing.simulate`."""
+    require_capacities(scene)
+    check_inputs(scene)
+    chosen = settings_of(scene, simulation)
+    check_inputs(chosen)
+    duration = duration if duration is not None else chosen.duration
+    if duration is None:
+        raise ValueError("simulate needs a duration: pass one, or give the simulation one")
+    length = static_number("duration", duration, float)
+    every = None if interval is None else static_number("interval", interval, float)
+    if not (length > 0 and (every is None or every > 0)):
+        raise ValueError(f"duration and interval must be > 0 s, got {length:g} and {every}")
+    last = restart.last_state() if isinstance(restart, WarmUpHistory) else restart
+    if last is not None:
+        check_restart(scene, last)
+    begin = 0.0 if last is None else float(last.time)
+    kinks = np.concatenate([np.asarray(law.kinks(), dtype=float) for law in chosen.laws])
+    # neither the length of the run nor its start is a part of the program
+    laws = dataclasses.replace(chosen, duration=None, start=None)
+    scene, laws = (jax.tree.map(as_float, tree) for tree in (scene, laws))
+    run = _Run(scene, laws, begin, _start(scene, chosen, last))
+    pieces = list(pieces_of(begin, wanted_times(begin, length, every), kinks))
+    interrupted = run.follow(pieces, progress)
+    history = run.history(begin + length, interrupted)
+    # who interrupts a run wants what there is
+    if throw and not interrupted:
+        history.raise_if_failed()
+    return history
+
+
+def _start(scene: Any, chosen: WarmUpSimulation, last: WarmState | None) -> np.ndarray:
+    if last is not None:
+        return np.asarray(last.temperatures, dtype=float)
+    own = scene.thermal.ambient if chosen.start is None else chosen.start
+    return np.full(scene.thermal.nodes, float(own))
+
+
+class _Run:
+    """A run that goes on piece after piece."""
+
+    def __init__(self, scene: Any, settings: WarmUpSimulation, begin: float, start: np.ndarray):
+        self.scene, self.settings = scene, settings
+        self.first = self.now = start
+        self.step, self.status = FIRST_STEP, Status.CONVERGED
+        seen = self._look(np.asarray([begin]), start[None])
+        status = Status(int(seen.status[0]))
+        if status != Status.CONVERGED:
+            raise SolveError(f"the bearing at the start of the run was not found: {status.text}", status)
+        self.done = [_Done(np.asarray([begin]), seen, np.zeros(3), 0, 0)]
+
+    def _look(self, times: np.ndarray, temperatures: np.ndarray) -> Seen:
+        """The bearing at some instants, at most `PIECE`."""
+        count = times.size
+        fill = PIECE - count
+        padded = np.pad(times, (0, fill), mode="edge"), np.pad(temperatures, ((0, fill), (0, 0)), mode="edge")
+        seen = LOOK(self.scene, self.settings, *(jnp.asarray(one) for one in padded))
+        return jax.tree.map(lambda leaf: np.asarray(leaf)[:count], seen)
+
+    def follow(self, pieces: list[_Piece], progress: Progress | None) -> bool:
+        """Goes through the pieces until one stops early. **Returns:** whether the user ended it."""
+        interrupt = Deferral()
+        with contextlib.ExitStack() as stack:
+            try:
+                for number, piece in enumerate(pieces):
+                    self._advance(piece)
+                    if number == 0:
+                        # from now on there is something to keep
+                        interrupt = stack.enter_context(deferred_interrupts())
+                    if self.status != Status.CONVERGED:
+                        break
+                    if progress is not None:
+                        progress(float(piece.times[-1]), float(pieces[-1].times[-1]))
+                    if interrupt.seen:
+                        break
+            except KeyboardInterrupt:
+                # of `progress`, or of a second Ctrl-C
+                if len(self.done) == 1:
+                    raise
+                interrupt.seen = True
+            interrupted = interrupt.seen and len(self.done) <= len(pieces)
+            interrupt.taken()
+        return interrupted and self.status == Status.CONVERGED
+
+    def _advance(self, piece: _Piece) -> None:
+        count, fill = piece.times.size, PIECE - piece.times.size
+        lengths = np.pad(piece.times - piece.begin, (0, fill), mode="edge")
+        # a table may jump just after the beginning
+        begin = np.nextafter(piece.begin, math.inf) if piece.begin > 0.0 else piece.begin
+        found = ADVANCE(
+            self.scene,
+            self.settings,
+            jnp.asarray(self.now),
+            jnp.asarray(begin),
+            jnp.asarray(lengths),
+            jnp.asarray(self.step, dtype=float),
+        )
+        nodes = self.now.size
+        energies, self.now = ENERGY * np.asarray(found.last)[nodes:], np.asarray(found.last)[:nodes]
+        end, finished = piece.begin + float(found.end), bool(found.finished)
+        good = piece.times <= end if not finished else np.full(count, True)
+        if finished and not piece.end_wanted:
+            good[-1] = False
+        times, states = piece.times[good], np.asarray(found.states)[:count, :nodes][good]
+        if not finished:
+            times, states = np.append(times, end), np.concatenate([states, self.now[None]])
+        self.step = max(float(found.end) / max(int(found.accepted), 1), FIRST_STEP)
+        if times.size > PIECE:
+            times, states = times[1:], states[1:]
+        seen = self._look(times, states) if times.size else jax.tree.map(lambda leaf: leaf[:0], self.done[0].seen)
+        steps = int(found.accepted), int(found.rejected)
+        self.done.append(_Done(times, seen, energies, *steps))
+        if not finished:
+            self.status = self._failure(found, end, seen)
+
+    def _failure(self, found: Any, end: float, seen: Seen) -> Status:
+        """How a piece ended that stopped early."""
+        ahead = AHEAD * float(self.settings.options.shortest_step)
+        beyond = self._look(np.asarray([end + ahead]), (self.now + ahead * seen.rates[-1])[None])
+        return Status(int(run_status(found, jnp.asarray(beyond.status[0]))))
+
+    def history(self, stop: float, interrupted: bool) -> WarmUpHistory:
+        """All that was computed."""
+        scene = self.scene
+        instants: WarmInstant = jax.tree.map(
+            lambda *leaves: jnp.asarray(np.concatenate(leaves)), *(one.seen.instant for one in self.done)
+        )
+        energies = np.sum([one.energies for one in self.done], axis=0)
+        capacity = np.asarray(heat_capacities(scene))
+        stored = float(np.sum(capacity * (self.now - self.first)))
+        losses, to_oil, to_ambient = (float(one) for one in energies)
+        error = (losses - to_oil - to_ambient - stored) / (losses if losses else 1.0)
+        return WarmUpHistory(
+            status=jnp.asarray(int(Status.NOT_CONVERGED if interrupted else self.status)),
+            time=jnp.asarray(np.concatenate([one.times for one in self.done])),
+            stop=jnp.asarray(stop),
+            accepted=jnp.asarray(sum(one.accepted for one in self.done)),
+            rejected=jnp.asarray(sum(one.rejected for one in self.done)),
+            operation=scene.operation,
+            instants=instants,
+            energy=WarmEnergy(*(jnp.asarray(one) for one in (losses, to_oil, to_ambient, stored, error))),
+            checks=self._checks(error),
+            nodes=scene.thermal.node_names,
+            interrupted=interrupted,
+            element_name=scene.element,
+            notes=(SLOWLY, *scene.assumptions(), *_of_seats(scene), *network_notes(scene)),
+            identity=identity(scene),
+        )
+
+    def _checks(self, error: float) -> dict[str, Any]:
+        """Warnings: the energy balance, and those of the bearing at any instant."""
+        most = ENERGY_FACTOR * float(self.settings.tolerance)
+        text = f"the energy balance leaves more than {most:g} of the losses open: choose a smaller tolerance"
+        found = {text: jnp.asarray(abs(error) > most)}
+        own = input_excess(scene=self.scene)
+        for name in self.done[0].seen.checks:
+            applies = any(bool(np.any(one.seen.checks[name])) for one in self.done)
+            found[name if name in own else f"{AT_SOME_TIME}{name}"] = jnp.asarray(applies)
+        return found
+
+
+def _of_seats(scene: Any) -> tuple[str, ...]:
+    return () if scene.fits is None else scene.fits.assumptions()

@@ -1,0 +1,77 @@
+"""Settings of a run of the temperatures of a bearing: the same for all families."""
+
+from typing import Any, ClassVar
+
+import jax.numpy as jnp
+
+from ..._scene import label, number, optional_number
+from ..._types import Scalar
+from ...numerics.checks import Checked
+from ...numerics.integrator import IntegratorOptions
+from ...thermal.warm_up import usual_options
+from ...time_laws import AbstractTimeFactor, Steady
+from ..heat import inlet_temperature
+from ..operation import LOAD_FIELDS
+
+SOLVER = "kvaerno5"
+"""The method of every run of temperatures, which are stiff."""
+
+
+class WarmUpSimulation(Checked):
+    """A run of the temperatures in time.
+
+    **Arguments:**
+    - `duration`: s; `None`: it must be given with the run.
+    - `speed`: speeds of both rings over those of the operating point, as a function of time; not 0 at time 0.
+    - `load`: all loads and moments over those of the operating point, as a function of time.
+    - `oil_inlet`: what the oil that enters is warmer than the ambient, over that of the operating point, as a function
+      of time: 0 is oil that is as cold as the room.
+    - `oil_flow`: oil flow over that of the operating point, as a function of time. The heat capacity of the oil in the
+      bearing stays that of the operating point.
+    - `start`: temperature of all nodes at time 0, K; not given: that of the ambient.
+    - `tolerance`: relative tolerance, and absolute one in units of 1 K and 1 kJ.
+    """
+
+    part: ClassVar[str] = "simulation"
+
+    duration: Scalar | None = optional_number(bound="> 0", unit="s")
+    speed: AbstractTimeFactor = Steady()
+    load: AbstractTimeFactor = Steady()
+    oil_inlet: AbstractTimeFactor = Steady()
+    oil_flow: AbstractTimeFactor = Steady()
+    start: Scalar | None = optional_number(bound="> 0", metadata=label("K", "temperature of all nodes at time 0"))
+    tolerance: Scalar = number(1e-5, bound="> 0", unit="1")
+
+    @property
+    def options(self) -> IntegratorOptions:
+        usual = usual_options()
+        return IntegratorOptions(
+            solver=SOLVER,
+            tolerance=self.tolerance,
+            max_steps=usual.max_steps,
+            shortest_step=usual.shortest_step,
+        )
+
+    @property
+    def laws(self) -> tuple[AbstractTimeFactor, ...]:
+        """All functions of time."""
+        return self.speed, self.load, self.oil_inlet, self.oil_flow
+
+
+def at_instant(scene: Any, settings: WarmUpSimulation, time: Scalar) -> Any:
+    """The scene with speeds, loads and oil of a time, s. What does not change stays as it is, bit for bit."""
+    operation, thermal = scene.operation, scene.thermal
+    changes: dict[str, Any] = {}
+    if not isinstance(settings.speed, Steady):
+        factor = settings.speed.factor(time)
+        changes |= {f"operation.{name}": factor * getattr(operation, name) for name in ("inner_speed", "outer_speed")}
+    if not isinstance(settings.load, Steady):
+        factor = settings.load.factor(time)
+        given = {name: getattr(operation, name) for name in LOAD_FIELDS.values()}
+        changes |= {f"operation.{name}": factor * load for name, load in given.items() if load is not None}
+    if not isinstance(settings.oil_flow, Steady):
+        changes["operation.oil_flow"] = settings.oil_flow.factor(time) * operation.oil_flow
+    if not isinstance(settings.oil_inlet, Steady):
+        warmer = jnp.asarray(inlet_temperature(scene)) - thermal.ambient
+        changes["thermal.oil_inlet"] = thermal.ambient + settings.oil_inlet.factor(time) * warmer
+    return scene.replace(changes) if changes else scene

@@ -1,0 +1,1 @@
+"""Output of a run of the temperatures of a bearing."""

@@ -1,0 +1,81 @@
+"""A run of the temperatures of a bearing: its statistics, and the run as plain numbers and texts."""
+
+from typing import Any
+
+import numpy as np
+
+from ....bearings.warming.history import WarmUpHistory
+from ....numerics.status import Status
+from ...backends.json import finite, plain
+
+
+def statistics(history: WarmUpHistory) -> dict[str, Any]:
+    """Values at the start and the end, and extremes with their times, SI."""
+    instants, time = history.instants, np.asarray(history.time)
+    spread = lambda values: _spread(time, values)
+    found: dict[str, Any] = {
+        "inner_speed": spread(instants.inner_speed),
+        "temperatures": {name: spread(getattr(instants.temperatures, name)) for name in history.nodes},
+        "oil_inlet": spread(instants.oil_inlet),
+        "power_loss": {name: spread(value) for name, value in losses(history).items()},
+        "heat_to_oil": spread(instants.heat_to_oil),
+        "heat_to_ambient": spread(instants.heat_to_ambient),
+        "heat_stored": spread(instants.heat_stored),
+        "largest_load": spread(instants.largest_load),
+        "largest_pressure": spread(instants.largest_pressure),
+    }
+    if instants.oil_out is not None:
+        found["oil_out"] = spread(instants.oil_out)
+    if instants.smallest_film is not None:
+        found["smallest_film"] = spread(instants.smallest_film)
+    if instants.cage is not None:
+        found["cage"] = {"speed": spread(instants.cage.speed), "slip": spread(instants.cage.slip)}
+    play = play_of(history)
+    if play is not None:
+        found[play[0]] = spread(play[1])
+    return found
+
+
+def losses(history: WarmUpHistory) -> dict[str, Any]:
+    """The total loss and the losses that the scene models, W."""
+    loss = history.instants.power_loss
+    return {name: getattr(loss, name) for name in ("total", *vars(loss)) if getattr(loss, name) is not None}
+
+
+def play_of(history: WarmUpHistory) -> tuple[str, Any] | None:
+    """Name and values, m, of the running clearance or of the axial shift of first contact; `None` without seats."""
+    fit = history.instants.fit
+    if fit is None:
+        return None
+    return ("clearance", fit.clearance) if fit.clearance is not None else ("axial_shift", fit.axial_shift)
+
+
+def _spread(time: np.ndarray, values: Any) -> dict[str, float]:
+    values = np.asarray(values)
+    low, high = int(np.argmin(values)), int(np.argmax(values))
+    return {
+        "start": float(values[0]),
+        "min": float(values[low]),
+        "min_time": float(time[low]),
+        "max": float(values[high]),
+        "max_time": float(time[high]),
+        "end": float(values[-1]),
+    }
+
+
+def to_dict(history: WarmUpHistory) -> dict[str, Any]:
+    """See `report.histories.history_to_dict`."""
+    return {
+        "completed": history.completed,
+        "status": Status(int(history.status)).text,
+        "interrupted": history.interrupted,
+        "warnings": list(history.warnings),
+        "not_modelled": list(history.not_modelled),
+        "time": {"start": float(history.time[0]), "stop": float(history.time[-1]), "wanted": float(history.stop)},
+        "steps": {"accepted": int(history.accepted), "rejected": int(history.rejected)},
+        "solver": history.solver,
+        "energy_error": finite(float(history.energy.error)),
+        "energy": plain(history.energy),
+        "operation": plain(history.operation),
+        "summary": plain(statistics(history)),
+    }
