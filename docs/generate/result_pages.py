@@ -33,7 +33,7 @@ SECTIONS = {
         "thermal.oil": OilTemperatures,
         "thermal.flows": thermal_result.HeatPaths,
         "frequencies": frequencies.KinematicFrequencies,
-        "textbook": frequencies.KinematicFrequencies,
+        "textbook_frequencies": frequencies.KinematicFrequencies,
         "life": Life,
     },
     "Rolling elements and power: cylindrical rollers": {

@@ -65,7 +65,7 @@ def assemble(
     facts, costs = own.pop("facts"), own.pop("costs")
     shown = own | costs._asdict() | {"ring": ring, "force": port.force, "stiffness": port.stiffness}
     shown["frequencies"] = frequencies_of_motion(scene, results.elements, results.cage)
-    shown["textbook"] = textbook_frequencies(scene)
+    shown["textbook_frequencies"] = textbook_frequencies(scene)
     checks = {text: value > 0 for text, value in input_excess(scene, held).items()}
     checks |= {
         text: good & (value > 0) for text, value in result_excess(scene, facts, ring, results.cage, held).items()

@@ -195,7 +195,7 @@ class Solution(AbstractSolution, Generic[Point, Elements, Losses]):
     rolling_by_race: Float[Array, "2"] | None = None
     frequencies: KinematicFrequencies | None = None
     """Frequencies of the motion that was solved."""
-    textbook: KinematicFrequencies | None = None
+    textbook_frequencies: KinematicFrequencies | None = None
     """Frequencies of rolling without slip at the contact angle of the drawing."""
 
     @property
