@@ -2,6 +2,7 @@
 
 import math
 from types import SimpleNamespace
+from typing import Any
 
 import jax
 import jax.numpy as jnp
@@ -56,7 +57,7 @@ def test_only_relative_speeds_count():
 
 def test_a_contact_angle_makes_the_cage_faster():
     """The textbook's angle is that of the drawing: $\\omega_c/\\omega_i = (1 - D\\cos\\alpha/d_m)/2$."""
-    scene = jb.load_scene("angular_contact_218", {"contact": "none"})
+    scene: Any = jb.load_scene("angular_contact_218", {"contact": "none"})
     geometry, speed = scene.geometry, float(scene.operation.inner_speed)
     ratio = geometry.ball_diameter * math.cos(float(geometry.contact_angle)) / geometry.pitch_diameter
     np.testing.assert_allclose(textbook_frequencies(scene).cage, 0.5 * speed * (1.0 - ratio) / HERTZ, rtol=1e-14)
