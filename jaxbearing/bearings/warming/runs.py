@@ -24,16 +24,12 @@ from ..motion.settings import Simulation
 from ..warm import network_notes
 from .history import WarmEnergy, WarmInstant, WarmState, WarmUpHistory
 from .programs import ADVANCE, LOOK, Seen
-from .settings import WarmUpSimulation
+from .settings import INSTANTS, MOST_INSTANTS, WarmUpSimulation
 
-INSTANTS = 192
-"""Number of instants of a run whose interval is not given."""
 PIECE = 16
 """Number of instants that one call of the compiled programs computes."""
 FIRST_STEP = 1e-3
 """First step that the integrator tries, s."""
-MOST_INSTANTS = 100_000
-"""Largest number of instants of a run."""
 MAY_CHANGE = ("operation", "oil", "contact", "drag", "simulation", "rating", "ring_freedom", "thermal")
 """Parts of a scene that may differ from those of the run that is continued."""
 ENERGY_FACTOR = 10.0
@@ -91,10 +87,11 @@ def check_restart(scene: Any, last: Any) -> None:
         require_same(last.identity, identity(scene), "bearing")
 
 
-def wanted_times(begin: float, length: float, interval: float | None) -> np.ndarray:
-    """Instants after the first one, s: evenly where an interval is given, and closer together at the start else."""
+def wanted_times(begin: float, length: float, interval: float | None, instants: int = INSTANTS) -> np.ndarray:
+    """Instants after the first one, s: evenly where an interval is given; else as many as `instants`, closer together
+    at the start."""
     if interval is None:
-        return begin + length * np.square(np.arange(1, INSTANTS + 1) / INSTANTS)
+        return begin + length * np.square(np.arange(1, instants + 1) / instants)
     count = max(1, round(length / interval))
     if count > MOST_INSTANTS:
         raise ValueError(
@@ -161,11 +158,12 @@ def simulate_warm_up(
         check_restart(scene, last)
     begin = 0.0 if last is None else float(last.time)
     kinks = np.concatenate([np.asarray(law.kinks(), dtype=float) for law in chosen.laws])
-    # neither the length of the run nor its start is a part of the program
-    laws = dataclasses.replace(chosen, duration=None, start=None)
-    scene, laws = (jax.tree.map(as_float, tree) for tree in (scene, laws))
+    # length, start and number of instants of the run are no part of the program
+    laws = dataclasses.replace(chosen, duration=None, start=None, instants=INSTANTS)
+    bare = scene if getattr(scene, "simulation", None) is None else dataclasses.replace(scene, simulation=None)
+    scene, laws = (jax.tree.map(as_float, tree) for tree in (bare, laws))
     run = _Run(scene, laws, begin, _start(scene, chosen, last))
-    pieces = list(pieces_of(begin, wanted_times(begin, length, every), kinks))
+    pieces = list(pieces_of(begin, wanted_times(begin, length, every, chosen.instants), kinks))
     interrupted = run.follow(pieces, progress)
     history = run.history(begin + length, interrupted)
     # who interrupts a run wants what there is
@@ -286,6 +284,7 @@ class _Run:
             energy=WarmEnergy(*(jnp.asarray(one) for one in (losses, to_oil, to_ambient, stored, error))),
             checks=self._checks(error),
             nodes=scene.thermal.node_names,
+            solver=self.settings.solver,
             interrupted=interrupted,
             element_name=scene.element,
             notes=(SLOWLY, *scene.assumptions(), *_of_seats(scene), *network_notes(scene)),
