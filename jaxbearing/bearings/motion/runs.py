@@ -114,7 +114,9 @@ def requested(
     check_inputs(scene)
     chosen = simulation or scene.simulation or Simulation()
     if not isinstance(chosen, Simulation):
-        raise TypeError(f"simulation: expected a Simulation for a scene without [thermal], got a {type(chosen).__name__}")
+        raise TypeError(
+            f"simulation: expected a Simulation for a scene without [thermal], got a {type(chosen).__name__}"
+        )
     check_inputs(chosen)
     duration = duration if duration is not None else chosen.duration
     if duration is None:

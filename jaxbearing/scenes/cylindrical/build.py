@@ -6,10 +6,10 @@ from functools import cache
 from ...bearings.cylindrical.geometry import RollerCage, RollerFlange, RollerGeometry
 from ...bearings.cylindrical.scene import CylindricalRollerBearing
 from ...bearings.motion.settings import Simulation
-from ...bearings.warming.settings import WarmUpSimulation
 from ...bearings.operation import Operation
 from ...bearings.parts import Drag, Materials
 from ...bearings.rating import Rating
+from ...bearings.warming.settings import WarmUpSimulation
 from ..bearing.build import built, cage, part, seats, solids
 from ..bearing.profile import roller_profile
 from ..bearing.simulation import simulation, warm_up
