@@ -36,8 +36,8 @@ class WarmUpSimulation(Checked):
     - `oil_flow`: oil flow over that of the operating point, as a function of time. The heat capacity of the oil in the
       bearing stays that of the operating point.
     - `start`: temperature of all nodes at time 0, K; not given: that of the ambient.
-    - `instants`: number of instants of the history beside the first one, where no interval is given with the run.
-    - `solver`: one of `SOLVERS`.
+    - `instants`: of a run of temperatures, the number of instants beside the first one, where no interval is given.
+    - `solver`: one of kvaerno3, kvaerno4 and kvaerno5.
     - `tolerance`: relative tolerance, and absolute one in units of 1 K and 1 kJ.
     """
 
@@ -48,7 +48,7 @@ class WarmUpSimulation(Checked):
     load: AbstractTimeFactor = Steady()
     oil_inlet: AbstractTimeFactor = Steady()
     oil_flow: AbstractTimeFactor = Steady()
-    start: Scalar | None = optional_number(bound="> 0", metadata=label("K", "temperature of all nodes at time 0"))
+    start: Scalar | None = optional_number(bound="> 0", metadata=label("K", "temperature of all nodes at time 0 of a run of temperatures"))
     instants: int = count("simulation.instants", INSTANTS, least=1, most=MOST_INSTANTS)
     solver: str = choice("simulation.solver", SOLVERS, SOLVER)
     tolerance: Scalar = number(1e-5, bound="> 0", unit="1")

@@ -94,8 +94,10 @@ def _play(axes: Any, history: WarmUpHistory, play: tuple[str, Any]) -> None:
 
 
 def _mark(axes: Any, history: WarmUpHistory, time: Any, value: Any, factor: float, unit: str) -> None:
-    """A mark at an extreme, with its value and its time."""
+    """A mark at an extreme that lies inside the run, with its value and its time."""
     at, height = float(time), factor * float(value)
+    if not float(history.time[0]) < at < float(history.time[-1]):
+        return
     length = clock_unit(float(history.time[-1]))[1]
     axes.plot([at / length], [height], color=LOSS, marker="o", markersize=4, linestyle="none")
     right = at < 0.5 * float(history.time[-1])
