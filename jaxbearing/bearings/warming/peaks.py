@@ -47,11 +47,12 @@ def find_peaks(time: Float[np.ndarray, " time"], instants: WarmInstant, finer: F
     least = None
     if play is not None:
         least = _peak(time, instants, lambda one: np.asarray(getattr(one.fit, play[0])), LEAST_PLAY_DEPTH, finer)
+    number = lambda value: jnp.asarray(value, dtype=float)
     return WarmPeaks(
-        least_play=None if least is None else jnp.asarray(least[1]),
-        least_play_time=None if least is None else jnp.asarray(least[0]),
-        largest_load=jnp.asarray(-found[1]),
-        largest_load_time=jnp.asarray(found[0]),
+        least_play=None if least is None else number(least[1]),
+        least_play_time=None if least is None else number(least[0]),
+        largest_load=number(-found[1]),
+        largest_load_time=number(found[0]),
     )
 
 
