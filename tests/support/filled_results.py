@@ -46,7 +46,9 @@ SCENES = {
     "tapered": lambda: jb.load_scene("tapered_example", _RATING),
     "one temperature": lambda: warm("roller", 1),
     "four temperatures": lambda: warm("roller", 4, stability="true"),
-    "six temperatures": lambda: warm("roller", 6, fits__shaft_interference="30 um"),
+    "six temperatures": lambda: warm(
+        "roller", 6, fits__shaft_interference="30 um", capacity__shaft="800 J/K", capacity__housing="4000 J/K"
+    ),
     "two-disk": lambda: jb.load_scene("two_disk_etm"),
     "warm two-disk": lambda: jb.load_scene("two_disk_mobil_jet_ii", {"contact.film_heating": "true"}),
     "line contact": lambda: jb.load_scene("satellite_contact_1"),
