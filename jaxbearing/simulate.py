@@ -34,6 +34,17 @@ def simulate(
 ) -> "LineContactHistory": ...
 @overload
 def simulate(
+    scene: "AbstractBearing",
+    duration: float | None = None,
+    *,
+    simulation: "WarmUpSimulation",
+    interval: float | None = None,
+    throw: bool = True,
+    progress: Progress | None = None,
+    restart: "WarmUpHistory | WarmState | None" = None,
+) -> "WarmUpHistory": ...
+@overload
+def simulate(
     scene: "AbstractMovingBearing",
     duration: float | None = None,
     *,
@@ -43,17 +54,6 @@ def simulate(
     progress: Progress | None = None,
     restart: "History | LastState | None" = None,
 ) -> "History": ...
-@overload
-def simulate(
-    scene: "AbstractBearing",
-    duration: float | None = None,
-    *,
-    simulation: "WarmUpSimulation | None" = None,
-    interval: float | None = None,
-    throw: bool = True,
-    progress: Progress | None = None,
-    restart: "WarmUpHistory | WarmState | None" = None,
-) -> "WarmUpHistory": ...
 @overload
 def simulate(
     scene: AbstractScene,
@@ -91,7 +91,7 @@ def simulate(
       operating point with the default solver. Of temperatures a `WarmUpSimulation`; of a `Simulation` speed, load and
       tolerance are taken.
     - `interval`: about the time between the instants of the history, s, 20 us where not given; of a line contact every
-      step is kept. Of temperatures 192 instants where not given, closer together at the start.
+      step is kept. Of temperatures `simulation.instants` where not given, 192 by default, closer together at the start.
     - `throw`: raise where the run stops early.
     - `progress`: called with the time reached and the time of the end, s.
     - `restart`: an earlier run, or its last state (`jaxbearing.read_last_state` of a NetCDF file): it goes on from

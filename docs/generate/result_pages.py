@@ -10,6 +10,7 @@ from jaxbearing.bearings.cylindrical import solution as cylindrical_solution
 from jaxbearing.bearings.cylindrical.motion import results as roller_motion
 from jaxbearing.bearings.motion import history
 from jaxbearing.bearings.tapered import solution as tapered_solution
+from jaxbearing.bearings.warming import history as warming
 from jaxbearing.ehl import history as film_history
 from jaxbearing.ehl import solution as film
 from jaxbearing.life.result import Life
@@ -56,6 +57,12 @@ SECTIONS = {
         "pocket_peaks": history.PocketPeaks,
         "energy": roller_motion.RollerEnergy,
         "last": history.LastState,
+    },
+    "Temperatures of a bearing in time": {
+        "": warming.WarmUpHistory,
+        "instants": warming.WarmInstant,
+        "energy": warming.WarmEnergy,
+        "peaks": warming.WarmPeaks,
     },
     "Line contact": {
         "": film.LineContactSolution,

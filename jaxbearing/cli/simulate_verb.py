@@ -94,7 +94,7 @@ def simulate(
         if length is None and getattr(getattr(model, "simulation", None), "duration", None) is None:
             raise SceneError("--duration", "", "nothing", "a time with a unit, e.g. '50 ms'")
         film, warms = isinstance(model, EHLLineContact), getattr(model, "thermal", None) is not None
-        if not film and not warms and not (getattr(model, "slips", False) and hasattr(model, "simulation")):
+        if not film and not warms and not (getattr(model, "slips", False) and model.runs_in_programs):
             refuse(
                 f"SCENE: found '{scene}'; expected a bearing with [thermal], a cylindrical roller bearing with "
                 "contact.traction, or a line contact"
@@ -167,8 +167,9 @@ def _check_warm_up(model: Any, length: float | None, every: float | None) -> Non
     try:
         require_capacities(model)
         # without a length of its own the scene has one
-        duration = settings_of(model, None).duration if length is None else length
-        wanted_times(0.0, static_number("duration", duration, float), every)
+        settings = settings_of(model, None)
+        duration = settings.duration if length is None else length
+        wanted_times(0.0, static_number("duration", duration, float), every, settings.instants)
     except ValueError as error:
         refuse(str(error))
 

@@ -41,10 +41,27 @@ STAGE_ERROR = 1.0
 """Error of the stage equations, in units of the tolerance."""
 
 
-def diffrax_solver(options: IntegratorOptions, idle: int = 0) -> Any:
+class NoisyChord(dfx.VeryChord):
+    """diffrax's iteration for the stage equations, for rates that carry the noise of a solve inside them.
+
+    Near a steady state all iterates but the first differ by noise alone. Their differences do not shrink, which the
+    test of `VeryChord` takes for divergence, and the step is rejected. Here a difference below `noise` ends the
+    iteration with success. At least two iterations are taken, as in `VeryChord`.
+    """
+
+    noise: float = 0.0
+
+    def terminate(self, fn: Any, y: Any, args: Any, options: Any, state: Any, tags: Any) -> tuple[Any, Any]:
+        ended, result = super().terminate(fn, y, args, options, state, tags)
+        solved = state.result == optx.RESULTS.successful
+        settled = (state.step >= 2) & (state.diffsize < self.noise) & solved
+        return ended | settled, optx.RESULTS.where(settled, optx.RESULTS.successful, result)
+
+
+def diffrax_solver(options: IntegratorOptions, idle: int = 0, noise: float = 0.0) -> Any:
     """The solver of diffrax for a name of `SOLVERS`.
 
-    **Arguments:** `idle`: see `lineax_solver.BlockArrow`.
+    **Arguments:** `idle`: see `lineax_solver.BlockArrow`; `noise`: see `NoisyChord`, in units of the tolerance.
     """
     kind = _CLASSES[options.solver]
     if options.solver not in IMPLICIT:
@@ -53,8 +70,10 @@ def diffrax_solver(options: IntegratorOptions, idle: int = 0) -> Any:
     # one Jacobian a step. The termination test decides the number of steps: at a hundredth of the tolerance, diffrax's
     # own, iterations fail and steps shrink, to three times as many; optimistix's Chord stops early, with ten times the
     # error
-    chord = dfx.with_stepsize_controller_tols(dfx.VeryChord)(linear_solver=linear, kappa=STAGE_ERROR)
-    return kind(root_finder=chord)
+    given: dict[str, Any] = {"linear_solver": linear, "kappa": STAGE_ERROR}
+    if noise > 0.0:
+        return kind(root_finder=dfx.with_stepsize_controller_tols(NoisyChord)(noise=noise, **given))
+    return kind(root_finder=dfx.with_stepsize_controller_tols(dfx.VeryChord)(**given))
 
 
 class _Problem(NamedTuple):

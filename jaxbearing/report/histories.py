@@ -25,12 +25,14 @@ def not_begun_to_dict(scene: Any, duration: float | None, error: SolveError) -> 
     """A run whose start was not found, with the keys that `history_to_dict` has and nothing in those of results."""
     from ..bearings.checks import input_excess
     from ..bearings.motion.settings import Simulation
-    from ..bearings.warming.settings import SOLVER as WARM_UP_SOLVER
+    from ..bearings.warming.runs import settings_of
     from .backends.json import plain
 
     film, simulation = isinstance(scene, EHLLineContact), getattr(scene, "simulation", None)
-    rollers = (simulation or Simulation()).solver
-    solver = SOLVER if film else rollers if scene.thermal is None else WARM_UP_SOLVER
+    if film:
+        solver = SOLVER
+    else:
+        solver = (simulation or Simulation()).solver if scene.thermal is None else settings_of(scene, None).solver
     wanted = duration if duration is not None else getattr(simulation, "duration", None)
     common = {
         "completed": False,

@@ -227,7 +227,8 @@ def read_tables(source: str | Path) -> tuple[str, dict[str, Any]]:
     return label, _beside(parse_toml(text, label, f"a scene that begins with {_KIND_EXAMPLE}"), Path(source).parent)
 
 
-_FILES = (("oil",), ("simulation", "speed_table"), ("simulation", "load_table"))
+_OF_OIL = (("simulation", "oil_inlet_table"), ("simulation", "oil_flow_table"))
+_FILES = (("oil",), ("simulation", "speed_table"), ("simulation", "load_table"), *_OF_OIL)
 """Tables with the name of a further file in their field `file`."""
 
 

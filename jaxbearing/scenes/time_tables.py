@@ -1,4 +1,4 @@
-"""Speed or load over time from a CSV file: two columns, units in the header, one row a time; or from lists."""
+"""Speed, load or oil over time from a CSV file: two columns, units in the header, one row a time; or from lists."""
 
 import itertools
 from collections.abc import Sequence
@@ -10,9 +10,14 @@ from pydantic_core import PydanticCustomError
 from .csv_files import CsvTable, name_and_unit
 from .errors import SceneError, nearest
 from .table import Problems, refusal_at
-from .units import FORCE, SPEED, TIME, Dimension, describe, parse, shortened
+from .units import FLOW, FORCE, SPEED, TEMPERATURE, TIME, Dimension, describe, parse, shortened
 
-_QUANTITIES = {"speed": (SPEED, "speed [rpm]"), "load": (FORCE, "load [N]")}
+_QUANTITIES = {
+    "speed": (SPEED, "speed [rpm]"),
+    "load": (FORCE, "load [N]"),
+    "oil_inlet": (TEMPERATURE, "oil_inlet [degC]"),
+    "oil_flow": (FLOW, "oil_flow [l/h]"),
+}
 FACTOR = "factor"
 """The column of a table that is relative to the operating point."""
 
@@ -39,27 +44,29 @@ def read_time_table(file: str, quantity: str, field: str) -> TimeTable:
     `#` are skipped, other columns are refused. Columns are separated by commas, semicolons or tabs; decimal commas need
     one of the latter two.
 
-    **Arguments:** `file`; `quantity`: "speed" or "load"; `field`: dotted path of the scene that names the file.
+    **Arguments:** `file`; `quantity`: one of `_QUANTITIES`; `field`: dotted path of the scene that names the file.
 
     **Raises:** `SceneError` that names field, file and line.
     """
     dimension, example = _QUANTITIES[quantity]
     wanted = f"a CSV file for {field} with the columns 'time [ms]' and '{example}' or '{FACTOR}'"
     table = CsvTable.of(file, wanted)
-    names, scales = _columns(table, quantity, dimension, wanted)
+    names, scales, zeros = _columns(table, quantity, dimension, wanted)
     if len(table.rows) < 2:
         found = "one row" if table.rows else "no rows"
         raise SceneError(file, "", found, f"two rows or more below the header, for {field}")
     with np.errstate(over="ignore"):
-        values = np.asarray(table.numbers(names)) * np.asarray(scales)
+        values = np.asarray(table.numbers(names)) * np.asarray(scales) + np.asarray(zeros)
     times, found = values[:, names.index("time")], values[:, 1 - names.index("time")]
     _check_times(table, names.index("time"), times, field)
     _check_values(table, 1 - names.index("time"), found, quantity, field)
     return TimeTable(times, found, FACTOR in names)
 
 
-def _columns(table: CsvTable, quantity: str, dimension: Dimension, wanted: str) -> tuple[list[str], list[float]]:
-    """Names of the two columns, and what their numbers are in SI."""
+def _columns(
+    table: CsvTable, quantity: str, dimension: Dimension, wanted: str
+) -> tuple[list[str], list[float], list[float]]:
+    """Names of the two columns, and what their units and their zeros are in SI."""
     valid, place = ("time", quantity, FACTOR), table.at(table.header.number)
     parted = [name_and_unit(cell) for cell in table.header.cells]
     names = [name for name, _ in parted]
@@ -71,20 +78,22 @@ def _columns(table: CsvTable, quantity: str, dimension: Dimension, wanted: str) 
     if "time" not in names or len(names) != 2:
         found = f"the column{'s' * (len(names) > 1)} {', '.join(repr(name) for name in names)}"
         raise SceneError(place, "", found, wanted)
-    dimensions, scales = {"time": TIME, quantity: dimension}, []
+    dimensions, scales, zeros = {"time": TIME, quantity: dimension}, [], []
     for name, unit in parted:
         if name == FACTOR:
             if unit not in (None, "", "1"):
                 raise SceneError(place, name, f"the unit {shortened(repr(unit))}", "a column without a unit")
             scales.append(1.0)
+            zeros.append(0.0)
             continue
         try:
-            scales.append(parse(f"1 {unit or ''}", dimensions[name]))
+            zeros.append(parse(f"0 {unit or ''}", dimensions[name]))
+            scales.append(parse(f"1 {unit or ''}", dimensions[name]) - zeros[-1])
         except PydanticCustomError:
             found = f"the unit {shortened(repr(unit))}" if unit else "a column without a unit"
             example = "time [ms]" if name == "time" else _QUANTITIES[quantity][1]
             raise SceneError(place, name, found, f"a unit of it in brackets, e.g. '{example}'") from None
-    return names, scales
+    return names, scales, zeros
 
 
 def _check_times(table: CsvTable, column: int, times: np.ndarray, field: str) -> None:
@@ -105,6 +114,10 @@ def _check_values(table: CsvTable, column: int, values: np.ndarray, quantity: st
             expected = f"a finite number, for {field}"
         elif quantity == "speed" and value <= 0.0:
             expected = f"a number > 0, for {field}: at rest the films vanish"
+        elif quantity == "oil_inlet" and value <= 0.0 and name != FACTOR:
+            expected = f"a temperature above absolute zero, for {field}"
+        elif quantity == "oil_flow" and value < 0.0:
+            expected = f"a number >= 0, for {field}"
         elif quantity == "load" and (value < 0.0 or (i == 0 and value == 0.0)):
             expected = f"{'a number > 0 in the first row' if i == 0 else 'a number >= 0'}, for {field}"
         else:

@@ -44,6 +44,8 @@ SHORTEST_STEP = 1e-6
 is as short."""
 DIFFERENCE = 1e-3
 """Difference of temperature of which a matrix of differences is made, K."""
+STAGE_NOISE = 1e-3
+"""Change of the stages below which they are solved, in units of the tolerance: the noise of the losses is less."""
 AHEAD = 1e3
 """Distance beyond the end of a failed run at which the losses are evaluated, in shortest steps."""
 
@@ -178,7 +180,7 @@ def integrate(
     found = dfx.diffeqsolve(
         dfx.ODETerm(field),
         # the elimination that has derivatives of the energies
-        diffrax_solver(dataclasses.replace(options, elimination="dense")),
+        diffrax_solver(dataclasses.replace(options, elimination="dense"), noise=STAGE_NOISE),
         jnp.zeros(()),
         times[-1],
         first_step,

@@ -13,7 +13,8 @@ from warm_cases import CHANGES, NAMES, SEATS, warm
 
 import jaxbearing as jb
 from jaxbearing.bearings.motion.settings import Simulation
-from jaxbearing.bearings.warming.runs import INSTANTS, PIECE, pieces_of, wanted_times
+from jaxbearing.bearings.warming.runs import PIECE, pieces_of, wanted_times
+from jaxbearing.bearings.warming.settings import INSTANTS
 from jaxbearing.report import histories
 from jaxbearing.report.backends.matplotlib.animations import save_animation
 from jaxbearing.report.dataset import write_netcdf
@@ -166,7 +167,7 @@ def test_an_interrupt_keeps_what_was_computed():
     assert "interrupted" in found.failure()
 
 
-def test_outputs(run, tmp_path):
+def test_files_and_screen(run, tmp_path):
     told = histories.history_to_dict(run)
     assert json.loads(json.dumps(told))["summary"]["temperatures"]["oil"]["end"] == float(
         run.instants.temperatures.oil[-1]
@@ -177,17 +178,36 @@ def test_outputs(run, tmp_path):
         assert read["temperatures_inner_ring"].dims == ("time",)
         assert all("units" in read[name].attrs for name in read.variables)
         assert read["power_loss_total"].attrs["units"] == "W"
-    save_plot(histories.plot_history(run, "a title"), tmp_path / "run.svg")
-    assert (tmp_path / "run.svg").stat().st_size > 10_000
-    few = jax.tree.map(lambda leaf: leaf[::96] if np.shape(leaf)[:1] == np.shape(run.time) else leaf, run)
-    save_animation(histories.animate_history(few, warm("roller"), "a title"), tmp_path / "run.gif")
-    assert (tmp_path / "run.gif").stat().st_size > 10_000
     screen = io.StringIO()
     histories.print_history(run, "a title", Console(file=screen, width=100))
     text = screen.getvalue()
     assert "COMPLETED" in text
     assert "inner ring, degC" in text
     assert "kJ of losses" in text
+    assert "the largest contact load stays at" in text
+
+
+@SLOW
+def test_pictures(run, tmp_path):
+    save_plot(histories.plot_history(run, "a title"), tmp_path / "run.svg")
+    assert (tmp_path / "run.svg").stat().st_size > 10_000
+    few = jax.tree.map(lambda leaf: leaf[::96] if np.shape(leaf)[:1] == np.shape(run.time) else leaf, run)
+    for suffix in ("gif", "html"):
+        save_animation(histories.animate_history(few, warm("roller"), "a title"), tmp_path / f"run.{suffix}")
+        assert (tmp_path / f"run.{suffix}").stat().st_size > 10_000
+
+
+def test_near_the_end_no_step_is_rejected(run):
+    """The noise of the bearing's solve is no error of a step."""
+    assert int(run.rejected) == 0
+    assert int(run.accepted) < 100
+
+
+@SLOW
+def test_one_node_rejects_no_step():
+    found = jb.simulate(warm("roller", 1), 2.0 * HOURS)
+    assert (int(found.rejected), found.completed) == (0, True)
+    assert int(found.accepted) < 70
 
 
 @SLOW
@@ -199,4 +219,11 @@ def test_other_families_on_seats(kind):
     np.testing.assert_allclose(found.node_temperatures()[-1], steady.thermal.node_temperatures(), atol=1e-6)
     play = "clearance" if kind == "ball" else "axial_shift"
     np.testing.assert_allclose(getattr(found.at(-1).fit, play), getattr(steady.fit, play), atol=1e-12)
+    values, peaks = np.asarray(getattr(found.instants.fit, play)), found.peaks
+    assert 0.0 < float(peaks.least_play_time) < float(found.time[-1])
+    assert float(peaks.least_play) <= values.min() < values[-1] - 1e-9
+    # few instants miss the peak, which is found between them
+    few = jb.simulate(scene, 6.0 * HOURS, simulation=jb.WarmUpSimulation(instants=24))
+    coarse = np.asarray(getattr(few.instants.fit, play)).min()
+    np.testing.assert_allclose(few.peaks.least_play, peaks.least_play, atol=0.1 * (coarse - float(peaks.least_play)))
     assert abs(float(found.energy.error)) < 1e-4

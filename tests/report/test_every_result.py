@@ -23,6 +23,7 @@ from jaxbearing.bearings.ball import solution as ball_solution
 from jaxbearing.bearings.cylindrical import solution as cylindrical_solution
 from jaxbearing.bearings.solution import RING_FREEDOMS, Solution
 from jaxbearing.bearings.tapered import solution as tapered_solution
+from jaxbearing.bearings.warming.history import WarmEnergy, WarmInstant, WarmPeaks, WarmUpHistory
 from jaxbearing.ehl import LineContactSolution
 from jaxbearing.ehl import solution as film
 from jaxbearing.life.result import Life
@@ -46,7 +47,7 @@ IN_OTHER_WORDS = ("status", "worst_equation", "force", "stiffness", "deborah_num
 """Fields of the JSON that are texts, of a part of the numbers, or of the largest."""
 DRAWN = {"power_loss_total", "life_L10h", "film_central", "ring_radial", "cage_slip"}
 """Results with one number a case of which some are drawn."""
-HISTORIES = ("roller", "line contact")
+HISTORIES = ("roller", "line contact", "four temperatures", "six temperatures")
 PARTS = (
     Solution,
     solution.RingDisplacement,
@@ -256,10 +257,29 @@ def test_screen(kind):
         assert "CONVERGED" in stream.getvalue()
 
 
+@functools.cache
+def run_of(kind):
+    return history_of(SCENES[kind]())
+
+
+def test_every_labelled_field_of_a_run_of_temperatures_is_in_some_run():
+    runs = [run_of(kind) for kind in HISTORIES if "temperatures" in kind]
+    held = {
+        (type(part), name)
+        for run in runs
+        for part in parts_of(run)
+        for name, value in vars(part).items()
+        if value is not None
+    }
+    for part in (WarmUpHistory, WarmInstant, WarmEnergy, WarmPeaks, NodeTemperatures):
+        there = {field.name for field in dataclasses.fields(part) if "unit" in field.metadata}
+        there -= {"bearing"} if part is NodeTemperatures else set()  # of one node
+        assert {(part, name) for name in there} <= held, part
+
+
 @pytest.mark.parametrize("kind", HISTORIES)
 def test_histories(kind, tmp_path):
-    scene = SCENES[kind]()
-    run = history_of(scene)
+    run = run_of(kind)
     dataset = histories.history_to_dataset(run)
     write_netcdf(dataset, tmp_path / "a.nc")
     with xr.open_dataset(tmp_path / "a.nc", decode_times=False) as opened:

@@ -23,6 +23,7 @@ RESTATED = {
     ("BallContactTable", "rolling_resistance"): "files name the law, of which there is one",
     ("DiskOperationTable", "slide_to_roll"): "files take per cent and ranges",
     ("PerturbationTable", "amplitude"): "speed and load of a bearing do not reverse, the speed of a line contact may",
+    ("InletRampTable", "stop"): "by default a ramp ends at the operating point",
     ("RampTable", "start"): "speed and load of a bearing do not reverse",
     ("RampTable", "stop"): "speed and load of a bearing do not reverse; by default a ramp ends at the operating point",
     ("SpeedRampTable", "start"): "by default the speed stops",

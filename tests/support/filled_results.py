@@ -17,6 +17,8 @@ from warm_cases import warm
 import jaxbearing as jb
 from jaxbearing.bearings.cylindrical.motion.results import RollerEnergy, RollerInstant
 from jaxbearing.bearings.motion.history import History
+from jaxbearing.bearings.warming.history import WarmUpHistory
+from jaxbearing.bearings.warming.programs import instants_at
 from jaxbearing.ehl import LineContactHistory
 from jaxbearing.numerics.newton import NewtonOptions
 from jaxbearing.numerics.precision import as_float
@@ -44,7 +46,9 @@ SCENES = {
     "tapered": lambda: jb.load_scene("tapered_example", _RATING),
     "one temperature": lambda: warm("roller", 1),
     "four temperatures": lambda: warm("roller", 4, stability="true"),
-    "six temperatures": lambda: warm("roller", 6, fits__shaft_interference="30 um"),
+    "six temperatures": lambda: warm(
+        "roller", 6, fits__shaft_interference="30 um", capacity__shaft="800 J/K", capacity__housing="4000 J/K"
+    ),
     "two-disk": lambda: jb.load_scene("two_disk_etm"),
     "warm two-disk": lambda: jb.load_scene("two_disk_mobil_jet_ii", {"contact.film_heating": "true"}),
     "line contact": lambda: jb.load_scene("satellite_contact_1"),
@@ -98,7 +102,9 @@ def solution_of(scene, lanes=()):
 
 
 def history_of(scene, duration=1e-3):
-    """A run of a scene, with every field that its classes have."""
+    """A run of a scene, with every field that its classes have; of temperatures, those that its scene has."""
+    if getattr(scene, "thermal", None) is not None:
+        return _warm_history(scene, duration)
     if isinstance(scene, jb.CylindricalRollerBearing):
         sizes = {"element": scene.geometry.n_rollers, "element_state": 3, "cage_state": 6}
         instants = filled(_by_annotation(RollerInstant, sizes), (INSTANTS,))
@@ -122,6 +128,20 @@ def history_of(scene, duration=1e-3):
         (time, time[-1], scene.operation),
         is_leaf=lambda leaf: leaf is None,
     )
+
+
+def _warm_history(scene, duration):
+    """A run of the temperatures of a scene."""
+    scene = jax.tree.map(as_float, scene)
+    time = jnp.linspace(0.0, duration, INSTANTS)
+    nodes = jnp.full((INSTANTS, scene.thermal.nodes), 300.0)
+    seen = jax.eval_shape(instants_at, scene, jb.WarmUpSimulation(), time, nodes)
+    given = {"nodes": scene.thermal.node_names, "notes": ("a note",), "element_name": scene.element}
+    found = filled(_by_annotation(WarmUpHistory, {"time": INSTANTS}, instants=seen.instant, **given))
+    if scene.fits is None:
+        peaks = dataclasses.replace(found.peaks, least_play=None, least_play_time=None)
+        found = dataclasses.replace(found, peaks=peaks)
+    return dataclasses.replace(found, time=time, stop=time[-1], operation=scene.operation)
 
 
 def _by_annotation(kind, sizes, **given):

@@ -59,6 +59,18 @@ def test_one_node_with_a_constant_loss_is_an_exponential():
     np.testing.assert_allclose(found.temperatures[0, 0], 293.15 + 100.0 / 22.0 * -np.expm1(-1.65), rtol=1e-12)
 
 
+def test_noise_of_the_losses_rejects_no_step():
+    """Near the steady state all that changes between two iterates is noise, here of 1e-9 of the losses."""
+    network = network_of(1, {}, {"bearing": 2.0}, AMBIENT, OilFlow(20.0, AMBIENT))
+    noise = lambda temperatures: 1e-9 * jnp.sin(1e12 * jax.lax.stop_gradient(temperatures))
+    heat = lambda temperatures, time: NodeHeat(
+        1e4 * jnp.exp(-0.02 * (temperatures - AMBIENT)) * (1.0 + noise(temperatures))
+    )
+    found = jax.jit(lambda: warm_up(network, heat, jnp.asarray([400.0]), jnp.asarray([1e6])))()
+    assert int(found.status) == Status.CONVERGED
+    assert int(found.rejected) <= 1
+
+
 with_feedback = jax.jit(
     lambda speed, start, limit: run(
         speed, [3600.0, 3 * DAY], 1e-7, FEEDBACK, start=jnp.full(6, start), limit=jnp.asarray(limit)

@@ -42,6 +42,7 @@ from ..rating import Rating
 from ..ring import InnerRing
 from ..solution import Solution
 from ..warm import thermal_problems
+from ..warming.settings import WarmUpSimulation
 from .geometry import BallGeometry
 from .gyroscopic import AbstractGyroscopic, ResolvedCouple
 
@@ -131,6 +132,7 @@ class BallBearing(AbstractBearing):
       "outer" or "inner".
     - `contact.traction=None`: films too, and where named the rolling resistance; balls roll without sliding.
     - with traction the balls slide and spin; without a `cage` every ball has its own orbital speed.
+    - `simulation`: what a run of the temperatures does beyond the operating point; a steady solve does not look at it.
 
     **Raises:** `ValueError` for combinations that have no steady state or lack what they need.
     """
@@ -151,6 +153,7 @@ class BallBearing(AbstractBearing):
     fits: Fits | None = None
     temperatures: PartTemperatures | None = None
     thermal: Thermal | None = None
+    simulation: WarmUpSimulation | None = None
     oil_temperatures: OilTemperatures | None = None
 
     def __check_init__(self):

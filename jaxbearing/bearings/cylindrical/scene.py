@@ -38,6 +38,7 @@ from ..rating import Rating
 from ..ring import InnerRing
 from ..solution import RING_FREEDOMS, Solution
 from ..warm import thermal_problems
+from ..warming.settings import WarmUpSimulation
 from .geometry import ASSUMED_FLANGE_HEIGHT, RollerCage, RollerFlange, RollerGeometry, check_height
 from .thrust import NOT_MODELLED, check_axial
 
@@ -64,7 +65,8 @@ class CylindricalRollerBearing(AbstractMovingBearing):
     - `profile`, or `operation.misalignment` or `operation.moment`: rollers that tilt, in laminae; with a
       `contact` without traction: films and what rolling costs, for rolling without sliding.
     - `geometry.flange_stiffness`: the ring's axial freedom, which nothing else depends on.
-    - `simulation`: what a run in time does beyond the operating point; a steady solve does not look at it.
+    - `simulation`: what a run in time does beyond the operating point, a `WarmUpSimulation` with `thermal`; a steady
+      solve does not look at it.
 
     **Raises:** `ValueError` for combinations that have no steady state or lack what they need.
     """
@@ -79,7 +81,7 @@ class CylindricalRollerBearing(AbstractMovingBearing):
     cage: RollerCage | None = None
     flange: RollerFlange | None = None
     drag: Drag | None = None
-    simulation: Simulation | None = None
+    simulation: Simulation | WarmUpSimulation | None = None
     ring_freedom: tuple[str, ...] = eqx.field(static=True, converter=_freedoms, default=("radial",))
     rating: Rating | None = None
     profile: RollerProfile | None = None
@@ -95,7 +97,8 @@ class CylindricalRollerBearing(AbstractMovingBearing):
         yield from refusals_of(check_axial, self.geometry, self.operation)
         yield from mounting_problems(self)
         yield from thermal_problems(self)
-        if self.simulation is not None:
+        moves = isinstance(self.simulation, Simulation) and self.thermal is None
+        if moves:
             yield from refusals_of(check_run, self.operation)
         if self.contact is None:
             return
@@ -113,7 +116,7 @@ class CylindricalRollerBearing(AbstractMovingBearing):
         if self.flange is not None:
             yield from refusals_of(check_height, self.flange, self.geometry)
         yield from refusals_of(self.operation.check_rings_turn)
-        if self.slips and self.cage is None and self.simulation is None:
+        if self.slips and self.cage is None and not moves:
             yield (
                 "cage: a lubricated bearing with traction and without a cage has no steady state (a roller outside the "
                 "loaded zone slows down for ever); give it a cage, leave out contact.traction, or use simulate"

@@ -134,7 +134,7 @@ class AbstractMovingBearing(AbstractBearing):
     runs_in_programs: ClassVar[bool] = True
 
     cage: eqx.AbstractVar[Any]
-    simulation: eqx.AbstractVar[Simulation | None]
+    simulation: eqx.AbstractVar[Any]
 
     @property
     @abc.abstractmethod

@@ -113,6 +113,10 @@ def requested(
     scene.motion.require_moving(scene)
     check_inputs(scene)
     chosen = simulation or scene.simulation or Simulation()
+    if not isinstance(chosen, Simulation):
+        raise TypeError(
+            f"simulation: expected a Simulation for a scene without [thermal], got a {type(chosen).__name__}"
+        )
     check_inputs(chosen)
     duration = duration if duration is not None else chosen.duration
     if duration is None:

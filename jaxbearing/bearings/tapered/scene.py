@@ -39,6 +39,7 @@ from ..rating import Rating
 from ..ring import InnerRing
 from ..solution import Solution
 from ..warm import thermal_problems
+from ..warming.settings import WarmUpSimulation
 from .geometry import TaperedGeometry
 
 
@@ -95,6 +96,7 @@ class TaperedRollerBearing(AbstractBearing):
     fits: Fits | None = None
     temperatures: PartTemperatures | None = None
     thermal: Thermal | None = None
+    simulation: WarmUpSimulation | None = None
     oil_temperatures: OilTemperatures | None = None
     closing: Float[Array, "3"] | None = None
 

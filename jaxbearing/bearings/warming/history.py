@@ -41,6 +41,24 @@ class WarmInstant(eqx.Module):
     smallest_film: _Number | None = eqx.field(metadata=label("m", "smallest central film on the raceways"))
 
 
+def play_of(instants: WarmInstant) -> tuple[str, Any] | None:
+    """Name and values, m, of the running clearance or of the axial shift of first contact; `None` without seats."""
+    fit = instants.fit
+    if fit is None:
+        return None
+    return ("clearance", fit.clearance) if fit.clearance is not None else ("axial_shift", fit.axial_shift)
+
+
+class WarmPeaks(eqx.Module):
+    """The hardest moments of a run, also between its instants. The play is the running clearance, of tapered bearings
+    the axial shift of first contact; it is `None` without seats."""
+
+    least_play: _Number | None = eqx.field(metadata=label("m", "least clearance, or axial shift, of the run"))
+    least_play_time: _Number | None = eqx.field(metadata=label("s", "time of the least clearance or axial shift"))
+    largest_load: _Number = eqx.field(metadata=label("N", "largest load of all raceway contacts in the run"))
+    largest_load_time: _Number = eqx.field(metadata=label("s", "time of the largest load"))
+
+
 class WarmEnergy(eqx.Module):
     """Energies over the run, J: what the losses made is what left and what the nodes stored, up to `error`."""
 
@@ -70,8 +88,8 @@ class WarmUpHistory(AbstractSolution):
     """Result of a run of temperatures: all instants up to the last good one, also where it stopped early.
 
     `instants` holds the results with the times in front: `history.instants.temperatures.inner_ring` has the shape of
-    `time`. A run in which a node passes `thermal.limit` has the status `thermal_runaway`, and its last instant is that
-    one.
+    `time`. `peaks` are the least clearance and the largest contact load, between the instants too. A run in which a
+    node passes `thermal.limit` has the status `thermal_runaway`, and its last instant is that one.
     """
 
     of: ClassVar[str] = "bearing with [thermal]"
@@ -85,6 +103,7 @@ class WarmUpHistory(AbstractSolution):
     operation: Any
     instants: WarmInstant
     energy: WarmEnergy
+    peaks: WarmPeaks
     checks: Mapping[str, Bool[Array, ""]]
     nodes: tuple[str, ...] = eqx.field(static=True)
     solver: str = eqx.field(static=True, default=SOLVER)

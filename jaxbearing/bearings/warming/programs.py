@@ -80,7 +80,7 @@ def _advance(
     )
 
 
-def _look(
+def instants_at(
     scene: Any, settings: WarmUpSimulation, times: Float[Array, " time"], temperatures: Float[Array, "time node"]
 ) -> Seen:
     """The bearing at each of the times, s, with these node temperatures, K."""
@@ -124,4 +124,4 @@ def _instant(lane: Any, network: Network, nodes: Array, heat: NodeHeat, into: Ar
 
 
 ADVANCE = KeptProgram(_advance, quick=True)
-LOOK = KeptProgram(_look, quick=True)
+LOOK = KeptProgram(instants_at, quick=True)

@@ -23,17 +23,14 @@ from ..motion.checks import AT_SOME_TIME
 from ..motion.settings import Simulation
 from ..warm import network_notes
 from .history import WarmEnergy, WarmInstant, WarmState, WarmUpHistory
+from .peaks import find_peaks
 from .programs import ADVANCE, LOOK, Seen
-from .settings import WarmUpSimulation
+from .settings import INSTANTS, MOST_INSTANTS, WarmUpSimulation
 
-INSTANTS = 192
-"""Number of instants of a run whose interval is not given."""
 PIECE = 16
 """Number of instants that one call of the compiled programs computes."""
 FIRST_STEP = 1e-3
 """First step that the integrator tries, s."""
-MOST_INSTANTS = 100_000
-"""Largest number of instants of a run."""
 MAY_CHANGE = ("operation", "oil", "contact", "drag", "simulation", "rating", "ring_freedom", "thermal")
 """Parts of a scene that may differ from those of the run that is continued."""
 ENERGY_FACTOR = 10.0
@@ -91,10 +88,11 @@ def check_restart(scene: Any, last: Any) -> None:
         require_same(last.identity, identity(scene), "bearing")
 
 
-def wanted_times(begin: float, length: float, interval: float | None) -> np.ndarray:
-    """Instants after the first one, s: evenly where an interval is given, and closer together at the start else."""
+def wanted_times(begin: float, length: float, interval: float | None, instants: int = INSTANTS) -> np.ndarray:
+    """Instants after the first one, s: evenly where an interval is given; else as many as `instants`, closer together
+    at the start."""
     if interval is None:
-        return begin + length * np.square(np.arange(1, INSTANTS + 1) / INSTANTS)
+        return begin + length * np.square(np.arange(1, instants + 1) / instants)
     count = max(1, round(length / interval))
     if count > MOST_INSTANTS:
         raise ValueError(
@@ -161,11 +159,12 @@ def simulate_warm_up(
         check_restart(scene, last)
     begin = 0.0 if last is None else float(last.time)
     kinks = np.concatenate([np.asarray(law.kinks(), dtype=float) for law in chosen.laws])
-    # neither the length of the run nor its start is a part of the program
-    laws = dataclasses.replace(chosen, duration=None, start=None)
-    scene, laws = (jax.tree.map(as_float, tree) for tree in (scene, laws))
+    # length, start and number of instants of the run are no part of the program
+    laws = dataclasses.replace(chosen, duration=None, start=None, instants=INSTANTS)
+    bare = scene if getattr(scene, "simulation", None) is None else dataclasses.replace(scene, simulation=None)
+    scene, laws = (jax.tree.map(as_float, tree) for tree in (bare, laws))
     run = _Run(scene, laws, begin, _start(scene, chosen, last))
-    pieces = list(pieces_of(begin, wanted_times(begin, length, every), kinks))
+    pieces = list(pieces_of(begin, wanted_times(begin, length, every, chosen.instants), kinks))
     interrupted = run.follow(pieces, progress)
     history = run.history(begin + length, interrupted)
     # who interrupts a run wants what there is
@@ -228,18 +227,8 @@ class _Run:
         return interrupted and self.status == Status.CONVERGED
 
     def _advance(self, piece: _Piece) -> None:
-        count, fill = piece.times.size, PIECE - piece.times.size
-        lengths = np.pad(piece.times - piece.begin, (0, fill), mode="edge")
-        # a table may jump just after the beginning
-        begin = np.nextafter(piece.begin, math.inf) if piece.begin > 0.0 else piece.begin
-        found = ADVANCE(
-            self.scene,
-            self.settings,
-            jnp.asarray(self.now),
-            jnp.asarray(begin),
-            jnp.asarray(lengths),
-            jnp.asarray(self.step, dtype=float),
-        )
+        count = piece.times.size
+        found = self._integrated(piece.begin, self.now, piece.times, self.step)
         nodes = self.now.size
         energies, self.now = ENERGY * np.asarray(found.last)[nodes:], np.asarray(found.last)[:nodes]
         end, finished = piece.begin + float(found.end), bool(found.finished)
@@ -258,6 +247,29 @@ class _Run:
         if not finished:
             self.status = self._failure(found, end, seen)
 
+    def _integrated(self, begin: float, nodes: np.ndarray, times: np.ndarray, step: float) -> Any:
+        """What the integrator reaches from a beginning, s. **Arguments:** `times`: at most `PIECE`, s; `step`: first
+        that is tried, s."""
+        lengths = np.pad(times - begin, (0, PIECE - times.size), mode="edge")
+        # a table may jump just after the beginning
+        begin = np.nextafter(begin, math.inf) if begin > 0.0 else begin
+        numbers = (jnp.asarray(one, dtype=float) for one in (nodes, begin, lengths, step))
+        return ADVANCE(self.scene, self.settings, *numbers)
+
+    def _between(self, time: np.ndarray, instants: WarmInstant, index: int) -> tuple[np.ndarray, WarmInstant]:
+        """The bearing at times between the neighbours of an instant."""
+        begin, end = float(time[index - 1]), float(time[index + 1])
+        times = np.linspace(begin, end, PIECE + 1)[1:]
+        nodes = np.asarray([getattr(instants.temperatures, name)[index - 1] for name in self.scene.thermal.node_names])
+        found = self._integrated(begin, nodes, times, (end - begin) / PIECE)
+        states = np.asarray(found.states)[:, : nodes.size]
+        good = np.all(np.isfinite(states), axis=1) & (times <= begin + float(found.end))
+        if not np.any(good):
+            return times[:0], jax.tree.map(lambda leaf: leaf[:0], instants)
+        seen = self._look(times[good], states[good])
+        solved = seen.status == Status.CONVERGED
+        return times[good][solved], jax.tree.map(lambda leaf: leaf[solved], seen.instant)
+
     def _failure(self, found: Any, end: float, seen: Seen) -> Status:
         """How a piece ended that stopped early."""
         ahead = AHEAD * float(self.settings.options.shortest_step)
@@ -270,6 +282,8 @@ class _Run:
         instants: WarmInstant = jax.tree.map(
             lambda *leaves: jnp.asarray(np.concatenate(leaves)), *(one.seen.instant for one in self.done)
         )
+        time = np.concatenate([one.times for one in self.done])
+        finer = None if interrupted else lambda index: self._between(time, instants, index)
         energies = np.sum([one.energies for one in self.done], axis=0)
         capacity = np.asarray(heat_capacities(scene))
         stored = float(np.sum(capacity * (self.now - self.first)))
@@ -277,15 +291,17 @@ class _Run:
         error = (losses - to_oil - to_ambient - stored) / (losses if losses else 1.0)
         return WarmUpHistory(
             status=jnp.asarray(int(Status.NOT_CONVERGED if interrupted else self.status)),
-            time=jnp.asarray(np.concatenate([one.times for one in self.done])),
+            time=jnp.asarray(time),
             stop=jnp.asarray(stop),
             accepted=jnp.asarray(sum(one.accepted for one in self.done)),
             rejected=jnp.asarray(sum(one.rejected for one in self.done)),
             operation=scene.operation,
             instants=instants,
             energy=WarmEnergy(*(jnp.asarray(one) for one in (losses, to_oil, to_ambient, stored, error))),
+            peaks=find_peaks(time, instants, finer),
             checks=self._checks(error),
             nodes=scene.thermal.node_names,
+            solver=self.settings.solver,
             interrupted=interrupted,
             element_name=scene.element,
             notes=(SLOWLY, *scene.assumptions(), *_of_seats(scene), *network_notes(scene)),

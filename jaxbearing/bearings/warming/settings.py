@@ -8,13 +8,20 @@ from ..._scene import label, number, optional_number
 from ..._types import Scalar
 from ...numerics.checks import Checked
 from ...numerics.integrator import IntegratorOptions
+from ...numerics.structure import choice, count
 from ...thermal.warm_up import usual_options
 from ...time_laws import AbstractTimeFactor, Steady
 from ..heat import inlet_temperature
 from ..operation import LOAD_FIELDS
 
+SOLVERS = ("kvaerno3", "kvaerno4", "kvaerno5")
+"""Methods for runs of temperatures, which are stiff."""
 SOLVER = "kvaerno5"
-"""The method of every run of temperatures, which are stiff."""
+"""The method of a run that does not name one."""
+INSTANTS = 192
+"""Number of instants of a run that does not say it."""
+MOST_INSTANTS = 100_000
+"""Largest number of instants of a run."""
 
 
 class WarmUpSimulation(Checked):
@@ -29,6 +36,8 @@ class WarmUpSimulation(Checked):
     - `oil_flow`: oil flow over that of the operating point, as a function of time. The heat capacity of the oil in the
       bearing stays that of the operating point.
     - `start`: temperature of all nodes at time 0, K; not given: that of the ambient.
+    - `instants`: of a run of temperatures, the number of instants beside the first one, where no interval is given.
+    - `solver`: one of kvaerno3, kvaerno4 and kvaerno5.
     - `tolerance`: relative tolerance, and absolute one in units of 1 K and 1 kJ.
     """
 
@@ -39,14 +48,16 @@ class WarmUpSimulation(Checked):
     load: AbstractTimeFactor = Steady()
     oil_inlet: AbstractTimeFactor = Steady()
     oil_flow: AbstractTimeFactor = Steady()
-    start: Scalar | None = optional_number(bound="> 0", metadata=label("K", "temperature of all nodes at time 0"))
+    start: Scalar | None = optional_number(bound="> 0", metadata=label("K", "temperature of all nodes at time 0 of a run of temperatures"))
+    instants: int = count("simulation.instants", INSTANTS, least=1, most=MOST_INSTANTS)
+    solver: str = choice("simulation.solver", SOLVERS, SOLVER)
     tolerance: Scalar = number(1e-5, bound="> 0", unit="1")
 
     @property
     def options(self) -> IntegratorOptions:
         usual = usual_options()
         return IntegratorOptions(
-            solver=SOLVER,
+            solver=self.solver,
             tolerance=self.tolerance,
             max_steps=usual.max_steps,
             shortest_step=usual.shortest_step,

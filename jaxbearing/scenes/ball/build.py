@@ -17,6 +17,7 @@ from ...bearings.rating import Rating
 from ...contacts import PointLaws
 from ...lubricants import Lubricant
 from ..bearing.build import built, cage, part, seats, solids
+from ..bearing.simulation import warm_up
 from ..laws import BALL_FILMS, distributed_traction, thermal_factor
 from ..oil.catalogue import lubricant
 from .schema import BallBearingTable, BallContactTable, KinematicsTable
@@ -41,6 +42,7 @@ def ball_bearing(table: BallBearingTable) -> BallBearing:
         drag=lambda: part(BallDragSettings, table.drag),
         rating=lambda: part(Rating, table.rating),
         **seats(table),
+        simulation=lambda: warm_up(table),
     )
 
 

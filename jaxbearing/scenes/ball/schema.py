@@ -21,6 +21,7 @@ from ..bearing.schema import (
     require_oil,
     require_oil_flow,
 )
+from ..bearing.simulation import WarmUpTable
 from ..laws import BALL_FILMS, POINT_THERMAL, TRACTIONS, TractionAccuracy
 from ..materials import MaterialField
 from ..oil.schema import OilTable
@@ -135,6 +136,7 @@ class BallBearingTable(Table):
     fits: FitsTable | None = None
     temperatures: TemperaturesTable | None = None
     thermal: ThermalTable | None = None
+    simulation: WarmUpTable | None = None
 
     @check
     def _flow(self) -> Problems:

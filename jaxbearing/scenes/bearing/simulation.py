@@ -1,19 +1,26 @@
-"""The table [simulation] of a scene file: what a run in time does beyond the operating point."""
+"""The table [simulation] of a scene file: what a run in time does beyond the operating point.
+
+A bearing with [thermal] runs in its temperatures, one without in the motion of its rolling elements.
+"""
 
 from collections.abc import Mapping
-from typing import Annotated, ClassVar
+from typing import Annotated, Any, ClassVar, Literal
 
 import numpy as np
 
 from ...bearings.motion.settings import Simulation
-from ...time_laws import AbstractTimeFactor, Ramp, RotatingLoad, Sinusoidal, Steady, Tabulated
+from ...bearings.warming.settings import SOLVERS as WARM_UP_SOLVERS
+from ...bearings.warming.settings import WarmUpSimulation
+from ...time_laws import AbstractTimeFactor, LinearRamp, Ramp, RotatingLoad, Sinusoidal, Steady, Tabulated
 from .. import units
-from ..errors import SceneError
+from ..errors import SceneError, one_of
 from ..table import Problems, Table, check, refusal_at
 from ..table_of import table_of
 from ..time_tables import check_lists, read_time_table
 
 _LAWS = ("perturbation", "ramp", "table")
+_ALWAYS = ("speed", "load")
+_OF_OIL = ("oil_inlet", "oil_flow")
 
 
 class PerturbationTable(table_of(Sinusoidal)):
@@ -22,8 +29,23 @@ class PerturbationTable(table_of(Sinusoidal)):
     amplitude: units.Fraction
 
 
-class RampTable(table_of(Ramp)):
-    """A factor that goes smoothly from `start` to `stop`; a bearing's speed and load do not reverse."""
+class InletRampTable(table_of(LinearRamp)):
+    """A factor that goes from `start` to `stop`, smoothly or straight; of the oil inlet it may be below 0.
+
+    - `shape`: 'linear' needs [thermal]: in a run of the rollers a kink of the speed would be a shock of its own
+    """
+
+    stop: units.Number = 1.0
+    shape: Literal["smooth", "linear"] = "smooth"
+
+    @check
+    def _lasts(self) -> Problems:
+        if self.shape == "smooth" and self.duration == 0.0:
+            yield refusal_at("duration", "a time > 0, or shape = 'linear' in a run of temperatures", "0 s")
+
+
+class RampTable(InletRampTable):
+    """A factor that goes from `start` to `stop`, smoothly or straight; a bearing's speed and load do not reverse."""
 
     start: units.NonNegativeNumber
     stop: units.NonNegativeNumber = 1.0
@@ -68,8 +90,13 @@ class RotatingLoadTable(table_of(RotatingLoad)):
     """A turning load beside the radial one."""
 
 
-class SimulationTable(table_of(Simulation, leave_out=("entrainment_smoothing",))):
-    """See `bearings.motion.settings.Simulation`."""
+class CoursesTable(Table):
+    """Courses over time: of speed and load, and in a run of temperatures of the oil.
+
+    - `oil_inlet_perturbation`: of what the oil that enters is warmer than the ambient
+    - `oil_inlet_ramp`: of what the oil that enters is warmer than the ambient
+    - `oil_inlet_table`: of what the oil that enters is warmer than the ambient
+    """
 
     speed_perturbation: PerturbationTable | None = None
     speed_ramp: RampTable | None = None
@@ -77,12 +104,21 @@ class SimulationTable(table_of(Simulation, leave_out=("entrainment_smoothing",))
     load_perturbation: PerturbationTable | None = None
     load_ramp: RampTable | None = None
     load_table: FactorTable | None = None
-    rotating_load: RotatingLoadTable | None = None
+    oil_inlet_perturbation: PerturbationTable | None = None
+    oil_inlet_ramp: InletRampTable | None = None
+    oil_inlet_table: FactorTable | None = None
+    oil_flow_perturbation: PerturbationTable | None = None
+    oil_flow_ramp: RampTable | None = None
+    oil_flow_table: FactorTable | None = None
+
+    def given(self, name: str) -> list[str]:
+        """Fields that give a course of a quantity."""
+        return [field for field in (f"{name}_{law}" for law in _LAWS) if getattr(self, field) is not None]
 
     @check
     def _consistent(self) -> Problems:
-        for name in ("speed", "load"):
-            given = [field for field in (f"{name}_{law}" for law in _LAWS) if getattr(self, field) is not None]
+        for name in (*_ALWAYS, *_OF_OIL):
+            given = self.given(name)
             if len(given) > 1:
                 yield refusal_at(given[1], f"one of {' and '.join(given)}", "both")
         if self.speed_ramp is not None and self.speed_ramp.start == 0.0:
@@ -92,46 +128,134 @@ class SimulationTable(table_of(Simulation, leave_out=("entrainment_smoothing",))
 
     @check
     def _tables(self) -> Problems:
-        """Refuses values in CSV files that the run cannot use."""
-        for name, least in (("speed", "> 0: at rest the films vanish"), ("load", ">= 0, the first one > 0")):
+        """Refuses numbers in lists that the run cannot use."""
+        rules = {
+            "speed": ("> 0: at rest the films vanish", True, True),
+            "load": (">= 0, the first one > 0", True, False),
+            "oil_flow": (">= 0", False, False),
+        }
+        for name, (words, first_above, all_above) in rules.items():
             table = getattr(self, f"{name}_table")
             factors = () if table is None or table.factors is None else table.factors
-            first = [one for one in factors[:1] if one == 0.0]
-            wrong = first or [one for one in factors if one < 0.0 or (one == 0.0 and name == "speed")]
+            first = [one for one in factors[:1] if one == 0.0 and first_above]
+            wrong = first or [one for one in factors if one < 0.0 or (one == 0.0 and all_above)]
             if wrong:
-                yield refusal_at(f"{name}_table.factors", f"numbers {least}", f"the number {wrong[0]:g}")
+                yield refusal_at(f"{name}_table.factors", f"numbers {words}", f"the number {wrong[0]:g}")
+
+
+class WarmUpTable(table_of(WarmUpSimulation, base=CoursesTable)):
+    """See `bearings.warming.settings.WarmUpSimulation`; a steady solve does not look at it."""
+
+
+class SimulationTable(
+    table_of(
+        *(Simulation, WarmUpSimulation),
+        leave_out=("entrainment_smoothing",),
+        optional=("solver", "instants"),
+        base=CoursesTable,
+    )
+):
+    """See `bearings.motion.settings.Simulation`, and with [thermal] `bearings.warming.settings.WarmUpSimulation`.
+
+    A solver that is not given is that of the class. Start, instants and courses of the oil need [thermal]; a load that
+    turns must not stand beside it.
+    """
+
+    rotating_load: RotatingLoadTable | None = None
+
+    def of_other_run(self, warm: bool) -> Problems:
+        """Refusals of what belongs to the other kind of run. **Arguments:** `warm`: whether the file has [thermal]."""
+        if warm:
+            if self.solver is not None and self.solver not in WARM_UP_SOLVERS:
+                expected = f"{one_of(WARM_UP_SOLVERS)} beside [thermal], whose run is stiff"
+                yield refusal_at("simulation.solver", expected, f"'{self.solver}'")
+            if self.rotating_load is not None:
+                expected = "none beside [thermal]: its run knows no load that turns with the shaft"
+                yield refusal_at("simulation.rotating_load", expected, "a table")
+            return
+        names = [field for name in _OF_OIL for field in self.given(name)]
+        names += [name for name in ("start", "instants") if getattr(self, name) is not None]
+        for name in names:
+            expected = "none without [thermal]: it belongs to a run of temperatures"
+            yield refusal_at(f"simulation.{name}", expected, "one")
+        for name in _ALWAYS:
+            ramp = getattr(self, f"{name}_ramp")
+            if ramp is not None and ramp.shape == "linear":
+                expected = "'smooth' without [thermal]: in a run of the rollers a kink is a shock of its own"
+                yield refusal_at(f"simulation.{name}_ramp.shape", expected, "'linear'")
 
 
 def simulation(table: SimulationTable, inner_speed: float, radial_load: float) -> Simulation:
-    """The run that a table describes. **Arguments:** speed, rad/s, and load, N, of the operating point.
+    """The run of the rollers that a table describes. **Arguments:** speed, rad/s, and load, N, of the operating point.
 
     **Raises:** `SceneError` for a file that cannot be read or makes no sense.
     """
-    turning = table.rotating_load
+    turning, steady = table.rotating_load, {"speed": inner_speed, "load": radial_load}
+    own = {} if table.solver is None else {"solver": table.solver}
     return Simulation(
         duration=table.duration,
-        speed=_factor(table, "speed", inner_speed),
-        load=_factor(table, "load", radial_load),
+        **{name: _factor(table, name, (0.0, value)) for name, value in steady.items()},
         rotating_load=None if turning is None else RotatingLoad(**turning.model_dump()),
-        solver=table.solver,
         tolerance=table.tolerance,
+        **own,
     )
 
 
-def _factor(table: SimulationTable, name: str, steady: float) -> AbstractTimeFactor:
+def warm_up(table: Any) -> WarmUpSimulation | None:
+    """The run of temperatures that the file of a bearing describes; `None` without [simulation].
+
+    **Arguments:** `table`: of the whole file.
+
+    **Raises:** as `simulation`.
+    """
+    if table.simulation is None:
+        return None
+    run = table.simulation
+    laws = {name: _factor(run, name, _steady(table, name)) for name in (*_ALWAYS, *_OF_OIL)}
+    own = {name: getattr(run, name) for name in ("duration", "start", "instants", "solver", "tolerance")}
+    return WarmUpSimulation(**laws, **{name: value for name, value in own.items() if value is not None})
+
+
+def _steady(table: Any, name: str) -> tuple[float, float]:
+    """Values, SI, for which a factor is 0 and 1; both the same where a file can only give factors."""
+    operation, thermal = table.operation, table.thermal
+    match name:
+        case "speed":
+            return 0.0, operation.inner_speed
+        case "load":
+            loads = [getattr(operation, field, None) for field in ("radial_load", "axial_load")]
+            given = [load for load in loads if load]
+            return 0.0, given[0] if len(given) == 1 else 0.0
+        case "oil_flow":
+            return 0.0, operation.oil_flow or 0.0
+    if thermal is None:
+        return 0.0, 0.0
+    inlet = operation.oil_temperature if thermal.oil_inlet is None else thermal.oil_inlet
+    return thermal.ambient, thermal.ambient if inlet is None else inlet
+
+
+def _factor(table: CoursesTable, name: str, steady: tuple[float, float]) -> AbstractTimeFactor:
     perturbation, ramp, file = (getattr(table, f"{name}_{law}") for law in _LAWS)
     if perturbation is not None:
         return Sinusoidal(**perturbation.model_dump())
     if ramp is not None:
-        return Ramp(**ramp.model_dump())
+        numbers = ramp.model_dump(exclude={"shape"})
+        return Ramp(**numbers) if ramp.shape == "smooth" else LinearRamp(**numbers)
     if file is None:
         return Steady()
     if file.file is None:
         return Tabulated(np.asarray(file.times), np.asarray(file.factors))
     field = f"simulation.{name}_table.file"
-    found = read_time_table(file.file, name, field)
-    if not found.relative and steady == 0.0:
-        raise SceneError(
-            file.file, "", f"a column '{name}'", f"a column 'factor': operation.inner_speed is 0, for {field}"
-        )
-    return Tabulated(found.times, found.values if found.relative else found.values / steady)
+    found, (nothing, whole) = read_time_table(file.file, name, field), steady
+    if not found.relative and whole == nothing:
+        raise SceneError(file.file, "", f"a column '{name}'", f"a column 'factor': {_NO_UNIT[name]}, for {field}")
+    return Tabulated(found.times, found.values if found.relative else (found.values - nothing) / (whole - nothing))
+
+
+_NO_UNIT = {
+    "speed": "operation.inner_speed is 0",
+    "load": "the operating point has several loads or none, and all follow it",
+    "oil_inlet": "thermal.oil_inlet is the temperature of the ambient, or is not given",
+    "oil_flow": "operation.oil_flow is 0",
+}
+"""Causes for which a file cannot have values in place of factors."""

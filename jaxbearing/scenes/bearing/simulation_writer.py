@@ -1,16 +1,25 @@
 """The table [simulation] of a scene file from the settings of a run: the way back from `bearing.simulation`."""
 
 from ...bearings.motion.settings import Simulation
-from ...time_laws import AbstractTimeFactor, Ramp, Sinusoidal, Steady, Tabulated
+from ...bearings.warming.settings import WarmUpSimulation
+from ...time_laws import AbstractTimeFactor, LinearRamp, Ramp, Sinusoidal, Steady, Tabulated
 from ..part_writer import Rows, all_rows, rows, shown, table_rows, unwritable
-from .simulation import SimulationTable
+from .simulation import SimulationTable, WarmUpTable
 
 
-def simulation(part: Simulation | None) -> Rows | None:
+def simulation(part: Simulation | WarmUpSimulation | None) -> Rows | None:
     """The table of a run; `None` if the scene has none. **Raises:** `SceneError` for what a file cannot hold."""
     if part is None:
         return None
-    return rows(SimulationTable, part) | _factor(part.speed, "speed") | _factor(part.load, "load")
+    if isinstance(part, Simulation):
+        found, laws = rows(SimulationTable, part), {"speed": part.speed, "load": part.load}
+    else:
+        found = rows(WarmUpTable, part)
+        names = ("speed", "load", "oil_inlet", "oil_flow")
+        laws = {name: getattr(part, name) for name in names}
+    for name, law in laws.items():
+        found |= _factor(law, name)
+    return found
 
 
 def _factor(law: AbstractTimeFactor, name: str) -> Rows:
@@ -21,7 +30,8 @@ def _factor(law: AbstractTimeFactor, name: str) -> Rows:
             return {f"{name}_perturbation": all_rows(law)}
         case Ramp():
             return {f"{name}_ramp": all_rows(law)}
+        case LinearRamp():
+            return {f"{name}_ramp": all_rows(law) | {"shape": "linear"}}
         case Tabulated():
             return {f"{name}_table": table_rows(law)}
-    expected = "Steady, Sinusoidal, Ramp or Tabulated"
-    raise unwritable(f"simulation.{name}", shown(law), expected)
+    raise unwritable(f"simulation.{name}", shown(law), "Steady, Sinusoidal, Ramp, LinearRamp or Tabulated")

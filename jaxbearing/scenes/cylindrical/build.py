@@ -9,9 +9,10 @@ from ...bearings.motion.settings import Simulation
 from ...bearings.operation import Operation
 from ...bearings.parts import Drag, Materials
 from ...bearings.rating import Rating
+from ...bearings.warming.settings import WarmUpSimulation
 from ..bearing.build import built, cage, part, seats, solids
 from ..bearing.profile import roller_profile
-from ..bearing.simulation import simulation
+from ..bearing.simulation import simulation, warm_up
 from ..contact_laws import contact_laws
 from ..oil.catalogue import lubricant
 from .schema import CylindricalRollerTable
@@ -40,8 +41,10 @@ def cylindrical_roller_bearing(table: CylindricalRollerTable) -> CylindricalRoll
     )
 
 
-def _run(table: CylindricalRollerTable) -> Simulation | None:
+def _run(table: CylindricalRollerTable) -> Simulation | WarmUpSimulation | None:
     if table.simulation is None:
         return None
+    if table.thermal is not None:
+        return warm_up(table)
     load = table.operation.radial_load
     return simulation(table.simulation, table.operation.inner_speed, 0.0 if load is None else load)

@@ -112,22 +112,31 @@ class CylindricalRollerTable(Table):
     thermal: ThermalTable | None = None
     profile: ProfileTable | None = None
 
+    def moves(self) -> bool:
+        """True if a run in time moves the rollers."""
+        return self.simulation is not None and self.thermal is None
+
     @check
     def _flow(self) -> Problems:
         """Checks what one table needs of another. The classes check the rest when they are built."""
         slips = self.contact is not None and self.contact.traction is not None
-        if slips and (self.cage is not None or self.simulation is not None):
+        if slips and (self.cage is not None or self.moves()):
             yield from require_oil_flow(self.drag, self.operation)
 
     @check
     def _run(self) -> Problems:
-        if self.simulation is not None and self.operation.radial_load is None:
+        if self.moves() and self.operation.radial_load is None:
             yield refusal_at("operation.radial_load", "a force, which a run in time needs, e.g. '10 kN'", "nothing")
+
+    @check
+    def _kind_of_run(self) -> Problems:
+        if self.simulation is not None:
+            yield from self.simulation.of_other_run(warm=self.thermal is not None)
 
     @check
     def _cage(self) -> Problems:
         slips = self.contact is not None and self.contact.traction is not None
-        if slips and self.cage is None and self.simulation is None:
+        if slips and self.cage is None and not self.moves():
             expected = (
                 "a table [cage], which contact.traction needs: without one a roller outside the loaded zone slows "
             )

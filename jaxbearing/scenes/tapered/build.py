@@ -12,6 +12,7 @@ from ...contacts.point_laws import PointLaws
 from ...lubricants import Lubricant, NoPressureViscosity
 from ..bearing.build import built, part, seats, solids
 from ..bearing.profile import roller_profile
+from ..bearing.simulation import warm_up
 from ..laws import RIB_FILMS, ROLLER_FILMS, ROLLING, distributed_traction, thermal_factor, viscous_function
 from ..oil.catalogue import lubricant
 from .schema import TaperedContactTable, TaperedRollerTable
@@ -35,6 +36,7 @@ def tapered_roller_bearing(table: TaperedRollerTable) -> TaperedRollerBearing:
         profile=lambda: roller_profile(table.profile),
         rating=lambda: part(Rating, table.rating),
         **seats(table),
+        simulation=lambda: warm_up(table),
     )
 
 

@@ -15,6 +15,7 @@ from ..bearing.schema import (
     require_oil,
     require_oil_flow,
 )
+from ..bearing.simulation import WarmUpTable
 from ..cylindrical.schema import RACEWAY_LAWS, DragTable
 from ..laws import LINE_THERMAL, RIB_FILMS, ROLLER_FILMS, ROLLING, TRACTIONS, TractionAccuracy
 from ..materials import MaterialField
@@ -77,6 +78,7 @@ class TaperedRollerTable(Table):
     fits: FitsTable | None = None
     temperatures: TemperaturesTable | None = None
     thermal: ThermalTable | None = None
+    simulation: WarmUpTable | None = None
 
     @check
     def _flow(self) -> Problems:

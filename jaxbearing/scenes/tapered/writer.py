@@ -2,6 +2,7 @@
 
 from ...bearings.tapered.scene import TaperedRollerBearing
 from ...contacts import MeanPressureTraction
+from ..bearing.simulation_writer import simulation
 from ..bearing.writer import bearing_tables, flow_law, march_accuracy, profile, raceway_laws
 from ..laws import RIB_FILMS
 from ..part_writer import Rows, law_name, shown, unwritable
@@ -15,6 +16,7 @@ def tapered_tables(scene: TaperedRollerBearing) -> Rows:
         TaperedRollerTable,
         profile=profile(scene.profile),
         contact=_laws(scene),
+        simulation=simulation(scene.simulation),
     )
 
 

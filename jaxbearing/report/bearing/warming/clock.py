@@ -11,4 +11,4 @@ def clock_unit(longest: float) -> tuple[str, float]:
 def clock(time: float) -> str:
     """A time, s, with a unit."""
     unit, length = clock_unit(time)
-    return f"{time / length:.5g} {unit}"
+    return f"{time / length:.4g} {unit}"

@@ -4,13 +4,13 @@ from typing import Any
 
 import numpy as np
 
-from ....bearings.warming.history import WarmUpHistory
+from ....bearings.warming.history import WarmUpHistory, play_of
 from ....numerics.status import Status
 from ...backends.json import finite, plain
 
 
 def statistics(history: WarmUpHistory) -> dict[str, Any]:
-    """Values at the start and the end, and extremes with their times, SI."""
+    """Values at the start and the end, and extremes with their times, SI; of play and load between the instants too."""
     instants, time = history.instants, np.asarray(history.time)
     spread = lambda values: _spread(time, values)
     found: dict[str, Any] = {
@@ -30,9 +30,12 @@ def statistics(history: WarmUpHistory) -> dict[str, Any]:
         found["smallest_film"] = spread(instants.smallest_film)
     if instants.cage is not None:
         found["cage"] = {"speed": spread(instants.cage.speed), "slip": spread(instants.cage.slip)}
-    play = play_of(history)
-    if play is not None:
-        found[play[0]] = spread(play[1])
+    play, peaks = play_of(instants), history.peaks
+    load = found["largest_load"]
+    load |= {"max": float(peaks.largest_load), "max_time": float(peaks.largest_load_time)}
+    if play is not None and peaks.least_play is not None and peaks.least_play_time is not None:
+        least = {"min": float(peaks.least_play), "min_time": float(peaks.least_play_time)}
+        found[play[0]] = spread(play[1]) | least
     return found
 
 
@@ -40,14 +43,6 @@ def losses(history: WarmUpHistory) -> dict[str, Any]:
     """The total loss and the losses that the scene models, W."""
     loss = history.instants.power_loss
     return {name: getattr(loss, name) for name in ("total", *vars(loss)) if getattr(loss, name) is not None}
-
-
-def play_of(history: WarmUpHistory) -> tuple[str, Any] | None:
-    """Name and values, m, of the running clearance or of the axial shift of first contact; `None` without seats."""
-    fit = history.instants.fit
-    if fit is None:
-        return None
-    return ("clearance", fit.clearance) if fit.clearance is not None else ("axial_shift", fit.axial_shift)
 
 
 def _spread(time: np.ndarray, values: Any) -> dict[str, float]:
@@ -76,6 +71,7 @@ def to_dict(history: WarmUpHistory) -> dict[str, Any]:
         "solver": history.solver,
         "energy_error": finite(float(history.energy.error)),
         "energy": plain(history.energy),
+        "peaks": plain(history.peaks),
         "operation": plain(history.operation),
         "summary": plain(statistics(history)),
     }

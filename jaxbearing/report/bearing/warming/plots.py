@@ -4,12 +4,11 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ....bearings.warming.history import WarmUpHistory
+from ....bearings.warming.history import WarmUpHistory, play_of
 from ...backends.matplotlib.sheet import foot, grid_lines, head, title_of
 from ...colours import CURVES, FAINT, INNER, LOSS, OUTER
 from ...display import ZERO_CELSIUS, axis_unit
 from .clock import clock, clock_unit
-from .json_report import play_of
 
 if TYPE_CHECKING:
     import matplotlib.figure
@@ -26,7 +25,7 @@ def plot(history: WarmUpHistory, title: str) -> "matplotlib.figure.Figure":
     draw_temperatures(figure.add_subplot(grid[0, 0]), history)
     _heat(figure.add_subplot(grid[0, 1]), history)
     places = [grid[1, 0], grid[1, 1]]
-    play = play_of(history)
+    play = play_of(history.instants)
     if play is not None:
         _play(figure.add_subplot(places.pop(0)), history, play)
     _load(figure.add_subplot(places.pop(0)), history)
@@ -89,8 +88,27 @@ def _play(axes: Any, history: WarmUpHistory, play: tuple[str, Any]) -> None:
     time, _ = times_of(history)
     axes.plot(time, 1e6 * np.asarray(play[1]), color=INNER, linewidth=1.5)
     axes.axhline(0.0, color=FAINT, linewidth=0.8)
+    _mark(axes, history, history.peaks.least_play_time, history.peaks.least_play, 1e6, "µm")
     words = {"clearance": "Running clearance, µm", "axial_shift": "Axial place of first contact, µm"}
     _finish(axes, history, words[play[0]])
+
+
+def _mark(axes: Any, history: WarmUpHistory, time: Any, value: Any, factor: float, unit: str) -> None:
+    """A mark at an extreme that lies inside the run, with its value and its time."""
+    at, height = float(time), factor * float(value)
+    if not float(history.time[0]) < at < float(history.time[-1]):
+        return
+    length = clock_unit(float(history.time[-1]))[1]
+    axes.plot([at / length], [height], color=LOSS, marker="o", markersize=4, linestyle="none")
+    right = at < 0.5 * float(history.time[-1])
+    axes.annotate(
+        f"{height:.4g} {unit} after {clock(at)}",
+        (at / length, height),
+        xytext=(6 if right else -6, 6),
+        textcoords="offset points",
+        ha="left" if right else "right",
+        fontsize=8,
+    )
 
 
 def _load(axes: Any, history: WarmUpHistory) -> None:
@@ -98,6 +116,7 @@ def _load(axes: Any, history: WarmUpHistory) -> None:
     load = np.asarray(history.instants.largest_load)
     unit, factor = axis_unit("N", float(load.max()))
     axes.plot(time, factor * load, color=OUTER, linewidth=1.5)
+    _mark(axes, history, history.peaks.largest_load_time, history.peaks.largest_load, factor, unit)
     axes.ticklabel_format(axis="y", useOffset=False)
     _finish(axes, history, f"Largest contact load, {unit}")
 

@@ -6,10 +6,16 @@ from rich.console import Console
 
 from ....bearings.warming.history import WarmUpHistory
 from ...backends.screen import headline, print_line, print_table, print_warnings
-from ...display import ZERO_CELSIUS, digits, displayed
+from ...display import ZERO_CELSIUS, digits, displayed, with_unit
 from .clock import clock
 from .json_report import statistics
 
+PLAYS = {"clearance": ("the clearance", True), "axial_shift": ("the axial play", False)}
+"""Words for the play, and whether its value is shown, which below 0 is a preload."""
+LEAST_DEPTH = 1e-8
+"""Least difference of the play that is a peak on the screen, m."""
+LEAST_RISE = 1e-3
+"""Least difference of the load that is one, relative."""
 _COLUMNS = {"start": "at the start", "min": "least", "max": "largest", "end": "at the end"}
 
 
@@ -35,16 +41,51 @@ def print_summary(history: WarmUpHistory, label: str, console: Console) -> None:
         f"ambient, {_kilo(energy.stored)} stored; {float(energy.error):.1e} of it left open"
     )
     print_line("Energy", said, console)
+    print_line("Start-up peak", peak_sentence(history, found), console)
     if history.not_modelled:
         print_line("Not modelled", ", ".join(history.not_modelled).replace("_", " "), console)
     print_warnings(history.warnings, console)
+
+
+def peak_sentence(history: WarmUpHistory, found: dict[str, Any]) -> str:
+    """Says when the play is least and the contact load largest, and how far this is from the end of the run.
+
+    **Arguments:** `found`: the `statistics` of the run.
+    """
+    said, name = [], next((one for one in PLAYS if one in found), None)
+    if name is not None:
+        spread, (words, preload) = found[name], PLAYS[name]
+        least, depth = spread["min"], spread["end"] - spread["min"]
+        value = f", {_um(least)} um{' (radial preload)' if preload and least < 0.0 else ''}" if preload else ""
+        if min(depth, spread["start"] - least) < LEAST_DEPTH:
+            said.append(f"{words} is least at the {'end' if depth < LEAST_DEPTH else 'start'}{value}")
+        else:
+            said.append(
+                f"{words} is least after {clock(spread['min_time'])}{value}: {_um(depth)} um less than at the end"
+            )
+    load = found["largest_load"]
+    most, rise = load["max"], load["max"] / load["end"] - 1.0
+    newton = with_unit(most, "N")
+    if min(most - load["start"], most - load["end"]) > LEAST_RISE * most:
+        more = f"{100.0 * rise:.2g} % more than at the end"
+        said.append(f"the contact load is largest after {clock(load['max_time'])}, {newton}: {more}")
+    elif most - load["end"] > LEAST_RISE * most:
+        said.append(f"the contact load is largest at the start, {newton}")
+    elif most - load["start"] > LEAST_RISE * most:
+        said.append(f"the contact load is largest at the end, {newton}")
+    else:
+        said.append(f"the largest contact load stays at {newton}")
+    return "; ".join(said)
+
+
+def _um(value: float) -> str:
+    return f"{1e6 * value:.2f}"
 
 
 def _rows(history: WarmUpHistory, found: dict[str, Any]) -> Any:
     """Name with its unit, spread, and the function from a value to its text."""
     degrees = lambda value: f"{value - ZERO_CELSIUS:.1f}"
     plain = lambda unit, significant=4: lambda value: digits(displayed(value, unit), significant)
-    um = lambda value: f"{1e6 * value:.2f}"
     for name in history.nodes:
         yield f"{name.replace('_', ' ')}, degC", found["temperatures"][name], degrees
     if "oil_out" in found:
@@ -55,10 +96,10 @@ def _rows(history: WarmUpHistory, found: dict[str, Any]) -> Any:
     yield "heat stored, W", found["heat_stored"], plain("W")
     for name, words in (("clearance", "clearance, um"), ("axial_shift", "first contact, um")):
         if name in found:
-            yield words, found[name], um
+            yield words, found[name], _um
     yield "largest contact load, N", found["largest_load"], plain("N")
     if "smallest_film" in found:
-        yield "smallest film, um", found["smallest_film"], um
+        yield "smallest film, um", found["smallest_film"], _um
     if found["inner_speed"]["min"] != found["inner_speed"]["max"]:
         yield "inner ring, rpm", found["inner_speed"], plain("rad/s")
 

@@ -1,0 +1,77 @@
+"""The hardest moments of a run of temperatures: the least play and the largest contact load, between the instants too.
+
+An inner ring that warms before the housing takes the play away for a while: the peak of preload at a start. The
+instants of a history may pass it by. So the run is integrated once more around the instant with the extreme value, at
+times that lie closer together.
+"""
+
+from collections.abc import Callable
+from typing import NamedTuple
+
+import jax.numpy as jnp
+import numpy as np
+from jaxtyping import Float
+
+from .history import WarmInstant, WarmPeaks, play_of
+
+LEAST_PLAY_DEPTH = 1e-9
+"""Least difference of the play to that at both ends of a run for which an extreme is one, m."""
+LEAST_LOAD_DEPTH = 1e-6
+"""The same of the largest contact load, relative."""
+
+
+class Extreme(NamedTuple):
+    """An extreme value among instants: the place, and `inside`: whether it lies below both ends by more than the least
+    depth."""
+
+    place: int
+    inside: bool
+
+
+Finer = Callable[[int], tuple[Float[np.ndarray, " time"], WarmInstant]]
+"""Function of an index: times, s, and instants between its two neighbours."""
+
+
+def lowest(values: Float[np.ndarray, " time"], depth: float) -> Extreme:
+    """The lowest value. **Arguments:** `depth`: in the unit of the values."""
+    index = int(np.argmin(values))
+    return Extreme(index, float(min(values[0], values[-1]) - values[index]) > depth)
+
+
+def find_peaks(time: Float[np.ndarray, " time"], instants: WarmInstant, finer: Finer | None) -> WarmPeaks:
+    """The peaks of a run. **Arguments:** `time`: s; `finer`: left out: the instants alone are looked at."""
+    play = play_of(instants)
+    load = lambda one: -np.asarray(one.largest_load)
+    depth = LEAST_LOAD_DEPTH * float(np.max(np.asarray(instants.largest_load)))
+    found = _peak(time, instants, load, depth, finer)
+    least = None
+    if play is not None:
+        least = _peak(time, instants, lambda one: np.asarray(getattr(one.fit, play[0])), LEAST_PLAY_DEPTH, finer)
+    number = lambda value: jnp.asarray(value, dtype=float)
+    return WarmPeaks(
+        least_play=None if least is None else number(least[1]),
+        least_play_time=None if least is None else number(least[0]),
+        largest_load=number(-found[1]),
+        largest_load_time=number(found[0]),
+    )
+
+
+def _peak(
+    time: Float[np.ndarray, " time"],
+    instants: WarmInstant,
+    values_of: Callable[[WarmInstant], Float[np.ndarray, " time"]],
+    depth: float,
+    finer: Finer | None,
+) -> tuple[float, float]:
+    """Time and value of the lowest value."""
+    values = values_of(instants)
+    found = lowest(values, depth)
+    best = float(time[found.place]), float(values[found.place])
+    if finer is None or not found.inside:
+        return best
+    times, between = finer(found.place)
+    closer = values_of(between)
+    if closer.size and closer.min() < best[1]:
+        index = int(np.argmin(closer))
+        best = float(times[index]), float(closer[index])
+    return best
