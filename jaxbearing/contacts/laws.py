@@ -13,6 +13,7 @@ from ..numerics.safe import smooth_abs
 from .film import AbstractLineFilm
 from .heated_film import HeatedFilm, heated_film
 from .line import LineContact
+from .oil_supply import Starvation, Supply
 from .rolling import AbstractRollingResistance
 from .thermal import AbstractThermalFactor, NoThermalReduction
 from .traction import AbstractTraction
@@ -25,7 +26,8 @@ class ContactState(NamedTuple):
     """State of one contact: `film` m, `temperature_rise` K above the inlet, `traction` N (None: frictionless),
     `rolling_force` N (None: no rolling resistance), of the sign of the mean speed.
 
-    `inner_residual` is that of the nested solve for the temperature rise, in units of ln(film).
+    `inner_residual` is that of the nested solves for temperature rise and meniscus, in units of ln(film). `supply`: what
+    little oil does (None: fully flooded).
     """
 
     film: Float[Array, "*batch"]
@@ -33,6 +35,12 @@ class ContactState(NamedTuple):
     traction: Float[Array, "*batch"] | None
     rolling_force: Float[Array, "*batch"] | None
     inner_residual: Float[Array, ""]
+    supply: Starvation | None = None
+
+    @property
+    def separation(self) -> Float[Array, "*batch"]:
+        """Film in the equations that place a rolling element between the rings, m."""
+        return self.film if self.supply is None else self.supply.separation
 
 
 class ContactLaws(Checked):
@@ -47,6 +55,7 @@ class ContactLaws(Checked):
     - `rolling`: rolling resistance, or `None`: left out.
     - `entrainment_smoothing`: smoothing of the mean surface speed's modulus, m/s: what film a contact keeps whose
       surfaces pass through rest.
+    - `supply`: how much oil there is, or `None`: fully flooded.
     """
 
     part: ClassVar[str] = "contact"
@@ -57,6 +66,7 @@ class ContactLaws(Checked):
     entrainment_offset: Scalar = bounded(">= 0", unit="m/s", converter=as_float, default=0.0)
     rolling: AbstractRollingResistance | None = None
     entrainment_smoothing: Scalar = bounded("> 0", unit="m/s", converter=as_float, default=SPEED_SMOOTHING)
+    supply: Supply | None = None
 
     def entrainment(self, mean_speed: Values) -> Float[Array, "..."]:
         """Entrainment speed of the film, m/s, > 0. **Arguments:** `mean_speed` (u1 + u2)/2, m/s, of either sign."""
@@ -71,9 +81,26 @@ class ContactLaws(Checked):
         lubricant: Lubricant,
         inlet: InletOil,
     ) -> HeatedFilm:
-        """The film alone; arguments as in `evaluate`."""
+        """The flooded film alone; arguments as in `evaluate`."""
         speed = self.entrainment(mean_speed)
         return heated_film(self.film, self.thermal, contact, load, speed, sliding_speed, lubricant, inlet)
+
+    def separation(
+        self,
+        contact: LineContact,
+        load: Values,
+        mean_speed: Values,
+        sliding_speed: Values,
+        lubricant: Lubricant,
+        inlet: InletOil,
+    ) -> tuple[Array, Array]:
+        """`ContactState.separation` alone, m, and the residual of nested solves; arguments as in `evaluate`."""
+        found = self.heated_film(contact, load, mean_speed, sliding_speed, lubricant, inlet)
+        if self.supply is None:
+            return jnp.exp(found.log_thickness), found.residual
+        speed = self.entrainment(mean_speed)
+        starved = self.supply.starvation(contact, load, found.log_thickness, speed, inlet)
+        return starved.separation, jnp.maximum(found.residual, starved.residual)
 
     def evaluate(
         self,
@@ -86,7 +113,8 @@ class ContactLaws(Checked):
     ) -> ContactState:
         """Film, temperature rise, traction and rolling resistance.
 
-        The film is phi_T times the isothermal film at the inlet temperature; traction and rolling resistance see
+        The flooded film is phi_T times the isothermal film at the inlet temperature; a supply makes it thinner, and
+        lowers the rolling resistance of the flooded contact; traction and rolling resistance see
         the oil at the inlet temperature plus the rise that explains phi_T (its pressure-viscosity coefficient at
         the inlet temperature).
 
@@ -99,11 +127,17 @@ class ContactLaws(Checked):
         if found.rise is not None:
             base = inlet.temperature + found.rise
             base_viscosity = lubricant.viscosity.viscosity(0.0, base)
-        film = jnp.exp(found.log_thickness)
+        film = flooded = jnp.exp(found.log_thickness)
+        starved, residual = None, found.residual
+        if self.supply is not None:
+            starved = self.supply.starvation(contact, load, found.log_thickness, speed, inlet)
+            film, residual = starved.film, jnp.maximum(residual, starved.residual)
         traction = None
         if self.traction is not None:
             traction = self.traction.force(contact, load, film, speed, sliding_speed, base, lubricant, base_viscosity)
         rolling = None
         if self.rolling is not None:
-            rolling = self.rolling.force(contact, load, film, mean_speed, base_viscosity, inlet.pressure_viscosity)
-        return ContactState(film, found.rise, traction, rolling, jnp.max(found.residual))
+            rolling = self.rolling.force(contact, load, flooded, mean_speed, base_viscosity, inlet.pressure_viscosity)
+            if starved is not None:
+                rolling = rolling * starved.rolling_factor
+        return ContactState(film, found.rise, traction, rolling, jnp.max(residual), starved)

@@ -30,12 +30,13 @@ LARGEST_LOG = 600.0
 class Starvation(NamedTuple):
     """What the supply does to a contact.
 
-    `film`, m; `separation`, m, of the film in the equations that place a rolling element between the rings: the film
-    and a hundredth of what it lacks of the flooded one; `film_factor`, of the film, and `rolling_factor`, of the
+    `flooded` and `film`, with all oil and with this, m; `separation`, m, of the film in the equations that place a
+    rolling element between the rings: the film and a hundredth of what it lacks of the flooded one; `film_factor`, of the film, and `rolling_factor`, of the
     rolling resistance; `gap_over_central`, gap at the inlet meniscus over the flooded central film; `residual` of the
     nested solve for the gap, in units of its logarithm.
     """
 
+    flooded: Float[Array, "*batch"]
     film: Float[Array, "*batch"]
     separation: Float[Array, "*batch"]
     film_factor: Float[Array, "*batch"]
@@ -121,6 +122,7 @@ class Supply(Checked):
         published = self.rolling_law == "biboulet_houpert"
         rolling = supply.biboulet_houpert_rolling_factor if published else supply.starved_rolling_factor
         return Starvation(
+            flooded=flooded,
             film=factor * flooded,
             separation=flooded * (factor + SEPARATION_SHARE * (1.0 - factor)),
             film_factor=factor,

@@ -13,6 +13,7 @@ from ..numerics.structure import switch
 from .distributed import DistributedTraction, Traction
 from .heated_film import heated_film
 from .laws import SPEED_SMOOTHING
+from .oil_supply import Starvation, Supply
 from .patch import contact_patch
 from .point import PointContact
 from .point_film import AbstractPointFilm
@@ -23,13 +24,20 @@ from .thermal import AbstractThermalFactor, NoThermalReduction
 
 class PointFilm(NamedTuple):
     """Film, m, temperature of the oil that enters the contact and of the surfaces, K, rise above the bearing's inlet, K
-    (None: isothermal), viscosity there, Pa s, residual of the nested solve."""
+    (None: isothermal), viscosity there, Pa s, residual of the nested solves, what little oil does (None: fully
+    flooded)."""
 
     film: Float[Array, "*batch"]
     temperature: Float[Array, "*batch"]
     rise: Float[Array, "*batch"] | None
     viscosity: Float[Array, "*batch"]
     residual: Float[Array, "*batch"]
+    supply: Starvation | None = None
+
+    @property
+    def separation(self) -> Float[Array, "*batch"]:
+        """Film in the equations that place a ball between the rings, m."""
+        return self.film if self.supply is None else self.supply.separation
 
 
 class PointLaws(eqx.Module):
@@ -42,6 +50,7 @@ class PointLaws(eqx.Module):
     - `rolling_resistance`: whether the film's pressure resists rolling (`rolling.point_rolling_moment`).
     - `heathcote`: whether the race's curvature across rolling counts in the sliding (`Sliding.curvature`); the source's
       patch is flat.
+    - `supply`: how much oil there is, or `None`: fully flooded.
     """
 
     film: AbstractPointFilm
@@ -49,6 +58,7 @@ class PointLaws(eqx.Module):
     traction: DistributedTraction | None = None
     rolling_resistance: bool = switch("contact.rolling_resistance", False)
     heathcote: bool = switch("contact.heathcote", False)
+    supply: Supply | None = None
 
     def __check_init__(self):
         if self.heathcote and self.traction is None:
@@ -68,7 +78,11 @@ class PointLaws(eqx.Module):
         found = heated_film(self.film, self.thermal, contact, load, speed, sliding_speed, lubricant, inlet)
         temperature = inlet.temperature + (jnp.zeros_like(found.log_thickness) if found.rise is None else found.rise)
         viscosity = lubricant.viscosity.viscosity(0.0, temperature)
-        return PointFilm(jnp.exp(found.log_thickness), temperature, found.rise, viscosity, found.residual)
+        film, residual, starved = jnp.exp(found.log_thickness), found.residual, None
+        if self.supply is not None:
+            starved = self.supply.starvation(contact, load, found.log_thickness, speed, inlet)
+            film, residual = starved.film, jnp.maximum(residual, starved.residual)
+        return PointFilm(film, temperature, found.rise, viscosity, residual, starved)
 
     def shear(
         self,
@@ -101,4 +115,5 @@ class PointLaws(eqx.Module):
         speed = smooth_abs(mean_speed, SPEED_SMOOTHING)
         ratio = roll * contact.reduced_radius_rolling / speed
         moment = point_rolling_moment(contact, load, speed, film.viscosity, inlet.pressure_viscosity)
+        moment = moment if film.supply is None else moment * film.supply.rolling_factor
         return moment * ratio * jnp.sqrt(2.0 / (1.0 + jnp.square(ratio)))

@@ -95,7 +95,7 @@ def test_limits():
     # a rolling factor by Biboulet and Houpert, or by the fit, rises with the gap, from 0 to 1
     s = np.linspace(-40, 40, 801)
     for law in (supply.starved_rolling_factor, supply.biboulet_houpert_rolling_factor, supply.log_film_factor_of_gap):
-        assert np.all(np.diff(np.asarray(law(s))) >= 0)
+        assert np.all(np.diff(np.asarray(law(s))) >= -1e-15)  # round-off next to 1
 
 
 @pytest.mark.parametrize(

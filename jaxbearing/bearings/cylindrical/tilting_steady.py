@@ -167,6 +167,9 @@ def _films(
 
     carries, whole = loaded(contact, jnp.sum(laminae, axis=2), speed, inlet)
     each = LineContact(contact.reduced_radius[..., None], contact.length / laminae.shape[2], contact.reduced_modulus)
+    if inlet.flow is not None:
+        # of each lamina its share
+        inlet_along = dataclasses.replace(inlet_along, flow=inlet.flow / laminae.shape[2])
     carried, parts = loaded(each, laminae, speed[..., None], inlet_along)
     blank = lambda values: jnp.where(carries, values, jnp.nan)
     film = blank(whole.film)
