@@ -9,14 +9,16 @@ from jaxtyping import Array, Float
 from .._types import Values
 from ..lubricants import InletOil, Lubricant
 from ..numerics.safe import smooth_abs
-from ..numerics.structure import switch
+from ..numerics.structure import choice, switch
 from .distributed import DistributedTraction, Traction
 from .heated_film import heated_film
 from .laws import SPEED_SMOOTHING
 from .patch import contact_patch
 from .point import PointContact
 from .point_film import AbstractPointFilm
-from .rolling import point_rolling_moment
+from .point_rolling import AbstractPointRollingResistance
+from .rolling import RollingInlet
+from .rolling_heating import AIHARA, HEATINGS, aihara_factor, heating_of
 from .shear import Sliding
 from .thermal import AbstractThermalFactor, NoThermalReduction
 
@@ -39,7 +41,8 @@ class PointLaws(eqx.Module):
     - `film`: film thickness law.
     - `thermal`: thermal reduction of the film; its rise also warms the oil in the contact.
     - `traction`: the sheared film, or `None`: frictionless, and then the balls roll without sliding.
-    - `rolling_resistance`: whether the film's pressure resists rolling (`rolling.point_rolling_moment`).
+    - `rolling`: rolling resistance, or `None`: left out.
+    - `rolling_heating`: how inlet heating lowers it, as in `laws.ContactLaws`.
     - `heathcote`: whether the race's curvature across rolling counts in the sliding (`Sliding.curvature`); the source's
       patch is flat.
     """
@@ -47,7 +50,8 @@ class PointLaws(eqx.Module):
     film: AbstractPointFilm
     thermal: AbstractThermalFactor = NoThermalReduction()
     traction: DistributedTraction | None = None
-    rolling_resistance: bool = switch("contact.rolling_resistance", False)
+    rolling: AbstractPointRollingResistance | None = None
+    rolling_heating: str | None = choice("contact.rolling_heating", HEATINGS, None)
     heathcote: bool = switch("contact.heathcote", False)
 
     def __check_init__(self):
@@ -96,9 +100,14 @@ class PointLaws(eqx.Module):
         **Arguments:** `roll`, rad/s: rate of the relative roll about the axis across rolling, of the sign of the mean
         speed, m/s, in rolling without sliding.
         """
-        if not self.rolling_resistance:
+        if self.rolling is None:
             return None
         speed = smooth_abs(mean_speed, SPEED_SMOOTHING)
         ratio = roll * contact.reduced_radius_rolling / speed
-        moment = point_rolling_moment(contact, load, speed, film.viscosity, inlet.pressure_viscosity)
+        heated = heating_of(self.rolling, self.rolling_heating, self.thermal) == AIHARA
+        viscosity = inlet.viscosity if heated else film.viscosity
+        entering = RollingInlet(load, speed, viscosity, inlet.pressure_viscosity, film.film)
+        moment = self.rolling.moment(contact, entering)
+        if heated:
+            moment = moment * aihara_factor(speed, inlet)
         return moment * ratio * jnp.sqrt(2.0 / (1.0 + jnp.square(ratio)))

@@ -112,8 +112,8 @@ class TaperedRollerBearing(AbstractBearing):
             yield "oil: a scene with a [contact] table needs an oil"
         if self.drag is not None and self.oil is not None and self.oil.density is None:
             yield "oil.density: the drag needs it"
-        if self.rib is not None and self.rib.rolling_resistance:
-            yield "rib.rolling_resistance: the rib has none, the roller ends slide on it"
+        if self.rib is not None and self.rib.rolling is not None:
+            yield "rib.rolling: the rib has none, the roller ends slide on it"
         yield from refusals_of(self.operation.check_rings_turn)
 
     def solve_ring(

@@ -43,7 +43,11 @@ def _laws(table: TaperedContactTable, oil: Lubricant | None) -> ContactLaws:
     rolling = None if table.rolling_resistance is None else ROLLING[table.rolling_resistance]()
     traction = None if table.traction is None else MeanPressureTraction(viscous_function(table.traction, oil))
     return ContactLaws(
-        film=ROLLER_FILMS[table.film](), thermal=thermal_factor(table.thermal), traction=traction, rolling=rolling
+        film=ROLLER_FILMS[table.film](),
+        thermal=thermal_factor(table.thermal),
+        traction=traction,
+        rolling=rolling,
+        rolling_heating=table.rolling_heating,
     )
 
 
