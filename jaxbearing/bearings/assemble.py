@@ -23,6 +23,7 @@ from .solution import (
     RingDisplacement,
     Solution,
 )
+from .supplied import supply_result
 
 
 class Results(NamedTuple, Generic[Elements, Losses]):
@@ -62,6 +63,7 @@ def assemble(
     names["held_freedom"] = tuple(name for name in RING_FREEDOMS if name in modelled and name not in port.free)
     own = results._asdict()
     facts, costs = own.pop("facts"), own.pop("costs")
+    own["supply"] = supply_result(scene, facts.contacts[0].load, facts.contacts[0].starved)
     shown = own | costs._asdict() | {"ring": ring, "force": port.force, "stiffness": port.stiffness}
     checks = {text: value > 0 for text, value in input_excess(scene, held).items()}
     checks |= {

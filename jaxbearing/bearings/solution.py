@@ -17,6 +17,7 @@ from .._scene import label as label
 from ..numerics.status import Status
 from ..thermal.result import ThermalResult
 from .growth import FitResult
+from .supplied import SupplyResult
 
 INNER_TOLERANCE = 1e-8
 """A nested solve with a larger residual is named as the cause of a failure."""
@@ -192,6 +193,7 @@ class Solution(AbstractSolution, Generic[Point, Elements, Losses]):
     life: Any = None
     """A `life.result.Life` if the scene has a rating."""
     rolling_by_race: Float[Array, "2"] | None = None
+    supply: SupplyResult | None = None
 
     @property
     def freedoms_of_stiffness(self) -> tuple[str, ...]:

@@ -10,11 +10,13 @@ from ..lubricants import InletOil, Lubricant
 from ..numerics.checks import Checked, bounded
 from ..numerics.precision import as_float
 from ..numerics.safe import smooth_abs
+from ..numerics.structure import choice
 from .film import AbstractLineFilm
 from .heated_film import HeatedFilm, heated_film
 from .line import LineContact
 from .oil_supply import Starvation, Supply
-from .rolling import AbstractRollingResistance
+from .rolling import AbstractRollingResistance, RollingInlet
+from .rolling_heating import AIHARA, HEATINGS, aihara_factor, heating_of
 from .thermal import AbstractThermalFactor, NoThermalReduction
 from .traction import AbstractTraction
 
@@ -53,6 +55,9 @@ class ContactLaws(Checked):
     - `entrainment_offset`: added to the mean surface speed of every contact, m/s. 0 by default; the
       reference closure of the published check values uses 1 mm/s.
     - `rolling`: rolling resistance, or `None`: left out.
+    - `rolling_heating`: how inlet heating lowers the rolling resistance, `"aihara"` or `"film_temperature"`
+      (`rolling_heating`). Not given: as the law of rolling resistance has it (`own_heating`) where `thermal` is a
+      reduction, and none where the film is isothermal.
     - `entrainment_smoothing`: smoothing of the mean surface speed's modulus, m/s: what film a contact keeps whose
       surfaces pass through rest.
     - `supply`: how much oil there is, or `None`: fully flooded.
@@ -65,6 +70,7 @@ class ContactLaws(Checked):
     traction: AbstractTraction | None = None
     entrainment_offset: Scalar = bounded(">= 0", unit="m/s", converter=as_float, default=0.0)
     rolling: AbstractRollingResistance | None = None
+    rolling_heating: str | None = choice("contact.rolling_heating", HEATINGS, None)
     entrainment_smoothing: Scalar = bounded("> 0", unit="m/s", converter=as_float, default=SPEED_SMOOTHING)
     supply: Supply | None = None
 
@@ -114,9 +120,10 @@ class ContactLaws(Checked):
         """Film, temperature rise, traction and rolling resistance.
 
         The flooded film is phi_T times the isothermal film at the inlet temperature; a supply makes it thinner, and
-        lowers the rolling resistance of the flooded contact; traction and rolling resistance see
-        the oil at the inlet temperature plus the rise that explains phi_T (its pressure-viscosity coefficient at
-        the inlet temperature).
+        lowers the rolling resistance of the flooded contact. Traction sees the oil at the inlet temperature plus the
+        rise that explains phi_T. So does rolling resistance with the heating `film_temperature`, whose
+        pressure-viscosity coefficient is that at the inlet temperature; with `aihara` it sees the oil at the inlet
+        temperature.
 
         **Arguments:** `load`, N, > 0; `mean_speed` (u1 + u2)/2 and `sliding_speed` u1 - u2, m/s, of either sign;
         `inlet` = `lubricant.at(inlet temperature)`, evaluated once for all contacts.
@@ -137,7 +144,12 @@ class ContactLaws(Checked):
             traction = self.traction.force(contact, load, film, speed, sliding_speed, base, lubricant, base_viscosity)
         rolling = None
         if self.rolling is not None:
-            rolling = self.rolling.force(contact, load, flooded, mean_speed, base_viscosity, inlet.pressure_viscosity)
+            heated = heating_of(self.rolling, self.rolling_heating, self.thermal) == AIHARA
+            viscosity = inlet.viscosity if heated else base_viscosity
+            entering = RollingInlet(load, mean_speed, viscosity, inlet.pressure_viscosity, flooded)
+            rolling = self.rolling.force(contact, entering)
+            if heated:
+                rolling = rolling * aihara_factor(mean_speed, inlet)
             if starved is not None:
                 rolling = rolling * starved.rolling_factor
         return ContactState(film, found.rise, traction, rolling, jnp.max(residual), starved)

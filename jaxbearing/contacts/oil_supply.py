@@ -33,7 +33,8 @@ class Starvation(NamedTuple):
     `flooded` and `film`, with all oil and with this, m; `separation`, m, of the film in the equations that place a
     rolling element between the rings: the film and a hundredth of what it lacks of the flooded one; `film_factor`, of the film, and `rolling_factor`, of the
     rolling resistance; `gap_over_central`, gap at the inlet meniscus over the flooded central film; `residual` of the
-    nested solve for the gap, in units of its logarithm.
+    nested solve for the gap, in units of its logarithm; `reach`, half-width over the meniscus distance, where that is
+    given: the contact has no inlet from 1 on.
     """
 
     flooded: Float[Array, "*batch"]
@@ -43,6 +44,7 @@ class Starvation(NamedTuple):
     rolling_factor: Float[Array, "*batch"]
     gap_over_central: Float[Array, "*batch"]
     residual: Float[Array, "*batch"]
+    reach: Float[Array, "*batch"] | None = None
 
 
 def _optional(bound: str, unit: str) -> Scalar | None:
@@ -104,9 +106,13 @@ class Supply(Checked):
             raise ValueError("contact.supply.layer_exponent: only a layer, or one from_flow, has it")
 
     @property
-    def given(self) -> str:
-        """Name of the field that says how much oil there is."""
-        return next(name for name in GIVEN if getattr(self, name) is not None)
+    def stated(self) -> str:
+        """The supply in words, without its number."""
+        given = next(name for name in GIVEN if getattr(self, name) is not None)
+        if given == "level" and self.level is not None:
+            gap = f"inlet gap {LEVELS[self.level]:g} times the central film"
+            return f"level = '{self.level}' (assumed: {gap}; one standard deviation is a factor of 3)"
+        return f"given by contact.supply.{given}"
 
     def starvation(
         self, contact: LineContact | PointContact, load: Values, log_flooded: Values, speed: Values, inlet: InletOil
@@ -129,6 +135,7 @@ class Supply(Checked):
             rolling_factor=rolling(log_minimum),
             gap_over_central=jnp.exp(jnp.minimum(log_gap, LARGEST_LOG)),
             residual=residual,
+            reach=None if self.meniscus_distance is None else _half_width(contact, load) / self.meniscus_distance,
         )
 
     def _factor_and_gap(
@@ -156,8 +163,7 @@ class Supply(Checked):
         if self.layer is not None:
             return jnp.log(self.layer + supply.LAYER_FLOOR)
         assert inlet.flow is not None
-        line = isinstance(contact, LineContact)
-        width = contact.length if line else 2.0 * contact.semi_axis_transverse(load)
+        width = contact.length if isinstance(contact, LineContact) else 2.0 * contact.semi_axis_transverse(load)
         assert self.from_flow is not None
         return jnp.log(supply.layer_of_flow(self.from_flow, inlet.flow, width, speed) + supply.LAYER_FLOOR)
 
@@ -166,10 +172,8 @@ class Supply(Checked):
     ) -> tuple[Array, Array, Array]:
         """As `_factor_and_gap`, at a given distance of the meniscus."""
         assert self.meniscus_distance is not None
-        if isinstance(contact, LineContact):
-            half_width, radius = contact.half_width(load), contact.reduced_radius
-        else:
-            half_width, radius = contact.semi_axis_rolling(load), contact.reduced_radius_rolling
+        half_width = _half_width(contact, load)
+        radius = contact.reduced_radius if isinstance(contact, LineContact) else contact.reduced_radius_rolling
         hertz = jnp.log(supply.hertz_gap(half_width, radius, self.meniscus_distance)) - log_flooded
         if self.film_law == "gap":
             root = supply.log_gap_at_meniscus(hertz, self.gap_exponent)
@@ -177,3 +181,8 @@ class Supply(Checked):
         ratio = radius / jnp.square(half_width) * jnp.exp(log_flooded)
         factor = supply.hamrock_dowson_log_film_factor(self.meniscus_distance / half_width, ratio)
         return factor, log_add(factor, hertz), jnp.zeros_like(factor)
+
+
+def _half_width(contact: LineContact | PointContact, load: Values) -> Array:
+    """Half length of the contact along rolling, m."""
+    return contact.half_width(load) if isinstance(contact, LineContact) else contact.semi_axis_rolling(load)

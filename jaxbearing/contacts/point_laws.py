@@ -9,7 +9,7 @@ from jaxtyping import Array, Float
 from .._types import Values
 from ..lubricants import InletOil, Lubricant
 from ..numerics.safe import smooth_abs
-from ..numerics.structure import switch
+from ..numerics.structure import choice, switch
 from .distributed import DistributedTraction, Traction
 from .heated_film import heated_film
 from .laws import SPEED_SMOOTHING
@@ -17,7 +17,9 @@ from .oil_supply import Starvation, Supply
 from .patch import contact_patch
 from .point import PointContact
 from .point_film import AbstractPointFilm
-from .rolling import point_rolling_moment
+from .point_rolling import AbstractPointRollingResistance
+from .rolling import RollingInlet
+from .rolling_heating import AIHARA, HEATINGS, aihara_factor, heating_of
 from .shear import Sliding
 from .thermal import AbstractThermalFactor, NoThermalReduction
 
@@ -39,6 +41,11 @@ class PointFilm(NamedTuple):
         """Film in the equations that place a ball between the rings, m."""
         return self.film if self.supply is None else self.supply.separation
 
+    @property
+    def flooded(self) -> Float[Array, "*batch"]:
+        """Film with all the oil, m."""
+        return self.film if self.supply is None else self.supply.flooded
+
 
 class PointLaws(eqx.Module):
     """Laws of the lubricated contacts between balls and races.
@@ -47,7 +54,8 @@ class PointLaws(eqx.Module):
     - `film`: film thickness law.
     - `thermal`: thermal reduction of the film; its rise also warms the oil in the contact.
     - `traction`: the sheared film, or `None`: frictionless, and then the balls roll without sliding.
-    - `rolling_resistance`: whether the film's pressure resists rolling (`rolling.point_rolling_moment`).
+    - `rolling`: rolling resistance, or `None`: left out.
+    - `rolling_heating`: how inlet heating lowers it, as in `laws.ContactLaws`.
     - `heathcote`: whether the race's curvature across rolling counts in the sliding (`Sliding.curvature`); the source's
       patch is flat.
     - `supply`: how much oil there is, or `None`: fully flooded.
@@ -56,7 +64,8 @@ class PointLaws(eqx.Module):
     film: AbstractPointFilm
     thermal: AbstractThermalFactor = NoThermalReduction()
     traction: DistributedTraction | None = None
-    rolling_resistance: bool = switch("contact.rolling_resistance", False)
+    rolling: AbstractPointRollingResistance | None = None
+    rolling_heating: str | None = choice("contact.rolling_heating", HEATINGS, None)
     heathcote: bool = switch("contact.heathcote", False)
     supply: Supply | None = None
 
@@ -110,10 +119,16 @@ class PointLaws(eqx.Module):
         **Arguments:** `roll`, rad/s: rate of the relative roll about the axis across rolling, of the sign of the mean
         speed, m/s, in rolling without sliding.
         """
-        if not self.rolling_resistance:
+        if self.rolling is None:
             return None
         speed = smooth_abs(mean_speed, SPEED_SMOOTHING)
         ratio = roll * contact.reduced_radius_rolling / speed
-        moment = point_rolling_moment(contact, load, speed, film.viscosity, inlet.pressure_viscosity)
-        moment = moment if film.supply is None else moment * film.supply.rolling_factor
+        heated = heating_of(self.rolling, self.rolling_heating, self.thermal) == AIHARA
+        viscosity = inlet.viscosity if heated else film.viscosity
+        entering = RollingInlet(load, speed, viscosity, inlet.pressure_viscosity, film.flooded)
+        moment = self.rolling.moment(contact, entering)
+        if heated:
+            moment = moment * aihara_factor(speed, inlet)
+        if film.supply is not None:
+            moment = moment * film.supply.rolling_factor
         return moment * ratio * jnp.sqrt(2.0 / (1.0 + jnp.square(ratio)))
