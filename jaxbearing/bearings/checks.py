@@ -117,12 +117,12 @@ def _gupta(result: SolvedBearing) -> Excess:
 
 def _starved(result: SolvedBearing) -> Excess:
     thin = (
-        "{place} strongly starved: the film is less than half of the flooded one, and follows the supply, which is known "
-        "to a factor of 3 at best"
+        "{place} is strongly starved: the film is less than half of the flooded one, and follows the supply, "
+        "which is known to a factor of 3 at best"
     )
     inside = (
-        "the meniscus of contact.supply.meniscus_distance lies inside the contact on {place}: nothing enters it, and film "
-        "and rolling resistance have no meaning"
+        "the meniscus of contact.supply.meniscus_distance lies inside the contact on {place}: nothing enters it, "
+        "and film and rolling resistance have no meaning"
     )
 
     def starved(contacts: Contacts) -> Excess:

@@ -28,8 +28,8 @@ class ContactState(NamedTuple):
     """State of one contact: `film` m, `temperature_rise` K above the inlet, `traction` N (None: frictionless),
     `rolling_force` N (None: no rolling resistance), of the sign of the mean speed.
 
-    `inner_residual` is that of the nested solves for temperature rise and meniscus, in units of ln(film). `supply`: what
-    little oil does (None: fully flooded).
+    `inner_residual` is that of the nested solves for temperature rise and meniscus, in units of ln(film). `supply`:
+    what little oil does (None: fully flooded).
     """
 
     film: Float[Array, "*batch"]

@@ -1,6 +1,6 @@
 """How much oil reaches the raceway contacts of a bearing: the part `contact.supply` of a scene."""
 
-from typing import ClassVar, Literal, NamedTuple
+from typing import Any, ClassVar, Literal, NamedTuple
 
 import jax.numpy as jnp
 from jaxtyping import Array, Float
@@ -30,11 +30,13 @@ LARGEST_LOG = 600.0
 class Starvation(NamedTuple):
     """What the supply does to a contact.
 
-    `flooded` and `film`, with all oil and with this, m; `separation`, m, of the film in the equations that place a
-    rolling element between the rings: the film and a hundredth of what it lacks of the flooded one; `film_factor`, of the film, and `rolling_factor`, of the
-    rolling resistance; `gap_over_central`, gap at the inlet meniscus over the flooded central film; `residual` of the
-    nested solve for the gap, in units of its logarithm; `reach`, half-width over the meniscus distance, where that is
-    given: the contact has no inlet from 1 on.
+    - `flooded`, `film`: with all oil and with this, m.
+    - `separation`: film in the equations that place a rolling element between the rings, m: the film and a hundredth of
+      what it lacks of the flooded one.
+    - `film_factor`, of the film, and `rolling_factor`, of the rolling resistance.
+    - `gap_over_central`: gap at the inlet meniscus over the flooded central film.
+    - `residual`: of the nested solve for the gap, in units of its logarithm.
+    - `reach`: half-width over the meniscus distance, where that is given: the contact has no inlet from 1 on.
     """
 
     flooded: Float[Array, "*batch"]
@@ -47,7 +49,7 @@ class Starvation(NamedTuple):
     reach: Float[Array, "*batch"] | None = None
 
 
-def _optional(bound: str, unit: str) -> Scalar | None:
+def _optional(bound: str, unit: str) -> Any:
     return bounded(bound, unit=unit, converter=lambda v: None if v is None else as_float(v), default=None)
 
 

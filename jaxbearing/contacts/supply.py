@@ -69,9 +69,7 @@ def log_film_factor_of_layer(log_layer: Values, exponent: Values) -> Float[Array
     return -softplus(-exponent * log_layer) / exponent
 
 
-def log_gap_of_layer(
-    log_layer: Values, exponent: Values, gap_exponent: Values = GAP_EXPONENT
-) -> Float[Array, "..."]:
+def log_gap_of_layer(log_layer: Values, exponent: Values, gap_exponent: Values = GAP_EXPONENT) -> Float[Array, "..."]:
     r"""ln of the gap $S_c = \varphi_f/(1 - \varphi_f^g)^{1/g}$ that thins the film as much as a layer does.
 
     Nothing cancels where the layer is thick: $1 - \varphi_f^g = 1 - (1 + r^{-\gamma})^{-g/\gamma}$.
@@ -105,7 +103,7 @@ def layer_of_flow(capture: Values, oil_flow: Values, width: Values, speed: Value
 
 
 def hertz_gap(half_width: Values, radius: Values, distance: Values) -> Float[Array, "..."]:
-    r"""Gap of dry elastic bodies beside a line contact, m: $\frac{a^2}{2R}[X\sqrt{X^2-1} - \text{arccosh}X]$, $X = x/a$.
+    r"""Gap of dry elastic bodies beside a line, m: $\frac{a^2}{2R}[X\sqrt{X^2-1} - \text{arccosh}X]$, $X = x/a$.
 
     **Validity:** lines, and the plane of rolling of wide ellipses; beside a circle the gap is 18 % wider at X = 1.5.
     At X <= 1, where bodies touch, it goes on as $10^{-3}e^{1000(X-1)}$ for X - 1.
@@ -155,8 +153,9 @@ def starved_rolling_factor(log_gap_over_minimum: Values) -> Float[Array, "..."]:
 
     **Arguments:** `log_gap_over_minimum`, ln S.
     """
-    root = jnp.exp(-0.5 * _floored(log_gap_over_minimum))
-    return 1.0 / (1.0 + root * (1.4317 + root * (1.0161 + 6.559 * root * jnp.sqrt(root))))
+    log_gap = _floored(log_gap_over_minimum)
+    root = jnp.exp(-0.5 * log_gap)
+    return 1.0 / (1.0 + root * (1.4317 + 1.0161 * root) + 6.559 * jnp.exp(-1.75 * log_gap))
 
 
 def biboulet_houpert_rolling_factor(log_gap_over_minimum: Values) -> Float[Array, "..."]:
@@ -185,7 +184,9 @@ def hamrock_dowson_log_film_factor(distance_ratio: Values, film_ratio: Values) -
     return -softplus(-CORNER * 0.29 * log_share) / CORNER
 
 
-def levelling_time(viscosity: Values, half_width: Values, surface_tension: Values, layer: Values) -> Float[Array, "..."]:
+def levelling_time(
+    viscosity: Values, half_width: Values, surface_tension: Values, layer: Values
+) -> Float[Array, "..."]:
     r"""Time in which surface tension refills a track, s: $t = 3\mu b^4/(\sigma h^3)$, a scale.
 
     A minute for b = 0.5 mm and a layer of 10 um, where two rollers follow each other within a millisecond: side ridges,

@@ -74,7 +74,8 @@ class RaceFriction(NamedTuple):
     """Raceway contacts, races first. Without load a contact is not there: film and rise are NaN, forces are 0.
 
     `film`, m; `temperature_rise`, K; `rolling`, the force P, N; `capacity`: the traction at a slide-to-roll ratio of
-    `SKIDDING`, N; `speed`, m/s, and `radius`, m, of shape (2, 1); `residual` of nested solves; `starved`: what little oil does. None: not modelled.
+    `SKIDDING`, N; `speed`, m/s, and `radius`, m, of shape (2, 1); `residual` of nested solves; `starved`: what little
+    oil does. None: not modelled.
     """
 
     film: Float[Array, "2 roller"]

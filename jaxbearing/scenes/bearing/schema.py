@@ -7,8 +7,8 @@ from typing import Annotated, Any, ClassVar
 from ...bearings.cage import AbstractCage
 from ...bearings.operation import AbstractOperation, HeldDisplacement
 from ...bearings.rating import Rating
-from ...contacts.rolling_heating import AIHARA
 from ...contacts.oil_supply import GIVEN, Supply
+from ...contacts.rolling_heating import AIHARA
 from ...mounting import Fits, PartTemperatures
 from ...thermal.settings import Capacities, ConductanceFactors, Conductances, Shares, Thermal
 from ..laws import TURBULENCE, Laws
