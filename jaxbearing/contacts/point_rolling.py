@@ -25,6 +25,8 @@ class AbstractPointRollingResistance(eqx.Module):
     """The moment that opposes the rolling of two bodies in a point contact; it takes the power of their relative roll
     rate."""
 
+    name: ClassVar[str]
+    """Name in scene files and on the screen."""
     own_heating: ClassVar[str]
     """Inlet heating with which the law is used unless a scene names another one: one of `rolling_heating.HEATINGS`."""
 
@@ -47,6 +49,7 @@ class SourceRollingResistance(AbstractPointRollingResistance):
     **Reference:** source eqs. (86)-(87); Houpert (1987), whose exponents it has.
     """
 
+    name: ClassVar[str] = "source_86"
     own_heating: ClassVar[str] = FILM_TEMPERATURE
 
     def moment(self, contact: PointContact, inlet: RollingInlet) -> Float[Array, "..."]:
@@ -84,6 +87,7 @@ class BibouletHoupertPointRollingResistance(AbstractPointRollingResistance):
     """
 
     race_width: Values | None = None
+    name: ClassVar[str] = "biboulet_houpert"
     own_heating: ClassVar[str] = AIHARA
 
     def moment(self, contact: PointContact, inlet: RollingInlet) -> Float[Array, "..."]:
