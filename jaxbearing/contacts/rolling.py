@@ -57,6 +57,8 @@ class AbstractRollingResistance(eqx.Module):
     reduced radius R) with P R/R_k along it. Together they dissipate P u, u the mean speed.
     """
 
+    name: ClassVar[str]
+    """Name in scene files and on the screen."""
     piezoviscous_only: ClassVar[bool]
     """True if the law means nothing for an oil whose viscosity does not rise with pressure."""
     own_heating: ClassVar[str]
@@ -78,6 +80,7 @@ class RigidRollingResistance(AbstractRollingResistance):
     **Reference:** Martin (1916), Engineering 102, 119.
     """
 
+    name: ClassVar[str] = "rigid_isoviscous"
     piezoviscous_only: ClassVar[bool] = False
     own_heating: ClassVar[str] = FILM_TEMPERATURE
 
@@ -96,6 +99,7 @@ class ErtelGrubinRollingResistance(AbstractRollingResistance):
     **Reference:** own derivation with the inlet of Ertel and Grubin (1949).
     """
 
+    name: ClassVar[str] = "ertel_grubin_inlet"
     piezoviscous_only: ClassVar[bool] = True
     own_heating: ClassVar[str] = FILM_TEMPERATURE
 
@@ -115,6 +119,7 @@ class JoinedRollingResistance(AbstractRollingResistance):
     **Reference:** the two laws; the interpolation is ours.
     """
 
+    name: ClassVar[str] = "ertel_grubin"
     piezoviscous_only: ClassVar[bool] = True
     own_heating: ClassVar[str] = FILM_TEMPERATURE
 
@@ -144,6 +149,7 @@ class FullRangeRollingResistance(AbstractRollingResistance):
     **Reference:** own fit to own full solutions; Martin (1916) at light load.
     """
 
+    name: ClassVar[str] = "full_range"
     piezoviscous_only: ClassVar[bool] = False
     own_heating: ClassVar[str] = AIHARA
 
@@ -169,6 +175,7 @@ class BibouletHoupertRollingResistance(AbstractRollingResistance):
     **Reference:** Biboulet and Houpert (2010), Proc. IMechE J 224, part 1, eq. (42).
     """
 
+    name: ClassVar[str] = "biboulet_houpert"
     piezoviscous_only: ClassVar[bool] = False
     own_heating: ClassVar[str] = AIHARA
 

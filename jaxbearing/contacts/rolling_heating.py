@@ -40,3 +40,12 @@ def heating_of(law: Any, named: str | None, thermal: AbstractThermalFactor) -> s
     if named is not None:
         return named
     return FILM_TEMPERATURE if isinstance(thermal, NoThermalReduction) else law.own_heating
+
+
+def rolling_words(laws: Any) -> str:
+    """The law of rolling resistance and its inlet heating, for the screen. **Arguments:** `laws` of line or point
+    contacts, with rolling resistance."""
+    heating = heating_of(laws.rolling, laws.rolling_heating, laws.thermal)
+    if heating == FILM_TEMPERATURE and isinstance(laws.thermal, NoThermalReduction):
+        return f"{laws.rolling.name}, isothermal inlet"
+    return f"{laws.rolling.name}, inlet heating {heating}"

@@ -3,6 +3,7 @@
 from collections.abc import Mapping
 from typing import Annotated, ClassVar, Literal
 
+from ...bearings.parts import ContactLaws
 from ...bearings.tapered.geometry import TaperedGeometry
 from ...bearings.tapered.scene import TaperedOperation
 from ..bearing.profile import ProfileTable
@@ -34,7 +35,7 @@ class TaperedMaterialsTable(Table):
     rollers: MaterialField
 
 
-class TaperedContactTable(Table):
+class TaperedContactTable(table_of(ContactLaws, leave_out=("entrainment_offset", "entrainment_smoothing"))):
     """Laws of the contacts, by the names in `tapered.build`. `film`, `rolling_resistance`: of the raceways;
     `flange_film`: of the roller ends on the rib; `thermal`: of both, on the rib always Gupta's, the other one is made
     for lines; `traction`: of what slides on the rib, and what the raceways could carry.
@@ -42,7 +43,6 @@ class TaperedContactTable(Table):
     - `traction_accuracy`: relative error of the traction forces for which the march through the Hertz pressure is cut
     - `rolling_resistance`: of the raceways; `true`: the first of these laws; not given: none
     - `supply`: how much oil reaches the raceways; not given: they are fully flooded
-    - `rolling_heating`: how inlet heating lowers it; not given: as its law has it where `thermal` is given
     - `flange_film`: film law of the roller ends on the rib
     """
 
@@ -53,7 +53,6 @@ class TaperedContactTable(Table):
     film: Annotated[str, ROLLER_FILMS]
     thermal: Annotated[str, LINE_THERMAL] | None = None
     rolling_resistance: Annotated[str, ROLLING] | None = None
-    rolling_heating: Literal["aihara", "film_temperature"] | None = None
     flange_film: Annotated[str, RIB_FILMS] | None = None
     traction: Annotated[str, TRACTIONS] | None = None
     traction_accuracy: TractionAccuracy | None = None
