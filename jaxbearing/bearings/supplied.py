@@ -8,7 +8,7 @@ import jax.numpy as jnp
 from jaxtyping import Array, Float
 
 from .._scene import label
-from ..contacts.oil_supply import Starvation
+from ..contacts.oil_supply import Starvation, given_by
 from ..numerics.checks import known
 
 FLOODED = "fully flooded (assumed)"
@@ -24,17 +24,21 @@ class SupplyResult(eqx.Module):
     """Supply of the raceways. The numbers are those of the most loaded contact of each race, `None` where contacts are
     assumed to be flooded.
 
-    `stated`: the supply in words; `uses_flow`: whether it depends on the oil flow of the operating point.
+    `stated`: the supply in words.
     """
 
     stated: str = eqx.field(static=True)
-    uses_flow: bool = eqx.field(static=True, default=False)
     film_factor_inner: _Factor = _optional("starved over flooded film, inner raceway")
     film_factor_outer: _Factor = _optional("starved over flooded film, outer raceway")
     rolling_factor_inner: _Factor = _optional("starved over flooded rolling resistance, inner raceway")
     rolling_factor_outer: _Factor = _optional("starved over flooded rolling resistance, outer raceway")
     gap_over_central_inner: _Factor = _optional("gap at the inlet meniscus over flooded central film, inner raceway")
     gap_over_central_outer: _Factor = _optional("gap at the inlet meniscus over flooded central film, outer raceway")
+
+    @property
+    def uses_flow(self) -> bool:
+        """True if the supply depends on the oil flow of the operating point."""
+        return self.stated == given_by("from_flow")
 
 
 def supply_result(scene: Any, load: Float[Array, "2 element"], starved: Starvation | None) -> SupplyResult | None:
@@ -51,7 +55,7 @@ def supply_result(scene: Any, load: Float[Array, "2 element"], starved: Starvati
             values = jnp.broadcast_to(getattr(starved, name), load.shape)
             both = jnp.take_along_axis(values, most, axis=1)[:, 0]
             numbers |= {f"{name}_inner": both[0], f"{name}_outer": both[1]}
-    return SupplyResult(supply.stated, supply.from_flow is not None, **numbers)
+    return SupplyResult(supply.stated, **numbers)
 
 
 def supply_problems(scene: Any) -> Iterator[str]:
@@ -59,3 +63,11 @@ def supply_problems(scene: Any) -> Iterator[str]:
     supply = None if scene.contact is None else scene.contact.supply
     if supply is not None and supply.from_flow is not None and known(scene.operation.oil_flow) == (0.0,):
         yield "operation.oil_flow: contact.supply.from_flow needs a volume flow > 0"
+
+
+def supply_notes(scene: Any) -> tuple[str, ...]:
+    """The supply in words, for the notes of a run in time."""
+    if scene.contact is None:
+        return ()
+    supply = scene.contact.supply
+    return (f"oil supply of the raceways: {FLOODED if supply is None else supply.stated}",)

@@ -49,6 +49,11 @@ class Starvation(NamedTuple):
     reach: Float[Array, "*batch"] | None = None
 
 
+def given_by(field: str) -> str:
+    """The supply in words, by the field that gives it."""
+    return f"given by contact.supply.{field}"
+
+
 def _optional(bound: str, unit: str) -> Any:
     return bounded(bound, unit=unit, converter=lambda v: None if v is None else as_float(v), default=None)
 
@@ -114,7 +119,7 @@ class Supply(Checked):
         if given == "level" and self.level is not None:
             gap = f"inlet gap {LEVELS[self.level]:g} times the central film"
             return f"level = '{self.level}' (assumed: {gap}; one standard deviation is a factor of 3)"
-        return f"given by contact.supply.{given}"
+        return given_by(given)
 
     def starvation(
         self, contact: LineContact | PointContact, load: Values, log_flooded: Values, speed: Values, inlet: InletOil
