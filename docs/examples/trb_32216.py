@@ -42,8 +42,8 @@ SCENE = {
             "temperature_1": "42 degC",
             "viscosity_2": "60.5913 cSt",
             "temperature_2": "50 degC",
+            "pressure_viscosity": "20.126 1/GPa",
         },
-        "pressure_viscosity": "20.126 1/GPa",
         "rheology": {
             "law": "exponential",
             "viscous_function": "ree_eyring",
