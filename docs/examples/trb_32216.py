@@ -7,10 +7,10 @@ of MEGT (TU Kaiserslautern), mineral oil FVA3 (ISO VG 100), the level at half a 
 table: the torques were read off its figures by others, to about 5 %. Figure 7 is left out: at nearly the load of
 Figure 5 it has half the torque, and its set-up is not understood.
 
-Rollers, their number and pitch diameter are those of the paper. The raceway angles are not in it: that of the cup is one
-that others took, that of the cone follows from a common apex. Angle of the rib and radius of the roller ends are assumed,
-and the paper's profile is left out. The oil's pressure coefficient follows from Dicke's modulus equation; its shear
-constants, for the rib, are assumed.
+Rollers, their number and pitch diameter are those of the paper. The raceway angles are not in it: that of the cup is
+one that others took, that of the cone follows from a common apex. Angle of the rib and radius of the roller ends are
+assumed, and the paper's profile is left out. The oil's pressure coefficient follows from Dicke's modulus equation; its
+shear constants, for the rib, are assumed.
 
 Nothing is tuned but one number: S = 4.6, the gap at the inlet meniscus over the minimum film (3.45 times the central
 film), the same at all points. It is fitted to these torques and explains none of them.
@@ -82,7 +82,9 @@ OVER_MINIMUM, MINIMUM_OVER_CENTRAL = 4.6, 0.75
 STARVED = {"gap_over_central": OVER_MINIMUM * MINIMUM_OVER_CENTRAL}
 
 
-def scene_at(axial: float, radial: float, rpm: float, celsius: float, supply: dict[str, float] | None) -> jb.TaperedRollerBearing:
+def scene_at(
+    axial: float, radial: float, rpm: float, celsius: float, supply: dict[str, float] | None
+) -> jb.TaperedRollerBearing:
     """The bearing at an operating point. **Arguments:** loads, kN; `supply`: table; `None`: flooded."""
     operation = {
         "inner_speed": f"{rpm} rpm",
@@ -93,6 +95,11 @@ def scene_at(axial: float, radial: float, rpm: float, celsius: float, supply: di
         operation["radial_load"] = f"{radial} kN"
     contact = SCENE["contact"] | ({} if supply is None else {"supply": supply})
     return jb.scene_from_mapping(SCENE | {"contact": contact, "operation": operation})
+
+
+def solved(axial: float, radial: float, rpm: float, celsius: float, supply: dict[str, float] | None) -> jb.Solution:
+    """The steady state; arguments as for `scene_at`."""
+    return jb.solve(scene_at(axial, radial, rpm, celsius, supply))
 
 
 def torque(solution: jb.Solution, rpm: float) -> float:
@@ -107,7 +114,7 @@ def main() -> None:
     for figure, axial, radial, rpm, celsius, measured in MEASURED:
         cells = [f"{figure}", f"{axial:g}, {radial:g}", f"{rpm}", f"{celsius}", f"{measured}"]
         for supply in (None, STARVED):
-            solution = jb.solve(scene_at(axial, radial, rpm, celsius, supply))
+            solution = solved(axial, radial, rpm, celsius, supply)
             found = torque(solution, rpm)
             cells.append(f"{found:.0f} ({found / measured:.2f})")
         factors = solution.supply
