@@ -6,6 +6,7 @@ import jax
 import jax.numpy as jnp
 from jaxtyping import Array, Int
 
+from ..contacts.rolling_heating import rolling_words
 from ..numerics.newton import NewtonResult
 from .bearing import AbstractBearing
 from .checks import input_excess, result_excess
@@ -22,8 +23,10 @@ from .solution import (
     Losses,
     RacewayPower,
     RingDisplacement,
+    RollingByRace,
     Solution,
 )
+from .supplied import supply_result
 
 
 class Results(NamedTuple, Generic[Elements, Losses]):
@@ -63,7 +66,11 @@ def assemble(
     names["held_freedom"] = tuple(name for name in RING_FREEDOMS if name in modelled and name not in port.free)
     own = results._asdict()
     facts, costs = own.pop("facts"), own.pop("costs")
+    own["supply"] = supply_result(scene, facts.contacts[0].load, facts.contacts[0].starved)
     shown = own | costs._asdict() | {"ring": ring, "force": port.force, "stiffness": port.stiffness}
+    by_race = costs.rolling_by_race
+    if by_race is not None:
+        shown["rolling_by_race"] = RollingByRace(by_race[0], by_race[1], rolling_words(scene.contact))
     shown["frequencies"] = frequencies_of_motion(scene, results.elements, results.cage)
     shown["textbook_frequencies"] = textbook_frequencies(scene)
     checks = {text: value > 0 for text, value in input_excess(scene, held).items()}

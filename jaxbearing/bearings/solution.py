@@ -18,6 +18,7 @@ from ..numerics.status import Status
 from ..thermal.result import ThermalResult
 from .frequencies import KinematicFrequencies
 from .growth import FitResult
+from .supplied import SupplyResult
 
 INNER_TOLERANCE = 1e-8
 """A nested solve with a larger residual is named as the cause of a failure."""
@@ -97,6 +98,14 @@ class RacewayPower(eqx.Module):
     )
 
 
+class RollingByRace(eqx.Module):
+    """Rolling resistance of each raceway; `law`: its law and the inlet heating, in words."""
+
+    inner: Float[Array, ""] = eqx.field(metadata=label("W", "rolling resistance of the inner raceway"))
+    outer: Float[Array, ""] = eqx.field(metadata=label("W", "rolling resistance of the outer raceway"))
+    law: str = eqx.field(static=True)
+
+
 class LaminaLoads(eqx.Module):
     """Loads on the laminae (slices) of rollers along their length, beginning at the end s = 0.
 
@@ -138,8 +147,7 @@ class Solution(AbstractSolution, Generic[Point, Elements, Losses]):
     - `global_equations`: number of equations that belong to no single rolling element.
     - `notes`: what the model assumes or leaves out.
     - `element_name`: "ball" or "roller".
-    - `rolling_by_race`: rolling resistance of the inner and the outer raceway, W, of a scene whose interactions have
-      oil temperatures of their own: for the thermal network around it.
+    - `rolling_by_race`: parts of `power_loss.rolling_resistance`; `None`: not modelled.
     """
 
     status: Int[Array, ""] = eqx.field(metadata=label("1", "how the solve ended"))
@@ -192,7 +200,8 @@ class Solution(AbstractSolution, Generic[Point, Elements, Losses]):
     """Possible causes of a failed solve: text with places for numbers, such as `{:.3g}` -> its `FailureCause`."""
     life: Any = None
     """A `life.result.Life` if the scene has a rating."""
-    rolling_by_race: Float[Array, "2"] | None = None
+    rolling_by_race: RollingByRace | None = None
+    supply: SupplyResult | None = None
     frequencies: KinematicFrequencies | None = None
     """Frequencies of the motion that was solved."""
     textbook_frequencies: KinematicFrequencies | None = None

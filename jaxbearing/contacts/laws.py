@@ -10,10 +10,13 @@ from ..lubricants import InletOil, Lubricant
 from ..numerics.checks import Checked, bounded
 from ..numerics.precision import as_float
 from ..numerics.safe import smooth_abs
+from ..numerics.structure import choice
 from .film import AbstractLineFilm
 from .heated_film import HeatedFilm, heated_film
 from .line import LineContact
-from .rolling import AbstractRollingResistance
+from .oil_supply import Starvation, Supply
+from .rolling import AbstractRollingResistance, RollingInlet
+from .rolling_heating import AIHARA, HEATINGS, aihara_factor, heating_of
 from .thermal import AbstractThermalFactor, NoThermalReduction
 from .traction import AbstractTraction
 
@@ -25,7 +28,8 @@ class ContactState(NamedTuple):
     """State of one contact: `film` m, `temperature_rise` K above the inlet, `traction` N (None: frictionless),
     `rolling_force` N (None: no rolling resistance), of the sign of the mean speed.
 
-    `inner_residual` is that of the nested solve for the temperature rise, in units of ln(film).
+    `inner_residual` is that of the nested solves for temperature rise and meniscus, in units of ln(film). `supply`:
+    what little oil does (None: fully flooded).
     """
 
     film: Float[Array, "*batch"]
@@ -33,6 +37,12 @@ class ContactState(NamedTuple):
     traction: Float[Array, "*batch"] | None
     rolling_force: Float[Array, "*batch"] | None
     inner_residual: Float[Array, ""]
+    supply: Starvation | None = None
+
+    @property
+    def separation(self) -> Float[Array, "*batch"]:
+        """Film in the equations that place a rolling element between the rings, m."""
+        return self.film if self.supply is None else self.supply.separation
 
 
 class ContactLaws(Checked):
@@ -45,8 +55,12 @@ class ContactLaws(Checked):
     - `entrainment_offset`: added to the mean surface speed of every contact, m/s. 0 by default; the
       reference closure of the published check values uses 1 mm/s.
     - `rolling`: rolling resistance, or `None`: left out.
+    - `rolling_heating`: how inlet heating lowers the rolling resistance, `"aihara"` or `"film_temperature"`
+      (`rolling_heating`). Not given: as the law of rolling resistance has it (`own_heating`) where `thermal` is a
+      reduction, and none where the film is isothermal.
     - `entrainment_smoothing`: smoothing of the mean surface speed's modulus, m/s: what film a contact keeps whose
       surfaces pass through rest.
+    - `supply`: how much oil there is, or `None`: fully flooded.
     """
 
     part: ClassVar[str] = "contact"
@@ -56,7 +70,9 @@ class ContactLaws(Checked):
     traction: AbstractTraction | None = None
     entrainment_offset: Scalar = bounded(">= 0", unit="m/s", converter=as_float, default=0.0)
     rolling: AbstractRollingResistance | None = None
+    rolling_heating: str | None = choice("contact.rolling_heating", HEATINGS, None)
     entrainment_smoothing: Scalar = bounded("> 0", unit="m/s", converter=as_float, default=SPEED_SMOOTHING)
+    supply: Supply | None = None
 
     def entrainment(self, mean_speed: Values) -> Float[Array, "..."]:
         """Entrainment speed of the film, m/s, > 0. **Arguments:** `mean_speed` (u1 + u2)/2, m/s, of either sign."""
@@ -71,9 +87,26 @@ class ContactLaws(Checked):
         lubricant: Lubricant,
         inlet: InletOil,
     ) -> HeatedFilm:
-        """The film alone; arguments as in `evaluate`."""
+        """The flooded film alone; arguments as in `evaluate`."""
         speed = self.entrainment(mean_speed)
         return heated_film(self.film, self.thermal, contact, load, speed, sliding_speed, lubricant, inlet)
+
+    def separation(
+        self,
+        contact: LineContact,
+        load: Values,
+        mean_speed: Values,
+        sliding_speed: Values,
+        lubricant: Lubricant,
+        inlet: InletOil,
+    ) -> tuple[Array, Array]:
+        """`ContactState.separation` alone, m, and the residual of nested solves; arguments as in `evaluate`."""
+        found = self.heated_film(contact, load, mean_speed, sliding_speed, lubricant, inlet)
+        if self.supply is None:
+            return jnp.exp(found.log_thickness), found.residual
+        speed = self.entrainment(mean_speed)
+        starved = self.supply.starvation(contact, load, found.log_thickness, speed, inlet)
+        return starved.separation, jnp.maximum(found.residual, starved.residual)
 
     def evaluate(
         self,
@@ -86,9 +119,11 @@ class ContactLaws(Checked):
     ) -> ContactState:
         """Film, temperature rise, traction and rolling resistance.
 
-        The film is phi_T times the isothermal film at the inlet temperature; traction and rolling resistance see
-        the oil at the inlet temperature plus the rise that explains phi_T (its pressure-viscosity coefficient at
-        the inlet temperature).
+        The flooded film is phi_T times the isothermal film at the inlet temperature; a supply makes it thinner, and
+        lowers the rolling resistance of the flooded contact. Traction sees the oil at the inlet temperature plus the
+        rise that explains phi_T. So does rolling resistance with the heating `film_temperature`, whose
+        pressure-viscosity coefficient is that at the inlet temperature; with `aihara` it sees the oil at the inlet
+        temperature.
 
         **Arguments:** `load`, N, > 0; `mean_speed` (u1 + u2)/2 and `sliding_speed` u1 - u2, m/s, of either sign;
         `inlet` = `lubricant.at(inlet temperature)`, evaluated once for all contacts.
@@ -99,11 +134,22 @@ class ContactLaws(Checked):
         if found.rise is not None:
             base = inlet.temperature + found.rise
             base_viscosity = lubricant.viscosity.viscosity(0.0, base)
-        film = jnp.exp(found.log_thickness)
+        film = flooded = jnp.exp(found.log_thickness)
+        starved, residual = None, found.residual
+        if self.supply is not None:
+            starved = self.supply.starvation(contact, load, found.log_thickness, speed, inlet)
+            film, residual = starved.film, jnp.maximum(residual, starved.residual)
         traction = None
         if self.traction is not None:
             traction = self.traction.force(contact, load, film, speed, sliding_speed, base, lubricant, base_viscosity)
         rolling = None
         if self.rolling is not None:
-            rolling = self.rolling.force(contact, load, film, mean_speed, base_viscosity, inlet.pressure_viscosity)
-        return ContactState(film, found.rise, traction, rolling, jnp.max(found.residual))
+            heated = heating_of(self.rolling, self.rolling_heating, self.thermal) == AIHARA
+            viscosity = inlet.viscosity if heated else base_viscosity
+            entering = RollingInlet(load, mean_speed, viscosity, inlet.pressure_viscosity, flooded)
+            rolling = self.rolling.force(contact, entering)
+            if heated:
+                rolling = rolling * aihara_factor(mean_speed, inlet)
+            if starved is not None:
+                rolling = rolling * starved.rolling_factor
+        return ContactState(film, found.rise, traction, rolling, jnp.max(residual), starved)

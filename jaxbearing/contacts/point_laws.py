@@ -9,27 +9,42 @@ from jaxtyping import Array, Float
 from .._types import Values
 from ..lubricants import InletOil, Lubricant
 from ..numerics.safe import smooth_abs
-from ..numerics.structure import switch
+from ..numerics.structure import choice, switch
 from .distributed import DistributedTraction, Traction
 from .heated_film import heated_film
 from .laws import SPEED_SMOOTHING
+from .oil_supply import Starvation, Supply
 from .patch import contact_patch
 from .point import PointContact
 from .point_film import AbstractPointFilm
-from .rolling import point_rolling_moment
+from .point_rolling import AbstractPointRollingResistance
+from .rolling import RollingInlet
+from .rolling_heating import AIHARA, HEATINGS, aihara_factor, heating_of
 from .shear import Sliding
 from .thermal import AbstractThermalFactor, NoThermalReduction
 
 
 class PointFilm(NamedTuple):
     """Film, m, temperature of the oil that enters the contact and of the surfaces, K, rise above the bearing's inlet, K
-    (None: isothermal), viscosity there, Pa s, residual of the nested solve."""
+    (None: isothermal), viscosity there, Pa s, residual of the nested solves, what little oil does (None: fully
+    flooded)."""
 
     film: Float[Array, "*batch"]
     temperature: Float[Array, "*batch"]
     rise: Float[Array, "*batch"] | None
     viscosity: Float[Array, "*batch"]
     residual: Float[Array, "*batch"]
+    supply: Starvation | None = None
+
+    @property
+    def separation(self) -> Float[Array, "*batch"]:
+        """Film in the equations that place a ball between the rings, m."""
+        return self.film if self.supply is None else self.supply.separation
+
+    @property
+    def flooded(self) -> Float[Array, "*batch"]:
+        """Film with all the oil, m."""
+        return self.film if self.supply is None else self.supply.flooded
 
 
 class PointLaws(eqx.Module):
@@ -39,16 +54,20 @@ class PointLaws(eqx.Module):
     - `film`: film thickness law.
     - `thermal`: thermal reduction of the film; its rise also warms the oil in the contact.
     - `traction`: the sheared film, or `None`: frictionless, and then the balls roll without sliding.
-    - `rolling_resistance`: whether the film's pressure resists rolling (`rolling.point_rolling_moment`).
+    - `rolling`: rolling resistance, or `None`: left out.
+    - `rolling_heating`: how inlet heating lowers it, as in `laws.ContactLaws`.
     - `heathcote`: whether the race's curvature across rolling counts in the sliding (`Sliding.curvature`); the source's
       patch is flat.
+    - `supply`: how much oil there is, or `None`: fully flooded.
     """
 
     film: AbstractPointFilm
     thermal: AbstractThermalFactor = NoThermalReduction()
     traction: DistributedTraction | None = None
-    rolling_resistance: bool = switch("contact.rolling_resistance", False)
+    rolling: AbstractPointRollingResistance | None = None
+    rolling_heating: str | None = choice("contact.rolling_heating", HEATINGS, None)
     heathcote: bool = switch("contact.heathcote", False)
+    supply: Supply | None = None
 
     def __check_init__(self):
         if self.heathcote and self.traction is None:
@@ -68,7 +87,11 @@ class PointLaws(eqx.Module):
         found = heated_film(self.film, self.thermal, contact, load, speed, sliding_speed, lubricant, inlet)
         temperature = inlet.temperature + (jnp.zeros_like(found.log_thickness) if found.rise is None else found.rise)
         viscosity = lubricant.viscosity.viscosity(0.0, temperature)
-        return PointFilm(jnp.exp(found.log_thickness), temperature, found.rise, viscosity, found.residual)
+        film, residual, starved = jnp.exp(found.log_thickness), found.residual, None
+        if self.supply is not None:
+            starved = self.supply.starvation(contact, load, found.log_thickness, speed, inlet)
+            film, residual = starved.film, jnp.maximum(residual, starved.residual)
+        return PointFilm(film, temperature, found.rise, viscosity, residual, starved)
 
     def shear(
         self,
@@ -96,9 +119,16 @@ class PointLaws(eqx.Module):
         **Arguments:** `roll`, rad/s: rate of the relative roll about the axis across rolling, of the sign of the mean
         speed, m/s, in rolling without sliding.
         """
-        if not self.rolling_resistance:
+        if self.rolling is None:
             return None
         speed = smooth_abs(mean_speed, SPEED_SMOOTHING)
         ratio = roll * contact.reduced_radius_rolling / speed
-        moment = point_rolling_moment(contact, load, speed, film.viscosity, inlet.pressure_viscosity)
+        heated = heating_of(self.rolling, self.rolling_heating, self.thermal) == AIHARA
+        viscosity = inlet.viscosity if heated else film.viscosity
+        entering = RollingInlet(load, speed, viscosity, inlet.pressure_viscosity, film.flooded)
+        moment = self.rolling.moment(contact, entering)
+        if heated:
+            moment = moment * aihara_factor(speed, inlet)
+        if film.supply is not None:
+            moment = moment * film.supply.rolling_factor
         return moment * ratio * jnp.sqrt(2.0 / (1.0 + jnp.square(ratio)))

@@ -43,7 +43,7 @@ SCENES = {
     "roller": lambda: jb.load_scene("turbine_roller", {"contact.rolling_resistance": "ertel_grubin", **_RATING}),
     "dry roller": lambda: jb.load_scene("turbine_roller", dict.fromkeys(("contact", "cage", "flange", "drag"), "none")),
     "misaligned roller": lambda: page_scene(),
-    "tapered": lambda: jb.load_scene("tapered_example", _RATING),
+    "tapered": lambda: jb.load_scene("tapered_example", {"contact.supply.layer": "2 um", **_RATING}),
     "one temperature": lambda: warm("roller", 1),
     "four temperatures": lambda: warm("roller", 4, stability="true"),
     "six temperatures": lambda: warm(

@@ -41,6 +41,7 @@ from ..rated import RatedContacts
 from ..rating import Rating
 from ..ring import InnerRing
 from ..solution import Solution
+from ..supplied import supply_problems
 from ..warm import thermal_problems
 from ..warming.settings import WarmUpSimulation
 from .geometry import BallGeometry
@@ -162,6 +163,7 @@ class BallBearing(AbstractBearing):
     def _problems(self) -> Iterator[str | ValueError]:
         yield from mounting_problems(self)
         yield from thermal_problems(self)
+        yield from supply_problems(self)
         if not self.slips and self.kinematics.attitude not in ("outer", "inner"):
             yield (
                 f"kinematics.attitude: '{self.kinematics.attitude}' needs traction (contact.traction); without "
@@ -241,7 +243,7 @@ class BallBearing(AbstractBearing):
 
     @property
     def dissipates(self) -> bool:
-        return self.contact is not None and (self.slips or self.contact.rolling_resistance)
+        return self.contact is not None and (self.slips or self.contact.rolling is not None)
 
     @property
     def ring_lever(self) -> Array:

@@ -41,6 +41,7 @@ from jaxtyping import Array, Float
 
 from ...contacts import LineContact, PointContact, Sliding, Traction
 from ...contacts.laws import ContactLaws
+from ...contacts.oil_supply import Starvation
 from ...contacts.point_laws import PointFilm
 from ...gaps import RollerDrag
 from ...lubricants import InletOil, Lubricant
@@ -73,7 +74,8 @@ class RaceFriction(NamedTuple):
     """Raceway contacts, races first. Without load a contact is not there: film and rise are NaN, forces are 0.
 
     `film`, m; `temperature_rise`, K; `rolling`, the force P, N; `capacity`: the traction at a slide-to-roll ratio of
-    `SKIDDING`, N; `speed`, m/s, and `radius`, m, of shape (2, 1); `residual` of nested solves. None: not modelled.
+    `SKIDDING`, N; `speed`, m/s, and `radius`, m, of shape (2, 1); `residual` of nested solves; `starved`: what little
+    oil does. None: not modelled.
     """
 
     film: Float[Array, "2 roller"]
@@ -83,6 +85,7 @@ class RaceFriction(NamedTuple):
     speed: Float[Array, "2 1"]
     radius: Float[Array, "2 1"]
     residual: Float[Array, ""]
+    starved: Starvation | None
 
 
 class RibFriction(NamedTuple):
@@ -166,8 +169,7 @@ def tapered_friction(scene: TaperedRollerBearing, state: TaperedState) -> Tapere
     found = [Interaction("", None, inner, outer)]
     if races.rolling is not None:
         powers = total(races.rolling * races.speed)
-        own = None if elsewhere is None else powers
-        found.append(Interaction("rolling_resistance", jnp.sum(powers), by_race=own))
+        found.append(Interaction("rolling_resistance", jnp.sum(powers), by_race=powers))
     if traction is not None:
         found.append(Interaction("flange", total(traction.power)))
     if drag is not None:
@@ -224,6 +226,7 @@ def _races(
         speed=speed,
         radius=jnp.broadcast_to(contact.reduced_radius, (2, 1)),
         residual=found.inner_residual,
+        starved=found.supply,
     )
 
 

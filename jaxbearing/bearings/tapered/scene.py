@@ -38,6 +38,7 @@ from ..rated import RatedContacts
 from ..rating import Rating
 from ..ring import InnerRing
 from ..solution import Solution
+from ..supplied import supply_problems
 from ..warm import thermal_problems
 from ..warming.settings import WarmUpSimulation
 from .geometry import TaperedGeometry
@@ -106,6 +107,7 @@ class TaperedRollerBearing(AbstractBearing):
     def _problems(self) -> Iterator[str | ValueError]:
         yield from mounting_problems(self)
         yield from thermal_problems(self)
+        yield from supply_problems(self)
         if self.contact is None:
             if self.rib is not None:
                 yield "contact: a scene with laws of the rib needs those of the raceways"
@@ -114,8 +116,8 @@ class TaperedRollerBearing(AbstractBearing):
             yield "oil: a scene with a [contact] table needs an oil"
         if self.drag is not None and self.oil is not None and self.oil.density is None:
             yield "oil.density: the drag needs it"
-        if self.rib is not None and self.rib.rolling_resistance:
-            yield "rib.rolling_resistance: the rib has none, the roller ends slide on it"
+        if self.rib is not None and self.rib.rolling is not None:
+            yield "rib.rolling: the rib has none, the roller ends slide on it"
         yield from refusals_of(self.operation.check_rings_turn)
 
     def solve_ring(

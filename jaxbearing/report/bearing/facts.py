@@ -26,6 +26,10 @@ def facts(solution: Solution) -> Iterator[tuple[str, str]]:
         place = f"eccentricity ratio {digits(float(cage.eccentricity_ratio), 3)}"
         angle = f"attitude angle {with_unit(float(cage.attitude_angle), 'rad', 3)}"
         yield "Cage", f"{with_unit(float(cage.speed), 'rad/s')}, {slip}, {place}, {angle}"
+    rolling = solution.rolling_by_race
+    if rolling is not None:
+        parts = f"inner {digits(float(rolling.inner))} W, outer {digits(float(rolling.outer))} W"
+        yield "Rolling resistance", f"{parts} ({rolling.law})"
     if solution.fit is not None:
         yield from fit_facts(solution.fit)
     if solution.thermal is not None:
@@ -41,6 +45,7 @@ def facts(solution: Solution) -> Iterator[tuple[str, str]]:
         text = ", ".join(_extremes(solution.elements, name, pick))
         if text:
             yield title, text
+    yield from _supply(solution)
     yield from _frequencies(solution)
     yield from _life(solution)
 
@@ -80,6 +85,20 @@ def _life(solution: Solution) -> Iterator[tuple[str, str]]:
         said.append(f"a_ISO {digits(of('modification_factor'), 3)}")
     if said:
         yield "Lubrication", ", ".join(said)
+
+
+def _supply(solution: Solution) -> Iterator[tuple[str, str]]:
+    """The supply in words, and what it does to the most loaded contacts."""
+    supply = solution.supply
+    if supply is None:
+        return
+    yield "Oil supply", supply.stated
+    if supply.film_factor_inner is None:
+        return
+    for side in ("inner", "outer"):
+        of = lambda name, side=side: digits(float(getattr(supply, f"{name}_{side}")), 3)
+        factors = f"film factor {of('film_factor')}, rolling factor {of('rolling_factor')}"
+        yield "", f"{side} race {factors}, inlet gap {of('gap_over_central')} times the central film"
 
 
 def _revolutions(millions: float) -> str:

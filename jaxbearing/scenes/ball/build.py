@@ -14,11 +14,11 @@ from ...bearings.ball.scene import (
     BallOperation,
 )
 from ...bearings.rating import Rating
-from ...contacts import PointLaws
+from ...contacts import PointLaws, Supply
 from ...lubricants import Lubricant
 from ..bearing.build import built, cage, part, seats, solids
 from ..bearing.simulation import warm_up
-from ..laws import BALL_FILMS, distributed_traction, thermal_factor
+from ..laws import BALL_FILMS, POINT_ROLLING, distributed_traction, thermal_factor
 from ..oil.catalogue import lubricant
 from .schema import BallBearingTable, BallContactTable, KinematicsTable
 
@@ -85,6 +85,8 @@ def _laws(table: BallContactTable, oil: Lubricant | None) -> PointLaws:
         film=BALL_FILMS[table.film](),
         thermal=thermal_factor(table.thermal),
         traction=traction,
-        rolling_resistance=table.rolling_resistance is not None,
+        rolling=None if table.rolling_resistance is None else POINT_ROLLING[table.rolling_resistance](),
+        rolling_heating=table.rolling_heating,
         heathcote=table.heathcote,
+        supply=part(Supply, table.supply, exclude_none=True),
     )

@@ -15,14 +15,16 @@ from ..bearing.schema import (
     CageBase,
     FitsTable,
     RatingTable,
+    SupplyTable,
     TemperaturesTable,
     ThermalTable,
+    heating_problems,
     operation_table,
     require_oil,
     require_oil_flow,
 )
 from ..bearing.simulation import WarmUpTable
-from ..laws import BALL_FILMS, POINT_THERMAL, TRACTIONS, TractionAccuracy
+from ..laws import BALL_FILMS, POINT_ROLLING, POINT_THERMAL, TRACTIONS, TractionAccuracy
 from ..materials import MaterialField
 from ..oil.schema import OilTable
 from ..table import Problems, Table, check, refusal_at
@@ -41,18 +43,24 @@ class BallMaterialsTable(Table):
     balls: MaterialField
 
 
-class BallContactTable(table_of(PointLaws, leave_out=("rolling_resistance",))):
+class BallContactTable(table_of(PointLaws)):
     """Laws of the raceway contacts, by the names in `scenes.laws`, which says what each stands for.
 
     - `traction_accuracy`: relative error of the traction forces for which the march through the Hertz pressure is cut
+    - `rolling_resistance`: of the raceways; `true`: the first of these laws; not given: none
+    - `supply`: how much oil reaches the raceways; not given: they are fully flooded
     """
 
-    about: ClassVar[Mapping[str, tuple[str, ...]]] = {"traction": ("traction_accuracy", "heathcote")}
+    about: ClassVar[Mapping[str, tuple[str, ...]]] = {
+        "traction": ("traction_accuracy", "heathcote"),
+        "rolling_resistance": ("rolling_heating",),
+    }
     film: Annotated[str, BALL_FILMS]
     thermal: Annotated[str, POINT_THERMAL] | None = None
     traction: Annotated[str, TRACTIONS] | None = None
     traction_accuracy: TractionAccuracy | None = None
-    rolling_resistance: Literal["houpert"] | None = None
+    rolling_resistance: Annotated[str, POINT_ROLLING] | None = None
+    supply: SupplyTable | None = None
 
     @check
     def _consistent(self) -> Problems:
@@ -60,6 +68,7 @@ class BallContactTable(table_of(PointLaws, leave_out=("rolling_resistance",))):
         if given and self.traction is None:
             has = "has" if len(given) == 1 else "have"
             yield refusal_at("traction", f"a law, without which {' and '.join(given)} {has} no meaning", "nothing")
+        yield from heating_problems(self)
 
 
 def _sign(value: Any) -> float:

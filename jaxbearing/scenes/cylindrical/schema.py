@@ -11,8 +11,10 @@ from ..bearing.schema import (
     CageBase,
     FitsTable,
     RatingTable,
+    SupplyTable,
     TemperaturesTable,
     ThermalTable,
+    heating_problems,
     law_in_words,
     operation_table,
     require_oil,
@@ -43,13 +45,15 @@ class ContactTable(table_of(ContactLaws, leave_out=("entrainment_smoothing",))):
 
     - `traction_model`: the law at the mean Hertz pressure, or marched through the pressure
     - `traction_accuracy`: relative error of the traction forces for which the march through the Hertz pressure is cut
-    - `rolling_resistance`: of the raceways; not given: none
+    - `rolling_resistance`: of the raceways; `true`: the first of these laws; not given: none
+    - `supply`: how much oil reaches the raceways; not given: they are fully flooded
     """
 
     instead: ClassVar[Mapping[str, tuple[str, ...]]] = {"traction_model": ("traction_accuracy",)}
     about: ClassVar[Mapping[str, tuple[str, ...]]] = {
         "traction": ("traction_model", "traction_accuracy"),
         "traction_model": ("traction_accuracy",),
+        "rolling_resistance": ("rolling_heating",),
     }
     film: Annotated[str, ROLLER_FILMS]
     thermal: Annotated[str, LINE_THERMAL] | None = None
@@ -57,6 +61,7 @@ class ContactTable(table_of(ContactLaws, leave_out=("entrainment_smoothing",))):
     traction_model: Literal["mean_pressure", "distributed"] = "mean_pressure"
     traction_accuracy: TractionAccuracy | None = None
     rolling_resistance: Annotated[str, ROLLING] | None = None
+    supply: SupplyTable | None = None
 
     @check
     def _consistent(self) -> Problems:
@@ -66,6 +71,7 @@ class ContactTable(table_of(ContactLaws, leave_out=("entrainment_smoothing",))):
         if self.traction_accuracy is not None and not distributed:
             expected = "none: only traction_model = 'distributed' is computed to an accuracy"
             yield refusal_at("traction_accuracy", expected, f"the number {self.traction_accuracy:g}")
+        yield from heating_problems(self)
 
 
 RACEWAY_LAWS = {"film": ROLLER_FILMS, "rolling_resistance": ROLLING}

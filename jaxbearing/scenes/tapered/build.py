@@ -7,7 +7,14 @@ from ...bearings.parts import ContactLaws, Drag, Materials
 from ...bearings.rating import Rating
 from ...bearings.tapered.geometry import TaperedGeometry
 from ...bearings.tapered.scene import TaperedOperation, TaperedRollerBearing
-from ...contacts import ChittendenCentral, Gupta, MeanPressureTraction, NijenbanningVennerMoes, NoThermalReduction
+from ...contacts import (
+    ChittendenCentral,
+    Gupta,
+    MeanPressureTraction,
+    NijenbanningVennerMoes,
+    NoThermalReduction,
+    Supply,
+)
 from ...contacts.point_laws import PointLaws
 from ...lubricants import Lubricant, NoPressureViscosity
 from ..bearing.build import built, part, seats, solids
@@ -45,7 +52,12 @@ def _laws(table: TaperedContactTable, oil: Lubricant | None) -> ContactLaws:
     rolling = None if table.rolling_resistance is None else ROLLING[table.rolling_resistance]()
     traction = None if table.traction is None else MeanPressureTraction(viscous_function(table.traction, oil))
     return ContactLaws(
-        film=ROLLER_FILMS[table.film](), thermal=thermal_factor(table.thermal), traction=traction, rolling=rolling
+        film=ROLLER_FILMS[table.film](),
+        thermal=thermal_factor(table.thermal),
+        traction=traction,
+        rolling=rolling,
+        rolling_heating=table.rolling_heating,
+        supply=part(Supply, table.supply, exclude_none=True),
     )
 
 

@@ -3,14 +3,17 @@
 from collections.abc import Mapping
 from typing import Annotated, ClassVar, Literal
 
+from ...bearings.parts import ContactLaws
 from ...bearings.tapered.geometry import TaperedGeometry
 from ...bearings.tapered.scene import TaperedOperation
 from ..bearing.profile import ProfileTable
 from ..bearing.schema import (
     FitsTable,
     RatingTable,
+    SupplyTable,
     TemperaturesTable,
     ThermalTable,
+    heating_problems,
     operation_table,
     require_oil,
     require_oil_flow,
@@ -33,28 +36,34 @@ class TaperedMaterialsTable(Table):
     rollers: MaterialField
 
 
-class TaperedContactTable(Table):
+class TaperedContactTable(table_of(ContactLaws, leave_out=("entrainment_offset", "entrainment_smoothing"))):
     """Laws of the contacts, by the names in `tapered.build`. `film`, `rolling_resistance`: of the raceways;
     `flange_film`: of the roller ends on the rib; `thermal`: of both, on the rib always Gupta's, the other one is made
     for lines; `traction`: of what slides on the rib, and what the raceways could carry.
 
     - `traction_accuracy`: relative error of the traction forces for which the march through the Hertz pressure is cut
-    - `rolling_resistance`: of the raceways; not given: none
+    - `rolling_resistance`: of the raceways; `true`: the first of these laws; not given: none
+    - `supply`: how much oil reaches the raceways; not given: they are fully flooded
     - `flange_film`: film law of the roller ends on the rib
     """
 
-    about: ClassVar[Mapping[str, tuple[str, ...]]] = {"traction": ("traction_accuracy",)}
+    about: ClassVar[Mapping[str, tuple[str, ...]]] = {
+        "traction": ("traction_accuracy",),
+        "rolling_resistance": ("rolling_heating",),
+    }
     film: Annotated[str, ROLLER_FILMS]
     thermal: Annotated[str, LINE_THERMAL] | None = None
     rolling_resistance: Annotated[str, ROLLING] | None = None
     flange_film: Annotated[str, RIB_FILMS] | None = None
     traction: Annotated[str, TRACTIONS] | None = None
     traction_accuracy: TractionAccuracy | None = None
+    supply: SupplyTable | None = None
 
     @check
     def _consistent(self) -> Problems:
         if self.traction_accuracy is not None and self.traction is None:
             yield refusal_at("traction", "a law, without which traction_accuracy has no meaning", "nothing")
+        yield from heating_problems(self)
 
 
 class TaperedOperationTable(operation_table(TaperedOperation)):
