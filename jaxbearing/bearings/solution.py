@@ -96,6 +96,20 @@ class RacewayPower(eqx.Module):
     )
 
 
+class BoundaryPower(eqx.Module):
+    """The part of the losses that is boundary friction of asperities, of scenes with mixed friction; each entry is part
+    of the loss of the same name in `power_loss`. Places that a kind of bearing does not have are `None`."""
+
+    total: Float[Array, ""] = eqx.field(metadata=label("W", "boundary friction, total"))
+    inner_raceway: Float[Array, ""] | None = eqx.field(
+        default=None, metadata=label("W", "boundary friction, inner raceway")
+    )
+    outer_raceway: Float[Array, ""] | None = eqx.field(
+        default=None, metadata=label("W", "boundary friction, outer raceway")
+    )
+    flange: Float[Array, ""] | None = eqx.field(default=None, metadata=label("W", "boundary friction, flange"))
+
+
 class LaminaLoads(eqx.Module):
     """Loads on the laminae (slices) of rollers along their length, beginning at the end s = 0.
 
@@ -192,6 +206,7 @@ class Solution(AbstractSolution, Generic[Point, Elements, Losses]):
     life: Any = None
     """A `life.result.Life` if the scene has a rating."""
     rolling_by_race: Float[Array, "2"] | None = None
+    boundary_power: BoundaryPower | None = None
 
     @property
     def freedoms_of_stiffness(self) -> tuple[str, ...]:

@@ -27,9 +27,6 @@ class AbstractLoadShare(Checked):
     r"""The part $\varphi(\Lambda)$ of a contact's load that asperities carry, from 1 without a film to 0."""
 
     part: ClassVar[str] = "contact.mixed"
-    uncertain: ClassVar[bool] = True
-    """True if the law leaves out the pressure of the contact, and at raceway pressures may be wrong by a factor of
-    10."""
 
     @abc.abstractmethod
     def share(self, film_ratio: Values, mean_pressure: Values, reduced_modulus: Values) -> Float[Array, "..."]:
@@ -43,8 +40,8 @@ class AbstractLoadShare(Checked):
 class ZhouHoeprich(AbstractLoadShare):
     r"""$\varphi = \exp(-B\Lambda^C)$.
 
-    **Limits:** 1 at no film, with a finite slope: $\Lambda^C$ is $\Lambda(\Lambda^2 + 10^{-8})^{(C-1)/2}$; underflows to
-    0 at thick films, with gradient 0.
+    **Limits:** 1 at no film, with a finite slope: $\Lambda^C$ is $\Lambda(\Lambda^2 + 10^{-8})^{(C-1)/2}$. It
+    underflows to 0 at thick films, with gradient 0.
     **Validity:** fitted with the central film. The pressure of the contact is not in it: the share is uncertain by a
     factor of 10 at raceway pressures.
     **Reference:** Zhou and Hoeprich (1991), ASME J. Tribology 113, 590, with the constants that a friction study of the
@@ -64,9 +61,9 @@ class ZhouHoeprich(AbstractLoadShare):
 class GreenwoodTripp(AbstractLoadShare):
     r"""$\varphi = F_{5/2}(\Lambda)/F_{5/2}(0)$, the pressure of Gaussian asperities over that without a film.
 
-    **Limits:** 1 at no film; as $e^{-\Lambda^2/2}$ at thick films, underflows to 0 there.
-    **Validity:** Gaussian heights. The pressure of the contact is not in it: the share is uncertain by a factor of 10 at
-    raceway pressures, and this normalised form is the cautious one.
+    **Limits:** 1 at no film; it falls as $e^{-\Lambda^2/2}$ at thick films and underflows to 0.
+    **Validity:** Gaussian heights. The pressure of the contact is not in it: the share is uncertain by a factor of 10
+    at raceway pressures, and this normalised form is the cautious one.
     **Reference:** Greenwood and Tripp (1970), Proc. Instn. Mech. Engrs. 185, 625.
     """
 
@@ -88,8 +85,6 @@ class GreenwoodTrippPressure(AbstractLoadShare):
     - `asperity_product`: density of the summits times their radius times the roughness, about 0.03 to 0.05.
     - `asperity_slope`: roughness over the radius of the summits, about 1e-4 to 1e-2.
     """
-
-    uncertain: ClassVar[bool] = False
 
     asperity_product: Scalar = bounded("> 0", unit="1", converter=as_float, default=0.05)
     asperity_slope: Scalar = bounded("> 0", unit="1", converter=as_float, default=1e-3)

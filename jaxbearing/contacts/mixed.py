@@ -1,8 +1,8 @@
-"""Mixed friction: asperities carry a part of a contact's load and rub, the film carries and shears the rest.
+r"""Mixed friction: asperities carry a part of a contact's load and rub, the film carries and shears the rest.
 
-$F = (1 - \\varphi)F_{film} + \\varphi Q\\mu_bv/\\sqrt{v^2 + v_s^2}$ with the load share $\\varphi(\\Lambda)$ of `load_share`,
-$\\Lambda = h/\\sigma$. Rolling resistance comes from the inlet and is not multiplied. Force and power are formed from one
-and the same sliding speed v, that of the contact's centre.
+$F = (1 - \varphi)F_{film} + \varphi Q\mu_bv/\sqrt{v^2 + v_s^2}$ with the load share $\varphi(\Lambda)$ of
+`load_share`, $\Lambda = h/\sigma$. Rolling resistance comes from the inlet and is not multiplied. Force and power are
+formed from one and the same sliding speed v, that of the contact's centre.
 """
 
 from typing import ClassVar, Literal, NamedTuple
@@ -27,8 +27,8 @@ from .point_film import AbstractPointFilm
 from .shear import Sliding
 
 FLASH_CONSTANT = 1.11155
-"""Largest mean rise of a band source with Hertz's distribution, in units of that of `flash_temperature` (own quadrature;
-a uniform source has 2/sqrt(pi))."""
+"""Factor of `flash_temperature` for a band source with Hertz's distribution, by own quadrature; a uniform source has
+2/sqrt(pi)."""
 FLASH_SPEED = 1e-6
 """Smoothing of the surface speeds in the flash temperature, m/s."""
 
@@ -65,9 +65,9 @@ class MixedFriction(Checked):
 
     **Limits:** no film, share 1: dry friction $\mu_bQ$ with a smooth start, nothing of the film's force; a thick film:
     the film's force alone. At rest the force is 0 with the slope $\varphi Q\mu_b/v_s$.
-    **Validity:** the boundary force is that of the sliding at the centre of the contact; the boundary moment against spin
-    ($3\pi/16\,\mu_b\varphi Qa$ for a circle) is left out, and that spin lowers the force along rolling. $\mu_b$ does not
-    change with the speed. The smooth start makes the force 0.5 % too small at $10v_s$, 0.005 % at $100v_s$.
+    **Validity:** the boundary force is that of the sliding at the centre of the contact. The boundary moment against
+    spin ($3\pi/16\,\mu_b\varphi Qa$ for a circle) is left out, and spin does not lower the force along rolling. $\mu_b$
+    does not change with the speed. The smooth start makes the force 0.5 % too small at $10v_s$, 0.005 % at $100v_s$.
     **Reference:** load-sharing concept of Johnson, Greenwood and Poon (1972), Wear 19, 91.
 
     **Arguments:**
@@ -147,23 +147,27 @@ class MixedFriction(Checked):
 
     def state(
         self,
-        law: AbstractLineFilm | AbstractPointFilm,
         contact: LineContact | PointContact,
         load: Values,
-        film: Values,
-        inlet: InletState,
+        asperities: Asperities,
+        mean_speed: Values,
         sliding: Sliding,
         power: Values,
     ) -> MixedState:
-        """What the results show of contacts whose film and friction are known.
+        """Mixed friction of contacts as results.
 
-        **Arguments:** `power`: friction power of each contact, of film and asperities, W; others as for `asperities`
-        and `traction`. `inlet.speed`: signed.
+        **Arguments:** `asperities`: of the contacts; `mean_speed`, m/s, signed; `sliding`: of body 1 over body 2;
+        `power`: friction power of each contact, of film and asperities, W.
         """
-        found = self.asperities(law, contact, load, film, inlet)
-        along, across = self._boundary(load, found.share, sliding)
-        heat = flash_temperature(contact, load, power, inlet.speed, sliding.rolling)
-        return MixedState(found.film_ratio, found.share, along, self._power(along, across, sliding), heat)
+        along, across = self._boundary(load, asperities.share, sliding)
+        heat = flash_temperature(contact, load, power, mean_speed, sliding.rolling)
+        return MixedState(*asperities, along, self._power(along, across, sliding), heat)
+
+
+def require_traction(part: str, mixed: MixedFriction | None, traction: object) -> None:
+    """**Raises:** `ValueError` for mixed friction without a traction law: only that makes contacts slide."""
+    if mixed is not None and traction is None:
+        raise ValueError(f"{part}.mixed: mixed friction is of contacts that slide, and needs {part}.traction")
 
 
 def flash_temperature(

@@ -5,6 +5,7 @@ from ..contacts import AbstractTraction, MeanPressureTraction
 from ..lubricants import Lubricant
 from .cylindrical.schema import ContactTable
 from .laws import ROLLER_FILMS, ROLLING, distributed_traction, thermal_factor, viscous_function
+from .mixed import mixed_friction
 
 
 def contact_laws(table: ContactTable, oil: Lubricant | None) -> ContactLaws:
@@ -16,6 +17,8 @@ def contact_laws(table: ContactTable, oil: Lubricant | None) -> ContactLaws:
         traction=_traction(table, oil),
         rolling=rolling,
         entrainment_offset=table.entrainment_offset,
+        mixed=mixed_friction(table.mixed),
+        hysteresis=table.hysteresis,
     )
 
 

@@ -105,8 +105,11 @@ def test_a_share_falls_from_one_to_nothing_with_finite_slopes(law):
     ratios = jnp.concatenate([jnp.zeros(1), jnp.geomspace(1e-9, 1e3, 200)])
     both = jax.jit(jax.vmap(jax.value_and_grad(lambda ratio: law.share(ratio, 1e9, MODULUS))))
     share, slope = both(ratios)
-    assert np.all(np.isfinite(share)) and np.all(np.isfinite(slope))
-    assert np.all((share >= 0.0) & (share <= 1.0 + 1e-15)) and np.all(np.diff(share) <= 1e-15) and np.all(slope <= 0.0)
+    assert np.all(np.isfinite(share))
+    assert np.all(np.isfinite(slope))
+    assert np.all((share >= 0.0) & (share <= 1.0 + 1e-15))
+    assert np.all(np.diff(share) <= 1e-15)
+    assert np.all(slope <= 0.0)
     assert share[-1] == slope[-1] == 0.0
     for ratio in (0.01, 0.3, 1.1, 2.5):
         difference = (law.share(ratio * 1.0001, 1e9, MODULUS) - law.share(ratio * 0.9999, 1e9, MODULUS)) / (
@@ -132,7 +135,7 @@ def test_hard_cases_have_finite_values_and_gradients(law, contact):
         inlet = InletState(speed, 0.01, 2e-8)
         found = mixed.asperities(film_law, contact, load, film, inlet)
         force = mixed.force(load, found.share, 1e-2 * load * jnp.tanh(slide), slide)
-        return (*mixed.state(film_law, contact, load, film, inlet, Sliding(slide), force * slide), force)
+        return (*mixed.state(contact, load, found, speed, Sliding(slide), force * slide), force)
 
     cases = itertools.product((1e-6, 1e3), (0.0, 1e-30, 0.3e-6, 15e-6), (-5.0, 0.0, 5.0), (-1.0, 0.0, 1e-12, 1.0))
     cases = jnp.asarray(list(cases))

@@ -238,7 +238,7 @@ class BallBearing(AbstractBearing):
 
     @property
     def dissipates(self) -> bool:
-        return self.contact is not None and (self.slips or self.contact.rolling_resistance)
+        return self.contact is not None and (self.slips or self.contact.resists_rolling)
 
     @property
     def ring_lever(self) -> Array:

@@ -18,6 +18,7 @@ from ...contacts import PointLaws
 from ...lubricants import Lubricant
 from ..bearing.build import built, cage, part, seats, solids
 from ..laws import BALL_FILMS, distributed_traction, thermal_factor
+from ..mixed import mixed_friction
 from ..oil.catalogue import lubricant
 from .schema import BallBearingTable, BallContactTable, KinematicsTable
 
@@ -85,4 +86,6 @@ def _laws(table: BallContactTable, oil: Lubricant | None) -> PointLaws:
         traction=traction,
         rolling_resistance=table.rolling_resistance is not None,
         heathcote=table.heathcote,
+        mixed=mixed_friction(table.mixed),
+        hysteresis=table.hysteresis,
     )

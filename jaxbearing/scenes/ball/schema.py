@@ -23,6 +23,7 @@ from ..bearing.schema import (
 )
 from ..laws import BALL_FILMS, POINT_THERMAL, TRACTIONS, TractionAccuracy
 from ..materials import MaterialField
+from ..mixed import MixedTable, mixed_needs_traction
 from ..oil.schema import OilTable
 from ..table import Problems, Table, check, refusal_at
 from ..table_of import table_of
@@ -44,14 +45,20 @@ class BallContactTable(table_of(PointLaws, leave_out=("rolling_resistance",))):
     """Laws of the raceway contacts, by the names in `scenes.laws`, which says what each stands for.
 
     - `traction_accuracy`: relative error of the traction forces for which the march through the Hertz pressure is cut
+    - `mixed`: mixed friction of rough raceways; not given: the films carry all of the loads
     """
 
-    about: ClassVar[Mapping[str, tuple[str, ...]]] = {"traction": ("traction_accuracy", "heathcote")}
+    about: ClassVar[Mapping[str, tuple[str, ...]]] = {"traction": ("traction_accuracy", "heathcote", "mixed")}
     film: Annotated[str, BALL_FILMS]
     thermal: Annotated[str, POINT_THERMAL] | None = None
     traction: Annotated[str, TRACTIONS] | None = None
     traction_accuracy: TractionAccuracy | None = None
     rolling_resistance: Literal["houpert"] | None = None
+    mixed: MixedTable | None = None
+
+    @check
+    def _mixed(self) -> Problems:
+        yield from mixed_needs_traction(self)
 
     @check
     def _consistent(self) -> Problems:

@@ -6,6 +6,7 @@ from ...contacts import PointLaws
 from ...lubricants import Lubricant
 from ..bearing.writer import bearing_tables, cage, flow_law, march_accuracy, thermal_law
 from ..laws import BALL_FILMS, POINT_THERMAL
+from ..mixed import mixed_rows
 from ..part_writer import Rows, given, law_name, rows, shown, unwritable
 from .schema import BallBearingTable, BallCageTable, KinematicsTable
 
@@ -42,4 +43,4 @@ def _laws(contact: PointLaws, oil: Lubricant | None) -> Rows:
         "traction_accuracy": None if traction is None else march_accuracy(traction, "contact.traction", spin=True),
         "rolling_resistance": "houpert" if contact.rolling_resistance else None,
     }
-    return given(found)
+    return given(found) | mixed_rows(contact.mixed)

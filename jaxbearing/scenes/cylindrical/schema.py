@@ -21,6 +21,7 @@ from ..bearing.schema import (
 from ..bearing.simulation import SimulationTable
 from ..laws import LINE_THERMAL, ROLLER_FILMS, ROLLING, TRACTIONS, TractionAccuracy
 from ..materials import MaterialField
+from ..mixed import MixedTable, mixed_needs_traction
 from ..oil.schema import OilTable
 from ..table import Problems, Table, check, refusal_at
 from ..table_of import table_of
@@ -44,11 +45,12 @@ class ContactTable(table_of(ContactLaws, leave_out=("entrainment_smoothing",))):
     - `traction_model`: the law at the mean Hertz pressure, or marched through the pressure
     - `traction_accuracy`: relative error of the traction forces for which the march through the Hertz pressure is cut
     - `rolling_resistance`: of the raceways; not given: none
+    - `mixed`: mixed friction of rough raceways; not given: the films carry all of the loads
     """
 
     instead: ClassVar[Mapping[str, tuple[str, ...]]] = {"traction_model": ("traction_accuracy",)}
     about: ClassVar[Mapping[str, tuple[str, ...]]] = {
-        "traction": ("traction_model", "traction_accuracy"),
+        "traction": ("traction_model", "traction_accuracy", "mixed"),
         "traction_model": ("traction_accuracy",),
     }
     film: Annotated[str, ROLLER_FILMS]
@@ -57,6 +59,11 @@ class ContactTable(table_of(ContactLaws, leave_out=("entrainment_smoothing",))):
     traction_model: Literal["mean_pressure", "distributed"] = "mean_pressure"
     traction_accuracy: TractionAccuracy | None = None
     rolling_resistance: Annotated[str, ROLLING] | None = None
+    mixed: MixedTable | None = None
+
+    @check
+    def _mixed(self) -> Problems:
+        yield from mixed_needs_traction(self)
 
     @check
     def _consistent(self) -> Problems:

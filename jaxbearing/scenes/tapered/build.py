@@ -13,6 +13,7 @@ from ...lubricants import Lubricant, NoPressureViscosity
 from ..bearing.build import built, part, seats, solids
 from ..bearing.profile import roller_profile
 from ..laws import RIB_FILMS, ROLLER_FILMS, ROLLING, distributed_traction, thermal_factor, viscous_function
+from ..mixed import mixed_friction, rib_mixed_friction
 from ..oil.catalogue import lubricant
 from .schema import TaperedContactTable, TaperedRollerTable
 
@@ -43,7 +44,12 @@ def _laws(table: TaperedContactTable, oil: Lubricant | None) -> ContactLaws:
     rolling = None if table.rolling_resistance is None else ROLLING[table.rolling_resistance]()
     traction = None if table.traction is None else MeanPressureTraction(viscous_function(table.traction, oil))
     return ContactLaws(
-        film=ROLLER_FILMS[table.film](), thermal=thermal_factor(table.thermal), traction=traction, rolling=rolling
+        film=ROLLER_FILMS[table.film](),
+        thermal=thermal_factor(table.thermal),
+        traction=traction,
+        rolling=rolling,
+        mixed=mixed_friction(table.mixed),
+        hysteresis=table.hysteresis,
     )
 
 
@@ -59,4 +65,5 @@ def _rib_laws(table: TaperedContactTable, oil: Lubricant | None) -> PointLaws:
         film=film() if table.flange_film is None else RIB_FILMS[table.flange_film](),
         thermal=NoThermalReduction() if table.thermal is None else Gupta(),
         traction=traction,
+        mixed=rib_mixed_friction(table.mixed),
     )

@@ -3,6 +3,7 @@
 from collections.abc import Mapping
 from typing import Annotated, ClassVar, Literal
 
+from ...bearings.parts import ContactLaws
 from ...bearings.tapered.geometry import TaperedGeometry
 from ...bearings.tapered.scene import TaperedOperation
 from ..bearing.profile import ProfileTable
@@ -18,6 +19,7 @@ from ..bearing.schema import (
 from ..cylindrical.schema import RACEWAY_LAWS, DragTable
 from ..laws import LINE_THERMAL, RIB_FILMS, ROLLER_FILMS, ROLLING, TRACTIONS, TractionAccuracy
 from ..materials import MaterialField
+from ..mixed import RibMixedTable, mixed_needs_traction
 from ..oil.schema import OilTable
 from ..table import Problems, Table, check, refusal_at
 from ..table_of import table_of
@@ -32,7 +34,7 @@ class TaperedMaterialsTable(Table):
     rollers: MaterialField
 
 
-class TaperedContactTable(Table):
+class TaperedContactTable(table_of(ContactLaws, leave_out=("entrainment_offset", "entrainment_smoothing"))):
     """Laws of the contacts, by the names in `tapered.build`. `film`, `rolling_resistance`: of the raceways;
     `flange_film`: of the roller ends on the rib; `thermal`: of both, on the rib always Gupta's, the other one is made
     for lines; `traction`: of what slides on the rib, and what the raceways could carry.
@@ -40,15 +42,21 @@ class TaperedContactTable(Table):
     - `traction_accuracy`: relative error of the traction forces for which the march through the Hertz pressure is cut
     - `rolling_resistance`: of the raceways; not given: none
     - `flange_film`: film law of the roller ends on the rib
+    - `mixed`: mixed friction of rough raceways and ribs; not given: the films carry all of the loads
     """
 
-    about: ClassVar[Mapping[str, tuple[str, ...]]] = {"traction": ("traction_accuracy",)}
+    about: ClassVar[Mapping[str, tuple[str, ...]]] = {"traction": ("traction_accuracy", "mixed")}
     film: Annotated[str, ROLLER_FILMS]
     thermal: Annotated[str, LINE_THERMAL] | None = None
     rolling_resistance: Annotated[str, ROLLING] | None = None
     flange_film: Annotated[str, RIB_FILMS] | None = None
     traction: Annotated[str, TRACTIONS] | None = None
     traction_accuracy: TractionAccuracy | None = None
+    mixed: RibMixedTable | None = None
+
+    @check
+    def _mixed(self) -> Problems:
+        yield from mixed_needs_traction(self)
 
     @check
     def _consistent(self) -> Problems:
