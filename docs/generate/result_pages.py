@@ -27,6 +27,7 @@ SECTIONS = {
         "": solution.Solution,
         "ring": solution.RingDisplacement,
         "cage": solution.CageState,
+        "rolling_by_race": solution.RollingByRace,
         "fit": growth.FitResult,
         "thermal": thermal_result.ThermalResult,
         "thermal.temperatures": thermal_result.NodeTemperatures,

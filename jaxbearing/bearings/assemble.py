@@ -6,6 +6,7 @@ import jax
 import jax.numpy as jnp
 from jaxtyping import Array, Int
 
+from ..contacts.rolling_heating import rolling_words
 from ..numerics.newton import NewtonResult
 from .bearing import AbstractBearing
 from .checks import input_excess, result_excess
@@ -22,6 +23,7 @@ from .solution import (
     Losses,
     RacewayPower,
     RingDisplacement,
+    RollingByRace,
     Solution,
 )
 
@@ -65,6 +67,9 @@ def assemble(
     own = results._asdict()
     facts, costs = own.pop("facts"), own.pop("costs")
     shown = own | costs._asdict() | {"ring": ring, "force": port.force, "stiffness": port.stiffness}
+    by_race = costs.rolling_by_race
+    if by_race is not None:
+        shown["rolling_by_race"] = RollingByRace(by_race[0], by_race[1], rolling_words(scene.contact))
     checks = {text: value > 0 for text, value in input_excess(scene, held).items()}
     checks |= {
         text: good & (value > 0) for text, value in result_excess(scene, facts, ring, results.cage, held).items()

@@ -85,7 +85,7 @@ def bearing_heat(scene: Any, thermal: Thermal, solution: Solution, temperatures:
     loss, by_race = solution.power_loss, solution.rolling_by_race
     losses = {name: value for name, value in vars(loss).items() if name not in ("total", "rolling_resistance")}
     if by_race is not None:
-        losses |= {"inner_rolling_resistance": by_race[0], "outer_rolling_resistance": by_race[1]}
+        losses |= {"inner_rolling_resistance": by_race.inner, "outer_rolling_resistance": by_race.outer}
     between: dict[tuple[str, str], Any] = {}
     to_rings = {"inner_ring": 0.5, "outer_ring": 0.5}
     if len(nodes) > 1:

@@ -22,7 +22,7 @@ class Interaction(NamedTuple):
     - `power`: dissipation, W.
     - `inner_torque`, `outer_torque`: N m, by which the ring must be driven against it; `None`: it does not act on that
       ring.
-    - `by_race`: its power on the inner and the outer raceway, W, where a thermal network asks for it.
+    - `by_race`: its power on the inner and the outer raceway, W, where it has such parts.
     """
 
     location: str
@@ -34,7 +34,7 @@ class Interaction(NamedTuple):
 
 class Costs(NamedTuple, Generic[Losses]):
     """Costs of all interactions together: losses and drive power, W, torques on the rings, N m; `None`: no loss is
-    modelled. `rolling_by_race`: the rolling resistance of the inner and the outer raceway, W, where it is asked for."""
+    modelled. `rolling_by_race`: the rolling resistance of the inner and the outer raceway, W."""
 
     power_loss: Losses
     drive_power: Float[Array, ""] | None = None

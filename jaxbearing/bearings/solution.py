@@ -110,6 +110,14 @@ class BoundaryPower(eqx.Module):
     flange: Float[Array, ""] | None = eqx.field(default=None, metadata=label("W", "boundary friction, flange"))
 
 
+class RollingByRace(eqx.Module):
+    """Rolling resistance of each raceway; `law`: its law and the inlet heating, in words."""
+
+    inner: Float[Array, ""] = eqx.field(metadata=label("W", "rolling resistance of the inner raceway"))
+    outer: Float[Array, ""] = eqx.field(metadata=label("W", "rolling resistance of the outer raceway"))
+    law: str = eqx.field(static=True)
+
+
 class LaminaLoads(eqx.Module):
     """Loads on the laminae (slices) of rollers along their length, beginning at the end s = 0.
 
@@ -151,8 +159,7 @@ class Solution(AbstractSolution, Generic[Point, Elements, Losses]):
     - `global_equations`: number of equations that belong to no single rolling element.
     - `notes`: what the model assumes or leaves out.
     - `element_name`: "ball" or "roller".
-    - `rolling_by_race`: rolling resistance of the inner and the outer raceway, W, of a scene whose interactions have
-      oil temperatures of their own: for the thermal network around it.
+    - `rolling_by_race`: parts of `power_loss.rolling_resistance`; `None`: not modelled.
     """
 
     status: Int[Array, ""] = eqx.field(metadata=label("1", "how the solve ended"))
@@ -205,7 +212,7 @@ class Solution(AbstractSolution, Generic[Point, Elements, Losses]):
     """Possible causes of a failed solve: text with places for numbers, such as `{:.3g}` -> its `FailureCause`."""
     life: Any = None
     """A `life.result.Life` if the scene has a rating."""
-    rolling_by_race: Float[Array, "2"] | None = None
+    rolling_by_race: RollingByRace | None = None
     boundary_power: BoundaryPower | None = None
 
     @property

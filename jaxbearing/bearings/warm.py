@@ -173,7 +173,6 @@ def _answer(scene: Any, network: Network, state: ThermalState) -> Solution:
         checks=checks,
         notes=(*solution.notes, *thermal_notes(scene)),
         thermal=result,
-        rolling_by_race=None,
     )
 
 

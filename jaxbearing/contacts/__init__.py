@@ -36,6 +36,9 @@ from .point_film import HamrockDowsonMinimum as HamrockDowsonMinimum
 from .point_film import NijenbanningVennerMoes as NijenbanningVennerMoes
 from .point_film import RigidBlend as RigidBlend
 from .point_laws import PointLaws as PointLaws
+from .point_rolling import AbstractPointRollingResistance as AbstractPointRollingResistance
+from .point_rolling import BibouletHoupertPointRollingResistance as BibouletHoupertPointRollingResistance
+from .point_rolling import SourceRollingResistance as SourceRollingResistance
 from .profile import AbstractProfile as AbstractProfile
 from .profile import CrownedProfile as CrownedProfile
 from .profile import LogarithmicProfile as LogarithmicProfile
@@ -43,10 +46,13 @@ from .resolution import PRESETS as PRESETS
 from .resolution import SPIN_PRESETS as SPIN_PRESETS
 from .resolution import Resolution as Resolution
 from .rolling import AbstractRollingResistance as AbstractRollingResistance
+from .rolling import BibouletHoupertRollingResistance as BibouletHoupertRollingResistance
 from .rolling import ErtelGrubinRollingResistance as ErtelGrubinRollingResistance
+from .rolling import FullRangeRollingResistance as FullRangeRollingResistance
 from .rolling import JoinedRollingResistance as JoinedRollingResistance
 from .rolling import RigidRollingResistance as RigidRollingResistance
-from .rolling import point_rolling_moment as point_rolling_moment
+from .rolling import RollingInlet as RollingInlet
+from .rolling_heating import aihara_factor as aihara_factor
 from .shear import Sliding as Sliding
 from .thermal import AbstractThermalFactor as AbstractThermalFactor
 from .thermal import Gupta as Gupta

@@ -10,12 +10,14 @@ from ..lubricants import InletOil, Lubricant
 from ..numerics.checks import Checked, bounded
 from ..numerics.precision import as_float
 from ..numerics.safe import smooth_abs
+from ..numerics.structure import choice
 from .film import AbstractLineFilm
 from .heated_film import HeatedFilm, heated_film
 from .hysteresis import line_hysteresis
 from .line import LineContact
 from .mixed import Asperities, InletState, MixedFriction, MixedState, require_traction
-from .rolling import AbstractRollingResistance
+from .rolling import AbstractRollingResistance, RollingInlet
+from .rolling_heating import AIHARA, HEATINGS, aihara_factor, heating_of
 from .shear import Sliding
 from .thermal import AbstractThermalFactor, NoThermalReduction
 from .traction import AbstractTraction
@@ -48,6 +50,9 @@ class ContactLaws(Checked):
     - `entrainment_offset`: added to the mean surface speed of every contact, m/s. 0 by default; the
       reference closure of the published check values uses 1 mm/s.
     - `rolling`: rolling resistance, or `None`: left out.
+    - `rolling_heating`: how inlet heating lowers the rolling resistance, `"aihara"` or `"film_temperature"`
+      (`rolling_heating`). Not given: as the law of rolling resistance has it (`own_heating`) where `thermal` is a
+      reduction, and none where the film is isothermal.
     - `entrainment_smoothing`: smoothing of the mean surface speed's modulus, m/s: what film a contact keeps whose
       surfaces pass through rest.
     - `mixed`: mixed friction of rough surfaces, or `None`: the film carries all of the load.
@@ -61,6 +66,7 @@ class ContactLaws(Checked):
     traction: AbstractTraction | None = None
     entrainment_offset: Scalar = bounded(">= 0", unit="m/s", converter=as_float, default=0.0)
     rolling: AbstractRollingResistance | None = None
+    rolling_heating: str | None = choice("contact.rolling_heating", HEATINGS, None)
     entrainment_smoothing: Scalar = bounded("> 0", unit="m/s", converter=as_float, default=SPEED_SMOOTHING)
     mixed: MixedFriction | None = None
     hysteresis: Scalar | None = bounded(">= 0", unit="1", default=None)
@@ -101,9 +107,10 @@ class ContactLaws(Checked):
     ) -> ContactState:
         """Film, temperature rise, traction and rolling resistance.
 
-        The film is phi_T times the isothermal film at the inlet temperature; traction and rolling resistance see
-        the oil at the inlet temperature plus the rise that explains phi_T (its pressure-viscosity coefficient at
-        the inlet temperature).
+        The film is phi_T times the isothermal film at the inlet temperature; traction sees the oil at the inlet
+        temperature plus the rise that explains phi_T. So does rolling resistance with the heating
+        `film_temperature`, whose pressure-viscosity coefficient is that at the inlet temperature; with `aihara` it
+        sees the oil at the inlet temperature.
 
         **Arguments:** `load`, N, > 0; `mean_speed` (u1 + u2)/2 and `sliding_speed` u1 - u2, m/s, of either sign;
         `inlet` = `lubricant.at(inlet temperature)`, evaluated once for all contacts.
@@ -123,7 +130,12 @@ class ContactLaws(Checked):
                 traction = self.mixed.force(load, share, traction, sliding_speed)
         rolling = None
         if self.rolling is not None:
-            rolling = self.rolling.force(contact, load, film, mean_speed, base_viscosity, inlet.pressure_viscosity)
+            heated = heating_of(self.rolling, self.rolling_heating, self.thermal) == AIHARA
+            viscosity = inlet.viscosity if heated else base_viscosity
+            entering = RollingInlet(load, mean_speed, viscosity, inlet.pressure_viscosity, film)
+            rolling = self.rolling.force(contact, entering)
+            if heated:
+                rolling = rolling * aihara_factor(mean_speed, inlet)
         if self.hysteresis is not None:
             lost = line_hysteresis(contact, load, mean_speed, self.hysteresis)
             rolling = lost if rolling is None else rolling + lost

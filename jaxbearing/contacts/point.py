@@ -53,6 +53,11 @@ class PointContact(eqx.Module):
         """k = c/a, semi-axis across over semi-axis along rolling."""
         return jnp.exp(self._shape().log_ellipticity)
 
+    def log_second_kind(self) -> Float[Array, "..."]:
+        """ln of the complete elliptic integral E(m) of the ellipse, m = 1 - (shorter over longer semi-axis)^2."""
+        shape = self._shape()
+        return jnp.log(shape.size) - 0.5 * jnp.abs(shape.log_ellipticity)
+
     def semi_axis_rolling(self, load: Values) -> Float[Array, "..."]:
         """a, m. **Arguments:** `load`, N, >= 0."""
         return self.ellipse(load).rolling

@@ -9,7 +9,7 @@ from .._types import Scalar, Values
 from ..lubricants import InletOil, Lubricant
 from ..numerics.checks import Checked, bounded
 from ..numerics.safe import smooth_abs
-from ..numerics.structure import switch
+from ..numerics.structure import choice, switch
 from .distributed import DistributedTraction, Traction
 from .heated_film import heated_film
 from .hysteresis import point_hysteresis
@@ -18,7 +18,9 @@ from .mixed import Asperities, InletState, MixedFriction, MixedState, require_tr
 from .patch import contact_patch
 from .point import PointContact
 from .point_film import AbstractPointFilm
-from .rolling import point_rolling_moment
+from .point_rolling import AbstractPointRollingResistance
+from .rolling import RollingInlet
+from .rolling_heating import AIHARA, HEATINGS, aihara_factor, heating_of
 from .shear import Sliding
 from .thermal import AbstractThermalFactor, NoThermalReduction
 
@@ -41,7 +43,8 @@ class PointLaws(Checked):
     - `film`: film thickness law.
     - `thermal`: thermal reduction of the film; its rise also warms the oil in the contact.
     - `traction`: the sheared film, or `None`: frictionless, and then the balls roll without sliding.
-    - `rolling_resistance`: whether the film's pressure resists rolling (`rolling.point_rolling_moment`).
+    - `rolling`: rolling resistance, or `None`: left out.
+    - `rolling_heating`: how inlet heating lowers it, as in `laws.ContactLaws`.
     - `heathcote`: whether the race's curvature across rolling counts in the sliding (`Sliding.curvature`); the source's
       patch is flat.
     - `mixed`: mixed friction of rough surfaces, or `None`: the film carries all of the load.
@@ -53,7 +56,8 @@ class PointLaws(Checked):
     film: AbstractPointFilm
     thermal: AbstractThermalFactor = NoThermalReduction()
     traction: DistributedTraction | None = None
-    rolling_resistance: bool = switch("contact.rolling_resistance", False)
+    rolling: AbstractPointRollingResistance | None = None
+    rolling_heating: str | None = choice("contact.rolling_heating", HEATINGS, None)
     heathcote: bool = switch("contact.heathcote", False)
     mixed: MixedFriction | None = None
     hysteresis: Scalar | None = bounded(">= 0", unit="1", default=None)
@@ -66,7 +70,7 @@ class PointLaws(Checked):
     @property
     def resists_rolling(self) -> bool:
         """True if rolling takes power."""
-        return self.rolling_resistance or self.hysteresis is not None
+        return self.rolling is not None or self.hysteresis is not None
 
     def film_state(
         self,
@@ -144,10 +148,15 @@ class PointLaws(Checked):
         lost = None
         if self.hysteresis is not None:
             lost = point_hysteresis(contact, load, roll, self.hysteresis)
-        if not self.rolling_resistance:
+        if self.rolling is None:
             return lost
         speed = smooth_abs(mean_speed, SPEED_SMOOTHING)
         ratio = roll * contact.reduced_radius_rolling / speed
-        moment = point_rolling_moment(contact, load, speed, film.viscosity, inlet.pressure_viscosity)
+        heated = heating_of(self.rolling, self.rolling_heating, self.thermal) == AIHARA
+        viscosity = inlet.viscosity if heated else film.viscosity
+        entering = RollingInlet(load, speed, viscosity, inlet.pressure_viscosity, film.film)
+        moment = self.rolling.moment(contact, entering)
+        if heated:
+            moment = moment * aihara_factor(speed, inlet)
         moment = moment * ratio * jnp.sqrt(2.0 / (1.0 + jnp.square(ratio)))
         return moment if lost is None else moment + lost

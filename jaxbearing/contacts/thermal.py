@@ -32,15 +32,21 @@ RISE_TOLERANCE = 1e-9
 """Newton step at which the search for the rise ends, relative to the rise or 1 K: ln h is then met to about 1e-11."""
 
 
+def thermal_loading(speed: Values, oil: InletOil, user: str) -> Float[Array, "..."]:
+    r"""$L = -(\partial\mu/\partial T)\,u^2/k$. **Arguments:** u, m/s; `oil` at the inlet, with a conductivity; `user`:
+    what messages say needs it. **Raises:** `ValueError` for an oil without a conductivity."""
+    if oil.conductivity is None:
+        raise ValueError(f"{user} needs the lubricant's conductivity: none given.")
+    slope = -jnp.multiply(oil.viscosity, oil.log_slope)
+    return slope / oil.conductivity * jnp.square(speed)
+
+
 class AbstractThermalFactor(eqx.Module):
     """Ratio of the film with inlet heating to the isothermal film."""
 
     def thermal_loading(self, entrainment_speed: Values, oil: InletOil) -> Float[Array, "..."]:
         r"""$L = -(\partial\mu/\partial T)\,u^2/k$. **Arguments:** u, m/s; `oil` at the inlet, with a conductivity."""
-        if oil.conductivity is None:
-            raise ValueError(f"{type(self).__name__}'s thermal factor needs the lubricant's conductivity: none given.")
-        slope = -jnp.multiply(oil.viscosity, oil.log_slope)
-        return slope / oil.conductivity * jnp.square(entrainment_speed)
+        return thermal_loading(entrainment_speed, oil, f"{type(self).__name__}'s thermal factor")
 
     def slide_ratio(self, entrainment_speed: Values, sliding_speed: Values) -> Float[Array, "..."]:
         """S = 2|u1 - u2|/|u1 + u2|, >= 0; finite at rest. **Arguments:** (u1 + u2)/2 and u1 - u2, m/s."""

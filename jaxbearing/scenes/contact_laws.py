@@ -16,6 +16,7 @@ def contact_laws(table: ContactTable, oil: Lubricant | None) -> ContactLaws:
         thermal=thermal_factor(table.thermal),
         traction=_traction(table, oil),
         rolling=rolling,
+        rolling_heating=table.rolling_heating,
         entrainment_offset=table.entrainment_offset,
         mixed=mixed_friction(table.mixed),
         hysteresis=table.hysteresis,

@@ -6,6 +6,7 @@ A law of another package is named by an entry point of the group `jaxbearing.law
 
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import suppress
+from types import MappingProxyType
 from typing import Annotated, Any, Generic, TypeVar
 
 from pydantic import GetCoreSchemaHandler
@@ -15,13 +16,17 @@ from ..contacts import (
     PRESETS,
     AbstractLineFilm,
     AbstractPointFilm,
+    AbstractPointRollingResistance,
     AbstractRollingResistance,
     AbstractThermalFactor,
     AbstractViscousFunction,
+    BibouletHoupertPointRollingResistance,
+    BibouletHoupertRollingResistance,
     ChittendenCentral,
     DistributedTraction,
     DowsonHigginson,
     DowsonToyoda,
+    FullRangeRollingResistance,
     Grubin,
     Gupta,
     HamrockDowsonCentral,
@@ -36,6 +41,7 @@ from ..contacts import (
     Resolution,
     RigidBlend,
     RigidRollingResistance,
+    SourceRollingResistance,
 )
 from ..contacts import viscous_function as viscous_function_named
 from ..contacts.viscous import VISCOUS_LAWS
@@ -47,6 +53,7 @@ from .errors import LAW_ERROR
 ENTRY_POINTS = "jaxbearing.laws"
 """Group of the entry points by which other packages name their laws."""
 AnyLaw = TypeVar("AnyLaw")
+_NOTHING: Mapping[str, str] = MappingProxyType({})
 
 
 class Laws(Generic[AnyLaw], Mapping[str, Callable[..., AnyLaw]]):
@@ -149,6 +156,19 @@ class Laws(Generic[AnyLaw], Mapping[str, Callable[..., AnyLaw]]):
         return law
 
 
+class RollingLaws(Laws[AnyLaw]):
+    """Laws of rolling resistance: `true` stands for the first of them; `older` names are read as present ones."""
+
+    def __init__(self, named: Mapping[str, Callable[..., AnyLaw]], *kinds: type, older: Mapping[str, str] = _NOTHING):
+        super().__init__(named, *kinds)
+        self._older = dict(older)
+
+    def read(self, given: Any) -> str:
+        if given is True:
+            return next(iter(self))
+        return super().read(self._older.get(given, given) if isinstance(given, str) else given)
+
+
 def for_raceways(films: Laws[Any], joined: Callable[[Any], Any]) -> Laws[Any]:
     """The films of contacts of which some carry nothing.
 
@@ -196,14 +216,22 @@ VISCOUS: Laws[AbstractViscousFunction] = Laws(VISCOUS_LAWS, AbstractViscousFunct
 MAXWELL_EYRING = "maxwell_eyring"
 """Ree and Eyring's flow with the Maxwell element that every law here has."""
 TRACTIONS: Laws[AbstractViscousFunction] = Laws({MAXWELL_EYRING: ReeEyring, **VISCOUS}, AbstractViscousFunction)
-ROLLING: Laws[AbstractRollingResistance] = Laws(
+ROLLING: Laws[AbstractRollingResistance] = RollingLaws(
     {
+        "full_range": FullRangeRollingResistance,
+        "biboulet_houpert": BibouletHoupertRollingResistance,
         "rigid_isoviscous": RigidRollingResistance,
         # under load; a roller outside the loaded zone has the rigid law's
         "ertel_grubin": JoinedRollingResistance,
     },
     AbstractRollingResistance,
 )
+POINT_ROLLING: Laws[AbstractPointRollingResistance] = RollingLaws(
+    {"biboulet_houpert": BibouletHoupertPointRollingResistance, "source_86": SourceRollingResistance},
+    AbstractPointRollingResistance,
+    older={"houpert": "source_86"},
+)
+"""The first law of each is that of a scene with `rolling_resistance = true`."""
 TURBULENCE: Laws[AbstractTurbulence] = Laws(
     {"laminar": Laminar, "blend": BlendedTurbulence, "pure": FullTurbulence}, AbstractTurbulence
 )

@@ -20,8 +20,9 @@ from jaxbearing.contacts import (
     NoThermalReduction,
     PointContact,
     RigidBlend,
+    RollingInlet,
+    SourceRollingResistance,
     inlet_temperature_rise,
-    point_rolling_moment,
 )
 from jaxbearing.contacts.point import hertz_shape, log_ellipticity
 from jaxbearing.lubricants import IntegratedPressureViscosity
@@ -38,7 +39,14 @@ FILMS = [
 ]
 NAMES = lambda film: type(film).__name__
 JITTED = {film: jax.jit(film.log_thickness) for film in FILMS}
-MOMENT = jax.jit(point_rolling_moment)
+
+
+def moment(contact, load, speed, viscosity, pressure_viscosity):
+    """The source's rolling moment."""
+    return SourceRollingResistance().moment(contact, RollingInlet(load, speed, viscosity, pressure_viscosity, 1e-6))
+
+
+MOMENT = jax.jit(moment)
 CONTACT = PointContact(0.01, 0.2, 2.3e11)
 NOMINAL = (1000.0, 20.0, 5e-3, 1.04e-8)
 """load, entrainment speed, viscosity, pressure viscosity"""
@@ -353,7 +361,7 @@ def test_rolling_moment_exponents_and_sign():
 
 
 def test_rolling_moment_hard_cases_and_gradients():
-    derivative = jax.jit(jax.grad(lambda *a: jnp.sum(point_rolling_moment(*a)), argnums=(0, 1, 2, 3, 4)))
+    derivative = jax.jit(jax.grad(lambda *a: jnp.sum(moment(*a)), argnums=(0, 1, 2, 3, 4)))
     load = jnp.asarray([0.0, 1e-12, 1.0, 1e6])[:, None]
     speed = jnp.asarray([0.0, -1e-9, 1e-3, 1e3])[None, :]
     for alpha in (0.0, 1e-8):

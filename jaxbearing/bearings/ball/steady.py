@@ -297,11 +297,8 @@ def _interactions(system: LubricatedBallSystem, state: BallsState, land: LandSta
     return found
 
 
-def _by_race(system: LubricatedBallSystem, state: BallsState, resistance: Array) -> Float[Array, "2"] | None:
-    """Power of the rolling resistance of each race, W, where a thermal network asks for it. **Arguments:** of each
-    ball, N m."""
-    if system.elsewhere is None:
-        return None
+def _by_race(system: LubricatedBallSystem, state: BallsState, resistance: Array) -> Float[Array, "2"]:
+    """Power of the rolling resistance of each race, W. **Arguments:** of each ball, N m."""
     return system.multiplicity * jnp.sum(SIDES * resistance * state.races.roll, axis=1)
 
 

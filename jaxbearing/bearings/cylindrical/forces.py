@@ -113,12 +113,10 @@ def friction_on_rings(
     rolling: Array,
     inner_flange: EndForces | None,
     outer_flange: EndForces | None,
-    by_race: bool = False,
 ) -> list[Interaction]:
     """Friction of the rollers on raceways and flanges.
 
-    **Arguments:** `sliding`, `rolling`: sliding speeds and mean surface speeds on the inner and the outer race, m/s;
-    `by_race`: whether the rolling resistance of each race is asked for.
+    **Arguments:** `sliding`, `rolling`: sliding speeds and mean surface speeds on the inner and the outer race, m/s.
     """
     traction, resistance = contact.traction, contact.rolling_force
     assert traction is not None
@@ -129,7 +127,7 @@ def friction_on_rings(
     ]
     if resistance is not None:
         torques = _against_rolling(motion, resistance)
-        own = jnp.sum(resistance * rolling, axis=1) if by_race else None
+        own = jnp.sum(resistance * rolling, axis=1)
         found.append(Interaction("rolling_resistance", jnp.sum(resistance * rolling), *torques, own))
     if inner_flange is not None:
         found.append(Interaction("flange", jnp.sum(inner_flange.power), -jnp.sum(inner_flange.ring_moment)))
@@ -145,14 +143,12 @@ def _against_rolling(motion: RollerKinematics, resistance: Array) -> tuple[Array
 
 
 def rolling_alone(
-    contact: LineContact, motion: RollerKinematics, rolling: Float[Array, "2 roller"] | None, by_race: bool = False
+    contact: LineContact, motion: RollerKinematics, rolling: Float[Array, "2 roller"] | None
 ) -> Costs[PowerLoss]:
     r"""Power and ring torques of rollers that roll without sliding against their rolling resistances R, N.
 
     The tractions that balance each roller do no work: $T_i + T_o = (R_i + R_o)/2$ (moment), $T_i - T_o = \lambda_oR_o -
     \lambda_iR_i$ (tangential force), $\lambda$ as in `rolling_force_factor`.
-
-    **Arguments:** `by_race`: whether the resistance of each race is asked for.
     """
     if rolling is None:
         return costs(PowerLoss, [], motion)
@@ -163,7 +159,7 @@ def rolling_alone(
     still = jnp.zeros(())
     speed = motion.surface_speeds(still, still)[0][0]
     power = jnp.sum(rolling) * speed
-    own = jnp.sum(rolling, axis=1) * speed if by_race else None
+    own = jnp.sum(rolling, axis=1) * speed
     constraint = jnp.sum(traction, axis=1) * jnp.stack([motion.inner_radius, -motion.outer_radius])
     found = [
         Interaction("", None, constraint[0], constraint[1]),

@@ -15,7 +15,7 @@ import equinox as eqx
 import jax.numpy as jnp
 from jaxtyping import Array
 
-from ...contacts import LineContact
+from ...contacts import LineContact, RigidRollingResistance
 from ...lubricants import Lubricant, NoPressureViscosity
 from ...materials import reduced_modulus
 from ...mounting import Fits, PartTemperatures
@@ -129,7 +129,7 @@ class CylindricalRollerBearing(AbstractMovingBearing):
                 if law is not None and law.piezoviscous_only:
                     yield (
                         f"contact.{name}: {type(law).__name__} holds for oils whose viscosity rises with pressure, not "
-                        "for an isoviscous one; film = 'moes' and rolling_resistance = 'rigid_isoviscous' do"
+                        "for an isoviscous one; film = 'moes' and rolling_resistance = 'full_range' do"
                     )
 
     def solve_ring(
@@ -292,9 +292,9 @@ def _misfit(contact: ContactLaws, oil: Lubricant) -> list[str]:
     if contact.traction is not None:
         said += contact.traction.notes(oil)
     isoviscous = isinstance(oil.pressure_viscosity, NoPressureViscosity)
-    if contact.rolling is not None and not contact.rolling.piezoviscous_only and not isoviscous:
+    if isinstance(contact.rolling, RigidRollingResistance) and not isoviscous:
         said.append(
             "contact.rolling_resistance leaves out the rise of viscosity with pressure: about half the resistance of a "
-            "loaded contact (ertel_grubin has it)"
+            "loaded contact (full_range has it)"
         )
     return said

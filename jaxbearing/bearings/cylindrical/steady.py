@@ -247,7 +247,7 @@ def _lubricated(system: LubricatedRollerSystem, result: NewtonResult) -> Results
     )
     facts = Facts((contacts,))
     if system.cage is None:
-        cost = rolling_alone(system.contact, motion, contact.rolling_force, system.elsewhere is not None)
+        cost = rolling_alone(system.contact, motion, contact.rolling_force)
         return Results(elements, cost, facts)
 
     land = system.land_at(result.point, state)
@@ -277,7 +277,7 @@ def _interactions(system: LubricatedRollerSystem, state: RollerState, land: Land
     assert pocket is not None
     assert cage is not None
     speeds, flanges = (state.sliding_speed, state.mean_speed), (state.inner_flange, state.outer_flange)
-    found = friction_on_rings(motion, state.contact, *speeds, *flanges, by_race=system.elsewhere is not None)
+    found = friction_on_rings(motion, state.contact, *speeds, *flanges)
     friction = pocket.friction_front + pocket.friction_rear
     found.append(Interaction("pocket", jnp.sum(friction * motion.roller_radius * state.spin_speed)))
     if state.rails is not None:

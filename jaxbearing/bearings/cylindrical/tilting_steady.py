@@ -128,7 +128,7 @@ def _results(
         **more,
     )
     profiled = scene.profile is not None and scene.profile.shape is not None
-    costs = rolling_alone(contact, motion, rolling, scene.oil_temperatures is not None)
+    costs = rolling_alone(contact, motion, rolling)
     contacts = Contacts(RACEWAYS, state.load, peaks, MEAN_OF_LINE, laminae=laminae)
     facts = Facts((contacts,))
     if scene.contact is not None and scene.oil is not None:

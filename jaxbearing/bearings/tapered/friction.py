@@ -171,8 +171,7 @@ def tapered_friction(scene: TaperedRollerBearing, state: TaperedState) -> Tapere
     found = [Interaction("", None, inner, outer)]
     if races.rolling is not None:
         powers = total(races.rolling * races.speed)
-        own = None if elsewhere is None else powers
-        found.append(Interaction("rolling_resistance", jnp.sum(powers), by_race=own))
+        found.append(Interaction("rolling_resistance", jnp.sum(powers), by_race=powers))
     if traction is not None:
         found.append(Interaction("flange", total(traction.power)))
     if drag is not None:

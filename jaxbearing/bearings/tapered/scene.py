@@ -113,7 +113,7 @@ class TaperedRollerBearing(AbstractBearing):
         if self.drag is not None and self.oil is not None and self.oil.density is None:
             yield "oil.density: the drag needs it"
         if self.rib is not None and self.rib.resists_rolling:
-            yield "rib.rolling_resistance: the rib has none, the roller ends slide on it"
+            yield "rib.rolling: the rib has none, the roller ends slide on it"
         yield from refusals_of(self.operation.check_rings_turn)
 
     def solve_ring(

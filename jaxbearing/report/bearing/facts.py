@@ -26,6 +26,10 @@ def facts(solution: Solution) -> Iterator[tuple[str, str]]:
         place = f"eccentricity ratio {digits(float(cage.eccentricity_ratio), 3)}"
         angle = f"attitude angle {with_unit(float(cage.attitude_angle), 'rad', 3)}"
         yield "Cage", f"{with_unit(float(cage.speed), 'rad/s')}, {slip}, {place}, {angle}"
+    rolling = solution.rolling_by_race
+    if rolling is not None:
+        parts = f"inner {digits(float(rolling.inner))} W, outer {digits(float(rolling.outer))} W"
+        yield "Rolling resistance", f"{parts} ({rolling.law})"
     if solution.fit is not None:
         yield from fit_facts(solution.fit)
     if solution.thermal is not None:

@@ -21,7 +21,6 @@ _INSIDE = (
     "notes",
     "laminae",
     "failure_causes",
-    "rolling_by_race",
 )
 _NAMES = ("stiffness_freedom", "held_freedom", "element_name")
 """Fields that are not written as they are, but in words or in another order, or not at all."""

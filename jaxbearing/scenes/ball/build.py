@@ -17,7 +17,7 @@ from ...bearings.rating import Rating
 from ...contacts import PointLaws
 from ...lubricants import Lubricant
 from ..bearing.build import built, cage, part, seats, solids
-from ..laws import BALL_FILMS, distributed_traction, thermal_factor
+from ..laws import BALL_FILMS, POINT_ROLLING, distributed_traction, thermal_factor
 from ..mixed import mixed_friction
 from ..oil.catalogue import lubricant
 from .schema import BallBearingTable, BallContactTable, KinematicsTable
@@ -84,7 +84,8 @@ def _laws(table: BallContactTable, oil: Lubricant | None) -> PointLaws:
         film=BALL_FILMS[table.film](),
         thermal=thermal_factor(table.thermal),
         traction=traction,
-        rolling_resistance=table.rolling_resistance is not None,
+        rolling=None if table.rolling_resistance is None else POINT_ROLLING[table.rolling_resistance](),
+        rolling_heating=table.rolling_heating,
         heathcote=table.heathcote,
         mixed=mixed_friction(table.mixed),
         hysteresis=table.hysteresis,

@@ -17,11 +17,12 @@ from ..bearing.schema import (
     RatingTable,
     TemperaturesTable,
     ThermalTable,
+    heating_problems,
     operation_table,
     require_oil,
     require_oil_flow,
 )
-from ..laws import BALL_FILMS, POINT_THERMAL, TRACTIONS, TractionAccuracy
+from ..laws import BALL_FILMS, POINT_ROLLING, POINT_THERMAL, TRACTIONS, TractionAccuracy
 from ..materials import MaterialField
 from ..mixed import MixedTable, mixed_needs_traction
 from ..oil.schema import OilTable
@@ -41,19 +42,23 @@ class BallMaterialsTable(Table):
     balls: MaterialField
 
 
-class BallContactTable(table_of(PointLaws, leave_out=("rolling_resistance",))):
+class BallContactTable(table_of(PointLaws)):
     """Laws of the raceway contacts, by the names in `scenes.laws`, which says what each stands for.
 
     - `traction_accuracy`: relative error of the traction forces for which the march through the Hertz pressure is cut
+    - `rolling_resistance`: of the raceways; `true`: the first of these laws; not given: none
     - `mixed`: mixed friction of rough raceways; not given: the films carry all of the loads
     """
 
-    about: ClassVar[Mapping[str, tuple[str, ...]]] = {"traction": ("traction_accuracy", "heathcote", "mixed")}
+    about: ClassVar[Mapping[str, tuple[str, ...]]] = {
+        "traction": ("traction_accuracy", "heathcote", "mixed"),
+        "rolling_resistance": ("rolling_heating",),
+    }
     film: Annotated[str, BALL_FILMS]
     thermal: Annotated[str, POINT_THERMAL] | None = None
     traction: Annotated[str, TRACTIONS] | None = None
     traction_accuracy: TractionAccuracy | None = None
-    rolling_resistance: Literal["houpert"] | None = None
+    rolling_resistance: Annotated[str, POINT_ROLLING] | None = None
     mixed: MixedTable | None = None
 
     @check
@@ -66,6 +71,7 @@ class BallContactTable(table_of(PointLaws, leave_out=("rolling_resistance",))):
         if given and self.traction is None:
             has = "has" if len(given) == 1 else "have"
             yield refusal_at("traction", f"a law, without which {' and '.join(given)} {has} no meaning", "nothing")
+        yield from heating_problems(self)
 
 
 def _sign(value: Any) -> float:

@@ -5,7 +5,7 @@ from ...bearings.ball.scene import BallAttitude, BallBearing
 from ...contacts import PointLaws
 from ...lubricants import Lubricant
 from ..bearing.writer import bearing_tables, cage, flow_law, march_accuracy, thermal_law
-from ..laws import BALL_FILMS, POINT_THERMAL
+from ..laws import BALL_FILMS, POINT_ROLLING, POINT_THERMAL
 from ..mixed import mixed_rows
 from ..part_writer import Rows, given, law_name, rows, shown, unwritable
 from .schema import BallBearingTable, BallCageTable, KinematicsTable
@@ -41,6 +41,6 @@ def _laws(contact: PointLaws, oil: Lubricant | None) -> Rows:
         "thermal": thermal_law(POINT_THERMAL, contact.thermal),
         "traction": None if traction is None else flow_law(traction.viscous, oil, "contact.traction.viscous"),
         "traction_accuracy": None if traction is None else march_accuracy(traction, "contact.traction", spin=True),
-        "rolling_resistance": "houpert" if contact.rolling_resistance else None,
+        "rolling_resistance": contact.rolling and law_name(POINT_ROLLING, contact.rolling, "contact.rolling"),
     }
     return given(found) | mixed_rows(contact.mixed)

@@ -7,6 +7,7 @@ from typing import Annotated, Any
 from ...bearings.cage import AbstractCage
 from ...bearings.operation import AbstractOperation, HeldDisplacement
 from ...bearings.rating import Rating
+from ...contacts.rolling_heating import AIHARA
 from ...mounting import Fits, PartTemperatures
 from ...thermal.settings import Capacities, ConductanceFactors, Conductances, Shares, Thermal
 from ..laws import TURBULENCE, Laws
@@ -92,6 +93,12 @@ class RatingTable(table_of(Rating)):
     """Inputs of the life; see `bearings.rating.Rating`."""
 
 
+def heating_problems(contact: Any) -> Problems:
+    """Refusal of an inlet heating of rolling resistance without a law of it. **Arguments:** `contact`, the table."""
+    if contact.rolling_heating is not None and contact.rolling_resistance is None:
+        yield refusal_at("rolling_resistance", "a law, without which rolling_heating has no meaning", "nothing")
+
+
 def require_oil_flow(drag: Table | None, operation: Any) -> Problems:
     """Refusal of a scene with drag that does not say how much oil flows."""
     if drag is not None and operation.oil_flow is None:
@@ -101,14 +108,14 @@ def require_oil_flow(drag: Table | None, operation: Any) -> Problems:
 def require_oil(
     oil: OilTable | None,
     operation: Any,
-    contact: Table,
+    contact: Any,
     density: str,
     laws: Mapping[str, Laws[Any]],
 ) -> Problems:
     """Refusals of a scene that lacks what the laws of the raceway contacts need.
 
     **Arguments:**
-    - `contact`: with the fields `thermal` and `traction`.
+    - `contact`: with the fields `thermal`, `traction` and `rolling_heating`.
     - `density`: what needs the density of the oil, in words; "" where nothing does.
     - `laws`: fields of `contact` whose laws may need an oil whose viscosity rises with pressure -> their laws.
     """
@@ -119,7 +126,8 @@ def require_oil(
         yield refusal_at("oil", "an oil, which [contact] needs: a table [oil] with a 'name'", "nothing")
         return
     thermal, traction = law_in_words(contact, "thermal"), law_in_words(contact, "traction")
-    yield from require_laws(oil, {"conductivity": thermal, "rheology": traction, "density": density})
+    heating = law_in_words(contact, "rolling_heating") if contact.rolling_heating == AIHARA else ""
+    yield from require_laws(oil, {"conductivity": thermal or heating, "rheology": traction, "density": density})
     yield from require_piezoviscous(oil, contact, laws)
 
 

@@ -13,6 +13,7 @@ from ..bearing.schema import (
     RatingTable,
     TemperaturesTable,
     ThermalTable,
+    heating_problems,
     law_in_words,
     operation_table,
     require_oil,
@@ -44,7 +45,7 @@ class ContactTable(table_of(ContactLaws, leave_out=("entrainment_smoothing",))):
 
     - `traction_model`: the law at the mean Hertz pressure, or marched through the pressure
     - `traction_accuracy`: relative error of the traction forces for which the march through the Hertz pressure is cut
-    - `rolling_resistance`: of the raceways; not given: none
+    - `rolling_resistance`: of the raceways; `true`: the first of these laws; not given: none
     - `mixed`: mixed friction of rough raceways; not given: the films carry all of the loads
     """
 
@@ -52,6 +53,7 @@ class ContactTable(table_of(ContactLaws, leave_out=("entrainment_smoothing",))):
     about: ClassVar[Mapping[str, tuple[str, ...]]] = {
         "traction": ("traction_model", "traction_accuracy", "mixed"),
         "traction_model": ("traction_accuracy",),
+        "rolling_resistance": ("rolling_heating",),
     }
     film: Annotated[str, ROLLER_FILMS]
     thermal: Annotated[str, LINE_THERMAL] | None = None
@@ -73,6 +75,7 @@ class ContactTable(table_of(ContactLaws, leave_out=("entrainment_smoothing",))):
         if self.traction_accuracy is not None and not distributed:
             expected = "none: only traction_model = 'distributed' is computed to an accuracy"
             yield refusal_at("traction_accuracy", expected, f"the number {self.traction_accuracy:g}")
+        yield from heating_problems(self)
 
 
 RACEWAY_LAWS = {"film": ROLLER_FILMS, "rolling_resistance": ROLLING}

@@ -48,6 +48,7 @@ def _laws(table: TaperedContactTable, oil: Lubricant | None) -> ContactLaws:
         thermal=thermal_factor(table.thermal),
         traction=traction,
         rolling=rolling,
+        rolling_heating=table.rolling_heating,
         mixed=mixed_friction(table.mixed),
         hysteresis=table.hysteresis,
     )

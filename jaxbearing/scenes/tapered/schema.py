@@ -12,6 +12,7 @@ from ..bearing.schema import (
     RatingTable,
     TemperaturesTable,
     ThermalTable,
+    heating_problems,
     operation_table,
     require_oil,
     require_oil_flow,
@@ -40,12 +41,15 @@ class TaperedContactTable(table_of(ContactLaws, leave_out=("entrainment_offset",
     for lines; `traction`: of what slides on the rib, and what the raceways could carry.
 
     - `traction_accuracy`: relative error of the traction forces for which the march through the Hertz pressure is cut
-    - `rolling_resistance`: of the raceways; not given: none
+    - `rolling_resistance`: of the raceways; `true`: the first of these laws; not given: none
     - `flange_film`: film law of the roller ends on the rib
     - `mixed`: mixed friction of rough raceways and ribs; not given: the films carry all of the loads
     """
 
-    about: ClassVar[Mapping[str, tuple[str, ...]]] = {"traction": ("traction_accuracy", "mixed")}
+    about: ClassVar[Mapping[str, tuple[str, ...]]] = {
+        "traction": ("traction_accuracy", "mixed"),
+        "rolling_resistance": ("rolling_heating",),
+    }
     film: Annotated[str, ROLLER_FILMS]
     thermal: Annotated[str, LINE_THERMAL] | None = None
     rolling_resistance: Annotated[str, ROLLING] | None = None
@@ -62,6 +66,7 @@ class TaperedContactTable(table_of(ContactLaws, leave_out=("entrainment_offset",
     def _consistent(self) -> Problems:
         if self.traction_accuracy is not None and self.traction is None:
             yield refusal_at("traction", "a law, without which traction_accuracy has no meaning", "nothing")
+        yield from heating_problems(self)
 
 
 class TaperedOperationTable(operation_table(TaperedOperation)):

@@ -8,7 +8,7 @@ import pytest
 import jaxbearing as jb
 from jaxbearing.bearings.ball.gyroscopic import CappedCouple, SharedCouple
 from jaxbearing.bearings.ball.kinematics import BallKinematics
-from jaxbearing.contacts import point_rolling_moment
+from jaxbearing.contacts import RollingInlet
 from jaxbearing.contacts.point_laws import PointFilm
 from jaxbearing.gaps import BallPocket
 from jaxbearing.materials import reduced_modulus
@@ -136,7 +136,8 @@ def test_rolling_resistance_takes_power_whichever_way_a_ball_turns():
     inlet, load = scene.oil.at(373.15), jnp.asarray([3300.0, 4100.0])
     film = PointFilm(load, load, None, inlet.viscosity * jnp.ones(2), load)
     moment = jax.jit(lambda speed, roll: scene.contact.rolling_moment(contact, load, film, speed, roll, inlet))
-    own = point_rolling_moment(contact, load, speed, inlet.viscosity, inlet.pressure_viscosity)
+    entering = RollingInlet(load, speed, inlet.viscosity, inlet.pressure_viscosity, film.film)
+    own = scene.contact.rolling.moment(contact, entering)
     np.testing.assert_allclose(moment(speed, roll), own, rtol=1e-12)
     assert np.all(own > 0.0)
     for factor in (-20.0, -1.0, -1e-3, 0.0, 1e-3, 0.5, 30.0):

@@ -232,7 +232,7 @@ ENERGY = {
     "outer faster": {
         "operation.inner_speed": 500.0,
         "operation.outer_speed": 850.0,
-        "contact.rolling_resistance": False,
+        "contact.rolling": None,
     },
 }
 
