@@ -126,7 +126,9 @@ def test_hysteresis_costs_the_moment_of_each_roller():
     load = jnp.stack([e.load_inner, e.load_outer])
     moment = 2.0 / (3.0 * jnp.pi) * 0.005 * load * contact.half_width(load)
     speed = 0.5 * scene.geometry.roller_diameter * jnp.abs(e.spin_speed)
-    np.testing.assert_allclose(found.power_loss.total, jnp.sum(moment / contact.reduced_radius * speed[None]), rtol=1e-9)
+    np.testing.assert_allclose(
+        found.power_loss.total, jnp.sum(moment / contact.reduced_radius * speed[None]), rtol=1e-9
+    )
     double = jb.solve(scene.replace({"contact.hysteresis": 0.01}))
     np.testing.assert_allclose(double.power_loss.total, 2.0 * found.power_loss.total, rtol=1e-9)
 

@@ -56,6 +56,7 @@ PARTS = (
     ball_solution.BallResults,
     ball_solution.BallPowerLoss,
     solution.RacewayPower,
+    solution.BoundaryPower,
     solution.RollingByRace,
     tapered_solution.TaperedResults,
     tapered_solution.TaperedPowerLoss,
