@@ -56,7 +56,7 @@ def _mixed_facts(solution: Solution) -> Iterator[tuple[str, str]]:
         return
     total, rubbed = float(np.asarray(solution.power_loss.total)), float(np.asarray(power.total))
     part = f" ({digits(100.0 * rubbed / total, 3)} % of the losses)" if total else ""
-    yield "Boundary friction", f"{digits(rubbed)} W{part}"
+    yield "Mixed friction", f"boundary friction {digits(rubbed)} W{part}"
     for side, place in (("inner", "inner raceway"), ("outer", "outer raceway"), ("flange", "rib")):
         ratio = getattr(solution.elements, f"film_ratio_{side}", None)
         if ratio is None or np.all(np.isnan(ratio)):
