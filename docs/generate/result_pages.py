@@ -4,7 +4,7 @@ import dataclasses
 from pathlib import Path
 
 from jaxbearing._derived import derived_results
-from jaxbearing.bearings import growth, solution
+from jaxbearing.bearings import growth, solution, supplied
 from jaxbearing.bearings.ball import solution as ball_solution
 from jaxbearing.bearings.cylindrical import solution as cylindrical_solution
 from jaxbearing.bearings.cylindrical.motion import results as roller_motion
@@ -28,6 +28,7 @@ SECTIONS = {
         "ring": solution.RingDisplacement,
         "cage": solution.CageState,
         "rolling_by_race": solution.RollingByRace,
+        "supply": supplied.SupplyResult,
         "fit": growth.FitResult,
         "thermal": thermal_result.ThermalResult,
         "thermal.temperatures": thermal_result.NodeTemperatures,

@@ -26,6 +26,7 @@ from .solution import (
     RollingByRace,
     Solution,
 )
+from .supplied import supply_result
 
 
 class Results(NamedTuple, Generic[Elements, Losses]):
@@ -66,6 +67,7 @@ def assemble(
     names["held_freedom"] = tuple(name for name in RING_FREEDOMS if name in modelled and name not in port.free)
     own = results._asdict()
     facts, costs = own.pop("facts"), own.pop("costs")
+    own["supply"] = supply_result(scene, facts.contacts[0].load, facts.contacts[0].starved)
     shown = own | costs._asdict() | {"ring": ring, "force": port.force, "stiffness": port.stiffness}
     by_race = costs.rolling_by_race
     if by_race is not None:

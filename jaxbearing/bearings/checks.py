@@ -30,6 +30,8 @@ LARGEST_TILT = 10e-3
 ROUGH, HEAVY = 0.01, 0.5e9
 """Load share of asperities, and Hertz pressure, Pa, above which the laws of the load share are known to a factor of
 10."""
+STARVED = 0.5
+"""Film over flooded film below which a contact is strongly starved."""
 SLOWEST = 99.9 * 2.0 * np.pi / 60.0
 """Speed of the rings against each other below which the lubricated models have no meaning, rad/s (100 rpm)."""
 
@@ -131,6 +133,26 @@ def _gupta(result: SolvedBearing) -> Excess:
     return result.each(fitted)
 
 
+def _starved(result: SolvedBearing) -> Excess:
+    thin = (
+        "{place} is strongly starved: the film is less than half of the flooded one, and follows the supply, "
+        "which is known to a factor of 3 at best"
+    )
+    inside = (
+        "the meniscus of contact.supply.meniscus_distance lies inside the contact on {place}: nothing enters it, "
+        "and film and rolling resistance have no meaning"
+    )
+
+    def starved(contacts: Contacts) -> Excess:
+        found = contacts.starved
+        if found is None:
+            return {}
+        said = contacts.said(thin, contacts.most(STARVED - found.film_factor))
+        return said if found.reach is None else said | contacts.said(inside, contacts.most(found.reach - 1.0))
+
+    return result.each(starved)
+
+
 def _on_edge(result: SolvedBearing) -> Excess:
     text = (
         "rollers are loaded on an edge of {place}, with more than 1.5 times their mean load per length at an end: the "
@@ -208,6 +230,7 @@ RESULT_CHECKS: tuple[Callable[[SolvedBearing], Excess], ...] = (
     _sheared,
     _rough,
     _gupta,
+    _starved,
     _cage_touches,
 )
 """The checks of results that all bearings have, in the order of the warnings; those of a family come first."""

@@ -8,6 +8,7 @@ import numpy as np
 from jaxtyping import Array, Bool, Float
 
 from ..contacts.laws import ContactLaws
+from ..contacts.oil_supply import Starvation
 from ..contacts.point_laws import PointLaws
 from ..lubricants import InletOil
 from .solution import CageState, RingDisplacement
@@ -36,6 +37,7 @@ class Contacts(NamedTuple):
     - `angle`: contact angle, rad.
     - `past_edge`: by how much a contact ellipse passes the end of what it rests on, positive where it is cut off, for
       the rows whose `edges` name such an end.
+    - `starved`: what the supply of oil does to them.
     """
 
     places: tuple[str, ...]
@@ -52,6 +54,7 @@ class Contacts(NamedTuple):
     angle: Float[Array, "place element"] | None = None
     past_edge: Float[Array, "place element"] | None = None
     edges: tuple[str | None, ...] = ()
+    starved: Starvation | None = None
 
     def loaded(self, part: float = LOADED) -> Bool[Array, "place element"]:
         """Contacts that count: with at least this part of the largest load at the same place."""

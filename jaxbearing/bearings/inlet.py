@@ -1,6 +1,7 @@
 """Oil that enters the interactions of a bearing: all of it at the inlet temperature of the operating point, or each
 interaction with a temperature of its own, which a thermal network knows."""
 
+import dataclasses
 from typing import Any, NamedTuple
 
 import jax.numpy as jnp
@@ -21,7 +22,10 @@ class OilElsewhere(NamedTuple):
 
 def oil_of_races(scene: Any) -> InletOil:
     """The oil that enters the raceway contacts: one for both, or with fields of shape (2, 1), races first."""
-    return scene.oil.at(race_temperatures(scene))
+    oil, contact = scene.oil.at(race_temperatures(scene)), scene.contact
+    if contact is None or contact.supply is None or contact.supply.from_flow is None:
+        return oil
+    return dataclasses.replace(oil, flow=jnp.asarray(scene.operation.oil_flow))
 
 
 def oil_elsewhere(scene: Any) -> OilElsewhere | None:

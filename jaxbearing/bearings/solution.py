@@ -17,6 +17,7 @@ from .._scene import label as label
 from ..numerics.status import Status
 from ..thermal.result import ThermalResult
 from .growth import FitResult
+from .supplied import SupplyResult
 
 INNER_TOLERANCE = 1e-8
 """A nested solve with a larger residual is named as the cause of a failure."""
@@ -214,6 +215,7 @@ class Solution(AbstractSolution, Generic[Point, Elements, Losses]):
     """A `life.result.Life` if the scene has a rating."""
     rolling_by_race: RollingByRace | None = None
     boundary_power: BoundaryPower | None = None
+    supply: SupplyResult | None = None
 
     @property
     def freedoms_of_stiffness(self) -> tuple[str, ...]:

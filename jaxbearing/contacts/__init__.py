@@ -26,6 +26,7 @@ from .load_share import GreenwoodTrippPressure as GreenwoodTrippPressure
 from .load_share import ZhouHoeprich as ZhouHoeprich
 from .mixed import MixedFriction as MixedFriction
 from .mixed import flash_temperature as flash_temperature
+from .oil_supply import Supply as Supply
 from .patch import ContactPatch as ContactPatch
 from .patch import contact_patch as contact_patch
 from .point import PointContact as PointContact

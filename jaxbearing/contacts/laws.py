@@ -16,6 +16,7 @@ from .heated_film import HeatedFilm, heated_film
 from .hysteresis import line_hysteresis
 from .line import LineContact
 from .mixed import Asperities, InletState, MixedFriction, MixedState, require_traction
+from .oil_supply import Starvation, Supply
 from .rolling import AbstractRollingResistance, RollingInlet
 from .rolling_heating import AIHARA, HEATINGS, aihara_factor, heating_of
 from .shear import Sliding
@@ -30,7 +31,8 @@ class ContactState(NamedTuple):
     """State of one contact: `film` m, `temperature_rise` K above the inlet, `traction` N (None: frictionless),
     `rolling_force` N (None: no rolling resistance), of the sign of the mean speed.
 
-    `inner_residual` is that of the nested solve for the temperature rise, in units of ln(film).
+    `inner_residual` is that of the nested solves for temperature rise and meniscus, in units of ln(film). `supply`:
+    what little oil does (None: fully flooded).
     """
 
     film: Float[Array, "*batch"]
@@ -38,6 +40,12 @@ class ContactState(NamedTuple):
     traction: Float[Array, "*batch"] | None
     rolling_force: Float[Array, "*batch"] | None
     inner_residual: Float[Array, ""]
+    supply: Starvation | None = None
+
+    @property
+    def separation(self) -> Float[Array, "*batch"]:
+        """Film in the equations that place a rolling element between the rings, m."""
+        return self.film if self.supply is None else self.supply.separation
 
 
 class ContactLaws(Checked):
@@ -55,6 +63,7 @@ class ContactLaws(Checked):
       reduction, and none where the film is isothermal.
     - `entrainment_smoothing`: smoothing of the mean surface speed's modulus, m/s: what film a contact keeps whose
       surfaces pass through rest.
+    - `supply`: how much oil there is, or `None`: fully flooded.
     - `mixed`: mixed friction of rough surfaces, or `None`: the film carries all of the load.
     - `hysteresis`: part of the elastic work that rolling loses in the bodies, or `None`: left out.
     """
@@ -68,6 +77,7 @@ class ContactLaws(Checked):
     rolling: AbstractRollingResistance | None = None
     rolling_heating: str | None = choice("contact.rolling_heating", HEATINGS, None)
     entrainment_smoothing: Scalar = bounded("> 0", unit="m/s", converter=as_float, default=SPEED_SMOOTHING)
+    supply: Supply | None = None
     mixed: MixedFriction | None = None
     hysteresis: Scalar | None = bounded(">= 0", unit="1", default=None)
 
@@ -92,9 +102,26 @@ class ContactLaws(Checked):
         lubricant: Lubricant,
         inlet: InletOil,
     ) -> HeatedFilm:
-        """The film alone; arguments as in `evaluate`."""
+        """The flooded film alone; arguments as in `evaluate`."""
         speed = self.entrainment(mean_speed)
         return heated_film(self.film, self.thermal, contact, load, speed, sliding_speed, lubricant, inlet)
+
+    def separation(
+        self,
+        contact: LineContact,
+        load: Values,
+        mean_speed: Values,
+        sliding_speed: Values,
+        lubricant: Lubricant,
+        inlet: InletOil,
+    ) -> tuple[Array, Array]:
+        """`ContactState.separation` alone, m, and the residual of nested solves; arguments as in `evaluate`."""
+        found = self.heated_film(contact, load, mean_speed, sliding_speed, lubricant, inlet)
+        if self.supply is None:
+            return jnp.exp(found.log_thickness), found.residual
+        speed = self.entrainment(mean_speed)
+        starved = self.supply.starvation(contact, load, found.log_thickness, speed, inlet)
+        return starved.separation, jnp.maximum(found.residual, starved.residual)
 
     def evaluate(
         self,
@@ -107,10 +134,11 @@ class ContactLaws(Checked):
     ) -> ContactState:
         """Film, temperature rise, traction and rolling resistance.
 
-        The film is phi_T times the isothermal film at the inlet temperature; traction sees the oil at the inlet
-        temperature plus the rise that explains phi_T. So does rolling resistance with the heating
-        `film_temperature`, whose pressure-viscosity coefficient is that at the inlet temperature; with `aihara` it
-        sees the oil at the inlet temperature.
+        The flooded film is phi_T times the isothermal film at the inlet temperature; a supply makes it thinner, and
+        lowers the rolling resistance of the flooded contact. Traction sees the oil at the inlet temperature plus the
+        rise that explains phi_T. So does rolling resistance with the heating `film_temperature`, whose
+        pressure-viscosity coefficient is that at the inlet temperature; with `aihara` it sees the oil at the inlet
+        temperature.
 
         **Arguments:** `load`, N, > 0; `mean_speed` (u1 + u2)/2 and `sliding_speed` u1 - u2, m/s, of either sign;
         `inlet` = `lubricant.at(inlet temperature)`, evaluated once for all contacts.
@@ -121,7 +149,11 @@ class ContactLaws(Checked):
         if found.rise is not None:
             base = inlet.temperature + found.rise
             base_viscosity = lubricant.viscosity.viscosity(0.0, base)
-        film = jnp.exp(found.log_thickness)
+        film = flooded = jnp.exp(found.log_thickness)
+        starved, residual = None, found.residual
+        if self.supply is not None:
+            starved = self.supply.starvation(contact, load, found.log_thickness, speed, inlet)
+            film, residual = starved.film, jnp.maximum(residual, starved.residual)
         traction = None
         if self.traction is not None:
             traction = self.traction.force(contact, load, film, speed, sliding_speed, base, lubricant, base_viscosity)
@@ -132,14 +164,16 @@ class ContactLaws(Checked):
         if self.rolling is not None:
             heated = heating_of(self.rolling, self.rolling_heating, self.thermal) == AIHARA
             viscosity = inlet.viscosity if heated else base_viscosity
-            entering = RollingInlet(load, mean_speed, viscosity, inlet.pressure_viscosity, film)
+            entering = RollingInlet(load, mean_speed, viscosity, inlet.pressure_viscosity, flooded)
             rolling = self.rolling.force(contact, entering)
             if heated:
                 rolling = rolling * aihara_factor(mean_speed, inlet)
+            if starved is not None:
+                rolling = rolling * starved.rolling_factor
         if self.hysteresis is not None:
             lost = line_hysteresis(contact, load, mean_speed, self.hysteresis)
             rolling = lost if rolling is None else rolling + lost
-        return ContactState(film, found.rise, traction, rolling, jnp.max(found.residual))
+        return ContactState(film, found.rise, traction, rolling, jnp.max(residual), starved)
 
     def asperities(
         self, contact: LineContact, load: Values, film: Values, mean_speed: Values, inlet: InletOil

@@ -15,6 +15,7 @@ from .heated_film import heated_film
 from .hysteresis import point_hysteresis
 from .laws import SPEED_SMOOTHING
 from .mixed import Asperities, InletState, MixedFriction, MixedState, require_traction
+from .oil_supply import Starvation, Supply
 from .patch import contact_patch
 from .point import PointContact
 from .point_film import AbstractPointFilm
@@ -27,13 +28,25 @@ from .thermal import AbstractThermalFactor, NoThermalReduction
 
 class PointFilm(NamedTuple):
     """Film, m, temperature of the oil that enters the contact and of the surfaces, K, rise above the bearing's inlet, K
-    (None: isothermal), viscosity there, Pa s, residual of the nested solve."""
+    (None: isothermal), viscosity there, Pa s, residual of the nested solves, what little oil does (None: fully
+    flooded)."""
 
     film: Float[Array, "*batch"]
     temperature: Float[Array, "*batch"]
     rise: Float[Array, "*batch"] | None
     viscosity: Float[Array, "*batch"]
     residual: Float[Array, "*batch"]
+    supply: Starvation | None = None
+
+    @property
+    def separation(self) -> Float[Array, "*batch"]:
+        """Film in the equations that place a ball between the rings, m."""
+        return self.film if self.supply is None else self.supply.separation
+
+    @property
+    def flooded(self) -> Float[Array, "*batch"]:
+        """Film with all the oil, m."""
+        return self.film if self.supply is None else self.supply.flooded
 
 
 class PointLaws(Checked):
@@ -47,6 +60,7 @@ class PointLaws(Checked):
     - `rolling_heating`: how inlet heating lowers it, as in `laws.ContactLaws`.
     - `heathcote`: whether the race's curvature across rolling counts in the sliding (`Sliding.curvature`); the source's
       patch is flat.
+    - `supply`: how much oil there is, or `None`: fully flooded.
     - `mixed`: mixed friction of rough surfaces, or `None`: the film carries all of the load.
     - `hysteresis`: part of the elastic work that rolling loses in the bodies, or `None`: left out.
     """
@@ -59,6 +73,7 @@ class PointLaws(Checked):
     rolling: AbstractPointRollingResistance | None = None
     rolling_heating: str | None = choice("contact.rolling_heating", HEATINGS, None)
     heathcote: bool = switch("contact.heathcote", False)
+    supply: Supply | None = None
     mixed: MixedFriction | None = None
     hysteresis: Scalar | None = bounded(">= 0", unit="1", default=None)
 
@@ -86,7 +101,11 @@ class PointLaws(Checked):
         found = heated_film(self.film, self.thermal, contact, load, speed, sliding_speed, lubricant, inlet)
         temperature = inlet.temperature + (jnp.zeros_like(found.log_thickness) if found.rise is None else found.rise)
         viscosity = lubricant.viscosity.viscosity(0.0, temperature)
-        return PointFilm(jnp.exp(found.log_thickness), temperature, found.rise, viscosity, found.residual)
+        film, residual, starved = jnp.exp(found.log_thickness), found.residual, None
+        if self.supply is not None:
+            starved = self.supply.starvation(contact, load, found.log_thickness, speed, inlet)
+            film, residual = starved.film, jnp.maximum(residual, starved.residual)
+        return PointFilm(film, temperature, found.rise, viscosity, residual, starved)
 
     def shear(
         self,
@@ -154,9 +173,11 @@ class PointLaws(Checked):
         ratio = roll * contact.reduced_radius_rolling / speed
         heated = heating_of(self.rolling, self.rolling_heating, self.thermal) == AIHARA
         viscosity = inlet.viscosity if heated else film.viscosity
-        entering = RollingInlet(load, speed, viscosity, inlet.pressure_viscosity, film.film)
+        entering = RollingInlet(load, speed, viscosity, inlet.pressure_viscosity, film.flooded)
         moment = self.rolling.moment(contact, entering)
         if heated:
             moment = moment * aihara_factor(speed, inlet)
+        if film.supply is not None:
+            moment = moment * film.supply.rolling_factor
         moment = moment * ratio * jnp.sqrt(2.0 / (1.0 + jnp.square(ratio)))
         return moment if lost is None else moment + lost

@@ -20,6 +20,7 @@ class InletOil(eqx.Module):
     log_slope: Values
     density: Values | None = None
     conductivity: Values | None = None
+    flow: Values | None = None
 
 
 InletOil.__init__.__doc__ = """**Arguments:**
@@ -29,6 +30,7 @@ InletOil.__init__.__doc__ = """**Arguments:**
 - `log_slope`: d ln(viscosity)/dT, 1/K, < 0; 0 for a viscosity that is constant.
 - `density`: kg/m^3, > 0, or None where the lubricant has none.
 - `conductivity`: W/(m K), > 0, or None where the lubricant has none.
+- `flow`: of the oil past the contacts, m^3/s, >= 0, or None where no law asks for it.
 """
 
 

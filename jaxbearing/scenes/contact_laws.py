@@ -1,8 +1,9 @@
 """Laws that the [contact] table of a roller bearing names."""
 
 from ..bearings.parts import ContactLaws
-from ..contacts import AbstractTraction, MeanPressureTraction
+from ..contacts import AbstractTraction, MeanPressureTraction, Supply
 from ..lubricants import Lubricant
+from .bearing.build import part
 from .cylindrical.schema import ContactTable
 from .laws import ROLLER_FILMS, ROLLING, distributed_traction, thermal_factor, viscous_function
 from .mixed import mixed_friction
@@ -18,6 +19,7 @@ def contact_laws(table: ContactTable, oil: Lubricant | None) -> ContactLaws:
         rolling=rolling,
         rolling_heating=table.rolling_heating,
         entrainment_offset=table.entrainment_offset,
+        supply=part(Supply, table.supply, exclude_none=True),
         mixed=mixed_friction(table.mixed),
         hysteresis=table.hysteresis,
     )

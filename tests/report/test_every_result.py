@@ -18,7 +18,7 @@ from rich.console import Console
 
 import jaxbearing as jb
 from jaxbearing import plots
-from jaxbearing.bearings import solution
+from jaxbearing.bearings import solution, supplied
 from jaxbearing.bearings.ball import solution as ball_solution
 from jaxbearing.bearings.cylindrical import solution as cylindrical_solution
 from jaxbearing.bearings.solution import RING_FREEDOMS, Solution
@@ -58,6 +58,7 @@ PARTS = (
     solution.RacewayPower,
     solution.BoundaryPower,
     solution.RollingByRace,
+    supplied.SupplyResult,
     tapered_solution.TaperedResults,
     tapered_solution.TaperedPowerLoss,
     Life,

@@ -10,10 +10,13 @@ import pytest
 import jaxbearing as jb
 from jaxbearing.contacts import (
     BairWiner,
+    BibouletHoupertPointRollingResistance,
+    BibouletHoupertRollingResistance,
     DistributedTraction,
     DowsonHigginson,
     DowsonToyoda,
     ElsharkawyHamrock,
+    FullRangeRollingResistance,
     GecimWiner,
     Grubin,
     Gupta,
@@ -29,10 +32,20 @@ from jaxbearing.contacts import (
     ReeEyring,
     Resolution,
     RigidRollingResistance,
+    SourceRollingResistance,
 )
 from jaxbearing.lubricants import NoPressureViscosity, WaltherRoelands
 from jaxbearing.scenes.errors import SceneError
-from jaxbearing.scenes.laws import BALL_FILMS, LINE_THERMAL, POINT_THERMAL, RIB_FILMS, ROLLER_FILMS, ROLLING, TRACTIONS
+from jaxbearing.scenes.laws import (
+    BALL_FILMS,
+    LINE_THERMAL,
+    POINT_ROLLING,
+    POINT_THERMAL,
+    RIB_FILMS,
+    ROLLER_FILMS,
+    ROLLING,
+    TRACTIONS,
+)
 from jaxbearing.scenes.reader import builtin_text, load_scene, scene_from_tables
 
 FILM = {
@@ -49,6 +62,9 @@ TRACTION = {
     "gecim_winer": GecimWiner,
     "elsharkawy_hamrock": ElsharkawyHamrock,
 }
+PLAIN_OIL = (
+    "{density = '870 kg/m^3', pressure_viscosity = '11 1/GPa', viscosity = {law = 'constant', value = '4.8 mPa*s'}}"
+)
 WATER = {"oil.viscosity": "{law = 'constant', value = '4.8 mPa*s'}"}
 DATA_SHEET = {
     "density": "870 kg/m^3",
@@ -152,10 +168,52 @@ def test_distributed_traction_refusals(changes, words):
 
 
 @pytest.mark.parametrize(
-    ("name", "law"), [("rigid_isoviscous", RigidRollingResistance), ("ertel_grubin", JoinedRollingResistance)]
+    ("name", "law"),
+    [
+        ("full_range", FullRangeRollingResistance),
+        ("biboulet_houpert", BibouletHoupertRollingResistance),
+        ("rigid_isoviscous", RigidRollingResistance),
+        ("ertel_grubin", JoinedRollingResistance),
+        ("true", FullRangeRollingResistance),
+    ],
 )
 def test_rolling_resistance(name, law):
-    assert isinstance(contact(rolling_resistance=name).rolling, law)
+    found = contact(rolling_resistance=name).rolling
+    assert isinstance(found, law)
+    assert name in (found.name, "true")
+
+
+@pytest.mark.parametrize(
+    ("name", "law"),
+    [
+        ("biboulet_houpert", BibouletHoupertPointRollingResistance),
+        ("source_86", SourceRollingResistance),
+        ("true", BibouletHoupertPointRollingResistance),
+        ("houpert", SourceRollingResistance),  # an older name
+    ],
+)
+def test_rolling_resistance_of_balls(name, law):
+    found = load_scene("turbine_ball", {"contact.rolling_resistance": name}).contact.rolling
+    assert isinstance(found, law)
+    assert name in (found.name, "true", "houpert")
+
+
+@pytest.mark.parametrize("scene", ["turbine_roller", "turbine_ball", "tapered_example"])
+def test_inlet_heating_of_rolling_resistance(scene):
+    rolling = {"contact.rolling_resistance": "biboulet_houpert"}
+    assert load_scene(scene, rolling).contact.rolling_heating is None
+    named = load_scene(scene, {**rolling, "contact.rolling_heating": "film_temperature"})
+    assert named.contact.rolling_heating == "film_temperature"
+    with pytest.raises(SceneError, match="found the text 'wilson'; expected one of 'aihara', 'film_temperature'"):
+        load_scene(scene, {**rolling, "contact.rolling_heating": "wilson"})
+    with pytest.raises(SceneError, match="expected a law, without which rolling_heating has no meaning"):
+        load_scene(scene, {"contact.rolling_resistance": "none", "contact.rolling_heating": "aihara"})
+    # a film without inlet heating needs no conductivity; a rolling resistance with Aihara's does
+    cold = {**rolling, "contact.thermal": "none", "contact.traction": "none", "oil": PLAIN_OIL}
+    cold |= {"kinematics.attitude": "outer"} if scene == "turbine_ball" else {}
+    assert load_scene(scene, cold).contact.rolling_heating is None
+    with pytest.raises(SceneError, match=r"oil\.conductivity.*contact\.rolling_heating = 'aihara'"):
+        load_scene(scene, {**cold, "contact.rolling_heating": "aihara"})
 
 
 def test_left_out():
@@ -169,7 +227,10 @@ def test_every_name_is_tested_here():
     assert set(ROLLER_FILMS) == set(FILM)
     assert {"gupta", "hsu_lee"} == set(LINE_THERMAL) > set(POINT_THERMAL)
     assert set(TRACTIONS) == set(TRACTION)
-    assert {"rigid_isoviscous", "ertel_grubin"} == set(ROLLING)
+    assert {"full_range", "biboulet_houpert", "rigid_isoviscous", "ertel_grubin"} == set(ROLLING)
+    assert {"biboulet_houpert", "source_86"} == set(POINT_ROLLING)
+    for laws in (ROLLING, POINT_ROLLING):
+        assert [law.name for law in laws.values()] == list(laws)
 
 
 def test_exponent_is_that_of_the_oils_data():
@@ -189,9 +250,11 @@ def test_film_of_an_isoviscous_oil(name):
 
 
 def test_rolling_resistance_of_an_isoviscous_oil():
-    with pytest.raises(SceneError, match=r"contact\.rolling_resistance: found 'ertel_grubin'; expected 'rigid_isov"):
+    with pytest.raises(
+        SceneError, match=r"contact\.rolling_resistance: found 'ertel_grubin'; expected one of 'full_range"
+    ):
         load_scene("turbine_roller", {**WATER, "contact.rolling_resistance": "ertel_grubin"})
-    scene = load_scene("turbine_roller", {**WATER, "contact.rolling_resistance": "rigid_isoviscous"})
+    scene = load_scene("turbine_roller", {**WATER, "contact.rolling_resistance": "full_range"})
     assert isinstance(scene.oil.pressure_viscosity, NoPressureViscosity)
     # a coefficient that the scene gives is not refused
     given = {**WATER, "oil.pressure_viscosity": "10 1/GPa", "contact.film": "grubin"}
@@ -201,7 +264,7 @@ def test_rolling_resistance_of_an_isoviscous_oil():
 def test_laws_for_isoviscous_oils():
     assert ROLLER_FILMS.isoviscous == tuple(name for name, law in ROLLER_FILMS.items() if not law().piezoviscous_only)
     assert ROLLER_FILMS.isoviscous == ("moes",)
-    assert ROLLING.isoviscous == ("rigid_isoviscous",)
+    assert ROLLING.isoviscous == ("full_range", "biboulet_houpert", "rigid_isoviscous")
     assert BALL_FILMS.isoviscous == RIB_FILMS.isoviscous == ("nijenbanning",)
 
 

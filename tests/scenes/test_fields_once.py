@@ -20,7 +20,6 @@ from jaxbearing.sweeps.fields import label_of
 
 RESTATED = {
     ("FilmModelTable", "accuracy"): "files choose the mesh by it: one of the accuracies that were measured",
-    ("BallContactTable", "rolling_resistance"): "files name the law, of which there is one",
     ("DiskOperationTable", "slide_to_roll"): "files take per cent and ranges",
     ("PerturbationTable", "amplitude"): "speed and load of a bearing do not reverse, the speed of a line contact may",
     ("RampTable", "start"): "speed and load of a bearing do not reverse",

@@ -39,7 +39,7 @@ from jaxbearing.lubricants import (
 )
 from jaxbearing.scenes import units
 from jaxbearing.scenes.data_files import builtin_text, oil_names
-from jaxbearing.scenes.laws import BALL_FILMS, ENTRY_POINTS, ROLLER_FILMS, TRACTIONS
+from jaxbearing.scenes.laws import BALL_FILMS, ENTRY_POINTS, POINT_ROLLING, ROLLER_FILMS, ROLLING, TRACTIONS
 from jaxbearing.scenes.quantity_texts import quantity_text
 from jaxbearing.time_laws import LinearRamp, Tabulated
 
@@ -126,7 +126,11 @@ VARIED = [
     *((ROLLERS, {"contact.film": name}) for name in ROLLER_FILMS),
     *((ROLLERS, {"contact.traction": name}) for name in TRACTIONS),
     *((ROLLERS, {"contact.traction_accuracy": accuracy}) for accuracy in ("1e-2", "1e-4", "1e-6")),
-    *((ROLLERS, {"contact.rolling_resistance": name}) for name in ("rigid_isoviscous", "ertel_grubin")),
+    *((ROLLERS, {"contact.rolling_resistance": name}) for name in ROLLING),
+    (ROLLERS, {"contact.rolling_resistance": "true", "contact.rolling_heating": "aihara"}),
+    *((BALLS, {"contact.rolling_resistance": name}) for name in POINT_ROLLING),
+    (BALLS, {"contact.rolling_heating": "film_temperature"}),
+    ("tapered_example", {"contact.rolling_resistance": "true", "contact.rolling_heating": "film_temperature"}),
     *((ROLLERS, {"cage.turbulence": name}) for name in ("laminar", "pure")),
     *((BALLS, {"contact.film": name}) for name in BALL_FILMS),
     (

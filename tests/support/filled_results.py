@@ -44,7 +44,7 @@ SCENES = {
     ),
     "dry roller": lambda: jb.load_scene("turbine_roller", dict.fromkeys(("contact", "cage", "flange", "drag"), "none")),
     "misaligned roller": lambda: page_scene(),
-    "tapered": lambda: jb.load_scene("tapered_example", _ROUGH | _RATING),
+    "tapered": lambda: jb.load_scene("tapered_example", {"contact.supply.layer": "2 um", **_ROUGH, **_RATING}),
     "one temperature": lambda: warm("roller", 1),
     "four temperatures": lambda: warm("roller", 4, stability="true"),
     "six temperatures": lambda: warm("roller", 6, fits__shaft_interference="30 um"),

@@ -131,7 +131,7 @@ class AbstractLubricatedBallSystem(AbstractBallSystem):
         contact = self.geometry.contacts(cosine[0], cosine[1], self.reduced_modulus).shaped()
         if film is None:
             film = self.laws.film_state(contact, load, races.mean_speed, races.rolling, self.oil, self.inlet)
-        fit, centre, arm, on_ring = self._fit(load, direction, film.film, shared[:d])
+        fit, centre, arm, on_ring = self._fit(load, direction, film.separation, shared[:d])
         axial, radial, moment = self.with_friction(load, direction, friction)
         sideways = ()
         if arm.along is not None:

@@ -41,6 +41,7 @@ from ..rated import RatedContacts
 from ..rating import Rating
 from ..ring import InnerRing
 from ..solution import Solution
+from ..supplied import supply_problems
 from ..warm import thermal_problems
 from .geometry import BallGeometry
 from .gyroscopic import AbstractGyroscopic, ResolvedCouple
@@ -159,6 +160,7 @@ class BallBearing(AbstractBearing):
     def _problems(self) -> Iterator[str | ValueError]:
         yield from mounting_problems(self)
         yield from thermal_problems(self)
+        yield from supply_problems(self)
         if not self.slips and self.kinematics.attitude not in ("outer", "inner"):
             yield (
                 f"kinematics.attitude: '{self.kinematics.attitude}' needs traction (contact.traction); without "

@@ -218,6 +218,7 @@ def _lubricated(
         sliding=state.races.rolling,
         temperature=film.temperature,
         load_share=None if mixed is None else mixed.share,
+        starved=film.supply,
     )
     facts = Facts((contacts,))
     land = None if system.cage is None else system.land_at(result.point, state)

@@ -277,7 +277,7 @@ class LubricatedRollerSystem(_InPlane):
             outer_flange=None,
             rails=None,
             drag_force=None,
-            approach_error=approach_error(approach, contact.film, self.radial_clearance - shift),
+            approach_error=approach_error(approach, contact.separation, self.radial_clearance - shift),
             moment_error=None,
             cage_moment=None,
             cage_force=None,

@@ -125,10 +125,12 @@ class RaceLoads(AbstractArrowSystem):
 
     def element(self, unknowns, shared):
         load = self.both(unknowns[0])
-        found = self.laws.heated_film(self.contact, load, self.mean_speed, self.sliding_speed, self.oil, self.inlet)
+        film, residual = self.laws.separation(
+            self.contact, load, self.mean_speed, self.sliding_speed, self.oil, self.inlet
+        )
         opening = self.radial_clearance - jnp.sum(shared * self.directions, axis=0) * LENGTH_UNIT
-        error = approach_error(self.contact.palmgren_approach(load), jnp.exp(found.log_thickness), opening)
-        return error[None, :], load[0][None, :] * self.directions, jnp.max(found.residual)
+        error = approach_error(self.contact.palmgren_approach(load), film, opening)
+        return error[None, :], load[0][None, :] * self.directions, jnp.max(residual)
 
     def global_residual(self, globals_, totals):
         return (totals - self.ring_load) / self.load_scale(), jnp.zeros(())

@@ -37,6 +37,7 @@ from ..rated import RatedContacts
 from ..rating import Rating
 from ..ring import InnerRing
 from ..solution import RING_FREEDOMS, Solution
+from ..supplied import supply_problems
 from ..warm import thermal_problems
 from .geometry import ASSUMED_FLANGE_HEIGHT, RollerCage, RollerFlange, RollerGeometry, check_height
 from .thrust import NOT_MODELLED, check_axial
@@ -95,6 +96,7 @@ class CylindricalRollerBearing(AbstractMovingBearing):
         yield from refusals_of(check_axial, self.geometry, self.operation)
         yield from mounting_problems(self)
         yield from thermal_problems(self)
+        yield from supply_problems(self)
         if self.simulation is not None:
             yield from refusals_of(check_run, self.operation)
         if self.contact is None:

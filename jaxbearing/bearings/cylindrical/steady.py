@@ -244,6 +244,7 @@ def _lubricated(system: LubricatedRollerSystem, result: NewtonResult) -> Results
         sliding=state.sliding_speed,
         temperature=None if rise is None else system.inlet.temperature + rise,
         load_share=None if mixed is None else mixed.share,
+        starved=contact.supply,
     )
     facts = Facts((contacts,))
     if system.cage is None:

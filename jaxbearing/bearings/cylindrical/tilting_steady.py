@@ -13,6 +13,7 @@ from jaxtyping import Array, Float
 
 from ...contacts import LineContact, palmgren_stiffness
 from ...contacts.laws import ContactState
+from ...contacts.oil_supply import Starvation
 from ...lubricants import InletOil
 from ...materials import reduced_modulus
 from ...numerics.arrow import ArrowPoint, linearize
@@ -116,7 +117,7 @@ def _results(
     )
     most = jnp.max(laminae, axis=2)
     peaks = jnp.where(most > 0, contact.hertz_pressure(jnp.where(most > 0, most, 1.0) * count), 0.0)
-    more, rolling = _films(scene, contact, motion, laminae)
+    more, rolling, starved = _films(scene, contact, motion, laminae)
     elements = RollerResults(
         azimuth=system.azimuth,
         load_inner=state.load[0],
@@ -137,6 +138,7 @@ def _results(
         speed = motion.surface_speeds(zero, zero)[0][:, None]
         temperature = inlet.temperature + jnp.stack(rises) if rises else None
         contacts = contacts._replace(laws=scene.contact, inlet=inlet, mean_speed=speed, temperature=temperature)
+        contacts = contacts._replace(starved=starved)
         facts = facts._replace(contacts=(contacts,))
     laminae = LaminaLoads(inner_laminae, outer_laminae, profiled)
     return Results(elements, costs, facts, laminae=laminae)
@@ -147,14 +149,14 @@ def _films(
     contact: LineContact,
     motion: RollerKinematics,
     laminae: Float[Array, "2 roller lamina"],
-) -> tuple[dict[str, Array], Float[Array, "2 roller"] | None]:
-    """Films, NaN where nothing is loaded, and the rolling resistance of each contact, N.
+) -> tuple[dict[str, Array], Float[Array, "2 roller"] | None, Starvation | None]:
+    """Films, NaN where nothing is loaded, the rolling resistance of each contact, N, and what little oil does to it.
 
     `film_*`: of the whole contact, its load spread evenly over the length; `film_least_*`: the thinnest of the laminae.
     """
     laws, oil = scene.contact, scene.oil
     if laws is None or oil is None:
-        return {}, None
+        return {}, None, None
     inlet = oil_of_races(scene)
     # of laminae, the last axis
     inlet_along = jax.tree.map(lambda values: values[..., None] if jnp.ndim(values) else values, inlet)
@@ -167,6 +169,9 @@ def _films(
 
     carries, whole = loaded(contact, jnp.sum(laminae, axis=2), speed, inlet)
     each = LineContact(contact.reduced_radius[..., None], contact.length / laminae.shape[2], contact.reduced_modulus)
+    if inlet.flow is not None:
+        # of each lamina its share
+        inlet_along = dataclasses.replace(inlet_along, flow=inlet.flow / laminae.shape[2])
     carried, parts = loaded(each, laminae, speed[..., None], inlet_along)
     blank = lambda values: jnp.where(carries, values, jnp.nan)
     film = blank(whole.film)
@@ -176,8 +181,8 @@ def _films(
         rise = blank(whole.temperature_rise)
         more |= {"temperature_rise_inner": rise[0], "temperature_rise_outer": rise[1]}
     if parts.rolling_force is None:
-        return more, None
-    return more, jnp.sum(jnp.where(carried, parts.rolling_force, 0.0), axis=2)
+        return more, None, whole.supply
+    return more, jnp.sum(jnp.where(carried, parts.rolling_force, 0.0), axis=2), whole.supply
 
 
 def _port(scene: CylindricalRollerBearing, system: TiltingRollers, point: ArrowPoint) -> Port:

@@ -13,6 +13,7 @@ from ..._checks import Checks
 from ...numerics.devices import may_be_shared_out, shared_out
 from ...numerics.precision import as_float
 from ...numerics.status import Status
+from ..supplied import supply_notes
 from .family import AbstractMovingBearing
 from .history import History
 from .run import advance, identity
@@ -103,6 +104,6 @@ def _lane(scene: AbstractMovingBearing, simulation: Simulation | None, times: Fl
         ),
         solver=simulation.solver,
         element_name=scene.element,
-        notes=(*scene.assumptions(), *notes_of_seats(scene)),
+        notes=(*scene.assumptions(), *supply_notes(scene), *notes_of_seats(scene)),
         identity=jax.tree.map(jnp.asarray, identity(scene)),
     )

@@ -21,6 +21,7 @@ from ...programs import KeptProgram
 from ..checks import input_excess
 from ..facts import Excess
 from ..mounted import fit_excess, running_scene
+from ..supplied import supply_notes
 from .checks import largest
 from .family import AbstractDynamics, AbstractMovingBearing, Resumed, Start
 from .history import Energy, History, Instant, LastState
@@ -193,7 +194,7 @@ def simulate_bearing(
             interrupt.seen = True
         interrupted = interrupt.seen and len(done) < pieces
         unknown = last is not None and last.identity is None
-        notes = (*((UNKNOWN,) if unknown else ()), *scene.assumptions(), *notes_of_seats(scene))
+        notes = (*((UNKNOWN,) if unknown else ()), *scene.assumptions(), *supply_notes(scene), *notes_of_seats(scene))
         history = _history(scene, chosen, dynamics, done, stop, interrupted, notes)
         interrupt.taken()
     # who interrupts a run wants what there is

@@ -43,6 +43,7 @@ from jaxtyping import Array, Float
 from ...contacts import LineContact, PointContact, Sliding, Traction
 from ...contacts.laws import ContactLaws
 from ...contacts.mixed import Asperities, MixedState
+from ...contacts.oil_supply import Starvation
 from ...contacts.point_laws import PointFilm
 from ...gaps import RollerDrag
 from ...lubricants import InletOil, Lubricant
@@ -76,7 +77,7 @@ class RaceFriction(NamedTuple):
 
     `film`, m; `temperature_rise`, K; `rolling`, the force P, N; `capacity`: the traction at a slide-to-roll ratio of
     `SKIDDING`, N; `speed`, m/s, and `radius`, m, of shape (2, 1); `residual` of nested solves; `asperities`: of mixed
-    friction. None: not modelled.
+    friction; `starved`: what little oil does. None: not modelled.
     """
 
     film: Float[Array, "2 roller"]
@@ -87,6 +88,7 @@ class RaceFriction(NamedTuple):
     radius: Float[Array, "2 1"]
     residual: Float[Array, ""]
     asperities: Asperities | None
+    starved: Starvation | None
 
 
 class RibFriction(NamedTuple):
@@ -234,6 +236,7 @@ def _races(
         radius=jnp.broadcast_to(contact.reduced_radius, (2, 1)),
         residual=found.inner_residual,
         asperities=asperities,
+        starved=found.supply,
     )
 
 

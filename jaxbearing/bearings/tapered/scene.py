@@ -38,6 +38,7 @@ from ..rated import RatedContacts
 from ..rating import Rating
 from ..ring import InnerRing
 from ..solution import Solution
+from ..supplied import supply_problems
 from ..warm import thermal_problems
 from .geometry import TaperedGeometry
 
@@ -104,6 +105,7 @@ class TaperedRollerBearing(AbstractBearing):
     def _problems(self) -> Iterator[str | ValueError]:
         yield from mounting_problems(self)
         yield from thermal_problems(self)
+        yield from supply_problems(self)
         if self.contact is None:
             if self.rib is not None:
                 yield "contact: a scene with laws of the rib needs those of the raceways"

@@ -297,6 +297,7 @@ def _facts(
     warm = lambda oil, rise: None if rise is None else oil.temperature + rise
     warm_races = warm(inlet, of_races.temperature_rise)
     races = races._replace(laws=scene.contact, inlet=inlet, mean_speed=of_races.speed, temperature=warm_races)
+    races = races._replace(starved=of_races.starved)
     if of_races.asperities is not None:
         races = races._replace(load_share=of_races.asperities.share)
     if of_rib is not None:

@@ -21,6 +21,7 @@ from ..checks import input_excess
 from ..heat import heat_capacities, unknown_capacities
 from ..motion.checks import AT_SOME_TIME
 from ..motion.settings import Simulation
+from ..supplied import supply_notes
 from ..warm import network_notes
 from .history import WarmEnergy, WarmInstant, WarmState, WarmUpHistory
 from .programs import ADVANCE, LOOK, Seen
@@ -288,7 +289,13 @@ class _Run:
             nodes=scene.thermal.node_names,
             interrupted=interrupted,
             element_name=scene.element,
-            notes=(SLOWLY, *scene.assumptions(), *_of_seats(scene), *network_notes(scene)),
+            notes=(
+                SLOWLY,
+                *scene.assumptions(),
+                *supply_notes(scene),
+                *_of_seats(scene),
+                *network_notes(scene),
+            ),
             identity=identity(scene),
         )
 

@@ -51,7 +51,9 @@ def to_dataset(solution: Solution, dims: Sequence[str] = ()) -> xr.Dataset:
     if not dims:
         check_converged(solution)
     words = attributes(solution, "Steady state of a rolling bearing")
-    dataset = xr.Dataset(attrs=words | {"not_modelled": ", ".join(solution.not_modelled)})
+    words |= {"not_modelled": ", ".join(solution.not_modelled)}
+    words |= {} if solution.supply is None else {"oil_supply": solution.supply.stated}
+    dataset = xr.Dataset(attrs=words)
     unused = {f"operation.{name}" for name in unused_operation(solution)}
     for path, value, metadata in labelled(solution):
         if path not in unused:

@@ -46,6 +46,7 @@ def facts(solution: Solution) -> Iterator[tuple[str, str]]:
         text = ", ".join(_extremes(solution.elements, name, pick))
         if text:
             yield title, text
+    yield from _supply(solution)
     yield from _life(solution)
 
 
@@ -94,6 +95,20 @@ def _life(solution: Solution) -> Iterator[tuple[str, str]]:
         said.append(f"a_ISO {digits(of('modification_factor'), 3)}")
     if said:
         yield "Lubrication", ", ".join(said)
+
+
+def _supply(solution: Solution) -> Iterator[tuple[str, str]]:
+    """The supply in words, and what it does to the most loaded contacts."""
+    supply = solution.supply
+    if supply is None:
+        return
+    yield "Oil supply", supply.stated
+    if supply.film_factor_inner is None:
+        return
+    for side in ("inner", "outer"):
+        of = lambda name, side=side: digits(float(getattr(supply, f"{name}_{side}")), 3)
+        factors = f"film factor {of('film_factor')}, rolling factor {of('rolling_factor')}"
+        yield "", f"{side} race {factors}, inlet gap {of('gap_over_central')} times the central film"
 
 
 def _revolutions(millions: float) -> str:

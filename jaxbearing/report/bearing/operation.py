@@ -17,7 +17,8 @@ def unused_operation(solution: Solution) -> set[str]:
     unused = set()
     if solution.elements.film_inner is None:
         unused.add("oil_temperature")
-    if solution.power_loss.drag is None and solution.thermal is None:
+    flows = solution.supply is not None and solution.supply.uses_flow
+    if solution.power_loss.drag is None and solution.thermal is None and not flows:
         unused.add("oil_flow")
     return unused
 

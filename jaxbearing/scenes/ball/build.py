@@ -14,7 +14,7 @@ from ...bearings.ball.scene import (
     BallOperation,
 )
 from ...bearings.rating import Rating
-from ...contacts import PointLaws
+from ...contacts import PointLaws, Supply
 from ...lubricants import Lubricant
 from ..bearing.build import built, cage, part, seats, solids
 from ..laws import BALL_FILMS, POINT_ROLLING, distributed_traction, thermal_factor
@@ -87,6 +87,7 @@ def _laws(table: BallContactTable, oil: Lubricant | None) -> PointLaws:
         rolling=None if table.rolling_resistance is None else POINT_ROLLING[table.rolling_resistance](),
         rolling_heating=table.rolling_heating,
         heathcote=table.heathcote,
+        supply=part(Supply, table.supply, exclude_none=True),
         mixed=mixed_friction(table.mixed),
         hysteresis=table.hysteresis,
     )

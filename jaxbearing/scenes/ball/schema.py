@@ -15,6 +15,7 @@ from ..bearing.schema import (
     CageBase,
     FitsTable,
     RatingTable,
+    SupplyTable,
     TemperaturesTable,
     ThermalTable,
     heating_problems,
@@ -47,6 +48,7 @@ class BallContactTable(table_of(PointLaws)):
 
     - `traction_accuracy`: relative error of the traction forces for which the march through the Hertz pressure is cut
     - `rolling_resistance`: of the raceways; `true`: the first of these laws; not given: none
+    - `supply`: how much oil reaches the raceways; not given: they are fully flooded
     - `mixed`: mixed friction of rough raceways; not given: the films carry all of the loads
     """
 
@@ -59,6 +61,7 @@ class BallContactTable(table_of(PointLaws)):
     traction: Annotated[str, TRACTIONS] | None = None
     traction_accuracy: TractionAccuracy | None = None
     rolling_resistance: Annotated[str, POINT_ROLLING] | None = None
+    supply: SupplyTable | None = None
     mixed: MixedTable | None = None
 
     @check

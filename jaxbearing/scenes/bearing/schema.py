@@ -2,11 +2,12 @@
 
 import dataclasses
 from collections.abc import Mapping
-from typing import Annotated, Any
+from typing import Annotated, Any, ClassVar
 
 from ...bearings.cage import AbstractCage
 from ...bearings.operation import AbstractOperation, HeldDisplacement
 from ...bearings.rating import Rating
+from ...contacts.oil_supply import GIVEN, Supply
 from ...contacts.rolling_heating import AIHARA
 from ...mounting import Fits, PartTemperatures
 from ...thermal.settings import Capacities, ConductanceFactors, Conductances, Shares, Thermal
@@ -30,6 +31,14 @@ class CageBase(Table):
         bore, outside = self.inner_diameter, self.outer_diameter
         if bore is not None and outside is not None and bore >= outside:
             yield refusal_at("inner_diameter", f"less than the outer diameter, {in_mm(outside)}", in_mm(bore))
+
+
+class SupplyTable(table_of(Supply)):
+    """Oil supply of the raceway contacts; see `contacts.oil_supply.Supply`."""
+
+    instead: ClassVar[Mapping[str, tuple[str, ...]]] = {
+        name: tuple(other for other in GIVEN if other != name) for name in GIVEN
+    }
 
 
 class DisplacementTable(table_of(HeldDisplacement)):

@@ -89,7 +89,6 @@ def raceway_laws(contact: Any) -> Rows:
             "film": law_name(ROLLER_FILMS, contact.film, "contact.film"),
             "thermal": thermal_law(LINE_THERMAL, contact.thermal),
             "rolling_resistance": rolling and law_name(ROLLING, rolling, "contact.rolling"),
-            "rolling_heating": contact.rolling_heating,
         }
     )
 

@@ -11,6 +11,7 @@ from ..bearing.schema import (
     CageBase,
     FitsTable,
     RatingTable,
+    SupplyTable,
     TemperaturesTable,
     ThermalTable,
     heating_problems,
@@ -46,6 +47,7 @@ class ContactTable(table_of(ContactLaws, leave_out=("entrainment_smoothing",))):
     - `traction_model`: the law at the mean Hertz pressure, or marched through the pressure
     - `traction_accuracy`: relative error of the traction forces for which the march through the Hertz pressure is cut
     - `rolling_resistance`: of the raceways; `true`: the first of these laws; not given: none
+    - `supply`: how much oil reaches the raceways; not given: they are fully flooded
     - `mixed`: mixed friction of rough raceways; not given: the films carry all of the loads
     """
 
@@ -61,6 +63,7 @@ class ContactTable(table_of(ContactLaws, leave_out=("entrainment_smoothing",))):
     traction_model: Literal["mean_pressure", "distributed"] = "mean_pressure"
     traction_accuracy: TractionAccuracy | None = None
     rolling_resistance: Annotated[str, ROLLING] | None = None
+    supply: SupplyTable | None = None
     mixed: MixedTable | None = None
 
     @check

@@ -7,7 +7,14 @@ from ...bearings.parts import ContactLaws, Drag, Materials
 from ...bearings.rating import Rating
 from ...bearings.tapered.geometry import TaperedGeometry
 from ...bearings.tapered.scene import TaperedOperation, TaperedRollerBearing
-from ...contacts import ChittendenCentral, Gupta, MeanPressureTraction, NijenbanningVennerMoes, NoThermalReduction
+from ...contacts import (
+    ChittendenCentral,
+    Gupta,
+    MeanPressureTraction,
+    NijenbanningVennerMoes,
+    NoThermalReduction,
+    Supply,
+)
 from ...contacts.point_laws import PointLaws
 from ...lubricants import Lubricant, NoPressureViscosity
 from ..bearing.build import built, part, seats, solids
@@ -49,6 +56,7 @@ def _laws(table: TaperedContactTable, oil: Lubricant | None) -> ContactLaws:
         traction=traction,
         rolling=rolling,
         rolling_heating=table.rolling_heating,
+        supply=part(Supply, table.supply, exclude_none=True),
         mixed=mixed_friction(table.mixed),
         hysteresis=table.hysteresis,
     )

@@ -10,6 +10,7 @@ from ..bearing.profile import ProfileTable
 from ..bearing.schema import (
     FitsTable,
     RatingTable,
+    SupplyTable,
     TemperaturesTable,
     ThermalTable,
     heating_problems,
@@ -42,6 +43,7 @@ class TaperedContactTable(table_of(ContactLaws, leave_out=("entrainment_offset",
 
     - `traction_accuracy`: relative error of the traction forces for which the march through the Hertz pressure is cut
     - `rolling_resistance`: of the raceways; `true`: the first of these laws; not given: none
+    - `supply`: how much oil reaches the raceways; not given: they are fully flooded
     - `flange_film`: film law of the roller ends on the rib
     - `mixed`: mixed friction of rough raceways and ribs; not given: the films carry all of the loads
     """
@@ -56,6 +58,7 @@ class TaperedContactTable(table_of(ContactLaws, leave_out=("entrainment_offset",
     flange_film: Annotated[str, RIB_FILMS] | None = None
     traction: Annotated[str, TRACTIONS] | None = None
     traction_accuracy: TractionAccuracy | None = None
+    supply: SupplyTable | None = None
     mixed: RibMixedTable | None = None
 
     @check

@@ -14,7 +14,13 @@ from jaxbearing.bearings.cylindrical.forces import CageParts, forces_without_poc
 from jaxbearing.bearings.cylindrical.solution import PowerLoss
 from jaxbearing.bearings.cylindrical.steady import build_system
 from jaxbearing.bearings.interactions import costs
-from jaxbearing.contacts import JoinedRollingResistance, NoThermalReduction, RigidRollingResistance
+from jaxbearing.contacts import (
+    BibouletHoupertRollingResistance,
+    FullRangeRollingResistance,
+    JoinedRollingResistance,
+    NoThermalReduction,
+    RigidRollingResistance,
+)
 from jaxbearing.contacts.laws import ContactState
 from jaxbearing.numerics.arrow import evaluate
 
@@ -64,11 +70,22 @@ def test_power_closes_with_both_rings_turning(change):
 
 @pytest.mark.slow
 @pytest.mark.parametrize("outer_speed", [0.0, -400.0, 700.0])
-@pytest.mark.parametrize("law", [RigidRollingResistance(), JoinedRollingResistance()], ids=["rigid", "joined"])
+@pytest.mark.parametrize(
+    "law",
+    [
+        RigidRollingResistance(),
+        JoinedRollingResistance(),
+        FullRangeRollingResistance(),
+        BibouletHoupertRollingResistance(),
+    ],
+    ids=lambda law: law.name,
+)
 def test_power_closes_with_rolling_resistance(law, outer_speed):
     scene = reference_roller().replace({"contact.rolling": law, "operation.outer_speed": outer_speed})
     solution = jb.solve(scene)
     assert float(solution.power_loss.rolling_resistance) > 100.0
+    by_race = solution.rolling_by_race
+    np.testing.assert_allclose(by_race.inner + by_race.outer, solution.power_loss.rolling_resistance, rtol=1e-14)
     np.testing.assert_allclose(solution.drive_power, solution.power_loss.total, rtol=1e-12)
 
 

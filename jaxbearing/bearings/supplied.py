@@ -1,0 +1,73 @@
+"""What the supply of oil does to the raceways of a solved bearing, and whether a scene has what its supply needs."""
+
+from collections.abc import Iterator
+from typing import Any
+
+import equinox as eqx
+import jax.numpy as jnp
+from jaxtyping import Array, Float
+
+from .._scene import label
+from ..contacts.oil_supply import Starvation, given_by
+from ..numerics.checks import known
+
+FLOODED = "fully flooded (assumed)"
+"""Supply of a scene with films and without a table [contact.supply]."""
+_Factor = Float[Array, ""] | None
+
+
+def _optional(description: str) -> Any:
+    return eqx.field(default=None, metadata=label("1", description))
+
+
+class SupplyResult(eqx.Module):
+    """Supply of the raceways. The numbers are those of the most loaded contact of each race, `None` where contacts are
+    assumed to be flooded.
+
+    `stated`: the supply in words.
+    """
+
+    stated: str = eqx.field(static=True)
+    film_factor_inner: _Factor = _optional("starved over flooded film, inner raceway")
+    film_factor_outer: _Factor = _optional("starved over flooded film, outer raceway")
+    rolling_factor_inner: _Factor = _optional("starved over flooded rolling resistance, inner raceway")
+    rolling_factor_outer: _Factor = _optional("starved over flooded rolling resistance, outer raceway")
+    gap_over_central_inner: _Factor = _optional("gap at the inlet meniscus over flooded central film, inner raceway")
+    gap_over_central_outer: _Factor = _optional("gap at the inlet meniscus over flooded central film, outer raceway")
+
+    @property
+    def uses_flow(self) -> bool:
+        """True if the supply depends on the oil flow of the operating point."""
+        return self.stated == given_by("from_flow")
+
+
+def supply_result(scene: Any, load: Float[Array, "2 element"], starved: Starvation | None) -> SupplyResult | None:
+    """The supply of a scene; `None` for one without films. **Arguments:** `load`, N, and `starved`, of the raceways."""
+    if scene.contact is None or scene.oil is None:
+        return None
+    supply = scene.contact.supply
+    if supply is None:
+        return SupplyResult(FLOODED)
+    numbers: dict[str, Array] = {}
+    if starved is not None:
+        most = jnp.argmax(load, axis=1)[:, None]
+        for name in ("film_factor", "rolling_factor", "gap_over_central"):
+            values = jnp.broadcast_to(getattr(starved, name), load.shape)
+            both = jnp.take_along_axis(values, most, axis=1)[:, 0]
+            numbers |= {f"{name}_inner": both[0], f"{name}_outer": both[1]}
+    return SupplyResult(supply.stated, **numbers)
+
+
+def supply_problems(scene: Any) -> Iterator[str]:
+    """What a scene lacks of what its supply needs, in words."""
+    supply = None if scene.contact is None else scene.contact.supply
+    if supply is not None and supply.from_flow is not None and known(scene.operation.oil_flow) == (0.0,):
+        yield "operation.oil_flow: contact.supply.from_flow needs a volume flow > 0"
+
+
+def supply_notes(scene: Any) -> tuple[str, ...]:
+    """The supply in words, for the notes of a run in time."""
+    if scene.contact is None:
+        return ()
+    supply = scene.contact.supply
+    return (f"oil supply of the raceways: {FLOODED if supply is None else supply.stated}",)

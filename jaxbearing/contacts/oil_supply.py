@@ -1,0 +1,195 @@
+"""How much oil reaches the raceway contacts of a bearing: the part `contact.supply` of a scene."""
+
+from typing import Any, ClassVar, Literal, NamedTuple
+
+import jax.numpy as jnp
+from jaxtyping import Array, Float
+
+from .._types import Scalar, Values
+from ..lubricants import InletOil
+from ..numerics.checks import Checked, bounded
+from ..numerics.precision import as_float
+from ..numerics.safe import log_add
+from ..numerics.structure import choice
+from . import supply
+from .line import LineContact
+from .point import PointContact
+
+LEVELS = {"jet": 100.0, "under_race": 100.0, "bath": 10.0, "grease": 1.0, "oil_air": 1.0}
+"""Level of the supply -> median of the gap at the inlet meniscus over the central film; one standard deviation of its
+logarithm is ln 3 (a judgement from few tests)."""
+GIVEN = ("meniscus_gap", "meniscus_distance", "layer", "from_flow", "gap_over_central", "level")
+"""Fields of which a supply gives exactly one."""
+SEPARATION_SHARE = 0.01
+"""Part of the missing film that still places a rolling element between the rings. A film that never exceeds the oil
+there is cannot fill the clearance of an unloaded element; the flooded one grows without bound and does."""
+LARGEST_LOG = 600.0
+"""ln of the largest gap over the central film that is reported: it overflows under thick layers."""
+
+
+class Starvation(NamedTuple):
+    """What the supply does to a contact.
+
+    - `flooded`, `film`: with all oil and with this, m.
+    - `separation`: film in the equations that place a rolling element between the rings, m: the film and a hundredth of
+      what it lacks of the flooded one.
+    - `film_factor`, of the film, and `rolling_factor`, of the rolling resistance.
+    - `gap_over_central`: gap at the inlet meniscus over the flooded central film.
+    - `residual`: of the nested solve for the gap, in units of its logarithm.
+    - `reach`: half-width over the meniscus distance, where that is given: the contact has no inlet from 1 on.
+    """
+
+    flooded: Float[Array, "*batch"]
+    film: Float[Array, "*batch"]
+    separation: Float[Array, "*batch"]
+    film_factor: Float[Array, "*batch"]
+    rolling_factor: Float[Array, "*batch"]
+    gap_over_central: Float[Array, "*batch"]
+    residual: Float[Array, "*batch"]
+    reach: Float[Array, "*batch"] | None = None
+
+
+def given_by(field: str) -> str:
+    """The supply in words, by the field that gives it."""
+    return f"given by contact.supply.{field}"
+
+
+def _optional(bound: str, unit: str) -> Any:
+    return bounded(bound, unit=unit, converter=lambda v: None if v is None else as_float(v), default=None)
+
+
+class Supply(Checked):
+    r"""Oil supply of the raceway contacts; a scene without one has fully flooded contacts.
+
+    Exactly one of the first six arguments says how much oil there is. The film is $\varphi_f\varphi_Th_{iso}$, the
+    rolling resistance $\varphi_r$ times the flooded one; `contacts.supply` has the factors. The thermal factor
+    $\varphi_T$ is that of the flooded film.
+
+    **Limits:** the flooded contact at a thick layer (1e-12 at 1 m) and at a wide gap (1e-7 of the film and 2e-3 of the
+    resistance at 1 m: the far inlet counts).
+    **Validity:** the factors are fitted to line contacts with S from 0.3 to 540; the supply itself is known to a factor
+    of 3 at best. The rib of a tapered bearing and the cage stay flooded.
+
+    **Arguments:**
+    - `meniscus_gap`: gap between the surfaces where the inlet fills with oil, h_m, m.
+    - `meniscus_distance`: distance of that place from the centre of the contact, x_m, m; a contact whose half-width
+      reaches it has no inlet.
+    - `layer`: sum of the oil layers that both surfaces bring far upstream, h_l, m; the film is never thicker.
+    - `from_flow`: part of the oil flow of the operating point that is caught by the track, which gives the layer;
+      known to a factor of 10.
+    - `gap_over_central`: the gap over the flooded central film, S_c, the same in every contact.
+    - `level`: assumed S_c by the kind of lubrication: jet and under_race 100, bath 10, grease and oil_air 1; one
+      standard deviation is a factor of 3 (structure). Grease counts as its base oil with a supply.
+    - `film_law`: of the film at a meniscus distance, gap (from the gap there) or hamrock_dowson (structure).
+    - `rolling_law`: of the resistance, full_solutions (own fit) or biboulet_houpert, their eq. (44) (structure).
+    - `gap_exponent`: g of the film factor of a gap.
+    - `layer_exponent`: gamma of the film factor of a layer; not given: 8 of lines, 3 of ellipses.
+    """
+
+    part: ClassVar[str] = "contact.supply"
+
+    meniscus_gap: Scalar | None = _optional(">= 0", "m")
+    meniscus_distance: Scalar | None = _optional("> 0", "m")
+    layer: Scalar | None = _optional(">= 0", "m")
+    from_flow: Scalar | None = _optional("above 0 and at most 1", "1")
+    gap_over_central: Scalar | None = _optional("> 0", "1")
+    level: str | None = choice("contact.supply.level", LEVELS, None)
+    film_law: Literal["gap", "hamrock_dowson"] = choice("contact.supply.film_law", ("gap", "hamrock_dowson"), "gap")
+    rolling_law: Literal["full_solutions", "biboulet_houpert"] = choice(
+        "contact.supply.rolling_law", ("full_solutions", "biboulet_houpert"), "full_solutions"
+    )
+    gap_exponent: Scalar = bounded("> 0", unit="1", converter=as_float, default=supply.GAP_EXPONENT)
+    layer_exponent: Scalar | None = _optional("between 2 and 64", "1")
+
+    def __check_init__(self):
+        super().__check_init__()
+        given = [name for name in GIVEN if getattr(self, name) is not None]
+        if len(given) != 1:
+            found = " and ".join(given) or "none"
+            raise ValueError(f"contact.supply: expected exactly one of {', '.join(GIVEN)}, found {found}")
+        if self.film_law == "hamrock_dowson" and self.meniscus_distance is None:
+            raise ValueError("contact.supply.film_law: 'hamrock_dowson' needs meniscus_distance")
+        if self.layer_exponent is not None and self.layer is None and self.from_flow is None:
+            raise ValueError("contact.supply.layer_exponent: only a layer, or one from_flow, has it")
+
+    @property
+    def stated(self) -> str:
+        """The supply in words, without its number."""
+        given = next(name for name in GIVEN if getattr(self, name) is not None)
+        if given == "level" and self.level is not None:
+            gap = f"inlet gap {LEVELS[self.level]:g} times the central film"
+            return f"level = '{self.level}' (assumed: {gap}; one standard deviation is a factor of 3)"
+        return given_by(given)
+
+    def starvation(
+        self, contact: LineContact | PointContact, load: Values, log_flooded: Values, speed: Values, inlet: InletOil
+    ) -> Starvation:
+        """The contact with this supply.
+
+        **Arguments:** `load`, N, >= 0; `log_flooded`, ln of the flooded central film, m, thermal factor included;
+        `speed`, mean of both surfaces, m/s, > 0; `inlet`, with its `flow` where the layer comes from it.
+        """
+        log_factor, log_gap, residual = self._factor_and_gap(contact, load, jnp.asarray(log_flooded), speed, inlet)
+        flooded, factor = jnp.exp(log_flooded), jnp.exp(log_factor)
+        log_minimum = log_gap - jnp.log(supply.MINIMUM_OVER_CENTRAL)
+        published = self.rolling_law == "biboulet_houpert"
+        rolling = supply.biboulet_houpert_rolling_factor if published else supply.starved_rolling_factor
+        return Starvation(
+            flooded=flooded,
+            film=factor * flooded,
+            separation=flooded * (factor + SEPARATION_SHARE * (1.0 - factor)),
+            film_factor=factor,
+            rolling_factor=rolling(log_minimum),
+            gap_over_central=jnp.exp(jnp.minimum(log_gap, LARGEST_LOG)),
+            residual=residual,
+            reach=None if self.meniscus_distance is None else _half_width(contact, load) / self.meniscus_distance,
+        )
+
+    def _factor_and_gap(
+        self, contact: LineContact | PointContact, load: Values, log_flooded: Array, speed: Values, inlet: InletOil
+    ) -> tuple[Array, Array, Array]:
+        """ln of the film factor, ln of the gap over the flooded film, residual of the search for it."""
+        exact, power = jnp.zeros_like(log_flooded), self.gap_exponent
+        if self.layer is not None or self.from_flow is not None:
+            layer = self._layer(contact, load, speed, inlet) - log_flooded
+            own = supply.LINE_LAYER_EXPONENT if isinstance(contact, LineContact) else supply.POINT_LAYER_EXPONENT
+            exponent = own if self.layer_exponent is None else self.layer_exponent
+            gap = supply.log_gap_of_layer(layer, exponent, power)
+            return supply.log_film_factor_of_layer(layer, exponent), gap, exact
+        if self.meniscus_distance is not None:
+            return self._at_distance(contact, load, log_flooded)
+        if self.meniscus_gap is not None:
+            gap = jnp.log(self.meniscus_gap + supply.LAYER_FLOOR) - log_flooded
+        else:
+            ratio = LEVELS[self.level] if self.gap_over_central is None else self.gap_over_central  # pyright: ignore
+            gap = exact + jnp.log(ratio)
+        return supply.log_film_factor_of_gap(gap, power), gap, exact
+
+    def _layer(self, contact: LineContact | PointContact, load: Values, speed: Values, inlet: InletOil) -> Array:
+        """ln of the layer, m."""
+        if self.layer is not None:
+            return jnp.log(self.layer + supply.LAYER_FLOOR)
+        assert inlet.flow is not None
+        width = contact.length if isinstance(contact, LineContact) else 2.0 * contact.semi_axis_transverse(load)
+        assert self.from_flow is not None
+        return jnp.log(supply.layer_of_flow(self.from_flow, inlet.flow, width, speed) + supply.LAYER_FLOOR)
+
+    def _at_distance(
+        self, contact: LineContact | PointContact, load: Values, log_flooded: Array
+    ) -> tuple[Array, Array, Array]:
+        """As `_factor_and_gap`, at a given distance of the meniscus."""
+        assert self.meniscus_distance is not None
+        half_width = _half_width(contact, load)
+        radius = contact.reduced_radius if isinstance(contact, LineContact) else contact.reduced_radius_rolling
+        hertz = jnp.log(supply.hertz_gap(half_width, radius, self.meniscus_distance)) - log_flooded
+        if self.film_law == "gap":
+            root = supply.log_gap_at_meniscus(hertz, self.gap_exponent)
+            return supply.log_film_factor_of_gap(root.value, self.gap_exponent), root.value, root.residual
+        ratio = radius / jnp.square(half_width) * jnp.exp(log_flooded)
+        factor = supply.hamrock_dowson_log_film_factor(self.meniscus_distance / half_width, ratio)
+        return factor, log_add(factor, hertz), jnp.zeros_like(factor)
+
+
+def _half_width(contact: LineContact | PointContact, load: Values) -> Array:
+    """Half length of the contact along rolling, m."""
+    return contact.half_width(load) if isinstance(contact, LineContact) else contact.semi_axis_rolling(load)
