@@ -1,25 +1,34 @@
 """Mixed friction of one contact: check rows of the specification, closed forms, hard cases, gradients, batches."""
 
+import dataclasses
 import itertools
 
 import jax
 import jax.numpy as jnp
 import numpy as np
 import pytest
+from reference_oils import mobil_jet_ii
 from scipy.integrate import quad
 
 from jaxbearing.contacts import (
     DowsonHigginson,
     FilmHeating,
+    Gupta,
     HamrockDowsonCentral,
     HamrockDowsonMinimum,
+    JoinedRollingResistance,
     LineContact,
     MartinBlend,
+    MaxwellEyring,
     Moes,
     PointContact,
+    PointLaws,
     Sliding,
+    Supply,
     Traction,
 )
+from jaxbearing.contacts.hysteresis import point_hysteresis
+from jaxbearing.contacts.laws import ContactLaws
 from jaxbearing.contacts.load_share import (
     HEIGHT_INTEGRAL,
     ErrorFunctionShare,
@@ -191,8 +200,46 @@ def test_traction_of_a_point_contact_takes_the_power_of_its_forces(transverse):
     np.testing.assert_allclose(boundary, 0.25 * 500.0 * 0.12, rtol=1e-4)
 
 
+@pytest.mark.parametrize("film", ["central", "minimum"])
+def test_laws_of_a_line_contact_share_the_load_of_the_starved_film(film):
+    """The film ratio is that of the film after inlet heating and supply; rolling resistance is not shared."""
+    oil = mobil_jet_ii()
+    inlet, contact = oil.at(353.15), LineContact(0.0055, 0.0124, MODULUS)
+    flooded = ContactLaws(Moes(), Gupta(), MaxwellEyring(), rolling=JoinedRollingResistance())
+    thin = dataclasses.replace(flooded, supply=Supply(layer=0.2e-6))
+    mixed = MixedFriction(0.3e-6, film=film)
+    rough = dataclasses.replace(thin, mixed=mixed, hysteresis=0.005)
+    run = jax.jit(lambda laws: laws.evaluate(contact, 2e3, 8.0, 0.05, oil, inlet))
+    smooth, found = run(thin), run(rough)
+    assert smooth.film < 0.2e-6 < run(flooded).film
+    ratio = smooth.film / 0.3e-6 * (1.0 if film == "central" else LINE_SHARE)
+    share = ZhouHoeprich().share(ratio, 1e9, MODULUS)
+    boundary = share * 2e3 * 0.12 * 0.05 / np.hypot(0.05, 1e-3)
+    np.testing.assert_allclose(found.traction, (1.0 - share) * smooth.traction + boundary, rtol=1e-12)
+    state = rough.mixed_state(contact, 2e3, found, 8.0, 0.05, inlet)
+    np.testing.assert_allclose(state[:4], [ratio, share, boundary, boundary * 0.05], rtol=1e-12)
+    lost = 2.0 / (3.0 * np.pi) * 0.005 * 2e3 * contact.half_width(2e3) / 0.0055
+    np.testing.assert_allclose(found.rolling_force - smooth.rolling_force, lost, rtol=1e-9)
+
+
+def test_hysteresis_of_a_point_contact_opposes_its_roll():
+    """Johnson's moment, without load and without roll nothing, with finite slopes."""
+    run = jax.jit(jax.value_and_grad(point_hysteresis, (1, 2)), static_argnums=())
+    (moment, _), (back, _) = run(POINT, 500.0, 300.0, 0.005), run(POINT, 500.0, -300.0, 0.005)
+    np.testing.assert_allclose(moment, 3.0 / 16.0 * 0.005 * 500.0 * POINT.ellipse(500.0).rolling, rtol=1e-11)
+    assert back == -moment
+    for load, roll in ((0.0, 300.0), (500.0, 0.0), (0.0, 0.0)):
+        value, slopes = run(POINT, load, roll, 0.005)
+        assert value == 0.0
+        assert np.all(np.isfinite(slopes))
+
+
 def test_wrong_numbers_are_refused():
     with pytest.raises(ValueError, match=r"contact\.mixed\.roughness must be > 0"):
         MixedFriction(0.0)
     with pytest.raises(ValueError, match=r"contact\.mixed\.exponent must be > 0"):
         ZhouHoeprich(2.0, -1.0)
+    with pytest.raises(ValueError, match=r"contact\.hysteresis must be >= 0"):
+        PointLaws(HamrockDowsonCentral(), hysteresis=-1.0)
+    with pytest.raises(ValueError, match=r"contact\.mixed: mixed friction is of contacts that slide"):
+        PointLaws(HamrockDowsonCentral(), mixed=MixedFriction(0.3e-6))
