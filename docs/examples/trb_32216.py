@@ -82,7 +82,9 @@ OVER_MINIMUM, MINIMUM_OVER_CENTRAL = 4.6, 0.75
 STARVED = {"gap_over_central": OVER_MINIMUM * MINIMUM_OVER_CENTRAL}
 
 
-def scene_at(axial: float, radial: float, rpm: float, celsius: float, supply: dict[str, float] | None) -> jb.TaperedRollerBearing:
+def scene_at(
+    axial: float, radial: float, rpm: float, celsius: float, supply: dict[str, float] | None
+) -> jb.TaperedRollerBearing:
     """The bearing at an operating point. **Arguments:** loads, kN; `supply`: table; `None`: flooded."""
     operation = {
         "inner_speed": f"{rpm} rpm",

@@ -78,9 +78,8 @@ def _solved(scene: Any, speeds: Sequence[float] | None) -> "xr.Dataset":
     """The sweep over speed."""
     from ..sweep import sweep
 
-    if speeds is None:
-        speeds = np.geomspace(SLOWEST, 1.0, COUNT) * float(scene.operation.inner_speed)
-    return sweep(scene, {SPEED: np.asarray(speeds, dtype=float)}, elements=False)
+    given = np.geomspace(SLOWEST, 1.0, COUNT) * float(scene.operation.inner_speed) if speeds is None else speeds
+    return sweep(scene, {SPEED: np.asarray(given, dtype=float)}, elements=False)
 
 
 def _speeds(data: "xr.Dataset") -> tuple[np.ndarray, np.ndarray]:
@@ -104,11 +103,18 @@ def _caption(speed: np.ndarray, unit: str, total: np.ndarray, boundary: np.ndarr
         return f"{text} The scene models no mixed friction."
     known = np.isfinite(total)
     if known.any():
-        slow, peak = int(np.argmax(known)), int(np.nanargmax(total))
+        slow = int(np.argmax(known))
         part = 100.0 * boundary[slow] / total[slow]
         text += f" Boundary friction is {part:.3g} % of it at {speed[slow]:.4g} {unit}."
-        least = peak + int(np.nanargmin(total[peak:]))
-        if peak < least < total.size - 1:
-            text += f" Beyond its peak the torque is smallest near {speed[least]:.4g} {unit}."
+        lowest = _minimum(total)
+        if lowest is not None:
+            text += f" It has a minimum near {speed[lowest]:.4g} {unit}."
     failed = int((~known).sum())
     return f"{text} Gaps: {failed} of {total.size} cases failed." if failed else text
+
+
+def _minimum(values: np.ndarray) -> int | None:
+    """Index of the lowest of the minima between the ends; `None`: there is none."""
+    inside, before, after = values[1:-1], values[:-2], values[2:]
+    places = 1 + np.flatnonzero((inside < before) & (inside <= after))
+    return int(places[np.argmin(values[places])]) if places.size else None

@@ -273,8 +273,8 @@ def _rib(
 
 def _where_loaded(mixed: MixedState, loaded: Array) -> MixedState:
     """Nothing rubs where nothing touches, and film and temperature are not there."""
-    absent = MixedState(jnp.nan, jnp.nan, 0.0, 0.0, jnp.nan)
-    return jax.tree.map(lambda values, none: jnp.where(loaded, values, none), mixed, absent)
+    absent = (jnp.nan, jnp.nan, 0.0, 0.0, jnp.nan)
+    return MixedState(*(jnp.where(loaded, values, none) for values, none in zip(mixed, absent, strict=True)))
 
 
 def _balance(
