@@ -7,10 +7,10 @@ of MEGT (TU Kaiserslautern), mineral oil FVA3 (ISO VG 100), the level at half a 
 table: the torques were read off its figures by others, to about 5 %. Figure 7 is left out: at nearly the load of
 Figure 5 it has half the torque, and its set-up is not understood.
 
-Rollers, their number and pitch diameter are those of the paper. The raceway angles are not in it: that of the cup is one
-that others took, that of the cone follows from a common apex. Angle of the rib and radius of the roller ends are assumed,
-and the paper's profile is left out. The oil's pressure coefficient follows from Dicke's modulus equation; its shear
-constants, for the rib, are assumed.
+Rollers, their number and pitch diameter are those of the paper. The raceway angles are not in it: that of the cup is
+one that others took, that of the cone follows from a common apex. Angle of the rib and radius of the roller ends are
+assumed, and the paper's profile is left out. The oil's pressure coefficient follows from Dicke's modulus equation; its
+shear constants, for the rib, are assumed.
 
 Nothing is tuned but one number: S = 4.6, the gap at the inlet meniscus over the minimum film (3.45 times the central
 film), the same at all points. It is fitted to these torques and explains none of them.
@@ -42,8 +42,8 @@ SCENE = {
             "temperature_1": "42 degC",
             "viscosity_2": "60.5913 cSt",
             "temperature_2": "50 degC",
+            "pressure_viscosity": "20.126 1/GPa",
         },
-        "pressure_viscosity": "20.126 1/GPa",
         "rheology": {
             "law": "exponential",
             "viscous_function": "ree_eyring",
@@ -97,6 +97,11 @@ def scene_at(
     return jb.scene_from_mapping(SCENE | {"contact": contact, "operation": operation})
 
 
+def solved(axial: float, radial: float, rpm: float, celsius: float, supply: dict[str, float] | None) -> jb.Solution:
+    """The steady state; arguments as for `scene_at`."""
+    return jb.solve(scene_at(axial, radial, rpm, celsius, supply))
+
+
 def torque(solution: jb.Solution, rpm: float) -> float:
     """Friction torque, N mm."""
     return 1e3 * float(solution.power_loss.total) / (rpm * math.pi / 30.0)
@@ -109,7 +114,7 @@ def main() -> None:
     for figure, axial, radial, rpm, celsius, measured in MEASURED:
         cells = [f"{figure}", f"{axial:g}, {radial:g}", f"{rpm}", f"{celsius}", f"{measured}"]
         for supply in (None, STARVED):
-            solution = jb.solve(scene_at(axial, radial, rpm, celsius, supply))
+            solution = solved(axial, radial, rpm, celsius, supply)
             found = torque(solution, rpm)
             cells.append(f"{found:.0f} ({found / measured:.2f})")
         factors = solution.supply

@@ -18,7 +18,7 @@ from rich.console import Console
 
 import jaxbearing as jb
 from jaxbearing import plots
-from jaxbearing.bearings import solution, supplied
+from jaxbearing.bearings import frequencies, solution, supplied
 from jaxbearing.bearings.ball import solution as ball_solution
 from jaxbearing.bearings.cylindrical import solution as cylindrical_solution
 from jaxbearing.bearings.solution import RING_FREEDOMS, Solution
@@ -59,6 +59,7 @@ PARTS = (
     solution.BoundaryPower,
     solution.RollingByRace,
     supplied.SupplyResult,
+    frequencies.KinematicFrequencies,
     tapered_solution.TaperedResults,
     tapered_solution.TaperedPowerLoss,
     Life,

@@ -47,6 +47,7 @@ def facts(solution: Solution) -> Iterator[tuple[str, str]]:
         if text:
             yield title, text
     yield from _supply(solution)
+    yield from _frequencies(solution)
     yield from _life(solution)
 
 
@@ -68,6 +69,16 @@ def _mixed_facts(solution: Solution) -> Iterator[tuple[str, str]]:
         if flash is not None:
             text += f", flash temperature up to {digits(float(np.nanmax(flash)), 3)} K"
         yield "", f"{place}: {text}"
+
+
+def _frequencies(solution: Solution) -> Iterator[tuple[str, str]]:
+    """Frequencies at which damages are heard, of the motion and of the textbook."""
+    if solution.frequencies is None or solution.textbook_frequencies is None:
+        return
+    names = {"cage": "cage", "outer_pass": "outer ring", "inner_pass": "inner ring", "element_spin": "element's spin"}
+    for title, found in (("Frequencies", solution.frequencies), ("Textbook's", solution.textbook_frequencies)):
+        said = (f"{words} {digits(float(np.asarray(getattr(found, name))))}" for name, words in names.items())
+        yield title, f"{', '.join(said)} Hz"
 
 
 def _life(solution: Solution) -> Iterator[tuple[str, str]]:
