@@ -11,6 +11,7 @@ from ..numerics.newton import NewtonResult
 from .bearing import AbstractBearing
 from .checks import input_excess, result_excess
 from .facts import Facts
+from .frequencies import frequencies_of_motion, textbook_frequencies
 from .interactions import Costs
 from .ring import Port
 from .solution import (
@@ -68,6 +69,8 @@ def assemble(
     by_race = costs.rolling_by_race
     if by_race is not None:
         shown["rolling_by_race"] = RollingByRace(by_race[0], by_race[1], rolling_words(scene.contact))
+    shown["frequencies"] = frequencies_of_motion(scene, results.elements, results.cage)
+    shown["textbook_frequencies"] = textbook_frequencies(scene)
     checks = {text: value > 0 for text, value in input_excess(scene, held).items()}
     checks |= {
         text: good & (value > 0) for text, value in result_excess(scene, facts, ring, results.cage, held).items()
