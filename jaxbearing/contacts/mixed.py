@@ -186,7 +186,7 @@ def flash_temperature(
     **Limits:** the speeds count as $\sqrt{u^2 + u_\epsilon^2}$, $u_\epsilon$ = 1e-6 m/s: finite where a surface stands
     still, and far too high there.
     **Validity:** Peclet numbers $ua/(2\kappa)$ above 5.
-    **Reference:** Blok (1937); the constant by own quadrature.
+    **Reference:** Carslaw and Jaeger, *Conduction of Heat in Solids*, ch. 10; the constant by own quadrature.
 
     **Arguments:** `load`, N; `power`, W; `mean_speed` (u1 + u2)/2 and `sliding_speed` u1 - u2, m/s; `heating`: with the
     properties of the surfaces, those of bearing steel if not given.
