@@ -87,6 +87,13 @@ FIGURES = [
         'figure = jb.plots.power_loss_against(found, "operation.inner_speed")',
     ),
     Entry(
+        "stribeck",
+        "Stribeck curve of a bearing with rough surfaces",
+        'rough = {"contact.mixed.roughness": "0.3 um", "contact.mixed.flange_roughness": "0.24 um"}\n'
+        'scene = jb.load_scene("tapered_example", rough | {"contact.mixed.slide_width": "0.1 mm/s"})\n'
+        "figure = jb.plots.stribeck(scene)",
+    ),
+    Entry(
         "result_against",
         "Any result against a swept field: cage slip",
         "import numpy as np\n\n"

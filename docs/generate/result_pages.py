@@ -29,6 +29,7 @@ SECTIONS = {
         "ring": solution.RingDisplacement,
         "cage": solution.CageState,
         "rolling_by_race": solution.RollingByRace,
+        "boundary_power": solution.BoundaryPower,
         "supply": supplied.SupplyResult,
         "fit": growth.FitResult,
         "thermal": thermal_result.ThermalResult,

@@ -16,6 +16,7 @@ from .interactions import Costs
 from .ring import Port
 from .solution import (
     RING_FREEDOMS,
+    BoundaryPower,
     CageState,
     Elements,
     FailureCause,
@@ -39,6 +40,7 @@ class Results(NamedTuple, Generic[Elements, Losses]):
     cage: CageState | None = None
     raceway_power: RacewayPower | None = None
     laminae: LaminaLoads | None = None
+    boundary_power: BoundaryPower | None = None
 
 
 def assemble(

@@ -27,6 +27,9 @@ EDGE_LOADED = 1.5
 """Load per length at an end over the mean."""
 LARGEST_TILT = 10e-3
 """rad; the square of 10 mrad moves 100 mm by 5 um."""
+ROUGH, HEAVY = 0.01, 0.5e9
+"""Load share of asperities, and Hertz pressure, Pa, above which the laws of the load share are known to a factor of
+10."""
 STARVED = 0.5
 """Film over flooded film below which a contact is strongly starved."""
 SLOWEST = 99.9 * 2.0 * np.pi / 60.0
@@ -97,6 +100,21 @@ def _sheared(result: SolvedBearing) -> Excess:
         return contacts.said(text, contacts.mean_share * contacts.most(contacts.pressure) - FITTED_PRESSURE)
 
     return result.each(sheared)
+
+
+def _rough(result: SolvedBearing) -> Excess:
+    text = (
+        "asperities carry more than 1 % of a load on {place} at a pressure beyond 0.5 GPa: their share is known to a "
+        "factor of 10 there, and so is the boundary friction"
+    )
+
+    def rough(contacts: Contacts) -> Excess:
+        if contacts.load_share is None:
+            return {}
+        pressed = contacts.pressure > HEAVY
+        return contacts.said(text, contacts.most(jnp.where(pressed, contacts.load_share, 0.0)) - ROUGH)
+
+    return result.each(rough)
 
 
 def _gupta(result: SolvedBearing) -> Excess:
@@ -210,6 +228,7 @@ RESULT_CHECKS: tuple[Callable[[SolvedBearing], Excess], ...] = (
     _on_edge,
     _hot,
     _sheared,
+    _rough,
     _gupta,
     _starved,
     _cage_touches,
@@ -230,7 +249,7 @@ def _inlet(scene: AbstractBearing) -> Excess:
 
 
 def _slow(scene: AbstractBearing) -> Excess:
-    if scene.contact is None:
+    if scene.contact is None or scene.contact.mixed is not None:
         return {}
     text = "rings turn against each other at less than 100 rpm: the films vanish, consider a dry scene"
     return {text: SLOWEST - jnp.abs(jnp.asarray(scene.operation.inner_speed) - scene.operation.outer_speed)}

@@ -32,6 +32,7 @@ class Contacts(NamedTuple):
     - `places`: names of the rows; `load`, N; `pressure`, peak of Hertz's, Pa; `mean_share`: mean over peak.
     - `laws`: of the film and what shears it; `inlet`: the oil that enters; `mean_speed` and `sliding` along rolling,
       m/s; `temperature` of the oil in the contact, K.
+    - `load_share`: part of the load that asperities carry.
     - `laminae`: loads along the rollers, N.
     - `angle`: contact angle, rad.
     - `past_edge`: by how much a contact ellipse passes the end of what it rests on, positive where it is cut off, for
@@ -48,6 +49,7 @@ class Contacts(NamedTuple):
     mean_speed: Float[Array, "place _"] | None = None
     sliding: Float[Array, "place element"] | None = None
     temperature: Float[Array, "place element"] | None = None
+    load_share: Float[Array, "place element"] | None = None
     laminae: Float[Array, "place element lamina"] | None = None
     angle: Float[Array, "place element"] | None = None
     past_edge: Float[Array, "place element"] | None = None

@@ -98,6 +98,20 @@ class RacewayPower(eqx.Module):
     )
 
 
+class BoundaryPower(eqx.Module):
+    """The part of the losses that is boundary friction of asperities, of scenes with mixed friction; each entry is part
+    of the loss of the same name in `power_loss`. Places that a kind of bearing does not have are `None`."""
+
+    total: Float[Array, ""] = eqx.field(metadata=label("W", "boundary friction, total"))
+    inner_raceway: Float[Array, ""] | None = eqx.field(
+        default=None, metadata=label("W", "boundary friction, inner raceway")
+    )
+    outer_raceway: Float[Array, ""] | None = eqx.field(
+        default=None, metadata=label("W", "boundary friction, outer raceway")
+    )
+    flange: Float[Array, ""] | None = eqx.field(default=None, metadata=label("W", "boundary friction, flange"))
+
+
 class RollingByRace(eqx.Module):
     """Rolling resistance of each raceway; `law`: its law and the inlet heating, in words."""
 
@@ -201,6 +215,7 @@ class Solution(AbstractSolution, Generic[Point, Elements, Losses]):
     life: Any = None
     """A `life.result.Life` if the scene has a rating."""
     rolling_by_race: RollingByRace | None = None
+    boundary_power: BoundaryPower | None = None
     supply: SupplyResult | None = None
     frequencies: KinematicFrequencies | None = None
     """Frequencies of the motion that was solved."""

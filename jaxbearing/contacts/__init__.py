@@ -19,6 +19,13 @@ from .heating import FilmHeating as FilmHeating
 from .limits import deborah_number as deborah_number
 from .limits import elastic_slope as elastic_slope
 from .line import LineContact as LineContact
+from .load_share import AbstractLoadShare as AbstractLoadShare
+from .load_share import ErrorFunctionShare as ErrorFunctionShare
+from .load_share import GreenwoodTripp as GreenwoodTripp
+from .load_share import GreenwoodTrippPressure as GreenwoodTrippPressure
+from .load_share import ZhouHoeprich as ZhouHoeprich
+from .mixed import MixedFriction as MixedFriction
+from .mixed import flash_temperature as flash_temperature
 from .oil_supply import Supply as Supply
 from .patch import ContactPatch as ContactPatch
 from .patch import contact_patch as contact_patch

@@ -13,10 +13,13 @@ from ..numerics.safe import smooth_abs
 from ..numerics.structure import choice
 from .film import AbstractLineFilm
 from .heated_film import HeatedFilm, heated_film
+from .hysteresis import line_hysteresis
 from .line import LineContact
+from .mixed import Asperities, InletState, MixedFriction, MixedState, require_traction
 from .oil_supply import Starvation, Supply
 from .rolling import AbstractRollingResistance, RollingInlet
 from .rolling_heating import AIHARA, HEATINGS, aihara_factor, heating_of
+from .shear import Sliding
 from .thermal import AbstractThermalFactor, NoThermalReduction
 from .traction import AbstractTraction
 
@@ -55,12 +58,14 @@ class ContactLaws(Checked):
     - `entrainment_offset`: added to the mean surface speed of every contact, m/s. 0 by default; the
       reference closure of the published check values uses 1 mm/s.
     - `rolling`: rolling resistance, or `None`: left out.
-    - `rolling_heating`: how inlet heating lowers the rolling resistance, `"aihara"` or `"film_temperature"`
-      (`rolling_heating`). Not given: as the law of rolling resistance has it (`own_heating`) where `thermal` is a
-      reduction, and none where the film is isothermal.
+    - `rolling_heating`: how inlet heating lowers the rolling resistance, by a factor (`"aihara"`) or by the viscosity
+      at the temperature that explains `thermal` (`"film_temperature"`); not given: the law's own way where `thermal`
+      is given, otherwise none.
     - `entrainment_smoothing`: smoothing of the mean surface speed's modulus, m/s: what film a contact keeps whose
       surfaces pass through rest.
     - `supply`: how much oil there is, or `None`: fully flooded.
+    - `mixed`: mixed friction of rough surfaces, or `None`: the film carries all of the load.
+    - `hysteresis`: part of the elastic work that rolling loses in the bodies, or `None`: left out.
     """
 
     part: ClassVar[str] = "contact"
@@ -73,6 +78,16 @@ class ContactLaws(Checked):
     rolling_heating: str | None = choice("contact.rolling_heating", HEATINGS, None)
     entrainment_smoothing: Scalar = bounded("> 0", unit="m/s", converter=as_float, default=SPEED_SMOOTHING)
     supply: Supply | None = None
+    mixed: MixedFriction | None = None
+    hysteresis: Scalar | None = bounded(">= 0", unit="1", default=None)
+
+    def __check_init__(self):
+        require_traction(self.part, self.mixed, self.traction)
+
+    @property
+    def resists_rolling(self) -> bool:
+        """True if rolling takes power."""
+        return self.rolling is not None or self.hysteresis is not None
 
     def entrainment(self, mean_speed: Values) -> Float[Array, "..."]:
         """Entrainment speed of the film, m/s, > 0. **Arguments:** `mean_speed` (u1 + u2)/2, m/s, of either sign."""
@@ -142,6 +157,9 @@ class ContactLaws(Checked):
         traction = None
         if self.traction is not None:
             traction = self.traction.force(contact, load, film, speed, sliding_speed, base, lubricant, base_viscosity)
+            if self.mixed is not None:
+                share = self.asperities(contact, load, film, mean_speed, inlet).share
+                traction = self.mixed.force(load, share, traction, sliding_speed)
         rolling = None
         if self.rolling is not None:
             heated = heating_of(self.rolling, self.rolling_heating, self.thermal) == AIHARA
@@ -152,4 +170,34 @@ class ContactLaws(Checked):
                 rolling = rolling * aihara_factor(mean_speed, inlet)
             if starved is not None:
                 rolling = rolling * starved.rolling_factor
+        if self.hysteresis is not None:
+            lost = line_hysteresis(contact, load, mean_speed, self.hysteresis)
+            rolling = lost if rolling is None else rolling + lost
         return ContactState(film, found.rise, traction, rolling, jnp.max(residual), starved)
+
+    def asperities(
+        self, contact: LineContact, load: Values, film: Values, mean_speed: Values, inlet: InletOil
+    ) -> Asperities:
+        """Film ratio and load share of scenes with mixed friction. **Arguments:** `film`, m; others as in
+        `evaluate`."""
+        assert self.mixed is not None
+        state = InletState(self.entrainment(mean_speed), inlet.viscosity, inlet.pressure_viscosity)
+        return self.mixed.asperities(self.film, contact, load, film, state)
+
+    def mixed_state(
+        self,
+        contact: LineContact,
+        load: Values,
+        state: ContactState,
+        mean_speed: Values,
+        sliding_speed: Values,
+        inlet: InletOil,
+    ) -> MixedState | None:
+        """Mixed friction as results show it, `None` where the scene does not model it. **Arguments:** `state` of
+        `evaluate`; others as there."""
+        if self.mixed is None:
+            return None
+        assert state.traction is not None
+        found = self.asperities(contact, load, state.film, mean_speed, inlet)
+        sliding = Sliding(sliding_speed)
+        return self.mixed.state(contact, load, found, mean_speed, sliding, state.traction * sliding_speed)

@@ -1,18 +1,20 @@
 """The lubricated contacts of balls put together: film, inlet heating, traction with spin, rolling resistance."""
 
-from typing import NamedTuple
+from typing import ClassVar, NamedTuple
 
-import equinox as eqx
 import jax.numpy as jnp
 from jaxtyping import Array, Float
 
-from .._types import Values
+from .._types import Scalar, Values
 from ..lubricants import InletOil, Lubricant
+from ..numerics.checks import Checked, bounded
 from ..numerics.safe import smooth_abs
 from ..numerics.structure import choice, switch
 from .distributed import DistributedTraction, Traction
 from .heated_film import heated_film
+from .hysteresis import point_hysteresis
 from .laws import SPEED_SMOOTHING
+from .mixed import Asperities, InletState, MixedFriction, MixedState, require_traction
 from .oil_supply import Starvation, Supply
 from .patch import contact_patch
 from .point import PointContact
@@ -47,7 +49,7 @@ class PointFilm(NamedTuple):
         return self.film if self.supply is None else self.supply.flooded
 
 
-class PointLaws(eqx.Module):
+class PointLaws(Checked):
     """Laws of the lubricated contacts between balls and races.
 
     **Arguments:**
@@ -55,11 +57,17 @@ class PointLaws(eqx.Module):
     - `thermal`: thermal reduction of the film; its rise also warms the oil in the contact.
     - `traction`: the sheared film, or `None`: frictionless, and then the balls roll without sliding.
     - `rolling`: rolling resistance, or `None`: left out.
-    - `rolling_heating`: how inlet heating lowers it, as in `laws.ContactLaws`.
+    - `rolling_heating`: how inlet heating lowers the rolling resistance, by a factor (`"aihara"`) or by the viscosity
+      at the temperature that explains `thermal` (`"film_temperature"`); not given: the law's own way where `thermal`
+      is given, otherwise none.
     - `heathcote`: whether the race's curvature across rolling counts in the sliding (`Sliding.curvature`); the source's
       patch is flat.
     - `supply`: how much oil there is, or `None`: fully flooded.
+    - `mixed`: mixed friction of rough surfaces, or `None`: the film carries all of the load.
+    - `hysteresis`: part of the elastic work that rolling loses in the bodies, or `None`: left out.
     """
+
+    part: ClassVar[str] = "contact"
 
     film: AbstractPointFilm
     thermal: AbstractThermalFactor = NoThermalReduction()
@@ -68,10 +76,18 @@ class PointLaws(eqx.Module):
     rolling_heating: str | None = choice("contact.rolling_heating", HEATINGS, None)
     heathcote: bool = switch("contact.heathcote", False)
     supply: Supply | None = None
+    mixed: MixedFriction | None = None
+    hysteresis: Scalar | None = bounded(">= 0", unit="1", default=None)
 
     def __check_init__(self):
         if self.heathcote and self.traction is None:
             raise ValueError("contact.heathcote: Heathcote slip is sliding under traction, and needs contact.traction")
+        require_traction(self.part, self.mixed, self.traction)
+
+    @property
+    def resists_rolling(self) -> bool:
+        """True if rolling takes power."""
+        return self.rolling is not None or self.hysteresis is not None
 
     def film_state(
         self,
@@ -105,7 +121,37 @@ class PointLaws(eqx.Module):
         """Forces of the ball on the race and what they dissipate."""
         assert self.traction is not None
         patch = contact_patch(contact, load)
-        return self.traction.traction(patch, film.film, mean_speed, sliding, film.temperature, lubricant)
+        found = self.traction.traction(patch, film.film, mean_speed, sliding, film.temperature, lubricant)
+        if self.mixed is None:
+            return found
+        share = self.asperities(contact, load, film, mean_speed, lubricant).share
+        return self.mixed.traction(load, share, found, sliding)
+
+    def asperities(
+        self, contact: PointContact, load: Values, film: PointFilm, mean_speed: Values, lubricant: Lubricant
+    ) -> Asperities:
+        """Film ratio and load share of scenes with mixed friction; arguments as in `shear`."""
+        assert self.mixed is not None
+        coefficient = lubricant.pressure_viscosity.coefficient(film.temperature)
+        state = InletState(smooth_abs(mean_speed, SPEED_SMOOTHING), film.viscosity, coefficient)
+        return self.mixed.asperities(self.film, contact, load, film.film, state)
+
+    def mixed_state(
+        self,
+        contact: PointContact,
+        load: Values,
+        film: PointFilm,
+        mean_speed: Values,
+        sliding: Sliding,
+        sheared: Traction,
+        lubricant: Lubricant,
+    ) -> MixedState | None:
+        """Mixed friction as results show it, `None` where the scene does not model it. **Arguments:** `sheared`: what
+        `shear` found; others as there."""
+        if self.mixed is None:
+            return None
+        found = self.asperities(contact, load, film, mean_speed, lubricant)
+        return self.mixed.state(contact, load, found, mean_speed, sliding, sheared.power)
 
     def rolling_moment(
         self, contact: PointContact, load: Values, film: PointFilm, mean_speed: Values, roll: Values, inlet: InletOil
@@ -114,13 +160,17 @@ class PointLaws(eqx.Module):
 
         The law is for rolling without sliding, $\omega_rR_x = u$, and has no sign. Where a skidding ball rolls at
         another rate, $x = \omega_rR_x/|u|$, it is multiplied by $\sqrt2\,x/\sqrt{1 + x^2}$: it always takes power
-        (a moment of the sign of u would drive a ball that turns backwards), 1 at x = 1, not above $\sqrt2$.
+        (a moment of the sign of u would drive a ball that turns backwards), 1 at x = 1, not above $\sqrt2$. The moment
+        of hysteresis has the sign of the roll.
 
         **Arguments:** `roll`, rad/s: rate of the relative roll about the axis across rolling, of the sign of the mean
         speed, m/s, in rolling without sliding.
         """
+        lost = None
+        if self.hysteresis is not None:
+            lost = point_hysteresis(contact, load, roll, self.hysteresis)
         if self.rolling is None:
-            return None
+            return lost
         speed = smooth_abs(mean_speed, SPEED_SMOOTHING)
         ratio = roll * contact.reduced_radius_rolling / speed
         heated = heating_of(self.rolling, self.rolling_heating, self.thermal) == AIHARA
@@ -131,4 +181,5 @@ class PointLaws(eqx.Module):
             moment = moment * aihara_factor(speed, inlet)
         if film.supply is not None:
             moment = moment * film.supply.rolling_factor
-        return moment * ratio * jnp.sqrt(2.0 / (1.0 + jnp.square(ratio)))
+        moment = moment * ratio * jnp.sqrt(2.0 / (1.0 + jnp.square(ratio)))
+        return moment if lost is None else moment + lost

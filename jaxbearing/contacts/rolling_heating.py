@@ -44,8 +44,12 @@ def heating_of(law: Any, named: str | None, thermal: AbstractThermalFactor) -> s
 
 def rolling_words(laws: Any) -> str:
     """The law of rolling resistance and its inlet heating, for the screen. **Arguments:** `laws` of line or point
-    contacts, with rolling resistance."""
-    heating = heating_of(laws.rolling, laws.rolling_heating, laws.thermal)
-    if heating == FILM_TEMPERATURE and isinstance(laws.thermal, NoThermalReduction):
-        return f"{laws.rolling.name}, isothermal inlet"
-    return f"{laws.rolling.name}, inlet heating {heating}"
+    contacts, with rolling resistance of the films, by hysteresis of the bodies, or both."""
+    said = []
+    if laws.rolling is not None:
+        heating = heating_of(laws.rolling, laws.rolling_heating, laws.thermal)
+        isothermal = heating == FILM_TEMPERATURE and isinstance(laws.thermal, NoThermalReduction)
+        said.append(f"{laws.rolling.name}, {'isothermal inlet' if isothermal else f'inlet heating {heating}'}")
+    if laws.hysteresis is not None:
+        said.append("hysteresis of the bodies")
+    return ", and ".join(said)

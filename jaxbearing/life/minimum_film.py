@@ -7,21 +7,8 @@ from jaxtyping import Array, Float
 
 from ..bearings.bearing import AbstractBearing
 from ..bearings.inlet import oil_of_races
-from ..contacts import (
-    AbstractLineFilm,
-    DowsonHigginson,
-    HamrockDowsonCentral,
-    HamrockDowsonMinimum,
-    MartinBlend,
-    PanHamrockMinimum,
-    PointContact,
-    RigidBlend,
-)
-
-LINE_SHARE = 0.75
-"""Ratio of minimum to central film of a line contact: 0.750 and 0.746 in own full solutions of the source's two
-contacts (table 18), 0.75 by Dowson and Higginson's minimum and Dowson and Toyoda's central film at U = 1e-11, W =
-1e-4."""
+from ..contacts import AbstractLineFilm, HamrockDowsonMinimum, PointContact, RigidBlend
+from ..contacts.minimum_film import line_share, minimum_share
 
 
 def minimum_films(scene: Any, elements: Any) -> tuple[Float[Array, " element"], Float[Array, " element"]]:
@@ -49,14 +36,11 @@ def _thinnest(elements: Any, side: str) -> Float[Array, " element"]:
 
 
 def _line_share(law: AbstractLineFilm) -> Array:
-    law = law.film if isinstance(law, MartinBlend) else law
-    return jnp.full((2, 1), 1.0 if isinstance(law, DowsonHigginson | PanHamrockMinimum) else LINE_SHARE)
+    return jnp.full((2, 1), line_share(law))
 
 
 def _point_share(scene: AbstractBearing, contact: PointContact, elements: Any) -> Float[Array, "2 element"]:
     load = jnp.stack([elements.load_inner, elements.load_outer])
     operation, inlet = scene.operation, oil_of_races(scene)
     speed = 0.25 * scene.geometry.pitch_diameter * (jnp.asarray(operation.inner_speed) - operation.outer_speed)
-    state = (contact, load, speed, inlet.viscosity, inlet.pressure_viscosity)
-    ratio = HamrockDowsonMinimum().log_thickness(*state) - HamrockDowsonCentral().log_thickness(*state)
-    return jnp.exp(jnp.minimum(ratio, 0.0))
+    return minimum_share(scene.contact.film, contact, load, speed, inlet.viscosity, inlet.pressure_viscosity)

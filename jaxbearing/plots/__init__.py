@@ -12,6 +12,7 @@ from .solutions import power_loss as power_loss
 from .solutions import pressures as pressures
 from .solutions import sliding as sliding
 from .solutions import traction_curves as traction_curves
+from .stribeck import stribeck as stribeck
 from .sweeps import map_of as map_of
 from .sweeps import power_loss_against as power_loss_against
 from .sweeps import raceway_control_map as raceway_control_map

@@ -6,6 +6,7 @@ from ..lubricants import Lubricant
 from .bearing.build import part
 from .cylindrical.schema import ContactTable
 from .laws import ROLLER_FILMS, ROLLING, distributed_traction, thermal_factor, viscous_function
+from .mixed import mixed_friction
 
 
 def contact_laws(table: ContactTable, oil: Lubricant | None) -> ContactLaws:
@@ -19,6 +20,8 @@ def contact_laws(table: ContactTable, oil: Lubricant | None) -> ContactLaws:
         rolling_heating=table.rolling_heating,
         entrainment_offset=table.entrainment_offset,
         supply=part(Supply, table.supply, exclude_none=True),
+        mixed=mixed_friction(table.mixed),
+        hysteresis=table.hysteresis,
     )
 
 

@@ -57,6 +57,7 @@ PARTS = (
     ball_solution.BallResults,
     ball_solution.BallPowerLoss,
     solution.RacewayPower,
+    solution.BoundaryPower,
     solution.RollingByRace,
     supplied.SupplyResult,
     frequencies.KinematicFrequencies,

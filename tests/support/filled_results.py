@@ -34,16 +34,19 @@ _RATING = {
     "rating.roughness_elements": "0.2 um",
     "rating.cleanliness": "online_filter_15",
 }
+_ROUGH = {"contact.mixed.roughness": "0.2 um"}
 
 SCENES = {
     "ball": lambda: jb.load_scene(
-        "turbine_ball_mounted", {"kinematics.gyroscopic": "resolved", "contact.heathcote": "true", **_RATING}
+        "turbine_ball_mounted", {"kinematics.gyroscopic": "resolved", "contact.heathcote": "true", **_ROUGH, **_RATING}
     ),
     "dry ball": lambda: jb.load_scene("deep_groove_6205", {"operation.axial_load": "none"}),
-    "roller": lambda: jb.load_scene("turbine_roller", {"contact.rolling_resistance": "ertel_grubin", **_RATING}),
+    "roller": lambda: jb.load_scene(
+        "turbine_roller", {"contact.rolling_resistance": "ertel_grubin", **_ROUGH, **_RATING}
+    ),
     "dry roller": lambda: jb.load_scene("turbine_roller", dict.fromkeys(("contact", "cage", "flange", "drag"), "none")),
     "misaligned roller": lambda: page_scene(),
-    "tapered": lambda: jb.load_scene("tapered_example", {"contact.supply.layer": "2 um", **_RATING}),
+    "tapered": lambda: jb.load_scene("tapered_example", {"contact.supply.layer": "2 um", **_ROUGH, **_RATING}),
     "one temperature": lambda: warm("roller", 1),
     "four temperatures": lambda: warm("roller", 4, stability="true"),
     "six temperatures": lambda: warm(

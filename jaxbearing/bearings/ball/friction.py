@@ -32,6 +32,7 @@ from jaxtyping import Array, Float
 
 from ...contacts import PointContact
 from ...contacts.distributed import Traction
+from ...contacts.mixed import MixedState
 from ...contacts.shear import Sliding
 from ...gaps.ball_pocket import BallPocketFilm
 from ...numerics.roots import monotone_root
@@ -80,17 +81,30 @@ def _friction(
 ) -> tuple[Traction, Array | None, Array | None]:
     """Traction of both contacts; moments against the roll by the film's pressure and by Heathcote slip, N m;
     `None`: not modelled."""
-    races = state.races
-    slide = system.slide_share * SIDES
-    transverse = slide * races.transverse if system.resolved else None
+    races, sliding = state.races, _sliding(system, state)
     bend = 0.5 / _patch_radius(system) if system.laws.heathcote else None
-    curved = None if bend is None else bend * slide * races.roll
-    sliding = Sliding(slide * races.rolling, transverse, system.slide_share * races.spin, curved)
     shear = system.laws.shear(contact, state.load, state.film, races.mean_speed, sliding, system.oil)
     turn = SIDES * races.roll
     rolling = system.laws.rolling_moment(contact, state.load, state.film, races.mean_speed, turn, system.inlet)
     curvature = None if bend is None or shear.curvature is None else -bend * shear.curvature
     return shear, rolling, curvature
+
+
+def _sliding(system: AbstractLubricatedBallSystem, state: BallsState) -> Sliding:
+    """Speed of the ball over both races, in the axes of the traction law."""
+    races, slide = state.races, system.slide_share * SIDES
+    transverse = slide * races.transverse if system.resolved else None
+    curved = 0.5 / _patch_radius(system) * slide * races.roll if system.laws.heathcote else None
+    return Sliding(slide * races.rolling, transverse, system.slide_share * races.spin, curved)
+
+
+def mixed_state(system: AbstractLubricatedBallSystem, state: BallsState, contact: PointContact) -> MixedState | None:
+    """Mixed friction of both contacts, forces of the races on the balls along the orbit; `None`: not modelled."""
+    shear = state.traction
+    assert shear is not None
+    sliding, speed = _sliding(system, state), state.races.mean_speed
+    found = system.laws.mixed_state(contact, state.load, state.film, speed, sliding, shear, system.oil)
+    return None if found is None else found._replace(boundary=jnp.asarray(-SIDES * found.boundary))
 
 
 def _moments(

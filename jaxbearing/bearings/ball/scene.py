@@ -243,7 +243,7 @@ class BallBearing(AbstractBearing):
 
     @property
     def dissipates(self) -> bool:
-        return self.contact is not None and (self.slips or self.contact.rolling is not None)
+        return self.contact is not None and (self.slips or self.contact.resists_rolling)
 
     @property
     def ring_lever(self) -> Array:

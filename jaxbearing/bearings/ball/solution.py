@@ -56,6 +56,14 @@ class BallResults(eqx.Module):
     pocket_film_rear: _Values | None = _optional("m", "film behind the ball")
     pocket_load_front: _Values | None = _optional("N", "pocket load in front")
     pocket_load_rear: _Values | None = _optional("N", "pocket load behind")
+    film_ratio_inner: _Values | None = _optional("1", "film over roughness (lambda), inner raceway")
+    film_ratio_outer: _Values | None = _optional("1", "film over roughness (lambda), outer raceway")
+    load_share_inner: _Values | None = _optional("1", "part of the load that asperities carry, inner raceway")
+    load_share_outer: _Values | None = _optional("1", "part of the load that asperities carry, outer raceway")
+    boundary_inner: _Values | None = _optional("N", "boundary friction along rolling, inner raceway")
+    boundary_outer: _Values | None = _optional("N", "boundary friction along rolling, outer raceway")
+    flash_inner: _Values | None = _optional("K", "flash temperature, inner raceway")
+    flash_outer: _Values | None = _optional("K", "flash temperature, outer raceway")
 
 
 _Power = Float[Array, ""]

@@ -17,13 +17,14 @@ from ..assemble import Results, assemble
 from ..facts import MEAN_OF_POINT, RACEWAYS, Contacts, Facts
 from ..interactions import Costs, Interaction, costs, of_land
 from ..land import LandState
+from ..mixed import boundary_power, mixed_results
 from ..parts import azimuths
 from ..ring import InnerRing, Port
 from ..solution import RING_FREEDOMS, TILTS, CageState, FailureCause, RacewayPower, Solution
 from .build import build_core, build_lubricated, ring_directions
 from .core import BallCore
 from .equations import LubricatedBallSystem
-from .friction import SIDES
+from .friction import SIDES, mixed_state
 from .kinematics import BallMotion
 from .rolling import common_orbit_torques, rolling_balance
 from .scene import BallBearing
@@ -202,6 +203,8 @@ def _lubricated(
         more |= {"sliding_inner": state.races.rolling[0], "sliding_outer": state.races.rolling[1]}
         more |= {"traction_inner": forward[0], "traction_outer": forward[1]}
         more |= {"spin_moment_inner": shear.moment[0], "spin_moment_outer": shear.moment[1]}
+    mixed = None if shear is None else mixed_state(system, state, _contact(scene, jnp.cos(state.angle)))
+    more |= mixed_results(mixed)
     if system.resolved:
         more["transverse_spin"] = state.motion.transverse
     if pocket is not None:
@@ -214,6 +217,7 @@ def _lubricated(
         mean_speed=state.races.mean_speed,
         sliding=state.races.rolling,
         temperature=film.temperature,
+        load_share=None if mixed is None else mixed.share,
         starved=film.supply,
     )
     facts = Facts((contacts,))
@@ -233,7 +237,8 @@ def _lubricated(
         cage = CageState(orbit, slip, eccentricity, land.attitude_angle)
     parts = _raceway_power(system, state)
     cost = costs(BallPowerLoss, _interactions(system, state, land), motion)
-    return Results(elements, cost, facts, cage=cage, raceway_power=parts)
+    boundary = boundary_power(mixed, system.multiplicity)
+    return Results(elements, cost, facts, cage=cage, raceway_power=parts, boundary_power=boundary)
 
 
 def _rolling_alone(

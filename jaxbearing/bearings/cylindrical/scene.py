@@ -241,7 +241,7 @@ class CylindricalRollerBearing(AbstractMovingBearing):
 
     @property
     def dissipates(self) -> bool:
-        return self.contact is not None and (self.slips or self.contact.rolling is not None)
+        return self.contact is not None and (self.slips or self.contact.resists_rolling)
 
     def race_lines(self, elements: Any) -> LineContact:
         length = jnp.asarray(self.geometry.loaded_length)
@@ -267,7 +267,7 @@ class CylindricalRollerBearing(AbstractMovingBearing):
         if self.tilts and self.contact is not None:
             said.append(
                 "tilting rollers roll without sliding: cage, skidding and sliding friction are not modelled, losses "
-                + ("are not either" if self.contact.rolling is None else "are those of rolling resistance alone")
+                + ("are those of rolling resistance alone" if self.contact.resists_rolling else "are not either")
             )
         if self.geometry.flange_stiffness is not None:
             said.append(NOT_MODELLED)

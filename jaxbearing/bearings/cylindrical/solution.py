@@ -67,6 +67,30 @@ class RollerResults(eqx.Module):
     pocket_load_rear: Float[Array, " element"] | None = eqx.field(
         default=None, metadata=label("N", "pocket load behind")
     )
+    film_ratio_inner: Float[Array, " element"] | None = eqx.field(
+        default=None, metadata=label("1", "film over roughness (lambda), inner raceway")
+    )
+    film_ratio_outer: Float[Array, " element"] | None = eqx.field(
+        default=None, metadata=label("1", "film over roughness (lambda), outer raceway")
+    )
+    load_share_inner: Float[Array, " element"] | None = eqx.field(
+        default=None, metadata=label("1", "part of the load that asperities carry, inner raceway")
+    )
+    load_share_outer: Float[Array, " element"] | None = eqx.field(
+        default=None, metadata=label("1", "part of the load that asperities carry, outer raceway")
+    )
+    boundary_inner: Float[Array, " element"] | None = eqx.field(
+        default=None, metadata=label("N", "boundary friction along rolling, inner raceway")
+    )
+    boundary_outer: Float[Array, " element"] | None = eqx.field(
+        default=None, metadata=label("N", "boundary friction along rolling, outer raceway")
+    )
+    flash_inner: Float[Array, " element"] | None = eqx.field(
+        default=None, metadata=label("K", "flash temperature, inner raceway")
+    )
+    flash_outer: Float[Array, " element"] | None = eqx.field(
+        default=None, metadata=label("K", "flash temperature, outer raceway")
+    )
 
 
 class PowerLoss(eqx.Module):

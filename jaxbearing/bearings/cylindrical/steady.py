@@ -13,6 +13,7 @@ from ..facts import MEAN_OF_LINE, RACEWAYS, Contacts, Facts
 from ..inlet import oil_elsewhere, oil_of_races, oil_temperature
 from ..interactions import Costs, Interaction, costs, of_land
 from ..land import LandState
+from ..mixed import boundary_power, mixed_results
 from ..parts import azimuths, drag_density
 from ..profile import pressed_load
 from ..ring import LENGTH_UNIT, InnerRing, Port
@@ -208,6 +209,8 @@ def _lubricated(system: LubricatedRollerSystem, result: NewtonResult) -> Results
     state, motion = system.at(result.point), system.kinematics
     pressure = system.contact.hertz_pressure(state.load)
     contact, pocket, rise = state.contact, state.pocket, state.contact.temperature_rise
+    speeds = (state.mean_speed, state.sliding_speed)
+    mixed = system.laws.mixed_state(system.contact, state.load, contact, *speeds, system.inlet)
     elements = RollerResults(
         azimuth=system.azimuth,
         load_inner=state.load[0],
@@ -228,6 +231,7 @@ def _lubricated(system: LubricatedRollerSystem, result: NewtonResult) -> Results
         pocket_film_rear=None if pocket is None else pocket.film_rear,
         pocket_load_front=None if pocket is None else pocket.load_front,
         pocket_load_rear=None if pocket is None else pocket.load_rear,
+        **mixed_results(mixed),
     )
     contacts = Contacts(
         RACEWAYS,
@@ -239,6 +243,7 @@ def _lubricated(system: LubricatedRollerSystem, result: NewtonResult) -> Results
         mean_speed=state.mean_speed,
         sliding=state.sliding_speed,
         temperature=None if rise is None else system.inlet.temperature + rise,
+        load_share=None if mixed is None else mixed.share,
         starved=contact.supply,
     )
     facts = Facts((contacts,))
@@ -255,7 +260,7 @@ def _lubricated(system: LubricatedRollerSystem, result: NewtonResult) -> Results
         attitude_angle=land.attitude_angle,
     )
     cost = costs(PowerLoss, _interactions(system, state, land), motion)
-    return Results(elements, cost, facts, cage=cage)
+    return Results(elements, cost, facts, cage=cage, boundary_power=boundary_power(mixed))
 
 
 def cage_slip(orbit: Array, motion: RollerKinematics) -> Array:

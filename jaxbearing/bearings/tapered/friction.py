@@ -36,11 +36,13 @@ the raceways.
 import dataclasses
 from typing import Any, NamedTuple
 
+import jax
 import jax.numpy as jnp
 from jaxtyping import Array, Float
 
 from ...contacts import LineContact, PointContact, Sliding, Traction
 from ...contacts.laws import ContactLaws
+from ...contacts.mixed import Asperities, MixedState
 from ...contacts.oil_supply import Starvation
 from ...contacts.point_laws import PointFilm
 from ...gaps import RollerDrag
@@ -74,8 +76,8 @@ class RaceFriction(NamedTuple):
     """Raceway contacts, races first. Without load a contact is not there: film and rise are NaN, forces are 0.
 
     `film`, m; `temperature_rise`, K; `rolling`, the force P, N; `capacity`: the traction at a slide-to-roll ratio of
-    `SKIDDING`, N; `speed`, m/s, and `radius`, m, of shape (2, 1); `residual` of nested solves; `starved`: what little
-    oil does. None: not modelled.
+    `SKIDDING`, N; `speed`, m/s, and `radius`, m, of shape (2, 1); `residual` of nested solves; `asperities`: of mixed
+    friction; `starved`: what little oil does. None: not modelled.
     """
 
     film: Float[Array, "2 roller"]
@@ -85,18 +87,20 @@ class RaceFriction(NamedTuple):
     speed: Float[Array, "2 1"]
     radius: Float[Array, "2 1"]
     residual: Float[Array, ""]
+    asperities: Asperities | None
     starved: Starvation | None
 
 
 class RibFriction(NamedTuple):
-    """Contacts of the roller ends, as in `RaceFriction`; `traction`: force, moment about the normal and power of the
-    sheared film, of the rib on the roller."""
+    """Contacts of the roller ends, as in `RaceFriction`; `traction`: force, moment about the normal and power of film
+    and asperities, of the rib on the roller; `mixed`: mixed friction."""
 
     motion: RibMotion
     film: Float[Array, " roller"]
     temperature_rise: Float[Array, " roller"] | None
     traction: Traction | None
     residual: Float[Array, ""]
+    mixed: MixedState | None
 
 
 class RollerBalance(NamedTuple):
@@ -203,8 +207,9 @@ def _races(
     speed = motion.spin_speed * reach * jnp.sin(geometry.roller_half_angle) * jnp.ones((2, 1))
     loaded = load > 0
     pressing, still = jnp.where(loaded, load, 1.0), jnp.zeros_like(load)
-    found = dataclasses.replace(laws, traction=None).evaluate(contact, pressing, speed + still, still, oil, inlet)
-    rise, capacity = found.temperature_rise, None
+    alone = dataclasses.replace(laws, traction=None, mixed=None)
+    found = alone.evaluate(contact, pressing, speed + still, still, oil, inlet)
+    rise, capacity, asperities = found.temperature_rise, None, None
     if laws.traction is not None:
         base = inlet.temperature + (still if rise is None else rise)
         capacity = laws.traction.force(
@@ -217,6 +222,10 @@ def _races(
             oil,
             oil.viscosity.viscosity(0.0, base),
         )
+        if laws.mixed is not None:
+            asperities = laws.asperities(contact, pressing, found.film, speed + still, inlet)
+            capacity = laws.mixed.force(pressing, asperities.share, capacity, SKIDDING * jnp.abs(speed) + still)
+            asperities = jax.tree.map(lambda values: jnp.where(loaded, values, jnp.nan), asperities)
     present = lambda values, absent: None if values is None else jnp.where(loaded, values, absent)
     return RaceFriction(
         film=jnp.where(loaded, found.film, jnp.nan),
@@ -226,6 +235,7 @@ def _races(
         speed=speed,
         radius=jnp.broadcast_to(contact.reduced_radius, (2, 1)),
         residual=found.inner_residual,
+        asperities=asperities,
         starved=found.supply,
     )
 
@@ -242,9 +252,11 @@ def _rib(
     pressing, ones = jnp.where(loaded, load, 1.0), jnp.ones_like(load)
     mean, sliding = moving.mean_speed * ones, moving.sliding_speed * ones
     film: PointFilm = laws.film_state(contact, pressing, mean, sliding, oil, inlet)
-    traction = None
+    traction, mixed = None, None
     if laws.traction is not None:
-        shear = laws.shear(contact, pressing, film, mean, Sliding(sliding, spin=moving.spin * ones), oil)
+        slides = Sliding(sliding, spin=moving.spin * ones)
+        shear = laws.shear(contact, pressing, film, mean, slides, oil)
+        mixed = laws.mixed_state(contact, pressing, film, mean, slides, shear, oil)
         present = lambda values: jnp.where(loaded, values, 0.0)
         traction = shear._replace(
             rolling=present(shear.rolling), moment=present(shear.moment), power=present(shear.power)
@@ -255,7 +267,14 @@ def _rib(
         temperature_rise=None if film.rise is None else jnp.where(loaded, film.rise, jnp.nan),
         traction=traction,
         residual=jnp.max(film.residual),
+        mixed=None if mixed is None else _where_loaded(mixed, loaded),
     )
+
+
+def _where_loaded(mixed: MixedState, loaded: Array) -> MixedState:
+    """Nothing rubs where nothing touches, and film and temperature are not there."""
+    absent = (jnp.nan, jnp.nan, 0.0, 0.0, jnp.nan)
+    return MixedState(*(jnp.where(loaded, values, none) for values, none in zip(mixed, absent, strict=True)))
 
 
 def _balance(

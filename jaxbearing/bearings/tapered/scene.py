@@ -116,7 +116,7 @@ class TaperedRollerBearing(AbstractBearing):
             yield "oil: a scene with a [contact] table needs an oil"
         if self.drag is not None and self.oil is not None and self.oil.density is None:
             yield "oil.density: the drag needs it"
-        if self.rib is not None and self.rib.rolling is not None:
+        if self.rib is not None and self.rib.resists_rolling:
             yield "rib.rolling: the rib has none, the roller ends slide on it"
         yield from refusals_of(self.operation.check_rings_turn)
 
@@ -174,7 +174,7 @@ class TaperedRollerBearing(AbstractBearing):
         if self.contact is None:
             return False
         slides = self.rib is not None and self.rib.traction is not None
-        return self.contact.rolling is not None or slides or self.drag is not None
+        return self.contact.resists_rolling or slides or self.drag is not None
 
     def race_lines(self, elements: Any) -> LineContact:
         radii = self.geometry.race_reduced_radii(jnp.asarray(0.5))[:, None]

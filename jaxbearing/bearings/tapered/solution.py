@@ -48,6 +48,14 @@ class TaperedResults(eqx.Module):
     traction_inner: _Values | None = _optional("N", "forward force by the inner race that keeps the roller rolling")
     traction_outer: _Values | None = _optional("N", "backward force by the outer race that keeps the roller rolling")
     traction_flange: _Values | None = _optional("N", "forward force by the rib")
+    film_ratio_inner: _Values | None = _optional("1", "film over roughness (lambda), inner raceway")
+    film_ratio_outer: _Values | None = _optional("1", "film over roughness (lambda), outer raceway")
+    load_share_inner: _Values | None = _optional("1", "part of the load that asperities carry, inner raceway")
+    load_share_outer: _Values | None = _optional("1", "part of the load that asperities carry, outer raceway")
+    film_ratio_flange: _Values | None = _optional("1", "film over roughness (lambda), rib")
+    load_share_flange: _Values | None = _optional("1", "part of the load that asperities carry, rib")
+    boundary_flange: _Values | None = _optional("N", "boundary friction around the bearing, rib")
+    flash_flange: _Values | None = _optional("K", "flash temperature, rib")
 
 
 _Power = Float[Array, ""]

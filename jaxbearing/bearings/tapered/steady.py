@@ -3,6 +3,7 @@
 import dataclasses
 from typing import NamedTuple
 
+import jax
 import jax.numpy as jnp
 from jaxtyping import Array, Bool, Float
 
@@ -16,10 +17,11 @@ from ..assemble import Results, assemble
 from ..facts import MEAN_OF_LINE, MEAN_OF_POINT, RACEWAYS, Contacts, Facts
 from ..inlet import oil_elsewhere, oil_of_races
 from ..interactions import costs
+from ..mixed import boundary_power, mixed_results
 from ..parts import azimuths
 from ..rating import LAMINAE, rated_laminae
 from ..ring import InnerRing, Port
-from ..solution import RING_FREEDOMS, FailureCause, LaminaLoads, Solution
+from ..solution import RING_FREEDOMS, BoundaryPower, FailureCause, LaminaLoads, Solution
 from .build import build_tapered, rolling_motion
 from .friction import TaperedFriction, tapered_friction
 from .scene import TaperedRollerBearing
@@ -229,7 +231,16 @@ def _results(
         laminae=LaminaLoads(
             inner_laminae, outer_laminae, scene.profile is not None and scene.profile.shape is not None
         ),
+        boundary_power=_boundary_power(scene, state, friction),
     )
+
+
+def _boundary_power(
+    scene: TaperedRollerBearing, state: TaperedState, friction: TaperedFriction | None
+) -> BoundaryPower | None:
+    """The part of the rib's loss that is boundary friction; rollers do not slide on the raceways."""
+    rib = None if friction is None or friction.rib is None else friction.rib.mixed
+    return boundary_power(None, scene.geometry.n_rollers // state.load.shape[1], rib)
 
 
 def _of_friction(friction: TaperedFriction, state: TaperedState) -> dict[str, Array]:
@@ -245,8 +256,14 @@ def _of_friction(friction: TaperedFriction, state: TaperedState) -> dict[str, Ar
         # without load it is the cage's, not the raceway's
         traction = jnp.where(state.load > 0, balance.traction, jnp.nan)
         more |= {"traction_inner": traction[0], "traction_outer": -traction[1]}
+    if races.asperities is not None:
+        ratio, share = races.asperities
+        more |= {"film_ratio_inner": ratio[0], "film_ratio_outer": ratio[1]}
+        more |= {"load_share_inner": share[0], "load_share_outer": share[1]}
     if rib is None:
         return more
+    if rib.mixed is not None:
+        more |= mixed_results(jax.tree.map(lambda values: values[None], rib.mixed), ("flange",))
     more |= {"film_flange": rib.film, "sliding_flange": rib.motion.sliding_speed, "spin_flange": rib.motion.spin}
     if rib.temperature_rise is not None:
         more["temperature_rise_flange"] = rib.temperature_rise
@@ -281,10 +298,14 @@ def _facts(
     warm_races = warm(inlet, of_races.temperature_rise)
     races = races._replace(laws=scene.contact, inlet=inlet, mean_speed=of_races.speed, temperature=warm_races)
     races = races._replace(starved=of_races.starved)
+    if of_races.asperities is not None:
+        races = races._replace(load_share=of_races.asperities.share)
     if of_rib is not None:
         rise, elsewhere = of_rib.temperature_rise, oil_elsewhere(scene)
         oil = inlet if elsewhere is None else elsewhere.flange
         rib = rib._replace(laws=scene.rib, inlet=oil, temperature=warm(oil, None if rise is None else rise[None]))
+        if of_rib.mixed is not None:
+            rib = rib._replace(load_share=of_rib.mixed.share[None])
     reserve = None
     if of_races.capacity is not None and friction.balance is not None:
         reserve = of_races.capacity - jnp.abs(friction.balance.traction)

@@ -30,6 +30,7 @@ def facts(solution: Solution) -> Iterator[tuple[str, str]]:
     if rolling is not None:
         parts = f"inner {digits(float(rolling.inner))} W, outer {digits(float(rolling.outer))} W"
         yield "Rolling resistance", f"{parts} ({rolling.law})"
+    yield from _mixed_facts(solution)
     if solution.fit is not None:
         yield from fit_facts(solution.fit)
     if solution.thermal is not None:
@@ -48,6 +49,26 @@ def facts(solution: Solution) -> Iterator[tuple[str, str]]:
     yield from _supply(solution)
     yield from _frequencies(solution)
     yield from _life(solution)
+
+
+def _mixed_facts(solution: Solution) -> Iterator[tuple[str, str]]:
+    """Part of the losses that is boundary friction, film ratio and load share of the roughest contact."""
+    power = solution.boundary_power
+    if power is None:
+        return
+    total, rubbed = float(np.asarray(solution.power_loss.total)), float(np.asarray(power.total))
+    part = f" ({digits(100.0 * rubbed / total, 3)} % of the losses)" if total else ""
+    yield "Mixed friction", f"boundary friction {digits(rubbed)} W{part}"
+    for side, place in (("inner", "inner raceway"), ("outer", "outer raceway"), ("flange", "rib")):
+        ratio = getattr(solution.elements, f"film_ratio_{side}", None)
+        if ratio is None or np.all(np.isnan(ratio)):
+            continue
+        share = 100.0 * float(np.nanmax(getattr(solution.elements, f"load_share_{side}")))
+        text = f"film ratio from {digits(float(np.nanmin(ratio)), 3)}, asperities carry up to {digits(share, 3)} %"
+        flash = getattr(solution.elements, f"flash_{side}", None)
+        if flash is not None:
+            text += f", flash temperature up to {digits(float(np.nanmax(flash)), 3)} K"
+        yield "", f"{place}: {text}"
 
 
 def _frequencies(solution: Solution) -> Iterator[tuple[str, str]]:

@@ -19,6 +19,7 @@ from ...lubricants import Lubricant
 from ..bearing.build import built, cage, part, seats, solids
 from ..bearing.simulation import warm_up
 from ..laws import BALL_FILMS, POINT_ROLLING, distributed_traction, thermal_factor
+from ..mixed import mixed_friction
 from ..oil.catalogue import lubricant
 from .schema import BallBearingTable, BallContactTable, KinematicsTable
 
@@ -89,4 +90,6 @@ def _laws(table: BallContactTable, oil: Lubricant | None) -> PointLaws:
         rolling_heating=table.rolling_heating,
         heathcote=table.heathcote,
         supply=part(Supply, table.supply, exclude_none=True),
+        mixed=mixed_friction(table.mixed),
+        hysteresis=table.hysteresis,
     )

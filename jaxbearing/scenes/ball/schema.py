@@ -26,6 +26,7 @@ from ..bearing.schema import (
 from ..bearing.simulation import WarmUpTable
 from ..laws import BALL_FILMS, POINT_ROLLING, POINT_THERMAL, TRACTIONS, TractionAccuracy
 from ..materials import MaterialField
+from ..mixed import MixedTable, mixed_needs_traction
 from ..oil.schema import OilTable
 from ..table import Problems, Table, check, refusal_at
 from ..table_of import table_of
@@ -49,10 +50,11 @@ class BallContactTable(table_of(PointLaws)):
     - `traction_accuracy`: relative error of the traction forces for which the march through the Hertz pressure is cut
     - `rolling_resistance`: of the raceways; `true`: the first of these laws; not given: none
     - `supply`: how much oil reaches the raceways; not given: they are fully flooded
+    - `mixed`: mixed friction of rough raceways; not given: the films carry all of the loads
     """
 
     about: ClassVar[Mapping[str, tuple[str, ...]]] = {
-        "traction": ("traction_accuracy", "heathcote"),
+        "traction": ("traction_accuracy", "heathcote", "mixed"),
         "rolling_resistance": ("rolling_heating",),
     }
     film: Annotated[str, BALL_FILMS]
@@ -61,6 +63,11 @@ class BallContactTable(table_of(PointLaws)):
     traction_accuracy: TractionAccuracy | None = None
     rolling_resistance: Annotated[str, POINT_ROLLING] | None = None
     supply: SupplyTable | None = None
+    mixed: MixedTable | None = None
+
+    @check
+    def _mixed(self) -> Problems:
+        yield from mixed_needs_traction(self)
 
     @check
     def _consistent(self) -> Problems:

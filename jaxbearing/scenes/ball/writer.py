@@ -7,6 +7,7 @@ from ...lubricants import Lubricant
 from ..bearing.simulation_writer import simulation
 from ..bearing.writer import bearing_tables, cage, flow_law, march_accuracy, thermal_law
 from ..laws import BALL_FILMS, POINT_ROLLING, POINT_THERMAL
+from ..mixed import mixed_rows
 from ..part_writer import Rows, given, law_name, rows, shown, unwritable
 from .schema import BallBearingTable, BallCageTable, KinematicsTable
 
@@ -44,4 +45,4 @@ def _laws(contact: PointLaws, oil: Lubricant | None) -> Rows:
         "traction_accuracy": None if traction is None else march_accuracy(traction, "contact.traction", spin=True),
         "rolling_resistance": contact.rolling and law_name(POINT_ROLLING, contact.rolling, "contact.rolling"),
     }
-    return given(found)
+    return given(found) | mixed_rows(contact.mixed)

@@ -40,12 +40,18 @@ def bearing_tables(scene: AbstractBearing, model: type[Table], **own: Rows | Non
         # files give the materials of a seat thermal properties, those of the bearing where its parts have temperatures
         warm = scene.temperatures is not None or scene.thermal is not None
         thermal = name == "fits" or (name == "materials" and warm)
-        tables[name] = scene_oil(part) if name == "oil" else (own.get(name) or {}) | rows(table, part, thermal)
+        tables[name] = scene_oil(part) if name == "oil" else _joined(own.get(name) or {}, rows(table, part, thermal))
     tables["operation"] = _operation(tables["operation"], scene)
     if "thermal" in tables:
         # parts of which nothing is given
         tables["thermal"] = {name: value for name, value in tables["thermal"].items() if value != {}}
     return {"kind": scene.kind} | tables
+
+
+def _joined(own: Rows, found: Rows) -> Rows:
+    """Both tables; where both have a table inside, what either says of it."""
+    inner = lambda name, value: own[name] | value if isinstance(value, dict) and name in own else value
+    return own | {name: inner(name, value) for name, value in found.items()}
 
 
 def _operation(found: Rows, scene: AbstractBearing) -> Rows:

@@ -23,6 +23,7 @@ from ..bearing.schema import (
 from ..bearing.simulation import SimulationTable
 from ..laws import LINE_THERMAL, ROLLER_FILMS, ROLLING, TRACTIONS, TractionAccuracy
 from ..materials import MaterialField
+from ..mixed import MixedTable, mixed_needs_traction
 from ..oil.schema import OilTable
 from ..table import Problems, Table, check, refusal_at
 from ..table_of import table_of
@@ -47,11 +48,12 @@ class ContactTable(table_of(ContactLaws, leave_out=("entrainment_smoothing",))):
     - `traction_accuracy`: relative error of the traction forces for which the march through the Hertz pressure is cut
     - `rolling_resistance`: of the raceways; `true`: the first of these laws; not given: none
     - `supply`: how much oil reaches the raceways; not given: they are fully flooded
+    - `mixed`: mixed friction of rough raceways; not given: the films carry all of the loads
     """
 
     instead: ClassVar[Mapping[str, tuple[str, ...]]] = {"traction_model": ("traction_accuracy",)}
     about: ClassVar[Mapping[str, tuple[str, ...]]] = {
-        "traction": ("traction_model", "traction_accuracy"),
+        "traction": ("traction_model", "traction_accuracy", "mixed"),
         "traction_model": ("traction_accuracy",),
         "rolling_resistance": ("rolling_heating",),
     }
@@ -62,6 +64,11 @@ class ContactTable(table_of(ContactLaws, leave_out=("entrainment_smoothing",))):
     traction_accuracy: TractionAccuracy | None = None
     rolling_resistance: Annotated[str, ROLLING] | None = None
     supply: SupplyTable | None = None
+    mixed: MixedTable | None = None
+
+    @check
+    def _mixed(self) -> Problems:
+        yield from mixed_needs_traction(self)
 
     @check
     def _consistent(self) -> Problems:

@@ -5,6 +5,7 @@ from ...contacts import AbstractTraction, DistributedTraction, MeanPressureTract
 from ...lubricants import Lubricant
 from ..bearing.simulation_writer import simulation
 from ..bearing.writer import bearing_tables, cage, flow_law, march_accuracy, profile, raceway_laws
+from ..mixed import mixed_rows
 from ..part_writer import Rows, shown, unwritable
 from .schema import CageTable, CylindricalRollerTable
 
@@ -14,7 +15,7 @@ def roller_tables(scene: CylindricalRollerBearing) -> Rows:
     contact = scene.contact
     laws = None
     if contact is not None:
-        laws = raceway_laws(contact) | _traction(contact.traction, scene.oil)
+        laws = raceway_laws(contact) | _traction(contact.traction, scene.oil) | mixed_rows(contact.mixed)
     return bearing_tables(
         scene,
         CylindricalRollerTable,

@@ -21,6 +21,7 @@ from ..bearing.build import built, part, seats, solids
 from ..bearing.profile import roller_profile
 from ..bearing.simulation import warm_up
 from ..laws import RIB_FILMS, ROLLER_FILMS, ROLLING, distributed_traction, thermal_factor, viscous_function
+from ..mixed import mixed_friction, rib_mixed_friction
 from ..oil.catalogue import lubricant
 from .schema import TaperedContactTable, TaperedRollerTable
 
@@ -58,6 +59,8 @@ def _laws(table: TaperedContactTable, oil: Lubricant | None) -> ContactLaws:
         rolling=rolling,
         rolling_heating=table.rolling_heating,
         supply=part(Supply, table.supply, exclude_none=True),
+        mixed=mixed_friction(table.mixed),
+        hysteresis=table.hysteresis,
     )
 
 
@@ -73,4 +76,5 @@ def _rib_laws(table: TaperedContactTable, oil: Lubricant | None) -> PointLaws:
         film=film() if table.flange_film is None else RIB_FILMS[table.flange_film](),
         thermal=NoThermalReduction() if table.thermal is None else Gupta(),
         traction=traction,
+        mixed=rib_mixed_friction(table.mixed),
     )

@@ -22,6 +22,7 @@ from ..bearing.simulation import WarmUpTable
 from ..cylindrical.schema import RACEWAY_LAWS, DragTable
 from ..laws import LINE_THERMAL, RIB_FILMS, ROLLER_FILMS, ROLLING, TRACTIONS, TractionAccuracy
 from ..materials import MaterialField
+from ..mixed import RibMixedTable, mixed_needs_traction
 from ..oil.schema import OilTable
 from ..table import Problems, Table, check, refusal_at
 from ..table_of import table_of
@@ -45,10 +46,11 @@ class TaperedContactTable(table_of(ContactLaws, leave_out=("entrainment_offset",
     - `rolling_resistance`: of the raceways; `true`: the first of these laws; not given: none
     - `supply`: how much oil reaches the raceways; not given: they are fully flooded
     - `flange_film`: film law of the roller ends on the rib
+    - `mixed`: mixed friction of rough raceways and ribs; not given: the films carry all of the loads
     """
 
     about: ClassVar[Mapping[str, tuple[str, ...]]] = {
-        "traction": ("traction_accuracy",),
+        "traction": ("traction_accuracy", "mixed"),
         "rolling_resistance": ("rolling_heating",),
     }
     film: Annotated[str, ROLLER_FILMS]
@@ -58,6 +60,11 @@ class TaperedContactTable(table_of(ContactLaws, leave_out=("entrainment_offset",
     traction: Annotated[str, TRACTIONS] | None = None
     traction_accuracy: TractionAccuracy | None = None
     supply: SupplyTable | None = None
+    mixed: RibMixedTable | None = None
+
+    @check
+    def _mixed(self) -> Problems:
+        yield from mixed_needs_traction(self)
 
     @check
     def _consistent(self) -> Problems:

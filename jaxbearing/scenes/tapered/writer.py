@@ -5,6 +5,7 @@ from ...contacts import MeanPressureTraction
 from ..bearing.simulation_writer import simulation
 from ..bearing.writer import bearing_tables, flow_law, march_accuracy, profile, raceway_laws
 from ..laws import RIB_FILMS
+from ..mixed import rib_mixed_rows
 from ..part_writer import Rows, law_name, shown, unwritable
 from .schema import TaperedRollerTable
 
@@ -27,7 +28,11 @@ def _laws(scene: TaperedRollerBearing) -> Rows | None:
         return None
     if rib is None:
         raise unwritable("rib", "None", "the laws of the rib, which files have wherever they have those of raceways")
-    found = raceway_laws(contact) | {"flange_film": law_name(RIB_FILMS, rib.film, "rib.film")}
+    found = (
+        raceway_laws(contact)
+        | rib_mixed_rows(contact.mixed, rib.mixed)
+        | {"flange_film": law_name(RIB_FILMS, rib.film, "rib.film")}
+    )
     if contact.traction is None:
         return found
     if not isinstance(contact.traction, MeanPressureTraction):

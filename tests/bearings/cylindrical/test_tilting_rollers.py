@@ -11,7 +11,7 @@ from jaxbearing.bearings.cylindrical.tilting_steady import build_tilting
 from jaxbearing.bearings.profile import RollerProfile
 from jaxbearing.bearings.rating import Rating
 from jaxbearing.contacts import CrownedProfile, LogarithmicProfile
-from jaxbearing.life.minimum_film import LINE_SHARE
+from jaxbearing.contacts.minimum_film import LINE_SHARE
 from jaxbearing.numerics.arrow import ArrowPoint, evaluate
 from jaxbearing.numerics.precision import as_float
 from jaxbearing.solve import jit_solver

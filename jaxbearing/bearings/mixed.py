@@ -1,0 +1,47 @@
+"""Mixed friction in the results of bearings: names, and sums over the rolling elements."""
+
+from collections.abc import Sequence
+
+import jax.numpy as jnp
+from jaxtyping import Array
+
+from ..contacts.mixed import MixedState
+from .solution import BoundaryPower
+
+SIDES = ("inner", "outer")
+"""Names of the rows of contacts with the raceways."""
+
+
+def mixed_results(state: MixedState | None, sides: Sequence[str] = SIDES) -> dict[str, Array]:
+    """Mixed friction by the names of the results of rolling elements; empty if it is not modelled. **Arguments:**
+    `state`: of contacts, one row a side; `sides`: their names."""
+    if state is None:
+        return {}
+    found: dict[str, Array] = {}
+    for i, side in enumerate(sides):
+        found |= {
+            f"film_ratio_{side}": state.film_ratio[i],
+            f"load_share_{side}": state.share[i],
+            f"boundary_{side}": state.boundary[i],
+            f"flash_{side}": state.flash[i],
+        }
+    return found
+
+
+def boundary_power(
+    raceways: MixedState | None, multiplicity: int = 1, rib: MixedState | None = None
+) -> BoundaryPower | None:
+    """The part of boundary friction in the losses; `None` if mixed friction is not modelled.
+
+    **Arguments:** `raceways`: of the contacts on the inner and the outer raceway, if these slide; `multiplicity`:
+    rolling elements for which each one stands; `rib`: of the roller ends.
+    """
+    powers: dict[str, Array] = {}
+    if raceways is not None:
+        inner, outer = multiplicity * jnp.sum(raceways.boundary_power, axis=1)
+        powers |= {"inner_raceway": inner, "outer_raceway": outer}
+    if rib is not None:
+        powers["flange"] = multiplicity * jnp.sum(rib.boundary_power)
+    if not powers:
+        return None
+    return BoundaryPower(total=jnp.asarray(sum(powers.values())), **powers)
