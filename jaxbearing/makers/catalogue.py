@@ -1,6 +1,6 @@
 """What a scene does not know of a catalogue bearing and the makers' formulas need."""
 
-from typing import Literal
+from typing import ClassVar, Literal
 
 import equinox as eqx
 
@@ -46,7 +46,7 @@ class Catalogue(Checked):
       f3 where the manual has graphs.
     """
 
-    part = "catalogue"
+    part: ClassVar[str] = "catalogue"
 
     designation: str | None = eqx.field(default=None, static=True)
     family: str | None = choice("catalogue.family", ALL_FAMILIES, None)

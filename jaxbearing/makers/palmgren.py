@@ -12,7 +12,7 @@ import jax.numpy as jnp
 
 from .._types import Batch, Scalar, Values
 from ..numerics.safe import power, regular_power
-from .skf import MM, MM2, STILL, rolled, speed_in_rpm
+from .skf import MM, STILL, rolled, speed_in_rpm
 
 SLOW = 2000.0
 """nu n in mm^2/s rpm below which M0 does not depend on the speed."""
@@ -77,9 +77,7 @@ def timken_load(radial: Values, axial: Values, contact_angle: Scalar) -> Batch:
     return jnp.maximum(0.9 * axial / jnp.tan(contact_angle) - 0.1 * fr, fr)
 
 
-def timken_tapered_moment(
-    g1: Values, speed: Values, dynamic_viscosity: Values, equivalent: Values
-) -> Batch:
+def timken_tapered_moment(g1: Values, speed: Values, dynamic_viscosity: Values, equivalent: Values) -> Batch:
     r"""$M = 2.56\cdot10^{-6}G_1(n\mu)^{0.62}(f_3F_r/K)^{0.3}$, N m, with $\mu$ in mPa s.
 
     **Validity:** speeds from `timken_least_speed` on. **Arguments:** `g1`: G1 of the bearing; `speed`, rad/s;
@@ -97,4 +95,3 @@ def timken_least_speed(g2: Values, dynamic_viscosity: Values, f2: Values, radial
     """
     least = 625.0 / (g2 * jnp.asarray(dynamic_viscosity) * 1e3)
     return least * regular_power(jnp.asarray(f2) * radial / factor, 2.0 / 3.0, STILL) * jnp.pi / 30.0
-

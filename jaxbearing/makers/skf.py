@@ -44,8 +44,8 @@ def deep_groove_variables(
 ) -> Moments:
     r"""$G_{rr}$, $G_{sl}$ of deep groove ball bearings.
 
-    Without axial load $R_1d_m^{1.96}F_r^{0.54}$ and $S_1d_m^{-0.26}F_r^{5/3}$; with it, $\alpha_F = 24.6(F_a/C_0)^{0.24}$
-    degrees, $R_1d_m^{1.96}(F_r + R_2F_a/\sin\alpha_F)^{0.54}$ and
+    Without axial load $R_1d_m^{1.96}F_r^{0.54}$ and $S_1d_m^{-0.26}F_r^{5/3}$; with it,
+    $\alpha_F = 24.6(F_a/C_0)^{0.24}$ degrees, $R_1d_m^{1.96}(F_r + R_2F_a/\sin\alpha_F)^{0.54}$ and
     $S_1d_m^{-0.145}(F_r^5 + S_2d_m^{1.5}F_a^4/\sin\alpha_F)^{1/3}$.
 
     **Limits:** the sliding variable jumps where the axial load begins, by $d_m^{0.115}$, as printed. An axial load of 0
@@ -99,7 +99,7 @@ def cylindrical_variables(
 def tapered_variables(
     constants: tuple[float, ...], mean_diameter: Scalar, radial: Values, axial: Values, axial_factor: Values
 ) -> Moments:
-    r"""$G_{rr} = R_1d_m^{2.38}(F_r + R_2YF_a)^{0.31}$, $G_{sl} = S_1d_m^{0.82}(F_r + S_2YF_a)$ of tapered roller bearings.
+    r"""$G_{rr} = R_1d_m^{2.38}(F_r + R_2YF_a)^{0.31}$, $G_{sl} = S_1d_m^{0.82}(F_r + S_2YF_a)$ of tapered bearings.
 
     **Arguments:** `constants`: R1, R2, S1, S2; `mean_diameter`, m; loads >= 0, N; `axial_factor` Y.
     """
@@ -130,9 +130,7 @@ def starvation_factor(
     return jnp.exp(-constant * rolled(viscosity, speed) * (d + big) * jnp.sqrt(geometry / (2.0 * (big - d))))
 
 
-def sliding_friction(
-    speed: Values, viscosity: Values, mean_diameter: Scalar, boundary: Values, film: Values
-) -> Batch:
+def sliding_friction(speed: Values, viscosity: Values, mean_diameter: Scalar, boundary: Values, film: Values) -> Batch:
     r"""$\mu_{sl} = \phi_{bl}\mu_{bl} + (1 - \phi_{bl})\mu_{EHL}$, $\phi_{bl} = \exp(-2.6\cdot10^{-8}(n\nu)^{1.4}d_m)$.
 
     **Limits:** $\mu_{bl}$ at rest, $\mu_{EHL}$ at high speed.
@@ -161,7 +159,10 @@ def sliding_moment(sliding_variable: Values, friction: Values) -> Batch:
 
 
 def seal_moment(constants: SealConstants, seal_diameter: Scalar) -> Batch:
-    r"""$M_{seal} = K_{S1}d_s^\beta + K_{S2}$ of both seals, N m. **Arguments:** `seal_diameter` d_s on which they run, m."""
+    r"""$M_{seal} = K_{S1}d_s^\beta + K_{S2}$ of both seals, N m.
+
+    **Arguments:** `seal_diameter`: d_s, on which they run, m.
+    """
     return (constants.k1 * power(jnp.asarray(seal_diameter) * MM, constants.beta) + constants.k2) / MM
 
 
@@ -223,7 +224,7 @@ def roller_drag(
     length: Scalar,
     rows: float = 1.0,
 ) -> Batch:
-    r"""$10V_MK_{roll}Bd_m^4n^2$, $K_{roll} = K_LK_z\frac{d + D}{D - d}10^{-12}$, N m: the older form for roller bearings.
+    r"""$10V_MK_{roll}Bd_m^4n^2$, $K_{roll} = K_LK_z\frac{d + D}{D - d}10^{-12}$, N m: the older form for rollers.
 
     **Arguments:** `speed`, rad/s; `bore`, `outside`, `width` B and `level`, m; `geometry` K_z; `length` K_L; `rows`.
     """

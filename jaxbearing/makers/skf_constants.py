@@ -81,7 +81,7 @@ ROLLER_DRAG = {"cylindrical": 0.65, "cylindrical_full": 0.7, "tapered": 0.7}
 FILM_FRICTION = {"cylindrical": 0.02, "cylindrical_full": 0.02, "tapered": 0.002}
 """Family -> mu_EHL; that of balls is `BALL_FILM_FRICTION`."""
 BALL_FILM_FRICTION = 0.05
-"""mu_EHL of ball bearings with mineral oil; the catalogue has 0.04 for synthetic oils and 0.1 for transmission fluids."""
+"""mu_EHL of ball bearings with mineral oil; 0.04 with synthetic oils, 0.1 with transmission fluids."""
 BOUNDARY_FRICTION = 0.15
 """mu_bl; the later table has 0.12 for bearings in motion."""
 DRAG_LEVELS = (0.0, 0.025, 0.05, 0.075, 0.1, 0.125, 0.15, 0.175, 0.2, 0.3, 0.5, 0.8, 1.0, 1.2, 1.4)

@@ -7,6 +7,7 @@ from typing import Annotated, Any
 from ...bearings.cage import AbstractCage
 from ...bearings.operation import AbstractOperation, HeldDisplacement
 from ...bearings.rating import Rating
+from ...makers.catalogue import Catalogue
 from ...mounting import Fits, PartTemperatures
 from ...thermal.settings import Capacities, ConductanceFactors, Conductances, Shares, Thermal
 from ..laws import TURBULENCE, Laws
@@ -15,6 +16,7 @@ from ..oil.needs import require_laws, require_piezoviscous
 from ..oil.schema import OilTable
 from ..table import Problems, Table, check, refusal_at
 from ..table_of import table_of
+from ..units import Text
 
 TURBULENCE_OF_CAGES = {field.name: field for field in dataclasses.fields(AbstractCage)}["turbulence"].default
 
@@ -90,6 +92,17 @@ class ThermalTable(table_of(Thermal)):
 
 class RatingTable(table_of(Rating)):
     """Inputs of the life; see `bearings.rating.Rating`."""
+
+
+class CatalogueTable(table_of(Catalogue)):
+    """The bearing as a catalogue names it, for `jaxbearing compare`; see `makers.Catalogue`. No result depends on it.
+
+    - `designation`: such as "6205-2RSH", "NU 210 ECP" or "32216", for what it says of series, bore and seals
+    - `series`: as the makers' tables name it, such as "62", "72B", "2" (of NU 2) or "320X"
+    """
+
+    designation: Text | None = None
+    series: Text | None = None
 
 
 def require_oil_flow(drag: Table | None, operation: Any) -> Problems:
