@@ -28,7 +28,7 @@ def compare(scene: SceneArgument, changes: SetOption = None, as_json: JsonOption
         model = load_scene(scene, overrides)
         if not isinstance(model, AbstractBearing):
             refuse(
-                f"SCENE: found '{scene}', a {type(model).__name__}; expected a bearing: makers have formulas of those"
+                f"SCENE: found '{scene}', a {type(model).__name__}; expected a bearing, of which makers have formulas"
             )
         catalogue = load_catalogue(scene, overrides)
 

@@ -13,6 +13,7 @@ from ..makers import Comparison, Law, Physical
 from .backends.json import finite
 from .backends.screen import headline, print_line, print_rule, print_warnings
 from .display import digits
+from .page_content import Listing
 
 NAMES = {
     "skf": "SKF",
@@ -56,6 +57,14 @@ def comparison_rows(found: Comparison) -> list[tuple[str, ...]]:
 def comparison_notes(found: Comparison) -> list[str]:
     """Ranges that are left, inputs that are missing, differences."""
     return [*_of_laws(found), *found.notes]
+
+
+def comparison_listing(found: Comparison) -> Listing:
+    """The table of a page."""
+    assumed = [f"{NAMES[one.law]}: assumed: {'; '.join(one.assumed)}" for one in found.laws if one.assumed]
+    headings = ["", *HEADINGS[1:4], *(f"{part}, N mm" for part in PARTS)]
+    remarks = [NOTE, *comparison_notes(found), *assumed]
+    return Listing("Beside the makers' formulas", headings, comparison_rows(found), remarks)
 
 
 def comparison_to_dict(found: Comparison) -> dict[str, Any]:
