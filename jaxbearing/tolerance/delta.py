@@ -15,6 +15,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..distribution import Distribution
 from .derivatives import Slopes
 from .outcome import Spread
 from .results import labels_of
@@ -24,6 +25,10 @@ from .seats import Seat, seat_of
 Evaluated = Callable[[Mapping[str, float]], Slopes]
 """Results and derivatives at other numbers of the scene."""
 _OF_SEAT = {"shaft": "fit.interference_inner", "housing": "fit.interference_outer"}
+LIKELY = 0.9
+"""Share of the bearings between the likely limits of a result."""
+_PARTS = 20_001
+"""Equally likely parts of each distribution in the likely limits."""
 _BENT = 0.1
 """Departure from a straight line, of the distance between the worst cases, that a note is made of."""
 
@@ -73,6 +78,7 @@ def spreads_of(
             value=float(found.values[name]),
             mean=float(found.values[name]) + shift,
             deviation=float(np.sqrt(variance)),
+            likely=_likely(own, gains, scatter, float(found.values[name]) + shift, variance),
             worst_low=min(ends),
             worst_high=max(ends),
             unit=labels[name].unit,
@@ -125,7 +131,7 @@ def _moments(lines: _Lines, scatter: Scatter, seats: Mapping[str, Seat]) -> tupl
     """Shift of the mean, and the part of each field in the variance."""
     gains = {seat: one.gain for seat, one in seats.items()}
     shares = {path: (lines.by(path, gains) * one.deviation) ** 2 for path, one in scatter.fields.items()}
-    shift = 0.0
+    shift = sum(lines.by(path, gains) * (one.mean - one.nominal) for path, one in scatter.fields.items())
     for seat, slope in lines.pressed.items():
         one = seats[seat]
         mean, variance = one.moments()
@@ -135,6 +141,26 @@ def _moments(lines: _Lines, scatter: Scatter, seats: Mapping[str, Seat]) -> tupl
             part = (lines.running[seat][path] * field.deviation / one.deviation) ** 2 if one.deviation > 0.0 else 0.0
             shares[path] += rest * part
     return shift, shares
+
+
+def _likely(
+    lines: _Lines, gains: Mapping[str, float], scatter: Scatter, mean: float, variance: float
+) -> tuple[float, float]:
+    """Results below which 5 and 95 % of the bearings are, of the linear model.
+
+    Each field takes the middles of equally likely parts in an order of its own. What the seats add beyond their lines
+    counts as a normal variable.
+    """
+    slopes = {path: lines.by(path, gains) for path in scatter.fields}
+    bent = {path: slope for path, slope in slopes.items() if slope and scatter.fields[path].shape != "normal"}
+    normal = np.sqrt(max(variance - sum((slopes[path] * scatter.fields[path].deviation) ** 2 for path in bent), 0.0))
+    order, shares = np.random.default_rng(0), (np.arange(_PARTS) + 0.5) / _PARTS
+    total = Distribution(mean, float(normal)).quantiles(shares)
+    for path, slope in bent.items():
+        one = scatter.fields[path]
+        total = order.permutation(total) + slope * (one.quantiles(shares) - one.mean)
+    low, high = np.quantile(total, (0.5 * (1.0 - LIKELY), 0.5 * (1.0 + LIKELY)))
+    return float(low), float(high)
 
 
 def _corners(
@@ -208,5 +234,5 @@ def _reach(spread: Spread, scatter: Scatter, high: bool) -> float:
     for path, slope in spread.derivatives.items():
         one = scatter.fields[path]
         end = one.highest if (slope > 0.0) == high else one.lowest
-        reach += abs(slope * (end - one.mean))
+        reach += abs(slope * (end - one.nominal))
     return reach
