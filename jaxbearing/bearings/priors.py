@@ -29,6 +29,12 @@ def drag_prior(scene: Any) -> Distribution | None:
     return DRAG[scene.element]
 
 
+def isolated(scene: Any) -> bool:
+    """True if the drag coefficient of a bearing is left to the law of an isolated ball."""
+    drag = getattr(scene, "drag", None)
+    return drag is not None and drag.coefficient is None and scene.dissipates
+
+
 def prior_in_words(scene: Any) -> str:
     """The distribution of `drag_prior` in words."""
     one = DRAG[scene.element]

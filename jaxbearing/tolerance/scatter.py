@@ -23,8 +23,13 @@ SEATS = {"shaft": ("bore", iso286.shaft_limits, iso286.bore_limits)}
 """Seat -> the dimension of the bearing, deviations of the other part, and deviations of the bearing."""
 SEATS["housing"] = ("outside_diameter", iso286.hole_limits, iso286.outside_limits)
 _NOTHING = (
-    "found no field that scatters; expected one given as {mean = ..., deviation = ...} or {low = ..., high = ...}, or "
-    "a tolerance class in [fits] with at = 'mean'"
+    "found no field that scatters; expected one given as {mean = ..., deviation = ...}, {low = ..., high = ...} or "
+    "{median = ..., log_deviation = ...}, or a tolerance class in [fits] with at = 'mean'"
+)
+
+_ISOLATED = (
+    f"{priors.DRAG_FIELD} is not given: it is that of an isolated ball and does not scatter; a number, such as "
+    f"{priors.DRAG['ball'].nominal:g}, scatters by an assumed distribution"
 )
 
 
@@ -98,6 +103,8 @@ def scatter_of(scene: AbstractScene, over: Mapping[str, Any] | None = None, drag
     if prior is not None and fields.setdefault(priors.DRAG_FIELD, prior) == prior:
         origins[priors.DRAG_FIELD] = priors.prior_in_words(scene)
         notes += _of_prior(scene, prior)
+    elif drag_prior and priors.DRAG_FIELD not in fields and priors.isolated(scene):
+        notes.append(_ISOLATED)
     changes: dict[str, Any] = {f"fits.{seat}_tolerance": None for seat in seats}
     changes |= {name_of(seat): one.mean for seat, one in seats.items()}
     changes |= {path: one.nominal for path, one in fields.items()}
