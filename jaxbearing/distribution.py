@@ -13,7 +13,7 @@ SHAPES: tuple[Shape, ...] = get_args(Shape)
 SIGMAS = 3.0
 """Standard deviations between the mean and a limit of a normal distribution: a tolerance is six of them wide."""
 _NORMAL = NormalDist()
-_LEAST = 2.0**-54
+_LEAST = 2.0**-53
 """Smallest probability that is asked of the normal distribution, whose quantile of 0 is infinite."""
 
 

@@ -122,6 +122,7 @@ def _sizes(known: Known, scene: Any, catalogue: Catalogue, said: Said) -> None:
     known.assume("bore", said.bore, "bore by the designation")
     if "bore" in known.values and "outside_diameter" in known.values:
         known.put("mean_diameter", 0.5 * (known.values["bore"] + known.values["outside_diameter"]), "")
+        known.assumed.update({"mean_diameter": known.assumed["bore"]} if "bore" in known.assumed else {})
     else:
         words = "mean diameter (d + D)/2 is the pitch diameter of the scene (catalogue.bore, outside_diameter)"
         known.assume("mean_diameter", geometry.pitch_diameter, words)
