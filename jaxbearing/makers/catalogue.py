@@ -38,12 +38,16 @@ class Catalogue(Checked):
       half a rolling element twice.
     - `starvation_constant`: K_rs of SKF, 3e-8 with a low oil level or a jet, 6e-8 with grease or oil and air; not
       given: 0 (assumed).
-    - `boundary_friction`, `film_friction`: mu_bl and mu_EHL of SKF; not given: 0.15, and 0.05, 0.02 or 0.002 of ball,
-      cylindrical and tapered bearings (assumed).
-    - `seal`: of SKF; not given: by the designation, else none (assumed); `n_seals`: how many, 2 if not given.
+    - `boundary_friction`: mu_bl of SKF; not given: 0.15 (assumed).
+    - `film_friction`: mu_EHL of SKF; not given: 0.05, 0.02 or 0.002 of ball, cylindrical and tapered bearings (assumed).
+    - `seal`: seal of SKF; not given: by the designation, else none (assumed).
+    - `n_seals`: number of seals; not given: by the designation, else 2.
     - `seal_diameter`: on which the seal runs, m.
-    - `timken_g1`, `timken_g2`, `timken_k`, `timken_f2`, `timken_f3`: G1, G2, K of a tapered bearing of Timken, and f2,
-      f3 where the manual has graphs.
+    - `timken_g1`: G1 of a tapered bearing of Timken.
+    - `timken_g2`: G2 of a tapered bearing of Timken, for the least speed of its formula.
+    - `timken_k`: K of a tapered bearing of Timken.
+    - `timken_f2`: f2 by the manual's graph, for the least speed of its formula.
+    - `timken_f3`: f3 by the manual's graph; needed from K Fa/Fr = 0.47 to 2.
     """
 
     part: ClassVar[str] = "catalogue"

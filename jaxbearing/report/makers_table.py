@@ -11,7 +11,7 @@ from rich.table import Table
 
 from ..makers import Comparison, Law, Physical
 from .backends.json import finite
-from .backends.screen import headline, print_line, print_rule, print_warnings
+from .backends.screen import headline, pieces, print_line, print_rule, print_warnings
 from .display import digits
 from .page_content import Listing
 
@@ -23,7 +23,8 @@ NAMES = {
 }
 """Formula -> its name in tables."""
 PARTS = ("rolling", "sliding", "seal", "drag", "viscous", "load")
-HEADINGS = ("", "total, N mm", "power, W", "over physical", *PARTS)
+HEADINGS = ("", "total", "power", "ratio", *PARTS)
+"""Columns of the table: moments, the power, and the total over the physical one."""
 NOTE = (
     "The formulas of makers are fits to catalogue bearings and differ among themselves by two to three; no result of "
     "the package contains them."
@@ -34,15 +35,18 @@ def print_comparison(found: Comparison, label: str, console: Console) -> None:
     """Totals and parts of the formulas beside the physical ones, then what was assumed, left or missing."""
     covered = [one for one in found.laws if one.total is not None]
     headline(label, "CONVERGED", "bold green", _duty(found), console)
-    print_rule("Moments in N mm, power in W", console)
-    table = Table(box=box.SIMPLE_HEAD, pad_edge=False, padding=(0, 1), header_style="")
+    print_rule("Moments in N mm, power in W, ratio of the totals to the physical one", console)
     rows = comparison_rows(found)
-    kept = [i for i, heading in enumerate(HEADINGS) if i < 4 or any(row[i] != "-" for row in rows)]
-    for i in kept:
-        table.add_column(HEADINGS[i].partition(",")[0], justify="left" if not i else "right", no_wrap=True)
-    for row in rows:
-        table.add_row(*(row[i] for i in kept))
-    console.print(Padding(table, (0, 1)))
+    texts = {heading: [row[i] for row in rows] for i, heading in enumerate(HEADINGS)}
+    names = {"": texts.pop("")}
+    shown = {name: column for name, column in texts.items() if name not in PARTS or set(column) != {"-"}}
+    for piece in pieces(names, shown, console.width):
+        table = Table(box=box.SIMPLE_HEAD, pad_edge=False, padding=(0, 1), header_style="")
+        for name in piece:
+            table.add_column(name, justify="right" if name else "left", no_wrap=True)
+        for row in zip(*piece.values(), strict=True):
+            table.add_row(*row)
+        console.print(Padding(table, (0, 1)))
     for one in covered:
         if one.assumed:
             print_line(NAMES[one.law], f"assumed: {'; '.join(one.assumed)}", console, 20)
@@ -62,7 +66,8 @@ def comparison_notes(found: Comparison) -> list[str]:
 def comparison_listing(found: Comparison) -> Listing:
     """The table of a page."""
     assumed = [f"{NAMES[one.law]}: assumed: {'; '.join(one.assumed)}" for one in found.laws if one.assumed]
-    headings = ["", *HEADINGS[1:4], *(f"{part}, N mm" for part in PARTS)]
+    units = {"power": ", W", "ratio": " to the physical model", "": ""}
+    headings = [f"{name}{units.get(name, ', N mm')}" for name in HEADINGS]
     remarks = [NOTE, *comparison_notes(found), *assumed]
     return Listing("Beside the makers' formulas", headings, comparison_rows(found), remarks)
 
