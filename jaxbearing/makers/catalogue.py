@@ -39,7 +39,8 @@ class Catalogue(Checked):
     - `starvation_constant`: K_rs of SKF, 3e-8 with a low oil level or a jet, 6e-8 with grease or oil and air; not
       given: 0 (assumed).
     - `boundary_friction`: mu_bl of SKF; not given: 0.15 (assumed).
-    - `film_friction`: mu_EHL of SKF; not given: 0.05, 0.02 or 0.002 of ball, cylindrical and tapered bearings (assumed).
+    - `film_friction`: mu_EHL of SKF; not given: 0.05, 0.02 or 0.002 of ball, cylindrical and tapered bearings
+      (assumed).
     - `seal`: seal of SKF; not given: by the designation, else none (assumed).
     - `n_seals`: number of seals; not given: by the designation, else 2.
     - `seal_diameter`: on which the seal runs, m.

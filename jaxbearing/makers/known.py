@@ -122,7 +122,8 @@ def _sizes(known: Known, scene: Any, catalogue: Catalogue, said: Said) -> None:
     known.assume("bore", said.bore, "bore by the designation")
     if "bore" in known.values and "outside_diameter" in known.values:
         known.put("mean_diameter", 0.5 * (known.values["bore"] + known.values["outside_diameter"]), "")
-        known.assumed.update({"mean_diameter": known.assumed["bore"]} if "bore" in known.assumed else {})
+        if "bore" in known.assumed:
+            known.assumed["mean_diameter"] = known.assumed["bore"]
     else:
         words = "mean diameter (d + D)/2 is the pitch diameter of the scene (catalogue.bore, outside_diameter)"
         known.assume("mean_diameter", geometry.pitch_diameter, words)
@@ -158,12 +159,12 @@ def _oil(known: Known, scene: Any, catalogue: Catalogue) -> None:
 
 def _ratings(known: Known, scene: Any, solution: Solution, catalogue: Catalogue) -> None:
     life, rating = solution.life, scene.rating
+    of_rating = lambda name: getattr(rating, name, None)
+    static = of_rating("static_capacity") if catalogue.static_capacity is None else catalogue.static_capacity
+    known.put("static_capacity", static, "catalogue.static_capacity")
+    known.put("dynamic_capacity", of_rating("dynamic_capacity"), "rating.dynamic_capacity")
     for name in ("static_capacity", "dynamic_capacity"):
-        given = getattr(catalogue, name, None)
-        given = getattr(rating, name, None) if given is None else given
-        known.put(name, given, f"rating.{name}, or a table [rating]")
         known.assume(name, getattr(life, name, None), f"{name.replace('_', ' ')} computed from the geometry")
-    known.missing.update({"static_capacity": "catalogue.static_capacity"} if "static_capacity" in known.missing else {})
 
 
 def _seals(known: Known, catalogue: Catalogue, said: Said) -> None:

@@ -8,7 +8,7 @@ import numpy as np
 
 from . import palmgren, skf
 from .known import Known, Reader
-from .palmgren_constants import INA, TIMKEN
+from .palmgren_constants import INA, REINFORCED, TIMKEN
 from .skf_constants import (
     ANGULAR_CONTACT,
     CYLINDRICAL,
@@ -128,7 +128,7 @@ def _skf(known: Known) -> Law:
     speed, viscosity, dm = read("speed"), read("viscosity"), read("mean_diameter")
     radial, axial = read("radial"), read("axial")
     further = _further(family, axial, read)
-    boundary, film, supply = (read(f"{name}") for name in ("boundary_friction", "film_friction", "starvation_constant"))
+    boundary, film, supply = (read(name) for name in ("boundary_friction", "film_friction", "starvation_constant"))
     if family is not None and series is not None and constants is None:
         return _uncovered("skf", family, series, _TABLES[family])
     if read.missing:
@@ -257,6 +257,8 @@ def _ina(read: Reader, family: str, series: str, found: Any, flags: list[str]) -
     """f0, f1 and P1."""
     radial, axial = read("radial"), read("axial")
     _flag_axial(family, axial, flags)
+    if family == "cylindrical" and series in REINFORCED:
+        read.assumed.append("constants of the reinforced series (E)")
     f0 = found.grease if read("lubrication") in ("grease", "oil_air") else found.bath
     f1 = found.size
     if found.exponent:

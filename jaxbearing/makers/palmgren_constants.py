@@ -52,7 +52,9 @@ INA = {
         ("330", "331", "332"): Frictions(4.0, 6.0, 0.0004),
     },
 }
-"""Family -> series -> constants. Of cylindrical bearings 2, 3, 22 and 23 INA lists the reinforced series (-E)."""
+"""Family -> series -> constants."""
+REINFORCED = ("2", "3", "22", "23")
+"""Series of cylindrical bearings of which INA lists the reinforced ones (E)."""
 TIMKEN = {
     "deep_groove": {
         ("618", "628", "638"): (1.7, 0.0001),
