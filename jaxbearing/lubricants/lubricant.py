@@ -6,7 +6,7 @@ import jax.numpy as jnp
 from .._types import Values
 from ..numerics.arguments import require_temperature
 from .pressure_viscosity import AbstractPressureViscosity
-from .rheology import ExponentialRheology
+from .rheology import AbstractRheology
 from .thermal import LinearConductivity, LinearDensity, LinearHeatCapacity
 from .viscosity import AbstractViscosity
 
@@ -37,7 +37,7 @@ class Lubricant(eqx.Module):
 
     viscosity: AbstractViscosity
     pressure_viscosity: AbstractPressureViscosity
-    rheology: ExponentialRheology | None = None
+    rheology: AbstractRheology | None = None
     density: LinearDensity | None = None
     conductivity: LinearConductivity | None = None
     heat_capacity: LinearHeatCapacity | None = None
