@@ -10,6 +10,8 @@ from .viscosity import AbstractViscosity, capped
 
 ICE_POINT = 273.15
 """0 C, K: Dicke's modulus is linear in the temperature in degrees Celsius."""
+HUNDRED = 100.0
+"""K between the two temperatures at which the modulus is given."""
 POLE_MARGIN = 20.0
 """The law is evaluated down to this many kelvin above Vogel's pole."""
 POLE_WIDTH = 1.0
@@ -42,19 +44,20 @@ class VogelDicke(AbstractViscosity):
     viscosity_limit: Scalar = bounded("> 0", unit="Pa s")
     temperature_viscosity: Scalar = bounded("> 0", unit="K", difference=True)
     pole_temperature: Scalar = bounded("> 0", unit="K")
-    modulus: Scalar = bounded("> 0", unit="Pa")
-    modulus_slope: Scalar = bounded("finite", unit="Pa/K")
-    rate: Scalar = bounded("finite", unit="1")
-    rate_slope: Scalar = bounded("finite", unit="1/K")
+    modulus_cold: Scalar = bounded("> 0", unit="Pa")
+    modulus_hot: Scalar = bounded("> 0", unit="Pa")
+    rate_cold: Scalar = bounded("finite", unit="1")
+    rate_hot: Scalar = bounded("finite", unit="1")
 
     def log_viscosity(self, pressure: Values, temperature: Values) -> Batch:
         require_temperature(temperature)
         pressed = nonnegative_pressure(pressure)
         above_pole = softplus_floor(temperature, self.pole_temperature + POLE_MARGIN, POLE_WIDTH)
         log_ambient = jnp.log(self.viscosity_limit) + self.temperature_viscosity / (above_pole - self.pole_temperature)
-        celsius = jnp.subtract(temperature, ICE_POINT)
-        modulus = softplus_floor(self.modulus + self.modulus_slope * celsius, MODULUS_FLOOR, MODULUS_WIDTH)
-        rate = softplus_floor(self.rate + self.rate_slope * celsius, RATE_FLOOR, RATE_WIDTH)
+        share = jnp.subtract(temperature, ICE_POINT) / HUNDRED
+        modulus = self.modulus_cold + (self.modulus_hot - self.modulus_cold) * share
+        modulus = softplus_floor(modulus, MODULUS_FLOOR, MODULUS_WIDTH)
+        rate = softplus_floor(self.rate_cold + (self.rate_hot - self.rate_cold) * share, RATE_FLOOR, RATE_WIDTH)
         return capped(log_ambient + pressed / (modulus + rate * pressed))
 
 
@@ -62,8 +65,8 @@ VogelDicke.__init__.__doc__ = """**Arguments:**
 - `viscosity_limit`: K, the viscosity at infinite temperature, Pa s, > 0.
 - `temperature_viscosity`: B, K, > 0.
 - `pole_temperature`: T_V, K, > 0; 273.15 K less the constant C of the law in degrees Celsius.
-- `modulus`: a_1, at 0 C, Pa, > 0.
-- `modulus_slope`: a_2, Pa/K.
-- `rate`: b_1, at 0 C, a number.
-- `rate_slope`: b_2, 1/K.
+- `modulus_cold`: a_1, the modulus at 0 C, Pa, > 0.
+- `modulus_hot`: a_1 + 100 K a_2, that at 100 C, Pa, > 0.
+- `rate_cold`: b_1, the rise of the modulus with pressure at 0 C, a number.
+- `rate_hot`: b_1 + 100 K b_2, that at 100 C, a number.
 """
