@@ -57,7 +57,9 @@ def fit(measurements: Measurements, scene: TwoDisk, options: FitOptions | None =
         raise ValueError("oil.rheology: found nothing, expected first values of shear modulus and stress")
     if not isinstance(scene.oil.rheology, ExponentialRheology):
         found = type(scene.oil.rheology).__name__
-        raise ValueError(f"oil.rheology: found {found}, expected first values of the law 'exponential', which is fitted")
+        raise ValueError(
+            f"oil.rheology: found {found}, expected first values of the law 'exponential', which is fitted"
+        )
     scene, model = with_viscous_function(scene, options.model)
     search = Search(measurements, scene, options)
     free, reasons = search.free_by_rule()

@@ -129,9 +129,7 @@ def log_kinematic(
     `temperature`, K, > 0.
     """
     # log10 log10 and ln ln differ by a constant, so the line through two points is the same
-    first, second = (
-        jnp.log(jnp.log(jnp.divide(nu, CENTISTOKES) + WALTHER_SHIFT)) for nu in (viscosity_1, viscosity_2)
-    )
+    first, second = (jnp.log(jnp.log(jnp.divide(nu, CENTISTOKES) + WALTHER_SHIFT)) for nu in (viscosity_1, viscosity_2))
     log_1, log_2 = jnp.log(temperature_1), jnp.log(temperature_2)
     log_sum = jnp.exp(first + (second - first) * ((jnp.log(temperature) - log_1) / (log_2 - log_1)))
     # ln(e^s - 0.7) for s > 0, with no overflow in the cold

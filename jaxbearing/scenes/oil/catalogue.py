@@ -72,8 +72,9 @@ def with_catalogue(oil: Mapping[str, Any]) -> dict[str, Any]:
     for key, own in oil.items():
         theirs = merged.get(key)
         if isinstance(own, Mapping) and isinstance(theirs, Mapping) and own.get("law", theirs["law"]) == theirs["law"]:
-            # a note on the catalogue's values does not speak for those that replace them
-            kept = {name: value for name, value in theirs.items() if name != "note" or not _changes(own, theirs)}
+            # a note on the catalogue's values does not speak for those that replace them, be they the same
+            replaced = any(key not in DOCUMENTATION for key in own)
+            kept = {name: value for name, value in theirs.items() if name != "note" or not replaced}
             if own.get("viscous_function", kept.get("viscous_function")) != kept.get("viscous_function"):
                 # it belongs to the viscous function that is replaced
                 kept.pop("exponent", None)

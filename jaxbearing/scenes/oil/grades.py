@@ -94,7 +94,7 @@ def grade_tables(grade: str, base: str) -> dict[str, Any]:
 
 def viscosity_at(m: float, n: float, temperature: float) -> float:
     """Kinematic viscosity on Walther's line, cSt. **Arguments:** `temperature`, K."""
-    return 10.0 ** 10.0 ** (m - n * math.log10(temperature)) - 0.7
+    return 10.0**10.0 ** (m - n * math.log10(temperature)) - 0.7
 
 
 def refused(base: str) -> str:

@@ -34,8 +34,7 @@ from .schema import (
 HEADER = "A value with a unit is a string, a dimensionless value is a number. Every value has its source."
 UNKNOWN_SOURCE = "not known: given in Python"
 _TABLES: dict[type | None, type[Law]] = {
-    table.builds: table
-    for table in (*VISCOSITIES.values(), *PRESSURE_VISCOSITIES.values(), *RHEOLOGIES.values())
+    table.builds: table for table in (*VISCOSITIES.values(), *PRESSURE_VISCOSITIES.values(), *RHEOLOGIES.values())
 }
 
 
