@@ -8,6 +8,7 @@ import equinox as eqx
 import jax.numpy as jnp
 import numpy as np
 
+from jaxbearing.lubricants import ExponentialRheology
 from jaxbearing.lubricants.ranges import FITTED_PRESSURE
 from jaxbearing.machines import TwoDisk
 from jaxbearing.numerics.garbage import rare_garbage_collection

@@ -187,4 +187,5 @@ def _replaced(part: Any, changes: dict[tuple[str, ...], Any], above: str = "") -
     if not isinstance(part, eqx.Module):
         return part
     # a part that holds another one twice changes both
-    return dataclasses.replace(part, **(part.tied(new) if hasattr(part, "tied") else new))
+    tied = getattr(part, "tied", None)
+    return dataclasses.replace(part, **(new if tied is None else tied(new)))
