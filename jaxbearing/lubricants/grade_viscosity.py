@@ -27,9 +27,9 @@ class WaltherPower(AbstractViscosity):
     $\ln\mu(p,T) = \ln\mu(T) + (\ln\mu(T) + 9.67)[(1 + 5.1\times10^{-9}p)^{Z(T)} - 1]$, with Z(T) such that
     $\ln[\mu(p_s,T)/\mu(T)] = \alpha(T)\,p_s$ at $p_s$ = 0.2 GPa, where $\alpha(T) = s\,(\nu(T)/\text{cSt})^t$.
 
-    **Limits:** $\rho\nu_1$, $\rho\nu_2$ at p = 0 and $T_1$, $T_2$; $\alpha$ as the mean slope of $\ln\mu$ up to 0.2 GPa.
-    The coefficient of film formulas, by integral, is 0.91 to 1.10 of $\alpha$ for the oils of the grade table at 0 to
-    200 C.
+    **Limits:** $\rho\nu_1$, $\rho\nu_2$ at p = 0 and $T_1$, $T_2$; $\alpha$ as the mean slope of $\ln\mu$ up to 0.2
+    GPa. The coefficient of film formulas, by integral, is 0.96 to 1.09 of $\alpha$ at 40 and 100 C for the oils of the
+    grade table.
     **Validity:** temperature and density as for `WaltherRoelands`; pressure as for `Roelands`. $\alpha$ stays that of
     8.9e6 cSt in the cold beyond (smoothly). The source of s and t does not say to which pressure $\alpha$ belongs: 0.2
     GPa is assumed.

@@ -159,7 +159,7 @@ def test_a_prior_is_one_number_of_the_scene():
 
 
 def test_a_viscosity_and_its_integral_change_together():
-    """A change in Python, as of a file: the film coefficient is that of the new viscosity, both have the new density."""
+    """The film coefficient is that of the new viscosity, and both have the new density, as when a file changes."""
     scene = load_scene(SCENE, {"oil.grade": "ISO VG 68"})
     for path, value in (("viscosity.pressure_coefficient", 12e-9), ("density.value", 850.0)):
         changed = scene.replace({f"oil.{path}": np.float64(value)}).oil
