@@ -8,6 +8,7 @@ import equinox as eqx
 import jax.numpy as jnp
 import numpy as np
 
+from jaxbearing.lubricants import ExponentialRheology
 from jaxbearing.lubricants.ranges import FITTED_PRESSURE
 from jaxbearing.machines import TwoDisk
 from jaxbearing.numerics.garbage import rare_garbage_collection
@@ -55,6 +56,11 @@ def fit(measurements: Measurements, scene: TwoDisk, options: FitOptions | None =
     options.check()
     if scene.oil.rheology is None:
         raise ValueError("oil.rheology: found nothing, expected first values of shear modulus and stress")
+    if not isinstance(scene.oil.rheology, ExponentialRheology):
+        found = type(scene.oil.rheology).__name__
+        raise ValueError(
+            f"oil.rheology: found {found}, expected first values of the law 'exponential', which is fitted"
+        )
     scene, model = with_viscous_function(scene, options.model)
     search = Search(measurements, scene, options)
     free, reasons = search.free_by_rule()

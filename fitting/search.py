@@ -12,6 +12,7 @@ from jaxtyping import Array, Float
 from scipy import stats
 
 from jaxbearing.contacts import ReeEyring, deborah_number, viscous_function_for
+from jaxbearing.lubricants import ExponentialRheology
 from jaxbearing.machines import DiskState, TwoDisk
 from jaxbearing.machines.two_disk import INNER_TOLERANCE
 from jaxbearing.programs import KeptProgram
@@ -80,7 +81,7 @@ class Search:
                 f"roll ratio of {100 * float(measurements.slide_to_roll[lost[0]]):.3g} %; expected conditions that the "
                 "scene's thermal law holds for"
             )
-        assert scene.oil.rheology is not None
+        assert isinstance(scene.oil.rheology, ExponentialRheology)
         self.rheology = scene.oil.rheology
         self.pressure = np.asarray(self.state.patch.mean_pressure)
         self.temperature = np.asarray(self.state.temperature)

@@ -184,4 +184,8 @@ def _replaced(part: Any, changes: dict[tuple[str, ...], Any], above: str = "") -
             new[name] = {path[0]: value for path, value in deeper.items()}  # the field makes a part of it
         else:
             new[name] = _replaced(old, deeper, f"{above}{name}.")
-    return dataclasses.replace(part, **new) if isinstance(part, eqx.Module) else part
+    if not isinstance(part, eqx.Module):
+        return part
+    # a part that holds another one twice changes both
+    tied = getattr(part, "tied", None)
+    return dataclasses.replace(part, **(new if tied is None else tied(new)))

@@ -4,7 +4,7 @@ import jax.numpy as jnp
 from jaxtyping import Array, Float
 
 from .._types import Values
-from ..lubricants import ExponentialRheology, Lubricant
+from ..lubricants import AbstractRheology, Lubricant
 from .patch import ContactPatch
 
 
@@ -29,7 +29,7 @@ def deborah_number(
 
 
 def elastic_slope(
-    patch: ContactPatch, film: Values, temperature: Values, rheology: ExponentialRheology
+    patch: ContactPatch, film: Values, temperature: Values, rheology: AbstractRheology
 ) -> Float[Array, "..."]:
     r"""Slope of the traction coefficient over the slide-to-roll ratio for an oil that only strains elastically.
 

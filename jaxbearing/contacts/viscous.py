@@ -7,7 +7,7 @@ import jax.numpy as jnp
 from jaxtyping import Array, Float
 
 from .._types import Scalar, Values
-from ..lubricants import ExponentialRheology, Lubricant
+from ..lubricants import AbstractRheology, Lubricant
 from ..numerics.arguments import require_choice
 from ..numerics.checks import Checked, bounded
 from .relaxation import Slopes, limiting_root, sinh_root
@@ -197,7 +197,7 @@ ASSUMED = ReeEyring
 """Viscous function of a rheology that does not say with which one it was fitted."""
 
 
-def viscous_function(name: str, rheology: ExponentialRheology | None) -> AbstractViscousFunction:
+def viscous_function(name: str, rheology: AbstractRheology | None) -> AbstractViscousFunction:
     """The viscous function of this name; that of Elsharkawy and Hamrock has the exponent with which the oil's data
     were fitted, or 2."""
     require_choice("name", name, VISCOUS_LAWS)

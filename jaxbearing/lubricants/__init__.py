@@ -1,5 +1,6 @@
 """Lubricants: viscosity, pressure-viscosity coefficient, rheology, density, conductivity, heat capacity."""
 
+from .grade_viscosity import WaltherPower as WaltherPower
 from .lubricant import InletOil as InletOil
 from .lubricant import Lubricant as Lubricant
 from .pressure_viscosity import AbstractPressureViscosity as AbstractPressureViscosity
@@ -8,9 +9,13 @@ from .pressure_viscosity import FittedPressureViscosity as FittedPressureViscosi
 from .pressure_viscosity import IntegratedPressureViscosity as IntegratedPressureViscosity
 from .pressure_viscosity import NoPressureViscosity as NoPressureViscosity
 from .rheology import VISCOUS_FUNCTIONS as VISCOUS_FUNCTIONS
+from .rheology import AbstractRheology as AbstractRheology
 from .rheology import ExponentialRheology as ExponentialRheology
+from .rheology import ProportionalRheology as ProportionalRheology
+from .simple_viscosity import ISOVISCOUS as ISOVISCOUS
 from .simple_viscosity import Barus as Barus
 from .simple_viscosity import ConstantViscosity as ConstantViscosity
+from .simple_viscosity import IsoviscousLiquid as IsoviscousLiquid
 from .simple_viscosity import Roelands as Roelands
 from .thermal import ESTER_HEAT_CAPACITY as ESTER_HEAT_CAPACITY
 from .thermal import MINERAL_HEAT_CAPACITY as MINERAL_HEAT_CAPACITY
@@ -21,3 +26,4 @@ from .two_viscosities import WaltherRoelands as WaltherRoelands
 from .two_viscosities import wooster_pressure_viscosity as wooster_pressure_viscosity
 from .viscosity import AbstractViscosity as AbstractViscosity
 from .viscosity import ModifiedWLF as ModifiedWLF
+from .vogel_dicke import VogelDicke as VogelDicke

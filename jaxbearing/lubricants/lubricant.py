@@ -1,12 +1,16 @@
 """A lubricant, and its state at a contact inlet."""
 
+import dataclasses
+from collections.abc import Mapping
+from typing import Any
+
 import equinox as eqx
 import jax.numpy as jnp
 
 from .._types import Values
 from ..numerics.arguments import require_temperature
-from .pressure_viscosity import AbstractPressureViscosity
-from .rheology import ExponentialRheology
+from .pressure_viscosity import AbstractPressureViscosity, IntegratedPressureViscosity
+from .rheology import AbstractRheology
 from .thermal import LinearConductivity, LinearDensity, LinearHeatCapacity
 from .viscosity import AbstractViscosity
 
@@ -39,11 +43,25 @@ class Lubricant(eqx.Module):
 
     viscosity: AbstractViscosity
     pressure_viscosity: AbstractPressureViscosity
-    rheology: ExponentialRheology | None = None
+    rheology: AbstractRheology | None = None
     density: LinearDensity | None = None
     conductivity: LinearConductivity | None = None
     heat_capacity: LinearHeatCapacity | None = None
     notes: tuple[str, ...] = eqx.field(static=True, default=())
+
+    def tied(self, changes: Mapping[str, Any]) -> dict[str, Any]:
+        """The changes of fields, with those that follow: a viscosity that holds the density takes the new one, and a
+        coefficient that is the integral of the viscosity is that of the new one."""
+        new = dict(changes)
+        law: Any = new.get("viscosity", self.viscosity)
+        density = new.get("density")
+        if density is not None and "viscosity" not in new and isinstance(getattr(law, "density", None), LinearDensity):
+            new["viscosity"] = law = dataclasses.replace(law, density=density)
+        integral = self.pressure_viscosity
+        follows = isinstance(integral, IntegratedPressureViscosity) and type(integral.viscosity) is type(self.viscosity)
+        if "viscosity" in new and "pressure_viscosity" not in new and follows and type(law) is type(self.viscosity):
+            new["pressure_viscosity"] = IntegratedPressureViscosity(law)
+        return new
 
     def at(self, temperature: Values) -> InletOil:
         """The oil at a contact inlet. **Arguments:** `temperature`, K, > 0."""

@@ -16,7 +16,7 @@ from ..numerics.checks import Checked, bounded
 from ..numerics.compiling import compiled_by_hand
 from ..numerics.quadrature import gauss_legendre
 from ..numerics.safe import softplus_floor
-from .simple_viscosity import ConstantViscosity
+from .simple_viscosity import ISOVISCOUS
 from .viscosity import AbstractViscosity
 
 SUBSTITUTION_SCALES = 4.0
@@ -122,9 +122,10 @@ class IntegratedPressureViscosity(AbstractPressureViscosity):
 
     def __check_init__(self):
         super().__check_init__()
-        if isinstance(self.viscosity, ConstantViscosity):
+        if isinstance(self.viscosity, ISOVISCOUS):
             raise ValueError(
-                "pressure_viscosity: a constant viscosity has no coefficient to integrate; use NoPressureViscosity"
+                "pressure_viscosity: a viscosity that is constant under pressure has no coefficient to integrate; use "
+                "NoPressureViscosity"
             )
 
     def coefficient(self, temperature: Values) -> Batch:
@@ -152,5 +153,5 @@ def _integrated(
 
 
 IntegratedPressureViscosity.__init__.__doc__ = """**Arguments:**
-- `viscosity`: the law that is integrated; not `ConstantViscosity`, whose coefficient is `NoPressureViscosity`.
+- `viscosity`: the law that is integrated; not one of `ISOVISCOUS`, whose coefficient is `NoPressureViscosity`.
 """

@@ -1,4 +1,4 @@
-"""Viscosity laws with a handful of parameters: constant, Barus, Roelands."""
+"""Viscosity laws with a handful of parameters: constant, isoviscous liquid, Barus, Roelands."""
 
 import jax.numpy as jnp
 
@@ -37,6 +37,42 @@ class ConstantViscosity(AbstractViscosity):
 ConstantViscosity.__init__.__doc__ = """**Arguments:**
 - `value`: dynamic viscosity, Pa s, > 0.
 """
+
+
+class IsoviscousLiquid(AbstractViscosity):
+    r"""A thin liquid whose viscosity depends on temperature only, such as water or kerosene.
+
+    $\mu = \mu_0\,(T/T_0)^c\exp[b(1/T - 1/T_0)]$; Andrade's law for c = 0.
+
+    **Limits:** $\mu_0$ at $T = T_0$, at every pressure; the coefficient of film formulas is 0.
+    **Validity:** the range of the fit, and pressures at which the liquid does not thicken.
+    **Reference:** equation 101 of the DIPPR tables, $\ln\mu = A + B/T + C\ln T$, about a reference point.
+    """
+
+    reference_viscosity: Scalar = bounded("> 0", unit="Pa s")
+    reference_temperature: Scalar = bounded("> 0", unit="K")
+    temperature_viscosity: Scalar = bounded("finite", unit="K", difference=True)
+    temperature_exponent: Scalar = bounded("finite", unit="1")
+
+    def log_viscosity(self, pressure: Values, temperature: Values) -> Batch:
+        require_temperature(temperature)
+        temperature = jnp.asarray(temperature, dtype=float)
+        inverse = 1.0 / temperature - 1.0 / self.reference_temperature
+        log_ratio = jnp.log(temperature) - jnp.log(self.reference_temperature)
+        exponent = self.temperature_viscosity * inverse + self.temperature_exponent * log_ratio
+        shape = jnp.broadcast_shapes(jnp.shape(pressure), temperature.shape)
+        return jnp.broadcast_to(capped(jnp.log(self.reference_viscosity) + exponent), shape)
+
+
+IsoviscousLiquid.__init__.__doc__ = """**Arguments:**
+- `reference_viscosity`: mu_0, Pa s, > 0.
+- `reference_temperature`: T_0, K, > 0.
+- `temperature_viscosity`: b, K.
+- `temperature_exponent`: c, a number.
+"""
+
+ISOVISCOUS = (ConstantViscosity, IsoviscousLiquid)
+"""Laws whose viscosity does not depend on pressure."""
 
 
 class Barus(AbstractViscosity):

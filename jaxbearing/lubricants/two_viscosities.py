@@ -1,5 +1,7 @@
 """A viscosity law from a data sheet: two kinematic viscosities and a density."""
 
+from typing import Any
+
 import jax.numpy as jnp
 
 from .._types import Batch, Scalar, Values
@@ -66,16 +68,7 @@ class WaltherRoelands(AbstractViscosity):
 
     def __check_init__(self):
         super().__check_init__()
-        points = numbers_or_none(self.viscosity_1, self.viscosity_2, self.temperature_1, self.temperature_2)
-        if points is not None:
-            demand(
-                "oil.viscosity must fall with the temperature between its two points",
-                (points[0] - points[1]) * (points[3] - points[2]) > 0,
-                lambda: (
-                    f"oil.viscosity: {float(points[0]):g} m^2/s at {float(points[2]):g} K and {float(points[1]):g} "
-                    f"m^2/s at {float(points[3]):g} K; the viscosity must fall with the temperature"
-                ),
-            )
+        require_falling(self.viscosity_1, self.temperature_1, self.viscosity_2, self.temperature_2)
 
     def log_viscosity(self, pressure: Values, temperature: Values) -> Batch:
         require_temperature(temperature)
@@ -96,17 +89,8 @@ class WaltherRoelands(AbstractViscosity):
 
     def _log_ambient(self, temperature: Batch) -> Batch:
         """ln of the dynamic viscosity at ambient pressure, Pa s."""
-        # log10 log10 and ln ln differ by a constant, so the line through two points is the same
-        first, second = (
-            jnp.log(jnp.log(jnp.divide(nu, CENTISTOKES) + WALTHER_SHIFT)) for nu in (self.viscosity_1, self.viscosity_2)
-        )
-        log_1, log_2 = jnp.log(self.temperature_1), jnp.log(self.temperature_2)
-        log_sum = jnp.exp(first + (second - first) * ((jnp.log(temperature) - log_1) / (log_2 - log_1)))
-        # ln(e^s - 0.7) for s > 0, with no overflow in the cold
-        log_kinematic = log_sum + jnp.log1p(-WALTHER_SHIFT * jnp.exp(-log_sum))
-        relative_density = self.density.density(temperature) / self.density.value
-        relative_density = softplus_floor(relative_density, DENSITY_FLOOR, DENSITY_WIDTH)
-        return log_kinematic + jnp.log(CENTISTOKES * self.density.value) + jnp.log(relative_density)
+        points = (self.viscosity_1, self.temperature_1, self.viscosity_2, self.temperature_2)
+        return log_dynamic(log_kinematic(*points, temperature), self.density, temperature)
 
 
 WaltherRoelands.__init__.__doc__ = """**Arguments:**
@@ -117,3 +101,44 @@ WaltherRoelands.__init__.__doc__ = """**Arguments:**
 - `density`: of the oil at ambient pressure.
 - `pressure_viscosity`: alpha at `temperature_1`, 1/Pa, > 0, or None: estimated from the viscosity there.
 """
+
+
+def require_falling(viscosity_1: Any, temperature_1: Any, viscosity_2: Any, temperature_2: Any) -> None:
+    """Checks that the viscosity of an oil falls between its two points; arguments as those of `log_kinematic`.
+
+    **Raises:** `ValueError` for known numbers that rise.
+    """
+    points = numbers_or_none(viscosity_1, viscosity_2, temperature_1, temperature_2)
+    if points is not None:
+        demand(
+            "oil.viscosity must fall with the temperature between its two points",
+            (points[0] - points[1]) * (points[3] - points[2]) > 0,
+            lambda: (
+                f"oil.viscosity: {float(points[0]):g} m^2/s at {float(points[2]):g} K and {float(points[1]):g} "
+                f"m^2/s at {float(points[3]):g} K; the viscosity must fall with the temperature"
+            ),
+        )
+
+
+def log_kinematic(
+    viscosity_1: Scalar, temperature_1: Scalar, viscosity_2: Scalar, temperature_2: Scalar, temperature: Values
+) -> Batch:
+    """ln of the kinematic viscosity in cSt on Walther's line through two points.
+
+    **Arguments:** `viscosity_1`, `viscosity_2`, m^2/s, > 0.3e-6, at `temperature_1`, `temperature_2`, K;
+    `temperature`, K, > 0.
+    """
+    # log10 log10 and ln ln differ by a constant, so the line through two points is the same
+    first, second = (jnp.log(jnp.log(jnp.divide(nu, CENTISTOKES) + WALTHER_SHIFT)) for nu in (viscosity_1, viscosity_2))
+    log_1, log_2 = jnp.log(temperature_1), jnp.log(temperature_2)
+    log_sum = jnp.exp(first + (second - first) * ((jnp.log(temperature) - log_1) / (log_2 - log_1)))
+    # ln(e^s - 0.7) for s > 0, with no overflow in the cold
+    return log_sum + jnp.log1p(-WALTHER_SHIFT * jnp.exp(-log_sum))
+
+
+def log_dynamic(log_kinematic: Batch, density: LinearDensity, temperature: Values) -> Batch:
+    """ln of the dynamic viscosity in Pa s. **Arguments:** `log_kinematic`, ln of the kinematic one in cSt; `density`
+    at `temperature`, K, floored smoothly at half its reference value."""
+    relative_density = density.density(temperature) / density.value
+    relative_density = softplus_floor(relative_density, DENSITY_FLOOR, DENSITY_WIDTH)
+    return log_kinematic + jnp.log(CENTISTOKES * density.value) + jnp.log(relative_density)

@@ -1,4 +1,5 @@
-"""The data files that ship inside the package: built-in scenes and oils. Names are file names without ".toml"."""
+"""The data files that ship inside the package: built-in scenes, oils, grades of standard oils. Names are file names
+without ".toml"."""
 
 import functools
 from importlib import resources
@@ -39,6 +40,11 @@ def oil_text(name: str) -> str:
     **Raises:** `KeyError` for a name that is not in `oil_names()`.
     """
     return _text(_oils(), name, oil_names())
+
+
+def grades_text() -> str:
+    """Text of the data file of the standard oils."""
+    return (resources.files("jaxbearing.lubricants") / "grades.toml").read_text(encoding="utf-8")
 
 
 def _scenes() -> Traversable:

@@ -39,7 +39,7 @@ class Field:
 def fields(model: type[BaseModel], owner: type | None) -> Iterator[Field]:
     """The fields of a table; descriptions are those of `owner`, the class that the table builds."""
     for name, info in model.model_fields.items():
-        if name in ("sources", "note", "law"):
+        if name in ("sources", "note", "ranges", "law"):
             continue
         annotation = typing.Annotated[info.annotation, *info.metadata] if info.metadata else info.annotation
         dimension = _dimension(annotation)

@@ -37,13 +37,16 @@ def scene_from_mapping(mapping: Mapping[str, Any]) -> AbstractScene:
         return scene_from_tables(tables, "scene")
 
 
-def load_oil(source: str | Path) -> Lubricant:
-    """An oil of the catalogue by its name, or the oil of a file such as `jaxbearing fit --out` writes.
+def load_oil(source: str | Path, base: str | None = None) -> Lubricant:
+    """An oil of the catalogue by its name, a standard oil by its grade ("ISO VG 68"), or the oil of a file such as
+    `jaxbearing fit --out` writes.
 
-    **Raises:** `SceneError` for a name that the catalogue does not have, and for a file that is no oil.
+    **Arguments:** `base`: base stock of a grade: "mineral" (if not given), "PAO", "ester" or "polyglycol".
+
+    **Raises:** `SceneError` for a name, a grade or a base stock that there is not, and for a file that is no oil.
     """
     if isinstance(source, str) and (source in oil_names() or not source.endswith(".toml")):
-        return oils.load_oil(source)
+        return oils.load_oil(source, base)
     return oils.lubricant(read_table(OilTable, read_oil(str(source)), str(source)))
 
 

@@ -148,13 +148,14 @@ def _remove(changed: dict[str, Any], keys: list[str], path: str, model: type[Bas
 def _keep_catalogue(changed: dict[str, Any], keys: list[str], path: str, file: str) -> None:
     """**Raises:** `SceneError` where the name or the file of the oil would bring back what is taken out."""
     oil = changed.get("oil")
-    if len(keys) < 2 or keys[0] != "oil" or keys[1] in ("name", "file") or not isinstance(oil, dict):
+    if len(keys) < 2 or keys[0] != "oil" or keys[1] in ("name", "grade", "base", "file") or not isinstance(oil, dict):
         return
     found: Any = base_of(oil)
     for key in keys[1:]:
         found = found.get(key) if isinstance(found, dict) else None
     if found is not None:
-        whose = f"the catalogue's {oil['name']}" if "name" in oil else f"the oil file {oil['file']}"
+        named = {"name": "the catalogue's", "grade": "the standard oil", "file": "the oil file"}
+        whose = next(f"{said} {oil[key]}" for key, said in named.items() if key in oil)
         expected = f"another value: {whose} has one, and comes back without yours"
         raise SceneError(file, path, f"'{REMOVE}'", expected)
 

@@ -17,7 +17,7 @@ from .distributions import means_of, said_of
 from .drafts import Unreadable, draft
 from .errors import SceneError, from_class, nearest, one_of
 from .oil.catalogue import with_catalogue
-from .oil.files import Origin, origins
+from .oil.files import Origin, origins, prior_ranges
 from .overrides import REMOVE, Overrides, applied, apply, as_texts, parse_value
 from .table import Table
 from .toml_files import parse_toml, read_text
@@ -95,25 +95,29 @@ def load_scene(source: str | Path, overrides: Overrides | None = None) -> Abstra
 
 
 def load_distributions(source: str | Path, overrides: Overrides | None = None) -> dict[str, Distribution]:
-    """The fields of a scene that are given as a distribution, by dotted path, in SI; arguments as those of
-    `load_scene`.
+    """The fields of a scene that are given as a distribution, by dotted path, in SI, and those of its oil that are a
+    prior of the catalogue (a standard oil's rheology); arguments as those of `load_scene`.
 
     **Raises:** as `load_scene`.
     """
     label, mapping = read_tables(source)
-    return distributions_in(mapping, label, overrides)
+    return distributions_in(mapping, label, overrides, priors=True)
 
 
 def distributions_in(
-    mapping: Mapping[str, Any], origin: str, overrides: Overrides | None = None
+    mapping: Mapping[str, Any], origin: str, overrides: Overrides | None = None, *, priors: bool = False
 ) -> dict[str, Distribution]:
-    """The distributions in the tables of a scene; arguments as those of `scene_from_tables`. **Raises:** `SceneError`
-    with what is wrong with them; what else is wrong with the scene is not looked at."""
+    """The distributions in the tables of a scene; arguments as those of `scene_from_tables`, and `priors`: with those
+    of the oil's catalogue. **Raises:** `SceneError` with what is wrong with them; what else is wrong with the scene is
+    not looked at."""
     overrides = as_texts(overrides)
     try:
         model, _ = _schema(mapping, overrides, origin)
         raw, _ = applied(mapping, overrides, model, origin)
-        return means_of(raw, model, origin)[1]
+        found = means_of(raw, model, origin)[1]
+        if priors and isinstance(raw.get("oil"), Mapping):
+            found |= means_of({"oil": prior_ranges(raw["oil"])}, model, origin)[1]
+        return found
     except SceneError as error:
         raise SceneError.of_all([_with_culprit(one, overrides, origin) for one in error.problems]) from None
 

@@ -60,7 +60,8 @@ class Table(BaseModel):
         return self
 
 
-def refusal_at(field: str, expected: str, found: str) -> PydanticCustomError:
-    """The error of a check that sees a whole table; `field` is the dotted path, inside the table, to look at."""
-    context = {"field": field, "found": found, "expected": expected, "suggestion": ""}
+def refusal_at(field: str, expected: str, found: str, suggestion: str = "") -> PydanticCustomError:
+    """The error of a check that sees a whole table; `field` is the dotted path, inside the table, to look at;
+    `suggestion`: the nearest valid name."""
+    context = {"field": field, "found": found, "expected": expected, "suggestion": suggestion}
     return PydanticCustomError("scene", "{field}: found {found}, expected {expected}", context)

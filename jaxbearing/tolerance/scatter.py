@@ -136,7 +136,7 @@ def scatter_of_source(
     **Raises:** `SceneError`; `ValueError` where nothing scatters.
     """
     read = SceneSource.of(source, overrides)
-    found = distributions_in(read.tables, read.label, read.overrides)
+    found = distributions_in(read.tables, read.label, read.overrides, priors=True)
     scene = scene_from_tables(read.tables, read.label, read.overrides)
     for path, one in found.items():
         _require_plain(read, path, one)

@@ -87,8 +87,9 @@ def test_other_laws():
 
 
 def test_heat_capacity_is_read_and_written():
-    """A number, or a linear law; no oil of the catalogue has one."""
-    assert all(oils.load_oil(name).heat_capacity is None for name in oils.oil_names())
+    """A number, or a linear law; the oils of the source have none."""
+    of_the_source = ("fomblin_z25", "mobil_jet_ii", "nye_186a", "pennzane_x2000")
+    assert all(oils.load_oil(name).heat_capacity is None for name in of_the_source)
     constant = read(name="mobil_jet_ii", heat_capacity="2.15 kJ/(kg*K)")
     np.testing.assert_allclose(constant.heat_capacity.heat_capacity(400.0), 2150.0, rtol=1e-15)
     law = {"value": "1670 J/(kg*K)", "slope": "4.3 J/(kg*K^2)", "reference_temperature": "273 K"}

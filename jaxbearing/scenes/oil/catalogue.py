@@ -7,34 +7,41 @@ from typing import Any
 import numpy as np
 
 from ...lubricants import (
+    ISOVISCOUS,
     AbstractPressureViscosity,
+    AbstractRheology,
     AbstractViscosity,
     ConstantPressureViscosity,
-    ConstantViscosity,
-    ExponentialRheology,
     IntegratedPressureViscosity,
     LinearConductivity,
     LinearDensity,
     LinearHeatCapacity,
     Lubricant,
     NoPressureViscosity,
+    WaltherPower,
     WaltherRoelands,
 )
 from ..data_files import oil_names, oil_text
 from ..drafts import read_table
 from ..errors import SceneError, nearest, one_of
 from .files import base_of
+from .grades import grade_named
 from .schema import DOCUMENTATION, LAWS, Law, OilTable, builds
 
 ROOM_TEMPERATURE = 293.15
 """K; reference of a linear law without a slope, where it has no effect."""
 
 
-def load_oil(name: str) -> Lubricant:
-    """An oil of the catalogue.
+def load_oil(name: str, base: str | None = None) -> Lubricant:
+    """An oil of the catalogue by its name, or a standard oil by its grade.
 
-    **Raises:** `SceneError` for a name that the catalogue does not have.
+    **Arguments:** `base`: base stock of a grade, mineral if not given.
+
+    **Raises:** `SceneError` for a name, a grade or a base stock that there is not.
     """
+    if grade_named(name) is not None or base is not None:
+        given = {"grade": name} if base is None else {"grade": name, "base": base}
+        return lubricant(read_table(OilTable, with_catalogue(given), str(name)))
     if name not in oil_names():
         near = nearest(name, oil_names()) if isinstance(name, str) else ""
         raise SceneError(str(name), "name", f"'{name}'", f"an oil of the catalogue: {one_of(oil_names())}", near)
@@ -47,7 +54,8 @@ def oil_data(name: str) -> dict[str, Any]:
 
 
 def with_catalogue(oil: Mapping[str, Any]) -> dict[str, Any]:
-    """An oil table together with what its `name` or its `file` stands for; what the table itself says prevails.
+    """An oil table together with what its `name`, its `grade` or its `file` stands for; what the table itself says
+    prevails.
 
     A law table without `law`, or with the law of the catalogue, changes single parameters; with another law it
     replaces the catalogue's. The catalogue's pressure-viscosity coefficient belongs to its viscosity: where that is
@@ -64,8 +72,9 @@ def with_catalogue(oil: Mapping[str, Any]) -> dict[str, Any]:
     for key, own in oil.items():
         theirs = merged.get(key)
         if isinstance(own, Mapping) and isinstance(theirs, Mapping) and own.get("law", theirs["law"]) == theirs["law"]:
-            # a note on the catalogue's values does not speak for those that replace them
-            kept = {name: value for name, value in theirs.items() if name != "note" or not _changes(own, theirs)}
+            # a note on the catalogue's values does not speak for those that replace them, be they the same
+            replaced = any(key not in DOCUMENTATION for key in own)
+            kept = {name: value for name, value in theirs.items() if name != "note" or not replaced}
             if own.get("viscous_function", kept.get("viscous_function")) != kept.get("viscous_function"):
                 # it belongs to the viscous function that is replaced
                 kept.pop("exponent", None)
@@ -109,7 +118,7 @@ def lubricant(table: OilTable) -> Lubricant:
 
 def _viscosity(table: OilTable, density: LinearDensity | None) -> AbstractViscosity:
     law: Any = table.viscosity
-    more = {"density": density} if builds(law, WaltherRoelands) else {}
+    more = {"density": density} if builds(law, WaltherRoelands, WaltherPower) else {}
     return law.builds(**more, **_parameters(law))
 
 
@@ -119,12 +128,12 @@ def _pressure_viscosity(table: OilTable, viscosity: AbstractViscosity) -> Abstra
         return ConstantPressureViscosity(np.float64(law))
     if law is not None and not builds(law, IntegratedPressureViscosity):
         return law.builds(**_parameters(law))
-    return NoPressureViscosity() if isinstance(viscosity, ConstantViscosity) else IntegratedPressureViscosity(viscosity)
+    return NoPressureViscosity() if isinstance(viscosity, ISOVISCOUS) else IntegratedPressureViscosity(viscosity)
 
 
-def _rheology(table: Any) -> ExponentialRheology:
+def _rheology(table: Any) -> AbstractRheology:
     # the exponent is static
-    return ExponentialRheology(**{**_parameters(table), "exponent": table.exponent})
+    return table.builds(**{**_parameters(table), "exponent": table.exponent})
 
 
 def _linear(law: float | Law) -> dict[str, Any]:

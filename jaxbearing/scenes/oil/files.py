@@ -7,6 +7,7 @@ from ..data_files import oil_names, oil_text
 from ..drafts import read_table
 from ..errors import SceneError
 from ..toml_files import parse_toml, read_text
+from .grades import grade_of, grade_tables
 from .schema import DOCUMENTATION, OilTable
 
 _EXPECTED = "an oil file: the tables of [oil] in a scene, such as [viscosity], as 'jaxbearing fit --out' writes them"
@@ -27,25 +28,47 @@ def read_oil(path: str) -> dict[str, Any]:
     data = parse_toml(read_text(path, _EXPECTED), path, _EXPECTED)
     if "kind" in data:
         raise SceneError(path, "kind", "a scene", _EXPECTED)
-    if "file" in data:
-        raise SceneError(path, "file", "another file", "the laws themselves: an oil file stands alone")
+    for name in ("file", "grade"):
+        if name in data:
+            found = "another file" if name == "file" else f"the grade {data[name]!r}"
+            raise SceneError(path, name, found, "the laws themselves: an oil file stands alone")
     tables = {key: value for key, value in data.items() if key != "name"}
     read_table(OilTable, tables, path)
     return tables
 
 
 def base_of(oil: Mapping[str, Any]) -> dict[str, Any] | None:
-    """The tables that the `name` or the `file` of an oil table stands for; `None` without one of them, and where the
-    validation is to refuse them.
+    """The tables that the `name`, the `grade` or the `file` of an oil table stands for; `None` without one of them, and
+    where the validation is to refuse them.
 
     **Raises:** `SceneError` for a file that cannot be read or is not an oil.
     """
     name, file = oil.get("name"), oil.get("file")
+    if "grade" in oil:
+        found = None if name is not None or file is not None else grade_of(oil)
+        return None if found is None else grade_tables(*found)
     if name is None and isinstance(file, str):
         return read_oil(file)
     if file is None and isinstance(name, str) and name in oil_names():
         return parse_toml(oil_text(name), name, _EXPECTED)
     return None
+
+
+def prior_ranges(oil: Mapping[str, Any]) -> dict[str, Any]:
+    """The parameters of a scene's oil that are a prior of its catalogue or file, as distributions that a scene file
+    could have: {law: {parameter: {"low": ..., "high": ..., "shape": "uniform"}}}.
+
+    What the scene sets itself is none of them. **Raises:** `SceneError` for a file that cannot be read.
+    """
+    found: dict[str, Any] = {}
+    for law, theirs in (base_of(oil) or {}).items():
+        own = _law(oil.get(law))
+        if not isinstance(theirs, Mapping) or own.get("law", theirs.get("law")) != theirs.get("law"):
+            continue
+        ranges = {key: span for key, span in theirs.get("ranges", {}).items() if key not in own}
+        if ranges:
+            found[law] = {key: {"low": low, "high": high, "shape": "uniform"} for key, (low, high) in ranges.items()}
+    return found
 
 
 def origins(oil: Mapping[str, Any], scene: str) -> dict[str, Origin]:

@@ -3,7 +3,7 @@
 from collections.abc import Mapping
 from typing import Any
 
-from ...lubricants import ConstantViscosity
+from ...lubricants import ISOVISCOUS
 from ..errors import one_of
 from ..laws import Laws
 from ..table import Problems, Table, refusal_at
@@ -28,7 +28,7 @@ def require_piezoviscous(oil: OilTable, contact: Table, laws: Mapping[str, Laws[
 
     **Arguments:** `laws`: fields of `contact` -> the laws that they may name.
     """
-    if not builds(oil.viscosity, ConstantViscosity) or oil.pressure_viscosity is not None:
+    if not builds(oil.viscosity, *ISOVISCOUS) or oil.pressure_viscosity is not None:
         return
     for name, known in laws.items():
         given = getattr(contact, name)

@@ -11,18 +11,23 @@ from typing import Annotated, Any, ClassVar, Literal
 from pydantic import BeforeValidator, ConfigDict, Discriminator, Tag, create_model
 
 from ...lubricants import (
+    ISOVISCOUS,
     Barus,
     ConstantPressureViscosity,
     ConstantViscosity,
     ExponentialRheology,
     FittedPressureViscosity,
     IntegratedPressureViscosity,
+    IsoviscousLiquid,
     LinearConductivity,
     LinearDensity,
     LinearHeatCapacity,
     Lubricant,
     ModifiedWLF,
+    ProportionalRheology,
     Roelands,
+    VogelDicke,
+    WaltherPower,
     WaltherRoelands,
 )
 from .. import units
@@ -30,18 +35,21 @@ from ..data_files import oil_names
 from ..errors import nearest, one_of
 from ..table import Problems, Table, check, refusal_at
 from ..table_of import number_of, table_of
+from . import grades
 
-DOCUMENTATION = ("name", "file", "description", "law", "sources", "note")
+DOCUMENTATION = ("name", "grade", "base", "file", "description", "law", "sources", "note", "ranges")
 """Names in an oil table and in the tables of its laws that are no parameters."""
 LAWS = ("viscosity", "pressure_viscosity", "rheology", "density", "conductivity", "heat_capacity")
 
 
 class Law(Table):
     """A law; `sources` says where each parameter comes from and is for the reader of the file only, `note` is what a
-    solution that uses the oil repeats among its warnings."""
+    solution that uses the oil repeats among its warnings, `ranges` holds the lowest and the highest value of parameters
+    that are a prior, which `jaxbearing tolerances` takes as uniform distributions."""
 
     sources: dict[str, str] | None = None
     note: str | None = None
+    ranges: dict[str, list[Any]] | None = None
 
 
 class _FallingViscosities(Law):
@@ -106,6 +114,9 @@ VISCOSITIES: dict[str, type[Law]] = {
     "roelands": law_table("roelands", Roelands),
     "constant": law_table("constant", ConstantViscosity),
     "two_viscosities": law_table("two_viscosities", WaltherRoelands, base=_FallingViscosities),
+    "walther_power": law_table("walther_power", WaltherPower, base=_FallingViscosities),
+    "vogel_dicke": law_table("vogel_dicke", VogelDicke),
+    "isoviscous": law_table("isoviscous", IsoviscousLiquid),
 }
 """Laws of viscosity by name."""
 PRESSURE_VISCOSITIES: dict[str, type[Law]] = {
@@ -114,7 +125,11 @@ PRESSURE_VISCOSITIES: dict[str, type[Law]] = {
     "integrated": law_table("integrated", IntegratedPressureViscosity),
 }
 """Laws of the pressure-viscosity coefficient by name."""
-ExponentialRheologyTable = law_table("exponential", ExponentialRheology, "", _ExponentOfFunction)
+RHEOLOGIES: dict[str, type[Law]] = {
+    "exponential": law_table("exponential", ExponentialRheology, base=_ExponentOfFunction),
+    "proportional": law_table("proportional", ProportionalRheology, base=_ExponentOfFunction),
+}
+"""Laws of shear modulus and stress by name."""
 LinearDensityTable = law_table("linear", LinearDensity, "<table>")
 LinearConductivityTable = law_table("linear", LinearConductivity, "<table>")
 LinearHeatCapacityTable = law_table("linear", LinearHeatCapacity, "<table>")
@@ -169,9 +184,9 @@ def _cst(viscosity: float) -> str:
     return f"{1e6 * viscosity:g} cSt"
 
 
-def builds(table: Any, law: type) -> bool:
-    """True if what stands in a field is the table of this law."""
-    return isinstance(table, Law) and table.builds is law
+def builds(table: Any, *laws: type) -> bool:
+    """True if what stands in a field is the table of one of these laws."""
+    return isinstance(table, Law) and table.builds in laws
 
 
 def _oil_name(value: Any) -> str:
@@ -182,6 +197,22 @@ def _oil_name(value: Any) -> str:
     return value
 
 
+def _grade(value: Any) -> str:
+    known, grade = grades.grades(), grades.grade_named(value)
+    if grade not in known:
+        near = grades.nearest_grade(value, known)
+        raise units.refusal(f"an ISO viscosity grade: {one_of(known)}", units.describe(value), near)
+    return grade
+
+
+def _base(value: Any) -> str:
+    base = grades.base_named(value)
+    if base is None:
+        near = nearest(value, grades.bases()) if isinstance(value, str) else ""
+        raise units.refusal(f"a base stock: {one_of(grades.bases())}", units.describe(value), near)
+    return base
+
+
 _Viscosity = _law_field("Viscosity", VISCOSITIES, Annotated[None, BeforeValidator(_no_text)])
 _Rise = Annotated[
     float,
@@ -190,6 +221,7 @@ _Rise = Annotated[
     ),
 ]
 _PressureViscosity = _law_field("PressureViscosity", PRESSURE_VISCOSITIES, _Rise)
+_Rheology = _law_field("Rheology", RHEOLOGIES, Annotated[None, BeforeValidator(_no_text)])
 
 
 _Density = _linear_field(LinearDensityTable, LinearDensity)
@@ -198,10 +230,12 @@ _HeatCapacity = _linear_field(LinearHeatCapacityTable, LinearHeatCapacity)
 
 
 class OilTable(Table):
-    """`name` takes the laws of an oil of the catalogue, `file` those of an oil file; further tables replace or amend
-    them. A `--set` of the file is of the whole oil.
+    """`name` takes the laws of an oil of the catalogue, `grade` those of a standard oil, `file` those of an oil file;
+    further tables replace or amend them. A `--set` of the grade or of the file is of the whole oil.
 
     - `name`: of the catalogue
+    - `grade`: ISO viscosity grade of a standard oil
+    - `base`: base stock of the grade, not given: mineral
     - `file`: an oil file
     - `description`: for the reader
     - `viscosity`: law of viscosity
@@ -213,28 +247,50 @@ class OilTable(Table):
     """
 
     builds: ClassVar[type | None] = Lubricant
-    instead: ClassVar[Mapping[str, tuple[str, ...]]] = {"name": ("file",), "file": ("name", "description", *LAWS)}
+    instead: ClassVar[Mapping[str, tuple[str, ...]]] = {
+        "name": ("file", "grade", "base"),
+        "grade": ("name", "file", "description", *LAWS),
+        "file": ("name", "grade", "base", "description", *LAWS),
+    }
+    about: ClassVar[Mapping[str, tuple[str, ...]]] = {"grade": ("base",)}
     name: Annotated[str, BeforeValidator(_oil_name)] | None = None
+    grade: Annotated[str, BeforeValidator(_grade)] | None = None
+    base: Annotated[str, BeforeValidator(_base)] | None = None
     file: str | None = None
     description: str | None = None
     viscosity: _Viscosity | None = None  # pyright: ignore[reportInvalidTypeForm]
     pressure_viscosity: _PressureViscosity | None = None  # pyright: ignore[reportInvalidTypeForm]
-    rheology: ExponentialRheologyTable | None = None  # pyright: ignore[reportInvalidTypeForm]
+    rheology: _Rheology | None = None  # pyright: ignore[reportInvalidTypeForm]
     density: _Density | None = None  # pyright: ignore[reportInvalidTypeForm]
     conductivity: _Conductivity | None = None  # pyright: ignore[reportInvalidTypeForm]
     heat_capacity: _HeatCapacity | None = None  # pyright: ignore[reportInvalidTypeForm]
+
+    @check
+    def _one_origin(self) -> Problems:
+        if self.base is not None and self.grade is None:
+            yield refusal_at("base", "none without 'grade', e.g. 'ISO VG 68'", units.describe(self.base))
 
     @check
     def _complete(self) -> Problems:
         if self.name is not None and self.file is not None:
             yield refusal_at("file", "none beside 'name': one of the two", units.describe(self.file))
             return
+        if self.grade is not None and (self.name is not None or self.file is not None):
+            other = "name" if self.name is not None else "file"
+            yield refusal_at("grade", f"none beside '{other}': one of the two", units.describe(self.grade))
+            return
+        if self.grade is not None:
+            base = self.base or grades.DEFAULT_BASE
+            if self.grade not in grades.grades(base):
+                near = grades.nearest_grade(self.grade, grades.grades(base))
+                yield refusal_at("grade", grades.refused(base), f"'{self.grade}'", near)
+                return
         if self.viscosity is None:
-            expected = "the law of viscosity, the 'name' of an oil of the catalogue, or the 'file' of an oil"
+            expected = "the law of viscosity, or an oil: its 'name' in the catalogue, its 'grade' or its 'file'"
             yield refusal_at("viscosity", expected, "nothing")
-        if builds(self.viscosity, WaltherRoelands) and self.density is None:
-            expected = "a density, which makes the kinematic viscosities of 'two_viscosities' dynamic ones, e.g. "
+        if builds(self.viscosity, WaltherRoelands, WaltherPower) and self.density is None:
+            expected = "a density, which makes the kinematic viscosities of the law dynamic ones, e.g. "
             yield refusal_at("density", expected + "density = '870 kg/m^3'", "nothing")
-        if builds(self.viscosity, ConstantViscosity) and builds(self.pressure_viscosity, IntegratedPressureViscosity):
-            expected = "a law other than 'integrated' (left out: 0), the viscosity being constant"
+        if builds(self.viscosity, *ISOVISCOUS) and builds(self.pressure_viscosity, IntegratedPressureViscosity):
+            expected = "a law other than 'integrated' (left out: 0), the viscosity being constant under pressure"
             yield refusal_at("pressure_viscosity.law", expected, "'integrated'")

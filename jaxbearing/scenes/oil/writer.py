@@ -1,7 +1,7 @@
 """A `Lubricant` as the tables of a file: the way back from `oils.lubricant`, to the last digit of every number."""
 
 import typing
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from typing import Any
 
 from ...lubricants import (
@@ -11,17 +11,19 @@ from ...lubricants import (
     LinearHeatCapacity,
     Lubricant,
     NoPressureViscosity,
+    WaltherPower,
 )
 from ..data_files import oil_names
 from ..drafts import read_table
 from ..part_writer import SCENE, Rows, rows, same, unwritable
 from ..toml_writer import comments, one_line, toml_text
-from .catalogue import ROOM_TEMPERATURE, load_oil, lubricant, with_catalogue
+from .catalogue import ROOM_TEMPERATURE, lubricant, with_catalogue
 from .files import Origin
+from .grades import bases, grades
 from .schema import (
     PRESSURE_VISCOSITIES,
+    RHEOLOGIES,
     VISCOSITIES,
-    ExponentialRheologyTable,
     Law,
     LinearConductivityTable,
     LinearDensityTable,
@@ -32,7 +34,7 @@ from .schema import (
 HEADER = "A value with a unit is a string, a dimensionless value is a number. Every value has its source."
 UNKNOWN_SOURCE = "not known: given in Python"
 _TABLES: dict[type | None, type[Law]] = {
-    table.builds: table for table in (*VISCOSITIES.values(), *PRESSURE_VISCOSITIES.values())
+    table.builds: table for table in (*VISCOSITIES.values(), *PRESSURE_VISCOSITIES.values(), *RHEOLOGIES.values())
 }
 
 
@@ -75,8 +77,9 @@ def _laws(oil: Lubricant) -> dict[str, Rows]:
     if not isinstance(oil.pressure_viscosity, NoPressureViscosity):
         law = oil.pressure_viscosity
         laws["pressure_viscosity"] = (_table(law, "pressure_viscosity"), law)
+    if oil.rheology is not None:
+        laws["rheology"] = (_table(oil.rheology, "rheology"), oil.rheology)
     for name, table in (
-        ("rheology", ExponentialRheologyTable),
         ("density", LinearDensityTable),
         ("conductivity", LinearConductivityTable),
         ("heat_capacity", LinearHeatCapacityTable),
@@ -116,22 +119,30 @@ def scene_oil(oil: Lubricant | None) -> Rows | None:
     whole = _laws(oil)
     _share_out_notes(oil, whole)
     whole = {law: _short(getattr(oil, law), table) for law, table in whole.items()}
-    amended = (_amended(oil, name) for name in oil_names())
+    amended = (_amended(oil, named) for named in _catalogue(oil))
     # the fewest changes to an oil of the catalogue
     return min(filter(None, amended), key=_size, default=whole)
+
+
+def _catalogue(oil: Lubricant) -> Iterator[Rows]:
+    """The oils of the catalogue that may be this one, as tables that name them."""
+    yield from ({"name": name} for name in oil_names())
+    if isinstance(oil.viscosity, WaltherPower):
+        for base in bases():
+            yield from ({"grade": grade, "base": base} for grade in grades(base))
 
 
 def _size(table: Mapping[str, Any]) -> int:
     return sum(_size(value) if isinstance(value, Mapping) else 1 for value in table.values())
 
 
-def _amended(oil: Lubricant, name: str) -> Rows | None:
+def _amended(oil: Lubricant, named: Rows) -> Rows | None:
     """An oil of the catalogue, which has this viscosity, with what differs; `None` where that is not this oil."""
-    base = load_oil(name)
+    base = lubricant(read_table(OilTable, with_catalogue(named), SCENE))
     if not same(base.viscosity, oil.viscosity):
         return None
     own, theirs = _laws(oil), _laws(base)
-    found: Rows = {"name": name}
+    found: Rows = dict(named)
     for law, table in own.items():
         if same(getattr(oil, law), getattr(base, law)):
             continue

@@ -1,0 +1,105 @@
+"""Standard oils: the tables of an ISO viscosity grade by base stock."""
+
+import functools
+import math
+import re
+import tomllib
+from collections.abc import Mapping
+from typing import Any
+
+from ..data_files import grades_text
+from ..errors import nearest, one_of
+
+DEFAULT_BASE = "mineral"
+"""Base stock of a grade that comes without one."""
+POINTS = (313.15, 373.15)
+"""Temperatures, K, at which the viscosities of a grade are given to its law."""
+_ALSO = {"pag": "polyglycol"}
+"""Further names of base stocks."""
+_LAWS = ("viscosity", "rheology", "density", "conductivity", "heat_capacity")
+_GRADE = re.compile(r"(?:ISO[\s-]*)?(?:VG[\s-]*)?(\d{1,5})", re.IGNORECASE)
+
+
+@functools.cache
+def _data() -> dict[str, Any]:
+    return tomllib.loads(grades_text())
+
+
+def bases() -> tuple[str, ...]:
+    """Names of the base stocks."""
+    return tuple(_data())
+
+
+def base_named(given: Any) -> str | None:
+    """The base stock of this name in any case, e.g. "pao" or "PAG"; `None` for something else."""
+    by_lower = {base.lower(): base for base in bases()} | _ALSO
+    return by_lower.get(given.strip().lower()) if isinstance(given, str) else None
+
+
+def grades(base: str | None = None) -> tuple[str, ...]:
+    """Grades of a base stock, the thin ones first; without one those of any base stock."""
+    chosen = bases() if base is None else (base,)
+    numbers = {int(number) for one in chosen for number in _data()[one]["grades"]}
+    return tuple(_name(number) for number in sorted(numbers))
+
+
+def grade_named(given: Any) -> str | None:
+    """The grade, "ISO VG 68", that a person may call "iso vg 68", "VG68" or 68; `None` for what is no grade at all."""
+    if isinstance(given, int) and not isinstance(given, bool):
+        return _name(given)
+    found = _GRADE.fullmatch(given.strip()) if isinstance(given, str) else None
+    return None if found is None else _name(int(found[1]))
+
+
+def nearest_grade(given: Any, known: tuple[str, ...]) -> str:
+    """The known grade whose number is nearest by ratio; "" where something without a number is given."""
+    grade = grade_named(given)
+    if grade is None:
+        return nearest(given, known) if isinstance(given, str) else ""
+    asked = math.log(max(number_of(grade), 1))
+    return min(known, key=lambda one: abs(math.log(number_of(one)) - asked))
+
+
+def number_of(grade: str) -> int:
+    """Nominal viscosity at 40 C, cSt."""
+    return int(grade.rpartition(" ")[2])
+
+
+def _name(number: int) -> str:
+    return f"ISO VG {number}"
+
+
+def grade_of(oil: Mapping[str, Any]) -> tuple[str, str] | None:
+    """Grade and base stock that an oil table names; `None` without a grade, and where the validation refuses them."""
+    grade, base = grade_named(oil.get("grade")), base_named(oil.get("base", DEFAULT_BASE))
+    if grade is None or base is None or grade not in grades(base):
+        return None
+    return grade, base
+
+
+def grade_tables(grade: str, base: str) -> dict[str, Any]:
+    """The tables of the laws of a standard oil, as a file of an oil has them."""
+    data = _data()[base]
+    tables = {law: dict(data[law]) for law in _LAWS}
+    line = data["grades"][str(number_of(grade))]
+    first, second = (viscosity_at(line["m"], line["n"], temperature) for temperature in POINTS)
+    tables["viscosity"] |= {
+        "viscosity_1": f"{first!r} mm^2/s",
+        "temperature_1": f"{POINTS[0]!r} K",
+        "viscosity_2": f"{second!r} mm^2/s",
+        "temperature_2": f"{POINTS[1]!r} K",
+    }
+    return {"description": f"standard oil, {grade}, {base}", **tables}
+
+
+def viscosity_at(m: float, n: float, temperature: float) -> float:
+    """Kinematic viscosity on Walther's line, cSt. **Arguments:** `temperature`, K."""
+    return 10.0**10.0 ** (m - n * math.log10(temperature)) - 0.7
+
+
+def refused(base: str) -> str:
+    """What is expected instead of a grade that a base stock does not have, in words."""
+    return (
+        f"a grade of {base} oils: {one_of(grades(base))}; for another oil give two viscosities of its data sheet: "
+        "[oil.viscosity] with law = 'two_viscosities'"
+    )
