@@ -46,6 +46,8 @@ RANK = {
     # sweeps are labelled and kept in files: a verb of the edge
     "sweeps": 10,
     "sweep": 10,
+    # scenes from designations
+    "catalogue": 10,
     # many solves of one bearing: sweeps with statements about them
     "studies": 11,
     # tolerances are sampled by sweeps

@@ -96,7 +96,7 @@ def parse(text: str) -> Designation:
 
     **Raises:** `SceneError` with the nearest designations if the text is none that is known.
     """
-    plain = re.sub(r"[\s_\-–.]+", "", text).upper()
+    plain = re.sub(r"[\s_\-–.]+|/(?!\s*\d)", "", text).upper()
     found = _basic(plain)
     if found is None:
         raise _unknown(text, plain)
@@ -225,6 +225,6 @@ def _unknown(text: str, plain: str) -> SceneError:
     other = next((words for pattern, words in _NOT_MODELLED if re.match(rf"(?:{pattern})(?!\d)", plain)), "")
     found = f"'{text.strip()}'" + (f", {other}, which is not modelled" if other else "")
     expected = "the designation of a bearing, such as 6207, 7312-B, NU 311, 30206 or 7014 C"
-    if names:
+    if names and not other:
         expected += f"; the nearest that are known: {names}"
     return SceneError("new", "", found, expected)

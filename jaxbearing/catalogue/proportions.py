@@ -71,7 +71,7 @@ class Proportions(NamedTuple):
 _ln = math.log
 _RATED = Normal(_ln(0.02), 1e-4)
 """Grooves of conformity 0.52, which ISO 281 and ISO 76 assume."""
-_LENGTHS = {"10": 0.50, "2": 0.58, "3": 0.62, "4": 0.58, "22": 0.62, "23": 0.64}
+_LENGTHS = {"10": 0.47, "2": 0.58, "3": 0.62, "4": 0.58, "22": 0.62, "23": 0.64}
 """Effective length of cylindrical rollers over the width of the bearing, by series."""
 
 
@@ -109,7 +109,7 @@ def proportions_of(kind: str, series: str) -> Proportions:
         return Proportions(
             diameter=Normal(_ln(0.52 if series == "10" else 0.55), 0.04),
             pitch=Normal(_ln(1.006), 0.004),
-            length=Normal(_ln(_LENGTHS[series]), 0.09),
+            length=Normal(_ln(_LENGTHS[series]), 0.10),
             fill=Normal(_ln(0.86), 0.05),
             gap_fill=NOTHING,
             angle_fill=NOTHING,
