@@ -1,4 +1,4 @@
-"""Standard bearings: from a designation, such as 6207 or NU 311, to boundary dimensions and an estimated internal geometry."""
+"""Standard bearings: from a designation, such as 6207 or NU 311, to dimensions and an estimated internal geometry."""
 
 from .bearing import Bearing as Bearing
 from .bearing import find as find

@@ -118,12 +118,12 @@ def _check(bearing: Designation, given: Mapping[str, Any]) -> None:
     if not 1e-3 * bearing.bore < given.get("pitch_diameter", mean) < 1e-3 * bearing.outside:
         raise ValueError(f"pitch_diameter must be between bore and outside diameter of {bearing.text}")
     if given.get("diameter", 0.0) >= half:
-        raise ValueError(f"element_diameter must be below {1e3 * half:g} mm, the height of the section of {bearing.text}")
+        raise ValueError(f"element_diameter must be below the height of the section of {bearing.text}, {half:g} m")
     taken = given.get("n_elements", 0) * given.get("diameter", 0.0)
     if taken >= math.pi * given.get("pitch_diameter", mean):
         raise ValueError("n_elements: so many elements of this diameter do not fit beside each other")
     if given.get("length", 0.0) > 1e-3 * bearing.width:
-        raise ValueError(f"roller_length must be at most {bearing.width:g} mm, the width of {bearing.text}")
+        raise ValueError(f"roller_length must be at most the width of {bearing.text}, {1e-3 * bearing.width:g} m")
 
 
 __all__ = ["Bearing", "Estimate", "find"]

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from typing import NamedTuple
 
 from ..scenes.errors import SceneError
-from .dimensions import boundary_dimensions, bores
+from .dimensions import bores, boundary_dimensions
 
 CLEARANCES = ("C2", "CN", "C3", "C4")
 """Clearance classes that are known by number."""
@@ -41,12 +41,12 @@ _SUFFIXES = (
     ("clearance", r"C[2345](?!\d)|CN(?!\d)"),
     ("tolerance", r"P[0-9]S?(?!\d)|SP(?!\w)|UP(?!\w)|HG(?!\w)"),
     ("seal", _SEALS),
+    ("cage", r"TVP\d?|TVH|TN\d?|TA|MA|MB|ML|M|P|J\d?|Y|Q|X|A|H\d?|R\d?|JR|T"),
 )
 _ANGLES = {"AC": 25.0, "ACD": 25.0, "C": 15.0, "CD": 15.0, "E": 25.0, "B": 40.0, "BE": 40.0, "BEP": 40.0}
 _END = r"(?!\d(?!RS|RZ|Z))"
 """No further digit of the number: the 2 of 2RS and 2Z belongs to the seals."""
 _BOTH = "angular_contact", "spindle"
-_CAGES = r"TVP\d?|TVH|TN\d?|TA|MA|MB|ML|M|P|J\d?|Y|Q|X|A|H\d?|R\d?|JR|T\w{0,2}"
 
 
 class Designation(NamedTuple):
@@ -96,7 +96,7 @@ def parse(text: str) -> Designation:
 
     **Raises:** `SceneError` with the nearest designations if the text is none that is known.
     """
-    plain = re.sub(r"[\s_\-–.]+|/(?!\s*\d)", "", text).upper()
+    plain = re.sub(r"[\s_\-.]+|/(?!\s*\d)", "", text).upper()
     found = _basic(plain)
     if found is None:
         raise _unknown(text, plain)
@@ -152,16 +152,16 @@ def _basic(plain: str) -> tuple[str, str, str, str, str] | None:
     """Kind, type, series, bore code and the rest of the designation."""
     match = re.match(rf"(NUP|NU|NJ|NF|N)(10|22|23|2|3|4)(\d\d){_END}(.*)", plain)
     if match:
-        return "cylindrical", *match.groups()
+        return "cylindrical", match[1], match[2], match[3], match[4]
     match = re.match(rf"({'|'.join(TAPERED_SERIES)})(\d\d){_END}(.*)", plain)
     if match:
-        return "tapered", "", *match.groups()
+        return "tapered", "", match[1], match[2], match[3]
     for kind in ("deep_groove", "spindle", "angular_contact"):
         series = "|".join(sorted(RADIAL_SERIES[kind], key=len, reverse=True))
         code = rf"\d\d{_END}|/\d+|\d{_END}" if kind == "deep_groove" else rf"\d\d{_END}"
         match = re.match(rf"({series})({code})(.*)", plain)
         if match:
-            return kind, "", *match.groups()
+            return kind, "", match[1], match[2], match[3]
     return None
 
 
@@ -185,14 +185,9 @@ def _suffixes(kind: str, rest: str) -> tuple[str, tuple[str, ...]]:
         rest = re.sub(r"^EC?", "", rest)
         notes.append("E, EC: reinforced inner design, as all estimates of this type assume")
     while rest:
-        for what, pattern in _SUFFIXES:
-            match = re.match(pattern, rest)
-            if match:
-                break
-        else:
-            match = re.match(_CAGES, rest)
-            what = "cage"
-        if match is None or not match[0]:
+        tried = ((what, re.match(pattern, rest)) for what, pattern in _SUFFIXES)
+        what, match = next(((what, match) for what, match in tried if match), ("", None))
+        if match is None:
             unread, rest = unread + rest[0], rest[1:]
             continue
         rest = rest[match.end() :]

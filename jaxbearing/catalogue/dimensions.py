@@ -9,7 +9,7 @@ from typing import Any
 def boundary_dimensions(kind: str, series: str, bore: float) -> tuple[float, ...] | None:
     """The dimensions of a bearing after its bore, mm; `None` if the table does not have it.
 
-    **Arguments:** `kind`: of `Designation`; `series`: dimension series of ISO 15, or series of a tapered roller bearing;
+    **Arguments:** `kind`: of `Designation`; `series`: dimension series of ISO 15, or series of tapered roller bearings;
     `bore`: mm.
 
     Radial bearings have outside diameter and width. Tapered ones have D, T, B, C, and the usual half angle of the cup
@@ -31,7 +31,8 @@ def clearance_limits(kind: str, clearance_class: str, bore: float) -> tuple[floa
     """
     column = 2 + 2 * ("C2", "CN", "C3", "C4").index(clearance_class)
     rows = _tables("clearances")[kind]
-    return next((tuple(map(float, row[column : column + 2])) for row in rows if row[0] < bore <= row[1]), None)
+    found = (row[column : column + 2] for row in rows if row[0] < bore <= row[1])
+    return next(((float(least), float(greatest)) for least, greatest in found), None)
 
 
 def _file(kind: str) -> str:

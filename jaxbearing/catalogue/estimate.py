@@ -1,13 +1,14 @@
 r"""Internal geometry from boundary dimensions and ratings: the most probable one, with intervals.
 
-For every number of rolling elements, and every usual size of balls and cylindrical rollers, the other unknowns x follow from a
-least-squares problem
+For every number of rolling elements, and every usual size of balls and cylindrical rollers, the other unknowns x follow
+from a least-squares problem
 
 $$\min_x \sum_k \left(\frac{g_k(x) - m_k}{s_k}\right)^2,$$
 
-whose terms are the usual proportions (`proportions.py`), what is given (with $s_k$ = 1e-5), and the logarithms of printed over
-computed ratings. The ratings are those of `life.capacity` and `life.static`, with their derivatives by JAX. The candidates
-are compared by the probability of Laplace's approximation, $e^{-\chi^2/2}\det(J^TJ)^{-1/2}$, which also makes the intervals.
+whose terms are the usual proportions (`proportions.py`), what is given (with $s_k$ = 1e-5), and the logarithms of
+printed over computed ratings. The ratings are those of `life.capacity` and `life.static`, with their derivatives by JAX. The
+candidates are compared by the probability of Laplace's approximation, $e^{-\chi^2/2}\det(J^TJ)^{-1/2}$, which also
+makes the intervals.
 """
 
 import math
@@ -27,8 +28,8 @@ from .designation import Designation
 from .proportions import FILL_ANGLE, GAP, Normal, proportions_of, usual_sizes
 
 UNKNOWNS = ("diameter", "pitch", "length", "inner_groove", "outer_groove", "angle")
-"""ln of the element's diameter (mm; of tapered rollers, at mid length), of the pitch diameter (mm) and of the effective roller
-length (mm), ln of both conformities less 0.5, contact angle (rad)."""
+"""ln of the element's diameter (mm; of tapered rollers, at mid length), of the pitch diameter (mm) and of the effective
+roller length (mm), ln of both conformities less 0.5, contact angle (rad)."""
 GIVEN = 1e-5
 """Standard deviation of what is given: of a logarithm, or rad."""
 STEPS = 12
@@ -109,8 +110,10 @@ def _terms(bearing: Designation, given: Mapping[str, float], angle: Normal) -> d
     for name, field in (("diameter", "diameter"), ("pitch", "pitch_diameter"), ("length", "length")):
         if field in given:
             priors[name] = Normal(math.log(1e3 * given[field]), GIVEN)
-    ratings = [_rating(given.get(name), law) for name, law in (
-        ("dynamic_capacity", usual.dynamic), ("static_capacity", usual.static))]
+    ratings = [
+        _rating(given.get(name), law)
+        for name, law in (("dynamic_capacity", usual.dynamic), ("static_capacity", usual.static))
+    ]
     weight = lambda law: 1.0 / max(law.deviation, GIVEN)
     return {
         "mean": np.array([priors[name].mean for name in UNKNOWNS]),
@@ -130,8 +133,8 @@ def _rating(value: float | None, law: Normal) -> Normal:
 def _candidates(
     bearing: Designation, given: Mapping[str, float], terms: Mapping[str, Any]
 ) -> tuple[np.ndarray, np.ndarray, bool]:
-    """Numbers of elements and diameters, mm, of the candidates, the likeliest first; NaN: no usual sizes. And whether the
-    diameters are usual sizes."""
+    """Numbers of elements and diameters, mm, of the candidates, likeliest first, and whether the diameters are usual
+    sizes. A diameter of NaN is an unknown of the least-squares problem."""
     middle, pitch = math.exp(terms["mean"][0]), math.exp(terms["mean"][1])
     spread = 1.0 / terms["weight"][0]
     sizes, standard = np.empty(0), False
@@ -160,8 +163,10 @@ def _fills(count: Any, size: np.ndarray, pitch: float) -> Any:
     return (fill > FILLS[0]) & (fill < FILLS[1])
 
 
-def _solved(ratings: Callable[[Array, Array], Array], counts: Array, sizes: Array, size_weight: Array, terms: dict[str, Array]) -> dict[str, Array]:
-    """The solutions of all candidates at once; `ratings`: ln of C and C0 from the unknowns and the number of elements."""
+def _solved(
+    ratings: Callable[[Array, Array], Array], counts: Array, sizes: Array, size_weight: Array, terms: dict[str, Array]
+) -> dict[str, Array]:
+    """The solutions of all candidates at once; `ratings`: ln of C and C0 from unknowns and number of elements."""
 
     def candidate(count: Array, size: Array) -> dict[str, Array]:
         residual = lambda x: _residual(x, count, size, size_weight, terms, ratings)
@@ -196,9 +201,7 @@ def _residual(
     gap = GAP[0] + GAP[1] * diameter + GAP[2] * pitch
     # arcsin is at most pi/2: candidates leave the balls room
     angle = (count - 1.0) * 2.0 * jnp.arcsin(jnp.minimum(diameter / pitch, 0.99))
-    fills = jnp.stack(
-        [log_fill, log_fill + jnp.log1p(gap / diameter), jnp.log(angle / math.radians(FILL_ANGLE))]
-    )
+    fills = jnp.stack([log_fill, log_fill + jnp.log1p(gap / diameter), jnp.log(angle / math.radians(FILL_ANGLE))])
     return jnp.concatenate(
         [
             (x - terms["mean"]) * terms["weight"],
@@ -211,15 +214,15 @@ def _residual(
 
 def _ball_ratings(x: Array, count: Array) -> Array:
     """ln of C and C0, N, of balls."""
-    sizes = 1e-3 * jnp.exp(x[0]), 1e-3 * jnp.exp(x[1]), x[5]
+    size, pitch = 1e-3 * jnp.exp(x[0]), 1e-3 * jnp.exp(x[1])
     inner, outer = 0.5 + jnp.exp(x[3]), 0.5 + jnp.exp(x[4])
-    dynamic = ball_capacity(count, *sizes, inner, outer)
-    return jnp.log(jnp.stack([dynamic, ball_static_capacity(count, *sizes, inner)]))
+    dynamic = ball_capacity(count, size, pitch, x[5], inner, outer)
+    return jnp.log(jnp.stack([dynamic, ball_static_capacity(count, size, pitch, x[5], inner)]))
 
 
 def _roller_ratings(x: Array, count: Array) -> Array:
     """ln of C and C0, N, of rollers."""
-    sizes = *(1e-3 * jnp.exp(x[i]) for i in range(3)), x[5]
+    sizes = 1e-3 * jnp.exp(x[0]), 1e-3 * jnp.exp(x[1]), 1e-3 * jnp.exp(x[2]), x[5]
     return jnp.log(jnp.stack([roller_capacity(count, *sizes), roller_static_capacity(count, *sizes)]))
 
 

@@ -1,7 +1,7 @@
 """Usual proportions inside rolling bearings, as normal distributions with a mean and a standard deviation.
 
-They are calibrated on bearings whose geometry is printed: 257 spindle bearings of one maker, a few deep groove and tapered
-bearings of the literature, and the raceway diameters of cylindrical roller bearings of usual catalogues, whose static
+They are calibrated on bearings whose geometry is printed: 257 spindle bearings of one maker, a few deep groove and
+tapered bearings of the literature, and raceway diameters of cylindrical roller bearings in catalogues, whose static
 ratings give the roller lengths. A maker may build differently: every estimate has an interval.
 """
 
@@ -25,7 +25,7 @@ ROLLER_SIZES = (
 )
 """Usual diameters of cylindrical rollers, mm."""
 GAP = (1.10, -0.078, 0.0228)
-"""Gap between the balls of machined or moulded cages, mm: constant, part of the ball diameter, part of the pitch diameter."""
+"""Gap between balls in a cage, mm: a constant, and parts of ball and pitch diameter; a fit to the spindle bearings."""
 FILL_ANGLE = 189.0
 """Angle that the balls of a deep groove bearing take up when they are put in between the rings, degrees."""
 

@@ -30,14 +30,14 @@ class Line(NamedTuple):
 
 
 def scene_text(bearing: Designation, geometry: Geometry, given: Mapping[str, float]) -> str:
-    """The file: boundary dimensions, internal geometry with intervals, materials, rating and an example of operation."""
+    """The file: boundary dimensions, internal geometry with intervals, materials, rating, an example of operation."""
     kind = KINDS.get(bearing.kind, "ball_bearing")
     parts = [*_head(bearing, geometry, given), "", f'kind = "{kind}"', ""]
     parts += _table("geometry", list(_geometry(bearing, geometry)))
     if bearing.design in ("NJ", "NUP"):
         side = '"both"' if bearing.design == "NUP" else '"+x"'
         parts += [
-            f"# The flanges of type {bearing.design} carry axial loads once their stiffness is given (numbers are examples):",
+            f"# The flanges of type {bearing.design} carry axial loads once their stiffness is given (examples):",
             '# flange_stiffness = "60 N/um^(10/9)"',
             '# flange_gap       = "0.1 mm"',
             f"# thrust           = {side}",
@@ -75,10 +75,10 @@ def sharper(bearing: Designation, given: Mapping[str, float]) -> str:
 def _head(bearing: Designation, geometry: Geometry, given: Mapping[str, float]) -> Iterator[str]:
     sizes = f"{bearing.bore:g} x {bearing.outside:g} x {bearing.width:g} mm"
     yield f"# {bearing.text}: {bearing.in_words}, {sizes} (bore, outside diameter, width)."
-    yield "# Boundary dimensions are standard. What is marked `estimated` is not a maker's number: it follows from usual"
-    yield f"# proportions{_told(given)}. The intervals hold 90 % of what is likely."
-    computed = f"C = {_kilo(geometry.dynamic_capacity)} (ISO 281), C0 = {_kilo(geometry.static_capacity)} (limits of ISO 76)"
-    yield f"# Ratings of this geometry by the package's formulas: {computed}."
+    yield "# Boundary dimensions are standard. What is marked `estimated` is not a maker's number: it follows from"
+    yield f"# usual proportions{_told(given)}. The intervals hold 90 % of what is likely."
+    dynamic, static = _kilo(geometry.dynamic_capacity), _kilo(geometry.static_capacity)
+    yield f"# Ratings of this geometry, computed: C = {dynamic} (ISO 281), C0 = {static} (limits of ISO 76)."
     options = sharper(bearing, given)
     if options:
         yield f"# What would sharpen the estimates: {options}."
@@ -155,7 +155,7 @@ def _tapered(bearing: Designation, geometry: Geometry) -> Iterator[Line]:
     yield _angle(bearing, geometry.contact_angle)
     pitch = f"pitch diameter {_short(geometry.pitch_diameter.value)}, {_millimetres(geometry.pitch_diameter)}"
     yield Line("roller_half_angle", f'"{_degrees(shape.half_angle)}"', f"from the apex and the {pitch}")
-    yield Line("flange_angle", f'"{_degrees(shape.flange_angle)}"', "estimated: the rib touches the roller end near its rim")
+    yield Line("flange_angle", f'"{_degrees(shape.flange_angle)}"', "estimated: contact of the rib near the rim")
     yield Line("end_radius", f'"{_mm(shape.end_radius)}"', "estimated: 0.95 of the roller cone's length, 0.85 to 0.99")
 
 
@@ -169,7 +169,7 @@ def _clearance(bearing: Designation) -> Line:
     limits = clearance_limits(bearing.kind, bearing.clearance_class, bearing.bore)
     if limits is None:
         value = UNKNOWN_CLEARANCE[bearing.clearance_class] * bearing.bore
-        comment = f"estimated: {0.5 * value:.0f} to {1.5 * value:.0f} um; no table of class {bearing.clearance_class} here"
+        comment = f"estimated: {0.5 * value:.0f} to {1.5 * value:.0f} um, beyond the table"
         return Line("diametral_clearance", f'"{value:.0f} um"', f"{comment}; unmounted")
     name = "normal class" if bearing.clearance_class == "CN" else f"class {bearing.clearance_class}"
     comment = f"unmounted, {name} of ISO 5753-1: {limits[0]:g} to {limits[1]:g} um"

@@ -8,7 +8,7 @@ TURNS = 60
 END_RADIUS = 0.95
 """Radius of the roller's end sphere over the length of the roller's cone: usual."""
 RIB_HEIGHT = 0.8
-"""Distance of the rib contact from the roller's axis over the radius of the big end: low on the rib, on the end face."""
+"""Distance of the rib contact from the roller's axis over the radius of the big end: low on the rib."""
 
 
 class TaperedShape(NamedTuple):

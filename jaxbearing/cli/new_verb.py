@@ -15,6 +15,7 @@ from .terminal import console
 if TYPE_CHECKING:
     from ..catalogue import Bearing
 
+
 def _quantity(name: str, what: str) -> Any:
     return typer.Option(f"--{name}", metavar="VALUE", help=what)
 

@@ -1,12 +1,14 @@
 """Designations: what they say, what they do not, boundary dimensions against makers' tables, clearances."""
 
+import itertools
+
 import pytest
 from makers_tables import rated_bearings, spindle_bearings
 
 from jaxbearing import SceneError
 from jaxbearing.catalogue import known_designations, parse
 from jaxbearing.catalogue.designation import RADIAL_SERIES, TAPERED_SERIES, bore_of
-from jaxbearing.catalogue.dimensions import boundary_dimensions, bores, clearance_limits
+from jaxbearing.catalogue.dimensions import bores, boundary_dimensions, clearance_limits
 
 NOT_IN_THE_TABLES = {"NU 1292", "NU 2268", "NU 2272", "NU 2276 ECMA", "NU 2292"}
 
@@ -52,7 +54,15 @@ def test_seals_and_classes_are_noted(text):
 
 
 def test_angles_of_suffixes():
-    angles = {"7205 B": 40, "7205-BEP": 40, "7205 AC": 25, "7014 C": 15, "71910 CD": 15, "71910 ACD/P4A": 25, "7014 E": 25}
+    angles = {
+        "7205 B": 40,
+        "7205-BEP": 40,
+        "7205 AC": 25,
+        "7014 C": 15,
+        "71910 CD": 15,
+        "71910 ACD/P4A": 25,
+        "7014 E": 25,
+    }
     assert {text: parse(text).contact_angle for text in angles} == angles
     assert parse("7205").contact_angle is None
     # a class of clearance is no angle
@@ -114,7 +124,7 @@ def test_sizes_grow_with_the_bore():
     tables += [("tapered", name) for name in TAPERED_SERIES]
     for kind, series in tables:
         rows = [boundary_dimensions(kind, series, bore) for bore in bores(kind, series)]
-        for smaller, larger in zip(rows, rows[1:], strict=False):
+        for smaller, larger in itertools.pairwise(rows):
             assert smaller[0] < larger[0]
             assert smaller[1] <= larger[1]
 

@@ -93,8 +93,9 @@ def test_ratings_without_a_rating_given(kind):
 def test_ratings_are_those_of_the_package(text):
     bearing = find(text)
     one = bearing.geometry
-    sizes = [getattr(one, name).value for name in ("n_elements", "diameter", "pitch_diameter", "length", "contact_angle")]
-    count, size, pitch, length, angle = int(sizes[0]), *sizes[1:]
+    count = int(one.n_elements.value)
+    size, pitch, length = one.diameter.value, one.pitch_diameter.value, one.length.value
+    angle = one.contact_angle.value
     if bearing.designation.kind in ("cylindrical", "tapered"):
         dynamic = roller_capacity(count, size, pitch, length, angle)
         static = roller_static_capacity(count, size, pitch, length, angle)
