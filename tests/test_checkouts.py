@@ -29,3 +29,8 @@ def test_a_number_that_is_lost_is_seen():
 
 def test_counts_of_the_solver_are_no_results():
     assert compared({"iterations": 4}, {"iterations": 5}).common == 0
+
+
+def test_round_off_of_nothing_is_no_difference():
+    assert compared({"spin": [1e-18, -2e-18]}, {"spin": [3e-18, 0.0]}).worst == 0.0
+    assert compared({"spin": [1e-18, 0.0]}, {"spin": [1.0, 0.0]}).worst > 1.0

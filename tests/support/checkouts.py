@@ -17,8 +17,10 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any, NamedTuple
 
-NOT_RESULTS = ("seconds", "iterations", "residual", "steps", "version")
+NOT_RESULTS = ("seconds", "iterations", "residual", "steps", "last_step", "version")
 """Times, counts of the solver and leftovers of its iteration."""
+NOTHING = 1e-15
+"""Largest size of numbers, in SI units, that are round-off of 0."""
 
 
 class Compared(NamedTuple):
@@ -63,7 +65,10 @@ def compared(old: Any, new: Any) -> Compared:
             lists[path.split("[")[0]].append(path)
     worst, where = 0.0, ""
     for paths in lists.values():
-        scale = max(abs(before[path]) for path in paths) or 1.0
+        scale = max(abs(before[path]) for path in paths)
+        if max(scale, *(abs(after[path]) for path in paths)) < NOTHING:
+            continue
+        scale = scale or 1.0
         for path in paths:
             difference = abs(after[path] - before[path]) / scale
             if math.isnan(difference):
