@@ -37,6 +37,7 @@ with rare_garbage_collection():
     from .sweep import sweep as sweep
 
 if TYPE_CHECKING:
+    from . import catalogue as catalogue
     from . import contacts as contacts
     from . import gaps as gaps
     from . import life as life
@@ -159,8 +160,8 @@ _LAZY = {
     "trajectory": ".bearings.motion.runs",
 }
 """Public names that pull in the edge (units, validation) or are only needed by some; imported on first use."""
-_MODULES = ("contacts", "fitting", "gaps", "life", "lubricants", "mounting", "plots", "sweeps", "thermal")
-"""Modules that are public as such: the laws, the fit of an oil, sweeps, figures."""
+_MODULES = ("catalogue", "contacts", "fitting", "gaps", "life", "lubricants", "mounting", "plots", "sweeps", "thermal")
+"""Modules that are public as such: standard bearings, the laws, the fit of an oil, sweeps, figures."""
 _AT_ONCE = ("jit_solver", "simulate", "simulate_batch", "solve", "sweep")
 
 __all__ = [*_AT_ONCE, *_LAZY, *_MODULES]  # pyright: ignore[reportUnsupportedDunderAll]

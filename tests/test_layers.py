@@ -49,6 +49,8 @@ RANK = {
     "sweeps": 10,
     "sweep": 10,
     "comparison": 10,
+    # scenes from designations
+    "catalogue": 10,
     # many solves of one bearing: sweeps with statements about them
     "studies": 11,
     # tolerances are sampled by sweeps

@@ -18,6 +18,7 @@ from .fit_verb import fit
 from .interrupt import ALL, if_interrupted, prompt_interrupt, tell
 from .leaving import leave
 from .messages import BAD_INPUT, INTERRUPTED, NO_OUTPUT, say
+from .new_verb import new
 from .quiet import only_news
 from .report_verb import report
 from .scenes_verb import scenes
@@ -121,5 +122,5 @@ def _options(
     pass
 
 
-for _verb in (scenes, fields, solve, report, sweep, tolerances, compare, study, simulate, stiffness, fit):
+for _verb in (new, scenes, fields, solve, report, sweep, tolerances, compare, study, simulate, stiffness, fit):
     app.command()(_verb)

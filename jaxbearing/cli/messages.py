@@ -3,9 +3,12 @@
 import warnings
 from collections.abc import Iterator
 from contextlib import contextmanager
-from typing import NoReturn
+from typing import TYPE_CHECKING, NoReturn
 
 import typer
+
+if TYPE_CHECKING:
+    from ..scenes.errors import SceneError
 
 NO_OUTPUT, BAD_INPUT, NOT_CONVERGED, INTERRUPTED = 1, 2, 3, 130
 
@@ -38,11 +41,26 @@ def bad_input(notes: list[str] | None = None) -> Iterator[None]:
             else:
                 warnings.warn_explicit(one.message, one.category, one.filename, one.lineno)
     except SceneError as error:
-        refuse(str(error))
+        refuse(str(error) + _of_a_bearing(error))
     for text in said if notes is None else ():
         typer.echo(f"note: {text}", err=True)
     if notes is not None:
         notes += said
+
+
+def _of_a_bearing(error: "SceneError") -> str:
+    """The command that writes a scene, if what should be a file is the designation of a standard bearing."""
+    from ..scenes.errors import SceneError
+
+    if error.found != "no such file":
+        return ""
+    from ..catalogue.designation import parse
+
+    try:
+        bearing = parse(error.file)
+    except SceneError:
+        return ""
+    return f" For the {bearing.in_words}: 'jaxbearing new {bearing.text}' writes a scene."
 
 
 def refuse(message: str) -> NoReturn:

@@ -58,7 +58,7 @@ def ball_factor(gamma: Scalar, conformity_inner: Scalar, conformity_outer: Scala
 
 
 def ball_capacity(
-    n_balls: int,
+    n_balls: int | Scalar,
     ball_diameter: Scalar,
     pitch_diameter: Scalar,
     contact_angle: Scalar,
@@ -95,7 +95,7 @@ def roller_factor(gamma: Scalar) -> Float[Array, ""]:
 
 
 def roller_capacity(
-    n_rollers: int,
+    n_rollers: int | Scalar,
     roller_diameter: Scalar,
     pitch_diameter: Scalar,
     length: Scalar,

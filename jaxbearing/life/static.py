@@ -31,7 +31,7 @@ def rated_modulus(rings: Material, elements: Material) -> Float[Array, ""]:
 
 
 def ball_static_capacity(
-    n_balls: int,
+    n_balls: int | Scalar,
     ball_diameter: Scalar,
     pitch_diameter: Scalar,
     contact_angle: Scalar,
@@ -54,7 +54,7 @@ def ball_static_capacity(
 
 
 def roller_static_capacity(
-    n_rollers: int,
+    n_rollers: int | Scalar,
     roller_diameter: Scalar,
     pitch_diameter: Scalar,
     length: Scalar,

@@ -1,0 +1,129 @@
+"""A standard bearing: its designation, its estimated internal geometry, and the scene that they make."""
+
+import math
+import tomllib
+from collections.abc import Mapping
+from typing import Any, NamedTuple
+
+from .._scene import AbstractScene
+from ..numerics.arguments import require_count, require_numbers
+from ..scenes.reader import scene_from_tables
+from .designation import Designation, parse
+from .estimate import Estimate, Geometry, estimate
+from .proportions import Normal
+from .scene_text import scene_text
+
+USUAL_ANGLES = {"angular_contact": Normal(30.0, 5.0), "spindle": Normal(15.0, 3.0)}
+"""Contact angle where the designation states none, degrees: the designs without a suffix differ between makers."""
+ROLLERS = ("cylindrical", "tapered")
+
+
+class Bearing(NamedTuple):
+    """A bearing of the catalogue of standard dimensions.
+
+    **Arguments:**
+    - `designation`: type, boundary dimensions and what the suffixes say.
+    - `geometry`: the internal geometry; each number an `Estimate` with its interval of 90 %.
+    - `given`: what the estimate was told, SI.
+    """
+
+    designation: Designation
+    geometry: Geometry
+    given: Mapping[str, float]
+
+    def text(self) -> str:
+        """The scene as a commented TOML file; what is estimated is marked with its interval."""
+        return scene_text(self.designation, self.geometry, self.given)
+
+    def tables(self) -> dict[str, Any]:
+        """The tables of the scene file."""
+        return tomllib.loads(self.text())
+
+    def scene(self) -> AbstractScene:
+        """The scene: dry, under a tenth of the dynamic rating, at a moderate speed.
+
+        **Raises:** `SceneError` if the numbers that were given make an impossible bearing.
+        """
+        return scene_from_tables(self.tables(), self.designation.text)
+
+
+def find(
+    designation: str,
+    *,
+    dynamic_capacity: float | None = None,
+    static_capacity: float | None = None,
+    n_elements: int | None = None,
+    element_diameter: float | None = None,
+    pitch_diameter: float | None = None,
+    roller_length: float | None = None,
+    contact_angle: float | None = None,
+) -> Bearing:
+    """A bearing by its designation, e.g. "6207", "7312-B", "NU 311", "30206" or "7014 C".
+
+    Boundary dimensions are standard. The internal geometry is estimated from usual proportions, and from what is given:
+    everything that is known makes the rest surer.
+
+    **Arguments:** all SI, all optional but the first:
+    - `dynamic_capacity`, `static_capacity`: C and C0 of a maker, N.
+    - `n_elements`: number of balls or rollers.
+    - `element_diameter`: of balls, or of rollers at mid length, m.
+    - `pitch_diameter`: m.
+    - `roller_length`: effective length of rollers, m.
+    - `contact_angle`: of angular contact ball bearings, and the cup's half angle of tapered roller bearings, rad.
+
+    **Raises:** `SceneError` for an unknown designation, with the nearest known ones; `ValueError` for a number that is
+    not possible, or that a bearing of this type does not have.
+    """
+    bearing = parse(designation)
+    given = {
+        "dynamic_capacity": dynamic_capacity,
+        "static_capacity": static_capacity,
+        "n_elements": n_elements,
+        "diameter": element_diameter,
+        "pitch_diameter": pitch_diameter,
+        "length": roller_length,
+        "contact_angle": contact_angle,
+    }
+    known = {name: value for name, value in given.items() if value is not None}
+    _check(bearing, known)
+    geometry = estimate(bearing, known, _angle(bearing, contact_angle))
+    return Bearing(bearing, geometry, known)
+
+
+def _angle(bearing: Designation, given: float | None) -> Normal:
+    """Contact angle, rad; without deviation where it is given or stated by the designation."""
+    if given is not None:
+        return Normal(given, 0.0)
+    if bearing.contact_angle is not None:
+        return Normal(math.radians(bearing.contact_angle), 0.0)
+    if bearing.usual_angle is not None and bearing.tightness is not None:
+        return Normal(math.radians(bearing.usual_angle), math.radians(bearing.tightness))
+    usual = USUAL_ANGLES.get(bearing.kind, Normal(0.0, 0.0))
+    return Normal(math.radians(usual.mean), math.radians(usual.deviation))
+
+
+def _check(bearing: Designation, given: Mapping[str, Any]) -> None:
+    """**Raises:** `ValueError`."""
+    names = {"diameter": "element_diameter", "length": "roller_length"}
+    require_numbers("> 0", **{names.get(name, name): value for name, value in given.items()})
+    if "n_elements" in given:
+        require_count("n_elements", given["n_elements"], 3)
+    if "length" in given and bearing.kind not in ROLLERS:
+        raise ValueError(f"roller_length: {bearing.text} has balls")
+    if "contact_angle" in given and bearing.kind in ("deep_groove", "cylindrical"):
+        raise ValueError(f"contact_angle: that of {bearing.text} follows from its clearance")
+    if given.get("contact_angle", 0.0) >= 0.5 * math.pi:
+        raise ValueError("contact_angle must be below pi/2 rad")
+    mean, half = 0.5e-3 * (bearing.bore + bearing.outside), 0.5e-3 * (bearing.outside - bearing.bore)
+    if not 1e-3 * bearing.bore < given.get("pitch_diameter", mean) < 1e-3 * bearing.outside:
+        raise ValueError(f"pitch_diameter must be between bore and outside diameter of {bearing.text}")
+    if given.get("diameter", 0.0) >= half:
+        raise ValueError(f"element_diameter must be below the height of the section of {bearing.text}, {half:g} m")
+    taken = given.get("n_elements", 0) * given.get("diameter", 0.0)
+    if taken >= math.pi * given.get("pitch_diameter", mean):
+        raise ValueError("n_elements: so many elements of this diameter do not fit beside each other")
+    if given.get("length", 0.0) > 1e-3 * bearing.width:
+        raise ValueError(f"roller_length must be at most the width of {bearing.text}, {1e-3 * bearing.width:g} m")
+
+
+__all__ = ["Bearing", "Estimate", "find"]

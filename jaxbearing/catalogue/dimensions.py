@@ -1,0 +1,45 @@
+"""Boundary dimensions and internal clearances of standard bearings, from the tables in `data`."""
+
+import functools
+import tomllib
+from importlib import resources
+from typing import Any
+
+
+def boundary_dimensions(kind: str, series: str, bore: float) -> tuple[float, ...] | None:
+    """The dimensions of a bearing after its bore, mm; `None` if the table does not have it.
+
+    **Arguments:** `kind`: of `Designation`; `series`: dimension series of ISO 15, or series of tapered roller bearings;
+    `bore`: mm.
+
+    Radial bearings have outside diameter and width. Tapered ones have D, T, B, C, and the usual half angle of the cup
+    with its standard deviation, degrees.
+    """
+    rows = _tables(_file(kind))[series]["sizes"]
+    return next((tuple(map(float, row[1:])) for row in rows if row[0] == bore), None)
+
+
+def bores(kind: str, series: str) -> list[float]:
+    """The bores of a series that the table has, mm; arguments as those of `boundary_dimensions`."""
+    return [float(row[0]) for row in _tables(_file(kind))[series]["sizes"]]
+
+
+def clearance_limits(kind: str, clearance_class: str, bore: float) -> tuple[float, float] | None:
+    """Least and greatest radial internal clearance of ISO 5753-1, micrometres; `None` where the table ends.
+
+    **Arguments:** `kind`: "deep_groove" or "cylindrical"; `clearance_class`: "C2", "CN", "C3" or "C4"; `bore`: mm.
+    """
+    column = 2 + 2 * ("C2", "CN", "C3", "C4").index(clearance_class)
+    rows = _tables("clearances")[kind]
+    found = (row[column : column + 2] for row in rows if row[0] < bore <= row[1])
+    return next(((float(least), float(greatest)) for least, greatest in found), None)
+
+
+def _file(kind: str) -> str:
+    return "tapered" if kind == "tapered" else "radial"
+
+
+@functools.cache
+def _tables(name: str) -> dict[str, Any]:
+    file = resources.files("jaxbearing.catalogue") / "data" / f"{name}.toml"
+    return tomllib.loads(file.read_text(encoding="utf-8"))

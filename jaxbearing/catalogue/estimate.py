@@ -1,0 +1,286 @@
+r"""Internal geometry from boundary dimensions and ratings: the most probable one, with intervals.
+
+For every number of rolling elements, and every usual size of balls and cylindrical rollers, the other unknowns x follow
+from a least-squares problem
+
+$$\min_x \sum_k \left(\frac{g_k(x) - m_k}{s_k}\right)^2,$$
+
+whose terms are the usual proportions (`proportions.py`), what is given (with $s_k$ = 1e-5), and the logarithms of
+printed over computed ratings. The ratings are those of `life.capacity` and `life.static`, with their derivatives by JAX. The
+candidates are compared by the probability of Laplace's approximation, $e^{-\chi^2/2}\det(J^TJ)^{-1/2}$, which also
+makes the intervals.
+"""
+
+import math
+from collections.abc import Callable, Mapping
+from typing import Any, NamedTuple
+
+import jax
+import jax.numpy as jnp
+import numpy as np
+from jax.scipy.linalg import cho_solve
+from jaxtyping import Array
+
+from ..life.capacity import ball_capacity, roller_capacity
+from ..life.static import ball_static_capacity, roller_static_capacity
+from ..programs import KeptProgram
+from .designation import Designation
+from .proportions import FILL_ANGLE, GAP, Normal, proportions_of, usual_sizes
+
+UNKNOWNS = ("diameter", "pitch", "length", "inner_groove", "outer_groove", "angle")
+"""ln of the element's diameter (mm; of tapered rollers, at mid length), of the pitch diameter (mm) and of the effective
+roller length (mm), ln of both conformities less 0.5, contact angle (rad)."""
+GIVEN = 1e-5
+"""Standard deviation of what is given: of a logarithm, or rad."""
+STEPS = 12
+"""Gauss-Newton steps. The problems are nearly linear in these unknowns: the last step is below 1e-9."""
+LONGEST_STEP = 0.3
+LANES = 512
+"""Candidates that a program takes; fewer are padded, so that one program serves all bearings of a family."""
+QUANTILE = 1.645
+"""Half width of an interval of 90 % in standard deviations."""
+FILLS = (0.5, 0.985)
+"""Z D/(pi d_m) of candidates."""
+
+
+class Estimate(NamedTuple):
+    """A number of the geometry: SI value, least and greatest value of its 90 % interval, and whether it was given."""
+
+    value: float
+    least: float
+    greatest: float
+    given: bool = False
+
+
+class Geometry(NamedTuple):
+    """The most probable geometry, and its ratings by the package's formulas.
+
+    **Arguments:** `n_elements`: number of balls or rollers; `diameter`, `pitch_diameter`, `length` (of rollers), m;
+    `conformity_inner`, `conformity_outer`: those of the ratings; `contact_angle`, rad; `dynamic_capacity`,
+    `static_capacity`: computed, N; `standard_size`: whether the diameter is one of the usual sizes.
+    """
+
+    n_elements: Estimate
+    diameter: Estimate
+    pitch_diameter: Estimate
+    length: Estimate
+    conformity_inner: Estimate
+    conformity_outer: Estimate
+    contact_angle: Estimate
+    dynamic_capacity: float
+    static_capacity: float
+    standard_size: bool
+
+
+def estimate(bearing: Designation, given: Mapping[str, float], angle: Normal) -> Geometry:
+    """The internal geometry of a bearing.
+
+    **Arguments:**
+    - `bearing`: its designation, with the boundary dimensions.
+    - `given`: what is known, SI: "n_elements", "diameter", "pitch_diameter", "length", "dynamic_capacity",
+      "static_capacity".
+    - `angle`: contact angle, rad, with a deviation of 0 if it is given.
+    """
+    rollers = bearing.kind in ("cylindrical", "tapered")
+    terms = _terms(bearing, given, angle)
+    counts, sizes, standard = _candidates(bearing, given, terms)
+    lanes = LANES
+    mask = np.arange(lanes) < len(counts)
+    padded = [np.resize(column, lanes).astype(float) for column in (counts, sizes)]
+    size_weight = np.asarray(0.0 if math.isnan(sizes[0]) else 1.0 / GIVEN)
+    program = _PROGRAMS["roller" if rollers else "ball"]
+    out = program(padded[0], np.nan_to_num(np.log(padded[1])), size_weight, terms)
+    return _chosen({name: np.asarray(value) for name, value in out.items()}, mask, counts, given, angle, standard)
+
+
+def _terms(bearing: Designation, given: Mapping[str, float], angle: Normal) -> dict[str, Any]:
+    """Numbers of the least-squares problem: means and weights (1/deviation) of its terms, and the boundary sizes."""
+    usual = proportions_of(bearing.kind, bearing.series)
+    half, mean = 0.5 * (bearing.outside - bearing.bore), 0.5 * (bearing.outside + bearing.bore)
+    width = bearing.width if bearing.cup_width is None else bearing.cup_width
+    shifted = lambda law, scale: Normal(law.mean + math.log(scale), law.deviation)
+    priors = {
+        "diameter": shifted(usual.diameter, half),
+        "pitch": shifted(usual.pitch, mean),
+        "length": shifted(usual.length, width) if math.isfinite(usual.length.deviation) else Normal(0.0, GIVEN),
+        "inner_groove": usual.inner_groove,
+        "outer_groove": usual.outer_groove,
+        "angle": angle,
+    }
+    for name, field in (("diameter", "diameter"), ("pitch", "pitch_diameter"), ("length", "length")):
+        if field in given:
+            priors[name] = Normal(math.log(1e3 * given[field]), GIVEN)
+    ratings = [
+        _rating(given.get(name), law)
+        for name, law in (("dynamic_capacity", usual.dynamic), ("static_capacity", usual.static))
+    ]
+    weight = lambda law: 1.0 / max(law.deviation, GIVEN)
+    return {
+        "mean": np.array([priors[name].mean for name in UNKNOWNS]),
+        "weight": np.array([weight(priors[name]) for name in UNKNOWNS]),
+        "rating": np.array([law.mean for law in ratings]),
+        "rating_weight": np.array([weight(law) for law in ratings]),
+        "fill": np.array([usual.fill.mean, usual.gap_fill.mean, usual.angle_fill.mean]),
+        "fill_weight": np.array([weight(law) for law in (usual.fill, usual.gap_fill, usual.angle_fill)]),
+    }
+
+
+def _rating(value: float | None, law: Normal) -> Normal:
+    """ln of the computed rating, N, that a printed one stands for."""
+    return Normal(0.0, math.inf) if value is None else Normal(math.log(value) - law.mean, law.deviation)
+
+
+def _candidates(
+    bearing: Designation, given: Mapping[str, float], terms: Mapping[str, Any]
+) -> tuple[np.ndarray, np.ndarray, bool]:
+    """Numbers of elements and diameters, mm, of the candidates, likeliest first, and whether the diameters are usual
+    sizes. A diameter of NaN is an unknown of the least-squares problem."""
+    middle, pitch = math.exp(terms["mean"][0]), math.exp(terms["mean"][1])
+    spread = 1.0 / terms["weight"][0]
+    sizes, standard = np.empty(0), False
+    if "diameter" in given:
+        sizes = np.array([1e3 * given["diameter"]])
+    else:
+        sizes = usual_sizes(bearing.kind, middle, spread)
+        standard = len(sizes) > 0
+    trial = sizes if len(sizes) else np.array([middle * math.exp(-2.0 * spread), middle * math.exp(2.0 * spread)])
+    numbers = np.arange(3, 200)
+    if "n_elements" in given:
+        numbers = np.array([round(given["n_elements"])])
+    if not len(sizes):
+        fits = [number for number in numbers if _fills(number, trial, pitch).any() or len(numbers) == 1]
+        fits = fits or [round(FILLS[1] * math.pi * pitch / middle)]
+        return np.array(fits), np.full(len(fits), math.nan), standard
+    count, size = (column.ravel() for column in np.meshgrid(numbers, sizes, indexing="ij"))
+    kept = _fills(count, size, pitch) | (len(numbers) == 1)
+    count, size = count[kept], size[kept]
+    order = np.argsort(np.abs(np.log(size / middle)) / spread + np.abs(np.log(count * size / (2.7 * pitch))) / 0.1)
+    return count[order][:LANES], size[order][:LANES], standard
+
+
+def _fills(count: Any, size: np.ndarray, pitch: float) -> Any:
+    fill = count * size / (math.pi * pitch)
+    return (fill > FILLS[0]) & (fill < FILLS[1])
+
+
+def _solved(
+    ratings: Callable[[Array, Array], Array], counts: Array, sizes: Array, size_weight: Array, terms: dict[str, Array]
+) -> dict[str, Array]:
+    """The solutions of all candidates at once; `ratings`: ln of C and C0 from unknowns and number of elements."""
+
+    def candidate(count: Array, size: Array) -> dict[str, Array]:
+        residual = lambda x: _residual(x, count, size, size_weight, terms, ratings)
+
+        def step(state: tuple[Array, ...], _: None) -> tuple[tuple[Array, ...], None]:
+            """The residual and the factor of the normal equations at the state, and the next state."""
+            x = state[0]
+            left, jacobian = residual(x), jax.jacfwd(residual)(x)
+            factor = jnp.linalg.cholesky(jacobian.T @ jacobian)
+            change = cho_solve((factor, True), -jacobian.T @ left)
+            longest = jnp.maximum(jnp.max(jnp.abs(change)), LONGEST_STEP)
+            return (x + change * LONGEST_STEP / longest, x, left, factor), None
+
+        start = terms["mean"].at[0].set(jnp.where(size_weight > 0.0, size, terms["mean"][0]))
+        nothing = jnp.zeros(len(UNKNOWNS) + 6), jnp.eye(len(UNKNOWNS))
+        (_, x, left, factor), _ = jax.lax.scan(step, (start, start, *nothing), length=STEPS)
+        return {
+            "x": x,
+            "misfit": left @ left + 2.0 * jnp.sum(jnp.log(jnp.diagonal(factor))),
+            "variance": jnp.diagonal(cho_solve((factor, True), jnp.eye(len(UNKNOWNS)))),
+            "ratings": ratings(x, count),
+        }
+
+    return jax.vmap(candidate)(counts, sizes)
+
+
+def _residual(
+    x: Array, count: Array, size: Array, size_weight: Array, terms: dict[str, Array], ratings: Callable[..., Array]
+) -> Array:
+    diameter, pitch = jnp.exp(x[0]), jnp.exp(x[1])
+    log_fill = jnp.log(count / math.pi) + x[0] - x[1]
+    gap = GAP[0] + GAP[1] * diameter + GAP[2] * pitch
+    # arcsin is at most pi/2: candidates leave the balls room
+    angle = (count - 1.0) * 2.0 * jnp.arcsin(jnp.minimum(diameter / pitch, 0.99))
+    fills = jnp.stack([log_fill, log_fill + jnp.log1p(gap / diameter), jnp.log(angle / math.radians(FILL_ANGLE))])
+    return jnp.concatenate(
+        [
+            (x - terms["mean"]) * terms["weight"],
+            (ratings(x, count) - terms["rating"]) * terms["rating_weight"],
+            (fills - terms["fill"]) * terms["fill_weight"],
+            jnp.reshape((x[0] - size) * size_weight, (1,)),
+        ]
+    )
+
+
+def _ball_ratings(x: Array, count: Array) -> Array:
+    """ln of C and C0, N, of balls."""
+    size, pitch = 1e-3 * jnp.exp(x[0]), 1e-3 * jnp.exp(x[1])
+    inner, outer = 0.5 + jnp.exp(x[3]), 0.5 + jnp.exp(x[4])
+    dynamic = ball_capacity(count, size, pitch, x[5], inner, outer)
+    return jnp.log(jnp.stack([dynamic, ball_static_capacity(count, size, pitch, x[5], inner)]))
+
+
+def _roller_ratings(x: Array, count: Array) -> Array:
+    """ln of C and C0, N, of rollers."""
+    sizes = 1e-3 * jnp.exp(x[0]), 1e-3 * jnp.exp(x[1]), 1e-3 * jnp.exp(x[2]), x[5]
+    return jnp.log(jnp.stack([roller_capacity(count, *sizes), roller_static_capacity(count, *sizes)]))
+
+
+def _balls(counts: Array, sizes: Array, size_weight: Array, terms: dict[str, Array]) -> dict[str, Array]:
+    return _solved(_ball_ratings, counts, sizes, size_weight, terms)
+
+
+def _rollers(counts: Array, sizes: Array, size_weight: Array, terms: dict[str, Array]) -> dict[str, Array]:
+    return _solved(_roller_ratings, counts, sizes, size_weight, terms)
+
+
+_PROGRAMS = {"ball": KeptProgram(_balls, quick=True), "roller": KeptProgram(_rollers, quick=True)}
+
+
+def _chosen(
+    out: Mapping[str, np.ndarray],
+    mask: np.ndarray,
+    counts: np.ndarray,
+    given: Mapping[str, float],
+    angle: Normal,
+    standard: bool,
+) -> Geometry:
+    """The likeliest candidate, and intervals from all of them."""
+    misfit = np.where(mask & np.isfinite(out["misfit"]), out["misfit"], np.inf)
+    best = int(np.argmin(misfit))
+    chance = np.exp(-0.5 * (misfit - misfit[best]))
+    chance = chance / chance.sum()
+
+    def spread(values: np.ndarray, variance: np.ndarray | float) -> tuple[float, float]:
+        kept = np.where(chance > 0.0, values, 0.0)
+        mean = float(chance @ kept)
+        within = float(chance @ (np.where(chance > 0.0, variance, 0.0) + np.where(chance > 0.0, kept - mean, 0.0) ** 2))
+        reach = QUANTILE * math.sqrt(within)
+        at = float(values[best])
+        return min(mean - reach, at), max(mean + reach, at)
+
+    def of(name: str, field: str, law: Callable[[float], float]) -> Estimate:
+        index = UNKNOWNS.index(name)
+        values = out["x"][:, index]
+        least, greatest = spread(values, out["variance"][:, index])
+        known = field in given or (name == "angle" and angle.deviation == 0.0)
+        return Estimate(law(float(values[best])), law(least), law(greatest), known)
+
+    length = lambda value: 1e-3 * math.exp(value)
+    groove = lambda value: 0.5 + math.exp(value)
+    number = int(counts[best])
+    least, greatest = spread(np.resize(counts, len(mask)).astype(float), 0.0)
+    n_elements = Estimate(number, math.floor(least + 0.5), math.ceil(greatest - 0.5), "n_elements" in given)
+    ratings = np.exp(out["ratings"][best])
+    return Geometry(
+        n_elements=n_elements,
+        diameter=of("diameter", "diameter", length),
+        pitch_diameter=of("pitch", "pitch_diameter", length),
+        length=of("length", "length", length),
+        conformity_inner=of("inner_groove", "", groove),
+        conformity_outer=of("outer_groove", "", groove),
+        contact_angle=of("angle", "contact_angle", float),
+        dynamic_capacity=float(ratings[0]),
+        static_capacity=float(ratings[1]),
+        standard_size=standard,
+    )

@@ -1,0 +1,253 @@
+"""The commented scene file of a standard bearing."""
+
+import math
+from collections.abc import Iterator, Mapping
+from typing import NamedTuple
+
+from .designation import Designation
+from .dimensions import clearance_limits
+from .estimate import Estimate, Geometry
+from .tapered import TaperedShape, tapered_shape
+
+KINDS = {"cylindrical": "cylindrical_roller_bearing", "tapered": "tapered_roller_bearing"}
+LOAD_SHARE = {"deep_groove": (0.1, 0.0), "cylindrical": (0.1, None), "tapered": (0.1, 0.1)}
+"""Radial and axial load of the example over the dynamic rating; `None`: the kind has no axial load."""
+OTHER_SHARE = 0.05, 0.05
+SPEED = 150_000.0
+"""Speed of the example times mean diameter, mm/min: moderate."""
+UNKNOWN_CLEARANCE = {"C2": 0.08, "CN": 0.25, "C3": 0.45, "C4": 0.7}
+"""Clearance over bore, micrometres per millimetre, beyond the table: a usual size, within a half."""
+GROOVES = {"inner": (0.52, 0.51, 0.53), "outer": (0.53, 0.515, 0.54)}
+"""Usual conformities with the range of makers, where the ratings do not tell them."""
+
+
+class Line(NamedTuple):
+    """A field of a scene file: its value as it is written, and the comment."""
+
+    name: str
+    value: str
+    comment: str
+
+
+def scene_text(bearing: Designation, geometry: Geometry, given: Mapping[str, float]) -> str:
+    """The file: boundary dimensions, internal geometry with intervals, materials, rating, an example of operation."""
+    kind = KINDS.get(bearing.kind, "ball_bearing")
+    parts = [*_head(bearing, geometry, given), "", f'kind = "{kind}"', ""]
+    parts += _table("geometry", list(_geometry(bearing, geometry)))
+    if bearing.design in ("NJ", "NUP"):
+        side = '"both"' if bearing.design == "NUP" else '"+x"'
+        parts += [
+            f"# The flanges of type {bearing.design} carry axial loads once their stiffness is given (examples):",
+            '# flange_stiffness = "60 N/um^(10/9)"',
+            '# flange_gap       = "0.1 mm"',
+            f"# thrust           = {side}",
+            "",
+        ]
+    elements = "balls" if kind == "ball_bearing" else "rollers"
+    parts += _table("materials", [Line("rings", '"52100"', ""), Line(elements, '"52100"', "")])
+    if kind == "ball_bearing":
+        parts += _table("kinematics", [Line("attitude", '"outer"', "")])
+    rating = list(_rating(given))
+    left = {0: "C and C0 are", 1: "the other rating is"}.get(len(rating))
+    parts += _table("rating", rating, f"  # {left} computed from the geometry" if left else "")
+    parts += _table("operation", list(_operation(bearing, geometry, given)))
+    parts += _hints(bearing)
+    return "\n".join(parts).rstrip() + "\n"
+
+
+def sharper(bearing: Designation, given: Mapping[str, float]) -> str:
+    """What would make the estimates surer, as options of the command; empty if everything is given."""
+    rollers = bearing.kind in ("cylindrical", "tapered")
+    options = {
+        "static_capacity": "--static-capacity",
+        "dynamic_capacity": "--dynamic-capacity",
+        "n_elements": "--rollers" if rollers else "--balls",
+        "diameter": "--roller-diameter" if rollers else "--ball-diameter",
+        "pitch_diameter": "--pitch-diameter",
+    }
+    if rollers:
+        options["length"] = "--roller-length"
+    if bearing.kind not in ("deep_groove", "cylindrical") and bearing.contact_angle is None:
+        options["contact_angle"] = "--contact-angle"
+    return ", ".join(option for name, option in options.items() if name not in given)
+
+
+def _head(bearing: Designation, geometry: Geometry, given: Mapping[str, float]) -> Iterator[str]:
+    sizes = f"{bearing.bore:g} x {bearing.outside:g} x {bearing.width:g} mm"
+    yield f"# {bearing.text}: {bearing.in_words}, {sizes} (bore, outside diameter, width)."
+    yield "# Boundary dimensions are standard. What is marked `estimated` is not a maker's number: it follows from"
+    yield f"# usual proportions{_told(given)}. The intervals hold 90 % of what is likely."
+    dynamic, static = _kilo(geometry.dynamic_capacity), _kilo(geometry.static_capacity)
+    yield f"# Ratings of this geometry, computed: C = {dynamic} (ISO 281), C0 = {static} (limits of ISO 76)."
+    options = sharper(bearing, given)
+    if options:
+        yield f"# What would sharpen the estimates: {options}."
+    for note in bearing.notes:
+        yield f"# {note}."
+
+
+def _told(given: Mapping[str, float]) -> str:
+    words = {
+        "dynamic_capacity": lambda value: f"C = {_kilo(value)}",
+        "static_capacity": lambda value: f"C0 = {_kilo(value)}",
+        "n_elements": lambda value: f"{value:g} rolling elements",
+        "diameter": lambda value: f"an element diameter of {_mm(value)}",
+        "pitch_diameter": lambda value: f"a pitch diameter of {_mm(value)}",
+        "length": lambda value: f"a roller length of {_mm(value)}",
+        "contact_angle": lambda value: f"a contact angle of {math.degrees(value):g} deg",
+    }
+    said = [words[name](value) for name, value in given.items()]
+    return f" and from {', '.join(said)}" if said else ", without any rating"
+
+
+def _geometry(bearing: Designation, geometry: Geometry) -> Iterator[Line]:
+    if bearing.kind == "tapered":
+        yield from _tapered(bearing, geometry)
+    elif bearing.kind == "cylindrical":
+        yield from _cylindrical(bearing, geometry)
+    else:
+        yield from _balls(bearing, geometry)
+    for name, value in (("bore", bearing.bore), ("outside_diameter", bearing.outside), ("width", bearing.width)):
+        yield Line(name, f'"{value:g} mm"', "standard")
+
+
+def _balls(bearing: Designation, geometry: Geometry) -> Iterator[Line]:
+    yield Line("n_balls", f"{geometry.n_elements.value:g}", _interval(geometry.n_elements))
+    size = _millimetres(geometry.diameter)
+    yield Line("ball_diameter", f'"{_mm(geometry.diameter.value)}"', size + _usual(geometry))
+    yield _pitch(geometry)
+    for race, found in (("inner", geometry.conformity_inner), ("outer", geometry.conformity_outer)):
+        value, least, greatest = found[:3] if bearing.kind == "spindle" else GROOVES[race]
+        yield Line(f"conformity_{race}", f"{value:.4g}", f"estimated: {least:.4g} to {greatest:.4g}")
+    if bearing.kind == "deep_groove":
+        yield _clearance(bearing)
+    else:
+        yield _angle(bearing, geometry.contact_angle)
+
+
+def _cylindrical(bearing: Designation, geometry: Geometry) -> Iterator[Line]:
+    yield Line("n_rollers", f"{geometry.n_elements.value:g}", _interval(geometry.n_elements))
+    yield _pitch(geometry)
+    size = _millimetres(geometry.diameter)
+    yield Line("roller_diameter", f'"{_mm(geometry.diameter.value)}"', size + _usual(geometry))
+    yield _length(geometry)
+    yield _clearance(bearing)
+
+
+def _pitch(geometry: Geometry) -> Line:
+    found = geometry.pitch_diameter
+    return Line("pitch_diameter", f'"{_mm(found.value) if found.given else _short(found.value)}"', _millimetres(found))
+
+
+def _length(geometry: Geometry) -> Line:
+    found = geometry.length
+    value = _mm(found.value) if found.given else _short(found.value)
+    return Line("roller_length", f'"{value}"', _millimetres(found) + ", effective")
+
+
+def _tapered(bearing: Designation, geometry: Geometry) -> Iterator[Line]:
+    shape = shape_of(geometry)
+    yield Line("n_rollers", f"{geometry.n_elements.value:g}", _interval(geometry.n_elements))
+    middle = _millimetres(geometry.diameter)
+    comment = f"of the big end; at mid length {_short(geometry.diameter.value)}, {middle}"
+    yield Line("roller_diameter", f'"{_mm(shape.roller_diameter)}"', comment)
+    yield _length(geometry)
+    yield _angle(bearing, geometry.contact_angle)
+    pitch = f"pitch diameter {_short(geometry.pitch_diameter.value)}, {_millimetres(geometry.pitch_diameter)}"
+    yield Line("roller_half_angle", f'"{_degrees(shape.half_angle)}"', f"from the apex and the {pitch}")
+    yield Line("flange_angle", f'"{_degrees(shape.flange_angle)}"', "estimated: contact of the rib near the rim")
+    yield Line("end_radius", f'"{_mm(shape.end_radius)}"', "estimated: 0.95 of the roller cone's length, 0.85 to 0.99")
+
+
+def shape_of(geometry: Geometry) -> TaperedShape:
+    """Cones and ends of the rollers of a tapered roller bearing."""
+    sizes = (geometry.diameter, geometry.pitch_diameter, geometry.length, geometry.contact_angle)
+    return tapered_shape(*(one.value for one in sizes))
+
+
+def _clearance(bearing: Designation) -> Line:
+    limits = clearance_limits(bearing.kind, bearing.clearance_class, bearing.bore)
+    if limits is None:
+        value = UNKNOWN_CLEARANCE[bearing.clearance_class] * bearing.bore
+        comment = f"estimated: {0.5 * value:.0f} to {1.5 * value:.0f} um, beyond the table"
+        return Line("diametral_clearance", f'"{value:.0f} um"', f"{comment}; unmounted")
+    name = "normal class" if bearing.clearance_class == "CN" else f"class {bearing.clearance_class}"
+    comment = f"unmounted, {name} of ISO 5753-1: {limits[0]:g} to {limits[1]:g} um"
+    return Line("diametral_clearance", f'"{0.5 * sum(limits):g} um"', comment)
+
+
+def _angle(bearing: Designation, found: Estimate) -> Line:
+    comment = _interval(found, 180.0 / math.pi, " deg")
+    if found.given and bearing.contact_angle == float(f"{math.degrees(found.value):.6g}"):
+        comment = "as the designation states"
+    return Line("contact_angle", f'"{_degrees(found.value)}"', comment)
+
+
+def _rating(given: Mapping[str, float]) -> Iterator[Line]:
+    for name in ("dynamic_capacity", "static_capacity"):
+        if name in given:
+            yield Line(name, f'"{_kilo(given[name])}"', "given")
+
+
+def _operation(bearing: Designation, geometry: Geometry, given: Mapping[str, float]) -> Iterator[Line]:
+    radial, axial = LOAD_SHARE.get(bearing.kind, OTHER_SHARE)
+    capacity = given.get("dynamic_capacity", geometry.dynamic_capacity)
+    speed = SPEED / (0.5 * (bearing.bore + bearing.outside))
+    yield Line("inner_speed", f'"{_two_digits(speed):g} rpm"', "an example")
+    yield Line("radial_load", f'"{_two_digits(radial * capacity):g} N"', "an example")
+    if axial is not None:
+        yield Line("axial_load", f'"{_two_digits(axial * capacity):g} N"', "an example")
+
+
+def _hints(bearing: Designation) -> Iterator[str]:
+    yield "# Seats make the clearance of the running bearing a result (classes and size are examples):"
+    yield "# [fits]"
+    yield '# shaft_tolerance   = "k5"'
+    yield '# housing_tolerance = "H7"'
+    yield f'# housing_outside   = "{1.5 * bearing.outside:g} mm"'
+
+
+def _table(name: str, lines: list[Line], comment: str = "") -> Iterator[str]:
+    """A table with its fields in columns."""
+    yield f"[{name}]{comment}"
+    wide = max((len(line.name) for line in lines), default=0)
+    long = max((len(line.value) for line in lines), default=0)
+    for line in lines:
+        text = f"{line.name:{wide}} = {line.value:{long}}"
+        yield f"{text}  # {line.comment}" if line.comment else text.rstrip()
+    yield ""
+
+
+def _interval(found: Estimate, scale: float = 1.0, unit: str = "") -> str:
+    if found.given:
+        return "given"
+    return f"estimated: {scale * found.least:.4g} to {scale * found.greatest:.4g}{unit}"
+
+
+def _millimetres(found: Estimate) -> str:
+    return _interval(found, 1e3, " mm")
+
+
+def _usual(geometry: Geometry) -> str:
+    return ", a usual size" if geometry.standard_size else ""
+
+
+def _mm(value: float) -> str:
+    return f"{1e3 * value:.6g} mm"
+
+
+def _short(value: float) -> str:
+    """A length with four digits."""
+    return f"{1e3 * value:.4g} mm"
+
+
+def _degrees(value: float) -> str:
+    return f"{math.degrees(value):.5g} deg"
+
+
+def _kilo(value: float) -> str:
+    return f"{1e-3 * value:.4g} kN"
+
+
+def _two_digits(value: float) -> float:
+    return float(f"{value:.2g}")

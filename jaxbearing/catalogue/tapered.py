@@ -1,0 +1,41 @@
+"""Angles and end spheres of tapered rollers from pitch diameter, mean roller diameter, length and cup angle."""
+
+import math
+from typing import NamedTuple
+
+TURNS = 60
+"""Steps of the fixed-point search, each of which takes about the fifth part of the error."""
+END_RADIUS = 0.95
+"""Radius of the roller's end sphere over the length of the roller's cone: usual."""
+RIB_HEIGHT = 0.8
+"""Distance of the rib contact from the roller's axis over the radius of the big end: low on the rib."""
+
+
+class TaperedShape(NamedTuple):
+    """What a scene needs. **Arguments:** `roller_diameter`: of the big end, m; `half_angle`, `flange_angle`: rad;
+    `end_radius`: m."""
+
+    roller_diameter: float
+    half_angle: float
+    flange_angle: float
+    end_radius: float
+
+
+def tapered_shape(mean_diameter: float, pitch_diameter: float, length: float, cup_angle: float) -> TaperedShape:
+    """The shape whose cones have a common apex.
+
+    With the roller's half angle $\\epsilon$ and its axis at $\\gamma = \\alpha_o - \\epsilon$ the pitch diameter is
+    $d_m = D_w\\sin\\gamma/\\tan\\epsilon - l\\sin\\gamma$ and the mean diameter $D_w - l\\sin\\epsilon$, as in
+    `bearings.tapered.geometry`.
+
+    **Arguments:** lengths, m; `cup_angle`: half angle of the cup, rad.
+    """
+    half = 0.0
+    for _ in range(TURNS):
+        tilt = math.sin(cup_angle - half)
+        big = mean_diameter + length * math.sin(half)
+        half = math.atan(big * tilt / (pitch_diameter + length * tilt))
+    big = mean_diameter + length * math.sin(half)
+    radius = END_RADIUS * 0.5 * big / math.sin(half)
+    flange = cup_angle - half - math.asin(RIB_HEIGHT * 0.5 * big / radius)
+    return TaperedShape(big, half, flange, radius)

@@ -1,0 +1,175 @@
+"""`jaxbearing new`: a scene file from the designation of a bearing."""
+
+import json
+import math
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from .messages import bad_input, refuse
+from .options import JsonOption, option_quantity
+from .output_files import unwritten
+from .terminal import console
+
+if TYPE_CHECKING:
+    from ..catalogue import Bearing
+
+
+def _quantity(name: str, what: str) -> Any:
+    return typer.Option(f"--{name}", metavar="VALUE", help=what)
+
+
+def new(
+    designation: Annotated[list[str], typer.Argument(metavar="DESIGNATION", help="Such as 6207, 7312-B or NU 311.")],
+    dynamic_capacity: Annotated[str | None, _quantity("dynamic-capacity", "C of a maker, e.g. '25.5 kN'.")] = None,
+    static_capacity: Annotated[str | None, _quantity("static-capacity", "C0 of a maker, e.g. '15.3 kN'.")] = None,
+    balls: Annotated[int | None, typer.Option("--balls", "--rollers", metavar="COUNT", help="Their number.")] = None,
+    diameter: Annotated[
+        str | None,
+        typer.Option(
+            "--ball-diameter", "--roller-diameter", metavar="VALUE", help="Of tapered rollers, that at mid length."
+        ),
+    ] = None,
+    pitch_diameter: Annotated[str | None, _quantity("pitch-diameter", "E.g. '53.5 mm'.")] = None,
+    roller_length: Annotated[str | None, _quantity("roller-length", "Effective length of the rollers.")] = None,
+    contact_angle: Annotated[
+        str | None, _quantity("contact-angle", "Of angular contact and tapered roller bearings, e.g. '40 deg'.")
+    ] = None,
+    output: Annotated[
+        Path | None,
+        typer.Option(
+            "--output", metavar="FILE", help="File to write; the designation with .toml in this folder if not given."
+        ),
+    ] = None,
+    force: Annotated[bool, typer.Option("--force", help="Overwrite an existing file.")] = False,
+    as_json: JsonOption = False,
+) -> None:
+    """Write a scene file for a standard bearing: boundary dimensions by its designation, an estimated internal geometry
+    with intervals. What is known of the bearing makes the estimates sharper."""
+    name = " ".join(designation)
+    with bad_input():
+        from ..catalogue import find, parse
+        from ..scenes.units import ANGLE, FORCE, LENGTH
+
+        bearing = parse(name)
+        texts = {
+            "dynamic_capacity": ("--dynamic-capacity", dynamic_capacity, FORCE),
+            "static_capacity": ("--static-capacity", static_capacity, FORCE),
+            "element_diameter": ("--ball-diameter or --roller-diameter", diameter, LENGTH),
+            "pitch_diameter": ("--pitch-diameter", pitch_diameter, LENGTH),
+            "roller_length": ("--roller-length", roller_length, LENGTH),
+            "contact_angle": ("--contact-angle", contact_angle, ANGLE),
+        }
+        given: dict[str, Any] = {
+            field: option_quantity(option, text, dimension, "> 0")
+            for field, (option, text, dimension) in texts.items()
+            if text is not None
+        }
+        target = _target(output, f"{bearing.name}.toml", force)
+        try:
+            found = find(name, n_elements=balls, **given)
+        except ValueError as error:
+            if type(error) is not ValueError:
+                raise
+            refuse(f"new {name}: {error}")
+        text = found.text()
+        # a geometry that cannot be built is said before anything is written
+        found.scene()
+    _write(target, text)
+    if as_json:
+        typer.echo(json.dumps(_as_json(found, target)))
+    else:
+        _show(found)
+        typer.echo(f"wrote {target}: jaxbearing solve {target}")
+
+
+def _target(output: Path | None, file: str, force: bool) -> Path:
+    """The file to write. **Raises:** `SceneError` if it is there already."""
+    from ..scenes.errors import SceneError
+
+    target = Path(file) if output is None else output
+    if target.is_dir():
+        target = target / file
+    if target.exists() and not force:
+        expected = "a new file (--output FILE), or --force to overwrite it"
+        raise SceneError(str(target), "", "a file that exists already", expected)
+    if not target.parent.is_dir():
+        raise SceneError(str(target), "", "no such folder", "a file in an existing folder")
+    return target
+
+
+def _write(target: Path, text: str) -> None:
+    from ..report.files import write_whole
+
+    try:
+        write_whole(target, text)
+    except OSError as error:
+        raise typer.Exit(unwritten(target, error)) from None
+
+
+_SHOWN = {
+    "n_elements": ("number of {}", 1.0, ""),
+    "diameter": ("{} diameter", 1e3, "mm"),
+    "pitch_diameter": ("pitch diameter", 1e3, "mm"),
+    "length": ("effective roller length", 1e3, "mm"),
+    "contact_angle": ("contact angle", 180.0 / math.pi, "deg"),
+}
+
+
+def _fields(found: "Bearing") -> list[str]:
+    """Fields of the geometry that the type of bearing has."""
+    kind = found.designation.kind
+    left_out = {"length"} if kind not in ("cylindrical", "tapered") else set()
+    if kind in ("deep_groove", "cylindrical"):
+        left_out.add("contact_angle")
+    return [name for name in _SHOWN if name not in left_out]
+
+
+def _show(found: "Bearing") -> None:
+    from rich.table import Table
+
+    from ..catalogue.scene_text import sharper
+
+    bearing, geometry = found.designation, found.geometry
+    element = "roller" if bearing.kind in ("cylindrical", "tapered") else "ball"
+    out = console()
+    sizes = f"{bearing.bore:g} x {bearing.outside:g} x {bearing.width:g} mm"
+    out.print(f"{bearing.text}: {bearing.in_words}, {sizes}", style="bold", markup=False)
+    table = Table.grid(padding=(0, 2, 0, 0))
+    for _ in range(3):
+        table.add_column(no_wrap=True)
+    for name in _fields(found):
+        label, scale, unit = _SHOWN[name]
+        one = getattr(geometry, name)
+        value = f"{scale * one.value:.5g} {unit}".strip()
+        least, greatest = f"{scale * one.least:.4g}", f"{scale * one.greatest:.4g}"
+        source = "known" if one.given else f"estimated, {least} to {greatest}"
+        table.add_row(label.format(f"{element}s" if name == "n_elements" else element), value, source)
+    ratings = (("C", "dynamic_capacity", "ISO 281"), ("C0", "static_capacity", "limits of ISO 76"))
+    for symbol, field, source in ratings:
+        printed = f"; given {1e-3 * found.given[field]:.4g} kN" if field in found.given else ""
+        table.add_row(symbol, f"{1e-3 * getattr(geometry, field):.4g} kN", f"of this geometry, {source}{printed}")
+    out.print(table)
+    options = sharper(bearing, found.given)
+    if options:
+        out.print(f"sharper with {options}", markup=False)
+    for note in bearing.notes:
+        out.print(f"note: {note}", markup=False)
+
+
+def _as_json(found: "Bearing", target: Path) -> dict[str, Any]:
+    bearing, geometry = found.designation, found.geometry
+    return {
+        "designation": bearing.text,
+        "kind": bearing.kind,
+        "bore": 1e-3 * bearing.bore,
+        "outside_diameter": 1e-3 * bearing.outside,
+        "width": 1e-3 * bearing.width,
+        "clearance_class": bearing.clearance_class,
+        "geometry": {name: getattr(geometry, name)._asdict() for name in _fields(found)},
+        "dynamic_capacity": geometry.dynamic_capacity,
+        "static_capacity": geometry.static_capacity,
+        "notes": list(bearing.notes),
+        "file": str(target),
+    }

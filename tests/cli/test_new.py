@@ -1,0 +1,87 @@
+"""`jaxbearing new`: files, options, messages."""
+
+import json
+import os
+import tomllib
+
+import pytest
+
+import jaxbearing as jb
+
+
+def test_writes_a_scene(jaxbearing_command, folder):
+    result = jaxbearing_command("new", "6207")
+    assert result.code == 0
+    assert "number of balls" in result.out
+    assert "25.67 kN" in result.out
+    assert "wrote 6207.toml: jaxbearing solve 6207.toml" in result.out
+    text = (folder / "6207.toml").read_text(encoding="utf-8")
+    assert "# estimated: 8 to 10" in text
+    assert jb.load_scene("6207.toml").geometry.n_balls == 9
+    assert jb.catalogue.find("6207").text() == text
+
+
+def test_words_of_a_designation_need_no_quotes(jaxbearing_command, folder):
+    assert jaxbearing_command("new", "NU", "311", "--output", "mine.toml").code == 0
+    assert os.listdir(folder) == ["mine.toml"]
+    assert tomllib.loads((folder / "mine.toml").read_text(encoding="utf-8"))["kind"] == "cylindrical_roller_bearing"
+
+
+def test_nothing_is_overwritten(jaxbearing_command, folder):
+    (folder / "6207.toml").write_text("mine", encoding="utf-8")
+    refused = jaxbearing_command("new", "6207")
+    assert refused.code == 2
+    assert "--force" in refused.err
+    assert (folder / "6207.toml").read_text(encoding="utf-8") == "mine"
+    assert jaxbearing_command("new", "6207", "--force").code == 0
+    assert "ball_bearing" in (folder / "6207.toml").read_text(encoding="utf-8")
+
+
+def test_what_is_known(jaxbearing_command, folder):
+    known = ("--dynamic-capacity", "48.5 kN", "--static-capacity", "46 kN", "--balls", "21", "--json")
+    result = jaxbearing_command("new", "7014 C", *known)
+    assert result.code == 0
+    found = json.loads(result.out)
+    assert found["geometry"]["n_elements"] == {"value": 21, "least": 21, "greatest": 21, "given": True}
+    assert found["dynamic_capacity"] == pytest.approx(48.5e3, rel=0.02)
+    assert found["file"] == "7014_C.toml"
+    scene = jb.load_scene("7014_C.toml")
+    assert float(scene.rating.dynamic_capacity) == 48.5e3
+    assert float(scene.geometry.ball_diameter) == pytest.approx(found["geometry"]["diameter"]["value"], rel=1e-4)
+
+
+def test_json_of_rollers(jaxbearing_command):
+    found = json.loads(jaxbearing_command("new", "30206", "--roller-length", "9.6 mm", "--rollers", "17", "--json").out)
+    assert found["kind"] == "tapered"
+    assert found["width"] == pytest.approx(17.25e-3)
+    assert found["geometry"]["length"]["given"]
+    assert found["geometry"]["contact_angle"]["least"] < found["geometry"]["contact_angle"]["greatest"]
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        (("6299",), "the nearest that are known: '629', '6219', '6209'"),
+        (("22210",), "spherical roller bearing, which is not modelled"),
+        (("6207", "--static-capacity", "15.3"), "--static-capacity"),
+        (("6207", "--static-capacity", "15.3 mm"), "a force"),
+        (("6207", "--contact-angle", "3 deg"), "follows from its clearance"),
+        (("6207", "--balls", "30"), "30 balls"),
+        (("6207", "--output", "no/such.toml"), "existing folder"),
+    ],
+)
+def test_bad_input(jaxbearing_command, folder, arguments, words):
+    result = jaxbearing_command("new", *arguments)
+    assert result.code == 2
+    assert words in result.err
+    assert result.err.startswith("error: ")
+    assert result.err.count("\n") == 1
+    assert os.listdir(folder) == []
+
+
+@pytest.mark.parametrize("verb", ["solve", "report"])
+def test_other_verbs_name_it(jaxbearing_command, verb):
+    result = jaxbearing_command(verb, "6205")
+    assert result.code == 2
+    assert "'jaxbearing new 6205' writes a scene" in result.err
+    assert "jaxbearing new" not in jaxbearing_command(verb, "6299").err
