@@ -29,8 +29,10 @@ def not_begun_to_dict(scene: Any, duration: float | None, error: SolveError) -> 
     from .backends.json import plain
 
     film, simulation = isinstance(scene, EHLLineContact), getattr(scene, "simulation", None)
-    rollers = (simulation or Simulation()).solver
-    solver = SOLVER if film else rollers if scene.thermal is None else WARM_UP_SOLVER
+    if film:
+        solver = SOLVER
+    else:
+        solver = (simulation or Simulation()).solver if scene.thermal is None else WARM_UP_SOLVER
     wanted = duration if duration is not None else getattr(simulation, "duration", None)
     common = {
         "completed": False,
