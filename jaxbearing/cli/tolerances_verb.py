@@ -98,7 +98,7 @@ def tolerances(
     from .quiet import without_false_alarms
 
     label = labelled(scene, changes)
-    analysis = Analysis(scatter, label, NewtonOptions(), once=True)
+    analysis = Analysis(scatter, label, NewtonOptions())
     enable_compilation_cache()
     local = samples and workers is None and scheduler is None
     use_cores((devices or min(cores(), -(-samples // _LANES))) if local else 1)

@@ -13,6 +13,8 @@ Place = tuple[float, float]
 
 TEXT = 9.5
 """Size of the texts."""
+LETTER = 0.56
+"""Width of a letter, in sizes: the room that texts are given."""
 
 
 @dataclass(frozen=True)

@@ -29,8 +29,12 @@ class Sectors(NamedTuple):
 
 
 def angle_of(history: History) -> Float[np.ndarray, " time"]:
-    """Angle by which the cage (or, without one, the first roller) has turned since the start, at each time, rad."""
+    """Angle by which the cage (or, without one, the first rolling element) has turned since the start, at each time,
+    rad."""
     instants = history.instants
+    if instants.cage is None and getattr(instants.elements, "orbital_speed", None) is None:
+        azimuth = np.asarray(instants.elements.azimuth)[:, 0]
+        return azimuth - azimuth[0]
     speed = instants.elements.orbital_speed[:, 0] if instants.cage is None else instants.cage.speed
     time, speed = np.asarray(history.time), np.asarray(speed)
     steps = 0.5 * (speed[1:] + speed[:-1]) * np.diff(time)
@@ -38,7 +42,7 @@ def angle_of(history: History) -> Float[np.ndarray, " time"]:
 
 
 def turns(history: History) -> Int[np.ndarray, " time"]:
-    """Whole turns of the cage (or, without one, of the first roller) since the start, at each time."""
+    """Whole turns of the cage (or, without one, of the first rolling element) since the start, at each time."""
     return np.floor(np.abs(angle_of(history)) / (2.0 * math.pi) + 1e-12).astype(int)
 
 
@@ -59,8 +63,8 @@ def peaks_by_turn(history: History) -> Float[np.ndarray, "2 turn element"] | Non
 
 
 def shocks(history: History) -> dict[str, list[dict[str, float]]]:
-    """Largest load of each roller on the front and the rear wall of its pocket, turn by turn: mean and maximum over the
-    rollers, N; the last turn may not be a whole one (`part` says how much of it there is)."""
+    """Largest load of each rolling element on the front and the rear wall of its pocket, turn by turn: mean and maximum
+    over the elements, N; the last turn may not be a whole one (`part` says how much of it there is)."""
     peaks = peaks_by_turn(history)
     if peaks is None:
         return {}

@@ -1,17 +1,19 @@
-"""Results of a scene and their exact derivatives by its numbers: one solve and one reverse pass."""
+"""Results of a scene and their exact derivatives by its numbers: one solve, by the program of `solve`, and a second
+program with one pass for each number."""
 
 from collections.abc import Mapping, Sequence
 from typing import Any, NamedTuple
 
-import equinox as eqx
 import jax
 import jax.numpy as jnp
 
 from .._scene import AbstractScene
 from ..numerics.garbage import rare_garbage_collection
 from ..numerics.newton import NewtonOptions
+from ..numerics.precision import as_float
 from ..programs import KeptProgram
-from ..solve import _solve_any
+from ..programs.differentiated import at_roots
+from ..solve import _solve_any, solve_with_roots
 from .results import names_in, values_of
 
 ALWAYS = ("fit.clearance", "fit.interference_inner", "fit.interference_outer")
@@ -26,23 +28,29 @@ class Slopes(NamedTuple):
     slopes: dict[str, dict[str, Any]]
 
 
-@rare_garbage_collection()
-def _differentiated(
-    scene: AbstractScene, numbers: dict[str, Any], wanted: Sequence[str] | None, options: NewtonOptions
-) -> tuple[Any, dict[str, Any], dict[str, dict[str, Any]]]:
-    def outputs(numbers_: dict[str, Any]) -> tuple[dict[str, Any], Any]:
-        solution = _solve_any(scene.replace(numbers_), options)
-        return values_of(solution, computed(solution, wanted)), solution
+def _slopes(
+    roots: tuple[Any, ...],
+    scene: AbstractScene,
+    numbers: dict[str, Any],
+    wanted: Sequence[str] | None,
+    options: NewtonOptions,
+) -> dict[str, dict[str, Any]]:
+    """Derivatives of each result by each number, from the roots of the solve: one number after the other in forward
+    mode, which makes the smallest program (see `programs.differentiated`)."""
 
-    values, pull_back, solution = jax.vjp(outputs, numbers, has_aux=True)
-    unit = jnp.eye(len(values))
-    (rows,) = jax.vmap(pull_back)({name: unit[:, i] for i, name in enumerate(values)})
-    slopes = {name: {path: rows[path][i] for path in numbers} for i, name in enumerate(values)}
-    return solution, values, slopes
+    def results(numbers_: dict[str, Any]) -> dict[str, Any]:
+        solution = at_roots(_solve_any, roots, scene.replace(numbers_), options)
+        return values_of(solution, computed(solution, wanted))
+
+    def by_one(place: Any) -> dict[str, Any]:
+        along = {path: jnp.where(place == i, 1.0, 0.0) for i, path in enumerate(numbers)}
+        return jax.jvp(results, (numbers,), (along,))[1]
+
+    rows = jax.lax.map(by_one, jnp.arange(len(numbers)))
+    return {name: {path: row[i] for i, path in enumerate(numbers)} for name, row in rows.items()}
 
 
-_ordinary = eqx.filter_jit(_differentiated)
-_once = KeptProgram(_differentiated, quick=True)
+_kept_slopes = KeptProgram(_slopes, quick=True)
 
 
 def computed(solution: Any, wanted: Sequence[str] | None) -> tuple[str, ...]:
@@ -52,21 +60,19 @@ def computed(solution: Any, wanted: Sequence[str] | None) -> tuple[str, ...]:
     return tuple(dict.fromkeys((*names_in(solution, wanted), *there)))
 
 
+@rare_garbage_collection()
 def slopes_at(
-    scene: AbstractScene,
-    numbers: Mapping[str, float],
-    wanted: Sequence[str] | None,
-    options: NewtonOptions,
-    *,
-    once: bool = False,
+    scene: AbstractScene, numbers: Mapping[str, float], wanted: Sequence[str] | None, options: NewtonOptions
 ) -> Slopes:
     """Results of a scene with other numbers, and their derivatives.
 
-    **Arguments:** `numbers`: dotted path -> SI value; `wanted`: names of results, see `names_in`; `once`: for a process
-    that asks few times and ends.
+    **Arguments:** `numbers`: dotted path -> SI value; `wanted`: names of results, see `names_in`.
 
     **Raises:** `ValueError` for a name that is no result; a failed solve is a solution with its status.
     """
+    names = None if wanted is None else tuple(wanted)
     given = {path: jnp.asarray(value, jnp.float64) for path, value in numbers.items()}
-    program = _once if once else _ordinary
-    return Slopes(*program(scene, given, None if wanted is None else tuple(wanted), options))
+    own = jax.tree.map(as_float, scene)
+    solution, roots = solve_with_roots(jax.tree.map(as_float, scene.replace(given)), options)
+    values = values_of(solution, computed(solution, names))
+    return Slopes(solution, values, _kept_slopes(roots, own, given, names, options))

@@ -94,12 +94,11 @@ def tolerances(
 
 @dataclass(frozen=True)
 class Analysis:
-    """The numbers that scatter, and how they are solved. `once`: for a process that asks few times and ends."""
+    """The numbers that scatter, and how they are solved."""
 
     scatter: Scatter
     label: str
     options: NewtonOptions
-    once: bool = False
 
     def tolerances(self, results: Sequence[str] | None = None) -> Tolerances:
         """Scatter by the delta method. **Raises:** `SolveError`; `ValueError` for an unknown result."""
@@ -161,7 +160,7 @@ class Analysis:
         return replace(found, results=spreads, samples=samples)
 
     def _at(self, numbers: Mapping[str, float], results: Sequence[str] | None) -> Slopes:
-        return slopes_at(self.scatter.scene, numbers, results, self.options, once=self.once)
+        return slopes_at(self.scatter.scene, numbers, results, self.options)
 
 
 def _with_samples(

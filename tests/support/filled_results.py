@@ -170,7 +170,7 @@ def _field(field, sizes):
     return jax.ShapeDtypeStruct(shape, jnp.int64 if whole else jnp.float64)
 
 
-def slopes_of(scene, numbers, wanted, options, once=False):
+def slopes_of(scene, numbers, wanted, options):
     """Stands for `tolerance.derivatives.slopes_at`: made up results, each with a slope by each number."""
     solution = solution_of(scene.replace(dict(numbers)))
     values = values_of(solution, computed(solution, wanted))

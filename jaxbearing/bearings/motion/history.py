@@ -18,6 +18,9 @@ from ..._scene import AbstractSolution
 from ...numerics.status import Status
 from ..solution import RingDisplacement, label, losses_not_modelled
 
+CAGE_ANGLE = "q"
+"""Name of the component of a cage's state that is its angle in the frame of the run times the pitch radius, m."""
+
 
 class CageMotion(eqx.Module):
     """The cage's centre, in the plane with Y along the load line and X a quarter turn behind it, and its speeds."""
@@ -45,7 +48,9 @@ class PocketPeaks(eqx.Module):
 class Instant(eqx.Module):
     """State and results at one time; in a `History` every array has the times in front.
 
-    **Arguments:** the labels of the fields describe them; others are those of the steady solution of the family.
+    **Arguments:** the labels of the fields describe them; others are those of the steady solution of the family. Of the
+    rolling elements every family has `azimuth`, which goes on beyond a turn; reports show their `orbital_speed`, and
+    `load`, `pressure` and `sliding` with `_inner` and `_outer`, where it has them.
     """
 
     element_state: ClassVar[tuple[str, ...]] = ()

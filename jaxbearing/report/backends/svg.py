@@ -5,11 +5,11 @@ import xml.etree.ElementTree as ET
 from collections.abc import Iterable, Sequence
 
 from ..colours import FAINT, INK
-from ..diagrams import TEXT, Diagram
+from ..diagrams import LETTER, TEXT, Diagram
 
 _MARGIN = 8.0
-_LETTER, _LINE = 0.56, 1.25
-"""Width of a letter and height of a line, in font sizes: the room that texts are given."""
+_LINE = 1.25
+"""Height of a line, in font sizes."""
 
 Point = tuple[float, float]
 
@@ -69,26 +69,38 @@ class Drawing:
         corners = [(x1, y1), (bx - half * uy, by + half * ux), (bx + half * uy, by - half * ux)]
         self._add("polygon", points=" ".join(f"{x:.2f},{y:.2f}" for x, y in corners), fill=colour)
 
-    def text(self, place: Point, words: str, size: float = 12.0, anchor: str = "middle", fill: str = INK) -> None:
-        """Lines of text, centred in height about the place, with a white edge that keeps them readable."""
+    def text(
+        self,
+        place: Point,
+        words: str,
+        size: float = 12.0,
+        anchor: str = "middle",
+        fill: str = INK,
+        edge: bool = True,
+    ) -> None:
+        """Lines of text, centred in height about the place; a white `edge` keeps them readable on lines."""
         x, y = self._at(place)
         lines = words.split("\n")
-        width = _LETTER * size * max(map(len, lines))
+        width = LETTER * size * max(map(len, lines))
         left = x - {"start": 0.0, "middle": 0.5, "end": 1.0}[anchor] * width
         height = _LINE * size * len(lines)
         self._seen += [(left, y - height / 2), (left + width, y + height / 2)]
-        halo = {"paint_order": "stroke", "stroke": "#ffffff", "stroke_width": 3.5, "stroke_linejoin": "round"}
+        halo: dict[str, str | float] = {}
+        if edge:
+            halo = {"paint_order": "stroke", "stroke": "#ffffff", "stroke_width": 3.5, "stroke_linejoin": "round"}
         element = self._add("text", font_size=size, text_anchor=anchor, fill=fill, **halo)
         for i, line in enumerate(lines):
             base = y + size * (0.35 + _LINE * (i - (len(lines) - 1) / 2))
             ET.SubElement(element, "tspan", {"x": f"{x:.2f}", "y": f"{base:.2f}"}).text = line
 
-    def markup(self) -> str:
-        """The element, as wide as what surrounds it."""
+    def markup(self, natural: bool = False) -> str:
+        """The element, as wide as what surrounds it; with `natural` at most as wide as its points say."""
         x, y = (sorted(values) for values in zip(*self._seen, strict=True))
         left, top = x[0] - _MARGIN, y[0] - _MARGIN
         width, height = x[-1] - left + _MARGIN, y[-1] - top + _MARGIN
         self._root.set("viewBox", f"{left:.1f} {top:.1f} {width:.1f} {height:.1f}")
+        if natural:
+            self._root.set("style", f"max-width:{width:.1f}pt")
         return ET.tostring(self._root, encoding="unicode")
 
     def _at(self, point: Sequence[float]) -> Point:
@@ -103,7 +115,7 @@ class Drawing:
 
 
 def diagram_markup(diagram: Diagram) -> str:
-    """A diagram as one element, whose texts grow and shrink with it."""
+    """A diagram as one element, whose texts shrink with it where there is less room than it wants."""
     drawing = Drawing(f"{diagram.title}. {diagram.caption}", 1.0)
     for arrow in diagram.arrows:
         drawing.polygon(arrow.outline(), fill=arrow.colour)
@@ -113,8 +125,8 @@ def diagram_markup(diagram: Diagram) -> str:
             corners = [(-x, -y), (x, -y), (x, y), (-x, y)]
             places = [(box.centre[0] + right, box.centre[1] + up) for right, up in corners]
             drawing.polygon(places, fill=box.fill, stroke=FAINT, stroke_width=0.8)
-        drawing.text(box.centre, box.text, size=TEXT)
+        drawing.text(box.centre, box.text, size=TEXT, edge=False)
     for arrow in diagram.arrows:
         if arrow.text:
             drawing.text(arrow.at, arrow.text, size=TEXT)
-    return drawing.markup()
+    return drawing.markup(natural=True)

@@ -1,11 +1,12 @@
 """The thermal network of a bearing as a diagram: temperatures in boxes, heat along arrows."""
 
+import math
 from collections.abc import Iterator
 from typing import Any
 
 from ...thermal.result import ThermalResult
 from ..colours import CAGE, CURVES, LOSS, ROLLER
-from ..diagrams import Arrow, Box, Diagram, Place
+from ..diagrams import LETTER, TEXT, Arrow, Box, Diagram, Place
 from ..display import ZERO_CELSIUS, with_unit
 
 HEAT, OIL = CURVES[1], CURVES[0]
@@ -30,6 +31,8 @@ BESIDE = 26.0
 THICKEST, THINNEST = 9.0, 0.75
 """Widths of the arrow with most heat, and of those too small to be in proportion."""
 WITHOUT_LOSSES = ("shaft", "housing")
+ROUND_OFF = 1e-9
+"""Part of the largest heat below which the loss of a node is the round-off of its balance, and has no arrow."""
 _UPRIGHT = 32.0
 """Distance from the middle of a box to the upright arrows at either side of it."""
 
@@ -48,7 +51,7 @@ def network_diagram(thermal: ThermalResult) -> Diagram:
     boxes = [*_nodes(thermal), _ambient(thermal, watts)]
     arrows = [
         *(_between(pair, heat, scale) for pair, heat in watts.items()),
-        *(_loss(node, heat, scale) for node, heat in losses.items()),
+        *(_loss(node, heat, scale) for node, heat in losses.items() if abs(heat) > ROUND_OFF * largest),
     ]
     if flows_oil:
         more, inlet_outlet = _oil(thermal, to_oil, scale)
@@ -67,12 +70,20 @@ def network_diagram(thermal: ThermalResult) -> Diagram:
 
 
 def _caption(thermal: ThermalResult, total: float) -> str:
-    oil = "" if thermal.oil_out is None else f"{_watts(float(thermal.heat_to_oil))} to the oil that leaves and "
+    heat = float(thermal.heat_to_oil)
+    flows_oil = thermal.oil_out is not None
+    oil = "" if not flows_oil else f"the oil that flows through {_carries(heat)}, and "
+    blue = "Blue: the oil that flows through, with the heat that it takes away or brings. " if flows_oil else ""
     return (
-        f"{_watts(total)} of losses heat the nodes; {oil}{_watts(float(thermal.heat_to_ambient))} to the ambient. "
-        "Arrow widths are proportional to the heat, down to a smallest width that still can be seen. Blue-grey arrows "
-        "are the parts of the losses that heat each node."
+        f"{_watts(total)} of losses heat the nodes; {oil}{_watts(float(thermal.heat_to_ambient))} go to the ambient. "
+        "Blue-grey: the part of the losses that heats each node. Orange: heat that flows to the colder end. "
+        f"{blue}Arrow widths are proportional to the heat, down to a smallest width that still can be seen."
     )
+
+
+def _carries(heat: float) -> str:
+    """What oil that flows through does with so much heat, W."""
+    return f"{'takes' if heat >= 0.0 else 'brings'} {_watts(abs(heat))}"
 
 
 def _nodes(thermal: ThermalResult) -> Iterator[Box]:
@@ -93,14 +104,14 @@ def _between(pair: tuple[str, str], heat: float, scale: float) -> Arrow:
     """Heat along a path, from the warmer to the colder end."""
     first, second = pair
     x, y = PLACES[first]
+    text, width = _watts(abs(heat)), _width(heat, scale)
     if second == "ambient":
-        x += _UPRIGHT
+        # the loss of a ring comes from below too
+        x += 0.0 if first == "bearing" else _UPRIGHT
         start, end, at = (x, y - HIGH / 2.0), (x, AMBIENT + 12.0), (x + BESIDE, 0.5 * (AMBIENT - 5.0))
     elif second == "oil":
         start, end = (x, y + HIGH / 2.0), _oil_side(x)
-        share = 0.5 if x == MIDDLE else 0.42
-        at = (start[0] + share * (end[0] - start[0]), start[1] + share * (end[1] - start[1]))
-        at = (at[0] + BESIDE, at[1]) if x == MIDDLE else at
+        at = (x + BESIDE, 0.5 * (start[1] + end[1])) if x == MIDDLE else _beside(start, end, text, width)
     else:
         other = PLACES[second][0]
         side = 1.0 if other > x else -1.0
@@ -108,7 +119,20 @@ def _between(pair: tuple[str, str], heat: float, scale: float) -> Arrow:
         at = (0.5 * (x + other), y + 15.0)
     if heat < 0.0:
         start, end = end, start
-    return Arrow(start, end, _watts(abs(heat)), at, _width(heat, scale), HEAT)
+    return Arrow(start, end, text, at, width, HEAT)
+
+
+def _beside(start: Place, end: Place, text: str, width: float) -> Place:
+    """Centre of a text beside the middle of a slanting arrow: above one from a housing, below the others, where nothing
+    else is drawn."""
+    x, y = end[0] - start[0], end[1] - start[1]
+    length = math.hypot(x, y)
+    across, along = abs(y) / length, abs(x) / length
+    away = 0.5 * (LETTER * TEXT * len(text) * across + TEXT * along + width) + 3.0
+    above = abs(start[0] - MIDDLE) > abs(PLACES["outer_ring"][0] - MIDDLE)
+    outwards = 1.0 if (start[0] > MIDDLE) == above else -1.0
+    middle = 0.5 * (start[0] + end[0]), 0.5 * (start[1] + end[1])
+    return middle[0] + outwards * across * away, middle[1] + (1.0 if above else -1.0) * along * away
 
 
 def _oil_side(x: float) -> Place:
@@ -134,15 +158,14 @@ def _oil(thermal: ThermalResult, heat: float, scale: float) -> tuple[list[Box], 
     """Oil that enters at the left and leaves at the right of the node that holds it, with the heat that it takes."""
     x, y = PLACES["oil" if "oil" in thermal.nodes else thermal.nodes[0]]
     y += 10.0
-    away, edge = 178.0, WIDE / 2.0
+    away, edge, beside = 170.0, WIDE / 2.0, 32.0
     boxes = [
-        Box((x - away, y), WIDE, HIGH, f"oil in\n{_degrees(thermal.oil_in)}", "none"),
-        Box((x + away, y), WIDE, HIGH, f"oil out\n{_degrees(thermal.oil_out)}", "none"),
+        Box((x - away, y), 2.0 * beside, HIGH, f"oil in\n{_degrees(thermal.oil_in)}", "none"),
+        Box((x + away, y), 2.0 * beside, HIGH, f"oil out\n{_degrees(thermal.oil_out)}", "none"),
     ]
-    inlet = Arrow((x - away + edge, y), (x - edge, y), "", (x, y), THINNEST, OIL)
-    taken = Arrow(
-        (x + edge, y), (x + away - edge, y), _watts(heat), (x + away / 2.0, y + 15.0), _width(heat, scale), OIL
-    )
+    start, end = x + edge, x + away - beside
+    inlet = Arrow((x - away + beside, y), (x - edge, y), "", (x, y), THINNEST, OIL)
+    taken = Arrow((start, y), (end, y), _carries(heat), (0.5 * (start + end), y + 18.0), _width(heat, scale), OIL)
     return boxes, [inlet, taken]
 
 

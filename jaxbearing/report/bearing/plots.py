@@ -13,7 +13,7 @@ from .panels import SIDES, bearing_diagrams, load_panel, loss_panel, round_panel
 if TYPE_CHECKING:
     import matplotlib.figure
 
-_DIAGRAM = 4.2
+_DIAGRAM = 5.2
 """Height of a diagram on the page, inches."""
 
 
@@ -30,17 +30,19 @@ def plot(solution: Solution, title: str) -> "matplotlib.figure.Figure":
     whole = Page(height=HEIGHT + _DIAGRAM * len(diagrams))
     heights = HEIGHT, *([_DIAGRAM] * len(diagrams))
     upper, *lower = whole.subfigures(len(heights), 1, squeeze=False, height_ratios=heights)[:, 0]
-    _charts(upper, solution, title)
+    _charts(upper, solution, title, noted=False)
+    notes = foot(lower[-1], solution.warnings)
     for part, diagram in zip(lower, diagrams, strict=True):
-        draw_diagram(part.add_axes((0.03, 0.03, 0.94, 0.87)), diagram)
+        bottom = 0.03 + (0.035 * notes if part is lower[-1] else 0.0)
+        draw_diagram(part.add_axes((0.03, bottom, 0.94, 0.92 - bottom)), diagram)
     return whole
 
 
-def _charts(figure: Any, solution: Solution, title: str) -> None:
-    """All but the diagrams, on a page of paper A4 or a part of one of this size."""
+def _charts(figure: Any, solution: Solution, title: str, noted: bool = True) -> None:
+    """All but the diagrams, on a page of paper A4 or a part of one of this size. `noted`: with notes at its foot."""
     losses, rounds = loss_panel(solution), round_panels(solution)
     head(figure, title, pretty(operating_point(solution)))
-    bottom = 0.075 + 0.019 * foot(figure, solution.warnings)
+    bottom = 0.075 + (0.019 * foot(figure, solution.warnings) if noted else 0.0)
     if losses is not None:
         left = figure.add_gridspec(1, 1, left=0.125, right=0.575, top=0.843, bottom=0.47)
         right = figure.add_gridspec(1, 1, left=0.67, right=0.93, top=0.818, bottom=0.47)

@@ -1,6 +1,7 @@
 """The motion layer serves a family that it has never heard of: rollers that coast, whose motion is a closed form."""
 
 import dataclasses
+import io
 from typing import ClassVar, NamedTuple
 
 import equinox as eqx
@@ -9,6 +10,7 @@ import jax.numpy as jnp
 import numpy as np
 import pytest
 from jaxtyping import Array, Float
+from rich.console import Console
 
 import jaxbearing as jb
 from jaxbearing.bearings.motion.family import AbstractDynamics, AbstractMotion, Resumed, Start
@@ -17,7 +19,16 @@ from jaxbearing.bearings.parts import azimuths
 from jaxbearing.bearings.solution import RING_FREEDOMS, RingDisplacement, label
 from jaxbearing.numerics.arrow import ArrowPoint
 from jaxbearing.numerics.status import Status
-from jaxbearing.report.histories import history_to_dataset
+from jaxbearing.report.backends.matplotlib.animations import save_animation
+from jaxbearing.report.histories import (
+    animate_history,
+    history_to_dataset,
+    history_to_dict,
+    plot_history,
+    print_history,
+)
+from jaxbearing.report.history_shocks import angle_of
+from jaxbearing.report.plots import save_plot
 
 MASS, TIME = 0.1, 2e-3
 """Mass of a roller, kg, and time in which its speed falls to 1/e, s."""
@@ -172,6 +183,23 @@ def test_batch_and_file(run):
     found = history_to_dataset(run)
     assert list(found["element_state"].values) == ["q", "v"]
     np.testing.assert_allclose(found["state_elements"][-1, 1], closed_form(scene, 2e-3)[1], rtol=1e-7)
+
+
+def test_reports(run, tmp_path, monkeypatch):
+    """Statistics, screen, page and moving pictures show what this family has: no load, no cage, no sliding speed."""
+    monkeypatch.setattr("jaxbearing.report.backends.matplotlib.animations.PICTURES", 3)
+    scene = coasting()
+    summary = history_to_dict(run)["summary"]
+    np.testing.assert_allclose(summary["power_loss"]["total"], np.mean(run.instants.power_loss.total), rtol=1e-12)
+    assert not {"pressure_max", "sliding_max", "cage", "pocket_load"} & set(summary)
+    screen = Console(file=io.StringIO(), width=100)
+    print_history(run, "coasting", screen)
+    assert "Mean power" in screen.file.getvalue()
+    save_plot(plot_history(run, "coasting"), tmp_path / "run.png")
+    save_animation(animate_history(run, scene, "coasting"), tmp_path / "run.gif")
+    assert (tmp_path / "run.gif").stat().st_size > 3_000
+    turned = np.asarray(run.instants.elements.azimuth)[:, 0]
+    np.testing.assert_allclose(angle_of(run), turned - turned[0], rtol=1e-12)
 
 
 def test_pure_trajectory_has_derivatives():

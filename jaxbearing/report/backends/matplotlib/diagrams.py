@@ -12,15 +12,21 @@ _POINTS = 72.0
 
 
 def draw_diagram(axes: Any, diagram: Diagram) -> None:
-    """Draws a diagram on axes, as large as they allow; shapes and texts to one scale."""
+    """Draws a diagram on axes, at most at its own size; shapes and texts to one scale."""
     from matplotlib.patches import Polygon, Rectangle
 
-    axes.set(xlim=(diagram.low[0], diagram.high[0]), ylim=(diagram.low[1], diagram.high[1]), aspect="equal")
     axes.set_axis_off()
     title_of(axes, diagram.title)
     room = axes.get_window_extent()
     dots = axes.figure.dpi / _POINTS
-    scale = min(room.width / diagram.size[0], room.height / diagram.size[1]) / dots
+    scale = min(1.0, room.width / dots / diagram.size[0], room.height / dots / diagram.size[1])
+    # what is left of the room lies round the diagram
+    for set_limits, low, high, across in (
+        (axes.set_xlim, diagram.low[0], diagram.high[0], room.width),
+        (axes.set_ylim, diagram.low[1], diagram.high[1], room.height),
+    ):
+        middle, half = 0.5 * (low + high), 0.5 * across / dots / scale
+        set_limits(middle - half, middle + half)
     style = {"fontsize": scale * TEXT, "ha": "center", "va": "center", "color": INK}
     for arrow in diagram.arrows:
         axes.add_patch(Polygon(arrow.outline(), closed=True, facecolor=arrow.colour, edgecolor="none"))

@@ -1,4 +1,7 @@
-"""A run in motion: rolling elements, cage and rings to scale but for their clearances, with the loads between them."""
+"""A run in motion: rolling elements, cage and rings to scale but for their clearances, with the loads between them.
+
+It serves every family that moves: sizes are those that all bearings have, and what the results of a family do not hold,
+as loads or a cage, is not drawn."""
 
 import math
 from collections.abc import Callable
@@ -6,20 +9,21 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from ....bearings.cylindrical.scene import CylindricalRollerBearing
-from ....bearings.motion.history import History
+from ....bearings.motion.family import AbstractMovingBearing
+from ....bearings.motion.history import CAGE_ANGLE, History
 from ....bearings.parts import azimuths
 from ...backends.matplotlib.animations import instants, moving, moving_head
 from ...colours import INK, INNER, OUTER
 from ...panels import round_up
 from ..azimuth import place_at
 from ..operation import load_angle
+from .json_report import by_side
 
 if TYPE_CHECKING:
     import matplotlib.animation
 
 _CLEARANCE_SHOWN = 0.3
-"""Half the pocket clearance as drawn, over the gap between neighbouring rollers."""
+"""Half the pocket clearance as drawn, over the gap between neighbouring rolling elements."""
 _LEAST_POCKET_LOAD = 1.0
 """N: from here on the colours of pocket loads go by the logarithm."""
 
@@ -27,26 +31,24 @@ _LEAST_POCKET_LOAD = 1.0
 class _Picture(NamedTuple):
     """Drawing of one instant: places in mm on a page with the load line downwards."""
 
-    rollers: np.ndarray
+    elements: np.ndarray
     bars: np.ndarray | None
     inner_ring: np.ndarray
     cage: np.ndarray
-    load_inner: np.ndarray
-    load_outer: np.ndarray
+    loads: dict[str, np.ndarray]
     pocket: np.ndarray | None
 
 
-def exaggeration(scene: CylindricalRollerBearing) -> float:
-    """Factor on clearances, positions of rollers in their pockets and offsets of cage and inner ring."""
-    geometry = scene.geometry
+def exaggeration(scene: AbstractMovingBearing) -> float:
+    """Factor on clearances, positions of elements in their pockets and offsets of cage and inner ring."""
     if scene.cage is None:
         return 1.0
-    gap = float(geometry.pitch_diameter) * math.pi / geometry.n_rollers - float(geometry.roller_diameter)
+    gap = float(scene.geometry.pitch_diameter) * math.pi / scene.n_elements - float(scene.mean_diameter)
     factor = _CLEARANCE_SHOWN * gap / (0.5 * float(scene.cage.pocket_clearance))
     return max(1.0, math.floor(factor) if factor < 10.0 else 5.0 * math.floor(factor / 5.0))
 
 
-def animate(history: History, scene: CylindricalRollerBearing, title: str) -> "matplotlib.animation.FuncAnimation":
+def animate(history: History, scene: AbstractMovingBearing, title: str) -> "matplotlib.animation.FuncAnimation":
     """Evenly spaced instants of a run as moving pictures; pocket loads are the largest since the picture before."""
     from matplotlib.figure import Figure
 
@@ -63,17 +65,18 @@ def _on_page(radius: Any, azimuth: Any) -> np.ndarray:
     return np.stack(place_at(azimuth, radius), axis=-1)
 
 
-def _picture(history: History, scene: CylindricalRollerBearing, at: int, since: int, factor: float) -> _Picture:
-    instants, geometry = history.instants, scene.geometry
-    pitch = 1e3 * float(geometry.pitch_radius)
-    elements, count = instants.elements, geometry.n_rollers
-    places = np.asarray(azimuths(geometry, count))
+def _picture(history: History, scene: AbstractMovingBearing, at: int, since: int, factor: float) -> _Picture:
+    instants, count = history.instants, scene.n_elements
+    pitch = 500.0 * float(scene.geometry.pitch_diameter)
+    elements = instants.elements
+    places = np.asarray(azimuths(scene.geometry, count))
     azimuth, bars, cage = np.asarray(elements.azimuth)[at], None, np.zeros(2)
-    if instants.cage is not None:
+    if instants.cage is not None and CAGE_ANGLE in instants.cage_state:
         # the middle of each pocket; X lies a quarter turn behind the load line
-        turned = float(instants.frame_angle[at]) + float(instants.state_cage[at, 2]) * 1e3 / pitch
+        angle = float(instants.state_cage[at, instants.cage_state.index(CAGE_ANGLE)])
+        turned = float(instants.frame_angle[at]) + angle * 1e3 / pitch
         azimuth = places + turned + factor * (azimuth - places - turned)
-        # half way between two rollers
+        # half way between two elements
         bars = places + math.pi / count + turned
         cage = 1e3 * factor * np.array([-float(instants.cage.x[at]), -float(instants.cage.y[at])])
     ring = instants.ring
@@ -84,19 +87,18 @@ def _picture(history: History, scene: CylindricalRollerBearing, at: int, since: 
         front, rear = (np.asarray(getattr(instants.pocket_peaks, f))[window].max(axis=0) for f in ("front", "rear"))
         pocket = np.where(front > rear, front, -rear)
     return _Picture(
-        rollers=_on_page(pitch, azimuth),
+        elements=_on_page(pitch, azimuth),
         bars=bars,
         inner_ring=shift,
         cage=cage,
-        load_inner=np.asarray(elements.load_inner)[at],
-        load_outer=np.asarray(elements.load_outer)[at],
+        loads={side: values[at] for side, values in by_side(elements, "load").items()},
         pocket=pocket,
     )
 
 
 def _draw(
     figure: Any,
-    scene: CylindricalRollerBearing,
+    scene: AbstractMovingBearing,
     history: History,
     pictures: list[_Picture],
     chosen: np.ndarray,
@@ -109,10 +111,9 @@ def _draw(
     from matplotlib.colors import SymLogNorm
     from matplotlib.patches import Circle
 
-    geometry = scene.geometry
-    diameter = 1e3 * float(geometry.roller_diameter)
-    inner, outer = 1e3 * float(geometry.inner_radius), 1e3 * float(geometry.outer_radius)
-    most = max(max(float(p.load_inner.max()), float(p.load_outer.max())) for p in pictures)
+    diameter = 1e3 * float(scene.mean_diameter)
+    inner, outer = (500.0 * float(one) for one in scene.raceway_diameters)
+    most = max((float(load.max()) for p in pictures for load in p.loads.values()), default=0.0)
     bar = 0.3 * inner
     size = outer + 3.0 + bar
     axes = figure.add_axes((0.01, 0.01, 0.86, 0.89))
@@ -125,15 +126,15 @@ def _draw(
     along = _on_page(inner, load_angle(scene.operation) or 0.0)
     style: dict[str, Any] = {"ha": "center", "fontsize": 9, "arrowprops": {"arrowstyle": "->"}}
     axes.annotate("load", tuple(0.25 * along), tuple(-0.1 * along), **style)
-    scale = bar / round_up(most)
+    scale = bar / round_up(most) if most > 0.0 else 0.0
     peak = max((float(np.abs(p.pocket).max()) for p in pictures if p.pocket is not None), default=0.0)
     norm = SymLogNorm(_LEAST_POCKET_LOAD, vmin=-round_up(peak), vmax=round_up(peak))
-    rollers = EllipseCollection(
+    drawn = EllipseCollection(
         diameter,
         diameter,
         0.0,
         units="xy",
-        offsets=pictures[0].rollers,
+        offsets=pictures[0].elements,
         offset_transform=axes.transData,
         edgecolors=INK,
         linewidths=0.5,
@@ -141,10 +142,11 @@ def _draw(
         cmap="RdBu_r",
         norm=norm,
     )
-    axes.add_collection(rollers)
+    axes.add_collection(drawn)
     bars = LineCollection([], colors="#B8860B", linewidths=2.4)
-    loads = [LineCollection([], colors=colour, linewidths=3.0) for colour in (INNER, OUTER)]
-    for lines in (bars, *loads):
+    raceways = {"inner": (inner, -1, INNER), "outer": (outer, 1, OUTER)}
+    loads = {side: LineCollection([], colors=raceways[side][2], linewidths=3.0) for side in pictures[0].loads}
+    for lines in (bars, *loads.values()):
         axes.add_collection(lines)
     if peak > 0.0:
         place = figure.add_axes((0.88, 0.2, 0.02, 0.5))
@@ -152,33 +154,35 @@ def _draw(
         place.tick_params(labelsize=8)
         place.set_title("pocket, N\n+ front\n- rear", fontsize=8, loc="left")
     words = "all to scale" if factor == 1.0 else f"to scale, but clearances and offsets x {factor:g}"
-    words += f"; longest bar {round_up(most):.4g} N: blue on the inner race, red on the outer"
+    if most > 0.0:
+        words += f"; longest bar {round_up(most):.4g} N: blue on the inner race, red on the outer"
     clock = moving_head(figure, title, words)
     time, cage = 1e3 * np.asarray(history.time), history.instants.cage
     first_bar, last_bar = 1e3 * _cage_radii(scene)
 
     def update(number: int) -> list[Any]:
         now, at = pictures[number], chosen[number]
-        rollers.set_offsets(now.rollers)
+        drawn.set_offsets(now.elements)
         if now.pocket is not None:
-            rollers.set_array(now.pocket)
+            drawn.set_array(now.pocket)
         ring.center = tuple(now.inner_ring)
         if now.bars is not None:
             bars.set_segments([*np.stack([_on_page(r, now.bars) + now.cage for r in (first_bar, last_bar)], axis=1)])
-        azimuth = np.arctan2(now.rollers[:, 0], -now.rollers[:, 1])
-        for lines, values, base, sign in ((loads[0], now.load_inner, inner, -1), (loads[1], now.load_outer, outer, 1)):
+        azimuth = np.arctan2(now.elements[:, 0], -now.elements[:, 1])
+        for side, values in now.loads.items():
+            base, sign, _ = raceways[side]
             ends = [_on_page(base + sign * (1.5 + scale * part * values), azimuth) for part in (0.0, 1.0)]
-            lines.set_segments([*np.stack(ends, axis=1)])
+            loads[side].set_segments([*np.stack(ends, axis=1)])
         text = f"{time[at]:8.3f} ms"
         if cage is not None:
             text += f"     cage slip {100.0 * float(cage.slip[at]):.3g} %"
         clock.set_text(text)
-        return [rollers, bars, ring, *loads, clock]
+        return [drawn, bars, ring, *loads.values(), clock]
 
     return update
 
 
-def _cage_radii(scene: CylindricalRollerBearing) -> np.ndarray:
+def _cage_radii(scene: AbstractMovingBearing) -> np.ndarray:
     """Bore and outside radius of the cage, m."""
     if scene.cage is None:
         return np.zeros(2)

@@ -13,7 +13,7 @@ from ...history_shocks import FACES, Sectors, sectors, shocks, whirl_ratio
 
 def statistics(history: History) -> dict[str, Any]:
     """Means and extremes over the run, SI."""
-    instants = history.instants
+    instants, elements = history.instants, history.instants.elements
     found: dict[str, Any] = {
         "inner_speed": _spread(instants.inner_speed),
         "ring": {"radial": _spread(instants.ring.radial)},
@@ -21,11 +21,12 @@ def statistics(history: History) -> dict[str, Any]:
         "drive_power": float(np.mean(instants.drive_power)),
         "power": {"loss": _spread(instants.power_loss.total), "drive": _spread(instants.drive_power)}
         | _stored(history),
-        "pressure_max": float(max(np.max(instants.elements.pressure_inner), np.max(instants.elements.pressure_outer))),
-        "sliding_max": float(
-            max(np.abs(instants.elements.sliding_inner).max(), np.abs(instants.elements.sliding_outer).max())
-        ),
     }
+    for name in ("pressure", "sliding"):
+        # what the contacts of a family have
+        values = by_side(elements, name).values()
+        if values:
+            found[f"{name}_max"] = float(max(np.abs(one).max() for one in values))
     if instants.cage is not None:
         found["cage"] = {
             "speed": _spread(instants.cage.speed),
@@ -42,6 +43,12 @@ def statistics(history: History) -> dict[str, Any]:
     if spread is not None:
         found["shocks"] = _by_sector(spread)
     return found
+
+
+def by_side(elements: Any, name: str) -> dict[str, np.ndarray]:
+    """A result of the contacts on either raceway, as far as the elements of a family have it."""
+    found = {side: getattr(elements, f"{name}_{side}", None) for side in ("inner", "outer")}
+    return {side: np.asarray(values) for side, values in found.items() if values is not None}
 
 
 def _by_sector(spread: Sectors) -> dict[str, Any]:

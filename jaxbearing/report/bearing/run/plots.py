@@ -8,20 +8,21 @@ from ....bearings.motion.history import History
 from ...backends.matplotlib.sheet import foot, grid_lines, head, title_of
 from ...colours import FAINT, INNER, LOSS, OUTER
 from ...display import axis_unit, displayed
+from .json_report import by_side
 
 if TYPE_CHECKING:
     import matplotlib.figure
 
 _RPM = displayed(1.0, "rad/s")
 FOLLOWED = 7
-"""The roller whose loads are drawn over its azimuth: the eighth, as in the source's figures."""
+"""The rolling element whose loads are drawn over its azimuth: the eighth, as in the source's figures."""
 
 
 def plot(history: History, title: str) -> "matplotlib.figure.Figure":
     """The page; what the scene does not model is not on it."""
     from ...backends.matplotlib.page import Page
 
-    figure, instants = Page(), history.instants
+    figure, instants, element = Page(), history.instants, history.element_name
     time = 1e3 * np.asarray(history.time)
     head(figure, title, f"{time[-1]:.6g} ms, {int(history.accepted)} steps, {history.solver}")
     bottom = 0.08 + 0.019 * foot(figure, history.warnings if history.completed else [history.failure()])
@@ -29,12 +30,14 @@ def plot(history: History, title: str) -> "matplotlib.figure.Figure":
     cage = instants.cage
     if cage is not None:
         draw_orbit(figure.add_subplot(grid[0, 0]), cage)
-    _speeds(figure.add_subplot(grid[0, 1]), time, instants)
+    _speeds(figure.add_subplot(grid[0, 1]), time, instants, element)
     _power(figure.add_subplot(grid[0, 2]), time, instants)
     if instants.pocket_peaks is not None:
-        _pocket_over_time(figure.add_subplot(grid[1, 0]), time, instants.pocket_peaks)
-        _pocket_over_azimuth(figure.add_subplot(grid[1, 1]), instants)
-    _sliding(figure.add_subplot(grid[1, 2]), instants.elements)
+        _pocket_over_time(figure.add_subplot(grid[1, 0]), time, instants.pocket_peaks, element)
+        _pocket_over_azimuth(figure.add_subplot(grid[1, 1]), instants, element)
+    sliding = by_side(instants.elements, "sliding")
+    if sliding:
+        _sliding(figure.add_subplot(grid[1, 2]), instants.elements, sliding, element)
     return figure
 
 
@@ -50,15 +53,19 @@ def draw_orbit(axes: Any, cage: Any) -> None:
     grid_lines(axes)
 
 
-def _speeds(axes: Any, time: Any, instants: Any) -> None:
-    rollers = _RPM * np.asarray(instants.elements.orbital_speed)
-    axes.fill_between(time, rollers.min(axis=1), rollers.max(axis=1), color=INNER, alpha=0.2, linewidth=0)
-    axes.plot(time, rollers[:, FOLLOWED % rollers.shape[1]], color=INNER, linewidth=0.7, label="a roller (band: all)")
+def _speeds(axes: Any, time: Any, instants: Any, element: str) -> None:
+    found = getattr(instants.elements, "orbital_speed", None)
+    if found is not None:
+        speeds = _RPM * np.asarray(found)
+        axes.fill_between(time, speeds.min(axis=1), speeds.max(axis=1), color=INNER, alpha=0.2, linewidth=0)
+        one = speeds[:, FOLLOWED % speeds.shape[1]]
+        axes.plot(time, one, color=INNER, linewidth=0.7, label=f"a {element} (band: all)")
     if instants.cage is not None:
         axes.plot(time, _RPM * np.asarray(instants.cage.speed), color=OUTER, linewidth=1.2, label="cage")
     axes.set_xlabel("time, ms", fontsize=9)
     axes.ticklabel_format(axis="y", useOffset=False)
-    axes.legend(fontsize=8, frameon=False)
+    if axes.lines:
+        axes.legend(fontsize=8, frameon=False)
     title_of(axes, "Orbital speeds, rpm")
     grid_lines(axes)
 
@@ -74,7 +81,7 @@ def _power(axes: Any, time: Any, instants: Any) -> None:
     grid_lines(axes)
 
 
-def _pocket_over_time(axes: Any, time: Any, peaks: Any) -> None:
+def _pocket_over_time(axes: Any, time: Any, peaks: Any, element: str) -> None:
     front, rear = np.asarray(peaks.front).max(axis=1), np.asarray(peaks.rear).max(axis=1)
     axes.plot(time, front, color=OUTER, linewidth=0.8, label="front")
     axes.plot(time, -rear, color=INNER, linewidth=0.8, label="rear (drawn downwards)")
@@ -82,11 +89,11 @@ def _pocket_over_time(axes: Any, time: Any, peaks: Any) -> None:
     axes.set_ylim(-1.35 * float(rear.max()) - 0.1 * float(front.max()), None)
     axes.set_xlabel("time, ms", fontsize=9)
     axes.legend(fontsize=8, frameon=False, loc="lower left", ncols=2)
-    title_of(axes, "Largest pocket load of all rollers, N")
+    title_of(axes, f"Largest pocket load of all {element}s, N")
     grid_lines(axes)
 
 
-def _pocket_over_azimuth(axes: Any, instants: Any) -> None:
+def _pocket_over_azimuth(axes: Any, instants: Any, element: str) -> None:
     """Peaks between instants, of whichever wall is pressed more."""
     turned = lambda values: np.degrees(np.mod(np.asarray(values) + np.pi, 2.0 * np.pi) - np.pi)
     azimuth, elements = turned(instants.elements.azimuth), instants.elements
@@ -94,10 +101,12 @@ def _pocket_over_azimuth(axes: Any, instants: Any) -> None:
     net = np.where(front > rear, front, -rear)
     axes.plot(azimuth.ravel(), net.ravel(), ".", color=FAINT, markersize=1.0)
     one = FOLLOWED % azimuth.shape[1]
-    axes.plot(azimuth[:, one], net[:, one], ".", color=OUTER, markersize=2.0, label=f"roller {one + 1}, grey: all")
-    load = np.asarray(elements.load_inner)[:, one]
-    scale = float(np.abs(net).max()) / max(float(load.max()), 1e-300)
-    axes.plot(azimuth[:, one], scale * load, ".", color=LOSS, markersize=0.7, label="its race load, scaled")
+    axes.plot(azimuth[:, one], net[:, one], ".", color=OUTER, markersize=2.0, label=f"{element} {one + 1}, grey: all")
+    loads = by_side(elements, "load")
+    if "inner" in loads:
+        load = loads["inner"][:, one]
+        scale = float(np.abs(net).max()) / max(float(load.max()), 1e-300)
+        axes.plot(azimuth[:, one], scale * load, ".", color=LOSS, markersize=0.7, label="its race load, scaled")
     axes.set_xlim(-180.0, 180.0)
     axes.set_xticks([-180, -90, 0, 90, 180])
     axes.set_xlabel("azimuth from the load line, deg", fontsize=9)
@@ -106,16 +115,17 @@ def _pocket_over_azimuth(axes: Any, instants: Any) -> None:
     grid_lines(axes)
 
 
-def _sliding(axes: Any, elements: Any) -> None:
+def _sliding(axes: Any, elements: Any, sliding: dict[str, np.ndarray], element: str) -> None:
     azimuth = np.degrees(np.mod(np.asarray(elements.azimuth) + np.pi, 2.0 * np.pi) - np.pi)
     one = FOLLOWED % azimuth.shape[1]
-    both = {side: np.asarray(getattr(elements, f"sliding_{side}"))[:, one] for side in ("inner", "outer")}
+    both = {side: values[:, one] for side, values in sliding.items()}
     unit, factor = axis_unit("m/s", float(max(np.abs(values).max() for values in both.values())))
-    for side, colour in (("inner", INNER), ("outer", OUTER)):
-        axes.plot(azimuth[:, one], factor * both[side], ".", color=colour, markersize=1.5, label=f"{side} race")
+    for side, values in both.items():
+        colour = {"inner": INNER, "outer": OUTER}[side]
+        axes.plot(azimuth[:, one], factor * values, ".", color=colour, markersize=1.5, label=f"{side} race")
     axes.set_xlim(-180.0, 180.0)
     axes.set_xticks([-180, -90, 0, 90, 180])
     axes.set_xlabel("azimuth from the load line, deg", fontsize=9)
     axes.legend(fontsize=8, frameon=False, markerscale=5)
-    title_of(axes, f"Sliding speed of roller {one + 1}, {unit}")
+    title_of(axes, f"Sliding speed of {element} {one + 1}, {unit}")
     grid_lines(axes)

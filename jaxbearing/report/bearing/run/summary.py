@@ -36,7 +36,9 @@ def print_summary(history: History, label: str, console: "Console") -> None:
         table.add_row(name, *(with_unit(spread[key], unit) for key in ("mean", "min", "max", "end")))
     console.print(table)
     if "pocket_load" in found:
-        console.print("\nLargest pocket load of a roller in a turn of the cage, N (mean over the rollers, largest)")
+        element = history.element_name
+        said = f"Largest pocket load of a {element} in a turn of the cage, N (mean over the {element}s, largest)"
+        console.print(f"\n{said}")
         table = Table("turn", "front", "", "rear", "", box=None, pad_edge=False)
         front, rear = (found["pocket_load"][face]["turns"] for face in FACES)
         for number, (a, b) in enumerate(zip(front, rear, strict=True), 1):
