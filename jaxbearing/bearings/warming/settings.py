@@ -9,7 +9,6 @@ from ..._types import Scalar
 from ...numerics.checks import Checked
 from ...numerics.integrator import IntegratorOptions
 from ...numerics.structure import choice, count
-from ...thermal.warm_up import usual_options
 from ...time_laws import AbstractTimeFactor, Steady
 from ..heat import inlet_temperature
 from ..operation import LOAD_FIELDS
@@ -48,13 +47,17 @@ class WarmUpSimulation(Checked):
     load: AbstractTimeFactor = Steady()
     oil_inlet: AbstractTimeFactor = Steady()
     oil_flow: AbstractTimeFactor = Steady()
-    start: Scalar | None = optional_number(bound="> 0", metadata=label("K", "temperature of all nodes at time 0 of a run of temperatures"))
+    start: Scalar | None = optional_number(
+        bound="> 0", metadata=label("K", "temperature of all nodes at time 0 of a run of temperatures")
+    )
     instants: int = count("simulation.instants", INSTANTS, least=1, most=MOST_INSTANTS)
     solver: str = choice("simulation.solver", SOLVERS, SOLVER)
     tolerance: Scalar = number(1e-5, bound="> 0", unit="1")
 
     @property
     def options(self) -> IntegratorOptions:
+        from ...thermal.warm_up import usual_options  # imports diffrax, which scenes do without
+
         usual = usual_options()
         return IntegratorOptions(
             solver=self.solver,
