@@ -73,10 +73,12 @@ if TYPE_CHECKING:
     from .bearings.tapered.scene import TaperedRollerBearing as TaperedRollerBearing
     from .bearings.warming.history import WarmUpHistory as WarmUpHistory
     from .bearings.warming.settings import WarmUpSimulation as WarmUpSimulation
+    from .comparison import compare as compare
     from .distribution import Distribution as Distribution
     from .distribution import MeanUsedWarning as MeanUsedWarning
     from .ehl import EHLLineContact as EHLLineContact
     from .machines import TwoDisk as TwoDisk
+    from .makers import Catalogue as Catalogue
     from .materials import Material as Material
     from .mounting import Fits as Fits
     from .mounting import PartTemperatures as PartTemperatures
@@ -109,6 +111,7 @@ _LAZY = {
     "BallGeometry": ".bearings.ball.geometry",
     "BallMaterials": ".bearings.ball.scene",
     "BallOperation": ".bearings.ball.scene",
+    "Catalogue": ".makers",
     "CylindricalRollerBearing": ".bearings.cylindrical.scene",
     "Drag": ".bearings.parts",
     "Distribution": ".distribution",
@@ -139,6 +142,7 @@ _LAZY = {
     "WarmUpHistory": ".bearings.warming.history",
     "WarmUpSimulation": ".bearings.warming.settings",
     "builtin_names": ".scenes.reader",
+    "compare": ".comparison",
     "compile_report": ".program_size",
     "load_distributions": ".scenes.reader",
     "load_oil": ".scenes.from_python",

@@ -2,14 +2,16 @@
 
 import dataclasses
 from collections.abc import Callable, Mapping
-from typing import Any
+from typing import Any, NamedTuple
 
 import equinox as eqx
 import jax
 import jax.numpy as jnp
+import numpy as np
 from jaxtyping import Array, Float
 
 from ._scene import AbstractScene, AbstractSolution
+from .bearings.priors import DRAG_FIELD, drag_prior, prior_in_words
 from .bearings.solution import Solution
 from .ehl import EHLLineContact, LineContactSolution
 from .machines import TwoDiskSolution
@@ -184,6 +186,36 @@ def _in_a_program(scene: AbstractScene, options: NewtonOptions) -> tuple[Any, di
 def _by_path(tree: Any) -> dict[str, Float[Array, ""]]:
     leaves, _ = jax.tree_util.tree_flatten_with_path(tree)
     return {jax.tree_util.keystr(path, simple=True, separator="."): leaf for path, leaf in leaves}
+
+
+class PowerInterval(NamedTuple):
+    """Power loss, and the limits between which it is with a probability of 90 %, W, by one uncertain input alone.
+
+    **Arguments:** `by`: dotted path of the input; `assumed`: its distribution in words.
+    """
+
+    value: float
+    low: float
+    high: float
+    by: str
+    assumed: str
+
+
+def power_interval(scene: AbstractScene, solution: Any, found: Sensitivities) -> PowerInterval | None:
+    """The power loss over the assumed distribution of the drag coefficient (`bearings.priors`), by its derivative.
+
+    The drag of rollers is proportional to its coefficient, so that the loss is nearly linear in it. `None` for a scene
+    that has no drag coefficient or failed.
+    """
+    slopes = found.power_loss
+    prior = drag_prior(scene)
+    if slopes is None or DRAG_FIELD not in slopes or prior is None or not bool(solution.converged):
+        return None
+    value, ends = float(solution.power_loss.total), prior.quantiles(np.array([0.05, 0.95]))
+    drag: Any = getattr(scene, "drag", None)
+    ratios = ends / float(drag.coefficient) - 1.0
+    low, high = (float(value * (1.0 + float(slopes[DRAG_FIELD]) * ratio)) for ratio in ratios)
+    return PowerInterval(value, low, high, DRAG_FIELD, prior_in_words(scene))
 
 
 def largest(values: Mapping[str, Array], count: int, leave_out: tuple[str, ...] = ()) -> list[str]:

@@ -33,6 +33,8 @@ RANK = {
     "thermal": 4,
     "bearings": 5,
     "life": 6,
+    # formulas of catalogues beside a solution
+    "makers": 6,
     "solve": 7,
     "port": 8,
     "lanes": 8,
@@ -46,6 +48,7 @@ RANK = {
     # sweeps are labelled and kept in files: a verb of the edge
     "sweeps": 10,
     "sweep": 10,
+    "comparison": 10,
     # many solves of one bearing: sweeps with statements about them
     "studies": 11,
     # tolerances are sampled by sweeps

@@ -12,6 +12,7 @@ from typing import Annotated, Any
 import typer
 
 from ..numerics.garbage import rare_garbage_collection
+from .compare_verb import compare
 from .fields_verb import fields
 from .fit_verb import fit
 from .interrupt import ALL, if_interrupted, prompt_interrupt, tell
@@ -120,5 +121,5 @@ def _options(
     pass
 
 
-for _verb in (scenes, fields, solve, report, sweep, tolerances, study, simulate, stiffness, fit):
+for _verb in (scenes, fields, solve, report, sweep, tolerances, compare, study, simulate, stiffness, fit):
     app.command()(_verb)

@@ -20,6 +20,15 @@ SetOption = Annotated[
 ]
 JsonOption = Annotated[bool, typer.Option("--json", help="Print one JSON object in SI units, and nothing else.")]
 
+DragPriorOption = Annotated[
+    bool,
+    typer.Option(
+        "--drag-prior/--no-drag-prior",
+        help="The drag coefficient of a bearing, which nobody knows well, scatters by an assumed distribution where it "
+        "has no other; or it does not.",
+    ),
+]
+
 
 def labelled(scene: str, changes: list[str] | None) -> str:
     """Name of a scene with its changes, as it was typed; without the surrogates that stand for bytes which the locale

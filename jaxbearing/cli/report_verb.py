@@ -14,6 +14,7 @@ from .terminal import console
 
 if TYPE_CHECKING:
     from .._scene import AbstractScene, AbstractSolution
+    from ..makers import Catalogue
     from ..scenes.inputs import SceneInput
 
 OutOption = Annotated[
@@ -28,6 +29,7 @@ def report(scene: SceneArgument, changes: SetOption = None, out: OutOption = Non
     convergence and validity. With `--json` the object that `solve` prints, and the page's name on stderr."""
     target = out if out is not None else Path(f"{Path(scene).stem}_report.html")
     with bad_input():
+        from ..scenes.bearing.catalogue import load_catalogue
         from ..scenes.inputs import scene_inputs
         from ..scenes.overrides import split_assignments
         from ..scenes.reader import load_scene
@@ -35,6 +37,7 @@ def report(scene: SceneArgument, changes: SetOption = None, out: OutOption = Non
         overrides = split_assignments(changes or [])
         model = load_scene(scene, overrides)
         inputs = scene_inputs(scene, overrides, model)
+        catalogue = load_catalogue(scene, overrides)
         check_files([("--out", target, SUFFIXES)])
 
     from .cache import enable_compilation_cache
@@ -50,7 +53,7 @@ def report(scene: SceneArgument, changes: SetOption = None, out: OutOption = Non
         title = labelled(Path(scene).name, changes)
         page = Output(
             target,
-            lambda path: _write(model, solution, title, inputs, path),
+            lambda path: _write(model, solution, title, inputs, catalogue, path),
             f"wrote {target}: open it in a browser",
         )
         try:
@@ -86,6 +89,7 @@ def _write(
     solution: "AbstractSolution",
     title: str,
     inputs: "Mapping[str, Sequence[SceneInput]]",
+    catalogue: "Catalogue | None",
     target: Path,
 ) -> None:
     from datetime import UTC, datetime
@@ -93,5 +97,5 @@ def _write(
     from ..report.files import write_whole
     from ..report.html_report import html_report
 
-    text = html_report(model, solution, title, inputs, datetime.now(UTC))
+    text = html_report(model, solution, title, inputs, datetime.now(UTC), catalogue)
     write_whole(target, text)

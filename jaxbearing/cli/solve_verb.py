@@ -8,14 +8,14 @@ from typing import TYPE_CHECKING, Annotated, Literal, NamedTuple
 import typer
 
 from .messages import NOT_CONVERGED, bad_input, refuse
-from .options import JsonOption, SceneArgument, SetOption, labelled
+from .options import DragPriorOption, JsonOption, SceneArgument, SetOption, labelled
 from .output_files import PICTURES, Output, check_files, deliver
 from .terminal import console
 
 if TYPE_CHECKING:
     from .._scene import AbstractScene, AbstractSolution
     from ..bearings.ball.scene import BallBearing
-    from ..sensitivity import Sensitivities
+    from ..sensitivity import PowerInterval, Sensitivities
 
 OutOption = Annotated[
     Path | None, typer.Option("--out", metavar="FILE.nc", help="Write all results, with units, as NetCDF.")
@@ -64,6 +64,7 @@ def solve(
     plot: PlotOption = None,
     out: OutOption = None,
     line_contact: LineContactOption = None,
+    drag_prior: DragPriorOption = True,
 ) -> None:
     """Steady state: power loss, loads, films, pressures, speeds; of a two-disk machine, its traction curves; of a line
     contact, its film."""
@@ -87,7 +88,9 @@ def solve(
         solution, slopes = _solved(model, sensitivities)
         solution = dataclasses.replace(solution, notes=(*solution.notes, *said)) if said else solution
         failure = "" if bool(solution.converged) else solution.failure()
-        show = lambda: _print_json(solution, slopes) if as_json else _print_screen(solution, slopes, label)
+        interval = _interval(model, solution, slopes) if drag_prior else None
+        of = solution, slopes, interval
+        show = lambda: _print_json(*of) if as_json else _print_screen(*of, label)
         bridge = lambda _: _write_line_contact(wanted, solution, scene, changes)
         taken = "" if as_json else f"wrote {contact}: take it as a scene, jaxbearing solve {contact}"
         outputs = (
@@ -160,6 +163,17 @@ def _solved(model: "AbstractScene", sensitivities: bool) -> "tuple[AbstractSolut
     return solve_once(model), None
 
 
+def _interval(
+    model: "AbstractScene", solution: "AbstractSolution", slopes: "Sensitivities | None"
+) -> "PowerInterval | None":
+    """Limits of the power loss by the drag coefficient, with sensitivities."""
+    if slopes is None:
+        return None
+    from ..sensitivity import power_interval
+
+    return power_interval(model, solution, slopes)
+
+
 def _write_data(solution: "AbstractSolution", out: Path) -> None:
     from ..report.dataset import solution_to_dataset, write_netcdf
 
@@ -172,20 +186,24 @@ def _write_plot(solution: "AbstractSolution", label: str, plot: Path) -> None:
     save_plot(plot_solution(solution, label), plot)
 
 
-def _print_json(solution: "AbstractSolution", slopes: "Sensitivities | None") -> None:
+def _print_json(solution: "AbstractSolution", slopes: "Sensitivities | None", interval: "PowerInterval | None") -> None:
     from ..report.json_report import sensitivities_to_dict, solution_to_dict
 
     results = solution_to_dict(solution)
     if slopes is not None:
         results["sensitivities"] = sensitivities_to_dict(slopes)
+    if interval is not None:
+        results["power_loss_interval"] = interval._asdict()
     typer.echo(json.dumps(results, allow_nan=False))
 
 
-def _print_screen(solution: "AbstractSolution", slopes: "Sensitivities | None", label: str) -> None:
+def _print_screen(
+    solution: "AbstractSolution", slopes: "Sensitivities | None", interval: "PowerInterval | None", label: str
+) -> None:
     from ..report.summary import print_summary
 
     print_summary(solution, label, console())
     if slopes is not None and bool(solution.converged):
         from ..report.sensitivity_table import print_sensitivities
 
-        print_sensitivities(slopes, console())
+        print_sensitivities(slopes, console(), interval)

@@ -9,7 +9,7 @@ import typer
 
 from .interrupt import if_interrupted
 from .messages import NO_OUTPUT, NOT_CONVERGED, bad_input, refuse, say
-from .options import JsonOption, SceneArgument, SetOption, labelled
+from .options import DragPriorOption, JsonOption, SceneArgument, SetOption, labelled
 from .output_files import PICTURES, Output, check_files, deliver, unwritten
 from .sweep_parts import (
     ChunkOption,
@@ -67,10 +67,12 @@ def tolerances(
     devices: DevicesOption = None,
     workers: WorkersOption = None,
     scheduler: SchedulerOption = None,
+    drag_prior: DragPriorOption = True,
 ) -> None:
     """Mean, standard deviation and limits of clearance, contact angle, power loss, life from the tolerances of seats
-    and of fields that are given as {mean, deviation} or {low, high}, and which of them contribute most. Samples that
-    are stopped go on where they were when the same command is given again."""
+    and of fields that are given as {mean, deviation}, {low, high} or {median, log_deviation}, and which of them
+    contribute most. The drag coefficient scatters by an assumed distribution. Samples that are stopped go on where they
+    were when the same command is given again."""
     begin = time.monotonic()
     with bad_input():
         from ..numerics.newton import NewtonOptions
@@ -82,7 +84,7 @@ def tolerances(
         if samples == 1:
             refuse("--samples: found 1; expected 0, or 2 or more")
         try:
-            label, scatter = scatter_of_source(scene, split_assignments(changes or []))
+            label, scatter = scatter_of_source(scene, split_assignments(changes or []), drag_prior)
         except ValueError as error:
             refuse(str(error) if type(error) is not ValueError else f"{scene}: {error}")
         check_files((("--plot", plot, PICTURES), ("--out", out, (".nc",))))

@@ -1,17 +1,25 @@
 """A solve as one HTML page that needs no network: drawing, tables, charts, notes, versions."""
 
+import dataclasses
 from collections.abc import Mapping, Sequence
 from datetime import datetime
 from typing import Any
 
+from ..makers import Catalogue, compared
 from ..scenes.inputs import SceneInput
 from .backends.html import page
 from .json_report import solution_to_dict
+from .makers_table import comparison_listing
 from .registry import check_converged, output
 
 
 def html_report(
-    scene: Any, solution: Any, title: str, inputs: Mapping[str, Sequence[SceneInput]], when: datetime
+    scene: Any,
+    solution: Any,
+    title: str,
+    inputs: Mapping[str, Sequence[SceneInput]],
+    when: datetime,
+    catalogue: Catalogue | None = None,
 ) -> str:
     """The page of one solve, with all results as JSON in it.
 
@@ -20,10 +28,15 @@ def html_report(
     - `title`: name of the scene.
     - `inputs`: fields of the scene by table, of `scenes.inputs.scene_inputs`.
     - `when`: the date that the page bears.
+    - `catalogue`: of a bearing, with which makers' formulas stand beside its losses; not given: they do not.
 
     **Raises:** `ValueError` for a solution that did not converge: it has no results; `TypeError` for another kind of
     solution.
     """
     content = output(solution, "page_content", "report")
     check_converged(solution)
-    return page(content(scene, solution), title, inputs, solution_to_dict(solution), when)
+    shown = content(scene, solution)
+    if catalogue is not None:
+        beside = comparison_listing(compared(scene, solution, catalogue))
+        shown = dataclasses.replace(shown, listings=(*shown.listings, beside))
+    return page(shown, title, inputs, solution_to_dict(solution), when)

@@ -18,6 +18,16 @@ class Sketch:
 
 
 @dataclass(frozen=True)
+class Listing:
+    """A table of texts under a heading of its own, with remarks below it."""
+
+    title: str
+    headings: Sequence[str]
+    rows: Sequence[Sequence[str]]
+    remarks: Sequence[str] = ()
+
+
+@dataclass(frozen=True)
 class Content:
     """Parts of the page; what is empty is not on it.
 
@@ -41,6 +51,7 @@ class Content:
     not_modelled: str = ""
     charts: Sequence[Panel] = ()
     diagrams: Sequence[Diagram] = ()
+    listings: Sequence[Listing] = ()
     convergence: Sequence[tuple[str, str]] = ()
     checks: Sequence[tuple[str, bool]] = ()
     notes: Sequence[str] = ()

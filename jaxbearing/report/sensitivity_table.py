@@ -10,8 +10,8 @@ from rich.rule import Rule
 from rich.table import Table
 from rich.text import Text
 
-from ..sensitivity import Sensitivities, largest
-from .display import digits
+from ..sensitivity import PowerInterval, Sensitivities, largest
+from .display import digits, with_unit
 
 SHOWN = 5
 """Number of inputs that are shown for each result."""
@@ -33,14 +33,19 @@ ABREAST = 2
 """Results side by side: more do not fit into the width of a terminal."""
 
 
-def print_sensitivities(sensitivities: Sensitivities, console: Console) -> None:
-    """The five largest of each result, and always the inputs that nobody knows well."""
+def print_sensitivities(sensitivities: Sensitivities, console: Console, interval: PowerInterval | None = None) -> None:
+    """The five largest of each result, and always the inputs that nobody knows well; limits of the power loss by the
+    drag coefficient, where they are given."""
     console.print(Rule("Sensitivities", align="left", style="dim"))
     modelled = list(sensitivities.modelled().items())
     for first in range(0, len(modelled), ABREAST):
         console.print(Padding(_table(modelled[first : first + ABREAST]), (0, 1)))
     text = "Per cent for one per cent of the input (slip: absolute). Temperatures in K. More: --json."
     console.print(Padding(Text(text, style="dim"), (0, 2)))
+    if interval is not None:
+        limits = " and ".join(with_unit(one, "W") for one in (interval.low, interval.high))
+        text = f"Power loss {with_unit(interval.value, 'W')}, 90 % between {limits}, by {interval.by} alone"
+        console.print(Padding(Text(f"{text} ({interval.assumed})."), (0, 2)))
 
 
 def _table(results: list[tuple[str, dict[str, Array]]]) -> Table:

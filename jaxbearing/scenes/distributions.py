@@ -1,7 +1,8 @@
 """Fields of a scene file that are given as a distribution: read as their mean, and what scatters about it.
 
 `{mean = "12 um", deviation = "2 um"}` or `{low = "5 um", high = "20 um"}`, with `shape = "normal"` (where not given)
-or `"uniform"`. Any field that is one number may be given so.
+or `"uniform"` or `"lognormal"`; or `{median = 0.3, log_deviation = 0.9, high = 1.2}`, which is lognormal and cut off
+at the limits that are given. Any field that is one number may be given so.
 """
 
 import typing
@@ -17,8 +18,8 @@ from .errors import SceneError, nearest, one_of
 from .fields import dimension_of, is_known, parts_of, tables_at, type_at
 from .units import Dimension, describe, dimension_of_unit, number, quantity
 
-_NAMES = ("mean", "deviation", "low", "high", "shape")
-_FORMS = "'mean' and 'deviation', or 'low' and 'high'"
+_NAMES = ("mean", "deviation", "median", "log_deviation", "low", "high", "shape")
+_FORMS = "'mean' and 'deviation', or 'low' and 'high', or 'median' and 'log_deviation'"
 
 
 def means_of(
@@ -76,7 +77,9 @@ def _read(
         raise SceneError(
             file, f"{where}.{unknown}", f"the unknown name '{unknown}'", expected, nearest(unknown, _NAMES)
         )
-    names = [name for name in _NAMES[:4] if name in given]
+    names = [name for name in _NAMES[:-1] if name in given]
+    if names[:2] == ["median", "log_deviation"] and given.get("shape", "lognormal") == "lognormal":
+        return _lognormal(given, names, path, model, file)
     if names not in (["mean", "deviation"], ["low", "high"]):
         said = " and ".join(f"'{name}'" for name in names) or "neither"
         raise SceneError(file, where, f"a distribution with {said}", f"either {_FORMS}")
@@ -86,12 +89,33 @@ def _read(
         raise SceneError(file, f"{where}.shape", describe(shape), one_of(SHAPES), near)
     first, second = (_value(given[name], name, path, model, file) for name in names)
     if names == ["mean", "deviation"]:
-        return given["mean"], Distribution(first, second, shape)
+        if shape == "lognormal" and first <= 0.0:
+            raise SceneError(file, f"{where}.mean", describe(given["mean"]), "a number above 0: it is lognormal")
+        distribution = Distribution(first, second, shape)
+        mean = given["mean"] if shape != "lognormal" else text_of(distribution.nominal, dimension_of(kind))
+        return mean, distribution
     if first > second:
         expected = f"at most the high limit, {given['high']!r}"
         raise SceneError(file, f"{where}.low", describe(given["low"]), expected)
+    if shape == "lognormal" and first <= 0.0:
+        raise SceneError(file, f"{where}.low", describe(given["low"]), "a number above 0: it is lognormal")
     distribution = Distribution.between(first, second, shape)
-    return text_of(distribution.mean, dimension_of(kind)), distribution
+    return text_of(distribution.nominal, dimension_of(kind)), distribution
+
+
+def _lognormal(
+    given: Mapping[str, Any], names: list[str], path: tuple[str, ...], model: type[BaseModel], file: str
+) -> tuple[Any, Distribution]:
+    """A distribution by its median, which stands for it in the tables. **Raises:** `SceneError`."""
+    where = ".".join(path)
+    values = {name: _value(given[name], name, path, model, file) for name in names if name != "log_deviation"}
+    try:
+        return given["median"], Distribution.lognormal(log_deviation=number(given["log_deviation"], ">= 0"), **values)
+    except PydanticCustomError as error:
+        context = error.context or {}
+        raise SceneError(file, f"{where}.log_deviation", context["found"], context["expected"]) from None
+    except ValueError as error:
+        raise SceneError(file, where, "a distribution", f"another one: {error}") from None
 
 
 def _value(given: Any, name: str, path: tuple[str, ...], model: type[BaseModel], file: str) -> float:
@@ -146,5 +170,6 @@ def text_of(value: float, dimension: Dimension | None) -> Any:
 def said_of(path: str, distribution: Distribution, model: type[BaseModel]) -> str:
     """Says that a scene has the mean of a field."""
     dimension = dimension_of(type_at(model, path.split(".")))
-    value = with_unit(distribution.mean, "1" if dimension is None else dimension.si)
-    return f"{path} is given as a distribution: its mean, {value}, is used; 'jaxbearing tolerances' uses all of it"
+    value = with_unit(distribution.nominal, "1" if dimension is None else dimension.si)
+    word = "mean" if distribution.median is None else "median"
+    return f"{path} is given as a distribution: its {word}, {value}, is used; 'jaxbearing tolerances' uses all of it"

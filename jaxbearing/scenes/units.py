@@ -359,7 +359,15 @@ def among_note(numbers: Iterable[float]) -> BeforeValidator:
     return BeforeValidator(read)
 
 
+def _text(value: Any) -> str:
+    """A text that may look like a number: 6205 is a designation, with quotes and without."""
+    if isinstance(value, bool) or not isinstance(value, str | int) or not str(value).strip():
+        raise refusal("text, e.g. '6205-2RSH'", describe(value))
+    return str(value).strip()
+
+
 # fields that no class has
+Text = Annotated[str, BeforeValidator(_text)]
 Count = Annotated[int, count_note()]
 Switch = Annotated[bool, BeforeValidator(_switch)]
 PositiveNumber = Annotated[float, number_note("> 0")]

@@ -12,9 +12,11 @@ of each other.
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from statistics import NormalDist
 
 import numpy as np
 
+from ..distribution import Distribution
 from .derivatives import Slopes
 from .outcome import Spread
 from .results import labels_of
@@ -24,6 +26,18 @@ from .seats import Seat, seat_of
 Evaluated = Callable[[Mapping[str, float]], Slopes]
 """Results and derivatives at other numbers of the scene."""
 _OF_SEAT = {"shaft": "fit.interference_inner", "housing": "fit.interference_outer"}
+LIKELY = 0.9
+"""Share of the bearings between the likely limits of a result."""
+_SHARES = (np.arange(20_001) + 0.5) / 20_001
+"""Middles of equally likely parts of a distribution."""
+_MIXED = 400
+"""Values of a distribution that are mixed with a normal variable, whose curve is smooth."""
+_TAIL = 1e-12
+"""Share beyond the ends between which a limit is searched for."""
+_HALVINGS = 40
+"""Steps of that search: 1e-12 of the first distance."""
+_ROUND_OFF = 1e-12
+"""Part of the variance that is none."""
 _BENT = 0.1
 """Departure from a straight line, of the distance between the worst cases, that a note is made of."""
 
@@ -73,6 +87,7 @@ def spreads_of(
             value=float(found.values[name]),
             mean=float(found.values[name]) + shift,
             deviation=float(np.sqrt(variance)),
+            likely=_likely(own, gains, scatter, float(found.values[name]) + shift, variance),
             worst_low=min(ends),
             worst_high=max(ends),
             unit=labels[name].unit,
@@ -125,7 +140,7 @@ def _moments(lines: _Lines, scatter: Scatter, seats: Mapping[str, Seat]) -> tupl
     """Shift of the mean, and the part of each field in the variance."""
     gains = {seat: one.gain for seat, one in seats.items()}
     shares = {path: (lines.by(path, gains) * one.deviation) ** 2 for path, one in scatter.fields.items()}
-    shift = 0.0
+    shift = sum(lines.by(path, gains) * (one.mean - one.nominal) for path, one in scatter.fields.items())
     for seat, slope in lines.pressed.items():
         one = seats[seat]
         mean, variance = one.moments()
@@ -135,6 +150,48 @@ def _moments(lines: _Lines, scatter: Scatter, seats: Mapping[str, Seat]) -> tupl
             part = (lines.running[seat][path] * field.deviation / one.deviation) ** 2 if one.deviation > 0.0 else 0.0
             shares[path] += rest * part
     return shift, shares
+
+
+def _likely(
+    lines: _Lines, gains: Mapping[str, float], scatter: Scatter, mean: float, variance: float
+) -> tuple[float, float]:
+    """Results below which 5 and 95 % of the bearings are, of the linear model; what the seats add beyond their lines
+    counts as a normal variable."""
+    slopes = {path: lines.by(path, gains) for path in scatter.fields}
+    bent = [path for path, slope in slopes.items() if slope and scatter.fields[path].shape != "normal"]
+    steps = {
+        path: slopes[path] * (scatter.fields[path].quantiles(_SHARES) - scatter.fields[path].mean) for path in bent
+    }
+    rest = variance - sum((slopes[path] * scatter.fields[path].deviation) ** 2 for path in bent)
+    normal = float(np.sqrt(max(rest, 0.0))) if rest > _ROUND_OFF * variance else 0.0
+    ends = 0.5 * (1.0 - LIKELY), 0.5 * (1.0 + LIKELY)
+    if len(bent) > 1:
+        # each field takes its values in an order of its own
+        order, total = np.random.default_rng(0), Distribution(mean, normal).quantiles(_SHARES)
+        total = sum((order.permutation(one) for one in steps.values()), total)
+        low, high = np.quantile(total, ends)
+        return float(low), float(high)
+    around = mean + (np.sort(steps[bent[0]]) if bent else np.zeros(1))
+    low, high = (_mixed_quantile(around, normal, end) for end in ends)
+    return low, high
+
+
+def _mixed_quantile(around: np.ndarray, deviation: float, share: float) -> float:
+    """Value below which a share of a sum is: one of equally likely numbers, and a normal variable."""
+    if deviation == 0.0:
+        return float(np.quantile(around, share))
+    step = max(1, around.size // _MIXED)
+    every = around[step // 2 :: step]
+    one = Distribution(0.0, deviation)
+    low, high = (
+        float(every[0] + one.quantiles(np.array(_TAIL))),
+        float(every[-1] + one.quantiles(np.array(1.0 - _TAIL))),
+    )
+    for _ in range(_HALVINGS):
+        middle = 0.5 * (low + high)
+        below = np.mean([NormalDist(0.0, deviation).cdf(middle - value) for value in every])
+        low, high = (middle, high) if below < share else (low, middle)
+    return 0.5 * (low + high)
 
 
 def _corners(
@@ -208,5 +265,5 @@ def _reach(spread: Spread, scatter: Scatter, high: bool) -> float:
     for path, slope in spread.derivatives.items():
         one = scatter.fields[path]
         end = one.highest if (slope > 0.0) == high else one.lowest
-        reach += abs(slope * (end - one.mean))
+        reach += abs(slope * (end - one.nominal))
     return reach

@@ -44,11 +44,12 @@ class Spread:
     """Scatter of one result, in SI units.
 
     **Arguments:**
-    - `value`: result of the scene whose fields have their means.
+    - `value`: result of the scene whose fields have their means, lognormal ones their medians.
     - `mean`, `deviation`: by the delta method; what a seat that may come loose does is that of a rectified normal
       variable.
     - `worst_low`, `worst_high`: smallest and largest result in the worst cases: for each result all fields at those of
       their limits that make it small by its derivatives, and large. Those whose solve fails are left out.
+    - `likely`: 5 and 95 % of the bearings are below, by the derivatives and the shapes of the distributions.
     - `contributions`: share of each field in the variance; they add up to 1 (all 0 without a variance).
     - `derivatives`: of the result by each field.
     - `sampled`: `None` without samples.
@@ -63,6 +64,7 @@ class Spread:
     description: str
     contributions: Mapping[str, float]
     derivatives: Mapping[str, float]
+    likely: tuple[float, float] = (math.nan, math.nan)
     sampled: Sampled | None = None
 
     @property
@@ -79,6 +81,16 @@ class Spread:
     def high(self) -> float:
         """Three standard deviations above the mean."""
         return self.mean + SIGMAS * self.deviation
+
+    @property
+    def likely_low(self) -> float:
+        """Result below which 5 % of the bearings are."""
+        return self.likely[0]
+
+    @property
+    def likely_high(self) -> float:
+        """Result below which 95 % of the bearings are."""
+        return self.likely[1]
 
     @property
     def below_zero(self) -> float:

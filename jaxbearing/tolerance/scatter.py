@@ -9,6 +9,7 @@ from typing import Any
 import jax
 
 from .._scene import AbstractScene
+from ..bearings import priors
 from ..distribution import Distribution
 from ..mounting import Fits, iso286
 from ..numerics.precision import as_float
@@ -22,8 +23,13 @@ SEATS = {"shaft": ("bore", iso286.shaft_limits, iso286.bore_limits)}
 """Seat -> the dimension of the bearing, deviations of the other part, and deviations of the bearing."""
 SEATS["housing"] = ("outside_diameter", iso286.hole_limits, iso286.outside_limits)
 _NOTHING = (
-    "found no field that scatters; expected one given as {mean = ..., deviation = ...} or {low = ..., high = ...}, or "
-    "a tolerance class in [fits] with at = 'mean'"
+    "found no field that scatters; expected one given as {mean = ..., deviation = ...}, {low = ..., high = ...} or "
+    "{median = ..., log_deviation = ...}, or a tolerance class in [fits] with at = 'mean'"
+)
+
+_ISOLATED = (
+    f"{priors.DRAG_FIELD} is not given: it is that of an isolated ball and does not scatter; a number, such as "
+    f"{priors.DRAG['ball'].nominal:g}, scatters by an assumed distribution"
 )
 
 
@@ -56,9 +62,9 @@ class Scatter:
 
     @property
     def means(self) -> dict[str, float]:
-        """Means of all fields that scatter, and the interference of each seat."""
+        """Means of all fields that scatter, medians of lognormal ones, and the interference of each seat."""
         seats = {name_of(seat): float(getattr(self.fits, interference_of(seat))) for seat in self.seats}
-        return seats | {path: one.mean for path, one in self.fields.items()}
+        return seats | {path: one.nominal for path, one in self.fields.items()}
 
     def recipe(self, cases: Cases) -> Direct:
         """Scenes of samples. **Raises:** as `scatter_of`."""
@@ -74,11 +80,13 @@ def name_of(seat: str) -> str:
     return f"fits.{interference_of(seat)}"
 
 
-def scatter_of(scene: AbstractScene, over: Mapping[str, Any] | None = None) -> Scatter:
+def scatter_of(scene: AbstractScene, over: Mapping[str, Any] | None = None, drag_prior: bool = True) -> Scatter:
     """The numbers of a scene that scatter.
 
     **Arguments:** `over`: dotted path -> `Distribution`, or a mapping {"mean": ..., "deviation": ...} or {"low": ...,
-    "high": ...} with a "shape" where it is uniform; SI numbers.
+    "high": ...} with a "shape" where it is uniform or lognormal, or {"median": ..., "log_deviation": ...} with "low"
+    and "high" where it is cut off; SI numbers. `drag_prior`: the drag coefficient of a bearing scatters as
+    `bearings.priors.DRAG` where it is no other distribution.
 
     **Raises:** `ValueError` for what is no distribution, for a field that is no number of the scene, and where nothing
     scatters; `AttributeError` for a field that is not there.
@@ -90,22 +98,40 @@ def scatter_of(scene: AbstractScene, over: Mapping[str, Any] | None = None) -> S
     scene = jax.tree.map(as_float, scene)
     seats = dict(_seats(scene, fields))
     origins = {name_of(seat): f"{_class_of(scene, seat)} and the normal class of the bearing" for seat in seats}
-    notes = tuple(_unscattered(scene))
+    notes = list(_unscattered(scene))
+    prior = priors.drag_prior(scene) if drag_prior else None
+    if prior is not None and fields.setdefault(priors.DRAG_FIELD, prior) == prior:
+        origins[priors.DRAG_FIELD] = priors.prior_in_words(scene)
+        notes += _of_prior(scene, prior)
+    elif drag_prior and priors.DRAG_FIELD not in fields and priors.isolated(scene):
+        notes.append(_ISOLATED)
     changes: dict[str, Any] = {f"fits.{seat}_tolerance": None for seat in seats}
     changes |= {name_of(seat): one.mean for seat, one in seats.items()}
-    changes |= {path: one.mean for path, one in fields.items()}
+    changes |= {path: one.nominal for path, one in fields.items()}
     fields |= {name_of(seat): one for seat, one in seats.items()}
     fields = {path: one for path, one in fields.items() if one.deviation > 0.0 or one.lowest < one.highest}
     if not fields:
         raise ValueError(_NOTHING)
-    ends = listed({path: [one.mean, one.lowest, one.highest] for path, one in fields.items()})
+    ends = listed({path: [one.nominal, one.lowest, one.highest] for path, one in fields.items()})
     scene = jax.tree.map(as_float, scene.replace(changes))
     in_scene(scene, ends)
-    return Scatter(scene, fields, origins, notes)
+    return Scatter(scene, fields, origins, tuple(notes))
 
 
-def scatter_of_source(source: str | Path, overrides: Mapping[str, str] | None = None) -> tuple[str, Scatter]:
-    """Name of a scene file or built-in scene, and what scatters in it.
+def _of_prior(scene: Any, prior: Distribution) -> Iterator[str]:
+    """Says that the drag coefficient of the scene gives way."""
+    given = float(scene.drag.coefficient)
+    if not math.isclose(given, prior.nominal, rel_tol=1e-9):
+        yield (
+            f"{priors.DRAG_FIELD}: the scene's {given:g} gives way to the assumed distribution, whose median is "
+            f"{prior.nominal:g}; give your own distribution, or switch it off (--no-drag-prior, drag_prior=False)"
+        )
+
+
+def scatter_of_source(
+    source: str | Path, overrides: Mapping[str, str] | None = None, drag_prior: bool = True
+) -> tuple[str, Scatter]:
+    """Name of a scene file or built-in scene, and what scatters in it; `drag_prior` as that of `scatter_of`.
 
     **Raises:** `SceneError`; `ValueError` where nothing scatters.
     """
@@ -114,12 +140,12 @@ def scatter_of_source(source: str | Path, overrides: Mapping[str, str] | None = 
     scene = scene_from_tables(read.tables, read.label, read.overrides)
     for path, one in found.items():
         _require_plain(read, path, one)
-    return read.label, scatter_of(scene, found)
+    return read.label, scatter_of(scene, found, drag_prior)
 
 
 def _require_plain(read: SceneSource, path: str, one: Distribution) -> None:
     """**Raises:** `SceneError` for a field that the scene does not hold as the file has it."""
-    cases = listed({path: [one.mean, one.lowest, one.highest]})
+    cases = listed({path: [one.nominal, one.lowest, one.highest]})
     try:
         plain = isinstance(read.recipe(cases, {path: read.field(path, read.label)}), Direct)
     except SceneError:
@@ -137,12 +163,15 @@ def _distribution(path: str, given: Any) -> Distribution:
         return given
     names = set(given) if isinstance(given, Mapping) else set()
     forms = {"mean", "deviation"}, {"low", "high"}
-    if names - {"shape"} not in forms:
+    lognormal = {"median", "log_deviation"} <= names <= {"median", "log_deviation", "low", "high"}
+    if names - {"shape"} not in forms and not lognormal:
         raise ValueError(
             f"{path}: found {given!r}; expected a Distribution, or a mapping with either mean and deviation, or low "
-            "and high"
+            "and high, or median and log_deviation"
         )
     try:
+        if lognormal:
+            return Distribution.lognormal(**given)
         if "mean" in names:
             return Distribution(**given)
         return Distribution.between(**given)

@@ -19,6 +19,7 @@ from ..report.labels import label_unit, udunits
 from .outcome import Sampled, Spread, Tolerances
 
 CLEARANCE = "fit.clearance"
+POWER = "power_loss.total"
 _LEAST = 0.005
 """Contribution below which a field is not named on the screen."""
 _REASONS = 3
@@ -39,6 +40,8 @@ def print_tolerances(found: Tolerances, label: str, seconds: float, console: Con
         print_line(path, _field(one, label_unit(found.units[path]), found.origins.get(path, "")), console, 32)
     print_rule("Results", console)
     console.print(Padding(_results(found), (0, 1)))
+    for text in _likely(found):
+        print_line("power loss", text, console)
     for text in _preloaded(found):
         print_line("preload", text, console)
     print_rule("Share of each field in the variance", console)
@@ -53,7 +56,8 @@ def short(name: str) -> str:
 
 
 def _field(one: Distribution, unit: str, origin: str) -> str:
-    text = f"{with_unit(one.mean, unit)}, deviation {with_unit(one.deviation, unit)}, {one.shape}, "
+    text = "" if one.median is None else f"median {with_unit(one.median, unit)}, mean "
+    text += f"{with_unit(one.mean, unit)}, deviation {with_unit(one.deviation, unit)}, {one.shape}, "
     text += f"{digits(displayed(one.lowest, unit))} to {with_unit(one.highest, unit)}"
     return f"{text} ({origin})" if origin else text
 
@@ -99,6 +103,17 @@ def _preloaded(found: Tolerances) -> Iterator[str]:
         yield text if spread.sampled is None else f"{text}, in {_percent(spread.sampled.below_zero)} of the samples"
 
 
+def _likely(found: Tolerances) -> Iterator[str]:
+    """The total loss, between which limits it probably is, and what makes most of the distance."""
+    spread = found.results.get(POWER)
+    if spread is None or not spread.moves or not spread.deviation:
+        return
+    low, high = (with_unit(value, spread.unit) for value in spread.likely)
+    path, share = max(spread.contributions.items(), key=lambda item: item[1])
+    by = "by" if share > 1.0 - _LEAST else "mostly by" if share > 0.5 else "first of all by"
+    yield f"{with_unit(spread.value, spread.unit)}, 90 % between {low} and {high}, {by} {path}"
+
+
 def _percent(share: float) -> str:
     return f"{digits(100.0 * share, 3)} %"
 
@@ -131,6 +146,7 @@ def tolerances_to_dict(found: Tolerances) -> dict[str, Any]:
                 "mean": one.mean,
                 "deviation": one.deviation,
                 "shape": one.shape,
+                "median": one.median,
                 "low": one.lowest,
                 "high": one.highest,
                 "unit": found.units[path],
@@ -146,7 +162,7 @@ def tolerances_to_dict(found: Tolerances) -> dict[str, Any]:
 def _spread(name: str, one: Spread) -> dict[str, Any]:
     numbers = ("value", "mean", "deviation", "low", "high", "worst_low", "worst_high")
     said: dict[str, Any] = {word: finite(getattr(one, word)) for word in numbers}
-    said |= {"unit": one.unit, "description": one.description}
+    said |= {"likely": [finite(value) for value in one.likely], "unit": one.unit, "description": one.description}
     said |= {word: {p: finite(v) for p, v in getattr(one, word).items()} for word in ("contributions", "derivatives")}
     sampled = one.sampled
     words = ("mean", "mean_error", "deviation", "deviation_error", "low", "high")
@@ -206,6 +222,8 @@ _OF_RESULTS = {
     "deviation": "standard deviation by the delta method",
     "worst_low": "result in the worst case to the low side",
     "worst_high": "result in the worst case to the high side",
+    "likely_low": "result below which 5 % of the bearings are by the delta method",
+    "likely_high": "result below which 95 % of the bearings are by the delta method",
 }
 _OF_FIELDS = {
     "field_mean": "mean of a field",

@@ -41,6 +41,7 @@ def tolerances(
     scheduler: str | None = None,
     overwrite: bool = False,
     progress: Callable[[int], None] | None = None,
+    drag_prior: bool = True,
 ) -> Tolerances:
     """Scatter of the results of a scene whose fields have tolerances.
 
@@ -57,7 +58,8 @@ def tolerances(
       `fits.at` is "mean": shaft and bore, hole and outside diameter each have six standard deviations in their
       tolerance.
     - `over`: dotted path of a field -> `Distribution`, or a mapping with `mean` and `deviation`, or `low` and `high`,
-      and `shape`, "normal" (if not given) or "uniform"; SI units.
+      and `shape`, "normal" (if not given), "uniform" or "lognormal"; or `median` and `log_deviation` of a lognormal
+      one, with `low` and `high` where these cut it off; SI units.
     - `results`: paths of results, or their names in data sets ("fit.clearance", "power_loss_total"); those of a
       rolling element with its number, "contact_angle_inner[0]". Not given: clearance, contact angles, displacements,
       power loss, life, as far as the scene has them.
@@ -65,6 +67,8 @@ def tolerances(
     - `out`: file of the samples, `.nc` or `.zarr`. A run that is stopped goes on where it was when it is called again.
     - `options`: of the solver.
     - `chunk`, `devices`, `workers`, `scheduler`, `overwrite`, `progress`: as those of `jaxbearing.sweep`.
+    - `drag_prior`: the drag coefficient of a bearing, which nobody knows well, scatters by an assumed distribution
+      (`bearings.priors`) where it has no other; `False`: it does not.
 
     **Raises:** `SolveError` where the solve at the means fails; `ValueError` where nothing scatters, for a field or a
     result that is not one number, for what is no distribution; `AttributeError` for a field that is not there;
@@ -75,11 +79,11 @@ def tolerances(
         require_solvable(scene)
         instead = "it looks at the numbers; jax.grad and jax.jvp of solve can"
         require_outside("tolerances", instead, scene)
-        label, scatter = type(scene).__name__, scatter_of(scene, over)
+        label, scatter = type(scene).__name__, scatter_of(scene, over, drag_prior)
     else:
-        label, scatter = scatter_of_source(os.fspath(scene))
+        label, scatter = scatter_of_source(os.fspath(scene), drag_prior=drag_prior)
         if over:
-            scatter = scatter_of(scatter.scene, scatter.fields | dict(over))
+            scatter = scatter_of(scatter.scene, scatter.fields | dict(over), drag_prior)
     analysis = Analysis(scatter, label, NewtonOptions() if options is None else options)
     found = analysis.tolerances(results)
     if samples:

@@ -123,3 +123,81 @@ def test_samples_have_mean_and_deviation():
     for shape in ("normal", "uniform"):
         values = Distribution(3.0, 0.5, shape).samples(normal, uniform)
         np.testing.assert_allclose([values.mean(), values.std()], [3.0, 0.5], rtol=3e-3)
+
+
+# lognormal ones
+
+
+def test_lognormal_in_a_file():
+    changes = {"operation.radial_load": '{median = "1 kN", log_deviation = 0.2, high = "1.5 kN"}'}
+    (found,) = jb.load_distributions(SCENE, changes).values()
+    assert found == Distribution.lognormal(1000.0, 0.2, high=1500.0)
+    with pytest.warns(jb.MeanUsedWarning, match="its median, 1000 N, is used"):
+        scene = jb.load_scene(SCENE, changes)
+    assert float(scene.operation.radial_load) == 1000.0
+    limits = jb.load_distributions(
+        SCENE, {"operation.radial_load": '{low = "1 kN", high = "4 kN", shape = "lognormal"}'}
+    )
+    np.testing.assert_allclose(limits["operation.radial_load"].median, 2000.0, rtol=1e-12)
+    moments = {"operation.radial_load": '{mean = "1 kN", deviation = "100 N", shape = "lognormal"}'}
+    (found,) = jb.load_distributions(SCENE, moments).values()
+    assert (found.mean, found.deviation) == (1000.0, 100.0)
+    with pytest.warns(jb.MeanUsedWarning):
+        assert float(jb.load_scene(SCENE, moments).operation.radial_load) == found.median < 1000.0
+
+
+@pytest.mark.parametrize(
+    ("value", "place"),
+    [
+        ('{median = "1 kN"}', ""),
+        ('{median = "1 kN", log_deviation = "2"}', ".log_deviation"),
+        ('{median = "1 kN", log_deviation = -2}', ".log_deviation"),
+        ('{median = "1 kN", log_deviation = 0.2, high = "0.9 kN"}', ""),
+        ('{median = "1 kN", log_deviation = 0.2, shape = "normal"}', ""),
+        ('{median = "1 m", log_deviation = 0.2}', ".median"),
+        ('{low = "0 N", high = "1 kN", shape = "lognormal"}', ".low"),
+    ],
+)
+def test_no_lognormal_distribution(value, place):
+    with pytest.raises(SceneError) as error:
+        jb.load_scene(SCENE, {"operation.radial_load": value})
+    assert error.value.path == "operation.radial_load" + place
+
+
+@pytest.mark.parametrize("limits", [(None, None), (None, 1.2), (0.1, None), (0.1, 0.5)])
+def test_moments_and_quantiles_of_lognormal(limits):
+    found = Distribution.lognormal(0.3, 0.9, *limits)
+    shares = (np.arange(200_001) + 0.5) / 200_001
+    values = found.quantiles(shares)
+    np.testing.assert_allclose([values.mean(), values.std()], [found.mean, found.deviation], rtol=3e-3)
+    assert np.all(np.diff(values) >= 0.0)
+    if limits[0] is not None:
+        assert values.min() >= limits[0] == found.lowest
+    if limits[1] is not None:
+        assert values.max() <= limits[1] == found.highest
+    if limits == (None, None):
+        np.testing.assert_allclose(found.mean, 0.3 * np.exp(0.5 * 0.81), rtol=1e-12)
+        np.testing.assert_allclose(np.median(values), 0.3, rtol=1e-6)
+
+
+def test_lognormal_without_spread_is_a_number():
+    found = Distribution.lognormal(2.0, 0.0)
+    assert (found.mean, found.deviation, found.lowest, found.highest) == (2.0, 0.0, 2.0, 2.0)
+    assert np.all(found.quantiles(np.array([0.0, 0.5, 1.0])) == 2.0)
+
+
+@pytest.mark.parametrize(
+    ("make", "said"),
+    [
+        (lambda: Distribution(-1.0, 1.0, "lognormal"), "must be > 0"),
+        (lambda: Distribution(1.0, 1.0, "lognormal", median=1.0), "belong together"),
+        (lambda: Distribution(1.0, 1.0, median=1.0), "lognormal"),
+        (lambda: Distribution.lognormal(0.0, 1.0), "median must be > 0"),
+        (lambda: Distribution.lognormal(1.0, -1.0), "log_deviation must be >= 0"),
+        (lambda: Distribution.lognormal(1.0, 1.0, high=0.5), "at most the median"),
+        (lambda: Distribution.between(0.0, 1.0, "lognormal"), "must be > 0"),
+    ],
+)
+def test_no_lognormal_class(make, said):
+    with pytest.raises(ValueError, match=said):
+        make()

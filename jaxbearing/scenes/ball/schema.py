@@ -13,6 +13,7 @@ from ...contacts import PointLaws
 from .. import units
 from ..bearing.schema import (
     CageBase,
+    CatalogueTable,
     FitsTable,
     RatingTable,
     SupplyTable,
@@ -141,6 +142,7 @@ class BallBearingTable(Table):
     cage: BallCageTable | None = None
     drag: BallDragTable | None = None
     rating: RatingTable | None = None
+    catalogue: CatalogueTable | None = None
     fits: FitsTable | None = None
     temperatures: TemperaturesTable | None = None
     thermal: ThermalTable | None = None

@@ -9,6 +9,7 @@ from ...bearings.operation import AbstractOperation, HeldDisplacement
 from ...bearings.rating import Rating
 from ...contacts.oil_supply import GIVEN, Supply
 from ...contacts.rolling_heating import AIHARA
+from ...makers.catalogue import Catalogue
 from ...mounting import Fits, PartTemperatures
 from ...thermal.settings import Capacities, ConductanceFactors, Conductances, Shares, Thermal
 from ..laws import TURBULENCE, Laws
@@ -17,6 +18,7 @@ from ..oil.needs import require_laws, require_piezoviscous
 from ..oil.schema import OilTable
 from ..table import Problems, Table, check, refusal_at
 from ..table_of import table_of
+from ..units import Text
 
 TURBULENCE_OF_CAGES = {field.name: field for field in dataclasses.fields(AbstractCage)}["turbulence"].default
 
@@ -106,6 +108,17 @@ def heating_problems(contact: Any) -> Problems:
     """Refusal of an inlet heating of rolling resistance without a law of it. **Arguments:** `contact`, the table."""
     if contact.rolling_heating is not None and contact.rolling_resistance is None:
         yield refusal_at("rolling_resistance", "a law, without which rolling_heating has no meaning", "nothing")
+
+
+class CatalogueTable(table_of(Catalogue)):
+    """The bearing as a catalogue names it, for `jaxbearing compare`; see `makers.Catalogue`. No result depends on it.
+
+    - `designation`: such as "6205-2RSH", "NU 210 ECP" or "32216", for what it says of series, bore and seals
+    - `series`: as the makers' tables name it, such as "62", "72B", "2" (of NU 2) or "320X"
+    """
+
+    designation: Text | None = None
+    series: Text | None = None
 
 
 def require_oil_flow(drag: Table | None, operation: Any) -> Problems:

@@ -9,6 +9,7 @@ from ...bearings.parts import ContactLaws, Drag
 from ..bearing.profile import ProfileTable
 from ..bearing.schema import (
     CageBase,
+    CatalogueTable,
     FitsTable,
     RatingTable,
     SupplyTable,
@@ -113,6 +114,7 @@ class CylindricalRollerTable(Table):
     drag: DragTable | None = None
     simulation: SimulationTable | None = None
     rating: RatingTable | None = None
+    catalogue: CatalogueTable | None = None
     fits: FitsTable | None = None
     temperatures: TemperaturesTable | None = None
     thermal: ThermalTable | None = None

@@ -8,6 +8,7 @@ from ...bearings.tapered.geometry import TaperedGeometry
 from ...bearings.tapered.scene import TaperedOperation
 from ..bearing.profile import ProfileTable
 from ..bearing.schema import (
+    CatalogueTable,
     FitsTable,
     RatingTable,
     SupplyTable,
@@ -83,6 +84,7 @@ class TaperedRollerTable(Table):
     drag: DragTable | None = None
     profile: ProfileTable | None = None
     rating: RatingTable | None = None
+    catalogue: CatalogueTable | None = None
     fits: FitsTable | None = None
     temperatures: TemperaturesTable | None = None
     thermal: ThermalTable | None = None

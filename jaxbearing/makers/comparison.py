@@ -1,0 +1,124 @@
+"""Makers' formulas beside a solution: totals, parts, ratios, ranges. Nothing here enters a result of a solve."""
+
+import dataclasses
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from ..bearings.bearing import AbstractBearing
+from ..bearings.solution import Solution
+from .catalogue import Catalogue
+from .known import Known, contradictions, known_of
+from .laws import Law, laws_of
+
+_ROLLING, _DRAG = "rolling_resistance", "drag"
+CLOSE = 1.05
+"""Ratio of two formulas below which no note is made of their difference."""
+
+
+@dataclass(frozen=True)
+class Physical:
+    """The moments of the solution.
+
+    **Arguments:**
+    - `total`: power loss over the speed of the rings against each other, N m; `None` without losses or at rest.
+    - `power`: W; `None` where the scene models no loss.
+    - `parts`: as the makers have them, N m: rolling (rolling resistance), drag, and sliding (everything else); `None`
+      where the scene does not model it.
+    - `locations`: power losses by location, W.
+    """
+
+    total: float | None
+    power: float | None
+    parts: Mapping[str, float | None]
+    locations: Mapping[str, float]
+
+
+@dataclass(frozen=True)
+class Comparison:
+    """Makers' formulas beside the physical model.
+
+    **Arguments:**
+    - `physical`: of the solution.
+    - `laws`: formulas, those that do not cover the bearing as well.
+    - `duty`: inputs of the formulas in SI units: `speed` of the rings against each other, `radial` and `axial` load,
+      `viscosity`, `mean_diameter`, `family`, `series`, as far as they are known.
+    - `notes`: in words.
+    """
+
+    physical: Physical
+    laws: tuple[Law, ...]
+    duty: Mapping[str, Any]
+    notes: tuple[str, ...]
+
+    def __getitem__(self, law: str) -> Law:
+        return next(one for one in self.laws if one.law == law)
+
+    @property
+    def spread(self) -> float | None:
+        """Largest over smallest total of the formulas; `None` for fewer than two."""
+        totals = [one.total for one in self.laws if one.total]
+        return max(totals) / min(totals) if len(totals) > 1 else None
+
+
+_OF_DUTY = ("speed", "radial", "axial", "moment", "viscosity", "mean_diameter", "family", "series")
+
+
+def compared(scene: AbstractBearing, solution: Solution, catalogue: Catalogue | None = None) -> Comparison:
+    """Makers' formulas beside a solution. The solution is read and never changed.
+
+    **Raises:** `TypeError` for what is no bearing; `ValueError` for a solution that did not converge, or of a batch.
+    """
+    if not isinstance(scene, AbstractBearing) or not isinstance(solution, Solution):
+        raise TypeError(f"makers' formulas are of bearings, got a {type(scene).__name__}")
+    if np.ndim(np.asarray(solution.status)):
+        raise ValueError("compare takes one solution, found a batch")
+    if not bool(solution.converged):
+        raise ValueError(f"a solve that failed has no results: {solution.failure()}")
+    catalogue = Catalogue() if catalogue is None else catalogue
+    known = known_of(scene, solution, catalogue)
+    physical = _physical(solution, known.values["speed"])
+    laws = tuple(_beside(one, physical, known) for one in laws_of(known))
+    found = Comparison(physical, laws, {name: known.values.get(name) for name in _OF_DUTY}, ())
+    notes = [*contradictions(known, catalogue, scene.kind), *_notes(found)]
+    return dataclasses.replace(found, notes=tuple(notes))
+
+
+def _physical(solution: Solution, speed: float) -> Physical:
+    loss = solution.power_loss
+    found = {one.name: getattr(loss, one.name) for one in dataclasses.fields(loss) if one.name != "total"}
+    watts = {name: float(value) for name, value in found.items() if value is not None}
+    if not watts:
+        return Physical(None, None, {}, {})
+    others = [value for name, value in watts.items() if name not in (_ROLLING, _DRAG)]
+    groups = {
+        "rolling": watts.get(_ROLLING),
+        "sliding": sum(others) if others else None,
+        "seal": None,
+        "drag": watts.get(_DRAG),
+    }
+    power = float(loss.total)
+    if speed == 0.0:
+        return Physical(None, power, dict.fromkeys(groups), watts)
+    parts = {name: None if value is None else value / speed for name, value in groups.items()}
+    return Physical(power / speed, power, parts, watts)
+
+
+def _beside(law: Law, physical: Physical, known: Known) -> Law:
+    if law.total is None:
+        return law
+    ratio = law.total / physical.total if physical.total else None
+    return dataclasses.replace(law, power=law.total * known.values["speed"], ratio=ratio)
+
+
+def _notes(found: Comparison) -> list[str]:
+    notes, parts = [], found.physical.parts
+    if found.spread is not None and found.spread > CLOSE:
+        notes.append(f"the makers' formulas differ by a factor of {found.spread:.3g} among themselves")
+    if found.physical.power is None:
+        notes.append("the scene models no loss: nothing stands beside the formulas")
+    elif parts.get("rolling") is None:
+        notes.append("the scene leaves rolling resistance out (contact.rolling_resistance), the makers have it")
+    return notes

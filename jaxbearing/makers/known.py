@@ -1,0 +1,199 @@
+"""What the formulas need of a solved scene and its catalogue bearing: given, assumed or missing, each in words."""
+
+import math
+import re
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+
+from ..bearings.solution import RING_FREEDOMS, TILTS, Solution
+from .catalogue import Catalogue
+from .designation import FAMILIES, Said, read_designation
+from .skf_constants import BALL_FILM_FRICTION, BOUNDARY_FRICTION, FILM_FRICTION
+
+VG_TEMPERATURE = 313.15
+"""Temperature at which ISO VG classes state the viscosity, K."""
+ROUND_BORE = 1e-6
+"""Difference of bores that is none, m."""
+
+
+@dataclass(frozen=True)
+class Known:
+    """Numbers and words by name.
+
+    **Arguments:**
+    - `values`: what is known, in SI units.
+    - `assumed`: name -> what was assumed, in words, of those among `values` that the user did not give.
+    - `missing`: name -> what to give, in words, of those that are not among `values`.
+    """
+
+    values: dict[str, Any] = field(default_factory=dict)
+    assumed: dict[str, str] = field(default_factory=dict)
+    missing: dict[str, str] = field(default_factory=dict)
+
+    def put(self, name: str, value: Any, otherwise: str) -> None:
+        """Takes a value that may be `None`; `otherwise` says what to give."""
+        if value is None:
+            self.missing[name] = otherwise
+        else:
+            self.values[name] = value if isinstance(value, str) else float(np.asarray(value))
+
+    def assume(self, name: str, value: Any, words: str) -> None:
+        """Takes a value in the place of one that is missing; `words` say where it comes from."""
+        if name not in self.values and value is not None:
+            self.put(name, value, "")
+            self.missing.pop(name, None)
+            self.assumed[name] = words
+
+
+class Reader:
+    """Takes values for one formula, and keeps what was assumed or missing among them."""
+
+    def __init__(self, known: Known):
+        self.known = known
+        self.assumed: list[str] = []
+        self.missing: list[str] = []
+
+    def __call__(self, name: str) -> Any:
+        """The value; `None` where it is missing."""
+        if name in self.known.missing:
+            self.missing.append(self.known.missing[name])
+        elif name in self.known.assumed:
+            self.assumed.append(self.known.assumed[name])
+        return self.known.values.get(name)
+
+
+def known_of(scene: Any, solution: Solution, catalogue: Catalogue) -> Known:
+    """Everything that the formulas may ask."""
+    known, said = Known(), read_designation(catalogue.designation or "")
+    _names(known, scene, catalogue, said)
+    _sizes(known, scene, catalogue, said)
+    _oil(known, scene, catalogue)
+    _ratings(known, scene, solution, catalogue)
+    _seals(known, catalogue, said)
+    _frictions(known, catalogue)
+    _loads(known, solution)
+    for name in ("g1", "g2", "k", "f2", "f3"):
+        known.put(f"timken_{name}", getattr(catalogue, f"timken_{name}"), f"catalogue.timken_{name}")
+    return known
+
+
+def contradictions(known: Known, catalogue: Catalogue, kind: str) -> Iterator[str]:
+    """Notes where the designation says something else than other fields, or nothing."""
+    said = read_designation(catalogue.designation or "")
+    if catalogue.designation is not None and not said.family:
+        yield f"catalogue.designation: '{catalogue.designation}' has no form that is known here; it says nothing"
+    elif said.family and said.family not in FAMILIES[kind]:
+        yield f"catalogue.designation: '{catalogue.designation}' is no bearing of the kind {kind}"
+    bore = known.values.get("bore")
+    if said.bore is not None and bore is not None and abs(bore - said.bore) > ROUND_BORE:
+        yield (
+            f"catalogue.designation: '{catalogue.designation}' has a bore of {1e3 * said.bore:g} mm, the scene "
+            f"{1e3 * bore:g} mm; the scene's is used"
+        )
+
+
+def _names(known: Known, scene: Any, catalogue: Catalogue, said: Said) -> None:
+    own = FAMILIES[scene.kind]
+    family = catalogue.family or said.family or (own[0] if len(own) == 1 else "")
+    expected = "catalogue.designation, or catalogue.family"
+    known.put("family", family if family in own else None, f"{expected} ({', '.join(own)})")
+    if scene.kind == "cylindrical_roller_bearing":
+        known.assume("family", "cylindrical", "bearing with a cage (catalogue.family)")
+    series = _series(catalogue.series or said.series)
+    known.put("series", series or None, "catalogue.designation, or catalogue.series")
+
+
+def _series(text: str) -> str:
+    """A series as the tables of constants name it: "72 B" is "72B", "NU 2" is "2"."""
+    if text in ("single row", "double row", "other"):
+        return text
+    return re.sub(r"^(NUP|NU|NJ|N)(?=[0-9])", "", re.sub(r"\s", "", text.upper()))
+
+
+def _sizes(known: Known, scene: Any, catalogue: Catalogue, said: Said) -> None:
+    geometry = scene.geometry
+    for name in ("bore", "outside_diameter", "width"):
+        given = getattr(catalogue, name)
+        value = getattr(geometry, name, None) if given is None else given
+        known.put(name, value, f"catalogue.{name}")
+    known.assume("bore", said.bore, "bore by the designation")
+    if "bore" in known.values and "outside_diameter" in known.values:
+        known.put("mean_diameter", 0.5 * (known.values["bore"] + known.values["outside_diameter"]), "")
+        if "bore" in known.assumed:
+            known.assumed["mean_diameter"] = known.assumed["bore"]
+    else:
+        words = "mean diameter (d + D)/2 is the pitch diameter of the scene (catalogue.bore, outside_diameter)"
+        known.assume("mean_diameter", geometry.pitch_diameter, words)
+    known.put("element_diameter", scene.mean_diameter, "")
+    angle = getattr(geometry, "contact_angle", None)
+    known.put("contact_angle", angle, "geometry.contact_angle")
+    if scene.kind == "tapered_roller_bearing":
+        known.put("axial_factor", catalogue.axial_factor, "catalogue.axial_factor")
+        known.assume("axial_factor", 0.4 / math.tan(known.values["contact_angle"]), "Y = 0.4 cot(contact angle)")
+
+
+def _oil(known: Known, scene: Any, catalogue: Catalogue) -> None:
+    known.put("viscosity", catalogue.kinematic_viscosity, "catalogue.kinematic_viscosity, or an oil with a density")
+    known.missing["dynamic_viscosity"] = "an oil of the scene"
+    known.missing["viscosity_vg"] = "an oil with a density"
+    oil = scene.oil
+    if oil is not None:
+        temperature = scene.operation.oil_temperature
+        inlet = oil.at(temperature)
+        known.assume("dynamic_viscosity", inlet.viscosity, "oil at the inlet temperature")
+        if oil.density is not None:
+            kinematic = inlet.viscosity / inlet.density
+            known.assume("viscosity", kinematic, "oil at the inlet temperature (catalogue.kinematic_viscosity)")
+            at_40 = oil.at(VG_TEMPERATURE)
+            known.assume("viscosity_vg", at_40.viscosity / at_40.density, "oil at 40 degC")
+    known.put("lubrication", catalogue.lubrication, "")
+    known.assume("lubrication", "oil_bath", "oil bath (catalogue.lubrication)")
+    known.put("oil_level", catalogue.oil_level, "catalogue.oil_level")
+    if known.values["lubrication"] == "oil_jet":
+        words = "drag of a jet: twice that of a bath to half a rolling element"
+        known.assume("oil_level", 0.5 * known.values["element_diameter"], words)
+
+
+def _ratings(known: Known, scene: Any, solution: Solution, catalogue: Catalogue) -> None:
+    life, rating = solution.life, scene.rating
+    of_rating = lambda name: getattr(rating, name, None)
+    static = of_rating("static_capacity") if catalogue.static_capacity is None else catalogue.static_capacity
+    known.put("static_capacity", static, "catalogue.static_capacity")
+    known.put("dynamic_capacity", of_rating("dynamic_capacity"), "rating.dynamic_capacity")
+    for name in ("static_capacity", "dynamic_capacity"):
+        known.assume(name, getattr(life, name, None), f"{name.replace('_', ' ')} computed from the geometry")
+
+
+def _seals(known: Known, catalogue: Catalogue, said: Said) -> None:
+    known.put("seal", catalogue.seal or said.seal or None, "")
+    words = "no seals" if not catalogue.designation else "no seals, by the designation"
+    known.assume("seal", "none", f"{words} (catalogue.seal)")
+    known.put("n_seals", catalogue.n_seals or said.n_seals or 2, "")
+    known.put("seal_diameter", catalogue.seal_diameter, "catalogue.seal_diameter")
+
+
+def _frictions(known: Known, catalogue: Catalogue) -> None:
+    known.put("starvation_constant", catalogue.starvation_constant, "")
+    known.assume("starvation_constant", 0.0, "K_rs = 0, full inlets (catalogue.starvation_constant)")
+    known.put("boundary_friction", catalogue.boundary_friction, "")
+    known.assume("boundary_friction", BOUNDARY_FRICTION, f"mu_bl = {BOUNDARY_FRICTION} (catalogue.boundary_friction)")
+    known.put("film_friction", catalogue.film_friction, "")
+    film = FILM_FRICTION.get(known.values.get("family", ""), BALL_FILM_FRICTION)
+    known.assume("film_friction", film, f"mu_EHL = {film:g} (catalogue.film_friction)")
+
+
+def _loads(known: Known, solution: Solution) -> None:
+    operation: Any = solution.operation
+    force = np.asarray(solution.force, dtype=float)
+    loads = {}
+    for place, name in enumerate(RING_FREEDOMS):
+        given = operation.load(name)
+        held = operation.held_at(name) is not None and name not in TILTS
+        loads[name] = float(force[place]) if held else 0.0 if given is None else float(np.asarray(given))
+    known.put("axial", abs(loads["axial"]), "")
+    known.put("radial", math.hypot(loads["radial"], loads["lateral"]), "")
+    known.put("moment", math.hypot(loads["tilt"], loads["tilt_lateral"]), "")
+    known.put("speed", abs(float(operation.inner_speed) - float(operation.outer_speed)), "")
