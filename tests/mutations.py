@@ -47,7 +47,7 @@ MUTATIONS = (
     M("jaxbearing/contacts/distributed.py", "                stress = 2.0 * middle - stress\n", "                stress = middle\n", "Traction march: half a relaxation step", "contacts/test_distributed.py"),
     M("jaxbearing/contacts/distributed.py", "self.half_width - sums.rolling * self.strips.offset", "self.half_width + sums.rolling * self.strips.offset", "Spin moment: sign of one part", "contacts/test_distributed.py"),
     M("jaxbearing/contacts/heating.py", "self.conductance = 6.0 * conductivity", "self.conductance = 12.0 * conductivity", "Heat of the film: all of it into each surface", "contacts/test_heating.py"),
-    M("jaxbearing/contacts/rolling.py", "0.022 * log_viscous - 0.35", "0.022 * log_viscous - 0.33", "Rolling moment of a point contact: exponent", "contacts/test_point.py"),
+    M("jaxbearing/contacts/point_rolling.py", "0.022 * log_viscous - 0.35", "0.022 * log_viscous - 0.33", "Rolling moment of a point contact: exponent", "contacts/test_point.py"),
     M("jaxbearing/lubricants/simple_viscosity.py", "LOG_ROELANDS_VISCOSITY = -9.67", "LOG_ROELANDS_VISCOSITY = -9.76", "Roelands: digits swapped", "lubricants/test_viscosity_laws.py"),
     M("jaxbearing/lubricants/rheology.py", "pressure + self.stress_temperature * inverse", "pressure - self.stress_temperature * inverse", "Eyring stress: sign of its temperature coefficient", "lubricants/test_properties.py"),
     M("jaxbearing/gaps/martin.py", "load=6.0 * (speed * sin2 - squeeze * i2)", "load=6.0 * (speed * sin2 + squeeze * i2)", "Martin film: sign of the squeeze", "gaps/test_martin_and_pocket.py"),

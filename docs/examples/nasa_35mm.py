@@ -27,7 +27,7 @@ SCENE = {
         "thermal": "gupta",
         "traction": "maxwell_eyring",
         "traction_accuracy": 1e-3,
-        "rolling_resistance": "houpert",
+        "rolling_resistance": "source_86",
     },
     "kinematics": {"attitude": "equilibrium", "gyroscopic": "off"},
     "cage": {

@@ -55,9 +55,9 @@ class ContactLaws(Checked):
     - `entrainment_offset`: added to the mean surface speed of every contact, m/s. 0 by default; the
       reference closure of the published check values uses 1 mm/s.
     - `rolling`: rolling resistance, or `None`: left out.
-    - `rolling_heating`: how inlet heating lowers the rolling resistance, `"aihara"` or `"film_temperature"`
-      (`rolling_heating`). Not given: as the law of rolling resistance has it (`own_heating`) where `thermal` is a
-      reduction, and none where the film is isothermal.
+    - `rolling_heating`: how inlet heating lowers the rolling resistance, by a factor (`"aihara"`) or by the viscosity
+      at the temperature that explains `thermal` (`"film_temperature"`); not given: the law's own way where `thermal`
+      is given, otherwise none.
     - `entrainment_smoothing`: smoothing of the mean surface speed's modulus, m/s: what film a contact keeps whose
       surfaces pass through rest.
     - `supply`: how much oil there is, or `None`: fully flooded.

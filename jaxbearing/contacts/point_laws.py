@@ -55,7 +55,9 @@ class PointLaws(eqx.Module):
     - `thermal`: thermal reduction of the film; its rise also warms the oil in the contact.
     - `traction`: the sheared film, or `None`: frictionless, and then the balls roll without sliding.
     - `rolling`: rolling resistance, or `None`: left out.
-    - `rolling_heating`: how inlet heating lowers it, as in `laws.ContactLaws`.
+    - `rolling_heating`: how inlet heating lowers the rolling resistance, by a factor (`"aihara"`) or by the viscosity
+      at the temperature that explains `thermal` (`"film_temperature"`); not given: the law's own way where `thermal`
+      is given, otherwise none.
     - `heathcote`: whether the race's curvature across rolling counts in the sliding (`Sliding.curvature`); the source's
       patch is flat.
     - `supply`: how much oil there is, or `None`: fully flooded.

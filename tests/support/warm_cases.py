@@ -14,7 +14,7 @@ BALLS = OIL | {
     "geometry.outside_diameter": "52 mm",
     "geometry.width": "15 mm",
     "contact.film": "nijenbanning",
-    "contact.rolling_resistance": "houpert",
+    "contact.rolling_resistance": "source_86",
     "operation.radial_load": "none",
     "operation.moment": "none",
 }
