@@ -161,9 +161,15 @@ class Supply(Checked):
         if self.meniscus_gap is not None:
             gap = jnp.log(self.meniscus_gap + supply.LAYER_FLOOR) - log_flooded
         else:
-            ratio = LEVELS[self.level] if self.gap_over_central is None else self.gap_over_central  # pyright: ignore
-            gap = exact + jnp.log(ratio)
+            gap = exact + jnp.log(self._ratio())
         return supply.log_film_factor_of_gap(gap, power), gap, exact
+
+    def _ratio(self) -> Scalar:
+        """The gap over the flooded film, where it is given as such."""
+        if self.gap_over_central is not None:
+            return self.gap_over_central
+        assert self.level is not None
+        return LEVELS[self.level]
 
     def _layer(self, contact: LineContact | PointContact, load: Values, speed: Values, inlet: InletOil) -> Array:
         """ln of the layer, m."""
