@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 
 import jaxbearing as jb
+from jaxbearing.report.bearing.facts import facts
 
 PUBLISHED = tomllib.loads((Path(__file__).parents[1] / "published" / "rolling_resistance.toml").read_text())
 ALONE = {"contact.traction": "none", "cage": "none", "drag": "none"}
@@ -51,7 +52,9 @@ def test_energy_closes_where_nothing_slides(name):
     solution = jb.solve(scene_of(SCENES, name))
     closes(solution)
     assert solution.power_loss.total == solution.power_loss.rolling_resistance
-    assert solution.rolling_by_race.law.endswith(", inlet heating aihara")
+    said = dict(facts(solution))["Rolling by race"]  # on the screen
+    assert said.startswith("inner ")
+    assert said.endswith(", inlet heating aihara)")
 
 
 @pytest.mark.slow

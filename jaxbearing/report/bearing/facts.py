@@ -29,7 +29,7 @@ def facts(solution: Solution) -> Iterator[tuple[str, str]]:
     rolling = solution.rolling_by_race
     if rolling is not None:
         parts = f"inner {digits(float(rolling.inner))} W, outer {digits(float(rolling.outer))} W"
-        yield "Rolling resistance", f"{parts} ({rolling.law})"
+        yield "Rolling by race", f"{parts} ({rolling.law})"
     yield from _mixed_facts(solution)
     if solution.fit is not None:
         yield from fit_facts(solution.fit)
