@@ -173,6 +173,13 @@ def test_files_say_the_law_and_its_constants(tmp_path):
         assert eqx.tree_equal(jb.load_scene(file), one)
 
 
+def test_what_is_left_out_of_balls_is_said():
+    noted = any(
+        "against the spin of the balls" in note for note in jb.load_scene("deep_groove_6205", BALLS).assumptions()
+    )
+    assert noted
+
+
 def test_asperity_pressure_has_its_own_constants():
     changes = {"contact.mixed.share": "greenwood_tripp_pressure", "contact.mixed.asperity_product": "0.03"}
     scene = jb.load_scene("tapered_example", TAPERED | changes)

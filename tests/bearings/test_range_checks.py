@@ -39,6 +39,7 @@ KINDS = {
     "squeezed": "takes up the whole clearance",
     "hot": "oil in the contacts",
     "sheared": "traction rheology is extrapolated",
+    "rough": "asperities carry more than 1 %",
     "thermal loading": "thermal loading beyond 20",
     "slide ratio": "slide ratio of a loaded contact",
     "cage": "cage eccentricity",
@@ -52,7 +53,7 @@ KINDS = {
 }
 """Kind of check -> words of its text, which no other one has."""
 OF_RACES = {"yield", "skid", "behind", "other shoulder", "cut off", "edge", "hot", "sheared", "thermal loading"}
-OF_RACES |= {"slide ratio"}
+OF_RACES |= {"slide ratio", "rough"}
 
 FAMILIES = {
     "dry balls": ("deep_groove_6205", {}, "yield behind", "", "tilt unstable"),
@@ -70,6 +71,13 @@ FAMILIES = {
         "yield skid hot sheared thermal_loading slide_ratio",
         "",
         "cage interference hot_inlet cold_inlet slow standing_cage wide_land",
+    ),
+    "rough rollers": (
+        "turbine_roller",
+        {"contact.mixed": jb.contacts.MixedFriction(3e-7)},
+        "yield skid hot sheared rough thermal_loading slide_ratio",
+        "",
+        "cage interference hot_inlet cold_inlet standing_cage wide_land",
     ),
     "tilting rollers": (
         "turbine_roller",
@@ -122,6 +130,7 @@ LIMITS = {
     "cut off": ("past_edge", 0.0),
     "hot": ("temperature", FITTED_TEMPERATURES[1]),
     "sheared": ("pressure", None),
+    "rough": ("load_share", 0.01),
     "slide ratio": ("sliding", 2.0 * 10.0),
 }
 
@@ -129,7 +138,7 @@ LIMITS = {
 def contacts_of(scene):
     """Raceways where nothing leaves a range; the outer one has a million times the inner one's load."""
     ones = jnp.ones((2, COUNT))
-    balls = scene.contact is not None and not hasattr(scene.contact, "rolling")
+    balls = isinstance(scene.contact, jb.contacts.PointLaws)
     load = jnp.asarray([1e-3, 1e3])[:, None] * ones
     return Contacts(
         RACEWAYS,
@@ -140,6 +149,7 @@ def contacts_of(scene):
         mean_speed=10.0 * ones,
         sliding=0.01 * ones,
         temperature=350.0 * ones,
+        load_share=0.0 * ones if scene.contact.mixed is not None else None,
         laminae=jnp.ones((2, COUNT, LAMINAE)) * load[..., None] / LAMINAE,
         angle=0.5 * ones if balls else None,
         past_edge=-0.1 * ones if balls else None,
@@ -157,7 +167,7 @@ def warned(scene, contacts, **facts):
 
 
 @pytest.mark.parametrize("side", [0, 1])
-@pytest.mark.parametrize("name", ["balls", "rollers", "tilting rollers", "tapered rollers"])
+@pytest.mark.parametrize("name", ["balls", "rollers", "rough rollers", "tilting rollers", "tapered rollers"])
 def test_every_check_of_every_contact(name, side):
     """Just beyond its limit one loaded contact of one race is said there and nowhere else; just below, or without load,
     nothing is, whatever the other race carries."""

@@ -81,8 +81,9 @@ def _friction(
 ) -> tuple[Traction, Array | None, Array | None]:
     """Traction of both contacts; moments against the roll by the film's pressure and by Heathcote slip, N m;
     `None`: not modelled."""
-    races, sliding = state.races, _sliding(system, state)
+    races = state.races
     bend = 0.5 / _patch_radius(system) if system.laws.heathcote else None
+    sliding = _sliding(system, state, bend)
     shear = system.laws.shear(contact, state.load, state.film, races.mean_speed, sliding, system.oil)
     turn = SIDES * races.roll
     rolling = system.laws.rolling_moment(contact, state.load, state.film, races.mean_speed, turn, system.inlet)
@@ -90,11 +91,12 @@ def _friction(
     return shear, rolling, curvature
 
 
-def _sliding(system: AbstractLubricatedBallSystem, state: BallsState) -> Sliding:
-    """Speed of the ball over both races, in the axes of the traction law."""
+def _sliding(system: AbstractLubricatedBallSystem, state: BallsState, bend: Array | None = None) -> Sliding:
+    """Speed of the ball over both races, in the axes of the traction law. **Arguments:** `bend`: half the curvature of
+    the surface in which they meet, 1/m, where it counts."""
     races, slide = state.races, system.slide_share * SIDES
     transverse = slide * races.transverse if system.resolved else None
-    curved = 0.5 / _patch_radius(system) * slide * races.roll if system.laws.heathcote else None
+    curved = None if bend is None else bend * slide * races.roll
     return Sliding(slide * races.rolling, transverse, system.slide_share * races.spin, curved)
 
 

@@ -277,6 +277,11 @@ class BallBearing(AbstractBearing):
                     "contact.heathcote: ball and race slide also because their contact is curved (Heathcote slip), "
                     "which the source leaves out"
                 )
+            if self.contact.mixed is not None:
+                said.append(
+                    "contact.mixed: boundary friction against the spin of the balls is left out, balls that spin lose "
+                    "too little in mixed friction"
+                )
         if self.slips and self.cage is not None:
             said += self.cage.assumptions()
         if self.kinematics.orbit == "common":
