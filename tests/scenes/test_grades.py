@@ -40,6 +40,13 @@ def test_names_of_a_base_stock(base, meant):
     assert oil_writer.scene_oil(oil) == {"grade": "ISO VG 220", "base": meant}
 
 
+@pytest.mark.parametrize("name", ["FVA3", "fva3", "Mobil Jet II", "MOBIL_JET_II"])
+def test_names_of_the_catalogue(name):
+    known = "fva3" if name.lower() == "fva3" else "mobil_jet_ii"
+    assert oil_writer.scene_oil(oil_of(name=name)) == {"name": known}
+    assert oil_writer.scene_oil(jb.load_oil(name)) == {"name": known}
+
+
 def test_oil_of_a_grade():
     oil = oil_of(grade="ISO VG 32")
     assert isinstance(oil.viscosity, WaltherPower)
