@@ -39,7 +39,7 @@ def load_oil(name: str, base: str | None = None) -> Lubricant:
 
     **Raises:** `SceneError` for a name, a grade or a base stock that there is not.
     """
-    if grade_named(name) is not None or base is not None:
+    if (isinstance(name, str) and grade_named(name) is not None) or base is not None:
         given = {"grade": name} if base is None else {"grade": name, "base": base}
         return lubricant(read_table(OilTable, with_catalogue(given), str(name)))
     known = oil_named(name)
