@@ -6,6 +6,8 @@ from typing import NamedTuple
 import jax.numpy as jnp
 import numpy as np
 
+from jaxbearing.lubricants import ExponentialRheology
+
 from .estimation import held_out
 from .identifiability import frozen_by_rule
 from .parameters import NAMES, natural
@@ -60,7 +62,7 @@ def cross_validated_rms(result: FitResult) -> float | None:
     search.deviation = result.deviation
     free = np.array([name in result.fitted for name in NAMES])
     rheology = result.oil.rheology
-    assert rheology is not None
+    assert isinstance(rheology, ExponentialRheology)
     others = curve[None, :] != np.arange(len(result.measurements.curve_names))[:, None]
     given = (not free[0], not free[3])
     for kept in others:

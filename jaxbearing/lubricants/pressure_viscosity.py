@@ -124,8 +124,8 @@ class IntegratedPressureViscosity(AbstractPressureViscosity):
         super().__check_init__()
         if isinstance(self.viscosity, ISOVISCOUS):
             raise ValueError(
-                "pressure_viscosity: a viscosity that is constant under pressure has no coefficient to integrate; use "
-                "NoPressureViscosity"
+                "pressure_viscosity: a constant viscosity, the same at every pressure, has no coefficient to "
+                "integrate; use NoPressureViscosity"
             )
 
     def coefficient(self, temperature: Values) -> Batch:

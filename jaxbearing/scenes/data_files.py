@@ -34,6 +34,12 @@ def oil_names() -> tuple[str, ...]:
     return _names(_oils())
 
 
+def oil_named(given: object) -> str | None:
+    """The oil of the catalogue that a person may call "FVA3" or "Mobil Jet II"; `None` for something else."""
+    name = given.strip().lower().replace(" ", "_").replace("-", "_") if isinstance(given, str) else ""
+    return name if name in oil_names() else None
+
+
 def oil_text(name: str) -> str:
     """Text of the data file of an oil.
 

@@ -10,7 +10,7 @@ from jax.core import Tracer
 
 from .._scene import AbstractScene
 from ..lubricants import Lubricant
-from .data_files import oil_names
+from .data_files import oil_named
 from .drafts import read_table
 from .oil import catalogue as oils
 from .oil.files import read_oil
@@ -45,7 +45,7 @@ def load_oil(source: str | Path, base: str | None = None) -> Lubricant:
 
     **Raises:** `SceneError` for a name, a grade or a base stock that there is not, and for a file that is no oil.
     """
-    if isinstance(source, str) and (source in oil_names() or not source.endswith(".toml")):
+    if isinstance(source, str) and (oil_named(source) or not source.endswith(".toml")):
         return oils.load_oil(source, base)
     return oils.lubricant(read_table(OilTable, read_oil(str(source)), str(source)))
 

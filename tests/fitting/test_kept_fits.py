@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import jaxbearing as jb
-from fitting import Measurements
+from fitting import Measurements, fit
 from fitting.estimation import coefficients, estimate_from, held_out, linearized, slope_over_slide
 from fitting.options import FitOptions
 from fitting.search import Search, _compiled_state
@@ -14,12 +14,9 @@ from jaxbearing.machines import TwoDisk
 from jaxbearing.programs import KeptProgram
 
 
-@pytest.fixture(scope="module")
-def problem():
-    scene = jb.load_scene("two_disk_etm")
-    assert isinstance(scene, TwoDisk)
+def measured():
     same = lambda value: np.full(4, value)
-    measured = Measurements(
+    return Measurements(
         slide_to_roll=np.asarray([0.005, 0.01, 0.02, 0.05]),
         traction_coefficient=same(0.02),
         load=same(100.0),
@@ -28,8 +25,21 @@ def problem():
         curve=(0, 0, 0, 0),
         curve_names=("a",),
     )
-    search = Search(measured, scene, FitOptions())
+
+
+@pytest.fixture(scope="module")
+def problem():
+    scene = jb.load_scene("two_disk_etm")
+    assert isinstance(scene, TwoDisk)
+    search = Search(measured(), scene, FitOptions())
     return search.problem(search.free_by_rule()[0], {})
+
+
+def test_only_the_exponential_law_is_fitted():
+    scene = jb.load_scene("two_disk_etm", {"oil.grade": "ISO VG 68"})
+    assert isinstance(scene, TwoDisk)
+    with pytest.raises(ValueError, match="found ProportionalRheology, expected first values of the law 'exponential'"):
+        fit(measured(), scene)
 
 
 def calls(problem):

@@ -11,7 +11,7 @@ import pytest
 
 from jaxbearing.lubricants import IntegratedPressureViscosity, LinearDensity, ProportionalRheology, WaltherPower
 from jaxbearing.scenes.oil import grades
-from jaxbearing.scenes.oil.catalogue import load_oil
+from jaxbearing.scenes.oil.catalogue import load_oil, missing_sources
 
 PUBLISHED = Path(__file__).parents[1] / "published"
 MINERAL = tomllib.loads((PUBLISHED / "lubricants.toml").read_text())["mineral_oils"]
@@ -41,6 +41,11 @@ def test_the_grades_are_those_of_the_table():
     for base in grades.bases():
         found = [str(grades.number_of(grade)) for grade in grades.grades(base)]
         assert sorted(found) == sorted(row["grade"] for row in TABLE if row["base"] == base)
+
+
+@pytest.mark.parametrize("base", grades.bases())
+def test_every_number_has_a_source(base):
+    assert missing_sources(grades.grade_tables(grades.grades(base)[0], base)) == []
 
 
 @pytest.mark.parametrize(("grade", "base"), EVERY)

@@ -11,6 +11,7 @@ from jaxbearing.scenes.errors import SceneError
 from jaxbearing.scenes.oil import grades
 from jaxbearing.scenes.oil import writer as oil_writer
 from jaxbearing.scenes.reader import load_scene, oil_origins
+from jaxbearing.sweeps.fields import SceneSource
 from jaxbearing.tolerance.scatter import scatter_of_source
 
 EXAMPLES = Path(__file__).parents[2] / "docs" / "examples"
@@ -37,6 +38,13 @@ def test_names_of_a_grade(grade):
 def test_names_of_a_base_stock(base, meant):
     oil = oil_of(grade="ISO VG 220", base=base)
     assert oil_writer.scene_oil(oil) == {"grade": "ISO VG 220", "base": meant}
+
+
+@pytest.mark.parametrize("name", ["FVA3", "fva3", "Mobil Jet II", "MOBIL_JET_II"])
+def test_names_of_the_catalogue(name):
+    known = "fva3" if name.lower() == "fva3" else "mobil_jet_ii"
+    assert oil_writer.scene_oil(oil_of(name=name)) == {"name": known}
+    assert oil_writer.scene_oil(jb.load_oil(name)) == {"name": known}
 
 
 def test_oil_of_a_grade():
@@ -180,6 +188,20 @@ def losses(scene):
     return power
 
 
+@pytest.mark.parametrize("bearing", ["6207", "nu311", "30206"])
+def test_scenes_of_the_examples_have_a_standard_oil(bearing):
+    scene = load_scene(EXAMPLES / f"catalogue_{bearing}.toml")
+    assert oil_writer.scene_oil(scene.oil) == {"grade": "ISO VG 68", "base": "mineral"}
+    other = load_scene(EXAMPLES / f"catalogue_{bearing}.toml", {"oil.grade": "ISO VG 32"})
+    assert float(other.oil.at(313.15).viscosity) < 0.5 * float(scene.oil.at(313.15).viscosity)
+
+
+def test_a_sweep_takes_no_grade():
+    with pytest.raises(SceneError, match=r"oil\.grade: found a choice of words"):
+        SceneSource.of(SCENE, {"oil.grade": "ISO VG 68"}).field("oil.grade", "--over")
+
+
+@pytest.mark.slow  # a solve with the heat of films
 def test_30206_from_its_catalogue():
     power = losses(load_scene(EXAMPLES / "catalogue_30206.toml"))
     assert set(power) == {"rolling_resistance", "flange", "total"}

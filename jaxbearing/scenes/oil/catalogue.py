@@ -21,7 +21,7 @@ from ...lubricants import (
     WaltherPower,
     WaltherRoelands,
 )
-from ..data_files import oil_names, oil_text
+from ..data_files import oil_named, oil_names, oil_text
 from ..drafts import read_table
 from ..errors import SceneError, nearest, one_of
 from .files import base_of
@@ -39,13 +39,14 @@ def load_oil(name: str, base: str | None = None) -> Lubricant:
 
     **Raises:** `SceneError` for a name, a grade or a base stock that there is not.
     """
-    if grade_named(name) is not None or base is not None:
+    if (isinstance(name, str) and grade_named(name) is not None) or base is not None:
         given = {"grade": name} if base is None else {"grade": name, "base": base}
         return lubricant(read_table(OilTable, with_catalogue(given), str(name)))
-    if name not in oil_names():
+    known = oil_named(name)
+    if known is None:
         near = nearest(name, oil_names()) if isinstance(name, str) else ""
         raise SceneError(str(name), "name", f"'{name}'", f"an oil of the catalogue: {one_of(oil_names())}", near)
-    return lubricant(read_table(OilTable, with_catalogue({"name": name}), f"{name}.toml"))
+    return lubricant(read_table(OilTable, with_catalogue({"name": known}), f"{known}.toml"))
 
 
 def oil_data(name: str) -> dict[str, Any]:

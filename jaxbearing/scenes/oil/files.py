@@ -3,7 +3,7 @@
 from collections.abc import Mapping
 from typing import Any, NamedTuple
 
-from ..data_files import oil_names, oil_text
+from ..data_files import oil_named, oil_text
 from ..drafts import read_table
 from ..errors import SceneError
 from ..toml_files import parse_toml, read_text
@@ -49,8 +49,9 @@ def base_of(oil: Mapping[str, Any]) -> dict[str, Any] | None:
         return None if found is None else grade_tables(*found)
     if name is None and isinstance(file, str):
         return read_oil(file)
-    if file is None and isinstance(name, str) and name in oil_names():
-        return parse_toml(oil_text(name), name, _EXPECTED)
+    known = oil_named(name)
+    if file is None and known is not None:
+        return parse_toml(oil_text(known), known, _EXPECTED)
     return None
 
 

@@ -31,7 +31,7 @@ from ...lubricants import (
     WaltherRoelands,
 )
 from .. import units
-from ..data_files import oil_names
+from ..data_files import oil_named, oil_names
 from ..errors import nearest, one_of
 from ..table import Problems, Table, check, refusal_at
 from ..table_of import number_of, table_of
@@ -190,11 +190,11 @@ def builds(table: Any, *laws: type) -> bool:
 
 
 def _oil_name(value: Any) -> str:
-    names = oil_names()
-    if not isinstance(value, str) or value not in names:
-        near = nearest(value, names) if isinstance(value, str) else ""
-        raise units.refusal(f"an oil of the catalogue: {one_of(names)}", units.describe(value), near)
-    return value
+    name = oil_named(value)
+    if name is None:
+        near = nearest(value, oil_names()) if isinstance(value, str) else ""
+        raise units.refusal(f"an oil of the catalogue: {one_of(oil_names())}", units.describe(value), near)
+    return name
 
 
 def _grade(value: Any) -> str:
