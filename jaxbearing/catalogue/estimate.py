@@ -6,9 +6,9 @@ from a least-squares problem
 $$\min_x \sum_k \left(\frac{g_k(x) - m_k}{s_k}\right)^2,$$
 
 whose terms are the usual proportions (`proportions.py`), what is given (with $s_k$ = 1e-5), and the logarithms of
-printed over computed ratings. The ratings are those of `life.capacity` and `life.static`, with their derivatives by JAX. The
-candidates are compared by the probability of Laplace's approximation, $e^{-\chi^2/2}\det(J^TJ)^{-1/2}$, which also
-makes the intervals.
+printed over computed ratings. The ratings are those of `life.capacity` and `life.static`, with their derivatives by
+JAX. The candidates are compared by the probability of Laplace's approximation, $e^{-\chi^2/2}\det(J^TJ)^{-1/2}$, which
+also makes the intervals.
 """
 
 import math
