@@ -3,14 +3,12 @@
 import itertools
 
 import pytest
-from makers_tables import rated_bearings, spindle_bearings
+from makers_tables import NOT_IN_THE_TABLES, rated_bearings, spindle_bearings
 
 from jaxbearing import SceneError
 from jaxbearing.catalogue import known_designations, parse
 from jaxbearing.catalogue.designation import RADIAL_SERIES, TAPERED_SERIES, bore_of
 from jaxbearing.catalogue.dimensions import bores, boundary_dimensions, clearance_limits
-
-NOT_IN_THE_TABLES = {"NU 1292", "NU 2268", "NU 2272", "NU 2276 ECMA", "NU 2292"}
 
 
 @pytest.mark.parametrize(

@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 import pytest
-from makers_tables import rated_bearings, spindle_bearings
+from makers_tables import NOT_IN_THE_TABLES, rated_bearings, spindle_bearings
 
 import jaxbearing as jb
 from jaxbearing.catalogue import Designation, find
@@ -130,11 +130,29 @@ def test_what_is_given_is_kept_and_sharpens():
         ({"pitch_diameter": 1.0}, "between bore and outside diameter"),
         ({"element_diameter": 0.1}, "height of the section"),
         ({"element_diameter": 8e-3, "n_elements": 16}, "do not fit"),
+        ({"element_diameter": 1e-5}, "no number of such elements"),
     ],
 )
 def test_impossible_numbers_are_refused(given, message):
     with pytest.raises(ValueError, match=message):
         find("6205", **given)
+
+
+@pytest.mark.parametrize(("text", "rating"), [("6207", 255e3), ("NU 311", 15.6e3), ("30206", 4e5)])
+def test_ratings_of_another_bearing_are_doubted(text, rating):
+    bearing = find(text, dynamic_capacity=rating)
+    assert [note for note in bearing.designation.notes if "is it this bearing's?" in note]
+    assert "# the given dynamic_capacity is" in bearing.text()
+    assert bearing.designation.bore == find(text).designation.bore
+    assert find(text).designation.notes == ()
+
+
+def test_printed_ratings_are_not_doubted():
+    for row in rated_bearings()[::5]:
+        if row.designation not in NOT_IN_THE_TABLES:
+            given = {"dynamic_capacity": row.dynamic_capacity, "static_capacity": row.static_capacity}
+            notes = find(row.designation, **given).designation.notes
+            assert not [note for note in notes if note.endswith("?")], row.designation
 
 
 @pytest.mark.parametrize("text", ["30206", "31310", "32322", "33010", "32926", "32310 B"])
