@@ -2,7 +2,7 @@
 
 import math
 import tomllib
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from typing import Any, NamedTuple
 
 from .._scene import AbstractScene
@@ -10,11 +10,13 @@ from ..numerics.arguments import require_count, require_numbers
 from ..scenes.reader import scene_from_tables
 from .designation import Designation, parse
 from .estimate import Estimate, Geometry, estimate
-from .proportions import Normal
+from .proportions import Normal, proportions_of
 from .scene_text import scene_text
 
 USUAL_ANGLES = {"angular_contact": Normal(30.0, 5.0), "spindle": Normal(15.0, 3.0)}
 """Contact angle where the designation states none, degrees: the designs without a suffix differ between makers."""
+FAR = 4.0
+"""Deviations between a given rating and the computed one from which on it is doubted."""
 ROLLERS = ("cylindrical", "tapered")
 
 
@@ -87,7 +89,17 @@ def find(
     known = {name: value for name, value in given.items() if value is not None}
     _check(bearing, known)
     geometry = estimate(bearing, known, _angle(bearing, contact_angle))
-    return Bearing(bearing, geometry, known)
+    notes = (*bearing.notes, *_doubts(bearing, geometry, known))
+    return Bearing(bearing._replace(notes=notes), geometry, known)
+
+
+def _doubts(bearing: Designation, geometry: Geometry, given: Mapping[str, float]) -> Iterator[str]:
+    """Ratings that were given and are far from what such a bearing has."""
+    usual = proportions_of(bearing.kind, bearing.series)
+    for name, law in (("dynamic_capacity", usual.dynamic), ("static_capacity", usual.static)):
+        ratio = given.get(name, math.nan) / getattr(geometry, name)
+        if abs(math.log(ratio) - law.mean) > FAR * law.deviation:
+            yield f"the given {name} is {ratio:.2f} times that of a usual geometry of this size: is it this bearing's?"
 
 
 def _angle(bearing: Designation, given: float | None) -> Normal:

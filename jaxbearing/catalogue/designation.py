@@ -96,15 +96,13 @@ def parse(text: str) -> Designation:
 
     **Raises:** `SceneError` with the nearest designations if the text is none that is known.
     """
-    plain = re.sub(r"[\s_\-.]+|/(?!\s*\d)", "", text).upper()
-    found = _basic(plain)
+    spaced = re.sub(r"[\s_\-.]+|/(?!\s*\d)", " ", text).strip().upper()
+    spaced = re.sub(rf"^({'|'.join(CYLINDRICAL_TYPES)}) ", r"\1", spaced)
+    plain = spaced.replace(" ", "")
+    found = _basic(spaced) or _basic(plain)
     if found is None:
         raise _unknown(text, plain)
-    kind, design, series, code, rest = found
-    bore = bore_of(code)
-    sizes = boundary_dimensions(kind, RADIAL_SERIES.get(kind, {}).get(series, series), bore)
-    if sizes is None:
-        raise _unknown(text, plain)
+    kind, design, series, bore, sizes, rest = found
     angle, rest = _angle(kind, rest)
     cup, usual, spread = sizes[3:6] if kind == "tapered" else (None, None, None)
     if kind == "tapered" and rest.startswith("B"):
@@ -148,21 +146,43 @@ def _code(bore: float) -> str:
     return {10.0: "00", 12.0: "01", 15.0: "02", 17.0: "03"}.get(bore, f"{round(bore / 5.0):02d}")
 
 
-def _basic(plain: str) -> tuple[str, str, str, str, str] | None:
-    """Kind, type, series, bore code and the rest of the designation."""
-    match = re.match(rf"(NUP|NU|NJ|NF|N)(10|22|23|2|3|4)(\d\d){_END}(.*)", plain)
-    if match:
-        return "cylindrical", match[1], match[2], match[3], match[4]
-    match = re.match(rf"({'|'.join(TAPERED_SERIES)})(\d\d){_END}(.*)", plain)
-    if match:
-        return "tapered", "", match[1], match[2], match[3]
-    for kind in ("deep_groove", "spindle", "angular_contact"):
-        series = "|".join(sorted(RADIAL_SERIES[kind], key=len, reverse=True))
-        code = rf"\d\d{_END}|/\d+|\d{_END}" if kind == "deep_groove" else rf"\d\d{_END}"
-        match = re.match(rf"({series})({code})(.*)", plain)
-        if match:
-            return kind, "", match[1], match[2], match[3]
+class _Basic(NamedTuple):
+    """What the number says: type, series, bore and boundary dimensions, mm, and the suffixes that are left."""
+
+    kind: str
+    design: str
+    series: str
+    bore: float
+    sizes: tuple[float, ...]
+    rest: str
+
+
+def _basic(text: str) -> _Basic | None:
+    """The number of a designation; `None` if it is none whose dimensions are known."""
+    for kind, design, series, code, rest in _readings(text):
+        bore = bore_of(code)
+        sizes = boundary_dimensions(kind, RADIAL_SERIES.get(kind, {}).get(series, series), bore)
+        if sizes is not None:
+            return _Basic(kind, design, series, bore, sizes, rest.replace(" ", ""))
     return None
+
+
+def _readings(text: str) -> Iterator[tuple[str, str, str, str, str]]:
+    """Kind, type, series, bore code and the rest, in every way in which a designation may be read."""
+    match = re.match(rf"({'|'.join(CYLINDRICAL_TYPES)})(10|22|23|2|3|4)(\d\d){_END}(.*)", text)
+    if match:
+        yield "cylindrical", match[1], match[2], match[3], match[4]
+    match = re.match(rf"({'|'.join(TAPERED_SERIES)})(\d\d){_END}(.*)", text)
+    if match:
+        yield "tapered", "", match[1], match[2], match[3]
+    for kind in ("deep_groove", "spindle", "angular_contact"):
+        for series in sorted(RADIAL_SERIES[kind], key=len, reverse=True):
+            codes = [rf"\d\d{_END}", r"/\d+", rf"\d{_END}"] if kind == "deep_groove" else [rf"\d\d{_END}"]
+            # bores below 10 mm of the thin series stand after a stroke
+            for code in codes[:2] if len(series) == 3 else codes:
+                match = re.match(rf"{series}({code})(.*)", text)
+                if match:
+                    yield kind, "", series, match[1], match[2]
 
 
 def _angle(kind: str, rest: str) -> tuple[float | None, str]:

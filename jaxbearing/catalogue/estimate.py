@@ -7,8 +7,8 @@ $$\min_x \sum_k \left(\frac{g_k(x) - m_k}{s_k}\right)^2,$$
 
 whose terms are the usual proportions (`proportions.py`), what is given (with $s_k$ = 1e-5), and the logarithms of
 printed over computed ratings. The ratings are those of `life.capacity` and `life.static`, with their derivatives by
-JAX. The candidates are compared by the probability of Laplace's approximation, $e^{-\chi^2/2}\det(J^TJ)^{-1/2}$,
-which also makes the intervals.
+JAX. The candidates are compared by the probability of Laplace's approximation, $e^{-\chi^2/2}\det(J^TJ)^{-1/2}$, which
+also makes the intervals.
 """
 
 import math
@@ -80,13 +80,14 @@ def estimate(bearing: Designation, given: Mapping[str, float], angle: Normal) ->
     - `given`: what is known, SI: "n_elements", "diameter", "pitch_diameter", "length", "dynamic_capacity",
       "static_capacity".
     - `angle`: contact angle, rad, with a deviation of 0 if it is given.
+
+    **Raises:** `ValueError` for numbers that no geometry of this size has.
     """
     rollers = bearing.kind in ("cylindrical", "tapered")
     terms = _terms(bearing, given, angle)
     counts, sizes, standard = _candidates(bearing, given, terms)
-    lanes = LANES
-    mask = np.arange(lanes) < len(counts)
-    padded = [np.resize(column, lanes).astype(float) for column in (counts, sizes)]
+    mask = np.arange(LANES) < len(counts)
+    padded = [np.resize(column, LANES).astype(float) for column in (counts, sizes)]
     size_weight = np.asarray(0.0 if math.isnan(sizes[0]) else 1.0 / GIVEN)
     program = _PROGRAMS["roller" if rollers else "ball"]
     out = program(padded[0], np.nan_to_num(np.log(padded[1])), size_weight, terms)
@@ -153,6 +154,8 @@ def _candidates(
         return np.array(fits), np.full(len(fits), math.nan), standard
     count, size = (column.ravel() for column in np.meshgrid(numbers, sizes, indexing="ij"))
     kept = _fills(count, size, pitch) | (len(numbers) == 1)
+    if not kept.any():
+        raise ValueError("element_diameter: no number of such elements fills the pitch circle by 50 to 98 %")
     count, size = count[kept], size[kept]
     order = np.argsort(np.abs(np.log(size / middle)) / spread + np.abs(np.log(count * size / (2.7 * pitch))) / 0.1)
     return count[order][:LANES], size[order][:LANES], standard
@@ -248,6 +251,8 @@ def _chosen(
     """The likeliest candidate, and intervals from all of them."""
     misfit = np.where(mask & np.isfinite(out["misfit"]), out["misfit"], np.inf)
     best = int(np.argmin(misfit))
+    if not np.isfinite(misfit[best]):
+        raise ValueError("no geometry of this size has the numbers that were given")
     chance = np.exp(-0.5 * (misfit - misfit[best]))
     chance = chance / chance.sum()
 

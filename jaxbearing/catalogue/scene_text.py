@@ -83,7 +83,7 @@ def _head(bearing: Designation, geometry: Geometry, given: Mapping[str, float]) 
     if options:
         yield f"# What would sharpen the estimates: {options}."
     for note in bearing.notes:
-        yield f"# {note}."
+        yield f"# {note}" if note.endswith("?") else f"# {note}."
 
 
 def _told(given: Mapping[str, float]) -> str:

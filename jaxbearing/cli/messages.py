@@ -60,7 +60,7 @@ def _of_a_bearing(error: "SceneError") -> str:
         bearing = parse(error.file)
     except SceneError:
         return ""
-    return f" For the {bearing.in_words}: 'jaxbearing new {bearing.text}' writes a scene."
+    return f" 'jaxbearing new {bearing.text}' writes a scene of this {bearing.in_words}."
 
 
 def refuse(message: str) -> NoReturn:

@@ -3,14 +3,12 @@
 import itertools
 
 import pytest
-from makers_tables import rated_bearings, spindle_bearings
+from makers_tables import NOT_IN_THE_TABLES, rated_bearings, spindle_bearings
 
 from jaxbearing import SceneError
 from jaxbearing.catalogue import known_designations, parse
 from jaxbearing.catalogue.designation import RADIAL_SERIES, TAPERED_SERIES, bore_of
 from jaxbearing.catalogue.dimensions import bores, boundary_dimensions, clearance_limits
-
-NOT_IN_THE_TABLES = {"NU 1292", "NU 2268", "NU 2272", "NU 2276 ECMA", "NU 2292"}
 
 
 @pytest.mark.parametrize(
@@ -53,6 +51,19 @@ def test_seals_and_classes_are_noted(text):
     assert found.clearance_class == ("C3" if "C3" in text else "CN")
 
 
+@pytest.mark.parametrize("text", ["608", "608-2RS", "608 ZZ", "608ZZ", "6082RS", "608-2Z/C3", "608 C3"])
+def test_bores_of_one_digit(text):
+    found = parse(text)
+    assert (found.bore, found.outside, found.width) == (8.0, 22.0, 7.0)
+    assert not [note for note in found.notes if "not understood" in note]
+
+
+def test_the_number_ends_at_a_separator():
+    """625 with seals, and 6252 with a seal on one side."""
+    assert parse("625-2RS").bore == 5.0
+    assert parse("6252-RS").bore == 260.0
+
+
 def test_angles_of_suffixes():
     angles = {
         "7205 B": 40,
@@ -80,6 +91,7 @@ def test_what_is_not_understood_is_said():
         ("NU 399", "'NU 309'"),
         ("22210", "spherical roller bearing, which is not modelled"),
         ("51110", "thrust bearing"),
+        ("6185", "'618/5'"),
         ("", "such as 6207"),
         ("deep groove", "such as 6207"),
     ],

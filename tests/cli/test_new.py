@@ -83,5 +83,5 @@ def test_bad_input(jaxbearing_command, folder, arguments, words):
 def test_other_verbs_name_it(jaxbearing_command, verb):
     result = jaxbearing_command(verb, "6205")
     assert result.code == 2
-    assert "'jaxbearing new 6205' writes a scene" in result.err
+    assert "'jaxbearing new 6205' writes a scene of this deep groove ball bearing." in result.err
     assert "jaxbearing new" not in jaxbearing_command(verb, "6299").err

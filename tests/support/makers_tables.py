@@ -5,6 +5,8 @@ from pathlib import Path
 from typing import NamedTuple
 
 FOLDER = Path(__file__).parents[1] / "catalogue"
+NOT_IN_THE_TABLES = {"NU 1292", "NU 2268", "NU 2272", "NU 2276 ECMA", "NU 2292"}
+"""Bearings of these tables whose dimensions the package does not have."""
 
 
 class Printed(NamedTuple):
