@@ -158,32 +158,37 @@ def test_dry_level_has_no_drag_and_full_bearing_has_the_most():
 # hard cases: value and gradient
 
 
-@pytest.mark.parametrize("speed", [0.0, 1e-9, 1.0, 1e4])
-@pytest.mark.parametrize(("radial", "axial"), [(0.0, 0.0), (0.0, 1.0), (1e5, 0.0), (1e5, 1e5)])
-def test_hard_cases(speed, radial, axial):
-    def total(numbers):
-        speed, radial, axial, level = numbers
-        found = []
-        for variables, film in (
-            (skf.deep_groove_variables(DEEP_62, 0.04, radial, axial, 7800.0), 0.05),
-            (skf.angular_contact_variables(ANGULAR_CONTACT["72B",], 0.04, radial, axial, speed), 0.05),
-            (skf.cylindrical_variables(NU_2, 0.04, radial, axial), 0.02),
-            (skf.tapered_variables(TAPERED_322, 0.04, radial, axial, 1.6), 0.002),
-        ):
-            friction = skf.sliding_friction(speed, 2e-5, 0.04, 0.15, film)
-            found += [skf.rolling_moment(variables[0], speed, 2e-5, 0.04), skf.sliding_moment(variables[1], friction)]
-        f1 = palmgren.load_factor(0.0009, 0.5, radial, 7800.0)
-        found += [palmgren.viscous_moment(2.0, speed, 2e-5, 0.04), palmgren.load_moment(f1, radial, 0.04)]
-        found.append(skf.ball_drag(speed, 2e-5, 0.025, 0.052, level, 3.1))
-        found.append(skf.roller_drag(speed, 0.05, 0.09, 0.02, level, 5.1, 0.65))
-        found.append(palmgren.timken_tapered_moment(50.0, speed, 0.02, radial))
-        return jnp.stack(found)
+def every_moment(numbers):
+    """Moments of all formulas at a speed, loads and an oil level."""
+    speed, radial, axial, level = numbers
+    found = []
+    for variables, film in (
+        (skf.deep_groove_variables(DEEP_62, 0.04, radial, axial, 7800.0), 0.05),
+        (skf.angular_contact_variables(ANGULAR_CONTACT["72B",], 0.04, radial, axial, speed), 0.05),
+        (skf.cylindrical_variables(NU_2, 0.04, radial, axial), 0.02),
+        (skf.tapered_variables(TAPERED_322, 0.04, radial, axial, 1.6), 0.002),
+    ):
+        friction = skf.sliding_friction(speed, 2e-5, 0.04, 0.15, film)
+        found += [skf.rolling_moment(variables[0], speed, 2e-5, 0.04), skf.sliding_moment(variables[1], friction)]
+    f1 = palmgren.load_factor(0.0009, 0.5, radial, 7800.0)
+    found += [palmgren.viscous_moment(2.0, speed, 2e-5, 0.04), palmgren.load_moment(f1, radial, 0.04)]
+    found.append(skf.ball_drag(speed, 2e-5, 0.025, 0.052, level, 3.1))
+    found.append(skf.roller_drag(speed, 0.05, 0.09, 0.02, level, 5.1, 0.65))
+    found.append(palmgren.timken_tapered_moment(50.0, speed, 0.02, radial))
+    return jnp.stack(found)
 
-    for level in (0.0, 0.005, 1.0):
-        numbers = jnp.array([speed, radial, axial, level])
-        assert np.all(np.isfinite(total(numbers)))
-        assert np.all(np.isfinite(jax.jacfwd(total)(numbers)))
-        assert np.all(np.isfinite(jax.jacrev(total)(numbers)))
+
+def test_hard_cases():
+    """At rest, without load, without oil, and far beyond all of them; one program for all."""
+    cases = [
+        (speed, *loads, level)
+        for speed in (0.0, 1e-9, 1.0, 1e4)
+        for loads in ((0.0, 0.0), (0.0, 1.0), (1e5, 0.0), (1e5, 1e5))
+        for level in (0.0, 0.005, 1.0)
+    ]
+    numbers = jnp.array(cases)
+    for of in (every_moment, jax.jacfwd(every_moment), jax.jacrev(every_moment)):
+        assert np.all(np.isfinite(jax.jit(jax.vmap(of))(numbers)))
 
 
 def test_gradients_are_those_of_differences():
