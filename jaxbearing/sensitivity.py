@@ -207,7 +207,8 @@ def power_interval(
     """The power loss over the assumed distribution of the drag coefficient (`bearings.priors`), all else as it is.
 
     The loss rises with the coefficient, so its limits are those of two more solves, by the same program, at the
-    coefficients below which 5 and 95 % of all are. `None` for a scene without this distribution, and where a solve fails.
+    coefficients below which 5 and 95 % of all are. `None` for a scene without this distribution, and where a solve
+    fails.
 
     **Arguments:** `solution`: of the scene; `solver`: from a scene to its solution, never raising.
     """
