@@ -20,7 +20,7 @@ from .numerics.garbage import rare_garbage_collection
 from .numerics.newton import NewtonOptions
 from .numerics.precision import as_float, require_x64
 from .programs import KeptProgram
-from .solve import require_solvable, solution_at, solve_with_roots
+from .solve import require_solvable, solution_at, solve, solve_with_roots
 
 _Slopes = dict[str, Float[Array, ""]]
 
@@ -201,21 +201,26 @@ class PowerInterval(NamedTuple):
     assumed: str
 
 
-def power_interval(scene: AbstractScene, solution: Any, found: Sensitivities) -> PowerInterval | None:
-    """The power loss over the assumed distribution of the drag coefficient (`bearings.priors`), by its derivative.
+def power_interval(
+    scene: AbstractScene, solution: Any, solver: Callable[[AbstractScene], Any] | None = None
+) -> PowerInterval | None:
+    """The power loss over the assumed distribution of the drag coefficient (`bearings.priors`), all else as it is.
 
-    The drag of rollers is proportional to its coefficient, so that the loss is nearly linear in it. `None` for a scene
-    that has no drag coefficient or failed.
+    The loss rises with the coefficient, so its limits are those of two more solves, by the same program, at the
+    coefficients below which 5 and 95 % of all are. `None` for a scene without this distribution, and where a solve
+    fails.
+
+    **Arguments:** `solution`: of the scene; `solver`: from a scene to its solution, never raising.
     """
-    slopes = found.power_loss
     prior = drag_prior(scene)
-    if slopes is None or DRAG_FIELD not in slopes or prior is None or not bool(solution.converged):
+    if prior is None or not bool(solution.converged) or solution.power_loss.total is None:
         return None
-    value, ends = float(solution.power_loss.total), prior.quantiles(np.array([0.05, 0.95]))
-    drag: Any = getattr(scene, "drag", None)
-    ratios = ends / float(drag.coefficient) - 1.0
-    low, high = (float(value * (1.0 + float(slopes[DRAG_FIELD]) * ratio)) for ratio in ratios)
-    return PowerInterval(value, low, high, DRAG_FIELD, prior_in_words(scene))
+    solve_again = (lambda one: solve(one, throw=False)) if solver is None else solver
+    ends = [solve_again(scene.replace({DRAG_FIELD: float(one)})) for one in prior.quantiles(np.array([0.05, 0.95]))]
+    if not all(bool(one.converged) for one in ends):
+        return None
+    low, high = (float(one.power_loss.total) for one in ends)
+    return PowerInterval(float(solution.power_loss.total), low, high, DRAG_FIELD, prior_in_words(scene))
 
 
 def largest(values: Mapping[str, Array], count: int, leave_out: tuple[str, ...] = ()) -> list[str]:

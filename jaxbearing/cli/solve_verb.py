@@ -88,7 +88,7 @@ def solve(
         solution, slopes = _solved(model, sensitivities)
         solution = dataclasses.replace(solution, notes=(*solution.notes, *said)) if said else solution
         failure = "" if bool(solution.converged) else solution.failure()
-        interval = _interval(model, solution, slopes) if drag_prior else None
+        interval = _interval(model, solution) if sensitivities and drag_prior else None
         of = solution, slopes, interval
         show = lambda: _print_json(*of) if as_json else _print_screen(*of, label)
         bridge = lambda _: _write_line_contact(wanted, solution, scene, changes)
@@ -163,15 +163,12 @@ def _solved(model: "AbstractScene", sensitivities: bool) -> "tuple[AbstractSolut
     return solve_once(model), None
 
 
-def _interval(
-    model: "AbstractScene", solution: "AbstractSolution", slopes: "Sensitivities | None"
-) -> "PowerInterval | None":
-    """Limits of the power loss by the drag coefficient, with sensitivities."""
-    if slopes is None:
-        return None
+def _interval(model: "AbstractScene", solution: "AbstractSolution") -> "PowerInterval | None":
+    """Limits of the power loss by the drag coefficient."""
     from ..sensitivity import power_interval
+    from ..solve import solve_once
 
-    return power_interval(model, solution, slopes)
+    return power_interval(model, solution, solve_once)
 
 
 def _write_data(solution: "AbstractSolution", out: Path) -> None:

@@ -131,7 +131,7 @@ def _skf(known: Known) -> Law:
     boundary, film, supply = (read(name) for name in ("boundary_friction", "film_friction", "starvation_constant"))
     if family is not None and series is not None and constants is None:
         return _uncovered("skf", family, series, _TABLES[family])
-    if read.missing:
+    if read.missing or family is None:
         return _without("skf", read)
     size = GEOMETRY["angular_contact_double" if _is_double(family, series) else family]
     starvation, missing, flags = 1.0, [], list(_range_flags(known, read, family))
@@ -232,11 +232,11 @@ def _palmgren(known: Known, law: str) -> Law:
     read = Reader(known)
     family, series, tables = read("family"), read("series"), _TABLES_OF_PALMGREN[law]
     speed, viscosity, dm = read("speed"), read("viscosity"), read("mean_diameter")
-    if None not in (family, series):
-        found = _constants(tables.get(family, {}), series)
-        if found is None:
-            return _uncovered(law, family, series, tables.get(family, {}))
-    if read.missing:
+    table = {} if family is None else tables.get(family, {})
+    found = None if series is None else _constants(table, series)
+    if found is None and family is not None and series is not None:
+        return _uncovered(law, family, series, table)
+    if read.missing or family is None or series is None:
         return _without(law, read)
     flags = list(_common_flags(known, read, family))
     moments: Callable[..., tuple[float, float, float]] = _ina if law == "palmgren_ina" else _timken

@@ -47,7 +47,7 @@ def test_refusals(jaxbearing_command):
         (("tapered_example", "--set", "catalogue.bore=3"), "a length with a unit"),
         (("tapered_example", "--set", "catalogue.lubrication=bath"), "Did you mean 'oil_bath'"),
         (("tapered_example", "--set", "catalogue.designation=true"), "expected text"),
-        (("tapered_example", "--set", "catalogue.serie=302"), "series"),
+        (("tapered_example", "--set", "catalogue.bores=30 mm"), "Did you mean 'bore'"),
     ):
         result = jaxbearing_command("compare", *arguments)
         assert result.code == 2

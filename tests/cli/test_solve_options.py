@@ -212,7 +212,8 @@ def test_sensitivities(jaxbearing_command, folder):
 
 def shown(screen):
     """The numbers of both columns of the table of sensitivities."""
-    table = screen.split("Sensitivities")[1]
+    # below the table stands how uncertain the loss is
+    table = screen.split("Sensitivities")[1].split("Power loss")[0]
     lines = table.splitlines()
     middle = next(line.index("d(slip)") for line in lines if "d(slip)" in line)
     number = re.compile(r"([a-z_.]+) +([+-]?[0-9][0-9.e+-]*)")
@@ -309,6 +310,8 @@ def test_sensitivities_to_every_number(lubricated):
 def test_sensitivities_on_the_screen(lubricated):
     _, solution, screen = lubricated
     assert max(len(line) for line in screen.splitlines()) <= 100
+    assert "90 % between" in screen
+    assert "assumed: lognormal, median 0.3" in " ".join(screen.split())
     for result, column in zip(("power_loss.total", "cage.slip"), shown(screen), strict=True):
         values = solution["sensitivities"][result]
         assert list(column)[:5] == [path for path in values if not path.startswith(("oil.", "contact."))][:5]

@@ -104,6 +104,36 @@ def test_constants_are_those_of_the_checks():
     assert TAPERED_322 == (2.27e-06, 10.9, 0.018, 2.0)
 
 
+@pytest.mark.parametrize(
+    ("radial", "n", "measured", "skf_full", "skf_low", "grease", "bath"),
+    [
+        (0.0, 500.0, 1300.0, 2.09, 2.00, 0.87, 1.02),
+        (0.0, 2000.0, 2950.0, 1.84, 1.54, 0.58, 0.75),
+        (0.0, 4000.0, 3750.0, 1.81, 1.27, 0.61, 0.82),
+        (6500.0, 500.0, 1500.0, 1.86, 1.78, 0.75, 0.88),
+        (6500.0, 1000.0, 1950.0, 2.07, 1.89, 0.69, 0.85),
+        (6500.0, 2000.0, 2500.0, 2.22, 1.86, 0.69, 0.88),
+        (6500.0, 4000.0, 3250.0, 2.13, 1.50, 0.71, 0.94),
+    ],
+)
+def test_32216_over_measured_torques(radial, n, measured, skf_full, skf_low, grease, bath):
+    """The columns of the sheet at 50 degC and 6 kN axial load, with two decimals: moments over measured ones."""
+    speed, nu, dm = n * RPM, 60.5913e-6, 110e-3
+    rolling, sliding = skf.tapered_variables(TAPERED_322, dm, radial, 6000.0, 1.4)
+    friction = skf.sliding_friction(speed, nu, dm, 0.15, 0.002)
+    load = palmgren.ina_load("tapered", radial, 6000.0, 1.4)
+    found = []
+    for constant in (0.0, 3e-8):
+        starvation = skf.starvation_factor(speed, nu, 80e-3, 140e-3, constant, GEOMETRY["tapered"])
+        moment = skf.rolling_moment(rolling, speed, nu, dm, starvation) + skf.sliding_moment(sliding, friction)
+        found.append(1e3 * float(moment) / measured)
+    frictions = next(one for series, one in INA["tapered"].items() if "322" in series)
+    for f0 in (frictions.grease, frictions.bath):
+        moment = palmgren.viscous_moment(f0, speed, nu, dm) + palmgren.load_moment(frictions.size, load, dm)
+        found.append(1e3 * float(moment) / measured)
+    np.testing.assert_allclose(found, (skf_full, skf_low, grease, bath), atol=5.1e-3)
+
+
 # limits
 
 
@@ -158,32 +188,37 @@ def test_dry_level_has_no_drag_and_full_bearing_has_the_most():
 # hard cases: value and gradient
 
 
-@pytest.mark.parametrize("speed", [0.0, 1e-9, 1.0, 1e4])
-@pytest.mark.parametrize(("radial", "axial"), [(0.0, 0.0), (0.0, 1.0), (1e5, 0.0), (1e5, 1e5)])
-def test_hard_cases(speed, radial, axial):
-    def total(numbers):
-        speed, radial, axial, level = numbers
-        found = []
-        for variables, film in (
-            (skf.deep_groove_variables(DEEP_62, 0.04, radial, axial, 7800.0), 0.05),
-            (skf.angular_contact_variables(ANGULAR_CONTACT["72B",], 0.04, radial, axial, speed), 0.05),
-            (skf.cylindrical_variables(NU_2, 0.04, radial, axial), 0.02),
-            (skf.tapered_variables(TAPERED_322, 0.04, radial, axial, 1.6), 0.002),
-        ):
-            friction = skf.sliding_friction(speed, 2e-5, 0.04, 0.15, film)
-            found += [skf.rolling_moment(variables[0], speed, 2e-5, 0.04), skf.sliding_moment(variables[1], friction)]
-        f1 = palmgren.load_factor(0.0009, 0.5, radial, 7800.0)
-        found += [palmgren.viscous_moment(2.0, speed, 2e-5, 0.04), palmgren.load_moment(f1, radial, 0.04)]
-        found.append(skf.ball_drag(speed, 2e-5, 0.025, 0.052, level, 3.1))
-        found.append(skf.roller_drag(speed, 0.05, 0.09, 0.02, level, 5.1, 0.65))
-        found.append(palmgren.timken_tapered_moment(50.0, speed, 0.02, radial))
-        return jnp.stack(found)
+def every_moment(numbers):
+    """Moments of all formulas at a speed, loads and an oil level."""
+    speed, radial, axial, level = numbers
+    found = []
+    for variables, film in (
+        (skf.deep_groove_variables(DEEP_62, 0.04, radial, axial, 7800.0), 0.05),
+        (skf.angular_contact_variables(ANGULAR_CONTACT["72B",], 0.04, radial, axial, speed), 0.05),
+        (skf.cylindrical_variables(NU_2, 0.04, radial, axial), 0.02),
+        (skf.tapered_variables(TAPERED_322, 0.04, radial, axial, 1.6), 0.002),
+    ):
+        friction = skf.sliding_friction(speed, 2e-5, 0.04, 0.15, film)
+        found += [skf.rolling_moment(variables[0], speed, 2e-5, 0.04), skf.sliding_moment(variables[1], friction)]
+    f1 = palmgren.load_factor(0.0009, 0.5, radial, 7800.0)
+    found += [palmgren.viscous_moment(2.0, speed, 2e-5, 0.04), palmgren.load_moment(f1, radial, 0.04)]
+    found.append(skf.ball_drag(speed, 2e-5, 0.025, 0.052, level, 3.1))
+    found.append(skf.roller_drag(speed, 0.05, 0.09, 0.02, level, 5.1, 0.65))
+    found.append(palmgren.timken_tapered_moment(50.0, speed, 0.02, radial))
+    return jnp.stack(found)
 
-    for level in (0.0, 0.005, 1.0):
-        numbers = jnp.array([speed, radial, axial, level])
-        assert np.all(np.isfinite(total(numbers)))
-        assert np.all(np.isfinite(jax.jacfwd(total)(numbers)))
-        assert np.all(np.isfinite(jax.jacrev(total)(numbers)))
+
+def test_hard_cases():
+    """At rest, without load, without oil, and far beyond all of them; one program for all."""
+    cases = [
+        (speed, *loads, level)
+        for speed in (0.0, 1e-9, 1.0, 1e4)
+        for loads in ((0.0, 0.0), (0.0, 1.0), (1e5, 0.0), (1e5, 1e5))
+        for level in (0.0, 0.005, 1.0)
+    ]
+    numbers = jnp.array(cases)
+    for of in (every_moment, jax.jacfwd(every_moment), jax.jacrev(every_moment)):
+        assert np.all(np.isfinite(jax.jit(jax.vmap(of))(numbers)))
 
 
 def test_gradients_are_those_of_differences():

@@ -9,7 +9,7 @@ from filled_results import solution_of
 
 import jaxbearing as jb
 from jaxbearing.bearings.priors import DRAG, drag_prior
-from jaxbearing.sensitivity import Sensitivities, power_interval
+from jaxbearing.sensitivity import power_interval
 from jaxbearing.tolerance.delta import spreads_of
 from jaxbearing.tolerance.derivatives import Slopes
 from jaxbearing.tolerance.scatter import scatter_of, scatter_of_source
@@ -127,15 +127,20 @@ def test_normal_fields_have_normal_limits():
     np.testing.assert_allclose(spread.likely, 700.0 + 500.0 * 1.6448536 * np.array([-1.0, 1.0]), rtol=1e-4)
 
 
-def test_interval_of_sensitivities():
-    scene = jb.load_scene("turbine_roller")
-    solution = solution_of(scene)
-    power = dataclasses.replace(solution.power_loss, total=jnp.asarray(1378.0))
-    solution = dataclasses.replace(solution, power_loss=power)
-    found = power_interval(scene, solution, Sensitivities({PATH: jnp.asarray(678.0 / 1378.0)}))
+def test_interval_is_that_of_two_more_solves():
+    scene = jb.load_scene("reference_roller")
+    made = solution_of(scene)
+
+    def solver(one):
+        total = jnp.asarray(700.0 + 2260.0 * float(one.drag.coefficient))
+        return dataclasses.replace(made, power_loss=dataclasses.replace(made.power_loss, total=total))
+
+    found = power_interval(scene, solver(scene), solver)
     expected = 700.0 + 2260.0 * DRAG["roller"].quantiles(np.array([0.05, 0.95]))
     np.testing.assert_allclose((found.low, found.high), expected, rtol=1e-12)
+    np.testing.assert_allclose(found.value, 700.0 + 2260.0 * 1.2, rtol=1e-12)
     assert found.by == PATH
-    assert power_interval(scene, solution, Sensitivities()) is None
-    dry = jb.load_scene("turbine_roller", {"drag": "none"})
-    assert power_interval(dry, solution, Sensitivities({PATH: jnp.asarray(0.5)})) is None
+    dry = jb.load_scene("reference_roller", {"drag": "none"})
+    assert power_interval(dry, made, solver) is None
+    failed = lambda one: dataclasses.replace(made, status=jnp.asarray(2))
+    assert power_interval(scene, made, failed) is None
