@@ -99,8 +99,21 @@ def test_words(name, path, word):
 
 
 PARTS = ("lubricants", "contacts", "gaps", "bearings", "machines", "ehl")
-INSIDE = ("System", "Core", "Problem", "Patch", "Fluid", "History", "State", "Solution", "Loads", "InnerRing")
-"""What the solvers make of a scene: their static numbers follow from fields that were checked."""
+INSIDE = (
+    "System",
+    "Core",
+    "Problem",
+    "Patch",
+    "Fluid",
+    "History",
+    "State",
+    "Solution",
+    "Loads",
+    "InnerRing",
+    "Result",
+    "ByRace",
+)
+"""What the solvers make of a scene: its static numbers and words follow from fields that were checked."""
 
 
 def static_fields():
