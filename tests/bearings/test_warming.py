@@ -184,7 +184,7 @@ def test_files_and_screen(run, tmp_path):
     assert "COMPLETED" in text
     assert "inner ring, degC" in text
     assert "kJ of losses" in text
-    assert "the largest contact load stays at" in text
+    assert "the contact load is largest at the end" in text
 
 
 @SLOW
@@ -197,10 +197,14 @@ def test_pictures(run, tmp_path):
         assert (tmp_path / f"run.{suffix}").stat().st_size > 10_000
 
 
-def test_near_the_end_no_step_is_rejected(run):
-    """The noise of the bearing's solve is no error of a step."""
-    assert int(run.rejected) == 0
+def test_near_the_steady_state_no_step_is_rejected(run):
+    """The noise of the bearing's solve is no error of a step. At the start, where the oil thins by a factor of ten in
+    seconds, some steps are too long."""
+    assert int(run.rejected) < 10
     assert int(run.accepted) < 100
+    more = jb.simulate(warm("roller"), 2.0 * HOURS, restart=run)
+    assert int(more.rejected) == 0
+    assert int(more.accepted) < 60
 
 
 @SLOW

@@ -48,7 +48,9 @@ class WarmUpSimulation(Checked):
     load: AbstractTimeFactor = Steady()
     oil_inlet: AbstractTimeFactor = Steady()
     oil_flow: AbstractTimeFactor = Steady()
-    start: Scalar | None = optional_number(bound="> 0", metadata=label("K", "temperature of all nodes at time 0 of a run of temperatures"))
+    start: Scalar | None = optional_number(
+        bound="> 0", metadata=label("K", "temperature of all nodes at time 0 of a run of temperatures")
+    )
     instants: int = count("simulation.instants", INSTANTS, least=1, most=MOST_INSTANTS)
     solver: str = choice("simulation.solver", SOLVERS, SOLVER)
     tolerance: Scalar = number(1e-5, bound="> 0", unit="1")
