@@ -226,8 +226,8 @@ def test_other_families_on_seats(kind):
     values, peaks = np.asarray(getattr(found.instants.fit, play)), found.peaks
     assert 0.0 < float(peaks.least_play_time) < float(found.time[-1])
     assert float(peaks.least_play) <= values.min() < values[-1] - 1e-9
-    # few instants miss the peak, which is found between them
+    # the top of the peak is found between few instants, to a third of the tolerance: 3e-3 K of about 0.5 um/K
     few = jb.simulate(scene, 6.0 * HOURS, simulation=jb.WarmUpSimulation(instants=24))
-    coarse = np.asarray(getattr(few.instants.fit, play)).min()
-    np.testing.assert_allclose(few.peaks.least_play, peaks.least_play, atol=0.1 * (coarse - float(peaks.least_play)))
+    np.testing.assert_allclose(few.peaks.least_play, peaks.least_play, atol=0.5e-9)
+    np.testing.assert_allclose(few.peaks.least_play_time, peaks.least_play_time, atol=2.0)
     assert abs(float(found.energy.error)) < 1e-4
