@@ -4,7 +4,7 @@ import dataclasses
 from pathlib import Path
 
 from jaxbearing._derived import derived_results
-from jaxbearing.bearings import growth, solution
+from jaxbearing.bearings import frequencies, growth, solution
 from jaxbearing.bearings.ball import solution as ball_solution
 from jaxbearing.bearings.cylindrical import solution as cylindrical_solution
 from jaxbearing.bearings.cylindrical.motion import results as roller_motion
@@ -33,6 +33,8 @@ SECTIONS = {
         "thermal.temperatures": thermal_result.NodeTemperatures,
         "thermal.oil": OilTemperatures,
         "thermal.flows": thermal_result.HeatPaths,
+        "frequencies": frequencies.KinematicFrequencies,
+        "textbook_frequencies": frequencies.KinematicFrequencies,
         "life": Life,
     },
     "Rolling elements and power: cylindrical rollers": {

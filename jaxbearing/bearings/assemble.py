@@ -10,6 +10,7 @@ from ..numerics.newton import NewtonResult
 from .bearing import AbstractBearing
 from .checks import input_excess, result_excess
 from .facts import Facts
+from .frequencies import frequencies_of_motion, textbook_frequencies
 from .interactions import Costs
 from .ring import Port
 from .solution import (
@@ -63,6 +64,8 @@ def assemble(
     own = results._asdict()
     facts, costs = own.pop("facts"), own.pop("costs")
     shown = own | costs._asdict() | {"ring": ring, "force": port.force, "stiffness": port.stiffness}
+    shown["frequencies"] = frequencies_of_motion(scene, results.elements, results.cage)
+    shown["textbook_frequencies"] = textbook_frequencies(scene)
     checks = {text: value > 0 for text, value in input_excess(scene, held).items()}
     checks |= {
         text: good & (value > 0) for text, value in result_excess(scene, facts, ring, results.cage, held).items()

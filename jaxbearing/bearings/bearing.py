@@ -172,6 +172,12 @@ class AbstractBearing(AbstractScene):
         """Diameter of a rolling element, at its middle, m."""
         return getattr(self.geometry, f"{self.element}_diameter")
 
+    @property
+    def drawing_angle(self) -> Array:
+        """Contact angle of the drawing, rad: 0 where the geometry has none, or is given by a clearance."""
+        given = getattr(self.geometry, "contact_angle", None)
+        return jnp.asarray(0.0 if given is None else given)
+
     def point_contacts(self, elements: Any) -> PointContact | None:
         """Raceway contacts of a solution where they are points, races first, shape (2, element); `None`: lines."""
         return None

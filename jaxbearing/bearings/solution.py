@@ -16,6 +16,7 @@ from .._scene import derived as derived
 from .._scene import label as label
 from ..numerics.status import Status
 from ..thermal.result import ThermalResult
+from .frequencies import KinematicFrequencies
 from .growth import FitResult
 
 INNER_TOLERANCE = 1e-8
@@ -192,6 +193,10 @@ class Solution(AbstractSolution, Generic[Point, Elements, Losses]):
     life: Any = None
     """A `life.result.Life` if the scene has a rating."""
     rolling_by_race: Float[Array, "2"] | None = None
+    frequencies: KinematicFrequencies | None = None
+    """Frequencies of the motion that was solved."""
+    textbook_frequencies: KinematicFrequencies | None = None
+    """Frequencies of rolling without slip at the contact angle of the drawing."""
 
     @property
     def freedoms_of_stiffness(self) -> tuple[str, ...]:

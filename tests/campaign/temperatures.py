@@ -1,7 +1,7 @@
 """Random mounted bearings of all kinds with a thermal network: each ends in a state that balances, or in an honest
 status.
 
-`python -m campaign.temperatures 60` prints what came out of so many cases, 12 of each of five structures.
+`python -m campaign.temperatures 60` prints what came out of so many cases, as many of each of eight structures.
 """
 
 import sys
@@ -97,6 +97,39 @@ STRUCTURES = (
         {
             "operation.inner_speed": log(20.0, 600.0),
             "operation.axial_load": log(1e3, 40e3),
+            "operation.oil_flow": log(1e-7, 5e-5),
+        },
+    ),
+    Drawn(
+        "ball, sliding, four nodes",
+        "sliding ball",
+        4,
+        {},
+        {
+            "operation.inner_speed": log(100.0, 2000.0),
+            "operation.axial_load": log(1e3, 50e3),
+            "operation.oil_flow": log(1e-6, 1e-4),
+        },
+    ),
+    Drawn(
+        "roller, sliding, four nodes",
+        "sliding roller",
+        4,
+        {},
+        {
+            "operation.inner_speed": log(100.0, 2000.0),
+            "operation.radial_load": log(500.0, 60e3),
+            "operation.oil_flow": log(1e-6, 1e-4),
+        },
+    ),
+    Drawn(
+        "tapered, sliding rib, six nodes",
+        "sliding rib",
+        6,
+        {"operation__axial_load": "20 kN"},
+        {
+            "operation.inner_speed": log(20.0, 600.0),
+            "operation.radial_load": log(1e3, 30e3),
             "operation.oil_flow": log(1e-7, 5e-5),
         },
     ),

@@ -18,7 +18,7 @@ from rich.console import Console
 
 import jaxbearing as jb
 from jaxbearing import plots
-from jaxbearing.bearings import solution
+from jaxbearing.bearings import frequencies, solution
 from jaxbearing.bearings.ball import solution as ball_solution
 from jaxbearing.bearings.cylindrical import solution as cylindrical_solution
 from jaxbearing.bearings.solution import RING_FREEDOMS, Solution
@@ -57,6 +57,7 @@ PARTS = (
     ball_solution.BallResults,
     ball_solution.BallPowerLoss,
     solution.RacewayPower,
+    frequencies.KinematicFrequencies,
     tapered_solution.TaperedResults,
     tapered_solution.TaperedPowerLoss,
     Life,

@@ -1,4 +1,5 @@
-"""Bearings with a thermal network whose programs are small: their elements roll without sliding."""
+"""Bearings with a thermal network. The programs of `BALLS`, `ROLLERS` and `TAPERED` are small, because nothing
+slides in them; in those of `SLIDING` the elements slide on the raceways or on the rib."""
 
 import jaxbearing as jb
 
@@ -38,8 +39,21 @@ TAPERED = OIL | {
     "geometry.outside_diameter": "62 mm",
     "geometry.width": "17 mm",
 }
-NAMES = {"ball": "deep_groove_6205", "roller": "turbine_roller", "tapered": "tapered_example"}
-CHANGES = {"ball": BALLS, "roller": ROLLERS, "tapered": TAPERED}
+SLIDING = {
+    "sliding ball": OIL | {"temperatures": "none", "operation.oil_flow": "150 l/h", "geometry.width": "34 mm"},
+    "sliding roller": {path: value for path, value in ROLLERS.items() if value != "none"}
+    | {"operation.oil_flow": "150 l/h"},
+    "sliding rib": {path: value for path, value in TAPERED.items() if value != "none"},
+}
+NAMES = {
+    "ball": "deep_groove_6205",
+    "roller": "turbine_roller",
+    "tapered": "tapered_example",
+    "sliding ball": "turbine_ball_mounted",
+    "sliding roller": "turbine_roller",
+    "sliding rib": "tapered_example",
+}
+CHANGES = {"ball": BALLS, "roller": ROLLERS, "tapered": TAPERED} | SLIDING
 
 
 OTHERS = ("operation", "fits", "rating", "geometry")

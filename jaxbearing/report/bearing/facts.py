@@ -41,7 +41,18 @@ def facts(solution: Solution) -> Iterator[tuple[str, str]]:
         text = ", ".join(_extremes(solution.elements, name, pick))
         if text:
             yield title, text
+    yield from _frequencies(solution)
     yield from _life(solution)
+
+
+def _frequencies(solution: Solution) -> Iterator[tuple[str, str]]:
+    """Frequencies at which damages are heard, of the motion and of the textbook."""
+    if solution.frequencies is None or solution.textbook_frequencies is None:
+        return
+    names = {"cage": "cage", "outer_pass": "outer ring", "inner_pass": "inner ring", "element_spin": "element's spin"}
+    for title, found in (("Frequencies", solution.frequencies), ("Textbook's", solution.textbook_frequencies)):
+        said = (f"{words} {digits(float(np.asarray(getattr(found, name))))}" for name, words in names.items())
+        yield title, f"{', '.join(said)} Hz"
 
 
 def _life(solution: Solution) -> Iterator[tuple[str, str]]:
