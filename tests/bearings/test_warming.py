@@ -184,7 +184,7 @@ def test_files_and_screen(run, tmp_path):
     assert "COMPLETED" in text
     assert "inner ring, degC" in text
     assert "kJ of losses" in text
-    assert "the largest contact load stays at" in text
+    assert "the contact load is largest at the end" in text
 
 
 @SLOW
@@ -197,10 +197,14 @@ def test_pictures(run, tmp_path):
         assert (tmp_path / f"run.{suffix}").stat().st_size > 10_000
 
 
-def test_near_the_end_no_step_is_rejected(run):
-    """The noise of the bearing's solve is no error of a step."""
-    assert int(run.rejected) == 0
+def test_near_the_steady_state_no_step_is_rejected(run):
+    """The noise of the bearing's solve is no error of a step. At the start, where the oil thins by a factor of ten in
+    seconds, some steps are too long."""
+    assert int(run.rejected) < 10
     assert int(run.accepted) < 100
+    more = jb.simulate(warm("roller"), 2.0 * HOURS, restart=run)
+    assert int(more.rejected) == 0
+    assert int(more.accepted) < 60
 
 
 @SLOW
@@ -222,8 +226,8 @@ def test_other_families_on_seats(kind):
     values, peaks = np.asarray(getattr(found.instants.fit, play)), found.peaks
     assert 0.0 < float(peaks.least_play_time) < float(found.time[-1])
     assert float(peaks.least_play) <= values.min() < values[-1] - 1e-9
-    # few instants miss the peak, which is found between them
+    # the top of the peak is found between few instants, to a third of the tolerance: 3e-3 K of about 0.5 um/K
     few = jb.simulate(scene, 6.0 * HOURS, simulation=jb.WarmUpSimulation(instants=24))
-    coarse = np.asarray(getattr(few.instants.fit, play)).min()
-    np.testing.assert_allclose(few.peaks.least_play, peaks.least_play, atol=0.1 * (coarse - float(peaks.least_play)))
+    np.testing.assert_allclose(few.peaks.least_play, peaks.least_play, atol=0.5e-9)
+    np.testing.assert_allclose(few.peaks.least_play_time, peaks.least_play_time, atol=2.0)
     assert abs(float(found.energy.error)) < 1e-4

@@ -506,8 +506,8 @@ REFUSED = {
     ),
     "ramp": (
         jb.load_scene("turbine_roller_dynamic").replace({"simulation.speed": LinearRamp(1.0, 2.0, 1e-3)}),
-        "simulation.speed",
-        "found LinearRamp",
+        "simulation.speed_ramp.shape",
+        "found 'linear'; expected 'smooth' without",
     ),
     "standstill": (
         jb.load_scene("turbine_roller_dynamic").replace({"simulation.speed": Tabulated([0.0, 1.0], [1.0, 0.0])}),

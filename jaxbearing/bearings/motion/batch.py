@@ -67,9 +67,9 @@ def _batch(
     return (shared_out(lanes) if share else lanes)(values, numbers, times)
 
 
-def _lane(scene: AbstractMovingBearing, simulation: Simulation | None, times: Float[Array, " time"]) -> History:
+def _lane(scene: AbstractMovingBearing, given: Simulation | None, times: Float[Array, " time"]) -> History:
     """One whole run in one go, from its quasi-static start; pure."""
-    simulation = simulation or scene.simulation or Simulation()
+    simulation: Simulation = given or scene.simulation or Simulation()
     operation = scene.operation
     scene, inputs = checked_lane(scene, simulation)
     motion = scene.motion

@@ -1,8 +1,8 @@
 """The hardest moments of a run of temperatures: the least play and the largest contact load, between the instants too.
 
 An inner ring that warms before the housing takes the play away for a while: the peak of preload at a start. The
-instants of a history may pass it by. So the run is integrated once more around the instant with the extreme value, at
-times that lie closer together.
+instants of a history may pass it by. So the run is integrated again around the instant with the extreme value, at times
+that lie closer together, and once more around the best of these. A peak that no instant shows is not found.
 """
 
 from collections.abc import Callable
@@ -28,8 +28,10 @@ class Extreme(NamedTuple):
     inside: bool
 
 
-Finer = Callable[[int], tuple[Float[np.ndarray, " time"], WarmInstant]]
-"""Function of an index: times, s, and instants between its two neighbours."""
+Finer = Callable[[np.ndarray, WarmInstant, int], tuple[np.ndarray, WarmInstant]]
+"""Function of times, s, their instants and an index: times and instants from one neighbour of it to the other."""
+REFINEMENTS = 2
+"""Number of times that the run is integrated again around an extreme."""
 
 
 def lowest(values: Float[np.ndarray, " time"], depth: float) -> Extreme:
@@ -66,12 +68,13 @@ def _peak(
     """Time and value of the lowest value."""
     values = values_of(instants)
     found = lowest(values, depth)
-    best = float(time[found.place]), float(values[found.place])
-    if finer is None or not found.inside:
-        return best
-    times, between = finer(found.place)
-    closer = values_of(between)
-    if closer.size and closer.min() < best[1]:
-        index = int(np.argmin(closer))
-        best = float(times[index]), float(closer[index])
+    place, best = found.place, (float(time[found.place]), float(values[found.place]))
+    for _ in range(REFINEMENTS if finer is not None and found.inside else 0):
+        assert finer is not None
+        if not 0 < place < time.size - 1:
+            break
+        time, instants = finer(time, instants, place)
+        values = values_of(instants)
+        place = int(np.argmin(values))
+        best = min(best, (float(time[place]), float(values[place])), key=lambda one: one[1])
     return best

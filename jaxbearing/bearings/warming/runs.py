@@ -258,18 +258,20 @@ class _Run:
         return ADVANCE(self.scene, self.settings, *numbers)
 
     def _between(self, time: np.ndarray, instants: WarmInstant, index: int) -> tuple[np.ndarray, WarmInstant]:
-        """The bearing at times between the neighbours of an instant."""
+        """The bearing at times from one neighbour of an instant to the other."""
         begin, end = float(time[index - 1]), float(time[index + 1])
         times = np.linspace(begin, end, PIECE + 1)[1:]
         nodes = np.asarray([getattr(instants.temperatures, name)[index - 1] for name in self.scene.thermal.node_names])
         found = self._integrated(begin, nodes, times, (end - begin) / PIECE)
         states = np.asarray(found.states)[:, : nodes.size]
         good = np.all(np.isfinite(states), axis=1) & (times <= begin + float(found.end))
+        first = jax.tree.map(lambda leaf: np.asarray(leaf)[index - 1 : index], instants)
         if not np.any(good):
-            return times[:0], jax.tree.map(lambda leaf: leaf[:0], instants)
+            return time[index - 1 : index], first
         seen = self._look(times[good], states[good])
         solved = seen.status == Status.CONVERGED
-        return times[good][solved], jax.tree.map(lambda leaf: leaf[solved], seen.instant)
+        found = jax.tree.map(lambda one, leaf: np.concatenate([one, leaf[solved]]), first, seen.instant)
+        return np.append(time[index - 1], times[good][solved]), found
 
     def _failure(self, found: Any, end: float, seen: Seen) -> Status:
         """How a piece ended that stopped early."""
@@ -284,7 +286,7 @@ class _Run:
             lambda *leaves: jnp.asarray(np.concatenate(leaves)), *(one.seen.instant for one in self.done)
         )
         time = np.concatenate([one.times for one in self.done])
-        finer = None if interrupted else lambda index: self._between(time, instants, index)
+        finer = None if interrupted else self._between
         energies = np.sum([one.energies for one in self.done], axis=0)
         capacity = np.asarray(heat_capacities(scene))
         stored = float(np.sum(capacity * (self.now - self.first)))
