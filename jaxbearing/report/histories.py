@@ -29,8 +29,8 @@ def not_begun_to_dict(scene: Any, duration: float | None, error: SolveError) -> 
     from .backends.json import plain
 
     film, simulation = isinstance(scene, EHLLineContact), getattr(scene, "simulation", None)
-    of_bearing = lambda: (simulation or Simulation()).solver if scene.thermal is None else WARM_UP_SOLVER
-    solver = SOLVER if film else of_bearing()
+    rollers = (simulation or Simulation()).solver
+    solver = SOLVER if film else rollers if scene.thermal is None else WARM_UP_SOLVER
     wanted = duration if duration is not None else getattr(simulation, "duration", None)
     common = {
         "completed": False,
