@@ -14,7 +14,7 @@ from ...numerics.safe import safe_norm
 from ...numerics.status import Status
 from ..assemble import Results, assemble
 from ..facts import MEAN_OF_LINE, MEAN_OF_POINT, RACEWAYS, Contacts, Facts
-from ..inlet import oil_elsewhere, oil_of_races
+from ..inlet import oil_elsewhere, oil_of, oil_of_races
 from ..interactions import costs
 from ..parts import azimuths
 from ..rating import LAMINAE, rated_laminae
@@ -282,7 +282,7 @@ def _facts(
     races = races._replace(laws=scene.contact, inlet=inlet, mean_speed=of_races.speed, temperature=warm_races)
     if of_rib is not None:
         rise, elsewhere = of_rib.temperature_rise, oil_elsewhere(scene)
-        oil = inlet if elsewhere is None else elsewhere.flange
+        oil = oil_of(inlet, elsewhere, "flange")
         rib = rib._replace(laws=scene.rib, inlet=oil, temperature=warm(oil, None if rise is None else rise[None]))
     reserve = None
     if of_races.capacity is not None and friction.balance is not None:
