@@ -76,11 +76,6 @@ def sensitivities(
     return solution, Sensitivities(**{name: _by_path(tree) for name, tree in slopes.items()})
 
 
-def sensitivities_once(scene: AbstractScene) -> tuple[AbstractSolution, Sensitivities]:
-    """Result of `sensitivities(scene, throw=False)`, for a command."""
-    return sensitivities(scene, throw=False)
-
-
 @rare_garbage_collection()
 def _answer(scene: AbstractScene, throw: bool, options: NewtonOptions) -> tuple[Any, dict[str, Any]]:
     if inside_a_program(scene):

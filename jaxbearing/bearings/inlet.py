@@ -4,6 +4,7 @@ interaction with a temperature of its own, which a thermal network knows."""
 import dataclasses
 from typing import Any, NamedTuple
 
+import equinox as eqx
 import jax.numpy as jnp
 from jaxtyping import Array, Float
 
@@ -34,6 +35,28 @@ def oil_elsewhere(scene: Any) -> OilElsewhere | None:
     if own is None:
         return None
     return OilElsewhere(*(scene.oil.at(getattr(own, place)) for place in OilElsewhere._fields))
+
+
+def oil_of(inlet: InletOil, elsewhere: OilElsewhere | None, place: str) -> InletOil:
+    """The oil that enters an interaction beside the raceways.
+
+    **Arguments:** `inlet`: oil of the raceways; `elsewhere`: of the other interactions, `None` where it is the same;
+    `place`: field of `OilElsewhere`.
+    """
+    return inlet if elsewhere is None else getattr(elsewhere, place)
+
+
+class AbstractOils(eqx.Module):
+    """Equations whose interactions may each have an oil of their own."""
+
+    inlet: eqx.AbstractVar[InletOil]
+    """Oil of the raceways."""
+    elsewhere: eqx.AbstractVar[OilElsewhere | None]
+    """Oil of the other interactions where it is not that of the raceways."""
+
+    def oil_of(self, place: str) -> InletOil:
+        """The oil that enters an interaction beside the raceways."""
+        return oil_of(self.inlet, self.elsewhere, place)
 
 
 def oil_temperature(scene: Any, place: str) -> Scalar:

@@ -152,10 +152,11 @@ def _write_line_contact(
 
 def _solved(model: "AbstractScene", sensitivities: bool) -> "tuple[AbstractSolution, Sensitivities | None]":
     if sensitivities:
-        from ..sensitivity import NoSensitivities, sensitivities_once
+        from ..sensitivity import NoSensitivities
+        from ..sensitivity import sensitivities as with_sensitivities
 
         try:
-            return sensitivities_once(model)
+            return with_sensitivities(model, throw=False)
         except NoSensitivities as error:  # raised while the program is traced, before it is compiled
             refuse(f"--sensitivities: {error}")
     from ..solve import solve_once

@@ -1,19 +1,19 @@
 """Parts that the verbs share which run a sweep: options, checks before the work, progress."""
 
 import sys
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from .messages import refuse
+from .messages import NO_OUTPUT, refuse, say
 from .output_files import unwritten
 from .terminal import console
 
 if TYPE_CHECKING:
-    from ..sweeps.engine import Watcher
+    from ..sweeps.engine import StoppedError, Watcher
 
 EXTRA = "pip install 'jaxbearing[cluster]'"
 SeedOption = Annotated[int, typer.Option("--seed", metavar="NUMBER", min=0, help="Of the random numbers.")]
@@ -76,6 +76,32 @@ def check_extra(workers: int | None, scheduler: str | None) -> None:
     if (workers is not None or scheduler is not None) and find_spec("distributed") is None:
         option = "--workers" if workers is not None else "--scheduler"
         refuse(f"{option}: found no Dask, which it needs; expected the extra 'cluster': {EXTRA}")
+
+
+@contextmanager
+def ends_in_words(
+    target: Path, option: str, when_stopped: "Callable[[StoppedError], None] | None" = None
+) -> "Iterator[None]":
+    """Turns the errors of a run of cases into messages and exit codes.
+
+    **Arguments:** `option`: names what a refusal is about; `when_stopped`: shows what was computed of a run whose file
+    could not be written.
+    """
+    from ..sweeps.engine import StoppedError, SweepError
+
+    try:
+        yield
+    except StoppedError as stopped:
+        if when_stopped is not None:
+            when_stopped(stopped)
+        said = f"the output cannot be written: {target}: {stopped.strerror}; {stopped.kept}"
+        raise typer.Exit(say(said, NO_OUTPUT)) from None
+    except OSError as error:
+        raise typer.Exit(unwritten(target, error)) from None
+    except SweepError as error:
+        refuse(f"{option}: {error}")
+    except ValueError as error:
+        refuse(str(error))
 
 
 @contextmanager

@@ -10,9 +10,9 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from .interrupt import if_interrupted
-from .messages import NO_OUTPUT, NOT_CONVERGED, bad_input, refuse, say
+from .messages import NOT_CONVERGED, bad_input, refuse
 from .options import JsonOption, SceneArgument, SetOption, labelled
-from .output_files import Output, deliver, unwritten
+from .output_files import Output, deliver
 from .sweep_parts import (
     ChunkOption,
     DevicesOption,
@@ -22,6 +22,7 @@ from .sweep_parts import (
     WorkersOption,
     check_extra,
     check_run_target,
+    ends_in_words,
     shown_progress,
 )
 from .sweep_plot import check_plot, write_plot
@@ -121,27 +122,18 @@ def sweep(
     most = devices or min(cores(), calls_at_once(recipe, cases, chunk))
     use_cores(most if workers is None and scheduler is None else 1)
     with without_false_alarms():
-        from ..sweeps.engine import StoppedError, SweepError, kept_words, run
+        from ..sweeps.engine import kept_words, run
         from ..sweeps.fields import described_fields
         from ..sweeps.verb import make_plan, runner_of
 
-        try:
+        stopped = lambda error: _print_stopped(error, label, time.monotonic() - begin, as_json)
+        with ends_in_words(target, "--out", stopped):
             runner = runner_of(devices, workers, scheduler)
             metadata = described_fields(fields, recipe.example_scene)
             plan = make_plan(recipe, cases, metadata, label, elements=not without_elements, chunk=chunk)
             if_interrupted(lambda: kept_words(plan, target))
             with shown_progress(len(cases), as_json) as watcher:
                 outcome = run(plan, target, runner=runner, overwrite=overwrite, watcher=watcher)
-        except StoppedError as stopped:
-            _print_stopped(stopped, label, time.monotonic() - begin, as_json)
-            said = f"the output cannot be written: {target}: {stopped.strerror}; {stopped.kept}"
-            raise typer.Exit(say(said, NO_OUTPUT)) from None
-        except OSError as error:
-            raise typer.Exit(unwritten(target, error)) from None
-        except SweepError as error:
-            refuse(f"--out: {error}")
-        except ValueError as error:
-            refuse(str(error))
         seconds = time.monotonic() - begin
         picture = Output(plot, lambda path: write_plot(path, target, label), long=True)
         deliver(lambda: _print(outcome, label, target, seconds, as_json), (picture,) if outcome.converged > 0 else ())

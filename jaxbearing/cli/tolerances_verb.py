@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from .interrupt import if_interrupted
-from .messages import NO_OUTPUT, NOT_CONVERGED, bad_input, refuse, say
+from .messages import NOT_CONVERGED, bad_input, refuse
 from .options import DragPriorOption, JsonOption, SceneArgument, SetOption, labelled
-from .output_files import PICTURES, Output, check_files, deliver, unwritten
+from .output_files import PICTURES, Output, check_files, deliver
 from .sweep_parts import (
     ChunkOption,
     DevicesOption,
@@ -20,6 +20,7 @@ from .sweep_parts import (
     WorkersOption,
     check_extra,
     check_run_target,
+    ends_in_words,
     shown_progress,
 )
 from .terminal import console
@@ -158,11 +159,11 @@ def _sampled(
     """The scatter with its samples. **Arguments:** `sizes`: samples, seed, chunk; `runner`: as those of `runner_of`."""
     import xarray as xr
 
-    from ..sweeps.engine import StoppedError, SweepError, kept_words, run
+    from ..sweeps.engine import kept_words, run
     from ..sweeps.verb import runner_of
 
     count, seed, chunk = sizes
-    try:
+    with ends_in_words(target, "samples"):
         computes = runner_of(*runner)
         plan = analysis.plan(found, count, seed, chunk)
         if_interrupted(lambda: kept_words(plan, target))
@@ -170,15 +171,6 @@ def _sampled(
             run(plan, target, runner=computes, overwrite=overwrite, watcher=watcher)
         with xr.open_dataset(target, engine="h5netcdf") as dataset:
             return analysis.with_samples(found, dataset, seed, str(target))
-    except StoppedError as stopped:
-        said = f"the output cannot be written: {target}: {stopped.strerror}; {stopped.kept}"
-        raise typer.Exit(say(said, NO_OUTPUT)) from None
-    except OSError as error:
-        raise typer.Exit(unwritten(target, error)) from None
-    except SweepError as error:
-        refuse(f"samples: {error}")
-    except ValueError as error:
-        refuse(str(error))
 
 
 def _write_data(found: "Tolerances", label: str, out: Path) -> None:

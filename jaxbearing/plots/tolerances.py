@@ -104,5 +104,7 @@ def _tornado(axes: Any, spread: Any) -> None:
     axes.set_xlim(-reach, 1.25 * reach)
     axes.locator_params(axis="x", nbins=5)
     axes.set_yticks(places, [path for path, _ in named], fontsize=8)
-    axes.set_xlabel(Axis(axis.unit, axis.of).named("± standard deviation by each field"), fontsize=9)
+    # a difference of temperatures has another unit than a temperature
+    unit = "K" if spread.unit == "K" else axis.unit
+    axes.set_xlabel(Axis(unit, axis.of).named("± standard deviation by each field"), fontsize=9)
     grid_lines(axes)

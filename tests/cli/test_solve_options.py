@@ -184,7 +184,7 @@ def known_slopes(monkeypatch):
         {path: jnp.asarray(value) for path, value in SLOPES.items()},
         {"drag.coefficient": jnp.asarray(0.0), "operation.inner_speed": jnp.asarray(-0.125)},
     )
-    monkeypatch.setattr("jaxbearing.sensitivity.sensitivities_once", lambda scene: (dry, slopes))
+    monkeypatch.setattr("jaxbearing.sensitivity.sensitivities", lambda scene, throw: (dry, slopes))
 
 
 @pytest.mark.usefixtures("known_slopes")

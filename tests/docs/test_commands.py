@@ -115,13 +115,13 @@ def _few(cases):
 def made_up(monkeypatch, one_process):
     """Results of every solver without a solve."""
 
-    def slopes(scene):
+    def slopes(scene, throw):
         numbers = {"operation.inner_speed": jnp.asarray(1.0), "geometry.pitch_diameter": jnp.asarray(-0.5)}
         return solution_of(scene), Sensitivities(numbers, numbers)
 
     run = lambda scene, duration, **_: history_of(scene, duration or scene.simulation.duration)
     monkeypatch.setattr(sys.modules["jaxbearing.solve"], "solve_once", solution_of)
-    monkeypatch.setattr(sys.modules["jaxbearing.sensitivity"], "sensitivities_once", slopes)
+    monkeypatch.setattr(sys.modules["jaxbearing.sensitivity"], "sensitivities", slopes)
     monkeypatch.setattr(sys.modules["jaxbearing.simulate"], "simulate", run)
     # a made up state is that of no bearing
     for kind in (CylindricalRollerBearing, EHLLineContact):

@@ -37,7 +37,7 @@ def test_another_kind_is_named():
 
 @pytest.mark.parametrize("path", sorted((REPORT / "backends").rglob("*.py")), ids=lambda path: path.name)
 def test_backends_know_no_kind_of_result(path):
-    shared = {"colours", "display", "files", "page_content", "panels", "backends"}
+    shared = {"colours", "diagrams", "display", "files", "page_content", "panels", "backends"}
     for name in test_layers.imported_modules(path):
         inside = name.split(".")[1:] if name.startswith("jaxbearing.") else []
         if inside and inside[0] == "report":

@@ -18,7 +18,7 @@ from ...contacts.point_laws import PointFilm, PointLaws
 from ...lubricants import InletOil, Lubricant
 from ...numerics.precision import as_float
 from ...numerics.safe import safe_norm
-from ..inlet import OilElsewhere
+from ..inlet import AbstractOils, OilElsewhere
 from .geometry import BallGeometry
 from .kinematics import BallMotion
 from .state import BallCageParts, BallDrag, BallGuess, BallsState
@@ -31,7 +31,7 @@ FRICTION_PASSES = 3
 """Load and angle of the outer contact under the friction that carries the couple: the error falls as fast."""
 
 
-class AbstractLubricatedBallSystem(AbstractBallSystem):
+class AbstractLubricatedBallSystem(AbstractOils, AbstractBallSystem):
     """Geometry, laws and parts of lubricated balls, and what they do without traction; see the module."""
 
     geometry: BallGeometry
@@ -84,10 +84,6 @@ class AbstractLubricatedBallSystem(AbstractBallSystem):
     @property
     def global_orbit(self) -> bool:
         return self.cage is not None or self.common_orbit
-
-    def oil_of(self, place: str) -> InletOil:
-        """The oil that enters an interaction beside the raceways."""
-        return self.inlet if self.elsewhere is None else getattr(self.elsewhere, place)
 
     # -- scales ---------------------------------------------------------------------------------------------------
 

@@ -40,7 +40,7 @@ from ...gaps import EndForces, PocketFilm
 from ...lubricants import InletOil, Lubricant
 from ...numerics.arrow import AbstractArrowSystem, ArrowPoint
 from ...numerics.roots import monotone_root
-from ..inlet import OilElsewhere
+from ..inlet import AbstractOils, OilElsewhere
 from ..land import LandState, guided_land
 from ..ring import LENGTH_UNIT, InnerRing
 from .forces import CageParts, forces_without_pocket, on_cage
@@ -116,7 +116,7 @@ class _InPlane(AbstractArrowSystem):
         return dataclasses.replace(self, directions=both, ring=free, held=held)
 
 
-class LubricatedRollerSystem(_InPlane):
+class LubricatedRollerSystem(AbstractOils, _InPlane):
     """Lubricated bearing. With `cage`: unknowns (ln Qi, speed at the outer race) per roller, (ring, cage speed).
     Without (frictionless raceways): ln Qi per roller and the ring, kinematics of rolling without slip."""
 
@@ -134,10 +134,6 @@ class LubricatedRollerSystem(_InPlane):
     cage: CageParts | None = None
     elsewhere: OilElsewhere | None = None
     """Oil of the other interactions where it is not that of the raceways, `inlet`."""
-
-    def oil_of(self, place: str) -> InletOil:
-        """The oil that enters an interaction beside the raceways."""
-        return self.inlet if self.elsewhere is None else getattr(self.elsewhere, place)
 
     # -- scales ---------------------------------------------------------------------------------------------------
 

@@ -48,7 +48,7 @@ from ...contacts.point_laws import PointFilm
 from ...gaps import RollerDrag
 from ...lubricants import InletOil, Lubricant
 from ...materials import reduced_modulus
-from ..inlet import oil_elsewhere, oil_of_races, oil_temperature
+from ..inlet import oil_elsewhere, oil_of, oil_of_races, oil_temperature
 from ..interactions import Costs, Interaction, costs
 from ..parts import drag_density
 from .build import TaperedMotion, rolling_motion
@@ -152,7 +152,7 @@ def tapered_friction(scene: TaperedRollerBearing, state: TaperedState) -> Tapere
     rib = (
         None
         if scene.rib is None
-        else _rib(scene, state.flange_load, motion, modulus, inlet if elsewhere is None else elsewhere.flange)
+        else _rib(scene, state.flange_load, motion, modulus, oil_of(inlet, elsewhere, "flange"))
     )
     drag = None
     if scene.drag is not None:

@@ -15,7 +15,7 @@ from ...numerics.safe import safe_norm
 from ...numerics.status import Status
 from ..assemble import Results, assemble
 from ..facts import MEAN_OF_LINE, MEAN_OF_POINT, RACEWAYS, Contacts, Facts
-from ..inlet import oil_elsewhere, oil_of_races
+from ..inlet import oil_elsewhere, oil_of, oil_of_races
 from ..interactions import costs
 from ..mixed import boundary_power, mixed_results
 from ..parts import azimuths
@@ -302,7 +302,7 @@ def _facts(
         races = races._replace(load_share=of_races.asperities.share)
     if of_rib is not None:
         rise, elsewhere = of_rib.temperature_rise, oil_elsewhere(scene)
-        oil = inlet if elsewhere is None else elsewhere.flange
+        oil = oil_of(inlet, elsewhere, "flange")
         rib = rib._replace(laws=scene.rib, inlet=oil, temperature=warm(oil, None if rise is None else rise[None]))
         if of_rib.mixed is not None:
             rib = rib._replace(load_share=of_rib.mixed.share[None])
