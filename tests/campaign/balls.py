@@ -19,6 +19,7 @@ import numpy as np
 from campaign import elastic
 from campaign.bearings import (
     CRAWL,
+    FRICTION,
     HEAVIER,
     HOTTER,
     LITRE_PER_HOUR,
@@ -28,11 +29,14 @@ from campaign.bearings import (
     SPEEDS,
     STEELS,
     energy,
+    friction,
     oil,
+    rubbed,
     scaled,
     solids,
     speeds,
     summary,
+    supplied,
 )
 from campaign.draws import Numbers, Range, even, log
 from campaign.structure import Results, Structure
@@ -111,7 +115,7 @@ def ball_numbers(v: Numbers, scene: Any) -> Numbers:
     if operation.misalignment is not None:
         numbers["operation.misalignment"] = 2e-3 * v["tilt"]
     if lubricated:
-        numbers |= oil(v, scene)
+        numbers |= oil(v, scene) | friction(v, scene)
     if scene.cage is not None:
         numbers |= {
             "cage.guiding_clearance": v["guiding"] * pitch,
@@ -134,6 +138,7 @@ def ball_balances(scene: Any, n: Numbers, r: Results) -> dict[str, tuple[np.ndar
     speed = np.abs(number("inner_speed")) + np.abs(number("outer_speed"))
     unit = 0.01 * (np.hypot(axial, radial) + np.sum(outward, axis=1)) * speed * n["geometry.pitch_diameter"]
     found = energy(r, unit) if scene.kinematics.attitude == "equilibrium" or not scene.slips else {}
+    found |= rubbed(scene, n, r)
     if scene.kinematics.gyroscopic is not None:
         # its friction stands in all balances of forces
         return found
@@ -375,5 +380,48 @@ STRUCTURES = [
         8,
         {"operation.radial_load": "1 kN", "operation.moment": "0 N*m", "contact.traction_accuracy": "1e-2"},
         {**OIL, **CAGE},
+    ),
+    structure(
+        "films, Biboulet-Houpert, layer, hysteresis",
+        "deep_groove_6205",
+        9,
+        {
+            "oil.name": "mobil_jet_ii",
+            "operation.oil_temperature": "60 degC",
+            "contact.film": "nijenbanning",
+            "contact.thermal": "gupta",
+            "contact.rolling_resistance": "biboulet_houpert",
+            "contact.supply.layer": "1 um",
+            "contact.hysteresis": "0.005",
+        },
+        {**OIL, **FRICTION, **supplied("layer")},
+    ),
+    structure(
+        "sliding, axial, rough, Biboulet-Houpert, gap",
+        "turbine_ball",
+        14,
+        {
+            "drag": "none",
+            **NO_CAGE,
+            "contact.rolling_resistance": "biboulet_houpert",
+            "contact.supply.gap_over_central": "5",
+            "contact.mixed.roughness": "0.3 um",
+            "contact.hysteresis": "0.005",
+        },
+        {**OIL, **FRICTION, **supplied("gap_over_central")},
+    ),
+    structure(
+        "sliding, axial, rough, meniscus, Heathcote",
+        "turbine_ball",
+        13,
+        {
+            "drag": "none",
+            **NO_CAGE,
+            "contact.heathcote": "true",
+            "contact.supply.meniscus_gap": "5 um",
+            "contact.mixed.roughness": "0.3 um",
+            "contact.mixed.share": "greenwood_tripp",
+        },
+        {**OIL, **FRICTION, **supplied("meniscus_gap")},
     ),
 ]
