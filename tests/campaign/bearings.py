@@ -41,7 +41,7 @@ FRICTION: dict[str, Range] = {
     "boundary": even(0.05, 0.2),
     "hysteresis": even(0.0, 0.02, zero=0.1),
 }
-"""Roughness, m; sliding speed over which boundary friction starts, m/s; its coefficient; part of the elastic work lost."""
+"""Roughness, m; sliding speed over which boundary friction starts, m/s; its coefficient; lost part of the elastic work."""
 SUPPLY: dict[str, Range] = {
     "gap_over_central": log(0.03, 1e3),
     "meniscus_gap": log(1e-8, 1e-3),
@@ -88,9 +88,7 @@ def rubbed(scene: Any, n: Numbers, r: Results) -> dict[str, tuple[np.ndarray, fl
         if path.startswith("boundary_power."):
             loss = r[path.replace("boundary_power", "power_loss")]
             found[f"{path} is a part"] = (np.maximum(np.maximum(values - loss, -values), 0.0) / whole, 1e-9)
-        elif path.startswith("elements.load_share_"):
-            found[f"{path} is a part"] = (np.maximum(beyond(values, 1.0), beyond(-values, 0.0)), 1e-12)
-        elif path.startswith(("supply.film_factor", "supply.rolling_factor")):
+        elif path.startswith(("elements.load_share_", "supply.film_factor", "supply.rolling_factor")):
             found[f"{path} is a part"] = (np.maximum(beyond(values, 1.0), beyond(-values, 0.0)), 1e-12)
     if "contact.supply.layer" in n and scene.line_contacts:
         layer = n["contact.supply.layer"][:, None]
