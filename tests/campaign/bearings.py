@@ -41,7 +41,7 @@ FRICTION: dict[str, Range] = {
     "boundary": even(0.05, 0.2),
     "hysteresis": even(0.0, 0.02, zero=0.1),
 }
-"""Roughness, m; sliding speed over which boundary friction starts, m/s; its coefficient; lost part of the elastic work."""
+"""Roughness, m; sliding speed over which boundary friction starts, m/s; its coefficient; part of elastic work lost."""
 SUPPLY: dict[str, Range] = {
     "gap_over_central": log(0.03, 1e3),
     "meniscus_gap": log(1e-8, 1e-3),
