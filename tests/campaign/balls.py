@@ -31,6 +31,8 @@ from campaign.bearings import (
     energy,
     friction,
     oil,
+    places_known,
+    placing_film,
     rubbed,
     scaled,
     solids,
@@ -139,8 +141,8 @@ def ball_balances(scene: Any, n: Numbers, r: Results) -> dict[str, tuple[np.ndar
     unit = 0.01 * (np.hypot(axial, radial) + np.sum(outward, axis=1)) * speed * n["geometry.pitch_diameter"]
     found = energy(r, unit) if scene.kinematics.attitude == "equilibrium" or not scene.slips else {}
     found |= rubbed(scene, n, r)
-    if scene.kinematics.gyroscopic is not None:
-        # its friction stands in all balances of forces
+    if scene.kinematics.gyroscopic is not None or not places_known(scene):
+        # its friction stands in all balances of forces; without the places of the balls there are none
         return found
     place, fits = _placed(scene, n, r)
     # a tilted ring is displaced along the orbit too; with films the printed loads are those in the balls' half-planes
@@ -208,7 +210,7 @@ def _placed(scene: Any, n: Numbers, r: Results) -> tuple[Placed, dict[str, tuple
         load = r[f"elements.load_{name}"]
         stiffness = elastic.point_stiffness(rolling, across, modulus)
         approach = (np.maximum(load, 0.0) / stiffness[:, None]) ** (2.0 / 3.0)
-        film = r.get(f"elements.film_{name}", 0.0)
+        film = 0.0 if scene.contact is None else placing_film(scene, r, name)
         reach[name] = ((groove - 0.5) * diameter)[:, None] + approach - film
         # radii at the free angle for the stiffness, at the contact angle for films and pressures
         rows, heaviest = np.arange(len(load)), np.argmax(load, axis=1)

@@ -8,6 +8,7 @@ import numpy as np
 from campaign.draws import Numbers, Range, even, log
 from campaign.structure import Results, Twin
 
+from jaxbearing.contacts.oil_supply import SEPARATION_SHARE
 from jaxbearing.numerics.newton_steps import MOST_ROUNDED, NewtonOptions
 
 RPM = 2.0 * np.pi / 60.0
@@ -76,6 +77,22 @@ def friction(v: Numbers, scene: Any) -> Numbers:
     if field == "from_flow":
         found["operation.oil_flow"] = v["supply_flow"] * LITRE_PER_HOUR
     return found
+
+
+def places_known(scene: Any) -> bool:
+    """True if the films that place the rolling elements follow from the printed ones: not where each contact has
+    another part of its flooded film."""
+    supply = None if scene.contact is None else scene.contact.supply
+    return supply is None or supply.gap_over_central is not None
+
+
+def placing_film(scene: Any, r: Results, race: str) -> np.ndarray:
+    """Films that place the rolling elements: with a supply the film and a hundredth of what it lacks of the flooded
+    one."""
+    film = r[f"elements.film_{race}"]
+    if scene.contact.supply is None:
+        return film
+    return film * (1.0 + SEPARATION_SHARE * (1.0 / r[f"supply.film_factor_{race}"][:, None] - 1.0))
 
 
 def rubbed(scene: Any, n: Numbers, r: Results) -> dict[str, tuple[np.ndarray, float]]:

@@ -19,6 +19,8 @@ from campaign.bearings import (
     first_moment,
     friction,
     oil,
+    places_known,
+    placing_film,
     rubbed,
     scaled,
     solids,
@@ -138,10 +140,12 @@ def roller_balances(scene: Any, n: Numbers, r: Results) -> dict[str, tuple[np.nd
     if scene.contact is None:
         gap = np.where(inner > 0, approach - closing, np.maximum(closing - approach, 0.0))
     else:
-        films = r["elements.film_inner"] + r["elements.film_outer"]
+        films = placing_film(scene, r, "inner") + placing_film(scene, r, "outer")
         gap = approach - closing - films
         scale += np.max(films, axis=1)
-    return found | {"rings and rollers fit": (np.max(np.abs(gap), axis=1) / scale, 1e-8)}
+    if places_known(scene):
+        found["rings and rollers fit"] = (np.max(np.abs(gap), axis=1) / scale, 1e-8)
+    return found
 
 
 def _moments(scene: Any, n: Numbers, r: Results) -> dict[str, tuple[np.ndarray, float]]:
