@@ -215,6 +215,10 @@ MEAN = {"contact.traction_model": "mean_pressure", "contact.traction_accuracy": 
 ELASTIC = (MIRROR, HEAVIER, CRAWL, scaled(("profile.shape.drop",)))
 LUBRICATED = {**OIL, **CAGE}
 ROLLING_ALONE = {"contact.traction": "none", **dict.fromkeys(MEAN, "none")}
+FILMS = tuple(
+    f"elements.{what}_{race}" for what in ("film", "film_least", "temperature_rise") for race in ("inner", "outer")
+)
+"""What a tilting roller does not have where it does not touch."""
 ROUGH = {"contact.mixed.roughness": "0.3 um"}
 LOSSY = {"contact.hysteresis": "0.005"}
 STRUCTURES = [
@@ -309,6 +313,7 @@ STRUCTURES = [
         },
         {**OIL, **TILT, **FRICTION, **supplied("from_flow")},
         without=("cage", "flange", "drag"),
+        may_be_nan=FILMS,
     ),
     structure(
         "skidding, rough, full range, gap",
