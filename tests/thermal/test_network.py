@@ -383,6 +383,7 @@ def test_conductances_that_come_with_the_losses():
     np.testing.assert_allclose(found[0], found[1], rtol=1e-12)
 
 
+@pytest.mark.slow
 def test_functions_of_a_network_may_close_over_traced_numbers():
     def total(slope):
         law = lambda temperature: 5.0 + slope * (temperature - AMBIENT)
