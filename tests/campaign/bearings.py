@@ -159,10 +159,13 @@ def largest(values: np.ndarray) -> np.ndarray:
     return np.max(np.abs(values.reshape(len(values), -1)), axis=1)
 
 
-def energy(results: Results, unit: np.ndarray | float = 0.0) -> dict[str, tuple[np.ndarray, float]]:
+def energy(
+    results: Results, unit: np.ndarray | float = 0.0, rough: bool = False
+) -> dict[str, tuple[np.ndarray, float]]:
     """The power that drives the rings, from torques, is the sum of all losses, and no loss is negative. Granted is the
     residual of the equations, in `unit`, W, where it is beyond its tolerance: where thick oil makes forces of the last
-    bits of a speed rounding leaves more, at most `MOST_ROUNDED`."""
+    bits of a speed rounding leaves more, at most `MOST_ROUNDED`. `rough`: granted below the tolerance too, where
+    asperities hold balls that then lose next to nothing, and an open force turns at the speed of the rings."""
     total = results.get("power_loss.total")
     parts = {path: value for path, value in results.items() if path.startswith("power_loss.") and value is not total}
     if total is None or not parts:
@@ -171,7 +174,8 @@ def energy(results: Results, unit: np.ndarray | float = 0.0) -> dict[str, tuple[
     scale = np.maximum(np.abs(total), TINY)
     least = np.min(list(parts.values()), axis=0)
     residual = results["residual_norm"]
-    left = np.where(residual > NewtonOptions().residual_tolerance, np.minimum(residual, MOST_ROUNDED), 0.0) * unit
+    counts = rough | (residual > NewtonOptions().residual_tolerance)
+    left = np.where(counts, np.minimum(residual, MOST_ROUNDED), 0.0) * unit
     return {
         "drive power = total loss": (np.maximum(np.abs(results["drive_power"] - total) - left, 0.0) / scale, 1e-8),
         "losses add up": (np.abs(added - total) / scale, 1e-12),
