@@ -241,7 +241,7 @@ def test_wrong_numbers_are_refused():
         MixedFriction(0.0)
     with pytest.raises(ValueError, match=r"contact\.mixed\.exponent must be > 0"):
         ZhouHoeprich(2.0, -1.0)
-    with pytest.raises(ValueError, match=r"contact\.hysteresis must be >= 0"):
+    with pytest.raises(ValueError, match=r"contact\.hysteresis must be between 0 and 1"):
         PointLaws(HamrockDowsonCentral(), hysteresis=-1.0)
     with pytest.raises(ValueError, match=r"contact\.mixed: mixed friction is of contacts that slide"):
         PointLaws(HamrockDowsonCentral(), mixed=MixedFriction(0.3e-6))

@@ -316,6 +316,7 @@ def test_compiled_solvers_refuse_what_is_no_scene():
         fast(inner_speed=np.complex128(1j))
 
 
+@pytest.mark.slow
 def test_the_loss_at_no_flow_has_a_slope_that_foretells_a_step():
     """Parker's law has an infinite slope at no flow; that of the model is the secant to 0.1 l/h."""
     roller = numbers(reference_roller())

@@ -106,6 +106,7 @@ def test_random_scenes(structure, tmp_path):
     assert built
 
 
+@pytest.mark.slow
 def test_scenes_that_accidents_made(tmp_path):
     names, read = jb.builtin_names(), 0
     for seed in range(160):
@@ -347,7 +348,14 @@ SOLVED = [
 ]
 
 
-@pytest.mark.parametrize(("name", "changes"), SOLVED, ids=[name for name, _ in SOLVED])
+LONG = ("tapered_example",)
+"""Those whose programs are large."""
+
+
+@pytest.mark.parametrize(
+    ("name", "changes"),
+    [pytest.param(*one, marks=pytest.mark.slow if one[0] in LONG else (), id=one[0]) for one in SOLVED],
+)
 def test_the_same_solve(name, changes, tmp_path):
     scene = jb.load_scene(name, changes)
     jb.save_scene(scene, tmp_path / "scene.toml")

@@ -88,6 +88,7 @@ def test_plan_of_a_scene_file_that_is_read_case_by_case(tmp_path):
     same(found.recipe.scene({"profile.drop": 4.5e-6}), plan.recipe.scene({"profile.drop": 4.5e-6}))
 
 
+@pytest.mark.slow
 def test_plan_in_another_process(tmp_path):
     """A process that has imported nothing but the sweeps knows all classes."""
     keys = []

@@ -132,6 +132,7 @@ def test_tables_of_time():
     assert abs(float(found.energy_error)) < 1e-7
 
 
+@pytest.mark.slow
 def test_losses_that_fail_end_the_run():
     def heat(temperatures, time):
         failed = temperatures[0] > 310.0
