@@ -1,4 +1,4 @@
-"""What is known beforehand of inputs that nobody has measured: assumed distributions."""
+"""Assumed distributions of inputs that nobody has measured."""
 
 import math
 from typing import Any

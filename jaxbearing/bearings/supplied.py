@@ -1,4 +1,4 @@
-"""What the supply of oil does to the raceways of a solved bearing, and whether a scene has what its supply needs."""
+"""Factors of the oil supply on the raceways of a solved bearing, and a check of what a scene lacks for its supply."""
 
 from collections.abc import Iterator
 from typing import Any
@@ -59,7 +59,7 @@ def supply_result(scene: Any, load: Float[Array, "2 element"], starved: Starvati
 
 
 def supply_problems(scene: Any) -> Iterator[str]:
-    """What a scene lacks of what its supply needs, in words."""
+    """Yields a sentence for everything that a scene lacks for its supply."""
     supply = None if scene.contact is None else scene.contact.supply
     if supply is not None and supply.from_flow is not None and known(scene.operation.oil_flow) == (0.0,):
         yield "operation.oil_flow: contact.supply.from_flow needs a volume flow > 0"

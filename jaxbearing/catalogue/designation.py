@@ -50,7 +50,7 @@ _BOTH = "angular_contact", "spindle"
 
 
 class Designation(NamedTuple):
-    """What a designation says.
+    """The contents of a designation.
 
     **Arguments:**
     - `text`: the designation as it was typed.
@@ -147,7 +147,7 @@ def _code(bore: float) -> str:
 
 
 class _Basic(NamedTuple):
-    """What the number says: type, series, bore and boundary dimensions, mm, and the suffixes that are left."""
+    """The contents of a number: type, series, bore and boundary dimensions, mm, and the suffixes that are left."""
 
     kind: str
     design: str

@@ -56,7 +56,7 @@ def scene_text(bearing: Designation, geometry: Geometry, given: Mapping[str, flo
 
 
 def sharper(bearing: Designation, given: Mapping[str, float]) -> str:
-    """What would make the estimates surer, as options of the command; empty if everything is given."""
+    """Options of the command that would narrow the estimates; empty if everything is given."""
     rollers = bearing.kind in ("cylindrical", "tapered")
     options = {
         "static_capacity": "--static-capacity",

@@ -12,7 +12,7 @@ RIB_HEIGHT = 0.8
 
 
 class TaperedShape(NamedTuple):
-    """What a scene needs. **Arguments:** `roller_diameter`: of the big end, m; `half_angle`, `flange_angle`: rad;
+    """Sizes that a scene needs. **Arguments:** `roller_diameter`: of the big end, m; `half_angle`, `flange_angle`: rad;
     `end_radius`: m."""
 
     roller_diameter: float

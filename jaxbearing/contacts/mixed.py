@@ -34,7 +34,7 @@ FLASH_SPEED = 1e-6
 
 
 class InletState(NamedTuple):
-    """What makes the film of a contact: mean surface speed, m/s, viscosity, Pa s, and pressure-viscosity coefficient,
+    """The inputs of a film: mean surface speed, m/s, viscosity, Pa s, and pressure-viscosity coefficient,
     1/Pa, of the oil in the inlet."""
 
     speed: Values

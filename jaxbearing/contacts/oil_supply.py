@@ -1,4 +1,4 @@
-"""How much oil reaches the raceway contacts of a bearing: the part `contact.supply` of a scene."""
+"""The amount of oil that reaches the raceway contacts of a bearing: the part `contact.supply` of a scene."""
 
 from typing import Any, ClassVar, Literal, NamedTuple
 

@@ -124,7 +124,7 @@ def pieces_of(begin: float, times: np.ndarray, kinks: np.ndarray) -> Iterator[_P
 
 
 class _Done(NamedTuple):
-    """What a piece has added."""
+    """The contribution of one piece of a run."""
 
     times: np.ndarray
     seen: Seen
@@ -249,8 +249,8 @@ class _Run:
             self.status = self._failure(found, end, seen)
 
     def _integrated(self, begin: float, nodes: np.ndarray, times: np.ndarray, step: float) -> Any:
-        """What the integrator reaches from a beginning, s. **Arguments:** `times`: at most `PIECE`, s; `step`: first
-        that is tried, s."""
+        """The state that the integrator reaches from a beginning, s. **Arguments:** `times`: at most `PIECE`, s;
+        `step`: first that is tried, s."""
         lengths = np.pad(times - begin, (0, PIECE - times.size), mode="edge")
         # a table may jump just after the beginning
         begin = np.nextafter(begin, math.inf) if begin > 0.0 else begin
@@ -274,7 +274,7 @@ class _Run:
         return np.append(time[index - 1], times[good][solved]), found
 
     def _failure(self, found: Any, end: float, seen: Seen) -> Status:
-        """How a piece ended that stopped early."""
+        """The status of a piece that stopped early."""
         ahead = AHEAD * float(self.settings.options.shortest_step)
         beyond = self._look(np.asarray([end + ahead]), (self.now + ahead * seen.rates[-1])[None])
         return Status(int(run_status(found, jnp.asarray(beyond.status[0]))))
