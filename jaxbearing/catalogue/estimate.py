@@ -90,6 +90,7 @@ def estimate(bearing: Designation, given: Mapping[str, float], angle: Normal) ->
     padded = [np.resize(column, LANES).astype(float) for column in (counts, sizes)]
     size_weight = np.asarray(0.0 if math.isnan(sizes[0]) else 1.0 / GIVEN)
     program = _PROGRAMS["roller" if rollers else "ball"]
+    # without usual sizes the column is NaN, and its weight is 0: the number in its place counts for nothing
     out = program(padded[0], np.nan_to_num(np.log(padded[1])), size_weight, terms)
     return _chosen({name: np.asarray(value) for name, value in out.items()}, mask, counts, given, angle, standard)
 

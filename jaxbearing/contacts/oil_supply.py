@@ -28,7 +28,7 @@ LARGEST_LOG = 600.0
 
 
 class Starvation(NamedTuple):
-    """What the supply does to a contact.
+    """The effect of the supply on a contact.
 
     - `flooded`, `film`: with all oil and with this, m.
     - `separation`: film in the equations that place a rolling element between the rings, m: the film and a hundredth of
@@ -183,7 +183,7 @@ class Supply(Checked):
     def _at_distance(
         self, contact: LineContact | PointContact, load: Values, log_flooded: Array
     ) -> tuple[Array, Array, Array]:
-        """As `_factor_and_gap`, at a given distance of the meniscus."""
+        """Returns what `_factor_and_gap` does, at a given distance of the meniscus."""
         assert self.meniscus_distance is not None
         half_width = _half_width(contact, load)
         radius = contact.reduced_radius if isinstance(contact, LineContact) else contact.reduced_radius_rolling

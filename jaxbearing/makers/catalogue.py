@@ -1,4 +1,4 @@
-"""What a scene does not know of a catalogue bearing and the makers' formulas need."""
+"""Data of a catalogue bearing that the makers' formulas need and a scene does not have."""
 
 from typing import ClassVar, Literal
 

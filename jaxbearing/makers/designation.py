@@ -1,4 +1,4 @@
-"""What the designation of a catalogue bearing says: family, series, bore, seals."""
+"""The designation of a catalogue bearing is read: family, series, bore, seals."""
 
 import re
 from typing import NamedTuple
@@ -21,7 +21,7 @@ _BOTH = ("DDU", "LLU")
 
 
 class Said(NamedTuple):
-    """What a designation says; what it does not say is empty or `None`.
+    """The contents of a designation; what is not in it is empty or `None`.
 
     - `family`: one of those of `FAMILIES`.
     - `series`: as the tables of constants name it, such as "62", "NU 2" as "2", "320X", "72B".
@@ -38,7 +38,7 @@ class Said(NamedTuple):
 
 
 def read_designation(text: str) -> Said:
-    """What a designation says. One of an unknown form says nothing: nothing is guessed.
+    """Reads a designation. The contents of one of an unknown form are empty: nothing is guessed.
 
     It knows 6205, 61805, 16005 (deep groove), 7205 BE, 7205 AC, 3205 A (angular contact), QJ 205 (four-point), NU 205,
     N 205, NJ 205, NUP 205 (cylindrical), NCF 3005, SL18 3005 (full complement), 30206, 32008 X, 32206 B (tapered) and

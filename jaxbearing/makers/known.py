@@ -1,4 +1,4 @@
-"""What the formulas need of a solved scene and its catalogue bearing: given, assumed or missing, each in words."""
+"""Inputs of the formulas from a solved scene and its catalogue bearing: given, assumed or missing, each in words."""
 
 import math
 import re

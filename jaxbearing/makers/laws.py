@@ -39,7 +39,7 @@ _TABLES = {
 
 @dataclass(frozen=True)
 class Law:
-    """What one formula says.
+    """The result of one formula.
 
     **Arguments:**
     - `law`: its name: "skf", "palmgren_ina", "palmgren_timken" or "timken_tapered".

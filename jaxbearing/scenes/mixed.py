@@ -108,14 +108,14 @@ def _built(table: MixedTable, roughness: float, constants: Mapping[str, Any]) ->
 
 
 def mixed_rows(mixed: MixedFriction | None) -> Rows:
-    """What the table of raceways says of the load share."""
+    """The load share of the table of raceways."""
     if mixed is None:
         return {}
     return {"mixed": {"share": _name(mixed.share, "contact.mixed.share")} | rows(MixedTable, mixed.share)}
 
 
 def rib_mixed_rows(races: MixedFriction | None, rib: MixedFriction | None) -> Rows:
-    """What the table of a tapered roller bearing says of the load share, and of the rib."""
+    """The load shares of the table of a tapered roller bearing, of the raceways and of the rib."""
     if (races is None) != (rib is None):
         raise unwritable("rib.mixed", shown(rib), "mixed friction of raceways and rib, or of neither")
     if races is None or rib is None:

@@ -82,7 +82,7 @@ def _caption(thermal: ThermalResult, total: float) -> str:
 
 
 def _carries(heat: float) -> str:
-    """What oil that flows through does with so much heat, W."""
+    """Words for so much heat, W, that oil takes away or brings."""
     return f"{'takes' if heat >= 0.0 else 'brings'} {_watts(abs(heat))}"
 
 

@@ -98,7 +98,7 @@ def viscosity_at(m: float, n: float, temperature: float) -> float:
 
 
 def refused(base: str) -> str:
-    """What is expected instead of a grade that a base stock does not have, in words."""
+    """Names, in words, the grades to take instead of one that a base stock does not have."""
     return (
         f"a grade of {base} oils: {one_of(grades(base))}; for another oil give two viscosities of its data sheet: "
         "[oil.viscosity] with law = 'two_viscosities'"
