@@ -1,6 +1,7 @@
 """Inputs of the fatigue life of a bearing: the same for all kinds of bearings."""
 
-from typing import ClassVar, Literal
+import re
+from typing import Any, ClassVar, Literal
 
 from .._scene import optional_number
 from .._types import Scalar
@@ -16,8 +17,23 @@ CLEANLINESS_CLASSES = (
     *(f"grease_{word}" for word in ("high", "normal", "typical", "severe", "very_severe")),
 )
 """Contamination classes of ISO 281: circulating oil by the code of its filter, and grease."""
+_ISO_4406 = re.compile(r"(?:(?:\d{1,2}|[-\u2013*])\s*/)?\s*(\d{1,2})\s*/\s*(\d{1,2})")
+_FILTERS = {f"online_filter_{code}": (code, code - 3) for code in (13, 15, 17, 19)}
+"""Classes of circulating oil by the code numbers of ISO 4406 at 6 and 14 um."""
 LAMINAE = 30
 """Laminae of a roller in the reference life where a scene does not say."""
+
+
+def cleanliness_named(given: Any) -> Any:
+    """The contamination class of an ISO 4406 code of circulating oil, "-/17/14", "20/17/14" or "17/14": the cleanest one
+    whose numbers at 6 and 14 um are both at least those of the code. Anything else as it is, also a code dirtier than
+    all classes."""
+    code = _ISO_4406.fullmatch(given.strip()) if isinstance(given, str) else None
+    if code is None:
+        return given
+    fine, coarse = int(code[1]), int(code[2])
+    classes = (name for name, limits in _FILTERS.items() if fine <= limits[0] and coarse <= limits[1])
+    return next(classes, given)
 
 
 class Rating(Checked):
@@ -35,7 +51,9 @@ class Rating(Checked):
       without films and friction, and only the life uses them (structure).
     - `reliability`: fraction of bearings that live longer, 0.90, 0.95, 0.96, 0.97, 0.98 or 0.99 (structure: another one
       recompiles).
-    - `cleanliness`: name of a contamination class; with it, and with a viscosity ratio, the life is modified (a_ISO).
+    - `cleanliness`: name of a contamination class, or the ISO 4406 code of circulating oil, such as "-/17/14" or
+      "18/16/13", for which the cleanest class that is not cleaner than the code counts; with it, and with a viscosity
+      ratio, the life is modified (a_ISO).
     - `viscosity_ratio`: the ratio kappa, > 0; not given: from the oil, its temperature and the speed, where the scene
       has them.
     - `roughness_rings`, `roughness_elements`: root mean square, m; with them and films: the lambda ratio.
@@ -54,7 +72,7 @@ class Rating(Checked):
     roughness_rings: Scalar | None = optional_number(bound="> 0", unit="m")
     roughness_elements: Scalar | None = optional_number(bound="> 0", unit="m")
     reliability: float = constant("rating.reliability", 0.90, among=RELIABILITIES)
-    cleanliness: str | None = choice("rating.cleanliness", CLEANLINESS_CLASSES, None)
+    cleanliness: str | None = choice("rating.cleanliness", CLEANLINESS_CLASSES, None, also=cleanliness_named)
     n_laminae: int | None = count("rating.n_laminae", None, least=1)
     edge_factor: bool | None = switch("rating.edge_factor", None)
     grooves: Literal["catalogue", "scene"] = choice("rating.grooves", ("catalogue", "scene"), "catalogue")

@@ -20,8 +20,10 @@ def fields(
     """Every field of a kind of scene file: default, what it takes, what it is. Without a kind: the kinds."""
     with bad_input():
         from ..scenes.errors import SceneError, nearest, one_of
+        from ..scenes.kinds import kind_named
         from ..scenes.reader import KINDS
 
+        kind = kind_named(kind)
         if kind is not None and kind not in KINDS:
             raise SceneError("fields", "", f"'{kind}'", f"a kind of scene: {one_of(KINDS)}", nearest(kind, KINDS))
     if kind is None:

@@ -10,10 +10,11 @@ import numpy as np
 from jax.core import Tracer
 from pydantic import BaseModel
 
+from ..materials import material_named
 from ..numerics.structure import plain
 from .errors import SceneError, describe_at, in_words, unknown_name
 from .fields import is_known, names_at
-from .materials import CATALOGUE, MaterialTable, catalogue_table
+from .materials import MaterialTable, catalogue_table
 from .oil.files import base_of
 from .units import describe
 
@@ -167,8 +168,8 @@ def _table(
         return value
     place = ".".join(inside)
     expected = "a table, to set a value in it"
-    name, last = str(value), path.removeprefix(f"{place}.")
-    if name in CATALOGUE and last in MaterialTable.model_fields and text:
+    name, last = material_named(str(value)), path.removeprefix(f"{place}.")
+    if name is not None and last in MaterialTable.model_fields and text:
         changes = catalogue_table(name) | {last: text}
         entries = ", ".join(f"{field} = {_as_toml(given)}" for field, given in changes.items())
         expected = f"a table: {place}={{{entries}}} is {name} with this value"

@@ -16,6 +16,7 @@ from .data_files import builtin_names, builtin_summary, builtin_text
 from .distributions import means_of, said_of
 from .drafts import Unreadable, draft
 from .errors import SceneError, from_class, nearest, one_of
+from .kinds import kind_named
 from .oil.catalogue import with_catalogue
 from .oil.files import Origin, origins, prior_ranges
 from .overrides import REMOVE, Overrides, applied, apply, as_texts, parse_value
@@ -257,6 +258,7 @@ def _known_kind(kind: Any, mapping: Mapping[str, Any], origin: str) -> str:
         near = next((key for key in mapping if key != "kind" and nearest(key, ("kind",))), "")
         found = f"the unknown name {near!r}" if near else "nothing"
         raise SceneError(origin, "kind", found, f"the kind of scene, e.g. {_KIND_EXAMPLE}", "kind" if near else "")
+    kind = kind_named(kind)
     if kind in KINDS:
         return kind
     near = nearest(kind, KINDS) if isinstance(kind, str) else ""

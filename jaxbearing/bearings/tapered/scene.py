@@ -203,7 +203,7 @@ class TaperedRollerBearing(AbstractBearing):
 
     def assumptions(self) -> tuple[str, ...]:
         """Notes for the user: assumptions of the model, and uses for which its data were not made."""
-        said = []
+        said = self.geometry.assumptions()
         if self.contact is not None and self.oil is not None:
             said += [f"oil: {note}" for note in self.oil.notes]
             laws = (self.contact.traction, None if self.rib is None else self.rib.traction)

@@ -25,6 +25,7 @@ from ..bearing.schema import (
     require_oil_flow,
 )
 from ..bearing.simulation import WarmUpTable
+from ..kinds import KIND
 from ..laws import BALL_FILMS, POINT_ROLLING, POINT_THERMAL, TRACTIONS, TractionAccuracy
 from ..materials import MaterialField
 from ..mixed import MixedTable, mixed_needs_traction
@@ -140,7 +141,7 @@ class BallDragTable(table_of(BallDragSettings)):
 class BallBearingTable(Table):
     """The whole file. A table that is left out is not modelled."""
 
-    kind: Literal["ball_bearing"]
+    kind: Annotated[Literal["ball_bearing"], KIND]
     geometry: BallGeometryTable
     materials: BallMaterialsTable
     operation: BallOperationTable

@@ -22,6 +22,7 @@ from ..bearing.schema import (
     require_oil_flow,
 )
 from ..bearing.simulation import SimulationTable
+from ..kinds import KIND
 from ..laws import LINE_THERMAL, ROLLER_FILMS, ROLLING, TRACTIONS, TractionAccuracy
 from ..materials import MaterialField
 from ..mixed import MixedTable, mixed_needs_traction
@@ -110,7 +111,7 @@ class CylindricalRollerTable(Table):
     not_yet: ClassVar[Mapping[str, str]] = {
         "kinematics": "a scene without [kinematics], which belongs to ball bearings",
     }
-    kind: Literal["cylindrical_roller_bearing"]
+    kind: Annotated[Literal["cylindrical_roller_bearing"], KIND]
     geometry: GeometryTable
     materials: MaterialsTable
     operation: OperationTable

@@ -21,6 +21,7 @@ from ..bearing.schema import (
 )
 from ..bearing.simulation import WarmUpTable
 from ..cylindrical.schema import RACEWAY_LAWS, DragTable
+from ..kinds import KIND
 from ..laws import LINE_THERMAL, RIB_FILMS, ROLLER_FILMS, ROLLING, TRACTIONS, TractionAccuracy
 from ..materials import MaterialField
 from ..mixed import RibMixedTable, mixed_needs_traction
@@ -83,7 +84,7 @@ class TaperedOperationTable(operation_table(TaperedOperation)):
 class TaperedRollerTable(Table):
     """The whole file. A table that is left out is not modelled."""
 
-    kind: Literal["tapered_roller_bearing"]
+    kind: Annotated[Literal["tapered_roller_bearing"], KIND]
     geometry: TaperedGeometryTable
     materials: TaperedMaterialsTable
     operation: TaperedOperationTable
