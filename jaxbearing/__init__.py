@@ -93,6 +93,7 @@ if TYPE_CHECKING:
     from .scenes.errors import SceneError as SceneError
     from .scenes.from_python import load_oil as load_oil
     from .scenes.from_python import scene_from_mapping as scene_from_mapping
+    from .scenes.presets import PresetUsedWarning as PresetUsedWarning
     from .scenes.reader import builtin_names as builtin_names
     from .scenes.reader import load_distributions as load_distributions
     from .scenes.reader import load_scene as load_scene
@@ -126,6 +127,7 @@ _LAZY = {
     "NewtonOptions": ".numerics.newton",
     "Operation": ".bearings.operation",
     "PartTemperatures": ".mounting",
+    "PresetUsedWarning": ".scenes.presets",
     "Rating": ".bearings.rating",
     "RollerCage": ".bearings.cylindrical.geometry",
     "RollerFlange": ".bearings.cylindrical.geometry",

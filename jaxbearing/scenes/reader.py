@@ -19,7 +19,9 @@ from .errors import SceneError, from_class, nearest, one_of
 from .kinds import kind_named
 from .oil.catalogue import with_catalogue
 from .oil.files import Origin, origins, prior_ranges
-from .overrides import REMOVE, Overrides, applied, apply, as_texts, parse_value
+from .overrides import REMOVE, Overrides, applied, apply, as_texts, parse_value, preset
+from .presets import PresetUsedWarning
+from .presets import said_of as said_of_preset
 from .table import Table
 from .toml_files import parse_toml, read_text
 from .units import describe, shortened
@@ -86,7 +88,8 @@ def load_scene(source: str | Path, overrides: Overrides | None = None) -> Abstra
       value "none" takes an optional table or field out. `oil.file` and the files of `simulation` are relative to the
       working folder here, and to the file's own folder in a scene file.
 
-    A field that is given as a distribution has its mean in the scene: a `MeanUsedWarning` says so.
+    A field that is given as a distribution has its mean in the scene: a `MeanUsedWarning` says so. What `laws = "best"`
+    stands for, law by law, is said by a `PresetUsedWarning`.
 
     **Raises:** `SceneError` with file, field, what was found and what is expected.
     """
@@ -124,14 +127,23 @@ def distributions_in(
 
 
 def warn_of_means(mapping: Mapping[str, Any], origin: str, overrides: Overrides | None = None) -> None:
-    """Warns of each distribution of which a scene has the mean; arguments and errors as those of
-    `distributions_in`."""
+    """Warns of what stands for a preset, and of each distribution of which a scene has the mean; arguments and errors as
+    those of `distributions_in`."""
     found = distributions_in(mapping, origin, overrides)
+    _warn_of_preset(mapping, as_texts(overrides), origin)
     if not found:
         return
     model = scene_model(mapping, as_texts(overrides), origin)
     for path, distribution in found.items():
         warnings.warn(said_of(path, distribution, model), MeanUsedWarning, stacklevel=3)
+
+
+def _warn_of_preset(mapping: Mapping[str, Any], overrides: Mapping[str, str], origin: str) -> None:
+    """Warns of the laws, and of the estimates, for which a preset stands."""
+    if "laws" in mapping or "laws" in overrides:
+        said = said_of_preset(preset(mapping, overrides, scene_model(mapping, overrides, origin), origin)[0])
+        if said:
+            warnings.warn(said, PresetUsedWarning, stacklevel=4)
 
 
 def oil_origins(source: str | Path, overrides: Overrides | None = None) -> dict[str, Origin]:

@@ -43,7 +43,7 @@ def facts(solution: Solution) -> Iterator[tuple[str, str]]:
     yield from _tapered_facts(solution)
     yield "Stiffness", ", ".join(_stiffness(solution))
     for title, name, pick in (("Thinnest film", "film", np.nanargmin), ("Highest pressure", "pressure", np.argmax)):
-        text = ", ".join(_extremes(solution.elements, name, pick))
+        text = ", ".join(extremes(solution.elements, name, pick))
         if text:
             yield title, text
     yield from _supply(solution)
@@ -216,7 +216,8 @@ def _stiffness(solution: Solution) -> Iterator[str]:
         yield f"not modelled: {', '.join(others)}"
 
 
-def _extremes(elements: Any, name: str, pick: Any) -> Iterator[str]:
+def extremes(elements: Any, name: str, pick: Any) -> Iterator[str]:
+    """The value that `pick` finds on each race, and where."""
     for field in dataclasses.fields(elements):
         values = getattr(elements, field.name)
         touches = values is not None and not np.all(np.isnan(np.asarray(values)))

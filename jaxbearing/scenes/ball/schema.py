@@ -30,6 +30,7 @@ from ..laws import BALL_FILMS, POINT_ROLLING, POINT_THERMAL, TRACTIONS, Traction
 from ..materials import MaterialField
 from ..mixed import MixedTable, mixed_needs_traction
 from ..oil.schema import OilTable
+from ..presets import Preset
 from ..table import Problems, Table, check, refusal_at
 from ..table_of import table_of
 
@@ -142,6 +143,7 @@ class BallBearingTable(Table):
     """The whole file. A table that is left out is not modelled."""
 
     kind: Annotated[Literal["ball_bearing"], KIND]
+    laws: Preset | None = None
     geometry: BallGeometryTable
     materials: BallMaterialsTable
     operation: BallOperationTable

@@ -27,6 +27,7 @@ from ..laws import LINE_THERMAL, ROLLER_FILMS, ROLLING, TRACTIONS, TractionAccur
 from ..materials import MaterialField
 from ..mixed import MixedTable, mixed_needs_traction
 from ..oil.schema import OilTable
+from ..presets import Preset
 from ..table import Problems, Table, check, refusal_at
 from ..table_of import table_of
 
@@ -112,6 +113,7 @@ class CylindricalRollerTable(Table):
         "kinematics": "a scene without [kinematics], which belongs to ball bearings",
     }
     kind: Annotated[Literal["cylindrical_roller_bearing"], KIND]
+    laws: Preset | None = None
     geometry: GeometryTable
     materials: MaterialsTable
     operation: OperationTable

@@ -26,6 +26,7 @@ from ..laws import LINE_THERMAL, RIB_FILMS, ROLLER_FILMS, ROLLING, TRACTIONS, Tr
 from ..materials import MaterialField
 from ..mixed import RibMixedTable, mixed_needs_traction
 from ..oil.schema import OilTable
+from ..presets import Preset
 from ..table import Problems, Table, check, refusal_at
 from ..table_of import table_of
 
@@ -85,6 +86,7 @@ class TaperedRollerTable(Table):
     """The whole file. A table that is left out is not modelled."""
 
     kind: Annotated[Literal["tapered_roller_bearing"], KIND]
+    laws: Preset | None = None
     geometry: TaperedGeometryTable
     materials: TaperedMaterialsTable
     operation: TaperedOperationTable
