@@ -90,10 +90,10 @@ if TYPE_CHECKING:
     from .program_size import compile_report as compile_report
     from .program_size import quick_compile_options as quick_compile_options
     from .report.last_state import read_last_state as read_last_state
+    from .scenes.errors import PresetUsedWarning as PresetUsedWarning
     from .scenes.errors import SceneError as SceneError
     from .scenes.from_python import load_oil as load_oil
     from .scenes.from_python import scene_from_mapping as scene_from_mapping
-    from .scenes.presets import PresetUsedWarning as PresetUsedWarning
     from .scenes.reader import builtin_names as builtin_names
     from .scenes.reader import load_distributions as load_distributions
     from .scenes.reader import load_scene as load_scene
@@ -127,7 +127,7 @@ _LAZY = {
     "NewtonOptions": ".numerics.newton",
     "Operation": ".bearings.operation",
     "PartTemperatures": ".mounting",
-    "PresetUsedWarning": ".scenes.presets",
+    "PresetUsedWarning": ".scenes.errors",
     "Rating": ".bearings.rating",
     "RollerCage": ".bearings.cylindrical.geometry",
     "RollerFlange": ".bearings.cylindrical.geometry",

@@ -19,6 +19,8 @@ unit that it wants. Python takes the same names with SI numbers. A field that is
 `{mean = "12 um", deviation = "2 um"}` or `{low = "5 um", high = "20 um"}`: see [Tolerances](tolerances.md).
 The table `[catalogue]` alone is no part of the scene: [makers' formulas](makers.md) take it, and no result depends on
 it.
+`laws = "best"` above the tables of a bearing stands for named laws, an estimated cage and drag:
+[Using it](using.md#the-best-laws-with-one-word).
 This page is made from the schemas that read the files.
 
 `required`: the field must be there when its table is. `optional`: what it stands for is then not modelled, computed

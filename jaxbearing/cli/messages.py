@@ -28,8 +28,7 @@ def bad_input(notes: list[str] | None = None) -> Iterator[None]:
     **Arguments:** `notes`: list that gets notes on the input; left out: they are printed on stderr.
     """
     from ..distribution import MeanUsedWarning
-    from ..scenes.errors import SceneError
-    from ..scenes.presets import PresetUsedWarning
+    from ..scenes.errors import PresetUsedWarning, SceneError
 
     notable = (MeanUsedWarning, PresetUsedWarning)
     said: list[str] = []

@@ -22,6 +22,10 @@ _MUST_BE = re.compile(r"be (?P<expected>.*?)(?:, got [^:]*(?:: (?P<reason>.*))?)
 _FOUND_EXPECTED = re.compile(r"(?:found (?P<found>.*?), )?expected (?P<expected>.*)")
 
 
+class PresetUsedWarning(UserWarning):
+    """A scene was read with laws, and perhaps estimated dimensions, for which a preset stands."""
+
+
 class SceneError(ValueError):
     """A scene cannot be read or does not make sense. The message has one line for each problem.
 

@@ -33,10 +33,6 @@ FREE_GAP = 0.3
 """Largest part of the gap between two rolling elements that an estimated pocket clearance takes."""
 
 
-class PresetUsedWarning(UserWarning):
-    """A scene was read with laws, and perhaps estimated dimensions, for which a preset stands."""
-
-
 class Given(NamedTuple):
     """A field for which a preset stands.
 

@@ -15,12 +15,11 @@ from ..distribution import Distribution, MeanUsedWarning
 from .data_files import builtin_names, builtin_summary, builtin_text
 from .distributions import means_of, said_of
 from .drafts import Unreadable, draft
-from .errors import SceneError, from_class, nearest, one_of
+from .errors import PresetUsedWarning, SceneError, from_class, nearest, one_of
 from .kinds import kind_named
 from .oil.catalogue import with_catalogue
 from .oil.files import Origin, origins, prior_ranges
 from .overrides import REMOVE, Overrides, applied, apply, as_texts, parse_value, preset
-from .presets import PresetUsedWarning
 from .presets import said_of as said_of_preset
 from .table import Table
 from .toml_files import parse_toml, read_text

@@ -64,9 +64,9 @@ def solution(status=Status.CONVERGED, number=None, **changes):
     return Solution(**{name: value for name, value in (fields | changes).items() if name in known})
 
 
-def text_of(result, width=100, **options):
+def text_of(result, width=100, full=False, **options):
     stream = io.StringIO()
-    print_summary(result, "a scene", Console(file=stream, width=width, highlight=False, **options))
+    print_summary(result, "a scene", Console(file=stream, width=width, highlight=False, **options), full)
     return stream.getvalue()
 
 
@@ -214,8 +214,33 @@ def test_summary():
 
 
 @pytest.mark.parametrize("width", [40, 60, 80, 200])
-def test_summary_at_any_width(width):
-    assert max(len(line) for line in text_of(solution(), width).splitlines()) <= width
+@pytest.mark.parametrize("full", [False, True])
+def test_summary_at_any_width(width, full):
+    assert max(len(line) for line in text_of(solution(), width, full).splitlines()) <= width
+
+
+def test_life_and_power_come_first_then_warnings_then_the_parts():
+    numbers = {field.name: jnp.ones(()) for field in dataclasses.fields(Life)}
+    numbers |= {name: jnp.ones(N) for name in ("film_ratio_inner", "film_ratio_outer")}
+    known = solution(life=Life(**numbers))
+    order = ["Operating point", "Life", "Rating", "Lubrication", "Drive power", "Warnings", "drag", "Largest load"]
+    order += ["Cage", "Inner ring", "Stiffness", "Highest pressure"]
+    for full in (False, True):
+        lines = text_of(known, full=full).splitlines()
+        names = [name for name in order if not full or name != "Largest load"]
+        places = [next(i for i, line in enumerate(lines) if line.lstrip(" -").startswith(name)) for name in names]
+        assert places == sorted(places)
+
+
+def test_only_the_full_summary_has_a_row_for_each_element():
+    short, full = (text_of(solution(), full=full) for full in (False, True))
+    assert len(short.splitlines()) < len(full.splitlines())
+    assert "azimuth" not in short
+    assert "azimuth" in full
+    assert "Largest load      inner race 1000 N (at 0 deg)" in short
+    # every other line of the short one is in the full one
+    lines = set(full.splitlines())
+    assert [line for line in short.splitlines() if line not in lines and "Largest load" not in line] == []
 
 
 @pytest.mark.parametrize("width", [60, 80, 100])
@@ -224,7 +249,7 @@ def test_no_number_is_cut(width):
     films = {name: jnp.full(N, 0.37654e-6) for name in ("film_inner", "film_outer")}
     pressures = {name: jnp.full(N, 1.4e9) for name in ("pressure_inner", "pressure_outer")}
     elements = dataclasses.replace(solution().elements, **films, **pressures)
-    text = text_of(solution(elements=elements), width)
+    text = text_of(solution(elements=elements), width, full=True)
     assert "…" not in text
     assert text.count("0.3765") >= 6
     for title in ("Q inner", "Q outer", "p inner", "p outer", "h inner", "h outer", "1000.0", "750.0"):
