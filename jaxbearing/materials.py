@@ -108,7 +108,8 @@ def material_named(given: str) -> str | None:
 def catalogue_material(name: str, *, thermal: bool = False) -> Material:
     """A material of `CATALOGUE`.
 
-    **Arguments:** `name`: that of the catalogue, or another usual one (`ALIASES`); `thermal`: with its thermal properties, which only what depends on temperatures needs.
+    **Arguments:** `name`: that of the catalogue, or another usual one (`ALIASES`); `thermal`: with its thermal
+    properties, which only what depends on temperatures needs.
 
     **Raises:** `ValueError` for a name that the catalogue does not have.
     """

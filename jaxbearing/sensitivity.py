@@ -46,8 +46,8 @@ class Sensitivities(eqx.Module):
     - `life`, `modified_life`: d ln(L10r) / d ln(input) and d ln(Lnmr) / d ln(input), of a bearing with a rating.
     - `film`: d ln(central film) / d ln(input), of a line contact.
     - `traction`: d ln(traction coefficient) / d ln(input), of a two-disk machine at one operating point.
-    - `stiffness`, `axial_stiffness`: d ln(K) / d ln(input) of the radial and the axial stiffness of the inner ring, where
-      asked for.
+    - `stiffness`, `axial_stiffness`: d ln(K) / d ln(input) of the radial and the axial stiffness of the inner ring,
+      where asked for.
     - `temperature`: d(temperature) / d ln(input) of the hottest node of a thermal network, K, where asked for.
 
     Temperatures count in kelvin. An input that is 0 has 0 here, whatever its derivative. An input with several values
@@ -116,9 +116,7 @@ def _wanted(of: str | Iterable[str] | None) -> _Wanted:
 
 
 @rare_garbage_collection()
-def _answer(
-    scene: AbstractScene, throw: bool, options: NewtonOptions, wanted: _Wanted
-) -> tuple[Any, dict[str, Any]]:
+def _answer(scene: AbstractScene, throw: bool, options: NewtonOptions, wanted: _Wanted) -> tuple[Any, dict[str, Any]]:
     if inside_a_program(scene):
         solution, slopes = _in_a_program(scene, options, wanted)
         if throw:
@@ -190,9 +188,7 @@ def _hottest(thermal: ThermalResult) -> Array:
     return jnp.max(jnp.stack([getattr(thermal.temperatures, name) for name in thermal.nodes]))
 
 
-def _slopes(
-    scene: AbstractScene, options: NewtonOptions, roots: tuple[Any, ...], wanted: _Wanted
-) -> dict[str, Any]:
+def _slopes(scene: AbstractScene, options: NewtonOptions, roots: tuple[Any, ...], wanted: _Wanted) -> dict[str, Any]:
     """Sensitivities of each result, a tree like the numbers of the scene; NaN where the solve failed.
 
     **Arguments:** `roots`: of the scene's solve.
@@ -243,9 +239,7 @@ _kept_slopes = KeptProgram(_slopes, quick=True)
 
 
 @eqx.filter_jit
-def _in_a_program(
-    scene: AbstractScene, options: NewtonOptions, wanted: _Wanted
-) -> tuple[Any, dict[str, Any]]:
+def _in_a_program(scene: AbstractScene, options: NewtonOptions, wanted: _Wanted) -> tuple[Any, dict[str, Any]]:
     solution, roots = solve_with_roots(scene, options)
     return solution, _slopes(scene, options, roots, wanted)
 

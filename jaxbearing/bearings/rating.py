@@ -25,9 +25,10 @@ LAMINAE = 30
 
 
 def cleanliness_named(given: Any) -> Any:
-    """The contamination class of an ISO 4406 code of circulating oil, "-/17/14", "20/17/14" or "17/14": the cleanest one
-    whose numbers at 6 and 14 um are both at least those of the code. Anything else as it is, also a code dirtier than
-    all classes."""
+    """The contamination class of an ISO 4406 code of circulating oil, "-/17/14", "20/17/14" or "17/14".
+
+    It is the cleanest one whose numbers at 6 and 14 um are both at least those of the code. Anything else is returned
+    as it is, also a code that is dirtier than all classes."""
     code = _ISO_4406.fullmatch(given.strip()) if isinstance(given, str) else None
     if code is None:
         return given

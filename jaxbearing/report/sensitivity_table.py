@@ -76,8 +76,8 @@ def print_effects(
     for name, found in effects.items():
         console.print(Padding(_effects_table(name, found, tolerances, units), (0, 1)))
     text = (
-        "Change of the result for one tolerance of the input, to first order. Inputs without a usual tolerance are left "
-        "out: --sensitivities-by percent has them all."
+        "Change of the result for one tolerance of the input, to first order. Inputs without a usual tolerance are "
+        "left out: --sensitivities-by percent has them all."
     )
     console.print(Padding(Text(text, style="dim"), (0, 2)))
     _print_interval(interval, console)

@@ -16,8 +16,8 @@ _PAGE = '<pre style="line-height: 1.25; white-space: pre; overflow-x: auto">{cod
 
 
 def text(shown: AbstractScene | AbstractSolution, full: bool = False) -> str | None:
-    """Plain text; `None` for what is not one scene or solution. **Arguments:** `full`: all that there is, as `jaxbearing
-    solve --full` shows it."""
+    """Plain text; `None` for what is not one scene or solution. **Arguments:** `full`: all that there is, as
+    `jaxbearing solve --full` shows it."""
     console = Console(file=io.StringIO(), width=WIDTH, highlight=False, record=True, color_system=None)
     return console.export_text().rstrip() if _printed(shown, console, full) else None
 

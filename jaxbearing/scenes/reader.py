@@ -126,8 +126,8 @@ def distributions_in(
 
 
 def warn_of_means(mapping: Mapping[str, Any], origin: str, overrides: Overrides | None = None) -> None:
-    """Warns of what stands for a preset, and of each distribution of which a scene has the mean; arguments and errors as
-    those of `distributions_in`."""
+    """Warns of the laws for which a preset stands, and of each distribution of which a scene has the mean; arguments
+    and errors as those of `distributions_in`."""
     found = distributions_in(mapping, origin, overrides)
     _warn_of_preset(mapping, as_texts(overrides), origin)
     if not found:

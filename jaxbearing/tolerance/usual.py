@@ -30,7 +30,8 @@ NOT_IN_THE_TABLE = 0.3
 class Assumed(NamedTuple):
     """An assumed tolerance.
 
-    **Arguments:** `paths`: dotted paths, `*` for any part; `part`: relative, or `size`: absolute, SI; `reason`: in words.
+    **Arguments:** `paths`: dotted paths, `*` for any part; `part`: relative, or `size`: absolute, SI; `reason`: in
+    words.
     """
 
     paths: tuple[str, ...]
@@ -78,8 +79,8 @@ ASSUMED = (
     Assumed(("operation.displacement.*", "operation.pressure"), part=0.1),
     Assumed(("operation.misalignment*",), part=0.2),
 )
-"""Assumed tolerances, the first that fits counts. Those of loads, speeds and temperatures say how well a duty is usually
-known."""
+"""Assumed tolerances, of which the first that fits counts. Those of loads, speeds and temperatures say how well a duty
+is usually known."""
 
 
 def usual_tolerances(

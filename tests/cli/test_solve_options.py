@@ -232,7 +232,7 @@ def test_sensitivities_by_usual_tolerances(jaxbearing_command):
 @pytest.mark.parametrize(
     ("options", "words"),
     [
-        (("--sensitivities-of", "lief"), ["--sensitivities-of", "'life'"]),
+        (("--sensitivities-of", "liffe"), ["--sensitivities-of", "'life'"]),
         (("--sensitivities-by", "per cent"), ["--sensitivities-by", "'percent'"]),
     ],
     ids=str,

@@ -153,7 +153,7 @@ def test_elements_that_stand_close_have_small_pockets():
 def test_what_is_missing_is_refused_by_its_own_name():
     with pytest.raises(jb.SceneError, match="oil: found nothing"):
         jb.load_scene("deep_groove_6205", {"laws": "best"})
-    with pytest.raises(jb.SceneError, match="laws: found the text 'bets'; expected 'best'.*Did you mean 'best'"):
+    with pytest.raises(jb.SceneError, match=r"laws: found the text 'bets'; expected 'best'.*Did you mean 'best'"):
         jb.load_scene("deep_groove_6205", {"laws": "bets"})
     with pytest.raises(jb.SceneError, match="laws"):
         jb.load_scene("two_disk_etm", {"laws": "best"})

@@ -177,9 +177,7 @@ def _print_loads(solution: Solution, console: Console, full: bool) -> None:
         print_line(f"Other {solution.element_name}s", ", ".join(ranges), console)
 
 
-def _print_load_table(
-    solution: Solution, loaded: np.ndarray, shown: list[tuple[str, str]], console: Console
-) -> None:
+def _print_load_table(solution: Solution, loaded: np.ndarray, shown: list[tuple[str, str]], console: Console) -> None:
     """Loads, pressures and films of these elements."""
     elements = solution.elements
     load, azimuth = np.asarray(elements.load_inner), signed_degrees(elements.azimuth)
