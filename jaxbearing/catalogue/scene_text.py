@@ -53,7 +53,7 @@ def scene_text(bearing: Designation, geometry: Geometry, given: Mapping[str, flo
     elements = "balls" if kind == "ball_bearing" else "rollers"
     parts += _table("materials", [Line("rings", '"52100"', ""), Line(elements, '"52100"', "")])
     if kind == "ball_bearing":
-        parts += _table("kinematics", [Line("attitude", '"outer"', "")])
+        parts += _table("kinematics", [Line("attitude", '"outer"', 'of a dry scene: take it out with laws = "best"')])
     rating = list(_rating(given))
     left = {0: "C and C0 are", 1: "the other rating is"}.get(len(rating))
     parts += _table("rating", rating, f"  # {left} computed from the geometry" if left else "")

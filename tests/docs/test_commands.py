@@ -115,7 +115,7 @@ def _few(cases):
 def made_up(monkeypatch, one_process):
     """Results of every solver without a solve."""
 
-    def slopes(scene, throw):
+    def slopes(scene, throw, of=None):
         numbers = {"operation.inner_speed": jnp.asarray(1.0), "geometry.pitch_diameter": jnp.asarray(-0.5)}
         return solution_of(scene), Sensitivities(numbers, numbers)
 

@@ -223,7 +223,18 @@ def test_life_and_power_come_first_then_warnings_then_the_parts():
     numbers = {field.name: jnp.ones(()) for field in dataclasses.fields(Life)}
     numbers |= {name: jnp.ones(N) for name in ("film_ratio_inner", "film_ratio_outer")}
     known = solution(life=Life(**numbers))
-    order = ["Operating point", "Life", "Rating", "Lubrication", "Drive power", "Warnings", "drag", "Largest load"]
+    order = [
+        "Operating point",
+        "Life",
+        "Rating",
+        "Lubrication",
+        "Power loss",
+        "Torque",
+        "Drive power",
+        "Warnings",
+        "drag",
+        "Largest load",
+    ]
     order += ["Cage", "Inner ring", "Stiffness", "Highest pressure"]
     for full in (False, True):
         lines = text_of(known, full=full).splitlines()

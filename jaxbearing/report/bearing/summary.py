@@ -113,7 +113,8 @@ def _print_first(solution: Solution, said: dict[str, list[str]], console: Consol
     if float(np.asarray(solution.operation.outer_speed)) != 0.0:
         torques.append(torque("outer"))
     print_line("Power loss", f"{watts[0]} W", console)
-    print_line("Drive power", f"{watts[1]} W   ({', '.join(torques)})", console)
+    print_line("Torque", ", ".join(torques), console)
+    print_line("Drive power", f"{watts[1]} W", console)
     if abs(drive - total) > OPEN_BALANCE * abs(total):
         says = f"the drive power is {100.0 * (drive / total - 1.0):+.3g} % off the sum of the losses"
         print_line("Not balanced", f"{says}: the attitude of the balls is a hypothesis", console)
