@@ -94,7 +94,9 @@ def load_scene(source: str | Path, overrides: Overrides | None = None) -> Abstra
     """
     label, mapping = read_tables(source)
     warn_of_means(mapping, label, overrides)
-    return scene_from_tables(mapping, label, overrides)
+    scene = scene_from_tables(mapping, label, overrides)
+    warn_of_preset(mapping, label, overrides)
+    return scene
 
 
 def load_distributions(source: str | Path, overrides: Overrides | None = None) -> dict[str, Distribution]:
@@ -126,10 +128,9 @@ def distributions_in(
 
 
 def warn_of_means(mapping: Mapping[str, Any], origin: str, overrides: Overrides | None = None) -> None:
-    """Warns of the laws for which a preset stands, and of each distribution of which a scene has the mean; arguments
-    and errors as those of `distributions_in`."""
+    """Warns of each distribution of which a scene has the mean; arguments and errors as those of
+    `distributions_in`."""
     found = distributions_in(mapping, origin, overrides)
-    _warn_of_preset(mapping, as_texts(overrides), origin)
     if not found:
         return
     model = scene_model(mapping, as_texts(overrides), origin)
@@ -137,12 +138,14 @@ def warn_of_means(mapping: Mapping[str, Any], origin: str, overrides: Overrides 
         warnings.warn(said_of(path, distribution, model), MeanUsedWarning, stacklevel=3)
 
 
-def _warn_of_preset(mapping: Mapping[str, Any], overrides: Mapping[str, str], origin: str) -> None:
-    """Warns of the laws, and of the estimates, for which a preset stands."""
-    if "laws" in mapping or "laws" in overrides:
-        said = said_of_preset(preset(mapping, overrides, scene_model(mapping, overrides, origin), origin)[0])
+def warn_of_preset(mapping: Mapping[str, Any], origin: str, overrides: Overrides | None = None) -> None:
+    """Warns of the laws, and of the estimates, for which the preset of a scene stands; arguments as those of
+    `scene_from_tables`, which has read the same."""
+    texts = as_texts(overrides)
+    if "laws" in mapping or "laws" in texts:
+        said = said_of_preset(preset(mapping, texts, scene_model(mapping, texts, origin), origin)[0])
         if said:
-            warnings.warn(said, PresetUsedWarning, stacklevel=4)
+            warnings.warn(said, PresetUsedWarning, stacklevel=3)
 
 
 def oil_origins(source: str | Path, overrides: Overrides | None = None) -> dict[str, Origin]:
