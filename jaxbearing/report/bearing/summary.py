@@ -45,8 +45,8 @@ _COLUMNS = {
 
 
 FIRST = (
-    *("Life", "Static safety", "Rating", "Lubrication", "Temperatures", "Thermal margin"),
-    *("Clearance", "First contact"),
+    *("Life", "Static safety", "Lubrication", "Load", "Rating", "Least load"),
+    *("Temperatures", "Thermal margin", "Clearance", "First contact"),
 )
 """Names of the facts that stand first, in this order, as far as the scene models them."""
 IN_FULL = (
