@@ -141,11 +141,17 @@ def warn_of_means(mapping: Mapping[str, Any], origin: str, overrides: Overrides 
 def warn_of_preset(mapping: Mapping[str, Any], origin: str, overrides: Overrides | None = None) -> None:
     """Warns of the laws, and of the estimates, for which the preset of a scene stands; arguments as those of
     `scene_from_tables`, which has read the same."""
+    said = preset_note(mapping, origin, overrides)
+    if said:
+        warnings.warn(said, PresetUsedWarning, stacklevel=3)
+
+
+def preset_note(mapping: Mapping[str, Any], origin: str, overrides: Overrides | None = None) -> str:
+    """What the preset of a scene stands for, law by law; "" without a preset. Arguments as of `warn_of_preset`."""
     texts = as_texts(overrides)
-    if "laws" in mapping or "laws" in texts:
-        said = said_of_preset(preset(mapping, texts, scene_model(mapping, texts, origin), origin)[0])
-        if said:
-            warnings.warn(said, PresetUsedWarning, stacklevel=3)
+    if "laws" not in mapping and "laws" not in texts:
+        return ""
+    return said_of_preset(preset(mapping, texts, scene_model(mapping, texts, origin), origin)[0])
 
 
 def oil_origins(source: str | Path, overrides: Overrides | None = None) -> dict[str, Origin]:
