@@ -98,15 +98,13 @@ def _print_fact(name: str, texts: list[str], console: Console) -> None:
 
 def _print_first(solution: Solution, said: dict[str, list[str]], console: Console) -> None:
     """Life and safety, as far as modelled, power loss and torque."""
-    loss = solution.power_loss.total
-    if not said and (loss is None or solution.drive_power is None):
-        return
     print_rule("Results", console)
     for name, texts in said.items():
         _print_fact(name, texts, console)
-    if loss is None or solution.drive_power is None:
+    if not _losses(solution):
+        print_line("Not modelled:", not_modelled(solution), console)
         return
-    total, drive = float(np.asarray(loss)), float(np.asarray(solution.drive_power))
+    total, drive = (float(np.asarray(one)) for one in (solution.power_loss.total, solution.drive_power))
     watts = _watts([total, drive])
     torque = lambda ring: f"{digits(float(np.asarray(getattr(solution, f'{ring}_torque'))))} N m on the {ring} ring"
     torques = [torque("inner")]
@@ -120,20 +118,23 @@ def _print_first(solution: Solution, said: dict[str, list[str]], console: Consol
         print_line("Not balanced", f"{says}: the attitude of the balls is a hypothesis", console)
 
 
+def _losses(solution: Solution) -> dict[str, float]:
+    """The power losses by location, W, the largest first; empty where the scene models none."""
+    loss = solution.power_loss
+    if loss.total is None or solution.drive_power is None:
+        return {}
+    given = ((field.name, getattr(loss, field.name)) for field in dataclasses.fields(loss) if field.name != "total")
+    entries = {name: float(np.asarray(value)) for name, value in given if value is not None}
+    return dict(sorted(entries.items(), key=lambda entry: -entry[1]))
+
+
 def _print_losses(solution: Solution, console: Console) -> None:
     """The power loss by location."""
-    loss = solution.power_loss
-    entries = {
-        field.name: float(np.asarray(getattr(loss, field.name)))
-        for field in dataclasses.fields(loss)
-        if getattr(loss, field.name) is not None
-    }
-    total = entries.pop("total", None)
-    if not entries or total is None or solution.drive_power is None:
-        print_line("Not modelled:", not_modelled(solution), console)
+    entries = _losses(solution)
+    if not entries:
         return
+    total = float(np.asarray(solution.power_loss.total))
     largest = max(abs(watts) for watts in entries.values())
-    entries = dict(sorted(entries.items(), key=lambda entry: -entry[1]))
     columns = {
         "Power loss": [*entries, "total"],
         "W": _watts([*entries.values(), total]),
