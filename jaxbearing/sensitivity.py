@@ -75,6 +75,11 @@ class _Wanted(eqx.Module):
 
     names: tuple[str, ...] | None = eqx.field(static=True, default=None)
 
+    @property
+    def stiffness(self) -> bool:
+        """True if a stiffness is asked for."""
+        return any(name.endswith("stiffness") for name in self.names or ())
+
 
 def sensitivities(
     scene: AbstractScene,
@@ -196,7 +201,7 @@ def _slopes(scene: AbstractScene, options: NewtonOptions, roots: tuple[Any, ...]
     numbers, rest = eqx.partition(scene, eqx.is_inexact_array)
 
     def results(numbers: Any) -> tuple[dict[str, Array], Array]:
-        solution = solution_at(roots, eqx.combine(numbers, rest), options)
+        solution = solution_at(roots, eqx.combine(numbers, rest), options, stiffness=wanted.stiffness)
         return _results(solution, wanted), solution.converged
 
     slopes = _backward if isinstance(scene, EHLLineContact) else _forward
