@@ -148,10 +148,11 @@ class AbstractBearing(AbstractScene):
         """The range checks that bearings of this family have beside those of all."""
 
     @abc.abstractmethod
-    def rated_contacts(self, elements: Any, laminae: Any) -> RatedContacts:
+    def rated_contacts(self, elements: Any, laminae: Any, force: Array | None = None) -> RatedContacts:
         """Sizes and loads of the raceway contacts for the life.
 
-        **Arguments:** `elements`, `laminae`: of a solution.
+        **Arguments:** `elements`, `laminae`, `force`: of a solution; without a force a ring that is held has no
+        catalogue load.
         """
 
     @abc.abstractmethod

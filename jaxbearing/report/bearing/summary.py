@@ -24,6 +24,7 @@ from ..display import digits, display_unit, displayed
 from ..tables import derived_facts
 from .azimuth import signed_degrees
 from .facts import facts, not_modelled
+from .life_facts import SAID
 from .operation import operating_point
 
 LOADED = 0.02
@@ -58,7 +59,7 @@ def print_summary(solution: Solution, scene_label: str, console: Console) -> Non
     print_rule("Motion and films", console)
     for name, text in facts(solution):
         print_line(name, text, console)
-    for name, text in derived_facts(solution):
+    for name, text in derived_facts(solution, SAID):
         print_line(name, text, console)
     print_warnings(solution.warnings, console)
 
