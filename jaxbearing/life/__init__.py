@@ -10,6 +10,11 @@ from .basic import deep_groove_equivalent_load as deep_groove_equivalent_load
 from .basic import tapered_equivalent_load as tapered_equivalent_load
 from .capacity import ball_capacity as ball_capacity
 from .capacity import roller_capacity as roller_capacity
+from .duty import SpectrumLife as SpectrumLife
+from .duty import mean_load as mean_load
+from .duty import miner_rate as miner_rate
+from .duty import revolution_shares as revolution_shares
+from .duty import spectrum_life as spectrum_life
 from .equivalent import ball_equivalent_load as ball_equivalent_load
 from .equivalent import ball_static_load as ball_static_load
 from .equivalent import roller_static_load as roller_static_load

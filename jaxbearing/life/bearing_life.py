@@ -40,7 +40,7 @@ from .static import ball_static_capacity, contact_safety, rated_modulus, roller_
 
 FEWEST_LAMINAE = 30
 """Laminae that ISO 16281 asks for at least."""
-_HOURS = 1e6 * 2.0 * np.pi / 3600.0
+HOURS = 1e6 * 2.0 * np.pi / 3600.0
 """Hours of a million revolutions at 1 rad/s."""
 
 
@@ -144,7 +144,7 @@ def bearing_life(scene: Any, solution: Solution) -> Life:
     # a rate that is NaN (loads that were not found) has no life, not an endless one
     reference = jnp.where(loaded, 1.0 / safe_rate, jnp.where(rate == 0, jnp.inf, jnp.nan))
     equivalent = jnp.where(loaded, rated.dynamic_capacity * safe_rate ** (1.0 / exponent), 0.0 * rate)
-    hours = lambda revolutions: revolutions * _HOURS / jnp.abs(speed)
+    hours = lambda revolutions: revolutions * HOURS / jnp.abs(speed)
     reliability = RELIABILITY_FACTORS[rating.reliability]
     kappa = _viscosity_ratio(scene, pitch_diameter, speed)
     more: dict[str, Any] = {}

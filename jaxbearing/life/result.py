@@ -59,12 +59,12 @@ class Life(eqx.Module):
 
     @derived("1", "modified rating life a_ISO L10 of ISO 281 at 90 % reliability, million revolutions")
     def L10m(self) -> Float[Array, "*batch"] | None:
-        factor = self._catalogue_factor
+        factor = self.catalogue_factor
         return None if factor is None else factor * self.L10
 
     @derived("h", "modified rating life a_ISO L10 of ISO 281 at 90 % reliability")
     def L10mh(self) -> Float[Array, "*batch"] | None:
-        factor = self._catalogue_factor
+        factor = self.catalogue_factor
         return None if factor is None else factor * self.L10h
 
     @derived("N", "least load against skidding, maker's rule of thumb: 0.01 C of ball, 0.02 C of roller bearings")
@@ -72,7 +72,7 @@ class Life(eqx.Module):
         return MINIMUM_LOADS[self.family] * self.dynamic_capacity
 
     @property
-    def _catalogue_factor(self) -> Float[Array, "*batch"] | None:
+    def catalogue_factor(self) -> Float[Array, "*batch"] | None:
         """a_ISO at the catalogue's load; that of `modification_factor` is at `equivalent_load`."""
         load, kappa, limit = self.catalogue_load, self.viscosity_ratio, self.fatigue_load_limit
         if load is None or kappa is None or limit is None or self.contamination_factor is None:
