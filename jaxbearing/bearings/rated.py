@@ -46,20 +46,32 @@ class RatedContacts(NamedTuple):
 def sizes_of_loads(
     operation: AbstractOperation, force: Float[Array, " freedom"] | None = None
 ) -> tuple[Array, Array] | tuple[None, None]:
-    """Sizes of the radial and of the axial load on the inner ring, N.
+    """Sizes of the radial and of the axial load on the inner ring, N, for the formulas of catalogues.
 
-    Both are `None` under a moment, which the formulas of catalogues do not have, and for a ring that is held without a
-    known force.
+    These formulas have no moment: where one is given that is not 0 the sizes are NaN. Both are `None` for a ring that
+    is held without a known force.
 
     **Arguments:** `force`: `Solution.force`; it is the load where a displacement is given instead of one.
     """
     held = {name for name in RING_FREEDOMS[:3] if operation.held_at(name) is not None}
-    moments = any(operation.load(name) is not None for name in TILTS)
-    if moments or (held and force is None):
+    if held and force is None:
         return None, None
     radial, axial = operation.radial_size, operation.load("axial")
     if force is not None and held & {"radial", "lateral"}:
         radial = safe_norm(force[1], force[2])
     if force is not None and "axial" in held:
         axial = force[0]
-    return radial, jnp.abs(jnp.asarray(0.0 if axial is None else axial))
+    axial = jnp.abs(jnp.asarray(0.0 if axial is None else axial))
+    if any(operation.load(name) is not None for name in TILTS):
+        alone = operation.moment_size <= _NO_MOMENT
+        radial, axial = jnp.where(alone, radial, jnp.nan), jnp.where(alone, axial, jnp.nan)
+    return radial, axial
+
+
+def is_misaligned(operation: AbstractOperation) -> bool:
+    """True if a tilt is given, at which rollers do not carry evenly along their length, as catalogues assume."""
+    return any(operation.held_at(name) is not None for name in TILTS)
+
+
+_NO_MOMENT = 1e-100
+"""Size of two moments of 0, N m, of which the safe norm makes a little more."""

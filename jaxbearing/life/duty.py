@@ -64,7 +64,8 @@ def revolution_shares(time_shares: _States, speeds: _States) -> _States:
     turned = jnp.asarray(time_shares) * jnp.abs(jnp.asarray(speeds))
     total = jnp.sum(turned)
     moves = total > 0
-    return jnp.where(moves, turned / jnp.where(moves, total, 1.0), time_shares)
+    at_rest = jnp.where(total == 0, time_shares, jnp.nan)
+    return jnp.where(moves, turned / jnp.where(moves, total, 1.0), at_rest)
 
 
 def miner_rate(revolutions: _States, rates: _States) -> _Number:

@@ -4,7 +4,7 @@ from typing import Any
 
 from jaxtyping import Array, Float
 
-from ..rated import RatedContacts, sizes_of_loads
+from ..rated import RatedContacts, is_misaligned, sizes_of_loads
 from .scene import CylindricalRollerBearing
 
 
@@ -15,7 +15,7 @@ def rated_contacts(
     geometry, operation = scene.geometry, scene.operation
     radial, _ = sizes_of_loads(operation, force)
     # ISO 281 has no formula for an axial load on flanges: it sends its reader to the maker
-    other = operation.tilts or operation.axial_given
+    other = is_misaligned(operation) or operation.axial_given
     loads = (elements.load_inner, elements.load_outer) if laminae is None else (laminae.inner, laminae.outer)
     return RatedContacts(
         n_elements=geometry.n_rollers,

@@ -4,7 +4,7 @@ from typing import Any
 
 from jaxtyping import Array, Float
 
-from ..rated import RatedContacts, sizes_of_loads
+from ..rated import RatedContacts, is_misaligned, sizes_of_loads
 from .scene import TaperedRollerBearing
 
 
@@ -13,7 +13,7 @@ def rated_contacts(
 ) -> RatedContacts:
     """**Arguments:** `LaminaLoads` of a solution; `force`: its `force`."""
     geometry, operation = scene.geometry, scene.operation
-    radial, axial = (None, None) if operation.tilts else sizes_of_loads(operation, force)
+    radial, axial = (None, None) if is_misaligned(operation) else sizes_of_loads(operation, force)
     return RatedContacts(
         n_elements=geometry.n_rollers,
         diameter=geometry.mean_roller_diameter,

@@ -25,16 +25,18 @@ def life_facts(solution: Solution) -> Iterator[tuple[str, str]]:
     """Name and text of each fact about the life of a solution that has one."""
     life = solution.life
     of = lambda name: float(np.asarray(getattr(life, name)))
+    # what the catalogues' formulas do not give is NaN
+    there = lambda name: getattr(life, name) is not None and not np.isnan(of(name))
     kilonewton = lambda name: f"{digits(1e-3 * of(name))} kN"
     lasting = lambda name, hours: f"{digits(of(hours))} h ({digits(of(name))} million revolutions)"
-    known = [f"{words} {lasting(name, hours)}" for name, hours, words in _LIVES if getattr(life, name) is not None]
+    known = [f"{words} {lasting(name, hours)}" for name, hours, words in _LIVES if there(name)]
     yield "Life", "; ".join(known)
     yield "Rating", f"C {kilonewton('dynamic_capacity')}, C0 {kilonewton('static_capacity')}"
     said = [f"equivalent to the contacts' loads {kilonewton('equivalent_load')}"]
-    if life.catalogue_load is not None:
+    if there("catalogue_load"):
         said += [f"by ISO 281 P {kilonewton('catalogue_load')}", f"by ISO 76 P0 {kilonewton('static_load')}"]
     yield "Load", ", ".join(said)
-    said = [] if life.static_safety is None else [f"C0/P0 {digits(of('static_safety'), 3)}"]
+    said = [] if not there("static_safety") else [f"C0/P0 {digits(of('static_safety'), 3)}"]
     if life.contact_static_safety is not None:
         said.append(f"of the most loaded contact {digits(of('contact_static_safety'), 3)} (Hertz's pressure)")
     if said:
@@ -54,10 +56,10 @@ def life_facts(solution: Solution) -> Iterator[tuple[str, str]]:
 def _least_load(solution: Solution, least: float) -> str:
     """A maker's rule of thumb beside the load, and the slip of the cage where it is modelled."""
     life: Any = solution.life
-    load = float(np.asarray(life.equivalent_load if life.catalogue_load is None else life.catalogue_load))
+    load = float(np.asarray(life.equivalent_load))
     below = ", which is less" if load < least else ""
     rule = f"{digits(1e-3 * least)} kN by a maker's rule of thumb, {MINIMUM_LOADS[life.family]:g} C"
-    text = f"{rule}; the load is {digits(load / least, 3)} times that{below}"
+    text = f"{rule}; the contacts' load is {digits(load / least, 3)} times that{below}"
     if solution.cage is None:
         return f"{text}; cage slip is not modelled"
     return f"{text}; cage slip by the model {digits(100.0 * float(np.asarray(solution.cage.slip)), 3)} %"
