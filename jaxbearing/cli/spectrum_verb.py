@@ -17,8 +17,9 @@ if TYPE_CHECKING:
 
 def spectrum(scene: SceneArgument, changes: SetOption = None, as_json: JsonOption = False) -> None:
     """Life under the load spectrum of a scene file: its [[state]] tables, each with a name, a share of the time and
-    changes of the scene, solved with one program. The damages of all states are added (Palmgren and Miner). Prints share,
-    life, loss, pressure and static safety by state, then the life, the equivalent load and the state that governs."""
+    changes of the scene, solved with one program. The damages of all states are added (Palmgren and Miner). Prints
+    share, life, loss, pressure and static safety by state, then the life, the equivalent load and the state that
+    governs."""
     begin = time.monotonic()
     with bad_input():
         from ..scenes.overrides import split_assignments

@@ -43,9 +43,9 @@ ROLLER_STATIC = (0.5, 0.22)
 def _at_angle(table: np.ndarray, contact_angle: Scalar) -> Array:
     """Row of a table at a contact angle, linear between the angles of the table; NaN beyond the largest one."""
     place = jnp.asarray(contact_angle) / STEP
-    first = jnp.clip(jnp.floor(place), 0, len(table) - 2).astype(int)
-    rows = jnp.asarray(table)
-    share = place - first
+    lower = jnp.clip(jnp.floor(place), 0.0, len(table) - 2.0)
+    rows, first = jnp.asarray(table), lower.astype(int)
+    share = place - lower
     # the last angle may be rounded to the far side
     inside = place <= LARGEST_ANGLE / STEP * (1.0 + 1e-12)
     return jnp.where(inside, (1.0 - share) * rows[first] + share * rows[first + 1], jnp.nan)

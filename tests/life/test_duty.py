@@ -28,8 +28,8 @@ def life_at(load, capacity=20e3, exponent=3.0, factor=None):
 
 def test_two_states_by_hand():
     """60 % of the time 2 kN at 1000 rpm, 40 % 4 kN at 500 rpm: 3/4 and 1/4 of the revolutions; 1000 and 125 million."""
-    speeds = np.array([1000.0, 500.0]) * np.pi / 30.0
-    found = spectrum_life([life_at(2e3), life_at(4e3)], np.array([0.6, 0.4]), speeds)
+    speeds = jnp.array([1000.0, 500.0]) * np.pi / 30.0
+    found = spectrum_life([life_at(2e3), life_at(4e3)], jnp.array([0.6, 0.4]), speeds)
     np.testing.assert_allclose(found.revolutions, [0.75, 0.25], rtol=1e-14)
     rate = 0.75 / 1000.0 + 0.25 / 125.0
     np.testing.assert_allclose(found.L10r, 1.0 / rate, rtol=1e-13)
@@ -47,31 +47,31 @@ def test_two_states_by_hand():
 
 def test_modified_damage_is_that_of_the_modified_lives():
     lives = [life_at(2e3, factor=4.0), life_at(4e3, factor=0.5)]
-    found = spectrum_life(lives, np.array([0.5, 0.5]), np.array([100.0, -100.0]))
-    rates = np.array([0.5 / (4.0 * 1000.0), 0.5 / (0.5 * 125.0)])
+    found = spectrum_life(lives, jnp.array([0.5, 0.5]), jnp.array([100.0, -100.0]))
+    rates = jnp.array([0.5 / (4.0 * 1000.0), 0.5 / (0.5 * 125.0)])
     np.testing.assert_allclose(found.Lnmr, 1.0 / rates.sum(), rtol=1e-13)
     np.testing.assert_allclose(found.damage, rates / rates.sum(), rtol=1e-13)
-    np.testing.assert_allclose(found.reference_damage, np.array([1 / 1000, 1 / 125]) / (9 / 1000), rtol=1e-13)
+    np.testing.assert_allclose(found.reference_damage, jnp.array([1 / 1000, 1 / 125]) / (9 / 1000), rtol=1e-13)
     # a state without a_ISO leaves the spectrum without a modified life
-    assert spectrum_life([lives[0], life_at(4e3)], np.array([0.5, 0.5]), np.ones(2)).Lnmr is None
+    assert spectrum_life([lives[0], life_at(4e3)], jnp.array([0.5, 0.5]), jnp.ones(2)).Lnmr is None
 
 
 def test_states_at_rest_and_without_load_do_no_damage():
     lives = [life_at(2e3), life_at(4e3)]
-    found = spectrum_life(lives, np.array([0.5, 0.5]), np.array([100.0, 0.0]))
+    found = spectrum_life(lives, jnp.array([0.5, 0.5]), jnp.array([100.0, 0.0]))
     np.testing.assert_allclose(found.damage, [1.0, 0.0])
     np.testing.assert_allclose(found.L10r, 1000.0, rtol=1e-13)
-    at_rest = spectrum_life(lives, np.array([0.5, 0.5]), np.zeros(2))
+    at_rest = spectrum_life(lives, jnp.array([0.5, 0.5]), jnp.zeros(2))
     np.testing.assert_allclose(at_rest.revolutions, [0.5, 0.5])
     assert np.isinf(at_rest.L10r_hours)
-    idle = spectrum_life([life_at(0.0)] * 2, np.array([0.5, 0.5]), np.ones(2))
+    idle = spectrum_life([life_at(0.0)] * 2, jnp.array([0.5, 0.5]), jnp.ones(2))
     assert np.isinf(idle.L10r)
     np.testing.assert_array_equal(idle.damage, [0.0, 0.0])
     np.testing.assert_allclose(idle.equivalent_load, 0.0)
 
 
 def test_a_failed_state_leaves_no_number():
-    found = spectrum_life([life_at(2e3), life_at(jnp.nan)], np.array([0.5, 0.5]), np.array([1.0, jnp.nan]))
+    found = spectrum_life([life_at(2e3), life_at(jnp.nan)], jnp.array([0.5, 0.5]), jnp.array([1.0, jnp.nan]))
     for name in ("L10r", "L10r_hours", "L10", "equivalent_load", "mean_speed"):
         assert np.isnan(getattr(found, name)), name
     assert np.all(np.isnan(found.damage))
@@ -92,6 +92,6 @@ def test_slopes():
 
 def test_refusals():
     with pytest.raises(ValueError, match="time_shares must be >= 0"):
-        revolution_shares(np.array([-0.5, 1.5]), np.ones(2))
+        revolution_shares(jnp.array([-0.5, 1.5]), jnp.ones(2))
     with pytest.raises(ValueError, match="rates must be >= 0"):
-        miner_rate(np.ones(2), np.array([-1.0, 1.0]))
+        miner_rate(jnp.ones(2), jnp.array([-1.0, 1.0]))

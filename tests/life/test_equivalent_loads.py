@@ -1,6 +1,7 @@
 """Equivalent loads by X and Y, static safety, least load and modified catalogue life."""
 
 import jax
+import jax.numpy as jnp
 import numpy as np
 import pytest
 
@@ -69,10 +70,10 @@ def test_equivalent_load_has_a_slope():
 
 
 def test_static_safety_of_the_most_loaded_contact():
-    pressures = np.array([1e9, 2.1e9, 0.0]), np.array([0.5e9, 1e9, 0.0])
+    pressures = jnp.array([1e9, 2.1e9, 0.0]), jnp.array([0.5e9, 1e9, 0.0])
     np.testing.assert_allclose(contact_safety(*pressures, "ball"), 8.0, rtol=1e-14)
     np.testing.assert_allclose(contact_safety(*pressures, "roller"), (4.0 / 2.1) ** 2, rtol=1e-14)
-    assert np.isinf(contact_safety(np.zeros(3), np.zeros(3), "ball"))
+    assert np.isinf(contact_safety(jnp.zeros(3), jnp.zeros(3), "ball"))
 
 
 def test_angular_contact_bearing_under_both_loads():
@@ -95,7 +96,9 @@ def test_angular_contact_bearing_under_both_loads():
 
 
 def test_a_factor_of_contamination_is_that_of_its_class():
-    scene = jb.load_scene("deep_groove_6205").replace({"rating": Rating(viscosity_ratio=1.5, cleanliness="grease_normal")})
+    scene = jb.load_scene("deep_groove_6205").replace(
+        {"rating": Rating(viscosity_ratio=1.5, cleanliness="grease_normal")}
+    )
     by_class = jb.solve(scene).life
     factor = contamination_factor(1.5, scene.geometry.pitch_diameter, "grease_normal")
     np.testing.assert_allclose(by_class.contamination_factor, factor, rtol=1e-14)
@@ -105,8 +108,11 @@ def test_a_factor_of_contamination_is_that_of_its_class():
         Rating(cleanliness="grease_normal", contamination_factor=0.5)
     with pytest.raises(ValueError, match=r"rating\.contamination_factor must be above 0 and at most 1"):
         Rating(contamination_factor=1.2)
-    (note,) = [text for text in jb.solve(scene.replace({"rating": Rating(contamination_factor=0.5)})).warnings
-               if "rating.contamination_factor" in text]
+    (note,) = [
+        text
+        for text in jb.solve(scene.replace({"rating": Rating(contamination_factor=0.5)})).warnings
+        if "rating.contamination_factor" in text
+    ]
     assert "no effect without" in note
 
 

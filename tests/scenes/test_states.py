@@ -51,7 +51,8 @@ def test_states_are_changes_of_the_scene(written):
     assert start.changes == {"operation.radial_load": "4 kN", "operation.inner_speed": "500 rpm"}
     assert full.scene.operation.moment is None
     assert full.scene.rating.grooves == "scene"
-    assert all(one.scene.geometry.diametral_clearance == 15e-6 for one in (cruise, start, full))
+    clearances = [one.scene.geometry.diametral_clearance for one in (cruise, start, full)]
+    np.testing.assert_allclose(clearances, 15e-6, rtol=1e-12)
 
 
 def test_other_readers_take_the_scene_without_them_and_say_so(written):
@@ -67,7 +68,7 @@ def test_other_readers_take_the_scene_without_them_and_say_so(written):
 
 
 def one(text="", share="1.0"):
-    return f'[[state]]\nname = "a"\nshare = {share}\n{text}'
+    return f'[[state]]\nname = "a"\nshare = {share}\n{text}\n'
 
 
 REFUSED = {
@@ -75,10 +76,10 @@ REFUSED = {
     "one table": ('[state]\nname = "a"\nshare = 1.0', "state: found a table"),
     "no name": ("[[state]]\nshare = 1.0", r"state\[0\]\.name: found nothing; expected a name"),
     "misspelt name": ('[[state]]\nnane = "a"\nshare = 1.0', r"state\[0\]\.name: found the unknown name 'nane'"),
-    "number as a name": ("[[state]]\nname = 3\nshare = 1.0", r"state\[0\]\.name: found 3"),
+    "number as a name": ("[[state]]\nname = 3\nshare = 1.0", r"state\[0\]\.name: found the number 3"),
     "twice": (one("", "0.5") + one("", "0.5"), r"state\[1\]\.name: found 'a' twice"),
     "no share": ('[[state]]\nname = "a"', r"state\[0\]\.share: found nothing"),
-    "share of 0": (one("", "0"), r"state\[0\]\.share: found 0; expected a number above 0 and at most 1"),
+    "share of 0": (one("", "0"), r"state\[0\]\.share: found the number 0; expected a number above 0 and at most 1"),
     "share as a text": (one("", '"60 %"'), r"state\[0\]\.share: found .*; expected a number above 0 and at most 1"),
     "sum": (one("", "0.9"), r"state\.share: found shares that add up to 0\.9; expected shares that add up to 1"),
     "unknown field": (
@@ -88,7 +89,7 @@ REFUSED = {
     "unknown table": (one('operatoin.radial_load = "1 kN"'), r"state 'a': operatoin: found the unknown name"),
     "no unit": (one("operation.radial_load = 1000"), r"state 'a': operation\.radial_load: found"),
     "another kind": (one('kind = "two_disk"'), r"state 'a': kind: found another kind of scene"),
-    "of --set too": (one('geometry.n_balls = 8'), r"state 'a': geometry\.n_balls: found a field that --set gives too"),
+    "of --set too": (one("geometry.n_balls = 8"), r"state 'a': geometry\.n_balls: found a field that --set gives too"),
 }
 
 

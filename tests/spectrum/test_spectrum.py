@@ -53,7 +53,6 @@ def test_two_states(scene, plain):
 
 
 def test_a_state_that_fails_is_named_and_there_is_no_life(scene):
-    states = [state("cruise", 0.5, 1500.0), jb.State("broken", 0.5, {"operation.axial_load": np.nan})]
     states = [state("cruise", 0.5, 1500.0), jb.State("huge", 0.5, {"operation.radial_load": 1e9})]
     found = jb.solve_spectrum(scene, states, throw=False)
     assert list(found.failures) == ["huge"]
@@ -84,13 +83,13 @@ def test_refusals(scene):
         jb.solve_spectrum(scene, [state("a", 0.5, 1e3), state("a", 0.5, 1e3)])
     with pytest.raises(ValueError, match="share of state 'a' must be above 0 and at most 1"):
         jb.solve_spectrum(scene, [state("a", 0.0, 1e3), state("b", 1.0, 1e3)])
-    with pytest.raises(AttributeError, match="the scene has no 'operation.radal_load'"):
+    with pytest.raises(AttributeError, match=r"the scene has no 'operation\.radal_load'"):
         jb.solve_spectrum(scene, [jb.State("a", 1.0, {"operation.radal_load": 1.0})])
     with pytest.raises(ValueError, match="rating: found nothing in state 'a'"):
         jb.solve_spectrum(scene.replace({"rating": None}), [state("a", 1.0, 1e3)])
+    others = [state("a", 0.5, 1e3), jb.State("b", 0.5, {"rating": Rating(reliability=0.99)})]
     with pytest.raises(ValueError, match=r"rating\.reliability: expected the same in all states"):
-        changes = {"rating": Rating(reliability=0.99)}
-        jb.solve_spectrum(scene, [state("a", 0.5, 1e3), jb.State("b", 0.5, changes)])
+        jb.solve_spectrum(scene, others)
     with pytest.raises(ValueError, match="states must be given beside a scene"):
         jb.solve_spectrum(scene)
     with pytest.raises(TypeError, match="a load spectrum is one of a bearing, got a TwoDisk"):
