@@ -49,8 +49,8 @@ NO_LINEAR_LOADS = (
     "rating.tilt = 'exact' takes the loads of the solution"
 )
 STEEP_WARNING = (
-    "contact angle above 45 degrees: the X and Y of radial ball bearings end there, and there is no L10; L10r holds for "
-    "any contact angle"
+    "contact angle above 45 degrees: the X and Y of radial ball bearings end there, and there is no L10; L10r holds "
+    "for any contact angle"
 )
 THIN_WARNING = (
     "viscosity ratio kappa below 0.1: ISO 281 gives no a_ISO there, that of kappa = 0.1 is used; boundary lubrication"
