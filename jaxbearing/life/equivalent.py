@@ -4,6 +4,7 @@ The tables of ball bearings are from memory ([M]). [C] Each row agrees with the 
 it: $e = (1 - X)/Y$, so that P is continuous and is the larger one of $F_r$ and $XF_r + YF_a$.
 """
 
+import jax
 import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Array, Float
@@ -40,11 +41,15 @@ ROLLER_STATIC = (0.5, 0.22)
 """X0, and Y0 over cot(alpha), of roller bearings with a contact angle [M]."""
 
 
-def _at_angle(table: np.ndarray, contact_angle: Scalar) -> Array:
-    """Row of a table at a contact angle, linear between the angles of the table; NaN beyond the largest one."""
+_TABLE = np.column_stack([X, X_STATIC, Y_STATIC, Y])
+
+
+@jax.jit
+def _at_angle(contact_angle: Scalar) -> Array:
+    """X, X0, Y0 and the row of Y at a contact angle, linear between the angles of the tables; NaN beyond the last."""
     place = jnp.asarray(contact_angle) / STEP
-    lower = jnp.clip(jnp.floor(place), 0.0, len(table) - 2.0)
-    rows, first = jnp.asarray(table), lower.astype(int)
+    lower = jnp.clip(jnp.floor(place), 0.0, len(_TABLE) - 2.0)
+    rows, first = jnp.asarray(_TABLE), lower.astype(int)
     share = place - lower
     # the last angle may be rounded to the far side
     inside = place <= LARGEST_ANGLE / STEP * (1.0 + 1e-12)
@@ -74,8 +79,9 @@ def ball_equivalent_load(
     require_count("n_balls", n_balls)
     require_numbers("> 0", ball_diameter=ball_diameter)
     relative = axial / (n_balls * jnp.square(jnp.asarray(ball_diameter) / MILLIMETRE))
-    y = jnp.interp(relative, jnp.asarray(RELATIVE_LOADS), _at_angle(Y, contact_angle))
-    return jnp.maximum(radial, _at_angle(X, contact_angle) * radial + y * axial)
+    factors = _at_angle(contact_angle)
+    y = jnp.interp(relative, jnp.asarray(RELATIVE_LOADS), factors[3:])
+    return jnp.maximum(radial, factors[0] * radial + y * axial)
 
 
 def ball_static_load(radial: Scalar, axial: Scalar, contact_angle: Scalar) -> Float[Array, ""]:
@@ -85,8 +91,8 @@ def ball_static_load(radial: Scalar, axial: Scalar, contact_angle: Scalar) -> Fl
     **Arguments:** as `ball_equivalent_load`.
     """
     _require_ball(contact_angle, radial=radial, axial=axial)
-    combined = _at_angle(X_STATIC, contact_angle) * radial + _at_angle(Y_STATIC, contact_angle) * axial
-    return jnp.maximum(radial, combined)
+    factors = _at_angle(contact_angle)
+    return jnp.maximum(radial, factors[1] * radial + factors[2] * axial)
 
 
 def roller_static_load(radial: Scalar, axial: Scalar, contact_angle: Scalar) -> Float[Array, ""]:
