@@ -145,4 +145,4 @@ def _alike(scenes: list[AbstractScene], options: NewtonOptions) -> list[Any]:
             quick=True,
         )
         solutions = program(batch, np.ones(len(scenes), dtype=bool))
-    return [jax.tree.map(lambda leaf, lane=lane: leaf[lane], solutions) for lane in range(len(scenes))]
+    return [jax.tree.map(lambda leaf, lane=lane: jnp.asarray(leaf[lane]), solutions) for lane in range(len(scenes))]
