@@ -21,6 +21,8 @@ from .basic import EXPONENTS
 from .bearing_life import HOURS
 from .result import Life
 
+SUM_TOLERANCE = 1e-6
+"""Difference from 1 that the sum of the shares of time may have."""
 _States = Float[Array, " state"]
 _Number = Float[Array, ""]
 

@@ -55,7 +55,7 @@ class Life(eqx.Module):
 
     @derived("1", "static safety C0/P0 of ISO 76")
     def static_safety(self) -> Float[Array, "*batch"] | None:
-        return None if self.static_load is None else self.static_capacity / self.static_load
+        return None if self.static_load is None else jnp.asarray(self.static_capacity / self.static_load)
 
     @derived("1", "modified rating life a_ISO L10 of ISO 281 at 90 % reliability, million revolutions")
     def L10m(self) -> Float[Array, "*batch"] | None:
@@ -69,7 +69,7 @@ class Life(eqx.Module):
 
     @derived("N", "least load against skidding, maker's rule of thumb: 0.01 C of ball, 0.02 C of roller bearings")
     def minimum_load(self) -> Float[Array, "*batch"]:
-        return MINIMUM_LOADS[self.family] * self.dynamic_capacity
+        return jnp.asarray(MINIMUM_LOADS[self.family] * self.dynamic_capacity)
 
     @property
     def catalogue_factor(self) -> Float[Array, "*batch"] | None:

@@ -8,14 +8,13 @@ from typing import Any
 from pydantic_core import PydanticCustomError
 
 from .._scene import AbstractScene
+from ..life.duty import SUM_TOLERANCE
 from .errors import SceneError, nearest
 from .overrides import Overrides, applied, as_texts
 from .reader import STATES, read_all, scene_from_tables, scene_model, warn_of_means
 from .units import describe, number
 
 NAME, SHARE = "name", "share"
-SUM_TOLERANCE = 1e-6
-"""Difference from 1 that the sum of the shares may have."""
 _EXAMPLE = '[[state]] tables, each with name = "cruise", share = 0.6 and changes such as operation.radial_load = "3 kN"'
 
 

@@ -7,11 +7,9 @@ from typing import Any
 from .._scene import AbstractScene
 from .._types import Scalar
 from ..bearings.bearing import AbstractBearing
+from ..life.duty import SUM_TOLERANCE
 from ..numerics.arguments import require_numbers
 from ..numerics.checks import known
-
-SUM_TOLERANCE = 1e-6
-"""Difference from 1 that the sum of the shares may have."""
 
 
 @dataclass(frozen=True)
