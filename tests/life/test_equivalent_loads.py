@@ -39,6 +39,14 @@ def test_tables_agree_with_the_printed_limits(degrees):
     np.testing.assert_allclose(limits, PRINTED_LIMITS[degrees], atol=0.0075)
 
 
+def test_rows_that_a_maker_prints():
+    """Koyo's general catalogue, equivalent loads: f0 Fa/C0 at 15 degrees, and factors at 15, 30, 40 degrees."""
+    printed = [0.178, 0.357, 0.714, 1.07, 1.43, 2.14, 3.57, 5.35, 7.14]
+    np.testing.assert_allclose(RELATIVE_LOADS / np.cos(np.radians(15.0)), printed, rtol=5e-3)
+    np.testing.assert_array_equal(Y[3], [1.47, 1.40, 1.30, 1.23, 1.19, 1.12, 1.02, 1.00, 1.00])
+    assert [X[3], X[6], X[8], Y[6][0], Y[8][0]] == [0.44, 0.39, 0.35, 0.76, 0.57]
+
+
 def test_loads_by_hand():
     at = lambda degrees, radial, axial: float(ball_equivalent_load(radial, axial, np.radians(degrees), 16, 22.23e-3))
     np.testing.assert_allclose(at(40.0, 1000.0, 2000.0), 0.35 * 1000.0 + 0.57 * 2000.0, rtol=1e-14)
