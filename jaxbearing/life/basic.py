@@ -13,8 +13,8 @@ BALL_EXPONENT, ROLLER_EXPONENT = 3.0, 10.0 / 3.0
 EXPONENTS = {"ball": BALL_EXPONENT, "roller": ROLLER_EXPONENT}
 """Exponent p of the load in ISO 281, by family."""
 MINIMUM_LOADS = {"ball": 0.01, "roller": 0.02}
-"""Least load over C that keeps elements from skidding, by family: a maker's general rule (SKF, bearing selection process,
-requisite minimum load, as read on its pages). It knows neither speed, oil nor cage."""
+"""Least load over C that keeps elements from skidding, by family: a maker's general rule (SKF, bearing selection
+process, requisite minimum load, as read on its pages). It knows neither speed, oil nor cage."""
 
 _GROOVE = np.array(
     [

@@ -71,8 +71,8 @@ def ball_equivalent_load(
 
     X goes with the contact angle, Y with it and below 20 degrees with $F_a/(ZD^2)$ too; both are interpolated.
 
-    **Evidence:** [T] at 0, 15, 30, 40 degrees, otherwise [M]; [C] the printed limits e. **Validity:** contact angles up to 45 degrees (NaN beyond);
-    $F_a/(ZD^2)$ from 0.172 to 6.89 N/mm^2 (outside: Y of the ends).
+    **Evidence:** [T] at 0, 15, 30, 40 degrees, otherwise [M]; [C] the printed limits e. **Validity:** contact angles up
+    to 45 degrees (NaN beyond); $F_a/(ZD^2)$ from 0.172 to 6.89 N/mm^2 (outside: Y of the ends).
 
     **Arguments:** `radial`, `axial`, loads >= 0, N; `contact_angle`, the nominal one, rad, 0 of a deep-groove bearing;
     `ball_diameter`, m.
