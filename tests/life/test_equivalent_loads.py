@@ -1,11 +1,15 @@
 """Equivalent loads by X and Y, static safety, least load and modified catalogue life."""
 
+import dataclasses
+
 import jax
 import jax.numpy as jnp
 import numpy as np
 import pytest
 
 import jaxbearing as jb
+from jaxbearing.bearings.ball.scene import BallOperation
+from jaxbearing.bearings.rated import sizes_of_loads
 from jaxbearing.bearings.rating import Rating
 from jaxbearing.life import (
     ball_equivalent_load,
@@ -15,6 +19,7 @@ from jaxbearing.life import (
     deep_groove_equivalent_load,
     roller_static_load,
 )
+from jaxbearing.life.bearing_life import without_effect
 from jaxbearing.life.equivalent import RELATIVE_LOADS, X, Y
 
 # e as ISO 281 prints it, by contact angle and, below 20 degrees, relative load [M]
@@ -104,32 +109,35 @@ def test_angular_contact_bearing_under_both_loads():
 
 
 def test_a_factor_of_contamination_is_that_of_its_class():
-    scene = jb.load_scene("deep_groove_6205").replace(
-        {"rating": Rating(viscosity_ratio=1.5, cleanliness="grease_normal")}
-    )
-    by_class = jb.solve(scene).life
-    factor = contamination_factor(1.5, scene.geometry.pitch_diameter, "grease_normal")
+    scene = jb.load_scene("reference_roller").replace(dict.fromkeys(("contact", "cage", "flange", "drag")))
+    by_class = jb.solve(scene.replace({"rating": Rating(viscosity_ratio=1.5, cleanliness="grease_normal")})).life
+    factor = float(contamination_factor(1.5, scene.geometry.pitch_diameter, "grease_normal"))
     np.testing.assert_allclose(by_class.contamination_factor, factor, rtol=1e-14)
-    given = scene.replace({"rating": Rating(viscosity_ratio=1.5, contamination_factor=float(factor))})
-    np.testing.assert_allclose(jb.solve(given).life.Lnmr, by_class.Lnmr, rtol=1e-12)
+    given = jb.solve(scene.replace({"rating": Rating(viscosity_ratio=1.5, contamination_factor=factor)})).life
+    np.testing.assert_allclose(given.Lnmr, by_class.Lnmr, rtol=1e-12)
+    np.testing.assert_allclose(given.L10m, by_class.L10m, rtol=1e-12)
+    np.testing.assert_allclose(given.minimum_load, 0.02 * given.dynamic_capacity, rtol=1e-14)
     with pytest.raises(ValueError, match=r"rating\.contamination_factor: expected none beside rating\.cleanliness"):
         Rating(cleanliness="grease_normal", contamination_factor=0.5)
     with pytest.raises(ValueError, match=r"rating\.contamination_factor must be above 0 and at most 1"):
         Rating(contamination_factor=1.2)
-    (note,) = [
-        text
-        for text in jb.solve(scene.replace({"rating": Rating(contamination_factor=0.5)})).warnings
-        if "rating.contamination_factor" in text
-    ]
-    assert "no effect without" in note
+    unknown = dataclasses.replace(given, viscosity_ratio=None)
+    (note,) = without_effect(scene.replace({"rating": Rating(contamination_factor=0.5)}), unknown)
+    assert note.startswith("rating.contamination_factor has no effect without")
 
 
-def test_moments_have_no_catalogue_load_and_held_rings_have_their_force():
-    scene = jb.load_scene("deep_groove_6205").replace({"rating": Rating()})
-    free = jb.solve(scene)
-    np.testing.assert_allclose(free.life.catalogue_load, ball_equivalent_load(1500.0, 200.0, 0.0, 9, 7.938e-3))
-    tilted = jb.solve(scene.replace({"operation.moment": 5.0}), throw=False)
-    assert np.isnan(tilted.life.catalogue_load)
-    assert np.isfinite(tilted.life.L10r)
-    held = {"operation.axial_load": None, "operation.displacement": {"axial": float(free.ring.axial)}}
-    np.testing.assert_allclose(jb.solve(scene.replace(held)).life.catalogue_load, free.life.catalogue_load, rtol=1e-6)
+def test_loads_of_the_catalogue():
+    """Those that are given, those that hold a displaced ring, and none under a moment."""
+    force = jnp.array([-300.0, 3.0, 4.0, 0.0, 0.0])
+    both = BallOperation(1.0, radial_load=1500.0, radial_load_lateral=2000.0, axial_load=-200.0)
+    np.testing.assert_allclose(sizes_of_loads(both), [2500.0, 200.0], rtol=1e-14)
+    np.testing.assert_allclose(sizes_of_loads(BallOperation(1.0, radial_load=1500.0), force), [1500.0, 0.0])
+    free = BallOperation(1.0, radial_load=1500.0, axial_load=200.0, moment=0.0, moment_lateral=0.0)
+    np.testing.assert_allclose(sizes_of_loads(free), [1500.0, 200.0])
+    tilted = BallOperation(1.0, radial_load=1500.0, axial_load=200.0, moment=1e-3)
+    assert np.all(np.isnan(sizes_of_loads(tilted)))
+    held = BallOperation(1.0, radial_load=1500.0, displacement={"axial": 1e-6})
+    np.testing.assert_allclose(sizes_of_loads(held, force), [1500.0, 300.0])
+    across = BallOperation(1.0, axial_load=200.0, displacement={"radial": 1e-6})
+    np.testing.assert_allclose(sizes_of_loads(across, force), [5.0, 200.0])
+    assert sizes_of_loads(held) == (None, None)
