@@ -70,18 +70,19 @@ def _solve_quickly(scene: AbstractScene, options: NewtonOptions) -> Any:
 
 
 def _solve_differentiated(scene: AbstractScene, options: NewtonOptions) -> Any:
-    """The solve outside of programs, where numbers of the scene are differentiated or batched."""
+    """A solve that is called outside of `jax.jit` with numbers of the scene that are differentiated or batched."""
     return differentiable(_solve_any, _solve, scene, options)
 
 
 def solve_with_roots(scene: AbstractScene, options: NewtonOptions) -> tuple[Any, tuple[Any, ...]]:
-    """The solution, outside of programs by the kept one of `solve`, and the roots that `solution_at` takes."""
+    """The solution, and the roots that `solution_at` takes. If no number is traced, the kept program of `solve`
+    runs."""
     return (with_roots if inside_a_program(scene) else solved)(_solve_any, scene, options)
 
 
 def solution_at(roots: tuple[Any, ...], scene: AbstractScene, options: NewtonOptions) -> Any:
-    """The solution from its roots, to be differentiated: pure, small, and nothing is searched for. The derivatives of
-    its stiffness are NaN."""
+    """The solution from its roots, computed without iterating, to be differentiated. The derivatives of its stiffness
+    are NaN."""
     return at_roots(_solve_any, roots, scene, options, stiffness=False)
 
 
@@ -116,24 +117,25 @@ def solve(
 def solve(
     scene: AbstractScene, *, throw: bool = True, options: NewtonOptions | None = None, optimised: bool = False
 ) -> Any:
-    """Steady state of a scene: of a bearing, the traction curves of a two-disk machine, the film of a line contact.
+    """The steady state of a scene: the equilibrium of a bearing, the traction curves of a two-disk machine, or the film
+    of a line contact.
 
     Compiled once per structure (kind, parts, number of rolling elements); new numbers never recompile. May be called
-    inside `jax.jit`, `jax.vmap`, `jax.grad` and `jax.lax.map`; derivatives, in both modes and with respect to every
-    number of the scene, go through the solution by the implicit function theorem.
+    inside `jax.jit`, `jax.vmap`, `jax.grad` and `jax.lax.map`; derivatives with respect to every
+    number of the scene, in forward and reverse mode, follow from the implicit function theorem.
 
-    On a CPU the program is compiled quickly, in about a fifth of the time, and runs 2 to 5 times slower, milliseconds:
-    one answer comes first that way. Where a scene is solved thousands of times, `optimised` or `jit_solver` pays.
-    First derivatives outside of `jax.jit` come from a second program, which is compiled quickly too and makes one pass
-    for each number that is differentiated. Inside a program, in a batch and for second derivatives JAX compiles as it
-    is told to; `quick_compile_options` are the options for a quick compilation.
+    On a CPU the program is compiled in about a fifth of the usual time and runs 2 to 5 times slower, by milliseconds,
+    which is best for a single solve. For thousands of solves use `optimised` or `jit_solver`. First derivatives outside
+    of `jax.jit` come from a second program, which is compiled quickly too and makes one pass for each number that is
+    differentiated. Inside `jax.jit`, in a batch and for second derivatives JAX's own compiler options hold;
+    `quick_compile_options` are those of a quick compilation.
 
     **Arguments:**
     - `scene`: from `load_scene`, or built from parts.
-    - `throw`: raise where the solve fails. Inside `jit` or `vmap` nothing can be raised for one lane alone: look at
-      `solution.status`; the results of a failed lane are NaN and those of the others are not touched.
+    - `throw`: whether a solve that fails raises an error. Inside `jit` or `vmap` none is raised: look at
+      `solution.status`. The results of a failed lane are NaN, and other lanes are unaffected.
     - `options`: tolerances of the Newton iteration; two-disk machines and line contacts have none.
-    - `optimised`: compile with all of XLA's optimisations. Derivatives are then those of one program.
+    - `optimised`: compile with all of XLA's optimisations. Solution and derivatives then come from one program.
 
     **Raises:** `SolveError` with status, residual and worst equation; `TypeError` for 32-bit numbers or an unknown
     kind of scene; `RuntimeError` where 64-bit floats are switched off.
@@ -145,7 +147,7 @@ def solve(
         function = _solve if optimised or is_tracing() else _solve_differentiated
     else:
         function = _solve_optimised if optimised else _solve_quickly
-    # small programs beside the large one are compiled too
+    # auxiliary programs are compiled too, and their messages are no concern of the user
     quiet = nullcontext() if inside else quiet_first_time((solve, optimised, jax.tree.structure(scene)))
     with rare_garbage_collection(), quiet:  # derivatives are traced here too
         solution = function(jax.tree.map(as_float, scene), chosen_options(options))
@@ -155,21 +157,21 @@ def solve(
 
 
 def chosen_options(options: NewtonOptions | None) -> NewtonOptions:
-    """The given options or the usual ones. **Raises:** `TypeError` for something else."""
+    """The given options, or the defaults. **Raises:** `TypeError` if they are of another type."""
     if not isinstance(options, NewtonOptions | None):
         raise TypeError(f"options must be NewtonOptions, got {options!r}")
     return NewtonOptions() if options is None else options
 
 
 def solve_once(scene: AbstractScene) -> Any:
-    """Solves a scene as the commands do: a solve that fails does not raise."""
+    """Solves a scene; a solve that fails does not raise."""
     return solve(scene, throw=False)
 
 
 def jit_solver(scene: AbstractScene, *, options: NewtonOptions | None = None) -> Callable[..., Any]:
     """A compiled solver for scenes of this structure.
 
-    Returns a function of a scene (left out: the one given here) and of keywords that change its operating point,
+    Returns a function of a scene (by default the one given here) and of keywords that change its operating point,
     `fast(inner_speed=1100.0)`. It never raises for a failed solve (look at `status`) and never recompiles when only
     numbers change.
     """
@@ -179,7 +181,7 @@ def jit_solver(scene: AbstractScene, *, options: NewtonOptions | None = None) ->
     own_numbers = jax.tree.map(as_float, scene)
     given, structure = jax.tree.flatten(own_numbers)
     arguments = jax.tree.structure((own_numbers, chosen))
-    # on the device once, and flat: less to do at each call
+    # the leaves go to the device once and are passed as a list, which saves work at each call
     numbers = [value if isinstance(value, Tracer) else jax.device_put(value) for value in given]
 
     @jax.jit
@@ -189,7 +191,8 @@ def jit_solver(scene: AbstractScene, *, options: NewtonOptions | None = None) ->
     shapes, kept = [np.shape(number) for number in numbers], []
 
     def answer(numbers: list[Any]) -> Any:
-        """Asks the kept program, or JAX's own where a number is traced or batched and where programs are not kept."""
+        """Calls the kept program; or the `jax.jit` function if a number is traced or batched, or if programs are not
+        kept."""
         if any(isinstance(number, Tracer) for number in numbers) or [np.shape(one) for one in numbers] != shapes:
             return compiled(numbers)
         if kept:
@@ -198,7 +201,7 @@ def jit_solver(scene: AbstractScene, *, options: NewtonOptions | None = None) ->
             kept.append(_solve_optimised.ready(arguments, numbers) or compiled)
             return kept[0](numbers)
 
-    # of leaves that a changed copy has in common with it
+    # a changed copy shares leaves with this scene, by which the unchanged numbers are recognised
     own = jax.tree.unflatten(structure, given)
 
     def fast(other: AbstractScene | None = None, /, **operation: Any) -> Any:
@@ -207,7 +210,7 @@ def jit_solver(scene: AbstractScene, *, options: NewtonOptions | None = None) ->
         if not isinstance(other, AbstractScene | None):
             raise TypeError(f"expected a scene, or keywords of the operating point, got {type(other).__name__}")
         changed = own if other is None else other
-        # outside of the program, which is the same for whatever is changed
+        # changed outside of the program, so that the same program serves every change
         changed = changed.at_operation(**operation) if operation else changed
         others, kind = jax.tree.flatten(changed)
         if kind == structure:

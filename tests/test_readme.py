@@ -66,7 +66,7 @@ def test_rolling_resistance_adds_what_is_said():
 
 def test_oil_table_is_a_scene(tmp_path):
     """The oil of the page in a scene without traction, which would need a rheology."""
-    (block,) = blocks(USING, "toml")
+    (block,) = (one for one in blocks(USING, "toml") if "two_viscosities" in one)
     text = builtin_text("turbine_roller").replace("[oil]", "[unused]")
     head = text[: text.index("[unused]")]
     rest = re.sub(r"(?m)^traction", "# traction", text[text.index("[contact]") :])

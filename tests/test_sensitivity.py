@@ -56,7 +56,8 @@ CALLERS = {
     "solve_line_contact": ("line_contact.py",),
     "steady_solution": ("solve.py",),
     "with_life": ("solve.py",),
-    "solve_ring": ("bearing.py", "port.py"),
+    # of a warm-up the losses are asked for alone
+    "solve_ring": ("bearing.py", "port.py", "programs.py"),
 }
 """Function that gives a solution without life or checked inputs -> the files that may call it."""
 

@@ -1,4 +1,4 @@
-"""Base of the bearings as scenes: what a family answers, and the unknown freedoms of the inner ring."""
+"""Base class of all bearing scenes: what a bearing family implements, and the unknown freedoms of the inner ring."""
 
 import abc
 import dataclasses
@@ -32,16 +32,15 @@ from .solution import RING_FREEDOMS, TILTS, Solution
 from .warm import settled, solve_warm
 
 TAKEN = "simulate takes: any bearing with [thermal], a cylindrical roller bearing, a line contact"
-"""Second half of the message about a scene that does not move."""
+"""Second half of the message about a scene that `simulate` does not take."""
 Bearing = TypeVar("Bearing", bound="AbstractBearing")
 
 
 class AbstractBearing(AbstractScene):
     """Base of all bearings, whose inner ring has the freedoms of `solution.RING_FREEDOMS`, or some of them.
 
-    A family is a folder beside this file. Its scene answers what the rest of the package asks: the solve, with the
-    ring's own loads or with a ring that is held (`solve_ring`), the range checks of its own, and what the life is
-    computed from.
+    A family is a folder beside this file. Its scene class implements the solve, under given loads or with a ring that
+    is held (`solve_ring`), the range checks of the family, and the inputs of the life.
     """
 
     element: ClassVar[str] = "roller"
@@ -49,7 +48,7 @@ class AbstractBearing(AbstractScene):
     yield_pressure: ClassVar[float] = ROLLER_PRESSURE
     """Hertz pressure beyond which elements and races yield, Pa."""
     without_effect: ClassVar[str] = "traction on the raceways"
-    """Part that a scene lacks whose `unused_parts` have no effect."""
+    """Name of the part without which the `unused_parts` of a scene have no effect, for messages."""
 
     geometry: eqx.AbstractVar[Any]
     operation: eqx.AbstractVar[Any]
@@ -65,7 +64,7 @@ class AbstractBearing(AbstractScene):
         return self.solved_running(lambda running: running.solve_ring(options))
 
     def simulated(self, duration: float | None, **settings: Any) -> Any:
-        """A run of the temperatures in time, of a scene with a thermal network."""
+        """A run of the temperatures in time; the scene must have a thermal network."""
         if self.thermal is None:
             raise TypeError(f"cannot simulate a {type(self).__name__} without [thermal]; {TAKEN}")
         from .warming.runs import simulate_warm_up
@@ -80,10 +79,10 @@ class AbstractBearing(AbstractScene):
         check_restart(self, restart)
 
     def solved_running(self, solve: Callable[[Any], Solution]) -> Solution:
-        """The solution of the bearing that runs: of this scene, or where it has seats of the one that these make of it,
-        at the temperatures of its thermal network where it has one.
+        """Solves the bearing as it runs: seats and temperatures change its dimensions first, and with a thermal network
+        the temperatures are solved for as well.
 
-        **Arguments:** `solve`: from a scene without network and seats to its solution.
+        **Arguments:** `solve`: function that solves a scene without thermal network and seats.
         """
         if self.thermal is not None:
             return solve_warm(self, solve)
@@ -107,7 +106,7 @@ class AbstractBearing(AbstractScene):
         )
 
     def settled(self, solution: Solution) -> Any:
-        """The scene at the temperatures that its thermal network has found; itself without one."""
+        """The scene at the temperatures of its solution; unchanged without a thermal network."""
         return settled(self, solution)
 
     @property
@@ -118,18 +117,18 @@ class AbstractBearing(AbstractScene):
     @property
     @abc.abstractmethod
     def raceway_diameters(self) -> tuple[Array, Array]:
-        """Diameters of inner and outer raceway, of balls of the bottoms of the grooves, m."""
+        """Diameters of inner and outer raceway (in ball bearings of the bottoms of the grooves), m."""
 
     @abc.abstractmethod
     def play(self, growth: Growth) -> Play:
-        """The play of the bearing after its parts have grown."""
+        """The play of the bearing after fits, temperatures and speed have changed its parts."""
 
     @abc.abstractmethod
     def grown(self: Bearing, growth: Growth) -> Bearing:
-        """The bearing, without seats, whose parts have grown."""
+        """The bearing with the dimensions after this growth, and without seats."""
 
     play_is_clearance: ClassVar[bool] = True
-    """True if the play is a diametral clearance; it is an axial displacement else."""
+    """True if the play is a diametral clearance; otherwise it is an axial displacement."""
 
     @abc.abstractmethod
     def solve_ring(
@@ -138,20 +137,20 @@ class AbstractBearing(AbstractScene):
         """The steady state.
 
         **Arguments:**
-        - `ring`: an inner ring that is held; left out: that of the operating point.
-        - `exact_tilt`: whether the grooves of a ball bearing move with the exact rotation of the ring; `None`: as the
-          scene's own solve has it.
+        - `ring`: an inner ring that is held; by default the ring of the operating point.
+        - `exact_tilt`: whether the grooves of a ball bearing move with the exact rotation of the ring; by default as in
+          the solve of the scene.
         """
 
     @abc.abstractmethod
     def range_checks(self) -> RangeChecks:
-        """The range checks that bearings of this family have beside those of all."""
+        """The range checks that only this family has."""
 
     @abc.abstractmethod
     def rated_contacts(self, elements: Any, laminae: Any, force: Array | None = None) -> RatedContacts:
         """Sizes and loads of the raceway contacts for the life.
 
-        **Arguments:** `elements`, `laminae`, `force`: of a solution; without a force a ring that is held has no
+        **Arguments:** `elements`, `laminae`, `force`: fields of a solution. Without a force a ring that is held has no
         catalogue load.
         """
 
@@ -159,8 +158,8 @@ class AbstractBearing(AbstractScene):
     def outline(self, of: Callable[[str], float] | None = None) -> Outline:
         """Shapes of one rolling element and what it touches, for drawings.
 
-        **Arguments:** `of`: from the name of a result to its value for this element; left out: of the unloaded
-        bearing.
+        **Arguments:** `of`: function that returns a result of this element by its name; by default the unloaded bearing
+        is drawn.
         """
 
     @property
@@ -175,16 +174,16 @@ class AbstractBearing(AbstractScene):
 
     @property
     def drawing_angle(self) -> Array:
-        """Contact angle of the drawing, rad: 0 where the geometry has none, or is given by a clearance."""
+        """Nominal contact angle, rad; 0 if the geometry has none or is given by a clearance."""
         given = getattr(self.geometry, "contact_angle", None)
         return jnp.asarray(0.0 if given is None else given)
 
     def point_contacts(self, elements: Any) -> PointContact | None:
-        """Raceway contacts of a solution where they are points, races first, shape (2, element); `None`: lines."""
+        """Point contacts at the raceways of a solution, shape (2, element), races first; `None` for line contacts."""
         return None
 
     def race_lines(self, elements: Any) -> LineContact | None:
-        """Raceway contacts as lines that carry evenly, races first, shape (2, 1); `None`: points."""
+        """Raceway contacts as lines with an even load, shape (2, 1), races first; `None` for point contacts."""
         return None
 
     @property
@@ -194,12 +193,12 @@ class AbstractBearing(AbstractScene):
 
     @property
     def may_tilt(self) -> bool:
-        """True if the model has a tilted inner ring for this scene."""
+        """True if the model of this scene can tilt the inner ring."""
         return True
 
     @property
     def rated_to_first_order(self) -> bool:
-        """True if the life takes the loads of the first-order motion of a tilted ring."""
+        """True if the life is computed from loads with the tilt of the ring linearised."""
         return False
 
     @property

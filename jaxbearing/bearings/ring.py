@@ -1,12 +1,12 @@
 """The inner ring: its five freedoms, given loads and displacements, and its port.
 
-A load is given for each unknown freedom, and a displacement for each of the others. The port is the reaction of the
-bearing at a displacement of the ring, with its derivatives.
+A load is given for each unknown freedom, and a displacement for each of the others. The port is the load that holds the
+ring at a displacement, equal and opposite to the force of the rolling elements on it, with its derivatives.
 
-Frame and signs: $e_x$ along the axis, azimuths from the load line towards 90 degrees. `tilt` moves azimuth 0,
-`tilt_lateral` azimuth 90 degrees along $+e_x$. Loads are conjugate to displacements: force times displacement, or
-moment times tilt, is the work on the ring. Inside the equations every freedom is a length: a tilt is multiplied by a
-lever of the family, and a moment divided by it.
+Frame and signs: $e_x$ along the axis; azimuth 0 is the load line (radial), azimuth 90 degrees is lateral. A positive
+`tilt` moves the ring along $+e_x$ at azimuth 0, a positive `tilt_lateral` at azimuth 90 degrees. Loads are conjugate to
+displacements: force times displacement, or moment times tilt, is the work on the ring. Inside the equations every
+freedom is a length: a tilt is multiplied by a reference length of the family, its lever, and a moment is divided by it.
 """
 
 import dataclasses
@@ -29,16 +29,16 @@ LENGTH_UNIT = 1e-5
 """Scale of displacements, m."""
 
 ANCHOR = 1e-4
-"""Spring that holds a roller or a ring that nothing touches, N/m. It appears only in derivatives, never in balances. It
-is 1e-12 of the stiffness of a loaded contact; 100 times as much would change derivatives of barely loaded rollers by
+"""Artificial stiffness of a roller or a ring without contact, N/m. It appears only in derivatives, never in balances.
+It is 1e-12 of the stiffness of a loaded contact; 100 times as much would change derivatives of barely loaded rollers by
 6e-6."""
 
 
 class Port(NamedTuple):
-    """Reaction of the inner ring at a displacement.
+    """The load that holds the inner ring at a displacement.
 
-    - `force`: loads on its five freedoms, N and N m.
-    - `stiffness`: their derivatives with respect to the displacements, everything else in equilibrium, N/m, N/rad,
+    - `force`: loads on its five freedoms, N and N m: those that balance the rolling elements.
+    - `stiffness`: their derivatives with respect to the displacements, with all else in equilibrium, N/m, N/rad,
       N m/m and N m/rad. It is not symmetric with centrifugal forces, gyroscopic couples or friction.
     """
 
@@ -49,7 +49,7 @@ class Port(NamedTuple):
 
 
 class InnerRing(eqx.Module):
-    """Loads and given displacements of the inner ring, as lengths.
+    """Loads and given displacements of the inner ring. Tilts are kept as lengths, moments as forces.
 
     **Arguments:**
     - `load`: loads on the unknown freedoms, N.
@@ -57,11 +57,12 @@ class InnerRing(eqx.Module):
     - `lever`: length by which a tilt is multiplied, m.
     - `freedoms`: names of the unknown freedoms, in the order of `RING_FREEDOMS`.
     - `expansion`: growth of the inner raceway's radius less that of the outer one, m; `None` if there is none.
-    - `distance`: position along $+e_x$ of the point that these displacements belong to, from the point that results
-      show, m; `None` if they are the same point.
+    - `distance`: axial position of the point that these displacements belong to, relative to the point that results
+      refer to, m; `None` if they are the same point.
     - `closure`: part of the axial displacement that results do not show, m; `None` if there is none.
-    - `held_load`: approximate load that the given displacements need, N, as a scale; `None` if it is not needed.
-    - `asks`: True if the given displacements need loads of a size that the given loads do not tell.
+    - `held_load`: estimate of the load that the given displacements cause, N, as a scale; `None` if it is not needed.
+    - `asks`: True if the given displacements cause loads whose size does not follow from the given loads, so that
+      `held_load` is needed.
     """
 
     load: Float[Array, " freedom"]
@@ -76,12 +77,12 @@ class InnerRing(eqx.Module):
 
     @property
     def places(self) -> np.ndarray:
-        """Places of the unknown freedoms among `RING_FREEDOMS`."""
+        """Indices of the unknown freedoms in `RING_FREEDOMS`."""
         return np.asarray([RING_FREEDOMS.index(name) for name in self.freedoms], int)
 
     @property
     def units(self) -> Float[Array, "5"]:
-        """Displacement in m or rad for 1 m of each length."""
+        """Factors that convert the five lengths to m and rad."""
         return 1.0 / _levers(self.lever)
 
     def moved(self, shift: Float[Array, "freedom ..."]) -> Float[Array, "5 ..."]:
@@ -94,7 +95,7 @@ class InnerRing(eqx.Module):
         return every[self.places]
 
     def of_each(self, value: Callable[[str], Scalar]) -> Float[Array, " freedom"]:
-        """The value of a function of the name, for each unknown freedom."""
+        """Values of `value(name)` for the unknown freedoms."""
         numbers = [jnp.asarray(value(name), dtype=float) for name in self.freedoms]
         return jnp.stack(numbers) if numbers else jnp.zeros(0)
 
@@ -125,7 +126,8 @@ class InnerRing(eqx.Module):
         return dataclasses.replace(self, held_load=jax.lax.stop_gradient(load))
 
     def size(self) -> Float[Array, ""]:
-        """Size of the load on the ring, N: the given loads, and those that the given displacements need."""
+        """Size of the load on the ring, N: the given loads, and the estimate `held_load` of what the given
+        displacements cause."""
         if len(self.freedoms) == 1:
             size = jnp.abs(self.load[0])
         else:
@@ -149,12 +151,12 @@ class InnerRing(eqx.Module):
     def port(
         self, jacobian: ArrowJacobian, force: Float[Array, "5"], scale: Float[Array, ""], free: tuple[str, ...]
     ) -> Port:
-        """The port of a `released` ring, at the point that results show.
+        """The port of a `released` ring, at the point that results refer to.
 
         **Arguments:**
         - `jacobian`: Jacobian of residuals that are forces over `scale`; the ring's freedoms are the first globals.
         - `force`: loads on the five freedoms that balance the rolling elements, N.
-        - `scale`: N.
+        - `scale`: force by which the residuals were divided, N.
         - `free`: see `Port`.
         """
         arm = _levers(self.lever)
@@ -173,7 +175,7 @@ def _levers(lever: Float[Array, ""]) -> Float[Array, "5"]:
 
 def shift_matrix(distance: Array) -> Float[Array, "5 5"]:
     r"""T(s) with $q(s) = T(s)q(0)$: the displacements of the point of the ring that lies `distance` s further along
-    $+e_x$, m. The axis has the slopes -tilt and -tilt_lateral. Loads go back by the transpose, $f(0) = T^Tf(s)$."""
+    $+e_x$, m. The axis has the slopes -tilt and -tilt_lateral. Loads transform with the transpose, $f(0) = T^Tf(s)$."""
     return jnp.eye(5).at[jnp.asarray([1, 2]), jnp.asarray([3, 4])].set(-distance)
 
 
@@ -182,7 +184,7 @@ def held_ring(
 ) -> InnerRing:
     """A ring that is held in all freedoms.
 
-    **Arguments:** `displacement`: of the point that results show, m and rad; for the others see `InnerRing`.
+    **Arguments:** `displacement`: of the point that results refer to, m and rad; for the others see `InnerRing`.
     """
     lever = jnp.asarray(lever)
     held = (shift_matrix(distance) @ displacement).at[0].add(closure) * _levers(lever)

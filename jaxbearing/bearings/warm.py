@@ -1,10 +1,11 @@
-"""Bearings with a thermal network: an outer iteration on the node temperatures around the whole solve of the bearing.
+"""Solve of bearings with a thermal network: an outer iteration on the node temperatures, with a complete solve of the
+bearing in each step.
 
-Every trial of node temperatures gives each interaction the temperature of its oil, and where the bearing has seats the
-temperatures of its parts, and with them its clearance. The bearing is solved from its own guess each time, so it fails
-or not by itself; its losses and its contacts give the balances of the nodes. The derivative of the answer is that of
-the implicit function at the temperatures found. The stiffness of the ring is that with these temperatures held: a load
-that changes quickly meets a bearing whose temperatures have not changed yet.
+The node temperatures set the temperature of the oil in each contact and, if the bearing has seats, the temperatures of
+its parts and with them its clearance. Each solve starts from its own first guess, so its success does not depend on
+earlier trials. Its losses and the conductances of its contacts enter the heat balances of the nodes. Derivatives follow
+from the implicit function theorem at the temperatures found. The stiffness of the ring is that at constant
+temperatures: a load that changes quickly meets a bearing whose temperatures have not changed yet.
 """
 
 import dataclasses
@@ -29,11 +30,12 @@ from .mounted import check_walls
 from .solution import Solution
 
 MOST_BROYDEN = {"when_needed": 15, "never": 60}
-"""Solves of Broyden's iteration before Newton's, or before steps in time where there is no exact Jacobian."""
+"""Largest number of solves of Broyden's iteration before Newton's, or, without an exact Jacobian (`never`), before
+steps in time."""
 
 
 def thermal_problems(scene: Any) -> Iterator[str | ValueError]:
-    """Yields a sentence for everything that a scene with a thermal network lacks."""
+    """Yields a sentence for each missing or conflicting input of a scene with a thermal network."""
     thermal: Thermal | None = scene.thermal
     if thermal is None:
         return

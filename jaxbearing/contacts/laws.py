@@ -24,15 +24,15 @@ from .thermal import AbstractThermalFactor, NoThermalReduction
 from .traction import AbstractTraction
 
 SPEED_SMOOTHING = 5e-7
-"""Smoothing of the mean surface speed's modulus, m/s: relative error < 1e-12 above 0.5 m/s."""
+"""Speed that smooths the absolute value of the mean surface speed, m/s: relative error < 1e-12 above 0.5 m/s."""
 
 
 class ContactState(NamedTuple):
     """State of one contact: `film` m, `temperature_rise` K above the inlet, `traction` N (None: frictionless),
-    `rolling_force` N (None: no rolling resistance), of the sign of the mean speed.
+    `rolling_force` N (None: no rolling resistance), with the sign of the mean speed.
 
-    `inner_residual` is that of the nested solves for temperature rise and meniscus, in units of ln(film). `supply`:
-    what little oil does (None: fully flooded).
+    `inner_residual` is that of the nested solves for temperature rise and meniscus, in units of ln(film). `supply`
+    holds the factors of starvation (None: fully flooded).
     """
 
     film: Float[Array, "*batch"]
@@ -44,7 +44,8 @@ class ContactState(NamedTuple):
 
     @property
     def separation(self) -> Float[Array, "*batch"]:
-        """Film in the equations that place a rolling element between the rings, m."""
+        """Film thickness in the equations that place a rolling element between the rings, m. With a supply it stays a
+        little above `film`, because a starved film cannot fill the clearance of an unloaded element."""
         return self.film if self.supply is None else self.supply.separation
 
 
@@ -55,17 +56,17 @@ class ContactLaws(Checked):
     - `film`: film thickness law.
     - `thermal`: thermal reduction of the film; `NoThermalReduction()` is neutral.
     - `traction`: friction force law, or `None`: frictionless, and then the rolling elements roll without slip.
-    - `entrainment_offset`: added to the mean surface speed of every contact, m/s. 0 by default; the
-      reference closure of the published check values uses 1 mm/s.
+    - `entrainment_offset`: added to the absolute value of the mean surface speed of every contact, m/s. 0 by default;
+      the published check values were computed with 1 mm/s.
     - `rolling`: rolling resistance, or `None`: left out.
     - `rolling_heating`: how inlet heating lowers the rolling resistance, by a factor (`"aihara"`) or by the viscosity
-      at the temperature that explains `thermal` (`"film_temperature"`); not given: the law's own way where `thermal`
-      is given, otherwise none.
-    - `entrainment_smoothing`: smoothing of the mean surface speed's modulus, m/s: what film a contact keeps whose
-      surfaces pass through rest.
+      at the temperature that corresponds to the reduction by `thermal` (`"film_temperature"`); by default as the
+      rolling law chooses if `thermal` is given, otherwise not at all.
+    - `entrainment_smoothing`: speed that smooths the absolute value of the mean surface speed, m/s; it sets the film
+      that remains at rest.
     - `supply`: how much oil there is, or `None`: fully flooded.
     - `mixed`: mixed friction of rough surfaces, or `None`: the film carries all of the load.
-    - `hysteresis`: part of the elastic work that rolling loses in the bodies, or `None`: left out.
+    - `hysteresis`: fraction of the elastic work that rolling loses in the bodies, or `None`: left out.
     """
 
     part: ClassVar[str] = "contact"
@@ -86,7 +87,7 @@ class ContactLaws(Checked):
 
     @property
     def resists_rolling(self) -> bool:
-        """True if rolling takes power."""
+        """True if rolling resistance or hysteresis is modelled."""
         return self.rolling is not None or self.hysteresis is not None
 
     def entrainment(self, mean_speed: Values) -> Float[Array, "..."]:
@@ -102,7 +103,7 @@ class ContactLaws(Checked):
         lubricant: Lubricant,
         inlet: InletOil,
     ) -> HeatedFilm:
-        """The flooded film alone; arguments as in `evaluate`."""
+        """The fully flooded film with its temperature rise; arguments as in `evaluate`."""
         speed = self.entrainment(mean_speed)
         return heated_film(self.film, self.thermal, contact, load, speed, sliding_speed, lubricant, inlet)
 
@@ -134,14 +135,14 @@ class ContactLaws(Checked):
     ) -> ContactState:
         """Film, temperature rise, traction and rolling resistance.
 
-        The flooded film is phi_T times the isothermal film at the inlet temperature; a supply makes it thinner, and
-        lowers the rolling resistance of the flooded contact. Traction sees the oil at the inlet temperature plus the
-        rise that explains phi_T. So does rolling resistance with the heating `film_temperature`, whose
-        pressure-viscosity coefficient is that at the inlet temperature; with `aihara` it sees the oil at the inlet
-        temperature.
+        The flooded film is the thermal reduction factor phi_T times the isothermal film at the inlet temperature.
+        Starvation (`supply`) thins it and lowers the rolling resistance of the flooded contact. Traction is evaluated
+        at the inlet temperature plus the rise that corresponds to phi_T. With `film_temperature` rolling resistance
+        takes the viscosity at this temperature and the pressure-viscosity coefficient at the inlet temperature; with
+        `aihara` it takes both at the inlet temperature.
 
-        **Arguments:** `load`, N, > 0; `mean_speed` (u1 + u2)/2 and `sliding_speed` u1 - u2, m/s, of either sign;
-        `inlet` = `lubricant.at(inlet temperature)`, evaluated once for all contacts.
+        **Arguments:** `contact`, the two bodies; `load`, N, > 0; `mean_speed` (u1 + u2)/2 and `sliding_speed` u1 - u2,
+        m/s, of either sign; `inlet` = `lubricant.at(inlet temperature)`, evaluated once for all contacts.
         """
         speed = self.entrainment(mean_speed)
         found = self.heated_film(contact, load, mean_speed, sliding_speed, lubricant, inlet)

@@ -1,15 +1,17 @@
-r"""Block-arrow systems whose equations are the gradient of one convex potential: a start that cannot miss the minimum.
+r"""Block-arrow systems whose equations are the gradient of one convex potential: its minimum is the first guess of
+Newton's iteration.
 
-All searches use one step and one rule. The step is Newton's with a regularisation in proportion to the residual (Li,
-Fukushima, Qi and Yamashita, Comput. Optim. Appl. 28 (2004) 131): $(H + \frac{|r|}{\rho}C^{-1})s = r$, where C are the
-caps of the unknowns. Over the caps, it is hardly longer than the radius $\rho$; near the minimum, where the residual
-vanishes, it is Newton's. The rule (`_descent`): a trial is taken if the potential falls there. The radius grows after a
-trial that was taken and shrinks after another one.
+All searches use the same step and the same rule of acceptance. The step is Newton's with a regularisation in proportion
+to the residual (Li, Fukushima, Qi and Yamashita, Comput. Optim. Appl. 28 (2004) 131): $(H + \frac{|r|}{\rho}C^{-1})s =
+r$, with the Hessian H, the residual r (|r| is its largest entry), the step s and the diagonal matrix C of the caps of
+the unknowns. In units of the caps the step is hardly longer than the radius $\rho$. Near the minimum, where the
+residual vanishes, it is Newton's. The rule (`_descent`): a trial is accepted if it lowers the potential. The radius
+grows after an accepted trial and shrinks after a rejected one.
 
 The unknowns descend all together (`descend`), each element descends by itself (`settle`), or the globals descend with
-all elements at their minima (`descend_settled`). Contacts that open have no stiffness: the systems add a spring to each
-block *from where it is* (`anchored`), which stabilises the step and vanishes from the equations. Nothing here is
-differentiated: a minimum is the start of an iteration.
+all elements at their minima (`descend_settled`). Contacts that open have no stiffness: the systems add an
+artificial stiffness to each block (`anchored`), which stabilises the step and exerts no force. No derivative goes
+through this module, because the minimum is only a first guess.
 """
 
 import abc
@@ -34,21 +36,22 @@ from .arrow import (
 from .small_linear import solve_blocks, solve_dense
 
 FARTHEST = 256.0
-"""First and largest radius, in caps of a Newton step: an element that nothing touches has far to go."""
+"""First and largest radius, in caps. It is large because an element without contact may have far to go."""
 LONGER, SHORTER = 8.0, 0.5
-"""Factors of the radius after a trial that was taken, and after one that was not. As many random tapered bearings
-converge with 3 and 0.5, 8 and 0.25, 30 and 0.5."""
+"""Factors of the radius after an accepted and after a rejected trial. The number of random tapered bearings that
+converge is the same with 3 and 0.5, 8 and 0.25, 30 and 0.5."""
 SHORTEST = 1e-13
 """Shortest step, in caps: a shorter one is rounding, and ends the search."""
 FALLS, ROUNDING = 0.9, 1e-11
-"""A trial is also taken if it lowers the residual to the part `FALLS` and raises the potential by the part `ROUNDING`
-at most: near the minimum the fall of the potential is lost in rounding."""
+"""A trial is also accepted if it lowers the residual to the fraction `FALLS` and raises the potential by at most the
+fraction `ROUNDING`: near the minimum the fall of the potential is lost in rounding."""
 TOGETHER_TRIALS, SETTLED_TRIALS, ELEMENT_TRIALS = 80, 80, 300
-"""Most trials of `descend`, `descend_settled` and `settle`."""
+"""Largest numbers of trials of `descend`, `descend_settled` and `settle`."""
 ELEMENT_TOLERANCE = 1e-12
 """Largest scaled residual of an element that is settled."""
 OUTSIDE = 1e-3
-"""Largest residual of the other equations, over the force that pushes a global over its bound."""
+"""The minimum counts as outside the bounds if the other residuals are below this fraction of the one that pushes a
+global over its bound."""
 
 
 class AbstractConvexArrow(AbstractArrowSystem):
@@ -69,13 +72,13 @@ class AbstractConvexArrow(AbstractArrowSystem):
         return local, contributions, jnp.zeros(())
 
     def potential(self, point: ArrowPoint) -> Float[Array, ""]:
-        """Convex; need not be bounded below where there is no equilibrium."""
+        """The potential, which is convex. It is unbounded below if there is no equilibrium."""
         energies = self.acting(point.elements, shared_by_elements(point))[2]
         return jnp.sum(energies) - self.work(point.globals)
 
 
 def anchored(value: Array, stiffness: float) -> Array:
-    """0, with the derivative of stiffness times `value`: a spring from where it is."""
+    """0, with the derivative `stiffness`: an artificial spring that exerts no force."""
     return stiffness * (value - jax.lax.stop_gradient(value))
 
 
@@ -87,7 +90,7 @@ def _tangents(system: AbstractConvexArrow, unknowns: Array, shared: Array) -> tu
 
 
 class _View(NamedTuple):
-    """A point as a search sees it: potential, largest scaled residual, and the blocks that give the step."""
+    """A point that was evaluated: potential, largest scaled residual, and the blocks that give the step."""
 
     energy: Float[Array, "*lane"]
     size: Float[Array, "*lane"]
@@ -95,8 +98,9 @@ class _View(NamedTuple):
 
 
 class _Search(NamedTuple):
-    """State of a search: the best point so far and its view; the next trial, at `length` from it in caps; the radius of
-    that step. Each element is a lane if the elements search alone; otherwise there is one lane (scalars)."""
+    """State of a search: the best point so far and its `view`; the next trial and its distance from that point, in
+    caps; the radius of the step. In `settle` every element has a search of its own, along the last axis; otherwise all
+    but the points are scalars."""
 
     trial: Any
     length: Float[Array, "*lane"]
@@ -200,9 +204,9 @@ def settle(system: AbstractConvexArrow, point: ArrowPoint) -> ArrowPoint:
 
 
 def descend_settled(system: AbstractConvexArrow, guess: ArrowPoint, *, tolerance: float, trials: int) -> Descent:
-    """Descends with the globals alone, all elements at their minima at every trial: a step is dearer than one of
-    `descend`, and elements that hardly touch do not hold it up. The globals stay within `bounds`: if one ends at its
-    bound and its equation pushes outwards, the minimum is outside, as the potential is convex."""
+    """Descends with the globals alone, all elements at their minima at every trial. A step costs more than
+    one of `descend`, but elements with little load do not slow the search down. The globals stay within `bounds`:
+    if one ends at its bound and its residual points outwards, the minimum is outside, as the potential is convex."""
     system, guess = jax.lax.stop_gradient((system, guess))
     caps = system.step_caps().globals
     low, high = (bound.globals for bound in system.bounds())
@@ -230,7 +234,7 @@ def descend_settled(system: AbstractConvexArrow, guess: ArrowPoint, *, tolerance
 
 
 class Minimum(NamedTuple):
-    """End of the search for the minimum, its steps, and whether it is proved to lie outside the bounds."""
+    """End of the search for the minimum, its steps, and whether it was found to lie outside the bounds."""
 
     point: ArrowPoint
     steps: Int[Array, ""]
@@ -238,12 +242,14 @@ class Minimum(NamedTuple):
 
 
 def find_minimum(system: AbstractConvexArrow, *, tolerance: float, hopeless: Bool[Array, ""] | bool = False) -> Minimum:
-    """A start for Newton's iteration that is the minimum of the potential to `tolerance`, where there is one inside the
-    bounds: all unknowns descend together, and, where that takes long, the globals alone with every element settled. A
-    system without globals is settled.
+    """The minimum of the potential to `tolerance`, if there is one inside the bounds, as a first guess of Newton's
+    iteration. All unknowns descend together; if that does not converge, the globals descend alone with every element at
+    its minimum. A system without globals needs `settle` only.
 
-    The proof that it is outside: at a bound, everything else in equilibrium, the potential still falls outwards. As a
-    convex function it then does so all the way to there. `hopeless`: known to have no minimum, not worth the long way.
+    The minimum is outside if a global is at its bound, all other equations are nearly satisfied (`OUTSIDE`) and the
+    potential still falls outwards: a convex potential then has its minimum beyond the bound.
+
+    **Arguments:** `hopeless`: True if it is known that there is no minimum; the second search is then left out.
     """
     system = jax.lax.stop_gradient(system)
     first = system.initial()
@@ -264,7 +270,7 @@ def find_minimum(system: AbstractConvexArrow, *, tolerance: float, hopeless: Boo
 
 
 def pushed_out(system: AbstractConvexArrow, point: ArrowPoint, residual: ArrowPoint) -> Bool[Array, " g"]:
-    """Which globals are at a bound that their equations push them over."""
+    """True for each global that is at a bound and whose residual points outwards."""
     low, high = (bound.globals for bound in system.bounds())
     ring, push = point.globals, residual.globals
     return ((ring >= high) & (push < 0)) | ((ring <= low) & (push > 0))

@@ -1,7 +1,8 @@
-"""Damped Newton on a block-arrow system: status per lane, implicit derivatives, no lane harms another.
+"""Damped Newton iteration for block-arrow systems. Each member of a batch, a lane, has a status of its own; derivatives
+follow from the implicit function theorem.
 
-The iteration is made of parts that stand elsewhere: `newton_steps` proposes a step, judges a trial and moves on;
-`continuation` chooses an easier system where the first try fails.
+`newton_steps` computes a step, tests a trial and chooses the next one; `continuation` chooses an easier system if the
+first try fails.
 """
 
 from collections.abc import Callable
@@ -31,15 +32,16 @@ from .newton_steps import Search, choose, judge, moved_on, propose
 from .status import Status
 
 _GOING = -1
-"""In the place of a status while the iteration goes on."""
+"""Value of the status while the iteration runs."""
 
 
 class NewtonResult(NamedTuple):
-    """End of the iteration. On a lane that failed, `point` is a finite point and not a solution.
+    """Result of the iteration. If the lane failed, `point` is finite and not a solution.
 
-    `jacobian` holds the blocks, residual norm, worst equation and worst element are measured at the last iterate on the
-    system asked for (not an easier one); of a lane that converged, `point` is one Newton step (below the step
-    tolerance) further.
+    `jacobian`, `residual_norm` (the largest scaled residual), `worst_equation` and `worst_element` refer to the last
+    trial at which the system asked for, and not an easier one, was evaluated. If the lane converged, `point` is one
+    Newton step (below the step tolerance) further. `worst_element` means something only if the worst equation belongs
+    to an element.
     """
 
     point: ArrowPoint
@@ -63,8 +65,7 @@ class _Iterate(NamedTuple):
     status: Int[Array, ""]
     equations: Equations
     jacobian: ArrowJacobian
-    """Equations and Jacobian of the system asked for, where it was last looked at: of a lane that converged, at its
-    final trial."""
+    """`equations` and `jacobian` are those of the system asked for, at the last trial at which it was evaluated."""
 
 
 def _iterate(system: AbstractArrowSystem, options: NewtonOptions) -> _Iterate:
@@ -118,7 +119,7 @@ def _iterate(system: AbstractArrowSystem, options: NewtonOptions) -> _Iterate:
 
 
 class _End(NamedTuple):
-    """The end of an iteration: only this is stacked over the lanes of a batch."""
+    """The part of the last iterate that is kept: only this is stacked over the lanes of a batch."""
 
     trial: ArrowPoint
     equations: Equations
@@ -144,10 +145,11 @@ class _Root(NamedTuple):
 
 @eqx.filter_custom_jvp
 def _root(system: AbstractArrowSystem, *, options: NewtonOptions) -> _Root:
-    """The root with the Jacobian there; of a lane that failed, a finite point and where the iteration gave up."""
+    """The root, and the Jacobian at the last trial before it. If the lane failed, the point is the last trial, with 0
+    for numbers that are not finite."""
     end = _ended(system, options)
     solved = end.status == Status.CONVERGED
-    # The last Newton step is taken, not only measured: it squares the remaining error.
+    # The Newton step that the test of convergence computed is taken as well: it squares the remaining error.
     step = solve_arrow(end.jacobian, end.equations.residual)
     elements = jnp.where(solved, end.trial.elements - step.elements, _finite(end.trial.elements))
     globals_ = jnp.where(solved, end.trial.globals - step.globals, _finite(end.trial.globals))
@@ -162,22 +164,23 @@ def _root_jvp(primals, tangents, *, options: NewtonOptions):
 
 @eqx.filter_custom_jvp
 def _known_root(system: AbstractArrowSystem, *, root: _Root, stiffness: bool) -> _Root:
-    """The root of a system that was found before, with the derivatives of a root that is searched for."""
+    """A root that was found before, with the implicit derivatives that `_root` gives. **Arguments:** `stiffness`:
+    whether the Jacobian has a derivative; it is NaN otherwise."""
     return root
 
 
 @_known_root.def_jvp
 def _known_root_jvp(primals, tangents, *, root: _Root, stiffness: bool):
     (system,), (system_dot,) = primals, tangents
-    # second derivatives of the point take the first ones of the Jacobian
+    # second derivatives of the point need the first derivatives of the Jacobian
     return _implicit(system, system_dot, _known_root(system, root=root, stiffness=True), stiffness)
 
 
 def _implicit(system: Any, system_dot: Any, root: _Root, stiffness: bool = True) -> tuple[_Root, _Root]:
-    """A root and its directional derivative, by the implicit function theorem; without `stiffness` that of the Jacobian
-    is NaN."""
-    # Selecting on the tangent that comes in, not only on what goes out, keeps NaN times zero of a failed lane from
-    # parameters that lanes share, in both modes.
+    """A root and its directional derivative, by the implicit function theorem. Without `stiffness` the derivative of
+    the Jacobian is NaN."""
+    # The tangent that comes in is set to 0 for a failed lane as well as the one that goes out: NaN times 0 would
+    # otherwise reach parameters that lanes share, in forward and reverse mode.
     select = lambda t: jnp.where(root.solved, t, 0.0)
     system_dot = jax.tree.map(select, system_dot)
     residual_dot = _directional(lambda s: evaluate(s, root.point).residual, (system,), (system_dot,))
@@ -192,7 +195,8 @@ def _implicit(system: Any, system_dot: Any, root: _Root, stiffness: bool = True)
 
 
 def _directional(function: Callable, primals: tuple, tangents: tuple) -> Any:
-    """Directional derivative of a function of pytrees, zeros (not None) where nothing depends on the direction."""
+    """Directional derivative of a function of pytrees. Outputs that do not depend on the direction get zeros, not
+    `None`."""
     values, dots = eqx.filter_jvp(function, primals, tangents)
     return jax.tree.map(
         lambda dot, value: jnp.zeros_like(value) if dot is None else dot, dots, values, is_leaf=lambda x: x is None

@@ -19,23 +19,26 @@ from .arrow import (
 from .structure import constant, count, switch
 
 BACKTRACK = (1.0, 0.3, 0.05)
-"""Fractions of the Newton step that are tried, in this order; the last one is always accepted."""
+"""Fractions of the Newton step that are tried, in this order. The last one is accepted if its residual and
+Newton step are finite."""
 LAST_ATTEMPT = len(BACKTRACK) - 1
 GROWTH = 4.0
-"""Largest growth of the residual that the first try accepts. A required decrease would reject steps that lead over a
-rise (random roller bearings with both rings turning: with 1.5, three times as many solves take more than 20 steps). The
-stages of a continuation start nearer to their root and require a decrease, because a residual that saturates never
-grows by this factor."""
+"""Largest growth of the residual that the first try accepts. A smaller one rejects useful steps across a maximum of the
+residual: with 1.5, three times as many solves of random roller bearings with both rings turning take more than 20
+steps. The stages of a continuation start nearer to their root and require a decrease, because a residual that saturates
+never grows by this factor."""
 LEAST_FALL = 0.1
-"""Required decrease of the residual in a continuation, over the decrease that the linearization predicts."""
+"""Fraction of the decrease that the linearisation predicts which a step of a continuation must achieve (Armijo's
+condition)."""
 TURNING_BACK = 0.5
-"""Largest length of a step that reverses the one before it, over the length of that one. As in bisection, two opposed
-steps halve the interval between them; without this, Newton's iteration at a kink would oscillate for ever."""
+"""Largest ratio of the length of a step that reverses the one before it to the length of that one. As in bisection, two
+opposed steps halve the interval between them; without this, Newton's iteration at a kink would oscillate for ever."""
 ROUNDED_STEP = 1e-12
 """Scaled Newton step below which a root counts as found although round-off keeps the residual above its tolerance. The
 residual may then be as large as the system's `rounding` allows, or as the last bits of the unknowns explain."""
 LAST_BITS = 10.0 * 2.0**-52
-"""Relative change of the unknowns, or of their scale if they are smaller, that explains a residual of round-off."""
+"""Relative change of the unknowns (ten units in the last place) from which the round-off of the residual is
+estimated."""
 MOST_ROUNDED = 1e-5
 """Largest scaled residual that can count as round-off, however steep the equation is."""
 
@@ -72,7 +75,8 @@ class Search(NamedTuple):
     step: ArrowPoint
     base_norm: Float[Array, ""]
     share: Float[Array, ""]
-    """Share of the Newton step left after caps and pacing; the expected decrease of the residual scales with it."""
+    """Ratio of the step, after all its limits, to the full Newton step. The expected decrease of the residual scales
+    with it."""
     attempt: Int[Array, ""]
 
     @classmethod
@@ -81,7 +85,7 @@ class Search(NamedTuple):
         return cls(start, start, nowhere, jnp.asarray(jnp.inf), jnp.asarray(1.0), jnp.asarray(0))
 
     def begun_anew(self, where: Bool[Array, ""], start: ArrowPoint) -> "Search":
-        """This search, or one from another start if `where` is True."""
+        """The search from another start if `where` is True, otherwise this one."""
         nowhere = jax.tree.map(jnp.zeros_like, start)
         return self._replace(
             trial=choose(where, start, self.trial),
@@ -95,9 +99,9 @@ class Search(NamedTuple):
 class Proposal(NamedTuple):
     """Equations at a trial, and Newton's step from there.
 
-    - `falling`: True for elements on a branch where an equation falls with its own unknown; `uphill_step` changed the
-      sign of a pivot for them.
-    - `turned`: True if this was done for any element or global.
+    - `falling`: True for elements with a negative pivot: an equation falls with its own unknown. `uphill_step` has
+      changed its sign.
+    - `turned`: True if the sign of any pivot was changed.
     """
 
     equations: Equations
@@ -112,9 +116,9 @@ class Verdict(NamedTuple):
 
     - `norm`: Euclidean norm of the residual.
     - `settled`: the trial is a root of the equations.
-    - `converged`: the solves nested in the equations have converged there too.
+    - `converged`: `settled`, and the solves nested in the equations have converged there too.
     - `accepted`: the iteration goes on from the trial.
-    - `stuck`: no usable step is left.
+    - `stuck`: the residual or the step is not finite even at the shortest fraction.
     """
 
     norm: Float[Array, ""]
@@ -144,8 +148,8 @@ def judge(
 ) -> Verdict:
     """Judges a trial by the residual and the Newton step there.
 
-    **Arguments:** `rounding`: that of the system; `first_try`: False in a continuation, whose steps must decrease the
-    residual; `None` if there is no continuation.
+    **Arguments:** `rounding`: the system's factor for round-off; `first_try`: False in a continuation, whose steps must
+    decrease the residual; `None` if there is no continuation.
     """
     residual, jacobian = proposal.equations.residual, proposal.jacobian
     norm = norm_of(residual)
@@ -175,7 +179,7 @@ def moved_on(system: AbstractArrowSystem, search: Search, proposal: Proposal, ve
     step = choose(accepted, paced, search.step)
     whole = norm_of(proposal.step)
     share = jnp.minimum(norm_of(paced) / jnp.where(whole > 0, whole, 1.0), 1.0)
-    # the residual must be allowed to grow across a maximum
+    # after a change of sign the residual may grow across a maximum: the next trial is accepted at any norm
     base_norm = jnp.where(proposal.turned, jnp.inf, verdict.norm)
     return Search(
         trial=_move(system, base, step, jnp.asarray(BACKTRACK)[attempt]),
@@ -222,11 +226,12 @@ def _capped(system: AbstractArrowSystem, step: ArrowPoint) -> ArrowPoint:
 def _paced(
     system: AbstractArrowSystem, step: ArrowPoint, last: ArrowPoint, falling: Bool[Array, " element"]
 ) -> ArrowPoint:
-    """The step, with the part of each element and that of the globals limited by the last step taken.
+    """Limits the step of each element, and that of the globals, by the last step taken.
 
     A part that reverses the last one is shortened (`TURNING_BACK`). Each element has its own factor, because elements
-    reach their kinks one by one. An element on a falling branch (`falling`) that keeps its direction is not slowed
-    down: towards a cusp its slope grows without bound, and Newton's steps would vanish before they cross it.
+    reach their kinks one by one. The step of an element with a negative pivot (`falling`) that keeps its direction is
+    made at least as long as the last one: towards a cusp its slope grows without bound, and Newton's steps would vanish
+    before they cross it.
     """
     caps = system.step_caps()
     size = lambda part, cap: jnp.max(jnp.abs(part) / cap, axis=0, keepdims=True, initial=0.0)
@@ -245,9 +250,9 @@ def _paced(
 
 
 def _of_last_bits(equations: Equations, jacobian: ArrowJacobian, at: ArrowPoint) -> Bool[Array, ""]:
-    """True if every residual is within the change that the last bits of the unknowns cause.
+    """True if every residual is within the round-off that a change of the unknowns by `LAST_BITS` causes.
 
-    An unknown below 1 counts as 1, because it then stands for a difference of two numbers of that order."""
+    An unknown below 1 counts as 1, because it may be the difference of two numbers of that order."""
     steep = jax.tree.map(jnp.abs, jacobian)
     own, common = (LAST_BITS * jnp.maximum(jnp.abs(part), 1.0) for part in at)
     elements = jnp.einsum("ijn,jn->in", steep.local, own) + jnp.einsum("ign,g->in", steep.right_border, common)

@@ -28,7 +28,7 @@ SLOW = {
     "rollers that slide": ("reference_roller", {}),
     "balls that slide": ("turbine_ball", {"operation.radial_load": "3 kN"}),
 }
-QUICK = ("rollers, dry", "balls")
+QUICK = ("rollers, dry",)
 """Those whose programs are small."""
 
 
@@ -157,6 +157,7 @@ def test_a_moment_about_the_load_axis():
     np.testing.assert_allclose(jnp.sum(across * jnp.sin(psi)), 0.0, atol=1e-2)
 
 
+@pytest.mark.slow
 def test_derivatives_by_displacements_and_lateral_loads():
     scene = jb.load_scene("deep_groove_6205", {"operation.moment": "none"}).at_operation(
         axial_load=None, radial_load=None, displacement={"axial": 60e-6, "radial": 4e-6, "lateral": 1e-6}
@@ -249,6 +250,7 @@ def test_no_load_at_all_is_refused():
     assert list(np.asarray(batch.converged)) == [True, False]
 
 
+@pytest.mark.slow
 def test_bounds_of_moments_turn_with_the_loads():
     """Loads turned by 45 degrees are refused without a step as well."""
     scene = jb.load_scene("tapered_example", {"contact": "none", "operation.load_position": "-80 mm"})

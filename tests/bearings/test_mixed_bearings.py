@@ -66,6 +66,7 @@ def test_tapered_bearing_rubs_on_its_rib(tapered):
     assert any("known to a factor of 10" in text for text, broken in found.checks.items() if bool(broken))
 
 
+@pytest.mark.slow
 def test_smooth_surfaces_are_those_without_mixed_friction(tapered):
     """Absent, and with a roughness of nothing: the same to round-off."""
     without = jb.solve(jb.load_scene("tapered_example", {"drag": "none", "rating": "none"}))
@@ -92,6 +93,7 @@ def test_gradients_are_those_of_differences_and_lanes_do_not_mix(tapered):
         np.testing.assert_allclose(both.boundary_power.total[lane], alone.boundary_power.total, rtol=1e-11)
 
 
+@pytest.mark.slow
 def test_the_curve_is_continuous_and_has_a_minimum(tapered):
     """Torque over speed: every step of 5 % changes it by less than 5 %; it rises to a peak and falls to a minimum."""
     speeds = np.geomspace(0.01, 600.0, 226)

@@ -165,6 +165,7 @@ def test_parts_add_up(mounted):
     np.testing.assert_allclose(fit.drawn, 12e-6, rtol=1e-12)
 
 
+@pytest.mark.slow
 def test_solve_of_a_mounted_bearing_is_that_of_its_running_dimensions():
     """Also the life by the loads of the first-order motion of the ring, which are solved for beside the others."""
     scene = jb.load_scene("deep_groove_6205", SEATS | WARM | {"rating.tilt": "iso", "rating.dynamic_capacity": "14 kN"})
@@ -264,6 +265,7 @@ def test_derivatives_of_loads_and_clearance(mounted):
         np.testing.assert_allclose(forward[:, place], differences, rtol=1e-6)
 
 
+@pytest.mark.slow
 def test_batch_of_seats_with_a_loose_one():
     scene = jb.load_scene("deep_groove_6205", SEATS)
     sizes = np.asarray([-5e-6, 0.0, 12e-6])
@@ -326,6 +328,7 @@ def test_rings_without_a_wall_are_refused(changes, field):
         jb.load_scene("deep_groove_6205", SEATS | changes)
 
 
+@pytest.mark.slow
 def test_lanes_without_a_wall_poison_no_derivatives():
     """Where bore and raceway are one circle a ring is infinitely soft."""
     loads = {"operation.radial_load": "none", "operation.moment": "none", "operation.axial_load": "500 N"}

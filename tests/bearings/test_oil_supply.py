@@ -58,7 +58,9 @@ def closes(solution):
     assert float(solution.drive_power) == pytest.approx(float(solution.power_loss.total), rel=1e-10)
 
 
-@pytest.mark.parametrize("family", ["roller", "ball", pytest.param("tapered", marks=pytest.mark.slow)])
+@pytest.mark.parametrize(
+    "family", ["roller", *(pytest.param(name, marks=pytest.mark.slow) for name in ("ball", "tapered"))]
+)
 def test_layers_from_none_to_plenty(family):
     """The energy closes at every layer; one of 1 m is the flooded bearing; none leaves no rolling resistance."""
     scene, full = scene_of(CHEAP[family], layer="1 m"), flooded(family)

@@ -128,7 +128,7 @@ def test_the_exact_tilt_differs_by_what_the_docstring_says():
         np.testing.assert_allclose(*both, rtol=1e-9)
 
 
-LONG = ("films", "cage and traction", "deep groove, held tilt")
+LONG = ("films", "cage and traction", "deep groove, held tilt", "tapered")
 """Cases with large programs."""
 RETURNED = {
     "deep groove, free tilt": ("deep_groove_6205", {}),

@@ -27,6 +27,7 @@ def test_choice_follows_the_load(accuracy):
     assert np.all(np.diff(nodes[inlets == 4.0]) >= 0)
 
 
+@pytest.mark.slow
 def test_promise_holds_under_a_heavy_load():
     """M = 100, L = 10: 201 nodes, once the mesh for 1e-2, are 1.3 % low (3 % at M = 200). Order 2: four thirds of the
     change with half the step is the error."""

@@ -9,7 +9,8 @@ import pytest
 
 import jaxbearing as jb
 from jaxbearing.contacts import DowsonHigginson, DowsonToyoda, LineContact, MartinBlend, Moes, PanHamrockMinimum
-from jaxbearing.life.minimum_film import LINE_SHARE, minimum_films
+from jaxbearing.contacts.minimum_film import LINE_SHARE
+from jaxbearing.life.minimum_film import minimum_films
 
 
 @pytest.mark.parametrize(

@@ -39,7 +39,7 @@ WITHOUT_LOSSES = {
 REFUSED = {
     "cage": ("cage", ["[cage]", "contact.traction", "use simulate"]),
     "oil": ("oil", ["[contact] needs", "'name'"]),
-    "oil.name": ("oil.viscosity", ["'name' of an oil"]),
+    "oil.name": ("oil.viscosity", ["an oil: its 'name' in the catalogue"]),
     "operation.oil_temperature": ("operation.oil_temperature", ["[contact] needs", "100 degC"]),
     "operation.oil_flow": ("operation.oil_flow", ["[drag] needs", "150 l/h"]),
     "operation": ("operation", ["a table with 'inner_speed', 'radial_load'"]),

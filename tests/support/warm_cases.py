@@ -56,7 +56,7 @@ NAMES = {
 CHANGES = {"ball": BALLS, "roller": ROLLERS, "tapered": TAPERED} | SLIDING
 
 
-OTHERS = ("operation", "fits", "rating", "geometry")
+OTHERS = ("operation", "fits", "rating", "geometry", "oil.")
 """Tables whose fields `warm` takes by their paths."""
 
 

@@ -306,6 +306,7 @@ def test_margin_has_a_derivative_at_the_temperatures_found():
     np.testing.assert_allclose(slope, difference, rtol=1e-5)
 
 
+@pytest.mark.slow
 def test_a_lane_that_runs_away_changes_no_other():
     batch = jax.jit(jax.vmap(lambda speed: solved(speed, stability=True)))
     good, mixed = batch(jnp.asarray([4000.0, 5000.0, 8000.0])), batch(jnp.asarray([4000.0, 9500.0, 8000.0]))

@@ -1,19 +1,25 @@
 r"""Equations of the steady lubricated ball bearing, as a block-arrow system.
 
-Unknowns per ball: ln Qi and the inner contact angle; with traction the spin and, with `attitude="min_power"`, the
-attitude beta, or, with `"equilibrium"`, the axial and the radial part of the spin (polar coordinates are singular where
-the spin of a skidding ball turns round through 0); with a resolved gyroscopic couple the spin about the orbit's
-tangent; without a cage the orbital speed, with one the radial friction of the pocket. Globally: ring displacements,
-with a cage its speed (all balls orbit with it), and without traction, on request, one orbital speed for all.
+Unknowns of each ball:
 
-`frictionless` has the balls without traction and the two equations by which their centres fit; `friction` has the
-friction on the balls and the equations of their motion.
+- ln Qi and the inner contact angle, always;
+- with traction the spin and, with `attitude="min_power"`, the attitude beta. With `"equilibrium"` they are the axial
+  and the radial part of the spin instead, because polar coordinates are singular where the spin of a skidding ball
+  passes through 0;
+- with a resolved gyroscopic couple the spin about the tangent of the orbit;
+- without a cage the orbital speed, with one the radial friction of the pocket.
 
-The massless cage hands the pocket forces on to its lands, and where the inner ring guides it they stand in that ring's
-balance, $F_r = \sum p_r\cos\psi + W_{FCi}\cos\chi$, $W_{FCi}\cos\chi = \sum(F_{C2} - F_{C1})\cos\psi$ (source eqs.
-(18)-(19), (22)): to the radial force of each ball on the ring comes the radial friction of its pocket, which has no
-moment. Tangential forces, those of the pockets through the lands and $F_{ti}$ of the balls, have no sum along the load
-line, since balls on both sides of it run alike; the balances of the ring, and its stiffness, leave out both.
+Global unknowns: the displacements of the ring; with a cage its speed, with which all balls orbit; without traction, on
+request, one orbital speed for all balls.
+
+`frictionless` has the contacts without traction and the two equations that keep the centre of a ball compatible with
+both races; `friction` has the friction on the balls and the equations of their motion.
+
+The massless cage transmits the pocket forces to its lands. If the inner ring guides it, they enter the balance of that
+ring, $F_r = \sum p_r\cos\psi + W_{FCi}\cos\chi$, $W_{FCi}\cos\chi = \sum(F_{C2} - F_{C1})\cos\psi$ (source eqs.
+(18)-(19), (22)): the radial friction of each pocket is added to the radial force of its ball on the ring, and has no
+moment. The tangential forces, those of the pockets through the lands and $F_{ti}$ of the balls, cancel along the load
+line where the balls on both sides of it run alike. The balances of the ring, and its stiffness, leave out both.
 """
 
 import dataclasses
@@ -33,9 +39,9 @@ from .state import BallsState
 LOG_LOAD_RANGE = (-200.0, 18.0)
 """ln(load / 1 N) that an iterate may take."""
 EASIEST_SLIDE = 1e-3
-"""Part of the sliding that the traction law of the easiest system sees."""
+"""Factor on the sliding speed in the traction law of the easiest system."""
 THINNEST_FILM = 1e-3
-"""Part of the films that the easiest system has."""
+"""Factor on the films of the easiest system."""
 
 
 class LubricatedBallSystem(AbstractLubricatedBallSystem):
@@ -107,12 +113,13 @@ class LubricatedBallSystem(AbstractLubricatedBallSystem):
 
     @property
     def increasing(self) -> bool:
-        """Not where a ball has nearly lost its inner race."""
+        """False: at a root, a pivot can be negative if a ball has nearly lost its inner race."""
         return False
 
     @property
     def rounding(self) -> float:
-        """Slow, heavily loaded contacts make a force of the last bit of a speed: 1e-8 of 1 % of a ball's load."""
+        """In slow, heavily loaded contacts the round-off of a speed changes the friction by up to 1e-8 of its scale,
+        which is 1 % of the load of a ball."""
         return 100.0
 
     @property
@@ -120,9 +127,10 @@ class LubricatedBallSystem(AbstractLubricatedBallSystem):
         return 2 if self.resolved or self.heavier is not None else 1
 
     def homotopy(self, parameter, path):
-        """Slower sliding in the traction law, which then saturates less; first, where traction has to carry the
-        gyroscopic couple, a part of that. Without traction more load first, as much as makes contacts stiffer than
-        films, and then thinner films: the lightest balls hang in films far thicker than their contacts give."""
+        """With traction, the easier systems slide more slowly in the traction law, which then saturates less. If
+        traction has to carry the gyroscopic couple, the first path lowers that couple and the second the sliding.
+        Without traction, the first path raises the load until the contacts are stiffer than the films, and the second
+        thins the films, because those of lightly loaded balls are much thicker than their contacts are deflected."""
         if self.heavier is not None:
             of_load, of_films = jnp.where(path == 0, parameter, 0.0), jnp.where(path == 0, 0.0, parameter)
             guess = jax.tree.map(lambda a, b: jnp.where(of_load > 0, a, b), self.heavy_guess, self.guess)

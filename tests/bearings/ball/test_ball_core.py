@@ -173,11 +173,10 @@ HARD = {
         BallGeometry(20, 167.54e-3, 22.225e-3, 0.52, 0.515, contact_angle=np.radians(27.0)), 20000, 200.0
     ),
 }
+LONG = ("steep, radial", "steep, radial, nearly no thrust", "hundred balls", "radial with clearance")
 
 
-@pytest.mark.parametrize(
-    "name", [pytest.param(name, marks=pytest.mark.slow if name == "steep, radial" else ()) for name in HARD]
-)
+@pytest.mark.parametrize("name", [pytest.param(name, marks=pytest.mark.slow if name in LONG else ()) for name in HARD])
 def test_hard_cases_have_finite_results_and_derivatives(name):
     scene = HARD[name]
     assert bool(jb.solve(scene).converged)
