@@ -134,7 +134,7 @@ def bearing_life(scene: Any, solution: Solution) -> Life:
     operation = scene.operation
     speed = jnp.asarray(operation.inner_speed) - operation.outer_speed
     turns = _turning(operation)
-    contacts = scene.rated_contacts(*solid, jnp.where(good, solution.force, 1.0))
+    contacts = scene.rated_contacts(solid[0], solid[1], jnp.where(good, solution.force, 1.0))
     pitch_diameter = jnp.asarray(contacts.pitch_diameter)
     rated = rated_by(contacts, rating, turns)
     exponent = EXPONENTS[rated.family]

@@ -59,13 +59,13 @@ class Life(eqx.Module):
 
     @derived("1", "modified rating life a_ISO L10 of ISO 281 at 90 % reliability, million revolutions")
     def L10m(self) -> Float[Array, "*batch"] | None:
-        factor = self.catalogue_factor
-        return None if factor is None else factor * self.L10
+        factor, life = self.catalogue_factor, self.L10
+        return None if factor is None or life is None else factor * life
 
     @derived("h", "modified rating life a_ISO L10 of ISO 281 at 90 % reliability")
     def L10mh(self) -> Float[Array, "*batch"] | None:
-        factor = self.catalogue_factor
-        return None if factor is None else factor * self.L10h
+        factor, life = self.catalogue_factor, self.L10h
+        return None if factor is None or life is None else factor * life
 
     @derived("N", "least load against skidding, maker's rule of thumb: 0.01 C of ball, 0.02 C of roller bearings")
     def minimum_load(self) -> Float[Array, "*batch"]:

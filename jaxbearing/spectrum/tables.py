@@ -62,22 +62,22 @@ def _warnings(found: Spectrum) -> list[str]:
 
 
 def spectrum_rows(found: Spectrum) -> tuple[list[str], list[list[str]]]:
-    """Headings, and a row of texts for each state; "-" for what it does not have."""
+    """Headings, their units on a second line, and a row of texts for each state; "-" for what it does not have."""
     life = found.life
     all_modified = life.Lnmr is not None
-    words = "life Lnmr, h" if all_modified else "life L10r, h"
+    words = "Lnmr\nh" if all_modified else "L10r\nh"
     name_of_life = "Lnmr_hours" if all_modified else "L10r_hours"
     columns: dict[str, list[str]] = {
         "state": list(found.names),
-        "time, %": [_percent(one) for one in np.asarray(found.shares)],
-        "turns, %": [_percent(one) for one in np.asarray(life.revolutions)],
-        "damage, %": [_percent(one) for one in np.asarray(life.damage)],
+        "time\n%": [_percent(one) for one in np.asarray(found.shares)],
+        "turns\n%": [_percent(one) for one in np.asarray(life.revolutions)],
+        "damage\n%": [_percent(one) for one in np.asarray(life.damage)],
         words: [_number(getattr(one.life, name_of_life)) for one in found.solutions],
-        "loss, W": [_number(one.power_loss.total) for one in found.solutions],
-        "pressure, GPa": [digits(1e-9 * _pressure(one)) for one in found.solutions],
+        "loss\nW": [_number(one.power_loss.total) for one in found.solutions],
+        "pressure\nGPa": [digits(1e-9 * _pressure(one)) for one in found.solutions],
         "kappa": [_number(one.life.viscosity_ratio, 3) for one in found.solutions],
-        "C0/P0": [_number(one.life.static_safety, 3) for one in found.solutions],
-        "contact": [_number(one.life.contact_static_safety, 3) for one in found.solutions],
+        "safety\nC0/P0": [_number(one.life.static_safety, 3) for one in found.solutions],
+        "safety\ncontact": [_number(one.life.contact_static_safety, 3) for one in found.solutions],
     }
     kept = {heading: texts for heading, texts in columns.items() if heading == "state" or set(texts) != {"-"}}
     return list(kept), [list(row) for row in zip(*kept.values(), strict=True)]
@@ -97,7 +97,7 @@ def spectrum_facts(found: Spectrum) -> Iterator[tuple[str, str]]:
     yield "Life", "; ".join(known)
     said = [f"equivalent to the contacts' loads {with_unit(float(life.equivalent_load), 'N')}"]
     if _there(life.catalogue_load):
-        said.append(f"by ISO 281 P {with_unit(float(life.catalogue_load), 'N')}")
+        said.append(f"by ISO 281 P {with_unit(float(np.asarray(life.catalogue_load)), 'N')}")
     yield "Constant load", f"{', '.join(said)}, at {with_unit(float(life.mean_speed), 'rad/s')}"
     if found.governing is not None:
         most = float(np.max(np.asarray(life.damage)))
@@ -107,10 +107,11 @@ def spectrum_facts(found: Spectrum) -> Iterator[tuple[str, str]]:
 def spectrum_listing(found: Spectrum) -> Listing:
     """The table of a page, with the life below it."""
     headings, rows = spectrum_rows(found)
+    headings = [heading.replace("\n", ", ") for heading in headings]
     remarks = [f"{name}: {text}." for name, text in spectrum_facts(found)]
     remarks += [f"State {name} failed: {text}" for name, text in found.failures.items()]
     remarks.append(
-        "Damages of the states are added (Palmgren and Miner); contact: static safety of the most loaded contact."
+        "Damages of the states are added (Palmgren and Miner). Safety: static, C0/P0 and that of the most loaded contact."
     )
     return Listing(TITLE, headings, rows, remarks)
 
