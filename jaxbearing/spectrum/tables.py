@@ -111,7 +111,7 @@ def spectrum_listing(found: Spectrum) -> Listing:
     remarks = [f"{name}: {text}." for name, text in spectrum_facts(found)]
     remarks += [f"State {name} failed: {text}" for name, text in found.failures.items()]
     remarks.append(
-        "Damages of the states are added (Palmgren and Miner). Safety: static, C0/P0 and that of the most loaded contact."
+        "Damages of the states are added (Palmgren and Miner). Safety is static: C0/P0, and of the most loaded contact."
     )
     return Listing(TITLE, headings, rows, remarks)
 
