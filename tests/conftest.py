@@ -79,24 +79,27 @@ def pytest_collection_modifyitems(items):
 
 # Each compiled program takes memory maps, of which Linux grants a process 65 530: a worker that has no more crashes.
 _MAPS, _MANY_MAPS = Path("/proc/self/maps"), 15_000
-# Traces, garbage once they have ended, are seldom collected by themselves.
-_PAGES, _MUCH = Path("/proc/self/statm"), 2**30
-_resident_before = 0
+# Traces, garbage once they have ended, are seldom collected by themselves; those that JAX keeps go with its caches.
+_PAGES, _MUCH, _TOO_MUCH = Path("/proc/self/statm"), 2**30, 3 * 2**30
+_resident_before = _resident_cleared = 0
 
 
 def pytest_runtest_teardown(item, nextitem):
-    """Compiled programs are let go of between modules and slow tests, where there are many; garbage, where the process
-    has grown by 1 GiB."""
-    global _resident_before
+    """Compiled programs are let go of between modules and slow tests, where there are many or where the process has
+    grown by 3 GiB; garbage, where it has grown by 1 GiB."""
+    global _resident_before, _resident_cleared
     if nextitem is not None and nextitem.path == item.path and "slow" not in item.keywords:
         return
     if not _MAPS.exists():
         return
-    if _MAPS.read_bytes().count(b"\n") > _MANY_MAPS:
+    grown = _resident() > _resident_cleared + _TOO_MUCH
+    if grown or _MAPS.read_bytes().count(b"\n") > _MANY_MAPS:
         jax.clear_caches()
-    if _resident() > _resident_before + _MUCH:
+    if grown or _resident() > _resident_before + _MUCH:
         gc.collect()
         _resident_before = _resident()
+    if grown:
+        _resident_cleared = _resident_before
 
 
 def _resident():

@@ -23,7 +23,7 @@ from .results import labels_of
 from .scatter import Scatter, name_of
 from .seats import Seat, seat_of
 
-Evaluated = Callable[[Mapping[str, float]], Slopes]
+Evaluated = Callable[[Mapping[str, float]], Slopes | None]
 """Results and derivatives at other numbers of the scene."""
 _OF_SEAT = {"shaft": "fit.interference_inner", "housing": "fit.interference_outer"}
 LIKELY = 0.9
@@ -67,15 +67,18 @@ def spreads_of(
 ) -> tuple[dict[str, Spread], list[str]]:
     """Scatter of each result, and notes in words.
 
-    **Arguments:** `found`: at the means, of a solve that converged; `evaluated`: gives it elsewhere.
+    **Arguments:** `found`: at the means, of a solve that converged; `evaluated`: gives it elsewhere, or `None`
+    for numbers that the scene refuses.
     """
     seats = _seats(scatter, found)
     at_tight = found
     if any(seat.slope == 0.0 for seat in seats.values()):
         at_tight = evaluated(scatter.means | {name_of(seat.name): seat.tight for seat in seats.values()})
+        assert at_tight is not None  # every interference is a number of the scene
     lines = {name: _lines(name, scatter, seats, found, at_tight) for name in names}
     corners = {name: _corners(name, scatter, seats, one, found, at_tight) for name, one in lines.items()}
-    cases = [found, *(solved for pair in corners.values() for one in pair if _good(solved := evaluated(one)))]
+    solved = (evaluated(one) for pair in corners.values() for one in pair)
+    cases = [found, *(one for one in solved if one is not None and _good(one))]
     labels = labels_of(found.solution, names)
     gains = {seat: one.slope for seat, one in seats.items()}
     spreads = {}
@@ -232,17 +235,18 @@ def _percent(share: float) -> str:
 
 
 def _bent_notes(
-    spreads: Mapping[str, Spread], scatter: Scatter, at_ends: Mapping[str, tuple[Slopes, ...]]
+    spreads: Mapping[str, Spread], scatter: Scatter, at_ends: Mapping[str, tuple[Slopes | None, ...]]
 ) -> list[str]:
     """Notes on results that do not follow their derivatives as far as the limits of the fields."""
     bent, failed = [], []
     for name, spread in spreads.items():
         if not spread.moves:
             continue
-        if not all(map(_good, at_ends[name])):
+        ends = [one for one in at_ends[name] if one is not None and _good(one)]
+        if len(ends) < 2:
             failed.append(name)
             continue
-        low, high = (float(one.values[name]) for one in at_ends[name])
+        low, high = (float(one.values[name]) for one in ends)
         below, above = (_reach(spread, scatter, end) for end in (False, True))
         width = max(spread.worst_high - spread.worst_low, below + above)
         off = max(abs(spread.value - below - low), abs(spread.value + above - high))

@@ -106,12 +106,18 @@ class Analysis:
 
         found = self._at(self.scatter.means, results)
         found.solution.raise_if_failed()
-        known: dict[tuple[float, ...], Slopes] = {}
+        known: dict[tuple[float, ...], Slopes | None] = {}
 
-        def evaluated(numbers: Mapping[str, float]) -> Slopes:
+        def evaluated(numbers: Mapping[str, float]) -> Slopes | None:
             key = tuple(numbers[path] for path in self.scatter.means)
             if key not in known:
-                known[key] = self._at({path: numbers[path] for path in self.scatter.means}, results)
+                given = {path: numbers[path] for path in self.scatter.means}
+                try:
+                    self.scatter.scene.replace(given)
+                except ValueError:
+                    known[key] = None  # a worst case that the scene refuses, such as a groove narrower than its ball
+                else:
+                    known[key] = self._at(given, results)
             return known[key]
 
         names = names_in(found.solution, results)
