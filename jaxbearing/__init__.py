@@ -92,6 +92,7 @@ if TYPE_CHECKING:
     from .report.last_state import read_last_state as read_last_state
     from .scenes.errors import PresetUsedWarning as PresetUsedWarning
     from .scenes.errors import SceneError as SceneError
+    from .scenes.errors import StatesUnusedWarning as StatesUnusedWarning
     from .scenes.from_python import load_oil as load_oil
     from .scenes.from_python import scene_from_mapping as scene_from_mapping
     from .scenes.reader import builtin_names as builtin_names
@@ -99,6 +100,9 @@ if TYPE_CHECKING:
     from .scenes.reader import load_scene as load_scene
     from .scenes.save import save_scene as save_scene
     from .sensitivity import sensitivities as sensitivities
+    from .spectrum.result import Spectrum as Spectrum
+    from .spectrum.states import State as State
+    from .spectrum.verb import solve_spectrum as solve_spectrum
     from .tolerance.verb import tolerances as tolerances
 
 shown_by(f"{__name__}.report.shown")
@@ -137,6 +141,9 @@ _LAZY = {
     "Simulation": ".bearings.motion.settings",
     "Solution": ".bearings.solution",
     "SolveError": ".numerics.status",
+    "Spectrum": ".spectrum.result",
+    "State": ".spectrum.states",
+    "StatesUnusedWarning": ".scenes.errors",
     "Status": ".numerics.status",
     "TaperedGeometry": ".bearings.tapered.geometry",
     "TaperedOperation": ".bearings.tapered.scene",
@@ -158,6 +165,7 @@ _LAZY = {
     "scene_from_mapping": ".scenes.from_python",
     "save_scene": ".scenes.save",
     "sensitivities": ".sensitivity",
+    "solve_spectrum": ".spectrum.verb",
     "tolerances": ".tolerance.verb",
     "trajectory": ".bearings.motion.runs",
 }

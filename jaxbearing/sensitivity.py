@@ -313,7 +313,7 @@ def power_interval(
     if not all(bool(one.converged) for one in ends):
         return None
     low, high = (float(one.power_loss.total) for one in ends)
-    return PowerInterval(float(solution.power_loss.total), low, high, DRAG_FIELD, prior_in_words(scene))
+    return PowerInterval(float(solution.power_loss.total), low, high, DRAG_FIELD, prior_in_words(prior))
 
 
 def largest(values: Mapping[str, Array], count: int, leave_out: tuple[str, ...] = ()) -> list[str]:

@@ -1,7 +1,9 @@
 """What is known beforehand of inputs that nobody has measured: assumed distributions."""
 
+import math
 from typing import Any
 
+from ..contacts.oil_supply import LEVELS
 from ..distribution import Distribution
 
 DRAG_FIELD = "drag.coefficient"
@@ -17,6 +19,11 @@ isolated ball has 0.42 to 0.5, an isolated roller 1.0 to 1.2; neighbours, rings,
 lower it by a factor that nobody has measured. The heat of a 35-mm ball bearing at 28 000 to 72 000 rpm bounds it by
 0.66 if all of it were drag, and leaves 0.2 to 0.6 beside the rolling resistance. Median and spread are a judgement.
 """
+
+SUPPLY_FIELD = "contact.supply.gap_over_central"
+"""Dotted path of the gap at the inlet over the central film."""
+SUPPLY_DEVIATION = math.log(3.0)
+"""Standard deviation of the logarithm of a gap that an assumed level stands for."""
 
 
 def drag_prior(scene: Any) -> Distribution | None:
@@ -35,7 +42,15 @@ def isolated(scene: Any) -> bool:
     return drag is not None and drag.coefficient is None and scene.dissipates
 
 
-def prior_in_words(scene: Any) -> str:
-    """The distribution of `drag_prior` in words."""
-    one = DRAG[scene.element]
-    return f"assumed: lognormal, median {one.median:g}, log deviation {one.log_deviation:g}, at most {one.high:g}"
+def supply_prior(scene: Any) -> Distribution | None:
+    """The assumed distribution of the gap at the inlets over the central film; `None` where the scene does not give its
+    supply as a `level`."""
+    supply = getattr(getattr(scene, "contact", None), "supply", None)
+    level = None if supply is None else supply.level
+    return None if level is None else Distribution.lognormal(LEVELS[level], SUPPLY_DEVIATION)
+
+
+def prior_in_words(one: Distribution) -> str:
+    """One of these distributions in words."""
+    cut = "" if one.high is None else f", at most {one.high:g}"
+    return f"assumed: lognormal, median {one.median:g}, log deviation {one.log_deviation:.3g}{cut}"

@@ -55,6 +55,8 @@ class Rating(Checked):
     - `cleanliness`: name of a contamination class, or the ISO 4406 code of circulating oil, such as "-/17/14" or
       "18/16/13", for which the cleanest class that is not cleaner than the code counts; with it, and with a viscosity
       ratio, the life is modified (a_ISO).
+    - `contamination_factor`: the factor e_C itself (eta_c of makers), in the place of the class: 1 without particles,
+      0.8 to 0.6 clean, 0.3 to 0.1 contaminated.
     - `viscosity_ratio`: the ratio kappa, > 0; not given: from the oil, its temperature and the speed, where the scene
       has them.
     - `roughness_rings`, `roughness_elements`: root mean square, m; with them and films: the lambda ratio.
@@ -70,6 +72,7 @@ class Rating(Checked):
     static_capacity: Scalar | None = optional_number(bound="> 0", unit="N")
     fatigue_load_limit: Scalar | None = optional_number(bound="> 0", unit="N")
     viscosity_ratio: Scalar | None = optional_number(bound="> 0", unit="1")
+    contamination_factor: Scalar | None = optional_number(bound="above 0 and at most 1", unit="1")
     roughness_rings: Scalar | None = optional_number(bound="> 0", unit="m")
     roughness_elements: Scalar | None = optional_number(bound="> 0", unit="m")
     reliability: float = constant("rating.reliability", 0.90, among=RELIABILITIES)
@@ -81,12 +84,21 @@ class Rating(Checked):
 
     def __check_init__(self):
         super().__check_init__()
+        if self.cleanliness is not None and self.contamination_factor is not None:
+            raise ValueError(
+                "rating.contamination_factor: expected none beside rating.cleanliness, which is a factor by its class"
+            )
         if (self.roughness_rings is None) != (self.roughness_elements is None):
             missing, given = ("rings", "elements") if self.roughness_rings is None else ("elements", "rings")
             raise ValueError(
                 f"rating.roughness_{missing}: found nothing, expected a length, which 'roughness_{given}' "
                 "needs beside it"
             )
+
+    @property
+    def says_cleanliness(self) -> bool:
+        """True if the life is to be modified: a class of contamination or its factor is given."""
+        return self.cleanliness is not None or self.contamination_factor is not None
 
     def groove_assumptions(self) -> tuple[str, ...]:
         """Notes for the user about the grooves that the ratings of a ball bearing assume."""

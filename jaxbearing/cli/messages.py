@@ -28,9 +28,9 @@ def bad_input(notes: list[str] | None = None) -> Iterator[None]:
     **Arguments:** `notes`: list that gets notes on the input; left out: they are printed on stderr.
     """
     from ..distribution import MeanUsedWarning
-    from ..scenes.errors import PresetUsedWarning, SceneError
+    from ..scenes.errors import PresetUsedWarning, SceneError, StatesUnusedWarning
 
-    notable = (MeanUsedWarning, PresetUsedWarning)
+    notable = (MeanUsedWarning, PresetUsedWarning, StatesUnusedWarning)
     said: list[str] = []
     try:
         with warnings.catch_warnings(record=True) as caught:

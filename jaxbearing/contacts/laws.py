@@ -80,7 +80,7 @@ class ContactLaws(Checked):
     entrainment_smoothing: Scalar = bounded("> 0", unit="m/s", converter=as_float, default=SPEED_SMOOTHING)
     supply: Supply | None = None
     mixed: MixedFriction | None = None
-    hysteresis: Scalar | None = bounded(">= 0", unit="1", default=None)
+    hysteresis: Scalar | None = bounded("between 0 and 1", unit="1", default=None)
 
     def __check_init__(self):
         require_traction(self.part, self.mixed, self.traction)

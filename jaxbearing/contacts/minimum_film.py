@@ -15,10 +15,15 @@ contacts (table 18), 0.75 by Dowson and Higginson's minimum and Dowson and Toyod
 1e-4."""
 
 
+def of_minimum(law: AbstractLineFilm | AbstractPointFilm) -> bool:
+    """True if a law is one of the minimum film."""
+    law = law.film if isinstance(law, MartinBlend | RigidBlend) else law
+    return isinstance(law, DowsonHigginson | PanHamrockMinimum | HamrockDowsonMinimum)
+
+
 def line_share(law: AbstractLineFilm | AbstractPointFilm) -> float:
     """Minimum film over the film of a law of line contacts."""
-    law = law.film if isinstance(law, MartinBlend) else law
-    return 1.0 if isinstance(law, DowsonHigginson | PanHamrockMinimum) else LINE_SHARE
+    return 1.0 if of_minimum(law) else LINE_SHARE
 
 
 def minimum_share(
@@ -31,16 +36,29 @@ def minimum_share(
 ) -> Float[Array, "..."]:
     """Minimum film over the film of a law: 1 where the law is one of the minimum film.
 
+    **Arguments:** `law`: of the film; others as for `minimum_over_central`.
+    """
+    if of_minimum(law):
+        return jnp.ones(())
+    return minimum_over_central(contact, load, entrainment_speed, viscosity, pressure_viscosity)
+
+
+def minimum_over_central(
+    contact: LineContact | PointContact,
+    load: Values,
+    entrainment_speed: Values,
+    viscosity: Values,
+    pressure_viscosity: Values,
+) -> Float[Array, "..."]:
+    """Minimum over central film.
+
     Line contacts have `LINE_SHARE`. Point contacts have the ratio of Hamrock and Dowson's two laws, at most 1.
 
-    **Arguments:** `law`: of the film; `contact`; `load`, N; `entrainment_speed`, m/s; `viscosity`, Pa s, and
-    `pressure_viscosity`, 1/Pa, of the oil in the inlet.
+    **Arguments:** `contact`; `load`, N; `entrainment_speed`, m/s; `viscosity`, Pa s, and `pressure_viscosity`, 1/Pa, of
+    the oil in the inlet.
     """
     if isinstance(contact, LineContact):
-        return jnp.asarray(line_share(law))
-    law = law.film if isinstance(law, RigidBlend) else law
-    if isinstance(law, HamrockDowsonMinimum):
-        return jnp.ones(())
+        return jnp.asarray(LINE_SHARE)
     state = (contact, load, entrainment_speed, viscosity, pressure_viscosity)
     ratio = HamrockDowsonMinimum().log_thickness(*state) - HamrockDowsonCentral().log_thickness(*state)
     return jnp.exp(jnp.minimum(ratio, 0.0))

@@ -20,7 +20,7 @@ from .film import AbstractLineFilm
 from .heating import FilmHeating
 from .line import LineContact
 from .load_share import AbstractLoadShare, ZhouHoeprich
-from .minimum_film import minimum_share
+from .minimum_film import minimum_over_central, minimum_share, of_minimum
 from .patch import contact_patch
 from .point import PointContact
 from .point_film import AbstractPointFilm
@@ -76,8 +76,8 @@ class MixedFriction(Checked):
     - `mu_boundary`: friction coefficient of the asperities; 0.10 to 0.15.
     - `slide_width`: sliding speed over which the boundary friction starts, m/s; a run that starts from rest needs 1 to
       10 % of the rolling speed.
-    - `film`: the film over the roughness, "central" or "minimum". The constants of the load shares were fitted with
-      the central one.
+    - `film`: the film over the roughness, "central" or "minimum", whichever of them the film law is of. The constants
+      of the load shares were fitted with the central one.
     """
 
     part: ClassVar[str] = "contact.mixed"
@@ -103,6 +103,8 @@ class MixedFriction(Checked):
         ratio = film / self.roughness
         if self.film == "minimum":
             ratio = ratio * minimum_share(law, contact, load, *inlet)
+        elif of_minimum(law):
+            ratio = ratio / minimum_over_central(contact, load, *inlet)
         pressure = contact_patch(contact, load).mean_pressure
         return Asperities(jnp.asarray(ratio), self.share.share(ratio, pressure, contact.reduced_modulus))
 

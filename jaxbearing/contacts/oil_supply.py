@@ -98,7 +98,7 @@ class Supply(Checked):
     rolling_law: Literal["full_solutions", "biboulet_houpert"] = choice(
         "contact.supply.rolling_law", ("full_solutions", "biboulet_houpert"), "full_solutions"
     )
-    gap_exponent: Scalar = bounded("> 0", unit="1", converter=as_float, default=supply.GAP_EXPONENT)
+    gap_exponent: Scalar = bounded("between 0.5 and 8", unit="1", converter=as_float, default=supply.GAP_EXPONENT)
     layer_exponent: Scalar | None = _optional("between 2 and 64", "1")
 
     def __check_init__(self):

@@ -77,7 +77,7 @@ class PointLaws(Checked):
     heathcote: bool = switch("contact.heathcote", False)
     supply: Supply | None = None
     mixed: MixedFriction | None = None
-    hysteresis: Scalar | None = bounded(">= 0", unit="1", default=None)
+    hysteresis: Scalar | None = bounded("between 0 and 1", unit="1", default=None)
 
     def __check_init__(self):
         if self.heathcote and self.traction is None:

@@ -15,7 +15,9 @@ _TAPERED = ("302", "303", "313", "320", "322", "323", "329", "330", "331", "332"
 _INCH = ("LL", "LM", "L", "HM", "HH", "H", "M")
 _CYLINDRICAL = ("NUP", "NU", "NJ", "N")
 _FULL = ("NCF", "NJG", "SL")
-_SEAL = re.compile(r"(?<![A-Z])(2?)(RSL|RZ|RSH|RS1|LS|Z)(?![A-Z0-9])")
+_SEAL = re.compile(r"(?<![A-Z])(2?)(RS[A-Z0-9]?|RZ|LS|Z|DDU|LLU|DU|LU)(?![A-Z0-9])")
+_BOTH = ("DDU", "LLU")
+"""Suffixes of other makers that stand for two seals."""
 
 
 class Said(NamedTuple):
@@ -24,7 +26,8 @@ class Said(NamedTuple):
     - `family`: one of those of `FAMILIES`.
     - `series`: as the tables of constants name it, such as "62", "NU 2" as "2", "320X", "72B".
     - `bore`: by the bore code, m.
-    - `seal`: SKF's name of the seal, "Z" for shields, which do not rub; `n_seals`: 1 or 2.
+    - `seal`: SKF's name of the seal, "Z" for shields, which do not rub, or a name whose constants are not known, such
+      as "RS"; `n_seals`: 1 or 2.
     """
 
     family: str = ""
@@ -53,8 +56,9 @@ def read_designation(text: str) -> Said:
     if not found.family:
         return found
     seal = _SEAL.search(suffix)
-    count = 0 if seal is None else (2 if seal.group(1) else 1)
-    return found._replace(seal="" if seal is None else seal.group(2), n_seals=count)
+    if seal is None:
+        return found
+    return found._replace(seal=seal.group(2), n_seals=2 if seal.group(1) or seal.group(2) in _BOTH else 1)
 
 
 def _family(prefix: str, digits: str, suffix: str) -> Said:

@@ -135,6 +135,8 @@ def _skf(known: Known) -> Law:
         return _without("skf", read)
     size = GEOMETRY["angular_contact_double" if _is_double(family, series) else family]
     starvation, missing, flags = 1.0, [], list(_range_flags(known, read, family))
+    if read("lubrication") == "grease":
+        read.assumed.append("run-in grease; fresh grease has 2 to 4 times the sliding moment")
     if supply > 0.0:
         bore, outside = read("bore"), read("outside_diameter")
         if bore is None or outside is None:
@@ -262,7 +264,8 @@ def _ina(read: Reader, family: str, series: str, found: Any, flags: list[str]) -
     f0 = found.grease if read("lubrication") in ("grease", "oil_air") else found.bath
     f1 = found.size
     if found.exponent:
-        static, capacity = _static_load(read, family, radial, axial), read("static_capacity")
+        double = _is_double(family, series)
+        static, capacity = _static_load(read, family, radial, axial, double), read("static_capacity")
         if static is None or capacity is None:
             return _NONE
         f1 = float(palmgren.load_factor(found.size, found.exponent, static, capacity))
@@ -292,8 +295,9 @@ _AXIAL_STATIC = {15: 0.46, 20: 0.42, 25: 0.38, 30: 0.33, 35: 0.29, 40: 0.26, 45:
 """Contact angle, degrees -> Y0 of single-row angular contact bearings, ISO 76."""
 
 
-def _static_load(read: Reader, family: str, radial: float, axial: float) -> float | None:
-    """Static equivalent load P0 of ISO 76, N, never below the radial load; `None` without a contact angle."""
+def _static_load(read: Reader, family: str, radial: float, axial: float, double: bool) -> float | None:
+    """Static equivalent load P0 of ISO 76, N, never below the radial load; of two rows the factors are twice as large.
+    `None` without a contact angle."""
     if family == "deep_groove":
         return max(0.6 * radial + 0.5 * axial, radial)
     angle = read("contact_angle")
@@ -301,7 +305,8 @@ def _static_load(read: Reader, family: str, radial: float, axial: float) -> floa
         return None
     known = sorted(_AXIAL_STATIC)
     y0 = float(np.interp(np.degrees(angle), known, [_AXIAL_STATIC[one] for one in known]))
-    return max(0.5 * radial + y0 * axial, radial)
+    both = 2.0 if double else 1.0
+    return max(both * (0.5 * radial + y0 * axial), radial)
 
 
 def _timken_tapered(known: Known) -> Law:

@@ -90,6 +90,10 @@ class SceneError(ValueError):
         return printable(" ".join(text.split()))
 
 
+class StatesUnusedWarning(UserWarning):
+    """A scene was read from a file with a load spectrum: it has none of the states."""
+
+
 def printable(text: str) -> str:
     """A text for a terminal: what cannot be printed (escape sequences, null bytes) is escaped as in Python code."""
     return "".join(char if char.isprintable() else repr(char)[1:-1] for char in text)

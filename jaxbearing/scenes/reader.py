@@ -15,7 +15,7 @@ from ..distribution import Distribution, MeanUsedWarning
 from .data_files import builtin_names, builtin_summary, builtin_text
 from .distributions import means_of, said_of
 from .drafts import Unreadable, draft
-from .errors import PresetUsedWarning, SceneError, from_class, nearest, one_of
+from .errors import PresetUsedWarning, SceneError, StatesUnusedWarning, from_class, nearest, one_of
 from .kinds import kind_named
 from .oil.catalogue import with_catalogue
 from .oil.files import Origin, origins, prior_ranges
@@ -88,11 +88,12 @@ def load_scene(source: str | Path, overrides: Overrides | None = None) -> Abstra
       working folder here, and to the file's own folder in a scene file.
 
     A field that is given as a distribution has its mean in the scene: a `MeanUsedWarning` says so. What `laws = "best"`
-    stands for, law by law, is said by a `PresetUsedWarning`.
+    stands for, law by law, is said by a `PresetUsedWarning`. The states of a load spectrum are no part of the scene: a
+    `StatesUnusedWarning` says so.
 
     **Raises:** `SceneError` with file, field, what was found and what is expected.
     """
-    label, mapping = read_tables(source)
+    label, mapping = read_base(source)
     warn_of_means(mapping, label, overrides)
     scene = scene_from_tables(mapping, label, overrides)
     warn_of_preset(mapping, label, overrides)
@@ -242,8 +243,32 @@ def _related(a: str, b: str) -> bool:
     return f"{a}.".startswith(f"{b}.") or f"{b}.".startswith(f"{a}.")
 
 
+STATES = "state"
+"""Name of the tables of a load spectrum; `states` reads them."""
+
+
 def read_tables(source: str | Path) -> tuple[str, dict[str, Any]]:
-    """Name for messages, and the tables of a file or a built-in scene. **Raises:** `SceneError`."""
+    """Name for messages, and the tables of a file or a built-in scene without the states of a load spectrum.
+
+    **Raises:** `SceneError`.
+    """
+    label, mapping = read_all(source)
+    return label, {name: table for name, table in mapping.items() if name != STATES}
+
+
+def read_base(source: str | Path) -> tuple[str, dict[str, Any]]:
+    """As `read_tables`, with a `StatesUnusedWarning` of states that are left out."""
+    label, mapping = read_all(source)
+    states = mapping.pop(STATES, None)
+    if states is not None:
+        count = len(states) if isinstance(states, list) else 1
+        said = f"{label}: the scene is that without its {count} [[state]] tables; 'jaxbearing spectrum' solves them"
+        warnings.warn(said, StatesUnusedWarning, stacklevel=3)
+    return label, mapping
+
+
+def read_all(source: str | Path) -> tuple[str, dict[str, Any]]:
+    """Name for messages, and all tables of a file or a built-in scene. **Raises:** `SceneError`."""
     label = str(source)
     if isinstance(source, str) and source in builtin_names():
         text = builtin_text(source)

@@ -86,7 +86,7 @@ def scatter_of(scene: AbstractScene, over: Mapping[str, Any] | None = None, drag
     **Arguments:** `over`: dotted path -> `Distribution`, or a mapping {"mean": ..., "deviation": ...} or {"low": ...,
     "high": ...} with a "shape" where it is uniform or lognormal, or {"median": ..., "log_deviation": ...} with "low"
     and "high" where it is cut off; SI numbers. `drag_prior`: the drag coefficient of a bearing scatters as
-    `bearings.priors.DRAG` where it is no other distribution.
+    `bearings.priors.DRAG` where it is no other distribution. So does the gap at the inlets where the supply is a level.
 
     **Raises:** `ValueError` for what is no distribution, for a field that is no number of the scene, and where nothing
     scatters; `AttributeError` for a field that is not there.
@@ -101,11 +101,17 @@ def scatter_of(scene: AbstractScene, over: Mapping[str, Any] | None = None, drag
     notes = list(_unscattered(scene))
     prior = priors.drag_prior(scene) if drag_prior else None
     if prior is not None and fields.setdefault(priors.DRAG_FIELD, prior) == prior:
-        origins[priors.DRAG_FIELD] = priors.prior_in_words(scene)
+        origins[priors.DRAG_FIELD] = priors.prior_in_words(prior)
         notes += _of_prior(scene, prior)
     elif drag_prior and priors.DRAG_FIELD not in fields and priors.isolated(scene):
         notes.append(_ISOLATED)
     changes: dict[str, Any] = {f"fits.{seat}_tolerance": None for seat in seats}
+    supply = priors.supply_prior(scene)
+    if supply is not None:
+        # a level is a word: the number that it stands for scatters in its place
+        changes["contact.supply.level"] = None
+        if fields.setdefault(priors.SUPPLY_FIELD, supply) == supply:
+            origins[priors.SUPPLY_FIELD] = priors.prior_in_words(supply)
     changes |= {name_of(seat): one.mean for seat, one in seats.items()}
     changes |= {path: one.nominal for path, one in fields.items()}
     fields |= {name_of(seat): one for seat, one in seats.items()}

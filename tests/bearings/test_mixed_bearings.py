@@ -110,7 +110,8 @@ def test_rollers_rub_on_both_raceways():
     found = jb.solve(jb.load_scene("reference_roller", ROLLERS))
     add_up(found, ["inner_raceway", "outer_raceway"])
     e = found.elements
-    np.testing.assert_allclose(e.film_ratio_outer, e.film_outer / 0.3e-6, rtol=1e-14)
+    # the scene's film law is that of the minimum film, 0.75 of the central one
+    np.testing.assert_allclose(e.film_ratio_outer, e.film_outer / 0.75 / 0.3e-6, rtol=1e-14)
     power = jnp.sum(e.boundary_inner * e.sliding_inner)
     np.testing.assert_allclose(found.boundary_power.inner_raceway, power, rtol=1e-12)
     assert float(found.power_loss.rolling_resistance) > 0.0

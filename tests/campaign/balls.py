@@ -19,6 +19,7 @@ import numpy as np
 from campaign import elastic
 from campaign.bearings import (
     CRAWL,
+    FRICTION,
     HEAVIER,
     HOTTER,
     LITRE_PER_HOUR,
@@ -28,11 +29,16 @@ from campaign.bearings import (
     SPEEDS,
     STEELS,
     energy,
+    friction,
     oil,
+    places_known,
+    placing_film,
+    rubbed,
     scaled,
     solids,
     speeds,
     summary,
+    supplied,
 )
 from campaign.draws import Numbers, Range, even, log
 from campaign.structure import Results, Structure
@@ -111,7 +117,7 @@ def ball_numbers(v: Numbers, scene: Any) -> Numbers:
     if operation.misalignment is not None:
         numbers["operation.misalignment"] = 2e-3 * v["tilt"]
     if lubricated:
-        numbers |= oil(v, scene)
+        numbers |= oil(v, scene) | friction(v, scene)
     if scene.cage is not None:
         numbers |= {
             "cage.guiding_clearance": v["guiding"] * pitch,
@@ -134,8 +140,9 @@ def ball_balances(scene: Any, n: Numbers, r: Results) -> dict[str, tuple[np.ndar
     speed = np.abs(number("inner_speed")) + np.abs(number("outer_speed"))
     unit = 0.01 * (np.hypot(axial, radial) + np.sum(outward, axis=1)) * speed * n["geometry.pitch_diameter"]
     found = energy(r, unit) if scene.kinematics.attitude == "equilibrium" or not scene.slips else {}
-    if scene.kinematics.gyroscopic is not None:
-        # its friction stands in all balances of forces
+    found |= rubbed(scene, n, r)
+    if scene.kinematics.gyroscopic is not None or not places_known(scene):
+        # its friction stands in all balances of forces; without the places of the balls there are none
         return found
     place, fits = _placed(scene, n, r)
     # a tilted ring is displaced along the orbit too; with films the printed loads are those in the balls' half-planes
@@ -203,7 +210,7 @@ def _placed(scene: Any, n: Numbers, r: Results) -> tuple[Placed, dict[str, tuple
         load = r[f"elements.load_{name}"]
         stiffness = elastic.point_stiffness(rolling, across, modulus)
         approach = (np.maximum(load, 0.0) / stiffness[:, None]) ** (2.0 / 3.0)
-        film = r.get(f"elements.film_{name}", 0.0)
+        film = 0.0 if scene.contact is None else placing_film(scene, r, name)
         reach[name] = ((groove - 0.5) * diameter)[:, None] + approach - film
         # radii at the free angle for the stiffness, at the contact angle for films and pressures
         rows, heaviest = np.arange(len(load)), np.argmax(load, axis=1)
@@ -375,5 +382,48 @@ STRUCTURES = [
         8,
         {"operation.radial_load": "1 kN", "operation.moment": "0 N*m", "contact.traction_accuracy": "1e-2"},
         {**OIL, **CAGE},
+    ),
+    structure(
+        "films, Biboulet-Houpert, layer, hysteresis",
+        "deep_groove_6205",
+        9,
+        {
+            "oil.name": "mobil_jet_ii",
+            "operation.oil_temperature": "60 degC",
+            "contact.film": "nijenbanning",
+            "contact.thermal": "gupta",
+            "contact.rolling_resistance": "biboulet_houpert",
+            "contact.supply.layer": "1 um",
+            "contact.hysteresis": "0.005",
+        },
+        {**OIL, **FRICTION, **supplied("layer")},
+    ),
+    structure(
+        "sliding, axial, rough, Biboulet-Houpert, gap",
+        "turbine_ball",
+        14,
+        {
+            "drag": "none",
+            **NO_CAGE,
+            "contact.rolling_resistance": "biboulet_houpert",
+            "contact.supply.gap_over_central": "5",
+            "contact.mixed.roughness": "0.3 um",
+            "contact.hysteresis": "0.005",
+        },
+        {**OIL, **FRICTION, **supplied("gap_over_central")},
+    ),
+    structure(
+        "sliding, axial, rough, meniscus, Heathcote",
+        "turbine_ball",
+        13,
+        {
+            "drag": "none",
+            **NO_CAGE,
+            "contact.heathcote": "true",
+            "contact.supply.meniscus_gap": "5 um",
+            "contact.mixed.roughness": "0.3 um",
+            "contact.mixed.share": "greenwood_tripp",
+        },
+        {**OIL, **FRICTION, **supplied("meniscus_gap")},
     ),
 ]

@@ -1,4 +1,4 @@
-"""What the bearings of the campaign have in common: oils, rings' speeds, energy, twins."""
+"""What the bearings of the campaign have in common: oils, rings' speeds, friction, energy, twins."""
 
 from typing import Any
 
@@ -8,6 +8,7 @@ import numpy as np
 from campaign.draws import Numbers, Range, even, log
 from campaign.structure import Results, Twin
 
+from jaxbearing.contacts.oil_supply import SEPARATION_SHARE
 from jaxbearing.numerics.newton_steps import MOST_ROUNDED, NewtonOptions
 
 RPM = 2.0 * np.pi / 60.0
@@ -35,6 +36,82 @@ STEELS: dict[str, Range] = {
     "density": even(3200.0, 8000.0),
 }
 """From silicon nitride to steel."""
+FRICTION: dict[str, Range] = {
+    "roughness": log(1e-8, 3e-6),
+    "start": log(1e-5, 0.1),
+    "boundary": even(0.05, 0.2),
+    "hysteresis": even(0.0, 0.02, zero=0.1),
+}
+"""Roughness, m; sliding speed over which boundary friction starts, m/s; its coefficient; part of elastic work lost."""
+SUPPLY: dict[str, Range] = {
+    "gap_over_central": log(0.03, 1e3),
+    "meniscus_gap": log(1e-8, 1e-3),
+    "layer": log(1e-9, 1e-3, zero=0.05),
+    "meniscus_distance": log(0.03, 0.5),
+    "from_flow": log(0.01, 1.0),
+}
+"""How a supply is given -> its numbers; the distance over the diameter of a rolling element."""
+
+
+def supplied(field: str) -> dict[str, Range]:
+    """The range of a supply that is given by this field."""
+    flow = {"supply_flow": log(1.0, 300.0)} if field == "from_flow" else {}
+    return {"supply": SUPPLY[field], **flow}
+
+
+def friction(v: Numbers, scene: Any) -> Numbers:
+    """Numbers of supply, mixed friction and hysteresis, as far as the scene has them."""
+    contact, rib = scene.contact, getattr(scene, "rib", None)
+    found: Numbers = {}
+    if contact.hysteresis is not None:
+        found["contact.hysteresis"] = v["hysteresis"]
+    for path, laws in (("contact.mixed", contact), ("rib.mixed", rib)):
+        if laws is not None and laws.mixed is not None:
+            found |= {f"{path}.roughness": v["roughness"], f"{path}.slide_width": v["start"]}
+            found[f"{path}.mu_boundary"] = v["boundary"]
+    supply = contact.supply
+    if supply is None:
+        return found
+    field = next(name for name in SUPPLY if getattr(supply, name) is not None)
+    found[f"contact.supply.{field}"] = v["supply"] * (v["diameter"] if field == "meniscus_distance" else 1.0)
+    if field == "from_flow":
+        found["operation.oil_flow"] = v["supply_flow"] * LITRE_PER_HOUR
+    return found
+
+
+def places_known(scene: Any) -> bool:
+    """True if the films that place the rolling elements follow from the printed ones: not where each contact has
+    another part of its flooded film."""
+    supply = None if scene.contact is None else scene.contact.supply
+    return supply is None or supply.gap_over_central is not None
+
+
+def placing_film(scene: Any, r: Results, race: str) -> np.ndarray:
+    """Films that place the rolling elements: with a supply the film and a hundredth of what it lacks of the flooded
+    one."""
+    film = r[f"elements.film_{race}"]
+    if scene.contact.supply is None:
+        return film
+    return film * (1.0 + SEPARATION_SHARE * (1.0 / r[f"supply.film_factor_{race}"][:, None] - 1.0))
+
+
+def rubbed(scene: Any, n: Numbers, r: Results) -> dict[str, tuple[np.ndarray, float]]:
+    """Boundary friction is a part of the loss of its place; a load share is one; films are no thicker than the oil
+    layer, and factors of supply at most 1."""
+    found: dict[str, tuple[np.ndarray, float]] = {}
+    whole = np.maximum(np.abs(r.get("power_loss.total", np.zeros(1))), TINY)
+    beyond = lambda values, most: largest(np.maximum(np.nan_to_num(values) - most, 0.0))
+    for path, values in r.items():
+        if path.startswith("boundary_power."):
+            loss = r[path.replace("boundary_power", "power_loss")]
+            found[f"{path} is a part"] = (np.maximum(np.maximum(values - loss, -values), 0.0) / whole, 1e-9)
+        elif path.startswith(("elements.load_share_", "supply.film_factor", "supply.rolling_factor")):
+            found[f"{path} is a part"] = (np.maximum(beyond(values, 1.0), beyond(-values, 0.0)), 1e-12)
+    if "contact.supply.layer" in n and scene.line_contacts:
+        layer = n["contact.supply.layer"][:, None]
+        thicker = [beyond(r[f"elements.film_{race}"] - layer, 1e-15) for race in ("inner", "outer")]
+        found["no film beyond the layer"] = (np.max(thicker, axis=0) / 1e-6, 1e-9)
+    return found
 
 
 def speeds(v: Numbers, pitch: np.ndarray, low: float, high: float, rest: float = 0.0) -> Numbers:

@@ -19,7 +19,10 @@ the difference itself is off."""
 FINER_STEPS = (1e-7, 1e-6)
 """Those of two more where both are off."""
 HONEST = (Status.NOT_CONVERGED, Status.DIVERGED, Status.NO_EQUILIBRIUM, Status.OUTSIDE_VALIDITY)
-HIDDEN = ("elements.", "ring.", "cage.", "power_loss.", "stiffness", "film", "profile.pressure", "traction_coefficient")
+HIDDEN = (
+    *("elements.", "ring.", "cage.", "power_loss.", "boundary_power.", "rolling_by_race.", "supply.", "stiffness"),
+    *("film", "profile.pressure", "traction_coefficient"),
+)
 """How the paths of results begin that a solve that failed must not show."""
 
 

@@ -7,6 +7,7 @@ import numpy as np
 from campaign import elastic
 from campaign.bearings import (
     CRAWL,
+    FRICTION,
     HEAVIER,
     HOTTER,
     LITRE_PER_HOUR,
@@ -16,11 +17,16 @@ from campaign.bearings import (
     STEELS,
     energy,
     first_moment,
+    friction,
     oil,
+    places_known,
+    placing_film,
+    rubbed,
     scaled,
     solids,
     speeds,
     summary,
+    supplied,
 )
 from campaign.draws import Numbers, Range, even, log
 from campaign.structure import Results, Structure
@@ -75,14 +81,15 @@ def roller_numbers(v: Numbers, scene: Any) -> Numbers:
         **speeds(v, pitch, 100.0 if lubricated else 1e-2, 2e6, rest=0.0 if lubricated else 0.1),
     }
     if lubricated:
-        numbers |= oil(v, scene)
+        numbers |= oil(v, scene) | friction(v, scene)
     if scene.cage is not None:
         numbers |= {
             "cage.guiding_clearance": v["guiding"] * pitch,
             "cage.pocket_clearance": np.minimum(v["pocket"] * (chord - diameter), 0.05 * diameter),
             "cage.land_width": v["land"] * pitch,
             "drag.coefficient": v["drag"],
-            "operation.oil_flow": v["flow"] * LITRE_PER_HOUR,
+            # what a supply takes is no more nor less than what flows
+            "operation.oil_flow": numbers.get("operation.oil_flow", v["flow"] * LITRE_PER_HOUR),
         }
     if scene.flange is not None:
         numbers |= {
@@ -107,7 +114,8 @@ def roller_balances(scene: Any, n: Numbers, r: Results) -> dict[str, tuple[np.nd
     length = n["geometry.contact_length"]
     mass = n["materials.rollers.density"] * np.pi / 4.0 * diameter**2 * n["geometry.roller_length"]
     outward = mass[:, None] * pitch[:, None] / 2.0 * r["elements.orbital_speed"] ** 2
-    found = energy(r) | {
+    found = energy(r) | rubbed(scene, n, r)
+    found |= {
         "ring carries the load": (np.abs(np.sum(inner * cosine, axis=1) - radial) / radial, 1e-9),
         "a roller is in balance": (
             np.max(np.abs(outer - inner - outward), axis=1) / (radial + np.max(outer, axis=1)),
@@ -132,10 +140,12 @@ def roller_balances(scene: Any, n: Numbers, r: Results) -> dict[str, tuple[np.nd
     if scene.contact is None:
         gap = np.where(inner > 0, approach - closing, np.maximum(closing - approach, 0.0))
     else:
-        films = r["elements.film_inner"] + r["elements.film_outer"]
+        films = placing_film(scene, r, "inner") + placing_film(scene, r, "outer")
         gap = approach - closing - films
         scale += np.max(films, axis=1)
-    return found | {"rings and rollers fit": (np.max(np.abs(gap), axis=1) / scale, 1e-8)}
+    if places_known(scene):
+        found["rings and rollers fit"] = (np.max(np.abs(gap), axis=1) / scale, 1e-8)
+    return found
 
 
 def _moments(scene: Any, n: Numbers, r: Results) -> dict[str, tuple[np.ndarray, float]]:
@@ -204,6 +214,9 @@ def structure(name: str, count: int, changes: dict[str, str], ranges: dict[str, 
 MEAN = {"contact.traction_model": "mean_pressure", "contact.traction_accuracy": "none"}
 ELASTIC = (MIRROR, HEAVIER, CRAWL, scaled(("profile.shape.drop",)))
 LUBRICATED = {**OIL, **CAGE}
+ROLLING_ALONE = {"contact.traction": "none", **dict.fromkeys(MEAN, "none")}
+ROUGH = {"contact.mixed.roughness": "0.3 um"}
+LOSSY = {"contact.hysteresis": "0.005"}
 STRUCTURES = [
     structure("dry", 9, {}, {}, without=DRY, twins=ELASTIC, small=True),
     structure("dry, many", 40, {}, {}, without=DRY, twins=ELASTIC),
@@ -260,5 +273,66 @@ STRUCTURES = [
         8,
         {"contact.traction_model": "distributed", "contact.traction_accuracy": "1e-2", "cage.turbulence": "pure"},
         LUBRICATED,
+    ),
+    structure(
+        "rolling alone, full range, layer, hysteresis",
+        11,
+        {**ROLLING_ALONE, "contact.rolling_resistance": "full_range", "contact.supply.layer": "1 um", **LOSSY},
+        {**OIL, **FRICTION, **supplied("layer")},
+        without=("cage", "flange", "drag"),
+    ),
+    structure(
+        "rolling alone, Biboulet-Houpert, meniscus, isothermal",
+        9,
+        {
+            **ROLLING_ALONE,
+            "contact.thermal": "none",
+            "contact.rolling_heating": "aihara",
+            "contact.rolling_resistance": "biboulet_houpert",
+            "contact.supply.meniscus_distance": "5 mm",
+            "contact.supply.rolling_law": "biboulet_houpert",
+        },
+        {**OIL, **FRICTION, **supplied("meniscus_distance")},
+        without=("cage", "flange", "drag"),
+    ),
+    structure(
+        "misaligned, full range, flow",
+        10,
+        {
+            **ROLLING_ALONE,
+            "contact.rolling_resistance": "full_range",
+            "contact.supply.from_flow": "0.1",
+            "operation.misalignment": "1 mrad",
+            "profile.shape": "crowned",
+            "profile.drop": "8 um",
+            **LOSSY,
+        },
+        {**OIL, **TILT, **FRICTION, **supplied("from_flow")},
+        without=("cage", "flange", "drag"),
+    ),
+    structure(
+        "skidding, rough, full range, gap",
+        9,
+        {
+            **MEAN,
+            **ROUGH,
+            "contact.rolling_resistance": "full_range",
+            "contact.supply.gap_over_central": "5",
+            **LOSSY,
+        },
+        {**LUBRICATED, **FRICTION, **supplied("gap_over_central")},
+    ),
+    structure(
+        "skidding, asperity pressure, rigid, layer",
+        12,
+        {
+            **MEAN,
+            **ROUGH,
+            "contact.mixed.share": "greenwood_tripp_pressure",
+            "contact.mixed.film": "minimum",
+            "contact.rolling_resistance": "rigid_isoviscous",
+            "contact.supply.layer": "1 um",
+        },
+        {**LUBRICATED, **FRICTION, **supplied("layer")},
     ),
 ]

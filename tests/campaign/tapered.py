@@ -8,6 +8,7 @@ import numpy as np
 from campaign import elastic
 from campaign.bearings import (
     CRAWL,
+    FRICTION,
     HEAVIER,
     HOTTER,
     LITRE_PER_HOUR,
@@ -16,11 +17,14 @@ from campaign.bearings import (
     OPERATION,
     energy,
     first_moment,
+    friction,
     oil,
+    rubbed,
     scaled,
     solids,
     speeds,
     summary,
+    supplied,
 )
 from campaign.draws import Numbers, Range, even, log
 from campaign.structure import Results, Structure
@@ -96,7 +100,7 @@ def tapered_numbers(v: Numbers, scene: Any) -> Numbers:
     if scene.profile is not None and scene.profile.shape is not None:
         numbers["profile.shape.drop"] = v["drop"] * diameter
     if lubricated:
-        numbers |= oil(v, scene)
+        numbers |= oil(v, scene) | friction(v, scene)
     if scene.drag is not None:
         numbers |= {"drag.coefficient": v["drag"], "operation.oil_flow": v["flow"] * LITRE_PER_HOUR}
     return numbers
@@ -120,7 +124,7 @@ def tapered_balances(scene: Any, n: Numbers, r: Results) -> dict[str, tuple[np.n
     first = (inner + outer) * np.sin(column(half)) - rib * np.cos(column(theta))
     second = (outer - inner) * np.cos(column(half)) - rib * np.sin(column(theta))
     roller = np.abs(first * np.cos(column(axis)) + second * np.sin(column(axis)))
-    found = energy(r)
+    found = energy(r) | rubbed(scene, n, r)
     if scene.operation.moment is not None:
         # about the apex, from which the end s = 0 is the farther; what rotation adds cancels round the bearing
         length = column(n["geometry.roller_length"])
@@ -171,12 +175,13 @@ def structure(name: str, count: int, changes: dict[str, str], ranges: dict[str, 
 
 MAY_BE_NAN = tuple(
     f"{what}_{place}"
-    for what in ("film", "temperature_rise", "sliding", "spin", "traction")
+    for what in ("film", "temperature_rise", "sliding", "spin", "traction", "film_ratio", "load_share", "flash")
     for place in ("inner", "outer", "flange")
 )
 """Where a roller does not touch."""
 DRY = {"oil": "none", "contact": "none", "drag": "none"}
 ELASTIC = (MIRROR, CRAWL, HEAVIER, scaled(("profile.shape.drop",), floor=1e-6))
+ROUGH = {"contact.mixed.roughness": "0.3 um", "contact.mixed.flange_roughness": "0.3 um"}
 STRUCTURES = [
     structure("dry, axial", 17, {**DRY, "operation.radial_load": "none"}, {}, twins=ELASTIC),
     structure("dry, radial, held", 12, {**DRY, "operation.misalignment": "0 mrad"}, {}, twins=ELASTIC),
@@ -227,5 +232,28 @@ STRUCTURES = [
         },
         OIL,
         twins=(MIRROR, HOTTER),
+    ),
+    structure(
+        "rough, radial, full range, gap",
+        11,
+        {
+            **ROUGH,
+            "contact.rolling_resistance": "full_range",
+            "contact.supply.gap_over_central": "5",
+            "contact.hysteresis": "0.005",
+        },
+        {**OIL, **FRICTION, **supplied("gap_over_central")},
+    ),
+    structure(
+        "rough, axial, Biboulet-Houpert, layer",
+        17,
+        {
+            **ROUGH,
+            "operation.radial_load": "none",
+            "contact.mixed.share": "greenwood_tripp",
+            "contact.rolling_resistance": "biboulet_houpert",
+            "contact.supply.layer": "1 um",
+        },
+        {**OIL, **FRICTION, **supplied("layer")},
     ),
 ]

@@ -180,9 +180,11 @@ def test_minimum_film_gives_a_larger_share():
         float(one.asperities(law, contact, 500.0, 0.3e-6, INLET).film_ratio) for one in (central, least)
     ]
     np.testing.assert_allclose(ratios(MartinBlend(Moes()), LINE), [1.0, LINE_SHARE], rtol=1e-14)
-    np.testing.assert_allclose(ratios(DowsonHigginson(), LINE), [1.0, 1.0], rtol=1e-14)
-    np.testing.assert_allclose(ratios(HamrockDowsonMinimum(), POINT), [1.0, 1.0], rtol=1e-14)
-    assert 0.5 < ratios(HamrockDowsonCentral(), POINT)[1] < 0.9
+    np.testing.assert_allclose(ratios(DowsonHigginson(), LINE), [1.0 / LINE_SHARE, 1.0], rtol=1e-14)
+    np.testing.assert_allclose(ratios(MartinBlend(DowsonHigginson()), LINE), [1.0 / LINE_SHARE, 1.0], rtol=1e-14)
+    of_points = ratios(HamrockDowsonCentral(), POINT)[1]
+    assert 0.5 < of_points < 0.9
+    np.testing.assert_allclose(ratios(HamrockDowsonMinimum(), POINT), [1.0 / of_points, 1.0], rtol=1e-14)
 
 
 @pytest.mark.parametrize("transverse", [None, 0.3])

@@ -32,6 +32,10 @@ def beside(name, changes=None, **catalogue):
         ("6205-2RSH", Said("deep_groove", "62", 25e-3, "RSH", 2)),
         ("6205-RS1", Said("deep_groove", "62", 25e-3, "RS1", 1)),
         ("6203-2Z", Said("deep_groove", "62", 17e-3, "Z", 2)),
+        ("6205-2RS", Said("deep_groove", "62", 25e-3, "RS", 2)),
+        ("6205 2RSR C3", Said("deep_groove", "62", 25e-3, "RSR", 2)),
+        ("6205LLU", Said("deep_groove", "62", 25e-3, "LLU", 2)),
+        ("6205 DU", Said("deep_groove", "62", 25e-3, "DU", 1)),
         ("16005", Said("deep_groove", "160", 25e-3)),
         ("61805", Said("deep_groove", "618", 25e-3)),
         ("7205 BEP", Said("angular_contact", "72B", 25e-3)),
@@ -105,6 +109,18 @@ def test_parts_that_are_given():
     assert shielded.parts["seal"] == 0.0
     greased = beside("deep_groove_6205", BALL, designation="6205", lubrication="grease", **SIZES_6205)["skf"]
     assert greased.parts["drag"] == 0.0
+    assert any("fresh grease has 2 to 4 times the sliding moment" in text for text in greased.assumed)
+    other_maker = beside("deep_groove_6205", BALL, designation="6205-2RS", **SIZES_6205)["skf"]
+    assert other_maker.parts["seal"] is None
+    assert any("seal: no constants of RS" in text for text in other_maker.missing)
+
+
+def test_two_rows_have_twice_the_static_factors():
+    """P0 = Fr + 2 * 0.26 Fa of two rows at 40 degrees, P1 = 1.4 Fa - 0.1 Fr."""
+    loads = {"operation.axial_load": "5 kN", "operation.radial_load": "4 kN"}
+    sizes = {"bore": 90e-3, "outside_diameter": 160e-3, "static_capacity": 100e3, "kinematic_viscosity": 20e-6}
+    found = beside("angular_contact_218", loads, family="angular_contact", series="32B", **sizes)["palmgren_ina"]
+    np.testing.assert_allclose(found.parts["load"], 1e-3 * (6600.0 / 100e3) ** 0.33 * 6600.0 * 0.125, rtol=1e-9)
 
 
 def test_a_jet_is_twice_a_bath_to_half_a_roller():

@@ -8,7 +8,7 @@ import pytest
 from filled_results import solution_of
 
 import jaxbearing as jb
-from jaxbearing.bearings.priors import DRAG, drag_prior
+from jaxbearing.bearings.priors import DRAG, SUPPLY_FIELD, drag_prior
 from jaxbearing.sensitivity import power_interval
 from jaxbearing.tolerance.delta import spreads_of
 from jaxbearing.tolerance.derivatives import Slopes
@@ -41,6 +41,24 @@ def test_another_coefficient_gives_way_and_this_is_said():
     assert scatter.means[PATH] == 0.3
     assert "the scene's 1.2 gives way" in scatter.notes[0]
     assert "--no-drag-prior" in scatter.notes[0]
+
+
+def test_an_assumed_level_of_the_supply_scatters():
+    """By a factor of 3, beside the drag; a number of the user's does not."""
+    bath = {"contact.supply.level": "bath", "contact.rolling_resistance": "full_range"}
+    scene = jb.load_scene("tapered_example", bath)
+    scatter = scatter_of(scene)
+    assert scatter.fields[SUPPLY_FIELD] == jb.Distribution.lognormal(10.0, np.log(3.0))
+    assert scatter.origins[SUPPLY_FIELD] == "assumed: lognormal, median 10, log deviation 1.1"
+    assert set(scatter.fields) == {PATH, SUPPLY_FIELD}
+    assert scatter.scene.contact.supply.level is None
+    assert float(scatter.scene.contact.supply.gap_over_central) == 10.0
+    np.testing.assert_allclose(scatter.fields[SUPPLY_FIELD].quantiles(np.array([0.5])), 10.0, rtol=1e-12)
+    assert scatter_of_source("tapered_example", bath)[1].fields == scatter.fields
+    own = jb.Distribution.lognormal(5.0, 0.5)
+    assert scatter_of(scene, {SUPPLY_FIELD: own}).fields[SUPPLY_FIELD] == own
+    given = jb.load_scene("tapered_example", {"contact.supply.gap_over_central": "10"})
+    assert SUPPLY_FIELD not in scatter_of(given).fields
 
 
 def test_it_can_be_switched_off_and_replaced():

@@ -155,10 +155,10 @@ class TaperedRollerBearing(AbstractBearing):
 
         return tapered_outline(self)
 
-    def rated_contacts(self, elements: Any, laminae: Any) -> RatedContacts:
+    def rated_contacts(self, elements: Any, laminae: Any, force: Array | None = None) -> RatedContacts:
         from .rating import rated_contacts
 
-        return rated_contacts(self, laminae)
+        return rated_contacts(self, laminae, force)
 
     @property
     def mean_diameter(self) -> Array:

@@ -26,6 +26,7 @@ from ..display import digits, display_unit, displayed
 from ..tables import derived_facts
 from .azimuth import signed_degrees
 from .facts import extremes, facts, not_modelled
+from .life_facts import SAID
 from .operation import operating_point
 
 LOADED = 0.02
@@ -77,7 +78,7 @@ def print_summary(solution: Solution, scene_label: str, console: Console, full: 
     for name, texts in said.items():
         if name not in FIRST and (full or name not in IN_FULL):
             _print_fact(name, texts, console)
-    for name, text in derived_facts(solution):
+    for name, text in derived_facts(solution, SAID):
         print_line(name, text, console)
 
 
