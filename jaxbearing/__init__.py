@@ -90,7 +90,9 @@ if TYPE_CHECKING:
     from .program_size import compile_report as compile_report
     from .program_size import quick_compile_options as quick_compile_options
     from .report.last_state import read_last_state as read_last_state
+    from .scenes.errors import PresetUsedWarning as PresetUsedWarning
     from .scenes.errors import SceneError as SceneError
+    from .scenes.errors import StatesUnusedWarning as StatesUnusedWarning
     from .scenes.from_python import load_oil as load_oil
     from .scenes.from_python import scene_from_mapping as scene_from_mapping
     from .scenes.reader import builtin_names as builtin_names
@@ -98,6 +100,9 @@ if TYPE_CHECKING:
     from .scenes.reader import load_scene as load_scene
     from .scenes.save import save_scene as save_scene
     from .sensitivity import sensitivities as sensitivities
+    from .spectrum.result import Spectrum as Spectrum
+    from .spectrum.states import State as State
+    from .spectrum.verb import solve_spectrum as solve_spectrum
     from .tolerance.verb import tolerances as tolerances
 
 shown_by(f"{__name__}.report.shown")
@@ -126,6 +131,7 @@ _LAZY = {
     "NewtonOptions": ".numerics.newton",
     "Operation": ".bearings.operation",
     "PartTemperatures": ".mounting",
+    "PresetUsedWarning": ".scenes.errors",
     "Rating": ".bearings.rating",
     "RollerCage": ".bearings.cylindrical.geometry",
     "RollerFlange": ".bearings.cylindrical.geometry",
@@ -135,6 +141,9 @@ _LAZY = {
     "Simulation": ".bearings.motion.settings",
     "Solution": ".bearings.solution",
     "SolveError": ".numerics.status",
+    "Spectrum": ".spectrum.result",
+    "State": ".spectrum.states",
+    "StatesUnusedWarning": ".scenes.errors",
     "Status": ".numerics.status",
     "TaperedGeometry": ".bearings.tapered.geometry",
     "TaperedOperation": ".bearings.tapered.scene",
@@ -156,6 +165,7 @@ _LAZY = {
     "scene_from_mapping": ".scenes.from_python",
     "save_scene": ".scenes.save",
     "sensitivities": ".sensitivity",
+    "solve_spectrum": ".spectrum.verb",
     "tolerances": ".tolerance.verb",
     "trajectory": ".bearings.motion.runs",
 }

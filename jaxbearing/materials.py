@@ -1,6 +1,7 @@
 """Elastic materials of rings, rolling elements and cages."""
 
 import dataclasses
+import re
 from typing import ClassVar
 
 import jax.numpy as jnp
@@ -71,6 +72,16 @@ CATALOGUE: dict[str, Material] = {
 }
 """Materials by name. A new one is a new line here, or a `Material` built by the user."""
 
+ALIASES: dict[str, str] = {
+    **dict.fromkeys(("100cr6", "aisi52100", "sae52100", "suj2", "gcr15", "13505"), "52100"),
+    **dict.fromkeys(("aisim50", "80mocrv42", "80mocrv4216", "13551"), "M50"),
+    **dict.fromkeys(("ceramic", "siliconnitride"), "Si3N4"),
+    **dict.fromkeys(("aluminum", "aluminiumalloy"), "aluminium"),
+    **dict.fromkeys(("greycastiron", "graycastiron", "greyiron", "grayiron"), "cast_iron"),
+}
+"""Further names of materials, in lower case and without spaces, dots, dashes and underscores. Ceramic rolling elements
+are of silicon nitride."""
+
 THERMAL_FIELDS = {"thermal_expansion", "conductivity", "heat_capacity"}
 
 _THERMAL: dict[str, tuple[float, float, float]] = {
@@ -86,13 +97,23 @@ _THERMAL: dict[str, tuple[float, float, float]] = {
 catalogue, the others are handbook values: expansions to 5 %, conductivities and heat capacities to 20 %."""
 
 
+def material_named(given: str) -> str | None:
+    """The name in `CATALOGUE` of a material that a person may call "100Cr6", "m-50" or "ceramic"; `None` for a name
+    that stands for no material of the catalogue."""
+    plain = re.sub(r"[\s._-]+", "", given).lower()
+    by_lower = {name.replace("_", "").lower(): name for name in CATALOGUE}
+    return by_lower.get(plain) or ALIASES.get(plain)
+
+
 def catalogue_material(name: str, *, thermal: bool = False) -> Material:
     """A material of `CATALOGUE`.
 
-    **Arguments:** `thermal`: with its thermal properties, which only what depends on temperatures needs.
+    **Arguments:** `name`: that of the catalogue, or another usual one (`ALIASES`); `thermal`: with its thermal
+    properties, which only what depends on temperatures needs.
 
     **Raises:** `ValueError` for a name that the catalogue does not have.
     """
+    name = (material_named(name) if isinstance(name, str) else None) or name
     require_choice("name", name, tuple(CATALOGUE))
     if not thermal:
         return CATALOGUE[name]

@@ -80,10 +80,12 @@ def solve_with_roots(scene: AbstractScene, options: NewtonOptions) -> tuple[Any,
     return (with_roots if inside_a_program(scene) else solved)(_solve_any, scene, options)
 
 
-def solution_at(roots: tuple[Any, ...], scene: AbstractScene, options: NewtonOptions) -> Any:
+def solution_at(
+    roots: tuple[Any, ...], scene: AbstractScene, options: NewtonOptions, *, stiffness: bool = False
+) -> Any:
     """The solution from its roots, computed without iterating, to be differentiated. The derivatives of its stiffness
-    are NaN."""
-    return at_roots(_solve_any, roots, scene, options, stiffness=False)
+    are NaN, unless `stiffness` asks for them with a larger program."""
+    return at_roots(_solve_any, roots, scene, options, stiffness=stiffness)
 
 
 @overload

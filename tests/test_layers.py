@@ -55,6 +55,8 @@ RANK = {
     "studies": 11,
     # tolerances are sampled by sweeps
     "tolerance": 11,
+    # the states of a spectrum are solved like the cases of a sweep
+    "spectrum": 11,
     "cli": 12,
     # a second name of the package beside this one
     "fitting": 12,

@@ -8,6 +8,7 @@ import jax.numpy as jnp
 import numpy as np
 import pytest
 from roller_cases import dry_roller, reference_roller
+from warm_cases import warm
 
 import jaxbearing as jb
 from jaxbearing.numerics.status import Status
@@ -155,6 +156,63 @@ def test_of_every_family(scene, results, inputs):
             difference = (8.0 * (at[1] - at[-1]) - (at[2] - at[-2])) / (12.0 * step)
             # as below; what does not depend on the input at all is 0 here and round-off over the step there
             np.testing.assert_allclose(found[path], difference, rtol=1e-5, atol=1e-7, err_msg=f"{name}, {path}")
+
+
+def hottest(solution):
+    return max(float(getattr(solution.thermal.temperatures, name)) for name in solution.thermal.nodes)
+
+
+ON_DEMAND = [
+    pytest.param(
+        lambda: jb.load_scene("reference_roller", {"contact": "none"}),
+        {"stiffness": lambda solution: np.log(float(solution.stiffness[1, 1]))},
+        {"geometry.roller_length": 1e-3, "operation.radial_load": 1e-3, "materials.rings.youngs_modulus": 1e-3},
+        id="stiffness-roller",
+    ),
+    pytest.param(
+        lambda: jb.load_scene("deep_groove_6205", {"operation.moment": "none"}),
+        {
+            "stiffness": lambda solution: np.log(float(solution.stiffness[1, 1])),
+            "axial_stiffness": lambda solution: np.log(float(solution.stiffness[0, 0])),
+        },
+        {"operation.radial_load": 1e-3, "geometry.conformity_inner": 1e-5},
+        id="stiffness-ball",
+        marks=pytest.mark.slow,
+    ),
+    pytest.param(
+        lambda: warm("roller", 1),
+        {"temperature": hottest},
+        {"operation.inner_speed": 1e-3, "thermal.ambient": 1e-4},
+        id="temperature",
+        marks=pytest.mark.slow,
+    ),
+]
+
+
+@pytest.mark.parametrize(("scene", "results", "inputs"), ON_DEMAND)
+def test_results_on_demand(scene, results, inputs):
+    """Stiffness and temperature, which are not among the usual results, against differences of `solve`."""
+    scene = scene()
+    fast = jb.jit_solver(scene)
+    _, slopes = jb.sensitivities(scene, of=results)
+    assert set(slopes.modelled()) == set(results)
+    for path, step in inputs.items():
+        start = input_value(scene, path)
+        solved = {k: fast(scene.replace({path: start * (1.0 + k * step)})) for k in (-2, -1, 1, 2)}
+        for name, value in results.items():
+            at = {k: value(one) for k, one in solved.items()}
+            difference = (8.0 * (at[1] - at[-1]) - (at[2] - at[-2])) / (12.0 * step)
+            found = getattr(slopes, name)[path]
+            np.testing.assert_allclose(found, difference, rtol=1e-5, atol=1e-7, err_msg=f"{name}, {path}")
+
+
+def test_results_that_are_not_there_are_named():
+    with pytest.raises(ValueError, match=r"does not model temperature; expected one of stiffness"):
+        jb.sensitivities(dry_roller(), of="temperature")
+    with pytest.raises(ValueError, match=r"of must be one of .*'axial_stiffness'"):
+        jb.sensitivities(dry_roller(), of=("stiffness", "lives"))
+    with pytest.raises(ValueError, match=r"found a TwoDiskSolution; expected a bearing"):
+        jb.sensitivities(jb.load_scene("two_disk_etm"), of="life")
 
 
 @pytest.fixture(scope="module")

@@ -13,6 +13,7 @@ from jaxbearing.bearings.tapered import solution as tapered_solution
 from jaxbearing.bearings.warming import history as warming
 from jaxbearing.ehl import history as film_history
 from jaxbearing.ehl import solution as film
+from jaxbearing.life.duty import SpectrumLife
 from jaxbearing.life.result import Life
 from jaxbearing.machines import two_disk
 from jaxbearing.numerics.status import Status
@@ -40,6 +41,7 @@ SECTIONS = {
         "textbook_frequencies": frequencies.KinematicFrequencies,
         "life": Life,
     },
+    "Load spectrum": {"life": SpectrumLife},
     "Rolling elements and power: cylindrical rollers": {
         "elements": cylindrical_solution.RollerResults,
         "power_loss": cylindrical_solution.PowerLoss,

@@ -17,8 +17,11 @@ A scene file is TOML: `kind`, and one table for each part. A table that is left 
 and no run time. A dimensional field takes a text with a unit (`"12 mm"`, `"60degC"`); a bare number is refused with the
 unit that it wants. Python takes the same names with SI numbers. A field that is one number may be a distribution,
 `{mean = "12 um", deviation = "2 um"}` or `{low = "5 um", high = "20 um"}`: see [Tolerances](tolerances.md).
+The tables `[[state]]` are states of a [load spectrum](spectrum.md), with a share of the time and changes of any field.
 The table `[catalogue]` alone is no part of the scene: [makers' formulas](makers.md) take it, and no result depends on
 it.
+`laws = "best"` above the tables of a bearing stands for named laws, an estimated cage and drag:
+[Using it](using.md#the-best-laws-with-one-word).
 This page is made from the schemas that read the files.
 
 `required`: the field must be there when its table is. `optional`: what it stands for is then not modelled, computed

@@ -147,10 +147,11 @@ class AbstractBearing(AbstractScene):
         """The range checks that only this family has."""
 
     @abc.abstractmethod
-    def rated_contacts(self, elements: Any, laminae: Any) -> RatedContacts:
+    def rated_contacts(self, elements: Any, laminae: Any, force: Array | None = None) -> RatedContacts:
         """Sizes and loads of the raceway contacts for the life.
 
-        **Arguments:** `elements`, `laminae`: fields of a solution.
+        **Arguments:** `elements`, `laminae`, `force`: fields of a solution. Without a force a ring that is held has no
+        catalogue load.
         """
 
     @abc.abstractmethod

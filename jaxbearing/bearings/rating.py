@@ -1,6 +1,7 @@
 """Inputs of the fatigue life of a bearing: the same for all kinds of bearings."""
 
-from typing import ClassVar, Literal
+import re
+from typing import Any, ClassVar, Literal
 
 from .._scene import optional_number
 from .._types import Scalar
@@ -16,8 +17,24 @@ CLEANLINESS_CLASSES = (
     *(f"grease_{word}" for word in ("high", "normal", "typical", "severe", "very_severe")),
 )
 """Contamination classes of ISO 281: circulating oil by the code of its filter, and grease."""
+_ISO_4406 = re.compile(r"(?:(?:\d{1,2}|[-\u2013*])\s*/)?\s*(\d{1,2})\s*/\s*(\d{1,2})")
+_FILTERS = {f"online_filter_{code}": (code, code - 3) for code in (13, 15, 17, 19)}
+"""Classes of circulating oil by the code numbers of ISO 4406 at 6 and 14 um."""
 LAMINAE = 30
 """Laminae of a roller in the reference life where a scene does not say."""
+
+
+def cleanliness_named(given: Any) -> Any:
+    """The contamination class of an ISO 4406 code of circulating oil, "-/17/14", "20/17/14" or "17/14".
+
+    It is the cleanest one whose numbers at 6 and 14 um are both at least those of the code. Anything else is returned
+    as it is, also a code that is dirtier than all classes."""
+    code = _ISO_4406.fullmatch(given.strip()) if isinstance(given, str) else None
+    if code is None:
+        return given
+    fine, coarse = int(code[1]), int(code[2])
+    classes = (name for name, limits in _FILTERS.items() if fine <= limits[0] and coarse <= limits[1])
+    return next(classes, given)
 
 
 class Rating(Checked):
@@ -35,7 +52,11 @@ class Rating(Checked):
       without films and friction, and only the life uses them (structure).
     - `reliability`: fraction of bearings that live longer, 0.90, 0.95, 0.96, 0.97, 0.98 or 0.99 (structure: another one
       recompiles).
-    - `cleanliness`: name of a contamination class; with it, and with a viscosity ratio, the life is modified (a_ISO).
+    - `cleanliness`: name of a contamination class, or the ISO 4406 code of circulating oil, such as "-/17/14" or
+      "18/16/13", for which the cleanest class that is not cleaner than the code counts; with it, and with a viscosity
+      ratio, the life is modified (a_ISO).
+    - `contamination_factor`: the factor e_C itself (eta_c of makers), in the place of the class: 1 without particles,
+      0.8 to 0.6 clean, 0.3 to 0.1 contaminated.
     - `viscosity_ratio`: the ratio kappa, > 0; not given: from the oil, its temperature and the speed, where the scene
       has them.
     - `roughness_rings`, `roughness_elements`: root mean square, m; with them and films: the lambda ratio.
@@ -51,10 +72,11 @@ class Rating(Checked):
     static_capacity: Scalar | None = optional_number(bound="> 0", unit="N")
     fatigue_load_limit: Scalar | None = optional_number(bound="> 0", unit="N")
     viscosity_ratio: Scalar | None = optional_number(bound="> 0", unit="1")
+    contamination_factor: Scalar | None = optional_number(bound="above 0 and at most 1", unit="1")
     roughness_rings: Scalar | None = optional_number(bound="> 0", unit="m")
     roughness_elements: Scalar | None = optional_number(bound="> 0", unit="m")
     reliability: float = constant("rating.reliability", 0.90, among=RELIABILITIES)
-    cleanliness: str | None = choice("rating.cleanliness", CLEANLINESS_CLASSES, None)
+    cleanliness: str | None = choice("rating.cleanliness", CLEANLINESS_CLASSES, None, also=cleanliness_named)
     n_laminae: int | None = count("rating.n_laminae", None, least=1)
     edge_factor: bool | None = switch("rating.edge_factor", None)
     grooves: Literal["catalogue", "scene"] = choice("rating.grooves", ("catalogue", "scene"), "catalogue")
@@ -62,12 +84,21 @@ class Rating(Checked):
 
     def __check_init__(self):
         super().__check_init__()
+        if self.cleanliness is not None and self.contamination_factor is not None:
+            raise ValueError(
+                "rating.contamination_factor: expected none beside rating.cleanliness, which is a factor by its class"
+            )
         if (self.roughness_rings is None) != (self.roughness_elements is None):
             missing, given = ("rings", "elements") if self.roughness_rings is None else ("elements", "rings")
             raise ValueError(
                 f"rating.roughness_{missing}: found nothing, expected a length, which 'roughness_{given}' "
                 "needs beside it"
             )
+
+    @property
+    def says_cleanliness(self) -> bool:
+        """True if the life is to be modified: a class of contamination or its factor is given."""
+        return self.cleanliness is not None or self.contamination_factor is not None
 
     def groove_assumptions(self) -> tuple[str, ...]:
         """Notes for the user about the grooves that the ratings of a ball bearing assume."""

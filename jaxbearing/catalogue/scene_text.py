@@ -21,6 +21,13 @@ GROOVES = {"inner": (0.52, 0.51, 0.53), "outer": (0.53, 0.515, 0.54)}
 """Usual conformities with the range of makers, where the ratings do not tell them."""
 
 
+LAWS_HINT = (
+    '# laws = "best"  # films, friction, cage, drag: they need [oil], such as grade = "ISO VG 68", and in [operation]',
+    "#                # oil_temperature, and oil_flow for the drag",
+)
+"""Lines of a file for what its scene does not model yet."""
+
+
 class Line(NamedTuple):
     """A field of a scene file: its value as it is written, and the comment."""
 
@@ -32,7 +39,7 @@ class Line(NamedTuple):
 def scene_text(bearing: Designation, geometry: Geometry, given: Mapping[str, float]) -> str:
     """The file: boundary dimensions, internal geometry with intervals, materials, rating, an example of operation."""
     kind = KINDS.get(bearing.kind, "ball_bearing")
-    parts = [*_head(bearing, geometry, given), "", f'kind = "{kind}"', ""]
+    parts = [*_head(bearing, geometry, given), "", f'kind = "{kind}"', *LAWS_HINT, ""]
     parts += _table("geometry", list(_geometry(bearing, geometry)))
     if bearing.design in ("NJ", "NUP"):
         side = '"both"' if bearing.design == "NUP" else '"+x"'
@@ -46,7 +53,7 @@ def scene_text(bearing: Designation, geometry: Geometry, given: Mapping[str, flo
     elements = "balls" if kind == "ball_bearing" else "rollers"
     parts += _table("materials", [Line("rings", '"52100"', ""), Line(elements, '"52100"', "")])
     if kind == "ball_bearing":
-        parts += _table("kinematics", [Line("attitude", '"outer"', "")])
+        parts += _table("kinematics", [Line("attitude", '"outer"', 'of a dry scene: take it out with laws = "best"')])
     rating = list(_rating(given))
     left = {0: "C and C0 are", 1: "the other rating is"}.get(len(rating))
     parts += _table("rating", rating, f"  # {left} computed from the geometry" if left else "")

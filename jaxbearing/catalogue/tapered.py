@@ -3,12 +3,10 @@
 import math
 from typing import NamedTuple
 
+from ..bearings.tapered.geometry import usual_end_radius, usual_flange_angle
+
 TURNS = 60
 """Steps of the fixed-point search, each of which takes about the fifth part of the error."""
-END_RADIUS = 0.95
-"""Radius of the roller's end sphere over the length of the roller's cone: usual."""
-RIB_HEIGHT = 0.8
-"""Distance of the rib contact from the roller's axis over the radius of the big end: low on the rib."""
 
 
 class TaperedShape(NamedTuple):
@@ -36,6 +34,5 @@ def tapered_shape(mean_diameter: float, pitch_diameter: float, length: float, cu
         big = mean_diameter + length * math.sin(half)
         half = math.atan(big * tilt / (pitch_diameter + length * tilt))
     big = mean_diameter + length * math.sin(half)
-    radius = END_RADIUS * 0.5 * big / math.sin(half)
-    flange = cup_angle - half - math.asin(RIB_HEIGHT * 0.5 * big / radius)
-    return TaperedShape(big, half, flange, radius)
+    radius = float(usual_end_radius(big, half))
+    return TaperedShape(big, half, float(usual_flange_angle(big, cup_angle, half, radius)), radius)

@@ -12,6 +12,9 @@ from .terminal import console
 if TYPE_CHECKING:
     from ..scenes.field_list import Field
 
+_PATHS = 30
+"""Columns of the dotted paths of a preset."""
+
 
 def fields(
     kind: Annotated[str | None, typer.Argument(metavar="[KIND]", help="Kind of scene, such as ball_bearing.")] = None,
@@ -20,8 +23,10 @@ def fields(
     """Every field of a kind of scene file: default, what it takes, what it is. Without a kind: the kinds."""
     with bad_input():
         from ..scenes.errors import SceneError, nearest, one_of
+        from ..scenes.kinds import kind_named
         from ..scenes.reader import KINDS
 
+        kind = kind_named(kind)
         if kind is not None and kind not in KINDS:
             raise SceneError("fields", "", f"'{kind}'", f"a kind of scene: {one_of(KINDS)}", nearest(kind, KINDS))
     if kind is None:
@@ -56,10 +61,16 @@ def _row(path: str, field: "Field") -> dict[str, Any]:
 def _print(kind: str, tables: "list[tuple[str, list[Field]]]") -> None:
     from rich.table import Table
 
-    from ..report.backends.screen import print_rule
+    from ..report.backends.screen import print_line, print_rule
+    from ..scenes.presets import listing
 
     out = console()
     out.print(f'kind = "{kind}"')
+    stands_for = list(listing(kind))
+    if stands_for:
+        print_rule('laws = "best" stands for', out)
+        for path, value in stands_for:
+            print_line(path, value, out, _PATHS)
     for path, found in tables:
         print_rule(path, out)
         grid = Table.grid(padding=(0, 2, 0, 2))

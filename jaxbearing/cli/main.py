@@ -24,6 +24,7 @@ from .report_verb import report
 from .scenes_verb import scenes
 from .simulate_verb import simulate
 from .solve_verb import solve
+from .spectrum_verb import spectrum
 from .stiffness_verb import stiffness
 from .study_verb import study
 from .sweep_verb import sweep
@@ -122,5 +123,9 @@ def _options(
     pass
 
 
-for _verb in (new, scenes, fields, solve, report, sweep, tolerances, compare, study, simulate, stiffness, fit):
+_VERBS = (
+    *(new, scenes, fields, solve, spectrum, report, sweep, tolerances),
+    *(compare, study, simulate, stiffness, fit),
+)
+for _verb in _VERBS:
     app.command()(_verb)

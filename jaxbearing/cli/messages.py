@@ -28,15 +28,17 @@ def bad_input(notes: list[str] | None = None) -> Iterator[None]:
     **Arguments:** `notes`: list that gets notes on the input; left out: they are printed on stderr.
     """
     from ..distribution import MeanUsedWarning
-    from ..scenes.errors import SceneError
+    from ..scenes.errors import PresetUsedWarning, SceneError, StatesUnusedWarning
 
+    notable = (MeanUsedWarning, PresetUsedWarning, StatesUnusedWarning)
     said: list[str] = []
     try:
         with warnings.catch_warnings(record=True) as caught:
-            warnings.simplefilter("always", MeanUsedWarning)
+            for category in notable:
+                warnings.simplefilter("always", category)
             yield
         for one in caught:
-            if issubclass(one.category, MeanUsedWarning):
+            if issubclass(one.category, notable):
                 said.append(str(one.message))
             else:
                 warnings.warn_explicit(one.message, one.category, one.filename, one.lineno)

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from .messages import NOT_CONVERGED, bad_input
+from .messages import NOT_CONVERGED, bad_input, refuse
 from .options import JsonOption, SceneArgument, SetOption, labelled
 from .output_files import Output, check_files, deliver
 from .terminal import console
@@ -15,7 +15,9 @@ from .terminal import console
 if TYPE_CHECKING:
     from .._scene import AbstractScene, AbstractSolution
     from ..makers import Catalogue
+    from ..report.page_content import Listing
     from ..scenes.inputs import SceneInput
+    from ..scenes.states import FileState
 
 OutOption = Annotated[
     Path | None,
@@ -32,10 +34,16 @@ def report(scene: SceneArgument, changes: SetOption = None, out: OutOption = Non
         from ..scenes.bearing.catalogue import load_catalogue
         from ..scenes.inputs import scene_inputs
         from ..scenes.overrides import split_assignments
-        from ..scenes.reader import load_scene
+        from ..scenes.states import base_scene, has_states, load_states
+        from ..spectrum.states import require_rated
 
         overrides = split_assignments(changes or [])
-        model = load_scene(scene, overrides)
+        model = base_scene(scene, overrides)
+        states = load_states(scene, overrides) if has_states(scene) else ()
+        try:
+            require_rated({one.name: one.scene for one in states})
+        except (TypeError, ValueError) as error:
+            refuse(f"{scene}: {error}")
         inputs = scene_inputs(scene, overrides, model)
         catalogue = load_catalogue(scene, overrides)
         check_files([("--out", target, SUFFIXES)])
@@ -51,9 +59,10 @@ def report(scene: SceneArgument, changes: SetOption = None, out: OutOption = Non
         solution = solve_once(model)
         converged = bool(solution.converged)
         title = labelled(Path(scene).name, changes)
+        listings = [_spectrum(states)] if states and converged else []
         page = Output(
             target,
-            lambda path: _write(model, solution, title, inputs, catalogue, path),
+            lambda path: _write(model, solution, title, inputs, (catalogue, listings), path),
             f"wrote {target}: open it in a browser",
         )
         try:
@@ -66,6 +75,14 @@ def report(scene: SceneArgument, changes: SetOption = None, out: OutOption = Non
     if not converged:
         typer.echo(f"not written: {target}", err=True)
         raise typer.Exit(NOT_CONVERGED)
+
+
+def _spectrum(states: "Sequence[FileState]") -> "Listing":
+    """The table of the load spectrum."""
+    from ..spectrum.tables import spectrum_listing
+    from ..spectrum.verb import solve_states
+
+    return spectrum_listing(solve_states({one.name: one.scene for one in states}, [one.share for one in states]))
 
 
 def _show(solution: "AbstractSolution", label: str, as_json: bool) -> None:
@@ -89,13 +106,14 @@ def _write(
     solution: "AbstractSolution",
     title: str,
     inputs: "Mapping[str, Sequence[SceneInput]]",
-    catalogue: "Catalogue | None",
+    beside: "tuple[Catalogue | None, Sequence[Listing]]",
     target: Path,
 ) -> None:
+    """**Arguments:** `beside`: the bearing in a catalogue, and further tables."""
     from datetime import UTC, datetime
 
     from ..report.files import write_whole
     from ..report.html_report import html_report
 
-    text = html_report(model, solution, title, inputs, datetime.now(UTC), catalogue)
+    text = html_report(model, solution, title, inputs, datetime.now(UTC), *beside)
     write_whole(target, text)

@@ -60,11 +60,14 @@ def _text(scene: str, changes: list[str]) -> str:
 
     if changes:
         from ..scenes.overrides import split_assignments
-        from ..scenes.reader import load_scene
+        from ..scenes.reader import load_scene, preset_note, read_tables
         from ..scenes.save import scene_text
 
-        label = labelled(scene, changes)
-        return scene_text(load_scene(scene, split_assignments(changes)), label, [f"{label}."])
+        label, assignments = labelled(scene, changes), split_assignments(changes)
+        model = load_scene(scene, assignments)
+        # estimates stay marked in the file
+        note = preset_note(read_tables(scene)[1], label, assignments)
+        return scene_text(model, label, [f"{label}.", *([f"{note}."] if note else [])])
     if scene not in builtin_names():
         from ..scenes.errors import SceneError, nearest, one_of
 

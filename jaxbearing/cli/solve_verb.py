@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Literal, NamedTuple
 
 import typer
 
+from . import solve_sensitivities as extra
 from .messages import NOT_CONVERGED, bad_input, refuse
 from .options import DragPriorOption, JsonOption, SceneArgument, SetOption, labelled
 from .output_files import PICTURES, Output, check_files, deliver
@@ -15,7 +16,6 @@ from .terminal import console
 if TYPE_CHECKING:
     from .._scene import AbstractScene, AbstractSolution
     from ..bearings.ball.scene import BallBearing
-    from ..sensitivity import PowerInterval, Sensitivities
 
 OutOption = Annotated[
     Path | None, typer.Option("--out", metavar="FILE.nc", help="Write all results, with units, as NetCDF.")
@@ -28,12 +28,11 @@ PlotOption = Annotated[
         help="Draw power loss, loads and films, traction curves, or pressure and film; .png, .svg or .pdf.",
     ),
 ]
-SensitivitiesOption = Annotated[
+FullOption = Annotated[
     bool,
     typer.Option(
-        "--sensitivities",
-        help="Also by how much each input moves power loss, cage slip and life, as far as the scene models them; of a "
-        "line contact its film (the first time, this compiles a second program).",
+        "--full",
+        help="All of a bearing on the screen: each loaded element, spin, heat, seats, oil supply, frequencies.",
     ),
 ]
 
@@ -60,20 +59,25 @@ def solve(
     scene: SceneArgument,
     changes: SetOption = None,
     as_json: JsonOption = False,
-    sensitivities: SensitivitiesOption = False,
+    sensitivities: extra.SensitivitiesOption = False,
     plot: PlotOption = None,
     out: OutOption = None,
     line_contact: LineContactOption = None,
     drag_prior: DragPriorOption = True,
+    sensitivities_of: extra.SensitivitiesOfOption = None,
+    sensitivities_by: extra.SensitivitiesByOption = extra.BY[0],
+    full: FullOption = False,
 ) -> None:
-    """Steady state: power loss, loads, films, pressures, speeds; of a two-disk machine, its traction curves; of a line
-    contact, its film."""
+    """Steady state: life, power loss, loads, films, pressures, speeds; of a two-disk machine, its traction curves; of a
+    line contact, its film."""
     said: list[str] = []
     with bad_input(said):
         from ..scenes.overrides import split_assignments
         from ..scenes.reader import load_scene
 
-        model = load_scene(scene, split_assignments(changes or []))
+        assignments = split_assignments(changes or [])
+        model = load_scene(scene, assignments)
+        asked = extra.asked(sensitivities, sensitivities_of, sensitivities_by, drag_prior)
         wanted = _line_contact(line_contact, model, scene)
         contact = None if wanted is None else wanted.path
         files = (("--plot", plot, PICTURES), ("--out", out, (".nc",)), ("--line-contact", contact, (".toml",)))
@@ -85,12 +89,11 @@ def solve(
     label = labelled(scene, changes)
     enable_compilation_cache()
     with without_false_alarms():
-        solution, slopes = _solved(model, sensitivities)
+        solution, slopes = extra.solved(model, asked)
         solution = dataclasses.replace(solution, notes=(*solution.notes, *said)) if said else solution
         failure = "" if bool(solution.converged) else solution.failure()
-        interval = _interval(model, solution) if sensitivities and drag_prior else None
-        of = solution, slopes, interval
-        show = lambda: _print_json(*of) if as_json else _print_screen(*of, label)
+        moved = extra.moved(model, solution, slopes, asked, scene, assignments)
+        show = lambda: _print_json(solution, moved) if as_json else _print_screen(solution, moved, label, full)
         bridge = lambda _: _write_line_contact(wanted, solution, scene, changes)
         taken = "" if as_json else f"wrote {contact}: take it as a scene, jaxbearing solve {contact}"
         outputs = (
@@ -150,28 +153,6 @@ def _write_line_contact(
     write_whole(wanted.path, text)
 
 
-def _solved(model: "AbstractScene", sensitivities: bool) -> "tuple[AbstractSolution, Sensitivities | None]":
-    if sensitivities:
-        from ..sensitivity import NoSensitivities
-        from ..sensitivity import sensitivities as with_sensitivities
-
-        try:
-            return with_sensitivities(model, throw=False)
-        except NoSensitivities as error:  # raised while the program is traced, before it is compiled
-            refuse(f"--sensitivities: {error}")
-    from ..solve import solve_once
-
-    return solve_once(model), None
-
-
-def _interval(model: "AbstractScene", solution: "AbstractSolution") -> "PowerInterval | None":
-    """Limits of the power loss by the drag coefficient."""
-    from ..sensitivity import power_interval
-    from ..solve import solve_once
-
-    return power_interval(model, solution, solve_once)
-
-
 def _write_data(solution: "AbstractSolution", out: Path) -> None:
     from ..report.dataset import solution_to_dataset, write_netcdf
 
@@ -184,24 +165,27 @@ def _write_plot(solution: "AbstractSolution", label: str, plot: Path) -> None:
     save_plot(plot_solution(solution, label), plot)
 
 
-def _print_json(solution: "AbstractSolution", slopes: "Sensitivities | None", interval: "PowerInterval | None") -> None:
-    from ..report.json_report import sensitivities_to_dict, solution_to_dict
+def _print_json(solution: "AbstractSolution", moved: extra.Moved | None) -> None:
+    from ..report.json_report import solution_to_dict
 
     results = solution_to_dict(solution)
-    if slopes is not None:
-        results["sensitivities"] = sensitivities_to_dict(slopes)
-    if interval is not None:
-        results["power_loss_interval"] = interval._asdict()
+    if moved is not None:
+        results |= extra.as_json(moved)
     typer.echo(json.dumps(results, allow_nan=False))
 
 
-def _print_screen(
-    solution: "AbstractSolution", slopes: "Sensitivities | None", interval: "PowerInterval | None", label: str
-) -> None:
+def _print_screen(solution: "AbstractSolution", moved: extra.Moved | None, label: str, full: bool) -> None:
     from ..report.summary import print_summary
 
-    print_summary(solution, label, console())
-    if slopes is not None and bool(solution.converged):
-        from ..report.sensitivity_table import print_sensitivities
+    print_summary(solution, label, console(), full)
+    if not full and _has_more(solution):
+        console().print("  More: --full (each loaded element, spin, heat, seats, oil supply, frequencies)", style="dim")
+    if moved is not None and bool(solution.converged):
+        extra.print_screen(moved)
 
-        print_sensitivities(slopes, console(), interval)
+
+def _has_more(solution: "AbstractSolution") -> bool:
+    """True for a bearing that was solved, whose full summary has more than the usual one."""
+    from ..bearings.solution import Solution
+
+    return isinstance(solution, Solution) and bool(solution.converged)

@@ -10,6 +10,11 @@ from ..numerics.arguments import require_angle, require_numbers
 RELIABILITY_FACTORS = {0.90: 1.0, 0.95: 0.64, 0.96: 0.55, 0.97: 0.47, 0.98: 0.37, 0.99: 0.25}
 """a_1 of ISO 281:2007 by reliability [M]; the edition before had 0.62, 0.53, 0.44, 0.33, 0.21."""
 BALL_EXPONENT, ROLLER_EXPONENT = 3.0, 10.0 / 3.0
+EXPONENTS = {"ball": BALL_EXPONENT, "roller": ROLLER_EXPONENT}
+"""Exponent p of the load in ISO 281, by family."""
+MINIMUM_LOADS = {"ball": 0.01, "roller": 0.02}
+"""Least load over C that keeps elements from skidding, by family: a maker's general rule (SKF, bearing selection
+process, requisite minimum load, as read on its pages). It knows neither speed, oil nor cage."""
 
 _GROOVE = np.array(
     [

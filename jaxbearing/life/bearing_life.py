@@ -15,8 +15,9 @@ from ..bearings.rated import RatedContacts
 from ..bearings.rating import CATALOGUE_CONFORMITY, Rating, rated_laminae
 from ..bearings.solution import Solution
 from ..lubricants import Lubricant
-from .basic import BALL_EXPONENT, RELIABILITY_FACTORS, ROLLER_EXPONENT, basic_life, tapered_equivalent_load
+from .basic import EXPONENTS, RELIABILITY_FACTORS, basic_life, tapered_equivalent_load
 from .capacity import ball_capacity, roller_capacity
+from .equivalent import LARGEST_ANGLE, ball_equivalent_load, ball_static_load, roller_static_load
 from .minimum_film import minimum_films
 from .modification import (
     KAPPA_RANGE,
@@ -35,17 +36,21 @@ from .reference import (
     roller_damage_rate,
 )
 from .result import Life
-from .static import ball_static_capacity, rated_modulus, roller_static_capacity
+from .static import ball_static_capacity, contact_safety, rated_modulus, roller_static_capacity
 
 FEWEST_LAMINAE = 30
 """Laminae that ISO 16281 asks for at least."""
-_HOURS = 1e6 * 2.0 * np.pi / 3600.0
+HOURS = 1e6 * 2.0 * np.pi / 3600.0
 """Hours of a million revolutions at 1 rad/s."""
 
 
 NO_LINEAR_LOADS = (
     "rating.tilt = 'iso': the loads of the first-order motion of the ring were not found, and there is no life; "
     "rating.tilt = 'exact' takes the loads of the solution"
+)
+STEEP_WARNING = (
+    "contact angle above 45 degrees: the X and Y of radial ball bearings end there, and there is no L10; L10r holds "
+    "for any contact angle"
 )
 THIN_WARNING = (
     "viscosity ratio kappa below 0.1: ISO 281 gives no a_ISO there, that of kappa = 0.1 is used; boundary lubrication"
@@ -60,7 +65,9 @@ class Rated(NamedTuple):
     static_capacity: Array
     damage_rate: Array
     catalogue_load: Array | None
-    """Equivalent load of ISO 281 by the catalogue's formulas, N."""
+    """Equivalent dynamic load P of ISO 281 by the catalogue's formulas, N."""
+    static_load: Array | None
+    """Equivalent static load P0 of ISO 76, N."""
 
 
 def with_life(scene: Any, solution: Any) -> Any:
@@ -73,6 +80,9 @@ def with_life(scene: Any, solution: Any) -> Any:
     checks = dict(solution.checks)
     if life.modification_factor is not None and life.viscosity_ratio is not None:
         checks[THIN_WARNING] = life.viscosity_ratio < KAPPA_RANGE[0]
+    steep = not scene.line_contacts and scene.geometry.contact_angle is not None
+    if steep and life.catalogue_load is not None:
+        checks[STEEP_WARNING] = scene.drawing_angle > LARGEST_ANGLE * (1.0 + 1e-12)
     if scene.rated_to_first_order:
         checks[NO_LINEAR_LOADS] = solution.converged & ~jnp.isfinite(life.damage_rate)
     notes = (*solution.notes, *without_effect(scene, life))
@@ -96,9 +106,10 @@ def without_effect(scene: Any, life: Life) -> list[str]:
             f"rating.n_laminae = {rating.n_laminae}: ISO 16281 asks for at least {FEWEST_LAMINAE}; with edge factors "
             "the life of straight rollers grows with the number of laminae"
         )
-    if rating.cleanliness is not None and life.viscosity_ratio is None:
+    if rating.says_cleanliness and life.viscosity_ratio is None:
         lacking = "a viscosity ratio: rating.viscosity_ratio, or an oil with a density"
-        found.append(f"rating.cleanliness has no effect without {lacking}")
+        name = "contamination_factor" if rating.cleanliness is None else "cleanliness"
+        found.append(f"rating.{name} has no effect without {lacking}")
     if rating.roughness_rings is not None and life.film_ratio_inner is None:
         found.append("rating.roughness_rings and roughness_elements have no effect without films")
     return found
@@ -123,31 +134,31 @@ def bearing_life(scene: Any, solution: Solution) -> Life:
     operation = scene.operation
     speed = jnp.asarray(operation.inner_speed) - operation.outer_speed
     turns = _turning(operation)
-    contacts = scene.rated_contacts(*solid)
+    contacts = scene.rated_contacts(solid[0], solid[1], jnp.where(good, solution.force, 1.0))
     pitch_diameter = jnp.asarray(contacts.pitch_diameter)
     rated = rated_by(contacts, rating, turns)
-    exponent = BALL_EXPONENT if rated.family == "ball" else ROLLER_EXPONENT
+    exponent = EXPONENTS[rated.family]
     rate = rated.damage_rate
     loaded = rate > 0
     safe_rate = jnp.where(loaded, rate, 1.0)
     # a rate that is NaN (loads that were not found) has no life, not an endless one
     reference = jnp.where(loaded, 1.0 / safe_rate, jnp.where(rate == 0, jnp.inf, jnp.nan))
     equivalent = jnp.where(loaded, rated.dynamic_capacity * safe_rate ** (1.0 / exponent), 0.0 * rate)
-    hours = lambda revolutions: revolutions * _HOURS / jnp.abs(speed)
+    hours = lambda revolutions: revolutions * HOURS / jnp.abs(speed)
     reliability = RELIABILITY_FACTORS[rating.reliability]
     kappa = _viscosity_ratio(scene, pitch_diameter, speed)
     more: dict[str, Any] = {}
     if kappa is not None:
         more["viscosity_ratio"] = kappa
-    if kappa is not None and rating.cleanliness is not None:
-        limit = rating.fatigue_load_limit
-        if limit is None:
-            limit = fatigue_load_limit(rated.static_capacity, pitch_diameter, rated.family)
-        clean = contamination_factor(kappa, pitch_diameter, rating.cleanliness)
-        ratio = clean * limit / jnp.where(loaded, equivalent, 1.0)
-        factor = modification_factor(kappa, ratio, rated.family)
+    if kappa is not None and rating.says_cleanliness:
+        limit = _given(
+            rating.fatigue_load_limit, lambda: fatigue_load_limit(rated.static_capacity, pitch_diameter, rated.family)
+        )
+        clean = _cleanliness(rating, kappa, pitch_diameter)
+        factor = modification_factor(kappa, clean * limit / jnp.where(loaded, equivalent, 1.0), rated.family)
         modified = reliability * factor * reference
         more |= {"modification_factor": factor, "Lnmr": modified, "Lnmr_hours": hours(modified)}
+        more |= {"contamination_factor": clean, "fatigue_load_limit": limit}
     if rating.roughness_rings is not None and solid[0].film_inner is not None:
         rough = (rating.roughness_rings, rating.roughness_elements)
         inner, outer = minimum_films(scene, solid[0])
@@ -155,6 +166,7 @@ def bearing_life(scene: Any, solution: Solution) -> Life:
     if rated.catalogue_load is not None:
         more["L10"] = basic_life(rated.dynamic_capacity, rated.catalogue_load, exponent)
         more["L10h"] = hours(more["L10"])
+        more |= {"catalogue_load": rated.catalogue_load, "static_load": rated.static_load}
     life = Life(
         damage_rate=rate,
         L10r=reference,
@@ -163,6 +175,8 @@ def bearing_life(scene: Any, solution: Solution) -> Life:
         static_capacity=rated.static_capacity,
         equivalent_load=equivalent,
         reliability_factor=jnp.asarray(reliability),
+        contact_static_safety=contact_safety(solid[0].pressure_inner, solid[0].pressure_outer, rated.family),
+        family=rated.family,
         **more,
     )
     return jax.tree.map(lambda leaf: jnp.where(good, leaf, jnp.nan), life)
@@ -189,6 +203,13 @@ def _viscosity_ratio(scene: Any, pitch_diameter: Array, speed: Array) -> Float[A
     return kinematic / reference_viscosity(speed, pitch_diameter)
 
 
+def _cleanliness(rating: Rating, kappa: Array, pitch_diameter: Array) -> Array:
+    """e_C as given, or by its class."""
+    if rating.cleanliness is None:
+        return jnp.asarray(rating.contamination_factor)
+    return contamination_factor(kappa, pitch_diameter, rating.cleanliness)
+
+
 def _given(value: Any, computed: Callable[[], Array]) -> Array:
     return computed() if value is None else jnp.asarray(value)
 
@@ -208,7 +229,12 @@ def _of_points(contacts: RatedContacts, rating: Rating, turns: Any) -> Rated:
     static = _given(rating.static_capacity, lambda: ball_static_capacity(*sizes, rated[0], modulus))
     limits = ball_contact_capacities(capacity, *sizes, *contacts.conformities)
     rate = ball_damage_rate(contacts.inner, contacts.outer, limits, *turns)
-    return Rated("ball", capacity, static, rate, contacts.radial_load)
+    radial, axial = contacts.radial_load, contacts.axial_load
+    if radial is None or axial is None:
+        return Rated("ball", capacity, static, rate, None, None)
+    angle = contacts.contact_angle
+    load = ball_equivalent_load(radial, axial, angle, contacts.n_elements, contacts.diameter)
+    return Rated("ball", capacity, static, rate, load, ball_static_load(radial, axial, angle))
 
 
 def edge_weights(rating: Rating, profiled: bool, count: int) -> np.ndarray:
@@ -235,7 +261,8 @@ def _of_lines(contacts: RatedContacts, rating: Rating, turns: Any) -> Rated:
         inner, outer = (even_laminae(load, rated_laminae(rating)) for load in (inner, outer))
     weights = edge_weights(rating, contacts.profiled, inner.shape[1])
     rate = roller_damage_rate(inner, outer, limits, *turns, factors=weights)
-    load = contacts.radial_load
+    load = resting = contacts.radial_load
     if load is not None and contacts.axial_load is not None:
+        resting = roller_static_load(load, contacts.axial_load, angle)
         load = tapered_equivalent_load(load, contacts.axial_load, angle)
-    return Rated("roller", capacity, static, rate, load)
+    return Rated("roller", capacity, static, rate, load, resting)

@@ -1,9 +1,12 @@
 """Results of the life calculation, labelled like all results."""
 
 import equinox as eqx
+import jax.numpy as jnp
 from jaxtyping import Array, Float
 
-from .._scene import label
+from .._scene import derived, label
+from .basic import MINIMUM_LOADS
+from .modification import Family, modification_factor
 
 _Number = Float[Array, ""]
 
@@ -40,4 +43,39 @@ class Life(eqx.Module):
         "N", "basic static load rating C0, at the pressures of ISO 76: 4.2 GPa of balls, 4.0 GPa of rollers"
     )
     equivalent_load: _Number = _result("N", "load P at which ISO 281 gives the reference life")
+    catalogue_load: _Number | None = _optional("N", "equivalent dynamic load P of ISO 281, by X and Y")
+    static_load: _Number | None = _optional("N", "equivalent static load P0 of ISO 76, by X0 and Y0")
+    contact_static_safety: _Number | None = _optional(
+        "1", "static safety of the most loaded contact: load at the pressures of C0 over its load"
+    )
+    contamination_factor: _Number | None = _optional("1", "e_C (eta_c), factor of the contamination")
+    fatigue_load_limit: _Number | None = _optional("N", "fatigue load limit C_u")
     damage_rate: _Number = _result("1", "1/L10r, per million revolutions: 0 without load, smooth")
+    family: Family = eqx.field(static=True, default="ball", kw_only=True)
+
+    @derived("1", "static safety C0/P0 of ISO 76")
+    def static_safety(self) -> Float[Array, "*batch"] | None:
+        return None if self.static_load is None else jnp.asarray(self.static_capacity / self.static_load)
+
+    @derived("1", "modified rating life a_ISO L10 of ISO 281 at 90 % reliability, million revolutions")
+    def L10m(self) -> Float[Array, "*batch"] | None:
+        factor, life = self.catalogue_factor, self.L10
+        return None if factor is None or life is None else factor * life
+
+    @derived("h", "modified rating life a_ISO L10 of ISO 281 at 90 % reliability")
+    def L10mh(self) -> Float[Array, "*batch"] | None:
+        factor, life = self.catalogue_factor, self.L10h
+        return None if factor is None or life is None else factor * life
+
+    @derived("N", "least load against skidding, maker's rule of thumb: 0.01 C of ball, 0.02 C of roller bearings")
+    def minimum_load(self) -> Float[Array, "*batch"]:
+        return jnp.asarray(MINIMUM_LOADS[self.family] * self.dynamic_capacity)
+
+    @property
+    def catalogue_factor(self) -> Float[Array, "*batch"] | None:
+        """a_ISO at the catalogue's load; that of `modification_factor` is at `equivalent_load`."""
+        load, kappa, limit = self.catalogue_load, self.viscosity_ratio, self.fatigue_load_limit
+        if load is None or kappa is None or limit is None or self.contamination_factor is None:
+            return None
+        ratio = self.contamination_factor * limit / jnp.where(load > 0, load, 1.0)
+        return modification_factor(kappa, ratio, self.family)

@@ -67,16 +67,27 @@ def switch(name: str, default: Any = dataclasses.MISSING, **kwargs: Any) -> Any:
     return _field(lambda value: static_number(name, value, bool), default, kwargs, {"switch": True})
 
 
-def choice(name: str, choices: Iterable[str], default: Any = dataclasses.MISSING, **kwargs: Any) -> Any:
-    """Static field that holds one of the words `choices`. Messages call it `name`. `None` passes as the default."""
+def choice(
+    name: str,
+    choices: Iterable[str],
+    default: Any = dataclasses.MISSING,
+    *,
+    also: Callable[[Any], Any] | None = None,
+    **kwargs: Any,
+) -> Any:
+    """Static field that holds one of the words `choices`. Messages call it `name`. `None` passes as the default.
+
+    **Arguments:** `also`: from a further name of a choice to the choice; it returns anything else as it is.
+    """
     words = tuple(choices)
 
     def read(value: Any) -> str:
         value = _untraced(name, value)
+        value = value if also is None else also(value)
         require_choice(name, value, words)
         return str(value)
 
-    return _field(read, default, kwargs, {"choices": words})
+    return _field(read, default, kwargs, {"choices": words} | ({} if also is None else {"also": also}))
 
 
 def _field(read: Callable[[Any], Any], default: Any, kwargs: dict[str, Any], said: dict[str, Any]) -> Any:

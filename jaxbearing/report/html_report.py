@@ -10,6 +10,7 @@ from ..scenes.inputs import SceneInput
 from .backends.html import page
 from .json_report import solution_to_dict
 from .makers_table import comparison_listing
+from .page_content import Listing
 from .registry import check_converged, output
 
 
@@ -20,6 +21,7 @@ def html_report(
     inputs: Mapping[str, Sequence[SceneInput]],
     when: datetime,
     catalogue: Catalogue | None = None,
+    listings: Sequence[Listing] = (),
 ) -> str:
     """The page of one solve, with all results as JSON in it.
 
@@ -29,6 +31,7 @@ def html_report(
     - `inputs`: fields of the scene by table, of `scenes.inputs.scene_inputs`.
     - `when`: the date that the page bears.
     - `catalogue`: of a bearing, with which makers' formulas stand beside its losses; not given: they do not.
+    - `listings`: further tables, which come before the makers' formulas.
 
     **Raises:** `ValueError` for a solution that did not converge: it has no results; `TypeError` for another kind of
     solution.
@@ -36,6 +39,7 @@ def html_report(
     content = output(solution, "page_content", "report")
     check_converged(solution)
     shown = content(scene, solution)
+    shown = dataclasses.replace(shown, listings=(*shown.listings, *listings))
     if catalogue is not None:
         beside = comparison_listing(compared(scene, solution, catalogue))
         shown = dataclasses.replace(shown, listings=(*shown.listings, beside))

@@ -1,8 +1,9 @@
 """A solution as plain numbers and texts in SI units, ready for `json.dumps`."""
 
+from collections.abc import Mapping
 from typing import Any
 
-from ..sensitivity import Sensitivities, largest
+from ..sensitivity import Sensitivities, UsualTolerance, largest
 from .backends.json import plain
 from .registry import output
 
@@ -20,6 +21,9 @@ RESULTS = {
     "slip": "cage.slip",
     "life": "life.L10r",
     "modified_life": "life.Lnmr",
+    "stiffness": "stiffness.radial",
+    "axial_stiffness": "stiffness.axial",
+    "temperature": "thermal.temperatures",
     "film": "film.central",
     "traction": "traction_coefficient",
 }
@@ -32,4 +36,18 @@ def sensitivities_to_dict(sensitivities: Sensitivities) -> dict[str, Any]:
     return {
         RESULTS[name]: {path: plain(values[path]) for path in dict.fromkeys([*largest(values, len(values)), *values])}
         for name, values in sensitivities.modelled().items()
+    }
+
+
+def effects_to_dict(
+    effects: Mapping[str, Mapping[str, float]], tolerances: Mapping[str, UsualTolerance]
+) -> dict[str, Any]:
+    """By how much each result moves for the usual tolerance of each input, the largest first: `effect`, relative to the
+    result (slip and temperature: absolute), `tolerance`, SI, and its `reason`."""
+    return {
+        RESULTS[name]: {
+            path: {"effect": plain(value), "tolerance": tolerances[path].size, "reason": tolerances[path].reason}
+            for path, value in sorted(found.items(), key=lambda one: -abs(one[1]))
+        }
+        for name, found in effects.items()
     }

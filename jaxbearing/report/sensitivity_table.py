@@ -1,6 +1,8 @@
 """Sensitivities on the screen: the inputs that decide each result."""
 
+import math
 from collections.abc import Mapping
+from typing import Any
 
 from jaxtyping import Array
 from rich import box
@@ -10,7 +12,8 @@ from rich.rule import Rule
 from rich.table import Table
 from rich.text import Text
 
-from ..sensitivity import PowerInterval, Sensitivities, largest
+from .._scene import AbstractScene
+from ..sensitivity import ABSOLUTE, PowerInterval, Sensitivities, UsualTolerance, largest
 from .display import digits, with_unit
 
 SHOWN = 5
@@ -21,11 +24,25 @@ LAW_CONSTANTS = ("oil.", "contact.")
 """Constants of laws: an engineer does not choose them one by one; the oil's temperature stands for them here."""
 
 
+NAMES = {
+    "power_loss": "power loss",
+    "slip": "cage slip",
+    "life": "life L10r",
+    "modified_life": "life Lnmr",
+    "stiffness": "radial stiffness",
+    "axial_stiffness": "axial stiffness",
+    "temperature": "hottest node",
+    "film": "central film",
+    "traction": "traction",
+}
 TITLES = {
     "power_loss": "d ln(power) / d ln(input)",
     "slip": "d(slip) / d ln(input)",
     "life": "d ln(L10r) / d ln(input)",
     "modified_life": "d ln(Lnmr) / d ln(input)",
+    "stiffness": "d ln(radial stiffness) / d ln(input)",
+    "axial_stiffness": "d ln(axial stiffness) / d ln(input)",
+    "temperature": "d(hottest node, K) / d ln(input)",
     "film": "d ln(central film) / d ln(input)",
     "traction": "d ln(traction coefficient) / d ln(input)",
 }
@@ -40,8 +57,72 @@ def print_sensitivities(sensitivities: Sensitivities, console: Console, interval
     modelled = list(sensitivities.modelled().items())
     for first in range(0, len(modelled), ABREAST):
         console.print(Padding(_table(modelled[first : first + ABREAST]), (0, 1)))
-    text = "Per cent for one per cent of the input (slip: absolute). Temperatures in K. More: --json."
+    text = "Per cent for one per cent of the input (slip, temperature: absolute). Temperatures in K. More: --json."
     console.print(Padding(Text(text, style="dim"), (0, 2)))
+    _print_interval(interval, console)
+
+
+def print_effects(
+    scene: AbstractScene,
+    effects: Mapping[str, Mapping[str, float]],
+    tolerances: Mapping[str, UsualTolerance],
+    console: Console,
+    interval: PowerInterval | None = None,
+) -> None:
+    """The inputs that move each result most by their usual tolerances. **Arguments:** `effects`: of
+    `sensitivity.effects`."""
+    units = {path: _unit_of(scene, path) for path in tolerances}
+    console.print(Rule("Sensitivities, by usual tolerances", align="left", style="dim"))
+    for name, found in effects.items():
+        console.print(Padding(_effects_table(name, found, tolerances, units), (0, 1)))
+    text = (
+        "Change of the result for one tolerance of the input, to first order. Inputs without a usual tolerance are "
+        "left out: --sensitivities-by percent has them all."
+    )
+    console.print(Padding(Text(text, style="dim"), (0, 2)))
+    _print_interval(interval, console)
+
+
+def _effects_table(
+    name: str, found: Mapping[str, float], tolerances: Mapping[str, UsualTolerance], units: Mapping[str, str]
+) -> Table:
+    table = Table(box=box.SIMPLE_HEAD, pad_edge=False, padding=(0, 1), header_style="")
+    table.add_column("input", no_wrap=True)
+    table.add_column(NAMES[name], justify="right", no_wrap=True)
+    table.add_column("for", justify="right", no_wrap=True)
+    table.add_column("", overflow="fold")
+    for path in ranked(found)[:SHOWN]:
+        one = tolerances[path]
+        size = with_unit(one.size, units.get(path, "1"), 3)
+        table.add_row(path, _effect(name, found[path]), f"+{size}", one.reason)
+    return table
+
+
+def _unit_of(scene: AbstractScene, path: str) -> str:
+    """SI unit of a number of a scene; "1" where its class says none."""
+    part: Any = scene
+    *above, last = path.split(".")
+    for name in above:
+        part = getattr(part, name)
+    return type(part).__dataclass_fields__[last].metadata.get("unit", "1")
+
+
+def ranked(found: Mapping[str, float]) -> list[str]:
+    """Paths by the modulus of their effects, the largest first, without what has none."""
+    there = [path for path, value in found.items() if value and math.isfinite(value)]
+    return sorted(there, key=lambda path: -abs(found[path]))
+
+
+def _effect(name: str, value: float) -> str:
+    """A change: in per cent, of a temperature in K, of the slip in points."""
+    sign = "+" if value > 0.0 else ""
+    if name == "temperature":
+        return f"{sign}{digits(value, 3)} K"
+    points = " points" if name in ABSOLUTE else " %"
+    return f"{sign}{digits(100.0 * value, 3)}{points}"
+
+
+def _print_interval(interval: PowerInterval | None, console: Console) -> None:
     if interval is not None:
         limits = " and ".join(with_unit(one, "W") for one in (interval.low, interval.high))
         text = f"Power loss {with_unit(interval.value, 'W')}, 90 % between {limits}, by {interval.by} alone"

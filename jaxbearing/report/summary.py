@@ -7,13 +7,14 @@ from rich.console import Console
 from .registry import output
 
 
-def print_summary(solution: Any, scene_label: str, console: Console) -> None:
+def print_summary(solution: Any, scene_label: str, console: Console, full: bool = False) -> None:
     """Print one solution; where the solve failed, status, residual and worst equation and no result.
 
     **Arguments:**
     - `scene_label`: name or file of the scene.
     - `console`: where to; it decides on colours, width and characters.
+    - `full`: whether a bearing's summary has all that there is, with a row for each loaded element.
 
     **Raises:** `TypeError` for another kind of solution.
     """
-    output(solution, "summary", "summary")(solution, scene_label, console)
+    output(solution, "summary", "summary")(solution, scene_label, console, full)

@@ -63,12 +63,12 @@ def _columns(solution: Any) -> Iterator[Column]:
         yield Column(path.removeprefix("elements."), display_unit(unit), metadata["description"], shown)
 
 
-def derived_facts(solution: Any) -> Iterator[tuple[str, str]]:
-    """Lines for the screen of the results that follow from others: value and meaning, of many the least and largest
-    value."""
+def derived_facts(solution: Any, left_out: Collection[str] = ()) -> Iterator[tuple[str, str]]:
+    """Lines for the screen of the results that follow from others, but for those at these paths: value and meaning, of
+    many the least and largest value."""
     head = "Derived"
     for path, value, metadata in labelled(solution):
-        if metadata["derived"]:
+        if metadata["derived"] and path not in left_out:
             numbers, unit = np.asarray(value, dtype=float), metadata["unit"]
             finite = numbers[np.isfinite(numbers)]
             ends = [with_unit(float(end), unit) for end in (finite.min(), finite.max())] if finite.size else ["-"]

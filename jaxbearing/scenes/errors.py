@@ -22,6 +22,10 @@ _MUST_BE = re.compile(r"be (?P<expected>.*?)(?:, got [^:]*(?:: (?P<reason>.*))?)
 _FOUND_EXPECTED = re.compile(r"(?:found (?P<found>.*?), )?expected (?P<expected>.*)")
 
 
+class PresetUsedWarning(UserWarning):
+    """A scene was read with laws, and perhaps estimated dimensions, for which a preset stands."""
+
+
 class SceneError(ValueError):
     """A scene cannot be read or does not make sense. The message has one line for each problem.
 
@@ -84,6 +88,10 @@ class SceneError(ValueError):
         if self.suggestion:
             text += f" Did you mean '{self.suggestion}'?"
         return printable(" ".join(text.split()))
+
+
+class StatesUnusedWarning(UserWarning):
+    """A scene was read from a file with a load spectrum: it has none of the states."""
 
 
 def printable(text: str) -> str:

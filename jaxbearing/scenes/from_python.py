@@ -15,7 +15,7 @@ from .drafts import read_table
 from .oil import catalogue as oils
 from .oil.files import read_oil
 from .oil.schema import OilTable
-from .reader import scene_from_tables, warn_of_means
+from .reader import scene_from_tables, warn_of_means, warn_of_preset
 from .units import bare_numbers_are_si
 
 
@@ -24,7 +24,8 @@ def scene_from_mapping(mapping: Mapping[str, Any]) -> AbstractScene:
 
     A number of a field with a unit is an SI value here; a text carries its own unit, as in a file. The numbers must be
     known: in place of traced ones make the scene first, and change it with `replace`. A field that is given as a
-    distribution has its mean in the scene: a `MeanUsedWarning` says so.
+    distribution has its mean in the scene: a `MeanUsedWarning` says so. A `PresetUsedWarning` says what `laws = "best"`
+    stands for.
 
     **Raises:** `SceneError` with all that is wrong; `TypeError` for something else than a mapping, and for traced
     numbers.
@@ -34,7 +35,9 @@ def scene_from_mapping(mapping: Mapping[str, Any]) -> AbstractScene:
     with bare_numbers_are_si():
         tables = _plain(mapping, "")
         warn_of_means(tables, "scene")
-        return scene_from_tables(tables, "scene")
+        scene = scene_from_tables(tables, "scene")
+        warn_of_preset(tables, "scene")
+        return scene
 
 
 def load_oil(source: str | Path, base: str | None = None) -> Lubricant:

@@ -5,7 +5,7 @@ from typing import Annotated, Any, ClassVar
 import numpy as np
 from pydantic import BeforeValidator, Discriminator, Tag
 
-from ..materials import CATALOGUE, THERMAL_FIELDS, Material, catalogue_material
+from ..materials import CATALOGUE, THERMAL_FIELDS, Material, catalogue_material, material_named
 from . import units
 from .errors import nearest, one_of
 from .table_of import table_of
@@ -33,13 +33,14 @@ def catalogue_table(name: str) -> dict[str, str]:
 def _material_name(value: Any) -> str:
     # --set materials.rings=52100 arrives as a number
     name = str(value) if isinstance(value, int) and not isinstance(value, bool) else value
-    if not isinstance(name, str) or name not in CATALOGUE:
+    known = material_named(name) if isinstance(name, str) else None
+    if known is None:
         # "AISI M-50": the standard's name in front hides the material's
         near = (nearest(name, CATALOGUE) or nearest(name.split(" ")[-1], CATALOGUE)) if isinstance(name, str) else ""
         fields = ", ".join(MaterialTable.model_fields)
         expected = f"a material of the catalogue ({one_of(CATALOGUE)}) or a table with {fields}"
         raise units.refusal(expected, units.describe(value), near)
-    return name
+    return known
 
 
 MaterialField = Annotated[

@@ -10,11 +10,13 @@ import numpy as np
 from jax.core import Tracer
 from pydantic import BaseModel
 
+from ..materials import material_named
 from ..numerics.structure import plain
 from .errors import SceneError, describe_at, in_words, unknown_name
 from .fields import is_known, names_at
-from .materials import CATALOGUE, MaterialTable, catalogue_table
+from .materials import MaterialTable, catalogue_table
 from .oil.files import base_of
+from .presets import Filling, filling
 from .units import describe
 
 Overrides = Mapping[str, str | float | np.generic | np.ndarray | jax.Array]
@@ -96,7 +98,24 @@ def apply(raw: Mapping[str, Any], overrides: Mapping[str, str], model: type[Base
 def applied(
     raw: Mapping[str, Any], overrides: Mapping[str, str], model: type[BaseModel], file: str
 ) -> tuple[dict[str, Any], list[SceneError]]:
-    """A copy of the tables with the overrides that can be applied, and what is wrong with the others; see `apply`."""
+    """A copy of the tables with the overrides that can be applied, and what is wrong with the others; see `apply`. The
+    laws of a preset are in it."""
+    found, problems = preset(raw, overrides, model, file)
+    return found.tables, problems
+
+
+def preset(
+    raw: Mapping[str, Any], overrides: Mapping[str, str], model: type[BaseModel], file: str
+) -> tuple[Filling, list[SceneError]]:
+    """As `applied`, with what a preset adds to the tables."""
+    changed, problems = _applied(raw, overrides, model, file)
+    removed = tuple(path for path, text in overrides.items() if text == REMOVE)
+    return filling(changed, removed, model, file), problems
+
+
+def _applied(
+    raw: Mapping[str, Any], overrides: Mapping[str, str], model: type[BaseModel], file: str
+) -> tuple[dict[str, Any], list[SceneError]]:
     changed = _copy(raw, file)
     problems = []
     for path, text in overrides.items():
@@ -167,8 +186,8 @@ def _table(
         return value
     place = ".".join(inside)
     expected = "a table, to set a value in it"
-    name, last = str(value), path.removeprefix(f"{place}.")
-    if name in CATALOGUE and last in MaterialTable.model_fields and text:
+    name, last = material_named(str(value)), path.removeprefix(f"{place}.")
+    if name is not None and last in MaterialTable.model_fields and text:
         changes = catalogue_table(name) | {last: text}
         entries = ", ".join(f"{field} = {_as_toml(given)}" for field, given in changes.items())
         expected = f"a table: {place}={{{entries}}} is {name} with this value"

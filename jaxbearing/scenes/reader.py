@@ -15,10 +15,12 @@ from ..distribution import Distribution, MeanUsedWarning
 from .data_files import builtin_names, builtin_summary, builtin_text
 from .distributions import means_of, said_of
 from .drafts import Unreadable, draft
-from .errors import SceneError, from_class, nearest, one_of
+from .errors import PresetUsedWarning, SceneError, StatesUnusedWarning, from_class, nearest, one_of
+from .kinds import kind_named
 from .oil.catalogue import with_catalogue
 from .oil.files import Origin, origins, prior_ranges
-from .overrides import REMOVE, Overrides, applied, apply, as_texts, parse_value
+from .overrides import REMOVE, Overrides, applied, apply, as_texts, parse_value, preset
+from .presets import said_of as said_of_preset
 from .table import Table
 from .toml_files import parse_toml, read_text
 from .units import describe, shortened
@@ -85,13 +87,17 @@ def load_scene(source: str | Path, overrides: Overrides | None = None) -> Abstra
       value "none" takes an optional table or field out. `oil.file` and the files of `simulation` are relative to the
       working folder here, and to the file's own folder in a scene file.
 
-    A field that is given as a distribution has its mean in the scene: a `MeanUsedWarning` says so.
+    A field that is given as a distribution has its mean in the scene: a `MeanUsedWarning` says so. What `laws = "best"`
+    stands for, law by law, is said by a `PresetUsedWarning`. The states of a load spectrum are no part of the scene: a
+    `StatesUnusedWarning` says so.
 
     **Raises:** `SceneError` with file, field, what was found and what is expected.
     """
-    label, mapping = read_tables(source)
+    label, mapping = read_base(source)
     warn_of_means(mapping, label, overrides)
-    return scene_from_tables(mapping, label, overrides)
+    scene = scene_from_tables(mapping, label, overrides)
+    warn_of_preset(mapping, label, overrides)
+    return scene
 
 
 def load_distributions(source: str | Path, overrides: Overrides | None = None) -> dict[str, Distribution]:
@@ -131,6 +137,22 @@ def warn_of_means(mapping: Mapping[str, Any], origin: str, overrides: Overrides 
     model = scene_model(mapping, as_texts(overrides), origin)
     for path, distribution in found.items():
         warnings.warn(said_of(path, distribution, model), MeanUsedWarning, stacklevel=3)
+
+
+def warn_of_preset(mapping: Mapping[str, Any], origin: str, overrides: Overrides | None = None) -> None:
+    """Warns of the laws, and of the estimates, for which the preset of a scene stands; arguments as those of
+    `scene_from_tables`, which has read the same."""
+    said = preset_note(mapping, origin, overrides)
+    if said:
+        warnings.warn(said, PresetUsedWarning, stacklevel=3)
+
+
+def preset_note(mapping: Mapping[str, Any], origin: str, overrides: Overrides | None = None) -> str:
+    """What the preset of a scene stands for, law by law; "" without a preset. Arguments as of `warn_of_preset`."""
+    texts = as_texts(overrides)
+    if "laws" not in mapping and "laws" not in texts:
+        return ""
+    return said_of_preset(preset(mapping, texts, scene_model(mapping, texts, origin), origin)[0])
 
 
 def oil_origins(source: str | Path, overrides: Overrides | None = None) -> dict[str, Origin]:
@@ -221,8 +243,32 @@ def _related(a: str, b: str) -> bool:
     return f"{a}.".startswith(f"{b}.") or f"{b}.".startswith(f"{a}.")
 
 
+STATES = "state"
+"""Name of the tables of a load spectrum; `states` reads them."""
+
+
 def read_tables(source: str | Path) -> tuple[str, dict[str, Any]]:
-    """Name for messages, and the tables of a file or a built-in scene. **Raises:** `SceneError`."""
+    """Name for messages, and the tables of a file or a built-in scene without the states of a load spectrum.
+
+    **Raises:** `SceneError`.
+    """
+    label, mapping = read_all(source)
+    return label, {name: table for name, table in mapping.items() if name != STATES}
+
+
+def read_base(source: str | Path) -> tuple[str, dict[str, Any]]:
+    """As `read_tables`, with a `StatesUnusedWarning` of states that are left out."""
+    label, mapping = read_all(source)
+    states = mapping.pop(STATES, None)
+    if states is not None:
+        count = len(states) if isinstance(states, list) else 1
+        said = f"{label}: the scene is that without its {count} [[state]] tables; 'jaxbearing spectrum' solves them"
+        warnings.warn(said, StatesUnusedWarning, stacklevel=3)
+    return label, mapping
+
+
+def read_all(source: str | Path) -> tuple[str, dict[str, Any]]:
+    """Name for messages, and all tables of a file or a built-in scene. **Raises:** `SceneError`."""
     label = str(source)
     if isinstance(source, str) and source in builtin_names():
         text = builtin_text(source)
@@ -257,6 +303,7 @@ def _known_kind(kind: Any, mapping: Mapping[str, Any], origin: str) -> str:
         near = next((key for key in mapping if key != "kind" and nearest(key, ("kind",))), "")
         found = f"the unknown name {near!r}" if near else "nothing"
         raise SceneError(origin, "kind", found, f"the kind of scene, e.g. {_KIND_EXAMPLE}", "kind" if near else "")
+    kind = kind_named(kind)
     if kind in KINDS:
         return kind
     near = nearest(kind, KINDS) if isinstance(kind, str) else ""

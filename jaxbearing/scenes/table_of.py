@@ -11,7 +11,7 @@ import typing
 from collections.abc import Collection, Iterator, Mapping
 from typing import Annotated, Any, Literal
 
-from pydantic import create_model
+from pydantic import BeforeValidator, create_model
 
 from . import units
 from .table import Table
@@ -59,7 +59,8 @@ def type_of(field: Any) -> Any:
     if "each" in said:
         return Annotated[tuple[float, ...], units.several_note(said["each"], said["unit"])]
     if "choices" in said:
-        return Literal[said["choices"]]
+        words: Any = Literal[said["choices"]]
+        return Annotated[words, BeforeValidator(said["also"])] if "also" in said else words
     if "count" in said:
         return Annotated[int, units.count_note(*said["count"])]
     if "switch" in said:

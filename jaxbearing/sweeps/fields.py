@@ -16,7 +16,7 @@ from ..scenes.errors import SceneError, in_words, unknown_name
 from ..scenes.fields import dimension_of, is_known, type_at
 from ..scenes.inputs import owner_of
 from ..scenes.overrides import REMOVE, parse_value
-from ..scenes.reader import read_tables, scene_from_tables, scene_model, warn_of_means
+from ..scenes.reader import read_base, scene_from_tables, scene_model, warn_of_means, warn_of_preset
 from ..scenes.units import Dimension, describe
 from .cases import MOST_CASES, Cases, between, grid, latin_hypercube, random
 from .recipe import Direct, Read, from_reader, structural
@@ -60,7 +60,7 @@ class SceneSource:
     @classmethod
     def of(cls, source: str | Path, overrides: Mapping[str, str] | None = None) -> "SceneSource":
         """**Raises:** `SceneError` for a scene that cannot be read."""
-        label, tables = read_tables(source)
+        label, tables = read_base(source)
         return cls(label, tables, dict(overrides or {}))
 
     @property
@@ -83,9 +83,10 @@ class SceneSource:
         return Field(path, dimension_of(kind), kind)
 
     def warn_of_means(self, cases: Cases, fields: Mapping[str, Field]) -> None:
-        """Warns of distributions of which all cases have the mean."""
+        """Warns of distributions of which all cases have the mean, and of what stands for a preset in the first."""
         swept = {path: fields[path].text(float(values[0])) for path, values in cases.part(0, 1).items()}
         warn_of_means(self.tables, self.label, {**self.overrides, **swept})
+        warn_of_preset(self.tables, self.label, {**self.overrides, **swept})
 
     def recipe(self, cases: Cases, fields: Mapping[str, Field]) -> Direct | Read:
         """**Raises:** `SceneError`, or `ValueError` for a field that shapes the equations."""

@@ -258,7 +258,7 @@ def _at_known_root(network: Network, losses: Losses, root: _Root, stiffness: boo
     moving = residual - jax.lax.stop_gradient(residual)
     move = -jnp.linalg.solve(jacobian, jnp.where(solved, moving, 0.0))
 
-    def at(value: Array, slope: Array) -> Array:
+    def at(value: Any, slope: Array) -> Array:  # a constant of the losses may be of numpy
         return jnp.where(solved, value + slope @ move, jax.lax.stop_gradient(value))
 
     rest = eqx.filter(dataclasses.replace(root.losses, roots=()), eqx.is_inexact_array, inverse=True)

@@ -14,7 +14,7 @@ from ..distribution import Distribution
 from ..mounting import Fits, iso286
 from ..numerics.precision import as_float
 from ..scenes.errors import SceneError
-from ..scenes.reader import distributions_in, scene_from_tables
+from ..scenes.reader import distributions_in, scene_from_tables, warn_of_preset
 from ..sweeps.cases import Cases, listed
 from ..sweeps.fields import SceneSource
 from ..sweeps.recipe import Direct, in_scene
@@ -144,6 +144,7 @@ def scatter_of_source(
     read = SceneSource.of(source, overrides)
     found = distributions_in(read.tables, read.label, read.overrides, priors=True)
     scene = scene_from_tables(read.tables, read.label, read.overrides)
+    warn_of_preset(read.tables, read.label, read.overrides)
     for path, one in found.items():
         _require_plain(read, path, one)
     return read.label, scatter_of(scene, found, drag_prior)

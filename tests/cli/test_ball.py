@@ -14,7 +14,7 @@ ELEMENTS = (
 
 
 def test_screen(jaxbearing_command):
-    result = jaxbearing_command("solve", "angular_contact_218")
+    result = jaxbearing_command("solve", "angular_contact_218", "--full")
     assert (result.code, result.err) == (0, "")
     for word in ("CONVERGED", "16 of 16 balls", "Contact angles", "43.13 deg", "raceway control 100.0 %", "all"):
         assert word in result.out

@@ -200,7 +200,7 @@ def test_sensitivities(jaxbearing_command, folder):
     assert slopes["power_loss.total"] == {**SLOPES, "drag.through_flow_fraction": None}
     assert list(slopes["cage.slip"].values()) == [-0.125, 0.0]
 
-    screen = jaxbearing_command(*arguments)
+    screen = jaxbearing_command(*arguments, "--sensitivities-by", "percent")
     assert (screen.code, screen.err) == (0, "")
     power, slip = shown(screen.out)
     # constants of laws are not shown; the five largest, then what nobody knows well
@@ -208,6 +208,54 @@ def test_sensitivities(jaxbearing_command, folder):
     assert list(power) == [*chosen[:5], "drag.coefficient"]
     assert power["drag.coefficient"] == 1e-7
     assert slip == {"operation.inner_speed": -0.125, "drag.coefficient": 0.0}
+
+
+@pytest.mark.usefixtures("known_slopes")
+def test_sensitivities_by_usual_tolerances(jaxbearing_command):
+    """One per cent of a pitch diameter is no tolerance of it: speed and cage clearance decide."""
+    arguments = ("solve", "reference_roller", "--sensitivities")
+    found = json.loads(jaxbearing_command(*arguments, "--json").out)["sensitivities_by_tolerance"]["power_loss.total"]
+    speed = found["operation.inner_speed"]
+    np.testing.assert_allclose(speed["effect"], -1.5 * 0.01, rtol=1e-12)
+    np.testing.assert_allclose(speed["tolerance"], 0.01 * 10_500 * math.pi / 30.0, rtol=1e-12)
+    assert list(found)[:3] == ["cage.guiding_clearance", "operation.inner_speed", "cage.land_width"]
+    assert "oil.viscosity.c1" not in found
+    assert abs(found["geometry.pitch_diameter"]["effect"]) < 1e-4
+    screen = jaxbearing_command(*arguments).out
+    table = screen.split("Sensitivities, by usual tolerances")[1]
+    assert "-5.00 %" in table
+    assert "+0.01 points" not in table
+    assert max(len(line) for line in screen.splitlines()) <= 100
+
+
+@pytest.mark.usefixtures("no_solve")
+@pytest.mark.parametrize(
+    ("options", "words"),
+    [
+        (("--sensitivities-of", "liffe"), ["--sensitivities-of", "'life'"]),
+        (("--sensitivities-by", "per cent"), ["--sensitivities-by", "'percent'"]),
+    ],
+    ids=str,
+)
+def test_unknown_sensitivities_are_refused(options, words, jaxbearing_command):
+    result = jaxbearing_command(*DRY, *options)
+    assert (result.code, result.out) == (2, "")
+    for word in ("found", "expected", *words):
+        assert word in result.err
+
+
+def test_sensitivities_of_the_stiffness(jaxbearing_command):
+    """Of a dry bearing, which has neither loss nor life."""
+    result = jaxbearing_command(*DRY, "--sensitivities-of", "stiffness", "--json")
+    assert (result.code, result.err) == (0, "")
+    found = json.loads(result.out)
+    assert list(found["sensitivities"]) == ["stiffness.radial"]
+    assert "power_loss_interval" not in found
+    slopes = found["sensitivities"]["stiffness.radial"]
+    assert slopes["materials.rings.youngs_modulus"] > 0.3
+    lacking = jaxbearing_command(*DRY, "--sensitivities-of", "life")
+    assert (lacking.code, lacking.out) == (2, "")
+    assert "--sensitivities-of: found a bearing that does not model life; expected one of stiffness" in lacking.err
 
 
 def shown(screen):
@@ -229,6 +277,7 @@ def test_same_results_with_sensitivities_and_without(jaxbearing_command, folder)
     rated = ("reference_roller", "--set", "contact=none", "--set", "rating={}")
     plain = json.loads(jaxbearing_command("solve", *rated, "--json").out)
     differentiated = json.loads(jaxbearing_command("solve", *rated, "--sensitivities", "--json").out)
+    differentiated.pop("sensitivities_by_tolerance")
     slopes = differentiated.pop("sensitivities")
     assert list(slopes) == ["life.L10r"]
     assert differentiated["life"]["L10r_hours"] > 0.0
@@ -260,7 +309,7 @@ def lubricated(tmp_path_factory):
         patch.setenv("JAXBEARING_CACHE", "off")
         everything = ("--json", "--sensitivities", "--plot", file("a.svg"), "--out", file("a.nc"))
         as_json = printed(patch, "reference_roller", *everything)
-        screen = printed(patch, "reference_roller", "--sensitivities")
+        screen = printed(patch, "reference_roller", "--sensitivities", "--sensitivities-by", "percent")
     return folder, json.loads(as_json), screen
 
 

@@ -78,10 +78,12 @@ def test_commands_are_found():
 @pytest.fixture
 def folder(tmp_path, monkeypatch):
     """Where a reader works, with the files that the pages show or describe."""
-    fitting, life = (ROOT / name for name in ("docs/fitting.md", "docs/life.md"))
+    fitting, life, spectrum = (ROOT / "docs" / f"{name}.md" for name in ("fitting", "life", "spectrum"))
     (curves,) = re.findall(r"```csv\n(.*?)```", fitting.read_text(encoding="utf-8"), flags=re.DOTALL)
     (scene,) = re.findall(r"```toml\n(.*?)```", life.read_text(encoding="utf-8"), flags=re.DOTALL)
+    (duty,) = re.findall(r"```toml\n(.*?)```", spectrum.read_text(encoding="utf-8"), flags=re.DOTALL)
     files = {
+        "duty.toml": duty,
         "curves.csv": curves,
         "misaligned.toml": scene,
         "cases.csv": "operation.inner_speed [rpm],operation.radial_load [kN]\n8000,20\n10000,25\n",
@@ -115,7 +117,7 @@ def _few(cases):
 def made_up(monkeypatch, one_process):
     """Results of every solver without a solve."""
 
-    def slopes(scene, throw):
+    def slopes(scene, throw, of=None):
         numbers = {"operation.inner_speed": jnp.asarray(1.0), "geometry.pitch_diameter": jnp.asarray(-0.5)}
         return solution_of(scene), Sensitivities(numbers, numbers)
 
@@ -126,7 +128,8 @@ def made_up(monkeypatch, one_process):
     # a made up state is that of no bearing
     for kind in (CylindricalRollerBearing, EHLLineContact):
         monkeypatch.setattr(kind, "check_restart", lambda *_: None)
-    monkeypatch.setattr("jaxbearing.sweeps.plan.LaneProgram", MadeUpProgram)
+    for module in ("sweeps.plan", "spectrum.verb"):
+        monkeypatch.setattr(f"jaxbearing.{module}.LaneProgram", MadeUpProgram)
     monkeypatch.setattr("jaxbearing.tolerance.verb.slopes_at", slopes_of)
     fit = lambda measurements, machine, options: fit_results.made_up(machine, "curves.csv")
     monkeypatch.setattr(sys.modules["fitting.fit"], "fit", fit)

@@ -64,9 +64,9 @@ def solution(status=Status.CONVERGED, number=None, **changes):
     return Solution(**{name: value for name, value in (fields | changes).items() if name in known})
 
 
-def text_of(result, width=100, **options):
+def text_of(result, width=100, full=False, **options):
     stream = io.StringIO()
-    print_summary(result, "a scene", Console(file=stream, width=width, highlight=False, **options))
+    print_summary(result, "a scene", Console(file=stream, width=width, highlight=False, **options), full)
     return stream.getvalue()
 
 
@@ -170,7 +170,7 @@ def test_every_kind_of_loss_may_be_left_out(loss):
 
 def test_the_life_to_design_by_comes_first():
     """The modified life where it is known, and hours before revolutions, in every output."""
-    numbers = {field.name: jnp.ones(()) for field in dataclasses.fields(Life)}
+    numbers = {field.name: jnp.ones(()) for field in dataclasses.fields(Life) if field.name != "family"}
     numbers |= {"Lnmr_hours": jnp.asarray(570.0), "L10r_hours": jnp.asarray(1912.0), "L10h": jnp.asarray(700.0)}
     numbers |= {name: jnp.ones(N) for name in ("film_ratio_inner", "film_ratio_outer")}
     lasting = ["Lnmr_hours", "Lnmr", "L10r_hours", "L10r", "L10h", "L10"]
@@ -214,8 +214,33 @@ def test_summary():
 
 
 @pytest.mark.parametrize("width", [40, 60, 80, 200])
-def test_summary_at_any_width(width):
-    assert max(len(line) for line in text_of(solution(), width).splitlines()) <= width
+@pytest.mark.parametrize("full", [False, True])
+def test_summary_at_any_width(width, full):
+    assert max(len(line) for line in text_of(solution(), width, full).splitlines()) <= width
+
+
+def test_life_and_power_come_first_then_warnings_then_the_parts():
+    numbers = {field.name: jnp.ones(()) for field in dataclasses.fields(Life) if "unit" in field.metadata}
+    numbers |= {name: jnp.ones(N) for name in ("film_ratio_inner", "film_ratio_outer")}
+    known = solution(life=Life(**numbers))
+    order = ["Operating point", "Life", "Lubrication", "Rating", "Power loss", "Torque", "Drive power", "Warnings"]
+    order += ["drag", "Largest load", "Cage", "Inner ring", "Stiffness", "Highest pressure"]
+    for full in (False, True):
+        lines = text_of(known, full=full).splitlines()
+        names = [name for name in order if not full or name != "Largest load"]
+        places = [next(i for i, line in enumerate(lines) if line.lstrip(" -").startswith(name)) for name in names]
+        assert places == sorted(places)
+
+
+def test_only_the_full_summary_has_a_row_for_each_element():
+    short, full = (text_of(solution(), full=full) for full in (False, True))
+    assert len(short.splitlines()) < len(full.splitlines())
+    assert "azimuth" not in short
+    assert "azimuth" in full
+    assert "Largest load      inner race 1000 N (at 0 deg)" in short
+    # every other line of the short one is in the full one
+    lines = set(full.splitlines())
+    assert [line for line in short.splitlines() if line not in lines and "Largest load" not in line] == []
 
 
 @pytest.mark.parametrize("width", [60, 80, 100])
@@ -224,7 +249,7 @@ def test_no_number_is_cut(width):
     films = {name: jnp.full(N, 0.37654e-6) for name in ("film_inner", "film_outer")}
     pressures = {name: jnp.full(N, 1.4e9) for name in ("pressure_inner", "pressure_outer")}
     elements = dataclasses.replace(solution().elements, **films, **pressures)
-    text = text_of(solution(elements=elements), width)
+    text = text_of(solution(elements=elements), width, full=True)
     assert "…" not in text
     assert text.count("0.3765") >= 6
     for title in ("Q inner", "Q outer", "p inner", "p outer", "h inner", "h outer", "1000.0", "750.0"):

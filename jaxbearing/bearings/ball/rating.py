@@ -7,7 +7,7 @@ from jaxtyping import Array, Float
 
 from ...numerics.newton import NewtonOptions, newton_solve
 from ..mounted import running_scene
-from ..rated import RatedContacts
+from ..rated import RatedContacts, sizes_of_loads
 from .build import build_core
 from .scene import BallBearing
 
@@ -26,15 +26,13 @@ def linear_tilt_loads(scene: BallBearing, options: NewtonOptions | None = None) 
     return jnp.where(result.converged, load, jnp.nan)
 
 
-def rated_contacts(scene: BallBearing, elements: Any) -> RatedContacts:
-    """**Arguments:** `elements`: `BallResults` of a solution."""
-    geometry, operation = scene.geometry, scene.operation
+def rated_contacts(scene: BallBearing, elements: Any, force: Float[Array, " freedom"] | None = None) -> RatedContacts:
+    """**Arguments:** `elements`: `BallResults` of a solution; `force`: its `force`."""
+    geometry = scene.geometry
     inner, outer = elements.load_inner, elements.load_outer
     if scene.rated_to_first_order:
         inner, outer = linear_tilt_loads(running_scene(scene)[0])
-    # the catalogue's formula is one of loads that are all known: here of a radial one alone
-    given = (operation.axial_load, operation.moment, operation.moment_lateral)
-    radial_only = not operation.displaced and all(load is None for load in given)
+    radial, axial = sizes_of_loads(scene.operation, force)
     return RatedContacts(
         n_elements=geometry.n_balls,
         diameter=geometry.ball_diameter,
@@ -46,5 +44,6 @@ def rated_contacts(scene: BallBearing, elements: Any) -> RatedContacts:
         inner=inner,
         outer=outer,
         conformities=(geometry.conformity_inner, geometry.conformity_outer),
-        radial_load=operation.radial_size if radial_only else None,
+        radial_load=radial,
+        axial_load=axial,
     )

@@ -223,10 +223,10 @@ class BallBearing(AbstractBearing):
 
         return ball_outline(self, of)
 
-    def rated_contacts(self, elements: Any, laminae: Any) -> RatedContacts:
+    def rated_contacts(self, elements: Any, laminae: Any, force: Array | None = None) -> RatedContacts:
         from .rating import rated_contacts
 
-        return rated_contacts(self, elements)
+        return rated_contacts(self, elements, force)
 
     def point_contacts(self, elements: Any) -> PointContact:
         cosines = (jnp.cos(elements.contact_angle_inner), jnp.cos(elements.contact_angle_outer))

@@ -2,14 +2,20 @@
 
 from typing import Any
 
-from ..rated import RatedContacts
+from jaxtyping import Array, Float
+
+from ..rated import RatedContacts, is_misaligned, sizes_of_loads
 from .scene import CylindricalRollerBearing
 
 
-def rated_contacts(scene: CylindricalRollerBearing, elements: Any, laminae: Any) -> RatedContacts:
-    """**Arguments:** `RollerResults` and, of rollers in laminae, `LaminaLoads` of a solution."""
+def rated_contacts(
+    scene: CylindricalRollerBearing, elements: Any, laminae: Any, force: Float[Array, " freedom"] | None = None
+) -> RatedContacts:
+    """**Arguments:** `RollerResults` and, of rollers in laminae, `LaminaLoads` of a solution; `force`: its `force`."""
     geometry, operation = scene.geometry, scene.operation
-    other = operation.tilts or operation.displaced or operation.axial_given
+    radial, _ = sizes_of_loads(operation, force)
+    # ISO 281 has no formula for an axial load on flanges: it sends its reader to the maker
+    other = is_misaligned(operation) or operation.axial_given
     loads = (elements.load_inner, elements.load_outer) if laminae is None else (laminae.inner, laminae.outer)
     return RatedContacts(
         n_elements=geometry.n_rollers,
@@ -22,5 +28,5 @@ def rated_contacts(scene: CylindricalRollerBearing, elements: Any, laminae: Any)
         outer=loads[1],
         length=geometry.loaded_length,
         profiled=laminae is not None and laminae.profiled,
-        radial_load=None if other else operation.radial_size,
+        radial_load=None if other else radial,
     )

@@ -187,10 +187,10 @@ class CylindricalRollerBearing(AbstractMovingBearing):
 
         return roller_outline(self)
 
-    def rated_contacts(self, elements: Any, laminae: Any) -> RatedContacts:
+    def rated_contacts(self, elements: Any, laminae: Any, force: Array | None = None) -> RatedContacts:
         from .rating import rated_contacts
 
-        return rated_contacts(self, elements, laminae)
+        return rated_contacts(self, elements, laminae, force)
 
     def with_lateral_freedom(self) -> "CylindricalRollerBearing":
         return self if self.tilts else self.replace({"ring_freedom": ("radial", "lateral")})

@@ -65,7 +65,7 @@ def roller_inertia(geometry: TaperedGeometry, body: RollerBody, motion: TaperedM
 
 
 def tapered_form(geometry: TaperedGeometry) -> TaperedForm:
-    half, flange = jnp.asarray(geometry.roller_half_angle), jnp.asarray(geometry.flange_angle)
+    half, flange = jnp.asarray(geometry.roller_half_angle), jnp.asarray(geometry.rib_angle)
     a_s, r_s = geometry.sphere_centre
     return TaperedForm(
         sine=jnp.sin(half),

@@ -135,8 +135,8 @@ def rib_motion(geometry: TaperedGeometry, motion: TaperedMotion) -> RibMotion:
     """See the module. The speeds of the rings against the rollers are taken from the spin, in which nothing cancels."""
     orbiting = motion.spin_speed * jnp.sin(geometry.roller_half_angle) / jnp.sin(geometry.cone_angle)
     rib = orbiting * geometry.flange_radius
-    end = motion.spin_speed * geometry.end_radius * jnp.sin(geometry.flange_tilt)
-    spin = orbiting * jnp.cos(jnp.asarray(geometry.flange_angle)) + motion.spin_speed * jnp.cos(geometry.flange_tilt)
+    end = motion.spin_speed * geometry.sphere_radius * jnp.sin(geometry.flange_tilt)
+    spin = orbiting * jnp.cos(jnp.asarray(geometry.rib_angle)) + motion.spin_speed * jnp.cos(geometry.flange_tilt)
     return RibMotion(0.5 * (rib + end), rib - end, spin)
 
 
@@ -287,8 +287,8 @@ def _balance(
         moment = moment - jnp.sum(couple[None] * roller.line, axis=1)
         torque = torque - couple * roller.line[0]
     if rib is not None:
-        normal = jnp.stack([jnp.cos(jnp.asarray(geometry.flange_angle)), -jnp.sin(jnp.asarray(geometry.flange_angle))])
-        axial, radius = geometry.sphere_centre[0] - geometry.end_radius * normal[0], geometry.flange_radius
+        normal = jnp.stack([jnp.cos(jnp.asarray(geometry.rib_angle)), -jnp.sin(jnp.asarray(geometry.rib_angle))])
+        axial, radius = geometry.sphere_centre[0] - geometry.sphere_radius * normal[0], geometry.flange_radius
         of_rib = rib.rolling[None] * jnp.stack([radius, -axial])[:, None] + rib.moment[None] * normal[:, None]
         moment, force = moment + of_rib, force + rib.rolling
         torque = torque + jnp.stack([of_rib[0], jnp.zeros_like(force)])

@@ -22,6 +22,12 @@ from ...numerics.refusals import refusals_of, refuse_all
 from ...numerics.structure import count
 from ..parts import FIRST_ELEMENT
 
+USUAL_END_RADIUS = 0.95
+"""Radius of the roller's end sphere over the length of the roller's cone where a scene does not give it; 0.85 to 0.99
+are usual."""
+USUAL_RIB_HEIGHT = 0.8
+"""Distance of the rib contact from the roller's axis over the radius of the big end where a scene does not give the
+angle of the rib: low on the rib."""
 LEAST_HALF_ANGLE = math.radians(0.3)
 """Least half angle of the rollers: below, the apex goes to infinity and the bearing is a cylindrical one."""
 
@@ -35,8 +41,10 @@ class TaperedGeometry(Checked):
     - `roller_length`: l_w, of contact, along the generator, m.
     - `contact_angle`: half angle of the cup, alpha_o, rad.
     - `roller_half_angle`: epsilon, rad, at least 0.3 degrees.
-    - `flange_angle`: of the NORMAL of the rib to the bearing axis, alpha_f, rad; less than gamma = alpha_o - epsilon.
-    - `end_radius`: R_s, of the sphere of the roller's big end, m.
+    - `flange_angle`: of the NORMAL of the rib to the bearing axis, alpha_f, rad; less than gamma = alpha_o - epsilon;
+      not given: estimated, so that rib and roller touch 0.8 of the big end's radius below the roller axis.
+    - `end_radius`: R_s, of the sphere of the roller's big end, m; not given: estimated, 0.95 of the length of the
+      roller's cone.
     - `first_element_angle`: azimuth of the first roller, rad; not given: 0, and the load line is a line of symmetry.
     - `bore`, `outside_diameter`, `width`: boundary dimensions of the bearing, m, for what knows its seats.
 
@@ -50,8 +58,8 @@ class TaperedGeometry(Checked):
     roller_length: Scalar = number(bound="> 0", unit="m")
     contact_angle: Scalar = number(bound="above 0 and below 90 degrees", unit="rad")
     roller_half_angle: Scalar = number(bound="above 0 and below 90 degrees", unit="rad")
-    flange_angle: Scalar = number(bound="above 0 and below 90 degrees", unit="rad")
-    end_radius: Scalar = number(bound="> 0", unit="m")
+    flange_angle: Scalar | None = optional_number(bound="above 0 and below 90 degrees", unit="rad")
+    end_radius: Scalar | None = optional_number(bound="> 0", unit="m")
     first_element_angle: Scalar | None = optional_number(metadata=FIRST_ELEMENT)
     bore: Scalar | None = optional_number(bound="> 0", unit="m")
     outside_diameter: Scalar | None = optional_number(bound="> 0", unit="m")
@@ -65,10 +73,43 @@ class TaperedGeometry(Checked):
         if self.n_rollers < 1:
             yield f"geometry.n_rollers must be >= 1, got {self.n_rollers}"
             return
-        names = ("roller_diameter", "roller_length", "contact_angle", "roller_half_angle", "flange_angle", "end_radius")
-        sizes = numbers_or_none(*(getattr(self, name) for name in names))
+        sizes = numbers_or_none(
+            *(self.roller_diameter, self.roller_length, self.contact_angle, self.roller_half_angle),
+            *(one for one in (self.flange_angle, self.end_radius) if one is not None),
+        )
         if sizes is not None:
-            yield from refusals_of(_check, self.n_rollers, *sizes)
+            diameter, _, cup, half = sizes[:4]
+            end = usual_end_radius(diameter, half) if self.end_radius is None else sizes[-1]
+            rib = usual_flange_angle(diameter, cup, half, end) if self.flange_angle is None else sizes[4]
+            yield from refusals_of(_check, self.n_rollers, *sizes[:4], rib, end)
+
+    @property
+    def rib_angle(self) -> Scalar:
+        """alpha_f, as given or estimated, rad."""
+        if self.flange_angle is not None:
+            return self.flange_angle
+        return usual_flange_angle(
+            self.roller_diameter, self.contact_angle, self.roller_half_angle, self.sphere_radius, jnp
+        )
+
+    @property
+    def sphere_radius(self) -> Scalar:
+        """R_s, as given or estimated, m."""
+        if self.end_radius is not None:
+            return self.end_radius
+        return usual_end_radius(self.roller_diameter, self.roller_half_angle, jnp)
+
+    def assumptions(self) -> list[str]:
+        """Notes for the user on dimensions that are estimated."""
+        said = {
+            "flange_angle": f"so that rib and roller touch {USUAL_RIB_HEIGHT:g} of the big end's radius below the axis",
+            "end_radius": f"{USUAL_END_RADIUS:g} of the length of the roller's cone (0.85 to 0.99 are usual)",
+        }
+        return [
+            f"geometry.{name} is not given: estimated {words}"
+            for name, words in said.items()
+            if getattr(self, name) is None
+        ]
 
     @property
     def cone_angle(self) -> Array:
@@ -103,12 +144,12 @@ class TaperedGeometry(Checked):
     @property
     def end_height(self) -> Array:
         """R_s cos(lambda): from the big end's plane to the centre of its sphere, m."""
-        return self.end_radius * jnp.sqrt(1.0 - jnp.square(self.roller_diameter / (2.0 * self.end_radius)))
+        return self.sphere_radius * jnp.sqrt(1.0 - jnp.square(self.roller_diameter / (2.0 * self.sphere_radius)))
 
     @property
     def flange_tilt(self) -> Array:
         """theta = gamma - alpha_f, rad: the contact at the rib lies below the roller axis."""
-        return self.axis_angle - self.flange_angle
+        return self.axis_angle - self.rib_angle
 
     @property
     def sphere_centre(self) -> tuple[Array, Array]:
@@ -119,14 +160,14 @@ class TaperedGeometry(Checked):
     @property
     def flange_radius(self) -> Array:
         """r_f: of the contact on the rib about the bearing axis, m."""
-        height = self.end_radius * jnp.sin(self.flange_angle) - self.end_height * jnp.sin(self.axis_angle)
+        height = self.sphere_radius * jnp.sin(self.rib_angle) - self.end_height * jnp.sin(self.axis_angle)
         return self.big_end_radius + height
 
     def flange_contact(self, reduced_modulus: Scalar) -> PointContact:
         """Sphere on the concave cone of the rib (eq. (53)): straight along its generator, curved around the axis, which
         is the direction of rolling."""
-        around = 1.0 / self.end_radius - jnp.sin(self.flange_angle) / self.flange_radius
-        return PointContact(1.0 / around, jnp.asarray(self.end_radius), reduced_modulus)
+        around = 1.0 / self.sphere_radius - jnp.sin(self.rib_angle) / self.flange_radius
+        return PointContact(1.0 / around, jnp.asarray(self.sphere_radius), reduced_modulus)
 
     def race_reduced_radii(self, position: Array) -> Array:
         """Reduced radii of the inner and outer contact normal to the generator at s/l, m; shape (2, ...)."""
@@ -134,6 +175,19 @@ class TaperedGeometry(Checked):
         roller = reach * jnp.tan(self.roller_half_angle)
         inner, outer = reach * jnp.tan(self.cone_angle), reach * jnp.tan(self.contact_angle)
         return jnp.stack([1.0 / (1.0 / roller + 1.0 / inner), 1.0 / (1.0 / roller - 1.0 / outer)])
+
+
+def usual_end_radius(diameter: Any, half: Any, xp: Any = None) -> Any:
+    """The estimate of R_s, m. **Arguments:** of the big end, m; epsilon, rad; `xp`: module of the sine."""
+    xp = array_module(diameter, half) if xp is None else xp
+    return USUAL_END_RADIUS * 0.5 * diameter / xp.sin(half)
+
+
+def usual_flange_angle(diameter: Any, cup: Any, half: Any, end_radius: Any, xp: Any = None) -> Any:
+    """The estimate of alpha_f, rad. **Arguments:** as of `TaperedGeometry`; `xp`: module of the arc sine."""
+    xp = array_module(diameter, cup, half, end_radius) if xp is None else xp
+    # a sphere smaller than the end face is refused whatever the angle
+    return cup - half - xp.arcsin(xp.minimum(USUAL_RIB_HEIGHT * 0.5 * diameter / end_radius, 1.0))
 
 
 def _check(n_rollers: int, diameter: Any, length: Any, cup: Any, half: Any, flange: Any, end_radius: Any) -> None:

@@ -29,7 +29,7 @@ def raceway_diameters(geometry: TaperedGeometry) -> tuple[Float[Array, ""], Floa
 def _of_rollers(geometry: TaperedGeometry, growth: Growth) -> tuple[Array, Array]:
     """g and g_f, m."""
     race = 0.5 * geometry.roller_diameter * jnp.cos(jnp.asarray(geometry.roller_half_angle))
-    end = geometry.end_radius - geometry.end_height * jnp.cos(geometry.flange_tilt)
+    end = geometry.sphere_radius - geometry.end_height * jnp.cos(geometry.flange_tilt)
     return growth.element_strain * race, growth.element_strain * end
 
 
@@ -41,7 +41,7 @@ def closing(geometry: TaperedGeometry, growth: Growth) -> Float[Array, "3"]:
         [
             inner * jnp.cos(geometry.cone_angle) + race,
             race - outer * jnp.cos(jnp.asarray(geometry.contact_angle)),
-            end - inner * jnp.sin(jnp.asarray(geometry.flange_angle)),
+            end - inner * jnp.sin(jnp.asarray(geometry.rib_angle)),
         ]
     )
 
@@ -49,7 +49,7 @@ def closing(geometry: TaperedGeometry, growth: Growth) -> Float[Array, "3"]:
 def running_play(geometry: TaperedGeometry, growth: Growth) -> Play:
     """Axial displacement of the cone that restores touching."""
     (race, end), cone = _of_rollers(geometry, growth), geometry.cone_angle
-    cup, rib = jnp.asarray(geometry.contact_angle), jnp.asarray(geometry.flange_angle)
+    cup, rib = jnp.asarray(geometry.contact_angle), jnp.asarray(geometry.rib_angle)
     along = (race * jnp.sin(rib) + end * jnp.cos(cone)) / jnp.cos(cone - rib)
     across = (race * jnp.cos(rib) - end * jnp.sin(cone)) / jnp.cos(cone - rib)
     shift = 0.5 * (growth.outer - growth.inner) / jnp.tan(cup)

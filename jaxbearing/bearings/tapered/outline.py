@@ -21,6 +21,14 @@ def tapered_outline(scene: TaperedRollerBearing) -> Outline:
     reach = far * math.cos(number(geometry.roller_half_angle))
     touch = moved(on(cone, big), (math.sin(axis), math.cos(axis)), 0.12 * diameter)
     ends = on(cone, big), on(cup, big)
+    labels = {
+        "roller_diameter": between(*ends, 0.7),
+        "roller_length": on(cup, big - 0.4 * length),
+        "contact_angle": on(cup, big - 0.75 * length),
+        "roller_half_angle": on(0.5 * (cup + cone), small),
+        "flange_angle": between(*ends, 0.06),
+        "end_radius": between(*ends, 0.4),
+    }
     return Outline(
         diameter=diameter,
         rings=[
@@ -36,14 +44,8 @@ def tapered_outline(scene: TaperedRollerBearing) -> Outline:
         },
         shoulder=500.0 * number(geometry.mean_roller_diameter),
         dimensions=[(on(cone, big), on(cup, big)), (on(cup, big), on(cup, small))],
-        labels={
-            "roller_diameter": between(*ends, 0.7),
-            "roller_length": on(cup, big - 0.4 * length),
-            "contact_angle": on(cup, big - 0.75 * length),
-            "roller_half_angle": on(0.5 * (cup + cone), small),
-            "flange_angle": between(*ends, 0.06),
-            "end_radius": between(*ends, 0.4),
-        },
+        # what is not given has no number to be written
+        labels={name: place for name, place in labels.items() if getattr(geometry, name) is not None},
     )
 
 

@@ -2,16 +2,18 @@
 
 from typing import Any
 
-import jax.numpy as jnp
+from jaxtyping import Array, Float
 
-from ..rated import RatedContacts
+from ..rated import RatedContacts, is_misaligned, sizes_of_loads
 from .scene import TaperedRollerBearing
 
 
-def rated_contacts(scene: TaperedRollerBearing, laminae: Any) -> RatedContacts:
-    """**Arguments:** `LaminaLoads` of a solution."""
+def rated_contacts(
+    scene: TaperedRollerBearing, laminae: Any, force: Float[Array, " freedom"] | None = None
+) -> RatedContacts:
+    """**Arguments:** `LaminaLoads` of a solution; `force`: its `force`."""
     geometry, operation = scene.geometry, scene.operation
-    known = not operation.tilts and not operation.displaced
+    radial, axial = (None, None) if is_misaligned(operation) else sizes_of_loads(operation, force)
     return RatedContacts(
         n_elements=geometry.n_rollers,
         diameter=geometry.mean_roller_diameter,
@@ -23,6 +25,6 @@ def rated_contacts(scene: TaperedRollerBearing, laminae: Any) -> RatedContacts:
         outer=laminae.outer,
         length=geometry.roller_length,
         profiled=laminae.profiled,
-        radial_load=operation.radial_size if known else None,
-        axial_load=jnp.asarray(operation.axial_load) if known else None,
+        radial_load=radial,
+        axial_load=axial,
     )

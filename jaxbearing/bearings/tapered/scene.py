@@ -155,10 +155,10 @@ class TaperedRollerBearing(AbstractBearing):
 
         return tapered_outline(self)
 
-    def rated_contacts(self, elements: Any, laminae: Any) -> RatedContacts:
+    def rated_contacts(self, elements: Any, laminae: Any, force: Array | None = None) -> RatedContacts:
         from .rating import rated_contacts
 
-        return rated_contacts(self, laminae)
+        return rated_contacts(self, laminae, force)
 
     @property
     def mean_diameter(self) -> Array:
@@ -203,7 +203,7 @@ class TaperedRollerBearing(AbstractBearing):
 
     def assumptions(self) -> tuple[str, ...]:
         """Notes for the user: assumptions of the model, and uses for which its data were not made."""
-        said = []
+        said = self.geometry.assumptions()
         if self.contact is not None and self.oil is not None:
             said += [f"oil: {note}" for note in self.oil.notes]
             laws = (self.contact.traction, None if self.rib is None else self.rib.traction)

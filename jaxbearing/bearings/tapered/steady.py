@@ -93,7 +93,7 @@ def slides_out(scene: TaperedRollerBearing, inertia: Inertia) -> Bool[Array, ""]
 def least_axial_load(scene: TaperedRollerBearing, inertia: Inertia) -> Float[Array, ""]:
     """The bound of `slides_out`, N: less does not hold the cone in the cup."""
     geometry = scene.geometry
-    cup, rib = jnp.asarray(geometry.contact_angle), jnp.asarray(geometry.flange_angle)
+    cup, rib = jnp.asarray(geometry.contact_angle), jnp.asarray(geometry.rib_angle)
     least = inertia.force * jnp.cos(rib) / jnp.cos(cup - rib)
     return scene.operation.radial_size * jnp.tan(cup) + geometry.n_rollers * least * jnp.sin(cup)
 
@@ -340,7 +340,7 @@ def _end_reach(scene: TaperedRollerBearing, state: TaperedState) -> Array:
     """Length by which the ellipse on the rib reaches beyond the end face, m."""
     geometry = scene.geometry
     modulus = reduced_modulus(scene.materials.rings, scene.materials.rollers)
-    below = geometry.end_radius * jnp.sin(geometry.flange_tilt)
+    below = geometry.sphere_radius * jnp.sin(geometry.flange_tilt)
     # across the rolling direction, along the rib's generator
     ellipse = geometry.flange_contact(modulus).ellipse(state.flange_load)
     return below + ellipse.transverse - 0.5 * geometry.roller_diameter

@@ -9,6 +9,7 @@ import numpy as np
 from ...bearings.solution import RING_FREEDOMS, Solution, force_units, stiffness_units
 from ..display import digits, with_unit
 from .fit_facts import fit_facts
+from .life_facts import life_facts
 from .thermal_facts import thermal_facts
 
 
@@ -43,12 +44,13 @@ def facts(solution: Solution) -> Iterator[tuple[str, str]]:
     yield from _tapered_facts(solution)
     yield "Stiffness", ", ".join(_stiffness(solution))
     for title, name, pick in (("Thinnest film", "film", np.nanargmin), ("Highest pressure", "pressure", np.argmax)):
-        text = ", ".join(_extremes(solution.elements, name, pick))
+        text = ", ".join(extremes(solution.elements, name, pick))
         if text:
             yield title, text
     yield from _supply(solution)
     yield from _frequencies(solution)
-    yield from _life(solution)
+    if solution.life is not None:
+        yield from life_facts(solution)
 
 
 def _mixed_facts(solution: Solution) -> Iterator[tuple[str, str]]:
@@ -81,33 +83,6 @@ def _frequencies(solution: Solution) -> Iterator[tuple[str, str]]:
         yield title, f"{', '.join(said)} Hz"
 
 
-def _life(solution: Solution) -> Iterator[tuple[str, str]]:
-    """Ratings, reference life and what modifies it."""
-    life = solution.life
-    if life is None:
-        return
-    of = lambda name: float(np.asarray(getattr(life, name)))
-    kilonewton = lambda name: f"{digits(1e-3 * of(name))} kN"
-    lasting = lambda name, hours: f"{digits(of(hours))} h ({_revolutions(of(name))})"
-    lives = (
-        ("Lnmr", "Lnmr_hours", "modified life Lnmr"),
-        ("L10r", "L10r_hours", "basic reference life L10r"),
-        ("L10", "L10h", "ISO 281 L10"),
-    )
-    known = [f"{words} {lasting(name, hours)}" for name, hours, words in lives if getattr(life, name) is not None]
-    yield "Life", "; ".join(known)
-    yield "Rating", f"C {kilonewton('dynamic_capacity')}, C0 {kilonewton('static_capacity')}"
-    said = [] if life.viscosity_ratio is None else [f"kappa {digits(of('viscosity_ratio'), 3)}"]
-    if life.film_ratio_inner is not None:
-        ratios = [np.asarray(getattr(life, f"film_ratio_{side}")) for side in ("inner", "outer")]
-        thinnest = float(np.nanmin(ratios))  # NaN: a roller that touches nothing
-        said.append(f"smallest lambda ratio {digits(thinnest, 3)}")
-    if life.Lnmr is not None:
-        said.append(f"a_ISO {digits(of('modification_factor'), 3)}")
-    if said:
-        yield "Lubrication", ", ".join(said)
-
-
 def _supply(solution: Solution) -> Iterator[tuple[str, str]]:
     """The supply in words, and what it does to the most loaded contacts."""
     supply = solution.supply
@@ -120,10 +95,6 @@ def _supply(solution: Solution) -> Iterator[tuple[str, str]]:
         of = lambda name, side=side: digits(float(getattr(supply, f"{name}_{side}")), 3)
         factors = f"film factor {of('film_factor')}, rolling factor {of('rolling_factor')}"
         yield "", f"{side} race {factors}, inlet gap {of('gap_over_central')} times the central film"
-
-
-def _revolutions(millions: float) -> str:
-    return f"{digits(millions)} million revolutions"
 
 
 def _ball_facts(solution: Solution) -> Iterator[tuple[str, str]]:
@@ -216,7 +187,8 @@ def _stiffness(solution: Solution) -> Iterator[str]:
         yield f"not modelled: {', '.join(others)}"
 
 
-def _extremes(elements: Any, name: str, pick: Any) -> Iterator[str]:
+def extremes(elements: Any, name: str, pick: Any) -> Iterator[str]:
+    """The value that `pick` finds on each race, and where."""
     for field in dataclasses.fields(elements):
         values = getattr(elements, field.name)
         touches = values is not None and not np.all(np.isnan(np.asarray(values)))

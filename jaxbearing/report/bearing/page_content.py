@@ -13,12 +13,11 @@ from ..tables import element_columns, result_rows
 from .drawing.section import section
 from .drawing.sketch import front_view
 from .facts import facts, not_modelled
+from .life_facts import TITLES
 from .operation import operating_point, unused_operation
 from .panels import bearing_diagrams, bearing_panels, power_losses
 
 _SOLVER = ("status", "iterations", "residual_norm", "inner_residual", "worst_equation", "worst_element", "unknowns")
-_LIFE = ("Life", "Rating", "Lubrication")
-"""Facts that stand in a table of their own."""
 _ARROWS = (
     "Arrows outside and inside the rings: normal force of each {name} on the outer and on the inner ring, all at one "
     "scale, so that their lengths are proportional to the loads. In the middle: what acts on the inner ring. "
@@ -48,7 +47,7 @@ def page_content(scene: Any, solution: Solution) -> Content:
             Sketch("Seen along the axis", front_view(scene, solution), _front_caption(scene, name)),
             Sketch(f"The most loaded {name}", section(scene, solution), _section_caption(scene, name)),
         ],
-        facts=[fact for fact in facts(solution) if fact[0] not in _LIFE],
+        facts=[fact for fact in facts(solution) if fact[0] not in TITLES],
         life=[row for row in results if row.path.startswith("life.")],
         losses=[*rows, ("total", digits(total), "100")] if rows else [],
         not_modelled=not_modelled(solution) if solution.not_modelled else "",

@@ -3,6 +3,8 @@ narrower terminals lose the bars, then get the table of loads in pieces."""
 
 import dataclasses
 import math
+from collections.abc import Iterable
+from typing import Any
 
 import numpy as np
 from rich.console import Console
@@ -23,7 +25,8 @@ from ..backends.screen import (
 from ..display import digits, display_unit, displayed
 from ..tables import derived_facts
 from .azimuth import signed_degrees
-from .facts import facts, not_modelled
+from .facts import extremes, facts, not_modelled
+from .life_facts import SAID
 from .operation import operating_point
 
 LOADED = 0.02
@@ -42,8 +45,21 @@ _COLUMNS = {
 }
 
 
-def print_summary(solution: Solution, scene_label: str, console: Console) -> None:
-    """See `report.summary.print_summary`."""
+FIRST = (
+    *("Life", "Static safety", "Lubrication", "Load", "Rating", "Least load"),
+    *("Temperatures", "Thermal margin", "Clearance", "First contact"),
+)
+"""Names of the facts that stand first, in this order, as far as the scene models them."""
+IN_FULL = (
+    *("Rolling by race", "Ball's spin", "Spin to roll", "Raceways", "Heat", "Seats", "Oil supply"),
+    *("Frequencies", "Textbook's"),
+)
+"""Names of the facts that only the full summary has."""
+
+
+def print_summary(solution: Solution, scene_label: str, console: Console, full: bool = False) -> None:
+    """See `report.summary.print_summary`. Life, safety, lubrication, temperatures and power come first, then the
+    warnings, then the parts."""
     if not bool(solution.converged):
         print_failure(scene_label, Status(int(solution.status)).text, solution.failure(), console)
         print_line("Operating point", operating_point(solution), console)
@@ -53,47 +69,81 @@ def print_summary(solution: Solution, scene_label: str, console: Console) -> Non
     state = f"{counts}, largest scaled residual {float(solution.residual_norm):.1e}"
     headline(scene_label, "CONVERGED", "bold green", state, console)
     print_line("Operating point", operating_point(solution), console)
-    _print_losses(solution, console)
-    _print_loads(solution, console)
-    print_rule("Motion and films", console)
-    for name, text in facts(solution):
-        print_line(name, text, console)
-    for name, text in derived_facts(solution):
-        print_line(name, text, console)
+    said = _by_name(facts(solution))
+    _print_first(solution, {name: said[name] for name in FIRST if name in said}, console)
     print_warnings(solution.warnings, console)
+    _print_losses(solution, console)
+    _print_loads(solution, console, full)
+    print_rule("Motion and films", console)
+    for name, texts in said.items():
+        if name not in FIRST and (full or name not in IN_FULL):
+            _print_fact(name, texts, console)
+    for name, text in derived_facts(solution, SAID):
+        print_line(name, text, console)
+
+
+def _by_name(found: Iterable[tuple[str, str]]) -> dict[str, list[str]]:
+    """The texts of each fact; an empty name continues the fact before."""
+    said: dict[str, list[str]] = {}
+    last = ""
+    for name, text in found:
+        last = name or last
+        said.setdefault(last, []).append(text)
+    return said
+
+
+def _print_fact(name: str, texts: list[str], console: Console) -> None:
+    for title, text in zip([name, *[""] * len(texts)], texts, strict=False):
+        print_line(title, text, console)
+
+
+def _print_first(solution: Solution, said: dict[str, list[str]], console: Console) -> None:
+    """Life and safety, as far as modelled, power loss and torque."""
+    print_rule("Results", console)
+    for name, texts in said.items():
+        _print_fact(name, texts, console)
+    if not _losses(solution):
+        print_line("Not modelled:", not_modelled(solution), console)
+        return
+    total, drive = (float(np.asarray(one)) for one in (solution.power_loss.total, solution.drive_power))
+    watts = _watts([total, drive])
+    torque = lambda ring: f"{digits(float(np.asarray(getattr(solution, f'{ring}_torque'))))} N m on the {ring} ring"
+    torques = [torque("inner")]
+    if float(np.asarray(solution.operation.outer_speed)) != 0.0:
+        torques.append(torque("outer"))
+    print_line("Power loss", f"{watts[0]} W", console)
+    print_line("Torque", ", ".join(torques), console)
+    print_line("Drive power", f"{watts[1]} W", console)
+    if abs(drive - total) > OPEN_BALANCE * abs(total):
+        says = f"the drive power is {100.0 * (drive / total - 1.0):+.3g} % off the sum of the losses"
+        print_line("Not balanced", f"{says}: the attitude of the balls is a hypothesis", console)
+
+
+def _losses(solution: Solution) -> dict[str, float]:
+    """The power losses by location, W, the largest first; empty where the scene models none."""
+    loss = solution.power_loss
+    if loss.total is None or solution.drive_power is None:
+        return {}
+    given = ((field.name, getattr(loss, field.name)) for field in dataclasses.fields(loss) if field.name != "total")
+    entries = {name: float(np.asarray(value)) for name, value in given if value is not None}
+    return dict(sorted(entries.items(), key=lambda entry: -entry[1]))
 
 
 def _print_losses(solution: Solution, console: Console) -> None:
-    loss = solution.power_loss
-    entries = {
-        field.name: float(np.asarray(getattr(loss, field.name)))
-        for field in dataclasses.fields(loss)
-        if getattr(loss, field.name) is not None
-    }
-    total, drive = entries.pop("total", None), solution.drive_power
-    if not entries or total is None or drive is None:
-        print_line("Not modelled:", not_modelled(solution), console)
+    """The power loss by location."""
+    entries = _losses(solution)
+    if not entries:
         return
-    drive = float(drive)
+    total = float(np.asarray(solution.power_loss.total))
     largest = max(abs(watts) for watts in entries.values())
-    entries = dict(sorted(entries.items(), key=lambda entry: -entry[1]))
-    watts = _watts([*entries.values(), total, drive])
     columns = {
         "Power loss": [*entries, "total"],
-        "W": watts[:-1],
+        "W": _watts([*entries.values(), total]),
         "%": [f"{100.0 * value / total:.1f}" if total else "-" for value in entries.values()] + ["100.0"],
     }
     fractions = [value / (largest or 1.0) for value in entries.values()]
     print_rule("Power", console)
     print_table(columns, fractions, _LOSS_BAR, "red", console)
-    torque = lambda ring: f"{digits(float(np.asarray(getattr(solution, f'{ring}_torque'))))} N m on the {ring} ring"
-    torques = [torque("inner")]
-    if float(np.asarray(solution.operation.outer_speed)) != 0.0:
-        torques.append(torque("outer"))
-    print_line("Drive power", f"{watts[-1]} W   ({', '.join(torques)})", console)
-    if abs(drive - total) > OPEN_BALANCE * abs(total):
-        says = f"the drive power is {100.0 * (drive / total - 1.0):+.3g} % off the sum of the losses"
-        print_line("Not balanced", f"{says}: the attitude of the balls is a hypothesis", console)
     if solution.not_modelled:
         print_line("Not modelled:", not_modelled(solution), console)
 
@@ -107,35 +157,51 @@ def _watts(values: list[float]) -> list[str]:
     return [f"{value:.{decimals}f}" for value in values]
 
 
-def _print_loads(solution: Solution, console: Console) -> None:
+def _print_loads(solution: Solution, console: Console, full: bool) -> None:
+    """The largest loads and the loaded zone; in full a row for each loaded element."""
     elements = solution.elements
     load = np.asarray(elements.load_inner)
     largest = float(np.max(load))
     loaded = load > LOADED * largest if largest > 0.0 else np.zeros(load.shape, dtype=bool)
     azimuth = signed_degrees(elements.azimuth)
-    units = {field.name: field.metadata["unit"] for field in dataclasses.fields(elements)}
     shown = {name: title for name, title in _COLUMNS.items() if getattr(elements, name) is not None}
-
-    rows = np.array(sorted(np.flatnonzero(loaded), key=lambda j: azimuth[j]), dtype=int)
-    first = {"azimuth\ndeg": [f"{azimuth[j]:.1f}" for j in rows]}
-    if load.size > 1 and np.all(load == load[0]):  # one element was solved for all
-        rows, first = np.array([0]), {"azimuth\ndeg": ["all"]}
-    columns = {
-        f"{title}\n{display_unit(units[name])}": column(np.asarray(getattr(elements, name))[rows], units[name])
-        for name, title in shown.items()
-    }
-    fractions = [float(load[j]) / largest for j in rows]
     print_rule("Loads round the bearing", console)
-    for piece in pieces(first, columns, console.width, together=2):
-        print_table(piece, fractions, _LOAD_BAR, "cyan", console)
+    if full:
+        _print_load_table(solution, np.flatnonzero(loaded), list(shown.items()), console)
+    else:
+        print_line("Largest load", ", ".join(extremes(elements, "load", np.argmax)), console)
     print_line("Loaded zone", _loaded_zone(azimuth, loaded, solution.element_name), console)
-    if not np.all(loaded):
+    if full and not np.all(loaded):
         ranges = [
-            f"{title} {_range(np.asarray(getattr(elements, name))[~loaded], units[name])}"
+            f"{title} {_range(np.asarray(getattr(elements, name))[~loaded], _unit(elements, name))}"
             for name, title in shown.items()
             if name.startswith("load")
         ]
         print_line(f"Other {solution.element_name}s", ", ".join(ranges), console)
+
+
+def _print_load_table(solution: Solution, loaded: np.ndarray, shown: list[tuple[str, str]], console: Console) -> None:
+    """Loads, pressures and films of these elements."""
+    elements = solution.elements
+    load, azimuth = np.asarray(elements.load_inner), signed_degrees(elements.azimuth)
+    rows = np.array(sorted(loaded, key=lambda j: azimuth[j]), dtype=int)
+    first = {"azimuth\ndeg": [f"{azimuth[j]:.1f}" for j in rows]}
+    if load.size > 1 and np.all(load == load[0]):  # one element was solved for all
+        rows, first = np.array([0]), {"azimuth\ndeg": ["all"]}
+    columns = {
+        f"{title}\n{display_unit(_unit(elements, name))}": column(
+            np.asarray(getattr(elements, name))[rows], _unit(elements, name)
+        )
+        for name, title in shown
+    }
+    fractions = [float(load[j]) / float(np.max(load)) for j in rows]
+    for piece in pieces(first, columns, console.width, together=2):
+        print_table(piece, fractions, _LOAD_BAR, "cyan", console)
+
+
+def _unit(elements: Any, name: str) -> str:
+    """Unit of a result of the elements."""
+    return type(elements).__dataclass_fields__[name].metadata["unit"]
 
 
 def _loaded_zone(azimuth: np.ndarray, loaded: np.ndarray, element: str) -> str:

@@ -10,8 +10,8 @@ from ..tables import derived_facts
 from .operation import operating_text
 
 
-def print_summary(solution: LineContactSolution, scene_label: str, console: Console) -> None:
-    """See `report.summary.print_summary`."""
+def print_summary(solution: LineContactSolution, scene_label: str, console: Console, full: bool = False) -> None:
+    """See `report.summary.print_summary`. There is one form only."""
     if not bool(solution.converged):
         print_failure(scene_label, Status(int(solution.status)).text, solution.failure(), console)
         return

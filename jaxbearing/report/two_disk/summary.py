@@ -33,8 +33,8 @@ _SMALLEST_SHOWN = 1e-3
 """Slide-to-roll ratio from which on curves differ visibly."""
 
 
-def print_summary(solution: TwoDiskSolution, scene_label: str, console: Console) -> None:
-    """See `report.summary.print_summary`."""
+def print_summary(solution: TwoDiskSolution, scene_label: str, console: Console, full: bool = False) -> None:
+    """See `report.summary.print_summary`. There is one form only."""
     if not bool(solution.converged):
         status = Status(int(np.max(np.asarray(solution.status)))).text
         print_failure(scene_label, status, solution.failure(), console)

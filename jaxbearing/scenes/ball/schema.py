@@ -25,10 +25,12 @@ from ..bearing.schema import (
     require_oil_flow,
 )
 from ..bearing.simulation import WarmUpTable
+from ..kinds import KIND
 from ..laws import BALL_FILMS, POINT_ROLLING, POINT_THERMAL, TRACTIONS, TractionAccuracy
 from ..materials import MaterialField
 from ..mixed import MixedTable, mixed_needs_traction
 from ..oil.schema import OilTable
+from ..presets import Preset
 from ..table import Problems, Table, check, refusal_at
 from ..table_of import table_of
 
@@ -140,7 +142,8 @@ class BallDragTable(table_of(BallDragSettings)):
 class BallBearingTable(Table):
     """The whole file. A table that is left out is not modelled."""
 
-    kind: Literal["ball_bearing"]
+    kind: Annotated[Literal["ball_bearing"], KIND]
+    laws: Preset | None = None
     geometry: BallGeometryTable
     materials: BallMaterialsTable
     operation: BallOperationTable

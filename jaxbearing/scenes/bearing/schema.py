@@ -103,6 +103,11 @@ class ThermalTable(table_of(Thermal)):
 class RatingTable(table_of(Rating)):
     """Inputs of the life; see `bearings.rating.Rating`."""
 
+    instead: ClassVar[Mapping[str, tuple[str, ...]]] = {
+        "cleanliness": ("contamination_factor",),
+        "contamination_factor": ("cleanliness",),
+    }
+
 
 def heating_problems(contact: Any) -> Problems:
     """Refusal of an inlet heating of rolling resistance without a law of it. **Arguments:** `contact`, the table."""

@@ -22,10 +22,12 @@ from ..bearing.schema import (
     require_oil_flow,
 )
 from ..bearing.simulation import SimulationTable
+from ..kinds import KIND
 from ..laws import LINE_THERMAL, ROLLER_FILMS, ROLLING, TRACTIONS, TractionAccuracy
 from ..materials import MaterialField
 from ..mixed import MixedTable, mixed_needs_traction
 from ..oil.schema import OilTable
+from ..presets import Preset
 from ..table import Problems, Table, check, refusal_at
 from ..table_of import table_of
 
@@ -110,7 +112,8 @@ class CylindricalRollerTable(Table):
     not_yet: ClassVar[Mapping[str, str]] = {
         "kinematics": "a scene without [kinematics], which belongs to ball bearings",
     }
-    kind: Literal["cylindrical_roller_bearing"]
+    kind: Annotated[Literal["cylindrical_roller_bearing"], KIND]
+    laws: Preset | None = None
     geometry: GeometryTable
     materials: MaterialsTable
     operation: OperationTable

@@ -9,6 +9,7 @@ from pydantic import Field
 from ...ehl import ContactGeometry, ContactOperation, FilmModel, FilmSimulation
 from ...time_laws import LinearRamp, Sinusoidal
 from .. import units
+from ..kinds import KIND
 from ..materials import MaterialField
 from ..oil.schema import OilTable
 from ..table import Problems, Table, check, refusal_at
@@ -105,7 +106,7 @@ class FilmSimulationTable(table_of(FilmSimulation)):
 class LineContactTable(Table):
     """The whole file."""
 
-    kind: Literal["line_contact"]
+    kind: Annotated[Literal["line_contact"], KIND]
     geometry: ContactGeometryTable
     materials: ContactBodiesTable
     oil: OilTable

@@ -21,10 +21,12 @@ from ..bearing.schema import (
 )
 from ..bearing.simulation import WarmUpTable
 from ..cylindrical.schema import RACEWAY_LAWS, DragTable
+from ..kinds import KIND
 from ..laws import LINE_THERMAL, RIB_FILMS, ROLLER_FILMS, ROLLING, TRACTIONS, TractionAccuracy
 from ..materials import MaterialField
 from ..mixed import RibMixedTable, mixed_needs_traction
 from ..oil.schema import OilTable
+from ..presets import Preset
 from ..table import Problems, Table, check, refusal_at
 from ..table_of import table_of
 
@@ -83,7 +85,8 @@ class TaperedOperationTable(operation_table(TaperedOperation)):
 class TaperedRollerTable(Table):
     """The whole file. A table that is left out is not modelled."""
 
-    kind: Literal["tapered_roller_bearing"]
+    kind: Annotated[Literal["tapered_roller_bearing"], KIND]
+    laws: Preset | None = None
     geometry: TaperedGeometryTable
     materials: TaperedMaterialsTable
     operation: TaperedOperationTable

@@ -11,6 +11,7 @@ from pydantic_core import PydanticCustomError
 from ...machines import DiskGeometry, DiskOperation
 from .. import units
 from ..errors import nearest, one_of
+from ..kinds import KIND
 from ..laws import ANY_FILMS, LINE_FILMS, LINE_THERMAL, POINT_FILMS, POINT_THERMAL, VISCOUS, TractionAccuracy
 from ..materials import MaterialField
 from ..oil.needs import require_laws, require_piezoviscous
@@ -119,7 +120,7 @@ class DiskOperationTable(table_of(DiskOperation, leave_out=("slide_to_roll",))):
 class TwoDiskTable(Table):
     """The whole file."""
 
-    kind: Literal["two_disk"]
+    kind: Annotated[Literal["two_disk"], KIND]
     geometry: DiskGeometryTable
     materials: DiskMaterialsTable
     oil: OilTable

@@ -1,0 +1,268 @@
+"""`laws = "best"`: the laws of a bearing that a scene file need not name one by one, and what they need beside them.
+
+The preset stands for one law of each kind, those that the package's own scenes use. A field that the file gives itself
+prevails; the word "none" leaves a field or a table out. A cage has dimensions that no catalogue prints: where the file
+does not give them they are estimated, and a note says so.
+"""
+
+import math
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import suppress
+from typing import Any, Literal, NamedTuple
+
+from pydantic import BaseModel
+from pydantic_core import PydanticCustomError
+
+from ..bearings.priors import DRAG
+from .distributions import means_of
+from .errors import SceneError
+from .fields import names_at
+from .kinds import kind_named
+from .laws import MAXWELL_EYRING
+from .oil.catalogue import with_catalogue
+from .units import LENGTH, parse
+
+Preset = Literal["best"]
+"""Names of presets."""
+NONE = "none"
+"""The word that leaves a field or a table of the preset out."""
+GUIDING_CLEARANCE, POCKET_CLEARANCE, LAND_WIDTH = 0.004, 0.02, 0.15
+"""Estimated cage: diametral clearance of the land over the pitch diameter (0.003 to 0.006 are usual), clearance in the
+pocket and width of a land over the diameter of the rolling elements (0.015 to 0.025, and 0.1 to 0.2)."""
+FREE_GAP = 0.3
+"""Largest part of the gap between two rolling elements that an estimated pocket clearance takes."""
+
+
+class Given(NamedTuple):
+    """A field for which a preset stands.
+
+    **Arguments:** `value`: as a file has it, or a function that finds it in the tables of a scene, `None` where it
+    cannot; `words`: what is listed instead of the function.
+    """
+
+    value: str | float | Callable[[Mapping[str, Any]], str | None]
+    words: str = ""
+
+
+class Filling(NamedTuple):
+    """The tables of a scene with what a preset adds.
+
+    **Arguments:** `added`: dotted path -> value; `estimated`: those of them that are estimates; `left_out`: in words.
+    """
+
+    tables: dict[str, Any]
+    added: dict[str, Any]
+    estimated: tuple[str, ...] = ()
+    left_out: tuple[str, ...] = ()
+
+
+def _flow_law(tables: Mapping[str, Any]) -> str:
+    """The law with which the oil's friction was fitted."""
+    with suppress(SceneError):
+        oil = tables.get("oil")
+        rheology = with_catalogue(oil).get("rheology") if isinstance(oil, Mapping) else None
+        fitted = rheology.get("viscous_function") if isinstance(rheology, Mapping) else None
+        if isinstance(fitted, str) and fitted != "ree_eyring":
+            return fitted
+    return MAXWELL_EYRING
+
+
+def _length(tables: Mapping[str, Any], name: str) -> float | None:
+    """A dimension of the geometry, m; `None` where it is not there or refused."""
+    geometry = tables.get("geometry")
+    given = geometry.get(name) if isinstance(geometry, Mapping) else None
+    try:
+        return parse(given, LENGTH)
+    except PydanticCustomError:
+        return None
+
+
+def _guiding(tables: Mapping[str, Any]) -> str | None:
+    pitch = _length(tables, "pitch_diameter")
+    return None if pitch is None else _text(GUIDING_CLEARANCE * pitch)
+
+
+def _element(tables: Mapping[str, Any]) -> float | None:
+    found = (_length(tables, name) for name in ("ball_diameter", "roller_diameter"))
+    return next((size for size in found if size is not None), None)
+
+
+def _land(tables: Mapping[str, Any]) -> str | None:
+    size = _element(tables)
+    return None if size is None else _text(LAND_WIDTH * size)
+
+
+def _pocket(tables: Mapping[str, Any]) -> str | None:
+    """Less where the rolling elements stand close."""
+    size, pitch = _element(tables), _length(tables, "pitch_diameter")
+    counts = [tables["geometry"].get(name) for name in ("n_balls", "n_rollers")] if size is not None else []
+    count = next((one for one in counts if isinstance(one, int)), 0)
+    if size is None or pitch is None or count < 1:
+        return None
+    gap = pitch * math.sin(math.pi / max(count, 2)) - size
+    return _text(min(POCKET_CLEARANCE * size, FREE_GAP * gap)) if gap > 0.0 else None
+
+
+def _text(length: float) -> str:
+    return f"{1e3 * length:.3g} mm"
+
+
+_TRACTION = Given(_flow_law, "the flow law with which the oil's friction was fitted, else 'maxwell_eyring'")
+_CAGE = {
+    "guidance": Given("inner_ring"),
+    "guiding_clearance": Given(_guiding, f"estimated: {GUIDING_CLEARANCE:g} of the pitch diameter"),
+    "pocket_clearance": Given(_pocket, f"estimated: {POCKET_CLEARANCE:g} of the diameter of the rolling elements"),
+    "land_width": Given(_land, f"estimated: {LAND_WIDTH:g} of the diameter of the rolling elements"),
+}
+BEST: dict[str, dict[str, dict[str, Given]]] = {
+    "ball_bearing": {
+        "contact": {
+            "film": Given("nijenbanning"),
+            "thermal": Given("gupta"),
+            "traction": _TRACTION,
+            "rolling_resistance": Given("biboulet_houpert"),
+        },
+        "kinematics": {"attitude": Given("equilibrium")},
+        "cage": _CAGE,
+        "drag": {"coefficient": Given(DRAG["ball"].nominal)},
+    },
+    "cylindrical_roller_bearing": {
+        "contact": {
+            "film": Given("moes"),
+            "thermal": Given("gupta"),
+            "traction": _TRACTION,
+            "traction_model": Given("distributed"),
+            "rolling_resistance": Given("full_range"),
+        },
+        "cage": _CAGE,
+        "drag": {"coefficient": Given(DRAG["roller"].nominal)},
+    },
+    "tapered_roller_bearing": {
+        "contact": {
+            "film": Given("moes"),
+            "thermal": Given("gupta"),
+            "traction": _TRACTION,
+            "rolling_resistance": Given("full_range"),
+            "flange_film": Given("chittenden"),
+        },
+        "drag": {"coefficient": Given(DRAG["roller"].nominal)},
+    },
+}
+"""Kind of scene -> table -> field -> what `laws = "best"` stands for."""
+_ESTIMATED = ("cage.guiding_clearance", "cage.pocket_clearance", "cage.land_width", "drag.coefficient")
+_OF_SLIDING = {
+    "ball_bearing": ("kinematics", "cage", "drag"),
+    "cylindrical_roller_bearing": ("cage", "drag"),
+    "tapered_roller_bearing": (),
+}
+"""Kind of scene -> tables that only a scene with traction has."""
+_TILTS = ("misalignment", "misalignment_lateral", "moment", "moment_lateral")
+"""Fields of the operating point with which cylindrical rollers tilt, and then roll without sliding."""
+
+
+def listing(kind: str) -> Iterator[tuple[str, str]]:
+    """Dotted path and value, in words, of each field for which `laws = "best"` stands."""
+    for table, fields in BEST.get(kind, {}).items():
+        for name, given in fields.items():
+            yield f"{table}.{name}", given.words or _shown(given.value)
+
+
+def filling(tables: Mapping[str, Any], removed: tuple[str, ...], model: type[BaseModel], file: str) -> Filling:
+    """The tables of a scene with what its preset adds; without a preset as they are.
+
+    **Arguments:** `removed`: dotted paths that a `--set` takes out; `model`: schema of the scene; `file`: its name.
+    """
+    kind = kind_named(tables.get("kind"))
+    if tables.get("laws") != "best" or kind not in BEST:
+        return Filling(dict(tables), {})
+    known = _with_means(tables, model, file)
+    left_out: list[str] = []
+    filled, added = dict(tables), {}
+    for table, fields in BEST[kind].items():
+        reason = _without(kind, table, filled, removed)
+        if reason is not None:
+            if filled.get(table) == NONE:
+                del filled[table]
+            left_out += [f"{table}: {reason}"] if reason else []
+            continue
+        own = filled.get(table, {})
+        if not isinstance(own, Mapping):
+            continue  # the validation refuses it
+        found = _fields(table, fields, own, known, (*removed, *_not_for(kind, table, filled, left_out)), model)
+        filled[table] = {name: value for name, value in own.items() if value != NONE} | found
+        added |= {f"{table}.{name}": value for name, value in found.items()}
+    estimated = tuple(path for path in added if path in _ESTIMATED)
+    return Filling(filled, added, estimated, tuple(left_out))
+
+
+def _with_means(tables: Mapping[str, Any], model: type[BaseModel], file: str) -> Mapping[str, Any]:
+    """The tables with the means of their distributions, as far as these are sound."""
+    with suppress(SceneError):
+        return means_of(tables, model, file)[0]
+    return tables
+
+
+def _without(kind: str, table: str, filled: Mapping[str, Any], removed: tuple[str, ...]) -> str | None:
+    """The reason why a table is left out, in words; "" where the scene says so itself, `None` for one that is not."""
+    if table in removed or filled.get(table) == NONE:
+        return ""
+    contact = filled.get("contact")
+    slides = isinstance(contact, Mapping) and "traction" in contact
+    if table in _OF_SLIDING[kind] and not slides and table not in filled:
+        return "" if table == "kinematics" else "nothing slides without contact.traction"
+    operation = filled.get("operation")
+    flow = operation.get("oil_flow") if isinstance(operation, Mapping) else None
+    if table == "drag" and table not in filled and flow is None:
+        return "operation.oil_flow is not given"
+    return None
+
+
+def _not_for(kind: str, table: str, filled: Mapping[str, Any], left_out: list[str]) -> tuple[str, ...]:
+    """Fields of the preset that do not go with the rest of the scene; adds to `left_out` why."""
+    if kind != "cylindrical_roller_bearing" or table != "contact":
+        return ()
+    operation = filled.get("operation")
+    tilts = isinstance(operation, Mapping) and any(operation.get(name) is not None for name in _TILTS)
+    if not tilts and filled.get("profile") is None:
+        return ()
+    left_out.append("contact.traction: tilting or profiled rollers roll without sliding")
+    return ("contact.traction", "contact.traction_model")
+
+
+def _fields(
+    table: str,
+    fields: Mapping[str, Given],
+    own: Mapping[str, Any],
+    tables: Mapping[str, Any],
+    removed: tuple[str, ...],
+    model: type[BaseModel],
+) -> dict[str, Any]:
+    """The fields that the preset adds to a table."""
+    names = names_at(model, (table,))
+    out = {name for name in fields if f"{table}.{name}" in removed or own.get(name) == NONE}
+    # what is about a field that is left out goes too; what is given may stand in the place of others
+    out |= {other for name in out for other in names.about.get(name, ())}
+    out |= {other for name in own for other in names.instead.get(name, ())}
+    found = {}
+    for name, given in fields.items():
+        value = given.value(tables) if callable(given.value) else given.value
+        if name not in own and name not in out and value is not None:
+            found[name] = value
+    return found
+
+
+def said_of(found: Filling) -> str:
+    """What the preset of a scene stands for, law by law, in words; "" without a preset."""
+    if not found.added and not found.left_out:
+        return ""
+    laws = [f"{path} = {_shown(value)}" for path, value in found.added.items() if path not in found.estimated]
+    text = f"laws = 'best' stands for {', '.join(laws)}" if laws else "laws = 'best' adds no law"
+    if found.estimated:
+        text += f"; estimated: {', '.join(f'{path} = {_shown(found.added[path])}' for path in found.estimated)}"
+    if found.left_out:
+        text += f"; left out: {'; '.join(found.left_out)}"
+    return text
+
+
+def _shown(value: Any) -> str:
+    return f"'{value}'" if isinstance(value, str) else f"{value:g}"

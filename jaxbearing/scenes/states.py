@@ -1,0 +1,132 @@
+"""The load spectrum of a scene file: its tables [[state]], each with a share of the time and changes of the scene."""
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from pydantic_core import PydanticCustomError
+
+from .._scene import AbstractScene
+from ..life.duty import SUM_TOLERANCE
+from .errors import SceneError, nearest
+from .overrides import Overrides, applied, as_texts
+from .reader import STATES, read_all, scene_from_tables, scene_model, warn_of_means
+from .units import describe, number
+
+NAME, SHARE = "name", "share"
+_EXAMPLE = '[[state]] tables, each with name = "cruise", share = 0.6 and changes such as operation.radial_load = "3 kN"'
+
+
+@dataclass(frozen=True)
+class FileState:
+    """One state of a load spectrum. `changes`: dotted path -> value as it would be typed."""
+
+    name: str
+    share: float
+    changes: dict[str, str]
+    scene: AbstractScene
+
+
+def has_states(source: str | Path) -> bool:
+    """True if the file of a scene has a load spectrum. **Raises:** `SceneError` for a file that cannot be read."""
+    return STATES in read_all(source)[1]
+
+
+def base_scene(source: str | Path, overrides: Overrides | None = None) -> AbstractScene:
+    """The scene without its states, as `load_scene` without the warning that they are left out."""
+    label, mapping = read_all(source)
+    mapping.pop(STATES, None)
+    warn_of_means(mapping, label, overrides)
+    return scene_from_tables(mapping, label, overrides)
+
+
+def load_states(source: str | Path, overrides: Overrides | None = None) -> tuple[FileState, ...]:
+    """The states of a load spectrum, each with its scene: the file's with `overrides`, then with the state's changes.
+
+    **Arguments:** as those of `load_scene`.
+
+    **Raises:** `SceneError` for a file without states, for states without a name or share, with the name of another
+    one or with shares that do not add up to 1, for changes of unknown fields and for scenes that cannot be built.
+    """
+    label, mapping = read_all(source)
+    given = mapping.pop(STATES, None)
+    if given is None:
+        raise SceneError(label, STATES, "nothing", f"a load spectrum: {_EXAMPLE}")
+    if not isinstance(given, list) or not given or not all(isinstance(one, Mapping) for one in given):
+        raise SceneError(label, STATES, describe(given), _EXAMPLE)
+    texts = as_texts(overrides)
+    # a scene that is wrong without any state is refused once
+    scene_from_tables(mapping, label, texts)
+    problems = list(_problems(given, label))
+    if problems:
+        raise SceneError.of_all(problems)
+    found: list[FileState] = []
+    for one in given:
+        try:
+            found.append(_state(one, mapping, texts, label))
+        except SceneError as error:
+            problems += error.problems
+    if problems:
+        raise SceneError.of_all(problems)
+    return tuple(found)
+
+
+def _problems(given: list[Mapping[str, Any]], label: str) -> Iterator[SceneError]:
+    """What is wrong with names and shares."""
+    names: list[str] = []
+    shares: list[float] = []
+    for place, one in enumerate(given):
+        at, name = f"{STATES}[{place}]", one.get(NAME)
+        if not isinstance(name, str) or not name.strip():
+            near = "" if NAME in one else nearest(NAME, one)
+            found = f"the unknown name '{near}'" if near else "nothing" if name is None else describe(name)
+            yield SceneError(label, f"{at}.{NAME}", found, "a name of the state, in quotes")
+        elif name in names:
+            yield SceneError(label, f"{at}.{NAME}", f"'{name}' twice", "a name of its own for each state")
+        else:
+            names.append(name)
+        try:
+            if SHARE not in one:
+                raise SceneError(label, f"{at}.{SHARE}", "nothing", "the share of the state in the time, e.g. 0.6")
+            shares.append(number(one[SHARE], "above 0 and at most 1"))
+        except SceneError as error:
+            yield error
+        except PydanticCustomError as error:
+            context = error.context or {}
+            yield SceneError(label, f"{at}.{SHARE}", context["found"], context["expected"])
+    total = sum(shares)
+    if len(shares) == len(given) and abs(total - 1.0) > SUM_TOLERANCE:
+        yield SceneError(label, f"{STATES}.{SHARE}", f"shares that add up to {total:.7g}", "shares that add up to 1")
+
+
+def _state(one: Mapping[str, Any], mapping: Mapping[str, Any], texts: dict[str, str], label: str) -> FileState:
+    """**Raises:** `SceneError` that names the state and the field."""
+    name = one[NAME]
+    origin = f"{label}, state '{name}'"
+    changes = dict(_flat({key: value for key, value in one.items() if key not in (NAME, SHARE)}))
+    for path in changes:
+        if path in texts:
+            raise SceneError(origin, path, "a field that --set gives too", "one of the two")
+        if path == "kind":
+            raise SceneError(origin, path, "another kind of scene", "changes of one bearing")
+    base, problems = applied(mapping, texts, scene_model(mapping, texts, label), label)
+    changed, more = applied(base, changes, scene_model(base, {}, label), origin)
+    try:
+        scene = scene_from_tables(changed, origin)
+    except SceneError as error:
+        more = [*more, *error.problems]
+    else:
+        if not [*problems, *more]:
+            return FileState(name, float(one[SHARE]), changes, scene)
+    raise SceneError.of_all([*problems, *more])
+
+
+def _flat(table: Mapping[str, Any], inside: str = "") -> Iterator[tuple[str, str]]:
+    """Dotted path and text of each value, of tables inside tables too."""
+    for key, value in table.items():
+        path = f"{inside}{key}"
+        if isinstance(value, Mapping):
+            yield from _flat(value, f"{path}.")
+        else:
+            yield path, str(value).lower() if isinstance(value, bool) else str(value)

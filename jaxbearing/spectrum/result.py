@@ -1,0 +1,77 @@
+"""Result of a load spectrum: the solution of each state, and the life under all of them."""
+
+from typing import Any
+
+import equinox as eqx
+import jax
+import numpy as np
+from jaxtyping import Array, Bool, Float
+
+from ..life.duty import SpectrumLife, governing
+from ..numerics.status import SolveError, Status
+
+
+class Spectrum(eqx.Module):
+    """Solutions of all states, and the life of the spectrum, which is NaN where a state failed.
+
+    **Arguments:**
+    - `names`, `shares`: of the states; the shares of the time add up to 1.
+    - `solutions`: one for each state, as `jb.solve` gives it.
+    - `life`: see `life.duty.SpectrumLife`.
+    """
+
+    names: tuple[str, ...] = eqx.field(static=True)
+    shares: Float[Array, " state"]
+    solutions: tuple[Any, ...]
+    life: SpectrumLife
+
+    def __getitem__(self, name: str) -> Any:
+        """The solution of a state. **Raises:** `KeyError` for an unknown name."""
+        if name not in self.names:
+            raise KeyError(f"no state {name!r}; there are {', '.join(self.names)}")
+        return self.solutions[self.names.index(name)]
+
+    @property
+    def converged(self) -> Bool[Array, ""]:
+        """True if all states converged."""
+        found = self.solutions[0].converged
+        for one in self.solutions[1:]:
+            found = found & one.converged
+        return found
+
+    @property
+    def governing(self) -> str | None:
+        """Name of the state with the largest share in the damage; `None` where nothing is damaged or a state failed."""
+        damage = np.asarray(self.life.damage)
+        return self.names[governing(self.life)] if np.all(np.isfinite(damage)) and damage.any() else None
+
+    @property
+    def failures(self) -> dict[str, str]:
+        """Name of each state that failed -> why, in a sentence."""
+        states = zip(self.names, self.solutions, strict=True)
+        return {name: one.failure() for name, one in states if not bool(one.converged)}
+
+    @property
+    def warnings(self) -> list[str]:
+        """The warnings of the states; what only some of them have names these."""
+        found: dict[str, list[str]] = {}
+        for name, one in zip(self.names, self.solutions, strict=True):
+            for text in one.warnings:
+                found.setdefault(text, []).append(name)
+        every = len(self.names)
+        return [text if len(names) == every else f"{', '.join(names)}: {text}" for text, names in found.items()]
+
+    def raise_if_failed(self) -> None:
+        """Does nothing while JAX traces.
+
+        **Raises:** `SolveError` that names the states that failed.
+        """
+        try:
+            failed = not bool(self.converged)
+        except jax.errors.ConcretizationTypeError:
+            return
+        if failed:
+            found = jax.lax.stop_gradient(self).failures
+            status = max(int(one.status) for one in self.solutions)
+            said = "; ".join(f"state '{name}': {text}" for name, text in found.items())
+            raise SolveError(said, Status(status))

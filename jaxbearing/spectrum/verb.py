@@ -1,0 +1,148 @@
+"""The verb for load spectra: a scene and its states in, the life under all of them out."""
+
+import os
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import jax
+import jax.numpy as jnp
+import numpy as np
+from jaxtyping import Array
+
+from .._scene import AbstractScene
+from ..lanes import LaneProgram, default_method
+from ..life.duty import spectrum_life
+from ..numerics.compiling import inside_a_program, is_tracing
+from ..numerics.garbage import rare_garbage_collection
+from ..numerics.newton import NewtonOptions
+from ..numerics.precision import as_float, require_x64
+from ..solve import chosen_options, solve
+from ..sweeps.recipe import Read
+from .result import Spectrum
+from .states import State, require_rated, require_states
+
+LANES = 16
+"""States that one call of the program solves: a fixed number, so that another number of states is the same program."""
+
+
+@rare_garbage_collection()
+def solve_spectrum(
+    scene: AbstractScene | str | os.PathLike[str],
+    states: Sequence[State] | None = None,
+    *,
+    throw: bool = True,
+    options: NewtonOptions | None = None,
+) -> Spectrum:
+    """Life of a bearing under a load spectrum: all states solved with one program, their damages added (Miner).
+
+        scene = jb.load_scene("deep_groove_6205").replace({"rating": jb.Rating()})
+        found = jb.solve_spectrum(
+            scene,
+            [
+                jb.State("cruise", 0.9, {"operation.radial_load": 1000.0}),
+                jb.State("start", 0.1, {"operation.radial_load": 4000.0, "operation.inner_speed": 50.0}),
+            ],
+        )
+        found.life.L10r_hours, found.life.damage, found.governing, found["start"].life.L10r
+
+    States of one structure are solved with one program, as the cases of a sweep are; a change of the structure, such as
+    another film law, takes a program of its own. It may be called inside `jax.jit` and `jax.grad`; derivatives go
+    through all solves, with respect to numbers of the scene, changes and shares.
+
+    **Arguments:**
+    - `scene`: a bearing with a rating; or a scene file, whose `[[state]]` tables are the states if `states` is left
+      out.
+    - `states`: see `State`.
+    - `throw`: raise where a state fails. Without it the life is NaN then, and `failures` names the states.
+    - `options`: of the solver.
+
+    **Raises:** `SolveError` that names the states that failed; `ValueError` for a scene without a rating, for names
+    that are not different and shares that do not add up to 1; `AttributeError` for a field that is not there;
+    `TypeError` for what is no bearing; `SceneError` for a file that cannot be read.
+    """
+    require_x64()
+    if isinstance(scene, AbstractScene):
+        if states is None:
+            raise ValueError("states must be given beside a scene; a scene file has them in its [[state]] tables")
+        require_states(states)
+        scenes = {one.name: scene.replace(one.changes) for one in states}
+        shares = [one.share for one in states]
+    else:
+        shares, scenes = _of_file(os.fspath(scene), states)
+    found = solve_states(scenes, shares, options)
+    if throw:
+        found.raise_if_failed()
+    return found
+
+
+def _of_file(source: str, states: Sequence[State] | None) -> tuple[list[Any], dict[str, AbstractScene]]:
+    """Shares and scenes of the states: those of the file, or the given ones of its scene."""
+    from ..scenes.states import base_scene, load_states
+
+    if states is None:
+        read = load_states(source)
+        return [one.share for one in read], {one.name: one.scene for one in read}
+    require_states(states)
+    scene = base_scene(source)
+    return [one.share for one in states], {one.name: scene.replace(one.changes) for one in states}
+
+
+def solve_states(
+    scenes: Mapping[str, AbstractScene], shares: Sequence[Any], options: NewtonOptions | None = None
+) -> Spectrum:
+    """The spectrum of these scenes; a state that fails raises nothing.
+
+    **Arguments:** name of a state -> its scene; shares of the time.
+
+    **Raises:** `ValueError` for scenes without a rating and for different reliabilities; `TypeError` for what is no
+    bearing.
+    """
+    require_rated(scenes)
+    solutions = _solved([jax.tree.map(as_float, scene) for scene in scenes.values()], chosen_options(options))
+    parts = jnp.stack([jnp.asarray(as_float(share)) for share in shares])
+    speeds = jnp.stack([_speed(one) for one in solutions])
+    life = spectrum_life([one.life for one in solutions], parts, speeds)
+    return Spectrum(tuple(scenes), parts, tuple(solutions), life)
+
+
+def _speed(solution: Any) -> Array:
+    """Speed of the rings against each other, rad/s; NaN where the solve failed."""
+    operation = solution.operation
+    speed = jnp.asarray(operation.inner_speed) - operation.outer_speed
+    return jnp.where(solution.converged, speed, jnp.nan)
+
+
+def _solved(scenes: list[AbstractScene], options: NewtonOptions) -> list[Any]:
+    """Solutions in the order of the scenes, each structure with one program."""
+    groups: dict[Any, list[int]] = {}
+    for place, scene in enumerate(scenes):
+        shapes = tuple(np.shape(leaf) for leaf in jax.tree.leaves(scene))
+        groups.setdefault((jax.tree.structure(scene), shapes), []).append(place)
+    found: dict[int, Any] = {}
+    for places in groups.values():
+        found |= dict(zip(places, _alike([scenes[place] for place in places], options), strict=True))
+    return [found[place] for place in range(len(scenes))]
+
+
+def _alike(scenes: list[AbstractScene], options: NewtonOptions) -> list[Any]:
+    """Solutions of scenes with the same structure."""
+    if len(scenes) == 1 or (inside_a_program(scenes) and not is_tracing()):
+        # what is differentiated outside of a program has kept programs of its own
+        return [solve(scene, throw=False, options=options) for scene in scenes]
+    if is_tracing():
+        batch = jax.tree.map(lambda *leaves: jnp.stack(leaves), *scenes)
+        solutions = jax.lax.map(lambda scene: solve(scene, throw=False, options=options), batch)
+    else:
+        batch = jax.tree.map(lambda *leaves: np.stack(leaves), *scenes)
+        program = LaneProgram(
+            Read.make,
+            None,
+            scenes[0],
+            method=default_method(),
+            lanes=LANES,
+            devices=1,
+            options=options,
+            quick=True,
+        )
+        solutions = program(batch, np.ones(len(scenes), dtype=bool))
+    return [jax.tree.map(lambda leaf, lane=lane: jnp.asarray(leaf[lane]), solutions) for lane in range(len(scenes))]

@@ -1,0 +1,126 @@
+"""`spectrum`: screen, JSON, page, refusals, exit codes; what other verbs say of a load spectrum."""
+
+import json
+import os
+import re
+import sys
+from pathlib import Path
+
+import jax.numpy as jnp
+import numpy as np
+import pytest
+from filled_results import MadeUpProgram, solution_of
+from html_pages import Page
+
+from jaxbearing.numerics.status import Status
+
+PAGE = Path(__file__).parents[2] / "docs" / "spectrum.md"
+(DUTY,) = re.findall(r"```toml\n(.*?)```", PAGE.read_text(encoding="utf-8"), flags=re.DOTALL)
+NAMES = ["cruise", "full load", "start"]
+
+
+@pytest.fixture
+def duty(folder):
+    (folder / "duty.toml").write_text(DUTY, encoding="utf-8")
+    return "duty.toml"
+
+
+@pytest.fixture
+def made_up(monkeypatch):
+    """Results without a solve."""
+    monkeypatch.setattr("jaxbearing.spectrum.verb.LaneProgram", MadeUpProgram)
+    monkeypatch.setattr(sys.modules["jaxbearing.solve"], "solve_once", solution_of)
+
+
+class _OneFails(MadeUpProgram):
+    def __call__(self, inputs, active, progress=lambda lanes: None):
+        solution = super().__call__(inputs, active, progress)
+        status = jnp.asarray([0, int(Status.DIVERGED), 0], solution.status.dtype)
+        object.__setattr__(solution, "status", status)
+        for name in ("damage_rate", "equivalent_load", "catalogue_load"):
+            values = getattr(solution.life, name)
+            object.__setattr__(solution.life, name, jnp.where(status == 0, values, jnp.nan))
+        return solution
+
+
+@pytest.mark.usefixtures("made_up")
+def test_screen_and_json(jaxbearing_command, duty):
+    shown = jaxbearing_command("spectrum", duty)
+    assert (shown.code, shown.err) == (0, "")
+    for word in ("CONVERGED", "3 states", "operation.radial_load = 3 kN", *NAMES, "Governed by", "modified life Lnmr"):
+        assert word in shown.out, word
+    assert max(map(len, shown.out.splitlines())) <= 100
+    told = jaxbearing_command("spectrum", duty, "--json")
+    assert (told.code, told.err) == (0, "")
+    found = json.loads(told.out)
+    assert found["converged"] is True
+    assert found["status"] == "converged"
+    assert [one["name"] for one in found["states"]] == NAMES
+    assert [one["share"] for one in found["states"]] == [0.7, 0.25, 0.05]
+    assert found["states"][2]["changes"]["operation.inner_speed"] == "500 rpm"
+    assert found["governing_state"] in NAMES
+    np.testing.assert_allclose(sum(one["damage"] for one in found["states"]), 1.0)
+    lives = [one["solution"]["life"]["damage_rate"] for one in found["states"]]
+    rate = sum(one["revolutions"] * each for one, each in zip(found["states"], lives, strict=True))
+    np.testing.assert_allclose(found["life"]["L10r"], 1.0 / rate, rtol=1e-12)
+
+
+def test_a_state_that_fails_is_named(jaxbearing_command, duty, monkeypatch):
+    monkeypatch.setattr("jaxbearing.spectrum.verb.LaneProgram", _OneFails)
+    shown = jaxbearing_command("spectrum", duty)
+    assert shown.code == 3
+    assert "1 STATE FAILED" in shown.out
+    assert "none: full load failed" in shown.out
+    assert "million revolutions" not in shown.out
+    told = jaxbearing_command("spectrum", duty, "--json")
+    assert told.code == 3
+    assert "state 'full load': diverged" in told.err
+    found = json.loads(told.out)
+    assert (found["converged"], found["status"], found["life"], found["governing_state"]) == (
+        False,
+        "diverged",
+        None,
+        None,
+    )
+    assert [bool(one["failure"]) for one in found["states"]] == [False, True, False]
+
+
+@pytest.mark.usefixtures("made_up")
+def test_page(jaxbearing_command, duty, folder):
+    result = jaxbearing_command("report", duty)
+    assert (result.code, result.err) == (0, "")
+    page = Page((folder / "duty_report.html").read_text(encoding="utf-8"))
+    for word in ("Load spectrum", *NAMES, "Governed by"):
+        assert word in page.text, word
+
+
+@pytest.mark.usefixtures("made_up")
+def test_other_verbs_take_the_scene_without_states_and_say_so(jaxbearing_command, duty):
+    said = "the scene is that without its 3 [[state]] tables; 'jaxbearing spectrum' solves them"
+    solved = jaxbearing_command("solve", duty, "--json")
+    assert (solved.code, solved.err) == (0, "")
+    assert any(said in text for text in json.loads(solved.out)["warnings"])
+
+
+REFUSED = {
+    "no states": (("deep_groove_6205",), "deep_groove_6205: state: found nothing; expected a load spectrum"),
+    "unknown field": (
+        ("duty.toml", "--set", "operation.radal_load=3 kN"),
+        "duty.toml with --set operation.radal_load=3 kN: operation.radal_load: found the unknown name",
+    ),
+    "given twice": (
+        ("duty.toml", "--set", "operation.radial_load=3 kN"),
+        "duty.toml, state 'full load': operation.radial_load: found a field that --set gives too",
+    ),
+    "no rating": (("duty.toml", "--set", "rating=none"), "rating"),
+}
+
+
+@pytest.mark.parametrize("case", REFUSED)
+def test_refusals(case, jaxbearing_command, duty, folder):
+    arguments, message = REFUSED[case]
+    result = jaxbearing_command("spectrum", *arguments)
+    assert (result.code, result.out) == (2, "")
+    assert message in result.err
+    assert "Traceback" not in result.err
+    assert os.listdir(folder) == [duty]
