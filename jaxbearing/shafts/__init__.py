@@ -1,0 +1,1 @@
+"""Several bearings together: matched sets, and shafts on bearings."""
