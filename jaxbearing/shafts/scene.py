@@ -16,6 +16,7 @@ from ..numerics.newton import NewtonOptions
 from ..numerics.refusals import refuse_all
 from .forces import AbstractForce
 from .mounting import LinearBearing, MatchedSet, MountedBearing, Support, _numbers
+from .paths import replaced
 from .shaft import Shaft
 
 
@@ -154,6 +155,13 @@ class ShaftSystem(AbstractScene):
                 )
             )
         return tuple(found)
+
+    def replace(self, changes: Any) -> "ShaftSystem":
+        """A copy with other values; keys are the dotted paths of scene files (`paths`), values SI numbers or parts.
+
+        **Raises:** as `AbstractScene.replace`.
+        """
+        return replaced(self, changes)
 
     def steady_solution(self, options: NewtonOptions) -> Any:
         from .steady import solve_shaft
