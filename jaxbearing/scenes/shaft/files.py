@@ -10,9 +10,13 @@ from collections.abc import Callable, Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
+from pydantic import BaseModel
+
 from ..data_files import builtin_names
 from ..errors import SceneError, nearest, one_of
+from ..fields import plain_table_at
 from ..kinds import kind_named
+from ..table import Table
 from ..units import describe
 
 LISTS = {"bearing": "rear", "set": "front", "force": "pinion"}
@@ -22,10 +26,11 @@ BEARINGS = ("ball_bearing", "cylindrical_roller_bearing", "tapered_roller_bearin
 """Kinds of bearing scenes that a shaft may have."""
 LINEAR = "linear"
 """Kind of a bearing that is known by its stiffness only."""
-OF_SHAFT = ("oil_temperature", "oil_flow")
-"""Fields of a bearing's operating point that it keeps on a shaft; loads and speeds follow from the shaft."""
+OF_SHAFT = ("oil_temperature", "oil_flow", "outer_speed")
+"""Fields of a bearing's operating point that it keeps on a shaft; its loads and inner speed follow from the shaft."""
 _NAME = re.compile(r"[A-Za-z][A-Za-z0-9_-]*")
 _MEANT = "a name of letters, digits, _ and -, beginning with a letter, e.g. {example!r}"
+_TAKEN = "another name: this one means something to the program"
 
 Read = Callable[[str], dict[str, Any]]
 """Reads the tables of the scene of a bearing, of a file or built-in."""
@@ -58,9 +63,11 @@ def named(mapping: Mapping[str, Any], label: str) -> dict[str, Any]:
 def _by_name(given: Any, table: str, example: str, label: str) -> dict[str, Any]:
     """**Raises:** `SceneError` for what is no list of tables, and for names that are wrong or there twice."""
     if isinstance(given, Mapping) and all(isinstance(one, Mapping) for one in given.values()):
-        wrong = [name for name in given if not _NAME.fullmatch(str(name))]
-        if wrong:
-            raise SceneError(label, table, describe(wrong[0]), _MEANT.format(example=example))
+        for name in given:
+            if not _NAME.fullmatch(str(name)):
+                raise SceneError(label, table, describe(name), _MEANT.format(example=example))
+            if _is_taken(str(name)):
+                raise SceneError(label, f"{table}.{name}", f"the name '{name}'", _TAKEN)
         return {str(name): dict(one) for name, one in given.items()}
     if not isinstance(given, list) or not all(isinstance(one, Mapping) for one in given):
         found = "one table" if isinstance(given, Mapping) else describe(given)
@@ -72,6 +79,8 @@ def _by_name(given: Any, table: str, example: str, label: str) -> dict[str, Any]
         at = f"{table}[{place}].{NAME}"
         if not isinstance(name, str) or not _NAME.fullmatch(name):
             problems.append(SceneError(label, at, describe(name), _MEANT.format(example=example)))
+        elif _is_taken(name):
+            problems.append(SceneError(label, at, f"the name '{name}'", _TAKEN))
         elif name in found:
             problems.append(SceneError(label, at, f"'{name}' twice", "a name of its own for each"))
         else:
@@ -79,6 +88,11 @@ def _by_name(given: Any, table: str, example: str, label: str) -> dict[str, Any]
     if problems:
         raise SceneError.of_all(problems)
     return found
+
+
+def _is_taken(name: str) -> bool:
+    """True for a name that a table has for something else, such as `checks`."""
+    return hasattr(Table, name) or name.startswith("model_")
 
 
 def _default_name(one: Mapping[str, Any], table: str, taken: Mapping[str, Any]) -> str:
@@ -108,9 +122,13 @@ def beside(mapping: dict[str, Any], folder: Path) -> dict[str, Any]:
 
 
 def _moved(entry: Mapping[str, Any], folder: Path) -> dict[str, Any]:
-    scene = entry.get(SCENE)
-    moves = isinstance(scene, str) and scene not in builtin_names()
-    return {**entry, SCENE: str(folder / str(scene))} if moves else dict(entry)
+    found = dict(entry)
+    scene, oil = entry.get(SCENE), entry.get("oil")
+    if isinstance(scene, str) and scene not in builtin_names():
+        found[SCENE] = str(folder / scene)
+    if isinstance(oil, Mapping) and isinstance(oil.get("file"), str):
+        found["oil"] = {**oil, "file": str(folder / oil["file"])}
+    return found
 
 
 def read_scenes(mapping: Mapping[str, Any], label: str, read: Read) -> dict[str, Any]:
@@ -150,6 +168,58 @@ def bearing_scene(source: str, path: str, label: str, read: Read) -> dict[str, A
         found = f"'{source}', whose kind is {describe(tables.get('kind'))}"
         raise SceneError(label, path, found, f"the scene of a bearing: kind {one_of(BEARINGS)}")
     return without_loads({**tables, "kind": kind})
+
+
+def with_scenes(
+    mapping: Mapping[str, Any], overrides: Mapping[str, str], label: str
+) -> tuple[dict[str, Any], dict[str, str]]:
+    """The tables of a shaft, by name, with the tables of scenes in the place of their names, also of those that an
+    override names; and the other overrides.
+
+    **Raises:** `SceneError` as `named` and `read_scenes`.
+    """
+    from ..reader import tables_of_file
+
+    found, left = named(mapping, label), {}
+    for path, text in overrides.items():
+        word, _, rest = path.partition(".")
+        name = rest.removesuffix(f".{SCENE}")
+        entries = found.get(word) if word in ("bearing", "set") and name != rest else None
+        if isinstance(entries, Mapping) and isinstance(entries.get(name), Mapping) and text != REMOVE:
+            found[word] = {**entries, name: {**entries[name], SCENE: text}}
+        else:
+            left[path] = text
+    return read_scenes(found, label, tables_of_file), left
+
+
+REMOVE = "none"
+"""The value that takes an optional table or field of a bearing's scene out."""
+_WHOLE_OIL = ("name", "grade", "base", "file")
+"""Fields with which the oil of an entry stands for another one than that of its scene."""
+
+
+def merged(scene: Mapping[str, Any], own: Mapping[str, Any], table: type[BaseModel] | None) -> dict[str, Any]:
+    """The tables of a bearing's scene with what its entry in the shaft's file says beside it.
+
+    **Arguments:** `table`: schema of both, where it is one.
+    """
+    found = dict(scene)
+    instead = getattr(table, "instead", {})
+    for name in own:
+        for other in instead.get(name, ()):
+            found.pop(other, None)
+    for name, value in own.items():
+        there = found.get(name)
+        if value == REMOVE and name != NAME:
+            found.pop(name, None)
+        elif not (isinstance(there, Mapping) and isinstance(value, Mapping)):
+            found[name] = value
+        elif name == "oil" and any(key in value for key in _WHOLE_OIL):
+            found[name] = dict(value)
+        else:
+            inner = None if table is None else plain_table_at(table, name)
+            found[name] = merged(there, value, inner)
+    return found
 
 
 def without_loads(tables: Mapping[str, Any]) -> dict[str, Any]:
