@@ -80,6 +80,11 @@ def tables_of(scene: AbstractScene) -> dict[str, Any]:
     return getattr(_module(one, "writer"), one.tables)(scene)
 
 
+def plain_scene(scene: AbstractScene) -> AbstractScene:
+    """The scene with what has no effect in it as files give it."""
+    return _module(_KINDS[SHAFT], "writer").plain_scene(scene) if scene.kind == SHAFT else scene
+
+
 def load_scene(source: str | Path, overrides: Overrides | None = None) -> AbstractScene:
     """A scene from a file or by the name of a built-in scene.
 
