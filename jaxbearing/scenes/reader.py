@@ -68,7 +68,7 @@ def _table_and_build(kind: str) -> tuple[type[Table], Callable[[Any], AbstractSc
 def schema_of_kind(kind: str) -> tuple[type[BaseModel], type]:
     """The schema of the scene files of a kind, one of `KINDS`, and the class of the scenes that they become."""
     model, build = _table_and_build(kind)
-    return model, typing.get_type_hints(build)["return"]
+    return model.example(), typing.get_type_hints(build)["return"]
 
 
 def tables_of(scene: AbstractScene) -> dict[str, Any]:

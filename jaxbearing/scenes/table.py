@@ -52,6 +52,11 @@ class Table(BaseModel):
         return cls
 
     @classmethod
+    def example(cls) -> "type[Table]":
+        """The schema of no file in particular, for lists of fields."""
+        return cls
+
+    @classmethod
     def completed(
         cls, tables: dict[str, Any], overrides: Mapping[str, str], file: str
     ) -> tuple[dict[str, Any], Mapping[str, str]]:

@@ -124,12 +124,18 @@ class ShaftSystem(AbstractScene):
         if not length:
             return
         end = sum(length)
-        held = [(f"bearing.{place.name}", place.position) for place in self.places]
-        held += [(f"force.{force.name}", force.position) for force in self.forces]
-        for name, position in held:
+        held = [(self._path_of(place), place.position) for place in self.places]
+        held += [(f"force.{force.name}.position: ", force.position) for force in self.forces]
+        for said, position in held:
             at = known(position)
             if at is not None and not -1e-9 <= at[0] <= end + 1e-9:
-                yield f"{name}.position: {at[0] * 1e3:g} mm lies beyond the shaft ({end * 1e3:g} mm)"
+                yield f"{said}{at[0] * 1e3:g} mm lies beyond the shaft ({end * 1e3:g} mm)"
+
+    def _path_of(self, place: Place) -> str:
+        """Beginning of a message about the position of a bearing."""
+        if place.set_index is None:
+            return f"bearing.{place.name}.position: "
+        return f"set.{self.sets[place.set_index].name}.position: {place.name} at "
 
     @property
     def places(self) -> tuple[Place, ...]:

@@ -28,6 +28,11 @@ LINEAR = "linear"
 """Kind of a bearing that is known by its stiffness only."""
 OF_SHAFT = ("oil_temperature", "oil_flow", "outer_speed")
 """Fields of a bearing's operating point that it keeps on a shaft; its loads and inner speed follow from the shaft."""
+OF_MOUNT = (
+    *("position", "thrust", "closure", "expansion", "support"),
+    *("picture", "distance", "preload", "mismatch"),
+)
+"""Fields of an entry that say where the bearing is and how it is mounted."""
 _NAME = re.compile(r"[A-Za-z][A-Za-z0-9_-]*")
 _MEANT = "a name of letters, digits, _ and -, beginning with a letter, e.g. {example!r}"
 _TAKEN = "another name: this one means something to the program"
@@ -186,7 +191,10 @@ def with_scenes(
         name = rest.removesuffix(f".{SCENE}")
         entries = found.get(word) if word in ("bearing", "set") and name != rest else None
         if isinstance(entries, Mapping) and isinstance(entries.get(name), Mapping) and text != REMOVE:
-            found[word] = {**entries, name: {**entries[name], SCENE: text}}
+            entry = entries[name]
+            # another bearing takes the place of one whose tables stand in the entry itself
+            kept = entry if SCENE in entry else {key: value for key, value in entry.items() if key in OF_MOUNT}
+            found[word] = {**entries, name: {**kept, SCENE: text}}
         else:
             left[path] = text
     return read_scenes(found, label, tables_of_file), left

@@ -5,6 +5,7 @@ The table of a file has a field for each of its bearings, sets, forces and secti
 """
 
 import functools
+import operator
 from collections.abc import Mapping
 from typing import Annotated, Any, ClassVar, Literal
 
@@ -180,7 +181,14 @@ class LifeTable(Table):
 
 
 class StateTable(table_of(ShaftState)):
-    """A state of a duty cycle: its share of the time, and what differs in it."""
+    """A state of a duty cycle, in a table [[state]].
+
+    - `name`: of the state; not given: its number
+    - `set`: what differs in it, values by dotted paths in quotes; the paths may also stand in the state itself
+    """
+
+    name: units.Text | None = None
+    set: dict[str, Any] | None = None
 
 
 def _loads_elsewhere(operation: type) -> dict[str, str]:
@@ -274,6 +282,32 @@ FORCE_TABLES = {kind: _force_table(kind) for kind in FORCES}
 """Kind of a force -> its table."""
 
 
+class BearingEntry(MountTable):
+    """A bearing on the shaft, in a table [[bearing]].
+
+    - `scene`: of the bearing, a file or a built-in scene, whose loads and speeds do not count
+    - `kind`: of the bearing, in the place of a scene: then the tables of its own scene file, such as geometry, are here;
+      beside a scene they change it
+    - `stiffness`: of the kind linear, in the bearing's own frame, 5 rows of 5 entries, N/m, N and N m/rad
+    """
+
+    scene: units.Text | None = None
+    kind: Literal["ball_bearing", "cylindrical_roller_bearing", "tapered_roller_bearing", "linear"] | None = None
+    stiffness: Matrix | None = None
+
+
+class SetEntry(SetMountTable):
+    """A matched set, in a table [[set]]; its bearings are called `name.1`, `name.2` ...
+
+    - `scene`: of the bearing, a file or a built-in scene, whose loads and speeds do not count
+    - `kind`: of the bearing, in the place of a scene: then the tables of its own scene file, such as geometry, are here;
+      beside a scene they change it
+    """
+
+    scene: units.Text | None = None
+    kind: Literal["ball_bearing", "cylindrical_roller_bearing", "tapered_roller_bearing"] | None = None
+
+
 def _kind_of_force(entry: Mapping[str, Any], path: str, file: str) -> str:
     """**Raises:** `SceneError` for an entry without a known kind."""
     kind = entry.get("kind")
@@ -302,12 +336,29 @@ def _with_scene(entry: Any, word: str, name: str, file: str) -> Any:
     return merged(scene, own, mounted_table(kind, word == "set") if kind in FAMILIES else None)
 
 
+ANY_NAME, NUMBER = "NAME", "NUMBER"
+"""What stands for a name, and for the number of a section, in lists of fields."""
+_ANY_FORCE: Any = functools.reduce(operator.or_, FORCE_TABLES.values())
+
+
 class ShaftTable(Table):
     """The whole file, but for the names of its bearings, sets and forces."""
 
     kind: Annotated[Literal["shaft"], KIND]
     shaft: ShaftPart
     life: LifeTable | None = None
+
+    @classmethod
+    def example(cls) -> type[Table]:
+        fields: dict[str, Any] = {
+            "shaft": (_with_sections((NUMBER,)), ...),
+            "bearing": (_by_name("bearing", {ANY_NAME: BearingEntry}) | None, None),
+            "set": (_by_name("set", {ANY_NAME: SetEntry}) | None, None),
+            "force": (create_model("ForceTables", __base__=Table, **{ANY_NAME: (_ANY_FORCE, ...)}) | None, None),
+            "state": (StateTable | None, None),
+        }
+        made: Any = create_model("AnyShaftTable", __base__=ShaftTable, __module__=__name__, **fields)
+        return made
 
     @classmethod
     def of_file(cls, tables: Mapping[str, Any], overrides: Mapping[str, str], file: str) -> type[Table]:
@@ -354,6 +405,12 @@ def _by_name(word: str, tables: Mapping[str, type[Table]]) -> Any:
     return create_model(f"{word.capitalize()}Tables", __base__=Table, __module__=__name__, **fields)
 
 
+def _with_sections(names: tuple[str, ...]) -> Any:
+    parts = _by_name(SECTIONS, dict.fromkeys(names, SectionTable))
+    doc = ShaftPart.__doc__
+    return create_model("ShaftPart", __base__=ShaftPart, __module__=__name__, __doc__=doc, sections=(parts | None, None))
+
+
 @functools.lru_cache(64)
 def shaft_model(
     bearings: tuple[tuple[str, str], ...],
@@ -362,17 +419,14 @@ def shaft_model(
     sections: tuple[str, ...],
 ) -> type[ShaftTable]:
     """The schema of a file with these names of bearings, sets and forces, each with its kind, and these sections."""
-    fields: dict[str, Any] = {}
+    tables: dict[str, dict[str, type[Table]]] = {
+        "bearing": {name: mounted_table(kind, False) for name, kind in bearings},
+        "set": {name: mounted_table(kind, True) for name, kind in sets},
+        "force": {name: FORCE_TABLES[kind] for name, kind in forces},
+    }
+    fields: dict[str, Any] = {word: (_by_name(word, named) | None, None) for word, named in tables.items()}
     if sections:
-        parts = _by_name("sections", dict.fromkeys(sections, SectionTable))
-        with_sections = create_model("ShaftPart", __base__=ShaftPart, __module__=__name__, sections=(parts, ...))
-        fields["shaft"] = (with_sections, ...)
-    if bearings:
-        fields["bearing"] = (_by_name("bearing", {name: mounted_table(kind, False) for name, kind in bearings}), ...)
-    if sets:
-        fields["set"] = (_by_name("set", {name: mounted_table(kind, True) for name, kind in sets}), ...)
-    if forces:
-        fields["force"] = (_by_name("force", {name: FORCE_TABLES[kind] for name, kind in forces}), ...)
+        fields["shaft"] = (_with_sections(sections), ...)
     made: Any = create_model("ShaftFileTable", __base__=ShaftTable, __module__=__name__, **fields)
     return made
 
