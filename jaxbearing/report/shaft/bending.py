@@ -1,0 +1,83 @@
+"""The bending line of a shaft between its nodes, and which of its results are the largest."""
+
+from typing import Any, NamedTuple
+
+import numpy as np
+
+PLANES = (("Y", 1, 3), ("Z", 2, 4))
+"""Planes through the axis: name of the direction across, places of the displacement and of the tilt in it."""
+POINTS = 40
+"""Points of the bending line between two nodes."""
+
+
+class BendingLine(NamedTuple):
+    """Displacements along the shaft, positions and displacements in m, `across` of shape (2, point) along Y and Z."""
+
+    position: np.ndarray
+    axial: np.ndarray
+    across: np.ndarray
+
+    @property
+    def size(self) -> np.ndarray:
+        """Displacement across the axis."""
+        return np.hypot(*self.across)
+
+    def largest(self) -> tuple[float, float]:
+        """Largest displacement across the axis, m, and where it is, m."""
+        place = int(np.argmax(self.size))
+        return float(self.size[place]), float(self.position[place])
+
+
+def bending_line(scene: Any, solution: Any) -> BendingLine:
+    """The shaft between its nodes, whose cross sections turn as the beam of the model does; what the own weight adds
+    between two nodes is left out.
+
+    **Arguments:** `scene`: the shaft; `None`: shear makes no kink.
+    """
+    nodes = solution.shaft
+    x, u = np.asarray(nodes.position, dtype=float), np.asarray(nodes.displacement, dtype=float)
+    if x.size < 2:
+        return BendingLine(x, u[:, 0], u[:, 1:3].T)
+    shear = np.zeros(x.size - 1) if scene is None else _shear_numbers(scene, x)
+    xi = np.linspace(0.0, 1.0, POINTS + 1)
+    places, axial, across = [], [], []
+    for i, length in enumerate(np.diff(x)):
+        left, right = u[i], u[i + 1]
+        places.append(x[i] + xi * length)
+        axial.append(left[0] + xi * (right[0] - left[0]))
+        # slopes of the axis that bending alone makes are the tilts with the other sign
+        across.append([_beam(left[w], -left[t], right[w], -right[t], length, shear[i], xi) for _, w, t in PLANES])
+    return BendingLine(np.concatenate(places), np.concatenate(axial), np.concatenate(across, axis=1))
+
+
+def _beam(w1: float, s1: float, w2: float, s2: float, length: float, shear: float, xi: np.ndarray) -> np.ndarray:
+    """Deflection of a beam with shear between two nodes, from their deflections and slopes of the cross sections."""
+    scale = 1.0 / (1.0 + shear)
+    a = scale * (1.0 - 3.0 * xi**2 + 2.0 * xi**3 + shear * (1.0 - xi))
+    b = scale * length * (xi - 2.0 * xi**2 + xi**3 + 0.5 * shear * (xi - xi**2))
+    c = scale * (3.0 * xi**2 - 2.0 * xi**3 + shear * xi)
+    d = scale * length * (xi**3 - xi**2 + 0.5 * shear * (xi**2 - xi))
+    return a * w1 + b * s1 + c * w2 + d * s2
+
+
+def _shear_numbers(scene: Any, x: np.ndarray) -> np.ndarray:
+    r"""$\varphi = 12EI/(G\kappa AL^2)$ of the part of the shaft between neighbouring nodes; 0 of a rigid shaft."""
+    sections = scene.shaft.sections
+    if not sections:
+        return np.zeros(x.size - 1)
+    ends = np.cumsum([float(one.length) for one in sections])
+    found = []
+    for left, right in zip(x[:-1], x[1:], strict=True):
+        one = sections[min(int(np.searchsorted(ends, 0.5 * (left + right))), len(sections) - 1)]
+        poisson = float((scene.shaft.material if one.material is None else one.material).poisson_ratio)
+        outer, inner = float(one.outer_diameter), float(one.inner_diameter)
+        radius2 = (outer**2 + inner**2) / 16.0
+        found.append(24.0 * (1.0 + poisson) * radius2 / (cowper(poisson, inner / outer) * max(right - left, 1e-12) ** 2))
+    return np.array(found)
+
+
+def cowper(poisson: float, ratio: float) -> float:
+    """Cowper's shear factor of a hollow cylinder. **Arguments:** `ratio`: inner over outer diameter."""
+    m2 = ratio**2
+    top = 6.0 * (1.0 + poisson) * (1.0 + m2) ** 2
+    return top / ((7.0 + 6.0 * poisson) * (1.0 + m2) ** 2 + (20.0 + 12.0 * poisson) * m2)
