@@ -43,7 +43,7 @@ shaft that floats in clearance without load has a place of its own. It exerts no
 loaded bearing."""
 NEWTON_TRIALS = 60
 """Most trials of the second stage."""
-ROUNDED_STEP = 1e-13
+ROUNDED_STEP = 1e-16
 """Displacement, m, below which a Newton step is rounding."""
 MOST_ROUNDED = 1e-7
 """Largest scaled residual that may be left where the step is rounding."""
