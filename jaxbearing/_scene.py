@@ -43,6 +43,8 @@ class AbstractScene(Shown):
 
     kind: ClassVar[str] = ""
     """Kind of the scene, as `kind` in scene files has it."""
+    operating_point: ClassVar[str] = "operation"
+    """Name of the field that holds the operating point."""
 
     def steady_solution(self, options: Any) -> Any:
         """The steady state, traced inside the program of `jb.solve`; pure, and never raises for a failed solve.
@@ -88,7 +90,7 @@ class AbstractScene(Shown):
 
     def at_operation(self: Scene, **changes: Any) -> Scene:
         """A copy at another operating point: `scene.at_operation(inner_speed=1100.0)`."""
-        return self.replace({f"operation.{name}": value for name, value in changes.items()})
+        return self.replace({f"{self.operating_point}.{name}": value for name, value in changes.items()})
 
     def replace_geometry(self: Scene, **changes: Any) -> Scene:
         """A copy with other dimensions: `scene.replace_geometry(diametral_clearance=30e-6)`."""

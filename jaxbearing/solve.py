@@ -52,11 +52,12 @@ def with_checked_inputs(scene: AbstractScene, compute: Callable[[Any], Any]) -> 
     """Result of `compute` for a scene, with the checks of its inputs. Where one is invalid it ends at once, in NaN."""
     inputs = check_inputs(scene)
     given: Any = gate(scene, inputs.valid)
-    solution = compute(dataclasses.replace(given, operation=nan_unless(given.operation, inputs.valid)))
+    point = getattr(given, scene.operating_point)
+    solution = compute(dataclasses.replace(given, **{scene.operating_point: nan_unless(point, inputs.valid)}))
     return dataclasses.replace(
         solution,
         status=jnp.where(inputs.valid, solution.status, int(Status.INVALID_INPUT)),
-        operation=given.operation,
+        operation=point,
         checks=Checks(dict(solution.checks), inputs.broken, inputs.rules),
     )
 

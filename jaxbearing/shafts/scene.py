@@ -80,6 +80,7 @@ class ShaftSystem(AbstractScene):
     """
 
     kind: ClassVar[str] = "shaft"
+    operating_point: ClassVar[str] = "shaft"
 
     shaft: Shaft
     bearings: tuple[MountedBearing, ...] = eqx.field(default=(), converter=tuple)
