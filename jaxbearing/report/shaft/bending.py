@@ -28,7 +28,7 @@ class BendingLine(NamedTuple):
         return float(self.size[place]), float(self.position[place])
 
 
-def bending_line(scene: Any, solution: Any) -> BendingLine:
+def bending_line(solution: Any) -> BendingLine:
     """The shaft between its nodes, whose cross sections turn as the beam of the model does; what the own weight adds
     between two nodes is left out.
 
@@ -38,10 +38,12 @@ def bending_line(scene: Any, solution: Any) -> BendingLine:
     x, u = np.asarray(nodes.position, dtype=float), np.asarray(nodes.displacement, dtype=float)
     if x.size < 2:
         return BendingLine(x, u[:, 0], u[:, 1:3].T)
-    shear = np.zeros(x.size - 1) if scene is None else _shear_numbers(scene, x)
+    shear = _shear_numbers(solution.operation, x)
     xi = np.linspace(0.0, 1.0, POINTS + 1)
     places, axial, across = [], [], []
     for i, length in enumerate(np.diff(x)):
+        if length <= 0.0:
+            continue
         left, right = u[i], u[i + 1]
         places.append(x[i] + xi * length)
         axial.append(left[0] + xi * (right[0] - left[0]))
@@ -60,16 +62,16 @@ def _beam(w1: float, s1: float, w2: float, s2: float, length: float, shear: floa
     return a * w1 + b * s1 + c * w2 + d * s2
 
 
-def _shear_numbers(scene: Any, x: np.ndarray) -> np.ndarray:
+def _shear_numbers(shaft: Any, x: np.ndarray) -> np.ndarray:
     r"""$\varphi = 12EI/(G\kappa AL^2)$ of the part of the shaft between neighbouring nodes; 0 of a rigid shaft."""
-    sections = scene.shaft.sections
+    sections = shaft.sections
     if not sections:
         return np.zeros(x.size - 1)
     ends = np.cumsum([float(one.length) for one in sections])
     found = []
     for left, right in zip(x[:-1], x[1:], strict=True):
         one = sections[min(int(np.searchsorted(ends, 0.5 * (left + right))), len(sections) - 1)]
-        poisson = float((scene.shaft.material if one.material is None else one.material).poisson_ratio)
+        poisson = float((shaft.material if one.material is None else one.material).poisson_ratio)
         outer, inner = float(one.outer_diameter), float(one.inner_diameter)
         radius2 = (outer**2 + inner**2) / 16.0
         found.append(24.0 * (1.0 + poisson) * radius2 / (cowper(poisson, inner / outer) * max(right - left, 1e-12) ** 2))

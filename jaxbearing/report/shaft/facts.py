@@ -106,9 +106,9 @@ def life_fact(solution: ShaftSolution) -> str:
     return said if hours is None else f"{said}, {digits(hours)} h"
 
 
-def shaft_facts(solution: ShaftSolution, scene: Any = None) -> Iterator[tuple[str, str]]:
+def shaft_facts(solution: ShaftSolution) -> Iterator[tuple[str, str]]:
     """Name and text of what is known of the shaft: its bending, the slopes in the bearings, the torques."""
-    line = bending_line(scene, solution)
+    line = bending_line(solution)
     size, place = line.largest()
     yield "Deflection", f"largest {with_unit(size, 'm')} across the axis at {1e3 * place:.1f} mm"
     tilts = [np.asarray([one.ring.tilt, one.ring.tilt_lateral], dtype=float) for one in solution.bearings.values()]

@@ -30,7 +30,7 @@ def print_summary(solution: ShaftSolution, scene_label: str, console: Console, f
     headline(scene_label, "CONVERGED", "bold green", state, console)
     _print_bearings(solution, console)
     print_rule("Shaft", console)
-    for name, text in shaft_facts(solution, solution.operation):
+    for name, text in shaft_facts(solution):
         print_line(name, text, console)
     if solution.duty is not None:
         _print_duty(solution.duty, console)
