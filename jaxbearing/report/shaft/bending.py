@@ -83,3 +83,52 @@ def cowper(poisson: float, ratio: float) -> float:
     m2 = ratio**2
     top = 6.0 * (1.0 + poisson) * (1.0 + m2) ** 2
     return top / ((7.0 + 6.0 * poisson) * (1.0 + m2) ** 2 + (20.0 + 12.0 * poisson) * m2)
+
+
+class CutLoads(NamedTuple):
+    """What the part of the shaft on the left of a cross section does to that on its right; at loads there are two
+    points, left and right of it.
+
+    - `axial`: tension, N.
+    - `shear`: along Y and Z, shape (2, point), N.
+    - `moment`: in the planes X-Y and X-Z, shape (2, point), N m; positive where the bending line is hollow towards +Y, +Z.
+    """
+
+    position: np.ndarray
+    axial: np.ndarray
+    shear: np.ndarray
+    moment: np.ndarray
+
+
+def cut_loads(solution: Any) -> CutLoads:
+    """Cut loads by statics, from what acts on the shaft, its weight and the forces of its bearings."""
+    nodes = solution.shaft
+    at = np.concatenate([np.asarray(nodes.position), [float(one.position) for one in solution.bearings.values()]])
+    loads = np.concatenate([np.asarray(nodes.load), [np.asarray(one.on_shaft) for one in solution.bearings.values()]])
+    ends, weight = _weights(solution.operation)
+    marks = np.unique(np.concatenate([at, ends]))
+    x = np.concatenate([np.linspace(a, b, POINTS + 1) for a, b in zip(marks[:-1], marks[1:], strict=True)])
+    # points of an interval are right of the loads at its left end, and left of those at its right end
+    interval = np.repeat(np.arange(marks.size - 1), POINTS + 1)
+    acts = at[:, None] <= marks[interval][None, :]
+    arm = np.where(acts, x[None, :] - at[:, None], 0.0)
+    shear = loads[:, 1:3].T @ acts
+    moment = loads[:, 3:5].T @ acts + loads[:, 1:3].T @ arm
+    for left, right, q in zip(ends[:-1], ends[1:], weight, strict=True):
+        covered = np.clip(x - left, 0.0, right - left)
+        shear += q[:, None] * covered
+        moment += q[:, None] * covered * (x - left - 0.5 * covered)
+    return CutLoads(x, -(loads[:, 0] @ acts), shear, moment)
+
+
+def _weights(shaft: Any) -> tuple[np.ndarray, np.ndarray]:
+    """Ends of the sections, m, and their weights per length along Y and Z, N/m, shape (section, 2)."""
+    ends, weights = [0.0] if shaft.sections else [], []
+    for one in shaft.sections:
+        ends.append(ends[-1] + float(one.length))
+        density = float((shaft.material if one.material is None else one.material).density)
+        area = 0.25 * np.pi * (float(one.outer_diameter) ** 2 - float(one.inner_diameter) ** 2)
+        pull = 0.0 if shaft.gravity is None else density * area * float(shaft.gravity.acceleration)
+        azimuth = 0.0 if shaft.gravity is None else float(shaft.gravity.azimuth)
+        weights.append([pull * np.cos(azimuth), pull * np.sin(azimuth)])
+    return np.array(ends), np.array(weights).reshape(-1, 2)

@@ -11,8 +11,8 @@ from ..backends.json import finite
 from ..display import digits, with_unit
 from .bending import bending_line
 
-TILT = 1e-3
-"""Tilt of an inner ring against the outer one from which on it is said, rad."""
+NAMES = "bearing\n"
+"""Heading of the names of bearings."""
 _LEAST = 1e-9
 """Loads smaller than this part of the largest one are shown as 0: round-off."""
 
@@ -39,7 +39,7 @@ def bearing_columns(solution: ShaftSolution) -> dict[str, list[str]]:
     axial = [_above(float(one.on_shaft[0]), force) for one in bearings]
     radial = [_above(float(one.radial_force), force) for one in bearings]
     return {
-        "bearing\n": [one.name for one in bearings],
+        NAMES: [one.name for one in bearings],
         "x\nmm": _column([1e3 * float(one.position) for one in bearings], 1),
         "axial\nN": [f"{value:+{_width(force)}}" if value else "0" for value in axial],
         "radial\nN": [f"{value:{_width(force)}}" for value in radial],
@@ -126,15 +126,13 @@ def shaft_facts(solution: ShaftSolution) -> Iterator[tuple[str, str]]:
 
 
 def shaft_warnings(solution: ShaftSolution) -> list[str]:
-    """The warnings of the shaft, and those of each bearing with its name."""
-    found = list(solution.warnings)
-    for name, one in solution.bearings.items():
-        tilt = float(np.hypot(float(one.ring.tilt), float(one.ring.tilt_lateral)))
-        if tilt > TILT and not any("tilt" in text and name in text for text in found):
-            found.append(f"{name}: the inner ring tilts by {1e3 * tilt:.2g} mrad against the outer ring")
-        inner = getattr(one.solution, "warnings", ())
-        found += [f"{name}: {text}" for text in inner]
-    return list(dict.fromkeys(found))
+    """The warnings of the shaft; of several bearings with the same one there is one, with all of their names."""
+    names: dict[str, list[str]] = {}
+    for text in solution.warnings:
+        name, _, rest = text.partition(": ")
+        own = name in solution.bearings and rest
+        names.setdefault(rest if own else text, []).extend([name] if own else [])
+    return [f"{', '.join(bearings)}: {text}" if bearings else text for text, bearings in names.items()]
 
 
 def stiffness_rows(one: BearingOnShaft) -> tuple[list[str], list[list[str]]]:

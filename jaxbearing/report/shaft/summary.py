@@ -15,7 +15,7 @@ from ..backends.screen import (
     print_warnings,
 )
 from ..display import digits
-from .facts import bearing_columns, life_fact, set_facts, shaft_facts, shaft_warnings
+from .facts import NAMES, bearing_columns, life_fact, set_facts, shaft_facts, shaft_warnings
 
 
 def print_summary(solution: ShaftSolution, scene_label: str, console: Console, full: bool = False) -> None:
@@ -46,9 +46,9 @@ def print_summary(solution: ShaftSolution, scene_label: str, console: Console, f
 def _print_bearings(solution: ShaftSolution, console: Console) -> None:
     print_rule("Bearings", console)
     columns = bearing_columns(solution)
-    first = {"bearing\n": columns.pop("bearing\n")}
+    first = {NAMES: columns.pop(NAMES)}
     for piece in pieces(first, columns, console.width):
-        print_table(piece, [0.0] * len(solution.bearings), 0, "", console)
+        print_table(piece, [0.0] * len(solution.bearings), 0, "", console, named=NAMES)
     print_line("", "Forces of the bearings on the shaft; azimuths from Y in the sense of rotation.", console, 0)
     for name, text in set_facts(solution):
         print_line(name, text, console)
