@@ -88,6 +88,17 @@ class AbstractScene(Shown):
             raise TypeError(f"replace takes a mapping from dotted paths to values, got {changes!r}")
         return _replaced(self, {tuple(path.split(".")): value for path, value in changes.items()})
 
+    def part_at(self, path: str) -> Any:
+        """The number or part at a dotted path; `None` where there is none."""
+        part: Any = self
+        for name in path.split("."):
+            part = getattr(part, name, None)
+        return part
+
+    def path_in_file(self, path: str) -> str:
+        """The path of scene files of the number that the tree of the scene's numbers has at this path."""
+        return path
+
     def at_operation(self: Scene, **changes: Any) -> Scene:
         """A copy at another operating point: `scene.at_operation(inner_speed=1100.0)`."""
         return self.replace({f"{self.operating_point}.{name}": value for name, value in changes.items()})

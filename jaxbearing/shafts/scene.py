@@ -16,7 +16,7 @@ from ..numerics.newton import NewtonOptions
 from ..numerics.refusals import refuse_all
 from .forces import AbstractForce
 from .mounting import LinearBearing, MatchedSet, MountedBearing, Support, _numbers
-from .paths import replaced
+from .paths import part_at, path_in_file, replaced
 from .shaft import Shaft
 
 
@@ -169,6 +169,12 @@ class ShaftSystem(AbstractScene):
         **Raises:** as `AbstractScene.replace`.
         """
         return replaced(self, changes)
+
+    def part_at(self, path: str) -> Any:
+        return part_at(self, path)
+
+    def path_in_file(self, path: str) -> str:
+        return path_in_file(self, path)
 
     def steady_solution(self, options: NewtonOptions) -> Any:
         from .steady import solve_shaft

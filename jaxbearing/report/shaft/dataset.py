@@ -103,7 +103,10 @@ def _of_family(name: str, solution: Any, dims: tuple[str, ...]) -> Iterator[tupl
         if str(inner).startswith(_OWN) or str(inner) in dims or CHECK in one.dims or {"freedom"} & set(one.dims):
             continue
         renamed = [f"{front}_{dim}" if dim not in dims else dim for dim in one.dims]
-        yield f"{front}_{inner}", xr.Variable(renamed, one.values, dict(one.attrs))
+        said = dict(one.attrs)
+        if said.get("path"):
+            said["path"] = f"bearings.{name}.solution.{said['path']}"
+        yield f"{front}_{inner}", xr.Variable(renamed, one.values, said)
 
 
 def _coordinates(solution: ShaftSolution) -> dict[str, xr.Variable]:

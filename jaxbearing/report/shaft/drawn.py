@@ -47,6 +47,11 @@ def draw_picture(axes: Any, picture: Picture) -> None:
                 style = {"fontsize": 8, "color": item.colour, "ha": "center", "va": "center", "parse_math": False}
                 halo = {"facecolor": "white", "edgecolor": "none", "alpha": 0.75, "pad": 0.5}
                 axes.text(*item.place, item.text, bbox=halo, zorder=5, **style)
+    # arrows and texts have no part in the limits of axes
+    beside = [place for item in picture.items if isinstance(item, Pointer) for place in (item.start, item.end)]
+    beside += [item.place for item in picture.items if isinstance(item, Words)]
+    axes.update_datalim(beside)
     axes.set_aspect("equal")
     axes.margins(0.03, 0.06)
+    axes.autoscale_view()
     axes.set_axis_off()

@@ -103,7 +103,7 @@ def _picture(scene: Any, solution: ShaftSolution, plane: int) -> Picture:
     items.append(Stroke([(start - 5.0, 0.0), (end + 5.0, 0.0)], CENTRE_LINE, 0.8, "dashdot"))
     line, factor = _bent(solution, plane, 0.5 * longest)
     items += line
-    items += _arrows(loads, largest, longest, radius)
+    items += _arrows(loads, largest, longest, radius, 0.16 * (end - start))
     if plane == 0:
         items += _axial_arrows(scene, solution, longest, radius)
     said = f"Arrows: {with_unit(largest, 'N')} for the longest; axial ones at a scale of their own. " if largest else ""
@@ -183,7 +183,7 @@ def _circle(diameter: float) -> list[Point]:
 
 def _disks(scene: Any, length: float) -> Iterator[Item]:
     """Gears, pulleys and masses behind the shaft."""
-    for one in scene.forces:
+    for one in sorted(scene.forces, key=lambda force: force.kind != "gear"):
         if one.kind == "point":
             continue
         x, half = 1e3 * float(one.position), 0.5 * _DISK * length
@@ -211,16 +211,26 @@ def _named_positions(scene: Any) -> dict[float, str]:
     return {position: ", ".join(names) for position, names in found.items()}
 
 
-def _arrows(loads: list[Any], largest: float, longest: float, radius: float) -> Iterator[Item]:
-    """Arrows that end at the outside of the picture's parts, with name and force."""
-    for x, name, colour, value in loads:
+def _arrows(loads: list[Any], largest: float, longest: float, radius: float, room: float) -> Iterator[Item]:
+    """Arrows that end at the outside of the picture's parts, with name and force.
+
+    **Arguments:** `room`: distance of two texts beside each other; nearer ones stand below each other.
+    """
+    line = 0.28 * radius
+    levels: dict[float, list[tuple[float, float]]] = {1.0: [], -1.0: []}
+    for x, name, colour, value in sorted(loads, key=lambda load: load[0]):
         length = longest * abs(value) / largest if largest else 0.0
         sign = math.copysign(1.0, value)
         if length > _LEAST * longest:
             # forces push from outside
             yield Pointer((x, -sign * (radius + length)), (x, -sign * radius), colour, value)
+        height = radius + length + 0.7 * line
+        near = [level for place, level in levels[sign] if abs(place - x) < room]
+        while any(abs(level - height) < line for level in near):
+            height += 0.5 * line
+        levels[sign].append((x, height))
         text = f"{name}\n{digits(abs(value))} N" if largest else name
-        yield Words((x, -sign * (radius + length + 0.09 * radius)), text, colour)
+        yield Words((x, -sign * height), text, colour)
 
 
 def _axial_arrows(scene: Any, solution: ShaftSolution, longest: float, radius: float) -> Iterator[Item]:

@@ -1,11 +1,12 @@
 """A page of plots of a shaft: the shaft to scale with its forces, bending line, moments and shear forces."""
 
+import textwrap
 from typing import TYPE_CHECKING, Any
 
 from ...shafts.solution import ShaftSolution
 from ..backends.matplotlib.panels import draw
 from ..backends.matplotlib.sheet import foot, head
-from ..display import with_unit
+from ..display import display_unit, displayed
 from .drawn import draw_picture
 from .facts import life_fact, shaft_warnings
 from .panels import shaft_panels
@@ -13,6 +14,9 @@ from .picture import pictures
 
 if TYPE_CHECKING:
     import matplotlib.figure
+
+_LINE = 190
+"""Letters of a line of the caption."""
 
 
 def plot(solution: ShaftSolution, title: str, scene: Any = None) -> "matplotlib.figure.Figure":
@@ -25,12 +29,13 @@ def plot(solution: ShaftSolution, title: str, scene: Any = None) -> "matplotlib.
     views = [] if scene is None else pictures(scene, solution)
     top = 0.86 if not views else 0.40
     if views:
-        grid = figure.add_gridspec(1, len(views), left=0.03, right=0.98, top=0.86, bottom=0.50, wspace=0.05)
+        grid = figure.add_gridspec(1, len(views), left=0.03, right=0.98, top=0.85, bottom=0.50, wspace=0.05)
         for i, view in enumerate(views):
             axes = figure.add_subplot(grid[0, i])
             draw_picture(axes, view)
             axes.set_title(view.title, fontsize=10.5, fontweight="bold")
-        figure.text(0.03, 0.485, views[0].caption, fontsize=8)
+        caption = "\n".join(textwrap.wrap(views[0].caption, _LINE))
+        figure.text(0.03, 0.49, caption, fontsize=8, va="top")
     panels = shaft_panels(solution)
     grid = figure.add_gridspec(1, len(panels), left=0.06, right=0.985, top=top, bottom=bottom, wspace=0.22)
     for i, panel in enumerate(panels):
@@ -42,6 +47,7 @@ def plot(solution: ShaftSolution, title: str, scene: Any = None) -> "matplotlib.
 
 def operating_text(solution: ShaftSolution) -> str:
     """Speed and life in words."""
-    said = [f"shaft speed {with_unit(float(solution.operation.speed), 'rad/s', 6)}"]
+    speed = displayed(float(solution.operation.speed), "rad/s")
+    said = [f"shaft speed {speed:.6g} {display_unit('rad/s')}"]
     said += [f"system life {life_fact(solution)}"] if life_fact(solution) else []
     return "   ·   ".join(said)
