@@ -354,7 +354,7 @@ class ShaftTable(Table):
             "shaft": (_with_sections((NUMBER,)), ...),
             "bearing": (_by_name("bearing", {ANY_NAME: BearingEntry}) | None, None),
             "set": (_by_name("set", {ANY_NAME: SetEntry}) | None, None),
-            "force": (create_model("ForceTables", __base__=Table, **{ANY_NAME: (_ANY_FORCE, ...)}) | None, None),
+            "force": (_by_name("force", {ANY_NAME: _ANY_FORCE}) | None, None),
             "state": (StateTable | None, None),
         }
         made: Any = create_model("AnyShaftTable", __base__=ShaftTable, __module__=__name__, **fields)
@@ -400,9 +400,15 @@ class ShaftTable(Table):
         return {} if found is None else {name: getattr(found, name) for name in type(found).model_fields}
 
 
-def _by_name(word: str, tables: Mapping[str, type[Table]]) -> Any:
+def _by_name(word: str, tables: Mapping[str, Any]) -> Any:
+    """A table with a table for each name. **Arguments:** `word`: of the list in files."""
+    doc = f"""Tables by name.
+
+    - `{ANY_NAME}`: one for each, under its name; in a file each is a table [[{word}]] with a `name`
+    - `{NUMBER}`: one for each, numbered from 1
+    """
     fields: Any = {name: (table, ...) for name, table in tables.items()}
-    return create_model(f"{word.capitalize()}Tables", __base__=Table, __module__=__name__, **fields)
+    return create_model(f"{word.capitalize()}Tables", __base__=Table, __module__=__name__, __doc__=doc, **fields)
 
 
 def _with_sections(names: tuple[str, ...]) -> Any:
