@@ -1,0 +1,128 @@
+"""A shaft on its bearings as a rotor of the rotordynamics package ROSS: `ross.Rotor.load(file)`.
+
+Axes, angle of the load line and what bearing elements leave out are those of `report.ross`: here `load_direction` is the
+angle from ROSS's x axis to Y. Shaft elements lie between the ends of sections, bearings and masses, with Cowper's shear
+factor as in the package; masses are disks without moments of inertia, which a scene does not have. Each bearing is one
+element at its node, with the full 2x2 across the axis and the axial stiffness, at the equilibria of the table of
+speeds; elastic supports of its outer ring are in series.
+"""
+
+import math
+import os
+from typing import Any
+
+import numpy as np
+import tomli_w
+
+from ... import __version__
+from ...shafts.scene import ShaftSystem
+from ..files import write_whole
+from ..ross import WEIGHT_DIRECTION, element_of, one_line
+from .stiffness import ShaftStiffness
+
+SAME = 1e-9
+"""Distance of two places that are one node, m."""
+_COLOUR = "#525252"
+
+
+def require_rotor(scene: Any) -> None:
+    """**Raises:** `ValueError` for a shaft that is no rotor of ROSS."""
+    if not scene.shaft.sections:
+        raise ValueError("found a rigid shaft, expected one with shaft.sections: ROSS has no rigid rotors")
+    if scene.housing is not None:
+        raise ValueError("found a housing, which couples the outer rings; expected supports")
+
+
+def ross_rotor(
+    table: ShaftStiffness, scene: ShaftSystem, *, load_direction: float = WEIGHT_DIRECTION
+) -> dict[str, dict[str, Any]]:
+    """Elements of the rotor by their class and tag, each with the arguments of its class.
+
+    **Raises:** as `require_rotor`; `ValueError` as `report.ross.ross_bearing`.
+    """
+    require_rotor(scene)
+    ends = np.concatenate([[0.0], np.cumsum([float(one.length) for one in scene.shaft.sections])])
+    masses = [one for one in scene.forces if one.kind == "mass"]
+    places = [*ends, *(float(place.position) for place in scene.places), *(float(one.position) for one in masses)]
+    nodes = _apart(np.clip(places, 0.0, ends[-1]))
+    found = {}
+    for number, (left, right) in enumerate(zip(nodes[:-1], nodes[1:], strict=True)):
+        section = min(int(np.searchsorted(ends, 0.5 * (left + right))) - 1, len(scene.shaft.sections) - 1)
+        found[f"ShaftElement_shaft{number}"] = _element(scene, section, right - left, number)
+    for one in masses:
+        tag = one.name
+        disk = {"n": _node(nodes, float(one.position)), "m": float(one.mass), "Id": 0.0, "Ip": 0.0, "tag": tag}
+        found[f"DiskElement_{tag}"] = disk
+    for name, values in table.bearings.items():
+        tag = name.replace(".", "_")
+        node = _node(nodes, table.position[name])
+        found[f"BearingElement_{tag}"] = element_of(table.speed, values, load_direction, node, tag)
+    return found
+
+
+def _apart(places: np.ndarray) -> np.ndarray:
+    """Places of nodes in their order, each once."""
+    ordered = np.sort(places)
+    return ordered[np.concatenate([[True], np.diff(ordered) > SAME])]
+
+
+def _node(nodes: np.ndarray, position: float) -> int:
+    return int(np.argmin(np.abs(nodes - position)))
+
+
+def _element(scene: ShaftSystem, place: int, length: float, number: int) -> dict[str, Any]:
+    section = scene.shaft.sections[place]
+    material = scene.shaft.material if section.material is None else section.material
+    young, poisson = float(material.youngs_modulus), float(material.poisson_ratio)
+    inner, outer = float(section.inner_diameter), float(section.outer_diameter)
+    return {
+        "L": float(length),
+        "idl": inner,
+        "odl": outer,
+        "idr": inner,
+        "odr": outer,
+        "n": number,
+        "axial_force": 0.0,
+        "torque": 0.0,
+        "shear_effects": True,
+        "rotary_inertia": True,
+        "gyroscopic": True,
+        "shear_method_calc": "cowper",
+        "tag": f"shaft{number}",
+        "material": {
+            "name": f"section{place + 1}",
+            "rho": float(material.density),
+            "E": young,
+            "G_s": young / (2.0 * (1.0 + poisson)),
+            "color": _COLOUR,
+        },
+    }
+
+
+def write_ross_rotor(
+    table: ShaftStiffness,
+    scene: Any,
+    file: str | os.PathLike[str],
+    scene_label: str = "",
+    *,
+    load_direction: float = WEIGHT_DIRECTION,
+) -> None:
+    """Write the rotor, whole or not at all; a file that is there is replaced.
+
+    **Raises:** `ValueError` for a name that does not end in .toml, and as `ross_rotor`; `OSError` where it cannot be
+    written.
+    """
+    if not os.fspath(file).lower().endswith(".toml"):
+        raise ValueError(f"the file must end in .toml, got {os.fspath(file)!r}")
+    elements = ross_rotor(table, scene, load_direction=load_direction)
+    said = [
+        f"A shaft on bearings for ROSS: rs.Rotor.load(file). Written by jaxbearing {__version__}.",
+        *([f"Scene: {one_line(scene_label)}"] if scene_label else []),
+        "k..: N/m, tangent stiffness of the bearings in the shaft's equilibrium, tilts held; c.. = 0: no damping.",
+        "Disks have no moments of inertia (Id, Ip): put in what you know.",
+        f"Y of the shaft: {math.degrees(load_direction):.6g} deg from x towards y; z along the shaft.",
+    ]
+    comments = "".join(f"# {line}\n" for line in said)
+    parameters = {"min_w": None, "max_w": None, "rated_w": None, "tag": "rotor"}
+    whole = {"parameters": {name: value for name, value in parameters.items() if value is not None}, **elements}
+    write_whole(file, f"{comments}\n{tomli_w.dumps(whole)}")
