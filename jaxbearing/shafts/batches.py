@@ -22,6 +22,7 @@ from ..bearings.ring import held_ring
 from ..bearings.row import HeldRow
 from ..bearings.solution import RING_FREEDOMS, Solution
 from ..numerics.newton import NewtonOptions
+from ..numerics.once import once
 from .mounting import LinearBearing
 from .scene import Place
 
@@ -76,13 +77,18 @@ class AbstractBatch(eqx.Module):
 class RollingBatch(AbstractBatch):
     """Bearings with rolling elements: `scene` is a stack of scenes.
 
-    `ports` are the scenes whose forces act on the shaft; of rollers that slide these are dry and may tilt, of all others
-    they are the scenes themselves.
+    `dry` are the scenes whose forces act on the shaft, of rollers that slide: these may tilt. It is `None` of all others,
+    whose forces are those of `scene`.
     """
 
     scene: AbstractBearing
-    ports: AbstractBearing
+    dry: AbstractBearing | None
     places: tuple[int, ...] = eqx.field(static=True)
+
+    @property
+    def ports(self) -> AbstractBearing:
+        """The scenes whose forces act on the shaft."""
+        return self.scene if self.dry is None else self.dry
 
     def rows(self, expansion, at_rest=False):
         scene = self.ports
@@ -104,11 +110,6 @@ class RollingBatch(AbstractBatch):
 
     def force_at(self, rows, displacement, elements):
         return jax.vmap(lambda row, q, own: row.force_at(q, own))(rows, displacement, elements)
-
-    @property
-    def apart(self) -> bool:
-        """True if losses, films and cage come from another model than the forces."""
-        return self.scene is not self.ports
 
 
 class LinearBatch(AbstractBatch):
@@ -133,7 +134,7 @@ class LinearBatch(AbstractBatch):
         return jnp.einsum("bij,bj->bi", self.stiffness, displacement)
 
 
-@eqx.filter_jit
+@once
 def solutions(
     scene: AbstractBearing,
     displacement: Float[Array, "own 5"],
@@ -142,7 +143,7 @@ def solutions(
 ) -> Solution:
     """Solutions of a stack of bearings whose rings are held at displacements of their ports.
 
-    Grooves move to first order with a tilt. A compiled program has this once, however often it is called.
+    Grooves move to first order with a tilt.
     """
 
     def one(scene: AbstractBearing, displacement: Array, expansion: Array) -> Solution:
@@ -180,8 +181,7 @@ def batches_of(places: Sequence[Place], speed: Array) -> tuple[AbstractBatch, ..
         if isinstance(stacked, LinearBearing):
             found.append(LinearBatch(stacked.stiffness, numbers))
         else:
-            ports = stacked if stacked.may_tilt else _dry(stacked)
-            found.append(RollingBatch(stacked, ports, numbers))
+            found.append(RollingBatch(stacked, None if stacked.may_tilt else _dry(stacked), numbers))
     return tuple(found)
 
 

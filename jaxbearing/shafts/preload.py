@@ -6,12 +6,12 @@ forces of the bearings of a group add up to the preload. Half of both displaceme
 
 from typing import Any, NamedTuple
 
-import equinox as eqx
 import jax
 import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Array, Bool, Float, Int
 
+from ..numerics.once import once
 from .balance import Spring
 from .batches import AbstractBatch
 from .mounting import Preload
@@ -45,22 +45,30 @@ def _displacements(axial: Float[Array, " bearing"]) -> Float[Array, "bearing 5"]
     return axial[:, None] * jnp.asarray([1.0, 0.0, 0.0, 0.0, 0.0])
 
 
-@eqx.filter_jit
-def _held(rest: Rest, axial: Float[Array, " bearing"]) -> tuple[Array, Array, list[Any]]:
-    """Axial forces, N, axial stiffness, N/m, and elements; not differentiated. A program has this once."""
+class _Held(NamedTuple):
+    """Axial forces, N, axial stiffness, N/m, and elements by batch."""
+
+    force: Float[Array, " bearing"]
+    slope: Float[Array, " bearing"]
+    elements: list[Any]
+
+
+@once
+def _held(rest: Rest, axial: Float[Array, " bearing"]) -> _Held:
+    """All bearings held; not differentiated."""
     displacement = _displacements(axial)
     found = []
     for batch, rows in zip(rest.batches, rest.rows, strict=True):
         own = displacement[batch.index]
         found.append(batch.hold(rows, own, batch.initial(rows, own)))
     of = lambda get: _spread(rest.batches, [get(one) for one in found])
-    return of(lambda one: one.force[:, 0]), of(lambda one: one.stiffness[:, 0, 0]), [one.elements for one in found]
+    elements = [one.elements for one in found]
+    return _Held(of(lambda one: one.force[:, 0]), of(lambda one: one.stiffness[:, 0, 0]), elements)
 
 
-@eqx.filter_jit
-def axial_forces(rest: Rest, axial: Float[Array, " bearing"]) -> Float[Array, " bearing"]:
-    """Axial forces, N, with first derivatives. **Arguments:** displacements, closures included, m."""
-    elements = _held(*jax.lax.stop_gradient((rest, axial)))[2]
+@once
+def axial_forces(rest: Rest, axial: Float[Array, " bearing"], elements: list[Any]) -> Float[Array, " bearing"]:
+    """Axial forces, N, with first derivatives. **Arguments:** displacements, closures included, m; elements there."""
     displacement = _displacements(axial)
     parts = [
         batch.force_at(rows, displacement[batch.index], own)[:, 0]
@@ -75,6 +83,7 @@ class _Search(NamedTuple):
     high: Float[Array, " group"]
     trials: Int[Array, ""]
     done: Bool[Array, " group"]
+    held: _Held
 
 
 class Group(NamedTuple):
@@ -93,12 +102,9 @@ def displaced(rest: Rest, groups: list[Group], additional: Float[Array, " bearin
     target = jnp.stack([jnp.asarray(group.force, dtype=float) for group in groups])
     fixed: Any = jax.lax.stop_gradient((rest, target, additional))
 
-    def at(place: Array) -> tuple[Array, Array]:
-        force, slope, _ = _held(fixed[0], members.T @ place + fixed[2])
-        return members @ force, members @ slope
-
     def look(state: _Search) -> _Search:
-        force, slope = at(state.place)
+        held = _held(fixed[0], members.T @ state.place + fixed[2])
+        force, slope = members @ held.force, members @ held.slope
         wanted = fixed[1]
         above = force >= wanted
         low, high = jnp.where(above, state.low, state.place), jnp.where(above, state.place, state.high)
@@ -110,14 +116,15 @@ def displaced(rest: Rest, groups: list[Group], additional: Float[Array, " bearin
         inside = loaded & (newton > low) & (newton < high)
         small = (jnp.abs(force - wanted) <= TOLERANCE * wanted) | (high - low <= TOLERANCE * jnp.abs(high))
         following = jnp.where(small | state.done, state.place, jnp.where(inside, newton, middle))
-        return _Search(following, low, high, state.trials + 1, state.done | small)
+        return _Search(following, low, high, state.trials + 1, state.done | small, held)
 
     none = jnp.zeros(len(groups))
-    first = _Search(none + FIRST_TRIAL, none - FIRST_TRIAL, none + jnp.inf, jnp.asarray(0), none > 0)
+    first = _Search(none + FIRST_TRIAL, none - FIRST_TRIAL, none + jnp.inf, jnp.asarray(0), none > 0, _nothing(fixed[0]))
     going = lambda state: (state.trials < TRIALS) & ~jnp.all(state.done)
-    place = jax.lax.while_loop(going, look, first).place
-    slope = jnp.maximum(at(place)[1], 1.0)
-    force = members @ axial_forces(rest, members.T @ place + additional)
+    end = jax.lax.while_loop(going, look, first)
+    place, held = end.place, end.held
+    slope = jnp.maximum(members @ held.slope, 1.0)
+    force = members @ axial_forces(rest, members.T @ place + additional, held.elements)
     # one step of Newton's has the derivatives of the root
     return place - (force - target) / slope
 
@@ -210,22 +217,28 @@ def _mounted(
     signs = first - second
     fixed: Any = jax.lax.stop_gradient((rest, closure))
 
-    def out_of_balance(place: Array) -> tuple[Array, Array]:
-        force, slope, _ = _held(fixed[0], fixed[1] + signs.T @ place)
-        return signs @ force, jnp.maximum((first + second) @ slope, 1.0)
-
-    def look(state: tuple[Array, Array, Array]) -> tuple[Array, Array, Array]:
-        place, _, trials = state
-        force, slope = out_of_balance(place)
-        return place - force / slope, jnp.max(jnp.abs(force / slope)), trials + 1
+    def look(state: tuple[Array, Array, Array, _Held]) -> tuple[Array, Array, Array, _Held]:
+        place, _, trials, _ = state
+        held = _held(fixed[0], fixed[1] + signs.T @ place)
+        step = (signs @ held.force) / jnp.maximum((first + second) @ held.slope, 1.0)
+        return place - step, jnp.max(jnp.abs(step)), trials + 1, held
 
     going = lambda state: (state[1] > BALANCED) & (state[2] < TRIALS)
     none = jnp.zeros(len(sets))
-    place, _, _ = jax.lax.while_loop(going, look, (none, jnp.asarray(jnp.inf), jnp.asarray(0)))
-    slope = out_of_balance(place)[1]
-    place = place - signs @ axial_forces(rest, closure + signs.T @ place) / slope
-    mounted = first @ axial_forces(rest, closure + signs.T @ place)
+    begin = (none, jnp.asarray(jnp.inf), jnp.asarray(0), _nothing(fixed[0]))
+    place, _, _, held = jax.lax.while_loop(going, look, begin)
+    slope = jnp.maximum((first + second) @ held.slope, 1.0)
+    place = place - signs @ axial_forces(rest, closure + signs.T @ place, held.elements) / slope
+    mounted = first @ axial_forces(rest, closure + signs.T @ place, held.elements)
     # the last bearing of the other group that carries is lost where its closure is used up
     largest = jnp.max(jnp.where(second > 0, closure, -jnp.inf), axis=1)
-    loss = first @ axial_forces(rest, closure + signs.T @ largest)
+    lost = closure + signs.T @ largest
+    held = _held(fixed[0], jax.lax.stop_gradient(lost), when=jnp.all(jnp.isfinite(lost)))
+    loss = first @ axial_forces(rest, lost, held.elements)
     return dict(zip(sets, mounted, strict=True)), dict(zip(sets, loss, strict=True))
+
+
+def _nothing(rest: Rest) -> _Held:
+    """Zeros, to begin a loop with."""
+    count = sum(len(batch.places) for batch in rest.batches)
+    return _held(rest, jnp.zeros(count), when=jnp.asarray(False))

@@ -17,6 +17,7 @@ import jax.numpy as jnp
 from jaxtyping import Array, Bool, Float, Int
 
 from ..numerics.newton import NewtonOptions
+from ..numerics.once import once
 from ..numerics.status import Status
 from .balance import Balance
 from .batches import AbstractBatch, LinearBatch, RollingBatch, solutions
@@ -73,6 +74,7 @@ class _Ports(NamedTuple):
     elements: Any
 
 
+@once
 def _held(problem: Problem, rows: list[Any], displacement: Float[Array, "bearing 5"], elements: list[Any]) -> _Ports:
     found = [
         batch.hold(row, displacement[batch.index], own)
@@ -122,6 +124,7 @@ class _Descent(NamedTuple):
     fraction: Array
     factor: Array
     residual: Array
+    scale: Array
     far: Array
     done: Bool[Array, ""]
     trials: Int[Array, ""]
@@ -138,10 +141,6 @@ def minimise(problem: Problem) -> Start:
     elements = [batch.initial(row, at_zero[batch.index]) for batch, row in zip(problem.batches, rows, strict=True)]
     units, lengths = balance.row_units(), balance.lengths()
     most = jnp.where(jnp.arange(5) < 3, FARTHEST, MOST_TILT)
-    # closures load the bearings without an outer load
-    first = _held(problem, rows, at_zero, elements)
-    scale = balance.force_scale + jnp.sum(jnp.abs(first.force / lengths))
-
     def look(state: _Descent) -> _Descent:
         trial = state.unknowns + state.fraction * state.step
         displacement = balance.displacements(trial)
@@ -160,6 +159,9 @@ def minimise(problem: Problem) -> Start:
         step = balance.step(residual, held.stiffness + more[:, :, None] * jnp.eye(5))
         moved = jnp.max(jnp.abs((balance.attach @ step).reshape(-1, 5) * lengths))
         step = step * jnp.minimum(1.0, LONGEST_STEP / jnp.maximum(moved, 1e-30))
+        # closures load the bearings without an outer load: the first trial is the start
+        loaded = balance.force_scale + jnp.sum(jnp.abs(held.force / lengths))
+        scale = jnp.where(state.trials == 0, loaded, state.scale)
         size = jnp.max(jnp.abs(residual * units)) / scale
         pick = lambda new, old: jax.tree.map(lambda a, b: jnp.where(accept, a, b), new, old)
         hopeless = (state.trials == 0) & ~jnp.isfinite(energy)
@@ -174,6 +176,7 @@ def minimise(problem: Problem) -> Start:
             fraction=jnp.where(accept, 1.0, SHORTER * state.fraction),
             factor=pick(factor, state.factor),
             residual=pick(size, state.residual),
+            scale=scale,
             far=pick(far, state.far),
             done=done,
             trials=state.trials + 1,
@@ -183,13 +186,14 @@ def minimise(problem: Problem) -> Start:
     one, none = jnp.ones(()), jnp.asarray(0)
     begin = _Descent(
         unknowns=zero,
-        elements=first.elements,
+        elements=elements,
         step=zero,
         energy=jnp.inf * one,
         slope=0.0 * one,
         fraction=one,
         factor=FACTOR * one,
         residual=jnp.inf * one,
+        scale=one,
         far=jnp.zeros_like(at_zero),
         done=none > 0,
         trials=none,
@@ -197,7 +201,7 @@ def minimise(problem: Problem) -> Start:
     )
     end = jax.lax.while_loop(lambda state: ~state.done & (state.trials < TRIALS), look, begin)
     lost = jnp.max(end.far) > 1.0
-    return Start(end.unknowns, end.residual, end.steps, lost, jnp.argmax(end.far), scale)
+    return Start(end.unknowns, end.residual, end.steps, lost, jnp.argmax(end.far), end.scale)
 
 
 class Root(NamedTuple):

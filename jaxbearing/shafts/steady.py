@@ -77,7 +77,7 @@ def _results(
     balance, (position, closure) = problem.balance, given
     parts = balance.parts(root.unknowns)
     displacement = balance.displacements(root.unknowns)
-    found, checks, notes, good = _bearings(places, problem, displacement, parts, (position, closure), options)
+    found, checks, notes, good = _bearings(places, problem, displacement, parts, (position, closure), root.solved, options)
     good &= root.solved
     sets = {
         one.name: _set_result(system, places, found, number, mounted, parts) for number, one in enumerate(system.sets)
@@ -114,6 +114,7 @@ def _bearings(
     displacement: Float[Array, "bearing 5"],
     parts: Parts,
     given: tuple[Array, Array],
+    solved: Bool[Array, ""],
     options: NewtonOptions,
 ) -> tuple[dict[str, BearingOnShaft], dict[str, Bool[Array, ""]], list[str], Bool[Array, ""]]:
     """Results of all bearings, their checks and notes, and whether all have a solution."""
@@ -128,11 +129,11 @@ def _bearings(
         apart = None
         if isinstance(batch, RollingBatch):
             expansion = problem.expansion[batch.index]
-            stack = solutions(batch.ports, own, expansion, options)
+            stack = solutions(batch.ports, own, expansion, options, when=solved)
             good &= jnp.all(stack.converged)
             force, stiffness = stack.force, stack.stiffness
-            if batch.apart:
-                apart = solutions(batch.scene, own, expansion, options)
+            if batch.dry is not None:
+                apart = solutions(batch.scene, own, expansion, options, when=solved)
                 good &= jnp.all(apart.converged)
             stack = jax.vmap(with_life)(batch.ports, stack)
         else:
