@@ -54,8 +54,8 @@ def stiffness(
     ross: Ross = None,
     load_direction: LoadDirection = "-90 deg",
 ) -> None:
-    """Stiffness against shaft speed, at the loads of the scene; of a shaft that of each set and bearing; on request as a
-    bearing, or a rotor, for ROSS."""
+    """Stiffness against shaft speed, at the loads of the scene; of a shaft that of each set and bearing. On request it
+    is written as a bearing, or a rotor, for ROSS."""
     with bad_input():
         from ..scenes.overrides import split_assignments
         from ..scenes.reader import load_scene
@@ -117,7 +117,9 @@ def _check(scene: str, model: "AbstractScene", values: list[float], ross: Path |
     try:
         (shaft_at_speeds if shaft else at_speeds)(model, values)
     except TypeError:
-        refuse(f"SCENE: found '{scene}', a {type(model).__name__}, which has no stiffness; expected a bearing or a shaft")
+        refuse(
+            f"SCENE: found '{scene}', a {type(model).__name__}, which has no stiffness; expected a bearing or a shaft"
+        )
     except ValueError as error:
         refuse(f"--speeds: {error}")
     if shaft and ross is not None:

@@ -27,8 +27,8 @@ class Table(BaseModel):
     `tag` names a table that is one of several alternatives of a field; `not_yet` are names of later versions, and
     `elsewhere` names that belong to other tables, both with what to expect instead; `instead`: field -> those that it
     stands for: a `--set` of it takes them out; `about`: field -> those that say more about it: they go when a `--set`
-    takes it out; `needs`: fields without which, or something in their place, a check refuses the table; `builds`: the class that the table describes; `made_from`: field -> the
-    class, and its field, that it was made from.
+    takes it out; `needs`: fields without which, or something in their place, a check refuses the table; `builds`: the
+    class that the table describes; `made_from`: field -> the class, and its field, that it was made from.
     """
 
     # a table is compiled when the first file with it is read

@@ -133,7 +133,9 @@ def _on_shaft(scene: ShaftSystem, given: Mapping[str, Distribution]) -> dict[str
                 inner = usual_tolerances(bearing)
                 kept = {path: one for path, one in inner.items() if not path.startswith("operation.")}
                 found |= {f"{word}.{entry.name}.{path}": one for path, one in kept.items()}
-    found |= {path: UsualTolerance(0.5 * (one.highest - one.lowest), "as the scene says") for path, one in given.items()}
+    found |= {
+        path: UsualTolerance(0.5 * (one.highest - one.lowest), "as the scene says") for path, one in given.items()
+    }
     return found
 
 

@@ -1,5 +1,6 @@
 """The bending line of a shaft between its nodes, and which of its results are the largest."""
 
+from itertools import pairwise
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -69,12 +70,14 @@ def _shear_numbers(shaft: Any, x: np.ndarray) -> np.ndarray:
         return np.zeros(x.size - 1)
     ends = np.cumsum([float(one.length) for one in sections])
     found = []
-    for left, right in zip(x[:-1], x[1:], strict=True):
+    for left, right in pairwise(x):
         one = sections[min(int(np.searchsorted(ends, 0.5 * (left + right))), len(sections) - 1)]
         poisson = float((shaft.material if one.material is None else one.material).poisson_ratio)
         outer, inner = float(one.outer_diameter), float(one.inner_diameter)
         radius2 = (outer**2 + inner**2) / 16.0
-        found.append(24.0 * (1.0 + poisson) * radius2 / (cowper(poisson, inner / outer) * max(right - left, 1e-12) ** 2))
+        found.append(
+            24.0 * (1.0 + poisson) * radius2 / (cowper(poisson, inner / outer) * max(right - left, 1e-12) ** 2)
+        )
     return np.array(found)
 
 
@@ -91,7 +94,8 @@ class CutLoads(NamedTuple):
 
     - `axial`: tension, N.
     - `shear`: along Y and Z, shape (2, point), N.
-    - `moment`: in the planes X-Y and X-Z, shape (2, point), N m; positive where the bending line is hollow towards +Y, +Z.
+    - `moment`: in the planes X-Y and X-Z, shape (2, point), N m; positive where the bending line is hollow towards +Y
+      and +Z.
     """
 
     position: np.ndarray
@@ -107,7 +111,7 @@ def cut_loads(solution: Any) -> CutLoads:
     loads = np.concatenate([np.asarray(nodes.load), [np.asarray(one.on_shaft) for one in solution.bearings.values()]])
     ends, weight = _weights(solution.operation)
     marks = np.unique(np.concatenate([at, ends]))
-    x = np.concatenate([np.linspace(a, b, POINTS + 1) for a, b in zip(marks[:-1], marks[1:], strict=True)])
+    x = np.concatenate([np.linspace(a, b, POINTS + 1) for a, b in pairwise(marks)])
     # points of an interval are right of the loads at its left end, and left of those at its right end
     interval = np.repeat(np.arange(marks.size - 1), POINTS + 1)
     acts = at[:, None] <= marks[interval][None, :]

@@ -1,7 +1,7 @@
 """A shaft's solution as a labelled xarray data set.
 
-Results of the bearings have the dimension `bearing`; those of a bearing's own family stand beside them, with the name of
-the bearing in front (`rear_load_inner` over `rear_element`). `node` runs along the shaft, `set` over the matched sets.
+Results of the bearings have the dimension `bearing`; those of a bearing's own family stand beside them, with the name
+of the bearing in front (`rear_load_inner` over `rear_element`). `node` runs along the shaft, `set` over the matched sets.
 """
 
 from collections.abc import Iterator, Sequence
@@ -37,7 +37,9 @@ def to_dataset(solution: ShaftSolution, dims: Sequence[str] = ()) -> xr.Dataset:
     dims = tuple(dims)
     batch = np.shape(solution.status)
     if len(dims) != len(batch):
-        raise ValueError(f"dims: got {len(dims)} names {dims}; the solution has {len(batch)} leading dimensions {batch}")
+        raise ValueError(
+            f"dims: got {len(dims)} names {dims}; the solution has {len(batch)} leading dimensions {batch}"
+        )
     if not dims:
         check_converged(solution)
     dataset = xr.Dataset(attrs=attributes(solution, "Steady state of a shaft on bearings"))
@@ -120,10 +122,13 @@ def _coordinates(solution: ShaftSolution) -> dict[str, xr.Variable]:
     if solution.range_checks:
         names[CHECK] = (list(solution.range_checks), "what is checked")
     found = {
-        name: xr.Variable((name,), values, {"units": "1", "long_name": words}) for name, (values, words) in names.items()
+        name: xr.Variable((name,), values, {"units": "1", "long_name": words})
+        for name, (values, words) in names.items()
     }
     found["force_units"] = xr.Variable(
-        ("freedom",), [udunits(unit) for unit in force_units()], {"units": "1", "long_name": "unit of an entry of force"}
+        ("freedom",),
+        [udunits(unit) for unit in force_units()],
+        {"units": "1", "long_name": "unit of an entry of force"},
     )
     units = [[udunits(unit) for unit in row] for row in stiffness_units()]
     said = {"units": "1", "long_name": "unit of an entry of stiffness"}

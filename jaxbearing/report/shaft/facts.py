@@ -68,7 +68,13 @@ def _column(values: Sequence[float], decimals: int) -> list[str]:
 def _life(one: BearingOnShaft) -> str:
     """Life in millions of revolutions; "-" without a rating, and of a bearing that carries nothing."""
     found = None if one.life is None else number(one.life.L10r)
-    return "-" if found is None else f"{found:.3g}" if found < 1e4 else f"{found:.2e}".replace("e+0", "e").replace("e+", "e")
+    return (
+        "-"
+        if found is None
+        else f"{found:.3g}"
+        if found < 1e4
+        else f"{found:.2e}".replace("e+0", "e").replace("e+", "e")
+    )
 
 
 def loss_of(one: BearingOnShaft) -> float | None:

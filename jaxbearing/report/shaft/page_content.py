@@ -12,9 +12,9 @@ from ..display import digits, with_unit
 from ..labels import labelled
 from ..page_content import Content, Listing, Sketch
 from ..tables import Row, row_of
+from .bending import bending_line
 from .drawn import svg
 from .facts import bearing_columns, life_fact, loss_of, number, set_facts, shaft_facts, shaft_warnings, stiffness_rows
-from .bending import bending_line
 from .panels import shaft_panels
 from .picture import pictures
 from .plots import operating_text

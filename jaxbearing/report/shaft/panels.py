@@ -26,9 +26,7 @@ def deflection_panel(solution: ShaftSolution) -> Curves:
     size, place = line.largest()
     unit, factor = axis_unit("m", size)
     x = 1e3 * line.position
-    series = [
-        Series(f"along {name}", x, factor * line.across[i], CURVES[i]) for i, (name, _, _) in enumerate(PLANES)
-    ]
+    series = [Series(f"along {name}", x, factor * line.across[i], CURVES[i]) for i, (name, _, _) in enumerate(PLANES)]
     series.append(Series("size", x, factor * line.size, INK, dash="dash"))
     return Curves(
         name="deflection",

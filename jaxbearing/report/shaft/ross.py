@@ -1,7 +1,7 @@
 """A shaft on its bearings as a rotor of the rotordynamics package ROSS: `ross.Rotor.load(file)`.
 
-Axes, angle of the load line and what bearing elements leave out are those of `report.ross`: here `load_direction` is the
-angle from ROSS's x axis to Y. Shaft elements lie between the ends of sections, bearings and masses, with Cowper's shear
+Axes, angle of the load line and what bearing elements leave out are those of `report.ross`: here `load_direction` is
+the angle from ROSS's x axis to Y. Shaft elements lie between the ends of sections, bearings and masses, with Cowper's shear
 factor as in the package; masses are disks without moments of inertia, which a scene does not have. Each bearing is one
 element at its node, with the full 2x2 across the axis and the axial stiffness, at the equilibria of the table of
 speeds; elastic supports of its outer ring are in series.
@@ -9,6 +9,7 @@ speeds; elastic supports of its outer ring are in series.
 
 import math
 import os
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -46,7 +47,7 @@ def ross_rotor(
     places = [*ends, *(float(place.position) for place in scene.places), *(float(one.position) for one in masses)]
     nodes = _apart(np.clip(places, 0.0, ends[-1]))
     found = {}
-    for number, (left, right) in enumerate(zip(nodes[:-1], nodes[1:], strict=True)):
+    for number, (left, right) in enumerate(pairwise(nodes)):
         section = min(int(np.searchsorted(ends, 0.5 * (left + right))) - 1, len(scene.shaft.sections) - 1)
         found[f"ShaftElement_shaft{number}"] = _element(scene, section, right - left, number)
     for one in masses:

@@ -59,7 +59,9 @@ def _print_bearings(solution: ShaftSolution, console: Console) -> None:
 
 def _print_duty(duty: DutyResult, console: Console) -> None:
     print_rule("Duty cycle", console)
-    shares = ", ".join(f"{name} {100.0 * float(share):.4g} %" for name, share in zip(duty.names, duty.shares, strict=True))
+    shares = ", ".join(
+        f"{name} {100.0 * float(share):.4g} %" for name, share in zip(duty.names, duty.shares, strict=True)
+    )
     print_line("States", shares, console)
     hours = ", ".join(f"{name} {digits(float(value))} h" for name, value in duty.bearing_hours.items())
     print_line("Life", hours, console)

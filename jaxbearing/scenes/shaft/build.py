@@ -83,7 +83,9 @@ def _shaft(table: ShaftTable) -> Shaft:
     given = table.shaft
     found: dict[str, Any] = given.model_dump(exclude={"sections", "material", "gravity"})
     sections = [
-        Section(**one.model_dump(exclude={"material"}), material=None if one.material is None else material(one.material))
+        Section(
+            **one.model_dump(exclude={"material"}), material=None if one.material is None else material(one.material)
+        )
         for one in table.entries("sections").values()
     ]
     return Shaft(
@@ -135,5 +137,3 @@ def _support(table: SupportTable | None) -> Support | None:
 
 def _force(name: str, table: Any) -> Any:
     return FORCES[table.kind](name=name, **table.model_dump(exclude={"kind"}))
-
-

@@ -27,9 +27,9 @@ from ..drafts import Unreadable
 from ..errors import SceneError, nearest, one_of
 from ..kinds import KIND, kind_named
 from ..materials import MaterialField
-from ..tapered.schema import TaperedRollerTable
 from ..table import Table
 from ..table_of import fields_of_class, table_of
+from ..tapered.schema import TaperedRollerTable
 from .files import (
     BEARINGS,
     LINEAR,
@@ -52,7 +52,11 @@ _WAYS = ("force", "class_force", "offset", "spring_force")
 def _matrix(value: Any) -> tuple[tuple[float, ...], ...]:
     """Five rows of five stiffnesses, each with its unit; zeros need none."""
     wanted = f"5 rows of 5 stiffnesses with units, of {', '.join(RING_FREEDOMS)}; a 0 needs no unit"
-    if not isinstance(value, list) or len(value) != 5 or any(not isinstance(row, list) or len(row) != 5 for row in value):
+    if (
+        not isinstance(value, list)
+        or len(value) != 5
+        or any(not isinstance(row, list) or len(row) != 5 for row in value)
+    ):
         raise units.refusal(wanted, units.describe(value))
     return tuple(
         tuple(_entry(one, row, column) for column, one in enumerate(values)) for row, values in enumerate(value)
@@ -206,7 +210,7 @@ def _operation_of(operation: type, **load: float) -> Any:
             optional=("oil_temperature", "oil_flow"),
         )
     ):
-        """Oil and outer ring of a bearing on a shaft. Its loads and the speed of its inner ring follow from the shaft."""
+        """Oil and outer ring of a bearing on a shaft, whose loads and inner speed follow from the shaft."""
 
         elsewhere: ClassVar[Mapping[str, str]] = _loads_elsewhere(operation)
 
@@ -286,8 +290,8 @@ class BearingEntry(MountTable):
     """A bearing on the shaft, in a table [[bearing]].
 
     - `scene`: of the bearing, a file or a built-in scene, whose loads and speeds do not count
-    - `kind`: of the bearing, in the place of a scene: then the tables of its own scene file, such as geometry, are here;
-      beside a scene they change it
+    - `kind`: of the bearing, in the place of a scene: then the tables of its own scene file, such as geometry, are
+      here; beside a scene they change it
     - `stiffness`: of the kind linear, in the bearing's own frame, 5 rows of 5 entries, N/m, N and N m/rad
     """
 
@@ -300,8 +304,8 @@ class SetEntry(SetMountTable):
     """A matched set, in a table [[set]]; its bearings are called `name.1`, `name.2` ...
 
     - `scene`: of the bearing, a file or a built-in scene, whose loads and speeds do not count
-    - `kind`: of the bearing, in the place of a scene: then the tables of its own scene file, such as geometry, are here;
-      beside a scene they change it
+    - `kind`: of the bearing, in the place of a scene: then the tables of its own scene file, such as geometry, are
+      here; beside a scene they change it
     """
 
     scene: units.Text | None = None
@@ -414,7 +418,9 @@ def _by_name(word: str, tables: Mapping[str, Any]) -> Any:
 def _with_sections(names: tuple[str, ...]) -> Any:
     parts = _by_name(SECTIONS, dict.fromkeys(names, SectionTable))
     doc = ShaftPart.__doc__
-    return create_model("ShaftPart", __base__=ShaftPart, __module__=__name__, __doc__=doc, sections=(parts | None, None))
+    return create_model(
+        "ShaftPart", __base__=ShaftPart, __module__=__name__, __doc__=doc, sections=(parts | None, None)
+    )
 
 
 @functools.lru_cache(64)

@@ -34,7 +34,9 @@ def with_states(scene: ShaftSystem, given: Any, raw: Mapping[str, Any], file: st
         except SceneError as error:
             problems += error.problems
             continue
-        changes = {path: _number(part_at(found.scene, path), path, f"{file}, state '{found.name}'") for path in found.changes}
+        changes = {
+            path: _number(part_at(found.scene, path), path, f"{file}, state '{found.name}'") for path in found.changes
+        }
         states.append(ShaftState(share=found.share, changes=changes, name=found.name))
     if problems:
         raise SceneError.of_all(problems)

@@ -34,9 +34,7 @@ def shaft_tables(scene: ShaftSystem) -> Rows:
     tables: Rows = {"kind": scene.kind, "shaft": _shaft(scene.shaft)}
     tables["set"] = [_set(one) for one in scene.sets]
     tables["bearing"] = [_mounted(one) for one in scene.bearings]
-    tables["force"] = [
-        {"name": one.name, "kind": one.kind} | rows(FORCE_TABLES[one.kind], one) for one in scene.forces
-    ]
+    tables["force"] = [{"name": one.name, "kind": one.kind} | rows(FORCE_TABLES[one.kind], one) for one in scene.forces]
     tables["state"] = [_state(one, scene) for one in scene.states]
     tables["life"] = _life(scene)
     return {name: table for name, table in tables.items() if table is not None and table != []}
@@ -152,5 +150,3 @@ def _change(path: str, value: Any, scene: ShaftSystem) -> Any:
     if "bound" not in said:
         raise unwritable(f"state.{path}", "a change", "one of a number that files have at this path")
     return number(value, said["unit"], said["difference"])
-
-
