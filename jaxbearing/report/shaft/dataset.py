@@ -1,7 +1,7 @@
 """A shaft's solution as a labelled xarray data set.
 
 Results of the bearings have the dimension `bearing`; those of a bearing's own family stand beside them, with the name
-of the bearing in front (`rear_load_inner` over `rear_element`). `node` runs along the shaft, `set` over the matched sets.
+of the bearing in front (`rear_load_inner` over `rear_element`). `node` runs along the shaft, `set` over the sets.
 """
 
 from collections.abc import Iterator, Sequence

@@ -1,8 +1,8 @@
 """A shaft on its bearings as a rotor of the rotordynamics package ROSS: `ross.Rotor.load(file)`.
 
 Axes, angle of the load line and what bearing elements leave out are those of `report.ross`: here `load_direction` is
-the angle from ROSS's x axis to Y. Shaft elements lie between the ends of sections, bearings and masses, with Cowper's shear
-factor as in the package; masses are disks without moments of inertia, which a scene does not have. Each bearing is one
+the angle from ROSS's x axis to Y. Shaft elements lie between the ends of sections, bearings and masses, with Cowper's
+shear factor as in the package; masses are disks without moments of inertia, which a scene does not have. Each bearing is one
 element at its node, with the full 2x2 across the axis and the axial stiffness, at the equilibria of the table of
 speeds; elastic supports of its outer ring are in series.
 """

@@ -21,7 +21,8 @@ from ..errors import SceneError
 from ..materials import material
 from ..tapered.build import tapered_roller_bearing
 from .files import LINEAR
-from .schema import ShaftTable, SupportTable
+from .schema import ShaftTable
+from .tables import SupportTable
 
 _BUILD: dict[str, Callable[[Any], Any]] = {
     "ball_bearing": ball_bearing,

@@ -14,7 +14,7 @@ from ...shafts.shaft import STEEL, Shaft
 from ..errors import SceneError
 from ..part_writer import Rows, given, number, rows, same, unwritable, written
 from .files import LINEAR, OF_SHAFT
-from .schema import (
+from .tables import (
     FORCE_TABLES,
     MATRIX_UNITS,
     OPERATIONS,
