@@ -1,10 +1,12 @@
 """A shaft on its bearings as a rotor of the rotordynamics package ROSS: `ross.Rotor.load(file)`.
 
 Axes, angle of the load line and what bearing elements leave out are those of `report.ross`: here `load_direction` is
-the angle from ROSS's x axis to Y. Shaft elements lie between the ends of sections, bearings and masses, with Cowper's
-shear factor as in the package; masses are disks without moments of inertia, which a scene does not have. Each bearing is one
-element at its node, with the full 2x2 across the axis and the axial stiffness, at the equilibria of the table of
-speeds; elastic supports of its outer ring are in series.
+the angle from ROSS's x axis to Y. Shaft elements lie between ends of sections, bearings and masses, with Cowper's
+shear factor as in the package; masses are disks without moments of inertia, which a scene does not have. Each bearing
+is one element at its node, with the full 2x2 across the axis and the axial stiffness, at the equilibria of the table
+of speeds; elastic supports of its outer ring are in series.
+
+ROSS 2.3 says that the file was made by another version: it has none of a version of its own.
 """
 
 import math
@@ -41,15 +43,11 @@ def ross_rotor(
 
     **Raises:** as `require_rotor`; `ValueError` as `report.ross.ross_bearing`.
     """
-    require_rotor(scene)
-    ends = np.concatenate([[0.0], np.cumsum([float(one.length) for one in scene.shaft.sections])])
+    nodes = rotor_nodes(scene)
     masses = [one for one in scene.forces if one.kind == "mass"]
-    places = [*ends, *(float(place.position) for place in scene.places), *(float(one.position) for one in masses)]
-    nodes = _apart(np.clip(places, 0.0, ends[-1]))
     found = {}
     for number, (left, right) in enumerate(pairwise(nodes)):
-        section = min(int(np.searchsorted(ends, 0.5 * (left + right))) - 1, len(scene.shaft.sections) - 1)
-        found[f"ShaftElement_shaft{number}"] = _element(scene, section, right - left, number)
+        found[f"ShaftElement_shaft{number}"] = _element(scene, left, right, number)
     for one in masses:
         tag = one.name
         disk = {"n": _node(nodes, float(one.position)), "m": float(one.mass), "Id": 0.0, "Ip": 0.0, "tag": tag}
@@ -59,6 +57,26 @@ def ross_rotor(
         node = _node(nodes, table.position[name])
         found[f"BearingElement_{tag}"] = element_of(table.speed, values, load_direction, node, tag)
     return found
+
+
+def rotor_nodes(scene: Any) -> np.ndarray:
+    """Places of the nodes: ends of sections, bearings and masses, m. **Raises:** as `require_rotor`."""
+    require_rotor(scene)
+    ends = _ends(scene)
+    masses = [float(one.position) for one in scene.forces if one.kind == "mass"]
+    return _apart(np.clip([*ends, *(float(place.position) for place in scene.places), *masses], 0.0, ends[-1]))
+
+
+def section_between(scene: Any, left: float, right: float) -> tuple[Any, Any]:
+    """The section, and its material, to which the part of the shaft between two nodes belongs."""
+    ends = _ends(scene)
+    place = min(int(np.searchsorted(ends, 0.5 * (left + right))) - 1, len(scene.shaft.sections) - 1)
+    section = scene.shaft.sections[place]
+    return section, scene.shaft.material if section.material is None else section.material
+
+
+def _ends(scene: Any) -> np.ndarray:
+    return np.concatenate([[0.0], np.cumsum([float(one.length) for one in scene.shaft.sections])])
 
 
 def _apart(places: np.ndarray) -> np.ndarray:
@@ -71,13 +89,12 @@ def _node(nodes: np.ndarray, position: float) -> int:
     return int(np.argmin(np.abs(nodes - position)))
 
 
-def _element(scene: ShaftSystem, place: int, length: float, number: int) -> dict[str, Any]:
-    section = scene.shaft.sections[place]
-    material = scene.shaft.material if section.material is None else section.material
+def _element(scene: ShaftSystem, left: float, right: float, number: int) -> dict[str, Any]:
+    section, material = section_between(scene, left, right)
     young, poisson = float(material.youngs_modulus), float(material.poisson_ratio)
     inner, outer = float(section.inner_diameter), float(section.outer_diameter)
     return {
-        "L": float(length),
+        "L": float(right - left),
         "idl": inner,
         "odl": outer,
         "idr": inner,
@@ -91,7 +108,7 @@ def _element(scene: ShaftSystem, place: int, length: float, number: int) -> dict
         "shear_method_calc": "cowper",
         "tag": f"shaft{number}",
         "material": {
-            "name": f"section{place + 1}",
+            "name": f"shaft{number}",
             "rho": float(material.density),
             "E": young,
             "G_s": young / (2.0 * (1.0 + poisson)),
@@ -124,6 +141,4 @@ def write_ross_rotor(
         f"Y of the shaft: {math.degrees(load_direction):.6g} deg from x towards y; z along the shaft.",
     ]
     comments = "".join(f"# {line}\n" for line in said)
-    parameters = {"min_w": None, "max_w": None, "rated_w": None, "tag": "rotor"}
-    whole = {"parameters": {name: value for name, value in parameters.items() if value is not None}, **elements}
-    write_whole(file, f"{comments}\n{tomli_w.dumps(whole)}")
+    write_whole(file, f"{comments}\n{tomli_w.dumps({'parameters': {}, **elements})}")
