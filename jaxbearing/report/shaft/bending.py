@@ -108,7 +108,8 @@ def cut_loads(solution: Any) -> CutLoads:
     """Cut loads by statics, from what acts on the shaft, its weight and the forces of its bearings."""
     nodes = solution.shaft
     at = np.concatenate([np.asarray(nodes.position), [float(one.position) for one in solution.bearings.values()]])
-    loads = np.concatenate([np.asarray(nodes.load), [np.asarray(one.on_shaft) for one in solution.bearings.values()]])
+    forces = [np.asarray(one.on_shaft) for one in solution.bearings.values()]
+    loads = np.concatenate([np.asarray(nodes.load), np.reshape(forces, (-1, 5))])
     ends, weight = _weights(solution.operation)
     marks = np.unique(np.concatenate([at, ends]))
     x = np.concatenate([np.linspace(a, b, POINTS + 1) for a, b in pairwise(marks)])

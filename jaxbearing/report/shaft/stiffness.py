@@ -16,8 +16,11 @@ from ...shafts.solution import ShaftSolution
 from ...solve import jit_solver
 from ..backends.json import plain
 from ..backends.screen import column, counted, headline, pieces, print_line, print_rule, print_table, print_warnings
-from ..display import display_unit, with_unit
+from ..display import digits, display_unit, with_unit
 from .facts import shaft_warnings
+
+MODES = 4
+"""Natural frequencies that a table has."""
 
 
 class ShaftStiffness(NamedTuple):
@@ -29,6 +32,8 @@ class ShaftStiffness(NamedTuple):
     - `sets`: name -> the same of a set at its middle, on a rigid piece of shaft.
     - `position`: name -> of the row, or of the middle of a set, m.
     - `freedom`: names of rows and columns.
+    - `natural_frequencies`: of the bending of a shaft with sections, rad/s, the first ones; axes: speed, mode. Without
+      damping and gyroscopic effect (`modes`).
     - `warnings`: of all speeds.
     """
 
@@ -38,6 +43,7 @@ class ShaftStiffness(NamedTuple):
     position: dict[str, float]
     freedom: tuple[str, ...]
     warnings: tuple[str, ...]
+    natural_frequencies: np.ndarray | None = None
 
 
 def shaft_at_speeds(scene: AbstractScene, speeds: Any) -> list[ShaftSystem]:
@@ -76,7 +82,7 @@ def shaft_stiffness_over_speed(
     own = [tangents(system, solution) for solution in solutions]
     sets = [{one.name: set_tangent(system, solution, one.name) for one in system.sets} for solution in solutions]
     names = {place.name: float(place.position) for place in system.places}
-    return ShaftStiffness(
+    table = ShaftStiffness(
         speed=np.asarray(speeds, dtype=np.float64),
         bearings={name: np.stack([one[name] for one in own]) for name in own[0]},
         sets={name: np.stack([one[name] for one in sets]) for name in sets[0]},
@@ -84,6 +90,12 @@ def shaft_stiffness_over_speed(
         freedom=RING_FREEDOMS,
         warnings=tuple(dict.fromkeys(text for solution in solutions for text in shaft_warnings(solution))),
     )
+    if not system.shaft.sections:
+        return table
+    from .modes import natural_frequencies
+
+    modes = [natural_frequencies(table, system, place)[:MODES] for place in range(len(scenes))]
+    return table._replace(natural_frequencies=np.stack(modes))
 
 
 def tangents(system: ShaftSystem, solution: ShaftSolution) -> dict[str, np.ndarray]:
@@ -169,6 +181,11 @@ def print_shaft_stiffness(table: ShaftStiffness, label: str, console: Console) -
             }
             for piece in pieces(first, columns, console.width):
                 print_table(piece, [0.0] * len(table.speed), 0, "", console)
+    if table.natural_frequencies is not None:
+        print_rule("Natural frequencies of bending, without damping and gyroscopic effect", console)
+        modes = table.natural_frequencies.T / (2.0 * np.pi)
+        columns = {f"mode {place + 1}\nHz": [digits(float(one), 5) for one in mode] for place, mode in enumerate(modes)}
+        print_table(first | columns, [0.0] * len(table.speed), 0, "", console)
     print_line("Stiffness", "d load / d displacement of the inner ring, its other freedoms held", console)
     print_line("Axes", "axial X, radial Y, lateral Z of the shaft; tilts move azimuth 0 and 90 deg along X", console)
     print_warnings(table.warnings, console)

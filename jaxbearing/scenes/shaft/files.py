@@ -183,10 +183,14 @@ def with_scenes(
 
     **Raises:** `SceneError` as `named` and `read_scenes`.
     """
+    from ..overrides import parse_value
     from ..reader import tables_of_file
 
     found, left = named(mapping, label), {}
     for path, text in overrides.items():
+        if path == f"shaft.{SECTIONS}" and isinstance(found.get("shaft"), Mapping) and text != REMOVE:
+            found = named({**found, "shaft": {**found["shaft"], SECTIONS: parse_value(text)}}, label)
+            continue
         word, _, rest = path.partition(".")
         name = rest.removesuffix(f".{SCENE}")
         entries = found.get(word) if word in ("bearing", "set") and name != rest else None

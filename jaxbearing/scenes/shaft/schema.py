@@ -109,7 +109,8 @@ class ShaftTable(Table):
             if kind == LINEAR:
                 raise SceneError(file, f"set.{name}.kind", f"'{LINEAR}'", one_of(BEARINGS))
         sections = known["shaft"].get(SECTIONS) if isinstance(known.get("shaft"), Mapping) else None
-        numbers = tuple(sections) if isinstance(sections, Mapping) else ()
+        whole = isinstance(sections, Mapping) and left.get(f"shaft.{SECTIONS}") != REMOVE
+        numbers = tuple(sections) if whole else ()
         left_in = tuple(name for name in numbers if left.get(f"shaft.{SECTIONS}.{name}") != REMOVE)
         return shaft_model(kinds["bearing"], kinds["set"], kinds["force"], left_in)
 
