@@ -198,12 +198,12 @@ def inner_ring(operation: AbstractOperation, freedoms: tuple[str, ...], lever: A
     """
     lever = jnp.asarray(lever)
     number = lambda value: jnp.zeros(()) if value is None else jnp.asarray(value)
-    levers: dict[str, Array] = dict(zip(RING_FREEDOMS, levers(lever), strict=True))
-    load = [number(operation.load(name)) / levers[name] for name in freedoms]
+    by_name: dict[str, Array] = dict(zip(RING_FREEDOMS, levers(lever), strict=True))
+    load = [number(operation.load(name)) / by_name[name] for name in freedoms]
     held = jnp.zeros(5)
     for place, name in enumerate(RING_FREEDOMS):
         given = operation.held_at(name)
         if given is not None:
-            held = held.at[place].set(given * levers[name])
+            held = held.at[place].set(given * by_name[name])
     asks = operation.displaced or not freedoms
     return InnerRing(jnp.stack(load) if load else jnp.zeros(0), held, lever, freedoms, asks=asks)

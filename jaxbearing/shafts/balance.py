@@ -69,13 +69,13 @@ class Balance(eqx.Module):
         """Derivative of the potential along a step."""
         return step @ (self.energy @ residual)
 
-    def step(self, residual: Float[Array, " unknown"], stiffness: Float[Array, "bearing 5 5"]) -> Array:
-        """Newton's step. **Arguments:** `stiffness`: of the bearings in their frames."""
+    def inverse(self, stiffness: Float[Array, "bearing 5 5"]) -> Float[Array, "unknown unknown"]:
+        """Inverse of the derivatives of the residual. **Arguments:** `stiffness`: of the bearings in their frames."""
         rows, columns = self.row_units(), self.column_units()
         coupled = jnp.einsum("bij,bjz->biz", stiffness, self.attach.reshape(self.count, 5, -1))
         matrix = self.linear + self.left @ coupled.reshape(5 * self.count, -1)
-        solved = jnp.linalg.solve(matrix * rows[:, None] * columns[None, :], -residual * rows)
-        return columns * solved
+        scaled = jnp.linalg.inv(matrix * rows[:, None] * columns[None, :])
+        return columns[:, None] * scaled * rows[None, :]
 
     def lengths(self) -> Float[Array, "5"]:
         """Factors that make lengths of the five freedoms."""

@@ -156,7 +156,7 @@ def minimise(problem: Problem) -> Start:
         diagonal = jnp.abs(jnp.diagonal(held.stiffness, axis1=1, axis2=2))
         least = jnp.square(lengths)
         more = factor * jnp.maximum(diagonal, LEAST_STIFFNESS * least) + SOFTEST * least
-        step = balance.step(residual, held.stiffness + more[:, :, None] * jnp.eye(5))
+        step = -balance.inverse(held.stiffness + more[:, :, None] * jnp.eye(5)) @ residual
         moved = jnp.max(jnp.abs((balance.attach @ step).reshape(-1, 5) * lengths))
         step = step * jnp.minimum(1.0, LONGEST_STEP / jnp.maximum(moved, 1e-30))
         # closures load the bearings without an outer load: the first trial is the start
@@ -208,12 +208,12 @@ class Root(NamedTuple):
     """The equilibrium.
 
     - `unknowns`: see `balance`.
-    - `stiffness`: of the bearings, in their frames.
+    - `inverse`: of the derivatives of the residual by the unknowns.
     - `solved`: True if the search converged.
     """
 
     unknowns: Float[Array, " unknown"]
-    stiffness: Float[Array, "bearing 5 5"]
+    inverse: Float[Array, "unknown unknown"]
     solved: Bool[Array, ""]
     status: Int[Array, ""]
     start_steps: Int[Array, ""]
@@ -230,7 +230,7 @@ def anchored(balance: Balance, stiffness: Float[Array, "bearing 5 5"]) -> Float[
 class _Newton(NamedTuple):
     unknowns: Array
     step: Array
-    stiffness: Array
+    inverse: Array
     size: Array
     fraction: Array
     done: Bool[Array, ""]
@@ -250,7 +250,8 @@ def _search(problem: Problem, options: NewtonOptions) -> Root:
         residual = balance.residual(trial, force)
         size = jnp.max(jnp.abs(residual * units)) / start.scale
         good &= jnp.isfinite(size)
-        step = balance.step(residual, anchored(balance, stiffness))
+        inverse = balance.inverse(anchored(balance, stiffness))
+        step = -inverse @ residual
         moved = jnp.max(jnp.abs((balance.attach @ step).reshape(-1, 5) * lengths))
         fine = (size <= options.residual_tolerance) | ((moved <= ROUNDED_STEP) & (size <= MOST_ROUNDED))
         accept = good & ((size < state.size) | (state.fraction < 0.02))
@@ -258,7 +259,7 @@ def _search(problem: Problem, options: NewtonOptions) -> Root:
         return _Newton(
             unknowns=pick(trial, state.unknowns),
             step=pick(step, state.step),
-            stiffness=pick(stiffness, state.stiffness),
+            inverse=pick(inverse, state.inverse),
             size=pick(size, state.size),
             fraction=jnp.where(accept, 1.0, SHORTER * state.fraction),
             done=accept & fine,
@@ -272,7 +273,7 @@ def _search(problem: Problem, options: NewtonOptions) -> Root:
     begin = _Newton(
         unknowns=start.unknowns,
         step=jnp.zeros_like(start.unknowns),
-        stiffness=jnp.zeros((balance.count, 5, 5)) + jnp.eye(5),
+        inverse=jnp.zeros_like(balance.linear),
         size=jnp.inf * one,
         fraction=one,
         done=none > 0,
@@ -288,7 +289,7 @@ def _search(problem: Problem, options: NewtonOptions) -> Root:
     status = jnp.where(end.done, int(Status.CONVERGED), failure)
     unknowns = jnp.where(jnp.isfinite(unknowns), unknowns, 0.0)
     size = jnp.where(reached, end.size, start.residual)
-    return Root(unknowns, end.stiffness, end.done, status, start.steps, end.steps, size, start.softest)
+    return Root(unknowns, end.inverse, end.done, status, start.steps, end.steps, size, start.softest)
 
 
 @eqx.filter_custom_jvp
@@ -310,7 +311,6 @@ def _equilibrium_jvp(primals, tangents, *, options: NewtonOptions):
         return problem.balance.residual(root.unknowns, force)
 
     _, residual_dot = eqx.filter_jvp(residual, (problem,), (problem_dot,))
-    fixed = jax.lax.stop_gradient((problem.balance, root.stiffness))
-    dot = select(fixed[0].step(residual_dot, anchored(*fixed)))
+    dot = select(-root.inverse @ residual_dot)
     nothing = jax.tree.map(lambda _: None, root)
     return root, nothing._replace(unknowns=dot)
