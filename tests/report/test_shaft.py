@@ -124,7 +124,7 @@ class Made:
         u = np.zeros((2, 5))
         u[1, 1], u[1, 3] = tip, -slope
         loads = np.zeros((2, 5))
-        loads[0, 1], loads[0, 3], loads[1, 1] = -load, -load * length, load
+        loads[0, 1], loads[0, 3], loads[1, 1] = -load, load * length, load
         self.shaft = type("Nodes", (), {"position": np.array([0.0, length]), "displacement": u, "load": loads})
 
 
@@ -138,7 +138,7 @@ def test_bending_line_and_cut_loads_of_a_cantilever(scene):
     line = bending_line(made)
     np.testing.assert_allclose(line.across[0], deflection(line.position), rtol=1e-12, atol=1e-20)
     cut = cut_loads(made)
-    np.testing.assert_allclose(cut.moment[0], -load * (length - cut.position), rtol=1e-12, atol=1e-9)
+    np.testing.assert_allclose(cut.moment[0], load * (length - cut.position), rtol=1e-12, atol=1e-9)
     np.testing.assert_allclose(cut.shear[0], -load, rtol=1e-12)
 
 

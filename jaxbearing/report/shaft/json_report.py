@@ -30,7 +30,7 @@ def to_dict(solution: ShaftSolution) -> dict[str, Any]:
         "newton_steps": int(solution.newton_steps),
         "residual_norm": finite(float(solution.residual_norm)),
         "unknowns": solution.unknowns,
-        "bearings": {name: _bearing(one) for name, one in solution.bearings.items()},
+        "bearings": {name: _bearing(one, converged) for name, one in solution.bearings.items()},
         "shaft": {"nodes": nodes},
         "sets": {name: plain(one) for name, one in solution.sets.items()},
         "torque": plain(solution.torque),
@@ -39,8 +39,8 @@ def to_dict(solution: ShaftSolution) -> dict[str, Any]:
     }
 
 
-def _bearing(one: BearingOnShaft) -> dict[str, Any]:
-    family = {} if one.solution is None else bearing_to_dict(one.solution)
+def _bearing(one: BearingOnShaft, converged: bool) -> dict[str, Any]:
+    family = bearing_to_dict(one.solution) if one.solution is not None and converged else {}
     found = {name: value for name, value in family.items() if name not in _OF_SHAFT}
     found |= {
         "position": plain(one.position),

@@ -98,8 +98,8 @@ def _picture(scene: Any, solution: ShaftSolution, plane: int) -> Picture:
     largest = max((abs(value) for *_, value in loads), default=0.0)
     longest = _LONGEST * 2.0 * radius
     items: list[Item] = [*_disks(scene, end - start), *_shaft(scene, start, end)]
-    for place, bearing in zip(scene.places, solution.bearings.values(), strict=True):
-        items += _bearing(place, 1e3 * float(bearing.position))
+    for place in scene.places:
+        items += _bearing(place, 1e3 * float(place.position))
     items.append(Stroke([(start - 5.0, 0.0), (end + 5.0, 0.0)], CENTRE_LINE, 0.8, "dashdot"))
     line, factor = _bent(solution, plane, 0.5 * longest)
     items += line
@@ -199,8 +199,9 @@ def _loads(scene: Any, solution: ShaftSolution, across: int) -> Iterator[tuple[f
     for position, names in _named_positions(scene).items():
         here = np.isclose(at, position, rtol=0.0, atol=1e-9)
         yield 1e3 * position, names, FORCE, float(np.sum(loads[here, across]))
-    for name, one in solution.bearings.items():
-        yield 1e3 * float(one.position), name, REACTION, float(np.asarray(one.on_shaft)[across])
+    for place in scene.places:
+        value = np.asarray(solution.bearings[place.name].on_shaft)[across]
+        yield 1e3 * float(place.position), place.name, REACTION, float(value)
 
 
 def _named_positions(scene: Any) -> dict[float, str]:
