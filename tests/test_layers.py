@@ -41,6 +41,8 @@ RANK = {
     "program_size": 8,
     "simulate": 7,
     "sensitivity": 7,
+    # bearings together, each by its port
+    "shafts": 7,
     "scenes": 9,
     "report": 9,
     # figures use the panels and units of the pages; the pages know no figure
