@@ -73,11 +73,7 @@ class BearingOnShaft(eqx.Module):
 
 
 class ShaftNodes(eqx.Module):
-    """The shaft at its nodes: ends of sections, bearings and forces, in ascending order of `position`.
-
-    `internal` holds the cut loads right of each node but the last: what the part on its left does to the part on its
-    right.
-    """
+    """The shaft at its nodes: ends of sections, bearings and forces, in ascending order of `position`."""
 
     position: Float[Array, " node"] = eqx.field(metadata=label("m", "position along the shaft"))
     displacement: Float[Array, "node freedom"] = eqx.field(
@@ -133,12 +129,12 @@ class SystemLifeResult(eqx.Module):
 class DutyResult(eqx.Module):
     """A duty cycle: first the damage of all states adds up for each bearing, then the bearings make the system.
 
-    **Arguments:** `names`: of the states; `bearing_hours`: life of each bearing by its name; `states`: the solutions
-    of all states, stacked along a first axis of every array.
+    **Arguments:** `names`: of the states; `bearing_hours`: life of each rated bearing by its name; `system_hours`:
+    `None` if a bearing has no rating; `states`: the solutions of all states, stacked along a first axis of every array.
     """
 
     bearing_hours: dict[str, _Number]
-    system_hours: _Number = eqx.field(metadata=label("h", "life of the system under the duty cycle"))
+    system_hours: _Number | None = eqx.field(metadata=label("h", "life of the system under the duty cycle"))
     shares: Float[Array, " state"] = eqx.field(metadata=label("1", "shares of the time"))
     states: Any
     names: tuple[str, ...] = eqx.field(static=True)

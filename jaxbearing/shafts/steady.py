@@ -1,5 +1,6 @@
 """Steady state of a shaft on bearings: from the scene to the equations, and from their root to the results."""
 
+import dataclasses
 from typing import Any
 
 import jax
@@ -11,6 +12,7 @@ from ..bearings.solution import RING_FREEDOMS, RingDisplacement, Solution
 from ..life.bearing_life import with_life
 from ..numerics.known_roots import own_roots
 from ..numerics.newton import NewtonOptions
+from ..numerics.precision import as_float
 from ..numerics.status import Status
 from .balance import Axis, Parts, axis_of, build_balance
 from .batches import FREEDOM_WORDS, LinearBatch, RollingBatch, batches_of, largest_load, pressure_centre, solutions
@@ -21,6 +23,7 @@ from .scene import Place, ShaftSystem
 from .search import Problem, Root, equilibrium
 from .solution import (
     BearingOnShaft,
+    DutyResult,
     SetResult,
     ShaftNodes,
     ShaftSolution,
@@ -42,7 +45,44 @@ STEEP_TILT = 1e-3
 def solve_shaft(system: ShaftSystem, options: NewtonOptions) -> ShaftSolution:
     """Steady state: pure, jit-able, vmap-able, with first derivatives; never raises for a failed solve."""
     with own_roots():
-        return _solve(system, options)
+        return _duty(system, options) if system.states else _solve(system, options)
+
+
+def _duty(system: ShaftSystem, options: NewtonOptions) -> ShaftSolution:
+    """All states of a duty cycle, one after the other by one program."""
+    base = dataclasses.replace(system, states=())
+    states = [jax.tree.map(as_float, base.replace(state.changes)) for state in system.states]
+    structures = {jax.tree.structure(state) for state in states}
+    if len(structures) > 1:
+        raise ValueError("state.changes must be numbers: all states of a shaft have one structure")
+    (structure,) = structures
+    stacked = jax.tree.map(lambda *leaves: jnp.stack([jnp.asarray(leaf) for leaf in leaves]), *states)
+    leaves = jax.tree.leaves(stacked)
+    found = jax.lax.map(lambda own: _solve(jax.tree.unflatten(structure, own), options), leaves)
+    shares = jnp.stack([jnp.asarray(state.share, dtype=float) for state in system.states])
+    names = tuple(state.name or str(number + 1) for number, state in enumerate(system.states))
+    first = jax.tree.map(lambda leaf: leaf[0], found)
+    duty = DutyResult(*_duty_lives(system, found, shares, stacked.shaft.speed), shares, found, names)
+    status = jnp.max(found.status)
+    return dataclasses.replace(first, status=status, duty=duty, checks=_any_state(found.checks))
+
+
+def _any_state(checks: Any) -> dict[str, Bool[Array, ""]]:
+    """Checks that apply in a state."""
+    return {text: jnp.any(flag) for text, flag in checks.items()}
+
+
+def _duty_lives(
+    system: ShaftSystem, found: ShaftSolution, shares: Array, speeds: Array
+) -> tuple[dict[str, Array], Array | None]:
+    """Lives of all bearings under the duty cycle, h, by name, and that of the system; none without ratings."""
+    lives = {name: one.life for name, one in found.bearings.items() if one.life is not None}
+    rates = {name: jnp.sum(shares * hourly_rates(life.damage_rate, speeds)) for name, life in lives.items()}
+    hours = {name: life_of(rate) for name, rate in rates.items()}
+    if len(lives) < len(found.bearings):
+        return hours, None
+    slopes = slopes_of([life.family for life in lives.values()], system.life.weibull)
+    return hours, life_of(system_rate(jnp.stack(list(rates.values())), slopes))
 
 
 def _solve(system: ShaftSystem, options: NewtonOptions) -> ShaftSolution:

@@ -67,5 +67,5 @@ def _duty(duty: DutyResult) -> dict[str, Any]:
     return {
         "shares": shares,
         "bearing_hours": {name: plain(value) for name, value in duty.bearing_hours.items()},
-        "system_hours": plain(duty.system_hours),
+        "system_hours": None if duty.system_hours is None else plain(duty.system_hours),
     }

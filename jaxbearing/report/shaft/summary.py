@@ -65,4 +65,5 @@ def _print_duty(duty: DutyResult, console: Console) -> None:
     print_line("States", shares, console)
     hours = ", ".join(f"{name} {digits(float(value))} h" for name, value in duty.bearing_hours.items())
     print_line("Life", hours, console)
-    print_line("System life", f"{digits(float(duty.system_hours))} h", console)
+    if duty.system_hours is not None:
+        print_line("System life", f"{digits(float(duty.system_hours))} h", console)
