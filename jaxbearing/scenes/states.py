@@ -1,6 +1,6 @@
 """The load spectrum of a scene file: its tables [[state]], each with a share of the time and changes of the scene."""
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -78,7 +78,7 @@ def load_states(source: str | Path, overrides: Overrides | None = None) -> tuple
     return tuple(found)
 
 
-def require_names_and_shares(given: list[Mapping[str, Any]], label: str) -> None:
+def require_names_and_shares(given: Sequence[Mapping[str, Any]], label: str) -> None:
     """**Raises:** `SceneError` for states without a name or share, with the name of another one or with shares that do
     not add up to 1."""
     problems = list(_problems(given, label))
@@ -86,7 +86,7 @@ def require_names_and_shares(given: list[Mapping[str, Any]], label: str) -> None
         raise SceneError.of_all(problems)
 
 
-def _problems(given: list[Mapping[str, Any]], label: str) -> Iterator[SceneError]:
+def _problems(given: Sequence[Mapping[str, Any]], label: str) -> Iterator[SceneError]:
     """What is wrong with names and shares."""
     names: list[str] = []
     shares: list[float] = []

@@ -95,10 +95,11 @@ def _set_parts(one: SetResult) -> Iterator[str]:
         yield f"preload {with_unit(preload, 'N')} mounted"
     if closure is not None:
         yield f"closure {with_unit(closure, 'm')} a bearing"
-    if number(one.spring_force) is not None:
-        yield f"springs {with_unit(float(one.spring_force), 'N')}"
-    if number(one.loss_force) is not None:
-        yield f"lost at {with_unit(float(one.loss_force), 'N')} axial load at rest"
+    springs, loss = number(one.spring_force), number(one.loss_force)
+    if springs is not None:
+        yield f"springs {with_unit(springs, 'N')}"
+    if loss is not None:
+        yield f"lost at {with_unit(loss, 'N')} axial load at rest"
     yield f"support distance {1e3 * float(one.support_distance):.1f} mm"
 
 

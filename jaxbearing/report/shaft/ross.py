@@ -18,6 +18,7 @@ import numpy as np
 import tomli_w
 
 from ... import __version__
+from ...shafts.forces import Mass
 from ...shafts.scene import ShaftSystem
 from ..files import write_whole
 from ..ross import WEIGHT_DIRECTION, element_of, one_line
@@ -44,8 +45,8 @@ def ross_rotor(
     **Raises:** as `require_rotor`; `ValueError` as `report.ross.ross_bearing`.
     """
     nodes = rotor_nodes(scene)
-    masses = [one for one in scene.forces if one.kind == "mass"]
-    found = {}
+    masses = [one for one in scene.forces if isinstance(one, Mass)]
+    found: dict[str, dict[str, Any]] = {}
     for number, (left, right) in enumerate(pairwise(nodes)):
         found[f"ShaftElement_shaft{number}"] = _element(scene, left, right, number)
     for one in masses:

@@ -3,6 +3,7 @@
 from collections.abc import Callable
 from typing import Any, NamedTuple
 
+import jax.numpy as jnp
 import numpy as np
 from rich.console import Console
 
@@ -142,7 +143,8 @@ def set_tangent(system: ShaftSystem, solution: ShaftSolution, name: str) -> np.n
         stiffness = 0.0 if one.preload is None or one.preload.spring_stiffness is None else one.preload.spring_stiffness
         spring, across, along = np.array([[float(stiffness)]]), np.zeros((5, 1)), np.zeros((1, 5))
     for bearing in names:
-        shift = np.asarray(shift_matrix(float(solution.bearings[bearing].position) - float(one.position)))
+        distance = solution.bearings[bearing].position - one.position
+        shift = np.asarray(shift_matrix(jnp.asarray(distance)))
         matrix = own[bearing]
         total += shift.T @ matrix @ shift
         if bearing in pressed:

@@ -109,8 +109,8 @@ class ShaftTable(Table):
             if kind == LINEAR:
                 raise SceneError(file, f"set.{name}.kind", f"'{LINEAR}'", one_of(BEARINGS))
         sections = known["shaft"].get(SECTIONS) if isinstance(known.get("shaft"), Mapping) else None
-        whole = isinstance(sections, Mapping) and left.get(f"shaft.{SECTIONS}") != REMOVE
-        numbers = tuple(sections) if whole else ()
+        removed = left.get(f"shaft.{SECTIONS}") == REMOVE
+        numbers = tuple(sections) if isinstance(sections, Mapping) and not removed else ()
         left_in = tuple(name for name in numbers if left.get(f"shaft.{SECTIONS}.{name}") != REMOVE)
         return shaft_model(kinds["bearing"], kinds["set"], kinds["force"], left_in)
 
@@ -147,10 +147,8 @@ def _by_name(word: str, tables: Mapping[str, Any]) -> Any:
 
 def _with_sections(names: tuple[str, ...]) -> Any:
     parts = _by_name(SECTIONS, dict.fromkeys(names, SectionTable))
-    doc = ShaftPart.__doc__
-    return create_model(
-        "ShaftPart", __base__=ShaftPart, __module__=__name__, __doc__=doc, sections=(parts | None, None)
-    )
+    fields: Any = {SECTIONS: (parts | None, None)}
+    return create_model("ShaftPart", __base__=ShaftPart, __module__=__name__, __doc__=ShaftPart.__doc__, **fields)
 
 
 @functools.lru_cache(64)

@@ -210,7 +210,7 @@ class _OnShaft(Table):
 
 
 def _mounted(name: str, bearing: type[Table], mount: type[Table], operation: type[Table], doc: str) -> type[Table]:
-    given = {"operation": (operation, Field(default_factory=operation))}
+    given: Any = {"operation": (operation, Field(default_factory=operation))}
     made: Any = create_model(name, __base__=(mount, _OnShaft, bearing), __module__=__name__, __doc__=doc, **given)
     return made
 
@@ -252,14 +252,10 @@ def mounted_table(kind: str, of_set: bool) -> type[Table]:
 
 
 def _force_table(kind: str) -> type[Table]:
-    owner = FORCES[kind]
-    made: Any = create_model(
-        f"{owner.__name__}Table",
-        __base__=table_of(owner),
-        __module__=__name__,
-        __doc__=f"A force of the kind {kind}.",
-        kind=(Literal[kind], ...),
-    )
+    owner, doc = FORCES[kind], f"A force of the kind {kind}."
+    fields: Any = {"kind": (Literal[kind], ...)}
+    base = table_of(owner)
+    made: Any = create_model(f"{owner.__name__}Table", __base__=base, __module__=__name__, __doc__=doc, **fields)
     made.tag = f"<{kind}>"
     return made
 
