@@ -1,14 +1,13 @@
 """The shaft on its bearings as a scene."""
 
-import dataclasses
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from typing import Any, ClassVar, NamedTuple
 
 import equinox as eqx
 import numpy as np
 from jaxtyping import Array, Float
 
-from .._scene import AbstractScene, label, number, optional_number, replaced
+from .._scene import AbstractScene, label, number, optional_number
 from .._types import Scalar
 from ..bearings.bearing import AbstractBearing
 from ..life.duty import SUM_TOLERANCE
@@ -16,28 +15,9 @@ from ..numerics.checks import Checked, known
 from ..numerics.newton import NewtonOptions
 from ..numerics.refusals import refuse_all
 from .forces import AbstractForce
-from .mounting import LinearBearing, MatchedSet, MountedBearing, Support, numbers
+from .mounting import LinearBearing, MatchedSet, MountedBearing, Support, _numbers
+from .paths import part_at, path_in_file, replaced
 from .shaft import Shaft
-
-
-_MEMBERS = {"bearing": "bearings", "set": "sets", "force": "forces"}
-"""Word before the name of a member -> field of the system."""
-
-
-def _changed(member: Any, changes: Mapping[str, Any], above: str) -> Any:
-    """A bearing, set or force with other values; what its class has no field for belongs to its scene."""
-    fields = {field.name for field in dataclasses.fields(member)}
-    own = {path: value for path, value in changes.items() if path.split(".")[0] in fields}
-    deeper = {path: value for path, value in changes.items() if path not in own}
-    if deeper and not hasattr(member, "scene"):
-        raise AttributeError(f"{above}{next(iter(deeper))}: a {type(member).__name__} has no such field")
-    if own:
-        member = replaced(member, {tuple(path.split(".")): value for path, value in own.items()}, above)
-    if deeper:
-        one = lambda scene: replaced(scene, {tuple(path.split(".")): value for path, value in deeper.items()}, above)
-        scene = tuple(map(one, member.scene)) if isinstance(member.scene, tuple) else one(member.scene)
-        member = dataclasses.replace(member, scene=scene)
-    return member
 
 
 class SystemLife(Checked):
@@ -107,7 +87,7 @@ class ShaftSystem(AbstractScene):
     sets: tuple[MatchedSet, ...] = eqx.field(default=(), converter=tuple)
     forces: tuple[AbstractForce, ...] = eqx.field(default=(), converter=tuple)
     housing: Float[Array | np.ndarray, "m m"] | None = eqx.field(
-        default=None, converter=numbers, metadata=label("mixed", "stiffness of the housing")
+        default=None, converter=_numbers, metadata=label("mixed", "stiffness of the housing")
     )
     states: tuple[ShaftState, ...] = eqx.field(default=(), converter=tuple)
     life: SystemLife = SystemLife()
@@ -145,40 +125,18 @@ class ShaftSystem(AbstractScene):
         if not length:
             return
         end = sum(length)
-        held = [(f"bearing.{place.name}", place.position) for place in self.places]
-        held += [(f"force.{force.name}", force.position) for force in self.forces]
-        for name, position in held:
+        held = [(self._path_of(place), place.position) for place in self.places]
+        held += [(f"force.{force.name}.position: ", force.position) for force in self.forces]
+        for said, position in held:
             at = known(position)
             if at is not None and not -1e-9 <= at[0] <= end + 1e-9:
-                yield f"{name}.position: {at[0] * 1e3:g} mm lies beyond the shaft ({end * 1e3:g} mm)"
+                yield f"{said}{at[0] * 1e3:g} mm lies beyond the shaft ({end * 1e3:g} mm)"
 
-    def replace(self, changes: Any) -> "ShaftSystem":
-        """A copy with other values. Keys are dotted paths of the fields of this class; or `bearing.NAME.`, `set.NAME.`
-        or `force.NAME.` and a field of the member with this name, or a path of the scene of a bearing or of a set:
-        `force.pinion.torque`, `bearing.rear.geometry.diametral_clearance`. Values are SI numbers, or parts.
-
-        **Raises:** as `AbstractScene.replace`; `AttributeError` for a name that no member has.
-        """
-        if not isinstance(changes, Mapping) or not all(isinstance(path, str) for path in changes):
-            return super().replace(changes)
-        own: dict[str, Any] = {}
-        members: dict[tuple[str, str], dict[str, Any]] = {}
-        for path, value in changes.items():
-            first, *rest = path.split(".", 2)
-            if first in _MEMBERS and len(rest) == 2:
-                members.setdefault((first, rest[0]), {})[rest[1]] = value
-            else:
-                own[path] = value
-        system = super().replace(own) if own else self
-        for (kind, name), deeper in members.items():
-            field = _MEMBERS[kind]
-            everyone = getattr(system, field)
-            found = [one.name for one in everyone]
-            if name not in found:
-                raise AttributeError(f"the scene has no {kind} {name!r}: it has {', '.join(found) or 'none'}")
-            new = [_changed(one, deeper, f"{kind}.{name}.") if one.name == name else one for one in everyone]
-            system = dataclasses.replace(system, **{field: tuple(new)})
-        return system
+    def _path_of(self, place: Place) -> str:
+        """Beginning of a message about the position of a bearing."""
+        if place.set_index is None:
+            return f"bearing.{place.name}.position: "
+        return f"set.{self.sets[place.set_index].name}.position: {place.name} at "
 
     @property
     def places(self) -> tuple[Place, ...]:
@@ -204,6 +162,19 @@ class ShaftSystem(AbstractScene):
                 )
             )
         return tuple(found)
+
+    def replace(self, changes: Any) -> "ShaftSystem":
+        """A copy with other values; keys are the dotted paths of scene files (`paths`), values SI numbers or parts.
+
+        **Raises:** as `AbstractScene.replace`.
+        """
+        return replaced(self, changes)
+
+    def part_at(self, path: str) -> Any:
+        return part_at(self, path)
+
+    def path_in_file(self, path: str) -> str:
+        return path_in_file(self, path)
 
     def steady_solution(self, options: NewtonOptions) -> Any:
         from .steady import solve_shaft

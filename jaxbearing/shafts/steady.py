@@ -127,7 +127,9 @@ def _results(
     torque = _torques(system, axis, found)
     life = _system_life(system, found)
     nodes = _nodes(system, axis, parts, position)
-    shown = jax.tree.map(lambda leaf: jnp.where(good, leaf, jnp.nan), (found, nodes, sets, torque, life))
+    # counts and states stay whole numbers
+    unless_failed = lambda leaf: jnp.where(good, leaf, jnp.nan) if jnp.issubdtype(leaf.dtype, jnp.inexact) else leaf
+    shown = jax.tree.map(unless_failed, (found, nodes, sets, torque, life))
     failed = jnp.where(root.solved, int(Status.NOT_CONVERGED), root.status)
     return ShaftSolution(
         status=jnp.where(good, int(Status.CONVERGED), failed),
