@@ -86,7 +86,18 @@ class AbstractScene(Shown):
         """
         if not isinstance(changes, Mapping) or not all(isinstance(path, str) for path in changes):
             raise TypeError(f"replace takes a mapping from dotted paths to values, got {changes!r}")
-        return replaced(self, {tuple(path.split(".")): value for path, value in changes.items()})
+        return _replaced(self, {tuple(path.split(".")): value for path, value in changes.items()})
+
+    def part_at(self, path: str) -> Any:
+        """The number or part at a dotted path; `None` where there is none."""
+        part: Any = self
+        for name in path.split("."):
+            part = getattr(part, name, None)
+        return part
+
+    def path_in_file(self, path: str) -> str:
+        """The path of scene files of the number that the tree of the scene's numbers has at this path."""
+        return path
 
     def part_at(self, path: str) -> Any:
         """The number or part at a dotted path; `None` where there is none."""
@@ -171,7 +182,7 @@ class AbstractSolution(Shown):
             raise SolveError(numbers.failure(), Status(int(np.max(np.asarray(self.status)))))
 
 
-def replaced(part: Any, changes: dict[tuple[str, ...], Any], above: str = "") -> Any:
+def _replaced(part: Any, changes: dict[tuple[str, ...], Any], above: str = "") -> Any:
     """The part rebuilt once with all changes, so that what is validated is the result and no state in between."""
     fields = {field.name: field for field in dataclasses.fields(part)} if isinstance(part, eqx.Module) else {}
     new: dict[str, Any] = {}
@@ -196,7 +207,7 @@ def replaced(part: Any, changes: dict[tuple[str, ...], Any], above: str = "") ->
         if old is None and "part" in fields[name].metadata and all(len(path) == 1 for path in deeper):
             new[name] = {path[0]: value for path, value in deeper.items()}  # the field makes a part of it
         else:
-            new[name] = replaced(old, deeper, f"{above}{name}.")
+            new[name] = _replaced(old, deeper, f"{above}{name}.")
     if not isinstance(part, eqx.Module):
         return part
     # a part that holds another one twice changes both

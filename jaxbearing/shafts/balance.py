@@ -235,13 +235,13 @@ def build_balance(
     along[0] = 1.0
     span = span_of(system, places, position)
     unit = 1.0 / jnp.stack([jnp.ones(()), jnp.ones(()), jnp.ones(()), span, span])
-    sizes = [jnp.ones(1), jnp.abs(axis.given.load * unit).ravel()]
+    sizes = [jnp.ones(1), jnp.abs(axis.given.load * unit[None]).ravel()]
     if axis.beam is not None:
         sizes.append(jnp.abs(axis.beam.weight_at(jnp.zeros(())) * unit))
     sizes += [jnp.reshape(jnp.abs(spring.force), (1,)) for spring in springs]
     return Balance(
         attach=jnp.concatenate([attach, pressed], axis=1),
-        offset=offset + (closure[:, None] * along).ravel(),
+        offset=offset + (closure[:, None] * along[None]).ravel(),
         left=jnp.concatenate([left, pressed], axis=1).T,
         linear=block_diag(*blocks),
         load=jnp.concatenate(loads),

@@ -52,16 +52,17 @@ class Beam(NamedTuple):
 
     def points(self, far: Float[Array, "..."]) -> tuple[Float[Array, "... section 2"], Float[Array, "... section 2"]]:
         """Places of integration between 0 and `far`, m, and their weights, m, of every section."""
-        length = jnp.clip(far[..., None], self.start, self.end) - self.start
-        half = 0.5 * length[..., None]
-        return self.start[:, None] + half * (1.0 + _POINTS), half * _WEIGHTS
+        wide = lambda values: values.reshape((1,) * far.ndim + values.shape)
+        start = wide(self.start)
+        half = 0.5 * (jnp.clip(far[..., None], start, wide(self.end)) - start)[..., None]
+        return start[..., None] + half * wide(1.0 + _POINTS)[..., None, :], half * wide(_WEIGHTS)[..., None, :]
 
     def compliance(self, at: Float[Array, " i"], loaded: Float[Array, " j"]) -> Float[Array, "i j 5 5"]:
         """Displacements at `at` of the shaft that is clamped at x = 0, per load at `loaded`."""
         near, far = at[:, None], loaded[None, :]
         place, weight = self.points(jnp.minimum(near, far))
         near, far = near[..., None, None] - place, far[..., None, None] - place
-        total = lambda law, lever: jnp.sum(law[:, None] * weight * lever, axis=(-2, -1))
+        total = lambda law, lever: jnp.sum(law[None, None, :, None] * weight * lever, axis=(-2, -1))
         across = total(self.bending, near * far) + total(self.shear, 1.0)
         of_moment, of_force, turn = (total(self.bending, lever) for lever in (-near, -far, 1.0))
         axial, zero = total(self.axial, 1.0), jnp.zeros_like(across)
@@ -76,10 +77,12 @@ class Beam(NamedTuple):
 
     def weight_at(self, place: Float[Array, "..."]) -> Float[Array, "... 5"]:
         """Load of the weight of everything beyond a place on a cut there, N and N m."""
-        reach = self.end - jnp.clip(place[..., None], self.start, self.end)
-        arm = 0.5 * (self.end + jnp.clip(place[..., None], self.start, self.end)) - place[..., None]
-        forces = [jnp.sum(one * reach, axis=-1) for one in self.weight]
-        moments = [-jnp.sum(one * reach * arm, axis=-1) for one in self.weight]
+        wide = lambda values: values.reshape((1,) * place.ndim + values.shape)
+        end = wide(self.end)
+        cut = jnp.clip(place[..., None], wide(self.start), end)
+        reach, arm = end - cut, 0.5 * (end + cut) - place[..., None]
+        forces = [jnp.sum(wide(one) * reach, axis=-1) for one in self.weight]
+        moments = [-jnp.sum(wide(one) * reach * arm, axis=-1) for one in self.weight]
         return jnp.stack([jnp.zeros_like(forces[0]), *forces, *moments], axis=-1)
 
     def sagging(self, at: Float[Array, " i"]) -> Float[Array, "i 5"]:
@@ -87,7 +90,7 @@ class Beam(NamedTuple):
         place, weight = self.points(at)
         load, lever = self.weight_at(place), at[:, None, None] - place
         total = lambda values: jnp.sum(weight * values, axis=(-2, -1))
-        bend, shear = self.bending[:, None], self.shear[:, None]
+        bend, shear = self.bending[None, :, None], self.shear[None, :, None]
         across = [total(shear * load[..., one] - lever * bend * load[..., one + 2]) for one in (1, 2)]
         turns = [total(bend * load[..., one]) for one in (3, 4)]
         return jnp.stack([jnp.zeros_like(at), *across, *turns], axis=-1)
@@ -110,7 +113,7 @@ def beam_of(shaft: Shaft) -> Beam | None:
         axial=1.0 / (modulus * area),
         shear=1.0 / (shear_factor(poisson, inner / outer) * shear_modulus * area),
         bending=1.0 / (modulus * inertia),
-        weight=gravity_along(shaft.gravity)[:, None] * of(lambda s: material(s).density) * area,
+        weight=gravity_along(shaft.gravity)[:, None] * (of(lambda s: material(s).density) * area)[None],
     )
 
 

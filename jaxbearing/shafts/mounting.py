@@ -24,7 +24,7 @@ SENSES = {"+x": 1.0, "-x": -1.0, "<": 1.0, ">": -1.0}
 """Word or sign of an orientation -> sense of the bearing's axis along that of the shaft."""
 
 
-def numbers(value: Any) -> Any:
+def _numbers(value: Any) -> Any:
     """A float64 array of a sequence or array of numbers; `None` stays."""
     if isinstance(value, list | tuple):
         traced = any(isinstance(one, jax.Array) for one in jax.tree.leaves(value))
@@ -42,7 +42,7 @@ class LinearBearing(eqx.Module):
     kind: ClassVar[str] = "linear"
 
     stiffness: Float[Array | np.ndarray, "5 5"] = eqx.field(
-        converter=numbers, metadata=label("mixed", "stiffness of a linear bearing")
+        converter=_numbers, metadata=label("mixed", "stiffness of a linear bearing")
     )
 
 
@@ -61,7 +61,7 @@ class Support(Checked):
     radial: Scalar | None = optional_number(bound="> 0", metadata=label("N/m", "radial stiffness of the support"))
     tilt: Scalar | None = optional_number(bound="> 0", metadata=label("N m/rad", "tilt stiffness of the support"))
     matrix: Float[Array | np.ndarray, "5 5"] | None = eqx.field(
-        default=None, converter=numbers, metadata=label("mixed", "stiffness of the support")
+        default=None, converter=_numbers, metadata=label("mixed", "stiffness of the support")
     )
 
     def __check_init__(self):
@@ -158,11 +158,11 @@ class MatchedSet(Checked):
     scene: AbstractBearing | tuple[AbstractBearing, ...]
     position: Scalar = number(metadata=label("m", "position of the middle of the set"))
     distance: Float[Array | np.ndarray, "..."] = eqx.field(
-        converter=numbers, metadata=label("m", "distance of neighbouring rows")
+        converter=_numbers, metadata=label("m", "distance of neighbouring rows")
     )
     preload: Preload | None = None
     mismatch: Float[Array | np.ndarray, " bearing"] | None = eqx.field(
-        default=None, converter=numbers, metadata=label("m", "additional closure of each bearing")
+        default=None, converter=_numbers, metadata=label("m", "additional closure of each bearing")
     )
     expansion: Scalar = number(0.0, metadata=label("m", "expansion of the inner raceways"))
     support: Support | None = None

@@ -10,8 +10,7 @@ from typing import Any
 
 import equinox as eqx
 
-from .._scene import AbstractScene
-from .._scene import replaced as replaced_part
+from .._scene import AbstractScene, _replaced
 
 LISTS = {"bearing": "bearings", "set": "sets", "force": "forces"}
 """First word of a path -> field of `ShaftSystem` that holds what it is about."""
@@ -48,7 +47,7 @@ def replaced(system: Any, changes: Mapping[str, Any]) -> Any:
         found[field] = tuple(entries)
     if "sections" in found:
         plain["shaft", "sections"] = found.pop("sections")
-    return replaced_part(system, {**plain, **{(field,): value for field, value in found.items()}})
+    return _replaced(system, {**plain, **{(field,): value for field, value in found.items()}})
 
 
 def entries_of(system: Any, word: str) -> tuple[Any, ...]:
@@ -88,13 +87,13 @@ def _changed(entry: Any, changes: _Changes, above: str) -> Any:
         else:
             scene = _of_bearing(scene, bearings)
         mine[(_BEARING,)] = scene
-    return replaced_part(entry, mine, f"{above}.")
+    return _replaced(entry, mine, f"{above}.")
 
 
 def _of_bearing(scene: Any, changes: dict[str, Any]) -> Any:
     if isinstance(scene, AbstractScene):
         return scene.replace(changes)
-    return replaced_part(scene, {tuple(path.split(".")): value for path, value in changes.items()})
+    return _replaced(scene, {tuple(path.split(".")): value for path, value in changes.items()})
 
 
 _NUMBERED = re.compile(r"(bearings|sets|forces)\.(\d+)\.(.*)")

@@ -42,7 +42,7 @@ def at_rest(batches: tuple[AbstractBatch, ...], count: int) -> Rest:
 
 
 def _displacements(axial: Float[Array, " bearing"]) -> Float[Array, "bearing 5"]:
-    return axial[:, None] * jnp.asarray([1.0, 0.0, 0.0, 0.0, 0.0])
+    return axial[:, None] * jnp.asarray([[1.0, 0.0, 0.0, 0.0, 0.0]])
 
 
 class _Held(NamedTuple):
@@ -174,7 +174,7 @@ def mount(system: ShaftSystem, places: tuple[Place, ...], batches: tuple[Abstrac
             closures[name] = jnp.asarray(preload.offset)
         else:
             closures[name] = travel[name] if preload.class_force is not None else 0.5 * travel[name]
-        mine = np.asarray([place.set_index == number for place in places])
+        mine = np.asarray([float(place.set_index == number) for place in places])
         closure = closure + closures[name] * mine
     rigid = {name: groups_of(places, number) for number, name, _ in sets if name in closures}
     mounted, losses = _mounted(rest, rigid, closure)
@@ -231,7 +231,7 @@ def _mounted(
     place = place - signs @ axial_forces(rest, closure + signs.T @ place, held.elements) / slope
     mounted = first @ axial_forces(rest, closure + signs.T @ place, held.elements)
     # the last bearing of the other group that carries is lost where its closure is used up
-    largest = jnp.max(jnp.where(second > 0, closure, -jnp.inf), axis=1)
+    largest = jnp.max(jnp.where(second > 0, closure[None], -jnp.inf), axis=1)
     lost = closure + signs.T @ largest
     held = _held(fixed[0], jax.lax.stop_gradient(lost), when=jnp.all(jnp.isfinite(lost)))
     loss = first @ axial_forces(rest, lost, held.elements)

@@ -15,7 +15,7 @@ from ..numerics.checks import Checked, known
 from ..numerics.newton import NewtonOptions
 from ..numerics.refusals import refuse_all
 from .forces import AbstractForce
-from .mounting import LinearBearing, MatchedSet, MountedBearing, Support, numbers
+from .mounting import LinearBearing, MatchedSet, MountedBearing, Support, _numbers
 from .paths import part_at, path_in_file, replaced
 from .shaft import Shaft
 
@@ -87,7 +87,7 @@ class ShaftSystem(AbstractScene):
     sets: tuple[MatchedSet, ...] = eqx.field(default=(), converter=tuple)
     forces: tuple[AbstractForce, ...] = eqx.field(default=(), converter=tuple)
     housing: Float[Array | np.ndarray, "m m"] | None = eqx.field(
-        default=None, converter=numbers, metadata=label("mixed", "stiffness of the housing")
+        default=None, converter=_numbers, metadata=label("mixed", "stiffness of the housing")
     )
     states: tuple[ShaftState, ...] = eqx.field(default=(), converter=tuple)
     life: SystemLife = SystemLife()

@@ -155,17 +155,17 @@ def minimise(problem: Problem) -> Start:
         factor = jnp.where(state.trials > 0, jnp.clip(factor, LEAST_FACTOR, 1.0), state.factor)
         diagonal = jnp.abs(jnp.diagonal(held.stiffness, axis1=1, axis2=2))
         least = jnp.square(lengths)
-        more = factor * jnp.maximum(diagonal, LEAST_STIFFNESS * least) + SOFTEST * least
-        step = -balance.inverse(held.stiffness + more[:, :, None] * jnp.eye(5)) @ residual
-        moved = jnp.max(jnp.abs((balance.attach @ step).reshape(-1, 5) * lengths))
+        more = factor * jnp.maximum(diagonal, LEAST_STIFFNESS * least[None]) + SOFTEST * least[None]
+        step = -balance.inverse(held.stiffness + more[:, :, None] * jnp.eye(5)[None]) @ residual
+        moved = jnp.max(jnp.abs((balance.attach @ step).reshape(-1, 5) * lengths[None]))
         step = step * jnp.minimum(1.0, LONGEST_STEP / jnp.maximum(moved, 1e-30))
         # closures load the bearings without an outer load: the first trial is the start
-        loaded = balance.force_scale + jnp.sum(jnp.abs(held.force / lengths))
+        loaded = balance.force_scale + jnp.sum(jnp.abs(held.force / lengths[None]))
         scale = jnp.where(state.trials == 0, loaded, state.scale)
         size = jnp.max(jnp.abs(residual * units)) / scale
         pick = lambda new, old: jax.tree.map(lambda a, b: jnp.where(accept, a, b), new, old)
         hopeless = (state.trials == 0) & ~jnp.isfinite(energy)
-        far = jnp.abs(displacement) / most
+        far = jnp.abs(displacement) / most[None]
         done = (accept & ((size <= START_TOLERANCE) | (jnp.max(far) > 1.0))) | hopeless
         return _Descent(
             unknowns=pick(trial, state.unknowns),
@@ -224,7 +224,7 @@ class Root(NamedTuple):
 
 def anchored(balance: Balance, stiffness: Float[Array, "bearing 5 5"]) -> Float[Array, "bearing 5 5"]:
     """The stiffness with `ANCHOR`."""
-    return stiffness + ANCHOR * jnp.diag(jnp.square(balance.lengths()))
+    return stiffness + ANCHOR * jnp.diag(jnp.square(balance.lengths()))[None]
 
 
 class _Newton(NamedTuple):
@@ -252,7 +252,7 @@ def _search(problem: Problem, options: NewtonOptions) -> Root:
         good &= jnp.isfinite(size)
         inverse = balance.inverse(anchored(balance, stiffness))
         step = -inverse @ residual
-        moved = jnp.max(jnp.abs((balance.attach @ step).reshape(-1, 5) * lengths))
+        moved = jnp.max(jnp.abs((balance.attach @ step).reshape(-1, 5) * lengths[None]))
         fine = (size <= options.residual_tolerance) | ((moved <= ROUNDED_STEP) & (size <= MOST_ROUNDED))
         accept = good & ((size < state.size) | (state.fraction < 0.02))
         pick = lambda new, old: jnp.where(accept, new, old)

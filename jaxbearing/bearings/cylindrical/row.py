@@ -33,7 +33,7 @@ class TiltingRow(AbstractRow):
         row = settled_row(full, held.ring, elements)
         # the springs that anchor the unknowns do not hold the ring along its axis
         across = jnp.asarray(_ACROSS)
-        row = row._replace(force=row.force * across, stiffness=row.stiffness * across[:, None] * across)
+        row = row._replace(force=row.force * across, stiffness=row.stiffness * across[:, None] * across[None, :])
         flanges = self.scene.geometry.thrust_flanges
         return row if flanges is None else _with_flanges(row, flanges, displacement[0])
 
