@@ -99,17 +99,6 @@ class AbstractScene(Shown):
         """The path of scene files of the number that the tree of the scene's numbers has at this path."""
         return path
 
-    def part_at(self, path: str) -> Any:
-        """The number or part at a dotted path; `None` where there is none."""
-        part: Any = self
-        for name in path.split("."):
-            part = getattr(part, name, None)
-        return part
-
-    def path_in_file(self, path: str) -> str:
-        """The path of scene files of the number that the tree of the scene's numbers has at this path."""
-        return path
-
     def at_operation(self: Scene, **changes: Any) -> Scene:
         """A copy at another operating point: `scene.at_operation(inner_speed=1100.0)`."""
         return self.replace({f"{self.operating_point}.{name}": value for name, value in changes.items()})
