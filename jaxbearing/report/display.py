@@ -21,6 +21,7 @@ _SCALES = {
     "Pa": ((1e8, "GPa", 1e-9), (0.0, "MPa", 1e-6)),
     "m/s": ((0.1, "m/s", 1.0), (0.0, "mm/s", 1e3)),
     "W": ((1e4, "kW", 1e-3), (0.0, "W", 1.0)),
+    "rad": ((0.0, "deg", 180.0 / math.pi),),
 }
 """SI unit -> choices (limit in SI, unit on the axis, factor from SI). The first choice whose limit the largest value of
 the axis reaches is taken."""

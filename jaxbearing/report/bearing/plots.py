@@ -7,8 +7,9 @@ from ..backends.matplotlib.diagrams import draw_diagram
 from ..backends.matplotlib.panels import draw
 from ..backends.matplotlib.sheet import foot, head
 from ..display import pretty
+from ..panels import Polar
 from .operation import operating_point
-from .panels import SIDES, bearing_diagrams, load_panel, loss_panel, round_panels
+from .panels import SIDES, bearing_diagrams, contact_panels, loss_panel
 
 if TYPE_CHECKING:
     import matplotlib.figure
@@ -40,27 +41,26 @@ def plot(solution: Solution, title: str) -> "matplotlib.figure.Figure":
 
 def _charts(figure: Any, solution: Solution, title: str, noted: bool = True) -> None:
     """All but the diagrams, on a page of paper A4 or a part of one of this size. `noted`: with notes at its foot."""
-    losses, rounds = loss_panel(solution), round_panels(solution)
+    losses, (first, *others) = loss_panel(solution), contact_panels(solution)
     head(figure, title, pretty(operating_point(solution)))
     bottom = 0.075 + (0.019 * foot(figure, solution.warnings) if noted else 0.0)
     if losses is not None:
-        left = figure.add_gridspec(1, 1, left=0.125, right=0.575, top=0.843, bottom=0.47)
-        right = figure.add_gridspec(1, 1, left=0.67, right=0.93, top=0.818, bottom=0.47)
-        lower = figure.add_gridspec(1, len(rounds), left=0.05, right=0.985, top=0.355, bottom=bottom, wspace=0.17)
-        draw(figure.add_subplot(left[0]), losses)
-        loads = figure.add_subplot(right[0], projection="polar")
-        places = [lower[i] for i in range(len(rounds))]
+        between = 0.47 if others else bottom
+        left = figure.add_gridspec(1, 1, left=0.125, right=0.575, top=0.843, bottom=between)[0]
+        right = figure.add_gridspec(1, 1, left=0.67, right=0.93, top=0.818, bottom=between)[0]
+        draw(figure.add_subplot(left), losses)
+        style = {"left": 0.05, "right": 0.985, "top": 0.355, "bottom": bottom, "wspace": 0.22}
+        places = [*figure.add_gridspec(1, len(others), **style)] if others else []
     else:
-        grid = figure.add_gridspec(
-            len(rounds), 2, left=0.05, right=0.98, top=0.79, bottom=bottom + 0.03, wspace=0.18, hspace=0.42
-        )
-        loads = figure.add_subplot(grid[:, 0], projection="polar")
-        places = [grid[i, 1] for i in range(len(rounds))]
-    draw(loads, load_panel(solution))
-    for panel, place in zip(rounds, places, strict=True):
-        draw(figure.add_subplot(place), panel)
+        style = {"left": 0.05, "right": 0.98, "top": 0.79, "bottom": bottom + 0.03, "wspace": 0.18, "hspace": 0.42}
+        grid = figure.add_gridspec(max(1, len(others)), 2 if others else 1, **style)
+        right, places = grid[:, 0], [grid[i, 1] for i in range(len(others))]
+    for panel, place in zip((first, *others), (right, *places), strict=True):
+        draw(figure.add_subplot(place, projection="polar" if isinstance(panel, Polar) else None), panel)
     handles, names = _legend(figure)
-    figure.legend(handles, names, loc="center right", bbox_to_anchor=(0.99, 0.92), ncols=2, fontsize=9.5, frameon=False)
+    if handles:
+        style = {"loc": "center right", "bbox_to_anchor": (0.99, 0.92), "fontsize": 9.5, "frameon": False}
+        figure.legend(handles, names, ncols=len(names), **style)
 
 
 def _legend(figure: Any) -> tuple[list[Any], list[str]]:
