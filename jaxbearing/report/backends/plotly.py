@@ -85,7 +85,8 @@ def _polar(panel: Polar) -> Any:
         "radialaxis": {"gridcolor": _POLAR_GRID, "angle": 67.5, "tickangle": 67.5, "rangemode": "tozero", "nticks": 5},
         "bgcolor": "#ffffff",
     }
-    return _figure(*traces, polar=polar, margin={"l": 46, "r": 46, "t": 54, "b": 30})
+    legend = {"y": 1.1}
+    return _figure(*traces, polar=polar, legend=legend, margin={"l": 46, "r": 46, "t": 66, "b": 30})
 
 
 def _curves(panel: Curves) -> Any:

@@ -23,12 +23,12 @@ SIDES = (
 LOG_FROM = 20.0
 """Largest over smallest value from which on an axis is logarithmic: the films of the loaded zone must be readable."""
 ROUND = {
-    "film": ("Central film", False, "At the middle of each contact."),
-    "pressure": ("Hertz (peak) pressure", True, "Peak of the Hertz pressure of each contact."),
-    "sliding": ("Sliding speed", False, "Difference of the surface speeds of ring and rolling element."),
-    "contact_angle": ("Contact angle", False, "Between the normal force and the plane across the axis."),
+    "film": ("Central film", "log", "At the middle of each contact."),
+    "pressure": ("Hertz (peak) pressure", "zero", "Peak of the Hertz pressure of each contact."),
+    "sliding": ("Sliding speed", "", "Difference of the surface speeds of ring and rolling element."),
+    "contact_angle": ("Contact angle", "", "Between the normal force and the plane across the axis."),
 }
-"""Results of raceways or rib: title, whether the axis begins at 0, caption."""
+"""Results of raceways or rib: title, vertical axis ("zero": it begins at 0, "log": it may be logarithmic), caption."""
 
 
 def bearing_panels(solution: Solution) -> list[Panel]:
@@ -119,14 +119,14 @@ def round_panel(solution: Solution, name: str) -> Curves | None:
     values = _by_side(solution, name)
     if not values:
         return None
-    title, from_zero, caption = ROUND[name]
+    title, kind, caption = ROUND[name]
     finite = np.concatenate([array[np.isfinite(array)] for array in values.values()])
     smallest, largest = float(finite.min()), float(finite.max())
     labels = {field.name: field.metadata for field in dataclasses.fields(solution.elements)}
     unit, factor = axis_unit(labels[f"{name}_{next(iter(values))}"]["unit"], max(abs(largest), abs(smallest)))
     # a curve that hardly changes must not lie on the edge
-    across = Axis(limits=(0.0, 1.1 * factor * largest or 1.0)) if from_zero else Axis()
-    if not from_zero and smallest > 0.0 and largest > LOG_FROM * smallest:
+    across = Axis(limits=(0.0, 1.1 * factor * largest or 1.0)) if kind == "zero" else Axis()
+    if kind == "log" and smallest > 0.0 and largest > LOG_FROM * smallest:
         ends = 0.8 * factor * smallest, 1.25 * factor * largest
         across = Axis(limits=ends, ticks=log_ticks(*ends), logarithmic=True)
     degrees = signed_degrees(solution.elements.azimuth)
