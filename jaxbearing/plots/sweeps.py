@@ -21,6 +21,8 @@ OPERATING_POINT = "operating point"
 _LOSS = "power_loss_"
 _LOG_FROM = 50.0
 """Largest over smallest value from which on the levels of a map are those of a logarithm."""
+_SHORT = 30.0
+"""Half the length of a contour, points, below which it is not labelled: the corner of a map would cut the label."""
 _LINES_AT_MOST = 8
 """Values of a second field that are drawn as lines of their own."""
 _LOCATIONS = {
@@ -116,6 +118,7 @@ def result_against(
         axes.set_ylabel(name_of(sweep, result, unit), fontsize=9)
     values, unit = shown(sweep[x_name])
     axes.set_xlabel(axis_name(sweep[x_name], unit), fontsize=9)
+    axes.set_xlim(values.min(), values.max() if values.max() > values.min() else None)
     _scale(axes, "x", np.sort(values))
     note = _mark(axes, sweep, operating_point, x_name)
     if others:
@@ -294,6 +297,8 @@ def _label_contours(axes: Any, lines: Any) -> None:
         along = [np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(piece, axis=0).T))]) for piece in drawn]
         longest = int(np.argmax([length[-1] for length in along]))
         half = 0.5 * along[longest][-1]
+        if 72.0 * half < _SHORT * axes.figure.dpi:
+            continue
         middle = [np.interp(half, along[longest], values) for values in drawn[longest].T]
         places.append(tuple(axes.transData.inverted().transform(middle)))
     for text in axes.clabel(lines, fontsize=9, colors=INK, fmt="%g", manual=places):

@@ -11,31 +11,26 @@ TOUCHING = 1.0
 
 
 def texts(figure):
-    """Words and box of every text that is seen; an axis that is hidden has none."""
+    """Words and box of every text that is seen."""
     figure.draw_without_rendering()
-    found = []
-    for text in figure.findobj(Text):
-        axes = text.axes
-        hidden = axes is not None and not axes.axison and text not in (*axes.texts, axes.title)
-        if not text.get_visible() or not text.get_text().strip() or hidden or _off(text):
+    hidden = {id(text) for axes in figure.axes for text in _hidden(axes)}
+    seen = [text for text in figure.findobj(Text) if text.get_visible() and text.get_text().strip()]
+    return [(text.get_text(), text.get_window_extent()) for text in seen if id(text) not in hidden]
+
+
+def _hidden(axes):
+    """Texts of an axis that is switched off, labels of ticks beyond its ends, and ticks that are kept and not drawn."""
+    for axis in (axes.xaxis, axes.yaxis):
+        if not axes.axison:
+            yield from axis.findobj(Text)
             continue
-        found.append((text.get_text(), text.get_window_extent()))
-    return found
-
-
-def _off(text):
-    """True for the label of a tick beyond the ends of its axis, or of one that is kept and not drawn."""
-    axes = text.axes
-    if axes is None or axes.name != "rectilinear":
-        return False
-    for axis, ends in ((axes.xaxis, axes.get_xlim()), (axes.yaxis, axes.get_ylim())):
+        ends = axis.get_view_interval()
         margin = 1e-9 * abs(ends[1] - ends[0])
         drawn = [*axis.get_major_ticks(), *axis.get_minor_ticks()]
         for tick in (*axis.majorTicks, *axis.minorTicks):
-            if text in (tick.label1, tick.label2):
-                within = min(ends) - margin <= tick.get_loc() <= max(ends) + margin
-                return tick not in drawn or not within
-    return False
+            within = min(ends) - margin <= tick.get_loc() <= max(ends) + margin
+            if tick not in drawn or (not within and axes.name == "rectilinear"):
+                yield from (tick.label1, tick.label2)
 
 
 def overlapping(figure):

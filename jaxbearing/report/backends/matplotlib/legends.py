@@ -60,7 +60,8 @@ def _hit(legend: Any, drawn: np.ndarray, away: float = _AWAY) -> int:
 def _drawn(axes: Any) -> Iterator[np.ndarray]:
     """Points of the page on everything that is drawn in the axes."""
     for line in axes.lines:
-        yield _along(line.get_transform().transform(np.asarray(line.get_xydata(), dtype=float)))
+        points = line.get_transform().transform(np.asarray(line.get_xydata(), dtype=float))
+        yield _along(points) if line.get_linestyle() not in ("None", "none", "", " ") else points
     for collection in axes.collections:
         for path in collection.get_paths():
             yield _along(collection.get_transform().transform(path.vertices))
@@ -72,13 +73,11 @@ def _drawn(axes: Any) -> Iterator[np.ndarray]:
 
 def _along(corners: np.ndarray) -> np.ndarray:
     """Points on the straight lines between corners; a gap of the curve is a gap here too."""
-    good = np.all(np.isfinite(corners), axis=1)
-    pieces = [corners[good]]
-    for start, end in zip(corners[:-1][good[:-1] & good[1:]], corners[1:][good[:-1] & good[1:]], strict=True):
-        count = min(int(np.hypot(*(end - start)) / _STEP), 2000)
-        if count > 1:
-            pieces.append(start + np.linspace(0.0, 1.0, count)[:, None] * (end - start))
-    return np.concatenate(pieces)
+    start, step = corners[:-1], np.diff(corners, axis=0)
+    lengths = np.hypot(*step.T)
+    counts = np.minimum(np.where(np.isfinite(lengths), lengths, 0.0) / _STEP, 2000.0).astype(int)
+    between = [start[i] + np.linspace(0.0, 1.0, counts[i])[:, None] * step[i] for i in np.nonzero(counts > 1)[0]]
+    return np.concatenate([corners[np.all(np.isfinite(corners), axis=1)], *between])
 
 
 def _above(axes: Any, handles: Sequence[Any], names: Sequence[str], style: dict[str, Any]) -> Any:
