@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 import jaxbearing as jb
 
 DOCS = Path(__file__).parent
-RESOLUTION = 80
+RESOLUTION = 130
 """Dots per inch of a picture."""
 START = """# Gallery
 

@@ -10,7 +10,7 @@ from ..report.backends.matplotlib.sheet import grid_lines
 from ..report.colours import INK
 from ..report.display import axis_unit
 from ..report.panels import log_ticks
-from .style import COLOURS, LINES, axis_name, finish, prepare, scale_of, shown
+from .style import COLOURS, LINES, axis_name, finish, logarithmic, prepare, scale_of, shown
 
 if TYPE_CHECKING:
     import matplotlib.figure
@@ -265,10 +265,7 @@ def _spread(values: np.ndarray) -> str:
 def _scale(axes: Any, which: str, values: np.ndarray) -> None:
     """Logarithmic where the values, which are sorted, ask for it; ticks are then written as numbers."""
     if _spread(values) == "log":
-        axes.set(**{f"{which}scale": "log"})
-        ticks = log_ticks(*sorted(getattr(axes, f"get_{which}lim")()))
-        getattr(axes, f"set_{which}ticks")(ticks, [f"{tick:g}" for tick in ticks])
-        getattr(axes, f"set_{which}ticks")([], minor=True)
+        logarithmic(axes, which)
 
 
 def _contours(axes: Any, xs: np.ndarray, ys: np.ndarray, values: Any) -> tuple[Any, Sequence[float]]:
