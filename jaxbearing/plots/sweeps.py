@@ -287,7 +287,7 @@ def _contours(axes: Any, xs: np.ndarray, ys: np.ndarray, values: Any) -> tuple[A
 def _label_contours(axes: Any, lines: Any) -> None:
     """Writes the level of each contour on the middle of its longest piece, where no edge cuts it."""
     # angles of the labels are those of the lines on the page
-    axes.get_figure(root=True).draw_without_rendering()
+    axes.figure.canvas.figure.draw_without_rendering()
     places = []
     for pieces in filter(None, lines.allsegs):
         drawn = [axes.transData.transform(piece) for piece in pieces]

@@ -38,7 +38,8 @@ def study_page(study: PowerLossStudy, title: str) -> "matplotlib.figure.Figure":
     shapes = {count: _shape(len(panels), legend=count == 1) for count, panels in groups.items()}
     heights = [_GROUP + _ROW * rows for rows, _ in shapes.values()]
     page = Page(WIDTH, _HEAD + sum(heights) + _FOOT)
-    upper, *parts, lower = page.subfigures(len(heights) + 2, 1, height_ratios=[_HEAD, *heights, _FOOT])
+    cells = page.subfigures(len(heights) + 2, 1, squeeze=False, height_ratios=[_HEAD, *heights, _FOOT])
+    upper, *parts, lower = cells[:, 0]
     gaps = f", {study.failed} of them without a result (gaps)" if study.failed else ""
     head(upper, f"Power loss: {title}", f"{study.cases} cases{gaps}")
     for part, (count, panels) in zip(parts, groups.items(), strict=True):
@@ -80,7 +81,8 @@ def _draw(part: Any, panels: "dict[str, xr.Dataset]", shape: tuple[int, int], st
         fields = _fields(panel)
         point = {field: value for field in fields if (value := own(study.scene, field)) is not None}
         power_loss_against(panel, fields[0], axes=axes, legend=False, operating_point=point)
-        axes.locator_params(axis="x", nbins=5)
+        if axes.get_xscale() == "linear":
+            axes.locator_params(axis="x", nbins=5)
         title_of(axes, "\n".join(textwrap.wrap(_title(panel), int(_LETTERS * across))), size=9.5)
         entries = dict(zip(*reversed(axes.get_legend_handles_labels()), strict=True))
         if len(fields) == 1:

@@ -32,17 +32,17 @@ def clear_legend(axes: Any, handles: Sequence[Any] | None = None, names: Sequenc
     - `handles`, `names`: entries; those that the axes know if not given.
     - `style`: further arguments of matplotlib's legend.
     """
-    if handles is None:
-        handles, names = axes.get_legend_handles_labels()
+    found, called = axes.get_legend_handles_labels() if handles is None else (handles, names)
     wanted = {"fontsize": 8.5, "title_fontsize": 8.5, "frameon": False} | style
-    legend = axes.legend(handles, names, **wanted)
-    axes.get_figure(root=True).draw_without_rendering()
+    legend = axes.legend(found, called, **wanted)
+    # of the whole page, also where the axes are in a part of it
+    axes.figure.canvas.figure.draw_without_rendering()
     drawn = np.concatenate([np.zeros((0, 2)), *_drawn(axes)])
     for place in _PLACES:
         legend.set_loc(place)
         if not _hit(legend, drawn):
             return legend
-    return _above(axes, handles, names, wanted)
+    return _above(axes, found, called, wanted)
 
 
 def covered(axes: Any) -> int:
@@ -83,13 +83,14 @@ def _along(corners: np.ndarray) -> np.ndarray:
 def _above(axes: Any, handles: Sequence[Any], names: Sequence[str], style: dict[str, Any]) -> Any:
     """The legend in few lines at the top, and the vertical axis as much longer as that needs."""
     room = axes.get_window_extent()
-    for columns in range(len(names), 0, -1):
+    columns = len(names)
+    legend = axes.legend(handles, names, **(style | {"ncols": columns, "loc": "upper left"}))
+    while columns > 1 and legend.get_window_extent().width > room.width:
+        columns -= 1
         legend = axes.legend(handles, names, **(style | {"ncols": columns, "loc": "upper left"}))
-        box = legend.get_window_extent()
-        if box.width <= room.width or columns == 1:
-            break
+    height = legend.get_window_extent().height + 2.0 * _AWAY * axes.figure.dpi / _POINTS
     transform = axes.yaxis.get_transform()
     low, high = transform.transform(np.asarray(axes.get_ylim()))
-    part = min((box.height + 2.0 * _AWAY * axes.figure.dpi / _POINTS) / room.height, 0.6)
+    part = min(height / room.height, 0.6)
     axes.set_ylim(top=float(transform.inverted().transform(low + (high - low) / (1.0 - part))))
     return legend
