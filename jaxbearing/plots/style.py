@@ -4,6 +4,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ..report.display import tick
 from ..report.labels import label_unit
 from ..report.panels import log_ticks
 from .frame import HEIGHT, WIDTH, Axis, axis_for, write_below
@@ -56,5 +57,5 @@ def logarithmic(axes: Any, which: str) -> None:
     """Makes the axis "x" or "y", whose ends are set, logarithmic with ticks that are written as numbers."""
     axes.set(**{f"{which}scale": "log"})
     ticks = log_ticks(*sorted(getattr(axes, f"get_{which}lim")()))
-    getattr(axes, f"set_{which}ticks")(ticks, [f"{tick:g}" for tick in ticks])
+    getattr(axes, f"set_{which}ticks")(ticks, [*map(tick, ticks)])
     getattr(axes, f"set_{which}ticks")([], minor=True)

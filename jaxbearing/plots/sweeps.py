@@ -8,7 +8,7 @@ import numpy as np
 from ..report.backends.matplotlib.legends import clear_legend
 from ..report.backends.matplotlib.sheet import grid_lines
 from ..report.colours import INK
-from ..report.display import axis_unit
+from ..report.display import axis_unit, tick
 from ..report.panels import log_ticks
 from .style import COLOURS, LINES, axis_name, finish, logarithmic, prepare, scale_of, shown
 
@@ -177,7 +177,8 @@ def map_of(
     _scale(axes, "y", ys)
     axes.tick_params(labelsize=8.5)
     filled, levels = _contours(axes, xs, ys, values)
-    bar = axes.figure.colorbar(filled, ax=axes)
+    bar = axes.figure.colorbar(filled, ax=axes, format=lambda value, _: tick(value))
+    bar.minorticks_off()
     bar.set_label(name_of(sweep, result, unit), fontsize=9)
     bar.ax.tick_params(labelsize=8.5)
     if len(levels):
@@ -298,7 +299,7 @@ def _label_contours(axes: Any, lines: Any) -> None:
             continue
         middle = [np.interp(half, along[longest], values) for values in drawn[longest].T]
         places.append(tuple(axes.transData.inverted().transform(middle)))
-    for text in axes.clabel(lines, fontsize=9, colors=INK, fmt="%g", manual=places):
+    for text in axes.clabel(lines, fontsize=9, colors=INK, fmt=tick, manual=places):
         text.set_path_effects(_halo())
 
 

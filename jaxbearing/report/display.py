@@ -71,6 +71,11 @@ def digits(value: float, significant: int = 4) -> str:
     return f"{value:.{max(0, significant - 1 - exponent)}f}"
 
 
+def tick(value: float) -> str:
+    """A number at an axis or a contour: without an exponent, groups of thousands apart from 10 000 on."""
+    return f"{value:.10g}" if abs(value) < 1e4 else f"{value:,.10g}".replace(",", "\N{THIN SPACE}")
+
+
 def number(value: float, unit: str, significant: int = 4) -> str:
     """A result in the unit of the screen, without it. `value` is in the SI unit `unit`. Beside a unit no number has an
     exponent, and what is zero to round-off is 0."""
