@@ -276,7 +276,7 @@ def _contours(axes: Any, xs: np.ndarray, ys: np.ndarray, values: Any) -> tuple[A
     low, high = float(values.min()), float(values.max())
     if low <= 0.0 or high <= _LOG_FROM * low:
         filled = axes.contourf(xs, ys, values, levels=12, cmap="cividis", corner_mask=False)
-        return filled, filled.levels[1:-1:2]
+        return filled, filled.levels[2:-1:2]
     from matplotlib.colors import LogNorm
 
     inside = [level for level in log_ticks(low, high) if low < level < high]

@@ -15,9 +15,9 @@ _ENGINEERS: dict[str, tuple[str, float]] = {
     "m^2/s": ("mm^2/s", 1e6),
     "m^2": ("mm^2", 1e6),
     "1/Pa": ("1/GPa", 1e9),
-    "N/rad": ("N/mrad", 1e-3),
+    "N/rad": ("kN/mrad", 1e-6),
     "N m/rad": ("N m/mrad", 1e-3),
-    "N m/m": ("N m/mm", 1e-3),
+    "N m/m": ("N m/um", 1e-6),
     "1": ("", 1.0),
 }
 """SI unit of a result -> (unit on the screen, factor from SI). Other units are shown unchanged."""
