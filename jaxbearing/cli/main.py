@@ -11,6 +11,7 @@ from typing import Annotated, Any
 
 import typer
 
+from .. import load_verbs
 from ..numerics.garbage import rare_garbage_collection
 from .compare_verb import compare
 from .fields_verb import fields
@@ -114,13 +115,19 @@ def _version(wanted: bool) -> None:
         raise typer.Exit
 
 
+_WITHOUT_SOLVES = ("new",)
+"""Verbs that solve nothing and make no scene."""
+
+
 @app.callback()
 def _options(
+    context: typer.Context,
     version: Annotated[
         bool, typer.Option("--version", help="Print the version.", is_eager=True, callback=_version)
     ] = False,
 ) -> None:
-    pass
+    if context.invoked_subcommand not in _WITHOUT_SOLVES:
+        load_verbs()
 
 
 _VERBS = (

@@ -74,8 +74,9 @@ def new(
                 raise
             refuse(f"new {name}: {error}")
         text = found.text()
-        # a geometry that cannot be built is said before anything is written
-        found.scene()
+        if balls is not None or given:
+            # a geometry that cannot be built is said before anything is written; that of a designation alone can
+            found.scene()
     _write(target, text)
     if as_json:
         typer.echo(json.dumps(_as_json(found, target)))

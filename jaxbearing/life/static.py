@@ -9,9 +9,8 @@ import jax.numpy as jnp
 from jaxtyping import Array, Float
 
 from .._types import Scalar
-from ..bearings.facts import BALL_PRESSURE, ROLLER_PRESSURE
 from ..contacts import LineContact, PointContact
-from ..materials import Material, reduced_modulus
+from ..materials import BALL_PRESSURE, ROLLER_PRESSURE, Material, reduced_modulus
 from ..numerics.arguments import require_choice, require_count, require_numbers
 from .capacity import CONFORMITIES, ball_size_ratio
 from .modification import Family
