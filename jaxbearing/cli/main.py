@@ -7,6 +7,7 @@ Exit codes: 0 solved; 1 the output cannot be written; 2 bad input, one message o
 
 import io
 import sys
+from itertools import takewhile
 from typing import Annotated, Any
 
 import typer
@@ -101,7 +102,23 @@ def _usage(error: Any) -> int:
         typer.echo(context.get_help(), err=True)
         return BAD_INPUT
     hint = f" See '{context.command_path} --help'." if context is not None else ""
-    return say(error.format_message() + hint, BAD_INPUT)
+    message = error.format_message()
+    return say(f"{message.removesuffix('.')}.{hint}{_of_two_words() if 'extra argument' in message else ''}", BAD_INPUT)
+
+
+def _of_two_words() -> str:
+    """The command that writes a scene, if a verb got a designation such as NU 2210 in place of a scene."""
+    from ..catalogue.designation import parse
+    from ..scenes.errors import SceneError
+
+    words = list(takewhile(lambda word: not word.startswith("-"), sys.argv[2:]))
+    if len(words) < 2:
+        return ""
+    try:
+        bearing = parse(" ".join(words))
+    except SceneError:
+        return ""
+    return f" 'jaxbearing new {bearing.text}' writes a scene of this {bearing.in_words}."
 
 
 def _version(wanted: bool) -> None:

@@ -262,7 +262,8 @@ class BallBearing(AbstractBearing):
             return ()
         named = {"cage": self.cage, "drag": self.drag}
         if self.contact is None:
-            named["oil"] = self.oil
+            # a rating takes the viscosity ratio from it
+            named["oil"] = None if self.rating is not None else self.oil
         return tuple(name for name, part in named.items() if part is not None)
 
     def assumptions(self) -> tuple[str, ...]:
