@@ -86,7 +86,13 @@ def test_what_is_not_understood_is_said():
 
 @pytest.mark.parametrize(
     ("text", "suffix"),
-    [("7312 BECBP", "CB"), ("7312-B DB", "DB"), ("7312 B-TVP-UA", "UA"), ("71910 CDGA/P4A", "GA"), ("32210 J2/DF", "DF")],
+    [
+        ("7312 BECBP", "CB"),
+        ("7312-B DB", "DB"),
+        ("7312 B-TVP-UA", "UA"),
+        ("71910 CDGA/P4A", "GA"),
+        ("32210 J2/DF", "DF"),
+    ],
 )
 def test_suffixes_of_sets(text, suffix):
     notes = parse(text).notes
