@@ -325,7 +325,8 @@ def _keep(path: Path, ready: _Ready) -> None:
     with suppress(Exception):
         program, _, _ = serialize(ready.compiled)
         skeleton = jax.tree.unflatten(ready.structure, ready.others)
-        calls_lapack = "lapack" in ready.compiled.as_text()
+        text = ready.compiled.as_text()
+        calls_lapack = text is None or "lapack" in text
         files.write(path, pickle.dumps((program, ready.compiled.in_tree.num_leaves, skeleton, calls_lapack)))
 
 
