@@ -47,7 +47,6 @@ app = typer.Typer(
     epilog=_EPILOG,
     no_args_is_help=True,
     rich_markup_mode=None,
-    add_completion=False,
     pretty_exceptions_enable=False,
 )
 
@@ -70,7 +69,7 @@ def _run() -> int:
     only_news()
     try:
         with rare_garbage_collection():
-            code = app(standalone_mode=False)
+            code = app(standalone_mode=False, prog_name="jaxbearing")
         sys.stdout.flush()
         if code == INTERRUPTED:
             # Ctrl-C that was deferred comes as an exception, of which the parser makes a code

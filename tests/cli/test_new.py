@@ -109,3 +109,16 @@ def test_oil_that_only_the_rating_of_a_ball_bearing_takes():
     rated = jb.load_scene("deep_groove_6205", {**oil, "rating.cleanliness": "-/17/14"})
     assert rated.unused_parts() == ()
     assert jb.load_scene("deep_groove_6205", oil).unused_parts() == ("oil",)
+
+
+@pytest.mark.parametrize(
+    ("words", "found"),
+    [("jaxbearing new nu221", "nu2210"), ("jaxbearing new 620", "6205"), ("jaxbearing sp", "spectrum")],
+)
+def test_completion_of_the_shell(words, found, jaxbearing_command, monkeypatch):
+    monkeypatch.setenv("_JAXBEARING_COMPLETE", "complete_bash")
+    monkeypatch.setenv("COMP_WORDS", words)
+    monkeypatch.setenv("COMP_CWORD", str(words.count(" ")))
+    result = jaxbearing_command()
+    assert result.code == 0
+    assert found in result.out.split()
