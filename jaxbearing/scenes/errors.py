@@ -12,6 +12,7 @@ from typing import Any
 from pydantic import BaseModel, TypeAdapter, ValidationError
 
 from ..numerics.refusals import Refusals
+from .engineers_words import usual_word
 from .fields import is_optional, names_at, path_of, required_names, type_at
 from .units import describe, shortened
 
@@ -228,7 +229,7 @@ def unknown_name(location: Sequence[int | str], model: type[BaseModel]) -> dict[
     return {
         "found": f"the unknown name {shortened(repr(name))}",
         "expected": one_of(owner.names) if owner.names else "a value, not a table",
-        "suggestion": _inside(name, model, owner.names) or nearest(name, owner.names),
+        "suggestion": _inside(name, model, owner.names) or usual_word(name, owner.names) or nearest(name, owner.names),
     }
 
 

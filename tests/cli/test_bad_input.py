@@ -209,6 +209,8 @@ def test_unreadable_file(jaxbearing_command, folder, monkeypatch):
         ("operation.inner_speed=12000", "operation.inner_speed", ["bare number 12000"]),
         ("operation.iner_speed=1 rpm", "operation.iner_speed", ["Did you mean 'inner_speed'"]),
         ("radial_load=3 kN", "radial_load", ["Did you mean 'operation.radial_load'"]),
+        ("rating.eta_c=0.5", "rating.eta_c", ["Did you mean 'contamination_factor'"]),
+        ("operation.speed=3000 rpm", "operation.speed", ["Did you mean 'inner_speed'"]),
         ("cage=none", "cage", ["simulate"]),
         ("cagee=none", "cagee", ["Did you mean 'cage'"]),
         ("operation.radial_load=none", "operation.radial_load", ["required"]),
