@@ -28,13 +28,24 @@ with rare_garbage_collection():
 
     jax.config.update("jax_enable_x64", True)
 
-    # 64-bit floats first
-    from ._shown import shown_by
-    from .simulate import simulate as simulate
-    from .simulate import simulate_batch as simulate_batch
-    from .solve import jit_solver as jit_solver
-    from .solve import solve as solve
-    from .sweep import sweep as sweep
+
+def load_verbs() -> None:
+    """Imports the verbs that the package offers under the names of their modules.
+
+    This happens at once, but in the command only when its verb is known: `jaxbearing new` needs none of them, and no
+    bearing.
+    """
+    with rare_garbage_collection():
+        from ._shown import shown_by
+        from .simulate import simulate, simulate_batch
+        from .solve import jit_solver, solve
+        from .sweep import sweep
+
+        shown_by(f"{__name__}.report.shown")
+    # a module that is imported takes its name in the package
+    found = (jit_solver, simulate, simulate_batch, solve, sweep)
+    globals().update(zip(_AT_ONCE, found, strict=True))
+
 
 if TYPE_CHECKING:
     from . import catalogue as catalogue
@@ -100,12 +111,15 @@ if TYPE_CHECKING:
     from .scenes.reader import load_scene as load_scene
     from .scenes.save import save_scene as save_scene
     from .sensitivity import sensitivities as sensitivities
+    from .simulate import simulate as simulate
+    from .simulate import simulate_batch as simulate_batch
+    from .solve import jit_solver as jit_solver
+    from .solve import solve as solve
     from .spectrum.result import Spectrum as Spectrum
     from .spectrum.states import State as State
     from .spectrum.verb import solve_spectrum as solve_spectrum
+    from .sweep import sweep as sweep
     from .tolerance.verb import tolerances as tolerances
-
-shown_by(f"{__name__}.report.shown")
 
 __version__ = "0.1.0"
 
@@ -180,6 +194,9 @@ __all__ = [*_AT_ONCE, *_LAZY, *_MODULES]  # pyright: ignore[reportUnsupportedDun
 def __getattr__(name: str) -> Any:
     if name in _MODULES:
         return importlib.import_module(f".{name}", __name__)
+    if name in _AT_ONCE:
+        load_verbs()
+        return globals()[name]
     if name in _LAZY:
         return getattr(importlib.import_module(_LAZY[name], __name__), name)
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
@@ -187,3 +204,7 @@ def __getattr__(name: str) -> Any:
 
 def __dir__() -> list[str]:
     return sorted([*__all__, "__doc__", "__version__"])
+
+
+if not is_the_command():
+    load_verbs()

@@ -43,6 +43,10 @@ _SUFFIXES = (
     ("seal", _SEALS),
     ("cage", r"TVP\d?|TVH|TN\d?|TA|MA|MB|ML|M|P|J\d?|Y|Q|X|A|H\d?|R\d?|JR|T"),
 )
+_SETS = r"D[BFT]|[TQ]BT|TFT|Q[BF]C"
+_FOR_SETS = r"U[AOLM]|C[ABC]|G[ABC]"
+"""Suffixes of sets of bearings, and of angular contact bearings that are ground for sets, with classes of clearance or
+preload."""
 _ANGLES = {"AC": 25.0, "ACD": 25.0, "C": 15.0, "CD": 15.0, "E": 25.0, "B": 40.0, "BE": 40.0, "BEP": 40.0}
 _END = r"(?!\d(?!RS|RZ|Z))"
 """No further digit of the number: the 2 of 2RS and 2Z belongs to the seals."""
@@ -204,8 +208,10 @@ def _suffixes(kind: str, rest: str) -> tuple[str, tuple[str, ...]]:
         # reinforced inner design: the rule for today's bearings
         rest = re.sub(r"^EC?", "", rest)
         notes.append("E, EC: reinforced inner design, as all estimates of this type assume")
+    sets = {"cylindrical": (), "angular_contact": (_SETS, _FOR_SETS), "spindle": (_SETS, _FOR_SETS)}.get(kind, (_SETS,))
+    suffixes = (*(("set", pattern) for pattern in sets), *_SUFFIXES)
     while rest:
-        tried = ((what, re.match(pattern, rest)) for what, pattern in _SUFFIXES)
+        tried = ((what, re.match(pattern, rest)) for what, pattern in suffixes)
         what, match = next(((what, match) for what, match in tried if match), ("", None))
         if match is None:
             unread, rest = unread + rest[0], rest[1:]
@@ -225,6 +231,8 @@ def _said(kind: str, what: str, text: str, clearance: str) -> tuple[str, str]:
         if text not in CLEARANCES:
             return clearance, f"{text}: clearance class without a table here; set geometry.diametral_clearance"
         return text, ""
+    if what == "set":
+        return clearance, f"{text}: of bearings for sets; the scene has one bearing, without preload"
     if what == "tolerance":
         return clearance, f"{text}: tolerance class, not modelled; [fits] takes the normal class"
     if what == "seal":

@@ -8,6 +8,7 @@ import dataclasses
 import json
 import re
 import shlex
+import shutil
 import sys
 from pathlib import Path
 
@@ -89,6 +90,7 @@ def folder(tmp_path, monkeypatch):
         "cases.csv": "operation.inner_speed [rpm],operation.radial_load [kN]\n8000,20\n10000,25\n",
         "run_up.csv": "time [ms],speed [rpm]\n0,8000\n10,9000\n50,10500\n",
     }
+    shutil.copytree(ROOT / "docs" / "examples", tmp_path / "docs" / "examples")
     for name, text in files.items():
         (tmp_path / name).write_text(text, encoding="utf-8")
     monkeypatch.setenv("JAXBEARING_CACHE", "off")
