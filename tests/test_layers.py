@@ -41,6 +41,7 @@ RANK = {
     "program_size": 8,
     "simulate": 7,
     "sensitivity": 7,
+    "loss_interval": 8,
     "scenes": 9,
     "report": 9,
     # figures use the panels and units of the pages; the pages know no figure
