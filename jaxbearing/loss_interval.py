@@ -120,8 +120,8 @@ def _without_words(scene: AbstractScene) -> AbstractScene:
 
 
 def _part(one: _Uncertain, losses: np.ndarray) -> PowerPart:
-    ends = sorted(float(losses[np.flatnonzero(share == SHARES)[0]]) for share in LIKELY)
-    return PowerPart(one.path, *ends, one.words)
+    low, high = sorted(float(losses[np.flatnonzero(share == SHARES)[0]]) for share in LIKELY)
+    return PowerPart(one.path, low, high, one.words)
 
 
 def _together(value: float, inputs: list[_Uncertain], losses: Mapping[str, np.ndarray]) -> tuple[float, float]:
