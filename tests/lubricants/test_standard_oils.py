@@ -71,7 +71,7 @@ COEFFICIENTS = {
     "ester": (6.605, 0.1360),
     "polyglycol": (5.489, 0.1485),
 }
-"""s, 1/GPa, and t as an older program of the library's author has them, with the digits of mineral oils in their places."""
+"""s, 1/GPa, and t as an older program of the library's author has them; the digits of mineral oils in their places."""
 
 
 @pytest.mark.parametrize(("grade", "base"), EVERY)
