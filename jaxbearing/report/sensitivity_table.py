@@ -19,6 +19,8 @@ from .display import digits, with_unit
 
 SHOWN = 5
 """Number of inputs that are shown for each result."""
+SMALL = 0.01
+"""Part of the widest interval below which that of an input is not shown."""
 UNCERTAIN = ("drag.coefficient",)
 """Poorly known inputs, which are always shown."""
 LAW_CONSTANTS = ("oil.", "contact.")
@@ -132,9 +134,14 @@ def _print_interval(interval: PowerInterval | None, console: Console) -> None:
         console.print(Padding(Text(f"{text}, by {interval.by} alone ({interval.assumed})."), (0, 2)))
         return
     console.print(Padding(Text(f"{text}, mostly by {interval.by}. By each input alone:"), (0, 2)))
-    for part in interval.parts:
+    width = lambda part: part.high - part.low
+    small = [part.path for part in interval.parts if width(part) < SMALL * width(interval.parts[0])]
+    for part in interval.parts[: len(interval.parts) - len(small)]:
         ends = " and ".join(with_unit(one, "W") for one in (part.low, part.high))
         console.print(Padding(Text(f"{part.path}: between {ends} ({part.assumed})", style="dim"), (0, 4)))
+    if small:
+        text = f"{', '.join(small)}: less than {digits(100.0 * SMALL)} % of the first of these"
+        console.print(Padding(Text(text, style="dim"), (0, 4)))
 
 
 def _table(results: list[tuple[str, dict[str, Array]]]) -> Table:

@@ -242,5 +242,6 @@ def test_the_screen_names_the_largest_and_each_alone(capsys):
     said = " ".join(capsys.readouterr().out.split())
     assert "90 % between" in said
     assert f"mostly by {PATH}. By each input alone:" in said
-    assert f"{SUPPLY_FIELD}: between" in said
-    assert "uniform, 0.04 to 0.1" in said
+    assert f"{PATH}: between" in said
+    assert f"{SUPPLY_FIELD}, {OF_OIL[0]}" in said
+    assert "less than 1" in said
