@@ -126,16 +126,23 @@ def _part(one: _Uncertain, losses: np.ndarray) -> PowerPart:
 
 def _together(value: float, inputs: list[_Uncertain], losses: Mapping[str, np.ndarray]) -> tuple[float, float]:
     """Limits of the loss by all inputs; each takes its values in an order of its own."""
-    from scipy.interpolate import PchipInterpolator
-
     order, total = np.random.default_rng(0), np.full(VALUES, value)
     shares = (np.arange(VALUES) + 0.5) / VALUES
     for one in inputs:
-        at = one.values.quantiles(SHARES)
-        loss = PchipInterpolator(at, losses[one.path])(np.clip(one.values.quantiles(shares), at[0], at[-1]))
-        total += order.permutation(loss - value)
+        total += order.permutation(at_shares(one.values, losses[one.path], shares) - value)
     low, high = np.quantile(total, LIKELY)
     return float(low), float(high)
+
+
+def at_shares(values: Distribution, solved: np.ndarray, shares: np.ndarray) -> np.ndarray:
+    """A result over the distribution of one input, by a monotone cubic and constant beyond 1 and 99 %.
+
+    **Arguments:** `solved`: the result at the input's `SHARES`; `shares`: of the input, at which it is wanted.
+    """
+    from scipy.interpolate import PchipInterpolator
+
+    at = values.quantiles(SHARES)
+    return PchipInterpolator(at, solved)(np.clip(values.quantiles(shares), at[0], at[-1]))
 
 
 def _in_words(one: Distribution) -> str:
