@@ -20,6 +20,7 @@ RANK = {
     "_identity": 2,
     "time_laws": 2,
     "distribution": 2,
+    "designations": 2,
     "numerics": 1,
     "programs": 2,
     "materials": 2,
@@ -41,6 +42,7 @@ RANK = {
     "program_size": 8,
     "simulate": 7,
     "sensitivity": 7,
+    "loss_interval": 8,
     "scenes": 9,
     "report": 9,
     # figures use the panels and units of the pages; the pages know no figure

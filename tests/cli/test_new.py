@@ -21,6 +21,19 @@ def test_writes_a_scene(jaxbearing_command, folder):
     assert jb.catalogue.find("6207").text() == text
 
 
+def test_with_an_oil_it_has_the_best_laws(jaxbearing_command, folder):
+    duty = ("--oil", "iso vg 68", "--radial-load", "3 kN", "--speed", "1500 rpm", "--oil-temperature", "70 degC")
+    result = jaxbearing_command("new", "6207", *duty)
+    assert result.code == 0
+    assert "rolling resistance" in result.out
+    tables = tomllib.loads((folder / "6207.toml").read_text(encoding="utf-8"))
+    assert (tables["laws"], tables["oil"]["grade"]) == ("best", "ISO VG 68")
+    assert tables["operation"]["radial_load"] == "3000 N"
+    with pytest.warns(jb.PresetUsedWarning, match="rolling_resistance = 'biboulet_houpert'"):
+        jb.load_scene("6207.toml")
+    assert "dry: no films and no losses" in jaxbearing_command("new", "6208").out
+
+
 def test_words_of_a_designation_need_no_quotes(jaxbearing_command, folder):
     assert jaxbearing_command("new", "NU", "311", "--output", "mine.toml").code == 0
     assert os.listdir(folder) == ["mine.toml"]
@@ -68,6 +81,9 @@ def test_json_of_rollers(jaxbearing_command):
         (("6207", "--contact-angle", "3 deg"), "follows from its clearance"),
         (("6207", "--balls", "30"), "30 balls"),
         (("6207", "--output", "no/such.toml"), "existing folder"),
+        (("6207", "--oil", "ISO VG 70"), "ISO VG 68"),
+        (("6207", "--base", "PAO"), "only allowed with an oil"),
+        (("6207", "--speed", "3 kN"), "--speed"),
     ],
 )
 def test_bad_input(jaxbearing_command, folder, arguments, words):
