@@ -91,6 +91,12 @@ class AbstractArrowSystem(eqx.Module):
         element axis: this copy allows one forward pass to yield every block of the arrow.
         """
 
+    def tangents(
+        self, unknowns: Float[Array, "m element"], shared: Float[Array, "g element"]
+    ) -> tuple[Float[Array, "row element"], Float[Array, "row m+g element"], Float[Array, ""]]:
+        """Results of `element`, and their derivatives, as `element_tangents` returns them."""
+        return element_tangents(self.element, unknowns, shared)
+
     @abc.abstractmethod
     def global_residual(
         self, globals_: Float[Array, " g"], totals: Float[Array, " k"]
@@ -148,7 +154,7 @@ def evaluate(system: AbstractArrowSystem, point: ArrowPoint) -> Equations:
 
 def linearize(system: AbstractArrowSystem, point: ArrowPoint) -> tuple[Equations, ArrowJacobian]:
     """Equations and Jacobian blocks, by forward autodiff with m + g tangents."""
-    values, tangents, inner = element_tangents(system.element, point.elements, shared_by_elements(point))
+    values, tangents, inner = system.tangents(point.elements, shared_by_elements(point))
     return assembled(system, point, values, tangents, inner)
 
 

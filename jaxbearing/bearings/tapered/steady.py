@@ -54,14 +54,14 @@ def solve_tapered(scene: TaperedRollerBearing, options: NewtonOptions, ring: Inn
     none = sliding | (~result.converged & minimum.outside)
     result = result._replace(status=jnp.where(none, int(Status.NO_EQUILIBRIUM), result.status))
     result = result._replace(residual_norm=jnp.where(sliding, jnp.nan, result.residual_norm))
-    friction = None
+    state, friction = system.at(result.point), None
     if scene.contact is not None:
-        friction = tapered_friction(scene, system.at(result.point))
+        friction = tapered_friction(scene, state)
         result = _with_nested(result, friction, options)
     return assemble(
         scene,
         result,
-        _results(scene, system, result, friction),
+        _results(scene, system, result, state, friction),
         system.ring.displacement(result.point.globals),
         _port(scene, system, result),
         failure_causes=_reasons(scene, asked.inertia) if _bounded(scene, ring) else {},
@@ -185,10 +185,10 @@ def _results(
     scene: TaperedRollerBearing,
     system: TaperedSystem,
     result: NewtonResult,
+    state: TaperedState,
     friction: TaperedFriction | None,
 ) -> Results[TaperedResults, TaperedPowerLoss]:
-    geometry, state = scene.geometry, system.at(result.point)
-    count = geometry.n_rollers
+    geometry, count = scene.geometry, scene.geometry.n_rollers
     every = lambda values: jnp.broadcast_to(values, (count,))
     motion = rolling_motion(geometry, scene.operation)
     place = system.units() * result.point.elements
