@@ -23,6 +23,7 @@ from jaxtyping import Array, Bool, Float, Int
 from .small_linear import UNROLLED_LIMIT, solve_blocks, solve_dense, with_positive_pivots
 
 System = TypeVar("System", bound="AbstractArrowSystem")
+Seen = TypeVar("Seen")
 
 
 class ArrowPoint(NamedTuple):
@@ -164,12 +165,12 @@ def shared_by_elements(point: ArrowPoint) -> Float[Array, "g element"]:
 
 
 def element_tangents(
-    element: Callable[[Array, Array], tuple[Array, Array, Array]],
+    element: Callable[[Array, Array], tuple[Array, Array, Seen]],
     unknowns: Float[Array, "m element"],
     shared: Float[Array, "g element"],
-) -> tuple[Float[Array, "row element"], Float[Array, "row m+g element"], Array]:
+) -> tuple[Float[Array, "row element"], Float[Array, "row m+g element"], Seen]:
     """Local residuals and contributions to totals of `element`, their derivatives by the element's unknowns and the
-    globals, and its third result."""
+    globals, and its third result, a pytree of arrays, which is not differentiated."""
     m, n = unknowns.shape
     width = m + shared.shape[0]
 
