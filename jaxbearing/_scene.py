@@ -12,6 +12,7 @@ from jaxtyping import Array, Bool
 
 from ._checks import Checks
 from ._derived import derived as derived
+from ._derived import derived_part as derived_part
 from ._shown import Shown
 from .numerics.checks import bounded
 from .numerics.checks import label as label
