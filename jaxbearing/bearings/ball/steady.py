@@ -14,6 +14,7 @@ from ...materials import reduced_modulus
 from ...numerics.arrow import ArrowJacobian, ArrowPoint, assembled, element_tangents, shared_by_elements
 from ...numerics.newton import NewtonOptions, NewtonResult, newton_solve
 from ..assemble import Results, assemble
+from ..computed import computed_results
 from ..facts import MEAN_OF_POINT, RACEWAYS, Contacts, Facts
 from ..interactions import Costs, Interaction, costs, of_land
 from ..land import LandState
@@ -27,7 +28,7 @@ from .equations import LubricatedBallSystem
 from .friction import SIDES, mixed_state
 from .rolling import common_orbit_torques, rolling_balance
 from .scene import BallBearing
-from .solution import BallPowerLoss, BallResults
+from .solution import BallPowerLoss, BallResults, SolvedBalls
 from .state import BallsState
 
 Balls = TypeVar("Balls", BallCore, LubricatedBallSystem)
@@ -127,7 +128,8 @@ def _ball_results(
     system: BallCore | LubricatedBallSystem,
     state: BallState | BallsState,
     contact: PointContact,
-    **more: Array | None,
+    films: BallsState | None = None,
+    **more: Any,
 ) -> tuple[BallResults, Contacts]:
     """Loads, angles and motion; and the contacts for the checks, as far as geometry goes."""
     geometry, kinematics = scene.geometry, system.kinematics
@@ -137,7 +139,8 @@ def _ball_results(
     races = (kinematics.inner_race(motion, angle[0]), kinematics.outer_race(motion, angle[1]))
     rolling = jnp.abs(kinematics.inner_speed - kinematics.outer_speed) / kinematics.ratio
     ratios = [race.spin / jnp.sqrt(jnp.square(race.roll) + jnp.square(1e-12 * rolling) + 1e-24) for race in races]
-    every = lambda values: None if values is None else _every(scene, values)
+    more |= computed_results(BallResults, SolvedBalls(system, state, films))
+    others: dict[str, Any] = {name: _every(scene, one) for name, one in more.items() if one is not None}
     elements = BallResults(
         azimuth=azimuths(geometry, geometry.n_balls),
         load_inner=_every(scene, load[0]),
@@ -149,14 +152,9 @@ def _ball_results(
         orbital_speed=_every(scene, motion.orbital_speed),
         spin_speed=_every(scene, motion.spin_speed),
         attitude_angle=_every(scene, motion.attitude),
-        raceway_control=_every(scene, kinematics.raceway_control(angle[0], angle[1], motion.attitude)),
-        control_angle_inner=_every(scene, kinematics.inner_control(angle[0])),
-        control_angle_outer=_every(scene, kinematics.outer_control(angle[1])),
-        centrifugal_force=_every(scene, system.centrifugal(motion.orbital_speed)),
-        gyroscopic_couple=_every(scene, system.couple(motion)),
         spin_to_roll_inner=_every(scene, jnp.abs(ratios[0])),
         spin_to_roll_outer=_every(scene, jnp.abs(ratios[1])),
-        **{name: every(values) for name, values in more.items()},
+        **others,
     )
     contacts = Contacts(RACEWAYS, load, pressure, MEAN_OF_POINT, angle=angle)
     return elements, _at_shoulders(scene, contacts, jnp.abs(angle), ellipse.transverse)
@@ -210,7 +208,7 @@ def _lubricated(
     if pocket is not None:
         more |= {"pocket_film_front": pocket.film_front, "pocket_film_rear": pocket.film_rear}
         more |= {"pocket_load_front": pocket.load_front, "pocket_load_rear": pocket.load_rear}
-    elements, contacts = _ball_results(scene, system, state, state.contact, **more)
+    elements, contacts = _ball_results(scene, system, state, state.contact, state, **more)
     contacts = contacts._replace(
         laws=system.laws,
         inlet=system.inlet,

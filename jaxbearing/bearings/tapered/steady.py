@@ -1,7 +1,7 @@
 """Steady state of a tapered roller bearing: from the scene to the equations, and from the root to the results."""
 
 import dataclasses
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import jax
 import jax.numpy as jnp
@@ -14,6 +14,7 @@ from ...numerics.newton import NewtonOptions, NewtonResult, newton_solve
 from ...numerics.safe import safe_norm
 from ...numerics.status import Status
 from ..assemble import Results, assemble
+from ..computed import computed_results
 from ..facts import MEAN_OF_LINE, MEAN_OF_POINT, RACEWAYS, Contacts, Facts
 from ..inlet import oil_elsewhere, oil_of, oil_of_races
 from ..interactions import costs
@@ -25,7 +26,7 @@ from ..solution import RING_FREEDOMS, BoundaryPower, FailureCause, LaminaLoads, 
 from .build import build_tapered, rolling_motion
 from .friction import TaperedFriction, tapered_friction
 from .scene import TaperedRollerBearing
-from .solution import TaperedPowerLoss, TaperedResults
+from .solution import SolvedTapered, TaperedPowerLoss, TaperedResults
 from .system import Inertia, TaperedState, TaperedSystem
 
 ROUNDED_UP = 2e-6
@@ -195,7 +196,8 @@ def _results(
     pressure = line_pressure(scene, system, state)
     modulus = reduced_modulus(scene.materials.rings, scene.materials.rollers)
     flange = geometry.flange_contact(modulus).hertz_pressure(state.flange_load)
-    more = {} if friction is None else _of_friction(friction, state)
+    more: dict[str, Any] = {} if friction is None else {**_of_friction(friction, state)}
+    more |= computed_results(TaperedResults, SolvedTapered(system, state, place, friction))
     positive = lambda values: every(jnp.where(values > 0, values, 0.0))  # and no -0.0
     elements = TaperedResults(
         azimuth=azimuths(geometry, count),
@@ -209,10 +211,7 @@ def _results(
         pressure_flange=every(jnp.where(state.flange_load > 0, flange, 0.0)),
         orbital_speed=every(motion.orbital_speed),
         spin_speed=every(motion.spin_speed),
-        roller_shift=every(place[0]),
-        roller_lift=every(place[1]),
-        roller_tilt=every(place[2]),
-        **{name: every(values) for name, values in more.items()},
+        **{name: every(values) for name, values in more.items() if values is not None},
     )
     own = LAMINAE if scene.profile is None else scene.profile.n_laminae
     rated = rated_laminae(scene.rating, own)
