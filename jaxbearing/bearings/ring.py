@@ -196,14 +196,14 @@ def held_ring(
     return InnerRing(jnp.zeros(0), held, lever, (), expansion, distance, closure, asks=True)
 
 
-def inner_ring(scene: AbstractBearing, lever: Array) -> InnerRing:
+def inner_ring(scene: AbstractBearing, lever: Array, freedoms: tuple[str, ...] | None = None) -> InnerRing:
     """The ring of a scene, under the loads of its operating point. A freedom with neither load nor displacement is held
     at 0.
 
-    **Arguments:** `lever`: see `InnerRing`, m.
+    **Arguments:** `lever`: see `InnerRing`, m; `freedoms`: the unknown ones, by default those of the scene.
     """
     operation: AbstractOperation = scene.operation
-    freedoms, lever = scene.unknown_freedoms, jnp.asarray(lever)
+    freedoms, lever = scene.unknown_freedoms if freedoms is None else freedoms, jnp.asarray(lever)
     number = lambda value: jnp.zeros(()) if value is None else jnp.asarray(value)
     levers: dict[str, Array] = dict(zip(RING_FREEDOMS, _levers(lever), strict=True))
     load = [number(operation.load(name)) / levers[name] for name in freedoms]
