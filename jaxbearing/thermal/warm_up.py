@@ -141,7 +141,7 @@ class Balance(NamedTuple):
 class Reached(NamedTuple):
     """States at the instants, not finite beyond the end; the last state and its time, s; how it ended; its steps.
 
-    `step_times`, `step_states`: ends of all steps, s, and the states there, not finite beyond the last one; `None` where
+    `step_times`, `step_states`: ends of all steps, s, and the states there, not finite beyond the last one; `None` if
     they are not asked for.
     """
 

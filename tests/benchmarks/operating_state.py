@@ -24,15 +24,14 @@ from typing import Any, NamedTuple
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "support"))
 
-import jax  # noqa: E402
-import jax.numpy as jnp  # noqa: E402
-import numpy as np  # noqa: E402
-from warm_cases import warm  # noqa: E402
+import jax
+import jax.numpy as jnp
+import numpy as np
+from warm_cases import warm
 
-import jaxbearing as jb  # noqa: E402
-from jaxbearing.bearings.mounted import running_scene  # noqa: E402
+import jaxbearing as jb
+from jaxbearing.bearings.mounted import running_scene
 
-COLD = {"temperatures": "none", "thermal": "none"}
 ROLLER_SEATS = {
     "geometry.bore": "118 mm",
     "geometry.outside_diameter": "166 mm",
@@ -180,11 +179,14 @@ def derivative() -> tuple[float, float, float, float]:
     return solved - begin, ended - solved, 1e-6 * slope, abs(differences / slope - 1.0)
 
 
+def _pair(before: float, after: float) -> str:
+    return f"{1e3 * before:8.3f} -> {1e3 * after:8.3f} ({100.0 * (after / before - 1.0):+5.1f} %)"
+
+
 def print_seats(name: str, one: Seats) -> None:
-    lane = f"{1e3 * one.running_lane:8.3f} -> {1e3 * one.seated_lane:8.3f} ({100 * (one.seated_lane / one.running_lane - 1):+5.1f} %)"
-    call = f"{1e3 * one.running:8.3f} -> {1e3 * one.seated:8.3f} ({100 * (one.seated / one.running - 1):+5.1f} %)"
+    call, lane = _pair(one.running, one.seated), _pair(one.running_lane, one.seated_lane)
     lines = f"{one.lines[1]} -> {one.lines[0]}"
-    print(f"{name:33s} | {call} | {lane} | {lines:16s} | {one.error:.1e}", flush=True)
+    print(f"{name:33s} | {call} | {lane} | {lines:14s} | {one.error:.1e}", flush=True)
 
 
 def print_temperatures(name: str, one: Warmed) -> None:
@@ -204,9 +206,8 @@ def main() -> None:
     parts = ["seats"] if arguments.quick else arguments.only.split(",")
     print(f"jax {jax.__version__}, {os.cpu_count()} cores, float64, {time.strftime('%Y-%m-%d')}")
     if "seats" in parts:
-        print(
-            f"{'seats':33s} | ms a call, running -> seated     | ms a lane                        | lines            | error"
-        )
+        columns = f"{'ms a call, running -> seated':30s} | {'ms a lane of a batch':30s} | {'lines':14s} | error"
+        print(f"{'seats':33s} | {columns}")
         for name in QUICK if arguments.quick else SEATED:
             print_seats(name, seats(name))
     if "temperatures" in parts:
@@ -215,12 +216,11 @@ def main() -> None:
             print_temperatures(name, temperatures(name))
     if "derivative" in parts:
         first, then, slope, error = derivative()
-        print(
-            f"first solve {first:.1f} s, first derivative {then:.1f} s of processor time; {slope:.4g} K/um, error {error:.1e}"
-        )
+        said = f"first solve {first:.1f} s, first derivative {then:.1f} s of processor time"
+        print(f"deep_groove_6205_mounted: {said}; {slope:.4g} K/um, error {error:.1e}")
 
 
 if __name__ == "__main__":
     with tempfile.TemporaryDirectory() as nothing:
-        os.environ.setdefault("JAXBEARING_CACHE", nothing)
+        os.environ["JAXBEARING_CACHE"] = nothing
         main()

@@ -289,11 +289,10 @@ class _Run:
         parts = [slice(first, first + PIECE) for first in range(0, times.size, PIECE)]
         seen = [self._look(times[part], nodes[part]) for part in parts]
         solved = [one.status == Status.CONVERGED for one in seen]
-        found = [
-            jax.tree.map(lambda leaf, good=good: leaf[good], one.instant)
-            for one, good in zip(seen, solved, strict=True)
-        ]
-        whole = np.concatenate([time, *(times[part][good] for part, good in zip(parts, solved, strict=True))])
+        own = [times[part][good] for part, good in zip(parts, solved, strict=True)]
+        pairs = zip(seen, solved, strict=True)
+        found = [jax.tree.map(lambda leaf, good=good: leaf[good], one.instant) for one, good in pairs]
+        whole = np.concatenate([time, *own])
         order = np.argsort(whole, kind="stable")
         joined = jax.tree.map(lambda *leaves: np.concatenate(leaves)[order], instants, *found)
         return whole[order], joined

@@ -50,8 +50,8 @@ def print_summary(history: WarmUpHistory, label: str, console: Console) -> None:
 
 
 def peak_sentence(history: WarmUpHistory, found: dict[str, Any]) -> str:
-    """Says when the play is least, the contact load largest and, if this is not at the start or the end, a node hottest,
-    and how far this is from the end of the run.
+    """Says when the play is least, the contact load largest and, if not at the start or the end, a node hottest, and
+    how far this is from the end of the run.
 
     **Arguments:** `found`: the `statistics` of the run.
     """
