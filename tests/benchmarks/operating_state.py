@@ -65,6 +65,7 @@ WARM = {
     "turbine_roller, four nodes, oil of 60 degC, rolling resistance": ("sliding roller", 4, {}),
 }
 """Name -> arguments of `warm_cases.warm`."""
+RPM = 2.0 * np.pi / 60.0
 BLOCK = 0.1
 """Processor time of a block of calls, s."""
 BLOCKS = 15
@@ -161,22 +162,21 @@ def temperatures(name: str) -> Warmed:
 
 def derivative() -> tuple[float, float, float, float]:
     """Processor time of a first solve and of a first derivative after it, s; the derivative of the temperature of the
-    inner ring by the interference of the shaft, K/um, and its relative error."""
+    inner ring by the speed of the inner ring, mK/rpm, and its relative error."""
     scene = jb.load_scene("deep_groove_6205_mounted")
 
-    def temperature(interference: Any) -> Any:
-        changed = scene.replace({"fits.shaft_interference": interference})
-        return jb.solve(changed).thermal.temperatures.inner_ring
+    def temperature(speed: Any) -> Any:
+        return jb.solve(scene.at_operation(inner_speed=speed)).thermal.temperatures.inner_ring
 
-    at = float(scene.fits.shaft_interference)
+    at = float(scene.operation.inner_speed)
     begin = time.process_time()
     jax.block_until_ready(temperature(at))
     solved = time.process_time()
     slope = float(jax.grad(temperature)(jnp.asarray(at)))
     ended = time.process_time()
-    step = 1e-8
+    step = 1e-3 * at
     differences = (float(temperature(at + step)) - float(temperature(at - step))) / (2.0 * step)
-    return solved - begin, ended - solved, 1e-6 * slope, abs(differences / slope - 1.0)
+    return solved - begin, ended - solved, 1e3 * RPM * slope, abs(differences / slope - 1.0)
 
 
 def _pair(before: float, after: float) -> str:
@@ -217,7 +217,7 @@ def main() -> None:
     if "derivative" in parts:
         first, then, slope, error = derivative()
         said = f"first solve {first:.1f} s, first derivative {then:.1f} s of processor time"
-        print(f"deep_groove_6205_mounted: {said}; {slope:.4g} K/um, error {error:.1e}")
+        print(f"deep_groove_6205_mounted: {said}; {slope:.4g} mK/rpm, error {error:.1e}")
 
 
 if __name__ == "__main__":

@@ -10,8 +10,8 @@ from ...backends.json import finite, plain
 
 
 def statistics(history: WarmUpHistory) -> dict[str, Any]:
-    """Values at the start and the end, and extremes with their times, SI; between the instants too of play, load and the
-    hottest node."""
+    """Values at the start and the end, and extremes with their times, SI; of play, load and the hottest node these are
+    also looked for between the instants."""
     instants, time = history.instants, np.asarray(history.time)
     spread = lambda values: _spread(time, values)
     found: dict[str, Any] = {
