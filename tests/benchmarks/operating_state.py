@@ -111,19 +111,17 @@ def in_turn(functions: list[Any], blocks: int = BLOCKS) -> list[float]:
     return best
 
 
-def a_lane(scene: Any, lanes: int) -> Any:
-    """A function that solves so many lanes which differ by round-off in their speed."""
-    speeds = scene.operation.inner_speed * (1.0 + 1e-15 * np.arange(lanes))
+def a_batch(scene: Any, lanes: int) -> Any:
+    """A function that solves so many equal lanes. Every number of the scene is one of the lane, so that nothing is
+    computed once for all."""
+    many = jax.tree.map(lambda leaf: jnp.broadcast_to(jnp.asarray(leaf, float), (lanes,)), scene)
 
-    @jax.jit
-    def batch(scene: Any, speeds: Any) -> Any:
-        def one(speed: Any) -> Any:
-            solution = jb.solve(scene.at_operation(inner_speed=speed), throw=False)
-            return solution.ring, solution.elements.load_inner, solution.fit, solution.status
+    def one(lane: Any) -> Any:
+        solution = jb.solve(lane, throw=False)
+        return solution.ring, solution.elements.load_inner, solution.fit, solution.status
 
-        return jax.lax.map(one, speeds)
-
-    return lambda: batch(scene, speeds)
+    batch = jax.jit(lambda many: jax.lax.map(one, many))
+    return lambda: batch(many)
 
 
 def apart(first: Any, second: Any) -> float:
@@ -144,7 +142,7 @@ def seats(name: str, lanes: int = LANES) -> Seats:
     solved = [solver() for solver in both]
     assert all(bool(one.converged) for one in solved), name
     seated, plain = in_turn(both)
-    batches = [value / lanes for value in in_turn([a_lane(one, lanes) for one in (scene, running)], 5)]
+    batches = [value / lanes for value in in_turn([a_batch(one, lanes) for one in (scene, running)], 5)]
     lines = [jb.compile_report(one, compile=False).lines for one in (scene, running)]
     return Seats(seated, plain, *batches, (lines[0], lines[1]), apart(*solved))
 
