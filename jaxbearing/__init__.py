@@ -55,6 +55,7 @@ if TYPE_CHECKING:
     from . import lubricants as lubricants
     from . import mounting as mounting
     from . import plots as plots
+    from . import shafts as shafts
     from . import sweeps as sweeps
     from . import thermal as thermal
     from .bearings.ball.geometry import BallGeometry as BallGeometry
@@ -184,8 +185,8 @@ _LAZY = {
     "trajectory": ".bearings.motion.runs",
 }
 """Public names that pull in the edge (units, validation) or are only needed by some; imported on first use."""
-_MODULES = ("catalogue", "contacts", "fitting", "gaps", "life", "lubricants", "mounting", "plots", "sweeps", "thermal")
-"""Modules that are public as such: standard bearings, the laws, the fit of an oil, sweeps, figures."""
+_MODULES = ("catalogue", "contacts", "fitting", "gaps", "life", "lubricants", "mounting", "plots", "shafts", "sweeps", "thermal")
+"""Modules that are public as such: standard bearings, the laws, the fit of an oil, shafts, sweeps, figures."""
 _AT_ONCE = ("jit_solver", "simulate", "simulate_batch", "solve", "sweep")
 
 __all__ = [*_AT_ONCE, *_LAZY, *_MODULES]  # pyright: ignore[reportUnsupportedDunderAll]

@@ -36,6 +36,8 @@ RANK = {
     "life": 6,
     # formulas of catalogues beside a solution
     "makers": 6,
+    # several bearings together: they know bearings, and no verb
+    "shafts": 6,
     "solve": 7,
     "port": 8,
     "lanes": 8,
