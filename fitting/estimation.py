@@ -15,12 +15,14 @@ from jaxtyping import Array, Bool, Float, Int
 
 from jaxbearing.programs import KeptProgram
 
+from .levenberg import minimised
 from .loss import robust
 
 METHODS = ("levenberg_marquardt", "bfgs", "gradient_descent")
 MAX_STEPS = {"levenberg_marquardt": 200, "bfgs": 500, "gradient_descent": 20_000}
-TOLERANCE = {"levenberg_marquardt": 1e-10, "bfgs": 1e-9, "gradient_descent": 1e-9}
-"""Change of parameters (in column-scaled units) and relative change of the loss at which a method ends."""
+TOLERANCE = {"bfgs": 1e-9, "gradient_descent": 1e-9}
+"""Change of parameters (in column-scaled units) and relative change of the loss at which a method ends; that of
+Levenberg and Marquardt is `levenberg.OFFSET`."""
 
 
 STATIONARY = 1e-7
@@ -93,6 +95,14 @@ def jacobian(problem: AbstractProblem, u: Float[Array, " parameter"]) -> Float[A
     return jax.jacfwd(problem.residual)(u)
 
 
+def residual_and_jacobian(
+    problem: AbstractProblem, u: Float[Array, " parameter"]
+) -> tuple[Float[Array, " point"], Float[Array, "point parameter"]]:
+    """Both from one pass of forward mode."""
+    along = lambda direction: jax.jvp(problem.residual, (u,), (direction,))
+    return jax.vmap(along, out_axes=(None, 1))(jnp.eye(u.size))
+
+
 def column_scales(problem: AbstractProblem, u: Float[Array, " parameter"]) -> Float[Array, " parameter"]:
     """Norms of the Jacobian's columns where they are not 0, else 1; of the problem as it is scaled now."""
     norms = jnp.linalg.norm(jacobian(problem, u), axis=0)
@@ -102,25 +112,18 @@ def column_scales(problem: AbstractProblem, u: Float[Array, " parameter"]) -> Fl
 def estimate(problem: AbstractProblem, u: Float[Array, " parameter"], method: str) -> Estimate:
     """One optimisation. **Arguments:** `u`: start; `method`: one of `METHODS`."""
     half_square = lambda v, p: 0.5 * jnp.sum(jnp.square(p.residual(v)))
-    tolerance = TOLERANCE[method]
     if method == "levenberg_marquardt":
-        solver: Any = optx.LevenbergMarquardt(rtol=tolerance, atol=tolerance)
-        found = optx.least_squares(
-            lambda v, p: p.residual(v),
-            solver,
-            u,
-            problem,
-            max_steps=MAX_STEPS[method],
-            throw=False,
-        )
+        end = minimised(lambda v: residual_and_jacobian(problem, v), u, MAX_STEPS[method])
+        converged = (end.converged | _stationary(problem, end.u)) & jnp.isfinite(end.loss)
+        return Estimate(end.u, end.loss, converged, end.steps)
+    tolerance = TOLERANCE[method]
+    if method == "bfgs":
+        solver: Any = optx.BFGS(rtol=tolerance, atol=tolerance)
     else:
-        if method == "bfgs":
-            solver = optx.BFGS(rtol=tolerance, atol=tolerance)
-        else:
-            columns = jacobian(problem, u)
-            steepest = jnp.linalg.eigvalsh(columns.T @ columns)[-1]
-            solver = _Descent(1.0 / jnp.where(steepest > 0, steepest, 1.0), tolerance)
-        found = optx.minimise(half_square, solver, u, problem, max_steps=MAX_STEPS[method], throw=False)
+        columns = jacobian(problem, u)
+        steepest = jnp.linalg.eigvalsh(columns.T @ columns)[-1]
+        solver = _Descent(1.0 / jnp.where(steepest > 0, steepest, 1.0), tolerance)
+    found = optx.minimise(half_square, solver, u, problem, max_steps=MAX_STEPS[method], throw=False)
     value = half_square(found.value, problem)
     # at the minimum to round-off no step is accepted any more, and the search for one goes on to its last step
     converged = (found.result == optx.RESULTS.successful) | _stationary(problem, found.value)
