@@ -15,7 +15,7 @@ from ..numerics.newton import NewtonOptions
 from ..numerics.precision import as_float
 from ..programs import KeptProgram
 from ..solve import solution_at, solve_with_roots
-from ..tolerance.results import values_of
+from ..tolerance.results import Label, values_of
 
 LANES = 16
 """Operating points that one call of the program solves; more points are more calls, of the same program."""
@@ -28,7 +28,8 @@ def at_point(
     wanted: Sequence[str],
     options: NewtonOptions,
 ) -> tuple[Float[Array, " result"], Float[Array, "field result"], Bool[Array, ""]]:
-    """Results at one operating point, their derivatives by the fields, and whether the solve converged; NaN where not.
+    """Results at one operating point, their derivatives by the fields in the order of their names, and whether the solve
+    converged; NaN where not.
 
     To be traced. Derivatives come from the roots of the solve, one field after the other in forward mode, which makes
     the smallest program (`programs.differentiated`).
@@ -41,7 +42,7 @@ def at_point(
         return jnp.stack(list(values_of(found, wanted).values()))
 
     def along(place: Array) -> Array:
-        direction = {path: jnp.where(place == i, 1.0, 0.0) for i, path in enumerate(fields)}
+        direction = {path: jnp.where(place == i, 1.0, 0.0) for i, path in enumerate(sorted(fields))}
         return jax.jvp(results, (dict(fields),), (direction,))[1]
 
     values = jnp.stack(list(values_of(solution, wanted).values()))
@@ -76,12 +77,14 @@ class Evaluator:
     **Arguments:**
     - `scene`: with what does not vary.
     - `paths`: of the fields that are calibrated and that this scene has.
-    - `wanted`: paths of the results.
+    - `labels`: of the results, by their paths.
     """
 
-    def __init__(self, scene: AbstractScene, paths: Sequence[str], wanted: Sequence[str], options: NewtonOptions):
+    def __init__(self, scene: AbstractScene, paths: Sequence[str], labels: Mapping[str, Label], options: NewtonOptions):
         self.base = jax.tree.map(as_float, scene)
-        self.paths, self.wanted, self.options = tuple(paths), tuple(wanted), options
+        # JAX sorts the entries of a mapping
+        self.paths, self.labels, self.options = tuple(sorted(paths)), dict(labels), options
+        self.wanted = tuple(labels)
 
     @rare_garbage_collection()
     def __call__(

@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from fitting.estimation import Estimate
-from fitting.holding import AbstractSearch, Held
+from fitting.holding import AbstractSearch, Held, Settled
 from fitting.levenberg import minimised_outside
 from fitting.loss import TUNING, robust_with_slope, scale_of, variance_factor
 from fitting.uncertainty import Spread, spread
@@ -262,6 +262,12 @@ class Search(AbstractSearch):
         from scipy import stats
 
         return found._replace(quantile=float(stats.norm.ppf(0.5 + 0.5 * self.options.level)))
+
+    def covariance_of(self, slopes: np.ndarray, found: Settled) -> np.ndarray:
+        """Covariance of the coordinates that values with these slopes, in standard deviations, and the priors give."""
+        _, rows = self.with_priors(np.zeros((1, len(slopes))), slopes[None], found.problem.natural(found.u)[None])
+        covariance = spread(rows[0], found.held.free, 1.0, self.options.level).covariance
+        return np.where(np.isfinite(covariance), covariance, 0.0)
 
     def undetermined(self, problem: Problem, u: Any, held: Held) -> tuple[int, str] | None:
         found = self.spread(problem, u, held.free)
