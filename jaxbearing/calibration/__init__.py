@@ -1,6 +1,9 @@
 """Calibration: fields of scenes from measurements at many operating points, with what these cannot tell."""
 
 from .data import Data as Data
+from .next_point import Candidate as Candidate
+from .next_point import next_points as next_points
+from .repetitions import repeated as repeated
 from .result import Calibration as Calibration
 from .search import Options as Options
 from .verb import calibrate as calibrate

@@ -28,8 +28,8 @@ def at_point(
     wanted: Sequence[str],
     options: NewtonOptions,
 ) -> tuple[Float[Array, " result"], Float[Array, "field result"], Bool[Array, ""]]:
-    """Results at one operating point, their derivatives by the fields in the order of their names, and whether the solve
-    converged; NaN where not.
+    """Results at one operating point, their derivatives by the fields in the order of the names of these, and whether
+    the solve converged.
 
     To be traced. Derivatives come from the roots of the solve, one field after the other in forward mode, which makes
     the smallest program (`programs.differentiated`).

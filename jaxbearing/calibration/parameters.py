@@ -11,6 +11,7 @@ import numpy as np
 from .._scene import AbstractScene
 from ..distribution import Distribution
 from ..numerics.checks import RANGES
+from ..report.labels import label_unit
 from ..scenes.inputs import owner_of
 from ..sweeps.cases import listed
 from ..sweeps.fields import label_of
@@ -29,7 +30,7 @@ class FreeField:
 
     **Arguments:**
     - `path`: dotted path in the scenes.
-    - `unit`: SI.
+    - `unit`: SI, as labels of results have it.
     - `start`: value in the first scene that has it, or the median or mean of its prior.
     - `positive`: whether its logarithm is searched.
     - `scale`: of the coordinate.
@@ -161,7 +162,8 @@ def _field(
         )
     in_scene(scene, listed({path: [start]}))
     scale = start if positive else _scale(start, prior)
-    return FreeField(path, label_of(scene, path)["units"], start, positive, scale, low, high, prior)
+    unit = label_unit(label_of(scene, path)["units"])
+    return FreeField(path, unit, start, positive, scale, low, high, prior)
 
 
 def _scale(start: float, prior: Distribution | None) -> float:

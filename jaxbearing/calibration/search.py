@@ -208,12 +208,9 @@ class Search(AbstractSearch):
         residual, slopes = self.at(problem, u)
         if self.loss != "linear":
             return scale_of(residual[used])
-        if self.options.known_errors:
-            return 1.0
         # what the priors tell leaves more of the differences to the errors
-        told = self._told(slopes[used] / problem.scale, problem.free)
-        degrees = max(float(np.sum(used)) - told, 1.0)
-        return max(float(np.sqrt(np.sum(np.square(residual[used])) / degrees)), float(np.finfo(float).tiny) ** 0.25)
+        variance = self.variance_of(residual[used], slopes[used], problem.scale, problem.free)
+        return max(float(np.sqrt(variance)), float(np.finfo(float).tiny) ** 0.25)
 
     def _told(self, slopes: np.ndarray, free: np.ndarray) -> float:
         """Number of parameters that the data tell, of those that data and priors tell together."""
@@ -241,13 +238,19 @@ class Search(AbstractSearch):
 
     def variance(self, problem: Problem, u: Any, free: np.ndarray) -> float:
         """Variance of the errors over the squares of the deviations."""
-        if self.options.known_errors and self.loss == "linear":
+        residual, slopes = self.at(problem, u)
+        used = problem.weight > 0
+        return self.variance_of(residual[used], slopes[used], problem.scale, free)
+
+    def variance_of(self, residual: np.ndarray, slopes: np.ndarray, scale: float, free: np.ndarray) -> float:
+        """The same, from differences over the deviations and their slopes."""
+        if self.loss != "linear":
+            size = scale * self.bend
+            return variance_factor(residual / size, self.loss, int(np.sum(free))) * size**2
+        if self.options.known_errors:
             return 1.0
-        residual, _ = self.at(problem, u)
-        if self.loss == "linear" and self.scale_matters:
-            return self.renewed_scale(problem, u) ** 2
-        size = problem.scale * self.bend
-        return variance_factor(residual[problem.weight > 0] / size, self.loss, int(np.sum(free))) * size**2
+        degrees = max(len(residual) - self._told(slopes / scale, free), 1.0)
+        return float(np.sum(np.square(residual)) / degrees)
 
     def spread(self, problem: Problem, u: Any, free: np.ndarray) -> Spread:
         """Uncertainty of the free fields: the priors count as measurements of the fields themselves."""
@@ -257,11 +260,15 @@ class Search(AbstractSearch):
         coordinates = problem.natural(u)[None]
         _, rows = self.with_priors(np.zeros((1, int(np.sum(used)))), jacobian[used][None] / size, coordinates)
         found = spread(rows[0], free, 1.0, self.options.level)
-        if not self.options.known_errors:
-            return found
+        return found._replace(quantile=self.quantile(found))
+
+    def quantile(self, found: Spread) -> float:
+        """Half-width of an interval in standard errors: that of the normal distribution where the errors are known."""
+        if not self.options.known_errors or self.loss != "linear":
+            return found.quantile
         from scipy import stats
 
-        return found._replace(quantile=float(stats.norm.ppf(0.5 + 0.5 * self.options.level)))
+        return float(stats.norm.ppf(0.5 + 0.5 * self.options.level))
 
     def covariance_of(self, slopes: np.ndarray, found: Settled) -> np.ndarray:
         """Covariance of the coordinates that values with these slopes, in standard deviations, and the priors give."""

@@ -19,10 +19,11 @@ from ..numerics.precision import as_float, require_x64
 from ..solve import require_solvable, solve
 from ..sweeps.cases import listed
 from ..sweeps.recipe import in_scene
-from ..tolerance.results import Label, labels_of, names_in
+from ..tolerance.results import Label
 from .data import Data
 from .evaluation import Evaluator
 from .held_back import held_back_of
+from .labels import labels_in
 from .parameters import FreeField, free_fields, scenes_with
 from .result import Calibration, Misfit
 from .search import Options, Search
@@ -133,17 +134,7 @@ def _search(
 def _resolved(scene: AbstractScene, data: Data, newton: NewtonOptions) -> tuple[dict[str, Label], Data]:
     """Labels of the measured results by their paths, and the data by these. **Raises:** `ValueError` for a name that is
     no result."""
-    found: dict[str, tuple[str, Label]] = {}
-
-    def results(scene: AbstractScene) -> Any:
-        solution = solve(scene, throw=False, options=newton)
-        for name in data.measured:
-            (path,) = names_in(solution, [name])
-            found[name] = path, labels_of(solution, [path])[path]
-        return solution.converged
-
-    # names are looked up while the solve is traced, which compiles nothing
-    jax.eval_shape(results, scene)
+    found = labels_in(scene, list(data.measured), newton)
     labels = dict(found.values())
     if len(labels) < len(found):
         raise ValueError(f"measured: found one result twice in {', '.join(found)}; expected each once")
