@@ -13,6 +13,8 @@ from rich.table import Table
 from ..report.backends.json import finite
 from ..report.backends.screen import counted, headline, print_failure, print_line, print_rule, print_warnings
 from ..report.display import digits, displayed, with_unit
+from ..report.labels import label_unit
+from ..sweeps.fields import label_of
 from .next_point import Candidate
 from .result import Calibration
 
@@ -47,7 +49,7 @@ def print_calibration(
     console.print(Padding(_misfits(found), (0, 1)))
     if found.held_back is not None:
         one = found.held_back
-        text = f"{100.0 * one.relative:.3g} % rms of {counted(len(one.place), 'value')} that were not fitted; "
+        text = f"{counted(len(one.place), 'value')} predicted without a fit to it, {100.0 * one.relative:.3g} % rms; "
         print_line("held back", f"{text}{100.0 * one.inside:.0f} % inside their intervals", console)
     for text in _together(found):
         print_line("correlation", text, console)
@@ -107,12 +109,15 @@ def _together(found: Calibration) -> Iterable[str]:
 
 def _ranked(found: Calibration, ranked: Sequence[Candidate]) -> Table:
     paths = list(ranked[0].conditions)
-    table = _table("candidate", *paths, "information, nats", *(f"std. error of {path}" for path in found.fitted))
+    last = lambda path: path.rpartition(".")[2]
+    table = _table("candidate", *map(last, paths), "information", *(f"error of {last(path)}" for path in found.fitted))
+    unit_of = {path: label_unit(label_of(found.scenes[0], path)["units"]) for path in paths}
     units = {field.path: field.unit for field in found.fields}
     for one in ranked[:CANDIDATES]:
         told = "no solution" if not math.isfinite(one.information) else f"{one.information:.3f}"
         errors = ["" if not math.isfinite(one.information) else _error(one, p, units[p]) for p in found.fitted]
-        table.add_row(str(one.place + 1), *(digits(one.conditions[path]) for path in paths), told, *errors)
+        values = (with_unit(one.conditions[path], unit_of[path]) for path in paths)
+        table.add_row(str(one.place + 1), *values, told, *errors)
     return table
 
 

@@ -135,4 +135,4 @@ def _check_plain(given: Given) -> None:
                     "--free", path, "no value in the scene", "a number to start from (--set), or a --prior"
                 )
             start = given.priors[path].nominal if path in given.priors else float(value)
-            require_plain(source, {path: np.array([start, start * 1.001, start * 0.999])}, "--free")
+            require_plain(source, {path: np.array([start, start * 1.001, start * 0.999])}, "--free", in_file=False)

@@ -85,14 +85,20 @@ def read_data(
     return data, [f"column '{name}' of {table.file} is ignored" for name in ignored if name]
 
 
-def require_plain(source: SceneSource, columns: dict[str, np.ndarray], where: str) -> None:
-    """**Raises:** `SceneError` for a field that the scene does not hold as the file has it."""
+def require_plain(source: SceneSource, columns: dict[str, np.ndarray], where: str, in_file: bool = True) -> None:
+    """Checks that the scene holds fields as its file has them. **Raises:** `SceneError`.
+
+    **Arguments:** `in_file`: whether the file must be able to hold the field; it cannot where a name, as that of a
+    material, stands for its table, while the scene has the number all the same.
+    """
     for path, values in columns.items():
         field = source.field(path, where)
         try:
             plain = isinstance(source.recipe(listed({path: values}), {path: field}), Direct)
         except SceneError:
-            raise
+            if in_file:
+                raise
+            continue
         except ValueError as error:
             raise SceneError(where, path, "a field that cannot vary", str(error)) from None
         if not plain:
