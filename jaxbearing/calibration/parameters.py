@@ -6,7 +6,9 @@ import math
 from collections.abc import Mapping, Sequence
 from typing import Any
 
+import jax.numpy as jnp
 import numpy as np
+from jaxtyping import Array
 
 from .._scene import AbstractScene
 from ..distribution import Distribution
@@ -56,6 +58,16 @@ class FreeField:
     def slope(self, coordinate: Any) -> Any:
         """d value / d coordinate."""
         return self.value(coordinate) if self.positive else np.full(np.shape(coordinate), self.scale)
+
+    def traced(self, coordinate: Array) -> Array:
+        """`value` of a traced coordinate."""
+        if self.positive:
+            return self.scale * jnp.exp(jnp.clip(coordinate, -LARGEST_LOG, LARGEST_LOG))
+        return self.start + self.scale * coordinate
+
+    def traced_slope(self, coordinate: Array) -> Array:
+        """`slope` of a traced coordinate."""
+        return self.traced(coordinate) if self.positive else jnp.full_like(coordinate, self.scale)
 
     def coordinate(self, value: float) -> float:
         """Coordinate of a value; infinite for the bounds that are not there, and for 0 of a positive number."""
