@@ -138,8 +138,8 @@ class Posterior:
         """How the samples were drawn."""
         one = self.sampling
         return (
-            f"No-U-Turn, {one.chains} chains of {one.samples} samples after {one.warmup} of adaptation, seed {one.seed}; "
-            f"{self.steps:.1f} evaluations each, {self.divergences} divergences"
+            f"No-U-Turn, {one.chains} chains of {one.samples} samples after {one.warmup} of adaptation "
+            f"(seed {one.seed}), {self.steps:.1f} evaluations each, {self.divergences} divergences"
         )
 
     def to_dict(self) -> dict[str, Any]:
@@ -185,7 +185,9 @@ def sampled(target: Target, sampling: Sampling, level: float) -> Posterior:
     starts = SPREAD * np.random.default_rng(sampling.seed).normal(size=(sampling.chains, size))
     starts[:, : len(target.names)] = _inside(target, root, starts[:, : len(target.names)])
     key = jax.random.PRNGKey(sampling.seed)
-    mcmc.run(key, init_params=jnp.asarray(starts), extra_fields=("diverging", "num_steps"))
+    # NumPyro leaves types and shapes to JAX's own rules, which a user may have made stricter
+    with jax.numpy_dtype_promotion("standard"), jax.numpy_rank_promotion("allow"):
+        mcmc.run(key, init_params=jnp.asarray(starts), extra_fields=("diverging", "num_steps"))
     drawn = np.asarray(mcmc.get_samples(group_by_chain=True))
     fields = {name: np.asarray(value) for name, value in mcmc.get_extra_fields(group_by_chain=True).items()}
     coordinates = target.centre + drawn[..., : len(target.names)] @ root.T

@@ -28,9 +28,19 @@ def line(known=False, prior=(np.inf, np.inf), curvature=0.0):
     covariance = scale**2 * np.linalg.inv(MATRIX.T @ MATRIX)
     free = np.full(2, np.inf)
     return Target(
-        ("level", "slope"), evaluate, centre, covariance, scale, known, COUNT, np.zeros(2), np.array(prior), -free, free,
-        np.asarray,
-    )  # fmt: skip
+        names=("level", "slope"),
+        evaluate=evaluate,
+        centre=centre,
+        covariance=covariance,
+        scale=scale,
+        known=known,
+        count=COUNT,
+        prior_mean=np.zeros(2),
+        prior_deviation=np.array(prior),
+        low=-free,
+        high=free,
+        values=np.asarray,
+    )
 
 
 def test_the_gradient_is_that_of_the_potential():
