@@ -9,9 +9,18 @@ import typer
 from .messages import NOT_CONVERGED, bad_input, refuse
 from .options import JsonOption, SceneArgument, SetOption, labelled
 from .output_files import PICTURES, Output, check_files, deliver
+from .posterior_options import (
+    PlotPosteriorOption,
+    PosteriorOption,
+    SamplesOption,
+    sampling_of,
+    write_posterior,
+)
 from .terminal import console
 
 if TYPE_CHECKING:
+    from fitting.posterior import Posterior
+
     from ..calibration import Calibration
     from ..calibration.next_point import Candidate
     from ..calibration.sources import Given
@@ -93,9 +102,12 @@ def calibrate(
     starts: StartsOption = 1,
     folds: FoldsOption = 0,
     candidates: NextOption = None,
+    posterior: PosteriorOption = False,
+    samples: SamplesOption = 1000,
     as_json: JsonOption = False,
     out: OutOption = None,
     plot: PlotOption = None,
+    plot_posterior: PlotPosteriorOption = None,
 ) -> None:
     """Any numbers of a scene from measured torque, power, temperature, speed or displacement at many operating points:
     values, intervals, and which of them the measurements cannot tell."""
@@ -119,7 +131,9 @@ def calibrate(
         further = [_rig(text) for text in rigs or []]
         given = given_of([(scene, data), *further], split_assignments(changes or []), free, priors or [], bounds or [])
         wanted = None if candidates is None else read_candidates(candidates, given.sources[0])
-        check_files((("--plot", plot, PICTURES), ("--out", out, (".toml",))))
+        sampling = sampling_of(posterior, samples, plot_posterior)
+        pictures = ("--plot", plot, PICTURES), ("--plot-posterior", plot_posterior, PICTURES)
+        check_files((*pictures, ("--out", out, (".toml",))))
 
     from .cache import enable_compilation_cache
     from .quiet import without_false_alarms
@@ -128,12 +142,15 @@ def calibrate(
     enable_compilation_cache()
     with without_false_alarms():
         found, ranked = _calibrated(given, options, folds, wanted, label, as_json)
+        drawn = _sampled(found, sampling)
         wrote = "" if as_json else f"wrote {out}: the scene with the calibrated values"
         outputs = (
             Output(out, lambda path: _write_scene(found, path), wrote),
             Output(plot, lambda path: _write_plot(found, label, path), long=True),
+            Output(plot_posterior, lambda path: _write_posterior(found, drawn, label, path), long=True),
         )
-        deliver(lambda: _print(found, label, given.notes, ranked, as_json), outputs if found.converged else ())
+        show = lambda: _print(found, label, given.notes, ranked, drawn, as_json)
+        deliver(show, outputs if found.converged else ())
     if not found.converged:
         if as_json:
             typer.echo(f"not converged: {label}: {found.failure()}", err=True)
@@ -184,6 +201,22 @@ def _calibrated(
     return found, ranked
 
 
+def _sampled(found: "Calibration", sampling: Any) -> "Posterior | None":
+    """The posterior that is asked for, of a calibration that converged; ends the command where it cannot be."""
+    from ..calibration.posterior import posterior_of
+
+    if sampling is None or not found.converged:
+        return None
+    try:
+        return posterior_of(found, sampling)
+    except ValueError as error:
+        refuse(f"--{error}")
+
+
+def _write_posterior(found: "Calibration", drawn: Any, label: str, path: Path) -> None:
+    write_posterior(drawn, {field.path: field.unit for field in found.fields}, label, path)
+
+
 def _write_scene(found: "Calibration", out: Path) -> None:
     from ..scenes.save import save_scene
 
@@ -201,9 +234,9 @@ def _print(found: "Calibration", label: str, notes: list[str], ranked: "tuple[Ca
     from ..calibration.report import calibration_to_dict, print_calibration
 
     if as_json:
-        typer.echo(json.dumps(calibration_to_dict(found, notes, ranked), allow_nan=False))
+        typer.echo(json.dumps(calibration_to_dict(found, notes, ranked, drawn), allow_nan=False))
     else:
-        print_calibration(found, label, notes, ranked, None, console())
+        print_calibration(found, label, notes, ranked, drawn, console())
 
 
 def _print_failure(failure: str, status: str, label: str, as_json: bool) -> None:
