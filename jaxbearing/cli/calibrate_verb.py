@@ -230,7 +230,14 @@ def _write_plot(found: "Calibration", label: str, plot: Path) -> None:
     save_plot(draw(found, title=label), plot)
 
 
-def _print(found: "Calibration", label: str, notes: list[str], ranked: "tuple[Candidate, ...]", as_json: bool) -> None:
+def _print(
+    found: "Calibration",
+    label: str,
+    notes: list[str],
+    ranked: "tuple[Candidate, ...]",
+    drawn: "Posterior | None",
+    as_json: bool,
+) -> None:
     from ..calibration.report import calibration_to_dict, print_calibration
 
     if as_json:
