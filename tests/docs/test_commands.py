@@ -12,6 +12,7 @@ import sys
 from pathlib import Path
 
 import fit_results
+import jax
 import jax.numpy as jnp
 import pytest
 from filled_results import MadeUpProgram, history_of, slopes_of, solution_of
@@ -78,13 +79,17 @@ def test_commands_are_found():
 @pytest.fixture
 def folder(tmp_path, monkeypatch):
     """Where a reader works, with the files that the pages show or describe."""
-    fitting, life, spectrum = (ROOT / "docs" / f"{name}.md" for name in ("fitting", "life", "spectrum"))
+    names = ("fitting", "life", "spectrum", "calibration")
+    fitting, life, spectrum, calibration = (ROOT / "docs" / f"{name}.md" for name in names)
+    (displacements,) = re.findall(r"```csv\n(.*?)```", calibration.read_text(encoding="utf-8"), flags=re.DOTALL)
     (curves,) = re.findall(r"```csv\n(.*?)```", fitting.read_text(encoding="utf-8"), flags=re.DOTALL)
     (scene,) = re.findall(r"```toml\n(.*?)```", life.read_text(encoding="utf-8"), flags=re.DOTALL)
     (duty,) = re.findall(r"```toml\n(.*?)```", spectrum.read_text(encoding="utf-8"), flags=re.DOTALL)
     files = {
         "duty.toml": duty,
         "curves.csv": curves,
+        "displacements.csv": displacements,
+        "candidates.csv": "operation.radial_load [kN]\n0.1\n1\n8\n",
         "misaligned.toml": scene,
         "cases.csv": "operation.inner_speed [rpm],operation.radial_load [kN]\n8000,20\n10000,25\n",
         "run_up.csv": "time [ms],speed [rpm]\n0,8000\n10,9000\n50,10500\n",
@@ -102,6 +107,20 @@ def one_process(monkeypatch):
     few = lambda plan, *given, **more: run(dataclasses.replace(plan, cases=_few(plan.cases)), *given, **more)
     monkeypatch.setattr(engine, "run", few)
     monkeypatch.setattr("jaxbearing.sweeps.verb.on_workers", lambda *_: engine.in_process())
+
+
+def measured_values(base, conditions, fields, active, wanted, options):
+    """Results that rise with everything, and their slopes."""
+    columns = [*conditions.values(), *(fields[path] for path in sorted(fields))]
+    logs = jnp.log(jnp.abs(jnp.stack(columns)) + 1e-12)
+    power = jnp.linspace(0.4, 0.9, len(columns))
+    value = 1e-4 * jnp.exp(power @ (logs - logs[:, :1])) + 1e-5 * power @ logs
+    slope = jax.vmap(
+        jax.grad(lambda logs, first: 1e-4 * jnp.exp(power @ (logs - first)) + 1e-5 * power @ logs), (1, None)
+    )(logs, logs[:, 0])[:, len(conditions) :]
+    own = jnp.stack([fields[path] for path in sorted(fields)], axis=1)
+    rows = jnp.stack([value] * len(wanted), axis=1)
+    return rows, jnp.stack([slope / own] * len(wanted), axis=2), active
 
 
 def _few(cases):
@@ -133,6 +152,7 @@ def made_up(monkeypatch, one_process):
     monkeypatch.setattr("jaxbearing.tolerance.verb.slopes_at", slopes_of)
     fit = lambda measurements, machine, options: fit_results.made_up(machine, "curves.csv")
     monkeypatch.setattr(sys.modules["fitting.fit"], "fit", fit)
+    monkeypatch.setattr("jaxbearing.calibration.evaluation._kept_points", measured_values)
 
 
 @pytest.fixture
