@@ -197,7 +197,7 @@ def _begun_lanes(
     jacobian: Float[Array, "lane point parameter"],
     offset: Float[Array, ""],
 ) -> tuple[State, Step]:
-    state = jax.vmap(lambda *one: begun(*one, offset))(u, residual, jacobian)
+    state = jax.vmap(begun, in_axes=(0, 0, 0, None))(u, residual, jacobian, offset)
     return state, jax.vmap(trial)(state)
 
 
@@ -208,7 +208,7 @@ def _judged_lanes(
     jacobian: Float[Array, "lane point parameter"],
     offset: Float[Array, ""],
 ) -> tuple[State, Step]:
-    state = jax.vmap(lambda *one: judged(*one, offset))(state, step, residual, jacobian)
+    state = jax.vmap(judged, in_axes=(0, 0, 0, 0, None))(state, step, residual, jacobian, offset)
     return state, jax.vmap(trial)(state)
 
 

@@ -169,7 +169,7 @@ def sampled(target: Target, sampling: Sampling, level: float) -> Posterior:
     sampling.check()
     if not available():
         raise PosteriorUnavailableError(MISSING)
-    from numpyro.infer import MCMC, NUTS
+    from numpyro.infer import MCMC, NUTS  # pyright: ignore[reportMissingImports]
 
     root = np.linalg.cholesky(target.covariance)
     potential = potential_of(target, jnp.asarray(root))
@@ -245,7 +245,7 @@ def _inside(target: Target, root: np.ndarray, starts: np.ndarray) -> np.ndarray:
 
 
 def _marginal(values: np.ndarray, coordinates: np.ndarray, level: float) -> Marginal:
-    from numpyro.diagnostics import effective_sample_size, split_gelman_rubin
+    from numpyro.diagnostics import effective_sample_size, split_gelman_rubin  # pyright: ignore[reportMissingImports]
 
     lower, median, upper = np.quantile(values, (0.5 - 0.5 * level, 0.5, 0.5 + 0.5 * level))
     return Marginal(

@@ -7,7 +7,6 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from fitting.estimation import Estimate
 from fitting.holding import AbstractSearch, Held, Settled
 from fitting.levenberg import minimised_outside
 from fitting.loss import TUNING, robust_with_slope, scale_of, variance_factor
@@ -70,6 +69,15 @@ class Problem(NamedTuple):
         return self.base + np.where(self.free, np.asarray(u), 0.0)
 
 
+class Estimates(NamedTuple):
+    """Ends of several searches: unknowns, half the sums of squares, which converged, evaluations; lanes in front."""
+
+    u: np.ndarray
+    loss: np.ndarray
+    converged: np.ndarray
+    steps: np.ndarray
+
+
 class Search(AbstractSearch):
     """One calibration at work.
 
@@ -122,7 +130,7 @@ class Search(AbstractSearch):
             found[:, mine] = results[:, point, column]
             part = derived[:, point, :, column]
             # an advanced index on both sides of a slice comes first
-            slopes[np.ix_(np.arange(lanes), mine, own)] = np.moveaxis(part, 0, 1) * chain[:, None, own]
+            slopes[np.ix_(np.arange(lanes), mine, np.array(own))] = np.moveaxis(part, 0, 1) * chain[:, None, own]
         return found, slopes
 
     def residuals(
@@ -163,14 +171,14 @@ class Search(AbstractSearch):
 
     def lanes(
         self, problem: Problem, starts: np.ndarray, weight: np.ndarray | None = None, measured: np.ndarray | None = None
-    ) -> Estimate:
+    ) -> Estimates:
         """Searches from several starts, or with weights or measured values of each lane's own."""
         lanes = len(starts)
         full = lambda own, usual: np.broadcast_to(usual, (lanes, len(self.observed))) if own is None else own
         weights, values = full(weight, problem.weight), full(measured, self.observed.value)
         evaluate = lambda u, active: self.residuals(problem, u, active, weights, values)
         end = minimised_outside(evaluate, starts, MOST_EVALUATIONS, OFFSET)
-        return Estimate(*(np.asarray(one) for one in (end.u, end.loss, end.converged, end.steps)))
+        return Estimates(*(np.asarray(one) for one in (end.u, end.loss, end.converged, end.steps)))
 
     def problem(self, free: np.ndarray, pinned: Any, base: np.ndarray | None = None) -> Problem:
         start = np.array([field.coordinate(field.start) for field in self.fields])
@@ -188,19 +196,20 @@ class Search(AbstractSearch):
         low, high = self.limits
         return np.clip(found, low - problem.base, high - problem.base)
 
-    def optimised(self, problem: Problem, starts: np.ndarray) -> tuple[Problem, Estimate, np.ndarray]:
-        rounds = ROUNDS if self.scale_matters else 1
-        for _ in range(rounds):
-            found = self.lanes(problem, starts)
-            u = found.u[int(np.nanargmin(np.where(np.isfinite(found.loss), found.loss, np.inf)))]
-            if rounds == 1:
-                break
+    def optimised(self, problem: Problem, starts: np.ndarray) -> tuple[Problem, Estimates, np.ndarray]:
+        found, u = self.best(problem, starts)
+        for _ in range(ROUNDS if self.scale_matters else 0):
             before, self.scale = self.scale, self.renewed_scale(problem, u)
             problem = problem._replace(scale=self.scale)
             if abs(self.scale / before - 1.0) <= SAME_SCALE:
                 break
-            starts = np.tile(u, (len(starts), 1))
+            found, u = self.best(problem, np.tile(u, (len(starts), 1)))
         return problem, found, u
+
+    def best(self, problem: Problem, starts: np.ndarray) -> tuple[Estimates, np.ndarray]:
+        """All searches, and the unknowns of the best."""
+        found = self.lanes(problem, starts)
+        return found, found.u[int(np.argmin(np.where(np.isfinite(found.loss), found.loss, np.inf)))]
 
     def renewed_scale(self, problem: Problem, u: np.ndarray) -> float:
         """Size of the errors over the deviations, from the differences."""

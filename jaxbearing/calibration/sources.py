@@ -130,9 +130,11 @@ def _check_plain(given: Given) -> None:
             value: Any = scene
             for name in path.split("."):
                 value = getattr(value, name, None)
-            if value is None and path not in given.priors:
+            if path in given.priors:
+                value = given.priors[path].nominal
+            if value is None:
                 raise SceneError(
                     "--free", path, "no value in the scene", "a number to start from (--set), or a --prior"
                 )
-            start = given.priors[path].nominal if path in given.priors else float(value)
+            start = float(value)
             require_plain(source, {path: np.array([start, start * 1.001, start * 0.999])}, "--free", in_file=False)

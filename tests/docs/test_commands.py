@@ -5,6 +5,7 @@ screen. The slow test has the solvers too; it shortens runs in time and sweeps.
 """
 
 import dataclasses
+import functools
 import json
 import re
 import shlex
@@ -110,17 +111,18 @@ def one_process(monkeypatch):
 
 
 def measured_values(base, conditions, fields, active, wanted, options):
-    """Results that rise with everything, and their slopes."""
-    columns = [*conditions.values(), *(fields[path] for path in sorted(fields))]
-    logs = jnp.log(jnp.abs(jnp.stack(columns)) + 1e-12)
-    power = jnp.linspace(0.4, 0.9, len(columns))
-    value = 1e-4 * jnp.exp(power @ (logs - logs[:, :1])) + 1e-5 * power @ logs
-    slope = jax.vmap(
-        jax.grad(lambda logs, first: 1e-4 * jnp.exp(power @ (logs - first)) + 1e-5 * power @ logs), (1, None)
-    )(logs, logs[:, 0])[:, len(conditions) :]
-    own = jnp.stack([fields[path] for path in sorted(fields)], axis=1)
-    rows = jnp.stack([value] * len(wanted), axis=1)
-    return rows, jnp.stack([slope / own] * len(wanted), axis=2), active
+    """Results that each field changes in its own way, and their slopes."""
+    paths = sorted(fields)
+    start = jnp.stack([functools.reduce(getattr, path.split("."), base) for path in paths])
+    given = jnp.stack([fields[path] for path in paths], axis=1)
+    load = sum(values / 4e3 for values in conditions.values())
+
+    def one(values, load):
+        shares = 0.3 + 0.4 * jnp.arange(float(len(paths))) * load
+        return 2e-5 * (1.0 + load + shares @ jnp.log(values / start)) * jnp.ones(len(wanted))
+
+    slopes = jnp.swapaxes(jax.vmap(jax.jacfwd(one))(given, load), 1, 2)
+    return jax.vmap(one)(given, load), slopes, active
 
 
 def _few(cases):
