@@ -1,5 +1,5 @@
-"""What a calibrated scene predicts: results of another operating point, or of another bearing with the same fields, with
-the interval that the calibration leaves."""
+"""What a calibrated scene predicts: results of another operating point, or of another bearing with the same fields,
+with the interval that the calibration leaves."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass

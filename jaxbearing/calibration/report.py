@@ -1,7 +1,8 @@
 """A calibration on the screen and as JSON."""
 
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import asdict
 from typing import Any
 
 import numpy as np
@@ -16,6 +17,7 @@ from ..report.display import digits, displayed, with_unit
 from ..report.labels import label_unit
 from ..sweeps.fields import label_of
 from .next_point import Candidate
+from .prediction import Predicted
 from .result import Calibration
 
 CANDIDATES = 10
@@ -30,12 +32,13 @@ def print_calibration(
     notes: Iterable[str],
     ranked: Sequence[Candidate],
     posterior: Any,
+    predicted: Mapping[str, Predicted],
     console: Console,
 ) -> None:
     """Print a calibration; where it failed, why and no result.
 
     **Arguments:** `label`: names of scenes and files; `notes`: of these; `ranked`: candidates; `posterior`: samples, or
-    `None`.
+    `None`; `predicted`: results of other scenes.
     """
     if not found.converged:
         print_failure(label, "not converged", found.failure(), console)
@@ -57,6 +60,9 @@ def print_calibration(
         print_rule("Posterior", console)
         console.print(Padding(_posterior(found, posterior), (0, 1)))
         print_line("sampler", posterior.in_words(), console)
+    if predicted:
+        print_rule("Predictions with these fields", console)
+        console.print(Padding(_predictions(predicted), (0, 1)))
     if ranked:
         print_rule("Next operating point, the one that tells most first", console)
         console.print(Padding(_ranked(found, ranked), (0, 1)))
@@ -107,6 +113,14 @@ def _together(found: Calibration) -> Iterable[str]:
                 yield f"{found.fitted[j]} and {first}: {value:.2f}"
 
 
+def _predictions(predicted: Mapping[str, Predicted]) -> Table:
+    table = _table("", "value", "interval", "interval by the priors alone")
+    ends = lambda one: f"{digits(displayed(one.lower, one.unit))} to {with_unit(one.upper, one.unit)}"
+    for name, one in predicted.items():
+        table.add_row(name, with_unit(one.value, one.unit), ends(one), "" if one.before is None else ends(one.before))
+    return table
+
+
 def _ranked(found: Calibration, ranked: Sequence[Candidate]) -> Table:
     paths = list(ranked[0].conditions)
     last = lambda path: path.rpartition(".")[2]
@@ -136,7 +150,11 @@ def _posterior(found: Calibration, posterior: Any) -> Table:
 
 
 def calibration_to_dict(
-    found: Calibration, notes: Iterable[str], ranked: Sequence[Candidate] = (), posterior: Any = None
+    found: Calibration,
+    notes: Iterable[str],
+    ranked: Sequence[Candidate] = (),
+    posterior: Any = None,
+    predicted: Mapping[str, Predicted] = {},
 ) -> dict[str, Any]:
     """All numbers in SI units; those that are not finite are `None`."""
     parameters = {path: one._asdict() for path, one in found.parameters.items()}
@@ -163,6 +181,7 @@ def calibration_to_dict(
             )
         ],
         "held_back": None,
+        "predictions": {name: asdict(one) for name, one in predicted.items()},
         "next": [one.__dict__ for one in ranked],
         "posterior": None if posterior is None else posterior.to_dict(),
         "warnings": [*found.notes, *([] if posterior is None else posterior.warnings), *notes],

@@ -23,6 +23,7 @@ if TYPE_CHECKING:
 
     from ..calibration import Calibration
     from ..calibration.next_point import Candidate
+    from ..calibration.prediction import Predicted
     from ..calibration.sources import Given
 
 DataArgument = Annotated[
@@ -77,6 +78,15 @@ NextOption = Annotated[
         help="Operating points of the first rig that could be measured next: which of them tells most?",
     ),
 ]
+PredictOption = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--predict",
+        metavar="SCENE=RESULT",
+        help="A result of another scene with the calibrated fields, with its interval: turbine_roller="
+        "power_loss.total. Repeatable.",
+    ),
+]
 OutOption = Annotated[
     Path | None,
     typer.Option("--out", metavar="FILE.toml", help="Write the first scene with the calibrated values."),
@@ -102,6 +112,7 @@ def calibrate(
     starts: StartsOption = 1,
     folds: FoldsOption = 0,
     candidates: NextOption = None,
+    predictions: PredictOption = None,
     posterior: PosteriorOption = False,
     samples: SamplesOption = 1000,
     as_json: JsonOption = False,
@@ -131,6 +142,7 @@ def calibrate(
         further = [_rig(text) for text in rigs or []]
         given = given_of([(scene, data), *further], split_assignments(changes or []), free, priors or [], bounds or [])
         wanted = None if candidates is None else read_candidates(candidates, given.sources[0])
+        others = [_prediction(text) for text in predictions or []]
         sampling = sampling_of(posterior, samples, plot_posterior)
         pictures = ("--plot", plot, PICTURES), ("--plot-posterior", plot_posterior, PICTURES)
         check_files((*pictures, ("--out", out, (".toml",))))
@@ -142,14 +154,14 @@ def calibrate(
     enable_compilation_cache()
     with without_false_alarms():
         found, ranked = _calibrated(given, options, folds, wanted, label, as_json)
-        drawn = _sampled(found, sampling)
+        drawn, predicted = _sampled(found, sampling), _predicted(found, others)
         wrote = "" if as_json else f"wrote {out}: the scene with the calibrated values"
         outputs = (
             Output(out, lambda path: _write_scene(found, path), wrote),
             Output(plot, lambda path: _write_plot(found, label, path), long=True),
             Output(plot_posterior, lambda path: _write_posterior(found, drawn, label, path), long=True),
         )
-        show = lambda: _print(found, label, given.notes, ranked, drawn, as_json)
+        show = lambda: _print(found, label, given.notes, ranked, drawn, predicted, as_json)
         deliver(show, outputs if found.converged else ())
     if not found.converged:
         if as_json:
@@ -213,6 +225,31 @@ def _sampled(found: "Calibration", sampling: Any) -> "Posterior | None":
         refuse(f"--{error}")
 
 
+def _prediction(text: str) -> tuple[str, Any, str]:
+    """Label, scene and result of a text SCENE=RESULT."""
+    from ..scenes.reader import load_scene
+
+    scene, equals, result = text.partition("=")
+    if not (equals and scene.strip() and result.strip()):
+        refuse(f"--predict: found '{text}'; expected SCENE=RESULT, e.g. turbine_roller=power_loss.total")
+    return text, load_scene(scene.strip()), result.strip()
+
+
+def _predicted(found: "Calibration", others: list[tuple[str, Any, str]]) -> "dict[str, Predicted]":
+    """Results of other scenes, of a calibration that converged; ends the command where there are none."""
+    from ..calibration.prediction import predict
+
+    if not found.converged:
+        return {}
+    predicted = {}
+    for text, scene, result in others:
+        try:
+            (predicted[text],) = predict(found, scene, [result]).values()
+        except ValueError as error:
+            refuse(f"--predict: {text}: {error}")
+    return predicted
+
+
 def _write_posterior(found: "Calibration", drawn: Any, label: str, path: Path) -> None:
     write_posterior(drawn, {field.path: field.unit for field in found.fields}, label, path)
 
@@ -236,14 +273,15 @@ def _print(
     notes: list[str],
     ranked: "tuple[Candidate, ...]",
     drawn: "Posterior | None",
+    predicted: "dict[str, Predicted]",
     as_json: bool,
 ) -> None:
     from ..calibration.report import calibration_to_dict, print_calibration
 
     if as_json:
-        typer.echo(json.dumps(calibration_to_dict(found, notes, ranked, drawn), allow_nan=False))
+        typer.echo(json.dumps(calibration_to_dict(found, notes, ranked, drawn, predicted), allow_nan=False))
     else:
-        print_calibration(found, label, notes, ranked, drawn, console())
+        print_calibration(found, label, notes, ranked, drawn, predicted, console())
 
 
 def _print_failure(failure: str, status: str, label: str, as_json: bool) -> None:

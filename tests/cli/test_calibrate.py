@@ -62,10 +62,18 @@ def test_screen_files_and_pictures(jaxbearing_command, folder, monkeypatch):
     monkeypatch.setattr("fitting.posterior.available", lambda: True)
     monkeypatch.setattr("jaxbearing.calibration.posterior.posterior_of", made_up_posterior)
     files = ("--out", "new.toml", "--plot", "a.png", "--plot-posterior", "b.png")
-    given = ("--next", "next.csv", "--folds", "4", "--posterior", *files)
+    given = ("--next", "next.csv", "--folds", "4", "--posterior", "--predict", f"{SCENE}=ring.radial", *files)
     result = jaxbearing_command("calibrate", SCENE, "data.csv", *FREE, *given)
     assert result.code == 0, result.err
-    for said in ("CONVERGED", "95 % intervals", "held back", "Posterior", "Next operating point", "wrote new.toml"):
+    for said in (
+        "CONVERGED",
+        "95 % intervals",
+        "held back",
+        "Posterior",
+        "Predictions with",
+        "Next operating point",
+        "wrote new.toml",
+    ):
         assert said in result.out
     again = jb.load_scene("new.toml")
     np.testing.assert_allclose(float(again.geometry.diametral_clearance), 14e-6, rtol=0.03)
@@ -106,6 +114,7 @@ def test_a_prior_and_bounds_as_they_are_typed(jaxbearing_command, folder):
         (("--free", MODULUS, "--folds", "1"), "--folds: found 1"),
         (("--free", MODULUS, "--loss", "huber"), "--loss"),
         (("--free", MODULUS, "--plot-posterior", "a.png"), "--plot-posterior: found no --posterior"),
+        (("--free", MODULUS, "--predict", "turbine_roller"), "--predict: found 'turbine_roller'"),
         (("--free", MODULUS, "--set", "operation.radial_load=1 kN"), "--set"),
     ],
 )
