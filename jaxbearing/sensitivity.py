@@ -21,7 +21,7 @@ from .numerics.newton import NewtonOptions
 from .numerics.precision import as_float, require_x64
 from .programs import KeptProgram
 from .shafts.solution import ShaftSolution
-from .solve import require_solvable, solution_at, solve, solve_with_roots
+from .solve import require_solvable, solution_at, solve_with_roots
 from .thermal.result import ThermalResult
 
 _Slopes = dict[str, Float[Array, ""]]
