@@ -130,7 +130,7 @@ def _inside(part: Any, keys: list[str]) -> Any:
     for place, key in enumerate(keys):
         own = [field.name for field in dataclasses.fields(part)] if isinstance(part, eqx.Module) else []
         if key not in own and _BEARING in own:
-            scene = part.scene
+            scene: Any = getattr(part, _BEARING)
             return _inside(scene[0] if isinstance(scene, tuple) else scene, keys[place:])
         part = getattr(part, key, None)
     return part
