@@ -177,7 +177,9 @@ def batches_of(places: Sequence[Place], speed: Array) -> tuple[AbstractBatch, ..
     found: list[AbstractBatch] = []
     for members in groups.values():
         numbers = tuple(index for index, _ in members)
-        stacked = jax.tree.map(lambda *leaves: jnp.stack([jnp.asarray(one) for one in leaves]), *(s for _, s in members))
+        stacked = jax.tree.map(
+            lambda *leaves: jnp.stack([jnp.asarray(one) for one in leaves]), *(s for _, s in members)
+        )
         if isinstance(stacked, LinearBearing):
             found.append(LinearBatch(stacked.stiffness, numbers))
         else:

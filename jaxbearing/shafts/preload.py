@@ -119,7 +119,9 @@ def displaced(rest: Rest, groups: list[Group], additional: Float[Array, " bearin
         return _Search(following, low, high, state.trials + 1, state.done | small, held)
 
     none = jnp.zeros(len(groups))
-    first = _Search(none + FIRST_TRIAL, none - FIRST_TRIAL, none + jnp.inf, jnp.asarray(0), none > 0, _nothing(fixed[0]))
+    first = _Search(
+        none + FIRST_TRIAL, none - FIRST_TRIAL, none + jnp.inf, jnp.asarray(0), none > 0, _nothing(fixed[0])
+    )
     going = lambda state: (state.trials < TRIALS) & ~jnp.all(state.done)
     end = jax.lax.while_loop(going, look, first)
     place, held = end.place, end.held

@@ -141,6 +141,7 @@ def minimise(problem: Problem) -> Start:
     elements = [batch.initial(row, at_zero[batch.index]) for batch, row in zip(problem.batches, rows, strict=True)]
     units, lengths = balance.row_units(), balance.lengths()
     most = jnp.where(jnp.arange(5) < 3, FARTHEST, MOST_TILT)
+
     def look(state: _Descent) -> _Descent:
         trial = state.unknowns + state.fraction * state.step
         displacement = balance.displacements(trial)

@@ -46,7 +46,9 @@ class BearingOnShaft(eqx.Module):
         metadata=label("mixed", "displacement of the outer ring, frame of the shaft, m and rad")
     )
     closure: _Number = eqx.field(metadata=label("m", "closure: axial displacement that mounting has given the ring"))
-    expansion: _Number = eqx.field(metadata=label("m", "growth of the inner raceway's radius less that of the outer one"))
+    expansion: _Number = eqx.field(
+        metadata=label("m", "growth of the inner raceway's radius less that of the outer one")
+    )
     largest_load: _Number = eqx.field(metadata=label("N", "largest load of a rolling element on the inner raceway"))
     pressure_centre: _Number = eqx.field(
         metadata=label("m", "position where the contact normals of the unloaded bearing meet the axis of the shaft")
