@@ -77,8 +77,8 @@ class AbstractBatch(eqx.Module):
 class RollingBatch(AbstractBatch):
     """Bearings with rolling elements: `scene` is a stack of scenes.
 
-    `dry` are the scenes whose forces act on the shaft, of rollers that slide: these may tilt. It is `None` of all others,
-    whose forces are those of `scene`.
+    `dry` are the scenes whose forces act on the shaft, of rollers that slide: these may tilt. It is `None` of all
+    others, whose forces are those of `scene`.
     """
 
     scene: AbstractBearing

@@ -35,8 +35,8 @@ def _numbers(value: Any) -> Any:
 class LinearBearing(eqx.Module):
     """A bearing that is known by its stiffness alone: f = K q.
 
-    **Arguments:** `stiffness`: K in the bearing's own frame, shape (5, 5), rows and columns axial, radial, lateral, tilt
-    and lateral tilt, N/m, N/rad, N m/m and N m/rad. It need not be symmetric.
+    **Arguments:** `stiffness`: K in the bearing's own frame, shape (5, 5), rows and columns axial, radial, lateral,
+    tilt and lateral tilt, N/m, N/rad, N m/m and N m/rad. It need not be symmetric.
     """
 
     kind: ClassVar[str] = "linear"
@@ -73,8 +73,8 @@ class Support(Checked):
 class Preload(Checked):
     """Preload of a set: one of the following.
 
-    - `force`: the force between the two opposed groups in the mounted set at rest, without load, N. One closure is found
-      that is common to all bearings, and stays.
+    - `force`: the force between the two opposed groups in the mounted set at rest, without load, N. One closure is
+      found that is common to all bearings, and stays.
     - `class_force`: the force at which ONE bearing of the set reaches the closure that all get, N, as makers define the
       preload classes of universally ground bearings.
     - `offset`: the closure of every bearing, m; a negative one is play.

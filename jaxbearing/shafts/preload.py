@@ -210,8 +210,8 @@ def _travels(
 def _mounted(
     rest: Rest, sets: dict[str, tuple[np.ndarray, np.ndarray]], closure: Float[Array, " bearing"]
 ) -> tuple[dict[str, Array], dict[str, Array]]:
-    """Force between the groups of each set at rest without load, and the axial load on the group with more bearings that
-    unloads the other one, N. **Arguments:** groups by the names of the sets."""
+    """Force between the groups of each set at rest without load, and the axial load on the group with more bearings
+    that unloads the other one, N. **Arguments:** groups by the names of the sets."""
     if not sets:
         return {}, {}
     first = np.stack([max(both, key=np.sum) for both in sets.values()]).astype(float)

@@ -148,19 +148,8 @@ class ShaftSystem(AbstractScene):
                 one.names, one.scenes, one.positions(), one.senses, mismatch, strict=True
             ):
                 found.append(Place(name, scene, position, sense, closure, one.expansion, one.support, index))
-        for alone in self.bearings:
-            found.append(
-                Place(
-                    alone.name,
-                    alone.scene,
-                    alone.position,
-                    alone.sense,
-                    alone.closure,
-                    alone.expansion,
-                    alone.support,
-                    None,
-                )
-            )
+        given = ("name", "scene", "position", "sense", "closure", "expansion", "support")
+        found += [Place(*(getattr(alone, field) for field in given), None) for alone in self.bearings]
         return tuple(found)
 
     def replace(self, changes: Any) -> "ShaftSystem":

@@ -159,8 +159,8 @@ def test_loss_of_preload():
 
 
 def rates_of_the_sheet(solved):
-    """Damage rates of all bearings, per 10^6 revolutions, the ball bearings' with conformities of 0.52 in what shares the
-    damage between the races; the package takes the bearing's own there."""
+    """Damage rates of all bearings, per 10^6 revolutions, the ball bearings' with conformities of 0.52 in what shares
+    the damage between the races; the package takes the bearing's own there."""
     rates = []
     for one in solved.bearings.values():
         if one.life.family == "roller":

@@ -6,7 +6,7 @@ import jax
 import jax.numpy as jnp
 import numpy as np
 import pytest
-from shaft_cases import DEEP_GROOVE, NU, P, RPM, gear_shaft, pair, steel, two_deep_grooves
+from shaft_cases import DEEP_GROOVE, NU, RPM, P, gear_shaft, pair, steel, two_deep_grooves
 
 import jaxbearing as jb
 from jaxbearing.bearings.ring import shift_matrix
@@ -180,7 +180,7 @@ def test_changes_by_names():
 def test_what_a_shaft_does_not_take():
     with pytest.raises(ValueError, match="found none, expected at least one bearing"):
         ShaftSystem(Shaft(0.0))
-    with pytest.raises(ValueError, match="rear.position: 250 mm lies beyond the shaft"):
+    with pytest.raises(ValueError, match=r"rear\.position: 250 mm lies beyond the shaft"):
         gear_shaft().replace({"bearing.rear.position": 0.25})
     with pytest.raises(ValueError, match=r"set\.picture must be two or more signs"):
         MatchedSet("set", "<o>", P, 0.0, 1e-2)
