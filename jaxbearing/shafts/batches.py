@@ -181,9 +181,10 @@ def batches_of(places: Sequence[Place], speed: Array) -> tuple[AbstractBatch, ..
             lambda *leaves: jnp.stack([jnp.asarray(one) for one in leaves]), *(s for _, s in members)
         )
         if isinstance(stacked, LinearBearing):
-            found.append(LinearBatch(stacked.stiffness, numbers))
+            found.append(LinearBatch(stiffness=jnp.asarray(stacked.stiffness), places=numbers))
         else:
-            found.append(RollingBatch(stacked, None if stacked.may_tilt else _dry(stacked), numbers))
+            dry = None if stacked.may_tilt else _dry(stacked)
+            found.append(RollingBatch(scene=stacked, dry=dry, places=numbers))
     return tuple(found)
 
 

@@ -204,7 +204,7 @@ def _travels(
     if not groups:
         return {}
     found = displaced(rest, groups, additional)
-    return {name: sum(found[i] for i, own in enumerate(owner) if own == name) for name in owner}
+    return {name: sum((found[i] for i, own in enumerate(owner) if own == name), jnp.zeros(())) for name in owner}
 
 
 def _mounted(
@@ -215,7 +215,7 @@ def _mounted(
     if not sets:
         return {}, {}
     first = np.stack([max(both, key=np.sum) for both in sets.values()]).astype(float)
-    second = np.stack([sum(both).astype(float) for both in sets.values()]) - first
+    second = np.stack([(both[0] | both[1]).astype(float) for both in sets.values()]) - first
     signs = first - second
     fixed: Any = jax.lax.stop_gradient((rest, closure))
 

@@ -148,8 +148,9 @@ class ShaftSystem(AbstractScene):
                 one.names, one.scenes, one.positions(), one.senses, mismatch, strict=True
             ):
                 found.append(Place(name, scene, position, sense, closure, one.expansion, one.support, index))
-        given = ("name", "scene", "position", "sense", "closure", "expansion", "support")
-        found += [Place(*(getattr(alone, field) for field in given), None) for alone in self.bearings]
+        for one in self.bearings:
+            support = one.support
+            found += [Place(one.name, one.scene, one.position, one.sense, one.closure, one.expansion, support, None)]
         return tuple(found)
 
     def replace(self, changes: Any) -> "ShaftSystem":

@@ -247,10 +247,9 @@ def _set_result(
     one = system.sets[number]
     centres = [found[name].pressure_centre for name in one.names]
     spring = mounted.spring_numbers.get(one.name)
-    travel = None if spring is None else parts.springs[spring]
-    force = None
+    travel = force = None
     if spring is not None:
-        pressed = mounted.springs[spring]
+        pressed, travel = mounted.springs[spring], parts.springs[spring]
         force = pressed.force - pressed.stiffness * travel
     return SetResult(
         preload=mounted.forces.get(one.name),
