@@ -7,11 +7,13 @@ from typing import Any, ClassVar, TypeVar
 
 import equinox as eqx
 import jax
+import jax.numpy as jnp
 import numpy as np
-from jaxtyping import Array, Bool
+from jaxtyping import Array, Bool, Float, Int
 
 from ._checks import Checks
 from ._derived import derived as derived
+from ._derived import derived_part as derived_part
 from ._shown import Shown
 from .numerics.checks import bounded
 from .numerics.checks import label as label
@@ -169,6 +171,36 @@ class AbstractSolution(Shown):
         if failed:
             numbers = jax.lax.stop_gradient(self)  # those that are differentiated have no digits to print
             raise SolveError(numbers.failure(), Status(int(np.max(np.asarray(self.status)))))
+
+
+class AbstractHistory(AbstractSolution):
+    """Interface of all results of a run in time. `time`: of its instants, s; `stop`: to which it was to go, s;
+    `accepted`: steps taken; `interrupted`: True if a person ended it."""
+
+    time: eqx.AbstractVar[Float[Array, " time"]]
+    stop: eqx.AbstractVar[Float[Array, ""]]
+    accepted: eqx.AbstractVar[Int[Array, ""]]
+    interrupted: eqx.AbstractVar[bool]
+
+    @property
+    def converged(self) -> Bool[Array, "*batch"]:
+        """True if the run reached its end."""
+        return jnp.asarray(self.status) == Status.CONVERGED
+
+    @property
+    def completed(self) -> bool:
+        """True if the run reached its end (one run only)."""
+        return bool(self.converged)
+
+    def early_end(self, unit: str = "ms", cause: str = "", state: str = "") -> str:
+        """One sentence on a run that stopped early (one run only).
+
+        **Arguments:** `unit` of the times, "s" or "ms"; `cause`: what ended it; `state`: in which state.
+        """
+        reached, stop = (float(end) * {"s": 1.0, "ms": 1e3}[unit] for end in (self.time[-1], self.stop))
+        why = "interrupted" if self.interrupted else Status(int(self.status)).text
+        where = f"{reached:.6g} {unit} of {stop:.6g} {unit}, after {int(self.accepted)} steps"
+        return f"{why}: {cause}the run stopped at {where}{state}; what was computed until then is kept"
 
 
 def _replaced(part: Any, changes: dict[tuple[str, ...], Any], above: str = "") -> Any:

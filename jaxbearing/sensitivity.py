@@ -11,7 +11,6 @@ import numpy as np
 from jaxtyping import Array, Float
 
 from ._scene import AbstractScene, AbstractSolution
-from .bearings.priors import DRAG_FIELD, drag_prior, prior_in_words
 from .bearings.solution import RING_FREEDOMS, Solution
 from .ehl import EHLLineContact, LineContactSolution
 from .machines import TwoDiskSolution
@@ -22,7 +21,7 @@ from .numerics.newton import NewtonOptions
 from .numerics.precision import as_float, require_x64
 from .programs import KeptProgram
 from .shafts.solution import ShaftSolution
-from .solve import require_solvable, solution_at, solve, solve_with_roots
+from .solve import require_solvable, solution_at, solve_with_roots
 from .thermal.result import ThermalResult
 
 _Slopes = dict[str, Float[Array, ""]]
@@ -306,41 +305,6 @@ def effects(
 
 def _is_one_number(leaf: Any) -> bool:
     return eqx.is_array_like(leaf) and not isinstance(leaf, bool) and np.ndim(leaf) == 0
-
-
-class PowerInterval(NamedTuple):
-    """Power loss, and the limits between which it is with a probability of 90 %, W, by one uncertain input alone.
-
-    **Arguments:** `by`: dotted path of the input; `assumed`: its distribution in words.
-    """
-
-    value: float
-    low: float
-    high: float
-    by: str
-    assumed: str
-
-
-def power_interval(
-    scene: AbstractScene, solution: Any, solver: Callable[[AbstractScene], Any] | None = None
-) -> PowerInterval | None:
-    """The power loss over the assumed distribution of the drag coefficient (`bearings.priors`), all else as it is.
-
-    The loss rises with the coefficient, so its limits are those of two more solves, by the same program, at the
-    coefficients below which 5 and 95 % of all are. `None` for a scene without this distribution, and where a solve
-    fails.
-
-    **Arguments:** `solution`: of the scene; `solver`: from a scene to its solution, never raising.
-    """
-    prior = drag_prior(scene)
-    if prior is None or not bool(solution.converged) or solution.power_loss.total is None:
-        return None
-    solve_again = (lambda one: solve(one, throw=False)) if solver is None else solver
-    ends = [solve_again(scene.replace({DRAG_FIELD: float(one)})) for one in prior.quantiles(np.array([0.05, 0.95]))]
-    if not all(bool(one.converged) for one in ends):
-        return None
-    low, high = (float(one.power_loss.total) for one in ends)
-    return PowerInterval(float(solution.power_loss.total), low, high, DRAG_FIELD, prior_in_words(prior))
 
 
 def largest(values: Mapping[str, Array], count: int, leave_out: tuple[str, ...] = ()) -> list[str]:

@@ -14,13 +14,14 @@ from jaxtyping import Array
 
 from .._scene import AbstractScene
 from ..contacts import LineContact, PointContact
+from ..materials import ROLLER_PRESSURE
 from ..mounting import Fits, PartTemperatures
 from ..numerics.checks import gate, nan_unless
 from ..numerics.newton import NewtonOptions
 from ..numerics.status import Status
 from ..thermal.settings import Thermal
 from ..thermal.shares import OilTemperatures
-from .facts import ROLLER_PRESSURE, RangeChecks
+from .facts import RangeChecks
 from .growth import Growth, Play
 from .mounted import fit_excess, running_scene
 from .operation import AbstractOperation

@@ -11,7 +11,7 @@ freedom is a length: a tilt is multiplied by a reference length of the family, i
 
 import dataclasses
 from collections.abc import Callable
-from typing import NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import equinox as eqx
 import jax
@@ -24,6 +24,11 @@ from ..numerics.arrow import ArrowJacobian, condensed, schur_complement
 from ..numerics.safe import NORM_FLOOR
 from .operation import AbstractOperation
 from .solution import RING_FREEDOMS, TILTS, RingDisplacement
+
+if TYPE_CHECKING:
+    from .bearing import AbstractBearing
+else:
+    AbstractBearing = Any
 
 LENGTH_UNIT = 1e-5
 """Scale of displacements, m."""
@@ -191,12 +196,14 @@ def held_ring(
     return InnerRing(jnp.zeros(0), held, lever, (), expansion, distance, closure, asks=True)
 
 
-def inner_ring(operation: AbstractOperation, freedoms: tuple[str, ...], lever: Array) -> InnerRing:
-    """The ring of an operating point. A freedom with neither load nor displacement is held at 0.
+def inner_ring(scene: AbstractBearing, lever: Array, freedoms: tuple[str, ...] | None = None) -> InnerRing:
+    """The ring of a scene, under the loads of its operating point. A freedom with neither load nor displacement is held
+    at 0.
 
-    **Arguments:** `operation`: of any family; `freedoms`: the unknown ones; `lever`: see `InnerRing`, m.
+    **Arguments:** `lever`: see `InnerRing`, m; `freedoms`: the unknown ones, by default those of the scene.
     """
-    lever = jnp.asarray(lever)
+    operation: AbstractOperation = scene.operation
+    freedoms, lever = scene.unknown_freedoms if freedoms is None else freedoms, jnp.asarray(lever)
     number = lambda value: jnp.zeros(()) if value is None else jnp.asarray(value)
     by_name: dict[str, Array] = dict(zip(RING_FREEDOMS, levers(lever), strict=True))
     load = [number(operation.load(name)) / by_name[name] for name in freedoms]

@@ -264,12 +264,17 @@ class BallCore(AbstractBallSystem):
         return 1 if self.common_orbit else 0
 
     def element(self, unknowns, shared):
+        local, totals, _ = self.seen(unknowns, shared)
+        return local, totals, jnp.zeros(())
+
+    def seen(self, unknowns: Float[Array, "2 ball"], shared: Float[Array, "g ball"]) -> tuple[Array, Array, BallState]:
+        """Local residuals and contributions to the totals, as `element` gives them, and the state that they are of."""
         state = self.balls(unknowns, shared)
         totals = state.on_ring
         if self.common_orbit:
             speeds = orbit_totals(state.load[0], state.own_orbit, state.motion.orbital_speed)
             totals = jnp.concatenate([totals, self.multiplicity * speeds])
-        return state.balance / self.ball_scale(), totals, jnp.zeros(())
+        return state.balance / self.ball_scale(), totals, state
 
     def global_residual(self, globals_, totals):
         d = len(self.freedoms)

@@ -20,7 +20,7 @@ from ..._types import Scalar
 from ...contacts import PointContact
 from ...contacts.point_laws import PointLaws
 from ...lubricants import Lubricant, NoPressureViscosity
-from ...materials import Material, reduced_modulus
+from ...materials import BALL_PRESSURE, Material, reduced_modulus
 from ...mounting import Fits, PartTemperatures
 from ...numerics.checks import demand, numbers_or_none
 from ...numerics.newton import NewtonOptions
@@ -31,7 +31,7 @@ from ...thermal.shares import OilTemperatures
 from ..bearing import AbstractBearing
 from ..cage import ASSUMED_LANDS as ASSUMED_LANDS
 from ..cage import AbstractCage
-from ..facts import BALL_PRESSURE, RangeChecks
+from ..facts import RangeChecks
 from ..growth import Growth, Play
 from ..mounted import mounting_problems
 from ..operation import LOAD_FIELDS, AbstractOperation
@@ -268,7 +268,8 @@ class BallBearing(AbstractBearing):
             return ()
         named = {"cage": self.cage, "drag": self.drag}
         if self.contact is None:
-            named["oil"] = self.oil
+            # a rating takes the viscosity ratio from it
+            named["oil"] = None if self.rating is not None else self.oil
         return tuple(name for name, part in named.items() if part is not None)
 
     def assumptions(self) -> tuple[str, ...]:
