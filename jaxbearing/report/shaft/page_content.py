@@ -25,8 +25,6 @@ def page_content(scene: Any, solution: ShaftSolution) -> Content:
     bearings = solution.bearings
     losses = {name: watts for name, one in bearings.items() if (watts := loss_of(one)) is not None}
     total = sum(losses.values())
-    share = lambda watts: f"{100.0 * watts / total:.1f}" if total else "-"
-    rows = [(name, digits(watts), share(watts)) for name, watts in losses.items()]
     return Content(
         kind="shaft on bearings",
         operation=operating_text(solution),
@@ -34,7 +32,6 @@ def page_content(scene: Any, solution: ShaftSolution) -> Content:
         sketches=[Sketch(one.title, svg(one), one.caption) for one in pictures(scene, solution)],
         facts=[*shaft_facts(solution), *((f"set {name}", text) for name, text in set_facts(solution))],
         facts_title="Shaft and sets",
-        losses=[*rows, ("total", digits(total), "100")] if rows else [],
         charts=shaft_panels(solution),
         listings=[_table(solution), *(_of_bearing(one) for one in bearings.values())],
         convergence=[
