@@ -26,6 +26,10 @@ _MARKS = (
     ("seal", _SEALS),
     ("cage", r"TVP\d?|TVH|TN\d?|TA|MA|MB|ML|M|P|J\d?|Y|Q|X|A|H\d?|R\d?|JR|T"),
 )
+_SETS = r"D[BFT]|[TQ]BT|TFT|Q[BF]C"
+_FOR_SETS = r"U[AOLM]|C[ABC]|G[ABC]"
+"""Suffixes of sets of bearings, and of angular contact bearings that are ground for sets, with classes of clearance or
+preload."""
 _ANGLES = {"ACD": ("AC", 25.0), "AC": ("AC", 25.0), "CD": ("C", 15.0), "C": ("C", 15.0), "E": ("", 25.0)}
 _ANGLES |= dict.fromkeys(("B", "BE", "BEP"), ("B", 40.0))
 """Suffix of an angular contact bearing -> letters of its series, contact angle, degrees."""
@@ -64,7 +68,7 @@ class Suffixes(NamedTuple):
       "B" of double row bearings.
     - `angle`: contact angle of a single row angular contact bearing, degrees, if the suffix states one.
     - `reinforced`: True for E or EC of a cylindrical roller bearing.
-    - `marks`: kind, "clearance", "tolerance", "seal" or "cage", and text of each suffix that is known.
+    - `marks`: kind, "set", "clearance", "tolerance", "seal" or "cage", and text of each suffix that is known.
     - `unread`: the rest.
     """
 
@@ -147,7 +151,7 @@ def suffixes(reading: Reading) -> Suffixes:
         letters = rest[:1] if rest.startswith(("X", "B")) else ""
         # X, of the metric design, is a mark of its own
         rest = rest[1:] if letters == "B" else rest
-    return Suffixes(letters, angle, reinforced, *_marks(rest))
+    return Suffixes(letters, angle, reinforced, *_marks(reading.family, rest))
 
 
 def _row(series: str, rest: str) -> tuple[str, float | None, str]:
@@ -161,10 +165,12 @@ def _row(series: str, rest: str) -> tuple[str, float | None, str]:
     return ("", float(match[1]), rest[match.end() :]) if match else ("", None, rest)
 
 
-def _marks(rest: str) -> tuple[tuple[tuple[str, str], ...], str]:
+def _marks(family: str, rest: str) -> tuple[tuple[tuple[str, str], ...], str]:
+    sets = {"cylindrical": (), "angular_contact": (_SETS, _FOR_SETS)}.get(family, (_SETS,))
+    marks = (*(("set", pattern) for pattern in sets), *_MARKS)
     found, unread = [], ""
     while rest:
-        tried = ((what, re.match(pattern, rest)) for what, pattern in _MARKS)
+        tried = ((what, re.match(pattern, rest)) for what, pattern in marks)
         what, match = next(((what, match) for what, match in tried if match), ("", None))
         if match is None:
             unread, rest = unread + rest[0], rest[1:]

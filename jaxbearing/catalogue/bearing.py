@@ -3,16 +3,17 @@
 import math
 import tomllib
 from collections.abc import Iterator, Mapping
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
-from .._scene import AbstractScene
 from ..numerics.arguments import require_count, require_numbers
-from ..scenes.reader import scene_from_tables
 from .designation import Designation, parse
 from .duty import Duty
 from .estimate import Estimate, Geometry, estimate
 from .proportions import Normal, proportions_of
 from .scene_text import scene_text
+
+if TYPE_CHECKING:
+    from .._scene import AbstractScene
 
 USUAL_ANGLES = {"angular_contact": Normal(30.0, 5.0), "spindle": Normal(15.0, 3.0)}
 """Contact angle where the designation states none, degrees: the designs without a suffix differ between makers."""
@@ -44,12 +45,15 @@ class Bearing(NamedTuple):
         """The tables of the scene file."""
         return tomllib.loads(self.text())
 
-    def scene(self) -> AbstractScene:
+    def scene(self) -> "AbstractScene":
         """The scene: with the laws of `laws = "best"` where an oil is given, dry otherwise; loads and a speed that are
         not given are examples, a tenth of the dynamic rating and a moderate speed.
 
         **Raises:** `SceneError` if the numbers that were given make an impossible bearing, and for an unknown oil.
         """
+        # what a bearing is made of is imported for a scene only: its text does not wait for it
+        from ..scenes.reader import scene_from_tables
+
         return scene_from_tables(self.tables(), self.designation.text)
 
 

@@ -169,6 +169,8 @@ def _said(kind: str, what: str, text: str, clearance: str) -> tuple[str, str]:
         if text not in CLEARANCES:
             return clearance, f"{text}: clearance class without a table here; set geometry.diametral_clearance"
         return text, ""
+    if what == "set":
+        return clearance, f"{text}: of bearings for sets; the scene has one bearing, without preload"
     if what == "tolerance":
         return clearance, f"{text}: tolerance class, not modelled; [fits] takes the normal class"
     if what == "seal":

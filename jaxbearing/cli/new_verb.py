@@ -20,8 +20,20 @@ def _quantity(name: str, what: str) -> Any:
     return typer.Option(f"--{name}", metavar="VALUE", help=what)
 
 
+def _known(incomplete: str) -> list[str]:
+    """Designations that begin like this, for the completion of the shell; those of two words are written in one."""
+    from ..catalogue.designation import known_designations
+
+    lower = incomplete != incomplete.upper()
+    names = (name.replace(" ", "") for name in known_designations())
+    return [name for name in (name.lower() if lower else name for name in names) if name.startswith(incomplete)]
+
+
 def new(
-    designation: Annotated[list[str], typer.Argument(metavar="DESIGNATION", help="Such as 6207, 7312-B or NU 311.")],
+    designation: Annotated[
+        list[str],
+        typer.Argument(metavar="DESIGNATION", help="Such as 6207, 7312-B or NU 311.", autocompletion=_known),
+    ],
     dynamic_capacity: Annotated[str | None, _quantity("dynamic-capacity", "C of a maker, e.g. '25.5 kN'.")] = None,
     static_capacity: Annotated[str | None, _quantity("static-capacity", "C0 of a maker, e.g. '15.3 kN'.")] = None,
     balls: Annotated[int | None, typer.Option("--balls", "--rollers", metavar="COUNT", help="Their number.")] = None,
@@ -93,8 +105,9 @@ def new(
                 raise
             refuse(f"new {name}: {error}")
         text = found.text()
-        # a geometry that cannot be built is said before anything is written
-        found.scene()
+        if balls is not None or given:
+            # a geometry that cannot be built is said before anything is written; that of a designation alone can
+            found.scene()
     _write(target, text)
     if as_json:
         typer.echo(json.dumps(_as_json(found, target)))

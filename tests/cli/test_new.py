@@ -101,3 +101,40 @@ def test_other_verbs_name_it(jaxbearing_command, verb):
     assert result.code == 2
     assert "'jaxbearing new 6205' writes a scene of this deep groove ball bearing." in result.err
     assert "jaxbearing new" not in jaxbearing_command(verb, "6299").err
+
+
+def test_a_designation_of_two_words_in_place_of_a_scene(jaxbearing_command):
+    result = jaxbearing_command("solve", "NU", "2210", "--json")
+    assert result.code == 2
+    assert "'jaxbearing new NU 2210' writes a scene of this cylindrical roller bearing." in result.err
+    assert "jaxbearing new" not in jaxbearing_command("solve", "a", "b").err
+    assert "writes a scene" not in jaxbearing_command("new", "NU", "2210", "--bogus").err
+
+
+def test_oil_of_a_dry_scene_makes_the_viscosity_ratio(jaxbearing_command):
+    """Only the rating takes it: the screen says what else the modified life needs."""
+    assert jaxbearing_command("new", "NU", "2210").code == 0
+    oil = ("--set", "oil.grade=ISO VG 68", "--set", "operation.oil_temperature=70 degC")
+    shown = " ".join(jaxbearing_command("solve", "NU_2210.toml", *oil).out.split())
+    assert "no a_ISO without rating.cleanliness or rating.contamination_factor" in shown
+    assert "have no effect: oil" not in shown
+
+
+def test_oil_that_only_the_rating_of_a_ball_bearing_takes():
+    oil = {"oil.grade": "ISO VG 68", "operation.oil_temperature": "70 degC"}
+    rated = jb.load_scene("deep_groove_6205", {**oil, "rating.cleanliness": "-/17/14"})
+    assert rated.unused_parts() == ()
+    assert jb.load_scene("deep_groove_6205", oil).unused_parts() == ("oil",)
+
+
+@pytest.mark.parametrize(
+    ("words", "found"),
+    [("jaxbearing new nu221", "nu2210"), ("jaxbearing new 620", "6205"), ("jaxbearing sp", "spectrum")],
+)
+def test_completion_of_the_shell(words, found, jaxbearing_command, monkeypatch):
+    monkeypatch.setenv("_JAXBEARING_COMPLETE", "complete_bash")
+    monkeypatch.setenv("COMP_WORDS", words)
+    monkeypatch.setenv("COMP_CWORD", str(words.count(" ")))
+    result = jaxbearing_command()
+    assert result.code == 0
+    assert found in result.out.split()
