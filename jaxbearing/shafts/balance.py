@@ -230,7 +230,7 @@ def build_balance(
         blocks.append(jnp.reshape(spring.stiffness, (1, 1)))
         energies.append(jnp.eye(1))
         loads.append(jnp.reshape(spring.force, (1,)))
-    offset = mirror * axis.bent_by_loads(position).ravel()
+    offset = jnp.asarray(mirror) * axis.bent_by_loads(position).ravel()
     along = np.zeros(5)
     along[0] = 1.0
     span = span_of(system, places, position)
@@ -241,7 +241,7 @@ def build_balance(
     sizes += [jnp.reshape(jnp.abs(spring.force), (1,)) for spring in springs]
     return Balance(
         attach=jnp.concatenate([attach, pressed], axis=1),
-        offset=offset + (closure[:, None] * along[None]).ravel(),
+        offset=jnp.asarray(offset) + (closure[:, None] * along[None]).ravel(),
         left=jnp.concatenate([left, pressed], axis=1).T,
         linear=block_diag(*blocks),
         load=jnp.concatenate(loads),

@@ -77,8 +77,8 @@ class AbstractBatch(eqx.Module):
 class RollingBatch(AbstractBatch):
     """Bearings with rolling elements: `scene` is a stack of scenes.
 
-    `dry` are the scenes whose forces act on the shaft, of rollers that slide: these may tilt. It is `None` of all others,
-    whose forces are those of `scene`.
+    `dry` are the scenes whose forces act on the shaft, of rollers that slide: these may tilt. It is `None` of all
+    others, whose forces are those of `scene`.
     """
 
     scene: AbstractBearing
@@ -177,11 +177,14 @@ def batches_of(places: Sequence[Place], speed: Array) -> tuple[AbstractBatch, ..
     found: list[AbstractBatch] = []
     for members in groups.values():
         numbers = tuple(index for index, _ in members)
-        stacked = jax.tree.map(lambda *leaves: jnp.stack([jnp.asarray(one) for one in leaves]), *(s for _, s in members))
+        stacked = jax.tree.map(
+            lambda *leaves: jnp.stack([jnp.asarray(one) for one in leaves]), *(s for _, s in members)
+        )
         if isinstance(stacked, LinearBearing):
-            found.append(LinearBatch(stacked.stiffness, numbers))
+            found.append(LinearBatch(stiffness=jnp.asarray(stacked.stiffness), places=numbers))
         else:
-            found.append(RollingBatch(stacked, None if stacked.may_tilt else _dry(stacked), numbers))
+            dry = None if stacked.may_tilt else _dry(stacked)
+            found.append(RollingBatch(scene=stacked, dry=dry, places=numbers))
     return tuple(found)
 
 

@@ -133,9 +133,9 @@ def shifts(positions: Float[Array, " place"]) -> Float[Array, "place 5 5"]:
 def element_stiffness(
     length: Array, outer: Array, inner: Array, material: Material
 ) -> tuple[Float[Array, "4 4"], Float[Array, ""]]:
-    r"""Stiffness of Timoshenko's element of length L for (w, $\theta$) of both ends in one plane, with $\theta$ = -tilt,
-    and $\phi = 12EI/(\kappa GAL^2)$. It is the inverse of what `Beam.compliance` gives of one section, and what other
-    programs of rotor dynamics take."""
+    r"""Stiffness of Timoshenko's element of length L for (w, $\theta$) of both ends in one plane, with $\theta$ =
+    -tilt, and $\phi = 12EI/(\kappa GAL^2)$. It is the inverse of what `Beam.compliance` gives of one section, and what
+    other programs of rotor dynamics take."""
     area, inertia = jnp.pi / 4.0 * (outer**2 - inner**2), jnp.pi / 64.0 * (outer**4 - inner**4)
     shear_modulus = 0.5 * material.youngs_modulus / (1.0 + material.poisson_ratio)
     kappa = shear_factor(jnp.asarray(material.poisson_ratio), inner / outer)

@@ -116,7 +116,8 @@ class Gear(AbstractForce):
     - `pitch_radius`: r, m, > 0.
     - `azimuth`: of the mesh, rad.
     - `pressure_angle`: $\alpha_n$ in the normal section, rad.
-    - `helix_angle`: $\beta$, rad; its sign is the hand: with a positive one a positive torque presses the gear along +X.
+    - `helix_angle`: $\beta$, rad; its sign is the hand: with a positive one a positive torque presses the gear along
+      +X.
     - `balance`: whether its torque is the one that the other forces leave, in place of `torque`.
     """
 

@@ -32,18 +32,21 @@ def _numbers(value: Any) -> Any:
     return as_float(value)
 
 
+def _array(unit: str, description: str, **kwargs: Any) -> Any:
+    """Field that holds an array of numbers."""
+    return eqx.field(converter=_numbers, metadata=label(unit, description), **kwargs)
+
+
 class LinearBearing(eqx.Module):
     """A bearing that is known by its stiffness alone: f = K q.
 
-    **Arguments:** `stiffness`: K in the bearing's own frame, shape (5, 5), rows and columns axial, radial, lateral, tilt
-    and lateral tilt, N/m, N/rad, N m/m and N m/rad. It need not be symmetric.
+    **Arguments:** `stiffness`: K in the bearing's own frame, shape (5, 5), rows and columns axial, radial, lateral,
+    tilt and lateral tilt, N/m, N/rad, N m/m and N m/rad. It need not be symmetric.
     """
 
     kind: ClassVar[str] = "linear"
 
-    stiffness: Float[Array | np.ndarray, "5 5"] = eqx.field(
-        converter=_numbers, metadata=label("mixed", "stiffness of a linear bearing")
-    )
+    stiffness: Float[Array | np.ndarray, "5 5"] = _array("mixed", "stiffness of a linear bearing")
 
 
 class Support(Checked):
@@ -60,9 +63,7 @@ class Support(Checked):
     axial: Scalar | None = optional_number(bound="> 0", metadata=label("N/m", "axial stiffness of the support"))
     radial: Scalar | None = optional_number(bound="> 0", metadata=label("N/m", "radial stiffness of the support"))
     tilt: Scalar | None = optional_number(bound="> 0", metadata=label("N m/rad", "tilt stiffness of the support"))
-    matrix: Float[Array | np.ndarray, "5 5"] | None = eqx.field(
-        default=None, converter=_numbers, metadata=label("mixed", "stiffness of the support")
-    )
+    matrix: Float[Array | np.ndarray, "5 5"] | None = _array("mixed", "stiffness of the support", default=None)
 
     def __check_init__(self):
         super().__check_init__()
@@ -73,8 +74,8 @@ class Support(Checked):
 class Preload(Checked):
     """Preload of a set: one of the following.
 
-    - `force`: the force between the two opposed groups in the mounted set at rest, without load, N. One closure is found
-      that is common to all bearings, and stays.
+    - `force`: the force between the two opposed groups in the mounted set at rest, without load, N. One closure is
+      found that is common to all bearings, and stays.
     - `class_force`: the force at which ONE bearing of the set reaches the closure that all get, N, as makers define the
       preload classes of universally ground bearings.
     - `offset`: the closure of every bearing, m; a negative one is play.
@@ -157,12 +158,10 @@ class MatchedSet(Checked):
     picture: str = eqx.field(static=True)
     scene: AbstractBearing | tuple[AbstractBearing, ...]
     position: Scalar = number(metadata=label("m", "position of the middle of the set"))
-    distance: Float[Array | np.ndarray, "..."] = eqx.field(
-        converter=_numbers, metadata=label("m", "distance of neighbouring rows")
-    )
+    distance: Float[Array | np.ndarray, "..."] = _array("m", "distance of neighbouring rows")
     preload: Preload | None = None
-    mismatch: Float[Array | np.ndarray, " bearing"] | None = eqx.field(
-        default=None, converter=_numbers, metadata=label("m", "additional closure of each bearing")
+    mismatch: Float[Array | np.ndarray, " bearing"] | None = _array(
+        "m", "additional closure of each bearing", default=None
     )
     expansion: Scalar = number(0.0, metadata=label("m", "expansion of the inner raceways"))
     support: Support | None = None

@@ -119,7 +119,9 @@ def displaced(rest: Rest, groups: list[Group], additional: Float[Array, " bearin
         return _Search(following, low, high, state.trials + 1, state.done | small, held)
 
     none = jnp.zeros(len(groups))
-    first = _Search(none + FIRST_TRIAL, none - FIRST_TRIAL, none + jnp.inf, jnp.asarray(0), none > 0, _nothing(fixed[0]))
+    first = _Search(
+        none + FIRST_TRIAL, none - FIRST_TRIAL, none + jnp.inf, jnp.asarray(0), none > 0, _nothing(fixed[0])
+    )
     going = lambda state: (state.trials < TRIALS) & ~jnp.all(state.done)
     end = jax.lax.while_loop(going, look, first)
     place, held = end.place, end.held
@@ -202,18 +204,18 @@ def _travels(
     if not groups:
         return {}
     found = displaced(rest, groups, additional)
-    return {name: sum(found[i] for i, own in enumerate(owner) if own == name) for name in owner}
+    return {name: sum((found[i] for i, own in enumerate(owner) if own == name), jnp.zeros(())) for name in owner}
 
 
 def _mounted(
     rest: Rest, sets: dict[str, tuple[np.ndarray, np.ndarray]], closure: Float[Array, " bearing"]
 ) -> tuple[dict[str, Array], dict[str, Array]]:
-    """Force between the groups of each set at rest without load, and the axial load on the group with more bearings that
-    unloads the other one, N. **Arguments:** groups by the names of the sets."""
+    """Force between the groups of each set at rest without load, and the axial load on the group with more bearings
+    that unloads the other one, N. **Arguments:** groups by the names of the sets."""
     if not sets:
         return {}, {}
     first = np.stack([max(both, key=np.sum) for both in sets.values()]).astype(float)
-    second = np.stack([sum(both).astype(float) for both in sets.values()]) - first
+    second = np.stack([(both[0] | both[1]).astype(float) for both in sets.values()]) - first
     signs = first - second
     fixed: Any = jax.lax.stop_gradient((rest, closure))
 

@@ -148,19 +148,9 @@ class ShaftSystem(AbstractScene):
                 one.names, one.scenes, one.positions(), one.senses, mismatch, strict=True
             ):
                 found.append(Place(name, scene, position, sense, closure, one.expansion, one.support, index))
-        for alone in self.bearings:
-            found.append(
-                Place(
-                    alone.name,
-                    alone.scene,
-                    alone.position,
-                    alone.sense,
-                    alone.closure,
-                    alone.expansion,
-                    alone.support,
-                    None,
-                )
-            )
+        for one in self.bearings:
+            support = one.support
+            found += [Place(one.name, one.scene, one.position, one.sense, one.closure, one.expansion, support, None)]
         return tuple(found)
 
     def replace(self, changes: Any) -> "ShaftSystem":

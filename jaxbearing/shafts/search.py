@@ -3,10 +3,10 @@ solutions.
 
 Without friction, with the centrifugal forces of the unloaded contact angles, a shaft on bearings has one convex
 potential (`balance`): clearances, bearings that carry nothing, more than two bearings, flanges and springs are all in
-it. Newton's steps are accepted where the potential falls (Armijo), with a factor on the diagonal that grows where a step
-is shortened (Levenberg). At the minimum begins Newton's iteration with each bearing's own solution under a held ring:
-with the centrifugal force of every ball, films, friction, cage, seats and temperatures as its scene has them, and the
-exact stiffness. Derivatives follow from the implicit function theorem at that root.
+it. Newton's steps are accepted where the potential falls (Armijo), with a factor on the diagonal that grows where a
+step is shortened (Levenberg). At the minimum begins Newton's iteration with each bearing's own solution under a held
+ring: with the centrifugal force of every ball, films, friction, cage, seats and temperatures as its scene has them, and
+the exact stiffness. Derivatives follow from the implicit function theorem at that root.
 """
 
 from typing import Any, NamedTuple
@@ -40,8 +40,8 @@ ARMIJO, SHORTER, SHORTEST = 1e-4, 0.3, 1e-6
 it is, because the fall is lost in rounding."""
 ANCHOR = 0.1
 """Stiffness, N/m, that is added to every freedom of a bearing in the steps of the second stage and in derivatives: a
-shaft that floats in clearance without load has a place of its own. It exerts no force, and is 1e-9 of the stiffness of a
-loaded bearing."""
+shaft that floats in clearance without load has a place of its own. It exerts no force, and is 1e-9 of the stiffness of
+a loaded bearing."""
 NEWTON_TRIALS = 60
 """Most trials of the second stage."""
 ROUNDED_STEP = 1e-16
@@ -141,6 +141,7 @@ def minimise(problem: Problem) -> Start:
     elements = [batch.initial(row, at_zero[batch.index]) for batch, row in zip(problem.batches, rows, strict=True)]
     units, lengths = balance.row_units(), balance.lengths()
     most = jnp.where(jnp.arange(5) < 3, FARTHEST, MOST_TILT)
+
     def look(state: _Descent) -> _Descent:
         trial = state.unknowns + state.fraction * state.step
         displacement = balance.displacements(trial)

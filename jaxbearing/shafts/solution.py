@@ -1,7 +1,7 @@
 """Results of a shaft on bearings. Every quantity carries its unit and description where it is defined.
 
-Vectors of five have the order of `RING_FREEDOMS`. In the frame of the shaft they are along X, Y, Z and about both tilts;
-in the frame of a bearing its own axis points along +X or -X (`BearingOnShaft.sense`).
+Vectors of five have the order of `RING_FREEDOMS`. In the frame of the shaft they are along X, Y, Z and about both
+tilts; in the frame of a bearing its own axis points along +X or -X (`BearingOnShaft.sense`).
 """
 
 from collections.abc import Mapping
@@ -23,8 +23,8 @@ class BearingOnShaft(eqx.Module):
     """One bearing of a solved shaft.
 
     **Arguments:** the labels of the fields describe them; others are
-    - `ring`: displacement of the inner ring against the outer one at the port (on the axis, in the plane of the unloaded
-      balls or in the middle of the rollers), in the bearing's frame, without closure.
+    - `ring`: displacement of the inner ring against the outer one at the port (on the axis, in the plane of the
+      unloaded balls or in the middle of the rollers), in the bearing's frame, without closure.
     - `solution`: results of the bearing's own family with its ring held where the shaft holds it; `None` of a linear
       bearing.
     - `life`: `None` without a rating in the bearing's scene.
@@ -46,7 +46,9 @@ class BearingOnShaft(eqx.Module):
         metadata=label("mixed", "displacement of the outer ring, frame of the shaft, m and rad")
     )
     closure: _Number = eqx.field(metadata=label("m", "closure: axial displacement that mounting has given the ring"))
-    expansion: _Number = eqx.field(metadata=label("m", "growth of the inner raceway's radius less that of the outer one"))
+    expansion: _Number = eqx.field(
+        metadata=label("m", "growth of the inner raceway's radius less that of the outer one")
+    )
     largest_load: _Number = eqx.field(metadata=label("N", "largest load of a rolling element on the inner raceway"))
     pressure_centre: _Number = eqx.field(
         metadata=label("m", "position where the contact normals of the unloaded bearing meet the axis of the shaft")

@@ -8,6 +8,7 @@ import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Array, Bool, Float
 
+from ..bearings.bearing import AbstractBearing
 from ..bearings.solution import RING_FREEDOMS, RingDisplacement, Solution
 from ..life.bearing_life import with_life
 from ..numerics.known_roots import own_roots
@@ -38,6 +39,12 @@ SLIDING_APART = (
 """Note on a bearing whose losses come from another model than its forces."""
 EMPTY = 0.01
 """Part of the preload below which a bearing of a set counts as unloaded."""
+MISSING_SHOULDER = (
+    "balls are pressed against the side of the groove where an angular contact bearing has no shoulder; nothing else "
+    "carries the axial force in this direction"
+)
+LIGHT = 1.0
+"""Load on a ball, N, above which this warning counts it."""
 STEEP_TILT = 1e-3
 """Tilt of an inner ring against its outer ring, rad, beyond which makers warn."""
 
@@ -117,7 +124,9 @@ def _results(
     balance, (position, closure) = problem.balance, given
     parts = balance.parts(root.unknowns)
     displacement = balance.displacements(root.unknowns)
-    found, checks, notes, good = _bearings(places, problem, displacement, parts, (position, closure), root.solved, options)
+    found, checks, notes, good = _bearings(
+        places, problem, displacement, parts, (position, closure), root.solved, options
+    )
     good &= root.solved
     sets = {
         one.name: _set_result(system, places, found, number, mounted, parts) for number, one in enumerate(system.sets)
@@ -211,10 +220,20 @@ def _bearings(
                 notes += [f"{place.name}: {note}" for note in losses.notes]
             if apart is not None:
                 notes.append(f"{place.name}: {SLIDING_APART}")
+            if one is not None and _has_angle(place):
+                wrong = (one.elements.load_inner > LIGHT) & (one.elements.contact_angle_inner < 0)
+                checks[f"{place.name}: {MISSING_SHOULDER}"] = jnp.any(wrong)
             steep = jnp.max(jnp.abs(own[number, 3:])) > STEEP_TILT
             checks[f"{place.name}: the inner ring is tilted by more than 1 mrad against the outer ring"] = steep
     in_order = {places[index].name: found[index] for index in range(len(places))}
     return in_order, checks, notes, good
+
+
+def _has_angle(place: Place) -> bool:
+    """True for a ball bearing that is given by its contact angle."""
+    scene: Any = place.scene
+    balls = isinstance(scene, AbstractBearing) and not scene.line_contacts
+    return balls and scene.geometry.contact_angle is not None
 
 
 def _set_result(
@@ -228,10 +247,9 @@ def _set_result(
     one = system.sets[number]
     centres = [found[name].pressure_centre for name in one.names]
     spring = mounted.spring_numbers.get(one.name)
-    travel = None if spring is None else parts.springs[spring]
-    force = None
+    travel = force = None
     if spring is not None:
-        pressed = mounted.springs[spring]
+        pressed, travel = mounted.springs[spring], parts.springs[spring]
         force = pressed.force - pressed.stiffness * travel
     return SetResult(
         preload=mounted.forces.get(one.name),

@@ -215,9 +215,9 @@ def force_at(
     """
     centre, groove = jax.lax.stop_gradient(centre), problem.groove_at(ring)
     forces = _forces(problem, centre, groove)
-    matrix = jax.lax.stop_gradient(forces.stiffness_outer + forces.stiffness_inner) + 1e-3 * SOFTEST * jnp.eye(2)[
-        :, :, None
-    ]
+    matrix = (
+        jax.lax.stop_gradient(forces.stiffness_outer + forces.stiffness_inner) + 1e-3 * SOFTEST * jnp.eye(2)[:, :, None]
+    )
     step = solve_blocks(matrix, forces.balance[:, None, :])[:, 0]
     inner = _spring(groove - centre + step, problem.offset[0], problem.stiffness[0])[1]
     return problem.multiplicity * jnp.einsum("fcn,cn->f", problem.directions, inner)

@@ -1,0 +1,234 @@
+"""Solves of shafts beyond the check values: balances, derivatives, lanes, loads without an equilibrium, wrong input."""
+
+import dataclasses
+
+import jax
+import jax.numpy as jnp
+import numpy as np
+import pytest
+from shaft_cases import DEEP_GROOVE, NU, RPM, P, gear_shaft, pair, steel, two_deep_grooves
+
+import jaxbearing as jb
+from jaxbearing.bearings.ring import shift_matrix
+from jaxbearing.shafts import (
+    Gravity,
+    LinearBearing,
+    MatchedSet,
+    MountedBearing,
+    PointLoad,
+    Preload,
+    Section,
+    Shaft,
+    ShaftSystem,
+)
+
+PRELOAD = Preload(force=180.0)
+
+
+def linear_shaft(stiffness=1e8, axial=20.0):
+    """A shaft that is cheap to solve: its bearings are linear."""
+    matrix = jnp.diag(jnp.asarray([1e8, 1e8, 1e8, 1e4, 1e4])) * (stiffness / 1e8)
+    return ShaftSystem(
+        Shaft(100.0, [Section(0.1, 0.03), Section(0.1, 0.04, 0.01)], steel(206e9), Gravity(9.81)),
+        bearings=[
+            MountedBearing("A", LinearBearing(matrix), 0.02),
+            MountedBearing("B", LinearBearing(matrix), 0.18, "-x"),
+        ],
+        forces=[PointLoad("load", 0.1, axial=axial, radial=300.0, azimuth=0.4, radius=0.05)],
+    )
+
+
+def totals(solved):
+    """Force and moment about x = 0 of bearings and given loads without the weight of the shaft."""
+    about = lambda at, load: np.asarray(shift_matrix(jnp.asarray(at))).T @ np.asarray(load)
+    bearings = sum(about(one.position, one.on_shaft) for one in solved.bearings.values())
+    return bearings + sum(about(*both) for both in zip(solved.shaft.position, solved.shaft.load, strict=True))
+
+
+def test_forces_balance_with_the_weight():
+    """Test 7 of section 12, on linear bearings."""
+    system = linear_shaft()
+    solved = jb.solve(system)
+    areas = np.pi / 4.0 * np.array([0.03**2, 0.04**2 - 0.01**2])
+    weights = 7850.0 * areas * 0.1 * 9.81
+    expected = [0.0, np.sum(weights), 0.0, -np.sum(weights * [0.05, 0.15]), 0.0]
+    np.testing.assert_allclose(totals(solved), expected, atol=2e-7)
+    assert int(solved.newton_steps) <= 1
+
+
+def test_a_linear_shaft_agrees_with_the_finite_element():
+    """One section between two linear bearings, by the stiffness matrix of the element."""
+    from jaxbearing.shafts.beam import element_stiffness
+
+    matrix = np.diag([1e8, 1e8, 1e8, 1e4, 1e4])
+    system = ShaftSystem(
+        Shaft(0.0, [Section(0.2, 0.03)], steel(206e9)),
+        bearings=[MountedBearing("A", LinearBearing(matrix), 0.0), MountedBearing("B", LinearBearing(matrix), 0.2)],
+        forces=[PointLoad("load", 0.2, radial=300.0)],
+    )
+    solved = jb.solve(system)
+    beam = np.asarray(element_stiffness(0.2, 0.03, 0.0, steel(206e9))[0])
+    total = beam + np.diag([1e8, 1e4, 1e8, 1e4])
+    moved = np.linalg.solve(total, [0.0, 0.0, 300.0, 0.0])
+    found = np.asarray(solved.shaft.displacement)
+    np.testing.assert_allclose(found[[0, -1], 1], moved[[0, 2]], rtol=1e-9)
+    np.testing.assert_allclose(-found[[0, -1], 3], moved[[1, 3]], rtol=1e-9)
+
+
+def test_bearings_at_one_place():
+    """Two bearings at one place and one at x = 0 are no special cases."""
+    system = linear_shaft()
+    half = np.diag([5e7, 5e7, 5e7, 5e3, 5e3])
+    twice = [MountedBearing(name, LinearBearing(half), 0.02) for name in ("A1", "A2")]
+    split = jb.solve(dataclasses.replace(system, bearings=[*twice, system.bearings[1]]))
+    whole = jb.solve(system)
+    np.testing.assert_allclose(split.shaft.displacement[-1], whole.shaft.displacement[-1], rtol=1e-9, atol=1e-18)
+    np.testing.assert_allclose(2.0 * split.bearings["A1"].on_shaft, whole.bearings["A"].on_shaft, rtol=1e-8, atol=1e-8)
+
+
+def test_derivatives_on_linear_bearings():
+    """By stiffness, position, load and diameter, in both modes, against differences."""
+
+    def results(x):
+        system = linear_shaft(x[0], x[2])
+        bearings = (dataclasses.replace(system.bearings[0], position=x[1]), system.bearings[1])
+        sections = (Section(0.1, x[3]), system.shaft.sections[1])
+        system = dataclasses.replace(
+            system, bearings=bearings, shaft=dataclasses.replace(system.shaft, sections=sections)
+        )
+        solved = jb.solve(system, throw=False)
+        return jnp.concatenate([solved.bearings["A"].on_shaft[:2], solved.shaft.displacement[-1, :2] * 1e8])
+
+    x = jnp.asarray([1e8, 0.02, 20.0, 0.03])
+    forward, backward = (jax.jit(mode(results))(x) for mode in (jax.jacfwd, jax.jacrev))
+    np.testing.assert_allclose(backward, forward, rtol=1e-9, atol=1e-9)
+    compiled, step = jax.jit(results), 1e-4 * np.asarray(x)
+    for place, one in enumerate(np.diag(step)):
+        difference = (compiled(x + one) - compiled(x - one)) / (2.0 * step[place])
+        np.testing.assert_allclose(forward[:, place], difference, rtol=1e-5, atol=1e-6 * np.max(np.abs(difference)))
+
+
+@pytest.mark.slow
+def test_derivatives_of_a_preloaded_pair():
+    """Test 8 of section 12 too: by the speed, with each ball's own centrifugal force."""
+
+    def results(x):
+        one = MatchedSet("set", "<>", P, 0.0, 16e-3, Preload(force=x[1]))
+        system = ShaftSystem(Shaft(x[0]), sets=[one], forces=[PointLoad("load", 0.01, axial=x[2], radial=300.0)])
+        solved = jb.solve(system, throw=False)
+        return jnp.stack([
+            solved.bearings["set.1"].force[1],
+            solved.bearings["set.2"].largest_load,
+            solved.sets["set"].loss_force,
+            1e8 * solved.shaft.displacement[0, 1],
+        ])  # fmt: skip
+
+    x = jnp.asarray([1000.0, 180.0, 100.0])
+    forward, compiled = jax.jit(jax.jacfwd(results))(x), jax.jit(results)
+    for place, one in enumerate(np.diag(1e-4 * np.asarray(x))):
+        difference = (compiled(x + one) - compiled(x - one)) / (2.0 * one[place])
+        np.testing.assert_allclose(forward[:, place], difference, rtol=1e-5, atol=1e-6 * np.max(np.abs(difference)))
+
+
+def test_a_lane_without_equilibrium_says_so():
+    """Nothing holds this shaft along X; the lane beside it is not touched by that."""
+    matrix = np.diag([0.0, 1e8, 1e8, 1e4, 1e4])
+    floating = [MountedBearing(name, LinearBearing(matrix), at) for name, at in (("A", 0.02), ("B", 0.18))]
+
+    def solved(axial):
+        system = dataclasses.replace(linear_shaft(axial=axial), bearings=tuple(floating))
+        return jb.solve(system, throw=False)
+
+    found = jax.jit(jax.vmap(solved))(jnp.asarray([0.0, 50.0]))
+    assert found.status.tolist() == [jb.Status.CONVERGED, jb.Status.NO_EQUILIBRIUM]
+    assert np.all(np.isnan(found.shaft.displacement[1]))
+    assert np.all(np.isfinite(found.shaft.displacement[0]))
+    with pytest.raises(jb.SolveError, match="no_equilibrium: nothing holds the shaft along X at"):
+        jb.solve(dataclasses.replace(linear_shaft(axial=50.0), bearings=tuple(floating)))
+
+
+@pytest.mark.slow
+def test_two_bearings_that_float():
+    """Two NU bearings and 50 N axially."""
+    system = ShaftSystem(
+        Shaft(100.0, [Section(0.2, 0.03)]),
+        bearings=[MountedBearing("A", NU, 0.02), MountedBearing("B", NU, 0.18)],
+        forces=[PointLoad("load", 0.1, axial=50.0, radial=1e3)],
+    )
+    solved = jb.solve(system, throw=False)
+    assert int(solved.status) == jb.Status.NO_EQUILIBRIUM
+    assert "along X" in solved.failure()
+
+
+@pytest.mark.slow
+def test_hard_cases_of_the_sheet():
+    """20 N across 60 um; preload that is lost under 5 kN."""
+    light = two_deep_grooves(clearance=60e-6)
+    light = light.replace({"force.load.radial": 20.0})
+    assert bool(jb.solve(light).converged)
+    assert bool(jb.solve(pair(preload=PRELOAD, axial=5e3)).converged)
+
+
+def test_changes_by_names():
+    system = gear_shaft()
+    changed = system.replace({"force.pinion.torque": 50.0, "bearing.rear.geometry.diametral_clearance": 4e-5})
+    assert float(changed.forces[0].torque) == 50.0
+    assert float(changed.bearings[0].scene.geometry.diametral_clearance) == 4e-5
+    assert float(changed.at_operation(speed=3.0).shaft.speed) == 3.0
+
+
+def test_what_a_shaft_does_not_take():
+    with pytest.raises(ValueError, match="found none, expected at least one bearing"):
+        ShaftSystem(Shaft(0.0))
+    with pytest.raises(ValueError, match=r"rear\.position: 250 mm lies beyond the shaft"):
+        gear_shaft().replace({"bearing.rear.position": 0.25})
+    with pytest.raises(ValueError, match=r"set\.picture must be two or more signs"):
+        MatchedSet("set", "<o>", P, 0.0, 1e-2)
+    with pytest.raises(ValueError, match="expected none of a tandem '<<'"):
+        MatchedSet("set", "<<", P, 0.0, 1e-2, PRELOAD)
+    with pytest.raises(ValueError, match="preload must have one of force"):
+        Preload(force=1.0, offset=1e-6)
+    with pytest.raises(ValueError, match=r"bearing\.A: this name is given 2 times"):
+        ShaftSystem(Shaft(0.0), bearings=[MountedBearing("A", DEEP_GROOVE, 0.0)] * 2)
+    with pytest.raises(ValueError, match=r"inner_diameter .* must be smaller"):
+        Section(0.1, 0.03, 0.04)
+    assert RPM > 0
+
+
+@pytest.mark.slow
+def test_random_shafts():
+    """Three bearings, one of them of another family, with clearance, closure, light and heavy loads: all are solved."""
+    draw = np.random.default_rng(5)
+
+    def solved(x):
+        groove = DEEP_GROOVE.replace_geometry(diametral_clearance=x[0])
+        system = ShaftSystem(
+            Shaft(x[1], [Section(0.14, 0.025), Section(0.16, 0.03)], steel(206e9)),
+            bearings=[
+                MountedBearing("A", groove, 0.02, closure=x[2]),
+                MountedBearing("M", NU.replace_geometry(diametral_clearance=x[3]), 0.15),
+                MountedBearing("B", groove, 0.28, "-x"),
+            ],
+            forces=[PointLoad("load", x[4], axial=x[5], radial=x[6], tangential=x[7], radius=0.03)],
+        )
+        one = jb.solve(system, throw=False)
+        return one.status, one.start_steps, one.newton_steps, one.residual_norm
+
+    count = 60
+    signed = lambda: draw.choice([-1.0, 1.0], count) * 10.0 ** draw.uniform(0.0, 3.7, count)
+    numbers = np.stack([
+        draw.uniform(-3e-6, 60e-6, count),
+        draw.uniform(0.0, 1500.0, count),
+        draw.uniform(-30e-6, 60e-6, count),
+        draw.uniform(-15e-6, 60e-6, count),
+        draw.uniform(0.0, 0.3, count),
+        0.3 * signed(),
+        signed(),
+        signed(),
+    ], axis=1)  # fmt: skip
+    compiled = jax.jit(solved)
+    found = [[float(one) for one in compiled(row)] for row in numbers]
+    status, start, newton, residual = np.asarray(found).T
+    print("steps", start.mean(), start.max(), newton.mean(), newton.max(), "failed", np.flatnonzero(status))
+    assert np.sum(status == jb.Status.CONVERGED) == count
+    assert np.max(residual) < 1e-8
