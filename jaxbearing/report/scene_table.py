@@ -12,6 +12,8 @@ from rich.console import Console
 from .._scene import AbstractScene
 from ..scenes.fields import is_known, tables_at
 from ..scenes.reader import model_of
+from ..shafts.paths import all_names
+from ..shafts.scene import ShaftSystem
 from .backends.screen import print_line, print_rule
 from .display import ZERO_CELSIUS, display_unit, displayed
 
@@ -25,7 +27,8 @@ def print_scene(scene: AbstractScene, console: Console) -> bool:
     """Prints the fields of a scene, its parts below each other; `False` for a class that no scene file describes, and
     for a batch of scenes."""
     model = model_of(scene)
-    rows = [] if model is None else list(_rows(scene, (), model))
+    of_scene = _rows_of_shaft if isinstance(scene, ShaftSystem) else _rows
+    rows = [] if model is None else list(of_scene(scene, (), model))
     texts = [(path, text) for path, text in rows if text is not None]
     if not rows or len(texts) < len(rows):
         return False
@@ -37,6 +40,27 @@ def print_scene(scene: AbstractScene, console: Console) -> bool:
         last = table
         print_line(".".join(inside or [table]), text, console, _NAMES)
     return True
+
+
+def _rows_of_shaft(
+    scene: ShaftSystem, inside: tuple[str, ...], model: type[BaseModel]
+) -> Iterator[tuple[tuple[str, ...], str | None]]:
+    """As `_rows`, with the sections by their numbers, and bearings, sets and forces by their names."""
+    yield from _rows(dataclasses.replace(scene.shaft, sections=()), ("shaft",), model)
+    for number, section in enumerate(scene.shaft.sections):
+        yield from _rows(section, ("shaft", "sections", str(number + 1)), model)
+    for word, name, entry in all_names(scene):
+        for path, text in _rows(entry, (word, name), model):
+            if path[2:] != ("name",):
+                yield path, text
+        bearing = getattr(entry, "scene", None)
+        bearing = bearing[0] if isinstance(bearing, tuple) else bearing
+        # loads and speeds of its own have no effect
+        for path, text in _rows(bearing, (word, name), model) if bearing is not None else ():
+            if path[2] != "operation":
+                yield path, text
+    if scene.life.weibull is not None:
+        yield from _rows(scene.life, ("life",), model)
 
 
 def _rows(part: Any, inside: tuple[str, ...], model: type[BaseModel]) -> Iterator[tuple[tuple[str, ...], str | None]]:

@@ -27,6 +27,8 @@ def test_every_field_of_the_built_in_scenes_is_among_them(kind):
         tables = tomllib.loads(builtin_text(name))
         if tables.pop("kind") == kind:
             for table, given in tables.items():
+                if isinstance(given, list):  # bearings, sets and forces have names of their own
+                    continue
                 assert {f"{table}.{field}" for field in given} <= paths, name
 
 

@@ -40,7 +40,8 @@ def test_a_scene_prints_its_fields_with_units(solved):
 @pytest.mark.parametrize("name", jb.builtin_names())
 def test_every_kind_of_scene_is_shown(name):
     scene = jb.load_scene(name)
-    assert f"\n{'geometry' if 'satellite' not in name else 'contact'} ─" in f"\n{scene}"
+    first = "shaft" if scene.kind == "shaft" else "geometry" if "satellite" not in name else "contact"
+    assert f"\n{first} ─" in f"\n{scene}"
     assert scene._repr_html_().startswith("<pre")
 
 

@@ -26,7 +26,9 @@ from jaxbearing.scenes.reader import builtin_names, load_scene
 from jaxbearing.sweeps.fields import SceneSource, dimension_of
 from jaxbearing.time_laws import Tabulated
 
-SCENES = [*builtin_names(), "rated", "rotating load", "capped couple"]
+_OF_BEARINGS = [name for name in builtin_names() if load_scene(name).kind != "shaft"]
+"""Without shafts, whose numbers have other paths in trees than in files (`shafts.paths`)."""
+SCENES = [*_OF_BEARINGS, "rated", "rotating load", "capped couple"]
 RATED = {
     "rating.dynamic_capacity": "14 kN",
     "rating.static_capacity": "8 kN",

@@ -31,6 +31,7 @@ from jaxbearing.scenes.errors import SceneError
 from jaxbearing.scenes.oil.catalogue import load_oil, missing_sources, oil_data
 from jaxbearing.scenes.overrides import parse_value, split_assignments
 from jaxbearing.scenes.reader import builtin_names, builtin_summary, builtin_text, load_scene, scene_from_tables
+from jaxbearing.shafts.scene import ShaftSystem
 
 KINDS = {
     "ball_bearing": BallBearing,
@@ -38,6 +39,7 @@ KINDS = {
     "tapered_roller_bearing": TaperedRollerBearing,
     "two_disk": TwoDisk,
     "line_contact": EHLLineContact,
+    "shaft": ShaftSystem,
 }
 
 

@@ -13,6 +13,8 @@ from .bending import bending_line
 
 NAMES = "bearing\n"
 """Heading of the names of bearings."""
+_LEAST_MOVE = 1e-13
+"""Displacements, m, and tilts, rad, up to which they are shown as 0: round-off."""
 _LEAST = 1e-9
 """Loads smaller than this part of the largest one are shown as 0: round-off."""
 
@@ -117,9 +119,10 @@ def shaft_facts(solution: ShaftSolution) -> Iterator[tuple[str, str]]:
     """Name and text of what is known of the shaft: its bending, the slopes in the bearings, the torques."""
     line = bending_line(solution)
     size, place = line.largest()
-    yield "Deflection", f"largest {with_unit(size, 'm')} across the axis at {1e3 * place:.1f} mm"
+    where = f" at {1e3 * place:.1f} mm" if size > _LEAST_MOVE else ""
+    yield "Deflection", f"largest {with_unit(_moved(size), 'm')} across the axis{where}"
     tilts = [np.asarray([one.ring.tilt, one.ring.tilt_lateral], dtype=float) for one in solution.bearings.values()]
-    named = zip(solution.bearings, (float(np.hypot(*tilt)) for tilt in tilts), strict=True)
+    named = zip(solution.bearings, (_moved(float(np.hypot(*tilt))) for tilt in tilts), strict=True)
     yield "Tilt of rings", ", ".join(f"{name} {1e3 * tilt:.3g} mrad" for name, tilt in named)
     axial = ", ".join(f"{name} {with_unit(float(one.ring.axial), 'm', 3)}" for name, one in solution.bearings.items())
     yield "Axial", f"inner ring against outer ring: {axial}"
@@ -140,6 +143,11 @@ def shaft_warnings(solution: ShaftSolution) -> list[str]:
         own = name in solution.bearings and rest
         names.setdefault(rest if own else text, []).extend([name] if own else [])
     return [f"{', '.join(bearings)}: {text}" if bearings else text for text, bearings in names.items()]
+
+
+def _moved(value: float) -> float:
+    """A displacement, or 0 for what is round-off."""
+    return value if abs(value) > _LEAST_MOVE else 0.0
 
 
 def stiffness_rows(one: BearingOnShaft) -> tuple[list[str], list[list[str]]]:

@@ -75,8 +75,8 @@ def _by_name(given: Any, table: str, example: str, label: str) -> dict[str, Any]
                 raise SceneError(label, f"{table}.{name}", f"the name '{name}'", _TAKEN)
         return {str(name): dict(one) for name, one in given.items()}
     if not isinstance(given, list) or not all(isinstance(one, Mapping) for one in given):
-        found = "one table" if isinstance(given, Mapping) else describe(given)
-        raise SceneError(label, table, found, f'[[{table}]] tables in double brackets, each with name = "{example}"')
+        there = "one table" if isinstance(given, Mapping) else describe(given)
+        raise SceneError(label, table, there, f'[[{table}]] tables in double brackets, each with name = "{example}"')
     found: dict[str, Any] = {}
     problems = []
     for place, one in enumerate(given):
