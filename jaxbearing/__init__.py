@@ -48,6 +48,7 @@ def load_verbs() -> None:
 
 
 if TYPE_CHECKING:
+    from . import calibration as calibration
     from . import catalogue as catalogue
     from . import contacts as contacts
     from . import gaps as gaps
@@ -55,6 +56,7 @@ if TYPE_CHECKING:
     from . import lubricants as lubricants
     from . import mounting as mounting
     from . import plots as plots
+    from . import shafts as shafts
     from . import sweeps as sweeps
     from . import thermal as thermal
     from .bearings.ball.geometry import BallGeometry as BallGeometry
@@ -85,6 +87,7 @@ if TYPE_CHECKING:
     from .bearings.tapered.scene import TaperedRollerBearing as TaperedRollerBearing
     from .bearings.warming.history import WarmUpHistory as WarmUpHistory
     from .bearings.warming.settings import WarmUpSimulation as WarmUpSimulation
+    from .calibration.verb import calibrate as calibrate
     from .comparison import compare as compare
     from .distribution import Distribution as Distribution
     from .distribution import MeanUsedWarning as MeanUsedWarning
@@ -166,6 +169,7 @@ _LAZY = {
     "WarmUpHistory": ".bearings.warming.history",
     "WarmUpSimulation": ".bearings.warming.settings",
     "builtin_names": ".scenes.reader",
+    "calibrate": ".calibration.verb",
     "compare": ".comparison",
     "compile_report": ".program_size",
     "load_distributions": ".scenes.reader",
@@ -184,8 +188,22 @@ _LAZY = {
     "trajectory": ".bearings.motion.runs",
 }
 """Public names that pull in the edge (units, validation) or are only needed by some; imported on first use."""
-_MODULES = ("catalogue", "contacts", "fitting", "gaps", "life", "lubricants", "mounting", "plots", "sweeps", "thermal")
-"""Modules that are public as such: standard bearings, the laws, the fit of an oil, sweeps, figures."""
+_MODULES = (
+    "calibration",
+    "catalogue",
+    "contacts",
+    "fitting",
+    "gaps",
+    "life",
+    "lubricants",
+    "mounting",
+    "plots",
+    "shafts",
+    "sweeps",
+    "thermal",
+)
+"""Modules that are public as such: calibration, standard bearings, the laws, the fit of an oil, shafts, sweeps,
+figures."""
 _AT_ONCE = ("jit_solver", "simulate", "simulate_batch", "solve", "sweep")
 
 __all__ = [*_AT_ONCE, *_LAZY, *_MODULES]  # pyright: ignore[reportUnsupportedDunderAll]

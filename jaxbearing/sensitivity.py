@@ -20,6 +20,7 @@ from .numerics.garbage import rare_garbage_collection
 from .numerics.newton import NewtonOptions
 from .numerics.precision import as_float, require_x64
 from .programs import KeptProgram
+from .shafts.solution import ShaftSolution
 from .solve import require_solvable, solution_at, solve_with_roots
 from .thermal.result import ThermalResult
 
@@ -42,7 +43,8 @@ class Sensitivities(eqx.Module):
 
     - `power_loss`: d ln(total power loss) / d ln(input): per cent of power for one per cent of the input.
     - `slip`: d(cage slip) / d ln(input).
-    - `life`, `modified_life`: d ln(L10r) / d ln(input) and d ln(Lnmr) / d ln(input), of a bearing with a rating.
+    - `life`, `modified_life`: d ln(L10r) / d ln(input) and d ln(Lnmr) / d ln(input), of a bearing with a rating; of a
+      shaft the L10r of all bearings together.
     - `film`: d ln(central film) / d ln(input), of a line contact.
     - `traction`: d ln(traction coefficient) / d ln(input), of a two-disk machine at one operating point.
     - `stiffness`, `axial_stiffness`: d ln(K) / d ln(input) of the radial and the axial stiffness of the inner ring,
@@ -106,7 +108,7 @@ def sensitivities(
     require_x64()
     require_solvable(scene)
     solution, slopes = _answer(jax.tree.map(as_float, scene), throw, chosen, wanted)
-    return solution, Sensitivities(**{name: _by_path(tree) for name, tree in slopes.items()})
+    return solution, Sensitivities(**{name: _by_path(tree, scene) for name, tree in slopes.items()})
 
 
 def _wanted(of: str | Iterable[str] | None) -> _Wanted:
@@ -137,6 +139,8 @@ def _results(solution: AbstractSolution, wanted: _Wanted) -> dict[str, Array]:
     """The results of a solution that have sensitivities, by field of `Sensitivities`. **Raises:** `NoSensitivities`."""
     if isinstance(solution, Solution):
         return _of_bearing(solution, wanted)
+    if isinstance(solution, ShaftSolution):
+        return _of_shaft(solution, wanted)
     if wanted.names is not None:
         found = f"a {type(solution).__name__}"
         raise NoSensitivities(f"found {found}; expected a bearing, whose results are {', '.join(wanted.names)}")
@@ -177,6 +181,27 @@ def _of_bearing(solution: Solution, wanted: _Wanted) -> dict[str, Array]:
         raise NoSensitivities(
             "found a bearing that models neither power loss nor cage slip nor life; expected one with losses (an "
             "oil, and contact.traction or contact.rolling_resistance) or with a rating"
+        )
+    return there
+
+
+def _of_shaft(solution: ShaftSolution, wanted: _Wanted) -> dict[str, Array]:
+    """**Raises:** `NoSensitivities`."""
+    losses = [getattr(one.solution, "power_loss", None) for one in solution.bearings.values()]
+    found: dict[str, Array | None] = {
+        "power_loss": solution.torque.power_loss if any(one and one.total is not None for one in losses) else None,
+        "life": None if solution.life is None else solution.life.L10r,
+    }
+    there = {name: value for name, value in found.items() if value is not None}
+    if wanted.names is not None:
+        missing = [name for name in wanted.names if name not in there]
+        if missing:
+            known = ", ".join(there) or "none"
+            raise NoSensitivities(f"found a shaft, which has no {', '.join(missing)}; expected one of {known}")
+        return {name: there[name] for name in wanted.names}
+    if not there:
+        raise NoSensitivities(
+            "found a shaft whose bearings model neither losses nor, all of them, lives; expected [life] in its file"
         )
     return there
 
@@ -248,9 +273,11 @@ def _in_a_program(scene: AbstractScene, options: NewtonOptions, wanted: _Wanted)
     return solution, _slopes(scene, options, roots, wanted)
 
 
-def _by_path(tree: Any) -> dict[str, Float[Array, ""]]:
+def _by_path(tree: Any, scene: AbstractScene) -> dict[str, Float[Array, ""]]:
+    """**Arguments:** `tree`: like that of the numbers of the scene."""
     leaves, _ = jax.tree_util.tree_flatten_with_path(tree)
-    return {jax.tree_util.keystr(path, simple=True, separator="."): leaf for path, leaf in leaves}
+    path_of = lambda path: scene.path_in_file(jax.tree_util.keystr(path, simple=True, separator="."))
+    return {path_of(path): leaf for path, leaf in leaves}
 
 
 class UsualTolerance(NamedTuple):
@@ -268,7 +295,7 @@ def effects(
 
     **Arguments:** `tolerances`: by dotted path.
     """
-    inputs = {path: float(value) for path, value in _by_path(scene).items() if _is_one_number(value)}
+    inputs = {path: float(value) for path, value in _by_path(scene, scene).items() if _is_one_number(value)}
     share = {path: one.size / abs(inputs[path]) for path, one in tolerances.items() if inputs.get(path)}
     return {
         name: {path: float(slopes[path]) * part for path, part in share.items() if path in slopes}

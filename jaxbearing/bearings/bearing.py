@@ -29,6 +29,7 @@ from .outline import Outline
 from .rated import RatedContacts
 from .rating import Rating
 from .ring import InnerRing
+from .row import AbstractRow
 from .solution import RING_FREEDOMS, TILTS, Solution
 from .warm import settled, solve_warm
 
@@ -141,6 +142,13 @@ class AbstractBearing(AbstractScene):
         - `ring`: an inner ring that is held; by default the ring of the operating point.
         - `exact_tilt`: whether the grooves of a ball bearing move with the exact rotation of the ring; by default as in
           the solve of the scene.
+        """
+
+    @abc.abstractmethod
+    def row(self, expansion: Array) -> AbstractRow:
+        """The bearing at its speeds without films and friction, for a ring that is held.
+
+        **Arguments:** `expansion`: growth of the inner raceway's radius less that of the outer one, m.
         """
 
     @abc.abstractmethod

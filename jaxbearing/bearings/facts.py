@@ -103,6 +103,15 @@ class SolvedBearing(NamedTuple):
         """Name of the rolling elements."""
         return f"{self.scene.element}s"
 
+    def said(self, text: str, excess: Callable[[Contacts], Array | None]) -> Excess:
+        """The entries of a check of contacts with one text; of contacts whose `excess` is `None` there is none."""
+
+        def of(contacts: Contacts) -> Excess:
+            found = excess(contacts)
+            return {} if found is None else contacts.said(text, found)
+
+        return self.each(of)
+
     def each(self, check: Callable[[Contacts], Excess]) -> Excess:
         """The entries of a check of contacts, for all kinds of contacts."""
         found: Excess = {}

@@ -14,6 +14,7 @@ import typer
 
 from .. import load_verbs
 from ..numerics.garbage import rare_garbage_collection
+from .calibrate_verb import calibrate
 from .compare_verb import compare
 from .fields_verb import fields
 from .fit_verb import fit
@@ -148,7 +149,7 @@ def _options(
 
 _VERBS = (
     *(new, scenes, fields, solve, spectrum, report, sweep, tolerances),
-    *(compare, study, simulate, stiffness, fit),
+    *(compare, study, simulate, stiffness, fit, calibrate),
 )
 for _verb in _VERBS:
     app.command()(_verb)

@@ -103,10 +103,8 @@ def _effects_table(
 
 def _unit_of(scene: AbstractScene, path: str) -> str:
     """SI unit of a number of a scene; "1" where its class says none."""
-    part: Any = scene
-    *above, last = path.split(".")
-    for name in above:
-        part = getattr(part, name)
+    above, _, last = path.rpartition(".")
+    part: Any = scene.part_at(above) if above else scene
     return type(part).__dataclass_fields__[last].metadata.get("unit", "1")
 
 

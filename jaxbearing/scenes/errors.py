@@ -69,6 +69,12 @@ class SceneError(ValueError):
         words = (self.path, self.found, self.expected, self.suggestion, self.reason)
         return SceneError(file, *words, others=self.others)
 
+    def inside(self, above: str) -> "SceneError":
+        """The same error with a longer path, of a table inside the table at `above`."""
+        path = f"{above}.{self.path}".rstrip(".")
+        words = (self.found, self.expected, self.suggestion, self.reason)
+        return SceneError(self.file, path, *words, others=[one.inside(above) for one in self.others])
+
     def _with(self, others: Iterable["SceneError"]) -> "SceneError":
         words = (self.file, self.path, self.found, self.expected, self.suggestion, self.reason)
         return SceneError(*words, others=others)
@@ -226,6 +232,8 @@ def unknown_name(location: Sequence[int | str], model: type[BaseModel]) -> dict[
     later = owner.not_yet.get(name)
     if later:
         return {"found": f"'{name}', which is not available in this version", "expected": later}
+    if name in owner.elsewhere:
+        return {"found": shortened(repr(name)), "expected": owner.elsewhere[name]}
     return {
         "found": f"the unknown name {shortened(repr(name))}",
         "expected": one_of(owner.names) if owner.names else "a value, not a table",

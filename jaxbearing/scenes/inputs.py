@@ -88,9 +88,7 @@ def described_field(scene: AbstractScene, path: tuple[str, ...]) -> str:
     """Description of a field: what a law says of itself, the label of the class that holds the field, what the class's
     docstring says of its argument, or what that of its table says."""
     words = path[-1].replace("_", " ")
-    law: Any = scene
-    for name in path:
-        law = getattr(law, name, None)
+    law = scene.part_at(".".join(path))
     if dataclasses.is_dataclass(law):
         summary = _first_sentence(type(law))
         return f"{words}: {summary}" if summary else words
@@ -102,9 +100,7 @@ def described_field(scene: AbstractScene, path: tuple[str, ...]) -> str:
 def owner_of(scene: AbstractScene, path: Sequence[str]) -> tuple[type, str] | None:
     """The class that has a field of a scene, and its name there: the class of the part at this place or, of a field
     that only files have there, the one that its table was made from."""
-    part: Any = scene
-    for name in path[:-1]:
-        part = getattr(part, name, None)
+    part = scene.part_at(".".join(path[:-1])) if len(path) > 1 else scene
     if dataclasses.is_dataclass(part) and path[-1] in {field.name for field in dataclasses.fields(part)}:
         return type(part), path[-1]
     made = (getattr(table, "made_from", {}) for table in _tables(scene, path[:-1]))

@@ -221,5 +221,5 @@ class LubricatedBallSystem(AbstractLubricatedBallSystem):
         return self.land(self.orbit(point.globals[-1]), force[0], force[1])
 
     def balls(self, unknowns: Float[Array, "m ball"], shared: Float[Array, "g ball"]) -> BallsState:
-        state, contact = self.frictionless(unknowns, shared)
-        return with_traction(self, state, contact) if self.slips else state
+        state = self.frictionless(unknowns, shared)
+        return with_traction(self, state) if self.slips else state

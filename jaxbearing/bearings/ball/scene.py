@@ -40,6 +40,7 @@ from ..parts import DragSettings
 from ..rated import RatedContacts
 from ..rating import Rating
 from ..ring import InnerRing
+from ..row import AbstractRow
 from ..solution import Solution
 from ..supplied import supply_problems
 from ..warm import thermal_problems
@@ -212,6 +213,11 @@ class BallBearing(AbstractBearing):
         from .mounting import running_geometry
 
         return dataclasses.replace(self, geometry=running_geometry(self.geometry, growth))
+
+    def row(self, expansion: Array) -> AbstractRow:
+        from .row import ball_row_of
+
+        return ball_row_of(self, expansion)
 
     def range_checks(self) -> RangeChecks:
         from .checks import CHECKS

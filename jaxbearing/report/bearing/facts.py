@@ -75,7 +75,7 @@ def _mixed_facts(solution: Solution) -> Iterator[tuple[str, str]]:
 
 def _frequencies(solution: Solution) -> Iterator[tuple[str, str]]:
     """Frequencies at which damages are heard, of the motion and of the textbook."""
-    if solution.frequencies is None or solution.textbook_frequencies is None:
+    if solution.textbook_frequencies is None:
         return
     names = {"cage": "cage", "outer_pass": "outer ring", "inner_pass": "inner ring", "element_spin": "element's spin"}
     for title, found in (("Frequencies", solution.frequencies), ("Textbook's", solution.textbook_frequencies)):
