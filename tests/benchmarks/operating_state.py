@@ -9,8 +9,8 @@ error is the balance of heat that the state leaves open. `derivative`: the first
 outside of `jax.jit`, with nothing kept from earlier processes; the error is that against central differences.
 
 Times are processor times of warm calls of `jit_solver` but for `derivative`. Both programs run in turn, in blocks of
-calls, and the least of each counts: the ratio holds on a busy machine. "in a batch" is the time a lane of
-`jit(lax.map(solve))` of many equal lanes, in which calls and results cost nothing.
+calls, and the least of each counts: the ratio holds on a busy machine. A lane is one of many equal ones in
+`jit(lax.map(solve))`, where arguments and results cost little; of a call each result costs about 1 us.
 """
 
 import argparse
@@ -136,7 +136,7 @@ def apart(first: Any, second: Any) -> float:
 
 
 def seats(name: str, lanes: int = LANES) -> Seats:
-    scene = jb.load_scene(name.split(",")[0].removesuffix("_seated"), SEATED[name])
+    scene = jb.load_scene(name.split(",")[0], SEATED[name])
     running = jax.tree.map(np.asarray, running_scene(scene)[0])
     both = [jb.jit_solver(one) for one in (scene, running)]
     solved = [solver() for solver in both]
