@@ -4,9 +4,15 @@ Outputs treat such a property as they treat a labelled field.
 """
 
 from collections.abc import Callable
-from typing import Any
+from typing import Any, TypeVar
+
+import jax
+import numpy as np
+from jax.core import Tracer
 
 from .numerics.checks import label
+
+Numbers = TypeVar("Numbers")
 
 
 class DerivedResult(property):
@@ -19,6 +25,15 @@ class DerivedResult(property):
         self.annotation = function.__annotations__["return"]
 
 
+class DerivedPart(property):
+    """A property that returns a class of results, whose fields have the labels. `kind`: that class."""
+
+    def __init__(self, function: Callable[[Any], Any], kind: type):
+        super().__init__(function)
+        self.__doc__ = function.__doc__
+        self.kind = kind
+
+
 def derived(unit: str, description: str) -> Callable[[Callable[[Any], Any]], DerivedResult]:
     """Decorator that makes a method of a result class a result, a property. The method also meets batches of
     solutions: it takes an element's axis as the last one, and its annotation begins with `*batch`. It returns `None`
@@ -29,11 +44,30 @@ def derived(unit: str, description: str) -> Callable[[Callable[[Any], Any]], Der
     return lambda function: DerivedResult(function, label(unit, description))
 
 
+def derived_part(kind: type) -> Callable[[Callable[[Any], Any]], DerivedPart]:
+    """Decorator like `derived`, of a method that returns several results. **Arguments:** `kind`: their class."""
+    return lambda function: DerivedPart(function, kind)
+
+
 def derived_results(kind: type) -> dict[str, DerivedResult]:
     """The derived results of a class by name, those of its bases first."""
-    return {
-        name: one
-        for owner in reversed(kind.__mro__)
-        for name, one in vars(owner).items()
-        if isinstance(one, DerivedResult)
-    }
+    return _properties(kind, DerivedResult)
+
+
+def derived_parts(kind: type) -> dict[str, DerivedPart]:
+    """The derived parts of a class by name, those of its bases first."""
+    return _properties(kind, DerivedPart)
+
+
+Property = TypeVar("Property", DerivedResult, DerivedPart)
+
+
+def _properties(kind: type, wanted: type[Property]) -> dict[str, Property]:
+    owners = reversed(kind.__mro__)
+    return {name: one for owner in owners for name, one in vars(owner).items() if isinstance(one, wanted)}
+
+
+def known_numbers(tree: Numbers) -> Numbers:
+    """The tree with numpy's arrays, unless a number is traced: JAX would compile every operation on its own arrays."""
+    traced = any(isinstance(leaf, Tracer) for leaf in jax.tree.leaves(tree))
+    return tree if traced else jax.tree.map(np.asarray, tree)

@@ -7,11 +7,13 @@ from typing import Any, ClassVar, TypeVar
 
 import equinox as eqx
 import jax
+import jax.numpy as jnp
 import numpy as np
-from jaxtyping import Array, Bool
+from jaxtyping import Array, Bool, Float, Int
 
 from ._checks import Checks
 from ._derived import derived as derived
+from ._derived import derived_part as derived_part
 from ._shown import Shown
 from .numerics.checks import bounded
 from .numerics.checks import label as label
@@ -43,6 +45,8 @@ class AbstractScene(Shown):
 
     kind: ClassVar[str] = ""
     """Kind of the scene, as `kind` in scene files has it."""
+    operating_point: ClassVar[str] = "operation"
+    """Name of the field that holds the operating point."""
 
     def steady_solution(self, options: Any) -> Any:
         """The steady state, traced inside the program of `jb.solve`; pure, and never raises for a failed solve.
@@ -86,9 +90,20 @@ class AbstractScene(Shown):
             raise TypeError(f"replace takes a mapping from dotted paths to values, got {changes!r}")
         return _replaced(self, {tuple(path.split(".")): value for path, value in changes.items()})
 
+    def part_at(self, path: str) -> Any:
+        """The number or part at a dotted path; `None` where there is none."""
+        part: Any = self
+        for name in path.split("."):
+            part = getattr(part, name, None)
+        return part
+
+    def path_in_file(self, path: str) -> str:
+        """The path of scene files of the number that the tree of the scene's numbers has at this path."""
+        return path
+
     def at_operation(self: Scene, **changes: Any) -> Scene:
         """A copy at another operating point: `scene.at_operation(inner_speed=1100.0)`."""
-        return self.replace({f"operation.{name}": value for name, value in changes.items()})
+        return self.replace({f"{self.operating_point}.{name}": value for name, value in changes.items()})
 
     def replace_geometry(self: Scene, **changes: Any) -> Scene:
         """A copy with other dimensions: `scene.replace_geometry(diametral_clearance=30e-6)`."""
@@ -156,6 +171,36 @@ class AbstractSolution(Shown):
         if failed:
             numbers = jax.lax.stop_gradient(self)  # those that are differentiated have no digits to print
             raise SolveError(numbers.failure(), Status(int(np.max(np.asarray(self.status)))))
+
+
+class AbstractHistory(AbstractSolution):
+    """Interface of all results of a run in time. `time`: of its instants, s; `stop`: to which it was to go, s;
+    `accepted`: steps taken; `interrupted`: True if a person ended it."""
+
+    time: eqx.AbstractVar[Float[Array, " time"]]
+    stop: eqx.AbstractVar[Float[Array, ""]]
+    accepted: eqx.AbstractVar[Int[Array, ""]]
+    interrupted: eqx.AbstractVar[bool]
+
+    @property
+    def converged(self) -> Bool[Array, "*batch"]:
+        """True if the run reached its end."""
+        return jnp.asarray(self.status) == Status.CONVERGED
+
+    @property
+    def completed(self) -> bool:
+        """True if the run reached its end (one run only)."""
+        return bool(self.converged)
+
+    def early_end(self, unit: str = "ms", cause: str = "", state: str = "") -> str:
+        """One sentence on a run that stopped early (one run only).
+
+        **Arguments:** `unit` of the times, "s" or "ms"; `cause`: what ended it; `state`: in which state.
+        """
+        reached, stop = (float(end) * {"s": 1.0, "ms": 1e3}[unit] for end in (self.time[-1], self.stop))
+        why = "interrupted" if self.interrupted else Status(int(self.status)).text
+        where = f"{reached:.6g} {unit} of {stop:.6g} {unit}, after {int(self.accepted)} steps"
+        return f"{why}: {cause}the run stopped at {where}{state}; what was computed until then is kept"
 
 
 def _replaced(part: Any, changes: dict[tuple[str, ...], Any], above: str = "") -> Any:

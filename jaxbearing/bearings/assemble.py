@@ -11,7 +11,7 @@ from ..numerics.newton import NewtonResult
 from .bearing import AbstractBearing
 from .checks import input_excess, result_excess
 from .facts import Facts
-from .frequencies import frequencies_of_motion, textbook_frequencies
+from .frequencies import textbook_frequencies
 from .interactions import Costs
 from .ring import Port
 from .solution import (
@@ -62,7 +62,7 @@ def assemble(
     - `failure_causes`: of `Solution`; none applies where the solve converged.
     - `names`: static fields of the `Solution`.
     """
-    good = result.converged
+    good, nan = result.converged, jnp.asarray(jnp.nan)
     held = not port.free
     modelled = names.get("stiffness_freedom") or names["ring_freedom"]
     names["held_freedom"] = tuple(name for name in RING_FREEDOMS if name in modelled and name not in port.free)
@@ -73,7 +73,6 @@ def assemble(
     by_race = costs.rolling_by_race
     if by_race is not None:
         shown["rolling_by_race"] = RollingByRace(by_race[0], by_race[1], rolling_words(scene.contact))
-    shown["frequencies"] = frequencies_of_motion(scene, results.elements, results.cage)
     shown["textbook_frequencies"] = textbook_frequencies(scene)
     checks = {text: value > 0 for text, value in input_excess(scene, held).items()}
     checks |= {
@@ -99,6 +98,6 @@ def assemble(
         failure_causes={
             text: FailureCause(~good & one.applies, one.numbers) for text, one in (failure_causes or {}).items()
         },
-        **jax.tree.map(lambda leaf: jnp.where(good, leaf, jnp.nan), shown),
+        **jax.tree.map(lambda leaf: jnp.where(good, leaf, nan), shown),
         **names,
     )

@@ -12,6 +12,7 @@ from typing import Any
 
 import jax.numpy as jnp
 import numpy as np
+from jaxtyping import Array
 
 from ..contacts import Gupta
 from ..contacts.laws import SPEED_SMOOTHING
@@ -62,7 +63,7 @@ def _yield(result: SolvedBearing) -> Excess:
     limit = result.scene.yield_pressure
     beyond = f"contact pressure beyond {1e-9 * limit:g} GPa on {{place}}"
     text = f"{beyond}: {result.elements} and races yield (static rating of ISO 76)"
-    return result.each(lambda contacts: contacts.said(text, contacts.most(contacts.pressure) - limit))
+    return result.said(text, lambda contacts: contacts.most(contacts.pressure) - limit)
 
 
 def _skid(result: SolvedBearing) -> Excess:
@@ -71,35 +72,32 @@ def _skid(result: SolvedBearing) -> Excess:
         "for rolling"
     )
 
-    def skidding(contacts: Contacts) -> Excess:
+    def skidding(contacts: Contacts) -> Array | None:
         if contacts.sliding is None or contacts.mean_speed is None or not result.scene.slips:
-            return {}
-        slide = jnp.abs(contacts.sliding / smooth_abs(contacts.mean_speed, SPEED_SMOOTHING))
-        return contacts.said(text, contacts.most(slide) - SKIDDING)
+            return None
+        return contacts.most(jnp.abs(contacts.sliding / smooth_abs(contacts.mean_speed, SPEED_SMOOTHING))) - SKIDDING
 
-    return result.each(skidding)
+    return result.said(text, skidding)
 
 
 def _hot(result: SolvedBearing) -> Excess:
     text = "oil in the contacts of {place} beyond 200 degC: the oil laws are extrapolated"
 
-    def hot(contacts: Contacts) -> Excess:
-        if contacts.temperature is None:
-            return {}
-        return contacts.said(text, contacts.most(contacts.temperature) - FITTED_TEMPERATURES[1])
+    def hot(contacts: Contacts) -> Array | None:
+        return None if contacts.temperature is None else contacts.most(contacts.temperature) - FITTED_TEMPERATURES[1]
 
-    return result.each(hot)
+    return result.said(text, hot)
 
 
 def _sheared(result: SolvedBearing) -> Excess:
     text = "mean contact pressure beyond 1.8 GPa on {place}: the traction rheology is extrapolated"
 
-    def sheared(contacts: Contacts) -> Excess:
+    def sheared(contacts: Contacts) -> Array | None:
         if contacts.laws is None or contacts.laws.traction is None:
-            return {}
-        return contacts.said(text, contacts.mean_share * contacts.most(contacts.pressure) - FITTED_PRESSURE)
+            return None
+        return contacts.mean_share * contacts.most(contacts.pressure) - FITTED_PRESSURE
 
-    return result.each(sheared)
+    return result.said(text, sheared)
 
 
 def _rough(result: SolvedBearing) -> Excess:
@@ -108,13 +106,12 @@ def _rough(result: SolvedBearing) -> Excess:
         "factor of 10 there, and so is the boundary friction"
     )
 
-    def rough(contacts: Contacts) -> Excess:
+    def rough(contacts: Contacts) -> Array | None:
         if contacts.load_share is None:
-            return {}
-        pressed = contacts.pressure > HEAVY
-        return contacts.said(text, contacts.most(jnp.where(pressed, contacts.load_share, 0.0)) - ROUGH)
+            return None
+        return contacts.most(jnp.where(contacts.pressure > HEAVY, contacts.load_share, 0.0)) - ROUGH
 
-    return result.each(rough)
+    return result.said(text, rough)
 
 
 def _gupta(result: SolvedBearing) -> Excess:
@@ -159,16 +156,16 @@ def _on_edge(result: SolvedBearing) -> Excess:
         "peak of pressure there is higher than that of laminae, and the film thinner than at mid length"
     )
 
-    def on_edge(contacts: Contacts) -> Excess:
+    def on_edge(contacts: Contacts) -> Array | None:
         laminae = contacts.laminae
         if laminae is None:
-            return {}
+            return None
         busy = contacts.loaded(BUSY)
         mean = jnp.where(busy, contacts.load, 1.0) / laminae.shape[2]
         end = jnp.maximum(laminae[..., 0], laminae[..., -1]) / mean
-        return contacts.said(text, contacts.most(end, BUSY) - EDGE_LOADED)
+        return contacts.most(end, BUSY) - EDGE_LOADED
 
-    return result.each(on_edge)
+    return result.said(text, on_edge)
 
 
 def _cut_off(result: SolvedBearing) -> Excess:

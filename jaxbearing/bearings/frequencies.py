@@ -11,12 +11,14 @@ import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Array, Float
 
+from .._derived import known_numbers
+from .._types import Values
 from ..numerics.checks import label
 
 TURN = 2.0 * np.pi
 NO_LOAD = 1e-30
 """Added to every load, N, so that elements without load count alike where none is loaded."""
-_Frequency = Float[Array, ""]
+_Frequency = Float[Array, "*batch"]
 
 
 class KinematicFrequencies(eqx.Module):
@@ -30,7 +32,7 @@ class KinematicFrequencies(eqx.Module):
     )
 
 
-def frequencies_of_motion(scene: Any, elements: Any, cage: Any) -> KinematicFrequencies:
+def frequencies_of_motion(operation: Any, elements: Any, cage: Any) -> KinematicFrequencies:
     r"""Frequencies of the motion that was solved: with its contact angles and its slip.
 
     $f_c = |\omega_c|/2\pi$, $f_o = Z|\omega_c - \omega_o|/2\pi$, $f_i = Z|\omega_i - \omega_c|/2\pi$,
@@ -38,12 +40,18 @@ def frequencies_of_motion(scene: Any, elements: Any, cage: Any) -> KinematicFreq
     the orbit, are means over the elements, each weighted by its loads on both raceways: what is heard comes from
     loaded elements.
 
-    **Arguments:** `elements`, `cage`: results of the scene; `cage` is `None` where it has none.
+    **Arguments:** `operation`, `elements`, `cage`: those of a solution, or of a batch of them; `cage` is `None` where
+    the scene has none.
     """
-    load = elements.load_inner + elements.load_outer + NO_LOAD
-    mean = lambda speed: jnp.sum(load * speed) / jnp.sum(load)
-    turning = mean(elements.orbital_speed) if cage is None else cage.speed
-    return _frequencies(scene, turning, mean(elements.spin_speed))
+    given = (elements.load_inner, elements.load_outer, elements.orbital_speed, elements.spin_speed)
+    speeds = (operation.inner_speed, operation.outer_speed)
+    (inner_load, outer_load, orbit, spin), rings, cage_speed = known_numbers(
+        (given, speeds, None if cage is None else cage.speed)
+    )
+    load = inner_load + outer_load + NO_LOAD
+    mean = lambda speed: (load * speed).sum(axis=-1) / load.sum(axis=-1)
+    turning = mean(orbit) if cage_speed is None else cage_speed
+    return _frequencies(rings, load.shape[-1], turning, mean(spin))
 
 
 def textbook_frequencies(scene: Any) -> KinematicFrequencies:
@@ -64,15 +72,17 @@ def textbook_frequencies(scene: Any) -> KinematicFrequencies:
     ratio = scene.mean_diameter * jnp.cos(scene.drawing_angle) / pitch
     turning = 0.5 * (inner * (1.0 - ratio) + outer * (1.0 + ratio))
     spin = 0.5 * (inner - outer) * (1.0 - jnp.square(ratio)) * pitch / scene.mean_diameter
-    return _frequencies(scene, turning, spin)
+    return _frequencies((inner, outer), scene.n_elements, turning, spin)
 
 
-def _frequencies(scene: Any, turning: Array, spin: Array) -> KinematicFrequencies:
-    """**Arguments:** `turning`: speed of the cage; `spin`: of the elements relative to it, rad/s."""
-    operation, often = scene.operation, lambda speed: jnp.abs(speed) / TURN
+def _frequencies(rings: tuple[Values, Values], count: int, turning: Values, spin: Values) -> KinematicFrequencies:
+    """**Arguments:** speeds, rad/s: of the `rings`, of the cage (`turning`), and of the elements relative to it
+    (`spin`)."""
+    often = lambda speed: abs(speed) / TURN
+    inner, outer = rings
     return KinematicFrequencies(
-        cage=often(turning),
-        outer_pass=scene.n_elements * often(turning - operation.outer_speed),
-        inner_pass=scene.n_elements * often(operation.inner_speed - turning),
-        element_spin=often(spin),
+        cage=jnp.asarray(often(turning)),
+        outer_pass=jnp.asarray(count * often(turning - outer)),
+        inner_pass=jnp.asarray(count * often(inner - turning)),
+        element_spin=jnp.asarray(often(spin)),
     )

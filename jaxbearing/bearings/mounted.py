@@ -52,11 +52,12 @@ def mounting_problems(scene: Any) -> Iterator[str | ValueError]:
         if temperatures is not None:
             yield "temperatures: they are those of a mounted bearing: the scene needs a [fits] table"
         return
-    geometry = scene.geometry
+    # the stand-in of fits that could not be read has no such attribute: nothing is required for them
+    geometry, check_room = scene.geometry, fits.check_room
     for name in ("bore", "outside_diameter"):
         if getattr(geometry, name) is None:
             yield f"geometry.{name}: found nothing, expected a length, which [fits] needs, e.g. '25 mm'"
-    yield from refusals_of(fits.check_room, geometry.bore, geometry.outside_diameter)
+    yield from refusals_of(check_room, geometry.bore, geometry.outside_diameter)
     yield from refusals_of(check_walls, scene)
     if temperatures is None and scene.thermal is None:
         return

@@ -11,12 +11,12 @@ import equinox as eqx
 import numpy as np
 from jaxtyping import Array, Bool, Float, Int
 
-from .._scene import AbstractSolution
+from .._scene import AbstractSolution, derived_part
 from .._scene import derived as derived
 from .._scene import label as label
 from ..numerics.status import Status
 from ..thermal.result import ThermalResult
-from .frequencies import KinematicFrequencies
+from .frequencies import KinematicFrequencies, frequencies_of_motion
 from .growth import FitResult
 from .supplied import SupplyResult
 
@@ -217,10 +217,13 @@ class Solution(AbstractSolution, Generic[Point, Elements, Losses]):
     rolling_by_race: RollingByRace | None = None
     boundary_power: BoundaryPower | None = None
     supply: SupplyResult | None = None
-    frequencies: KinematicFrequencies | None = None
-    """Frequencies of the motion that was solved."""
     textbook_frequencies: KinematicFrequencies | None = None
     """Frequencies of rolling without slip at the contact angle of the drawing."""
+
+    @derived_part(KinematicFrequencies)
+    def frequencies(self) -> KinematicFrequencies:
+        """Frequencies of the motion that was solved."""
+        return frequencies_of_motion(self.operation, self.elements, self.cage)
 
     @property
     def freedoms_of_stiffness(self) -> tuple[str, ...]:

@@ -40,6 +40,11 @@ class Normal(NamedTuple):
 NOTHING = Normal(0.0, math.inf)
 
 
+_ln = math.log
+_RATED = Normal(_ln(0.02), 1e-4)
+"""Grooves of conformity 0.52, which ISO 281 and ISO 76 assume."""
+
+
 class Proportions(NamedTuple):
     """Usual proportions of a type of bearing. Logarithms are natural; lengths are over half the difference of the
     boundary diameters H, their mean, or a width.
@@ -58,19 +63,16 @@ class Proportions(NamedTuple):
 
     diameter: Normal
     pitch: Normal
-    length: Normal
-    fill: Normal
-    gap_fill: Normal
-    angle_fill: Normal
-    inner_groove: Normal
-    outer_groove: Normal
     dynamic: Normal
     static: Normal
+    length: Normal = NOTHING
+    fill: Normal = NOTHING
+    gap_fill: Normal = NOTHING
+    angle_fill: Normal = NOTHING
+    inner_groove: Normal = _RATED
+    outer_groove: Normal = _RATED
 
 
-_ln = math.log
-_RATED = Normal(_ln(0.02), 1e-4)
-"""Grooves of conformity 0.52, which ISO 281 and ISO 76 assume."""
 _LENGTHS = {"10": 0.47, "2": 0.58, "3": 0.62, "4": 0.58, "22": 0.62, "23": 0.64}
 """Effective length of cylindrical rollers over the width of the bearing, by series."""
 
@@ -82,12 +84,7 @@ def proportions_of(kind: str, series: str) -> Proportions:
         return Proportions(
             diameter=Normal(_ln(0.58 if thin else 0.60), 0.07 if thin else 0.045),
             pitch=Normal(0.0, 0.004),
-            length=NOTHING,
-            fill=NOTHING,
-            gap_fill=NOTHING,
             angle_fill=Normal(0.0, 0.03),
-            inner_groove=_RATED,
-            outer_groove=_RATED,
             dynamic=Normal(0.03, 0.04),
             static=Normal(0.0, 0.03),
         )
@@ -96,10 +93,7 @@ def proportions_of(kind: str, series: str) -> Proportions:
         return Proportions(
             diameter=Normal(_ln(0.54 if spindle else 0.60), 0.13 if spindle else 0.05),
             pitch=Normal(0.0, 0.004),
-            length=NOTHING,
-            fill=NOTHING,
             gap_fill=Normal(0.0, 0.05),
-            angle_fill=NOTHING,
             inner_groove=Normal(_ln(0.022), 0.4) if spindle else _RATED,
             outer_groove=Normal(_ln(0.021), 0.15) if spindle else _RATED,
             dynamic=Normal(0.0, 0.012) if spindle else Normal(0.03, 0.05),
@@ -111,10 +105,6 @@ def proportions_of(kind: str, series: str) -> Proportions:
             pitch=Normal(_ln(1.006), 0.004),
             length=Normal(_ln(_LENGTHS[series]), 0.10),
             fill=Normal(_ln(0.86), 0.05),
-            gap_fill=NOTHING,
-            angle_fill=NOTHING,
-            inner_groove=_RATED,
-            outer_groove=_RATED,
             dynamic=Normal(0.07, 0.07),
             static=Normal(0.0, 0.03),
         )
@@ -123,10 +113,6 @@ def proportions_of(kind: str, series: str) -> Proportions:
         pitch=Normal(_ln(0.987), 0.012),
         length=Normal(_ln(0.78), 0.09),
         fill=Normal(_ln(0.87), 0.05),
-        gap_fill=NOTHING,
-        angle_fill=NOTHING,
-        inner_groove=_RATED,
-        outer_groove=_RATED,
         dynamic=Normal(0.07, 0.08),
         static=Normal(0.0, 0.05),
     )

@@ -6,8 +6,7 @@ from typing import Any, ClassVar
 import equinox as eqx
 from jaxtyping import Array, Bool, Float, Int
 
-from .._scene import AbstractSolution, label
-from ..numerics.status import Status
+from .._scene import AbstractHistory, label
 from .last_state import FilmState
 from .line_contact import ContactOperation
 from .solution import HertzResult
@@ -38,7 +37,7 @@ class ProfileHistory(eqx.Module):
     film: Float[Array, "time node"] = eqx.field(metadata=label("m", "film thickness"))
 
 
-class LineContactHistory(AbstractSolution):
+class LineContactHistory(AbstractHistory):
     """Result of a run in time: the steady start and every accepted step, also where the run ended early.
 
     A run whose film falls below `contact.film_limit` has come to the end of what the model describes: it is completed,
@@ -70,20 +69,8 @@ class LineContactHistory(AbstractSolution):
     solver: str = eqx.field(static=True, default=SOLVER)
     notes: tuple[str, ...] = eqx.field(static=True, default=())
 
-    @property
-    def converged(self) -> Bool[Array, ""]:
-        """True if the run reached its end, or the end of what the model describes."""
-        return self.status == Status.CONVERGED
-
-    @property
-    def completed(self) -> bool:
-        return bool(self.converged)
-
     def solver_failure(self) -> str:
-        reached, stop = float(self.time[-1]), float(self.stop)
-        why = "interrupted" if self.interrupted else Status(int(self.status)).text
-        where = f"{1e3 * reached:.6g} ms of {1e3 * stop:.6g} ms, after {int(self.accepted)} steps"
-        return f"{why}: the run stopped at {where}; what was computed until then is kept"
+        return self.early_end()
 
 
 def thin_note(time: float, limit: Any) -> str:

@@ -23,6 +23,7 @@ from jaxtyping import Array, Bool, Float, Int
 from .small_linear import UNROLLED_LIMIT, solve_blocks, solve_dense, with_positive_pivots
 
 System = TypeVar("System", bound="AbstractArrowSystem")
+Seen = TypeVar("Seen")
 
 
 class ArrowPoint(NamedTuple):
@@ -91,6 +92,12 @@ class AbstractArrowSystem(eqx.Module):
         element axis: this copy allows one forward pass to yield every block of the arrow.
         """
 
+    def tangents(
+        self, unknowns: Float[Array, "m element"], shared: Float[Array, "g element"]
+    ) -> tuple[Float[Array, "row element"], Float[Array, "row m+g element"], Float[Array, ""]]:
+        """Results of `element`, and their derivatives, as `element_tangents` returns them."""
+        return element_tangents(self.element, unknowns, shared)
+
     @abc.abstractmethod
     def global_residual(
         self, globals_: Float[Array, " g"], totals: Float[Array, " k"]
@@ -148,7 +155,7 @@ def evaluate(system: AbstractArrowSystem, point: ArrowPoint) -> Equations:
 
 def linearize(system: AbstractArrowSystem, point: ArrowPoint) -> tuple[Equations, ArrowJacobian]:
     """Equations and Jacobian blocks, by forward autodiff with m + g tangents."""
-    values, tangents, inner = element_tangents(system.element, point.elements, shared_by_elements(point))
+    values, tangents, inner = system.tangents(point.elements, shared_by_elements(point))
     return assembled(system, point, values, tangents, inner)
 
 
@@ -158,12 +165,12 @@ def shared_by_elements(point: ArrowPoint) -> Float[Array, "g element"]:
 
 
 def element_tangents(
-    element: Callable[[Array, Array], tuple[Array, Array, Array]],
+    element: Callable[[Array, Array], tuple[Array, Array, Seen]],
     unknowns: Float[Array, "m element"],
     shared: Float[Array, "g element"],
-) -> tuple[Float[Array, "row element"], Float[Array, "row m+g element"], Array]:
+) -> tuple[Float[Array, "row element"], Float[Array, "row m+g element"], Seen]:
     """Local residuals and contributions to totals of `element`, their derivatives by the element's unknowns and the
-    globals, and its third result."""
+    globals, and its third result, a pytree of arrays, which is not differentiated."""
     m, n = unknowns.shape
     width = m + shared.shape[0]
 

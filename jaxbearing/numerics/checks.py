@@ -18,6 +18,7 @@ import numpy as np
 from jax.core import Tracer
 from jaxtyping import Array, Bool
 
+from .gates import derivatives_if
 from .precision import as_float
 from .refusals import is_collecting, refuse_all
 
@@ -257,13 +258,9 @@ def nan_unless(tree: Any, valid: Bool[Array, ""]) -> Any:
 
 
 def gate(tree: Any, valid: Bool[Array, ""]) -> Any:
-    """Stops derivatives with respect to the tree's traced numbers if the inputs are not valid. The results of such a
-    lane are NaN, and NaN times zero must not reach the gradient of a number that lanes share."""
-
-    def passed(leaf: Any) -> Any:
-        return jnp.where(valid, leaf, jax.lax.stop_gradient(leaf)) if isinstance(leaf, Tracer) else leaf
-
-    return jax.tree.map(passed, tree)
+    """Stops derivatives with respect to the tree's traced numbers if the inputs are not valid."""
+    traced, others = eqx.partition(tree, lambda leaf: isinstance(leaf, Tracer))
+    return eqx.combine(derivatives_if(valid, traced), others)
 
 
 def _parts(node: Any, path: str) -> Iterator[tuple[str, eqx.Module]]:

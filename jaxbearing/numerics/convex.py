@@ -67,9 +67,17 @@ class AbstractConvexArrow(AbstractArrowSystem):
     def work(self, globals_: Float[Array, " g"]) -> Float[Array, ""]:
         """Work of the loads on the globals, in the unit of the energies."""
 
+    def without_guess(self) -> "AbstractConvexArrow":
+        """The same equations without first guesses, on which they do not depend."""
+        return self
+
     def element(self, unknowns, shared):
         local, contributions, _ = self.acting(unknowns, shared)
         return local, contributions, jnp.zeros(())
+
+    def tangents(self, unknowns, shared):
+        values, tangents, _ = _tangents(self.without_guess(), unknowns, shared)
+        return values, tangents, jnp.zeros(())
 
     def potential(self, point: ArrowPoint) -> Float[Array, ""]:
         """The potential, which is convex. It is unbounded below if there is no equilibrium."""
@@ -84,8 +92,8 @@ def anchored(value: Array, stiffness: float) -> Array:
 
 @jax.jit
 def _tangents(system: AbstractConvexArrow, unknowns: Array, shared: Array) -> tuple[Array, Array, Array]:
-    """Values of `acting`, their derivatives by unknowns and globals, and the energies. The compiled program contains
-    this function once, however often it is called."""
+    """Values of `acting`, their derivatives by unknowns and globals, and the energies. A program contains this function
+    once, however often the search for a first guess and Newton's iteration call it: `system` is `without_guess`."""
     return element_tangents(system.acting, unknowns, shared)
 
 
@@ -167,7 +175,7 @@ def descend(system: AbstractConvexArrow, guess: ArrowPoint, *, tolerance: float,
     caps = system.step_caps()
 
     def look(point: ArrowPoint) -> tuple[ArrowPoint, _View]:
-        values, tangents, energies = _tangents(system, point.elements, shared_by_elements(point))
+        values, tangents, energies = _tangents(system.without_guess(), point.elements, shared_by_elements(point))
         equations, jacobian = assembled(system, point, values, tangents, jnp.zeros(()))
         energy = jnp.sum(energies) - system.work(point.globals)
         return point, _View(energy, _largest(equations.residual), (equations.residual, jacobian))
@@ -190,7 +198,7 @@ def settle(system: AbstractConvexArrow, point: ArrowPoint) -> ArrowPoint:
     shared, caps = shared_by_elements(point), system.step_caps().elements
 
     def look(elements: Array) -> tuple[Array, _View]:
-        values, tangents, energies = _tangents(system, elements, shared)
+        values, tangents, energies = _tangents(system.without_guess(), elements, shared)
         blocks = jnp.concatenate([values[:m, None], tangents[:m, :m]], axis=1)
         return elements, _View(energies, jnp.max(jnp.abs(values[:m]), axis=0), blocks)
 
@@ -201,6 +209,25 @@ def settle(system: AbstractConvexArrow, point: ArrowPoint) -> ArrowPoint:
 
     end = _descent(look, step, point.elements, ELEMENT_TOLERANCE, ELEMENT_TRIALS)
     return ArrowPoint(end.point, point.globals)
+
+
+class Settled(NamedTuple):
+    """All elements at their minima for given globals: the point, the sum of the energies, the residuals of the globals,
+    and the Schur complement, their derivatives."""
+
+    point: ArrowPoint
+    energy: Float[Array, ""]
+    residual: Float[Array, " g"]
+    stiffness: Float[Array, "g g"]
+
+
+def settled(system: AbstractConvexArrow, point: ArrowPoint) -> Settled:
+    """The system with all elements at their minima for the globals of `point`."""
+    system, point = jax.lax.stop_gradient((system, point))
+    point = settle(system, point)
+    values, tangents, energies = _tangents(system, point.elements, shared_by_elements(point))
+    equations, jacobian = assembled(system, point, values, tangents, jnp.zeros(()))
+    return Settled(point, jnp.sum(energies), equations.residual.globals, eliminated(jacobian)[1])
 
 
 def descend_settled(system: AbstractConvexArrow, guess: ArrowPoint, *, tolerance: float, trials: int) -> Descent:
@@ -214,7 +241,7 @@ def descend_settled(system: AbstractConvexArrow, guess: ArrowPoint, *, tolerance
     def look(point: ArrowPoint) -> tuple[ArrowPoint, _View]:
         inside = ArrowPoint(point.elements, jnp.clip(point.globals, low, high))
         point = settle(system, inside)
-        values, tangents, energies = _tangents(system, point.elements, shared_by_elements(point))
+        values, tangents, energies = _tangents(system.without_guess(), point.elements, shared_by_elements(point))
         equations, jacobian = assembled(system, point, values, tangents, jnp.zeros(()))
         held = pushed_out(system, point, equations.residual).astype(float)
         coupled, schur = eliminated(jacobian)

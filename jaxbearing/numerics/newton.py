@@ -26,6 +26,7 @@ from .arrow import (
 )
 from .batching import in_turn
 from .continuation import MOST_STEPS, Continuation, StageEnd, advance, first_guesses
+from .gates import derivatives_if
 from .known_roots import at_known_root
 from .newton_steps import NewtonOptions as NewtonOptions
 from .newton_steps import Search, choose, judge, moved_on, propose
@@ -230,7 +231,7 @@ def newton_solve(system: System, options: NewtonOptions | None = None) -> tuple[
         lambda: _root(system, options=chosen),
         lambda known, stiffness: _known_root(system, root=known, stiffness=stiffness),
     )
-    live = jax.tree.map(lambda x: jnp.where(root.solved, x, jax.lax.stop_gradient(x)), system)
+    live = derivatives_if(root.solved, system)
     # What is reported was measured one Newton step before the returned point.
     end = root.end
     elements, globals_ = jnp.abs(end.equations.residual.elements), jnp.abs(end.equations.residual.globals)

@@ -1,48 +1,61 @@
 """Functions whose values and gradients stay finite and correct where those of the plain formula do not.
 
 A function that differs from the plain formula states its error; the others agree with it to round-off. No function
-hides a wrong answer.
+hides a wrong answer. Each is one inner `jax.jit`: a program has it once for each shape and calls it from many places.
 """
+
+from functools import partial
 
 import jax
 import jax.numpy as jnp
 
-from .._types import Batch, Values
+from .._types import Batch, Scalar, Values
 
 NORM_FLOOR = 1e-150
 """Length, in the unit of the vector, below which `safe_norm` is smooth and not exact."""
 
 
 @jax.custom_jvp
+def _log_add(a: Values, b: Values) -> Batch:
+    return jnp.maximum(a, b) + jnp.log1p(jnp.exp(-jnp.abs(a - b)))
+
+
+@_log_add.defjvp
+def _log_add_jvp(primals, tangents):
+    (a, b), (a_dot, b_dot) = primals, tangents
+    value = _log_add(a, b)
+    return value, jnp.exp(a - value) * a_dot + jnp.exp(b - value) * b_dot
+
+
+@jax.jit
 def log_add(a: Values, b: Values) -> Batch:
     """ln(e^a + e^b) for finite a, b: no overflow; the derivative is the softmax of (a, b).
 
     `jnp.logaddexp` also handles infinities and NaN, which more than doubles the operations of a differentiated power
     sum and the time to compile it.
     """
-    return jnp.maximum(a, b) + jnp.log1p(jnp.exp(-jnp.abs(a - b)))
-
-
-@log_add.defjvp
-def _log_add_jvp(primals, tangents):
-    (a, b), (a_dot, b_dot) = primals, tangents
-    value = log_add(a, b)
-    return value, jnp.exp(a - value) * a_dot + jnp.exp(b - value) * b_dot
+    return _log_add(a, b)
 
 
 @jax.custom_jvp
-def softplus(x: Values) -> Batch:
-    """ln(1 + e^x) for finite x, without overflow: `log_add(x, 0)`, differentiated with respect to x only."""
+def _softplus(x: Values) -> Batch:
     return jnp.maximum(x, 0.0) + jnp.log1p(jnp.exp(-jnp.abs(jnp.asarray(x))))
 
 
-@softplus.defjvp
+@_softplus.defjvp
 def _softplus_jvp(primals, tangents):
     (x,), (x_dot,) = primals, tangents
-    value = softplus(x)
+    value = _softplus(x)
     return value, jnp.exp(x - value) * x_dot
 
 
+@jax.jit
+def softplus(x: Values) -> Batch:
+    """ln(1 + e^x) for finite x, without overflow: `log_add(x, 0)`, differentiated with respect to x only."""
+    return _softplus(x)
+
+
+@jax.jit
 def softplus_floor(x: Values, floor: Values, width: Values) -> Batch:
     r"""$f + w\,\ln(1 + e^{(x - f)/w})$: a smooth max(x, floor).
 
@@ -54,6 +67,7 @@ def softplus_floor(x: Values, floor: Values, width: Values) -> Batch:
     return floor + width * softplus((x - floor) / width)
 
 
+@jax.jit
 def smooth_abs(x: Values, width: Values) -> Batch:
     r"""$\sqrt{x^2 + w^2}$: |x| with slope 0 at 0; too high by $w$ at 0, by $w^2/(2|x|)$ far away.
 
@@ -62,6 +76,7 @@ def smooth_abs(x: Values, width: Values) -> Batch:
     return jnp.sqrt(jnp.square(x) + jnp.square(width))
 
 
+@jax.jit
 def smooth_sign(x: Values, width: Values) -> Batch:
     r"""$x/\sqrt{x^2 + w^2}$: the sign of x, smooth, odd and 0 at 0; too small in modulus by $w^2/(2x^2)$ far away.
 
@@ -70,7 +85,8 @@ def smooth_sign(x: Values, width: Values) -> Batch:
     return x / smooth_abs(x, width)
 
 
-def power(x: Values, exponent: float) -> Batch:
+@jax.jit
+def power(x: Values, exponent: Scalar) -> Batch:
     """x**exponent for x > 0, computed as exp(exponent ln x); relative error about 1e-16 |exponent ln x|.
 
     On a CPU it takes an eighth of the time of x**exponent, for which XLA calls scalar code.
@@ -78,6 +94,7 @@ def power(x: Values, exponent: float) -> Batch:
     return jnp.exp(exponent * jnp.log(x))
 
 
+@partial(jax.jit, static_argnames=("exponent", "width", "order"))
 def regular_power(x: Values, exponent: float, width: float, order: int = 2) -> Batch:
     r"""$x\,(x^n + w^n)^{(m-1)/n}$: $x^m$ for 0 < m < 1 with a finite slope at 0.
 
@@ -93,6 +110,7 @@ def regular_power(x: Values, exponent: float, width: float, order: int = 2) -> B
     return x * power(jax.lax.integer_pow(jnp.asarray(x, dtype=float), order) + width**order, (exponent - 1.0) / order)
 
 
+@partial(jax.jit, static_argnames=("floor",))
 def safe_norm(x: Values, y: Values, floor: float = NORM_FLOOR) -> Batch:
     r"""$\sqrt{x^2 + y^2 + f^2}$: length of a plane vector, with gradient 0 (not NaN) at the origin.
 
@@ -101,6 +119,7 @@ def safe_norm(x: Values, y: Values, floor: float = NORM_FLOOR) -> Batch:
     return jnp.sqrt(jnp.square(x) + jnp.square(y) + floor**2)
 
 
+@partial(jax.jit, static_argnames=("exponent",))
 def positive_power(x: Values, exponent: float) -> Batch:
     """x**exponent for x > 0, 0 for x <= 0: value and gradient are finite everywhere for `exponent` > 1.
 
@@ -110,12 +129,14 @@ def positive_power(x: Values, exponent: float) -> Batch:
     return jnp.where(positive, power(jnp.where(positive, x, 1.0), exponent), 0.0)
 
 
+@jax.jit
 def smoothstep(t: Values) -> Batch:
     """t^2 (3 - 2 t) with t clipped to [0, 1]: a step from 0 to 1 with a continuous slope."""
     t = jnp.clip(t, 0.0, 1.0)
     return t * t * (3.0 - 2.0 * t)
 
 
+@partial(jax.jit, static_argnames=("width",))
 def nonnegative_pressure(pressure: Values, width: float = 1e6) -> Batch:
     r"""p for p >= 0, $w(e^{p/w} - 1)$ for p < 0: value and slope are exact at 0, and the value stays above -w.
 

@@ -23,13 +23,7 @@ def horner(coefficients: tuple[float, ...], x: Values) -> Batch:
 
 
 @jax.custom_jvp
-def cosine_and_sine(angle: Values) -> tuple[Batch, Batch]:
-    r"""cos and sin of an angle, rad, in a quarter of the time of the two functions: Taylor's series of the angle less
-    the nearest multiple of pi/2.
-
-    The error is below 2.3e-16 for |angle| < 1e6 rad, and below that of two last bits of the angle beyond. The result is
-    NaN from 1e15 rad on, where the last bits of the angle are whole turns.
-    """
+def _cosine_and_sine(angle: Values) -> tuple[Batch, Batch]:
     angle = jnp.asarray(angle, dtype=float)
     turns = jnp.round(angle * (2.0 / math.pi))
     rest = (angle - turns * _HALF_PI[0]) - turns * _HALF_PI[1]
@@ -43,7 +37,18 @@ def cosine_and_sine(angle: Values) -> tuple[Batch, Batch]:
     return x, jnp.where(quadrant >= 2.0, -y, y)
 
 
-@cosine_and_sine.defjvp
+@_cosine_and_sine.defjvp
 def _cosine_and_sine_jvp(primals, tangents):
-    cosine, sine = cosine_and_sine(primals[0])
+    cosine, sine = _cosine_and_sine(primals[0])
     return (cosine, sine), (-sine * tangents[0], cosine * tangents[0])
+
+
+@jax.jit
+def cosine_and_sine(angle: Values) -> tuple[Batch, Batch]:
+    r"""cos and sin of an angle, rad, in a quarter of the time of the two functions: Taylor's series of the angle less
+    the nearest multiple of pi/2.
+
+    The error is below 2.3e-16 for |angle| < 1e6 rad, and below that of two last bits of the angle beyond. The result is
+    NaN from 1e15 rad on, where the last bits of the angle are whole turns.
+    """
+    return _cosine_and_sine(angle)

@@ -6,7 +6,7 @@ import typing
 from collections.abc import Iterator
 from typing import Any
 
-from .._derived import derived_results
+from .._derived import derived_parts, derived_results
 
 _FACTOR = re.compile(r"([A-Za-z]+)(?:\^([2-9]))?")
 
@@ -52,6 +52,9 @@ def labelled(part: Any, above: str = "") -> Iterator[tuple[str, Any, Any]]:
             yield from labelled(value, f"{above}{field.name}.")
         elif value is not None and field.metadata.get("description"):
             yield above + field.name, value, {**field.metadata, "dims": dimensions(field.type), "derived": False}
+    for name in derived_parts(type(part)):
+        if (value := getattr(part, name)) is not None:
+            yield from labelled(value, f"{above}{name}.")
     for name, one in derived_results(type(part)).items():
         if (value := getattr(part, name)) is not None:
             yield above + name, value, {**one.metadata, "dims": dimensions(one.annotation), "derived": True}

@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 import jax
 import jax.numpy as jnp
 
-from .._derived import derived_results
+from .._derived import derived_parts, derived_results
 from ..bearings.operation import LOAD_FIELDS, AbstractOperation
 from ..report.labels import dimensions
 from ..scenes.errors import nearest
@@ -71,6 +71,11 @@ def labels_of(solution: Any, names: Sequence[str]) -> dict[str, Label]:
     return found
 
 
+def paths_of(solution: Any) -> tuple[str, ...]:
+    """Paths of all results of a solution."""
+    return tuple(path for path, _ in _known(solution))
+
+
 def variable_of(path: str) -> str:
     """Name of a result in data sets."""
     return path.removeprefix("elements.").replace(".", "_")
@@ -92,6 +97,9 @@ def _known(part: Any, above: str = "") -> Iterator[tuple[str, dict[str, Any]]]:
             yield from _known(value, f"{above}{field.name}.")
         elif value is not None and field.metadata.get("description"):
             yield above + field.name, {**field.metadata, "dims": dimensions(field.type)}
+    for name, one in derived_parts(type(part)).items():
+        for field in dataclasses.fields(one.kind):
+            yield f"{above}{name}.{field.name}", {**field.metadata, "dims": dimensions(field.type)}
     for name, one in derived_results(type(part)).items():
         yield above + name, {**one.metadata, "dims": dimensions(one.annotation)}
 

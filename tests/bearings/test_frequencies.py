@@ -41,7 +41,7 @@ def test_published_factors_of_a_6205():
 def test_elements_pass_one_ring_or_the_other():
     """Both passing frequencies together are Z times the relative speed of the rings, whatever the cage does."""
     scene = ball_scene(inner=700.0, outer=-200.0)
-    one = frequencies_of_motion(scene, moving([1.0] * 9, [123.0] * 9, [900.0] * 9), None)
+    one = frequencies_of_motion(scene.operation, moving([1.0] * 9, [123.0] * 9, [900.0] * 9), None)
     for found in (textbook_frequencies(scene), one):
         np.testing.assert_allclose(found.outer_pass + found.inner_pass, 9 * 900.0 / HERTZ, rtol=1e-14)
 
@@ -66,17 +66,19 @@ def test_a_contact_angle_makes_the_cage_faster():
 def test_loaded_elements_and_the_cage_are_heard():
     """Means are weighted by load; a cage that is modelled says its speed itself."""
     elements = moving([3.0, 1.0, *[0.0] * 7], [40.0, 44.0, *[0.0] * 7], [200.0, 240.0, *[0.0] * 7])
-    alone = frequencies_of_motion(ball_scene(100.0), elements, None)
+    alone = frequencies_of_motion(ball_scene(100.0).operation, elements, None)
     np.testing.assert_allclose(alone.cage, 41.0 / HERTZ, rtol=1e-14)
     np.testing.assert_allclose(alone.element_spin, 210.0 / HERTZ, rtol=1e-14)
-    caged = frequencies_of_motion(ball_scene(100.0), elements, SimpleNamespace(speed=jnp.asarray(39.0)))
+    caged = frequencies_of_motion(ball_scene(100.0).operation, elements, SimpleNamespace(speed=jnp.asarray(39.0)))
     np.testing.assert_allclose(caged.cage, 39.0 / HERTZ, rtol=1e-14)
     np.testing.assert_allclose(caged.inner_pass, 9 * 61.0 / HERTZ, rtol=1e-14)
 
 
 def test_nothing_loaded_and_nothing_turning_is_finite():
     elements = moving([0.0] * 9, [40.0] * 9, [200.0] * 9)
-    np.testing.assert_allclose(frequencies_of_motion(ball_scene(100.0), elements, None).cage, 40.0 / HERTZ, rtol=1e-14)
+    np.testing.assert_allclose(
+        frequencies_of_motion(ball_scene(100.0).operation, elements, None).cage, 40.0 / HERTZ, rtol=1e-14
+    )
     slopes = jax.grad(lambda speed: textbook_frequencies(ball_scene(speed)).inner_pass)(0.0)
     assert np.isfinite(slopes)
 

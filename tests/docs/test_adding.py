@@ -37,7 +37,7 @@ def test_files_of_the_table_are_there():
     (table,) = re.findall(r"^\| to add \|.*?\n\n", PAGE, flags=re.MULTILINE | re.DOTALL)
     files = re.findall(r"`((?:\w+/)*\w+\.py)`", table)
     here = {path.relative_to(test_layers.PACKAGE).as_posix() for path in test_layers.modules(test_layers.PACKAGE)}
-    in_families = {"scene.py", "solution.py", "steady.py", "schema.py", "build.py", "writer.py"}
+    in_families = {"scene.py", "geometry.py", "solution.py", "schema.py", "build.py", "writer.py"}
     assert set(files) - in_families <= here
 
 

@@ -57,7 +57,7 @@ def ball_row(scene: BallBearing, ring: InnerRing | None = None) -> Row:
     operation, geometry = scene.operation, scene.geometry
     azimuth = azimuths(geometry, geometry.n_balls, operation.symmetric and ring is None)
     if ring is None:
-        ring = inner_ring(operation, scene.unknown_freedoms, geometry.groove_circle_radius)
+        ring = inner_ring(scene, geometry.groove_circle_radius)
     every = ring_directions(azimuth)
     held_shift = jnp.einsum("f,fcn->cn", ring.held, every)
     return Row(azimuth, ring, ring.of_unknown(every), held_shift, geometry.n_balls // azimuth.size)

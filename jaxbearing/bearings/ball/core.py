@@ -203,6 +203,10 @@ class BallCore(AbstractBallSystem):
         centres, forces, rings = jax.vmap(under)(jnp.stack([core.ring.load, core.heavier * core.ring.load]))
         return dataclasses.replace(first, centrifugal=forces[0]), centres, rings
 
+    def at_free_angle(self) -> CentrifugalProblem:
+        """The convex problem at the centrifugal forces of the contact angle of the unloaded bearing."""
+        return self._frozen(jnp.broadcast_to(self.grooves.free_angle, (2, self.azimuth.shape[0])))
+
     def _frozen(self, angle: Float[Array, "2 ball"]) -> CentrifugalProblem:
         """The convex problem at the centrifugal forces of given contact angles."""
         return CentrifugalProblem(
@@ -260,12 +264,17 @@ class BallCore(AbstractBallSystem):
         return 1 if self.common_orbit else 0
 
     def element(self, unknowns, shared):
+        local, totals, _ = self.seen(unknowns, shared)
+        return local, totals, jnp.zeros(())
+
+    def seen(self, unknowns: Float[Array, "2 ball"], shared: Float[Array, "g ball"]) -> tuple[Array, Array, BallState]:
+        """Local residuals and contributions to the totals, as `element` gives them, and the state that they are of."""
         state = self.balls(unknowns, shared)
         totals = state.on_ring
         if self.common_orbit:
             speeds = orbit_totals(state.load[0], state.own_orbit, state.motion.orbital_speed)
             totals = jnp.concatenate([totals, self.multiplicity * speeds])
-        return state.balance / self.ball_scale(), totals, jnp.zeros(())
+        return state.balance / self.ball_scale(), totals, state
 
     def global_residual(self, globals_, totals):
         d = len(self.freedoms)

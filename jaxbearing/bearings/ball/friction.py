@@ -30,7 +30,6 @@ import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Array, Float
 
-from ...contacts import PointContact
 from ...contacts.distributed import Traction
 from ...contacts.mixed import MixedState
 from ...contacts.shear import Sliding
@@ -45,10 +44,10 @@ PART_TOLERANCE = 1e-12
 """Tolerance of the attitude of least spin power, as a part of the way from outer to inner control."""
 
 
-def with_traction(system: AbstractLubricatedBallSystem, state: BallsState, contact: PointContact) -> BallsState:
+def with_traction(system: AbstractLubricatedBallSystem, state: BallsState) -> BallsState:
     """The state with all friction on the balls, and the equations of their motion."""
     motion = state.motion
-    shear, rolling, curvature = _friction(system, state, contact)
+    shear, rolling, curvature = _friction(system, state)
     forward, about = jnp.asarray(-SIDES * shear.rolling), -shear.moment
     axis, radius = _moments(system, state.angle, forward, about, (rolling, curvature))
     tangential, drag_force, pocket = forward[0] + forward[1], None, None
@@ -73,20 +72,18 @@ def with_traction(system: AbstractLubricatedBallSystem, state: BallsState, conta
         cage_moment=cage_moment,
         cage_force=cage_force,
     )
-    return state._replace(rows=_rows(system, state, contact, axis, radius, tangential))
+    return state._replace(rows=_rows(system, state, axis, radius, tangential))
 
 
-def _friction(
-    system: AbstractLubricatedBallSystem, state: BallsState, contact: PointContact
-) -> tuple[Traction, Array | None, Array | None]:
+def _friction(system: AbstractLubricatedBallSystem, state: BallsState) -> tuple[Traction, Array | None, Array | None]:
     """Traction of both contacts; moments against the roll by the film's pressure and by Heathcote slip, N m;
     `None`: not modelled."""
     races = state.races
     bend = 0.5 / _patch_radius(system) if system.laws.heathcote else None
     sliding = _sliding(system, state, bend)
-    shear = system.laws.shear(contact, state.load, state.film, races.mean_speed, sliding, system.oil)
+    shear = system.laws.shear(state.contact, state.load, state.film, races.mean_speed, sliding, system.oil)
     turn = SIDES * races.roll
-    rolling = system.laws.rolling_moment(contact, state.load, state.film, races.mean_speed, turn, system.inlet)
+    rolling = system.laws.rolling_moment(state.contact, state.load, state.film, races.mean_speed, turn, system.inlet)
     curvature = None if bend is None or shear.curvature is None else -bend * shear.curvature
     return shear, rolling, curvature
 
@@ -100,12 +97,12 @@ def _sliding(system: AbstractLubricatedBallSystem, state: BallsState, bend: Arra
     return Sliding(slide * races.rolling, transverse, system.slide_share * races.spin, curved)
 
 
-def mixed_state(system: AbstractLubricatedBallSystem, state: BallsState, contact: PointContact) -> MixedState | None:
+def mixed_state(system: AbstractLubricatedBallSystem, state: BallsState) -> MixedState | None:
     """Mixed friction of both contacts, forces of the races on the balls along the orbit; `None`: not modelled."""
     shear = state.traction
     assert shear is not None
     sliding, speed = _sliding(system, state), state.races.mean_speed
-    found = system.laws.mixed_state(contact, state.load, state.film, speed, sliding, shear, system.oil)
+    found = system.laws.mixed_state(state.contact, state.load, state.film, speed, sliding, shear, system.oil)
     return None if found is None else found._replace(boundary=jnp.asarray(-SIDES * found.boundary))
 
 
@@ -146,7 +143,6 @@ def _on_cage(system: AbstractLubricatedBallSystem, pocket: BallPocketFilm) -> tu
 def _rows(
     system: AbstractLubricatedBallSystem,
     state: BallsState,
-    contact: PointContact,
     axis: Array,
     radius: Array,
     tangential: Array,
@@ -167,7 +163,7 @@ def _rows(
         sideways = state.friction - SIDES * shear.transverse
         rows["transverse"], rows["carried"] = (sideways[0] + sideways[1]) / scale, sideways[0] / scale
     if system.attitude == "min_power":
-        rows["attitude"] = state.motion.attitude - _least_power(system, state, contact)
+        rows["attitude"] = state.motion.attitude - _least_power(system, state)
     return tuple(rows[name] for name in system.own_unknowns)
 
 
@@ -177,7 +173,7 @@ def _patch_radius(system: AbstractLubricatedBallSystem) -> Float[Array, "2 1"]:
     return (2.0 * conformities * system.geometry.ball_diameter / (2.0 * conformities + 1.0))[:, None]
 
 
-def _least_power(system: AbstractLubricatedBallSystem, state: BallsState, contact: PointContact) -> Array:
+def _least_power(system: AbstractLubricatedBallSystem, state: BallsState) -> Array:
     """Attitude of the least spin power between those of outer and inner control, rad.
 
     The power is that of rolling without sliding at frozen loads, angles and films. Where it rises from one end on,
@@ -202,7 +198,7 @@ def _least_power(system: AbstractLubricatedBallSystem, state: BallsState, contac
         rise = jax.jvp(power, (part,), (jnp.ones_like(part),))[1]
         return rise / (balls.friction_scale() * balls.spin_unit() * motion.ball_diameter)
 
-    args = (system, state.angle, state.load, state.film, contact)
+    args = (system, state.angle, state.load, state.film, state.contact)
     half = jnp.full_like(inner, 0.5)
     part = monotone_root(slope, args, 0.0, 1.0, half, tolerance=PART_TOLERANCE).value
     low, high = system.kinematics.outer_control(outer), system.kinematics.inner_control(inner)

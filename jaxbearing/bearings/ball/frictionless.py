@@ -13,7 +13,6 @@ import jax.numpy as jnp
 from jaxtyping import Array, Float
 
 from ..._types import Scalar
-from ...contacts import PointContact
 from ...contacts.point_laws import PointFilm, PointLaws
 from ...lubricants import InletOil, Lubricant
 from ...numerics.precision import as_float
@@ -105,7 +104,7 @@ class AbstractLubricatedBallSystem(AbstractOils, AbstractBallSystem):
 
     def frictionless(
         self, unknowns: Float[Array, "m ball"], shared: Float[Array, "g ball"], film: PointFilm | None = None
-    ) -> tuple[BallsState, PointContact]:
+    ) -> BallsState:
         """All but what traction does; `film`: where it is known and stays."""
         d = len(self.freedoms)
         own = dict(zip(self.own_unknowns, unknowns[2:], strict=True))
@@ -138,11 +137,12 @@ class AbstractLubricatedBallSystem(AbstractOils, AbstractBallSystem):
         on_ring = on_ring(jnp.stack([axial[0], radial[0], *sideways]), moment)
         if pocket is not None and self.cage is not None and self.cage.guidance == "inner_ring":
             on_ring = on_ring + self._through_land(pocket)
-        state = BallsState(
+        return BallsState(
             load=load,
             angle=angle,
             centre=centre,
             motion=motion,
+            contact=contact,
             races=races,
             friction=friction,
             film=film,
@@ -159,7 +159,6 @@ class AbstractLubricatedBallSystem(AbstractOils, AbstractBallSystem):
             cage_moment=None,
             cage_force=None,
         )
-        return state, contact
 
     def _through_land(self, pocket: Float[Array, " ball"]) -> Float[Array, "freedom ball"]:
         """Gives the contributions of the pockets' outward friction, N, to the forces on the ring.

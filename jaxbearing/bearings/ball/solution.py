@@ -1,18 +1,42 @@
 """Results of a ball bearing, labelled (see `solution`)."""
 
-from typing import Any
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import equinox as eqx
 from jaxtyping import Array, Float
 
+from ..computed import computed
 from ..solution import Solution, label
 from .scene import BallOperation
+
+if TYPE_CHECKING:
+    from .core import BallCore, BallState
+    from .equations import LubricatedBallSystem
+    from .state import BallsState
 
 _Values = Float[Array, " element"]
 
 
+class SolvedBalls(NamedTuple):
+    """What a solve found at the balls. **Arguments:** `films`: the `state` of balls with films, `None` of others."""
+
+    system: "BallCore | LubricatedBallSystem"
+    state: "BallState | BallsState"
+    films: "BallsState | None" = None
+
+
 def _result(unit: str, description: str) -> Any:
     return eqx.field(metadata=label(unit, description))
+
+
+def _control(at: SolvedBalls) -> Array:
+    inner, outer = at.state.angle
+    return at.system.kinematics.raceway_control(inner, outer, at.state.motion.attitude)
+
+
+def _computed(unit: str, description: str, of: Callable[[SolvedBalls], Array | None], **default: None) -> Any:
+    return computed(unit, description, of, **default)
 
 
 def _optional(unit: str, description: str) -> Any:
@@ -32,11 +56,25 @@ class BallResults(eqx.Module):
     orbital_speed: _Values = _result("rad/s", "speed of the ball centre about the bearing axis")
     spin_speed: _Values = _result("rad/s", "spin of the ball, relative to its orbit")
     attitude_angle: _Values = _result("rad", "attitude of the spin, beta")
-    raceway_control: _Values = _result("percent", "100: outer race control, 0: inner race control")
-    control_angle_inner: _Values = _result("rad", "attitude of the spin under inner race control, beta_i")
-    control_angle_outer: _Values = _result("rad", "attitude of the spin under outer race control, beta_o")
-    centrifugal_force: _Values = _result("N", "centrifugal force on the ball")
-    gyroscopic_couple: _Values = _result("N m", "gyroscopic couple of the ball, carried where the scene says by what")
+    raceway_control: _Values = _computed("percent", "100: outer race control, 0: inner race control", _control)
+    control_angle_inner: _Values = _computed(
+        "rad",
+        "attitude of the spin under inner race control, beta_i",
+        lambda at: at.system.kinematics.inner_control(at.state.angle[0]),
+    )
+    control_angle_outer: _Values = _computed(
+        "rad",
+        "attitude of the spin under outer race control, beta_o",
+        lambda at: at.system.kinematics.outer_control(at.state.angle[1]),
+    )
+    centrifugal_force: _Values = _computed(
+        "N", "centrifugal force on the ball", lambda at: at.system.centrifugal(at.state.motion.orbital_speed)
+    )
+    gyroscopic_couple: _Values = _computed(
+        "N m",
+        "gyroscopic couple of the ball, carried where the scene says by what",
+        lambda at: at.system.couple(at.state.motion),
+    )
     spin_to_roll_inner: _Values = _result("1", "spin about the contact normal over roll, inner")
     spin_to_roll_outer: _Values = _result("1", "spin about the contact normal over roll, outer")
     transverse_spin: _Values | None = _optional(

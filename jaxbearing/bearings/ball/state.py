@@ -5,6 +5,7 @@ from typing import Literal, NamedTuple
 import equinox as eqx
 from jaxtyping import Array, Float
 
+from ...contacts import PointContact
 from ...contacts.distributed import Traction
 from ...contacts.point_laws import PointFilm
 from ...gaps import ReynoldsDrag, RollerDrag, ShortJournal
@@ -51,6 +52,8 @@ class BallsState(NamedTuple):
     centre: Float[Array, "2 ball"]
     """Centre of the ball, from the outer groove centre, m."""
     motion: BallMotion
+    contact: PointContact
+    """The contacts at these angles, with the shapes of their ellipses."""
     races: RaceMotion
     friction: Float[Array, "2 ball"] | None
     film: PointFilm

@@ -1,7 +1,7 @@
 """Steady state of a ball bearing: from the scene to the equations, and from the roots to the results."""
 
 import dataclasses
-from typing import Any
+from typing import Any, TypeVar
 
 import jax
 import jax.numpy as jnp
@@ -11,9 +11,10 @@ from jaxtyping import Array, Float
 from ...contacts import PointContact
 from ...contacts.point_laws import PointFilm
 from ...materials import reduced_modulus
-from ...numerics.arrow import ArrowJacobian, ArrowPoint, linearize
+from ...numerics.arrow import ArrowJacobian, ArrowPoint, assembled, element_tangents, shared_by_elements
 from ...numerics.newton import NewtonOptions, NewtonResult, newton_solve
 from ..assemble import Results, assemble
+from ..computed import computed_results
 from ..facts import MEAN_OF_POINT, RACEWAYS, Contacts, Facts
 from ..interactions import Costs, Interaction, costs, of_land
 from ..land import LandState
@@ -22,14 +23,15 @@ from ..parts import azimuths
 from ..ring import InnerRing, Port
 from ..solution import RING_FREEDOMS, TILTS, CageState, FailureCause, RacewayPower, Solution
 from .build import build_core, build_lubricated, ring_directions
-from .core import BallCore
+from .core import BallCore, BallState
 from .equations import LubricatedBallSystem
 from .friction import SIDES, mixed_state
-from .kinematics import BallMotion
 from .rolling import common_orbit_torques, rolling_balance
 from .scene import BallBearing
-from .solution import BallPowerLoss, BallResults
+from .solution import BallPowerLoss, BallResults, SolvedBalls
 from .state import BallsState
+
+Balls = TypeVar("Balls", BallCore, LubricatedBallSystem)
 
 
 def solve_ball(
@@ -42,14 +44,14 @@ def solve_ball(
     core, steps = build_core(scene, exact, ring).started()
     if scene.contact is None:
         system, result = newton_solve(core, options)
-        results, film = _dry_results(scene, system, result), None
+        port, balls = _dry_port(scene, system, result)
+        results = _dry_results(scene, system, balls)
     else:
         system, result = newton_solve(build_lubricated(scene, core), options)
         state = system.at(result.point)
-        results, film = _lubricated(scene, system, result, state), state.film
+        results, port = _lubricated(scene, system, result, state), _port(scene, system, result, state.film)
     steps = steps + result.iterations
     lever = system.grooves.lever
-    port = _port(scene, system, result, film)
     if any(name in TILTS for name in system.freedoms):
         stiffness = _of_lengths(port.stiffness, lever, system.freedoms)
         results = results._replace(facts=results.facts._replace(stiffness=stiffness))
@@ -124,20 +126,21 @@ def _every(scene: BallBearing, values: Array) -> Float[Array, " ball"]:
 def _ball_results(
     scene: BallBearing,
     system: BallCore | LubricatedBallSystem,
-    load: Array,
-    angle: Array,
-    motion: BallMotion,
-    **more: Array | None,
+    state: BallState | BallsState,
+    contact: PointContact,
+    films: BallsState | None = None,
+    **more: Any,
 ) -> tuple[BallResults, Contacts]:
     """Loads, angles and motion; and the contacts for the checks, as far as geometry goes."""
     geometry, kinematics = scene.geometry, system.kinematics
-    cosine = jnp.cos(angle)
-    ellipse = _contact(scene, cosine).ellipse(load)
+    load, angle, motion = state.load, state.angle, state.motion
+    ellipse = contact.ellipse(load)
     pressure = jnp.where(load > 0, ellipse.pressure, 0.0)
     races = (kinematics.inner_race(motion, angle[0]), kinematics.outer_race(motion, angle[1]))
     rolling = jnp.abs(kinematics.inner_speed - kinematics.outer_speed) / kinematics.ratio
     ratios = [race.spin / jnp.sqrt(jnp.square(race.roll) + jnp.square(1e-12 * rolling) + 1e-24) for race in races]
-    every = lambda values: None if values is None else _every(scene, values)
+    more |= computed_results(BallResults, SolvedBalls(system, state, films))
+    others: dict[str, Any] = {name: _every(scene, one) for name, one in more.items() if one is not None}
     elements = BallResults(
         azimuth=azimuths(geometry, geometry.n_balls),
         load_inner=_every(scene, load[0]),
@@ -149,14 +152,9 @@ def _ball_results(
         orbital_speed=_every(scene, motion.orbital_speed),
         spin_speed=_every(scene, motion.spin_speed),
         attitude_angle=_every(scene, motion.attitude),
-        raceway_control=_every(scene, kinematics.raceway_control(angle[0], angle[1], motion.attitude)),
-        control_angle_inner=_every(scene, kinematics.inner_control(angle[0])),
-        control_angle_outer=_every(scene, kinematics.outer_control(angle[1])),
-        centrifugal_force=_every(scene, system.centrifugal(motion.orbital_speed)),
-        gyroscopic_couple=_every(scene, system.couple(motion)),
         spin_to_roll_inner=_every(scene, jnp.abs(ratios[0])),
         spin_to_roll_outer=_every(scene, jnp.abs(ratios[1])),
-        **{name: every(values) for name, values in more.items()},
+        **others,
     )
     contacts = Contacts(RACEWAYS, load, pressure, MEAN_OF_POINT, angle=angle)
     return elements, _at_shoulders(scene, contacts, jnp.abs(angle), ellipse.transverse)
@@ -184,9 +182,9 @@ def _contact(scene: BallBearing, cosine: Array) -> PointContact:
     return scene.geometry.contacts(cosine[0], cosine[1], modulus)
 
 
-def _dry_results(scene: BallBearing, system: BallCore, result: NewtonResult) -> Results[BallResults, BallPowerLoss]:
-    state = system.at(result.point)
-    elements, contacts = _ball_results(scene, system, state.load, state.angle, state.motion)
+def _dry_results(scene: BallBearing, system: BallCore, state: BallState) -> Results[BallResults, BallPowerLoss]:
+    contact = _contact(scene, jnp.cos(state.angle))
+    elements, contacts = _ball_results(scene, system, state, contact)
     return Results(elements, Costs(BallPowerLoss()), Facts((contacts,)))
 
 
@@ -203,14 +201,14 @@ def _lubricated(
         more |= {"sliding_inner": state.races.rolling[0], "sliding_outer": state.races.rolling[1]}
         more |= {"traction_inner": forward[0], "traction_outer": forward[1]}
         more |= {"spin_moment_inner": shear.moment[0], "spin_moment_outer": shear.moment[1]}
-    mixed = None if shear is None else mixed_state(system, state, _contact(scene, jnp.cos(state.angle)))
+    mixed = None if shear is None else mixed_state(system, state)
     more |= mixed_results(mixed)
     if system.resolved:
         more["transverse_spin"] = state.motion.transverse
     if pocket is not None:
         more |= {"pocket_film_front": pocket.film_front, "pocket_film_rear": pocket.film_rear}
         more |= {"pocket_load_front": pocket.load_front, "pocket_load_rear": pocket.load_rear}
-    elements, contacts = _ball_results(scene, system, state.load, state.angle, state.motion, **more)
+    elements, contacts = _ball_results(scene, system, state, state.contact, state, **more)
     contacts = contacts._replace(
         laws=system.laws,
         inlet=system.inlet,
@@ -319,14 +317,10 @@ def _ball_torques(
     return inner, outer
 
 
-def _port(
-    scene: BallBearing, system: BallCore | LubricatedBallSystem, result: NewtonResult, film: PointFilm | None
-) -> Port:
-    """The reaction and the stiffness of all five freedoms of the ring, of all balls, also where one was solved for
-    all."""
+def _released(scene: BallBearing, system: Balls, result: NewtonResult) -> tuple[Balls, ArrowPoint]:
+    """The equations and the unknowns of all balls, also where one was solved for all, with all five freedoms."""
     count = scene.geometry.n_balls
     azimuth = azimuths(scene.geometry, count)
-    wide = lambda values: jnp.broadcast_to(values, (*values.shape[:-1], count))
     full = dataclasses.replace(
         system,
         directions=ring_directions(azimuth),
@@ -335,14 +329,30 @@ def _port(
         held_shift=jnp.zeros((2, count)),
         multiplicity=1,
     )
-    point = ArrowPoint(wide(result.point.elements), system.ring.released_unknowns(result.point.globals))
-    if isinstance(full, LubricatedBallSystem):
-        # a ring that cannot tilt moves the groove centres only: at given unknowns of the balls the films stay
-        film = None if full.exact else jax.tree.map(wide, film)
-        jacobian, force = _all_freedoms(full, point, result.jacobian, len(system.freedoms), system.multiplicity, film)
-        return full.ring.port(jacobian, force, full.load_scale(), system.freedoms)
-    equations, jacobian = linearize(full, point)
+    globals_ = system.ring.released_unknowns(result.point.globals)
+    return full, ArrowPoint(_wide(result.point.elements, count), globals_)
+
+
+def _wide(values: Array, count: int) -> Array:
+    return jnp.broadcast_to(values, (*values.shape[:-1], count))
+
+
+def _dry_port(scene: BallBearing, system: BallCore, result: NewtonResult) -> tuple[Port, BallState]:
+    """The reaction and the stiffness of all five freedoms of the ring, and the state of all balls, from one
+    evaluation."""
+    full, point = _released(scene, system, result)
+    values, tangents, state = element_tangents(full.seen, point.elements, shared_by_elements(point))
+    equations, jacobian = assembled(full, point, values, tangents, jnp.zeros(()))
     force = equations.residual.globals[:5] * full.load_scale() + full.ring.load
+    return full.ring.port(jacobian, force, full.load_scale(), system.freedoms), state
+
+
+def _port(scene: BallBearing, system: LubricatedBallSystem, result: NewtonResult, film: PointFilm) -> Port:
+    """The reaction and the stiffness of all five freedoms of the ring."""
+    full, point = _released(scene, system, result)
+    # a ring that cannot tilt moves the groove centres only: at given unknowns of the balls the films stay
+    kept = None if full.exact else jax.tree.map(lambda values: _wide(values, scene.geometry.n_balls), film)
+    jacobian, force = _all_freedoms(full, point, result.jacobian, len(system.freedoms), system.multiplicity, kept)
     return full.ring.port(jacobian, force, full.load_scale(), system.freedoms)
 
 
@@ -366,7 +376,7 @@ def _all_freedoms(
     shared = jnp.broadcast_to(point.globals[:, None], (g, count))
 
     def light(v):
-        state = full.frictionless(v[:m], v[m:], film)[0]
+        state = full.frictionless(v[:m], v[m:], film)
         return jnp.concatenate([state.fit, state.on_ring])
 
     v = jnp.concatenate([point.elements, shared])

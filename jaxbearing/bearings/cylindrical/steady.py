@@ -9,6 +9,7 @@ from ...materials import reduced_modulus
 from ...numerics.arrow import ArrowPoint, condensed, linearize, schur_complement
 from ...numerics.newton import NewtonOptions, NewtonResult, newton_solve
 from ..assemble import Results, assemble
+from ..computed import computed_results
 from ..facts import MEAN_OF_LINE, RACEWAYS, Contacts, Facts
 from ..inlet import oil_elsewhere, oil_of_races, oil_temperature
 from ..interactions import Costs, Interaction, costs, of_land
@@ -25,7 +26,7 @@ from .kinematics import RollerKinematics, roller_kinematics
 from .loads import LEAST_LOAD
 from .ring import roller_ring
 from .scene import CylindricalRollerBearing
-from .solution import PowerLoss, RollerResults
+from .solution import PowerLoss, RollerResults, SolvedRollers
 
 
 def build_system(
@@ -232,6 +233,7 @@ def _lubricated(system: LubricatedRollerSystem, result: NewtonResult) -> Results
         pocket_load_front=None if pocket is None else pocket.load_front,
         pocket_load_rear=None if pocket is None else pocket.load_rear,
         **mixed_results(mixed),
+        **computed_results(RollerResults, SolvedRollers(system, state)),
     )
     contacts = Contacts(
         RACEWAYS,

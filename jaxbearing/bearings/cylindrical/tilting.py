@@ -99,6 +99,9 @@ class TiltingRollers(AbstractConvexArrow):
         half = 0.5 * (inward - self.radial_clearance) / LENGTH_UNIT
         return ArrowPoint(jnp.stack([half, jnp.zeros_like(half)]), ring)
 
+    def without_guess(self) -> "TiltingRollers":
+        return dataclasses.replace(self, guess=None)
+
     def acting(self, unknowns, shared):
         """See `AbstractConvexArrow`; the energy of a roller is that of its contacts less the work of its centrifugal
         force, J."""

@@ -9,12 +9,11 @@ from typing import Any, ClassVar
 
 import equinox as eqx
 import jax
-import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Array, Bool, Float, Int
 
 from ..._identity import Identity
-from ..._scene import AbstractSolution
+from ..._scene import AbstractHistory
 from ...numerics.status import Status
 from ..solution import RingDisplacement, label, losses_not_modelled
 
@@ -122,7 +121,7 @@ class Energy(eqx.Module):
     error: Float[Array, ""] = eqx.field(metadata=label("1", "what the balance leaves open, over the drive work"))
 
 
-class History(AbstractSolution):
+class History(AbstractHistory):
     """Result of a run in time: all instants up to the last good one, also where it stopped early.
 
     `instants` holds the results with the times in front: `history.instants.cage.speed` has the shape of `time`.
@@ -150,19 +149,9 @@ class History(AbstractSolution):
     identity: Identity | None = None
 
     @property
-    def converged(self) -> Bool[Array, "*batch"]:
-        """True if the run reached its end."""
-        return jnp.asarray(self.status) == Status.CONVERGED
-
-    @property
     def not_modelled(self) -> tuple[str, ...]:
         """Losses that the scene does not model, by their names in `instants.power_loss`."""
         return losses_not_modelled(self.instants.power_loss)
-
-    @property
-    def completed(self) -> bool:
-        """True if the run reached its end (one run only)."""
-        return bool(self.converged)
 
     def last_state(self) -> LastState:
         """The state of the last instant, for `jaxbearing.simulate(..., restart=...)`.
@@ -194,7 +183,4 @@ class History(AbstractSolution):
     def solver_failure(self) -> str:
         if np.size(self.time) == 0:
             return f"{Status(int(self.status)).text}: the quasi-static start of the run was not found"
-        reached, stop = float(self.time[-1]), float(self.stop)
-        why = "interrupted" if self.interrupted else Status(int(self.status)).text
-        where = f"{1e3 * reached:.6g} ms of {1e3 * stop:.6g} ms, after {int(self.accepted)} steps"
-        return f"{why}: the run stopped at {where}; what was computed until then is kept"
+        return self.early_end()

@@ -101,7 +101,7 @@ def build_tapered(scene: TaperedRollerBearing, ring: InnerRing | None = None) ->
     lever = geometry.apex_distance
     columns = ring_columns(azimuth, lever, jnp.asarray(operation.load_position))
     if ring is None:
-        ring = inner_ring(operation, scene.unknown_freedoms, lever)
+        ring = inner_ring(scene, lever)
     modulus = reduced_modulus(scene.materials.rings, scene.materials.rollers)
     length = jnp.asarray(geometry.roller_length)
     stiffness = palmgren_stiffness(length, modulus)

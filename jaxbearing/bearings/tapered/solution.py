@@ -1,18 +1,38 @@
 """Results of a tapered roller bearing, labelled (see `solution`)."""
 
-from typing import Any, ClassVar
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
 
 import equinox as eqx
 from jaxtyping import Array, Float
 
+from ..computed import computed
 from ..solution import Solution, label
 from .scene import TaperedOperation
+
+if TYPE_CHECKING:
+    from .friction import TaperedFriction
+    from .system import TaperedState, TaperedSystem
 
 _Values = Float[Array, " element"]
 
 
+class SolvedTapered(NamedTuple):
+    """What a solve found at the rollers. **Arguments:** `place`: displacements of the rollers along and across their
+    axis, m, and their tilts, rad; `friction`: `None` of dry rollers."""
+
+    system: "TaperedSystem"
+    state: "TaperedState"
+    place: Float[Array, "3 roller"]
+    friction: "TaperedFriction | None"
+
+
 def _result(unit: str, description: str) -> Any:
     return eqx.field(metadata=label(unit, description))
+
+
+def _computed(unit: str, description: str, of: Callable[[SolvedTapered], Array | None], **default: None) -> Any:
+    return computed(unit, description, of, **default)
 
 
 def _optional(unit: str, description: str) -> Any:
@@ -34,9 +54,13 @@ class TaperedResults(eqx.Module):
     pressure_flange: _Values = _result("Pa", "Hertz (peak) pressure on the rib")
     orbital_speed: _Values = _result("rad/s", "speed of the roller centre about the bearing axis")
     spin_speed: _Values = _result("rad/s", "spin about the roller's own axis, relative to its orbit")
-    roller_shift: _Values = _result("m", "displacement of the big end along the roller axis, towards the small end")
-    roller_lift: _Values = _result("m", "displacement of the big end across the roller axis, outwards")
-    roller_tilt: _Values = _result("rad", "tilt of the roller, small end outwards")
+    roller_shift: _Values = _computed(
+        "m", "displacement of the big end along the roller axis, towards the small end", lambda at: at.place[0]
+    )
+    roller_lift: _Values = _computed(
+        "m", "displacement of the big end across the roller axis, outwards", lambda at: at.place[1]
+    )
+    roller_tilt: _Values = _computed("rad", "tilt of the roller, small end outwards", lambda at: at.place[2])
     film_inner: _Values | None = _optional("m", "central film on the inner raceway, at mid length")
     film_outer: _Values | None = _optional("m", "central film on the outer raceway, at mid length")
     film_flange: _Values | None = _optional("m", "central film on the rib")

@@ -1,7 +1,7 @@
 """Steady state of a tapered roller bearing: from the scene to the equations, and from the root to the results."""
 
 import dataclasses
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import jax
 import jax.numpy as jnp
@@ -14,6 +14,7 @@ from ...numerics.newton import NewtonOptions, NewtonResult, newton_solve
 from ...numerics.safe import safe_norm
 from ...numerics.status import Status
 from ..assemble import Results, assemble
+from ..computed import computed_results
 from ..facts import MEAN_OF_LINE, MEAN_OF_POINT, RACEWAYS, Contacts, Facts
 from ..inlet import oil_elsewhere, oil_of, oil_of_races
 from ..interactions import costs
@@ -25,7 +26,7 @@ from ..solution import RING_FREEDOMS, BoundaryPower, FailureCause, LaminaLoads, 
 from .build import build_tapered, rolling_motion
 from .friction import TaperedFriction, tapered_friction
 from .scene import TaperedRollerBearing
-from .solution import TaperedPowerLoss, TaperedResults
+from .solution import SolvedTapered, TaperedPowerLoss, TaperedResults
 from .system import Inertia, TaperedState, TaperedSystem
 
 ROUNDED_UP = 2e-6
@@ -54,14 +55,14 @@ def solve_tapered(scene: TaperedRollerBearing, options: NewtonOptions, ring: Inn
     none = sliding | (~result.converged & minimum.outside)
     result = result._replace(status=jnp.where(none, int(Status.NO_EQUILIBRIUM), result.status))
     result = result._replace(residual_norm=jnp.where(sliding, jnp.nan, result.residual_norm))
-    friction = None
+    state, friction = system.at(result.point), None
     if scene.contact is not None:
-        friction = tapered_friction(scene, system.at(result.point))
+        friction = tapered_friction(scene, state)
         result = _with_nested(result, friction, options)
     return assemble(
         scene,
         result,
-        _results(scene, system, result, friction),
+        _results(scene, system, result, state, friction),
         system.ring.displacement(result.point.globals),
         _port(scene, system, result),
         failure_causes=_reasons(scene, asked.inertia) if _bounded(scene, ring) else {},
@@ -185,17 +186,18 @@ def _results(
     scene: TaperedRollerBearing,
     system: TaperedSystem,
     result: NewtonResult,
+    state: TaperedState,
     friction: TaperedFriction | None,
 ) -> Results[TaperedResults, TaperedPowerLoss]:
-    geometry, state = scene.geometry, system.at(result.point)
-    count = geometry.n_rollers
+    geometry, count = scene.geometry, scene.geometry.n_rollers
     every = lambda values: jnp.broadcast_to(values, (count,))
     motion = rolling_motion(geometry, scene.operation)
     place = system.units() * result.point.elements
     pressure = line_pressure(scene, system, state)
     modulus = reduced_modulus(scene.materials.rings, scene.materials.rollers)
     flange = geometry.flange_contact(modulus).hertz_pressure(state.flange_load)
-    more = {} if friction is None else _of_friction(friction, state)
+    more: dict[str, Any] = {} if friction is None else {**_of_friction(friction, state)}
+    more |= computed_results(TaperedResults, SolvedTapered(system, state, place, friction))
     positive = lambda values: every(jnp.where(values > 0, values, 0.0))  # and no -0.0
     elements = TaperedResults(
         azimuth=azimuths(geometry, count),
@@ -209,10 +211,7 @@ def _results(
         pressure_flange=every(jnp.where(state.flange_load > 0, flange, 0.0)),
         orbital_speed=every(motion.orbital_speed),
         spin_speed=every(motion.spin_speed),
-        roller_shift=every(place[0]),
-        roller_lift=every(place[1]),
-        roller_tilt=every(place[2]),
-        **{name: every(values) for name, values in more.items()},
+        **{name: every(values) for name, values in more.items() if values is not None},
     )
     own = LAMINAE if scene.profile is None else scene.profile.n_laminae
     rated = rated_laminae(scene.rating, own)

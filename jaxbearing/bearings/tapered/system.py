@@ -169,6 +169,9 @@ class TaperedSystem(AbstractConvexArrow):
         ones = jnp.ones(self.held.shape[1])
         return ArrowPoint(jnp.stack([0.9 * axial * ones, 0.05 * axial * ones, 0.0 * ones]), ring)
 
+    def without_guess(self) -> "TaperedSystem":
+        return dataclasses.replace(self, guess=None, seated=None)
+
     def acting(self, unknowns, shared):
         """See `AbstractConvexArrow`; the energy of a roller is that of its contacts less the work of its inertia, J."""
         state = self.state(unknowns, shared)

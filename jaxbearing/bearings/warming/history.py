@@ -10,7 +10,7 @@ import numpy as np
 from jaxtyping import Array, Bool, Float, Int
 
 from ..._identity import Identity
-from ..._scene import AbstractSolution, label
+from ..._scene import AbstractHistory, label
 from ...numerics.status import Status
 from ...thermal.result import HeatPaths, NodeTemperatures
 from ..growth import FitResult
@@ -86,7 +86,7 @@ class WarmState(eqx.Module):
     identity: Identity | None = None
 
 
-class WarmUpHistory(AbstractSolution):
+class WarmUpHistory(AbstractHistory):
     """Result of a run of temperatures: all instants up to the last good one, also where it stopped early.
 
     `instants` holds the results with the times in front: `history.instants.temperatures.inner_ring` has the shape of
@@ -116,16 +116,6 @@ class WarmUpHistory(AbstractSolution):
     identity: Identity | None = None
 
     @property
-    def converged(self) -> Bool[Array, "*batch"]:
-        """True if the run reached its end."""
-        return jnp.asarray(self.status) == Status.CONVERGED
-
-    @property
-    def completed(self) -> bool:
-        """True if the run reached its end."""
-        return bool(self.converged)
-
-    @property
     def not_modelled(self) -> tuple[str, ...]:
         """Losses that the scene does not model, by their names in `instants.power_loss`."""
         return losses_not_modelled(self.instants.power_loss)
@@ -145,11 +135,8 @@ class WarmUpHistory(AbstractSolution):
         return found
 
     def solver_failure(self) -> str:
-        reached, stop = float(self.time[-1]), float(self.stop)
         last = np.asarray(self.node_temperatures())[-1]
         node = int(np.argmax(last))
-        why = "interrupted" if self.interrupted else Status(int(self.status)).text
         hottest = f"the hottest node, the {self.nodes[node].replace('_', ' ')}, at {last[node] - 273.15:.1f} degC"
-        where = f"{reached:.6g} s of {stop:.6g} s, after {int(self.accepted)} steps"
         limit = "a node passed thermal.limit; " if int(self.status) == Status.THERMAL_RUNAWAY else ""
-        return f"{why}: {limit}the run stopped at {where}, with {hottest}; what was computed until then is kept"
+        return self.early_end("s", limit, f", with {hottest}")

@@ -6,12 +6,13 @@ from typing import Any
 
 import numpy as np
 
-from ..._derived import derived_results
+from ..._derived import derived_parts, derived_results
 
 
 def names_of(part: Any) -> list[str]:
     """Names of the fields of a class, and of the results that follow from them."""
-    return [*(field.name for field in dataclasses.fields(part)), *derived_results(type(part))]
+    kind = type(part)
+    return [*(field.name for field in dataclasses.fields(part)), *derived_parts(kind), *derived_results(kind)]
 
 
 def plain(value: Any) -> Any:

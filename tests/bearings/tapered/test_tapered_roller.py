@@ -104,7 +104,7 @@ def test_loads_close(name, solutions):
     np.testing.assert_allclose(np.sum(along), radial, atol=1e-9 * axial)
     # moments: those of the cup, of the inertia and of the ring's holder, or the applied one, about the apex
     scene = tapered(*loads, **more)
-    three = inner_ring(scene.operation, ("axial", "radial", "tilt"), scene.geometry.apex_distance)
+    three = inner_ring(scene, scene.geometry.apex_distance, ("axial", "radial", "tilt"))
     system = built(scene, three)
     ring, own = jax.tree.map(np.asarray, solutions[name].ring), e
     units, lever = np.asarray(system.units()), system.form.apex_distance
