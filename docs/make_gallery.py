@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 import jaxbearing as jb
 
 DOCS = Path(__file__).parent
-RESOLUTION = 80
+RESOLUTION = 130
 """Dots per inch of a picture."""
 START = """# Gallery
 
@@ -82,8 +82,9 @@ FIGURES = [
     Entry(
         "power_loss_against",
         "Power loss by location against a swept field (as Figures 36 to 40)",
-        _SWEEP
-        + 'found = jb.sweep(scene, {"operation.inner_speed": [200.0, 500.0, 800.0, 1100.0, 1400.0, 1700.0, 2000.0]})\n'
+        "import numpy as np\n\n"
+        + _SWEEP
+        + 'found = jb.sweep(scene, {"operation.inner_speed": np.linspace(200.0, 2000.0, 19)})\n'
         'figure = jb.plots.power_loss_against(found, "operation.inner_speed")',
     ),
     Entry(
@@ -106,7 +107,7 @@ FIGURES = [
         "A result over two fields: film of the most loaded roller",
         "import numpy as np\n\n"
         + _SWEEP
-        + "speeds, temperatures = np.linspace(200.0, 2000.0, 10), np.linspace(320.0, 470.0, 10)\n"
+        + "speeds, temperatures = np.linspace(200.0, 2000.0, 16), np.linspace(320.0, 470.0, 16)\n"
         'found = jb.sweep(scene, {"operation.inner_speed": speeds, "operation.oil_temperature": temperatures})\n'
         'found["film"] = found.film_inner.min("element", keep_attrs=True)\n'
         'figure = jb.plots.map_of(found, "film", x="operation.oil_temperature")',
@@ -117,8 +118,8 @@ FIGURES = [
         "import numpy as np\n\n"
         'bare = {"cage": "none", "drag": "none", "contact.rolling_resistance": "none"}\n'
         'scene = jb.load_scene("turbine_ball", bare)\n'
-        'grid = {"operation.axial_load": np.linspace(5e3, 50e3, 10), "operation.inner_speed": '
-        "np.linspace(500.0, 2000.0, 8)}\n"
+        'grid = {"operation.axial_load": np.linspace(5e3, 50e3, 16), "operation.inner_speed": '
+        "np.linspace(500.0, 2000.0, 13)}\n"
         "figure = jb.plots.raceway_control_map(jb.sweep(scene, grid))",
     ),
     _of_solution(

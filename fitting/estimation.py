@@ -1,5 +1,9 @@
-"""Least squares on the traction model: Levenberg-Marquardt, BFGS, gradient descent, from several starts at once."""
+"""Least squares on any model that JAX traces: Levenberg-Marquardt, BFGS, gradient descent, from several starts at once.
 
+The fit of an oil (`traction`) and the calibration of scenes (`jaxbearing.calibration`) both rest on it.
+"""
+
+import abc
 from collections.abc import Callable
 from typing import Any, NamedTuple
 
@@ -9,71 +13,57 @@ import jax.numpy as jnp
 import optimistix as optx
 from jaxtyping import Array, Bool, Float, Int
 
-from jaxbearing.lubricants import ExponentialRheology
-from jaxbearing.machines import DiskState, TwoDisk
 from jaxbearing.programs import KeptProgram
 
+from .levenberg import minimised
 from .loss import robust
-from .parameters import with_natural
 
 METHODS = ("levenberg_marquardt", "bfgs", "gradient_descent")
 MAX_STEPS = {"levenberg_marquardt": 200, "bfgs": 500, "gradient_descent": 20_000}
-TOLERANCE = {"levenberg_marquardt": 1e-10, "bfgs": 1e-9, "gradient_descent": 1e-9}
-"""Change of parameters (in column-scaled units) and relative change of the loss at which a method ends."""
+TOLERANCE = {"bfgs": 1e-9, "gradient_descent": 1e-9}
+"""Change of parameters (in column-scaled units) and relative change of the loss at which a method ends; that of
+Levenberg and Marquardt is `levenberg.OFFSET`."""
 
 
 STATIONARY = 1e-7
 """Cosine between residual and a column of the Jacobian at which the loss has no slope left."""
 
 
-class Problem(eqx.Module):
-    """The unknowns of the optimiser are scaled: `natural = base + directions @ (u / scales)`.
+class AbstractProblem(eqx.Module):
+    """Measured values beside those of a model, as a function of scaled unknowns.
+
+    The unknowns of the optimiser are scaled: `natural = base + directions @ (u / scales)`.
 
     **Arguments:**
-    - `scene`, `state`: the machine; patch, film and temperature of the points.
-    - `rheology`: its reference temperature and what is not a parameter.
-    - `coefficient`, `deviation`: measured, and its standard deviation times the bend of the loss.
+    - `measured`, `deviation`: measured, and its standard deviation times the bend of the loss.
     - `weight`: 1, or 0 for points that are left out.
     - `base`, `directions`, `scales`: natural coordinates at u = 0, matrix, scale of each u.
+    - `loss`: one of `loss.LOSSES`.
     """
 
-    scene: TwoDisk
-    state: DiskState
-    rheology: ExponentialRheology
-    coefficient: Float[Array, " point"]
-    deviation: Float[Array, " point"]
-    weight: Float[Array, " point"]
-    base: Float[Array, " parameter"]
-    directions: Float[Array, "parameter parameter"]
-    scales: Float[Array, " parameter"]
-    loss: str = eqx.field(static=True)
+    measured: eqx.AbstractVar[Float[Array, " point"]]
+    deviation: eqx.AbstractVar[Float[Array, " point"]]
+    weight: eqx.AbstractVar[Float[Array, " point"]]
+    base: eqx.AbstractVar[Float[Array, " parameter"]]
+    directions: eqx.AbstractVar[Float[Array, "parameter parameter"]]
+    scales: eqx.AbstractVar[Float[Array, " parameter"]]
+    loss: eqx.AbstractVar[str]
+
+    @abc.abstractmethod
+    def predicted(self, u: Float[Array, " parameter"]) -> Float[Array, " point"]:
+        """What the model gives in the place of each measured value."""
 
     def natural(self, u: Float[Array, " parameter"]) -> Float[Array, " parameter"]:
+        """Natural coordinates of scaled unknowns."""
         return self.base + self.directions @ (u / self.scales)
-
-    def predicted(self, u: Float[Array, " parameter"]) -> Float[Array, " point"]:
-        """Traction coefficients."""
-        return predicted_coefficients(self.scene, self.state, self.rheology, self.natural(u))
 
     def plain_residual(self, u: Float[Array, " parameter"]) -> Float[Array, " point"]:
         """Model minus measurement over its deviation."""
-        return self.weight * (self.predicted(u) - self.coefficient) / self.deviation
+        return self.weight * (self.predicted(u) - self.measured) / self.deviation
 
     def residual(self, u: Float[Array, " parameter"]) -> Float[Array, " point"]:
         """Whose sum of squares is minimised."""
         return robust(self.plain_residual(u), self.loss)
-
-
-def predicted_coefficients(
-    scene: TwoDisk, state: DiskState, rheology: ExponentialRheology, natural: Float[Array, " parameter"]
-) -> Float[Array, " point"]:
-    """Traction coefficients of the points with the rheology that has these natural coordinates."""
-    oil = eqx.tree_at(lambda o: o.rheology, scene.oil, with_natural(rheology, natural))
-    return scene.traction(state, oil).rolling / state.load
-
-
-coefficients = KeptProgram(predicted_coefficients, quick=True)
-"""The same, compiled."""
 
 
 class Estimate(NamedTuple):
@@ -100,39 +90,40 @@ class _Descent(optx.AbstractGradientDescent):
         self.search = optx.BacktrackingArmijo(step_init=learning_rate)
 
 
-def jacobian(problem: Problem, u: Float[Array, " parameter"]) -> Float[Array, "point parameter"]:
+def jacobian(problem: AbstractProblem, u: Float[Array, " parameter"]) -> Float[Array, "point parameter"]:
     """d residual / d u by forward mode."""
     return jax.jacfwd(problem.residual)(u)
 
 
-def column_scales(problem: Problem, u: Float[Array, " parameter"]) -> Float[Array, " parameter"]:
+def residual_and_jacobian(
+    problem: AbstractProblem, u: Float[Array, " parameter"]
+) -> tuple[Float[Array, " point"], Float[Array, "point parameter"]]:
+    """Both from one pass of forward mode."""
+    along = lambda direction: jax.jvp(problem.residual, (u,), (direction,))
+    return jax.vmap(along, out_axes=(None, 1))(jnp.eye(u.size))
+
+
+def column_scales(problem: AbstractProblem, u: Float[Array, " parameter"]) -> Float[Array, " parameter"]:
     """Norms of the Jacobian's columns where they are not 0, else 1; of the problem as it is scaled now."""
     norms = jnp.linalg.norm(jacobian(problem, u), axis=0)
     return jnp.where((norms > 0) & jnp.isfinite(norms), norms, 1.0) * problem.scales
 
 
-def estimate(problem: Problem, u: Float[Array, " parameter"], method: str) -> Estimate:
+def estimate(problem: AbstractProblem, u: Float[Array, " parameter"], method: str) -> Estimate:
     """One optimisation. **Arguments:** `u`: start; `method`: one of `METHODS`."""
     half_square = lambda v, p: 0.5 * jnp.sum(jnp.square(p.residual(v)))
-    tolerance = TOLERANCE[method]
     if method == "levenberg_marquardt":
-        solver: Any = optx.LevenbergMarquardt(rtol=tolerance, atol=tolerance)
-        found = optx.least_squares(
-            lambda v, p: p.residual(v),
-            solver,
-            u,
-            problem,
-            max_steps=MAX_STEPS[method],
-            throw=False,
-        )
+        end = minimised(lambda v: residual_and_jacobian(problem, v), u, MAX_STEPS[method])
+        converged = (end.converged | _stationary(problem, end.u)) & jnp.isfinite(end.loss)
+        return Estimate(end.u, end.loss, converged, end.steps)
+    tolerance = TOLERANCE[method]
+    if method == "bfgs":
+        solver: Any = optx.BFGS(rtol=tolerance, atol=tolerance)
     else:
-        if method == "bfgs":
-            solver = optx.BFGS(rtol=tolerance, atol=tolerance)
-        else:
-            columns = jacobian(problem, u)
-            steepest = jnp.linalg.eigvalsh(columns.T @ columns)[-1]
-            solver = _Descent(1.0 / jnp.where(steepest > 0, steepest, 1.0), tolerance)
-        found = optx.minimise(half_square, solver, u, problem, max_steps=MAX_STEPS[method], throw=False)
+        columns = jacobian(problem, u)
+        steepest = jnp.linalg.eigvalsh(columns.T @ columns)[-1]
+        solver = _Descent(1.0 / jnp.where(steepest > 0, steepest, 1.0), tolerance)
+    found = optx.minimise(half_square, solver, u, problem, max_steps=MAX_STEPS[method], throw=False)
     value = half_square(found.value, problem)
     # at the minimum to round-off no step is accepted any more, and the search for one goes on to its last step
     converged = (found.result == optx.RESULTS.successful) | _stationary(problem, found.value)
@@ -140,14 +131,14 @@ def estimate(problem: Problem, u: Float[Array, " parameter"], method: str) -> Es
     return Estimate(found.value, value, converged, jnp.asarray(found.stats["num_steps"]))
 
 
-def _stationary(problem: Problem, u: Float[Array, " parameter"]) -> Bool[Array, ""]:
+def _stationary(problem: AbstractProblem, u: Float[Array, " parameter"]) -> Bool[Array, ""]:
     """True if the residual is at right angles to every column of its Jacobian, to `STATIONARY`."""
     residual, columns = problem.residual(u), jacobian(problem, u)
     size = jnp.linalg.norm(residual) * jnp.linalg.norm(columns, axis=0)
     return jnp.all(jnp.abs(columns.T @ residual) <= STATIONARY * size)
 
 
-def estimates(problem: Problem, starts: Float[Array, "start parameter"], method: str) -> Estimate:
+def estimates(problem: AbstractProblem, starts: Float[Array, "start parameter"], method: str) -> Estimate:
     """Optimisations from several starts, batched; each is scaled by the columns of its own first Jacobian."""
 
     def one(u):
@@ -164,7 +155,7 @@ estimate_from = KeptProgram(estimates, quick=False)
 
 
 def _held_out(
-    problem: Problem, weights: Float[Array, "case point"], method: str
+    problem: AbstractProblem, weights: Float[Array, "case point"], method: str
 ) -> tuple[Float[Array, "case point"], Bool[Array, " case"]]:
     """Predictions for all points after optimisations with other weights, from u = 0; and which converged."""
 
@@ -182,8 +173,8 @@ held_out = KeptProgram(_held_out, quick=False)
 """The same, compiled."""
 
 
-def linearize(problem: Problem, u: Float[Array, " parameter"]) -> tuple[Array, Array, Array]:
-    """Predicted coefficients, plain residuals and their Jacobian with respect to the natural coordinates."""
+def linearize(problem: AbstractProblem, u: Float[Array, " parameter"]) -> tuple[Array, Array, Array]:
+    """Predicted values, plain residuals and their Jacobian with respect to the natural coordinates."""
     unit = eqx.tree_at(
         lambda p: (p.base, p.directions, p.scales),
         problem,
@@ -194,20 +185,4 @@ def linearize(problem: Problem, u: Float[Array, " parameter"]) -> tuple[Array, A
 
 
 linearized = KeptProgram(linearize, quick=True)
-"""The same, compiled."""
-
-
-def _slope_over_slide(problem: Problem, u: Float[Array, " parameter"]) -> Float[Array, " point"]:
-    """d coefficient / d slide-to-roll ratio of the model at each point."""
-
-    def predicted(sliding):
-        moved = eqx.tree_at(lambda p: p.state, problem, problem.state._replace(sliding_speed=sliding))
-        return moved.predicted(u)
-
-    sliding = problem.state.sliding_speed
-    speed = problem.state.entrainment_speed
-    return jax.jvp(predicted, (sliding,), (speed,))[1]
-
-
-slope_over_slide = KeptProgram(_slope_over_slide, quick=True)
 """The same, compiled."""

@@ -2,7 +2,7 @@
 
 import dataclasses
 from collections.abc import Iterable
-from typing import Any, NamedTuple
+from typing import Any
 
 import equinox as eqx
 import jax.numpy as jnp
@@ -13,15 +13,17 @@ from jaxbearing.lubricants.ranges import FITTED_PRESSURE
 from jaxbearing.machines import TwoDisk
 from jaxbearing.numerics.garbage import rare_garbage_collection
 
-from .estimation import Estimate, Problem, linearized
-from .identifiability import confounded, elastic_conditions, implausible, in_words, not_determined, viscous_only
-from .loss import influence, scale_of
+from .estimation import Estimate
+from .holding import Held, settled
+from .identifiability import confounded, implausible, in_words, viscous_only
+from .loss import scale_of
 from .measurements import Measurements
 from .misfit import NOTHING, curve_fits, information, lack_of_fit, missed_share
 from .options import FitOptions
 from .parameters import GROUPS, NAMES, POSITIVE, SCALES, SYMBOLS, values_of, with_natural
 from .result import FitResult, Parameter
 from .search import Search
+from .traction import Problem
 from .uncertainty import Spread, correlation
 from .viscous import held_misfit, plain_rheology, with_viscous_function
 
@@ -31,10 +33,6 @@ FEW_DEGREES = 3
 """Degrees of freedom below which the intervals are said to lean on little."""
 FEWEST_DEGREES = 10
 """Degrees of freedom below which no point is called an outlier."""
-MOST_TURNS = 12
-"""Times that parameters may be held or released."""
-SLACK = 1e-6
-"""Correlation of residual and a column of the Jacobian below which a bound does not bind."""
 SAME_LOSS = 1e-6
 """Relative difference of losses that count as the same minimum."""
 EXACT = 1e-6
@@ -69,26 +67,11 @@ def fit(measurements: Measurements, scene: TwoDisk, options: FitOptions | None =
     if viscous and modulus and not search.elastic_part_shows(free):
         free[modulus] = False
         reasons |= dict.fromkeys(GROUPS[0], viscous)
-    held = _Held(free, reasons, {})
-    problem = search.problem(held.free, held.pinned)
-    starts = search.starts(problem, held.free)
-    turns = 0
-    while True:
-        problem, estimate, u = search.optimised(problem, starts)
-        # each turn holds one more parameter, or lets one go from a bound that does not bind
-        revised, turns = _revised(search, problem, u, held), turns + 1
-        if revised is None:
-            return _result(search, problem, u, estimate, held, model)
-        if turns >= MOST_TURNS:
-            lost = estimate._replace(converged=jnp.zeros_like(estimate.converged))
-            return _result(search, problem, u, lost, held, model)
-        moved = revised.pinned != held.pinned
-        held = revised
-        problem = search.problem(held.free, held.pinned, search.within_bounds(np.asarray(problem.natural(u))))
-        # a parameter moved to its bound may lie far off, and the others must find their way anew
-        starts = search.starts(problem, held.free) if moved else np.zeros((len(starts), len(NAMES)))
-        if len(starts) > 1:
-            starts[-1] = 0.0
+    found = settled(search, Held(free, reasons, {}))
+    estimate = found.estimate
+    if not found.ended:
+        estimate = estimate._replace(converged=jnp.zeros_like(estimate.converged))
+    return _result(search, found.problem, found.u, estimate, found.held, model)
 
 
 def fit_models(
@@ -99,70 +82,10 @@ def fit_models(
     return {model: fit(measurements, scene, options._replace(model=model)) for model in models}
 
 
-class _Held(NamedTuple):
-    """Flags of the fitted parameters, reasons why others cannot be told, natural coordinates of those at a bound."""
-
-    free: np.ndarray
-    reasons: dict[int, str]
-    pinned: dict[int, float]
-
-    def without(self, index: int, reason: str, at: float | None = None) -> "_Held":
-        free = self.free.copy()
-        free[index] = False
-        pinned = self.pinned if at is None else {**self.pinned, index: at}
-        return _Held(free, {**self.reasons, index: reason}, pinned)
-
-    def released(self, index: int) -> "_Held":
-        free = self.free.copy()
-        free[index] = True
-        drop = lambda mapping: {i: value for i, value in mapping.items() if i != index}
-        return _Held(free, drop(self.reasons), drop(self.pinned))
-
-
-def _revised(search: Search, problem: Problem, u: Any, held: _Held) -> _Held | None:
-    """Chooses the parameters to hold or release next: bounds first (an active set), then those that the data do not
-    determine; `None` if nothing is left."""
-    coordinates = np.asarray(problem.natural(u))
-    low, high = search.limits
-    beyond = np.where(held.free, np.maximum(low - coordinates, coordinates - high), -np.inf)
-    index = int(np.argmax(beyond))
-    if beyond[index] > 0.0:
-        limit = float(low[index] if coordinates[index] < low[index] else high[index])
-        return held.without(index, f"at its bound {values_of(np.full(len(NAMES), limit))[index]:g}", limit)
-    _, residual, slopes = (np.asarray(part)[: search.count] for part in linearized(problem, u))
-    downhill = -slopes.T @ influence(residual, search.options.loss)
-    for index, at in held.pinned.items():
-        inward = 1.0 if at == low[index] else -1.0
-        if inward * downhill[index] > SLACK * np.linalg.norm(slopes[:, index]) * np.linalg.norm(residual):
-            return held.released(index)
-    judged = held.free & ~_insisted_blindly(search, held)
-    elastic = elastic_conditions(search.pressure, search.temperature, search.deborah_at(coordinates))
-    elastic = {i: reason for i, reason in elastic.items() if judged[i] and i not in search.insisted}
-    if elastic and GROUPS[0][0] in np.flatnonzero(held.free):
-        index = min(elastic)
-        return held.without(index, elastic[index])
-    spread = search.spread(problem, u, judged)
-    if spread.degrees <= 0:
-        return None
-    found = not_determined(spread, np.asarray(problem.directions), judged, search.centre)
-    found = {index: reason for index, reason in found.items() if index not in search.insisted}
-    if not found:
-        return None
-    # coefficients first: with beta or alpha held the rest may well be determined
-    index = max(found, key=lambda i: i % 3)
-    return held.without(index, found[index])
-
-
-def _insisted_blindly(search: Search, held: _Held) -> np.ndarray:
-    """Mask of the parameters that are fitted only because the user insists: nothing is known of them, and the others'
-    intervals hold for the values that they took."""
-    return np.array([i in search.insisted and i in held.reasons and held.free[i] for i in range(len(NAMES))])
-
-
-def _result(search: Search, problem: Problem, u: Any, estimate: Estimate, held: _Held, model: str) -> FitResult:
+def _result(search: Search, problem: Problem, u: Any, estimate: Estimate, held: Held, model: str) -> FitResult:
     free, reasons, pinned = held
     coordinates = np.asarray(problem.natural(u))
-    blind = _insisted_blindly(search, held)
+    blind = search.insisted_blindly(held)
     spread = search.spread(problem, u, free & ~blind)
     predicted = search.predicted(coordinates)
     difference = predicted - search.coefficient
@@ -247,7 +170,7 @@ def _result(search: Search, problem: Problem, u: Any, estimate: Estimate, held: 
 
 
 def _parameters(
-    search: Search, coordinates: np.ndarray, spread: Spread, held: _Held, blind: np.ndarray, why_none: str
+    search: Search, coordinates: np.ndarray, spread: Spread, held: Held, blind: np.ndarray, why_none: str
 ) -> dict[str, Parameter]:
     values, found = values_of(coordinates), {}
     for index, name in enumerate(NAMES):

@@ -59,6 +59,15 @@ def robust(residual: Float[Array, "..."], kind: str) -> Float[Array, "..."]:
     raise ValueError(f"loss: found {kind!r}, expected one of {', '.join(LOSSES)}")
 
 
+def robust_with_slope(residual: np.ndarray, kind: str) -> tuple[np.ndarray, np.ndarray]:
+    """`robust` of residuals and its derivative, numpy."""
+    bent = np.asarray(robust(jnp.asarray(residual), kind))
+    # the square is rho, whose derivative is 2 psi = 2 bent * slope
+    small = np.abs(residual) < 1e-6
+    slope = influence(residual, kind) / np.where(small, 1.0, bent)
+    return bent, np.where(small, 1.0, slope)
+
+
 TUNING = {"linear": math.inf, "soft_l1": 1.345, "cauchy": 2.385}
 """Residual, in standard deviations, at which the loss bends: 95 % efficient for normal errors (soft_l1: as Huber's)."""
 

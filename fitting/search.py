@@ -17,13 +17,25 @@ from jaxbearing.machines import DiskState, TwoDisk
 from jaxbearing.machines.two_disk import INNER_TOLERANCE
 from jaxbearing.programs import KeptProgram
 
-from .estimation import Problem, coefficients, estimate_from, linearized, slope_over_slide
-from .identifiability import frozen_by_rule
+from .estimation import estimate_from, linearized
+from .holding import AbstractSearch, Held
+from .identifiability import elastic_conditions, frozen_by_rule, not_determined
 from .loss import TUNING, scale_of, variance_factor
 from .measurements import MeasurementError, Measurements
 from .options import FitOptions
-from .parameters import GROUPS, NAMES, POSITIVE, SCALES, Centre, centred_directions, natural, with_natural
+from .parameters import (
+    GROUPS,
+    NAMES,
+    POSITIVE,
+    SCALES,
+    Centre,
+    centred_directions,
+    natural,
+    values_of,
+    with_natural,
+)
 from .start import estimated_start
+from .traction import Problem, coefficients, slope_over_slide
 from .uncertainty import Spread, spread
 
 MODULUS, STRESS = NAMES.index("shear_modulus"), NAMES.index("stress")
@@ -57,7 +69,7 @@ def _state(scene: TwoDisk, slide_to_roll: Any, entrainment_speed: Any, temperatu
 _compiled_state = KeptProgram(_state, quick=True)
 
 
-class Search:
+class Search(AbstractSearch):
     """One fit at work: what stays the same from run to run.
 
     **Arguments:** as `fit.fit`; the scene has the viscous function that is fitted, and its oil a rheology.
@@ -65,6 +77,7 @@ class Search:
 
     def __init__(self, measurements: Measurements, scene: TwoDisk, options: FitOptions):
         self.measurements, self.scene, self.options = measurements, scene, options
+        self.loss, self.limits = options.loss, _limits(options)
         self.count = len(measurements.slide_to_roll)
         columns = (
             measurements.slide_to_roll,
@@ -149,7 +162,7 @@ class Search:
             scene=self.scene,
             state=self.batch,
             rheology=self.rheology,
-            coefficient=self.fill(self.coefficient),
+            measured=self.fill(self.coefficient),
             deviation=self.fill(self.deviation * self.scale * self.bend),
             weight=self.weight(np.ones(self.count)),
             base=jnp.asarray(coordinates),
@@ -157,22 +170,6 @@ class Search:
             scales=jnp.ones(len(NAMES)),
             loss=self.options.loss,
         )
-
-    def within_bounds(self, coordinates: np.ndarray) -> np.ndarray:
-        """Natural coordinates moved to the nearest bound where they are beyond it."""
-        low, high = self.limits
-        return np.clip(coordinates, low, high)
-
-    @property
-    def limits(self) -> tuple[np.ndarray, np.ndarray]:
-        """Bounds in natural coordinates, infinite where there is none."""
-        limits = np.full(len(NAMES), -np.inf), np.full(len(NAMES), np.inf)
-        for name, pair in self.options.bounds.items():
-            index = NAMES.index(name)
-            for limit, value in zip(limits, pair, strict=True):
-                if value is not None:
-                    limit[index] = np.log(value) if POSITIVE[index] else value / SCALES[index]
-        return limits
 
     def starts(self, problem: Problem, free: np.ndarray) -> np.ndarray:
         """The most promising of a scan over the shear modulus, at each of which the stress is brought to the tops of
@@ -247,7 +244,49 @@ class Search:
                 starts = np.tile(np.asarray(u), (len(starts), 1))
         return problem, found, u
 
-    def spread(self, problem: Problem, u: Any, free: np.ndarray) -> Spread:
+    def slopes(self, problem: Problem, u: Any) -> tuple[np.ndarray, np.ndarray]:
         _, residual, jacobian = (np.asarray(part)[: self.count] for part in linearized(problem, u))
+        return residual, jacobian
+
+    def spread(self, problem: Problem, u: Any, free: np.ndarray) -> Spread:
+        """Uncertainty of the free parameters."""
+        residual, jacobian = self.slopes(problem, u)
         variance = variance_factor(residual, self.options.loss, int(np.sum(free)))
         return spread(jacobian, free, variance, self.options.level)
+
+    def insisted_blindly(self, held: Held) -> np.ndarray:
+        """Mask of the parameters that are fitted only because the user insists: nothing is known of them, and the
+        others' intervals hold for the values that they took."""
+        return np.array([i in self.insisted and i in held.reasons and held.free[i] for i in range(len(NAMES))])
+
+    def undetermined(self, problem: Problem, u: Any, held: Held) -> tuple[int, str] | None:
+        judged = held.free & ~self.insisted_blindly(held)
+        elastic = elastic_conditions(self.pressure, self.temperature, self.deborah_at(np.asarray(problem.natural(u))))
+        elastic = {i: reason for i, reason in elastic.items() if judged[i] and i not in self.insisted}
+        if elastic and GROUPS[0][0] in np.flatnonzero(held.free):
+            index = min(elastic)
+            return index, elastic[index]
+        spread = self.spread(problem, u, judged)
+        if spread.degrees <= 0:
+            return None
+        found = not_determined(spread, np.asarray(problem.directions), judged, self.centre)
+        found = {index: reason for index, reason in found.items() if index not in self.insisted}
+        if not found:
+            return None
+        # coefficients first: with beta or alpha held the rest may well be determined
+        index = max(found, key=lambda i: i % 3)
+        return index, found[index]
+
+    def value_in_words(self, index: int, coordinate: float) -> str:
+        return f"{values_of(np.full(len(NAMES), coordinate))[index]:g}"
+
+
+def _limits(options: FitOptions) -> tuple[np.ndarray, np.ndarray]:
+    """Bounds in natural coordinates, infinite where there is none."""
+    limits = np.full(len(NAMES), -np.inf), np.full(len(NAMES), np.inf)
+    for name, pair in options.bounds.items():
+        index = NAMES.index(name)
+        for limit, value in zip(limits, pair, strict=True):
+            if value is not None:
+                limit[index] = np.log(value) if POSITIVE[index] else value / SCALES[index]
+    return limits

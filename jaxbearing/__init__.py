@@ -28,15 +28,27 @@ with rare_garbage_collection():
 
     jax.config.update("jax_enable_x64", True)
 
-    # 64-bit floats first
-    from ._shown import shown_by
-    from .simulate import simulate as simulate
-    from .simulate import simulate_batch as simulate_batch
-    from .solve import jit_solver as jit_solver
-    from .solve import solve as solve
-    from .sweep import sweep as sweep
+
+def load_verbs() -> None:
+    """Imports the verbs that the package offers under the names of their modules.
+
+    This happens at once, but in the command only when its verb is known: `jaxbearing new` needs none of them, and no
+    bearing.
+    """
+    with rare_garbage_collection():
+        from ._shown import shown_by
+        from .simulate import simulate, simulate_batch
+        from .solve import jit_solver, solve
+        from .sweep import sweep
+
+        shown_by(f"{__name__}.report.shown")
+    # a module that is imported takes its name in the package
+    found = (jit_solver, simulate, simulate_batch, solve, sweep)
+    globals().update(zip(_AT_ONCE, found, strict=True))
+
 
 if TYPE_CHECKING:
+    from . import calibration as calibration
     from . import catalogue as catalogue
     from . import contacts as contacts
     from . import gaps as gaps
@@ -44,6 +56,7 @@ if TYPE_CHECKING:
     from . import lubricants as lubricants
     from . import mounting as mounting
     from . import plots as plots
+    from . import shafts as shafts
     from . import sweeps as sweeps
     from . import thermal as thermal
     from .bearings.ball.geometry import BallGeometry as BallGeometry
@@ -74,6 +87,7 @@ if TYPE_CHECKING:
     from .bearings.tapered.scene import TaperedRollerBearing as TaperedRollerBearing
     from .bearings.warming.history import WarmUpHistory as WarmUpHistory
     from .bearings.warming.settings import WarmUpSimulation as WarmUpSimulation
+    from .calibration.verb import calibrate as calibrate
     from .comparison import compare as compare
     from .distribution import Distribution as Distribution
     from .distribution import MeanUsedWarning as MeanUsedWarning
@@ -100,12 +114,15 @@ if TYPE_CHECKING:
     from .scenes.reader import load_scene as load_scene
     from .scenes.save import save_scene as save_scene
     from .sensitivity import sensitivities as sensitivities
+    from .simulate import simulate as simulate
+    from .simulate import simulate_batch as simulate_batch
+    from .solve import jit_solver as jit_solver
+    from .solve import solve as solve
     from .spectrum.result import Spectrum as Spectrum
     from .spectrum.states import State as State
     from .spectrum.verb import solve_spectrum as solve_spectrum
+    from .sweep import sweep as sweep
     from .tolerance.verb import tolerances as tolerances
-
-shown_by(f"{__name__}.report.shown")
 
 __version__ = "0.1.0"
 
@@ -152,6 +169,7 @@ _LAZY = {
     "WarmUpHistory": ".bearings.warming.history",
     "WarmUpSimulation": ".bearings.warming.settings",
     "builtin_names": ".scenes.reader",
+    "calibrate": ".calibration.verb",
     "compare": ".comparison",
     "compile_report": ".program_size",
     "load_distributions": ".scenes.reader",
@@ -170,8 +188,21 @@ _LAZY = {
     "trajectory": ".bearings.motion.runs",
 }
 """Public names that pull in the edge (units, validation) or are only needed by some; imported on first use."""
-_MODULES = ("catalogue", "contacts", "fitting", "gaps", "life", "lubricants", "mounting", "plots", "sweeps", "thermal")
-"""Modules that are public as such: standard bearings, the laws, the fit of an oil, sweeps, figures."""
+_MODULES = (
+    "calibration",
+    "catalogue",
+    "contacts",
+    "fitting",
+    "gaps",
+    "life",
+    "lubricants",
+    "mounting",
+    "plots",
+    "shafts",
+    "sweeps",
+    "thermal",
+)
+"""Modules that are public as such: calibration, standard bearings, the laws, the fit of an oil, shafts, sweeps, figures."""
 _AT_ONCE = ("jit_solver", "simulate", "simulate_batch", "solve", "sweep")
 
 __all__ = [*_AT_ONCE, *_LAZY, *_MODULES]  # pyright: ignore[reportUnsupportedDunderAll]
@@ -180,6 +211,9 @@ __all__ = [*_AT_ONCE, *_LAZY, *_MODULES]  # pyright: ignore[reportUnsupportedDun
 def __getattr__(name: str) -> Any:
     if name in _MODULES:
         return importlib.import_module(f".{name}", __name__)
+    if name in _AT_ONCE:
+        load_verbs()
+        return globals()[name]
     if name in _LAZY:
         return getattr(importlib.import_module(_LAZY[name], __name__), name)
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
@@ -187,3 +221,7 @@ def __getattr__(name: str) -> Any:
 
 def __dir__() -> list[str]:
     return sorted([*__all__, "__doc__", "__version__"])
+
+
+if not is_the_command():
+    load_verbs()

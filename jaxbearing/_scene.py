@@ -45,6 +45,8 @@ class AbstractScene(Shown):
 
     kind: ClassVar[str] = ""
     """Kind of the scene, as `kind` in scene files has it."""
+    operating_point: ClassVar[str] = "operation"
+    """Name of the field that holds the operating point."""
 
     def steady_solution(self, options: Any) -> Any:
         """The steady state, traced inside the program of `jb.solve`; pure, and never raises for a failed solve.
@@ -88,9 +90,20 @@ class AbstractScene(Shown):
             raise TypeError(f"replace takes a mapping from dotted paths to values, got {changes!r}")
         return _replaced(self, {tuple(path.split(".")): value for path, value in changes.items()})
 
+    def part_at(self, path: str) -> Any:
+        """The number or part at a dotted path; `None` where there is none."""
+        part: Any = self
+        for name in path.split("."):
+            part = getattr(part, name, None)
+        return part
+
+    def path_in_file(self, path: str) -> str:
+        """The path of scene files of the number that the tree of the scene's numbers has at this path."""
+        return path
+
     def at_operation(self: Scene, **changes: Any) -> Scene:
         """A copy at another operating point: `scene.at_operation(inner_speed=1100.0)`."""
-        return self.replace({f"operation.{name}": value for name, value in changes.items()})
+        return self.replace({f"{self.operating_point}.{name}": value for name, value in changes.items()})
 
     def replace_geometry(self: Scene, **changes: Any) -> Scene:
         """A copy with other dimensions: `scene.replace_geometry(diametral_clearance=30e-6)`."""

@@ -12,6 +12,9 @@ from ._types import Scalar
 from .numerics.arguments import require_choice
 from .numerics.checks import Checked, bounded, label
 
+BALL_PRESSURE, ROLLER_PRESSURE = 4.2e9, 4.0e9
+"""Hertz pressure of the most loaded contact of hardened steel at the static rating, Pa (ISO 76, [M])."""
+
 
 class Material(Checked):
     """A linear elastic, isotropic, homogeneous solid.

@@ -11,7 +11,6 @@ import numpy as np
 from jaxtyping import Array, Float
 
 from ._scene import AbstractScene, AbstractSolution
-from .bearings.priors import DRAG_FIELD, drag_prior, prior_in_words
 from .bearings.solution import RING_FREEDOMS, Solution
 from .ehl import EHLLineContact, LineContactSolution
 from .machines import TwoDiskSolution
@@ -21,7 +20,8 @@ from .numerics.garbage import rare_garbage_collection
 from .numerics.newton import NewtonOptions
 from .numerics.precision import as_float, require_x64
 from .programs import KeptProgram
-from .solve import require_solvable, solution_at, solve, solve_with_roots
+from .shafts.solution import ShaftSolution
+from .solve import require_solvable, solution_at, solve_with_roots
 from .thermal.result import ThermalResult
 
 _Slopes = dict[str, Float[Array, ""]]
@@ -43,7 +43,8 @@ class Sensitivities(eqx.Module):
 
     - `power_loss`: d ln(total power loss) / d ln(input): per cent of power for one per cent of the input.
     - `slip`: d(cage slip) / d ln(input).
-    - `life`, `modified_life`: d ln(L10r) / d ln(input) and d ln(Lnmr) / d ln(input), of a bearing with a rating.
+    - `life`, `modified_life`: d ln(L10r) / d ln(input) and d ln(Lnmr) / d ln(input), of a bearing with a rating; of a
+      shaft the L10r of all bearings together.
     - `film`: d ln(central film) / d ln(input), of a line contact.
     - `traction`: d ln(traction coefficient) / d ln(input), of a two-disk machine at one operating point.
     - `stiffness`, `axial_stiffness`: d ln(K) / d ln(input) of the radial and the axial stiffness of the inner ring,
@@ -107,7 +108,7 @@ def sensitivities(
     require_x64()
     require_solvable(scene)
     solution, slopes = _answer(jax.tree.map(as_float, scene), throw, chosen, wanted)
-    return solution, Sensitivities(**{name: _by_path(tree) for name, tree in slopes.items()})
+    return solution, Sensitivities(**{name: _by_path(tree, scene) for name, tree in slopes.items()})
 
 
 def _wanted(of: str | Iterable[str] | None) -> _Wanted:
@@ -138,6 +139,8 @@ def _results(solution: AbstractSolution, wanted: _Wanted) -> dict[str, Array]:
     """The results of a solution that have sensitivities, by field of `Sensitivities`. **Raises:** `NoSensitivities`."""
     if isinstance(solution, Solution):
         return _of_bearing(solution, wanted)
+    if isinstance(solution, ShaftSolution):
+        return _of_shaft(solution, wanted)
     if wanted.names is not None:
         found = f"a {type(solution).__name__}"
         raise NoSensitivities(f"found {found}; expected a bearing, whose results are {', '.join(wanted.names)}")
@@ -178,6 +181,27 @@ def _of_bearing(solution: Solution, wanted: _Wanted) -> dict[str, Array]:
         raise NoSensitivities(
             "found a bearing that models neither power loss nor cage slip nor life; expected one with losses (an "
             "oil, and contact.traction or contact.rolling_resistance) or with a rating"
+        )
+    return there
+
+
+def _of_shaft(solution: ShaftSolution, wanted: _Wanted) -> dict[str, Array]:
+    """**Raises:** `NoSensitivities`."""
+    losses = [getattr(one.solution, "power_loss", None) for one in solution.bearings.values()]
+    found: dict[str, Array | None] = {
+        "power_loss": solution.torque.power_loss if any(one and one.total is not None for one in losses) else None,
+        "life": None if solution.life is None else solution.life.L10r,
+    }
+    there = {name: value for name, value in found.items() if value is not None}
+    if wanted.names is not None:
+        missing = [name for name in wanted.names if name not in there]
+        if missing:
+            known = ", ".join(there) or "none"
+            raise NoSensitivities(f"found a shaft, which has no {', '.join(missing)}; expected one of {known}")
+        return {name: there[name] for name in wanted.names}
+    if not there:
+        raise NoSensitivities(
+            "found a shaft whose bearings model neither losses nor, all of them, lives; expected [life] in its file"
         )
     return there
 
@@ -249,9 +273,11 @@ def _in_a_program(scene: AbstractScene, options: NewtonOptions, wanted: _Wanted)
     return solution, _slopes(scene, options, roots, wanted)
 
 
-def _by_path(tree: Any) -> dict[str, Float[Array, ""]]:
+def _by_path(tree: Any, scene: AbstractScene) -> dict[str, Float[Array, ""]]:
+    """**Arguments:** `tree`: like that of the numbers of the scene."""
     leaves, _ = jax.tree_util.tree_flatten_with_path(tree)
-    return {jax.tree_util.keystr(path, simple=True, separator="."): leaf for path, leaf in leaves}
+    path_of = lambda path: scene.path_in_file(jax.tree_util.keystr(path, simple=True, separator="."))
+    return {path_of(path): leaf for path, leaf in leaves}
 
 
 class UsualTolerance(NamedTuple):
@@ -269,7 +295,7 @@ def effects(
 
     **Arguments:** `tolerances`: by dotted path.
     """
-    inputs = {path: float(value) for path, value in _by_path(scene).items() if _is_one_number(value)}
+    inputs = {path: float(value) for path, value in _by_path(scene, scene).items() if _is_one_number(value)}
     share = {path: one.size / abs(inputs[path]) for path, one in tolerances.items() if inputs.get(path)}
     return {
         name: {path: float(slopes[path]) * part for path, part in share.items() if path in slopes}
@@ -279,41 +305,6 @@ def effects(
 
 def _is_one_number(leaf: Any) -> bool:
     return eqx.is_array_like(leaf) and not isinstance(leaf, bool) and np.ndim(leaf) == 0
-
-
-class PowerInterval(NamedTuple):
-    """Power loss, and the limits between which it is with a probability of 90 %, W, by one uncertain input alone.
-
-    **Arguments:** `by`: dotted path of the input; `assumed`: its distribution in words.
-    """
-
-    value: float
-    low: float
-    high: float
-    by: str
-    assumed: str
-
-
-def power_interval(
-    scene: AbstractScene, solution: Any, solver: Callable[[AbstractScene], Any] | None = None
-) -> PowerInterval | None:
-    """The power loss over the assumed distribution of the drag coefficient (`bearings.priors`), all else as it is.
-
-    The loss rises with the coefficient, so its limits are those of two more solves, by the same program, at the
-    coefficients below which 5 and 95 % of all are. `None` for a scene without this distribution, and where a solve
-    fails.
-
-    **Arguments:** `solution`: of the scene; `solver`: from a scene to its solution, never raising.
-    """
-    prior = drag_prior(scene)
-    if prior is None or not bool(solution.converged) or solution.power_loss.total is None:
-        return None
-    solve_again = (lambda one: solve(one, throw=False)) if solver is None else solver
-    ends = [solve_again(scene.replace({DRAG_FIELD: float(one)})) for one in prior.quantiles(np.array([0.05, 0.95]))]
-    if not all(bool(one.converged) for one in ends):
-        return None
-    low, high = (float(one.power_loss.total) for one in ends)
-    return PowerInterval(float(solution.power_loss.total), low, high, DRAG_FIELD, prior_in_words(prior))
 
 
 def largest(values: Mapping[str, Array], count: int, leave_out: tuple[str, ...] = ()) -> list[str]:

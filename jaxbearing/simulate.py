@@ -45,6 +45,17 @@ def simulate(
 ) -> "WarmUpHistory": ...
 @overload
 def simulate(
+    scene: "AbstractBearing",
+    duration: float | None = None,
+    *,
+    simulation: "Simulation | None" = None,
+    interval: float | None = None,
+    throw: bool = True,
+    progress: Progress | None = None,
+    restart: "WarmUpHistory | WarmState",
+) -> "WarmUpHistory": ...
+@overload
+def simulate(
     scene: "AbstractMovingBearing",
     duration: float | None = None,
     *,
@@ -52,8 +63,30 @@ def simulate(
     interval: float | None = None,
     throw: bool = True,
     progress: Progress | None = None,
-    restart: "History | LastState | None" = None,
+    restart: "History | LastState",
 ) -> "History": ...
+@overload
+def simulate(
+    scene: "AbstractMovingBearing",
+    duration: float | None = None,
+    *,
+    simulation: "Simulation | None" = None,
+    interval: float | None = None,
+    throw: bool = True,
+    progress: Progress | None = None,
+    restart: None = None,
+) -> "History | WarmUpHistory": ...
+@overload
+def simulate(
+    scene: "AbstractBearing",
+    duration: float | None = None,
+    *,
+    simulation: "Simulation | None" = None,
+    interval: float | None = None,
+    throw: bool = True,
+    progress: Progress | None = None,
+    restart: None = None,
+) -> "WarmUpHistory": ...
 @overload
 def simulate(
     scene: AbstractScene,
@@ -80,7 +113,8 @@ def simulate(
 
     A bearing with `[thermal]` runs in another way, whatever its family: the run is of its temperatures, from cold, and
     the bearing is in its steady state at each instant. A run of the rollers needs the table left out. The result is a
-    `WarmUpHistory`. It ends with the status `thermal_runaway` where a node passes `thermal.limit`.
+    `WarmUpHistory`, that of a run of rollers a `History`; the type of a scene does not say whether it has the table.
+    A run of temperatures ends with the status `thermal_runaway` where a node passes `thermal.limit`.
 
     A run that is interrupted by Ctrl-C comes back with what was computed until then (`history.completed`); so does one
     that fails, with `throw=False`.

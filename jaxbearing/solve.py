@@ -33,12 +33,13 @@ if TYPE_CHECKING:
     from .bearings.tapered.solution import TaperedSolution
     from .ehl import EHLLineContact, LineContactSolution
     from .machines import TwoDisk, TwoDiskSolution
+    from .shafts import ShaftSolution, ShaftSystem
 
 
 def require_solvable(scene: Any) -> None:
     """**Raises:** `TypeError` for what is no scene, or for a kind without a steady state."""
     if not isinstance(scene, AbstractScene) or type(scene).steady_solution is AbstractScene.steady_solution:
-        kinds = "a ball, cylindrical or tapered roller bearing, a two-disk machine or a line contact"
+        kinds = "a ball, cylindrical or tapered roller bearing, a shaft, a two-disk machine or a line contact"
         raise TypeError(f"cannot solve a {type(scene).__name__}; solve takes: {kinds}")
 
 
@@ -52,11 +53,12 @@ def with_checked_inputs(scene: AbstractScene, compute: Callable[[Any], Any]) -> 
     """Result of `compute` for a scene, with the checks of its inputs. Where one is invalid it ends at once, in NaN."""
     inputs = check_inputs(scene)
     given: Any = gate(scene, inputs.valid)
-    solution = compute(dataclasses.replace(given, operation=nan_unless(given.operation, inputs.valid)))
+    point = getattr(given, scene.operating_point)
+    solution = compute(dataclasses.replace(given, **{scene.operating_point: nan_unless(point, inputs.valid)}))
     return dataclasses.replace(
         solution,
         status=jnp.where(inputs.valid, solution.status, int(Status.INVALID_INPUT)),
-        operation=given.operation,
+        operation=point,
         checks=Checks(dict(solution.checks), inputs.broken, inputs.rules),
     )
 
@@ -114,13 +116,17 @@ def solve(
 ) -> "LineContactSolution": ...
 @overload
 def solve(
+    scene: "ShaftSystem", *, throw: bool = True, options: NewtonOptions | None = None, optimised: bool = False
+) -> "ShaftSolution": ...
+@overload
+def solve(
     scene: AbstractScene, *, throw: bool = True, options: NewtonOptions | None = None, optimised: bool = False
 ) -> Any: ...
 def solve(
     scene: AbstractScene, *, throw: bool = True, options: NewtonOptions | None = None, optimised: bool = False
 ) -> Any:
-    """The steady state of a scene: the equilibrium of a bearing, the traction curves of a two-disk machine, or the film
-    of a line contact.
+    """The steady state of a scene: the equilibrium of a bearing or of a shaft on bearings, the traction curves of a
+    two-disk machine, or the film of a line contact.
 
     Compiled once per structure (kind, parts, number of rolling elements); new numbers never recompile. May be called
     inside `jax.jit`, `jax.vmap`, `jax.grad` and `jax.lax.map`; derivatives with respect to every

@@ -2,6 +2,7 @@
 
 import dataclasses
 import functools
+import typing
 
 import diffrax
 import equinox as eqx
@@ -50,6 +51,20 @@ def test_a_steady_run_begins_at_the_steady_state():
     np.testing.assert_allclose(first(elements.load_inner), steady.elements.load_inner, atol=slope * 150e-6 / 71e-3)
     np.testing.assert_allclose(first(history.instants.power_loss.total), steady.power_loss.total, rtol=0.01)
     np.testing.assert_allclose(cage.speed, steady.cage.speed, rtol=2e-3)
+
+
+def test_types_say_what_a_run_gives():
+    """The type of a moving bearing does not say whether it has a thermal network, nor does what comes back, unless the
+    arguments say it."""
+    said = []
+    for one in typing.get_overloads(simulate):
+        kinds = one.__annotations__
+        given = [kinds[name] for name in ("simulation", "restart") if name not in (one.__kwdefaults__ or {})]
+        said.append((kinds["scene"], tuple(given), kinds["return"]))
+    assert ("AbstractMovingBearing", (), "History | WarmUpHistory") in said
+    assert ("AbstractMovingBearing", ("History | LastState",), "History") in said
+    assert ("AbstractBearing", ("WarmUpSimulation",), "WarmUpHistory") in said
+    assert ("AbstractBearing", (), "WarmUpHistory") in said
 
 
 class Breaking(AbstractTimeFactor):

@@ -18,6 +18,7 @@ from jaxbearing.life.result import Life
 from jaxbearing.machines import two_disk
 from jaxbearing.numerics.status import Status
 from jaxbearing.report.labels import udunits
+from jaxbearing.shafts import solution as shafts
 from jaxbearing.thermal import result as thermal_result
 from jaxbearing.thermal.shares import OilTemperatures
 
@@ -83,6 +84,15 @@ SECTIONS = {
         "profile": film_history.ProfileHistory,
     },
     "Two-disk machine": {"": two_disk.TwoDiskSolution},
+    "Shaft on bearings": {
+        "": shafts.ShaftSolution,
+        "bearings.NAME": shafts.BearingOnShaft,
+        "shaft": shafts.ShaftNodes,
+        "sets.NAME": shafts.SetResult,
+        "torque": shafts.TorqueBalance,
+        "life": shafts.SystemLifeResult,
+        "duty": shafts.DutyResult,
+    },
 }
 
 HEAD = """# Results

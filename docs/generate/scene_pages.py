@@ -18,6 +18,7 @@ and no run time. A dimensional field takes a text with a unit (`"12 mm"`, `"60de
 unit that it wants. Python takes the same names with SI numbers. A field that is one number may be a distribution,
 `{mean = "12 um", deviation = "2 um"}` or `{low = "5 um", high = "20 um"}`: see [Tolerances](tolerances.md).
 The tables `[[state]]` are states of a [load spectrum](spectrum.md), with a share of the time and changes of any field.
+The lists `[[bearing]]`, `[[set]]` and `[[force]]` of a [shaft](shafts.md) are found by their names in paths.
 The table `[catalogue]` alone is no part of the scene: [makers' formulas](makers.md) take it, and no result depends on
 it.
 `laws = "best"` above the tables of a bearing stands for named laws, an estimated cage and drag:
@@ -57,7 +58,13 @@ def page():
     return "\n\n".join(part for part in parts if part) + "\n"
 
 
-_NAMED = {"MaterialTable": "material"}
+_NAMED = {
+    "MaterialTable": "material",
+    "SectionTable": "shaft.sections",
+    "BearingEntry": "bearing.NAME",
+    "SetEntry": "set.NAME",
+    **{f"{one}Table": f"force.NAME, {one}" for one in ("PointLoad", "Gear", "Belt", "Mass")},
+}
 """Tables that stand in fields of several names."""
 
 

@@ -7,7 +7,7 @@ import numpy as np
 
 from jaxbearing.report.backends.matplotlib.sheet import foot, grid_lines, head, title_of
 from jaxbearing.report.colours import FAINT, INK
-from jaxbearing.report.display import ZERO_CELSIUS, digits
+from jaxbearing.report.display import ZERO_CELSIUS, axis_unit, digits
 
 from ..result import CurveFit, FitResult
 from .smooth import smooth_curves
@@ -26,7 +26,8 @@ LOGARITHMIC = 6.0
 _COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#56B4E9", "#E69F00")
 _MARKERS = "osD^v"
 _LINES = ("-", "--", ":", "-.")
-_OUTLIER = "#B00020"
+_OUTLIER, _OUTLIERS = "#B00020", "outlier (beyond 4 sigma)"
+"""Colour and name of what the fit leaves out."""
 _LEVELS = 6
 """Colours that the legend of many curves names."""
 
@@ -136,9 +137,8 @@ def _draw_residuals(result: FitResult, looks: list[_Look], axes: Any) -> None:
 def _mark_outliers(result: FitResult, slide: np.ndarray, values: np.ndarray, axes: Any) -> None:
     if not np.any(result.outlier):
         return
-    name = "outlier (beyond 4 sigma)"
     style = {"marker": "x", "color": _OUTLIER, "linestyle": "none", "markersize": 7, "markeredgewidth": 1.3}
-    axes.plot(slide[result.outlier], values[result.outlier], label=name, **style)
+    axes.plot(slide[result.outlier], values[result.outlier], label=_OUTLIERS, **style)
 
 
 def _size(points: int) -> tuple[float, float]:
@@ -156,7 +156,7 @@ def _looks(result: FitResult) -> list[_Look]:
             pairs = zip(curves, names, strict=True)
             names = [f"{curve.name}, {name}" if name else f"curve {curve.name}" for curve, name in pairs]
         if len(curves) == 1:
-            names = ["measured"]
+            names = ["the curve"]
         colours = [_COLOURS[n % len(_COLOURS)] for n in range(len(curves))]
         return [_Look(colours[n], _MARKERS[n % len(_MARKERS)], name) for n, name in enumerate(names)]
     if not varied:
@@ -200,7 +200,11 @@ class _Condition(NamedTuple):
         return self.factor * getattr(curve, self.field) - self.zero
 
     def text(self, curve: CurveFit) -> str:
-        return f"{digits(self.value(curve), 3)} {self.unit}"
+        value = self.value(curve)
+        if self.unit == "m/s":
+            unit, factor = axis_unit("m/s", value)
+            return f"{digits(factor * value, 3)} {unit}"
+        return f"{digits(value, 3)} {self.unit}"
 
 
 _CONDITIONS = (
@@ -217,22 +221,26 @@ def _varies(curves: Sequence[CurveFit], condition: _Condition) -> bool:
 
 
 def _draw_legend(figure: Any, axes: Any, result: FitResult, looks: list[_Look]) -> None:
-    """Draws the legend beside the diagrams; its title says what all curves have in common."""
+    """Draws the legend beside the diagrams: how points and lines differ, what all curves have in common, and the curves
+    with their points and lines."""
     from matplotlib.lines import Line2D
 
-    handles, names = axes.get_legend_handles_labels()
     varied = [condition for condition in _CONDITIONS if _varies(result.curves, condition)]
     common = [condition.text(result.curves[0]) for condition in _CONDITIONS if condition not in varied]
+    # a marker is a measured point, and a line the fitted curve
+    entries = {look.label: Line2D([], [], color=look.colour, marker=look.marker, linestyle=look.line) for look in looks}
+    entries.pop("", None)
     if len({look.line for look in looks}) > 1:
-        styles = {look.line: (look.marker, varied[1].text(c)) for look, c in zip(looks, result.curves, strict=True)}
-        for line, (marker, name) in styles.items():
-            handles.append(Line2D([], [], color=FAINT, linestyle=line, marker=marker))
-            names.append(name)
+        for look, curve in zip(looks, result.curves, strict=True):
+            name = varied[1].text(curve)
+            entries.setdefault(name, Line2D([], [], color=FAINT, marker=look.marker, linestyle=look.line))
+    entries |= {name: line for line, name in zip(*axes.get_legend_handles_labels(), strict=True) if name == _OUTLIERS}
+    figure.text(0.74, 0.845, "Points: measured. Lines: fitted.", fontsize=9.5, fontweight="bold", color=INK)
     legend = figure.legend(
-        handles,
-        names,
+        list(entries.values()),
+        list(entries),
         loc="upper left",
-        bbox_to_anchor=(0.73, 0.865),
+        bbox_to_anchor=(0.73, 0.84),
         fontsize=9,
         frameon=False,
         title=", ".join(common),
@@ -254,4 +262,4 @@ def _write_parameters(figure: Any, result: FitResult, bottom: float) -> None:
         figure.text(0.74, y, SYMBOL[name], fontsize=9, color=INK)
         figure.text(0.81, y, f"{text.value} {text.unit}", fontsize=9, color=INK if text.interval else FAINT)
         small = text.interval or ("held" if parameter.fixed else "no interval")
-        figure.text(0.81, y - 0.0165, small, fontsize=7.5, color=FAINT)
+        figure.text(0.81, y - 0.0165, small, fontsize=8, color=INK)

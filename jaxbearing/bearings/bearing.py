@@ -14,13 +14,14 @@ from jaxtyping import Array
 
 from .._scene import AbstractScene
 from ..contacts import LineContact, PointContact
+from ..materials import ROLLER_PRESSURE
 from ..mounting import Fits, PartTemperatures
 from ..numerics.checks import gate, nan_unless
 from ..numerics.newton import NewtonOptions
 from ..numerics.status import Status
 from ..thermal.settings import Thermal
 from ..thermal.shares import OilTemperatures
-from .facts import ROLLER_PRESSURE, RangeChecks
+from .facts import RangeChecks
 from .growth import Growth, Play
 from .mounted import fit_excess, running_scene
 from .operation import AbstractOperation
@@ -28,6 +29,7 @@ from .outline import Outline
 from .rated import RatedContacts
 from .rating import Rating
 from .ring import InnerRing
+from .row import AbstractRow
 from .solution import RING_FREEDOMS, TILTS, Solution
 from .warm import settled, solve_warm
 
@@ -141,6 +143,13 @@ class AbstractBearing(AbstractScene):
         - `ring`: an inner ring that is held; by default the ring of the operating point.
         - `exact_tilt`: whether the grooves of a ball bearing move with the exact rotation of the ring; by default as in
           the solve of the scene.
+        """
+
+    @abc.abstractmethod
+    def row(self, expansion: Array) -> AbstractRow:
+        """The bearing at its speeds without films and friction, for a ring that is held.
+
+        **Arguments:** `expansion`: growth of the inner raceway's radius less that of the outer one, m.
         """
 
     @abc.abstractmethod

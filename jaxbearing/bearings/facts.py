@@ -15,8 +15,6 @@ from .solution import CageState, RingDisplacement
 
 MEAN_OF_POINT, MEAN_OF_LINE = 2.0 / 3.0, 0.25 * np.pi
 """Mean over peak of Hertz's pressure."""
-BALL_PRESSURE, ROLLER_PRESSURE = 4.2e9, 4.0e9
-"""Hertz pressure of the most loaded contact at the static rating, Pa (ISO 76, [M])."""
 LOADED = 0.01
 """Part of the largest load at the same place from which on a contact counts."""
 BUSY = 0.1

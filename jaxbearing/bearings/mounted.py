@@ -10,8 +10,11 @@ import dataclasses
 from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any, NamedTuple
 
+import equinox as eqx
 import jax
 import jax.numpy as jnp
+import numpy as np
+from jaxtyping import Array, Float
 
 from ..mounting import Annulus, Fit, Fits, FitState, PartTemperatures
 from ..mounting.annulus import REFERENCE_TEMPERATURE
@@ -30,11 +33,20 @@ HIGHEST_STRESS = 127e6
 """Stress around the bore of the inner ring beyond which makers warn of bursting rings of through-hardened steel, Pa."""
 
 
+_COLD, _WARM, _RUNNING = (False, False), (True, False), (True, True)
+"""States of a mounted bearing: whether it has the temperatures of the scene, and whether it turns."""
+
+
 class _Rings(NamedTuple):
+    """Both rings, inner first, and the seats that there are, that of the shaft first, by their names: as arrays."""
+
     growth: Growth
-    inner: Annulus
-    on_shaft: FitState | None
-    in_housing: FitState | None
+    hoop_stress: Float[Array, ""]
+    seats: FitState | None
+
+    def last(self, names: tuple[str, ...], name: str) -> FitState | None:
+        """The seat of this name in the last of several states. **Arguments:** `names`: of all seats."""
+        return None if name not in names else jax.tree.map(lambda leaf: leaf[-1, names.index(name)], self.seats)
 
 
 def mounting_problems(scene: AbstractBearing) -> Iterator[str | ValueError]:
@@ -45,11 +57,12 @@ def mounting_problems(scene: AbstractBearing) -> Iterator[str | ValueError]:
         if temperatures is not None:
             yield "temperatures: they are those of a mounted bearing: the scene needs a [fits] table"
         return
-    geometry = scene.geometry
+    # the stand-in of fits that could not be read has no such attribute: nothing is required for them
+    geometry, check_room = scene.geometry, fits.check_room
     for name in ("bore", "outside_diameter"):
         if getattr(geometry, name) is None:
             yield f"geometry.{name}: found nothing, expected a length, which [fits] needs, e.g. '25 mm'"
-    yield from refusals_of(fits.check_room, geometry.bore, geometry.outside_diameter)
+    yield from refusals_of(check_room, geometry.bore, geometry.outside_diameter)
     yield from refusals_of(check_walls, scene)
     if temperatures is None and scene.thermal is None:
         return
@@ -94,32 +107,32 @@ def running_scene(scene: AbstractBearing) -> tuple[Any, FitResult | None, dict[s
     """
     if scene.fits is None:
         return scene, None, {}
-    cold = _rings(scene, warm=False, turning=False)
-    warm = _rings(scene, warm=True, turning=False) if scene.temperatures is not None else cold
-    found = _rings(scene, warm=True, turning=True)
-    plays = [scene.play(growth) for growth in (_still(), cold.growth, warm.growth, found.growth)]
-    drawn, fitted, heated, turning = (one.measure for one in plays)
-    last, of = plays[-1], found
-    radial = scene.play_is_clearance
+    states = (_COLD, _RUNNING) if scene.temperatures is None else (_COLD, _WARM, _RUNNING)
+    rings = jax.vmap(lambda warm, turning: _rings(scene, warm, turning))(*np.asarray(states).T)
+    plays = jax.vmap(scene.play)(jax.tree.map(lambda leaf: jnp.concatenate([jnp.zeros(1), leaf]), rings.growth))
+    drawn, fitted, heated, turning = (plays.measure[place] for place in (0, 1, -2, -1))
+    last: Play = jax.tree.map(lambda leaf: leaf[-1], plays)
+    growth: Growth = jax.tree.map(lambda leaf: leaf[-1], rings.growth)
+    on_shaft, in_housing = (rings.last(_seats_of(scene.fits), name) for name in ("shaft", "housing"))
     result = FitResult(
-        clearance=last.measure if radial else None,
+        clearance=last.measure if scene.play_is_clearance else None,
         contact_angle=last.contact_angle,
         axial_shift=last.axial_shift,
         drawn=drawn,
         by_fits=fitted - drawn,
         by_temperatures=heated - fitted,
         by_speed=turning - heated,
-        growth_inner=of.growth.inner,
-        growth_outer=of.growth.outer,
-        interference_inner=None if of.on_shaft is None else of.on_shaft.interference,
-        interference_outer=None if of.in_housing is None else of.in_housing.interference,
-        pressure_inner=None if of.on_shaft is None else of.on_shaft.pressure,
-        pressure_outer=None if of.in_housing is None else of.in_housing.pressure,
-        loose_speed=None if of.on_shaft is None else of.on_shaft.loose_speed,
-        hoop_stress=of.inner.hoop_stress_at_bore(0.0 if of.on_shaft is None else of.on_shaft.pressure),
+        growth_inner=growth.inner,
+        growth_outer=growth.outer,
+        interference_inner=None if on_shaft is None else on_shaft.interference,
+        interference_outer=None if in_housing is None else in_housing.interference,
+        pressure_inner=None if on_shaft is None else on_shaft.pressure,
+        pressure_outer=None if in_housing is None else in_housing.pressure,
+        loose_speed=None if on_shaft is None else on_shaft.loose_speed,
+        hoop_stress=rings.hoop_stress[-1],
     )
     unseated = dataclasses.replace(scene, fits=None, temperatures=None)
-    return unseated.grown(found.growth), result, _impossible(last)
+    return unseated.grown(growth), result, _impossible(last)
 
 
 def _impossible(play: Play) -> dict[str, FailureCause]:
@@ -129,47 +142,76 @@ def _impossible(play: Play) -> dict[str, FailureCause]:
 
 def running_play(scene: AbstractBearing) -> Play:
     """The play of a scene with seats, mounted, warm and turning at its speeds."""
-    return scene.play(_rings(scene, warm=True, turning=True).growth)
+    return scene.play(_rings(scene, *_RUNNING).growth)
 
 
-def _still() -> Growth:
-    zero = jnp.zeros(())
-    return Growth(zero, zero, zero, zero, zero)
+def _seats_of(fits: Fits) -> tuple[str, ...]:
+    """Names of the seats that there are."""
+    return tuple(name for name, there in (("shaft", fits.on_shaft), ("housing", fits.in_housing)) if there)
 
 
-def _rings(scene: Any, warm: bool, turning: bool) -> _Rings:
-    """Growth of the rings; cold or at rest where asked for."""
-    fits, temperatures, operation = scene.fits, scene.temperatures, scene.operation
-    geometry, rings = scene.geometry, scene.materials.rings
-    elements = getattr(scene.materials, f"{scene.element}s")
+def _rings(scene: Any, warm: Any, turning: Any) -> _Rings:
+    """Growth of the rings; cold or at rest where asked for. Rings and seats are arrays: of many single numbers the
+    compiler makes a small program each."""
+    fits, operation, geometry = scene.fits, scene.operation, scene.geometry
+    raceways, bore, outside = jnp.stack(scene.raceway_diameters), geometry.bore, geometry.outside_diameter
+    speeds = jnp.where(
+        turning, jnp.stack([jnp.asarray(operation.inner_speed), jnp.asarray(operation.outer_speed)]), 0.0
+    )
+    cold = scene.temperatures is None
 
-    def body(material: Any, bore: Any, outside: Any, speed: Any, temperature: Any) -> Annulus:
-        warming = temperature - REFERENCE_TEMPERATURE if warm and temperatures is not None else 0.0
-        return Annulus(material, jnp.asarray(bore), jnp.asarray(outside), speed if turning else 0.0, warming)
+    def warming(*parts: str) -> Array:
+        if cold:
+            return jnp.zeros(len(parts))
+        found = jnp.stack([jnp.asarray(getattr(scene.temperatures, part)) for part in parts])
+        return jnp.where(warm, found - REFERENCE_TEMPERATURE, 0.0)
 
-    inner_raceway, outer_raceway = scene.raceway_diameters
-    at = lambda name: None if temperatures is None else getattr(temperatures, name)
-    bore, outside = geometry.bore, geometry.outside_diameter
-    inner = body(rings, bore, inner_raceway, operation.inner_speed, at("inner_ring"))
-    outer = body(rings, outer_raceway, outside, operation.outer_speed, at("outer_ring"))
-    growth_inner, growth_outer = inner.free(inner_raceway), outer.free(outer_raceway)
-    on_shaft = in_housing = None
-    if fits.on_shaft:
-        shaft = body(fits.shaft_material, fits.shaft_bore, bore, operation.inner_speed, at("of_shaft"))
-        on_shaft = _fit(fits, "shaft", shaft, inner, bore)
-        growth_inner = growth_inner + inner.pressed(inner_raceway, on_shaft.pressure, 0.0)
-    if fits.in_housing:
-        wall = fits.housing_diameter(outside)
-        housing = body(fits.housing_material, outside, wall, operation.outer_speed, at("of_housing"))
-        in_housing = _fit(fits, "housing", outer, housing, outside)
-        growth_outer = growth_outer + outer.pressed(outer_raceway, 0.0, in_housing.pressure)
-    element = body(elements, 0.0, 1.0, 0.0, at("of_elements"))
-    growth = Growth(growth_inner, growth_outer, inner.strain, outer.strain, element.strain)
-    return _Rings(growth, inner, on_shaft, in_housing)
+    names, sizes = _seats_of(fits), [(bore, raceways[0]), (raceways[1], outside)]
+    bodies = _bodies([scene.materials.rings] * 2, sizes, speeds, warming("inner_ring", "outer_ring"), cold)
+    growth, pressures, seats = bodies.free(raceways), jnp.zeros(2), None
+    if names:
+        sides = slice(0 if "shaft" in names else 1, 2 if "housing" in names else 1)
+        materials = [getattr(fits, f"{name}_material") for name in names]
+        around = {"shaft": (fits.shaft_bore, bore), "housing": (outside, fits.housing_diameter(outside))}
+        their_warming = warming(*(f"of_{name}" for name in names))
+        others = _bodies(materials, [around[name] for name in names], speeds[sides], their_warming, cold)
+        asked = [fits.interference(name, {"shaft": bore, "housing": outside}[name]) for name in names]
+        seats = _seats(fits, bodies, others, jnp.stack(asked), sides)
+        free = [jnp.zeros(1)] * 2
+        free[sides] = jnp.split(seats.pressure, len(names))
+        pressures, inside = jnp.concatenate(free), np.asarray([True, False])
+        growth = growth + bodies.pressed(raceways, jnp.where(inside, pressures, 0.0), jnp.where(inside, 0.0, pressures))
+    element = [getattr(scene.materials, f"{scene.element}s")]
+    elements = _bodies(element, [(0.0, 1.0)], speeds[:1], warming("of_elements"), cold)
+    strains = [jnp.broadcast_to(one.strain, one.speed.shape) for one in (bodies, elements)]
+    return _Rings(Growth(*growth, *strains[0], *strains[1]), bodies.hoop_stress_at_bore(pressures)[0], seats)
 
 
-def _fit(fits: Fits, seat: Any, inner: Annulus, outer: Annulus, diameter: Any) -> FitState:
-    interference = fits.interference(seat, diameter)
+def _bodies(materials: list[Any], sizes: list[tuple[Any, Any]], speeds: Array, warming: Array, cold: bool) -> Annulus:
+    """Several bodies as one, whose sizes and material are arrays.
+
+    **Arguments:** `sizes`: bore and outside diameter of each, m; `speeds`, rad/s, and `warming`, K: of each;
+    `cold`: materials need no expansion.
+    """
+    stacked = lambda values: jnp.stack([jnp.asarray(one) for one in values])
+    names = ("youngs_modulus", "poisson_ratio", "density", *(() if cold else ("thermal_expansion",)))
+    # a material of arrays, which is no material that a user can make
+    material = jax.tree.map(lambda _: None, materials[0])
+    values = [stacked([getattr(one, name) for one in materials]) for name in names]
+    fields = lambda one: [getattr(one, name) for name in names]
+    material = eqx.tree_at(fields, material, values, is_leaf=lambda leaf: leaf is None)
+    bores, outsides = zip(*sizes, strict=True)
+    return Annulus(material, stacked(bores), stacked(outsides), speeds, warming)
+
+
+def _seats(fits: Fits, rings: Annulus, others: Annulus, interference: Array, sides: slice) -> FitState:
+    """The seats on these sides of the bearing: the shaft lies inside of its ring, the housing around its own.
+
+    **Arguments:** `others`: shaft and housing, as far as they are there; `interference`: of their seats, m.
+    """
+    on_shaft, seated = np.arange(2)[sides] == 0, jax.tree.map(lambda leaf: leaf[sides], rings)
+    choose = lambda first, second: jax.tree.map(lambda x, y: jnp.where(on_shaft, x, y), first, second)
+    inner, outer = choose(others, seated), choose(seated, others)
     return Fit(inner, outer, interference, fits.smoothed(interference)).state()
 
 

@@ -22,8 +22,11 @@ lower it by a factor that nobody has measured. The heat of a 35-mm ball bearing 
 
 SUPPLY_FIELD = "contact.supply.gap_over_central"
 """Dotted path of the gap at the inlet over the central film."""
+LEVEL_FIELD = "contact.supply.level"
+"""Dotted path of the level, a word, that stands for this gap."""
 SUPPLY_DEVIATION = math.log(3.0)
-"""Standard deviation of the logarithm of a gap that an assumed level stands for."""
+"""Standard deviation of the logarithm of a gap that an assumed level stands for: a factor of 3 about a median of 100
+(jet, under the race), 10 (bath) or 1 (grease, oil and air), the three of `LEVELS`. It is a judgement."""
 
 
 def drag_prior(scene: Any) -> Distribution | None:

@@ -88,7 +88,7 @@ class InnerRing(eqx.Module):
     @property
     def units(self) -> Float[Array, "5"]:
         """Factors that convert the five lengths to m and rad."""
-        return 1.0 / _levers(self.lever)
+        return 1.0 / levers(self.lever)
 
     def moved(self, shift: Float[Array, "freedom ..."]) -> Float[Array, "5 ..."]:
         """The five displacements as lengths, m; `shift` holds the unknown ones in units of `LENGTH_UNIT`."""
@@ -164,7 +164,7 @@ class InnerRing(eqx.Module):
         - `scale`: force by which the residuals were divided, N.
         - `free`: see `Port`.
         """
-        arm = _levers(self.lever)
+        arm = levers(self.lever)
         stiffness = condensed(schur_complement(jacobian), 5) * (scale / LENGTH_UNIT) * arm[:, None] * arm[None, :]
         force = force * arm
         if self.distance is not None:
@@ -173,7 +173,7 @@ class InnerRing(eqx.Module):
         return Port(force, stiffness, free)
 
 
-def _levers(lever: Float[Array, ""]) -> Float[Array, "5"]:
+def levers(lever: Float[Array, ""]) -> Float[Array, "5"]:
     """Factors that turn each of `RING_FREEDOMS` into a length."""
     return jnp.stack([lever if name in TILTS else jnp.ones(()) for name in RING_FREEDOMS])
 
@@ -192,7 +192,7 @@ def held_ring(
     **Arguments:** `displacement`: of the point that results refer to, m and rad; for the others see `InnerRing`.
     """
     lever = jnp.asarray(lever)
-    held = (shift_matrix(distance) @ displacement).at[0].add(closure) * _levers(lever)
+    held = (shift_matrix(distance) @ displacement).at[0].add(closure) * levers(lever)
     return InnerRing(jnp.zeros(0), held, lever, (), expansion, distance, closure, asks=True)
 
 
@@ -205,12 +205,12 @@ def inner_ring(scene: AbstractBearing, lever: Array, freedoms: tuple[str, ...] |
     operation: AbstractOperation = scene.operation
     freedoms, lever = scene.unknown_freedoms if freedoms is None else freedoms, jnp.asarray(lever)
     number = lambda value: jnp.zeros(()) if value is None else jnp.asarray(value)
-    levers: dict[str, Array] = dict(zip(RING_FREEDOMS, _levers(lever), strict=True))
-    load = [number(operation.load(name)) / levers[name] for name in freedoms]
+    by_name: dict[str, Array] = dict(zip(RING_FREEDOMS, levers(lever), strict=True))
+    load = [number(operation.load(name)) / by_name[name] for name in freedoms]
     held = jnp.zeros(5)
     for place, name in enumerate(RING_FREEDOMS):
         given = operation.held_at(name)
         if given is not None:
-            held = held.at[place].set(given * levers[name])
+            held = held.at[place].set(given * by_name[name])
     asks = operation.displaced or not freedoms
     return InnerRing(jnp.stack(load) if load else jnp.zeros(0), held, lever, freedoms, asks=asks)

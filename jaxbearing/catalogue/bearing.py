@@ -3,15 +3,17 @@
 import math
 import tomllib
 from collections.abc import Iterator, Mapping
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
-from .._scene import AbstractScene
 from ..numerics.arguments import require_count, require_numbers
-from ..scenes.reader import scene_from_tables
 from .designation import Designation, parse
+from .duty import Duty
 from .estimate import Estimate, Geometry, estimate
 from .proportions import Normal, proportions_of
 from .scene_text import scene_text
+
+if TYPE_CHECKING:
+    from .._scene import AbstractScene
 
 USUAL_ANGLES = {"angular_contact": Normal(30.0, 5.0), "spindle": Normal(15.0, 3.0)}
 """Contact angle where the designation states none, degrees: the designs without a suffix differ between makers."""
@@ -27,25 +29,31 @@ class Bearing(NamedTuple):
     - `designation`: type, boundary dimensions and what the suffixes say.
     - `geometry`: the internal geometry; each number an `Estimate` with its interval of 90 %.
     - `given`: what the estimate was told, SI.
+    - `duty`: operation and oil.
     """
 
     designation: Designation
     geometry: Geometry
     given: Mapping[str, float]
+    duty: Duty = Duty()
 
     def text(self) -> str:
         """The scene as a commented TOML file; what is estimated is marked with its interval."""
-        return scene_text(self.designation, self.geometry, self.given)
+        return scene_text(self.designation, self.geometry, self.given, self.duty)
 
     def tables(self) -> dict[str, Any]:
         """The tables of the scene file."""
         return tomllib.loads(self.text())
 
-    def scene(self) -> AbstractScene:
-        """The scene: dry, under a tenth of the dynamic rating, at a moderate speed.
+    def scene(self) -> "AbstractScene":
+        """The scene: with the laws of `laws = "best"` where an oil is given, dry otherwise; loads and a speed that are
+        not given are examples, a tenth of the dynamic rating and a moderate speed.
 
-        **Raises:** `SceneError` if the numbers that were given make an impossible bearing.
+        **Raises:** `SceneError` if the numbers that were given make an impossible bearing, and for an unknown oil.
         """
+        # what a bearing is made of is imported for a scene only: its text does not wait for it
+        from ..scenes.reader import scene_from_tables
+
         return scene_from_tables(self.tables(), self.designation.text)
 
 
@@ -59,11 +67,19 @@ def find(
     pitch_diameter: float | None = None,
     roller_length: float | None = None,
     contact_angle: float | None = None,
+    radial_load: float | None = None,
+    axial_load: float | None = None,
+    inner_speed: float | None = None,
+    oil: str | None = None,
+    base: str | None = None,
+    oil_temperature: float | None = None,
+    oil_flow: float | None = None,
 ) -> Bearing:
     """A bearing by its designation, e.g. "6207", "7312-B", "NU 311", "30206" or "7014 C".
 
     Boundary dimensions are standard. The internal geometry is estimated from usual proportions, and from what is given:
-    everything that is known makes the rest surer.
+    everything that is known makes the rest surer. With an oil the scene has the laws of `laws = "best"`, rolling
+    resistance among them, and its losses by location; without one it is dry.
 
     **Arguments:** all SI, all optional but the first:
     - `dynamic_capacity`, `static_capacity`: C and C0 of a maker, N.
@@ -72,6 +88,9 @@ def find(
     - `pitch_diameter`: m.
     - `roller_length`: effective length of rollers, m.
     - `contact_angle`: of angular contact ball bearings, and the cup's half angle of tapered roller bearings, rad.
+    - `radial_load`, `axial_load`, N, `inner_speed`, rad/s: operation; an example where not given.
+    - `oil`: grade of a standard oil, "ISO VG 68", or name of an oil of the catalogue; `base`: base stock of a grade,
+      "mineral" where not given; `oil_temperature`, K, 60 degC where not given; `oil_flow`, m^3/s, which drag needs.
 
     **Raises:** `SceneError` for an unknown designation, with the nearest known ones; `ValueError` for a number that is
     not possible, or that a bearing of this type does not have.
@@ -88,9 +107,11 @@ def find(
     }
     known = {name: value for name, value in given.items() if value is not None}
     _check(bearing, known)
+    duty = Duty(radial_load, axial_load, inner_speed, oil, base, oil_temperature, oil_flow)
+    duty.check()
     geometry = estimate(bearing, known, _angle(bearing, contact_angle))
     notes = (*bearing.notes, *_doubts(bearing, geometry, known))
-    return Bearing(bearing._replace(notes=notes), geometry, known)
+    return Bearing(bearing._replace(notes=notes), geometry, known, duty)
 
 
 def _doubts(bearing: Designation, geometry: Geometry, given: Mapping[str, float]) -> Iterator[str]:

@@ -5,6 +5,9 @@ import re
 from collections.abc import Iterator
 from typing import NamedTuple
 
+from ..designations import CYLINDRICAL_TYPES, Reading, Suffixes, readings, suffixes
+from ..designations import TAPERED as TAPERED_SERIES
+from ..designations import bore_of as bore_of
 from ..scenes.errors import SceneError
 from .dimensions import bores, boundary_dimensions
 
@@ -17,10 +20,8 @@ RADIAL_SERIES = {
     "cylindrical": {"10": "10", "22": "22", "23": "23", "2": "02", "3": "03", "4": "04"},
 }
 """Type -> series -> dimension series of ISO 15."""
-TAPERED_SERIES = ("302", "303", "313", "320", "322", "323", "329", "330", "331", "332")
 STEEP = 20.5, 1.5
 """Cup angle of tapered roller bearings with the suffix B and its standard deviation, degrees."""
-CYLINDRICAL_TYPES = ("NUP", "NU", "NJ", "NF", "N")
 _KIND_IN_WORDS = {
     "deep_groove": "deep groove ball bearing",
     "angular_contact": "angular contact ball bearing",
@@ -36,17 +37,6 @@ _NOT_MODELLED = (
     (r"5[1-4]\d\d\d|8\d\d\d\d|29\d\d\d", "a thrust bearing"),
     (r"NNU?\d+|N[AK]I?\d+|RNA\d+|HK\d+|BK\d+", "a needle or double row roller bearing"),
 )
-_SEALS = r"2RSR|2RSH|2RSL|2RS1|2RS|2RZ|RSH|RSL|RS1|RSR|RS|LLU|LLB|LLH|DDU|VV|2Z|ZZ|RZ|Z"
-_SUFFIXES = (
-    ("clearance", r"C[2345](?!\d)|CN(?!\d)"),
-    ("tolerance", r"P[0-9]S?(?!\d)|SP(?!\w)|UP(?!\w)|HG(?!\w)"),
-    ("seal", _SEALS),
-    ("cage", r"TVP\d?|TVH|TN\d?|TA|MA|MB|ML|M|P|J\d?|Y|Q|X|A|H\d?|R\d?|JR|T"),
-)
-_ANGLES = {"AC": 25.0, "ACD": 25.0, "C": 15.0, "CD": 15.0, "E": 25.0, "B": 40.0, "BE": 40.0, "BEP": 40.0}
-_END = r"(?!\d(?!RS|RZ|Z))"
-"""No further digit of the number: the 2 of 2RS and 2Z belongs to the seals."""
-_BOTH = "angular_contact", "spindle"
 
 
 class Designation(NamedTuple):
@@ -96,32 +86,19 @@ def parse(text: str) -> Designation:
 
     **Raises:** `SceneError` with the nearest designations if the text is none that is known.
     """
-    spaced = re.sub(r"[\s_\-.]+|/(?!\s*\d)", " ", text).strip().upper()
-    spaced = re.sub(rf"^({'|'.join(CYLINDRICAL_TYPES)}) ", r"\1", spaced)
-    plain = spaced.replace(" ", "")
-    found = _basic(spaced) or _basic(plain)
+    found = next((one for one in map(_known, readings(text)) if one is not None), None)
     if found is None:
-        raise _unknown(text, plain)
-    kind, design, series, bore, sizes, rest = found
-    angle, rest = _angle(kind, rest)
+        raise _unknown(text)
+    kind, reading, bore, sizes = found
+    marks = suffixes(reading)
     cup, usual, spread = sizes[3:6] if kind == "tapered" else (None, None, None)
-    if kind == "tapered" and rest.startswith("B"):
-        usual, spread, rest = *STEEP, rest[1:]
-    clearance, notes = _suffixes(kind, rest)
+    if kind == "tapered" and marks.letters == "B":
+        usual, spread = STEEP
+    clearance, notes = _noted(kind, marks)
+    numbers = (bore, sizes[0], sizes[1], marks.angle)
     return Designation(
-        *(text.strip(), kind, series, design, bore, sizes[0], sizes[1], angle, clearance, cup, usual, spread, notes)
+        text.strip(), kind, reading.series, reading.design, *numbers, clearance, cup, usual, spread, notes
     )
-
-
-def bore_of(code: str) -> float:
-    """Bore, mm, of a bore code: "00" to "03" are 10, 12, 15 and 17 mm, other numbers a fifth of the bore; one digit,
-    or a number after a stroke, is the bore itself."""
-    if code.startswith("/"):
-        return float(code[1:])
-    if len(code) == 1:
-        return float(code)
-    number = int(code)
-    return {0: 10.0, 1: 12.0, 2: 15.0, 3: 17.0}.get(number, 5.0 * number)
 
 
 def known_designations() -> Iterator[str]:
@@ -146,75 +123,42 @@ def _code(bore: float) -> str:
     return {10.0: "00", 12.0: "01", 15.0: "02", 17.0: "03"}.get(bore, f"{round(bore / 5.0):02d}")
 
 
-class _Basic(NamedTuple):
-    """The contents of a number: type, series, bore and boundary dimensions, mm, and the suffixes that are left."""
+class _Known(NamedTuple):
+    """A reading whose dimensions are known: kind of bearing, bore and boundary dimensions, mm."""
 
     kind: str
-    design: str
-    series: str
+    reading: Reading
     bore: float
     sizes: tuple[float, ...]
-    rest: str
 
 
-def _basic(text: str) -> _Basic | None:
-    """The number of a designation; `None` if it is none whose dimensions are known."""
-    for kind, design, series, code, rest in _readings(text):
-        bore = bore_of(code)
-        sizes = boundary_dimensions(kind, RADIAL_SERIES.get(kind, {}).get(series, series), bore)
-        if sizes is not None:
-            return _Basic(kind, design, series, bore, sizes, rest.replace(" ", ""))
-    return None
+def _known(reading: Reading) -> _Known | None:
+    """`None` for a reading without dimensions in the tables."""
+    kinds = (kind for kind, series in RADIAL_SERIES.items() if reading.series in series and _fits(kind, reading))
+    kind = "tapered" if reading.family == "tapered" else next(kinds, None)
+    if kind is None or reading.bore is None:
+        return None
+    dimension_series = RADIAL_SERIES.get(kind, {}).get(reading.series, reading.series)
+    sizes = boundary_dimensions(kind, dimension_series, reading.bore)
+    return None if sizes is None else _Known(kind, reading, reading.bore, sizes)
 
 
-def _readings(text: str) -> Iterator[tuple[str, str, str, str, str]]:
-    """Kind, type, series, bore code and the rest, in every way in which a designation may be read."""
-    match = re.match(rf"({'|'.join(CYLINDRICAL_TYPES)})(10|22|23|2|3|4)(\d\d){_END}(.*)", text)
-    if match:
-        yield "cylindrical", match[1], match[2], match[3], match[4]
-    match = re.match(rf"({'|'.join(TAPERED_SERIES)})(\d\d){_END}(.*)", text)
-    if match:
-        yield "tapered", "", match[1], match[2], match[3]
-    for kind in ("deep_groove", "spindle", "angular_contact"):
-        for series in sorted(RADIAL_SERIES[kind], key=len, reverse=True):
-            codes = [rf"\d\d{_END}", r"/\d+", rf"\d{_END}"] if kind == "deep_groove" else [rf"\d\d{_END}"]
-            # bores below 10 mm of the thin series stand after a stroke
-            for code in codes[:2] if len(series) == 3 else codes:
-                match = re.match(rf"{series}({code})(.*)", text)
-                if match:
-                    yield kind, "", series, match[1], match[2]
+def _fits(kind: str, reading: Reading) -> bool:
+    """True if a kind of the tables is one of the family that was read."""
+    return kind == reading.family or (kind == "spindle" and reading.family == "angular_contact")
 
 
-def _angle(kind: str, rest: str) -> tuple[float | None, str]:
-    """Contact angle of the suffix of an angular contact bearing, degrees, and the suffixes that are left."""
-    if kind not in _BOTH:
-        return None, rest
-    # C2 to C5 are classes of clearance, and 25 or 15 after the number is the angle itself
-    match = re.match(r"(ACD|AC|CD|BEP|BE|B|E|C(?![N2-5](?!\d)))", rest)
-    if match:
-        return _ANGLES[match[1]], rest[match.end() :]
-    match = re.match(r"A(15|25)", rest)
-    return (float(match[1]), rest[match.end() :]) if match else (None, rest)
-
-
-def _suffixes(kind: str, rest: str) -> tuple[str, tuple[str, ...]]:
+def _noted(kind: str, marks: Suffixes) -> tuple[str, tuple[str, ...]]:
     """Clearance class, and notes about the other suffixes."""
-    clearance, notes, unread = "CN", [], ""
-    if kind == "cylindrical" and rest.startswith("E"):
-        # reinforced inner design: the rule for today's bearings
-        rest = re.sub(r"^EC?", "", rest)
+    clearance, notes = "CN", []
+    if marks.reinforced:
+        # the rule for today's bearings
         notes.append("E, EC: reinforced inner design, as all estimates of this type assume")
-    while rest:
-        tried = ((what, re.match(pattern, rest)) for what, pattern in _SUFFIXES)
-        what, match = next(((what, match) for what, match in tried if match), ("", None))
-        if match is None:
-            unread, rest = unread + rest[0], rest[1:]
-            continue
-        rest = rest[match.end() :]
-        clearance, note = _said(kind, what, match[0], clearance)
+    for what, text in marks.marks:
+        clearance, note = _said(kind, what, text, clearance)
         notes += [note] if note else []
-    if unread:
-        notes.append(f"'{unread}' was not understood")
+    if marks.unread:
+        notes.append(f"'{marks.unread}' was not understood")
     return clearance, tuple(dict.fromkeys(notes))
 
 
@@ -225,6 +169,8 @@ def _said(kind: str, what: str, text: str, clearance: str) -> tuple[str, str]:
         if text not in CLEARANCES:
             return clearance, f"{text}: clearance class without a table here; set geometry.diametral_clearance"
         return text, ""
+    if what == "set":
+        return clearance, f"{text}: of bearings for sets; the scene has one bearing, without preload"
     if what == "tolerance":
         return clearance, f"{text}: tolerance class, not modelled; [fits] takes the normal class"
     if what == "seal":
@@ -232,7 +178,8 @@ def _said(kind: str, what: str, text: str, clearance: str) -> tuple[str, str]:
     return clearance, f"{text}: cage or design of a maker, not modelled"
 
 
-def _unknown(text: str, plain: str) -> SceneError:
+def _unknown(text: str) -> SceneError:
+    plain = re.sub(r"[\s_\-.]+|/(?!\s*\d)", "", text).upper()
     known = list(known_designations())
     by_plain = {one.replace(" ", "").replace("/", ""): one for one in known}
     near = difflib.get_close_matches(plain.replace("/", "")[:8], by_plain, n=3, cutoff=0.6)

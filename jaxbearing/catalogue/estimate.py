@@ -13,16 +13,17 @@ also makes the intervals.
 
 import math
 from collections.abc import Callable, Mapping
+from functools import partial
 from typing import Any, NamedTuple
 
 import jax
 import jax.numpy as jnp
 import numpy as np
-from jax.scipy.linalg import cho_solve
 from jaxtyping import Array
 
 from ..life.capacity import ball_capacity, roller_capacity
 from ..life.static import ball_static_capacity, roller_static_capacity
+from ..numerics.small_linear import cholesky, cholesky_solve
 from ..programs import KeptProgram
 from .designation import Designation
 from .proportions import FILL_ANGLE, GAP, Normal, proportions_of, usual_sizes
@@ -179,8 +180,8 @@ def _solved(
             """The residual and the factor of the normal equations at the state, and the next state."""
             x = state[0]
             left, jacobian = residual(x), jax.jacfwd(residual)(x)
-            factor = jnp.linalg.cholesky(jacobian.T @ jacobian)
-            change = cho_solve((factor, True), -jacobian.T @ left)
+            factor = cholesky(jacobian.T @ jacobian)
+            change = cholesky_solve(factor, -jacobian.T @ left)
             longest = jnp.maximum(jnp.max(jnp.abs(change)), LONGEST_STEP)
             return (x + change * LONGEST_STEP / longest, x, left, factor), None
 
@@ -190,7 +191,7 @@ def _solved(
         return {
             "x": x,
             "misfit": left @ left + 2.0 * jnp.sum(jnp.log(jnp.diagonal(factor))),
-            "variance": jnp.diagonal(cho_solve((factor, True), jnp.eye(len(UNKNOWNS)))),
+            "variance": jnp.diagonal(jax.vmap(partial(cholesky_solve, factor))(jnp.eye(len(UNKNOWNS)))),
             "ratings": ratings(x, count),
         }
 

@@ -2,19 +2,14 @@
 
 import math
 from collections.abc import Iterator, Mapping
-from typing import NamedTuple
 
 from .designation import Designation
 from .dimensions import clearance_limits
+from .duty import Duty, Line, oil_lines, operation_lines, quoted
 from .estimate import Estimate, Geometry
 from .tapered import TaperedShape, tapered_shape
 
 KINDS = {"cylindrical": "cylindrical_roller_bearing", "tapered": "tapered_roller_bearing"}
-LOAD_SHARE = {"deep_groove": (0.1, 0.0), "cylindrical": (0.1, None), "tapered": (0.1, 0.1)}
-"""Radial and axial load of the example over the dynamic rating; `None`: the kind has no axial load."""
-OTHER_SHARE = 0.05, 0.05
-SPEED = 150_000.0
-"""Speed of the example times mean diameter, mm/min: moderate."""
 UNKNOWN_CLEARANCE = {"C2": 0.08, "CN": 0.25, "C3": 0.45, "C4": 0.7}
 """Clearance over bore, micrometres per millimetre, beyond the table: a usual size, within a half."""
 GROOVES = {"inner": (0.52, 0.51, 0.53), "outer": (0.53, 0.515, 0.54)}
@@ -22,24 +17,24 @@ GROOVES = {"inner": (0.52, 0.51, 0.53), "outer": (0.53, 0.515, 0.54)}
 
 
 LAWS_HINT = (
-    '# laws = "best"  # films, friction, cage, drag: they need [oil], such as grade = "ISO VG 68", and in [operation]',
-    "#                # oil_temperature, and oil_flow for the drag",
+    '# laws = "best"  # adds films, friction, rolling resistance, a cage and drag. It needs [oil], such as',
+    '#                # grade = "ISO VG 68", and in [operation] oil_temperature, and oil_flow for the drag;',
+    '#                # `jaxbearing new {} --oil "ISO VG 68"` writes them.',
 )
-"""Lines of a file for what its scene does not model yet."""
+"""Lines of a dry file; `{}` stands for the designation."""
+LAWS = (
+    'laws = "best"  # films, inlet heating, friction, rolling resistance, attitude of balls, cage; with oil_flow drag.',
+    '#              # A field of your own prevails; [contact] rolling_resistance = "none" leaves that one out.',
+)
+"""Lines of a file with an oil."""
 
 
-class Line(NamedTuple):
-    """A field of a scene file: its value as it is written, and the comment."""
-
-    name: str
-    value: str
-    comment: str
-
-
-def scene_text(bearing: Designation, geometry: Geometry, given: Mapping[str, float]) -> str:
-    """The file: boundary dimensions, internal geometry with intervals, materials, rating, an example of operation."""
+def scene_text(bearing: Designation, geometry: Geometry, given: Mapping[str, float], duty: Duty) -> str:
+    """The file: boundary dimensions, internal geometry with intervals, materials, rating, oil and operation."""
     kind = KINDS.get(bearing.kind, "ball_bearing")
-    parts = [*_head(bearing, geometry, given), "", f'kind = "{kind}"', *LAWS_HINT, ""]
+    dry = duty.oil is None
+    laws = [line.format(bearing.text) for line in LAWS_HINT] if dry else LAWS
+    parts = [*_head(bearing, geometry, given), "", f'kind = "{kind}"', *laws, ""]
     parts += _table("geometry", list(_geometry(bearing, geometry)))
     if bearing.design in ("NJ", "NUP"):
         side = '"both"' if bearing.design == "NUP" else '"+x"'
@@ -52,12 +47,19 @@ def scene_text(bearing: Designation, geometry: Geometry, given: Mapping[str, flo
         ]
     elements = "balls" if kind == "ball_bearing" else "rollers"
     parts += _table("materials", [Line("rings", '"52100"', ""), Line(elements, '"52100"', "")])
-    if kind == "ball_bearing":
+    if dry and kind == "ball_bearing":
         parts += _table("kinematics", [Line("attitude", '"outer"', 'of a dry scene: take it out with laws = "best"')])
+    if not dry:
+        parts += _table("oil", list(oil_lines(duty)))
     rating = list(_rating(given))
     left = {0: "C and C0 are", 1: "the other rating is"}.get(len(rating))
     parts += _table("rating", rating, f"  # {left} computed from the geometry" if left else "")
-    parts += _table("operation", list(_operation(bearing, geometry, given)))
+    if not dry:
+        name = Line("designation", quoted(bearing.text), "for `jaxbearing compare`: no result depends on it")
+        parts += _table("catalogue", [name])
+    mean = 0.5 * (bearing.bore + bearing.outside)
+    capacity = given.get("dynamic_capacity", geometry.dynamic_capacity)
+    parts += _table("operation", list(operation_lines(duty, bearing.kind, mean, capacity)))
     parts += _hints(bearing)
     return "\n".join(parts).rstrip() + "\n"
 
@@ -196,16 +198,6 @@ def _rating(given: Mapping[str, float]) -> Iterator[Line]:
             yield Line(name, f'"{_kilo(given[name])}"', "given")
 
 
-def _operation(bearing: Designation, geometry: Geometry, given: Mapping[str, float]) -> Iterator[Line]:
-    radial, axial = LOAD_SHARE.get(bearing.kind, OTHER_SHARE)
-    capacity = given.get("dynamic_capacity", geometry.dynamic_capacity)
-    speed = SPEED / (0.5 * (bearing.bore + bearing.outside))
-    yield Line("inner_speed", f'"{_two_digits(speed):g} rpm"', "an example")
-    yield Line("radial_load", f'"{_two_digits(radial * capacity):g} N"', "an example")
-    if axial is not None:
-        yield Line("axial_load", f'"{_two_digits(axial * capacity):g} N"', "an example")
-
-
 def _hints(bearing: Designation) -> Iterator[str]:
     yield "# Seats make the clearance of the running bearing a result (classes and size are examples):"
     yield "# [fits]"
@@ -254,7 +246,3 @@ def _degrees(value: float) -> str:
 
 def _kilo(value: float) -> str:
     return f"{1e-3 * value:.4g} kN"
-
-
-def _two_digits(value: float) -> float:
-    return float(f"{value:.2g}")

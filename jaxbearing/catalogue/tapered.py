@@ -3,8 +3,6 @@
 import math
 from typing import NamedTuple
 
-from ..bearings.tapered.geometry import usual_end_radius, usual_flange_angle
-
 TURNS = 60
 """Steps of the fixed-point search, each of which takes about the fifth part of the error."""
 
@@ -28,6 +26,9 @@ def tapered_shape(mean_diameter: float, pitch_diameter: float, length: float, cu
 
     **Arguments:** lengths, m; `cup_angle`: half angle of the cup, rad.
     """
+    # of tapered rollers only: the rest of the catalogue does without the bearings' classes
+    from ..bearings.tapered.geometry import usual_end_radius, usual_flange_angle
+
     half = 0.0
     for _ in range(TURNS):
         tilt = math.sin(cup_angle - half)

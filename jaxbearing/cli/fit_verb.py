@@ -4,19 +4,27 @@ import json
 import sys
 from collections.abc import Callable, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
 from .messages import BAD_INPUT, NOT_CONVERGED, bad_input, refuse, say
 from .options import SCENE_HELP, JsonOption, SetOption, labelled
 from .output_files import PICTURES, Output, check_files, deliver
+from .posterior_options import (
+    PlotPosteriorOption,
+    PosteriorOption,
+    SamplesOption,
+    sampling_of,
+    write_posterior,
+)
 from .terminal import console
 
 if TYPE_CHECKING:
     from fitting.comparison import ModelRow
     from fitting.measurements import Measurements
     from fitting.options import FitOptions
+    from fitting.posterior import Posterior, Sampling
     from fitting.result import FitResult
 
     from ..machines import TwoDisk
@@ -103,8 +111,11 @@ def fit(
     floor: Floor = None,
     slide_error: SlideError = "0",
     level: Level = "0.95",
+    posterior: PosteriorOption = False,
+    samples: SamplesOption = 1000,
     as_json: JsonOption = False,
     plot: Plot = None,
+    plot_posterior: PlotPosteriorOption = None,
     out: Out = None,
 ) -> None:
     """Shear modulus and stress of an oil from traction curves, with intervals and with what the curves cannot tell.
@@ -137,7 +148,9 @@ def fit(
         )
         _check_options(options)
         machine, measurements, notes = _loaded(data, scene, changes)
-        check_files((("--plot", plot, PICTURES), ("--out", out, (".toml",))))
+        sampling = sampling_of(posterior, samples, plot_posterior)
+        pictures = ("--plot", plot, PICTURES), ("--plot-posterior", plot_posterior, PICTURES)
+        check_files((*pictures, ("--out", out, (".toml",))))
 
     from .cache import enable_compilation_cache
     from .quiet import without_false_alarms
@@ -146,15 +159,17 @@ def fit(
     enable_compilation_cache()
     with without_false_alarms():
         result, rows = _fitted(measurements, machine, models, options, _silent if as_json else _tell)
+        drawn = _sampled(result, sampling)
         wrote = "" if as_json else f"wrote {out}: use it with [oil] file = ... or --set oil.file={out}"
         outputs = (
             Output(out, lambda path: _write_oil(result, path, data, scene, changes), wrote),
             Output(plot, lambda path: _write_plot(result, path, data, label, notes), long=True),
+            Output(plot_posterior, lambda path: _write_posterior(drawn, data, path), long=True),
         )
-        show = lambda: _print(result, rows, data, label, notes, out, as_json)
+        show = lambda: _print(result, rows, data, label, notes, out, as_json, drawn)
         deliver(show, outputs if result.converged else ())
     if not result.converged:
-        left_out = [str(path) for path in (plot, out) if path is not None]
+        left_out = [str(path) for path in (plot, plot_posterior, out) if path is not None]
         if left_out:
             typer.echo(f"not written: {', '.join(left_out)}", err=True)
         if as_json:
@@ -233,6 +248,24 @@ def _fitted(
     return results[rows[0].model], rows
 
 
+def _sampled(result: "FitResult", sampling: "Sampling | None") -> "Posterior | None":
+    """The posterior that is asked for, of a fit that converged; ends the command where it cannot be."""
+    from fitting.oil_posterior import posterior_of
+
+    if sampling is None or not result.converged:
+        return None
+    try:
+        return posterior_of(result, sampling)
+    except ValueError as error:
+        refuse(f"--{error}")
+
+
+def _write_posterior(drawn: Any, data: Path, path: Path) -> None:
+    from fitting.parameters import NAMES, UNITS
+
+    write_posterior(drawn, dict(zip(NAMES, UNITS, strict=True)), str(data), path)
+
+
 def _tell(text: str) -> None:
     """Prints what the command is doing, on a terminal only."""
     if sys.stdout.isatty():
@@ -270,12 +303,15 @@ def _print(
     notes: list[str],
     out: Path | None,
     as_json: bool,
+    drawn: "Posterior | None",
 ) -> None:
     if as_json:
         from fitting.io.json_report import fit_to_dict
 
         oil = str(out) if out is not None and result.converged else None
         found = fit_to_dict(result, str(data), label, notes, oil, rows)
+        if drawn is not None:
+            found["posterior"] = drawn.to_dict()
         typer.echo(json.dumps(found, allow_nan=False))
         return
     from fitting.io.summary import print_comparison, print_fit
@@ -284,3 +320,7 @@ def _print(
     print_fit(result, str(data), label, notes, screen)
     if rows:
         print_comparison(rows, screen)
+    if drawn is not None:
+        from fitting.io.posterior_table import print_posterior
+
+        print_posterior(drawn, screen)

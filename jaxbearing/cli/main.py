@@ -7,11 +7,14 @@ Exit codes: 0 solved; 1 the output cannot be written; 2 bad input, one message o
 
 import io
 import sys
+from itertools import takewhile
 from typing import Annotated, Any
 
 import typer
 
+from .. import load_verbs
 from ..numerics.garbage import rare_garbage_collection
+from .calibrate_verb import calibrate
 from .compare_verb import compare
 from .fields_verb import fields
 from .fit_verb import fit
@@ -45,7 +48,6 @@ app = typer.Typer(
     epilog=_EPILOG,
     no_args_is_help=True,
     rich_markup_mode=None,
-    add_completion=False,
     pretty_exceptions_enable=False,
 )
 
@@ -68,7 +70,7 @@ def _run() -> int:
     only_news()
     try:
         with rare_garbage_collection():
-            code = app(standalone_mode=False)
+            code = app(standalone_mode=False, prog_name="jaxbearing")
         sys.stdout.flush()
         if code == INTERRUPTED:
             # Ctrl-C that was deferred comes as an exception, of which the parser makes a code
@@ -100,7 +102,23 @@ def _usage(error: Any) -> int:
         typer.echo(context.get_help(), err=True)
         return BAD_INPUT
     hint = f" See '{context.command_path} --help'." if context is not None else ""
-    return say(error.format_message() + hint, BAD_INPUT)
+    message = error.format_message()
+    return say(f"{message.removesuffix('.')}.{hint}{_of_two_words() if 'extra argument' in message else ''}", BAD_INPUT)
+
+
+def _of_two_words() -> str:
+    """The command that writes a scene, if a verb got a designation such as NU 2210 in place of a scene."""
+    from ..catalogue.designation import parse
+    from ..scenes.errors import SceneError
+
+    words = list(takewhile(lambda word: not word.startswith("-"), sys.argv[2:]))
+    if len(words) < 2:
+        return ""
+    try:
+        bearing = parse(" ".join(words))
+    except SceneError:
+        return ""
+    return f" 'jaxbearing new {bearing.text}' writes a scene of this {bearing.in_words}."
 
 
 def _version(wanted: bool) -> None:
@@ -114,18 +132,24 @@ def _version(wanted: bool) -> None:
         raise typer.Exit
 
 
+_WITHOUT_SOLVES = ("new",)
+"""Verbs that solve nothing and make no scene."""
+
+
 @app.callback()
 def _options(
+    context: typer.Context,
     version: Annotated[
         bool, typer.Option("--version", help="Print the version.", is_eager=True, callback=_version)
     ] = False,
 ) -> None:
-    pass
+    if context.invoked_subcommand not in _WITHOUT_SOLVES:
+        load_verbs()
 
 
 _VERBS = (
     *(new, scenes, fields, solve, spectrum, report, sweep, tolerances),
-    *(compare, study, simulate, stiffness, fit),
+    *(compare, study, simulate, stiffness, fit, calibrate),
 )
 for _verb in _VERBS:
     app.command()(_verb)

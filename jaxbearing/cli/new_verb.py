@@ -20,8 +20,20 @@ def _quantity(name: str, what: str) -> Any:
     return typer.Option(f"--{name}", metavar="VALUE", help=what)
 
 
+def _known(incomplete: str) -> list[str]:
+    """Designations that begin like this, for the completion of the shell; those of two words are written in one."""
+    from ..catalogue.designation import known_designations
+
+    lower = incomplete != incomplete.upper()
+    names = (name.replace(" ", "") for name in known_designations())
+    return [name for name in (name.lower() if lower else name for name in names) if name.startswith(incomplete)]
+
+
 def new(
-    designation: Annotated[list[str], typer.Argument(metavar="DESIGNATION", help="Such as 6207, 7312-B or NU 311.")],
+    designation: Annotated[
+        list[str],
+        typer.Argument(metavar="DESIGNATION", help="Such as 6207, 7312-B or NU 311.", autocompletion=_known),
+    ],
     dynamic_capacity: Annotated[str | None, _quantity("dynamic-capacity", "C of a maker, e.g. '25.5 kN'.")] = None,
     static_capacity: Annotated[str | None, _quantity("static-capacity", "C0 of a maker, e.g. '15.3 kN'.")] = None,
     balls: Annotated[int | None, typer.Option("--balls", "--rollers", metavar="COUNT", help="Their number.")] = None,
@@ -36,6 +48,20 @@ def new(
     contact_angle: Annotated[
         str | None, _quantity("contact-angle", "Of angular contact and tapered roller bearings, e.g. '40 deg'.")
     ] = None,
+    radial_load: Annotated[str | None, _quantity("radial-load", "E.g. '3 kN'; an example if not given.")] = None,
+    axial_load: Annotated[str | None, _quantity("axial-load", "E.g. '500 N'; an example if not given.")] = None,
+    speed: Annotated[str | None, _quantity("speed", "Of the inner ring, e.g. '1500 rpm'.")] = None,
+    oil: Annotated[
+        str | None,
+        _quantity(
+            "oil",
+            "Grade of a standard oil, e.g. 'ISO VG 68', or an oil of the catalogue: the scene then has the best laws, "
+            "and its losses. Without an oil it is dry.",
+        ),
+    ] = None,
+    base: Annotated[str | None, _quantity("base", "Base stock of a grade: mineral, PAO, ester, polyglycol.")] = None,
+    oil_temperature: Annotated[str | None, _quantity("oil-temperature", "E.g. '60 degC'.")] = None,
+    oil_flow: Annotated[str | None, _quantity("oil-flow", "E.g. '10 l/h', which adds drag.")] = None,
     output: Annotated[
         Path | None,
         typer.Option(
@@ -46,36 +72,42 @@ def new(
     as_json: JsonOption = False,
 ) -> None:
     """Write a scene file for a standard bearing: boundary dimensions by its designation, an estimated internal geometry
-    with intervals. What is known of the bearing makes the estimates sharper."""
+    with intervals. What is known of the bearing makes the estimates sharper. With an oil it has the best laws."""
     name = " ".join(designation)
     with bad_input():
         from ..catalogue import find, parse
-        from ..scenes.units import ANGLE, FORCE, LENGTH
+        from ..scenes.units import ANGLE, FLOW, FORCE, LENGTH, SPEED, TEMPERATURE
 
         bearing = parse(name)
         texts = {
-            "dynamic_capacity": ("--dynamic-capacity", dynamic_capacity, FORCE),
-            "static_capacity": ("--static-capacity", static_capacity, FORCE),
-            "element_diameter": ("--ball-diameter or --roller-diameter", diameter, LENGTH),
-            "pitch_diameter": ("--pitch-diameter", pitch_diameter, LENGTH),
-            "roller_length": ("--roller-length", roller_length, LENGTH),
-            "contact_angle": ("--contact-angle", contact_angle, ANGLE),
+            "dynamic_capacity": ("--dynamic-capacity", dynamic_capacity, FORCE, "> 0"),
+            "static_capacity": ("--static-capacity", static_capacity, FORCE, "> 0"),
+            "element_diameter": ("--ball-diameter or --roller-diameter", diameter, LENGTH, "> 0"),
+            "pitch_diameter": ("--pitch-diameter", pitch_diameter, LENGTH, "> 0"),
+            "roller_length": ("--roller-length", roller_length, LENGTH, "> 0"),
+            "contact_angle": ("--contact-angle", contact_angle, ANGLE, "> 0"),
+            "radial_load": ("--radial-load", radial_load, FORCE, "finite"),
+            "axial_load": ("--axial-load", axial_load, FORCE, "finite"),
+            "inner_speed": ("--speed", speed, SPEED, "finite"),
+            "oil_temperature": ("--oil-temperature", oil_temperature, TEMPERATURE, "> 0"),
+            "oil_flow": ("--oil-flow", oil_flow, FLOW, ">= 0"),
         }
         given: dict[str, Any] = {
-            field: option_quantity(option, text, dimension, "> 0")
-            for field, (option, text, dimension) in texts.items()
+            field: option_quantity(option, text, dimension, bound)
+            for field, (option, text, dimension, bound) in texts.items()
             if text is not None
         }
         target = _target(output, f"{bearing.name}.toml", force)
         try:
-            found = find(name, n_elements=balls, **given)
+            found = find(name, n_elements=balls, oil=oil, base=base, **given)
         except ValueError as error:
             if type(error) is not ValueError:
                 raise
             refuse(f"new {name}: {error}")
         text = found.text()
-        # a geometry that cannot be built is said before anything is written
-        found.scene()
+        if balls is not None or given:
+            # a geometry that cannot be built is said before anything is written; that of a designation alone can
+            found.scene()
     _write(target, text)
     if as_json:
         typer.echo(json.dumps(_as_json(found, target)))
@@ -151,6 +183,11 @@ def _show(found: "Bearing") -> None:
         printed = f"; given {1e-3 * found.given[field]:.4g} kN" if field in found.given else ""
         table.add_row(symbol, f"{1e-3 * getattr(geometry, field):.4g} kN", f"of this geometry, {source}{printed}")
     out.print(table)
+    if found.duty.oil is None:
+        out.print("dry: no films and no losses; --oil 'ISO VG 68' adds both", markup=False)
+    else:
+        words = "films, friction, rolling resistance and cage by laws = 'best', which solve lists"
+        out.print(f"oil {found.duty.oil}: {words}", markup=False)
     options = sharper(bearing, found.given)
     if options:
         out.print(f"sharper with {options}", markup=False)
@@ -170,6 +207,7 @@ def _as_json(found: "Bearing", target: Path) -> dict[str, Any]:
         "geometry": {name: getattr(geometry, name)._asdict() for name in _fields(found)},
         "dynamic_capacity": geometry.dynamic_capacity,
         "static_capacity": geometry.static_capacity,
+        "oil": found.duty.oil,
         "notes": list(bearing.notes),
         "file": str(target),
     }

@@ -10,7 +10,8 @@ from .terminal import console
 
 if TYPE_CHECKING:
     from .._scene import AbstractScene, AbstractSolution
-    from ..sensitivity import PowerInterval, Sensitivities, UsualTolerance
+    from ..loss_interval import PowerInterval
+    from ..sensitivity import Sensitivities, UsualTolerance
 
 BY = ("tolerance", "percent")
 """Ways to rank inputs, the usual one first."""
@@ -44,8 +45,8 @@ SensitivitiesByOption = Annotated[
 class Asked(NamedTuple):
     """Sensitivities that are wanted.
 
-    **Arguments:** `of`: results, `None` for the usual ones; `by`: one of `BY`; `drag_prior`: whether the power loss is
-    limited by the assumed drag coefficient.
+    **Arguments:** `of`: results, `None` for the usual ones; `by`: one of `BY`; `drag_prior`: whether the interval of
+    the power loss has the assumed drag coefficient.
     """
 
     of: tuple[str, ...] | None
@@ -107,18 +108,20 @@ def moved(
     """What the usual tolerances move. **Arguments:** `source`, `changes`: of the scene, for its own distributions."""
     if slopes is None or wanted is None:
         return None
+    from ..loss_interval import power_interval
     from ..scenes.errors import SceneError
     from ..scenes.reader import load_distributions
-    from ..sensitivity import effects, power_interval
-    from ..solve import solve_once
+    from ..sensitivity import effects
     from ..tolerance.usual import usual_tolerances
 
     own: dict[str, Any] = {}
     with suppress(SceneError):  # a pipe cannot be read twice
         own |= load_distributions(source, changes)
-    limited = wanted.drag_prior and slopes.power_loss is not None
     tolerances = usual_tolerances(model, own)
-    interval = power_interval(model, solution, solve_once) if limited else None
+    interval = None
+    if slopes.power_loss is not None:
+        numbers = {path: one for path, one in own.items() if path in slopes.power_loss}
+        interval = power_interval(model, solution, given=numbers, drag_prior=wanted.drag_prior)
     return Moved(model, slopes, effects(model, slopes, tolerances), tolerances, interval, wanted.by)
 
 
@@ -131,7 +134,7 @@ def as_json(found: Moved) -> dict[str, Any]:
         "sensitivities_by_tolerance": effects_to_dict(found.effects, found.tolerances),
     }
     if found.interval is not None:
-        entries["power_loss_interval"] = found.interval._asdict()
+        entries["power_loss_interval"] = found.interval.as_dict()
     return entries
 
 

@@ -99,7 +99,7 @@ def solve(
         outputs = (
             Output(out, lambda path: _write_data(solution, path)),
             Output(contact, bridge, taken),
-            Output(plot, lambda path: _write_plot(solution, label, path), long=True),
+            Output(plot, lambda path: _write_plot(solution, label, path, model), long=True),
         )
         deliver(show, () if failure else outputs)
     if failure:
@@ -159,10 +159,10 @@ def _write_data(solution: "AbstractSolution", out: Path) -> None:
     write_netcdf(solution_to_dataset(solution), out)
 
 
-def _write_plot(solution: "AbstractSolution", label: str, plot: Path) -> None:
+def _write_plot(solution: "AbstractSolution", label: str, plot: Path, model: "AbstractScene") -> None:
     from ..report.plots import plot_solution, save_plot
 
-    save_plot(plot_solution(solution, label), plot)
+    save_plot(plot_solution(solution, label, model), plot)
 
 
 def _print_json(solution: "AbstractSolution", moved: extra.Moved | None) -> None:

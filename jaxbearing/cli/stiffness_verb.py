@@ -14,9 +14,12 @@ from .terminal import console
 
 if TYPE_CHECKING:
     from .._scene import AbstractScene
+    from ..report.shaft.stiffness import ShaftStiffness
     from ..report.stiffness import StiffnessTable
 
 MOST_SPEEDS = 10_000
+SHAFT = "shaft"
+"""Kind of scenes with several bearings."""
 _EXAMPLE = "'2000 rpm:20000 rpm:10'"
 Speeds = Annotated[
     str,
@@ -31,8 +34,8 @@ Ross = Annotated[
     typer.Option(
         "--ross",
         metavar="FILE.toml",
-        help="Write the bearing for the rotordynamics package ROSS: rs.BearingElement.load(FILE). Damping is 0: the "
-        "model has none.",
+        help="Write the bearing for the rotordynamics package ROSS: rs.BearingElement.load(FILE); of a shaft with "
+        "sections the rotor: rs.Rotor.load(FILE). Damping is 0: the model has none.",
     ),
 ]
 LoadDirection = Annotated[
@@ -51,7 +54,8 @@ def stiffness(
     ross: Ross = None,
     load_direction: LoadDirection = "-90 deg",
 ) -> None:
-    """Stiffness against shaft speed, at the loads of the scene; on request as a bearing for ROSS."""
+    """Stiffness against shaft speed, at the loads of the scene; of a shaft that of each set and bearing. On request it
+    is written as a bearing, or a rotor, for ROSS."""
     with bad_input():
         from ..scenes.overrides import split_assignments
         from ..scenes.reader import load_scene
@@ -60,7 +64,7 @@ def stiffness(
         values = _speeds(speeds)
         angle = option_quantity("--load-direction", load_direction, ANGLE)
         model = load_scene(scene, split_assignments(changes or []))
-        _check(scene, model, values)
+        _check(scene, model, values, ross)
         check_files((("--ross", ross, (".toml",)),))
 
     from .cache import enable_compilation_cache
@@ -71,16 +75,15 @@ def stiffness(
     failure = ""
     with without_false_alarms():
         from ..numerics.status import SolveError
-        from ..report.stiffness import stiffness_over_speed
-        from ..solve import solve_once
 
         try:
-            table = stiffness_over_speed(model, values, solver=solve_once)
+            table = _table(model, values)
         except SolveError as error:
             failure = str(error)
         else:
-            wrote = "" if as_json else f"wrote {ross}: read it with ross.BearingElement.load"
-            output = Output(ross, lambda path: _write(table, path, scene, changes, angle), wrote)
+            read = "Rotor" if model.kind == SHAFT else "BearingElement"
+            wrote = "" if as_json else f"wrote {ross}: read it with ross.{read}.load"
+            output = Output(ross, lambda path: _write(table, path, scene, model, changes, angle), wrote)
             deliver(lambda: _print(table, label, as_json), (output,))
     if failure:
         _print_failure(failure, label, ross, as_json)
@@ -105,34 +108,70 @@ def _speeds(text: str) -> list[float]:
     return [first * (1.0 - step) + last * step for step in steps]
 
 
-def _check(scene: str, model: "AbstractScene", values: list[float]) -> None:
+def _check(scene: str, model: "AbstractScene", values: list[float], ross: Path | None) -> None:
+    from ..report.shaft.ross import require_rotor
+    from ..report.shaft.stiffness import shaft_at_speeds
     from ..report.stiffness import at_speeds
 
+    shaft = model.kind == SHAFT
     try:
-        at_speeds(model, values)
+        (shaft_at_speeds if shaft else at_speeds)(model, values)
     except TypeError:
-        refuse(f"SCENE: found '{scene}', a {type(model).__name__}, which has no stiffness; expected a bearing")
+        refuse(
+            f"SCENE: found '{scene}', a {type(model).__name__}, which has no stiffness; expected a bearing or a shaft"
+        )
     except ValueError as error:
         refuse(f"--speeds: {error}")
+    if shaft and ross is not None:
+        try:
+            require_rotor(model)
+        except ValueError as error:
+            refuse(f"--ross: {error}")
 
 
-def _write(table: "StiffnessTable", file: Path, scene: str, changes: list[str] | None, angle: float) -> None:
+def _table(model: "AbstractScene", values: list[float]) -> "StiffnessTable | ShaftStiffness":
+    """**Raises:** `SolveError` for a speed that fails."""
+    from ..report.shaft.stiffness import shaft_stiffness_over_speed
+    from ..report.stiffness import stiffness_over_speed
+    from ..solve import solve_once
+
+    of = shaft_stiffness_over_speed if model.kind == SHAFT else stiffness_over_speed
+    return of(model, values, solver=solve_once)
+
+
+def _write(
+    table: "StiffnessTable | ShaftStiffness",
+    file: Path,
+    scene: str,
+    model: "AbstractScene",
+    changes: list[str] | None,
+    angle: float,
+) -> None:
     from ..report.ross import write_ross
+    from ..report.shaft.ross import write_ross_rotor
+    from ..report.shaft.stiffness import ShaftStiffness
 
+    if isinstance(table, ShaftStiffness):
+        write_ross_rotor(table, model, file, labelled(Path(scene).name, changes), load_direction=angle)
+        return
     name = Path(scene).stem
     tag = re.sub(r"[^A-Za-z0-9_-]+", "_", name) or "bearing"
     write_ross(table, file, labelled(Path(scene).name, changes), load_direction=angle, tag=tag)
 
 
-def _print(table: "StiffnessTable", label: str, as_json: bool) -> None:
+def _print(table: "StiffnessTable | ShaftStiffness", label: str, as_json: bool) -> None:
+    from ..report.shaft.stiffness import ShaftStiffness, print_shaft_stiffness, shaft_stiffness_to_dict
     from ..report.stiffness import stiffness_to_dict
     from ..report.stiffness_table import print_stiffness
 
     if as_json:
-        found = {"converged": True, "failure": None, **stiffness_to_dict(table)}
+        numbers = shaft_stiffness_to_dict(table) if isinstance(table, ShaftStiffness) else stiffness_to_dict(table)
+        found = {"converged": True, "failure": None, **numbers}
         typer.echo(json.dumps(found, allow_nan=False))
-        return
-    print_stiffness(table, label, console())
+    elif isinstance(table, ShaftStiffness):
+        print_shaft_stiffness(table, label, console())
+    else:
+        print_stiffness(table, label, console())
 
 
 def _print_failure(failure: str, label: str, ross: Path | None, as_json: bool) -> None:

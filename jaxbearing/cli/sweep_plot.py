@@ -1,4 +1,4 @@
-"""The picture of a sweep: against one field the losses stacked (or a result without losses), over two fields a map."""
+"""The picture of a sweep: against one field the losses stacked or another main result, over two fields a map."""
 
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -7,11 +7,29 @@ from .messages import refuse
 from .output_files import PICTURES, check_files
 
 if TYPE_CHECKING:
+    from collections.abc import Collection, Mapping
+
+    import matplotlib.figure
+    import xarray as xr
+
     from .._scene import AbstractScene
     from ..sweeps.cases import Cases
+    from ..sweeps.fields import SceneSource
 
-MAIN = ("power_loss_total", "film_central", "ring_radial", "ring_axial")
-"""Results in order of preference: the first one that a sweep has is drawn."""
+MAIN = (
+    "power_loss_total",
+    "life_Lnmr_hours",
+    "life_L10r_hours",
+    "stiffness_radial",
+    "stiffness_axial",
+    "film_central",
+    "ring_radial",
+    "ring_axial",
+)
+"""Results in order of preference: the first one that a sweep has is drawn. Of a dry bearing it is the life, or the
+stiffness of a bearing without ratings."""
+_WIDTH, _HEIGHT, _HEAD = 9.6, 6.4, 0.85
+"""Size of the page and height of its head, inches."""
 
 
 def check_plot(plot: Path | None, cases: "Cases", scene: "AbstractScene") -> None:
@@ -30,23 +48,78 @@ def check_plot(plot: Path | None, cases: "Cases", scene: "AbstractScene") -> Non
         refuse(f"--plot: found {several} fields with several values; expected one or two")
 
 
-def write_plot(plot: Path, target: Path, label: str) -> None:
-    """Draw the file of a sweep."""
+def own_values(source: "SceneSource", fields: "Collection[str]") -> dict[str, float]:
+    """The scene's own values of swept fields, SI; none where the scene cannot be read without the swept values, or has
+    no such number."""
+    from ..scenes.errors import SceneError
+    from ..scenes.reader import scene_from_tables
+    from ..studies.panels import own
+
+    try:
+        scene = scene_from_tables(source.tables, source.label, source.overrides)
+    except (SceneError, ValueError):
+        return {}
+    return {path: value for path in fields if (value := own(scene, path)) is not None}
+
+
+def write_plot(plot: Path, target: Path, label: str, point: "Mapping[str, float]") -> None:
+    """Draw the file of a sweep. **Arguments:** `point`: SI values of swept fields at the scene's operating point."""
     import xarray as xr
 
-    from ..plots import map_of, power_loss_against, result_against
-    from ..plots.sweeps import swept
     from ..report.plots import save_plot
 
     opened = xr.open_zarr(target) if target.suffix.lower() == ".zarr" else xr.open_dataset(target)
     with opened as whole:
-        found = whole.squeeze()
-        # dry scenes have a loss, which is zero
-        there = [name for name in MAIN if name in found]
-        main = next((name for name in there if bool((found[name] != 0.0).any())), there[0])
-        if len(swept(found)) == 2:
-            figure = map_of(found, main)
-        else:
-            figure = power_loss_against(found) if main == MAIN[0] else result_against(found, main)
-    figure.suptitle(label, fontsize=10, parse_math=False)
-    save_plot(figure, plot)
+        save_plot(_page(with_stiffness(whole.squeeze()), label, point), plot)
+
+
+def _page(found: "xr.Dataset", label: str, point: "Mapping[str, float]") -> "matplotlib.figure.Figure":
+    """The page: head, and one chart."""
+    from ..plots import map_of, power_loss_against, result_against
+    from ..plots.sweeps import failed_note, name_of, swept
+    from ..report.backends.matplotlib.page import Page
+    from ..report.backends.matplotlib.sheet import foot, head, title_of
+
+    # dry scenes have a loss, which is zero
+    there = [name for name in MAIN if name in found]
+    main = next((name for name in there if bool((found[name] != 0.0).any())), there[0])
+    page = Page(_WIDTH, _HEIGHT)
+    head(page, label, _operation(found))
+    lines = foot(page, filter(None, [failed_note(found, "Gaps, or hatched").strip()]))
+    below = 0.1 + 0.16 * lines
+    page.set_layout_engine("constrained", rect=(0.015, below / _HEIGHT, 0.97, 1.0 - (below + _HEAD) / _HEIGHT))
+    axes = page.add_subplot()
+    if len(swept(found)) == 2:
+        map_of(found, main, axes=axes, operating_point=point)
+    elif main == MAIN[0]:
+        power_loss_against(found, axes=axes, operating_point=point)
+    else:
+        result_against(found, main, axes=axes, operating_point=point)
+    name = "power loss by location" if main == MAIN[0] and len(swept(found)) == 1 else name_of(found, main)
+    title_of(axes, f"{name[:1].upper()}{name[1:]}")
+    return page
+
+
+def with_stiffness(found: "xr.Dataset") -> "xr.Dataset":
+    """The data set with the diagonal of the stiffness, of freedoms that the model has, as results of their own."""
+    if "stiffness" not in found:
+        return found
+    for freedom in ("radial", "axial"):
+        one = found["stiffness"].sel(freedom=freedom, freedom_displaced=freedom)
+        if bool(found["freedom_modelled"].sel(freedom=freedom)):
+            one.attrs = {"units": str(one["stiffness_units"].values), "long_name": f"{freedom} stiffness"}
+            found = found.assign({f"stiffness_{freedom}": one.reset_coords(drop=True)})
+    return found
+
+
+def _operation(found: "xr.Dataset") -> str:
+    """What the cases have in common: the numbers of the operating point that were not swept."""
+    from ..plots.style import axis_name, shown
+
+    said = []
+    for name, one in found.coords.items():
+        if str(name).startswith("operation_") and one.ndim == 0 and str(one.attrs.get("units", "1")) != "1":
+            value, unit = shown(one)
+            if float(one) != 0.0:
+                said.append(f"{axis_name(one, '')} {float(value):.6g} {unit}")
+    return "   ·   ".join(said)

@@ -25,7 +25,7 @@ from .sweep_parts import (
     ends_in_words,
     shown_progress,
 )
-from .sweep_plot import check_plot, write_plot
+from .sweep_plot import check_plot, own_values, write_plot
 from .terminal import console
 
 if TYPE_CHECKING:
@@ -68,7 +68,8 @@ PlotOption = Annotated[
     typer.Option(
         "--plot",
         metavar="FILE",
-        help="Picture of a grid, .png, .svg or .pdf: power loss by location against one field, a map over two.",
+        help="Picture of a grid, .png, .svg or .pdf: power loss by location against one field, a map over two; of a "
+        "dry bearing life or stiffness. The scene's own operating point is marked.",
     ),
 ]
 NoElementsOption = Annotated[
@@ -135,7 +136,8 @@ def sweep(
             with shown_progress(len(cases), as_json) as watcher:
                 outcome = run(plan, target, runner=runner, overwrite=overwrite, watcher=watcher)
         seconds = time.monotonic() - begin
-        picture = Output(plot, lambda path: write_plot(path, target, label), long=True)
+        point = {} if plot is None else own_values(source, fields)
+        picture = Output(plot, lambda path: write_plot(path, target, label, point), long=True)
         deliver(lambda: _print(outcome, label, target, seconds, as_json), (picture,) if outcome.converged > 0 else ())
     if outcome.converged == 0:
         if plot is not None:

@@ -51,7 +51,7 @@ class Asperities(NamedTuple):
 
 class MixedState(NamedTuple):
     """Mixed friction of contacts as results: film ratio, load share, boundary force along rolling, N, power of the
-    boundary friction, W, and flash temperature, K."""
+    boundary friction, W, and flash temperature, K, which no force depends on."""
 
     film_ratio: Float[Array, "..."]
     share: Float[Array, "..."]
@@ -184,6 +184,11 @@ def flash_temperature(
 
     The friction power P has Hertz's distribution, both bodies are alike, $\epsilon = \sqrt{k\rho c}$. A point contact
     counts with the strip through its middle, $\ell = 4c/3$.
+
+    The rise is a result and changes no force. The boundary friction coefficient is one number that no temperature
+    changes. The rise belongs to the surface temperature of a heated film (`FilmHeating`), and no scene has both:
+    asperities are of bearings, whose films have the temperature of the inlet, and heated films of two-disk machines,
+    which have no asperities.
 
     **Limits:** the speeds count as $\sqrt{u^2 + u_\epsilon^2}$, $u_\epsilon$ = 1e-6 m/s: finite where a surface stands
     still, and far too high there.

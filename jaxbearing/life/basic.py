@@ -12,6 +12,8 @@ RELIABILITY_FACTORS = {0.90: 1.0, 0.95: 0.64, 0.96: 0.55, 0.97: 0.47, 0.98: 0.37
 BALL_EXPONENT, ROLLER_EXPONENT = 3.0, 10.0 / 3.0
 EXPONENTS = {"ball": BALL_EXPONENT, "roller": ROLLER_EXPONENT}
 """Exponent p of the load in ISO 281, by family."""
+HOURS = 1e6 * 2.0 * np.pi / 3600.0
+"""Hours of a million revolutions at 1 rad/s."""
 MINIMUM_LOADS = {"ball": 0.01, "roller": 0.02}
 """Least load over C that keeps elements from skidding, by family: a maker's general rule (SKF, bearing selection
 process, requisite minimum load, as read on its pages). It knows neither speed, oil nor cage."""

@@ -15,7 +15,7 @@ from ..bearings.rated import RatedContacts
 from ..bearings.rating import CATALOGUE_CONFORMITY, Rating, rated_laminae
 from ..bearings.solution import Solution
 from ..lubricants import Lubricant
-from .basic import EXPONENTS, RELIABILITY_FACTORS, basic_life, tapered_equivalent_load
+from .basic import EXPONENTS, HOURS, RELIABILITY_FACTORS, basic_life, tapered_equivalent_load
 from .capacity import ball_capacity, roller_capacity
 from .equivalent import LARGEST_ANGLE, ball_equivalent_load, ball_static_load, roller_static_load
 from .minimum_film import minimum_films
@@ -40,8 +40,6 @@ from .static import ball_static_capacity, contact_safety, rated_modulus, roller_
 
 FEWEST_LAMINAE = 30
 """Laminae that ISO 16281 asks for at least."""
-HOURS = 1e6 * 2.0 * np.pi / 3600.0
-"""Hours of a million revolutions at 1 rad/s."""
 
 
 NO_LINEAR_LOADS = (

@@ -17,8 +17,7 @@ from jaxtyping import Array, Float
 
 from .._scene import label
 from ..numerics.arguments import require_numbers
-from .basic import EXPONENTS
-from .bearing_life import HOURS
+from .basic import EXPONENTS, HOURS
 from .result import Life
 
 SUM_TOLERANCE = 1e-6

@@ -9,9 +9,8 @@ import jax.numpy as jnp
 from jaxtyping import Array, Float
 
 from .._types import Scalar
-from ..bearings.facts import BALL_PRESSURE, ROLLER_PRESSURE
 from ..contacts import LineContact, PointContact
-from ..materials import Material, reduced_modulus
+from ..materials import BALL_PRESSURE, ROLLER_PRESSURE, Material, reduced_modulus
 from ..numerics.arguments import require_choice, require_count, require_numbers
 from .capacity import CONFORMITIES, ball_size_ratio
 from .modification import Family
@@ -85,8 +84,8 @@ def contact_safety(
     r"""Static safety of the most loaded contact: $(p_{lim}/p)^3$ of balls, $(p_{lim}/p)^2$ of rollers, which is the
     load at the pressure of the static rating (4.2 and 4.0 GPa) over the load. It is infinite without load.
 
-    **Evidence:** [D] Hertz. ISO 17956, which rates every contact and lamina too, was not at hand: its factors are not
-    in here.
+    **Evidence:** [D] Hertz. For rollers this is the effective static safety $q_0/q$ of ISO 17956:2025 by laminae, with
+    $q_0 = 5C_0/(Zn_s\cos\alpha)$, as a public project reports it; the standard was not at hand.
 
     **Arguments:** largest Hertz pressure of each element on the inner and the outer raceway, of a roller in laminae
     that of its most loaded lamina, Pa.

@@ -14,8 +14,7 @@ import equinox as eqx
 import jax.numpy as jnp
 from jaxtyping import Array, Float
 
-from .._types import Scalar
-from .annulus import Annulus
+from .annulus import Annulus, Numbers
 
 
 class FitState(NamedTuple):
@@ -23,14 +22,14 @@ class FitState(NamedTuple):
     square of the speed, m s^2; speed at which the bodies part at these temperatures, rad/s, 0 where they are loose at
     rest and infinite where no speed parts them."""
 
-    pressure: Float[Array, ""]
-    interference: Float[Array, ""]
-    spin_loss: Float[Array, ""]
-    loose_speed: Float[Array, ""]
+    pressure: Float[Array, "..."]
+    interference: Float[Array, "..."]
+    spin_loss: Float[Array, "..."]
+    loose_speed: Float[Array, "..."]
 
 
 class Fit(eqx.Module):
-    """Two bodies on one cylinder, that turn together.
+    """Two bodies on one cylinder, that turn together; or many pairs, as arrays of numbers.
 
     **Arguments:**
     - `inner`, `outer`: the bodies; `inner.outside` and `outer.bore` are the diameter of the fit.
@@ -40,16 +39,17 @@ class Fit(eqx.Module):
 
     inner: Annulus
     outer: Annulus
-    interference: Scalar
-    smoothing: Scalar = 0.0
+    interference: Numbers
+    smoothing: Numbers = 0.0
 
     def state(self) -> FitState:
         diameter = self.inner.outside
         stiffness = self.outer.pressed(diameter, 1.0, 0.0) - self.inner.pressed(diameter, 0.0, 1.0)
         still = self.interference - self.smoothing + self.inner.warmed(diameter) - self.outer.warmed(diameter)
-        unit = [eqx.tree_at(lambda body: body.speed, body, jnp.ones(())) for body in (self.inner, self.outer)]
-        loss = unit[1].spun(diameter) - unit[0].spun(diameter)
-        found = still + self.inner.spun(diameter) - self.outer.spun(diameter)
+        by_square = [body.spun_by_square(diameter) for body in (self.inner, self.outer)]
+        loss = by_square[1] - by_square[0]
+        spun = [one * jnp.square(body.speed) for one, body in zip(by_square, (self.inner, self.outer), strict=True)]
+        found = still + spun[0] - spun[1]
         pressure = jnp.where(found >= 0.0, found, 0.0) / stiffness
         parts = (still > 0.0) & (loss > 0.0)
         speed = jnp.sqrt(jnp.where(parts, still, 1.0) / jnp.where(parts, loss, 1.0))

@@ -178,7 +178,9 @@ def _step(letter: str, grade: int, width: np.ndarray) -> np.ndarray:
 
 def _place(diameter: Scalar, ends: tuple[int, ...]) -> Array:
     """Range of a diameter. Its round-off in millimetres must not lift a nominal size into the next range."""
-    return jnp.searchsorted(jnp.asarray(ends, float), jnp.asarray(diameter) * 1e3 * (1.0 - 1e-12), side="left")
+    # one comparison with all ends: a search by halves is a loop, which costs as much as a tenth of a dry solve
+    size = jnp.asarray(diameter) * 1e3 * (1.0 - 1e-12)
+    return jnp.searchsorted(jnp.asarray(ends, float), size, side="left", method="compare_all")
 
 
 def _at(diameter: Scalar, lower: np.ndarray, upper: np.ndarray) -> Limits:

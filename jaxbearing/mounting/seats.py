@@ -92,7 +92,7 @@ class Fits(Checked):
                 return low
         return 0.5 * (low + high)
 
-    def smoothed(self, interference: Array) -> Float[Array, ""]:
+    def smoothed(self, interference: Float[Array, "*seat"]) -> Float[Array, "..."]:
         """Loss of an interference by smoothing, m."""
         if self.smoothing is not None:
             return jnp.asarray(self.smoothing)

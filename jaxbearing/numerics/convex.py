@@ -211,6 +211,25 @@ def settle(system: AbstractConvexArrow, point: ArrowPoint) -> ArrowPoint:
     return ArrowPoint(end.point, point.globals)
 
 
+class Settled(NamedTuple):
+    """All elements at their minima for given globals: the point, the sum of the energies, the residuals of the globals,
+    and the Schur complement, their derivatives."""
+
+    point: ArrowPoint
+    energy: Float[Array, ""]
+    residual: Float[Array, " g"]
+    stiffness: Float[Array, "g g"]
+
+
+def settled(system: AbstractConvexArrow, point: ArrowPoint) -> Settled:
+    """The system with all elements at their minima for the globals of `point`."""
+    system, point = jax.lax.stop_gradient((system, point))
+    point = settle(system, point)
+    values, tangents, energies = _tangents(system, point.elements, shared_by_elements(point))
+    equations, jacobian = assembled(system, point, values, tangents, jnp.zeros(()))
+    return Settled(point, jnp.sum(energies), equations.residual.globals, eliminated(jacobian)[1])
+
+
 def descend_settled(system: AbstractConvexArrow, guess: ArrowPoint, *, tolerance: float, trials: int) -> Descent:
     """Descends with the globals alone, all elements at their minima at every trial. A step costs more than
     one of `descend`, but elements with little load do not slow the search down. The globals stay within `bounds`:

@@ -5,6 +5,8 @@ figure of its own has its caption under it.
 """
 
 from . import properties as properties
+from .calibration import calibration as calibration
+from .posterior import posterior as posterior
 from .solutions import cage_orbit as cage_orbit
 from .solutions import films as films
 from .solutions import load_distribution as load_distribution

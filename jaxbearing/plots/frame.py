@@ -72,7 +72,9 @@ def write_below(figure: Any, caption: str) -> None:
     width, height = figure.get_size_inches()
     lines = textwrap.wrap(caption, int(_PER_INCH * (width - 0.3)))
     below = _LINE * len(lines) + 2.0 * _MARGIN
-    figure.set_layout_engine("constrained", rect=(0.0, below / height, 1.0, 1.0 - below / height - 0.01))
+    edge = 0.5 * _MARGIN / width
+    place = (edge, below / height, 1.0 - 2.0 * edge, 1.0 - below / height - 0.01)
+    figure.set_layout_engine("constrained", rect=place)
     figure.text(
         0.15 / width,
         _MARGIN / height,

@@ -7,6 +7,7 @@ import numpy as np
 from ..bearings.motion.history import History
 from ..bearings.solution import Solution
 from ..machines import TwoDiskSolution
+from ..report.backends.matplotlib.legends import clear_legend
 from ..report.backends.matplotlib.panels import draw
 from ..report.bearing.panels import ROUND, load_panel, loss_panel, round_panel
 from ..report.bearing.run.plots import draw_orbit
@@ -32,7 +33,7 @@ def load_distribution(solution: Solution, *, axes: Any = None) -> "matplotlib.fi
     _check(solution)
     own, axes = axes is None, prepare(axes, polar=True)
     draw(axes, load_panel(solution))
-    axes.legend(fontsize=8, frameon=False, loc="upper left", bbox_to_anchor=(1.08, 1.0))
+    axes.legend(fontsize=8.5, frameon=False, loc="upper left", bbox_to_anchor=(1.08, 1.0))
     return finish(axes, "Normal load on each rolling element; azimuth 0 is the load line.", own)
 
 
@@ -80,8 +81,10 @@ def traction_curves(
         raise IndexError(f"found temperature {temperature} and speed {speed}, expected numbers of those computed")
     own, axes = axes is None, prepare(axes)
     draw_curves(axes, traction_panel(solution, curves))
-    axes.legend(fontsize=8, frameon=False)
-    return finish(axes, "Traction coefficient; the slide-to-roll ratio is the speed difference over the mean.", own)
+    caption = "Traction coefficient; the slide-to-roll ratio is the speed difference over the mean."
+    figure = finish(axes, caption, own)
+    clear_legend(axes)
+    return figure
 
 
 def cage_orbit(history: History, *, axes: Any = None) -> "matplotlib.figure.Figure":
@@ -134,8 +137,9 @@ def _round(solution: Solution, name: str, caption: str, axes: Any) -> "matplotli
         raise ValueError(f"{ROUND[name][0].lower()}: the scene does not model it")
     own, axes = axes is None, prepare(axes)
     draw(axes, panel)
-    axes.legend(fontsize=8, frameon=False)
-    return finish(axes, caption, own)
+    figure = finish(axes, caption, own)
+    clear_legend(axes)
+    return figure
 
 
 def _check(solution: Solution) -> None:

@@ -5,10 +5,11 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ..report.backends.matplotlib.legends import clear_legend
 from ..report.backends.matplotlib.sheet import grid_lines
 from ..report.colours import INK
 from ..report.display import axis_unit
-from .style import axis_name, finish, prepare, shown
+from .style import axis_name, finish, logarithmic, prepare, shown
 from .sweeps import swept
 
 if TYPE_CHECKING:
@@ -63,15 +64,16 @@ def stribeck(
         axes.fill_between(values, 0.0, factor * rubbed, facecolor=_BOUNDARY, label="boundary friction", **style)
     axes.fill_between(values, factor * rubbed, factor * total, facecolor=_FILM, label="films and all else", **style)
     axes.plot(values, factor * total, color=INK, linewidth=1.4, marker="o", markersize=3, label="total")
-    if np.all(values > 0.0) and values[-1] > 10.0 * values[0]:
-        axes.set_xscale("log")
     axes.set_xlim(values[0], values[-1])
+    if np.all(values > 0.0) and values[-1] > 10.0 * values[0]:
+        logarithmic(axes, "x")
     axes.set_ylim(bottom=0.0)
     axes.set_xlabel(axis_name(data["operation_inner_speed"], speed_unit), fontsize=9)
     axes.set_ylabel(f"friction torque, {unit}", fontsize=9)
-    axes.legend(fontsize=8, frameon=False)
     grid_lines(axes)
-    return finish(axes, _caption(values, speed_unit, total, boundary), own)
+    figure = finish(axes, _caption(values, speed_unit, total, boundary), own)
+    clear_legend(axes)
+    return figure
 
 
 def _solved(scene: Any, speeds: Sequence[float] | None) -> "xr.Dataset":

@@ -4,8 +4,10 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ..report.display import tick
 from ..report.labels import label_unit
-from .frame import HEIGHT, WIDTH, axis_for, write_below
+from ..report.panels import log_ticks
+from .frame import HEIGHT, WIDTH, Axis, axis_for, write_below
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -36,11 +38,24 @@ def finish(axes: Any, caption: str, own: bool) -> Any:
 
 def shown(variable: "xr.DataArray") -> tuple[np.ndarray, str]:
     """Values in engineer's units and the unit ("" for a number): fields of a scene, or results of a sweep."""
-    values = np.asarray(variable.values, dtype=float)
-    axis = axis_for(label_unit(str(variable.attrs.get("units", "1"))), values)
-    return axis.of(values), "" if axis.unit == "1" else axis.unit
+    axis = scale_of(variable)
+    return axis.of(np.asarray(variable.values, dtype=float)), axis.unit
+
+
+def scale_of(variable: "xr.DataArray") -> Axis:
+    """The axis that fits all values of a variable."""
+    axis = axis_for(label_unit(str(variable.attrs.get("units", "1"))), np.asarray(variable.values, dtype=float))
+    return axis._replace(unit="" if axis.unit == "1" else axis.unit)
 
 
 def axis_name(variable: "xr.DataArray", unit: str) -> str:
     name = str(variable.attrs.get("long_name", variable.name))
     return f"{name}, {unit}" if unit else name
+
+
+def logarithmic(axes: Any, which: str) -> None:
+    """Makes the axis "x" or "y", whose ends are set, logarithmic with ticks that are written as numbers."""
+    axes.set(**{f"{which}scale": "log"})
+    ticks = log_ticks(*sorted(getattr(axes, f"get_{which}lim")()))
+    getattr(axes, f"set_{which}ticks")(ticks, [*map(tick, ticks)])
+    getattr(axes, f"set_{which}ticks")([], minor=True)

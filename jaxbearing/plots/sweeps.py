@@ -1,19 +1,28 @@
 """Figures of a sweep: stacked power loss against a field, a result against a field, maps over two fields."""
 
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ..report.backends.matplotlib.legends import clear_legend
 from ..report.backends.matplotlib.sheet import grid_lines
 from ..report.colours import INK
-from ..report.display import axis_unit
-from .style import COLOURS, LINES, axis_name, finish, prepare, shown
+from ..report.display import axis_unit, tick
+from ..report.panels import log_ticks
+from .style import COLOURS, LINES, axis_name, finish, logarithmic, prepare, scale_of, shown
 
 if TYPE_CHECKING:
     import matplotlib.figure
     import xarray as xr
 
+OPERATING_POINT = "operating point"
+"""Name of the mark of an operating point."""
 _LOSS = "power_loss_"
+_LOG_FROM = 50.0
+"""Largest over smallest value from which on the levels of a map are those of a logarithm."""
+_SHORT = 30.0
+"""Half the length of a contour, points, below which it is not labelled: the corner of a map would cut the label."""
 _LINES_AT_MOST = 8
 """Values of a second field that are drawn as lines of their own."""
 _LOCATIONS = {
@@ -32,7 +41,12 @@ _REST = ("#DDDDDD", "...")
 
 
 def power_loss_against(
-    sweep: "xr.Dataset", field: str | None = None, *, axes: Any = None, legend: bool = True
+    sweep: "xr.Dataset",
+    field: str | None = None,
+    *,
+    axes: Any = None,
+    legend: bool = True,
+    operating_point: Mapping[str, float] | None = None,
 ) -> "matplotlib.figure.Figure":
     """Power loss by location, stacked, against a swept field; the black line is the total. The form of the source's
     Figures 36 to 40.
@@ -44,7 +58,9 @@ def power_loss_against(
     - `field`: dotted path of the field on the horizontal axis, "operation.inner_speed"; may be left out if only one
       field is swept.
     - `axes`: matplotlib axes to draw into; a new figure if not given.
-    - `legend`: of the locations; without it the caller's. Colours belong to locations, in every figure the same.
+    - `legend`: of the locations or lines; without it the caller's. Colours belong to locations, in every figure the
+      same.
+    - `operating_point`: dotted path -> SI value of fields; a dashed line marks that of the horizontal axis.
 
     **Raises:** `ValueError` for a sweep that is no grid, a field that was not swept, more than two fields, or a scene
     without power loss.
@@ -64,16 +80,24 @@ def power_loss_against(
         caption = "Total power loss, one line for each value of the second field."
     else:
         caption = "Power loss by location, stacked; black line: the total."
-        _stack(axes, sweep, x[order], order, legend)
+        _stack(axes, sweep, x[order], order)
     axes.set_xlabel(axis_name(sweep[x_name], x_unit), fontsize=9)
-    axes.set_xscale(_spread(x[order]))
     axes.set_xlim(x.min(), x.max() if x.max() > x.min() else None)
+    _scale(axes, "x", x[order])
+    caption += _mark(axes, sweep, operating_point, x_name)
+    if legend:
+        beside(axes, *_entries(axes, reverse=not others), title=_title(sweep, others))
     grid_lines(axes)
-    return finish(axes, caption + _failed_note(sweep, "Gaps"), own)
+    return finish(axes, caption + failed_note(sweep, "Gaps"), own)
 
 
 def result_against(
-    sweep: "xr.Dataset", result: str, field: str | None = None, *, axes: Any = None
+    sweep: "xr.Dataset",
+    result: str,
+    field: str | None = None,
+    *,
+    axes: Any = None,
+    operating_point: Mapping[str, float] | None = None,
 ) -> "matplotlib.figure.Figure":
     """One result of a sweep, "cage_slip", against a swept field; a second field gives a family of lines, a failed case
     a gap. Arguments and errors as for `power_loss_against`; `result` is a name of the data set."""
@@ -91,23 +115,37 @@ def result_against(
         values, unit = shown(_results(sweep, result))
         order = np.argsort(x)
         axes.plot(x[order], values[order], color=COLOURS[0], marker="o", markersize=3.5)
-        axes.set_ylabel(_name_of(sweep, result, unit), fontsize=9)
+        axes.set_ylabel(name_of(sweep, result, unit), fontsize=9)
     values, unit = shown(sweep[x_name])
     axes.set_xlabel(axis_name(sweep[x_name], unit), fontsize=9)
-    axes.set_xscale(_spread(np.sort(values)))
+    axes.set_xlim(values.min(), values.max() if values.max() > values.min() else None)
+    _scale(axes, "x", np.sort(values))
+    note = _mark(axes, sweep, operating_point, x_name)
+    if others:
+        beside(axes, *_entries(axes), title=_title(sweep, others))
+    elif note:
+        clear_legend(axes)
     grid_lines(axes)
-    text = _name_of(sweep, result, "")
-    return finish(axes, f"{text[:1].upper()}{text[1:]}.{_failed_note(sweep, 'Gaps')}", own)
+    text = name_of(sweep, result)
+    return finish(axes, f"{text[:1].upper()}{text[1:]}.{note}{failed_note(sweep, 'Gaps')}", own)
 
 
 def map_of(
-    sweep: "xr.Dataset", result: str, x: str | None = None, y: str | None = None, *, axes: Any = None
+    sweep: "xr.Dataset",
+    result: str,
+    x: str | None = None,
+    y: str | None = None,
+    *,
+    axes: Any = None,
+    operating_point: Mapping[str, float] | None = None,
 ) -> "matplotlib.figure.Figure":
-    """Filled contours of one result over two swept fields; cases that failed are hatched, not interpolated.
+    """Filled contours of one result over two swept fields; cases that failed are hatched, not interpolated. The levels
+    are those of a logarithm where the largest value is more than 50 times the smallest.
 
     **Arguments:** `sweep`: data set of a grid; `result`: a name of the data set with one value a case
     ("power_loss_total", "cage_slip", "life_film_parameter"); `x`, `y`: dotted paths of the fields, the two that are
-    swept if left out; `axes`: to draw into.
+    swept if left out; `axes`: to draw into; `operating_point`: dotted path -> SI value of the two fields, marked by a
+    ring.
 
     **Raises:** `ValueError` for another number of swept fields, for one with fewer than two values, or an unknown
     name.
@@ -132,21 +170,21 @@ def map_of(
     # hatched below; only failed cases let it be seen
     axes.set_facecolor("#F2F2F2")
     axes.fill_between([xs[0], xs[-1]], ys[0], ys[-1], facecolor="none", edgecolor="#9A9A9A", hatch="////", linewidth=0)
-    if values.count() and values.min() < values.max():
-        filled = axes.contourf(xs, ys, values, levels=12, cmap="cividis", corner_mask=False)
-        lines = axes.contour(xs, ys, values, levels=filled.levels[::2], colors="white", linewidths=0.6)
-        axes.clabel(lines, fontsize=7.5)
-    else:
-        filled = axes.pcolormesh(xs, ys, values, cmap="cividis")
-    bar = axes.figure.colorbar(filled, ax=axes)
-    bar.set_label(_name_of(sweep, result, unit), fontsize=9)
-    bar.ax.tick_params(labelsize=8)
     axes.set_xlabel(axis_name(sweep[x_name], x_unit), fontsize=9)
     axes.set_ylabel(axis_name(sweep[y_name], y_unit), fontsize=9)
-    axes.set(xscale=_spread(xs), yscale=_spread(ys), xlim=(xs[0], xs[-1]), ylim=(ys[0], ys[-1]))
+    axes.set(xlim=(xs[0], xs[-1]), ylim=(ys[0], ys[-1]))
+    _scale(axes, "x", xs)
+    _scale(axes, "y", ys)
     axes.tick_params(labelsize=8.5)
-    text = _name_of(sweep, result, "")
-    note = _failed_note(sweep, "Hatched")
+    filled, levels = _contours(axes, xs, ys, values)
+    bar = axes.figure.colorbar(filled, ax=axes, format=lambda value, _: tick(value))
+    bar.minorticks_off()
+    bar.set_label(name_of(sweep, result, unit), fontsize=9)
+    bar.ax.tick_params(labelsize=8.5)
+    if len(levels):
+        _label_contours(axes, axes.contour(xs, ys, values, levels=levels, colors="white", linewidths=0.8))
+    text = name_of(sweep, result)
+    note = _mark(axes, sweep, operating_point, x_name, y_name) + failed_note(sweep, "Hatched")
     return finish(axes, f"{text[:1].upper()}{text[1:]} over two swept fields.{note}", own)
 
 
@@ -210,7 +248,7 @@ def _require(sweep: "xr.Dataset", result: str) -> None:
         raise ValueError(f"{result}: found {found}, expected one number a case (select one first)")
 
 
-def _name_of(sweep: "xr.Dataset", result: str, unit: str) -> str:
+def name_of(sweep: "xr.Dataset", result: str, unit: str = "") -> str:
     """A result's name and unit; that of the total loss, labelled as a row of its table, in full."""
     if result == f"{_LOSS}total":
         return f"total power loss, {unit}" if unit else "total power loss"
@@ -225,17 +263,112 @@ def _spread(values: np.ndarray) -> str:
     return "log" if np.ptp(steps) < 0.05 * steps.mean() else "linear"
 
 
+def _scale(axes: Any, which: str, values: np.ndarray) -> None:
+    """Logarithmic where the values, which are sorted, ask for it; ticks are then written as numbers."""
+    if _spread(values) == "log":
+        logarithmic(axes, which)
+
+
+def _contours(axes: Any, xs: np.ndarray, ys: np.ndarray, values: Any) -> tuple[Any, Sequence[float]]:
+    """Filled contours, and the levels of those that are drawn as lines."""
+    if not values.count() or values.min() == values.max():
+        return axes.pcolormesh(xs, ys, values, cmap="cividis"), ()
+    low, high = float(values.min()), float(values.max())
+    if low <= 0.0 or high <= _LOG_FROM * low:
+        filled = axes.contourf(xs, ys, values, levels=12, cmap="cividis", corner_mask=False)
+        return filled, filled.levels[2:-1:2]
+    from matplotlib.colors import LogNorm
+
+    inside = [level for level in log_ticks(low, high) if low < level < high]
+    style = {"levels": [low, *inside, high], "norm": LogNorm(low, high)}
+    filled = axes.contourf(xs, ys, values, cmap="cividis", corner_mask=False, **style)
+    return filled, inside
+
+
+def _label_contours(axes: Any, lines: Any) -> None:
+    """Writes the level of each contour on the middle of its longest piece, where no edge cuts it."""
+    # angles of the labels are those of the lines on the page
+    axes.figure.canvas.figure.draw_without_rendering()
+    places = []
+    for pieces in filter(None, lines.allsegs):
+        drawn = [axes.transData.transform(piece) for piece in pieces]
+        along = [np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(piece, axis=0).T))]) for piece in drawn]
+        longest = int(np.argmax([length[-1] for length in along]))
+        half = 0.5 * along[longest][-1]
+        if 72.0 * half < _SHORT * axes.figure.dpi:
+            continue
+        middle = [np.interp(half, along[longest], values) for values in drawn[longest].T]
+        places.append(tuple(axes.transData.inverted().transform(middle)))
+    for text in axes.clabel(lines, fontsize=9, colors=INK, fmt=tick, manual=places):
+        text.set_path_effects(_halo())
+
+
+def _mark(
+    axes: Any, sweep: "xr.Dataset", point: Mapping[str, float] | None, x_name: str, y_name: str | None = None
+) -> str:
+    """Marks an operating point that lies within the sweep, and returns what the caption says of it."""
+    given = {path.replace(".", "_"): value for path, value in (point or {}).items()}
+    names = [x_name] if y_name is None else [x_name, y_name]
+    if any(name not in given for name in names):
+        return ""
+    if not all(float(sweep[name].min()) <= given[name] <= float(sweep[name].max()) for name in names):
+        return ""
+    place = [float(scale_of(sweep[name]).of(given[name])) for name in names]
+    if y_name is None:
+        axes.axvline(place[0], color=INK, linestyle="--", linewidth=1.1, label=OPERATING_POINT)
+        return " Dashed: the operating point."
+    style = {"markerfacecolor": "white", "markeredgecolor": INK, "markersize": 9, "markeredgewidth": 2.0}
+    axes.plot(*place, marker="o", linestyle="none", clip_on=False, zorder=5, **style)
+    _name_ring(axes, place)
+    return " Ring: the operating point."
+
+
+def _name_ring(axes: Any, place: list[float]) -> None:
+    """Writes beside the ring what it is, towards the middle of the map."""
+    across, up = axes.transAxes.inverted().transform(axes.transData.transform(place))
+    text = axes.annotate(
+        OPERATING_POINT,
+        place,
+        xytext=(9 if across < 0.5 else -9, 9 if up < 0.5 else -9),
+        textcoords="offset points",
+        ha="left" if across < 0.5 else "right",
+        va="bottom" if up < 0.5 else "top",
+        fontsize=9,
+        fontweight="bold",
+        color=INK,
+    )
+    text.set_path_effects(_halo())
+
+
+def _halo() -> list[Any]:
+    """White round letters, which are readable on all colours of a map."""
+    from matplotlib.patheffects import withStroke
+
+    return [withStroke(linewidth=2.5, foreground="white")]
+
+
+def _title(sweep: "xr.Dataset", others: list[str]) -> str | None:
+    """Title of the legend of a family of lines."""
+    return str(sweep[others[0]].attrs.get("long_name", others[0])) if others else None
+
+
+def _entries(axes: Any, reverse: bool = False) -> tuple[list[Any], list[str]]:
+    handles, names = axes.get_legend_handles_labels()
+    return (handles[::-1], names[::-1]) if reverse else (handles, names)
+
+
 def _results(sweep: "xr.Dataset", result: str) -> "xr.DataArray":
     """A result, NaN where the case failed, whatever is stored there."""
     return sweep[result].where(sweep["failure"] == "") if "failure" in sweep else sweep[result]
 
 
-def _failed_note(sweep: "xr.Dataset", mark: str) -> str:
+def failed_note(sweep: "xr.Dataset", mark: str) -> str:
+    """How many cases failed, in words after a space; "" if none did. **Arguments:** `mark`: how they are drawn."""
     failed = int((sweep["failure"] != "").sum()) if "failure" in sweep else 0
     return f" {mark}: {failed} of {sweep['failure'].size} cases failed." if failed else ""
 
 
-def _stack(axes: Any, sweep: "xr.Dataset", x: np.ndarray, order: np.ndarray, legend: bool) -> None:
+def _stack(axes: Any, sweep: "xr.Dataset", x: np.ndarray, order: np.ndarray) -> None:
     total = _results(sweep, f"{_LOSS}total").values[order]
     unit, factor = axis_unit("W", float(np.nanmax(np.abs(total), initial=0.0)))
     names = [str(n) for n in sweep.data_vars if str(n).startswith(_LOSS) and n != f"{_LOSS}total"]
@@ -259,14 +392,11 @@ def _stack(axes: Any, sweep: "xr.Dataset", x: np.ndarray, order: np.ndarray, leg
     axes.plot(x, factor * total, color=INK, linewidth=1.4, marker="o", markersize=3, label="total")
     axes.set_ylim(bottom=0.0)
     axes.set_ylabel(f"power loss, {unit}", fontsize=9)
-    if legend:
-        handles, labels = axes.get_legend_handles_labels()
-        _beside(axes, handles[::-1], labels[::-1])
 
 
-def _beside(axes: Any, handles: Any, labels: Any, title: str | None = None) -> None:
-    """A legend on the right of the axes, where it hides nothing."""
-    style = {"fontsize": 8, "title_fontsize": 8, "frameon": False, "borderaxespad": 0.0}
+def beside(axes: Any, handles: Any, labels: Any, title: str | None = None) -> None:
+    """Draws a legend on the right of the axes, where it hides nothing."""
+    style = {"fontsize": 8.5, "title_fontsize": 8.5, "frameon": False, "borderaxespad": 0.0, "alignment": "left"}
     axes.legend(handles, labels, title=title, loc="upper left", bbox_to_anchor=(1.02, 1.0), **style)
 
 
@@ -281,5 +411,4 @@ def _family(axes: Any, sweep: "xr.Dataset", result: str, x_name: str, other: str
         label = f"{second[row]:.5g} {second_unit}".rstrip()
         style = {"color": COLOURS[number % 6], "linestyle": LINES[number // 6]}
         axes.plot(x[order], values[row][order], marker="o", markersize=3, linewidth=1.4, label=label, **style)
-    _beside(axes, *axes.get_legend_handles_labels(), title=str(sweep[other].attrs.get("long_name", other)))
-    axes.set_ylabel(_name_of(sweep, result, unit), fontsize=9)
+    axes.set_ylabel(name_of(sweep, result, unit), fontsize=9)

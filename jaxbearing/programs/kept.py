@@ -325,7 +325,9 @@ def _keep(path: Path, ready: _Ready) -> None:
     with suppress(Exception):
         program, _, _ = serialize(ready.compiled)
         skeleton = jax.tree.unflatten(ready.structure, ready.others)
-        files.write(path, pickle.dumps((program, ready.compiled.in_tree.num_leaves, skeleton)))
+        text = ready.compiled.as_text()
+        calls_lapack = text is None or "lapack" in text
+        files.write(path, pickle.dumps((program, ready.compiled.in_tree.num_leaves, skeleton, calls_lapack)))
 
 
 def _loaded(path: Path) -> _Ready | None:
@@ -336,14 +338,15 @@ def _loaded(path: Path) -> _Ready | None:
     if content is None:
         return None
     with suppress(Exception):
-        program, count, skeleton = pickle.loads(content)
+        program, count, skeleton, calls_lapack = pickle.loads(content)
         others, structure = jax.tree.flatten(skeleton, is_leaf=lambda leaf: isinstance(leaf, _Slot))
         arrays = sum(isinstance(leaf, _Slot) for leaf in others)
         given, result = jax.tree.structure((([0] * count,), {})), jax.tree.structure([0] * arrays)
         with ThreadPoolExecutor(1) as beside:  # neither holds Python's lock for long
-            lapack = beside.submit(_initialise_lapack)
+            lapack = beside.submit(_initialise_lapack) if calls_lapack else None
             loaded = deserialize_and_load(program, given, result)
-            lapack.result()
+            if lapack is not None:
+                lapack.result()
         return _Ready(loaded, structure, others)
     return None
 

@@ -1,6 +1,7 @@
 """Numbers as people read them: engineering units for screens and axes, significant digits, bars of text."""
 
 import math
+import re
 
 _RPM = 60.0 / (2.0 * math.pi)
 _ENGINEERS: dict[str, tuple[str, float]] = {
@@ -11,6 +12,12 @@ _ENGINEERS: dict[str, tuple[str, float]] = {
     "N/m": ("N/um", 1e-6),
     "N/m^(10/9)": ("N/um^(10/9)", 1e-6 ** (10.0 / 9.0)),
     "m^3/s": ("l/h", 3.6e6),
+    "m^2/s": ("mm^2/s", 1e6),
+    "m^2": ("mm^2", 1e6),
+    "1/Pa": ("1/GPa", 1e9),
+    "N/rad": ("kN/mrad", 1e-6),
+    "N m/rad": ("N m/mrad", 1e-3),
+    "N m/m": ("N m/um", 1e-6),
     "1": ("", 1.0),
 }
 """SI unit of a result -> (unit on the screen, factor from SI). Other units are shown unchanged."""
@@ -21,12 +28,15 @@ _SCALES = {
     "Pa": ((1e8, "GPa", 1e-9), (0.0, "MPa", 1e-6)),
     "m/s": ((0.1, "m/s", 1.0), (0.0, "mm/s", 1e3)),
     "W": ((1e4, "kW", 1e-3), (0.0, "W", 1.0)),
+    "rad": ((0.0, "deg", 180.0 / math.pi),),
 }
 """SI unit -> choices (limit in SI, unit on the axis, factor from SI). The first choice whose limit the largest value of
 the axis reaches is taken."""
 
 ZERO_CELSIUS = 273.15
 """0 degC in K."""
+_NIL = 1e-9
+"""What is smaller in the unit of the screen is zero to round-off: below a millionth of an atom in micrometres."""
 _BLOCKS = " ▏▎▍▌▋▊▉█"
 
 
@@ -61,9 +71,26 @@ def digits(value: float, significant: int = 4) -> str:
     return f"{value:.{max(0, significant - 1 - exponent)}f}"
 
 
+def tick(value: float) -> str:
+    """A number at an axis or a contour: without an exponent, groups of thousands apart from 10 000 on."""
+    return f"{value:.10g}" if abs(value) < 1e4 else f"{value:,.10g}".replace(",", "\N{THIN SPACE}")
+
+
+def number(value: float, unit: str, significant: int = 4) -> str:
+    """A result in the unit of the screen, without it. `value` is in the SI unit `unit`. Beside a unit no number has an
+    exponent, and what is zero to round-off is 0."""
+    shown = displayed(value, unit)
+    text = digits(shown, significant)
+    if "e" not in text or not display_unit(unit):
+        return text
+    if abs(shown) < _NIL:
+        return "0"
+    return f"{shown:.{max(0, significant - 1 - math.floor(math.log10(abs(shown))))}f}"
+
+
 def with_unit(value: float, unit: str, significant: int = 4) -> str:
     """A result in the unit of the screen, such as "33.57 um". `value` is in the SI unit `unit`."""
-    return f"{digits(displayed(value, unit), significant)} {display_unit(unit)}".rstrip()
+    return f"{number(value, unit, significant)} {display_unit(unit)}".rstrip()
 
 
 def bar(fraction: float, width: int, ascii_only: bool = False) -> str:
@@ -81,8 +108,9 @@ def bar(fraction: float, width: int, ascii_only: bool = False) -> str:
 
 
 def typeset(text: str) -> str:
-    """Replaces ASCII units by their signs, such as µm, which a terminal may lack."""
-    return text.replace(" degC", " °C").replace(" um", " µm").replace("/um", "/µm")
+    """Replaces ASCII units by their signs, such as µm and m², which a terminal may lack."""
+    signs = re.sub(r"(?<=[ /])u(?=m\b)", "µ", re.sub(r" degC\b", " °C", text))
+    return re.sub(r"(?<=[a-zA-Z])\^([23])\b", lambda found: "²³"[int(found[1]) - 2], signs)
 
 
 def pretty(text: str) -> str:

@@ -34,10 +34,10 @@ class Content:
     - `operation`: the operating point in words.
     - `headlines`: name, value of the few results at the top.
     - `facts`: name, text of further results in words, under `facts_title`.
-    - `losses`: power loss by location: name, W, share; `not_modelled`: those that the scene leaves out, in words.
+    - `not_modelled`: power losses that the scene leaves out, in words.
     - `convergence`: name, text on how the solve ended.
     - `checks`: text of each check of the laws' ranges, whether it was left.
-    - `stiffness`: names of the rows and columns, texts of the rows; "-" where the model has none.
+    - `stiffness`: names of the rows and columns, texts of the rows with units; "-" where the model has none.
     """
 
     kind: str
@@ -47,7 +47,6 @@ class Content:
     facts: Sequence[tuple[str, str]] = ()
     facts_title: str = "Motion, films and stiffness"
     life: Sequence[Row] = ()
-    losses: Sequence[tuple[str, str, str]] = ()
     not_modelled: str = ""
     charts: Sequence[Panel] = ()
     diagrams: Sequence[Diagram] = ()

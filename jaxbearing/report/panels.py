@@ -5,6 +5,10 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
+import numpy as np
+
+from .display import digits
+
 DASHES = ("solid", "dash", "dot", "dashdot")
 MARKERS = ("circle", "square", "triangle-up", "diamond", "triangle-down", "triangle-left", "triangle-right")
 """Shapes of points, and styles of lines, by which curves differ besides their colours."""
@@ -84,6 +88,20 @@ class Polar:
 
 
 @dataclass(frozen=True)
+class Numbers:
+    """Results that are the same everywhere, as numbers in the place of flat curves.
+
+    `columns`: name and colour of each column; `rows`: name of a result and its numbers with units, one a column.
+    """
+
+    name: str
+    title: str
+    caption: str
+    columns: Sequence[tuple[str, str]]
+    rows: Sequence[tuple[str, Sequence[str]]]
+
+
+@dataclass(frozen=True)
 class Bars:
     """Horizontal bars, the first above. `shares`: parts of the total, in words."""
 
@@ -98,8 +116,34 @@ class Bars:
     total: float
     colour: str
 
+    def text(self, value: float) -> str:
+        """A value or the total, with as many decimals as the largest bar needs for four digits and at least one."""
+        shown = digits(max(self.values, key=abs))
+        return digits(value) if "e" in shown else f"{value:.{max(1, len(shown.partition('.')[2]))}f}"
 
-Panel = Bars | Polar | Curves
+    def fraction(self, value: float) -> float:
+        """Length of a bar over that of the largest one; 0 for a value that is not above 0."""
+        largest = max(self.values)
+        return max(0.0, value) / largest if largest > 0.0 else 0.0
+
+
+Panel = Bars | Polar | Curves | Numbers
+
+SAME = 5e-4
+"""Largest difference of the values of a curve, over the largest one, that is no news: four digits show no more."""
+
+
+def constant(panel: Polar | Curves) -> bool:
+    """True if no curve of the panel changes by more than `SAME`."""
+    return all(_spread(np.asarray(one.y, dtype=float)) <= SAME for one in panel.series)
+
+
+def _spread(values: np.ndarray) -> float:
+    """Largest difference over the largest value by modulus; infinite where some values are not finite."""
+    if not np.all(np.isfinite(values)):
+        return math.inf
+    largest = float(np.max(np.abs(values)))
+    return float(np.ptp(values)) / largest if largest > 0.0 else 0.0
 
 
 def headed(panel: Polar | Curves) -> str:

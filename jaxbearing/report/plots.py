@@ -17,13 +17,14 @@ SUFFIXES = (".png", ".svg", ".pdf")
 """Kinds of files that a figure can be written to."""
 
 
-def plot_solution(solution: Any, title: str) -> "matplotlib.figure.Figure":
+def plot_solution(solution: Any, title: str, scene: Any = None) -> "matplotlib.figure.Figure":
     """A page of plots of one solution: of a bearing, power loss, loads, films, pressures and sliding speeds; of a
-    two-disk machine, its traction curves.
+    two-disk machine, its traction curves; of a shaft, its bending line, moments and cut forces.
 
     **Arguments:**
     - `solution`: one solution that converged.
     - `title`: name of the scene, at the head of the page.
+    - `scene`: of the solution; a shaft is drawn to scale with it.
 
     **Raises:** `ValueError` for a batch, and for a solution that did not converge: it has no results; `TypeError`
     for another kind of solution.
@@ -32,7 +33,7 @@ def plot_solution(solution: Any, title: str) -> "matplotlib.figure.Figure":
     if np.ndim(solution.converged) != 0:
         raise ValueError("plot_solution draws one solution, got a batch: take one lane of it")
     check_converged(solution)
-    return draw(solution, title)
+    return draw(solution, title) if scene is None or scene.kind != "shaft" else draw(solution, title, scene)
 
 
 def save_plot(figure: Any, path: str | os.PathLike[str]) -> None:

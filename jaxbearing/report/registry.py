@@ -14,6 +14,7 @@ FOLDERS = {
     "jaxbearing.bearings.solution.Solution": "bearing",
     "jaxbearing.machines.two_disk.TwoDiskSolution": "two_disk",
     "jaxbearing.ehl.solution.LineContactSolution": "line_contact",
+    "jaxbearing.shafts.solution.ShaftSolution": "shaft",
 }
 """Kinds of steady results, by their names: the classes of kinds that are not shown need not be imported."""
 RUNS = {

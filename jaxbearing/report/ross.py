@@ -23,6 +23,7 @@ import numpy as np
 import tomli_w
 
 from .. import __version__
+from ..bearings.solution import RING_FREEDOMS
 from .files import write_whole
 from .stiffness import StiffnessTable
 
@@ -53,19 +54,21 @@ def ross_bearing(
         raise ValueError(f"ROSS needs the radial and the lateral stiffness, got {', '.join(table.modelled)}")
     if not _TAG.fullmatch(tag):
         raise ValueError(f"tag must be of letters, digits, _ and -, got {tag!r}")
-    place = {name: table.freedom.index(name) for name in table.freedom}
-    across = [place["radial"], place["lateral"]]
+    return element_of(table.speed, table.stiffness, load_direction, node, tag)
+
+
+def element_of(speed: np.ndarray, stiffness: np.ndarray, load_direction: float, node: int, tag: str) -> dict[str, Any]:
+    """Arguments of `ross.BearingElement` from stiffnesses of the five freedoms; axes: speed, row, column."""
+    axial, *across = (RING_FREEDOMS.index(name) for name in ("axial", "radial", "lateral"))
     cosine, sine = math.cos(load_direction), math.sin(load_direction)
     # its columns: the radial and the lateral direction in x and y
     turn = np.array([[cosine, -sine], [sine, cosine]])
-    plane = turn @ table.stiffness[:, across][:, :, across] @ turn.T
-    zero = np.zeros(len(table.speed))
-    # 0 of cylindrical rollers without flanges, which carry nothing along the axis
-    axial = table.stiffness[:, place["axial"], place["axial"]]
+    plane = turn @ stiffness[:, across][:, :, across] @ turn.T
     coefficients = {f"k{a}{b}": plane[:, i, j] for i, a in enumerate("xy") for j, b in enumerate("xy")}
-    coefficients |= {"kzz": axial} | dict.fromkeys(_ZERO, zero)
+    # 0 of cylindrical rollers without flanges, which carry nothing along the axis
+    coefficients |= {"kzz": stiffness[:, axial, axial]} | dict.fromkeys(_ZERO, np.zeros(len(speed)))
     lists = {name: values.tolist() for name, values in coefficients.items()}
-    return {"n": node, "tag": tag, "frequency": table.speed.tolist(), **lists}
+    return {"n": node, "tag": tag, "frequency": speed.tolist(), **lists}
 
 
 def ross_text(
@@ -83,7 +86,7 @@ def ross_text(
     element = ross_bearing(table, load_direction=load_direction, node=node, tag=tag)
     said = [
         f"Stiffness over shaft speed for ROSS: rs.BearingElement.load(file). Written by jaxbearing {__version__}.",
-        *([f"Scene: {_line(scene_label)}"] if scene_label else []),
+        *([f"Scene: {one_line(scene_label)}"] if scene_label else []),
         "frequency: speed of the shaft, which carries the inner ring, rad/s. k..: N/m, tangent stiffness under the",
         "scene's loads, other freedoms of the ring held.",
         "n: node of the rotor, and tag: change them to yours; no two elements of a rotor may have one tag.",
@@ -115,6 +118,6 @@ def write_ross(
     write_whole(file, text)
 
 
-def _line(text: str) -> str:
+def one_line(text: str) -> str:
     """One line of a comment: TOML allows no control characters in it."""
     return "".join(char if char.isprintable() else repr(char)[1:-1] for char in " ".join(text.split()))

@@ -13,11 +13,14 @@ from rich.table import Table
 from rich.text import Text
 
 from .._scene import AbstractScene
-from ..sensitivity import ABSOLUTE, PowerInterval, Sensitivities, UsualTolerance, largest
+from ..loss_interval import PowerInterval
+from ..sensitivity import ABSOLUTE, Sensitivities, UsualTolerance, largest
 from .display import digits, with_unit
 
 SHOWN = 5
 """Number of inputs that are shown for each result."""
+SMALL = 0.01
+"""Part of the widest interval below which that of an input is not shown."""
 UNCERTAIN = ("drag.coefficient",)
 """Poorly known inputs, which are always shown."""
 LAW_CONSTANTS = ("oil.", "contact.")
@@ -51,8 +54,8 @@ ABREAST = 2
 
 
 def print_sensitivities(sensitivities: Sensitivities, console: Console, interval: PowerInterval | None = None) -> None:
-    """The five largest of each result, and always the inputs that nobody knows well; limits of the power loss by the
-    drag coefficient, where they are given."""
+    """The five largest of each result, and always the inputs that nobody knows well; limits of the power loss where
+    they are given."""
     console.print(Rule("Sensitivities", align="left", style="dim"))
     modelled = list(sensitivities.modelled().items())
     for first in range(0, len(modelled), ABREAST):
@@ -100,10 +103,8 @@ def _effects_table(
 
 def _unit_of(scene: AbstractScene, path: str) -> str:
     """SI unit of a number of a scene; "1" where its class says none."""
-    part: Any = scene
-    *above, last = path.split(".")
-    for name in above:
-        part = getattr(part, name)
+    above, _, last = path.rpartition(".")
+    part: Any = scene.part_at(above) if above else scene
     return type(part).__dataclass_fields__[last].metadata.get("unit", "1")
 
 
@@ -123,10 +124,22 @@ def _effect(name: str, value: float) -> str:
 
 
 def _print_interval(interval: PowerInterval | None, console: Console) -> None:
-    if interval is not None:
-        limits = " and ".join(with_unit(one, "W") for one in (interval.low, interval.high))
-        text = f"Power loss {with_unit(interval.value, 'W')}, 90 % between {limits}, by {interval.by} alone"
-        console.print(Padding(Text(f"{text} ({interval.assumed})."), (0, 2)))
+    if interval is None:
+        return
+    limits = " and ".join(with_unit(one, "W") for one in (interval.low, interval.high))
+    text = f"Power loss {with_unit(interval.value, 'W')}, 90 % between {limits}"
+    if len(interval.parts) == 1:
+        console.print(Padding(Text(f"{text}, by {interval.by} alone ({interval.assumed})."), (0, 2)))
+        return
+    console.print(Padding(Text(f"{text}, mostly by {interval.by}. By each input alone:"), (0, 2)))
+    width = lambda part: part.high - part.low
+    small = [part.path for part in interval.parts if width(part) < SMALL * width(interval.parts[0])]
+    for part in interval.parts[: len(interval.parts) - len(small)]:
+        ends = " and ".join(with_unit(one, "W") for one in (part.low, part.high))
+        console.print(Padding(Text(f"{part.path}: between {ends} ({part.assumed})", style="dim"), (0, 4)))
+    if small:
+        text = f"{', '.join(small)}: less than {digits(100.0 * SMALL)} % of the first of these"
+        console.print(Padding(Text(text, style="dim"), (0, 4)))
 
 
 def _table(results: list[tuple[str, dict[str, Array]]]) -> Table:

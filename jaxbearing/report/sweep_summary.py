@@ -25,6 +25,9 @@ _MAIN = (
     "film_minimum",
     "life_Lnmr_hours",
     "life_L10r_hours",
+    "system_L10r_hours",
+    "bearing_largest_load",
+    "torque_power_loss",
 )
 """Results that are shown, where the scene has them."""
 _REASONS = 3

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from .backends.screen import column
-from .display import digits, display_unit, displayed, with_unit
+from .display import display_unit, number, with_unit
 from .labels import labelled
 
 
@@ -34,16 +34,16 @@ class Column:
 def result_rows(solution: Any, left_out: Collection[str] = ()) -> list[Row]:
     """All results that are one number, but for those at these paths."""
     return [
-        _row(path, np.asarray(value), metadata)
+        row_of(path, np.asarray(value), metadata)
         for path, value, metadata in labelled(solution)
         if np.ndim(value) == 0 and path not in left_out
     ]
 
 
-def _row(path: str, value: np.ndarray, metadata: Any) -> Row:
+def row_of(path: str, value: np.ndarray, metadata: Any) -> Row:
     unit = metadata["unit"]
     whole = np.issubdtype(value.dtype, np.integer)
-    shown = str(int(value)) if whole else digits(displayed(float(value), unit), 5)
+    shown = str(int(value)) if whole else number(float(value), unit)
     return Row(path, shown, display_unit(unit), metadata["description"])
 
 

@@ -12,6 +12,7 @@ from typing import Any
 from pydantic import BaseModel, TypeAdapter, ValidationError
 
 from ..numerics.refusals import Refusals
+from .engineers_words import usual_word
 from .fields import is_optional, names_at, path_of, required_names, type_at
 from .units import describe, shortened
 
@@ -67,6 +68,12 @@ class SceneError(ValueError):
         """The same error with another name of the file."""
         words = (self.path, self.found, self.expected, self.suggestion, self.reason)
         return SceneError(file, *words, others=self.others)
+
+    def inside(self, above: str) -> "SceneError":
+        """The same error with a longer path, of a table inside the table at `above`."""
+        path = f"{above}.{self.path}".rstrip(".")
+        words = (self.found, self.expected, self.suggestion, self.reason)
+        return SceneError(self.file, path, *words, others=[one.inside(above) for one in self.others])
 
     def _with(self, others: Iterable["SceneError"]) -> "SceneError":
         words = (self.file, self.path, self.found, self.expected, self.suggestion, self.reason)
@@ -225,11 +232,19 @@ def unknown_name(location: Sequence[int | str], model: type[BaseModel]) -> dict[
     later = owner.not_yet.get(name)
     if later:
         return {"found": f"'{name}', which is not available in this version", "expected": later}
+    if name in owner.elsewhere:
+        return {"found": shortened(repr(name)), "expected": owner.elsewhere[name]}
     return {
         "found": f"the unknown name {shortened(repr(name))}",
         "expected": one_of(owner.names) if owner.names else "a value, not a table",
-        "suggestion": nearest(name, owner.names),
+        "suggestion": _inside(name, model, owner.names) or usual_word(name, owner.names) or nearest(name, owner.names),
     }
+
+
+def _inside(name: str, model: type[BaseModel], tables: Iterable[str]) -> str:
+    """The dotted path of a field of this name in one of the tables of a scene; empty if there is not just one."""
+    found = [f"{table}.{name}" for table in tables if name in names_at(model, (table,)).names]
+    return found[0] if len(found) == 1 else ""
 
 
 _MOST_NAMES = 24

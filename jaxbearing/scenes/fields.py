@@ -12,11 +12,12 @@ from .units import Dimension, QuantityValidator
 
 @dataclass(frozen=True)
 class Names:
-    """Valid names of one table, names that later versions will know (with what to expect instead), names that
-    exclude each other, and names that say more about another."""
+    """Valid names of one table, names that later versions will know and names of other tables (both with what to expect
+    instead), names that exclude each other, and names that say more about another."""
 
     names: tuple[str, ...] = ()
     not_yet: Mapping[str, str] = field(default_factory=dict)
+    elsewhere: Mapping[str, str] = field(default_factory=dict)
     instead: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
     about: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
 
@@ -36,13 +37,15 @@ def names_at(model: type[BaseModel], location: Sequence[int | str]) -> Names:
     models = tables_at(model, location)
     names = dict.fromkeys(name for candidate in models for name in candidate.model_fields)
     not_yet: dict[str, str] = {}
+    elsewhere: dict[str, str] = {}
     instead: dict[str, tuple[str, ...]] = {}
     about: dict[str, tuple[str, ...]] = {}
     for candidate in models:
         not_yet.update(getattr(candidate, "not_yet", {}))
+        elsewhere.update(getattr(candidate, "elsewhere", {}))
         instead.update(getattr(candidate, "instead", {}))
         about.update(getattr(candidate, "about", {}))
-    return Names(tuple(names), not_yet, instead, about)
+    return Names(tuple(names), not_yet, elsewhere, instead, about)
 
 
 def tables_at(model: type[BaseModel], location: Sequence[int | str]) -> list[type[BaseModel]]:

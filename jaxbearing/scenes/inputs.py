@@ -11,6 +11,7 @@ from typing import Any
 from pydantic import BaseModel
 
 from .._scene import AbstractScene
+from ..materials import Material
 from .fields import tables_at
 from .overrides import apply
 from .reader import model_of, read_tables, scene_model
@@ -55,14 +56,24 @@ def _fields(
         if isinstance(value, Mapping):
             yield from _fields(value, path, model, scene)
         else:
-            yield SceneInput(".".join(path), _text(value), described_field(scene, path))
+            yield SceneInput(".".join(path), _text(value), _meaning(scene, path))
     schemas = tables_at(model, inside)
     if len(schemas) != 1 or not inside:
         return
     for name, info in schemas[0].model_fields.items():
         if name not in table and not info.is_required() and isinstance(info.default, bool | int | float | str):
             path = (*inside, name)
-            yield SceneInput(".".join(path), _text(info.default), described_field(scene, path), given=False)
+            yield SceneInput(".".join(path), _text(info.default), _meaning(scene, path), given=False)
+
+
+def _meaning(scene: AbstractScene, path: tuple[str, ...]) -> str:
+    """Description of a field that stands beside its name, which it does not say again."""
+    words = path[-1].replace("_", " ")
+    if path == ("kind",):
+        return "family, which decides what tables a scene has"
+    if isinstance(getattr(getattr(scene, path[0], None), path[-1], None), Material):
+        return f"material of the {words}"
+    return described_field(scene, path).removeprefix(f"{words}: ")
 
 
 def _text(value: Any) -> str:
@@ -77,9 +88,7 @@ def described_field(scene: AbstractScene, path: tuple[str, ...]) -> str:
     """Description of a field: what a law says of itself, the label of the class that holds the field, what the class's
     docstring says of its argument, or what that of its table says."""
     words = path[-1].replace("_", " ")
-    law: Any = scene
-    for name in path:
-        law = getattr(law, name, None)
+    law = scene.part_at(".".join(path))
     if dataclasses.is_dataclass(law):
         summary = _first_sentence(type(law))
         return f"{words}: {summary}" if summary else words
@@ -91,9 +100,7 @@ def described_field(scene: AbstractScene, path: tuple[str, ...]) -> str:
 def owner_of(scene: AbstractScene, path: Sequence[str]) -> tuple[type, str] | None:
     """The class that has a field of a scene, and its name there: the class of the part at this place or, of a field
     that only files have there, the one that its table was made from."""
-    part: Any = scene
-    for name in path[:-1]:
-        part = getattr(part, name, None)
+    part = scene.part_at(".".join(path[:-1])) if len(path) > 1 else scene
     if dataclasses.is_dataclass(part) and path[-1] in {field.name for field in dataclasses.fields(part)}:
         return type(part), path[-1]
     made = (getattr(table, "made_from", {}) for table in _tables(scene, path[:-1]))

@@ -17,6 +17,7 @@ from .fields import is_known, names_at
 from .materials import MaterialTable, catalogue_table
 from .oil.files import base_of
 from .presets import Filling, filling
+from .table import Table
 from .units import describe
 
 Overrides = Mapping[str, str | float | np.generic | np.ndarray | jax.Array]
@@ -116,7 +117,7 @@ def preset(
 def _applied(
     raw: Mapping[str, Any], overrides: Mapping[str, str], model: type[BaseModel], file: str
 ) -> tuple[dict[str, Any], list[SceneError]]:
-    changed = _copy(raw, file)
+    changed, overrides = completed(model, _copy(raw, file), overrides, file)
     problems = []
     for path, text in overrides.items():
         keys = path.split(".")
@@ -136,6 +137,13 @@ def _applied(
         except SceneError as error:
             problems.append(error)
     return changed, problems
+
+
+def completed(
+    model: type[BaseModel], tables: dict[str, Any], overrides: Mapping[str, str], file: str
+) -> tuple[dict[str, Any], Mapping[str, str]]:
+    """See `Table.completed`."""
+    return model.completed(tables, overrides, file) if issubclass(model, Table) else (tables, overrides)
 
 
 def _take_out(changed: dict[str, Any], inside: list[str], names: Iterable[str]) -> None:

@@ -47,9 +47,12 @@ _KINDS = {
     "tapered_roller_bearing": _Kind("tapered", "TaperedRollerTable", "tapered_roller_bearing", "tapered_tables"),
     "two_disk": _Kind("two_disk", "TwoDiskTable", "two_disk", "two_disk_tables"),
     "line_contact": _Kind("line_contact", "LineContactTable", "line_contact", "line_contact_tables"),
+    "shaft": _Kind("shaft", "ShaftTable", "shaft", "shaft_tables"),
 }
 """Kinds of scenes; each is imported when the first scene of it is read."""
 KINDS = tuple(_KINDS)
+SHAFT = "shaft"
+"""The kind of scenes with bearings that have scenes themselves."""
 
 
 def _module(kind: _Kind, name: str) -> ModuleType:
@@ -65,7 +68,7 @@ def _table_and_build(kind: str) -> tuple[type[Table], Callable[[Any], AbstractSc
 def schema_of_kind(kind: str) -> tuple[type[BaseModel], type]:
     """The schema of the scene files of a kind, one of `KINDS`, and the class of the scenes that they become."""
     model, build = _table_and_build(kind)
-    return model, typing.get_type_hints(build)["return"]
+    return model.example(), typing.get_type_hints(build)["return"]
 
 
 def tables_of(scene: AbstractScene) -> dict[str, Any]:
@@ -75,6 +78,11 @@ def tables_of(scene: AbstractScene) -> dict[str, Any]:
     """
     one = _KINDS[scene.kind]
     return getattr(_module(one, "writer"), one.tables)(scene)
+
+
+def plain_scene(scene: AbstractScene) -> AbstractScene:
+    """The scene with what has no effect in it as files give it."""
+    return _module(_KINDS[SHAFT], "writer").plain_scene(scene) if scene.kind == SHAFT else scene
 
 
 def load_scene(source: str | Path, overrides: Overrides | None = None) -> AbstractScene:
@@ -175,7 +183,9 @@ def scene_from_tables(
         model, build = _schema(mapping, overrides, origin)
         raw, problems = applied(mapping, overrides, model, origin)
         raw, _ = means_of(raw, model, origin)
-        return _build(raw, model, build, origin, problems)
+        states = raw.pop(STATES, None) if is_shaft(raw) else None
+        scene = _build(raw, model, build, origin, problems)
+        return scene if states is None else _module(_KINDS[SHAFT], "states").with_states(scene, states, raw, origin)
     except SceneError as error:
         raise SceneError.of_all([_with_culprit(one, overrides, origin) for one in error.problems]) from None
 
@@ -187,7 +197,10 @@ def scene_model(mapping: Mapping[str, Any], overrides: Mapping[str, str], origin
 
 def model_of(scene: AbstractScene) -> type[BaseModel] | None:
     """The schema of the files of such scenes."""
-    return _table_and_build(scene.kind)[0] if scene.kind in _KINDS else None
+    if scene.kind not in _KINDS:
+        return None
+    table = _table_and_build(scene.kind)[0]
+    return _module(_KINDS[SHAFT], "schema").model_of_scene(scene) if scene.kind == SHAFT else table
 
 
 def _schema(
@@ -196,7 +209,8 @@ def _schema(
     kind = mapping.get("kind")
     if "kind" in overrides:
         kind = None if overrides["kind"] == REMOVE else parse_value(overrides["kind"])
-    return _table_and_build(_known_kind(kind, mapping, origin))
+    table, build = _table_and_build(_known_kind(kind, mapping, origin))
+    return table.of_file(mapping, overrides, origin), build
 
 
 def _with_culprit(problem: SceneError, overrides: Mapping[str, str], origin: str) -> SceneError:
@@ -215,14 +229,9 @@ def _build(
     problems: list[SceneError],
 ) -> AbstractScene:
     """**Raises:** `SceneError` with these problems and all that the schema and the classes refuse."""
-    complete, refused = dict(raw), []
-    if isinstance(raw.get("oil"), Mapping):
-        try:
-            complete["oil"] = with_catalogue(raw["oil"])
-        except SceneError as error:
-            problems, refused = [*problems, error], ["oil"]
+    complete, refused, unknown = _with_oils(raw)
     table, found = draft(model, complete, origin, refused)
-    problems = [*problems, *found]
+    problems = [*problems, *unknown, *found]
     try:
         scene = build(table)
     except Unreadable:
@@ -236,6 +245,31 @@ def _build(
         if not problems:
             return scene
     raise SceneError.of_all(problems)
+
+
+def _with_oils(raw: Mapping[str, Any]) -> tuple[dict[str, Any], list[str], list[SceneError]]:
+    """The tables with what their oils stand for, those of bearings on a shaft too; names of tables whose oil is
+    refused, and why."""
+    complete, refused, problems = dict(raw), [], []
+    if isinstance(raw.get("oil"), Mapping):
+        try:
+            complete["oil"] = with_catalogue(raw["oil"])
+        except SceneError as error:
+            refused, problems = ["oil"], [error]
+    for word in ("bearing", "set") if is_shaft(raw) else ():
+        entries = raw.get(word)
+        for name, entry in entries.items() if isinstance(entries, Mapping) else ():
+            if isinstance(entry, Mapping):
+                inner, wrong, found = _with_oils(entry)
+                complete[word] = {**complete[word], name: inner}
+                refused += [word] if wrong else []
+                problems += [one.inside(f"{word}.{name}") for one in found]
+    return complete, refused, problems
+
+
+def is_shaft(tables: Mapping[str, Any]) -> bool:
+    """True for the tables of a shaft."""
+    return kind_named(tables.get("kind")) == SHAFT
 
 
 def _related(a: str, b: str) -> bool:
@@ -253,13 +287,19 @@ def read_tables(source: str | Path) -> tuple[str, dict[str, Any]]:
     **Raises:** `SceneError`.
     """
     label, mapping = read_all(source)
-    return label, {name: table for name, table in mapping.items() if name != STATES}
+    return label, without_states(mapping)
+
+
+def without_states(mapping: Mapping[str, Any]) -> dict[str, Any]:
+    """The tables without the states of a load spectrum; those of a shaft, whose states are a part of it, as they
+    are."""
+    return {name: table for name, table in mapping.items() if name != STATES or is_shaft(mapping)}
 
 
 def read_base(source: str | Path) -> tuple[str, dict[str, Any]]:
     """As `read_tables`, with a `StatesUnusedWarning` of states that are left out."""
     label, mapping = read_all(source)
-    states = mapping.pop(STATES, None)
+    states = None if is_shaft(mapping) else mapping.pop(STATES, None)
     if states is not None:
         count = len(states) if isinstance(states, list) else 1
         said = f"{label}: the scene is that without its {count} [[state]] tables; 'jaxbearing spectrum' solves them"
@@ -269,6 +309,21 @@ def read_base(source: str | Path) -> tuple[str, dict[str, Any]]:
 
 def read_all(source: str | Path) -> tuple[str, dict[str, Any]]:
     """Name for messages, and all tables of a file or a built-in scene. **Raises:** `SceneError`."""
+    label, mapping = _read_file(source)
+    if is_shaft(mapping):
+        files = _module(_KINDS[SHAFT], "files")
+        mapping = files.beside(files.named(mapping, label), Path(source).parent)
+        mapping = files.read_scenes(mapping, label, tables_of_file)
+    return label, mapping
+
+
+def tables_of_file(source: str | Path) -> dict[str, Any]:
+    """The tables of a file or a built-in scene as they stand there: other scenes that it names are not read.
+    **Raises:** `SceneError`."""
+    return _read_file(source)[1]
+
+
+def _read_file(source: str | Path) -> tuple[str, dict[str, Any]]:
     label = str(source)
     if isinstance(source, str) and source in builtin_names():
         text = builtin_text(source)

@@ -14,13 +14,15 @@ from .._scene import AbstractScene
 from .errors import SceneError, one_of
 from .input_files import LARGEST_TEXT
 from .part_writer import SCENE, differences, shown, unwritable
-from .reader import KINDS, scene_from_tables, schema_of_kind, tables_of
+from .reader import KINDS, plain_scene, scene_from_tables, schema_of_kind, tables_of
 from .toml_files import parse_toml
 from .toml_writer import comments, toml_text
 
 _ONE = "one number; of a batch, take one scene: jax.tree.map(lambda leaf: leaf[0], scenes)"
 _MOST = 3
 """Numbers that a message names: in a batch all of them are refused."""
+MIXED = "mixed"
+"""Unit, in labels, of matrices whose entries have units of their own."""
 _KNOWN = "a known number; save the scene outside of jax.jit, jax.vmap and jax.grad"
 
 
@@ -58,6 +60,7 @@ def scene_text(scene: AbstractScene, label: str, header: Iterable[str]) -> str:
         problems = list(_problems(scene, "", {}))
         if problems:
             raise SceneError.of_all(problems[:_MOST])
+        scene = plain_scene(scene)
         text = _headed(header) + toml_text(tables_of(scene))
         _require_readable(text)
         read = scene_from_tables(parse_toml(text, label, "a scene"), label)
@@ -99,10 +102,14 @@ def _problems(node: Any, path: str, said: Mapping[str, Any]) -> Iterator[SceneEr
         for field in dataclasses.fields(node):
             yield from _problems(getattr(node, field.name), f"{path}.{field.name}".lstrip("."), field.metadata)
         return
+    if isinstance(node, tuple):
+        for place, one in enumerate(node):
+            yield from _problems(one, f"{path}.{place}", said)
+        return
     if isinstance(node, Tracer | jax.ShapeDtypeStruct):
         yield unwritable(path, "a traced number", _KNOWN)
     elif eqx.is_array_like(node):
-        values, most = np.asarray(node), 0 if "bound" in said else 1
+        values, most = np.asarray(node), 0 if "bound" in said else 2 if said.get("unit") == MIXED else 1
         if values.ndim > most:
             yield unwritable(path, f"an array of shape {values.shape}", _ONE)
         elif values.dtype not in (np.float64, np.int64, np.bool_):

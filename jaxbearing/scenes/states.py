@@ -1,6 +1,6 @@
 """The load spectrum of a scene file: its tables [[state]], each with a share of the time and changes of the scene."""
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -11,11 +11,11 @@ from .._scene import AbstractScene
 from ..life.duty import SUM_TOLERANCE
 from .errors import SceneError, nearest
 from .overrides import Overrides, applied, as_texts
-from .reader import STATES, read_all, scene_from_tables, scene_model, warn_of_means
+from .reader import STATES, is_shaft, read_all, scene_from_tables, scene_model, warn_of_means, without_states
 from .units import describe, number
 
 NAME, SHARE = "name", "share"
-_EXAMPLE = '[[state]] tables, each with name = "cruise", share = 0.6 and changes such as operation.radial_load = "3 kN"'
+EXAMPLE = '[[state]] tables, each with name = "cruise", share = 0.6 and changes such as operation.radial_load = "3 kN"'
 
 
 @dataclass(frozen=True)
@@ -29,14 +29,18 @@ class FileState:
 
 
 def has_states(source: str | Path) -> bool:
-    """True if the file of a scene has a load spectrum. **Raises:** `SceneError` for a file that cannot be read."""
-    return STATES in read_all(source)[1]
+    """True if the file of a bearing has a load spectrum; the states of a shaft are a part of its scene.
+
+    **Raises:** `SceneError` for a file that cannot be read.
+    """
+    mapping = read_all(source)[1]
+    return STATES in mapping and not is_shaft(mapping)
 
 
 def base_scene(source: str | Path, overrides: Overrides | None = None) -> AbstractScene:
     """The scene without its states, as `load_scene` without the warning that they are left out."""
     label, mapping = read_all(source)
-    mapping.pop(STATES, None)
+    mapping = without_states(mapping)
     warn_of_means(mapping, label, overrides)
     return scene_from_tables(mapping, label, overrides)
 
@@ -50,21 +54,23 @@ def load_states(source: str | Path, overrides: Overrides | None = None) -> tuple
     one or with shares that do not add up to 1, for changes of unknown fields and for scenes that cannot be built.
     """
     label, mapping = read_all(source)
+    if is_shaft(mapping):
+        expected = "the scene of a bearing; the states of a shaft are a part of it, 'jaxbearing solve' solves them"
+        raise SceneError(label, "kind", "a shaft", expected)
     given = mapping.pop(STATES, None)
     if given is None:
-        raise SceneError(label, STATES, "nothing", f"a load spectrum: {_EXAMPLE}")
+        raise SceneError(label, STATES, "nothing", f"a load spectrum: {EXAMPLE}")
     if not isinstance(given, list) or not given or not all(isinstance(one, Mapping) for one in given):
-        raise SceneError(label, STATES, describe(given), _EXAMPLE)
+        raise SceneError(label, STATES, describe(given), EXAMPLE)
     texts = as_texts(overrides)
     # a scene that is wrong without any state is refused once
     scene_from_tables(mapping, label, texts)
-    problems = list(_problems(given, label))
-    if problems:
-        raise SceneError.of_all(problems)
+    require_names_and_shares(given, label)
     found: list[FileState] = []
+    problems: list[SceneError] = []
     for one in given:
         try:
-            found.append(_state(one, mapping, texts, label))
+            found.append(state_of(one, mapping, texts, label))
         except SceneError as error:
             problems += error.problems
     if problems:
@@ -72,7 +78,15 @@ def load_states(source: str | Path, overrides: Overrides | None = None) -> tuple
     return tuple(found)
 
 
-def _problems(given: list[Mapping[str, Any]], label: str) -> Iterator[SceneError]:
+def require_names_and_shares(given: Sequence[Mapping[str, Any]], label: str) -> None:
+    """**Raises:** `SceneError` for states without a name or share, with the name of another one or with shares that do
+    not add up to 1."""
+    problems = list(_problems(given, label))
+    if problems:
+        raise SceneError.of_all(problems)
+
+
+def _problems(given: Sequence[Mapping[str, Any]], label: str) -> Iterator[SceneError]:
     """What is wrong with names and shares."""
     names: list[str] = []
     shares: list[float] = []
@@ -100,8 +114,8 @@ def _problems(given: list[Mapping[str, Any]], label: str) -> Iterator[SceneError
         yield SceneError(label, f"{STATES}.{SHARE}", f"shares that add up to {total:.7g}", "shares that add up to 1")
 
 
-def _state(one: Mapping[str, Any], mapping: Mapping[str, Any], texts: dict[str, str], label: str) -> FileState:
-    """**Raises:** `SceneError` that names the state and the field."""
+def state_of(one: Mapping[str, Any], mapping: Mapping[str, Any], texts: dict[str, str], label: str) -> FileState:
+    """One state with its scene. **Raises:** `SceneError` that names the state and the field."""
     name = one[NAME]
     origin = f"{label}, state '{name}'"
     changes = dict(_flat({key: value for key, value in one.items() if key not in (NAME, SHARE)}))

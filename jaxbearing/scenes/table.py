@@ -24,17 +24,18 @@ def check(method: Callable[[Any], Problems]) -> Callable[[Any], Problems]:
 class Table(BaseModel):
     """A table: unknown names are refused, and nothing is converted silently.
 
-    `tag` names a table that is one of several alternatives of a field; `not_yet` are names of later versions with what
-    to expect instead; `instead`: field -> those that it stands for: a `--set` of it takes them out; `about`: field ->
-    those that say more about it: they go when a `--set` takes it out; `needs`: fields without which, or something in
-    their place, a check refuses the table; `builds`: the class that the table describes; `made_from`: field -> the
-    class, and its field, that it was made from.
+    `tag` names a table that is one of several alternatives of a field; `not_yet` are names of later versions, and
+    `elsewhere` names that belong to other tables, both with what to expect instead; `instead`: field -> those that it
+    stands for: a `--set` of it takes them out; `about`: field -> those that say more about it: they go when a `--set`
+    takes it out; `needs`: fields without which, or something in their place, a check refuses the table; `builds`: the
+    class that the table describes; `made_from`: field -> the class, and its field, that it was made from.
     """
 
     # a table is compiled when the first file with it is read
     model_config = ConfigDict(extra="forbid", strict=True, frozen=True, defer_build=True)
     tag: ClassVar[str] = ""
     not_yet: ClassVar[Mapping[str, str]] = {}
+    elsewhere: ClassVar[Mapping[str, str]] = {}
     instead: ClassVar[Mapping[str, tuple[str, ...]]] = {}
     about: ClassVar[Mapping[str, tuple[str, ...]]] = {}
     needs: ClassVar[tuple[str, ...]] = ()
@@ -44,6 +45,23 @@ class Table(BaseModel):
     if TYPE_CHECKING:  # a table has the fields of the class that it describes, see `table_of`
 
         def __getattr__(self, name: str) -> Any: ...
+
+    @classmethod
+    def of_file(cls, tables: Mapping[str, Any], overrides: Mapping[str, str], file: str) -> "type[Table]":
+        """The schema of these tables of a file, of a kind whose files have names of their own in it."""
+        return cls
+
+    @classmethod
+    def example(cls) -> "type[Table]":
+        """The schema of no file in particular, for lists of fields."""
+        return cls
+
+    @classmethod
+    def completed(
+        cls, tables: dict[str, Any], overrides: Mapping[str, str], file: str
+    ) -> tuple[dict[str, Any], Mapping[str, str]]:
+        """The tables with those of other files that they name, and the overrides that are left to be applied."""
+        return tables, overrides
 
     @classmethod
     def checks(cls) -> Iterator[Callable[[Any], Problems]]:

@@ -45,7 +45,10 @@ def parse_toml(text: str, label: str, expected: str) -> dict[str, Any]:
     # ValueError: also a number of thousands of digits
     except ValueError as error:
         path = _path_near(text, str(error))
-        raise SceneError(label, path, f"a TOML syntax error, {error}", "a valid TOML file") from None
+        expected = "a valid TOML file"
+        if "Cannot declare" in str(error):
+            expected += "; a table that is repeated, such as [[state]], has two brackets"
+        raise SceneError(label, path, f"a TOML syntax error, {error}", expected) from None
     except RecursionError:
         raise SceneError(label, "", "tables nested too deeply", "a valid TOML file") from None
 

@@ -29,15 +29,25 @@ def one_line(text: str) -> str:
     return printable(" ".join(text.split()))
 
 
-def _table(table: Mapping[str, Any], path: tuple[str, ...], aligned: bool) -> Iterator[str]:
-    inner = {name: value for name, value in table.items() if isinstance(value, Mapping)}
+def _table(table: Mapping[str, Any], path: tuple[str, ...], aligned: bool, listed: bool = False) -> Iterator[str]:
+    """**Arguments:** `listed`: whether the table is one of a list, whose heading is there already."""
+    inner = {name: value for name, value in table.items() if isinstance(value, Mapping) or _are_tables(value)}
     plain = {name: value for name, value in table.items() if name not in inner}
-    if path and (plain or not inner):
+    if path and (plain or not inner) and not listed:
         yield from ("", f"[{'.'.join(path)}]")
     width = max(map(len, plain), default=0) if aligned else 0
     yield from (f"{name:<{width}} = {_value(value, width)}" for name, value in plain.items())
     for name, value in inner.items():
-        yield from _table(value, (*path, name), aligned)
+        if isinstance(value, Mapping):
+            yield from _table(value, (*path, name), aligned)
+            continue
+        for one in value:
+            yield from ("", f"[[{'.'.join((*path, name))}]]")
+            yield from _table(one, (*path, name), aligned, listed=True)
+
+
+def _are_tables(value: Any) -> bool:
+    return isinstance(value, list) and bool(value) and all(isinstance(one, Mapping) for one in value)
 
 
 def _value(value: Any, width: int) -> str:

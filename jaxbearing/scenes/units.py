@@ -59,7 +59,7 @@ ANGLE = Dimension("an angle", "rad", "0.375 deg")
 SPEED = Dimension("a rotational speed", "rad/s", "10500 rpm")
 SURFACE_SPEED = Dimension("a speed", "m/s", "1 mm/s")
 FORCE = Dimension("a force", "N", "25 kN")
-LINE_LOAD = Dimension("a load per length", "N/m", "76.31 N/mm")
+LINE_LOAD = Dimension("a load per length or a stiffness", "N/m", "76.31 N/mm")
 LINE_CONTACT_STIFFNESS = Dimension("a stiffness of line contacts", "N/m^(10/9)", "60 N/um^(10/9)")
 MOMENT = Dimension("a moment", "N*m", "50 N*m")
 PRESSURE = Dimension("a pressure or modulus", "Pa", "203 GPa")
@@ -83,6 +83,9 @@ HEAT_CAPACITY = Dimension("a specific heat capacity", "J/(kg*K)", "460 J/(kg*K)"
 HEAT_CONDUCTANCE = Dimension("a heat conductance", "W/K", "2.5 W/K")
 BODY_HEAT_CAPACITY = Dimension("a heat capacity", "J/K", "120 J/K")
 AREA = Dimension("an area", "m^2", "0.02 m^2")
+MASS = Dimension("a mass", "kg", "4 kg")
+ACCELERATION = Dimension("an acceleration", "m/s^2", "9.81 m/s^2")
+TILT_STIFFNESS = Dimension("a stiffness against tilting", "N*m/rad", "200 kN*m/rad")
 TANGENTIAL_COMPLIANCE = Dimension("a tangential compliance", "m/Pa", "1e-15 m/Pa")
 
 
@@ -93,6 +96,7 @@ _BY_UNIT = {
         *(DENSITY, VISCOSITY, KINEMATIC_VISCOSITY, CONDUCTIVITY, CONDUCTIVITY_SLOPE, KELVIN_PER_PRESSURE),
         *(KELVIN2_PER_PRESSURE, TIME, FREQUENCY, TANGENTIAL_COMPLIANCE, LINE_CONTACT_STIFFNESS, THERMAL_EXPANSION),
         *(HEAT_CAPACITY, HEAT_CAPACITY_SLOPE, HEAT_CONDUCTANCE, BODY_HEAT_CAPACITY, AREA),
+        *(MASS, ACCELERATION, TILT_STIFFNESS),
     )
 } | {"kg/(m^3 K)": DENSITY_SLOPE}
 

@@ -11,6 +11,7 @@ from typing import Any
 
 import numpy as np
 
+from .._scene import AbstractScene
 from ..bearings.ball.scene import BallBearing
 from ..bearings.bearing import AbstractBearing
 
@@ -30,17 +31,22 @@ GUIDINGS = tuple(um / 480.0 for um in (120.0, 240.0, 480.0, 640.0))
 AXIALS = (0.5, 1.0, 2.0)
 ANGLES = tuple(degrees / 0.375 for degrees in (0.1, 0.375, 0.75))
 
+GAPS = 10
+"""Least number of gaps between the points of a curve: none is wider than this part of the axis, so that no curve has a
+kink for want of points."""
+
 
 @dataclass(frozen=True)
 class Panel:
-    """Cases of one figure. `values`: dotted path -> SI values along its axis."""
+    """Cases of one figure. `values`: dotted path -> SI values along its axis; the first field is the horizontal axis, a
+    second one has a curve for each value."""
 
     name: str
     title: str
     values: dict[str, np.ndarray]
 
 
-def own(scene: AbstractBearing, path: str) -> float | None:
+def own(scene: AbstractScene, path: str) -> float | None:
     """The scene's own value of a field; `None` where it or its part is not there."""
     found: Any = scene
     for name in path.split("."):
@@ -69,8 +75,20 @@ def panels_of(scene: AbstractBearing) -> tuple[list[Panel], list[str]]:
         elif flat:
             left_out.append(f"{panel.name} ({panel.title}): {flat[0]} is zero in the scene")
         else:
-            kept.append(panel)
+            (along, values), *curves = panel.values.items()
+            kept.append(Panel(panel.name, panel.title, {along: refined(values), **dict(curves)}))
     return kept, left_out
+
+
+def refined(values: np.ndarray) -> np.ndarray:
+    """The values, which are not all the same, and as many evenly between two neighbours as `GAPS` asks for; nearer to a
+    first value of 0, where losses may begin with a vertical slope, two more."""
+    given = np.unique(values)
+    widest = np.ptp(given) / GAPS
+    counts = [max(1, math.ceil((1.0 - 1e-9) * gap / widest)) for gap in np.diff(given)]
+    between = [np.linspace(a, b, n, endpoint=False) for a, b, n in zip(given, given[1:], counts, strict=False)]
+    found = np.concatenate([*between, given[-1:]])
+    return found if found[0] != 0.0 else np.concatenate([found[:1], found[1] * np.array([1.0 / 16.0, 0.25]), found[1:]])
 
 
 def _operating(scene: AbstractBearing, load: str) -> list[Panel]:

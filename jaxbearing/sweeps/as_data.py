@@ -20,7 +20,7 @@ import equinox as eqx
 import numpy as np
 
 _PACKAGE = __name__.partition(".")[0]
-_OF_SCENES = ("bearings", "contacts", "ehl", "gaps", "lubricants", "machines", "materials", "time_laws")
+_OF_SCENES = ("bearings", "contacts", "ehl", "gaps", "lubricants", "machines", "materials", "shafts", "time_laws")
 """Packages and modules whose classes make up scenes: they are imported when they are needed."""
 _NAME = re.compile(r"\w+(?:\.\w+)*", re.ASCII)
 

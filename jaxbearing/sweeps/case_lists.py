@@ -32,7 +32,7 @@ def list_of(file: Path, source: SceneSource) -> tuple[dict[str, Field], Cases]:
         raise SceneError(table.file, "", "no rows", _EXPECTED)
     given = np.asarray(table.numbers(paths)).T
     columns = {
-        field.path: _in_si(field, unit, values, table)
+        field.path: in_si(field, unit, values, table)
         for field, (_, unit), values in zip(fields, parted, given, strict=True)
     }
     return dict(zip(paths, fields, strict=True)), listed(columns)
@@ -51,8 +51,8 @@ def _field(name: str, unit: str | None, source: SceneSource, table: CsvTable) ->
     return field
 
 
-def _in_si(field: Field, unit: str | None, values: np.ndarray, table: CsvTable) -> np.ndarray:
-    """The values of a column, each within the bounds of its field."""
+def in_si(field: Field, unit: str | None, values: np.ndarray, table: CsvTable) -> np.ndarray:
+    """The values of a column in SI, each within the bounds of its field. **Raises:** `SceneError`."""
     if field.dimension is not None:
         # the first value is read as that of a scene file, which says what is wrong with the unit
         field.read(f"{float(values[0])!r} {unit or ''}", table.at(table.rows[0].number))

@@ -15,8 +15,10 @@ from ..report.variables import checks, common
 
 CASE = "case"
 FAILURE = "failure"
-_EACH = {"element", "node"}
-"""Dimensions of results that a sweep may leave out."""
+_EACH = ("element", "node")
+"""Dimensions, or ends of their names, of results that a sweep may leave out."""
+MANY = "*"
+"""Stands in a path for the names of the parts whose results a variable has side by side."""
 
 
 def template(structure: Any, elements: bool, paths: Sequence[str] = ()) -> xr.Dataset:
@@ -32,7 +34,7 @@ def template(structure: Any, elements: bool, paths: Sequence[str] = ()) -> xr.Da
         # elsewhere in each case
         dataset = dataset.assign_coords(azimuth=dataset["azimuth"].expand_dims({CASE: 1}))
     if not elements:
-        dataset = dataset.drop_dims(sorted(_EACH & set(dataset.dims)))
+        dataset = dataset.drop_dims(sorted(str(name) for name in dataset.dims if str(name).endswith(_EACH)))
     return dataset
 
 
@@ -43,6 +45,8 @@ def per_case(dataset: xr.Dataset) -> list[str]:
 
 def columns(solution: AbstractSolution, labels: xr.Dataset) -> dict[str, np.ndarray]:
     """Variables of a batch of solutions: those of each case, and those that all cases share but a template lacks."""
+    if any(MANY in variable.attrs.get("path", "") for variable in labels.variables.values()):
+        return _by_name(solution, labels)
     found = {}
     for name, variable in labels.variables.items():
         path = variable.attrs.get("path", "")
@@ -55,6 +59,22 @@ def columns(solution: AbstractSolution, labels: xr.Dataset) -> dict[str, np.ndar
                 found[str(name)] = np.broadcast_to(values, (len(converged(solution)), *values.shape[1:]))
             elif values.ndim > variable.ndim:
                 found[str(name)] = common(values, variable.ndim, str(name))
+    return found
+
+
+def _by_name(solution: AbstractSolution, labels: xr.Dataset) -> dict[str, np.ndarray]:
+    """As `columns`, of a solution whose variables are put together from many parts."""
+    lanes, found = len(converged(solution)), {}
+    with np.errstate(all="ignore"):
+        dataset = solution_to_dataset(solution, (CASE,))
+    for name, variable in labels.variables.items():
+        if not variable.attrs.get("path", ""):
+            continue
+        values = dataset[name].values
+        if CASE in variable.dims:
+            found[str(name)] = np.broadcast_to(values, (lanes, *values.shape[1:]))
+        elif values.ndim > variable.ndim:
+            found[str(name)] = common(values, variable.ndim, str(name))
     return found
 
 

@@ -170,10 +170,8 @@ def _require_number(scene: AbstractScene, path: str) -> None:
 
     **Raises:** `ValueError` if it is.
     """
-    part: Any = scene
-    *above, last = path.split(".")
-    for name in above:
-        part = getattr(part, name, None)
+    above, _, last = path.rpartition(".")
+    part: Any = scene.part_at(above) if above else scene
     fields = {field.name: field for field in dataclasses.fields(part)} if isinstance(part, eqx.Module) else {}
     if last not in fields:
         # says what is there

@@ -9,6 +9,7 @@ from .._scene import AbstractScene
 from ..bearings.bearing import AbstractBearing
 from ..lanes import default_method
 from ..numerics.newton import NewtonOptions
+from ..shafts.scene import ShaftSystem
 from .cases import Cases, grid
 from .cluster import on_workers
 from .engine import Runner, in_process
@@ -19,7 +20,7 @@ from .recipe import Recipe, in_scene
 
 def _sizes(recipe: Recipe, chunk: int | None) -> tuple[bool, int, int]:
     """Says whether a case is solved in milliseconds, how many a chunk has, and how many at most a call on a CPU."""
-    light = isinstance(recipe.example_scene, AbstractBearing)
+    light = isinstance(recipe.example_scene, AbstractBearing | ShaftSystem)
     size = (CHUNK if light else HEAVY_CHUNK) if chunk is None else chunk
     return light, size, LANES if light else HEAVY_LANES
 

@@ -17,6 +17,7 @@ from ..numerics.status import Status
 from .network import Slopes
 from .point import (
     GOING,
+    RISE,
     SHORT_STEP,
     Line,
     Point,
@@ -97,7 +98,7 @@ def _quasi_newton(problem: Problem, options: ThermalOptions) -> _QuasiNewton:
         point = point_at(losses, problem.flows(line.trial, losses))
         conduction = -jax.jacfwd(lambda trial: problem.flows(trial, losses).into_nodes)(line.trial)
         conduction = jnp.where(first, conduction, state.conduction)
-        accepted = line.accepts(point, state.point.norm, first)
+        accepted = line.accepts(point, state.point.norm, first, RISE)
         updated = rank_one(state.matrix, line.trial - line.base, point.residual - state.point.residual)
         matrix = jnp.where(first, -conduction, jnp.where(accepted, updated, state.matrix))
         following = line.goes_on(accepted, -jnp.linalg.solve(matrix, point.residual))

@@ -6,6 +6,7 @@ modes and to any order; the Jacobian is computed for it only where a derivative 
 """
 
 import dataclasses
+from collections.abc import Callable
 from typing import Any, NamedTuple
 
 import equinox as eqx
@@ -237,10 +238,8 @@ def _with_roots(losses: Losses) -> Losses:
 
 
 def _at_known_root(network: Network, losses: Losses, root: _Root, stiffness: bool) -> _Root:
-    """The root that was found before, with its first derivatives: one step of Newton's iteration with the Jacobian
-    held, $T - J^{-1}R$, which moves nothing but derivatives. Nothing is searched for, neither here nor behind the
+    """The root that was found before, with its first derivatives. Nothing is searched for, neither here nor behind the
     losses."""
-    solved, here = root.status == Status.CONVERGED, root.temperatures
 
     def balances(temperatures: Array) -> tuple[Array, Any]:
         with known_roots(root.losses.roots, stiffness):
@@ -248,19 +247,44 @@ def _at_known_root(network: Network, losses: Losses, root: _Root, stiffness: boo
         into = network.flows(temperatures, heat).into_nodes
         return into + heat.heat, eqx.filter(dataclasses.replace(heat, roots=()), eqx.is_inexact_array)
 
-    closed = eqx.filter_closure_convert(balances, here)
-    residual, found = closed(here)
-    # with all but the temperatures held: derivatives of these slopes are not asked for
-    held = jax.tree.map(lambda leaf: jax.lax.stop_gradient(leaf) if eqx.is_array(leaf) else leaf, closed)
-    push = jax.linearize(held, here)[1]
-    jacobian, slopes = jax.vmap(push, out_axes=-1)(jnp.eye(here.size))
-    jacobian = jnp.where(solved, jacobian, jnp.eye(here.size))
-    moving = residual - jax.lax.stop_gradient(residual)
-    move = -jnp.linalg.solve(jacobian, jnp.where(solved, moving, 0.0))
+    found, rest = eqx.partition(dataclasses.replace(root.losses, roots=()), eqx.is_inexact_array)
+    place = _Place(root.temperatures, found, root.status == Status.CONVERGED)
+    temperatures, moved = _known_place(eqx.filter_closure_convert(balances, root.temperatures), place=place)
+    return root._replace(temperatures=temperatures, losses=eqx.combine(moved, rest))
 
-    def at(value: Any, slope: Array) -> Array:  # a constant of the losses may be of numpy
-        return jnp.where(solved, value + slope @ move, jax.lax.stop_gradient(value))
 
-    rest = eqx.filter(dataclasses.replace(root.losses, roots=()), eqx.is_inexact_array, inverse=True)
-    moved = eqx.combine(jax.tree.map(at, found, slopes), rest)
-    return root._replace(temperatures=here + move, losses=moved)
+class _Place(NamedTuple):
+    """Temperatures that were found, the floats of the losses there, and whether they are a root."""
+
+    temperatures: Float[Array, " node"]
+    found: Any
+    solved: Bool[Array, ""]
+
+
+@eqx.filter_custom_jvp
+def _known_place(balances: Callable[[Array], tuple[Array, Any]], *, place: _Place) -> tuple[Array, Any]:
+    """Temperatures and floats of the losses. **Arguments:** `balances`: from temperatures to their residual and to the
+    floats of the losses; it closes over nothing."""
+    return place.temperatures, place.found
+
+
+@_known_place.def_jvp
+def _known_place_jvp(primals: Any, tangents: Any, *, place: _Place) -> Any:
+    (balances,), (balances_dot,) = primals, tangents
+    select = lambda dot: jnp.where(place.solved, dot, 0.0)
+    balances_dot = jax.tree.map(select, balances_dot)
+    moving = jax.tree.map(lambda dot: dot is not None, balances_dot, is_leaf=lambda dot: dot is None)
+    moved, fixed = eqx.partition(balances, moving)
+    size = place.temperatures.size
+
+    def along(given: Any, step: Array) -> tuple[Array, Any]:
+        evaluate = lambda numbers, temperatures: eqx.combine(numbers, fixed)(temperatures)
+        return jax.jvp(evaluate, (moved, place.temperatures), (given, step))[1]
+
+    # the direction that is asked for and those of the temperatures go through one copy of the derivative
+    first = jax.tree.map(lambda dot: jnp.zeros((1 + size, *dot.shape)).at[0].set(dot), balances_dot)
+    residuals, slopes = jax.vmap(along)(first, jnp.eye(1 + size, size, -1))
+    jacobian = jnp.where(place.solved, residuals[1:].T, jnp.eye(size))
+    step = -jnp.linalg.solve(jacobian, select(residuals[0]))
+    found_dot = jax.tree.map(lambda slope: select(slope[0] + jnp.tensordot(step, slope[1:], 1)), slopes)
+    return (place.temperatures, place.found), (select(step), found_dot)

@@ -139,7 +139,11 @@ class Balance(NamedTuple):
 
 
 class Reached(NamedTuple):
-    """States at the instants, not finite beyond the end; the last state and its time, s; how it ended; its steps."""
+    """States at the instants, not finite beyond the end; the last state and its time, s; how it ended; its steps.
+
+    `step_times`, `step_states`: ends of all steps, s, and the states there, not finite beyond the last one; `None` if
+    they are not asked for.
+    """
 
     states: Float[Array, "time component"]
     last: Float[Array, " component"]
@@ -149,6 +153,8 @@ class Reached(NamedTuple):
     out_of_steps: Bool[Array, ""]
     accepted: Int[Array, ""]
     rejected: Int[Array, ""]
+    step_times: Float[Array, " step"] | None = None
+    step_states: Float[Array, "step component"] | None = None
 
 
 def integrate(
@@ -162,14 +168,16 @@ def integrate(
     adjoint: Any = None,
     first_step: Scalar | None = None,
     differences: bool = False,
+    steps: bool = False,
 ) -> Reached:
     """Integrates from time 0 and energies of 0 to the last of the times.
 
     **Arguments:** as those of `warm_up`; `first_step`: that is tried first, s; it is guessed where not given;
     `differences`: whether the matrix of the stages is made of differences. The program is smaller then, takes the same
-    steps, and cannot be differentiated.
+    steps, and cannot be differentiated; `steps`: whether the ends of the steps are kept.
     """
     size = begin.size
+    kept = (dfx.SubSaveAt(ts=times), dfx.SubSaveAt(t1=True), *((dfx.SubSaveAt(steps=True),) if steps else ()))
 
     def too_hot(t: Any, y: Array, args: Any, **kwargs: Any) -> Array:
         del t, args, kwargs
@@ -185,7 +193,7 @@ def integrate(
         times[-1],
         first_step,
         jnp.concatenate([begin, jnp.zeros(INTEGRALS)]),
-        saveat=dfx.SaveAt(subs=(dfx.SubSaveAt(ts=times), dfx.SubSaveAt(t1=True))),
+        saveat=dfx.SaveAt(subs=kept),
         stepsize_controller=_control(options, jumps),
         max_steps=options.max_steps,
         event=dfx.Event(too_hot, optx.Newton(EVENT_TOLERANCE, EVENT_TOLERANCE)),
@@ -206,6 +214,8 @@ def integrate(
         out_of_steps=result == dfx.RESULTS.max_steps_reached,
         accepted=found.stats["num_accepted_steps"],
         rejected=found.stats["num_rejected_steps"],
+        step_times=ends[2] if steps else None,
+        step_states=saved[2] if steps else None,
     )
 
 

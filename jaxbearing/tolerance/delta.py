@@ -17,6 +17,7 @@ from statistics import NormalDist
 import numpy as np
 
 from ..distribution import Distribution
+from ..loss_interval import SHARES, at_shares
 from .derivatives import Slopes
 from .outcome import Spread
 from .results import labels_of
@@ -81,6 +82,7 @@ def spreads_of(
     cases = [found, *(one for one in solved if one is not None and _good(one))]
     labels = labels_of(found.solution, names)
     gains = {seat: one.slope for seat, one in seats.items()}
+    curves = _curves(scatter, evaluated)
     spreads = {}
     for name, own in lines.items():
         shift, shares = _moments(own, scatter, seats)
@@ -90,7 +92,15 @@ def spreads_of(
             value=float(found.values[name]),
             mean=float(found.values[name]) + shift,
             deviation=float(np.sqrt(variance)),
-            likely=_likely(own, gains, scatter, float(found.values[name]) + shift, variance),
+            likely=_likely(
+                own,
+                gains,
+                scatter,
+                float(found.values[name]),
+                shift,
+                variance,
+                {path: np.array([float(case.values[name]) for case in solved]) for path, solved in curves.items()},
+            ),
             worst_low=min(ends),
             worst_high=max(ends),
             unit=labels[name].unit,
@@ -155,16 +165,44 @@ def _moments(lines: _Lines, scatter: Scatter, seats: Mapping[str, Seat]) -> tupl
     return shift, shares
 
 
+def _curves(scatter: Scatter, evaluated: Evaluated) -> dict[str, list[Slopes]]:
+    """Solves over the distribution of each field that is known to a factor only, at `SHARES` of it, all others as they
+    are: too far for a straight line. Fields of which one fails are left out."""
+    found = {}
+    for path, one in scatter.fields.items():
+        if one.shape == "lognormal":
+            cases = [evaluated(scatter.means | {path: float(x)}) for x in one.quantiles(SHARES)]
+            solved = [case for case in cases if case is not None and _good(case)]
+            if len(solved) == len(cases):
+                found[path] = solved
+    return found
+
+
 def _likely(
-    lines: _Lines, gains: Mapping[str, float], scatter: Scatter, mean: float, variance: float
+    lines: _Lines,
+    gains: Mapping[str, float],
+    scatter: Scatter,
+    value: float,
+    shift: float,
+    variance: float,
+    curves: Mapping[str, np.ndarray],
 ) -> tuple[float, float]:
     """Results below which 5 and 95 % of the bearings are, of the linear model; what the seats add beyond their lines
-    counts as a normal variable."""
+    counts as a normal variable.
+
+    **Arguments:** `value`: result at the nominal values; `shift` of the mean from it; `curves`: the result at `SHARES`
+    of those fields that are followed by solves instead of a line.
+    """
     slopes = {path: lines.by(path, gains) for path in scatter.fields}
     bent = [path for path, slope in slopes.items() if slope and scatter.fields[path].shape != "normal"]
-    steps = {
-        path: slopes[path] * (scatter.fields[path].quantiles(_SHARES) - scatter.fields[path].mean) for path in bent
-    }
+    mean, steps = value + shift, {}
+    for path in bent:
+        one = scatter.fields[path]
+        if path in curves:
+            mean -= slopes[path] * (one.mean - one.nominal)
+            steps[path] = at_shares(one, curves[path], _SHARES) - value
+        else:
+            steps[path] = slopes[path] * (one.quantiles(_SHARES) - one.mean)
     rest = variance - sum((slopes[path] * scatter.fields[path].deviation) ** 2 for path in bent)
     normal = float(np.sqrt(max(rest, 0.0))) if rest > _ROUND_OFF * variance else 0.0
     ends = 0.5 * (1.0 - LIKELY), 0.5 * (1.0 + LIKELY)

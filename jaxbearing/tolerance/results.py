@@ -71,6 +71,11 @@ def labels_of(solution: Any, names: Sequence[str]) -> dict[str, Label]:
     return found
 
 
+def paths_of(solution: Any) -> tuple[str, ...]:
+    """Paths of all results of a solution."""
+    return tuple(path for path, _ in _known(solution))
+
+
 def variable_of(path: str) -> str:
     """Name of a result in data sets."""
     return path.removeprefix("elements.").replace(".", "_")

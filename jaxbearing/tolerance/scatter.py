@@ -109,7 +109,7 @@ def scatter_of(scene: AbstractScene, over: Mapping[str, Any] | None = None, drag
     supply = priors.supply_prior(scene)
     if supply is not None:
         # a level is a word: the number that it stands for scatters in its place
-        changes["contact.supply.level"] = None
+        changes[priors.LEVEL_FIELD] = None
         if fields.setdefault(priors.SUPPLY_FIELD, supply) == supply:
             origins[priors.SUPPLY_FIELD] = priors.prior_in_words(supply)
     changes |= {name_of(seat): one.mean for seat, one in seats.items()}

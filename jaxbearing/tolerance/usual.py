@@ -20,6 +20,7 @@ from ..catalogue.dimensions import clearance_limits
 from ..distribution import Distribution
 from ..mounting import iso286
 from ..sensitivity import UsualTolerance
+from ..shafts.scene import ShaftSystem
 
 BORE_OVER_PITCH = 0.7
 """Bore over pitch diameter where a scene does not give its bore, for the table of clearances."""
@@ -81,6 +82,19 @@ ASSUMED = (
 )
 """Assumed tolerances, of which the first that fits counts. Those of loads, speeds and temperatures say how well a duty
 is usually known."""
+ON_SHAFTS = (
+    Assumed(("bearing.*.position", "set.*.position", "force.*.position"), size=0.1e-3),
+    Assumed(("bearing.*.closure", "bearing.*.expansion", "set.*.expansion", "set.*.preload.offset"), size=1e-6),
+    Assumed(("set.*.preload.*",), part=0.2),
+    Assumed(("*.support.*",), part=0.3),
+    Assumed(("force.*.pitch_radius", "shaft.sections.*.length"), size=0.1e-3),
+    Assumed(("shaft.sections.*_diameter",), size=0.05e-3),
+    Assumed(("force.*.azimuth", "force.*.pressure_angle", "force.*.helix_angle"), size=math.radians(0.5)),
+    Assumed(("force.*",), part=0.1),
+    Assumed(("shaft.speed",), part=0.01),
+    Assumed(("shaft*.youngs_modulus",), part=0.01),
+)
+"""Assumed tolerances of what a shaft has beside its bearings."""
 
 
 def usual_tolerances(
@@ -90,6 +104,8 @@ def usual_tolerances(
 
     **Arguments:** `given`: distributions of a scene's fields (`jb.load_distributions`), which prevail.
     """
+    if isinstance(scene, ShaftSystem):
+        return _on_shaft(scene, given or {})
     found = {}
     for path, value in _numbers(scene).items():
         own = (given or {}).get(path)
@@ -99,6 +115,27 @@ def usual_tolerances(
         one = _of_standard(scene, path, value) or _assumed(path, value)
         if one is not None and math.isfinite(one.size) and one.size > 0.0:
             found[path] = one
+    return found
+
+
+def _on_shaft(scene: ShaftSystem, given: Mapping[str, Distribution]) -> dict[str, UsualTolerance]:
+    """Tolerances of a shaft, and of each of its bearings without the loads and speeds that it has alone."""
+    found: dict[str, UsualTolerance] = {}
+    for path, value in _numbers(scene).items():
+        named = scene.path_in_file(path)
+        one = _assumed(named, value, ON_SHAFTS)
+        if one is not None and one.size > 0.0:
+            found[named] = one
+    for word, entries in (("bearing", scene.bearings), ("set", scene.sets)):
+        for entry in entries:
+            bearing = entry.scene[0] if isinstance(entry.scene, tuple) else entry.scene
+            if isinstance(bearing, AbstractScene):
+                inner = usual_tolerances(bearing)
+                kept = {path: one for path, one in inner.items() if not path.startswith("operation.")}
+                found |= {f"{word}.{entry.name}.{path}": one for path, one in kept.items()}
+    found |= {
+        path: UsualTolerance(0.5 * (one.highest - one.lowest), "as the scene says") for path, one in given.items()
+    }
     return found
 
 
@@ -112,9 +149,9 @@ def _numbers(scene: AbstractScene) -> dict[str, float]:
     }
 
 
-def _assumed(path: str, value: float) -> UsualTolerance | None:
-    """The first of `ASSUMED` that fits."""
-    for one in ASSUMED:
+def _assumed(path: str, value: float, among: tuple[Assumed, ...] = ASSUMED) -> UsualTolerance | None:
+    """The first that fits."""
+    for one in among:
         if any(fnmatch.fnmatchcase(path, pattern) for pattern in one.paths):
             size = one.size or one.part * abs(value)
             reason = f"{one.reason}: {100.0 * one.part:g} %" if one.part and one.reason == "assumed" else one.reason

@@ -152,6 +152,43 @@ def test_balls_rub_and_lose_by_hysteresis():
     assert 0.5 * inner < turns < 2.0 * inner
 
 
+GRADIENTS = {
+    "rollers": ("reference_roller", ROLLERS, "0.1 mm/s"),
+    "balls": ("deep_groove_6205", BALLS, "5 mm/s"),
+}
+"""Scene, its changes, and a slide width at which asperities carry a part of the friction."""
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("kind", GRADIENTS)
+def test_gradients_of_rough_raceways_are_those_of_differences(kind):
+    """Loss and its boundary part, by factors on roughness, coefficient, slide width, speed and load."""
+    name, changes, width = GRADIENTS[kind]
+    scene = jb.load_scene(name, changes | {"contact.mixed.slide_width": width})
+    arrays, solver = jax.tree.map(as_float, scene), jit_solver(scene)
+    load = "radial_load" if kind == "rollers" else "axial_load"
+
+    def where(one):
+        mixed, operation = one.contact.mixed, one.operation
+        return mixed.roughness, mixed.mu_boundary, mixed.slide_width, operation.inner_speed, getattr(operation, load)
+
+    def losses(factors):
+        scaled = tuple(value * factor for value, factor in zip(where(arrays), factors, strict=True))
+        found = solver(eqx.tree_at(where, arrays, scaled))
+        return jnp.stack([found.power_loss.total, found.boundary_power.total])
+
+    one, step = jnp.ones(5), 1e-3
+    value, slopes = losses(one), np.asarray(jax.jit(jax.jacrev(losses))(one))
+    assert np.all(np.isfinite(slopes))
+    assert np.all(slopes != 0.0)
+    # measured: 1e-12 of the loss; 1e-7 of its boundary part, a millionth of it, which rounding of the balance moves
+    limit = np.array([1e-10, 1e-6]) * np.asarray(value)
+    for place in range(one.size):
+        moved = [losses(one.at[place].add(sign * step)) for sign in (-2.0, -1.0, 1.0, 2.0)]
+        differences = (moved[0] - 8.0 * moved[1] + 8.0 * moved[2] - moved[3]) / (12.0 * step)
+        assert np.all(np.abs(slopes[:, place] - differences) < limit)
+
+
 # -- files ----------------------------------------------------------------------------------------------------------
 
 

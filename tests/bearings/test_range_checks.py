@@ -9,16 +9,15 @@ import pytest
 import jaxbearing as jb
 from jaxbearing.bearings.checks import EDGE_LOADED, LARGEST_TILT, input_excess, result_excess
 from jaxbearing.bearings.facts import (
-    BALL_PRESSURE,
     MEAN_OF_LINE,
     MEAN_OF_POINT,
     RACEWAYS,
-    ROLLER_PRESSURE,
     Contacts,
     Facts,
 )
 from jaxbearing.bearings.solution import CageState, RingDisplacement
 from jaxbearing.lubricants.ranges import FITTED_PRESSURE, FITTED_TEMPERATURES
+from jaxbearing.materials import BALL_PRESSURE, ROLLER_PRESSURE
 
 INNER, OUTER = RACEWAYS
 RIB = "the rib"

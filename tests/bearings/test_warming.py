@@ -232,3 +232,8 @@ def test_other_families_on_seats(kind):
     np.testing.assert_allclose(few.peaks.least_play, peaks.least_play, atol=0.5e-9)
     np.testing.assert_allclose(few.peaks.least_play_time, peaks.least_play_time, atol=2.0)
     assert abs(float(found.energy.error)) < 1e-4
+    # the instants of a long interval do not show it, but the steps do
+    coarse = jb.simulate(scene, 6.0 * HOURS, interval=6.0 * HOURS)
+    assert np.min(np.asarray(getattr(coarse.instants.fit, play))) > float(peaks.least_play) + 1e-9
+    np.testing.assert_allclose(coarse.peaks.least_play, peaks.least_play, atol=0.5e-9)
+    np.testing.assert_allclose(coarse.peaks.least_play_time, peaks.least_play_time, atol=2.0)

@@ -103,7 +103,7 @@ def coverage(name: str, repetitions: int, march: Resolution = PRESETS[1e-3]) -> 
     data = filled(noisy), filled([ERRORS.deviation(row, table.curve) for row in noisy])
 
     def one(data):
-        own = eqx.tree_at(lambda p: (p.coefficient, p.deviation), problem, data)
+        own = eqx.tree_at(lambda p: (p.measured, p.deviation), problem, data)
         u = jnp.zeros(len(NAMES))
         own = eqx.tree_at(lambda p: p.scales, own, column_scales(own, u))
         found = estimate(own, u, "levenberg_marquardt")

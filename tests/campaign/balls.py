@@ -71,9 +71,8 @@ CAGE: dict[str, Range] = {
     "land": even(0.01, 0.04),
     "flow": even(0.0, 300.0, zero=0.1),
 }
-SLIDING: dict[str, Range] = {**FRICTION, "start": log(5e-4, 0.1)}
-"""Rough balls whose boundary friction starts within less do not always converge (3 of 60 at 0.03 to 0.16 mm/s), and
-say so."""
+SLIDING: dict[str, Range] = {**FRICTION, "start": log(1e-6, 0.1)}
+"""Of balls that slide."""
 
 
 def ball_numbers(v: Numbers, scene: Any) -> Numbers:

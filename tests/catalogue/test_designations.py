@@ -85,6 +85,22 @@ def test_what_is_not_understood_is_said():
 
 
 @pytest.mark.parametrize(
+    ("text", "suffix"),
+    [
+        ("7312 BECBP", "CB"),
+        ("7312-B DB", "DB"),
+        ("7312 B-TVP-UA", "UA"),
+        ("71910 CDGA/P4A", "GA"),
+        ("32210 J2/DF", "DF"),
+    ],
+)
+def test_suffixes_of_sets(text, suffix):
+    notes = parse(text).notes
+    assert f"{suffix}: of bearings for sets; the scene has one bearing, without preload" in notes
+    assert not [note for note in notes if "not understood" in note]
+
+
+@pytest.mark.parametrize(
     ("text", "words"),
     [
         ("6299", "'6219'"),

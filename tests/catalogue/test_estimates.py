@@ -4,11 +4,11 @@ import math
 
 import numpy as np
 import pytest
+from hundred_designations import hundred
 from makers_tables import NOT_IN_THE_TABLES, rated_bearings, spindle_bearings
 
 import jaxbearing as jb
 from jaxbearing.catalogue import Designation, find
-from jaxbearing.catalogue.designation import known_designations
 from jaxbearing.catalogue.estimate import estimate
 from jaxbearing.catalogue.proportions import Normal
 from jaxbearing.catalogue.scene_text import shape_of
@@ -182,16 +182,6 @@ def test_known_tapered_roller_bearing():
     np.testing.assert_allclose(shape.end_radius, scene.geometry.end_radius, rtol=0.01)
     np.testing.assert_allclose(shape.flange_angle, scene.geometry.flange_angle, rtol=0.01)
     np.testing.assert_allclose(found.geometry.dynamic_capacity, 40961.2387, rtol=1e-3)
-
-
-def hundred():
-    """Designations across all series, every one of them at several bores."""
-    series = {}
-    for text in known_designations():
-        if not text.startswith(("NUP", "NJ", "NF", "N ")):
-            series.setdefault((text[:-2], len(text)), []).append(text)
-    spread = [names[i] for names in series.values() for i in sorted({0, len(names) // 3, 2 * len(names) // 3, -1})]
-    return list(dict.fromkeys(spread))[:100]
 
 
 def test_hundred_designations():

@@ -208,6 +208,9 @@ def test_unreadable_file(jaxbearing_command, folder, monkeypatch):
     [
         ("operation.inner_speed=12000", "operation.inner_speed", ["bare number 12000"]),
         ("operation.iner_speed=1 rpm", "operation.iner_speed", ["Did you mean 'inner_speed'"]),
+        ("radial_load=3 kN", "radial_load", ["Did you mean 'operation.radial_load'"]),
+        ("rating.eta_c=0.5", "rating.eta_c", ["Did you mean 'contamination_factor'"]),
+        ("operation.speed=3000 rpm", "operation.speed", ["Did you mean 'inner_speed'"]),
         ("cage=none", "cage", ["simulate"]),
         ("cagee=none", "cagee", ["Did you mean 'cage'"]),
         ("operation.radial_load=none", "operation.radial_load", ["required"]),
@@ -232,6 +235,12 @@ def test_malformed_set(change, jaxbearing_command):
     result = jaxbearing_command("solve", "turbine_roller", "--set", change)
     assert result.code == 2
     assert "path=value" in result.err
+
+
+def test_a_table_that_is_repeated_with_one_bracket(jaxbearing_command, folder):
+    (folder / "scene.toml").write_text("[state]\nshare = 0.5\n[state]\nshare = 0.5\n", encoding="utf-8")
+    words = ["Cannot declare", "such as [[state]], has two brackets"]
+    check(jaxbearing_command("solve", "scene.toml"), folder, "scene.toml", "state", words)
 
 
 @pytest.mark.parametrize("arguments", [["solve"], ["slove", "a"], ["solve", "a", "--jsn"], ["solve", "a", "b"]])

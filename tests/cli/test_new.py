@@ -21,6 +21,19 @@ def test_writes_a_scene(jaxbearing_command, folder):
     assert jb.catalogue.find("6207").text() == text
 
 
+def test_with_an_oil_it_has_the_best_laws(jaxbearing_command, folder):
+    duty = ("--oil", "iso vg 68", "--radial-load", "3 kN", "--speed", "1500 rpm", "--oil-temperature", "70 degC")
+    result = jaxbearing_command("new", "6207", *duty)
+    assert result.code == 0
+    assert "rolling resistance" in result.out
+    tables = tomllib.loads((folder / "6207.toml").read_text(encoding="utf-8"))
+    assert (tables["laws"], tables["oil"]["grade"]) == ("best", "ISO VG 68")
+    assert tables["operation"]["radial_load"] == "3000 N"
+    with pytest.warns(jb.PresetUsedWarning, match="rolling_resistance = 'biboulet_houpert'"):
+        jb.load_scene("6207.toml")
+    assert "dry: no films and no losses" in jaxbearing_command("new", "6208").out
+
+
 def test_words_of_a_designation_need_no_quotes(jaxbearing_command, folder):
     assert jaxbearing_command("new", "NU", "311", "--output", "mine.toml").code == 0
     assert os.listdir(folder) == ["mine.toml"]
@@ -68,6 +81,9 @@ def test_json_of_rollers(jaxbearing_command):
         (("6207", "--contact-angle", "3 deg"), "follows from its clearance"),
         (("6207", "--balls", "30"), "30 balls"),
         (("6207", "--output", "no/such.toml"), "existing folder"),
+        (("6207", "--oil", "ISO VG 70"), "ISO VG 68"),
+        (("6207", "--base", "PAO"), "only allowed with an oil"),
+        (("6207", "--speed", "3 kN"), "--speed"),
     ],
 )
 def test_bad_input(jaxbearing_command, folder, arguments, words):
@@ -85,3 +101,40 @@ def test_other_verbs_name_it(jaxbearing_command, verb):
     assert result.code == 2
     assert "'jaxbearing new 6205' writes a scene of this deep groove ball bearing." in result.err
     assert "jaxbearing new" not in jaxbearing_command(verb, "6299").err
+
+
+def test_a_designation_of_two_words_in_place_of_a_scene(jaxbearing_command):
+    result = jaxbearing_command("solve", "NU", "2210", "--json")
+    assert result.code == 2
+    assert "'jaxbearing new NU 2210' writes a scene of this cylindrical roller bearing." in result.err
+    assert "jaxbearing new" not in jaxbearing_command("solve", "a", "b").err
+    assert "writes a scene" not in jaxbearing_command("new", "NU", "2210", "--bogus").err
+
+
+def test_oil_of_a_dry_scene_makes_the_viscosity_ratio(jaxbearing_command):
+    """Only the rating takes it: the screen says what else the modified life needs."""
+    assert jaxbearing_command("new", "NU", "2210").code == 0
+    oil = ("--set", "oil.grade=ISO VG 68", "--set", "operation.oil_temperature=70 degC")
+    shown = " ".join(jaxbearing_command("solve", "NU_2210.toml", *oil).out.split())
+    assert "no a_ISO without rating.cleanliness or rating.contamination_factor" in shown
+    assert "have no effect: oil" not in shown
+
+
+def test_oil_that_only_the_rating_of_a_ball_bearing_takes():
+    oil = {"oil.grade": "ISO VG 68", "operation.oil_temperature": "70 degC"}
+    rated = jb.load_scene("deep_groove_6205", {**oil, "rating.cleanliness": "-/17/14"})
+    assert rated.unused_parts() == ()
+    assert jb.load_scene("deep_groove_6205", oil).unused_parts() == ("oil",)
+
+
+@pytest.mark.parametrize(
+    ("words", "found"),
+    [("jaxbearing new nu221", "nu2210"), ("jaxbearing new 620", "6205"), ("jaxbearing sp", "spectrum")],
+)
+def test_completion_of_the_shell(words, found, jaxbearing_command, monkeypatch):
+    monkeypatch.setenv("_JAXBEARING_COMPLETE", "complete_bash")
+    monkeypatch.setenv("COMP_WORDS", words)
+    monkeypatch.setenv("COMP_CWORD", str(words.count(" ")))
+    result = jaxbearing_command()
+    assert result.code == 0
+    assert found in result.out.split()

@@ -15,7 +15,7 @@ def test_screen_and_file(jaxbearing_command, folder):
     arguments = ("stiffness", "angular_contact_218", *SPEEDS, "--set", "operation.axial_load=10 kN")
     result = jaxbearing_command(*arguments, "--ross", "a.toml")
     assert (result.code, result.err) == (0, "")
-    for word in ("CONVERGED", "3 speeds", "axial", "lateral", "N m/rad", "N/um", "2000", "10000", "wrote a.toml"):
+    for word in ("CONVERGED", "3 speeds", "axial", "lateral", "N m/mrad", "N/um", "2000", "10000", "wrote a.toml"):
         assert word in result.out
     assert max(map(len, result.out.splitlines())) <= 100
     assert os.listdir(folder) == ["a.toml"]

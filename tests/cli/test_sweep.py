@@ -191,7 +191,7 @@ def test_one_and_two_devices_give_the_same_data(tmp_path):
     ("over", "panels"), [((SPEED,), 1), ((SPEED, LOAD, "geometry.contact_length=11 mm:12 mm:1"), 2)]
 )
 def test_picture(over, panels, jaxbearing_command, folder, monkeypatch):
-    """Without losses: the displacement of the ring, as a line or as a map with its colour bar."""
+    """Without losses and ratings: the stiffness, as a line or as a map with its colour bar."""
     drawn = []
     saved = plots.save_plot
     monkeypatch.setattr(plots, "save_plot", lambda figure, path: (drawn.append(figure), saved(figure, path)))
@@ -202,7 +202,8 @@ def test_picture(over, panels, jaxbearing_command, folder, monkeypatch):
     assert len(figure.axes) == panels
     with xr.open_dataset("a.nc") as dataset:
         if panels == 1:
-            np.testing.assert_allclose(figure.axes[0].lines[0].get_ydata(), 1e6 * dataset.ring_radial, rtol=1e-12)
+            stiffness = dataset.stiffness.sel(freedom="radial", freedom_displaced="radial")
+            np.testing.assert_allclose(figure.axes[0].lines[0].get_ydata(), 1e-6 * stiffness, rtol=1e-12)
     assert "inner ring speed, rpm" in (figure.axes[0].get_xlabel(), figure.axes[0].get_ylabel())
 
 

@@ -20,6 +20,7 @@ def test_screen_and_files(jaxbearing_command, folder):
         "Rating",
         "kappa",
         "axial displacement",
+        "about the apex",
     ):
         assert word in result.out
     assert max(map(len, result.out.splitlines())) <= 100

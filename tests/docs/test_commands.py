@@ -5,13 +5,16 @@ screen. The slow test has the solvers too; it shortens runs in time and sweeps.
 """
 
 import dataclasses
+import functools
 import json
 import re
 import shlex
+import shutil
 import sys
 from pathlib import Path
 
 import fit_results
+import jax
 import jax.numpy as jnp
 import pytest
 from filled_results import MadeUpProgram, history_of, slopes_of, solution_of
@@ -78,17 +81,22 @@ def test_commands_are_found():
 @pytest.fixture
 def folder(tmp_path, monkeypatch):
     """Where a reader works, with the files that the pages show or describe."""
-    fitting, life, spectrum = (ROOT / "docs" / f"{name}.md" for name in ("fitting", "life", "spectrum"))
+    names = ("fitting", "life", "spectrum", "calibration")
+    fitting, life, spectrum, calibration = (ROOT / "docs" / f"{name}.md" for name in names)
+    (displacements,) = re.findall(r"```csv\n(.*?)```", calibration.read_text(encoding="utf-8"), flags=re.DOTALL)
     (curves,) = re.findall(r"```csv\n(.*?)```", fitting.read_text(encoding="utf-8"), flags=re.DOTALL)
     (scene,) = re.findall(r"```toml\n(.*?)```", life.read_text(encoding="utf-8"), flags=re.DOTALL)
     (duty,) = re.findall(r"```toml\n(.*?)```", spectrum.read_text(encoding="utf-8"), flags=re.DOTALL)
     files = {
         "duty.toml": duty,
         "curves.csv": curves,
+        "displacements.csv": displacements,
+        "candidates.csv": "operation.radial_load [kN]\n0.1\n1\n8\n",
         "misaligned.toml": scene,
         "cases.csv": "operation.inner_speed [rpm],operation.radial_load [kN]\n8000,20\n10000,25\n",
         "run_up.csv": "time [ms],speed [rpm]\n0,8000\n10,9000\n50,10500\n",
     }
+    shutil.copytree(ROOT / "docs" / "examples", tmp_path / "docs" / "examples")
     for name, text in files.items():
         (tmp_path / name).write_text(text, encoding="utf-8")
     monkeypatch.setenv("JAXBEARING_CACHE", "off")
@@ -102,6 +110,21 @@ def one_process(monkeypatch):
     few = lambda plan, *given, **more: run(dataclasses.replace(plan, cases=_few(plan.cases)), *given, **more)
     monkeypatch.setattr(engine, "run", few)
     monkeypatch.setattr("jaxbearing.sweeps.verb.on_workers", lambda *_: engine.in_process())
+
+
+def measured_values(base, conditions, fields, active, wanted, options):
+    """Results that each field changes in its own way, and their slopes."""
+    paths = sorted(fields)
+    start = jnp.stack([functools.reduce(getattr, path.split("."), base) for path in paths])
+    given = jnp.stack([fields[path] for path in paths], axis=1)
+    load = sum(values / 4e3 for values in conditions.values())
+
+    def one(values, load):
+        shares = 0.3 + 0.4 * jnp.arange(float(len(paths))) * load
+        return 2e-5 * (1.0 + load + shares @ jnp.log(values / start)) * jnp.ones(len(wanted))
+
+    slopes = jnp.swapaxes(jax.vmap(jax.jacfwd(one))(given, load), 1, 2)
+    return jax.vmap(one)(given, load), slopes, active
 
 
 def _few(cases):
@@ -133,6 +156,7 @@ def made_up(monkeypatch, one_process):
     monkeypatch.setattr("jaxbearing.tolerance.verb.slopes_at", slopes_of)
     fit = lambda measurements, machine, options: fit_results.made_up(machine, "curves.csv")
     monkeypatch.setattr(sys.modules["fitting.fit"], "fit", fit)
+    monkeypatch.setattr("jaxbearing.calibration.evaluation._kept_points", measured_values)
 
 
 @pytest.fixture

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 from fit_results import HELD, SWEEPS, made_up
 from matplotlib.colors import to_hex
+from pictures import outside, overlapping
 from rich.console import Console
 
 import jaxbearing as jb
@@ -252,6 +253,18 @@ def test_few_curves_have_a_name_each_and_many_share_colours():
     assert len({to_hex(line.get_color()) for line in figure.axes[1].get_lines()[1:]}) == 20
     same = plot_fit(of(slide, numbers), "a.csv", "scene")
     assert [text.get_text() for text in same.legends[0].get_texts()] == ["60 curves"]
+
+
+@pytest.mark.usefixtures("no_model")
+def test_legend_shows_the_point_and_the_line_of_each_curve():
+    slide, numbers = np.tile(np.linspace(0.01, 0.2, 3), 4), np.repeat(np.arange(4), 3)
+    figure = plot_fit(of(slide, numbers, pressure=1e9 * np.arange(1, 5)), "a.csv", "scene")
+    for handle in figure.legends[0].legend_handles:
+        assert handle.get_marker() not in ("None", "")
+        assert handle.get_linestyle() == "-"
+    assert "Points: measured. Lines: fitted." in [text.get_text() for text in figure.texts]
+    assert overlapping(figure) == []
+    assert outside(figure) == []
 
 
 @pytest.mark.usefixtures("no_model")

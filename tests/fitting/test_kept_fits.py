@@ -7,9 +7,10 @@ import pytest
 
 import jaxbearing as jb
 from fitting import Measurements, fit
-from fitting.estimation import coefficients, estimate_from, held_out, linearized, slope_over_slide
+from fitting.estimation import estimate_from, held_out, linearized
 from fitting.options import FitOptions
 from fitting.search import Search, _compiled_state
+from fitting.traction import coefficients, slope_over_slide
 from jaxbearing.machines import TwoDisk
 from jaxbearing.programs import KeptProgram
 
@@ -44,7 +45,7 @@ def test_only_the_exponential_law_is_fitted():
 
 def calls(problem):
     u = jnp.zeros(6)
-    column = problem.coefficient
+    column = problem.measured
     return {
         _compiled_state: (problem.scene, column, column, column, column),
         coefficients: (problem.scene, problem.state, problem.rheology, u),

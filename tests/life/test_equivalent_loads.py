@@ -11,16 +11,19 @@ import jaxbearing as jb
 from jaxbearing.bearings.ball.scene import BallOperation
 from jaxbearing.bearings.rated import sizes_of_loads
 from jaxbearing.bearings.rating import Rating
+from jaxbearing.contacts import LineContact
 from jaxbearing.life import (
     ball_equivalent_load,
     ball_static_load,
     contact_safety,
     contamination_factor,
     deep_groove_equivalent_load,
+    roller_static_capacity,
     roller_static_load,
 )
 from jaxbearing.life.bearing_life import without_effect
 from jaxbearing.life.equivalent import RELATIVE_LOADS, X, Y
+from jaxbearing.life.static import STEEL_MODULUS
 
 # e as ISO 281 prints it, by contact angle and, below 20 degrees, relative load [M]
 PRINTED_LIMITS = {
@@ -87,6 +90,15 @@ def test_static_safety_of_the_most_loaded_contact():
     np.testing.assert_allclose(contact_safety(*pressures, "ball"), 8.0, rtol=1e-14)
     np.testing.assert_allclose(contact_safety(*pressures, "roller"), (4.0 / 2.1) ** 2, rtol=1e-14)
     assert np.isinf(contact_safety(jnp.zeros(3), jnp.zeros(3), "ball"))
+
+
+def test_static_safety_of_rollers_by_laminae():
+    """q0/q of the most loaded lamina with q0 = 5 C0/(Z n_s cos(alpha)): ISO 17956 as a public project reports it."""
+    count, size, pitch, length, angle, laminae = 17, 10.5e-3, 69e-3, 14.8e-3, np.radians(15.6), 30
+    limit = 5.0 * roller_static_capacity(count, size, pitch, length, angle) / (count * laminae * np.cos(angle))
+    radius = 0.5 * size * (1.0 - size * np.cos(angle) / pitch)
+    pressure = LineContact(radius, length / laminae, STEEL_MODULUS).hertz_pressure(limit / jnp.array([2.5, 4.0]))
+    np.testing.assert_allclose(contact_safety(pressure, 0.5 * pressure, "roller"), 2.5, rtol=1e-12)
 
 
 def test_angular_contact_bearing_under_both_loads():

@@ -11,6 +11,7 @@ import pytest
 from filled_results import filled, solution_of, structure_of
 
 import jaxbearing as jb
+from jaxbearing.catalogue import known_designations, parse
 from jaxbearing.makers import Catalogue, compared
 from jaxbearing.makers.designation import Said, read_designation
 from jaxbearing.report.makers_table import comparison_listing, comparison_rows, comparison_to_dict
@@ -36,6 +37,11 @@ def beside(name, changes=None, **catalogue):
         ("6205 2RSR C3", Said("deep_groove", "62", 25e-3, "RSR", 2)),
         ("6205LLU", Said("deep_groove", "62", 25e-3, "LLU", 2)),
         ("6205 DU", Said("deep_groove", "62", 25e-3, "DU", 1)),
+        ("6205ZZ", Said("deep_groove", "62", 25e-3, "Z", 2)),
+        ("608-2RS", Said("deep_groove", "60", 8e-3, "RS", 2)),
+        ("618/8", Said("deep_groove", "618", 8e-3)),
+        ("7205 C3", Said("angular_contact", "72", 25e-3)),
+        ("NF 210", Said("cylindrical", "2", 50e-3)),
         ("16005", Said("deep_groove", "160", 25e-3)),
         ("61805", Said("deep_groove", "618", 25e-3)),
         ("7205 BEP", Said("angular_contact", "72B", 25e-3)),
@@ -58,7 +64,6 @@ def beside(name, changes=None, **catalogue):
         ("22205 E", Said()),
         ("51105", Said()),
         ("AXK 2542", Said()),
-        ("608", Said()),
     ],
 )
 def test_designations(text, said):
@@ -67,6 +72,15 @@ def test_designations(text, said):
     assert (found.bore is None) == (said.bore is None)
     if said.bore is not None:
         np.testing.assert_allclose(found.bore, said.bore, rtol=1e-12)
+
+
+def test_catalogue_and_formulas_read_alike():
+    """One grammar: family and bore of every designation whose dimensions are known."""
+    for text in known_designations():
+        found, said = parse(text), read_designation(text)
+        assert said.family == {"spindle": "angular_contact"}.get(found.kind, found.kind)
+        assert (said.series, said.seal) == (found.series, "")
+        np.testing.assert_allclose(said.bore, 1e-3 * found.bore, rtol=1e-12)
 
 
 def test_6205_is_that_of_the_check_row():

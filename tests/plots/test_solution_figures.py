@@ -4,9 +4,11 @@ import equinox as eqx
 import jax.numpy as jnp
 import numpy as np
 import pytest
+from pictures import hidden_by_legends, overlapping
 
 import jaxbearing as jb
 from jaxbearing import plots
+from jaxbearing.report.backends.matplotlib.legends import clear_legend
 
 
 @pytest.fixture(scope="module")
@@ -27,6 +29,27 @@ def test_round_the_bearing(name, field, factor, solution):
         expected = factor * np.sort(np.asarray(getattr(solution.elements, f"{field}_{side}")))
         got = np.sort(lines[f"{side} race"])
         np.testing.assert_allclose(got[np.isin(got, got[: expected.size])][: expected.size], expected, rtol=1e-9)
+
+
+@pytest.mark.parametrize("name", ["films", "pressures", "sliding", "load_distribution", "power_loss"])
+def test_legends_hide_no_curve(name, solution):
+    figure = getattr(plots, name)(solution)
+    assert hidden_by_legends(figure) == []
+    assert overlapping(figure) == []
+
+
+def test_a_legend_gets_room_where_there_is_none():
+    """Curves that fill their axes: these become higher, and what is drawn stays."""
+    from matplotlib.figure import Figure
+
+    axes = Figure().add_subplot()
+    x = np.linspace(0.0, 1.0, 200)
+    for n in range(9):
+        axes.plot(x, np.sin(40.0 * x + n), label=f"curve {n}")
+    top = axes.get_ylim()[1]
+    clear_legend(axes)
+    assert hidden_by_legends(axes.figure) == []
+    assert axes.get_ylim()[1] > top
 
 
 def test_power_loss(solution):

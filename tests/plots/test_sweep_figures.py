@@ -1,8 +1,11 @@
 """Figures of a sweep: what is drawn are the numbers of the data set, and failed cases are gaps."""
 
+import re
+
 import numpy as np
 import pytest
 import xarray as xr
+from pictures import overlapping
 
 import jaxbearing as jb
 from jaxbearing.plots import map_of, power_loss_against, result_against
@@ -56,6 +59,51 @@ def test_second_field_is_a_line_each():
     drawn = np.array([line.get_ydata() for line in axes.lines])
     np.testing.assert_allclose(drawn, data.power_loss_total.values.T, rtol=1e-12)
     assert [text.get_text() for text in axes.get_legend().get_texts()] == ["1 kN", "2 kN", "3 kN"]
+
+
+def test_operating_point_is_marked_where_it_is_within():
+    within, beyond = ({"operation.inner_speed": rpm * np.pi / 30.0} for rpm in (2500.0, 9000.0))
+    marked = power_loss_against(made_up(), operating_point=within)
+    lines = {line.get_label(): line for line in marked.axes[0].lines}
+    np.testing.assert_allclose(lines["operating point"].get_xdata(), 2500.0, rtol=1e-12)
+    assert "operating point" in marked.texts[0].get_text()
+    without = power_loss_against(made_up(), operating_point=beyond)
+    assert "operating point" not in {line.get_label() for line in without.axes[0].lines}
+    both = within | {"operation.radial_load": 1.5e3}
+    figure = map_of(
+        made_up(("operation_inner_speed", "operation_radial_load")), "power_loss_drag", operating_point=both
+    )
+    ring = figure.axes[0].lines[-1]
+    np.testing.assert_allclose([ring.get_xdata()[0], ring.get_ydata()[0]], [2500.0, 1.5], rtol=1e-12)
+    assert "operating point" in {text.get_text() for text in figure.axes[0].texts}
+
+
+def decades():
+    """A sweep of both fields over decades, with a life over as many."""
+    axes = {"operation_inner_speed": np.geomspace(10.0, 1e3, 9), "operation_radial_load": np.geomspace(1e2, 1e4, 7)}
+    units = {"operation_inner_speed": "rad s-1", "operation_radial_load": "N"}
+    hours = 1e12 / (axes["operation_inner_speed"][:, None] * axes["operation_radial_load"] ** 2)
+    coordinates = {name: ((name,), values, {"units": units[name], "long_name": name}) for name, values in axes.items()}
+    life = {"life": (tuple(axes), hours, {"units": "h", "long_name": "life"})}
+    attributes = {"sweep_kind": "grid", "sweep_fields": "operation.inner_speed operation.radial_load"}
+    return xr.Dataset(life, coordinates, attributes)
+
+
+def test_ticks_of_logarithms_and_labels_of_contours_are_numbers():
+    figure = map_of(decades(), "life")
+    figure.draw_without_rendering()
+    axes, bar = figure.axes
+    for axis in (axes.xaxis, axes.yaxis, bar.yaxis):
+        words = [label.get_text() for label in axis.get_ticklabels() if label.get_text()]
+        assert len(words) >= 3
+        assert all(re.fullmatch(r"[\d.\N{THIN SPACE}]+", word) for word in words), words
+    values = [float(text.get_text().replace("\N{THIN SPACE}", "")) for text in axes.texts]
+    assert len(values) >= 5
+    # 1, 2 and 5 times powers of ten, or the powers
+    assert all(f"{value:e}"[0] in "125" for value in values)
+    assert overlapping(figure) == []
+    line = result_against(decades().isel(operation_radial_load=0), "life").axes[0]
+    assert [label.get_text() for label in line.get_xticklabels()][:3] == ["100", "200", "500"]
 
 
 def test_map_masks_the_failed_case_and_says_so():

@@ -10,12 +10,15 @@ import numpy as np
 import pytest
 import xarray as xr
 from filled_results import history_of
+from matplotlib.text import Text
 from moving_roller import table_16
+from pictures import hidden_by_legends, outside, overlapping
 
 import jaxbearing as jb
 from jaxbearing.bearings.cylindrical.motion.start import resume
 from jaxbearing.numerics.status import SolveError, Status
 from jaxbearing.report import histories, history_shocks
+from jaxbearing.report.backends.matplotlib import animations
 from jaxbearing.report.backends.matplotlib.animations import save_animation
 from jaxbearing.report.bearing.run.animation import exaggeration
 from jaxbearing.report.dataset import write_netcdf
@@ -176,8 +179,24 @@ def test_whirl_of_a_circle(speed):
 
 
 def test_plot(whole, tmp_path):
-    save_plot(plot_history(whole, "a bearing"), tmp_path / "run.png")
+    figure = plot_history(whole, "a bearing")
+    save_plot(figure, tmp_path / "run.png")
     assert (tmp_path / "run.png").stat().st_size > 20_000
+    assert overlapping(figure) == []
+    assert hidden_by_legends(figure) == []
+    # the load points down as in the drawings, and the page is not mirrored
+    (orbit,) = [axes for axes in figure.axes if axes.get_title().startswith("Cage centre")]
+    assert orbit.yaxis_inverted()
+    assert orbit.xaxis_inverted()
+
+
+def test_letters_of_an_animation_can_be_read(scene, whole):
+    """12 pixels and more; no text lies on another."""
+    figure = animate_history(whole, scene, "a bearing")._fig
+    sizes = [text.get_fontsize() for text in figure.findobj(Text) if text.get_visible() and text.get_text()]
+    assert min(sizes) * animations._DOTS / 72.0 >= 12.0
+    assert overlapping(figure) == []
+    assert outside(figure) == []
 
 
 @pytest.mark.parametrize("suffix", [".gif", ".html"])

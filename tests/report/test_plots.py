@@ -7,6 +7,7 @@ import jax
 import jax.numpy as jnp
 import numpy as np
 import pytest
+from pictures import outside, overlapping
 from roller_cases import HARD_CASES, changed, dry_roller, reference_roller, turbine_roller
 
 import jaxbearing as jb
@@ -105,10 +106,42 @@ def test_any_power_is_drawn(solution, watts, tmp_path):
 
 
 @pytest.mark.parametrize("value", [0.0, 1e-3, 1e6])
-def test_flat_curves_are_drawn(dry, value, tmp_path):
+def test_flat_curves_are_numbers(dry, value, tmp_path):
     flat = jax.tree.map(lambda leaf: jnp.full_like(leaf, value), dry.elements)
     flat = eqx.tree_at(lambda e: e.azimuth, flat, dry.elements.azimuth)
-    save_plot(plot_solution(eqx.tree_at(lambda s: s.elements, dry, flat), "flat"), tmp_path / "page.svg")
+    figure = plot_solution(eqx.tree_at(lambda s: s.elements, dry, flat), "flat")
+    save_plot(figure, tmp_path / "page.svg")
+    (axes,) = figure.axes
+    assert axes.get_title() == "The same at every roller"
+    load = [text.get_text() for text in axes.texts if text.get_text().endswith("N")]
+    expected = {0.0: "0 N", 1e-3: "0.001000 N", 1e6: "1000 kN"}[value]
+    assert load == [expected] * 2
+    assert overlapping(figure) == []
+
+
+def test_one_flat_curve_among_others(dry):
+    """The pressure alone is the same: it is a number beside the loads' picture."""
+    same = lambda s: (s.elements.pressure_inner, s.elements.pressure_outer)
+    values = [jnp.full_like(one, 1.234e9) for one in same(dry)]
+    figure = plot_solution(eqx.tree_at(same, dry, values), "dry")
+    assert [axes.name for axes in figure.axes] == ["polar", "rectilinear"]
+    assert [text.get_text() for text in figure.axes[1].texts].count("1.234 GPa") == 2
+
+
+def test_contact_angles_of_balls():
+    solution = jb.solve(jb.load_scene("deep_groove_6205", {"contact": "none"}))
+    figure = plot_solution(solution, "a ball bearing")
+    axes = panel(figure, "Contact angle, deg")
+    angles = np.degrees(np.asarray(solution.elements.contact_angle_inner))
+    np.testing.assert_allclose(np.sort(lines(axes)["inner race"]), np.sort(angles), rtol=1e-13)
+    assert overlapping(figure) == []
+
+
+def test_no_text_lies_on_another(solution, dry):
+    for one in (solution, dry):
+        figure = plot_solution(one, "a scene")
+        assert overlapping(figure) == []
+        assert outside(figure) == []
 
 
 def test_failures_and_batches_are_refused(dry):

@@ -74,8 +74,9 @@ def test_in_a_browser(width, page, tmp_path):
     assert found["width"] == width
     # nothing makes the page wider than the screen
     assert found["content"] == width
-    assert {"chart-load", "chart-pressure", "chart-film", "chart-power"} <= {name for name, _ in found["charts"]}
-    # bars are drawn without an element of that class each
+    # an axial load alone makes curves that are flat: the page has numbers in their place
+    expected = set() if "The same at every ball" in page else {"chart-load", "chart-pressure", "chart-film"}
+    assert expected <= {name for name, _ in found["charts"]}
     assert all(traces > 0 for _, traces in found["charts"])
     assert all(0.2 * width < chart <= width for chart in found["widths"])
     assert len(found["drawings"]) == 2

@@ -25,6 +25,7 @@ RESTATED = {
     ("InletRampTable", "stop"): "by default a ramp ends at the operating point",
     ("RampTable", "start"): "speed and load of a bearing do not reverse",
     ("RampTable", "stop"): "speed and load of a bearing do not reverse; by default a ramp ends at the operating point",
+    ("LifeTable", "weibull"): "files have a word for the slopes of the standards",
     ("SpeedRampTable", "start"): "by default the speed stops",
     ("SpeedRampTable", "stop"): "by default the speed stops",
 }

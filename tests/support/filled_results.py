@@ -100,7 +100,8 @@ def filled(structure, lanes=()):
 def solution_of(scene, lanes=()):
     """A solution of a scene. The operating point is the scene's."""
     found = filled(structure_of(scene), lanes)
-    operation = jax.tree.map(lambda leaf: jnp.broadcast_to(as_float(leaf), (*lanes, *np.shape(leaf))), scene.operation)
+    point = getattr(scene, scene.operating_point)
+    operation = jax.tree.map(lambda leaf: jnp.broadcast_to(as_float(leaf), (*lanes, *np.shape(leaf))), point)
     return eqx.tree_at(lambda one: one.operation, found, operation, is_leaf=lambda leaf: leaf is None)
 
 

@@ -6,10 +6,13 @@ import jax.numpy as jnp
 import numpy as np
 import pytest
 from filled_results import solution_of
+from rich.console import Console
 
 import jaxbearing as jb
 from jaxbearing.bearings.priors import DRAG, SUPPLY_FIELD, drag_prior
-from jaxbearing.sensitivity import power_interval
+from jaxbearing.loss_interval import power_interval
+from jaxbearing.report.sensitivity_table import print_sensitivities
+from jaxbearing.sensitivity import Sensitivities
 from jaxbearing.tolerance.delta import spreads_of
 from jaxbearing.tolerance.derivatives import Slopes
 from jaxbearing.tolerance.scatter import scatter_of, scatter_of_source
@@ -145,20 +148,100 @@ def test_normal_fields_have_normal_limits():
     np.testing.assert_allclose(spread.likely, 700.0 + 500.0 * 1.6448536 * np.array([-1.0, 1.0]), rtol=1e-4)
 
 
-def test_interval_is_that_of_two_more_solves():
-    scene = jb.load_scene("reference_roller")
+def made_up(scene, loss):
+    """A solver whose loss is a function of the scene, W."""
     made = solution_of(scene)
+    total = lambda one: dataclasses.replace(made.power_loss, total=jnp.asarray(loss(one)))
+    return lambda one: dataclasses.replace(made, power_loss=total(one))
 
-    def solver(one):
-        total = jnp.asarray(700.0 + 2260.0 * float(one.drag.coefficient))
-        return dataclasses.replace(made, power_loss=dataclasses.replace(made.power_loss, total=total))
 
+def test_interval_by_the_drag_alone():
+    scene = jb.load_scene("reference_roller")
+    solver = made_up(scene, lambda one: 700.0 + 2260.0 * float(one.drag.coefficient))
     found = power_interval(scene, solver(scene), solver)
     expected = 700.0 + 2260.0 * DRAG["roller"].quantiles(np.array([0.05, 0.95]))
     np.testing.assert_allclose((found.low, found.high), expected, rtol=1e-12)
     np.testing.assert_allclose(found.value, 700.0 + 2260.0 * 1.2, rtol=1e-12)
     assert found.by == PATH
+    assert [part.path for part in found.parts] == [PATH]
+    assert power_interval(scene, solver(scene), solver, drag_prior=False) is None
     dry = jb.load_scene("reference_roller", {"drag": "none"})
-    assert power_interval(dry, made, solver) is None
-    failed = lambda one: dataclasses.replace(made, status=jnp.asarray(2))
-    assert power_interval(scene, made, failed) is None
+    assert power_interval(dry, solver(scene), solver) is None
+    failed = lambda one: dataclasses.replace(solver(one), status=jnp.asarray(2))
+    assert power_interval(scene, solver(scene), failed) is None
+    own = {PATH: jb.Distribution(0.4, 0.1)}
+    replaced = power_interval(scene, solver(scene), solver, own)
+    np.testing.assert_allclose((replaced.low, replaced.high), 1604.0 + 226.0 * 1.6448536 * np.array([-1.0, 1.0]))
+
+
+LUBRICATED = {
+    "oil": "none",
+    "oil.grade": "ISO VG 68",
+    "contact.traction": "elsharkawy_hamrock",
+    "contact.rolling_resistance": "full_range",
+    "contact.supply.level": "bath",
+}
+OF_OIL = ("oil.viscosity.pressure_coefficient", "oil.rheology.stress_ratio", "oil.rheology.shear_modulus_ratio")
+
+
+def lubricated():
+    """A scene with all priors: drag, supply level, and those of its oil."""
+    return jb.load_scene("tapered_example", LUBRICATED), jb.load_distributions("tapered_example", LUBRICATED)
+
+
+def test_interval_by_drag_supply_and_oil_together():
+    """A loss that is a sum of parts, each with one input, against samples."""
+    scene, given = lubricated()
+    assert set(given) == set(OF_OIL)
+
+    def loss(one):
+        supply = one.contact.supply
+        gap = 10.0 if supply.gap_over_central is None else float(supply.gap_over_central)
+        alpha, stress = float(one.oil.viscosity.pressure_coefficient), float(one.oil.rheology.stress_ratio)
+        ratio = float(one.oil.rheology.shear_modulus_ratio)
+        drag = float(one.drag.coefficient)
+        return parts(drag, gap, 1e9 * alpha, stress, ratio).sum(axis=0)
+
+    def parts(drag, gap, alpha, stress, ratio):
+        return np.array([300.0 * drag, 200.0 * gap / (gap + 10.0), 20.0 * alpha, 2000.0 * stress, 100.0 * ratio])
+
+    solver = made_up(scene, loss)
+    found = power_interval(scene, solver(scene), solver, given)
+    assert {part.path for part in found.parts} == {PATH, SUPPLY_FIELD, *OF_OIL}
+    random, size = np.random.default_rng(5), 400_000
+    inputs = (DRAG["roller"], jb.Distribution.lognormal(10.0, np.log(3.0)), *(given[path] for path in OF_OIL))
+    drawn = [one.samples(random.standard_normal(size), random.random(size)) for one in inputs]
+    drawn[2] = 1e9 * drawn[2]
+    sampled = parts(*drawn).sum(axis=0)
+    np.testing.assert_allclose((found.low, found.high), np.quantile(sampled, (0.05, 0.95)), rtol=4e-3)
+    assert found.by == PATH
+    alone = [found.value + 200.0 * (gap / (gap + 10.0) - 0.5) for gap in inputs[1].quantiles(np.array([0.05, 0.95]))]
+    supply = next(part for part in found.parts if part.path == SUPPLY_FIELD)
+    np.testing.assert_allclose((supply.low, supply.high), alone, rtol=1e-12)
+    assert supply.assumed == "assumed: lognormal, median 10, log deviation 1.1"
+    stress = next(part for part in found.parts if part.path == "oil.rheology.stress_ratio")
+    assert stress.assumed == "uniform, 0.04 to 0.1"
+    without = power_interval(scene, solver(scene), solver, given, drag_prior=False)
+    assert PATH not in {part.path for part in without.parts}
+    assert without.high - without.low < found.high - found.low
+    assert [part["path"] for part in found.as_dict()["parts"]] == [part.path for part in found.parts]
+
+
+def test_a_loss_that_no_input_moves():
+    scene, given = lubricated()
+    solver = made_up(scene, lambda one: 700.0)
+    found = power_interval(scene, solver(scene), solver, given)
+    np.testing.assert_allclose((found.low, found.high), 700.0, rtol=1e-12)
+
+
+def test_the_screen_names_the_largest_and_each_alone(capsys):
+    scene, given = lubricated()
+    solver = made_up(scene, lambda one: 700.0 + 300.0 * float(one.drag.coefficient))
+    screen = Console(width=100)
+    print_sensitivities(Sensitivities(), screen, power_interval(scene, solver(scene), solver, given))
+    said = " ".join(capsys.readouterr().out.split())
+    assert "90 % between" in said
+    assert f"mostly by {PATH}. By each input alone:" in said
+    assert f"{PATH}: between" in said
+    assert f"{SUPPLY_FIELD}, {OF_OIL[0]}" in said
+    assert "less than 1" in said

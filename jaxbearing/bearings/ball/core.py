@@ -203,6 +203,10 @@ class BallCore(AbstractBallSystem):
         centres, forces, rings = jax.vmap(under)(jnp.stack([core.ring.load, core.heavier * core.ring.load]))
         return dataclasses.replace(first, centrifugal=forces[0]), centres, rings
 
+    def at_free_angle(self) -> CentrifugalProblem:
+        """The convex problem at the centrifugal forces of the contact angle of the unloaded bearing."""
+        return self._frozen(jnp.broadcast_to(self.grooves.free_angle, (2, self.azimuth.shape[0])))
+
     def _frozen(self, angle: Float[Array, "2 ball"]) -> CentrifugalProblem:
         """The convex problem at the centrifugal forces of given contact angles."""
         return CentrifugalProblem(

@@ -24,6 +24,7 @@ line where the balls on both sides of it run alike. The balances of the ring, an
 
 import dataclasses
 
+import equinox as eqx
 import jax
 import jax.numpy as jnp
 from jaxtyping import Array, Float
@@ -42,6 +43,8 @@ EASIEST_SLIDE = 1e-3
 """Factor on the sliding speed in the traction law of the easiest system."""
 THINNEST_FILM = 1e-3
 """Factor on the films of the easiest system."""
+WIDEST_START = 0.3
+"""Sliding speed over which boundary friction starts in the easiest system, m/s."""
 
 
 class LubricatedBallSystem(AbstractLubricatedBallSystem):
@@ -124,11 +127,18 @@ class LubricatedBallSystem(AbstractLubricatedBallSystem):
 
     @property
     def homotopies(self) -> int:
-        return 2 if self.resolved or self.heavier is not None else 1
+        return (2 if self.resolved or self.heavier is not None else 1) + self.rough
+
+    @property
+    def rough(self) -> bool:
+        """True if asperities rub, so that friction starts within a narrow range of sliding speeds."""
+        return self.slips and self.laws.mixed is not None
 
     def homotopy(self, parameter, path):
         """With traction, the easier systems slide more slowly in the traction law, which then saturates less. If
         traction has to carry the gyroscopic couple, the first path lowers that couple and the second the sliding.
+        Of rough balls a path before these widens the range of sliding speeds in which boundary friction starts. The
+        narrower this range is, the closer to rolling a ball must stay on the way to its root.
         Without traction, the first path raises the load until the contacts are stiffer than the films, and the second
         thins the films, because those of lightly loaded balls are much thicker than their contacts are deflected."""
         if self.heavier is not None:
@@ -136,6 +146,20 @@ class LubricatedBallSystem(AbstractLubricatedBallSystem):
             guess = jax.tree.map(lambda a, b: jnp.where(of_load > 0, a, b), self.heavy_guess, self.guess)
             ring = self.ring.under(self.ring.load * self.heavier**of_load)
             return dataclasses.replace(self, ring=ring, film_share=THINNEST_FILM**of_films, guess=guess)
+        if not self.rough:
+            return self._slower(parameter, path)
+        first = path == 0
+        return self._wider(jnp.where(first, parameter, 0.0))._slower(jnp.where(first, 0.0, parameter), path - 1)
+
+    def _wider(self, parameter):
+        """Boundary friction that starts within a wider range of sliding speeds."""
+        mixed = self.laws.mixed
+        assert mixed is not None
+        width = mixed.slide_width * jnp.maximum(WIDEST_START / mixed.slide_width, 1.0) ** parameter
+        return eqx.tree_at(lambda system: system.laws.mixed.slide_width, self, width)
+
+    def _slower(self, parameter, path):
+        """Traction laws that see less sliding, or less of a couple that traction has to carry."""
         slide = EASIEST_SLIDE**parameter
         if not self.resolved:
             return dataclasses.replace(self, slide_share=slide)

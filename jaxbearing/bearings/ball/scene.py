@@ -20,7 +20,7 @@ from ..._types import Scalar
 from ...contacts import PointContact
 from ...contacts.point_laws import PointLaws
 from ...lubricants import Lubricant, NoPressureViscosity
-from ...materials import Material, reduced_modulus
+from ...materials import BALL_PRESSURE, Material, reduced_modulus
 from ...mounting import Fits, PartTemperatures
 from ...numerics.checks import demand, numbers_or_none
 from ...numerics.newton import NewtonOptions
@@ -31,7 +31,7 @@ from ...thermal.shares import OilTemperatures
 from ..bearing import AbstractBearing
 from ..cage import ASSUMED_LANDS as ASSUMED_LANDS
 from ..cage import AbstractCage
-from ..facts import BALL_PRESSURE, RangeChecks
+from ..facts import RangeChecks
 from ..growth import Growth, Play
 from ..mounted import mounting_problems
 from ..operation import LOAD_FIELDS, AbstractOperation
@@ -40,6 +40,7 @@ from ..parts import DragSettings
 from ..rated import RatedContacts
 from ..rating import Rating
 from ..ring import InnerRing
+from ..row import AbstractRow
 from ..solution import Solution
 from ..supplied import supply_problems
 from ..warm import thermal_problems
@@ -213,6 +214,11 @@ class BallBearing(AbstractBearing):
 
         return dataclasses.replace(self, geometry=running_geometry(self.geometry, growth))
 
+    def row(self, expansion: Array) -> AbstractRow:
+        from .row import ball_row_of
+
+        return ball_row_of(self, expansion)
+
     def range_checks(self) -> RangeChecks:
         from .checks import CHECKS
 
@@ -262,7 +268,8 @@ class BallBearing(AbstractBearing):
             return ()
         named = {"cage": self.cage, "drag": self.drag}
         if self.contact is None:
-            named["oil"] = self.oil
+            # a rating takes the viscosity ratio from it
+            named["oil"] = None if self.rating is not None else self.oil
         return tuple(name for name, part in named.items() if part is not None)
 
     def assumptions(self) -> tuple[str, ...]:

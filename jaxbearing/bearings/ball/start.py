@@ -172,6 +172,57 @@ def _equilibrium(problem: CentrifugalProblem, groove: Array, scale: Array, cap: 
     return jax.lax.while_loop(going, advance, begin).centre
 
 
+def _on_ring(problem: CentrifugalProblem, forces: _Forces) -> tuple[Float[Array, " freedom"], Array]:
+    """Forces that hold the ring, and their derivatives with every ball in equilibrium."""
+    # stiffness of a ball in equilibrium: the two springs in series
+    series = forces.stiffness_outer + forces.stiffness_inner + 1e-3 * SOFTEST * jnp.eye(2)[:, :, None]
+    reduced = forces.stiffness_inner - jnp.einsum(
+        "ijn,jkn->ikn", forces.stiffness_inner, solve_blocks(series, forces.stiffness_inner)
+    )
+    force = problem.multiplicity * jnp.einsum("fcn,cn->f", problem.directions, forces.inner)
+    matrix = problem.multiplicity * jnp.einsum("fan,abn,gbn->fg", problem.directions, reduced, problem.directions)
+    return force, matrix
+
+
+class HeldBalls(NamedTuple):
+    """Balls in equilibrium under a ring that is held: energy, J, forces on the ring's freedoms, N, and their
+    derivatives, N/m, and the ball centres, m."""
+
+    energy: Float[Array, ""]
+    force: Float[Array, " freedom"]
+    stiffness: Float[Array, "freedom freedom"]
+    centre: Float[Array, "2 ball"]
+
+
+def hold(problem: CentrifugalProblem, ring: Float[Array, " freedom"]) -> HeldBalls:
+    """The balls for a given displacement of the ring, m; not differentiated."""
+    problem, ring = jax.lax.stop_gradient((problem, ring))
+    groove = problem.groove_at(ring)
+    depth = jnp.maximum(safe_norm(groove[0], groove[1], 1e-30) - jnp.sum(problem.offset), 0.0)
+    scale = together(problem.stiffness) * jnp.max(depth) ** 1.5 + problem.centrifugal
+    centre = _equilibrium(problem, groove, scale, 0.5 * problem.centre_distance)
+    forces = _forces(problem, centre, groove)
+    force, matrix = _on_ring(problem, forces)
+    return HeldBalls(problem.multiplicity * jnp.sum(forces.energy), force, matrix, centre)
+
+
+def force_at(
+    problem: CentrifugalProblem, ring: Float[Array, " freedom"], centre: Float[Array, "2 ball"]
+) -> Float[Array, " freedom"]:
+    """The forces of `hold` with their first derivatives: one Newton step of the balls, which does not move them.
+
+    **Arguments:** `centre`: that `hold` found.
+    """
+    centre, groove = jax.lax.stop_gradient(centre), problem.groove_at(ring)
+    forces = _forces(problem, centre, groove)
+    matrix = jax.lax.stop_gradient(forces.stiffness_outer + forces.stiffness_inner) + 1e-3 * SOFTEST * jnp.eye(2)[
+        :, :, None
+    ]
+    step = solve_blocks(matrix, forces.balance[:, None, :])[:, 0]
+    inner = _spring(groove - centre + step, problem.offset[0], problem.stiffness[0])[1]
+    return problem.multiplicity * jnp.einsum("fcn,cn->f", problem.directions, inner)
+
+
 class _Ring(NamedTuple):
     ring: Array
     centre: Array
@@ -197,13 +248,8 @@ def start(problem: CentrifugalProblem, ring: Float[Array, " freedom"]) -> Start:
         groove = problem.groove_at(ring)
         centre = _equilibrium(problem, groove, scale, cap)
         forces = _forces(problem, centre, groove)
-        # stiffness of a ball in equilibrium: the two springs in series
-        series = forces.stiffness_outer + forces.stiffness_inner + 1e-3 * SOFTEST * jnp.eye(2)[:, :, None]
-        reduced = forces.stiffness_inner - jnp.einsum(
-            "ijn,jkn->ikn", forces.stiffness_inner, solve_blocks(series, forces.stiffness_inner)
-        )
-        balance = problem.multiplicity * jnp.einsum("fcn,cn->f", problem.directions, forces.inner) - problem.ring_load
-        matrix = problem.multiplicity * jnp.einsum("fan,abn,gbn->fg", problem.directions, reduced, problem.directions)
+        force, matrix = _on_ring(problem, forces)
+        balance = force - problem.ring_load
         step = -solve_dense(matrix + SOFTEST * jnp.eye(matrix.shape[0]), balance)
         step = step * jnp.minimum(1.0, cap / jnp.maximum(jnp.max(jnp.abs(step)), 1e-30))
         energy = problem.multiplicity * jnp.sum(forces.energy) - jnp.sum(problem.ring_load * ring)

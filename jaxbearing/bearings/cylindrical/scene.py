@@ -36,6 +36,7 @@ from ..profile import RollerProfile
 from ..rated import RatedContacts
 from ..rating import Rating
 from ..ring import InnerRing
+from ..row import AbstractRow
 from ..solution import RING_FREEDOMS, Solution
 from ..supplied import supply_problems
 from ..warm import thermal_problems
@@ -176,6 +177,11 @@ class CylindricalRollerBearing(AbstractMovingBearing):
         from .mounting import running_geometry
 
         return dataclasses.replace(self, geometry=running_geometry(self.geometry, growth))
+
+    def row(self, expansion: Array) -> AbstractRow:
+        from .row import TiltingRow
+
+        return TiltingRow(self, expansion)
 
     def range_checks(self) -> RangeChecks:
         from .checks import CHECKS

@@ -37,6 +37,7 @@ from ..profile import RollerProfile
 from ..rated import RatedContacts
 from ..rating import Rating
 from ..ring import InnerRing
+from ..row import AbstractRow
 from ..solution import Solution
 from ..supplied import supply_problems
 from ..warm import thermal_problems
@@ -144,6 +145,11 @@ class TaperedRollerBearing(AbstractBearing):
         from .mounting import closing
 
         return dataclasses.replace(self, closing=closing(self.geometry, growth))
+
+    def row(self, expansion: Array) -> AbstractRow:
+        from .row import TaperedRow
+
+        return TaperedRow(self, expansion)
 
     def range_checks(self) -> RangeChecks:
         from .checks import CHECKS

@@ -57,6 +57,8 @@ class WarmPeaks(eqx.Module):
     least_play_time: _Number | None = eqx.field(metadata=label("s", "time of the least clearance or axial shift"))
     largest_load: _Number = eqx.field(metadata=label("N", "largest load of all raceway contacts in the run"))
     largest_load_time: _Number = eqx.field(metadata=label("s", "time of the largest load"))
+    highest_temperature: _Number = eqx.field(metadata=label("K", "highest temperature of all nodes in the run"))
+    highest_temperature_time: _Number = eqx.field(metadata=label("s", "time of the highest temperature"))
 
 
 class WarmEnergy(eqx.Module):
@@ -88,7 +90,8 @@ class WarmUpHistory(AbstractHistory):
     """Result of a run of temperatures: all instants up to the last good one, also where it stopped early.
 
     `instants` holds the results with the times in front: `history.instants.temperatures.inner_ring` has the shape of
-    `time`. `peaks` are the least clearance and the largest contact load, between the instants too. A run in which a
+    `time`. `peaks` are the least clearance, the largest contact load and the highest temperature, between the instants
+    too. A run in which a
     node passes `thermal.limit` has the status `thermal_runaway`, and its last instant is that one.
     """
 

@@ -78,6 +78,7 @@ def _advance(
         adjoint=dfx.ForwardMode(),
         first_step=jnp.minimum(step, lengths[-1]),
         differences=True,
+        steps=True,
     )
 
 

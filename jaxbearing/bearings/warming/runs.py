@@ -125,13 +125,16 @@ def pieces_of(begin: float, times: np.ndarray, kinks: np.ndarray) -> Iterator[_P
 
 
 class _Done(NamedTuple):
-    """The contribution of one piece of a run."""
+    """The contribution of one piece of a run. `step_times`, `step_nodes`: ends of its steps, s, and the temperatures
+    there, K."""
 
     times: np.ndarray
     seen: Seen
     energies: np.ndarray
     accepted: int
     rejected: int
+    step_times: np.ndarray
+    step_nodes: np.ndarray
 
 
 def simulate_warm_up(
@@ -193,7 +196,8 @@ class _Run:
         status = Status(int(seen.status[0]))
         if status != Status.CONVERGED:
             raise SolveError(f"the bearing at the start of the run was not found: {status.text}", status)
-        self.done = [_Done(np.asarray([begin]), seen, np.zeros(3), 0, 0)]
+        nothing = np.zeros(0), np.zeros((0, start.size))
+        self.done = [_Done(np.asarray([begin]), seen, np.zeros(3), 0, 0, *nothing)]
 
     def _look(self, times: np.ndarray, temperatures: np.ndarray) -> Seen:
         """The bearing at some instants, at most `PIECE`."""
@@ -245,7 +249,10 @@ class _Run:
             times, states = times[1:], states[1:]
         seen = self._look(times, states) if times.size else jax.tree.map(lambda leaf: leaf[:0], self.done[0].seen)
         steps = int(found.accepted), int(found.rejected)
-        self.done.append(_Done(times, seen, energies, *steps))
+        ends = np.asarray(found.step_times)
+        inside = np.isfinite(ends) & np.all(np.isfinite(np.asarray(found.step_states)), axis=1)
+        within = piece.begin + ends[inside], np.asarray(found.step_states)[inside, :nodes]
+        self.done.append(_Done(times, seen, energies, *steps, *within))
         if not finished:
             self.status = self._failure(found, end, seen)
 
@@ -274,6 +281,23 @@ class _Run:
         found = jax.tree.map(lambda one, leaf: np.concatenate([one, leaf[solved]]), first, seen.instant)
         return np.append(time[index - 1], times[good][solved]), found
 
+    def _with_steps(self, time: np.ndarray, instants: WarmInstant) -> tuple[np.ndarray, WarmInstant]:
+        """The instants, and the bearing at the ends of the steps of the integrator between them."""
+        times = np.concatenate([one.step_times for one in self.done])
+        nodes = np.concatenate([one.step_nodes for one in self.done])
+        between = ~np.isin(times, time) & (times > time[0]) & (times < time[-1])
+        times, nodes = times[between], nodes[between]
+        parts = [slice(first, first + PIECE) for first in range(0, times.size, PIECE)]
+        seen = [self._look(times[part], nodes[part]) for part in parts]
+        solved = [one.status == Status.CONVERGED for one in seen]
+        own = [times[part][good] for part, good in zip(parts, solved, strict=True)]
+        pairs = zip(seen, solved, strict=True)
+        found = [jax.tree.map(lambda leaf, good=good: leaf[good], one.instant) for one, good in pairs]
+        whole = np.concatenate([time, *own])
+        order = np.argsort(whole, kind="stable")
+        joined = jax.tree.map(lambda *leaves: np.concatenate(leaves)[order], instants, *found)
+        return whole[order], joined
+
     def _failure(self, found: Any, end: float, seen: Seen) -> Status:
         """The status of a piece that stopped early."""
         ahead = AHEAD * float(self.settings.options.shortest_step)
@@ -287,7 +311,7 @@ class _Run:
             lambda *leaves: jnp.asarray(np.concatenate(leaves)), *(one.seen.instant for one in self.done)
         )
         time = np.concatenate([one.times for one in self.done])
-        finer = None if interrupted else self._between
+        looked_at = (time, instants, None) if interrupted else (*self._with_steps(time, instants), self._between)
         energies = np.sum([one.energies for one in self.done], axis=0)
         capacity = np.asarray(heat_capacities(scene))
         stored = float(np.sum(capacity * (self.now - self.first)))
@@ -302,7 +326,7 @@ class _Run:
             operation=scene.operation,
             instants=instants,
             energy=WarmEnergy(*(jnp.asarray(one) for one in (losses, to_oil, to_ambient, stored, error))),
-            peaks=find_peaks(time, instants, finer),
+            peaks=find_peaks(*looked_at),
             checks=self._checks(error),
             nodes=scene.thermal.node_names,
             solver=self.settings.solver,

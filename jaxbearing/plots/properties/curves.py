@@ -6,6 +6,7 @@ import jax.numpy as jnp
 import numpy as np
 
 from ...lubricants import AbstractViscosity, Barus, Lubricant, Roelands
+from ...report.backends.matplotlib.legends import clear_legend
 from ...report.backends.matplotlib.sheet import grid_lines, title_of
 from ...report.display import ZERO_CELSIUS
 from ...scenes.oil.catalogue import load_oil
@@ -76,4 +77,4 @@ def finish(axes: Any, title: str, across: str, up: str, legend: str | None = Non
     axes.set_xlabel(across, fontsize=9)
     axes.set_ylabel(up, fontsize=9)
     grid_lines(axes)
-    axes.legend(fontsize=8.5, frameon=False, title=legend, title_fontsize=8.5, ncols=columns)
+    clear_legend(axes, title=legend, ncols=columns)

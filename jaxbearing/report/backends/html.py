@@ -9,6 +9,7 @@ from typing import Any
 from ... import __version__
 from ..display import typeset
 from ..page_content import Content
+from ..panels import Bars, Curves, Numbers, Panel, Polar
 from .plotly import chart_of, library
 from .svg import diagram_markup
 
@@ -42,11 +43,22 @@ def page(
         results=results,
         sketches=[(one.title, Markup(one.markup), one.caption) for one in content.sketches],
         diagrams=[(one.title, Markup(diagram_markup(one)), one.caption) for one in content.diagrams],
-        charts=[(chart, chart.data()) for chart in map(chart_of, content.charts)],
-        library=Markup(library()) if content.charts else "",
+        panels=[_panel(panel) for panel in content.charts],
+        library=Markup(library()) if any(isinstance(panel, Polar | Curves) for panel in content.charts) else "",
         versions=versions(),
         when=when.strftime("%Y-%m-%d %H:%M %Z").strip(),
     )
+
+
+def _panel(panel: Panel) -> tuple[str, Any]:
+    """Kind of a panel on the page, and what is shown: bars and numbers are tables, curves are charts."""
+    match panel:
+        case Bars():
+            return "bars", panel
+        case Numbers():
+            return "numbers", panel
+        case _:
+            return "chart", chart_of(panel)
 
 
 def versions() -> dict[str, str]:

@@ -1,5 +1,5 @@
-"""Panels as interactive charts of a page: plotly figures in one style, and what a page needs to show them without a
-network."""
+"""Panels of curves as interactive charts of a page: plotly figures in one style, and what a page needs to show them
+without a network."""
 
 import functools
 import json
@@ -10,8 +10,8 @@ from typing import Any
 import numpy as np
 
 from ..colours import FAINT, GRID, INK
-from ..display import digits, displayed
-from ..panels import Axis, Bars, Curves, Panel, Polar, Series, headed
+from ..display import displayed
+from ..panels import Axis, Curves, Polar, Series, headed
 
 _POLAR_GRID = "#DDDDDD"
 
@@ -31,11 +31,9 @@ class Chart:
         return json.loads(self.figure.to_json(engine="json"))
 
 
-def chart_of(panel: Panel) -> Chart:
+def chart_of(panel: Polar | Curves) -> Chart:
     """The panel as a chart."""
     match panel:
-        case Bars():
-            return Chart(panel.name, panel.title, panel.caption, _bars(panel), 110 + 38 * len(panel.names))
         case Polar():
             return Chart(panel.name, headed(panel), panel.caption, _polar(panel), 400)
         case Curves():
@@ -64,32 +62,6 @@ def _figure(*traces: Any, **layout: Any) -> Any:
     return figure
 
 
-def _bars(panel: Bars) -> Any:
-    import plotly.graph_objects as go
-
-    shown = zip(panel.values, panel.shares, strict=True)
-    bars = go.Bar(
-        x=list(panel.values),
-        y=list(panel.names),
-        orientation="h",
-        text=[f"{digits(value)} {panel.unit} · {share}" for value, share in shown],
-        textposition="outside",
-        cliponaxis=False,
-        hovertemplate="%{y}: %{text}<extra></extra>",
-        marker={"color": panel.colour},
-    )
-    largest, lowest = max([0.0, *panel.values]), min([0.0, *panel.values])
-    ends = [1.3 * lowest, 2.1 * largest if largest > 0.0 else 1.0]
-    return _figure(
-        bars,
-        xaxis={"title": f"{panel.quantity}, {panel.unit}", "range": ends},
-        yaxis={"autorange": "reversed", "ticks": "", "ticksuffix": " "},
-        bargap=0.35,
-        showlegend=False,
-        margin={"t": 8},
-    )
-
-
 def _polar(panel: Polar) -> Any:
     import plotly.graph_objects as go
 
@@ -113,7 +85,8 @@ def _polar(panel: Polar) -> Any:
         "radialaxis": {"gridcolor": _POLAR_GRID, "angle": 67.5, "tickangle": 67.5, "rangemode": "tozero", "nticks": 5},
         "bgcolor": "#ffffff",
     }
-    return _figure(*traces, polar=polar, margin={"l": 46, "r": 46, "t": 54, "b": 30})
+    legend = {"y": 1.1}
+    return _figure(*traces, polar=polar, legend=legend, margin={"l": 46, "r": 46, "t": 66, "b": 30})
 
 
 def _curves(panel: Curves) -> Any:
@@ -136,7 +109,7 @@ def _curve(one: Series, panel: Curves) -> Any:
 
 
 def _axis(axis: Axis, unit: str) -> dict[str, Any]:
-    found: dict[str, Any] = {"title": axis.title or unit}
+    found: dict[str, Any] = {"title": {"text": axis.title or unit, "font": {"size": 13}}}
     if axis.ticks:
         found["tickvals"] = list(axis.ticks)
     if axis.from_zero:

@@ -60,20 +60,24 @@ def print_line(name: str, text: str, console: Console, columns: int = 18) -> Non
 
 
 def print_table(
-    columns: dict[str, list[str]], fractions: list[float], longest: int, style: str, console: Console
+    columns: dict[str, list[str]],
+    fractions: list[float],
+    longest: int,
+    style: str,
+    console: Console,
+    named: str = "Power loss",
 ) -> None:
     """Columns of texts, the first row's title above each; bars at the right where there is room.
 
-    A text more than there are fractions is a total, below a line.
+    A text more than there are fractions is a total, below a line. **Arguments:** `named`: title of a column of names.
     """
     used = width(columns)
     room = min(longest, console.width - used - _GAP)
     total = len(next(iter(columns.values()))) > len(fractions)
     table = Table(box=box.SIMPLE_HEAD, pad_edge=False, padding=(0, 1), show_footer=total, header_style="")
     for title, texts in columns.items():
-        named = title == "Power loss"
         footer = texts[-1] if total else ""
-        table.add_column(title, justify="left" if named else "right", footer=footer, no_wrap=True)
+        table.add_column(title, justify="left" if title == named else "right", footer=footer, no_wrap=True)
     if room >= _SHORTEST_BAR:
         table.add_column("", width=room)
     for i, fraction in enumerate(fractions):

@@ -173,7 +173,16 @@ def _held(solution: Solution) -> Iterator[str]:
     least = NOTHING * np.max(np.abs(force[:3]))
     for name, unit, value in zip(RING_FREEDOMS, force_units(), force, strict=True):
         if name in solution.held_freedom and abs(value) > least:
-            yield f"{_LOADS[name]} {with_unit(float(value), unit)}"
+            about = _point_of_moments(solution) if name.startswith("tilt") else ""
+            yield f"{_LOADS[name]} {with_unit(float(value), unit)}{about}"
+
+
+def _point_of_moments(solution: Solution) -> str:
+    """The point of the axis that the loads of a tapered bearing act at, which is none of its middle."""
+    position = getattr(solution.operation, "load_position", None)
+    if position is None:
+        return ""
+    return " about the apex" if float(np.asarray(position)) == 0.0 else " about the load position"
 
 
 def _stiffness(solution: Solution) -> Iterator[str]:

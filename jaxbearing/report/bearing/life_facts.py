@@ -49,6 +49,8 @@ def life_facts(solution: Solution) -> Iterator[tuple[str, str]]:
         said.append(f"smallest lambda ratio {digits(thinnest, 3)}")
     if life.Lnmr is not None:
         said.append(f"a_ISO {digits(of('modification_factor'), 3)} with e_C {digits(of('contamination_factor'), 3)}")
+    elif life.viscosity_ratio is not None:
+        said.append("no a_ISO without rating.cleanliness or rating.contamination_factor")
     if said:
         yield "Lubrication", ", ".join(said)
 

@@ -5,7 +5,7 @@ from typing import Any
 
 import numpy as np
 
-from ...bearings.solution import RING_FREEDOMS, Solution
+from ...bearings.solution import RING_FREEDOMS, Solution, stiffness_units
 from ...numerics.status import Status
 from ..display import digits, pretty, with_unit
 from ..page_content import Content, Sketch
@@ -34,8 +34,6 @@ def page_content(scene: Any, solution: Solution) -> Content:
     """See `report.html_report.html_report`."""
     losses = power_losses(solution)
     total = float(solution.power_loss.total) if losses else 0.0
-    share = lambda watts: f"{100.0 * watts / total:.1f}" if total else "-"
-    rows = [(name, digits(watts), share(watts)) for name, watts in losses.items()]
     unused = {f"operation.{name}" for name in unused_operation(solution)}
     results = [row for row in result_rows(solution, unused | set(_SOLVER)) if not row.path.startswith("operation.")]
     name = solution.element_name
@@ -49,7 +47,6 @@ def page_content(scene: Any, solution: Solution) -> Content:
         ],
         facts=[fact for fact in facts(solution) if fact[0] not in TITLES],
         life=[row for row in results if row.path.startswith("life.")],
-        losses=[*rows, ("total", digits(total), "100")] if rows else [],
         not_modelled=not_modelled(solution) if solution.not_modelled else "",
         charts=bearing_panels(solution),
         diagrams=bearing_diagrams(solution),
@@ -64,10 +61,11 @@ def page_content(scene: Any, solution: Solution) -> Content:
 
 
 def _stiffness(solution: Solution) -> tuple[list[str], list[list[str]]]:
-    """Headings with the unit of a displacement, and rows; "-" for what the model does not have."""
+    """Headings, and rows with the units of the screen; "-" for what the model does not have."""
     modelled = [name in solution.freedoms_of_stiffness for name in RING_FREEDOMS]
+    units = stiffness_units()
     rows = [
-        [digits(float(value), 5) if modelled[i] and modelled[j] else "-" for j, value in enumerate(row)]
+        [with_unit(float(value), units[i][j]) if modelled[i] and modelled[j] else "-" for j, value in enumerate(row)]
         for i, row in enumerate(np.asarray(solution.stiffness))
     ]
     return [name.replace("_", " ") for name in RING_FREEDOMS], rows

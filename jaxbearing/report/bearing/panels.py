@@ -2,6 +2,7 @@
 sliding speeds; what the scene does not model has none."""
 
 import dataclasses
+from collections.abc import Sequence
 
 import numpy as np
 
@@ -9,7 +10,7 @@ from ...bearings.solution import Solution
 from ..colours import INNER, LOSS, OUTER, RIB
 from ..diagrams import Diagram
 from ..display import axis_unit, digits
-from ..panels import Axis, Bars, Curves, Panel, Polar, Series, log_ticks
+from ..panels import Axis, Bars, Curves, Numbers, Panel, Polar, Series, constant, log_ticks
 from .azimuth import signed_degrees
 from .network import network_diagram
 from .operation import load_angle
@@ -22,17 +23,40 @@ SIDES = (
 LOG_FROM = 20.0
 """Largest over smallest value from which on an axis is logarithmic: the films of the loaded zone must be readable."""
 ROUND = {
-    "film": ("Central film", False, "At the middle of each contact."),
-    "pressure": ("Hertz (peak) pressure", True, "Peak of the Hertz pressure of each contact."),
-    "sliding": ("Sliding speed", False, "Difference of the surface speeds of ring and rolling element."),
+    "film": ("Central film", "log", "At the middle of each contact."),
+    "pressure": ("Hertz (peak) pressure", "zero", "Peak of the Hertz pressure of each contact."),
+    "sliding": ("Sliding speed", "", "Difference of the surface speeds of ring and rolling element."),
+    "contact_angle": ("Contact angle", "", "Between the normal force and the plane across the axis."),
 }
-"""Results of raceways or rib: title, whether the axis begins at 0, caption."""
+"""Results of raceways or rib: title, vertical axis ("zero": it begins at 0, "log": it may be logarithmic), caption."""
 
 
 def bearing_panels(solution: Solution) -> list[Panel]:
     """The charts of a solution, of what its scene models: losses, loads, and results over the azimuth."""
     losses = loss_panel(solution)
-    return [*([losses] if losses is not None else []), load_panel(solution), *round_panels(solution)]
+    return [*([losses] if losses is not None else []), *contact_panels(solution)]
+
+
+def contact_panels(solution: Solution) -> list[Panel]:
+    """Loads and results over the azimuth. What is the same at every rolling element stands as numbers in one panel:
+    in the place of the loads if they are among it, otherwise at the end."""
+    panels = [load_panel(solution), *round_panels(solution)]
+    same = [panel for panel in panels if constant(panel)]
+    changing = [panel for panel in panels if not constant(panel)]
+    numbers = [_numbers(same, solution.element_name)] if same else []
+    return [*numbers, *changing] if panels[0] in same else [*changing, *numbers]
+
+
+def _numbers(panels: Sequence[Polar | Curves], element: str) -> Numbers:
+    columns = [(label, colour) for _, colour, _, label in SIDES if any(_of(panel, label) for panel in panels)]
+    rows = [(panel.title, [_of(panel, label) or "-" for label, _ in columns]) for panel in panels]
+    return Numbers("same", f"The same at every {element}", "What does not change round the bearing.", columns, rows)
+
+
+def _of(panel: Polar | Curves, label: str) -> str:
+    """Number and unit of a constant curve; "" where the panel has none of this name."""
+    found = [float(np.mean(one.y)) for one in panel.series if one.name == label]
+    return f"{digits(found[0])} {panel.unit}" if found else ""
 
 
 def bearing_diagrams(solution: Solution) -> list[Diagram]:
@@ -58,7 +82,7 @@ def loss_panel(solution: Solution) -> Bars | None:
     return Bars(
         name="power",
         title="Power loss by location",
-        caption=f"Dissipated at each place; together {digits(total)} W.",
+        caption="Dissipated at each place; the shares are those of the total.",
         quantity="power loss",
         unit=unit,
         names=[name.replace("_", " ") for name in losses],
@@ -95,13 +119,14 @@ def round_panel(solution: Solution, name: str) -> Curves | None:
     values = _by_side(solution, name)
     if not values:
         return None
-    title, from_zero, caption = ROUND[name]
+    title, kind, caption = ROUND[name]
     finite = np.concatenate([array[np.isfinite(array)] for array in values.values()])
     smallest, largest = float(finite.min()), float(finite.max())
     labels = {field.name: field.metadata for field in dataclasses.fields(solution.elements)}
     unit, factor = axis_unit(labels[f"{name}_{next(iter(values))}"]["unit"], max(abs(largest), abs(smallest)))
-    across = Axis(from_zero=from_zero)
-    if not from_zero and smallest > 0.0 and largest > LOG_FROM * smallest:
+    # a curve that hardly changes must not lie on the edge
+    across = Axis(limits=(0.0, 1.1 * factor * largest or 1.0)) if kind == "zero" else Axis()
+    if kind == "log" and smallest > 0.0 and largest > LOG_FROM * smallest:
         ends = 0.8 * factor * smallest, 1.25 * factor * largest
         across = Axis(limits=ends, ticks=log_ticks(*ends), logarithmic=True)
     degrees = signed_degrees(solution.elements.azimuth)

@@ -7,28 +7,34 @@ from ..backends.matplotlib.diagrams import draw_diagram
 from ..backends.matplotlib.panels import draw
 from ..backends.matplotlib.sheet import foot, head
 from ..display import pretty
+from ..panels import Numbers, Polar
 from .operation import operating_point
-from .panels import SIDES, bearing_diagrams, load_panel, loss_panel, round_panels
+from .panels import SIDES, bearing_diagrams, contact_panels, loss_panel
 
 if TYPE_CHECKING:
     import matplotlib.figure
 
 _DIAGRAM = 5.2
 """Height of a diagram on the page, inches."""
+_LOW, _WITH_BARS = 3.6, 5.0
+"""Height of a page that has a table of numbers, alone or beside bars, inches."""
+_FOOT, _LINE = 0.62, 0.157
+"""Height of the foot of a page and of each line of notes in it, inches."""
 
 
 def plot(solution: Solution, title: str) -> "matplotlib.figure.Figure":
     """See `report.plots.plot_solution`: a page with the power loss by location and, round the bearing, loads, films,
     pressures and sliding speeds. A thermal network stands below, and makes the page longer."""
-    from ..backends.matplotlib.page import HEIGHT, Page
+    from ..backends.matplotlib.page import Page
 
     diagrams = bearing_diagrams(solution)
+    height = _height(solution)
     if not diagrams:
-        whole = Page()
+        whole = Page(height=height)
         _charts(whole, solution, title)
         return whole
-    whole = Page(height=HEIGHT + _DIAGRAM * len(diagrams))
-    heights = HEIGHT, *([_DIAGRAM] * len(diagrams))
+    whole = Page(height=height + _DIAGRAM * len(diagrams))
+    heights = height, *([_DIAGRAM] * len(diagrams))
     upper, *lower = whole.subfigures(len(heights), 1, squeeze=False, height_ratios=heights)[:, 0]
     _charts(upper, solution, title, noted=False)
     notes = foot(lower[-1], solution.warnings)
@@ -38,29 +44,47 @@ def plot(solution: Solution, title: str) -> "matplotlib.figure.Figure":
     return whole
 
 
+def _height(solution: Solution) -> float:
+    """Height of all but the diagrams, inches: that of paper A4, less where a table takes the place of the curves."""
+    from ..backends.matplotlib.page import HEIGHT
+
+    if len(contact_panels(solution)) > 1:
+        return HEIGHT
+    return _LOW if loss_panel(solution) is None else _WITH_BARS
+
+
 def _charts(figure: Any, solution: Solution, title: str, noted: bool = True) -> None:
-    """All but the diagrams, on a page of paper A4 or a part of one of this size. `noted`: with notes at its foot."""
-    losses, rounds = loss_panel(solution), round_panels(solution)
+    """All but the diagrams, on a page or a part of one. `noted`: with notes at its foot."""
+    losses, (first, *others) = loss_panel(solution), contact_panels(solution)
     head(figure, title, pretty(operating_point(solution)))
-    bottom = 0.075 + (0.019 * foot(figure, solution.warnings) if noted else 0.0)
+    inches = figure.dpi / figure.bbox.height
+    bottom = (_FOOT + (_LINE * foot(figure, solution.warnings) if noted else 0.0)) * inches
+    table = isinstance(first, Numbers)
     if losses is not None:
-        left = figure.add_gridspec(1, 1, left=0.125, right=0.575, top=0.843, bottom=0.47)
-        right = figure.add_gridspec(1, 1, left=0.67, right=0.93, top=0.818, bottom=0.47)
-        lower = figure.add_gridspec(1, len(rounds), left=0.05, right=0.985, top=0.355, bottom=bottom, wspace=0.17)
-        draw(figure.add_subplot(left[0]), losses)
-        loads = figure.add_subplot(right[0], projection="polar")
-        places = [lower[i] for i in range(len(rounds))]
+        between = 0.47 if others else bottom
+        top, ends = (1.3, (0.635, 0.975)) if table else (1.5, (0.67, 0.93))
+        left = figure.add_gridspec(1, 1, left=0.125, right=0.575, top=1.0 - 1.3 * inches, bottom=between)[0]
+        right = figure.add_gridspec(1, 1, left=ends[0], right=ends[1], top=1.0 - top * inches, bottom=between)[0]
+        draw(figure.add_subplot(left), losses)
+        style = {"left": 0.05, "right": 0.985, "top": 0.355, "bottom": bottom, "wspace": 0.22}
+        places = [*figure.add_gridspec(1, len(others), **style)] if others else []
     else:
-        grid = figure.add_gridspec(
-            len(rounds), 2, left=0.05, right=0.98, top=0.79, bottom=bottom + 0.03, wspace=0.18, hspace=0.42
-        )
-        loads = figure.add_subplot(grid[:, 0], projection="polar")
-        places = [grid[i, 1] for i in range(len(rounds))]
-    draw(loads, load_panel(solution))
-    for panel, place in zip(rounds, places, strict=True):
-        draw(figure.add_subplot(place), panel)
+        ends = (0.05, 0.98) if others else (0.05, 0.6)
+        style = {"left": ends[0], "right": ends[1], "top": 1.0 - (1.74 if others else 1.3) * inches}
+        space = {"bottom": bottom + 0.25 * inches, "wspace": 0.18, "hspace": 0.42}
+        grid = figure.add_gridspec(max(1, len(others)), 2 if others else 1, **style, **space)
+        right, places = grid[:, 0], [grid[i, 1] for i in range(len(others))]
+    for panel, place in zip((first, *others), (right, *places), strict=True):
+        draw(figure.add_subplot(place, projection="polar" if isinstance(panel, Polar) else None), panel)
     handles, names = _legend(figure)
-    figure.legend(handles, names, loc="center right", bbox_to_anchor=(0.99, 0.92), ncols=2, fontsize=9.5, frameon=False)
+    if handles:
+        style = {
+            "loc": "center right",
+            "bbox_to_anchor": (0.99, 1.0 - 0.66 * inches),
+            "fontsize": 9.5,
+            "frameon": False,
+        }
+        figure.legend(handles, names, ncols=len(names), **style)
 
 
 def _legend(figure: Any) -> tuple[list[Any], list[str]]:

@@ -3,13 +3,14 @@
 import os
 import shutil
 import subprocess
+import textwrap
 from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ...colours import FAINT, INK
+from ...colours import INK
 from ...files import check_place, temporary_folder, write_whole
 
 if TYPE_CHECKING:
@@ -19,8 +20,10 @@ SUFFIXES = (".gif", ".html", ".mp4")
 PICTURES = 120
 """Pictures of an animation; less where a run has fewer instants."""
 PER_SECOND = 15
-_DOTS = 72
-"""Dots per inch: 120 pictures stay below 5 MB."""
+_DOTS = 100
+"""Dots per inch: letters of 9 points are 12 pixels high, and 120 pictures stay near 5 MB."""
+_LETTERS = 12.4
+"""Letters of the small print in an inch."""
 
 
 def instants(first: float, last: float, at_most: int = PICTURES) -> np.ndarray:
@@ -31,9 +34,10 @@ def instants(first: float, last: float, at_most: int = PICTURES) -> np.ndarray:
 def moving_head(figure: Any, title: str, words: str) -> Any:
     """Title, a line in small print, and the text below them that changes with the clock."""
     shown = title if len(title) <= 80 else title[:77] + "..."
+    lines = textwrap.wrap(words, int(_LETTERS * 0.94 * figure.get_figwidth()))
     figure.text(0.03, 0.965, shown, fontsize=11, fontweight="bold", color=INK, va="center", parse_math=False)
-    figure.text(0.03, 0.93, words, fontsize=8.5, color=FAINT, va="center")
-    return figure.text(0.03, 0.895, "", fontsize=9.5, color=INK, va="center")
+    figure.text(0.03, 0.943, "\n".join(lines), fontsize=9, color=INK, va="top", linespacing=1.25)
+    return figure.text(0.03, 0.92 - 0.025 * len(lines), "", fontsize=10, color=INK, va="center")
 
 
 def moving(figure: Any, update: Callable[[int], Any], pictures: int) -> "matplotlib.animation.FuncAnimation":

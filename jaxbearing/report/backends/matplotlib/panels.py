@@ -5,9 +5,8 @@ from typing import Any
 
 import numpy as np
 
-from ...colours import FAINT, GRID, INK
-from ...display import digits
-from ...panels import Axis, Bars, Curves, Panel, Polar, headed, round_up
+from ...colours import FAINT, INK
+from ...panels import Axis, Bars, Curves, Numbers, Panel, Polar, headed, round_up
 from .sheet import grid_lines, title_of
 
 _LINES = {"solid": "-", "dash": "--", "dot": ":", "dashdot": "-."}
@@ -21,6 +20,8 @@ _POINTS = {
     "triangle-left": "<",
     "triangle-right": ">",
 }
+_ROW, _NAMES = 0.34, 0.46
+"""Height of a row of numbers, inches, and the part of the axes that the names of the rows have at most."""
 _SCALE_AZIMUTH = math.radians(157.5)
 """Angle of the numbers of the polar plot: away from the load line."""
 
@@ -37,29 +38,41 @@ def draw(axes: Any, panel: Panel, marked: bool = True) -> None:
             _polar(axes, panel)
         case Curves():
             _curves(axes, panel, marked)
+        case Numbers():
+            _numbers(axes, panel)
 
 
 def _bars(axes: Any, panel: Bars) -> None:
+    """The values stand at the bars, which need no axis and no grid beside them."""
     column = list(panel.values)
     bars = axes.barh(list(panel.names), column, color=panel.colour, height=0.68)
     axes.invert_yaxis()
     shown = zip(column, panel.shares, strict=True)
-    texts = [f"{_power(value, column)} {panel.unit}   {share}" for value, share in shown]
+    texts = [f"{panel.text(value)} {panel.unit}   {share}" for value, share in shown]
     axes.bar_label(bars, texts, padding=5, fontsize=9, color=INK)
     largest, lowest = max([0.0, *column]), min([0.0, *column])
-    axes.set_xlim(1.25 * lowest, 1.3 * largest if largest > 0.0 else 1.0)
-    title_of(axes, f"{panel.title}, {panel.unit}: total {_power(panel.total, column)} {panel.unit}", pad=16)
+    axes.set_xlim(1.25 * lowest, 1.35 * largest if largest > 0.0 else 1.0)
+    title_of(axes, f"{panel.title}: total {panel.text(panel.total)} {panel.unit}", pad=16)
     axes.tick_params(axis="y", length=0, labelsize=9.5)
-    axes.tick_params(axis="x", labelsize=8.5)
-    axes.grid(axis="x", color=GRID, linewidth=0.7)
-    axes.set_axisbelow(True)
-    axes.spines[["top", "right", "left"]].set_visible(False)
+    axes.set_xticks([])
+    axes.spines[["top", "right", "left", "bottom"]].set_visible(False)
 
 
-def _power(value: float, column: list[float]) -> str:
-    """The number as text, with as many decimals as the largest one of its column needs for four digits."""
-    _, _, decimals = digits(max(column, key=abs), 4).partition(".")
-    return f"{value:.{len(decimals)}f}" if "e" not in decimals else digits(value)
+def _numbers(axes: Any, panel: Numbers) -> None:
+    """A table without lines: a column for each side, as wide as the axes are."""
+    axes.set_axis_off()
+    title_of(axes, panel.title)
+    height = axes.get_window_extent().height / axes.figure.dpi
+    step = min(_ROW / height, 0.9 / (len(panel.rows) + 1))
+    style = {"transform": axes.transAxes, "fontsize": 10, "color": INK, "va": "center"}
+    ends = np.linspace(1.0, _NAMES, len(panel.columns), endpoint=False)[::-1]
+    for end, (name, colour) in zip(ends, panel.columns, strict=True):
+        axes.text(end, 1.0 - step, name, **(style | {"color": colour, "ha": "right", "fontweight": "bold"}))
+    for row, (name, texts) in enumerate(panel.rows):
+        y = 1.0 - (row + 2) * step
+        axes.text(0.0, y, name, **style)
+        for end, text in zip(ends, texts, strict=True):
+            axes.text(end, y, text, ha="right", **style)
 
 
 def _polar(axes: Any, panel: Polar) -> None:

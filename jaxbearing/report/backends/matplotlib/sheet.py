@@ -7,6 +7,8 @@ from typing import Any
 from .... import __version__
 from ...colours import FAINT, GRID, INK
 
+_HEAD = (0.37, 0.66)
+"""Inches from the top of a page to the middle of its title and of the line below it."""
 _WARNING_LINES = 4
 """Lines of warnings at the foot of the page; more are counted."""
 _LINE_LENGTH = 170
@@ -16,14 +18,15 @@ _LONG_OPERATION = 95
 
 
 def head(figure: Any, title: str, operation: str) -> None:
-    """Title, operating point and version at the top of a page."""
+    """Title, operating point and version at the top of a page or a part of one, whatever its height."""
+    first, second = (1.0 - inches * figure.dpi / figure.bbox.height for inches in _HEAD)
     size = 15 if len(title) <= _LONG_TITLE else 10
     shown = title if len(title) <= 2 * _LONG_TITLE else title[: 2 * _LONG_TITLE] + "..."
     # names of files are not formulas, whatever signs are in them
-    figure.text(0.03, 0.955, shown, fontsize=size, fontweight="bold", color=INK, va="center", parse_math=False)
+    figure.text(0.03, first, shown, fontsize=size, fontweight="bold", color=INK, va="center", parse_math=False)
     small = 9.5 if len(operation) <= _LONG_OPERATION else 8
-    figure.text(0.03, 0.92, operation, fontsize=small, color=INK, va="center")
-    figure.text(0.985, 0.955, f"jaxbearing {__version__}", fontsize=8, color=FAINT, va="center", ha="right")
+    figure.text(0.03, second, operation, fontsize=small, color=INK, va="center")
+    figure.text(0.985, first, f"jaxbearing {__version__}", fontsize=8, color=FAINT, va="center", ha="right")
 
 
 def foot(figure: Any, warnings: Iterable[str]) -> int:
@@ -31,12 +34,20 @@ def foot(figure: Any, warnings: Iterable[str]) -> int:
     lines = [line for text in warnings for line in textwrap.wrap(f"- {text}", _LINE_LENGTH)]
     if len(lines) > _WARNING_LINES:
         lines = [*lines[: _WARNING_LINES - 1], "- and more: see the summary"]
-    figure.text(0.03, 0.015, "\n".join(lines), fontsize=7, color="#8A4B00", va="bottom", linespacing=1.35)
+    figure.text(
+        0.03,
+        0.12 * figure.dpi / figure.bbox.height,
+        "\n".join(lines),
+        fontsize=7,
+        color="#8A4B00",
+        va="bottom",
+        linespacing=1.35,
+    )
     return len(lines)
 
 
-def title_of(axes: Any, text: str, pad: float = 6.0) -> None:
-    axes.set_title(text, fontsize=10.5, fontweight="bold", color=INK, pad=pad)
+def title_of(axes: Any, text: str, pad: float = 6.0, size: float = 10.5) -> None:
+    axes.set_title(text, fontsize=size, fontweight="bold", color=INK, pad=pad)
 
 
 def grid_lines(axes: Any) -> None:

@@ -55,7 +55,7 @@ def animate(history: History, scene: AbstractMovingBearing, title: str) -> "matp
     chosen = np.unique(instants(0, history.time.shape[0] - 1, history.time.shape[0]).round().astype(int))
     factor = exaggeration(scene)
     pictures = [_picture(history, scene, at, since, factor) for since, at in zip([0, *chosen], chosen, strict=False)]
-    figure = Figure(figsize=(8.4, 8.0), facecolor="white")
+    figure = Figure(figsize=(7.4, 7.05), facecolor="white")
     update = _draw(figure, scene, history, pictures, chosen, title, factor)
     return moving(figure, update, len(pictures))
 
@@ -116,7 +116,7 @@ def _draw(
     most = max((float(load.max()) for p in pictures for load in p.loads.values()), default=0.0)
     bar = 0.3 * inner
     size = outer + 3.0 + bar
-    axes = figure.add_axes((0.01, 0.01, 0.86, 0.89))
+    axes = figure.add_axes((0.01, 0.01, 0.85, 0.84))
     axes.set_aspect("equal")
     axes.set_xlim(-size, size)
     axes.set_ylim(-size, size)
@@ -124,7 +124,12 @@ def _draw(
     axes.add_patch(Circle((0.0, 0.0), outer, fill=False, edgecolor=INK, linewidth=1.4))
     ring = axes.add_patch(Circle((0.0, 0.0), inner, fill=False, edgecolor=INK, linewidth=1.4))
     along = _on_page(inner, load_angle(scene.operation) or 0.0)
-    style: dict[str, Any] = {"ha": "center", "fontsize": 9, "arrowprops": {"arrowstyle": "->"}}
+    style: dict[str, Any] = {
+        "ha": "center",
+        "fontsize": 10,
+        "color": INK,
+        "arrowprops": {"arrowstyle": "-|>", "linewidth": 1.8},
+    }
     axes.annotate("load", tuple(0.25 * along), tuple(-0.1 * along), **style)
     scale = bar / round_up(most) if most > 0.0 else 0.0
     peak = max((float(np.abs(p.pocket).max()) for p in pictures if p.pocket is not None), default=0.0)
@@ -149,10 +154,13 @@ def _draw(
     for lines in (bars, *loads.values()):
         axes.add_collection(lines)
     if peak > 0.0:
-        place = figure.add_axes((0.88, 0.2, 0.02, 0.5))
-        figure.colorbar(ScalarMappable(norm, "RdBu_r"), cax=place)
-        place.tick_params(labelsize=8)
-        place.set_title("pocket, N\n+ front\n- rear", fontsize=8, loc="left")
+        place = figure.add_axes((0.875, 0.2, 0.022, 0.48))
+        powers = [10.0**power for power in range(1 + math.floor(math.log10(max(round_up(peak), 1.0))))]
+        ticks = [*(-one for one in reversed(powers)), 0.0, *powers]
+        figure.colorbar(ScalarMappable(norm, "RdBu_r"), cax=place, ticks=ticks, format="%g")
+        place.minorticks_off()
+        place.tick_params(labelsize=9)
+        place.set_title("pocket\nload, N\n+ front\n\N{MINUS SIGN} rear", fontsize=9, loc="left")
     words = "all to scale" if factor == 1.0 else f"to scale, but clearances and offsets x {factor:g}"
     if most > 0.0:
         words += f"; longest bar {round_up(most):.4g} N: blue on the inner race, red on the outer"

@@ -5,8 +5,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ....bearings.motion.history import History
+from ...backends.matplotlib.legends import clear_legend
 from ...backends.matplotlib.sheet import foot, grid_lines, head, title_of
-from ...colours import FAINT, INNER, LOSS, OUTER
+from ...colours import FAINT, INK, INNER, LOSS, OUTER
 from ...display import axis_unit, displayed
 from .json_report import by_side
 
@@ -47,6 +48,12 @@ def draw_orbit(axes: Any, cage: Any) -> None:
     axes.plot(x[0], y[0], "o", color=FAINT, markersize=4)
     axes.plot(x[-1], y[-1], "o", color=OUTER, markersize=4)
     axes.set_aspect("equal", adjustable="datalim")
+    # as in the drawings: the load points down, and X lies a quarter turn behind it, to the left
+    axes.invert_xaxis()
+    axes.invert_yaxis()
+    style = {"arrowstyle": "-|>", "color": INK, "linewidth": 1.8}
+    place = {"xycoords": "axes fraction", "textcoords": "axes fraction", "ha": "center", "fontsize": 9, "color": INK}
+    axes.annotate("load", (0.07, 0.76), (0.07, 0.92), arrowprops=style, **place)
     axes.set_xlabel("X (across the load), µm", fontsize=9)
     axes.set_ylabel("Y (along the load), µm", fontsize=9)
     title_of(axes, "Cage centre: grey start, red end")
@@ -64,10 +71,10 @@ def _speeds(axes: Any, time: Any, instants: Any, element: str) -> None:
         axes.plot(time, _RPM * np.asarray(instants.cage.speed), color=OUTER, linewidth=1.2, label="cage")
     axes.set_xlabel("time, ms", fontsize=9)
     axes.ticklabel_format(axis="y", useOffset=False)
-    if axes.lines:
-        axes.legend(fontsize=8, frameon=False)
     title_of(axes, "Orbital speeds, rpm")
     grid_lines(axes)
+    if axes.lines:
+        clear_legend(axes)
 
 
 def _power(axes: Any, time: Any, instants: Any) -> None:
@@ -76,21 +83,19 @@ def _power(axes: Any, time: Any, instants: Any) -> None:
     axes.plot(time, factor * drive, color=FAINT, linewidth=0.7, label="drive")
     axes.plot(time, factor * loss, color=LOSS, linewidth=1.0, label="dissipated")
     axes.set_xlabel("time, ms", fontsize=9)
-    axes.legend(fontsize=8, frameon=False)
     title_of(axes, f"Power, {unit}")
     grid_lines(axes)
+    clear_legend(axes)
 
 
 def _pocket_over_time(axes: Any, time: Any, peaks: Any, element: str) -> None:
     front, rear = np.asarray(peaks.front).max(axis=1), np.asarray(peaks.rear).max(axis=1)
     axes.plot(time, front, color=OUTER, linewidth=0.8, label="front")
     axes.plot(time, -rear, color=INNER, linewidth=0.8, label="rear (drawn downwards)")
-    # room for the legend below the curves
-    axes.set_ylim(-1.35 * float(rear.max()) - 0.1 * float(front.max()), None)
     axes.set_xlabel("time, ms", fontsize=9)
-    axes.legend(fontsize=8, frameon=False, loc="lower left", ncols=2)
     title_of(axes, f"Largest pocket load of all {element}s, N")
     grid_lines(axes)
+    clear_legend(axes, ncols=2)
 
 
 def _pocket_over_azimuth(axes: Any, instants: Any, element: str) -> None:
@@ -110,9 +115,9 @@ def _pocket_over_azimuth(axes: Any, instants: Any, element: str) -> None:
     axes.set_xlim(-180.0, 180.0)
     axes.set_xticks([-180, -90, 0, 90, 180])
     axes.set_xlabel("azimuth from the load line, deg", fontsize=9)
-    axes.legend(fontsize=8, frameon=False, markerscale=5)
     title_of(axes, "Pocket load, N: front up, rear down")
     grid_lines(axes)
+    clear_legend(axes, markerscale=5)
 
 
 def _sliding(axes: Any, elements: Any, sliding: dict[str, np.ndarray], element: str) -> None:
@@ -126,6 +131,6 @@ def _sliding(axes: Any, elements: Any, sliding: dict[str, np.ndarray], element: 
     axes.set_xlim(-180.0, 180.0)
     axes.set_xticks([-180, -90, 0, 90, 180])
     axes.set_xlabel("azimuth from the load line, deg", fontsize=9)
-    axes.legend(fontsize=8, frameon=False, markerscale=5)
     title_of(axes, f"Sliding speed of {element} {one + 1}, {unit}")
     grid_lines(axes)
+    clear_legend(axes, markerscale=5)

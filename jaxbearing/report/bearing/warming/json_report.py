@@ -10,7 +10,8 @@ from ...backends.json import finite, plain
 
 
 def statistics(history: WarmUpHistory) -> dict[str, Any]:
-    """Values at the start and the end, and extremes with their times, SI; of play and load between the instants too."""
+    """Values at the start and the end, and extremes with their times, SI; of play, load and the hottest node these are
+    also looked for between the instants."""
     instants, time = history.instants, np.asarray(history.time)
     spread = lambda values: _spread(time, values)
     found: dict[str, Any] = {
@@ -31,6 +32,9 @@ def statistics(history: WarmUpHistory) -> dict[str, Any]:
     if instants.cage is not None:
         found["cage"] = {"speed": spread(instants.cage.speed), "slip": spread(instants.cage.slip)}
     play, peaks = play_of(instants), history.peaks
+    hottest = max(found["temperatures"].values(), key=lambda one: one["max"])
+    if float(peaks.highest_temperature) > hottest["max"]:
+        hottest |= {"max": float(peaks.highest_temperature), "max_time": float(peaks.highest_temperature_time)}
     load = found["largest_load"]
     load |= {"max": float(peaks.largest_load), "max_time": float(peaks.largest_load_time)}
     if play is not None and peaks.least_play is not None and peaks.least_play_time is not None:

@@ -5,6 +5,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ....bearings.warming.history import WarmUpHistory, play_of
+from ...backends.matplotlib.legends import clear_legend
 from ...backends.matplotlib.sheet import foot, grid_lines, head, title_of
 from ...colours import CURVES, FAINT, INNER, LOSS, OUTER
 from ...display import ZERO_CELSIUS, axis_unit
@@ -63,8 +64,8 @@ def draw_temperatures(axes: Any, history: WarmUpHistory) -> None:
         axes.plot(time, values, color=colour, linewidth=1.5, label=name.replace("_", " "))
     inlet = np.asarray(history.instants.oil_inlet) - ZERO_CELSIUS
     axes.plot(time, inlet, color=FAINT, linewidth=1.0, linestyle="--", label="oil inlet")
-    axes.legend(fontsize=8, frameon=False, ncols=2)
     _finish(axes, history, "Temperatures, °C")
+    clear_legend(axes, ncols=2)
 
 
 def _heat(axes: Any, history: WarmUpHistory) -> None:
@@ -80,8 +81,8 @@ def _heat(axes: Any, history: WarmUpHistory) -> None:
     unit, factor = axis_unit("W", largest)
     for name, (values, colour) in curves.items():
         axes.plot(time, factor * np.asarray(values), color=colour, linewidth=1.4, label=name)
-    axes.legend(fontsize=8, frameon=False)
     _finish(axes, history, f"Heat, {unit}")
+    clear_legend(axes)
 
 
 def _play(axes: Any, history: WarmUpHistory, play: tuple[str, Any]) -> None:

@@ -16,6 +16,8 @@ LEAST_DEPTH = 1e-8
 """Least difference of the play that is a peak on the screen, m."""
 LEAST_RISE = 1e-3
 """Least difference of the load that is one, relative."""
+LEAST_WARMING = 0.05
+"""Least difference of the highest temperature that is one, K."""
 _COLUMNS = {"start": "at the start", "min": "least", "max": "largest", "end": "at the end"}
 
 
@@ -48,7 +50,8 @@ def print_summary(history: WarmUpHistory, label: str, console: Console) -> None:
 
 
 def peak_sentence(history: WarmUpHistory, found: dict[str, Any]) -> str:
-    """Says when the play is least and the contact load largest, and how far this is from the end of the run.
+    """Says when the play is least, the contact load largest and, if not at the start or the end, a node hottest, and
+    how far this is from the end of the run.
 
     **Arguments:** `found`: the `statistics` of the run.
     """
@@ -75,6 +78,11 @@ def peak_sentence(history: WarmUpHistory, found: dict[str, Any]) -> str:
         said.append(f"the contact load is largest at the end, {newton}")
     else:
         said.append(f"the largest contact load stays at {newton}")
+    name, heat = max(found["temperatures"].items(), key=lambda item: item[1]["max"])
+    more = heat["max"] - max(one["end"] for one in found["temperatures"].values())
+    if min(heat["max"] - heat["start"], more) > LEAST_WARMING:
+        place = f"the {name.replace('_', ' ')} is hottest after {clock(heat['max_time'])}"
+        said.append(f"{place}, {heat['max'] - ZERO_CELSIUS:.1f} degC: {more:.1f} K above the highest at the end")
     return "; ".join(said)
 
 

@@ -5,6 +5,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ....ehl import LineContactHistory
+from ...backends.matplotlib.legends import clear_legend
 from ...backends.matplotlib.sheet import foot, grid_lines, head, title_of
 from ...colours import INNER, LOSS, OUTER
 from ...display import axis_unit
@@ -38,10 +39,10 @@ def _films(axes: Any, time: np.ndarray, history: LineContactHistory) -> None:
     axes.plot(time, factor * np.asarray(history.film.minimum), color=OUTER, linewidth=1.6, label="minimum")
     axes.set_ylim(bottom=0.0)
     axes.set_xlim(time[0], time[-1])
-    axes.legend(fontsize=9, frameon=False)
     axes.set_xlabel("time, ms", fontsize=9)
     title_of(axes, f"Film thickness, {unit}")
     grid_lines(axes)
+    clear_legend(axes)
 
 
 def _speed(axes: Any, time: np.ndarray, history: LineContactHistory) -> None:

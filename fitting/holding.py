@@ -1,0 +1,125 @@
+"""Which parameters are fitted and which are held: at a bound, or because the data cannot tell them. One loop for the
+fit of an oil and for the calibration of scenes."""
+
+import abc
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from .loss import influence
+
+MOST_TURNS = 12
+"""Times that parameters may be held or released."""
+SLACK = 1e-6
+"""Correlation of residual and a column of the Jacobian below which a bound does not bind."""
+
+
+class Held(NamedTuple):
+    """Flags of the fitted parameters, reasons why others cannot be told, natural coordinates of those at a bound."""
+
+    free: np.ndarray
+    reasons: dict[int, str]
+    pinned: dict[int, float]
+
+    def without(self, index: int, reason: str, at: float | None = None) -> "Held":
+        """The same with one parameter held, at a bound if `at` gives one."""
+        free = self.free.copy()
+        free[index] = False
+        pinned = self.pinned if at is None else {**self.pinned, index: at}
+        return Held(free, {**self.reasons, index: reason}, pinned)
+
+    def released(self, index: int) -> "Held":
+        """The same with one parameter fitted again."""
+        free = self.free.copy()
+        free[index] = True
+        drop = lambda mapping: {i: value for i, value in mapping.items() if i != index}
+        return Held(free, drop(self.reasons), drop(self.pinned))
+
+
+class AbstractSearch(abc.ABC):
+    """What the loop asks of an estimation. A `problem` is what its own methods take; `u` are its unknowns."""
+
+    limits: tuple[np.ndarray, np.ndarray]
+    """Bounds in natural coordinates, infinite where there is none."""
+    loss: str
+    """One of `loss.LOSSES`."""
+
+    @abc.abstractmethod
+    def problem(self, free: np.ndarray, pinned: Any, base: np.ndarray | None = None) -> Any:
+        """The problem with these parameters free, from these natural coordinates."""
+
+    @abc.abstractmethod
+    def starts(self, problem: Any, free: np.ndarray) -> np.ndarray:
+        """Unknowns to start from, (start, parameter)."""
+
+    @abc.abstractmethod
+    def optimised(self, problem: Any, starts: np.ndarray) -> tuple[Any, Any, Any]:
+        """The problem, all estimates, and the unknowns of the best."""
+
+    @abc.abstractmethod
+    def slopes(self, problem: Any, u: Any) -> tuple[np.ndarray, np.ndarray]:
+        """Plain residuals, and their Jacobian by the natural coordinates, (point, parameter)."""
+
+    @abc.abstractmethod
+    def undetermined(self, problem: Any, u: Any, held: Held) -> tuple[int, str] | None:
+        """The next parameter to hold because the data do not determine it, and why; `None` if there is none."""
+
+    @abc.abstractmethod
+    def value_in_words(self, index: int, coordinate: float) -> str:
+        """A natural coordinate of a parameter as a person writes its value."""
+
+    def within_bounds(self, coordinates: np.ndarray) -> np.ndarray:
+        """Natural coordinates moved to the nearest bound where they are beyond it."""
+        low, high = self.limits
+        return np.clip(coordinates, low, high)
+
+
+class Settled(NamedTuple):
+    """End of the loop: the problem, all estimates, unknowns of the best, and what is held; `ended` is False where the
+    loop was cut off."""
+
+    problem: Any
+    estimate: Any
+    u: Any
+    held: Held
+    ended: bool
+
+
+def settled(search: AbstractSearch, held: Held) -> Settled:
+    """Fits, and holds or releases one parameter after another until nothing is left to change."""
+    problem = search.problem(held.free, held.pinned)
+    starts = search.starts(problem, held.free)
+    turns = 0
+    while True:
+        problem, estimate, u = search.optimised(problem, starts)
+        # each turn holds one more parameter, or lets one go from a bound that does not bind
+        revised, turns = _revised(search, problem, u, held), turns + 1
+        if revised is None or turns >= MOST_TURNS:
+            return Settled(problem, estimate, u, held, revised is None)
+        moved = revised.pinned != held.pinned
+        held = revised
+        problem = search.problem(held.free, held.pinned, search.within_bounds(np.asarray(problem.natural(u))))
+        # a parameter moved to its bound may lie far off, and the others must find their way anew
+        starts = search.starts(problem, held.free) if moved else np.zeros_like(starts)
+        if len(starts) > 1:
+            starts[-1] = 0.0
+
+
+def _revised(search: AbstractSearch, problem: Any, u: Any, held: Held) -> Held | None:
+    """Chooses the parameter to hold or release next: bounds first (an active set), then those that the data do not
+    determine; `None` if nothing is left."""
+    coordinates = np.asarray(problem.natural(u))
+    low, high = search.limits
+    beyond = np.where(held.free, np.maximum(low - coordinates, coordinates - high), -np.inf)
+    index = int(np.argmax(beyond))
+    if beyond[index] > 0.0:
+        limit = float(low[index] if coordinates[index] < low[index] else high[index])
+        return held.without(index, f"at its bound {search.value_in_words(index, limit)}", limit)
+    residual, slopes = search.slopes(problem, u)
+    downhill = -slopes.T @ influence(residual, search.loss)
+    for index, at in held.pinned.items():
+        inward = 1.0 if at == low[index] else -1.0
+        if inward * downhill[index] > SLACK * np.linalg.norm(slopes[:, index]) * np.linalg.norm(residual):
+            return held.released(index)
+    found = search.undetermined(problem, u, held)
+    return None if found is None else held.without(*found)

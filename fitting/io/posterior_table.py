@@ -1,0 +1,28 @@
+"""A posterior of an oil on the screen."""
+
+from rich import box
+from rich.console import Console
+from rich.padding import Padding
+from rich.table import Table
+
+from jaxbearing.report.backends.screen import print_line, print_rule, print_warnings
+
+from ..posterior import Posterior
+from ..result import Parameter
+from .words import SYMBOL, parameter_text
+
+
+def print_posterior(found: Posterior, console: Console) -> None:
+    """Median, interval, R-hat and effective samples of each parameter, and how the samples were drawn."""
+    print_rule(f"Posterior, {100.0 * found.level:g} % intervals", console)
+    table = Table(box=box.SIMPLE_HEAD, pad_edge=False, padding=(0, 1), header_style="")
+    table.add_column("Symbol", no_wrap=True)
+    for title in ("median", "", "deviation", "interval", "R-hat", "effective samples"):
+        table.add_column(title, justify="right", no_wrap=True)
+    for name, one in found.parameters.items():
+        text = parameter_text(name, Parameter(one.median, one.deviation, one.lower, one.upper, False))
+        quality = (f"{one.r_hat:.4f}", f"{one.effective:.0f}")
+        table.add_row(SYMBOL[name], text.value, text.unit, text.error, text.interval, *quality)
+    console.print(Padding(table, (0, 1)))
+    print_line("sampler", found.in_words(), console)
+    print_warnings(list(found.warnings), console)

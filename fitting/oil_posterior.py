@@ -1,0 +1,71 @@
+"""The posterior of an oil's rheology: samples of the parameters that a fit determined."""
+
+import jax
+import jax.numpy as jnp
+import numpy as np
+from jaxtyping import Array
+
+from jaxbearing.lubricants import ExponentialRheology
+
+from .parameters import NAMES, natural, values_of
+from .posterior import Posterior, Sampling, Target, sampled
+from .result import FitResult
+from .search import Search
+from .traction import predicted_coefficients
+
+
+def posterior_of(result: FitResult, sampling: Sampling | None = None) -> Posterior:
+    """Samples of the parameters that have an interval, by the No-U-Turn sampler; the others keep their values.
+
+    **Arguments:** `result`: a fit that converged, with the linear loss.
+
+    **Raises:** `ValueError` for another fit, and where no parameter has an interval;
+    `fitting.posterior.PosteriorUnavailableError` without the library.
+    """
+    if not result.converged:
+        raise ValueError(result.failure())
+    if result.options.loss != "linear":
+        raise ValueError(f"posterior: found the loss {result.options.loss!r}; expected 'linear', that of normal errors")
+    told = [name for name in result.fitted if result.parameters[name].standard_error is not None]
+    if not told:
+        raise ValueError("posterior: found no parameter with an interval; expected curves that tell one or more")
+    place = np.array([NAMES.index(name) for name in told])
+    among = [result.fitted.index(name) for name in told]
+    search = Search(result.measurements, result.scene, result.options)
+    rheology = result.oil.rheology
+    assert isinstance(rheology, ExponentialRheology)
+    at_end = natural(rheology)
+    low, high = search.limits
+    scene, state = search.scene, search.state
+    measured, deviation = search.coefficient, result.deviation
+
+    def evaluate(coordinates: Array) -> tuple[Array, Array]:
+        def residual(part: Array) -> Array:
+            whole = jnp.asarray(at_end).at[place].set(part)
+            return (predicted_coefficients(scene, state, rheology, whole) - measured) / deviation
+
+        along = lambda direction: jax.jvp(residual, (coordinates,), (direction,))
+        return jax.vmap(along, out_axes=(None, 1))(jnp.eye(len(place)))
+
+    def values(part: np.ndarray) -> np.ndarray:
+        whole = np.tile(at_end, (len(part), 1))
+        whole[:, place] = part
+        return values_of(whole)[:, place]
+
+    left = (result.predicted - measured) / deviation
+    degrees = max(len(left) - len(place), 1)
+    target = Target(
+        names=tuple(told),
+        evaluate=evaluate,
+        centre=at_end[place],
+        covariance=result.covariance[np.ix_(among, among)],
+        scale=float(np.sqrt(np.sum(np.square(left)) / degrees)),
+        known=False,
+        count=len(left),
+        prior_mean=np.zeros(len(place)),
+        prior_deviation=np.full(len(place), np.inf),
+        low=low[place],
+        high=high[place],
+        values=values,
+    )
+    return sampled(target, Sampling() if sampling is None else sampling, result.level)

@@ -1,0 +1,62 @@
+"""The convex energy of a cylindrical roller bearing whose ring is held: rollers that tilt, and flanges."""
+
+import jax.numpy as jnp
+from jaxtyping import Array, Float
+
+from ...numerics.safe import positive_power
+from ..ring import held_ring
+from ..row import AbstractRow, HeldRow, settled_force, settled_row
+from .scene import CylindricalRollerBearing
+from .thrust import EXPONENT, ThrustFlanges
+from .tilting import TiltingRollers
+from .tilting_steady import build_tilting
+
+_ACROSS = (0.0, 1.0, 1.0, 1.0, 1.0)
+
+
+class TiltingRow(AbstractRow):
+    """Rollers between straight raceways, with or without flanges."""
+
+    scene: CylindricalRollerBearing
+    expansion: Float[Array, ""]
+
+    def _held(self, displacement: Float[Array, "5"]) -> TiltingRollers:
+        scene = self.scene
+        ring = held_ring(displacement, scene.ring_lever, scene.port_distance, jnp.zeros(()), self.expansion)
+        return build_tilting(scene, ring)
+
+    def initial(self, displacement: Float[Array, "5"]) -> Float[Array, "m element"]:
+        return self._held(displacement).initial().elements
+
+    def hold(self, displacement: Float[Array, "5"], elements: Float[Array, "m element"]) -> HeldRow:
+        held, full = self._both(displacement)
+        row = settled_row(full, held.ring, elements)
+        # the springs that anchor the unknowns do not hold the ring along its axis
+        across = jnp.asarray(_ACROSS)
+        row = row._replace(force=row.force * across, stiffness=row.stiffness * across[:, None] * across[None, :])
+        flanges = self.scene.geometry.thrust_flanges
+        return row if flanges is None else _with_flanges(row, flanges, displacement[0])
+
+    def force_at(self, displacement: Float[Array, "5"], elements: Float[Array, "m element"]) -> Float[Array, "5"]:
+        held, full = self._both(displacement)
+        force = settled_force(full, held.ring, elements) * jnp.asarray(_ACROSS)
+        flanges = self.scene.geometry.thrust_flanges
+        return force if flanges is None else force.at[0].set(flanges.force(displacement[0]))
+
+    def _both(self, displacement: Float[Array, "5"]) -> tuple[TiltingRollers, TiltingRollers]:
+        """The equations with the ring held, and with the ring free, which give the force on it."""
+        held = self._held(displacement)
+        return held, build_tilting(self.scene, held.ring.released(held.load_scale()))
+
+
+def _with_flanges(row: HeldRow, flanges: ThrustFlanges, axial: Array) -> HeldRow:
+    sides = [side * axial - flanges.gap for side in flanges.sides]
+    energy = flanges.stiffness / (1.0 + EXPONENT) * sum(positive_power(one, 1.0 + EXPONENT) for one in sides)
+    # a power below 1 has no bound on its slope at the touch
+    touched = [jnp.where(one > 0, jnp.where(one > 0, one, 1.0) ** (EXPONENT - 1.0), 0.0) for one in sides]
+    stiffness = flanges.stiffness * EXPONENT * sum(touched)
+    return row._replace(
+        energy=row.energy + energy,
+        force=row.force.at[0].set(flanges.force(axial)),
+        stiffness=row.stiffness.at[0, 0].set(stiffness),
+    )

@@ -1,0 +1,62 @@
+"""Prediction of values that were not fitted: those that the data hold back, and each part from the others."""
+
+import numpy as np
+
+from fitting.holding import Settled
+from fitting.uncertainty import Spread
+
+from .result import HeldBack
+from .search import Search
+
+DISPLACED = 0.2
+"""Distance of the start of a calibration without some values from that of all, in coordinates: what the others do not
+tell must not be known from those left out."""
+
+
+def held_back_of(search: Search, found: Settled, spread: Spread, scale: float, folds: int) -> HeldBack | None:
+    """Predictions of the values that were held back, or of each of so many folds from the others; `None` where there is
+    neither.
+
+    **Arguments:** `scale`: size of the errors over the deviations.
+    """
+    mine = np.flatnonzero(search.observed.held_back)
+    if folds < 2 and not len(mine):
+        return None
+    u = np.asarray(found.u)
+    if folds < 2:
+        return _predictions(search, found, u[None], mine, np.zeros(len(mine), dtype=int), spread, scale, True)
+    fitted = np.flatnonzero(search.weight > 0)
+    # whole operating points, so that no fold knows another result of the same point
+    keys = search.observed.rig[fitted] * (1 + np.max(search.observed.point)) + search.observed.point[fitted]
+    fold = np.unique(keys, return_inverse=True)[1] % folds
+    weight = np.tile(found.problem.weight, (folds, 1))
+    weight[fold, fitted] = 0.0
+    shifted = u + DISPLACED * np.minimum(search.prior_deviation, 1.0) * found.problem.free
+    estimate = search.lanes(found.problem, np.tile(shifted, (folds, 1)), weight)
+    return _predictions(
+        search, found, estimate.u, fitted, fold, spread, scale, bool(np.all(estimate.converged)), weight
+    )
+
+
+def _predictions(
+    search: Search,
+    found: Settled,
+    u: np.ndarray,
+    places: np.ndarray,
+    lane: np.ndarray,
+    spread: Spread,
+    scale: float,
+    converged: bool,
+    weight: np.ndarray | None = None,
+) -> HeldBack:
+    """Predictions of the values at `places`, each by the unknowns of its lane, with the deviation of a measurement."""
+    values, slopes = search.predicted(found.problem.natural(u))
+    predicted, along = values[lane, places], slopes[lane, places]
+    covariances = []
+    for row, own in enumerate(slopes):
+        used = (search.weight if weight is None else weight[row]) > 0
+        covariances.append(search.covariance_of(own[used] / search.observed.deviation[used, None] / scale, found))
+    left = np.einsum("pi,pij,pj->p", along, np.stack(covariances)[lane], along)
+    deviation = np.sqrt(left + np.square(scale * search.observed.deviation[places]))
+    measured = search.observed.value[places]
+    return HeldBack(places, measured, predicted, deviation, float(spread.quantile), converged)

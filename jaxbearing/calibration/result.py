@@ -1,0 +1,126 @@
+"""Result of a calibration."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+
+from fitting.result import Parameter
+
+from .data import Data
+from .parameters import FreeField
+from .search import Options
+
+
+@dataclass(frozen=True)
+class Misfit:
+    """Differences of one measured quantity in one rig, model minus measurement, SI.
+
+    **Arguments:**
+    - `rig`: number of the rig; `name`: path of the result; `unit`.
+    - `points`: fitted values; `rms`, `mean`: of their differences; `relative`: root mean square of the differences over
+      that of the values.
+    """
+
+    rig: int
+    name: str
+    unit: str
+    points: int
+    rms: float
+    mean: float
+    relative: float
+
+
+@dataclass(frozen=True)
+class HeldBack:
+    """Values that were predicted by a calibration without them.
+
+    **Arguments:**
+    - `place`: of each among all measured values; `measured`, `predicted`: SI.
+    - `deviation`: standard deviation of the prediction of a measurement: what the fields leave open, and its own error.
+    - `quantile`: half-width of an interval, in such deviations.
+    - `converged`: whether every calibration without some of the values converged.
+    """
+
+    place: np.ndarray
+    measured: np.ndarray
+    predicted: np.ndarray
+    deviation: np.ndarray
+    quantile: float
+    converged: bool
+
+    @property
+    def inside(self) -> float:
+        """Share of the values inside their intervals."""
+        return float(np.mean(np.abs(self.predicted - self.measured) <= self.quantile * self.deviation))
+
+    @property
+    def relative(self) -> float:
+        """Root mean square of the differences over that of the values."""
+        difference = np.sqrt(np.mean(np.square(self.predicted - self.measured)))
+        return float(difference / np.sqrt(np.mean(np.square(self.measured))))
+
+
+@dataclass(frozen=True, eq=False)
+class Calibration:
+    """Result of `jaxbearing.calibrate`.
+
+    **Arguments:**
+    - `converged`; `reason`: why not.
+    - `parameters`: by dotted path, SI: value, standard error, interval, and why a field is held.
+    - `fields`: the free fields with their units, bounds and priors.
+    - `fitted`: paths of those that were told.
+    - `covariance`: of the coordinates of all fields (logarithms of positive ones), 0 for those that are held;
+      `correlation`: of `fitted`.
+    - `scale`: size of the errors over the deviations that were given or assumed.
+    - `measured`, `predicted`, `deviation`: of each value; `predicted_deviation`: what the fields leave open.
+    - `names`, `rigs`, `points`: which result each value is, of which rig and operating point.
+    - `misfits`: by rig and quantity.
+    - `outlier`: mask, beyond 4 robust standard deviations.
+    - `held_back`: values predicted without them; `None` where there are none.
+    - `loss`, `evaluations`: half the sum of squares, and operating points that were solved.
+    - `starts`: how many of the starts ended at the best fit, of how many.
+    - `notes`: what the user must know, a sentence each.
+    - `data`, `options`, `scenes`: what was given; the scenes have the calibrated values.
+    """
+
+    converged: bool
+    reason: str
+    parameters: Mapping[str, Parameter]
+    fields: tuple[FreeField, ...]
+    fitted: tuple[str, ...]
+    covariance: np.ndarray
+    correlation: np.ndarray
+    scale: float
+    measured: np.ndarray
+    predicted: np.ndarray
+    deviation: np.ndarray
+    predicted_deviation: np.ndarray
+    names: tuple[str, ...]
+    rigs: np.ndarray
+    points: np.ndarray
+    misfits: tuple[Misfit, ...]
+    outlier: np.ndarray
+    held_back: HeldBack | None
+    loss: float
+    evaluations: int
+    starts: tuple[int, int]
+    notes: tuple[str, ...]
+    data: tuple[Data, ...]
+    options: Options
+    scenes: tuple[Any, ...] = field(repr=False)
+    search: Any = field(repr=False, default=None)
+    settled: Any = field(repr=False, default=None)
+
+    def __getitem__(self, path: str) -> Parameter:
+        return self.parameters[path]
+
+    @property
+    def values(self) -> dict[str, float]:
+        """Calibrated values by dotted path, for `scene.replace`."""
+        return {path: one.value for path, one in self.parameters.items()}
+
+    def failure(self) -> str:
+        """One sentence on a calibration that did not converge."""
+        return f"not converged: {self.reason}"

@@ -1,0 +1,140 @@
+"""A calibration as it is typed: scene files, CSV files and texts in; scenes, data, priors and bounds out."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from .._scene import AbstractScene
+from ..bearings.priors import DRAG_FIELD, SUPPLY_FIELD, drag_prior, supply_prior
+from ..distribution import Distribution
+from ..scenes.errors import SceneError
+from ..scenes.reader import distributions_in, scene_from_tables
+from ..scenes.units import describe
+from ..sweeps.fields import SceneSource
+from .data import Data
+from .table import read_data, require_plain
+
+ASSUMED = "assumed"
+"""Text of a prior that is the package's own."""
+_PRIOR = "PATH={...} or PATH=assumed, e.g. drag.coefficient='{median = 0.3, log_deviation = 0.9}'"
+_BOUND = "PATH=LOW:HIGH, e.g. drag.coefficient=0.05:1.2"
+
+
+@dataclass
+class Given:
+    """What a calibration is made of: scenes, data, free fields, priors and bounds in SI, notes on the files."""
+
+    sources: list[SceneSource]
+    scenes: list[AbstractScene]
+    data: list[Data]
+    free: list[str]
+    priors: dict[str, Distribution] = field(default_factory=dict)
+    bounds: dict[str, tuple[float | None, float | None]] = field(default_factory=dict)
+    notes: list[str] = field(default_factory=list)
+
+
+def given_of(
+    rigs: Sequence[tuple[str, Path]],
+    overrides: Mapping[str, str],
+    free: Sequence[str],
+    priors: Sequence[str],
+    bounds: Sequence[str],
+) -> Given:
+    """Reads all files and texts.
+
+    **Arguments:** `rigs`: scene and file of each; `overrides`: of the first scene and, where they have the field, of
+    the others; `priors`, `bounds`: texts "PATH=...".
+
+    **Raises:** `SceneError`.
+    """
+    texts = dict(_parted("--prior", one, _PRIOR) for one in priors)
+    given = Given([], [], [], list(dict.fromkeys(free)))
+    for place, (scene, file) in enumerate(rigs):
+        source = SceneSource.of(scene, overrides)
+        if place:
+            source = SceneSource(source.label, source.tables, _known(source, overrides))
+        own = {path: text for path, text in texts.items() if text != ASSUMED and _has(source, path)}
+        distributions = distributions_in(source.tables, source.label, {**source.overrides, **own}, priors=True)
+        given.priors |= {path: one for path, one in distributions.items() if path in given.free}
+        built = scene_from_tables(source.tables, source.label, source.overrides)
+        data, notes = read_data(file, source, built)
+        given.sources.append(source)
+        given.scenes.append(built)
+        given.data.append(data)
+        given.notes += notes
+    for path, text in texts.items():
+        if text == ASSUMED:
+            given.priors[path] = _assumed(path, given.scenes)
+        elif path not in given.priors:
+            raise SceneError("--prior", path, "a field that is not free, or no distribution", _PRIOR)
+    for one in bounds:
+        path, text = _parted("--bound", one, _BOUND)
+        given.bounds[path] = _ends(given, path, text)
+    _check_plain(given)
+    return given
+
+
+def _parted(option: str, text: str, expected: str) -> tuple[str, str]:
+    path, equals, value = text.partition("=")
+    path, value = path.strip(), value.strip()
+    if not (equals and value and all(path.split("."))):
+        raise SceneError(option, path, f"'{text}'", expected)
+    return path, value
+
+
+def _has(source: SceneSource, path: str) -> bool:
+    try:
+        source.field(path, "")
+    except SceneError:
+        return False
+    return True
+
+
+def _known(source: SceneSource, overrides: Mapping[str, str]) -> dict[str, str]:
+    """The changes that a further scene can take."""
+    return {path: text for path, text in overrides.items() if _has(source, path)}
+
+
+def _assumed(path: str, scenes: Sequence[Any]) -> Distribution:
+    """The package's own distribution of a field. **Raises:** `SceneError` where there is none."""
+    known = {DRAG_FIELD: drag_prior, SUPPLY_FIELD: supply_prior}
+    found = next((one for scene in scenes if path in known and (one := known[path](scene)) is not None), None)
+    if found is None:
+        expected = f"a distribution of your own; assumed ones are known of {' and '.join(known)} where a scene has them"
+        raise SceneError("--prior", path, f"'{ASSUMED}'", expected)
+    return found
+
+
+def _ends(given: Given, path: str, text: str) -> tuple[float | None, float | None]:
+    low, colon, high = (part.strip() for part in text.partition(":"))
+    if not colon or not (low or high):
+        raise SceneError("--bound", path, describe(text), _BOUND)
+    source = next((one for one in given.sources if _has(one, path)), given.sources[0])
+    field = source.field(path, "--bound")
+    ends = [field.read(end, "--bound") if end else None for end in (low, high)]
+    return ends[0], ends[1]
+
+
+def _check_plain(given: Given) -> None:
+    """Checks that the free fields are numbers that the scenes hold as the files have them. **Raises:** `SceneError`."""
+    for path in given.free:
+        sources = [
+            (source, scene) for source, scene in zip(given.sources, given.scenes, strict=True) if _has(source, path)
+        ]
+        if not sources:
+            given.sources[0].field(path, "--free")
+        for source, scene in sources:
+            value: Any = scene
+            for name in path.split("."):
+                value = getattr(value, name, None)
+            if path in given.priors:
+                value = given.priors[path].nominal
+            if value is None:
+                raise SceneError(
+                    "--free", path, "no value in the scene", "a number to start from (--set), or a --prior"
+                )
+            start = float(value)
+            require_plain(source, {path: np.array([start, start * 1.001, start * 0.999])}, "--free", in_file=False)

@@ -1,0 +1,125 @@
+"""Operation and oil of a standard bearing: what is given, and examples for the rest."""
+
+import json
+import math
+from collections.abc import Iterator
+from typing import NamedTuple
+
+from ..numerics.arguments import require_numbers
+from ..scenes.oil.grades import DEFAULT_BASE, grade_named
+from ..scenes.toml_writer import one_line
+
+LOAD_SHARE = {"deep_groove": (0.1, 0.0), "cylindrical": (0.1, None), "tapered": (0.1, 0.1)}
+"""Radial and axial load of the example over the dynamic rating; `None`: the kind has no axial load."""
+OTHER_SHARE = 0.05, 0.05
+SPEED = 150_000.0
+"""Speed of the example times mean diameter, mm/min: moderate."""
+OIL_TEMPERATURE = 60.0
+"""Temperature of the oil in the example, degrees Celsius."""
+EXAMPLE = "an example"
+
+
+class Duty(NamedTuple):
+    """Operation and oil of a standard bearing; what is not given is an example, and without `oil` the scene is dry.
+
+    **Arguments:** all optional, SI.
+    - `radial_load`, `axial_load`: N.
+    - `inner_speed`: rad/s.
+    - `oil`: grade of a standard oil, "ISO VG 68", or name of an oil of the catalogue, "fva3".
+    - `base`: base stock of a grade, "mineral", "PAO", "ester" or "polyglycol".
+    - `oil_temperature`: K.
+    - `oil_flow`: m^3/s, for the drag of the rolling elements.
+    """
+
+    radial_load: float | None = None
+    axial_load: float | None = None
+    inner_speed: float | None = None
+    oil: str | None = None
+    base: str | None = None
+    oil_temperature: float | None = None
+    oil_flow: float | None = None
+
+    def check(self) -> None:
+        """**Raises:** `ValueError` for numbers out of their ranges, and for what only an oil has."""
+        bounds = {
+            "radial_load": "finite",
+            "axial_load": "finite",
+            "inner_speed": "finite",
+            "oil_temperature": "> 0",
+            "oil_flow": ">= 0",
+        }
+        for name, bound in bounds.items():
+            value = getattr(self, name)
+            if value is not None:
+                require_numbers(bound, **{name: value})
+        for name in ("base", "oil_temperature", "oil_flow"):
+            if self.oil is None and getattr(self, name) is not None:
+                raise ValueError(f"{name} is only allowed with an oil, such as 'ISO VG 68'")
+        if self.base is not None and self.oil is not None and grade_named(self.oil) is None:
+            raise ValueError(f"base is only allowed with the grade of a standard oil (here oil = '{self.oil}')")
+
+
+class Line(NamedTuple):
+    """A field of a scene file: its value as it is written, and the comment."""
+
+    name: str
+    value: str
+    comment: str
+
+
+def oil_lines(duty: Duty) -> Iterator[Line]:
+    """The fields of `[oil]`; none of a dry scene."""
+    if duty.oil is None:
+        return
+    grade = grade_named(duty.oil)
+    if grade is None:
+        yield Line("name", quoted(duty.oil), "given")
+        return
+    yield Line("grade", quoted(grade), "given")
+    if duty.base is None:
+        yield Line("base", quoted(DEFAULT_BASE), "assumed; or PAO, ester, polyglycol")
+    else:
+        yield Line("base", quoted(duty.base), "given")
+
+
+def operation_lines(duty: Duty, kind: str, mean_diameter: float, capacity: float) -> Iterator[Line]:
+    """The fields of `[operation]`.
+
+    A load of the example keeps its ratio to the load that is given.
+
+    **Arguments:** `kind`: of `Designation`; `mean_diameter`: of bore and outside diameter, mm; `capacity`: dynamic
+    rating, N.
+    """
+    speed = None if duty.inner_speed is None else duty.inner_speed * 30.0 / math.pi
+    yield _line("inner_speed", speed, SPEED / mean_diameter, "rpm")
+    of_radial, of_axial = LOAD_SHARE.get(kind, OTHER_SHARE)
+    radial, axial = of_radial * capacity, None if of_axial is None else of_axial * capacity
+    if of_axial and duty.axial_load and duty.radial_load is None:
+        radial = of_radial / of_axial * abs(duty.axial_load)
+    if of_axial and duty.radial_load and duty.axial_load is None:
+        axial = of_axial / of_radial * abs(duty.radial_load)
+    yield _line("radial_load", duty.radial_load, radial, "N")
+    if axial is not None or duty.axial_load is not None:
+        yield _line("axial_load", duty.axial_load, axial or 0.0, "N")
+    if duty.oil is not None:
+        celsius = None if duty.oil_temperature is None else duty.oil_temperature - 273.15
+        yield _line("oil_temperature", celsius, OIL_TEMPERATURE, "degC")
+    if duty.oil_flow is not None:
+        yield _line("oil_flow", 3.6e6 * duty.oil_flow, 0.0, "l/h")
+
+
+def _line(name: str, given: float | None, example: float, unit: str) -> Line:
+    """The value that is given, or that of the example with two digits."""
+    if given is None:
+        return Line(name, f'"{two_digits(example):g} {unit}"', EXAMPLE)
+    return Line(name, f'"{given:.12g} {unit}"', "given")
+
+
+def two_digits(value: float) -> float:
+    """A number with two digits."""
+    return float(f"{value:.2g}")
+
+
+def quoted(text: str) -> str:
+    """A text as a string of a scene file."""
+    return json.dumps(one_line(text), ensure_ascii=False)

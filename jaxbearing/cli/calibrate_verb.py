@@ -1,0 +1,294 @@
+"""`jaxbearing calibrate`: fields of scenes from measurements, with intervals and with what these cannot tell."""
+
+import json
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from .messages import NOT_CONVERGED, bad_input, refuse
+from .options import JsonOption, SceneArgument, SetOption, labelled
+from .output_files import PICTURES, Output, check_files, deliver
+from .posterior_options import (
+    PlotPosteriorOption,
+    PosteriorOption,
+    SamplesOption,
+    sampling_of,
+    write_posterior,
+)
+from .terminal import console
+
+if TYPE_CHECKING:
+    from fitting.posterior import Posterior
+
+    from ..calibration import Calibration
+    from ..calibration.next_point import Candidate
+    from ..calibration.prediction import Predicted
+    from ..calibration.sources import Given
+
+DataArgument = Annotated[
+    Path,
+    typer.Argument(
+        metavar="DATA.csv",
+        help="Measurements, one row an operating point: fields of the scene such as 'operation.inner_speed [rpm]', and "
+        "results such as 'power_loss.total [W]', with 'power_loss.total.deviation [W]' where it is known.",
+    ),
+]
+FreeOption = Annotated[
+    list[str], typer.Option("--free", metavar="PATH", help="A field that is fitted, e.g. drag.coefficient. Repeatable.")
+]
+PriorOption = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--prior",
+        metavar="PATH={...}",
+        help="What is known of a free field before: --prior drag.coefficient='{median = 0.3, log_deviation = 0.9}', "
+        "or =assumed for the package's own. Repeatable.",
+    ),
+]
+BoundOption = Annotated[
+    list[str] | None,
+    typer.Option("--bound", metavar="PATH=LOW:HIGH", help="Bounds of a free field; either may be empty. Repeatable."),
+]
+RigOption = Annotated[
+    list[str] | None,
+    typer.Option("--rig", metavar="SCENE:DATA.csv", help="A further scene with its measurements. Repeatable."),
+]
+LossOption = Annotated[
+    str, typer.Option("--loss", help="linear (least squares), or soft_l1 or cauchy: outliers count less.")
+]
+ErrorOption = Annotated[
+    str,
+    typer.Option("--relative-error", metavar="X", help="Assumed error of values that have none, e.g. '2 %'."),
+]
+KnownOption = Annotated[
+    bool,
+    typer.Option("--known-errors", help="The errors are those given, and not estimated from the differences."),
+]
+LevelOption = Annotated[str, typer.Option("--level", help="Confidence of the intervals, e.g. 0.95.")]
+StartsOption = Annotated[int, typer.Option("--starts", min=1, help="Number of starting points.")]
+FoldsOption = Annotated[
+    int, typer.Option("--folds", min=0, help="Part the points into so many and predict each from the others; 0: none.")
+]
+NextOption = Annotated[
+    Path | None,
+    typer.Option(
+        "--next",
+        metavar="CANDIDATES.csv",
+        help="Operating points of the first rig that could be measured next: which of them tells most?",
+    ),
+]
+PredictOption = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--predict",
+        metavar="SCENE=RESULT",
+        help="A result of another scene with the calibrated fields, with its interval: turbine_roller="
+        "power_loss.total. Repeatable.",
+    ),
+]
+OutOption = Annotated[
+    Path | None,
+    typer.Option("--out", metavar="FILE.toml", help="Write the first scene with the calibrated values."),
+]
+PlotOption = Annotated[
+    Path | None,
+    typer.Option("--plot", metavar="FILE", help="Draw measured and calculated values; .png, .svg or .pdf."),
+]
+
+
+def calibrate(
+    scene: SceneArgument,
+    data: DataArgument,
+    free: FreeOption,
+    priors: PriorOption = None,
+    bounds: BoundOption = None,
+    rigs: RigOption = None,
+    changes: SetOption = None,
+    loss: LossOption = "linear",
+    relative_error: ErrorOption = "2 %",
+    known_errors: KnownOption = False,
+    level: LevelOption = "0.95",
+    starts: StartsOption = 1,
+    folds: FoldsOption = 0,
+    candidates: NextOption = None,
+    predictions: PredictOption = None,
+    posterior: PosteriorOption = False,
+    samples: SamplesOption = 1000,
+    as_json: JsonOption = False,
+    out: OutOption = None,
+    plot: PlotOption = None,
+    plot_posterior: PlotPosteriorOption = None,
+) -> None:
+    """Any numbers of a scene from measured torque, power, temperature, speed or displacement at many operating points:
+    values, intervals, and which of them the measurements cannot tell."""
+    with bad_input():
+        from fitting.io.typed import choice, ratio
+        from fitting.loss import LOSSES
+
+        from ..calibration.search import Options
+        from ..calibration.sources import given_of
+        from ..calibration.table import read_candidates
+        from ..scenes.overrides import split_assignments
+
+        options = Options(
+            loss=choice("--loss", loss, LOSSES),
+            relative_error=ratio("--relative-error", relative_error, "'2 %'"),
+            known_errors=known_errors,
+            level=ratio("--level", level, "0.95", largest=1.0),
+            starts=starts,
+        )
+        _check(options.level, options.relative_error, folds)
+        further = [_rig(text) for text in rigs or []]
+        given = given_of([(scene, data), *further], split_assignments(changes or []), free, priors or [], bounds or [])
+        wanted = None if candidates is None else read_candidates(candidates, given.sources[0])
+        others = [_prediction(text) for text in predictions or []]
+        sampling = sampling_of(posterior, samples, plot_posterior)
+        pictures = ("--plot", plot, PICTURES), ("--plot-posterior", plot_posterior, PICTURES)
+        check_files((*pictures, ("--out", out, (".toml",))))
+
+    from .cache import enable_compilation_cache
+    from .quiet import without_false_alarms
+
+    label = " and ".join([labelled(scene, changes), *(name for name, _ in further)])
+    enable_compilation_cache()
+    with without_false_alarms():
+        found, ranked = _calibrated(given, options, folds, wanted, label, as_json)
+        drawn, predicted = _sampled(found, sampling), _predicted(found, others)
+        wrote = "" if as_json else f"wrote {out}: the scene with the calibrated values"
+        outputs = (
+            Output(out, lambda path: _write_scene(found, path), wrote),
+            Output(plot, lambda path: _write_plot(found, label, path), long=True),
+            Output(plot_posterior, lambda path: _write_posterior(found, drawn, label, path), long=True),
+        )
+        show = lambda: _print(found, label, given.notes, ranked, drawn, predicted, as_json)
+        deliver(show, outputs if found.converged else ())
+    if not found.converged:
+        if as_json:
+            typer.echo(f"not converged: {label}: {found.failure()}", err=True)
+        raise typer.Exit(NOT_CONVERGED)
+
+
+def _check(level: float, relative_error: float, folds: int) -> None:
+    """Message on options that make no sense."""
+    if level == 0.0:
+        refuse("--level: found 0; expected a number between 0 and 1, e.g. 0.95")
+    if relative_error == 0.0:
+        refuse("--relative-error: found 0; expected an error > 0")
+    if folds == 1:
+        refuse("--folds: found 1; expected 0, or 2 or more")
+
+
+def _rig(text: str) -> tuple[str, Path]:
+    scene, colon, file = text.rpartition(":")
+    if not colon or not scene or not file:
+        refuse(f"--rig: found '{text}'; expected SCENE:DATA.csv, e.g. turbine_roller:rig_2.csv")
+    return scene, Path(file)
+
+
+def _calibrated(
+    given: "Given", options: Any, folds: int, candidates: Any, label: str, as_json: bool
+) -> "tuple[Calibration, tuple[Candidate, ...]]":
+    """The calibration and its candidates; ends the command where these cannot be."""
+    from ..calibration.next_point import next_points
+    from ..calibration.verb import calibrate as calibrate_scenes
+    from ..numerics.status import SolveError
+
+    try:
+        found = calibrate_scenes(
+            given.scenes,
+            given.data,
+            given.free,
+            priors=given.priors,
+            bounds=given.bounds,
+            folds=folds,
+            options=options,
+        )
+        ranked = () if candidates is None or not found.converged else next_points(found, candidates)
+    except SolveError as error:
+        _print_failure(str(error), error.status.name.lower(), label, as_json)
+        raise typer.Exit(NOT_CONVERGED) from None
+    except ValueError as error:
+        refuse(str(error))
+    return found, ranked
+
+
+def _sampled(found: "Calibration", sampling: Any) -> "Posterior | None":
+    """The posterior that is asked for, of a calibration that converged; ends the command where it cannot be."""
+    from ..calibration.posterior import posterior_of
+
+    if sampling is None or not found.converged:
+        return None
+    try:
+        return posterior_of(found, sampling)
+    except ValueError as error:
+        refuse(f"--{error}")
+
+
+def _prediction(text: str) -> tuple[str, Any, str]:
+    """Label, scene and result of a text SCENE=RESULT."""
+    from ..scenes.reader import load_scene
+
+    scene, equals, result = text.partition("=")
+    if not (equals and scene.strip() and result.strip()):
+        refuse(f"--predict: found '{text}'; expected SCENE=RESULT, e.g. turbine_roller=power_loss.total")
+    return text, load_scene(scene.strip()), result.strip()
+
+
+def _predicted(found: "Calibration", others: list[tuple[str, Any, str]]) -> "dict[str, Predicted]":
+    """Results of other scenes, of a calibration that converged; ends the command where there are none."""
+    from ..calibration.prediction import predict
+
+    if not found.converged:
+        return {}
+    predicted = {}
+    for text, scene, result in others:
+        try:
+            (predicted[text],) = predict(found, scene, [result]).values()
+        except ValueError as error:
+            refuse(f"--predict: {text}: {error}")
+    return predicted
+
+
+def _write_posterior(found: "Calibration", drawn: Any, label: str, path: Path) -> None:
+    write_posterior(drawn, {field.path: field.unit for field in found.fields}, label, path)
+
+
+def _write_scene(found: "Calibration", out: Path) -> None:
+    from ..scenes.save import save_scene
+
+    save_scene(found.scenes[0], out)
+
+
+def _write_plot(found: "Calibration", label: str, plot: Path) -> None:
+    from ..plots import calibration as draw
+    from ..report.plots import save_plot
+
+    save_plot(draw(found, title=label), plot)
+
+
+def _print(
+    found: "Calibration",
+    label: str,
+    notes: list[str],
+    ranked: "tuple[Candidate, ...]",
+    drawn: "Posterior | None",
+    predicted: "dict[str, Predicted]",
+    as_json: bool,
+) -> None:
+    from ..calibration.report import calibration_to_dict, print_calibration
+
+    if as_json:
+        typer.echo(json.dumps(calibration_to_dict(found, notes, ranked, drawn, predicted), allow_nan=False))
+    else:
+        print_calibration(found, label, notes, ranked, drawn, predicted, console())
+
+
+def _print_failure(failure: str, status: str, label: str, as_json: bool) -> None:
+    if as_json:
+        typer.echo(json.dumps({"converged": False, "status": status, "failure": failure}))
+        typer.echo(f"not converged: {label}: {failure}", err=True)
+        return
+    from ..report.backends.screen import print_failure
+
+    print_failure(label, status.replace("_", " "), failure, console())

@@ -1,0 +1,73 @@
+"""Figure of a calibration: measured values beside calculated ones, and what is left."""
+
+import textwrap
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ..report.backends.matplotlib.sheet import grid_lines
+from ..report.colours import CURVES, FAINT
+from .frame import axis_for, write_below
+
+if TYPE_CHECKING:
+    import matplotlib.figure
+
+_WIDTH, _ROW = 9.6, 2.9
+"""Width of the figure and height of a quantity, inches."""
+_LETTERS = 110
+"""Letters of a line of the title."""
+
+
+def calibration(found: Any, title: str = "") -> "matplotlib.figure.Figure":
+    """Calculated over measured values of each quantity with their errors, and the differences point by point.
+
+    **Arguments:** `found`: from `jaxbearing.calibrate`; `title`: at the head of the figure.
+    """
+    from ..report.backends.matplotlib.page import Page
+
+    figure = Page(_WIDTH, _ROW * len(found.misfits) + 0.9)
+    write_below(figure, _caption(found))
+    figure.suptitle("\n".join(textwrap.wrap(title, _LETTERS)), fontsize=10, parse_math=False)
+    grid = figure.add_gridspec(len(found.misfits), 2)
+    for row, one in enumerate(found.misfits):
+        mine = (found.rigs == one.rig) & (np.asarray(found.names, dtype=object) == one.name)
+        name = f"{found.data[one.rig].origin}: {one.name}" if len(found.data) > 1 else one.name
+        _beside(figure.add_subplot(grid[row, 0]), found, mine, name, one.unit)
+        _left(figure.add_subplot(grid[row, 1]), found, mine, one.unit)
+    return figure
+
+
+def _caption(found: Any) -> str:
+    text = "Left: calculated over measured values, with the standard deviation of a measurement. Right: differences in "
+    text += "such deviations, in the order of the data."
+    if found.held_back is not None:
+        text += " Open circles: values that were not fitted."
+    return text
+
+
+def _beside(axes: Any, found: Any, mine: np.ndarray, name: str, unit: str) -> None:
+    measured, predicted = found.measured[mine], found.predicted[mine]
+    axis = axis_for(unit, np.concatenate([measured, predicted]))
+    held = found.search.observed.held_back[mine]
+    slope = float(axis.of(1.0) - axis.of(0.0))
+    error = slope * found.scale * found.deviation[mine]
+    for part, face in ((~held, CURVES[0]), (held, "none")):
+        if np.any(part):
+            x, y = axis.of(measured[part]), axis.of(predicted[part])
+            axes.errorbar(x, y, xerr=error[part], fmt="o", mfc=face, color=CURVES[0], ms=4, lw=0.9)
+    ends = [float(np.min(axis.of(measured))), float(np.max(axis.of(measured)))]
+    axes.plot(ends, ends, color=FAINT, linewidth=0.9, zorder=0)
+    axes.set_xlabel(axis.named(f"measured {name}"), fontsize=9)
+    axes.set_ylabel(axis.named("calculated"), fontsize=9)
+    grid_lines(axes)
+
+
+def _left(axes: Any, found: Any, mine: np.ndarray, unit: str) -> None:
+    standard = (found.predicted - found.measured)[mine] / found.deviation[mine] / max(found.scale, 1e-300)
+    place, held = found.points[mine] + 1, found.search.observed.held_back[mine]
+    axes.plot(place[~held], standard[~held], "o", color=CURVES[0], ms=4)
+    axes.plot(place[held], standard[held], "o", mfc="none", color=CURVES[0], ms=4)
+    axes.axhline(0.0, color=FAINT, linewidth=0.9, zorder=0)
+    axes.set_xlabel("operating point", fontsize=9)
+    axes.set_ylabel("difference, deviations", fontsize=9)
+    grid_lines(axes)

@@ -1,0 +1,1 @@
+"""Outputs of shafts on bearings."""

@@ -1,0 +1,139 @@
+"""The bending line of a shaft between its nodes, and which of its results are the largest."""
+
+from itertools import pairwise
+from typing import Any, NamedTuple
+
+import numpy as np
+
+PLANES = (("Y", 1, 3), ("Z", 2, 4))
+"""Planes through the axis: name of the direction across, places of the displacement and of the tilt in it."""
+POINTS = 40
+"""Points of the bending line between two nodes."""
+
+
+class BendingLine(NamedTuple):
+    """Displacements along the shaft, positions and displacements in m, `across` of shape (2, point) along Y and Z."""
+
+    position: np.ndarray
+    axial: np.ndarray
+    across: np.ndarray
+
+    @property
+    def size(self) -> np.ndarray:
+        """Displacement across the axis."""
+        return np.hypot(*self.across)
+
+    def largest(self) -> tuple[float, float]:
+        """Largest displacement across the axis, m, and where it is, m."""
+        place = int(np.argmax(self.size))
+        return float(self.size[place]), float(self.position[place])
+
+
+def bending_line(solution: Any) -> BendingLine:
+    """The shaft between its nodes, whose cross sections turn as the beam of the model does; what the own weight adds
+    between two nodes is left out.
+
+    **Arguments:** `scene`: the shaft; `None`: shear makes no kink.
+    """
+    nodes = solution.shaft
+    x, u = np.asarray(nodes.position, dtype=float), np.asarray(nodes.displacement, dtype=float)
+    if x.size < 2:
+        return BendingLine(x, u[:, 0], u[:, 1:3].T)
+    shear = _shear_numbers(solution.operation, x)
+    xi = np.linspace(0.0, 1.0, POINTS + 1)
+    places, axial, across = [], [], []
+    for i, length in enumerate(np.diff(x)):
+        if length <= 0.0:
+            continue
+        left, right = u[i], u[i + 1]
+        places.append(x[i] + xi * length)
+        axial.append(left[0] + xi * (right[0] - left[0]))
+        # slopes of the axis that bending alone makes are the tilts with the other sign
+        across.append([_beam(left[w], -left[t], right[w], -right[t], length, shear[i], xi) for _, w, t in PLANES])
+    return BendingLine(np.concatenate(places), np.concatenate(axial), np.concatenate(across, axis=1))
+
+
+def _beam(w1: float, s1: float, w2: float, s2: float, length: float, shear: float, xi: np.ndarray) -> np.ndarray:
+    """Deflection of a beam with shear between two nodes, from their deflections and slopes of the cross sections."""
+    scale = 1.0 / (1.0 + shear)
+    a = scale * (1.0 - 3.0 * xi**2 + 2.0 * xi**3 + shear * (1.0 - xi))
+    b = scale * length * (xi - 2.0 * xi**2 + xi**3 + 0.5 * shear * (xi - xi**2))
+    c = scale * (3.0 * xi**2 - 2.0 * xi**3 + shear * xi)
+    d = scale * length * (xi**3 - xi**2 + 0.5 * shear * (xi**2 - xi))
+    return a * w1 + b * s1 + c * w2 + d * s2
+
+
+def _shear_numbers(shaft: Any, x: np.ndarray) -> np.ndarray:
+    r"""$\varphi = 12EI/(G\kappa AL^2)$ of the part of the shaft between neighbouring nodes; 0 of a rigid shaft."""
+    sections = shaft.sections
+    if not sections:
+        return np.zeros(x.size - 1)
+    ends = np.cumsum([float(one.length) for one in sections])
+    found = []
+    for left, right in pairwise(x):
+        one = sections[min(int(np.searchsorted(ends, 0.5 * (left + right))), len(sections) - 1)]
+        poisson = float((shaft.material if one.material is None else one.material).poisson_ratio)
+        outer, inner = float(one.outer_diameter), float(one.inner_diameter)
+        radius2 = (outer**2 + inner**2) / 16.0
+        found.append(
+            24.0 * (1.0 + poisson) * radius2 / (cowper(poisson, inner / outer) * max(right - left, 1e-12) ** 2)
+        )
+    return np.array(found)
+
+
+def cowper(poisson: float, ratio: float) -> float:
+    """Cowper's shear factor of a hollow cylinder. **Arguments:** `ratio`: inner over outer diameter."""
+    m2 = ratio**2
+    top = 6.0 * (1.0 + poisson) * (1.0 + m2) ** 2
+    return top / ((7.0 + 6.0 * poisson) * (1.0 + m2) ** 2 + (20.0 + 12.0 * poisson) * m2)
+
+
+class CutLoads(NamedTuple):
+    """What the part of the shaft on the left of a cross section does to that on its right; at loads there are two
+    points, left and right of it.
+
+    - `axial`: tension, N.
+    - `shear`: along Y and Z, shape (2, point), N.
+    - `moment`: in the planes X-Y and X-Z, shape (2, point), N m; positive where the bending line is hollow towards +Y
+      and +Z.
+    """
+
+    position: np.ndarray
+    axial: np.ndarray
+    shear: np.ndarray
+    moment: np.ndarray
+
+
+def cut_loads(solution: Any) -> CutLoads:
+    """Cut loads by statics, from what acts on the shaft, its weight and the forces of its bearings."""
+    nodes = solution.shaft
+    at = np.concatenate([np.asarray(nodes.position), [float(one.position) for one in solution.bearings.values()]])
+    forces = [np.asarray(one.on_shaft) for one in solution.bearings.values()]
+    loads = np.concatenate([np.asarray(nodes.load), np.reshape(forces, (-1, 5))])
+    ends, weight = _weights(solution.operation)
+    marks = np.unique(np.concatenate([at, ends]))
+    x = np.concatenate([np.linspace(a, b, POINTS + 1) for a, b in pairwise(marks)])
+    # points of an interval are right of the loads at its left end, and left of those at its right end
+    interval = np.repeat(np.arange(marks.size - 1), POINTS + 1)
+    acts = at[:, None] <= marks[interval][None, :]
+    arm = np.where(acts, x[None, :] - at[:, None], 0.0)
+    shear = loads[:, 1:3].T @ acts
+    moment = loads[:, 3:5].T @ acts + loads[:, 1:3].T @ arm
+    for left, right, q in zip(ends[:-1], ends[1:], weight, strict=True):
+        covered = np.clip(x - left, 0.0, right - left)
+        shear += q[:, None] * covered
+        moment += q[:, None] * covered * (x - left - 0.5 * covered)
+    return CutLoads(x, -(loads[:, 0] @ acts), shear, moment)
+
+
+def _weights(shaft: Any) -> tuple[np.ndarray, np.ndarray]:
+    """Ends of the sections, m, and their weights per length along Y and Z, N/m, shape (section, 2)."""
+    ends, weights = [0.0] if shaft.sections else [], []
+    for one in shaft.sections:
+        ends.append(ends[-1] + float(one.length))
+        density = float((shaft.material if one.material is None else one.material).density)
+        area = 0.25 * np.pi * (float(one.outer_diameter) ** 2 - float(one.inner_diameter) ** 2)
+        pull = 0.0 if shaft.gravity is None else density * area * float(shaft.gravity.acceleration)
+        azimuth = 0.0 if shaft.gravity is None else float(shaft.gravity.azimuth)
+        weights.append([pull * np.cos(azimuth), pull * np.sin(azimuth)])
+    return np.array(ends), np.array(weights).reshape(-1, 2)

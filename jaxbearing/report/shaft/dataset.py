@@ -1,0 +1,136 @@
+"""A shaft's solution as a labelled xarray data set.
+
+Results of the bearings have the dimension `bearing`; those of a bearing's own family stand beside them, with the name
+of the bearing in front (`rear_load_inner` over `rear_element`). `node` runs along the shaft, `set` over the sets.
+"""
+
+from collections.abc import Iterator, Sequence
+from typing import Any
+
+import numpy as np
+import xarray as xr
+
+from ...bearings.solution import RING_FREEDOMS, force_units, stiffness_units
+from ...numerics.status import Status
+from ...shafts.solution import ShaftSolution
+from ..bearing.dataset import to_dataset as bearing_dataset
+from ..labels import labelled, udunits
+from ..registry import check_converged
+from ..variables import CHECK, attributes, checks, flags, variable, without_fill
+
+_VECTORS = {
+    "force": ("freedom",),
+    "on_shaft": ("freedom",),
+    "outer": ("freedom",),
+    "stiffness": ("freedom", "freedom_displaced"),
+}
+"""Results of a bearing with several numbers -> their dimensions."""
+_OWN = ("ring_", "force", "stiffness", "operation_", "life_", "freedom")
+"""Beginnings of names in the data set of a bearing's family that its place on the shaft gives another meaning."""
+
+
+def to_dataset(solution: ShaftSolution, dims: Sequence[str] = ()) -> xr.Dataset:
+    """See `report.dataset.solution_to_dataset`.
+
+    **Raises:** `ValueError` for a single solution that did not converge, and where `dims` does not fit the batch.
+    """
+    dims = tuple(dims)
+    batch = np.shape(solution.status)
+    if len(dims) != len(batch):
+        raise ValueError(
+            f"dims: got {len(dims)} names {dims}; the solution has {len(batch)} leading dimensions {batch}"
+        )
+    if not dims:
+        check_converged(solution)
+    dataset = xr.Dataset(attrs=attributes(solution, "Steady state of a shaft on bearings"))
+    for name, one in _variables(solution, dims):
+        dataset[name] = one
+    dataset["status"].attrs |= flags(dataset["status"].dtype, [status.text for status in Status])
+    if solution.range_checks:
+        dataset["out_of_range"] = checks(solution, dims)
+    return without_fill(dataset.assign_coords(_coordinates(solution)))
+
+
+def _variables(solution: ShaftSolution, dims: tuple[str, ...]) -> Iterator[tuple[str, xr.Variable]]:
+    for path, value, metadata in labelled(solution):
+        if "." not in path and metadata["unit"] != "mixed":
+            yield path, variable(value, metadata, path, dims)
+    yield from _of_nodes(solution, dims)
+    for part in ("torque", "life"):
+        inner = getattr(solution, part)
+        for path, value, metadata in labelled(inner) if inner is not None else ():
+            name = f"system_{path}" if part == "life" else f"torque_{path}"
+            yield name, variable(value, metadata, f"{part}.{path}", dims)
+    yield from _stacked(list(solution.bearings.values()), "bearing", "bearings", dims)
+    yield from _stacked(list(solution.sets.values()), "set", "sets", dims)
+    for name, one in solution.bearings.items():
+        if one.solution is not None and (dims or bool(one.solution.converged)):
+            yield from _of_family(name, one.solution, dims)
+
+
+def _of_nodes(solution: ShaftSolution, dims: tuple[str, ...]) -> Iterator[tuple[str, xr.Variable]]:
+    for name in ("position", "displacement", "load"):
+        values = np.asarray(getattr(solution.shaft, name))
+        said = type(solution.shaft).__dataclass_fields__[name].metadata
+        own = ("node",) if name == "position" else ("node", "freedom")
+        yield f"node_{name}", xr.Variable((*dims, *own), values, _said(said, f"shaft.{name}"))
+
+
+def _stacked(parts: list[Any], along: str, path: str, dims: tuple[str, ...]) -> Iterator[tuple[str, xr.Variable]]:
+    """Results of all bearings, or sets, along a dimension of their own; NaN where one does not have them."""
+    found: dict[str, tuple[dict[int, np.ndarray], Any]] = {}
+    for place, part in enumerate(parts):
+        for name, value, metadata in labelled(part):
+            if not name.startswith("solution.") and (np.ndim(value) == len(dims) or name in _VECTORS):
+                found.setdefault(name, ({}, metadata))[0][place] = np.asarray(value)
+    for name, (values, metadata) in found.items():
+        shape = next(iter(values.values())).shape
+        filled = [np.asarray(values.get(place, np.full(shape, np.nan))) for place in range(len(parts))]
+        own = _VECTORS.get(name, ())
+        said = _said(metadata, f"{path}.*.{name}")
+        title = f"{along}_{name.replace('.', '_')}"
+        yield title, xr.Variable((*dims, along, *own), np.stack(filled, axis=len(dims)), said)
+
+
+def _said(metadata: Any, path: str) -> dict[str, str]:
+    unit = metadata["unit"]
+    return {"units": "1" if unit == "mixed" else udunits(unit), "long_name": metadata["description"], "path": path}
+
+
+def _of_family(name: str, solution: Any, dims: tuple[str, ...]) -> Iterator[tuple[str, xr.Variable]]:
+    """The results of a bearing's family with its name in front."""
+    own = bearing_dataset(solution, dims)
+    front = name.replace(".", "_")
+    for inner, one in own.variables.items():
+        if str(inner).startswith(_OWN) or str(inner) in dims or CHECK in one.dims or {"freedom"} & set(one.dims):
+            continue
+        renamed = [f"{front}_{dim}" if dim not in dims else dim for dim in one.dims]
+        said = dict(one.attrs)
+        if said.get("path"):
+            said["path"] = f"bearings.{name}.solution.{said['path']}"
+        yield f"{front}_{inner}", xr.Variable(renamed, one.values, said)
+
+
+def _coordinates(solution: ShaftSolution) -> dict[str, xr.Variable]:
+    names: dict[str, tuple[list[str], str]] = {
+        "bearing": (list(solution.bearings), "name of the bearing"),
+        "freedom": (list(RING_FREEDOMS), "axial (X), radial (Y), lateral (Z), tilt, lateral tilt"),
+        "freedom_displaced": (list(RING_FREEDOMS), "freedom of the inner ring that is displaced"),
+    }
+    if solution.sets:
+        names["set"] = (list(solution.sets), "name of the set")
+    if solution.range_checks:
+        names[CHECK] = (list(solution.range_checks), "what is checked")
+    found = {
+        name: xr.Variable((name,), values, {"units": "1", "long_name": words})
+        for name, (values, words) in names.items()
+    }
+    found["force_units"] = xr.Variable(
+        ("freedom",),
+        [udunits(unit) for unit in force_units()],
+        {"units": "1", "long_name": "unit of an entry of force"},
+    )
+    units = [[udunits(unit) for unit in row] for row in stiffness_units()]
+    said = {"units": "1", "long_name": "unit of an entry of stiffness"}
+    found["stiffness_units"] = xr.Variable(("freedom", "freedom_displaced"), units, said)
+    return found

@@ -1,0 +1,152 @@
+"""Results of a shaft in words and tables, for screens and pages."""
+
+from collections.abc import Iterator, Sequence
+from typing import Any
+
+import numpy as np
+
+from ...bearings.solution import RING_FREEDOMS
+from ...shafts.solution import BearingOnShaft, SetResult, ShaftSolution
+from ..backends.json import finite
+from ..display import digits, with_unit
+from .bending import bending_line
+
+NAMES = "bearing\n"
+"""Heading of the names of bearings."""
+_LEAST = 1e-9
+"""Loads smaller than this part of the largest one are shown as 0: round-off."""
+
+
+def number(value: Any) -> float | None:
+    """A number of a result; `None` for what is not modelled or not finite."""
+    if value is None:
+        return None
+    plain = float(np.asarray(value))
+    return plain if np.isfinite(plain) else None
+
+
+def text(value: Any, significant: int = 4) -> str:
+    found = number(value)
+    return "-" if found is None else digits(found, significant)
+
+
+def bearing_columns(solution: ShaftSolution) -> dict[str, list[str]]:
+    """The table of the bearings: heading, with the unit on a second line -> texts, one a bearing."""
+    bearings = list(solution.bearings.values())
+    on_shaft = np.array([np.asarray(one.on_shaft) for one in bearings])
+    forces, moments = np.abs(on_shaft[:, :3]), np.abs(on_shaft[:, 3:])
+    force, moment = (max(float(np.max(values)), 1e-300) for values in (forces, moments))
+    axial = [_above(float(one.on_shaft[0]), force) for one in bearings]
+    radial = [_above(float(one.radial_force), force) for one in bearings]
+    return {
+        NAMES: [one.name for one in bearings],
+        "x\nmm": _column([1e3 * float(one.position) for one in bearings], 1),
+        "axial\nN": [f"{value:+{_width(force)}}" if value else "0" for value in axial],
+        "radial\nN": [f"{value:{_width(force)}}" for value in radial],
+        "at\ndeg": [f"{np.degrees(float(one.azimuth)):.1f}" if radial[i] else "-" for i, one in enumerate(bearings)],
+        "moment\nN m": [f"{_above(float(one.moment), moment):{_width(moment, 2)}}" for one in bearings],
+        "Q max\nN": [text(one.largest_load) for one in bearings],
+        "L10r\n10^6 rev": [_life(one) for one in bearings],
+        "loss\nW": [text(loss_of(one)) for one in bearings],
+    }
+
+
+def _above(value: float, largest: float) -> float:
+    return value if abs(value) > _LEAST * largest else 0.0
+
+
+def _width(largest: float, most: int = 1) -> str:
+    """Format of a column: as many decimals as its largest number needs for five digits, at most so many."""
+    decimals = min(max(4 - int(np.floor(np.log10(largest))), 0), most) if largest >= 1e-3 else 6
+    return f".{decimals}f"
+
+
+def _column(values: Sequence[float], decimals: int) -> list[str]:
+    return [f"{value:.{decimals}f}" for value in values]
+
+
+def _life(one: BearingOnShaft) -> str:
+    """Life in millions of revolutions; "-" without a rating, and of a bearing that carries nothing."""
+    found = None if one.life is None else number(one.life.L10r)
+    return (
+        "-"
+        if found is None
+        else f"{found:.3g}"
+        if found < 1e4
+        else f"{found:.2e}".replace("e+0", "e").replace("e+", "e")
+    )
+
+
+def loss_of(one: BearingOnShaft) -> float | None:
+    """Power loss of a bearing, W; `None` where its scene models none."""
+    loss = getattr(one.solution, "power_loss", None)
+    return None if loss is None or loss.total is None else number(loss.total)
+
+
+def set_facts(solution: ShaftSolution) -> Iterator[tuple[str, str]]:
+    """Name of a set, and what is known of it in words."""
+    for name, one in solution.sets.items():
+        yield name, ", ".join(_set_parts(one))
+
+
+def _set_parts(one: SetResult) -> Iterator[str]:
+    preload, closure = number(one.preload), number(one.closure)
+    if preload is not None:
+        yield f"preload {with_unit(preload, 'N')} mounted"
+    if closure is not None:
+        yield f"closure {with_unit(closure, 'm')} a bearing"
+    springs, loss = number(one.spring_force), number(one.loss_force)
+    if springs is not None:
+        yield f"springs {with_unit(springs, 'N')}"
+    if loss is not None:
+        yield f"lost at {with_unit(loss, 'N')} axial load at rest"
+    yield f"support distance {1e3 * float(one.support_distance):.1f} mm"
+
+
+def life_fact(solution: ShaftSolution) -> str:
+    """Life of the system in words; "" without one."""
+    life = solution.life
+    if life is None or number(life.L10r) is None:
+        return ""
+    hours = number(life.L10r_hours)
+    said = f"{digits(float(life.L10r))} million revolutions"
+    return said if hours is None else f"{said}, {digits(hours)} h"
+
+
+def shaft_facts(solution: ShaftSolution) -> Iterator[tuple[str, str]]:
+    """Name and text of what is known of the shaft: its bending, the slopes in the bearings, the torques."""
+    line = bending_line(solution)
+    size, place = line.largest()
+    yield "Deflection", f"largest {with_unit(size, 'm')} across the axis at {1e3 * place:.1f} mm"
+    tilts = [np.asarray([one.ring.tilt, one.ring.tilt_lateral], dtype=float) for one in solution.bearings.values()]
+    named = zip(solution.bearings, (float(np.hypot(*tilt)) for tilt in tilts), strict=True)
+    yield "Tilt of rings", ", ".join(f"{name} {1e3 * tilt:.3g} mrad" for name, tilt in named)
+    axial = ", ".join(f"{name} {with_unit(float(one.ring.axial), 'm', 3)}" for name, one in solution.bearings.items())
+    yield "Axial", f"inner ring against outer ring: {axial}"
+    torque = solution.torque
+    parts = [f"forces {with_unit(float(torque.forces), 'N m')}", f"drive {with_unit(float(torque.drive), 'N m')}"]
+    if number(torque.bearings):
+        parts.insert(1, f"bearings {with_unit(float(torque.bearings), 'N m')}")
+    yield "Torques", ", ".join(parts)
+    if number(torque.power_loss):
+        yield "Power loss", with_unit(float(torque.power_loss), "W")
+
+
+def shaft_warnings(solution: ShaftSolution) -> list[str]:
+    """The warnings of the shaft; of several bearings with the same one there is one, with all of their names."""
+    names: dict[str, list[str]] = {}
+    for text in solution.warnings:
+        name, _, rest = text.partition(": ")
+        own = name in solution.bearings and rest
+        names.setdefault(rest if own else text, []).extend([name] if own else [])
+    return [f"{', '.join(bearings)}: {text}" if bearings else text for text, bearings in names.items()]
+
+
+def stiffness_rows(one: BearingOnShaft) -> tuple[list[str], list[list[str]]]:
+    """Names of the freedoms, and rows of texts."""
+    rows = [[digits(float(value), 5) for value in row] for row in np.asarray(one.stiffness)]
+    return [name.replace("_", " ") for name in RING_FREEDOMS], rows
+
+
+def plain_array(value: Any) -> Any:
+    return finite(np.asarray(value).tolist())

@@ -1,0 +1,71 @@
+"""A shaft's solution as plain numbers and texts."""
+
+from typing import Any
+
+from ...numerics.status import Status
+from ...shafts.solution import BearingOnShaft, DutyResult, ShaftSolution
+from ..backends.json import finite, plain
+from ..bearing.json_report import to_dict as bearing_to_dict
+from .facts import plain_array, shaft_warnings
+
+_OF_SHAFT = ("operation", "ring", "force", "stiffness", "life", "iterations", "unknowns", "residual_norm")
+"""Results of a bearing's own solve that its place on the shaft gives another meaning."""
+
+
+def to_dict(solution: ShaftSolution) -> dict[str, Any]:
+    """See `report.json_report.solution_to_dict`.
+
+    `bearings`: by name, displacement of the inner ring (`ring`), load that holds it (`force`) and `stiffness` in the
+    frame of the bearing, force on the shaft (`on_shaft`) in that of the shaft, and the results of its own family.
+    `shaft.nodes`: arrays over the nodes. Where the solve failed all results are `None`.
+    """
+    converged = bool(solution.converged)
+    nodes = {name: plain_array(getattr(solution.shaft, name)) for name in ("position", "displacement", "load")}
+    return {
+        "converged": converged,
+        "status": Status(int(solution.status)).text,
+        "warnings": shaft_warnings(solution) if converged else list(solution.warnings),
+        "iterations": int(solution.iterations),
+        "start_steps": int(solution.start_steps),
+        "newton_steps": int(solution.newton_steps),
+        "residual_norm": finite(float(solution.residual_norm)),
+        "unknowns": solution.unknowns,
+        "bearings": {name: _bearing(one, converged) for name, one in solution.bearings.items()},
+        "shaft": {"nodes": nodes},
+        "sets": {name: plain(one) for name, one in solution.sets.items()},
+        "torque": plain(solution.torque),
+        "system_life": None if solution.life is None else plain(solution.life),
+        "duty": None if solution.duty is None else _duty(solution.duty),
+    }
+
+
+def _bearing(one: BearingOnShaft, converged: bool) -> dict[str, Any]:
+    family = bearing_to_dict(one.solution) if one.solution is not None and converged else {}
+    found = {name: value for name, value in family.items() if name not in _OF_SHAFT}
+    found |= {
+        "position": plain(one.position),
+        "sense": one.sense,
+        "ring": plain(one.ring),
+        "force": plain_array(one.force),
+        "stiffness": plain_array(one.stiffness),
+        "on_shaft": plain_array(one.on_shaft),
+        "radial_force": plain(one.radial_force),
+        "azimuth": plain(one.azimuth),
+        "outer": plain_array(one.outer),
+        "closure": plain(one.closure),
+        "expansion": plain(one.expansion),
+        "largest_load": plain(one.largest_load),
+        "pressure_centre": plain(one.pressure_centre),
+        "life": None if one.life is None else plain(one.life),
+    }
+    found.setdefault("power_loss", None)
+    return found
+
+
+def _duty(duty: DutyResult) -> dict[str, Any]:
+    shares = dict(zip(duty.names, plain_array(duty.shares), strict=True))
+    return {
+        "shares": shares,
+        "bearing_hours": {name: plain(value) for name, value in duty.bearing_hours.items()},
+        "system_hours": None if duty.system_hours is None else plain(duty.system_hours),
+    }

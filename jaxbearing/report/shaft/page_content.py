@@ -1,0 +1,98 @@
+"""Content of the report page of a shaft: the whole, then each of its bearings."""
+
+from collections.abc import Iterator
+from typing import Any
+
+import numpy as np
+
+from ...numerics.status import Status
+from ...shafts.solution import BearingOnShaft, ShaftSolution
+from ..bearing.facts import facts as bearing_facts
+from ..display import digits, with_unit
+from ..labels import labelled
+from ..page_content import Content, Listing, Sketch
+from ..tables import Row, row_of
+from .bending import bending_line
+from .drawn import svg
+from .facts import bearing_columns, life_fact, loss_of, number, set_facts, shaft_facts, shaft_warnings, stiffness_rows
+from .panels import shaft_panels
+from .picture import pictures
+from .plots import operating_text
+
+
+def page_content(scene: Any, solution: ShaftSolution) -> Content:
+    """See `report.html_report.html_report`."""
+    bearings = solution.bearings
+    losses = {name: watts for name, one in bearings.items() if (watts := loss_of(one)) is not None}
+    total = sum(losses.values())
+    share = lambda watts: f"{100.0 * watts / total:.1f}" if total else "-"
+    rows = [(name, digits(watts), share(watts)) for name, watts in losses.items()]
+    return Content(
+        kind="shaft on bearings",
+        operation=operating_text(solution),
+        headlines=list(_headlines(solution, total if losses else None)),
+        sketches=[Sketch(one.title, svg(one), one.caption) for one in pictures(scene, solution)],
+        facts=[*shaft_facts(solution), *((f"set {name}", text) for name, text in set_facts(solution))],
+        facts_title="Shaft and sets",
+        losses=[*rows, ("total", digits(total), "100")] if rows else [],
+        charts=shaft_panels(solution),
+        listings=[_table(solution), *(_of_bearing(one) for one in bearings.values())],
+        convergence=[
+            ("status", Status(int(solution.status)).text.replace("_", " ")),
+            ("steps of the convex minimisation", str(int(solution.start_steps))),
+            ("Newton steps", str(int(solution.newton_steps))),
+            ("unknowns of the shaft", str(solution.unknowns)),
+            ("largest scaled residual", f"{float(solution.residual_norm):.1e}"),
+        ],
+        checks=[(text, bool(broken)) for text, broken in solution.range_checks.items()],
+        notes=[text for text in shaft_warnings(solution) if text not in solution.range_checks],
+        results=list(_results(solution)),
+    )
+
+
+def _headlines(solution: ShaftSolution, total: float | None) -> Iterator[tuple[str, str]]:
+    if life_fact(solution) and solution.life is not None:
+        yield "system life L10r", f"{digits(float(solution.life.L10r_hours))} h"
+    size, _ = bending_line(solution).largest()
+    yield "largest deflection", with_unit(size, "m")
+    if total is not None:
+        yield "power loss", with_unit(total, "W")
+    loads = [number(one.largest_load) for one in solution.bearings.values()]
+    largest = max((load for load in loads if load is not None), default=None)
+    if largest is not None:
+        yield "largest load of an element", with_unit(largest, "N")
+
+
+def _table(solution: ShaftSolution) -> Listing:
+    columns = bearing_columns(solution)
+    headings = [heading.rstrip("\n").replace("\n", ", ") for heading in columns]
+    rows = [list(row) for row in zip(*columns.values(), strict=True)]
+    return Listing("Bearings", headings, rows, ["Forces of the bearings on the shaft; azimuths from Y."])
+
+
+def _of_bearing(one: BearingOnShaft) -> Listing:
+    """The stiffness of a bearing, and what is known of it in words."""
+    names, rows = stiffness_rows(one)
+    said = [f"{name}: {text}" for name, text in bearing_facts(one.solution)] if one.solution is not None else []
+    ring = ", ".join(_texts(one.ring))
+    remarks = [f"Displacement of the inner ring against the outer one: {ring}.", *said]
+    table = [[name, *row] for name, row in zip(names, rows, strict=True)]
+    return Listing(f"Bearing {one.name}: stiffness, N/m, N/rad, N m/m, N m/rad", ["", *names], table, remarks)
+
+
+def _texts(part: Any) -> Iterator[str]:
+    for path, value, metadata in labelled(part):
+        yield f"{path.replace('_', ' ')} {with_unit(float(value), metadata['unit'])}"
+
+
+def _results(solution: ShaftSolution) -> Iterator[Row]:
+    """All single numbers, by their paths in Python."""
+    parts = {f"bearings['{name}'].": one for name, one in solution.bearings.items()}
+    parts |= {f"sets['{name}'].": one for name, one in solution.sets.items()}
+    parts |= {"torque.": solution.torque, "life.": solution.life}
+    for above, part in parts.items():
+        if part is None:
+            continue
+        for path, value, metadata in labelled(part):
+            if np.ndim(value) == 0 and not path.startswith("solution.operation") and metadata["unit"] != "mixed":
+                yield row_of(above + path, np.asarray(value), metadata)

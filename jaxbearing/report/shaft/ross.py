@@ -1,0 +1,145 @@
+"""A shaft on its bearings as a rotor of the rotordynamics package ROSS: `ross.Rotor.load(file)`.
+
+Axes, angle of the load line and what bearing elements leave out are those of `report.ross`: here `load_direction` is
+the angle from ROSS's x axis to Y. Shaft elements lie between ends of sections, bearings and masses, with Cowper's
+shear factor as in the package; masses are disks without moments of inertia, which a scene does not have. Each bearing
+is one element at its node, with the full 2x2 across the axis and the axial stiffness, at the equilibria of the table
+of speeds; elastic supports of its outer ring are in series.
+
+ROSS 2.3 says that the file was made by another version: it has none of a version of its own.
+"""
+
+import math
+import os
+from itertools import pairwise
+from typing import Any
+
+import numpy as np
+import tomli_w
+
+from ... import __version__
+from ...shafts.forces import Mass
+from ...shafts.scene import ShaftSystem
+from ..files import write_whole
+from ..ross import WEIGHT_DIRECTION, element_of, one_line
+from .stiffness import ShaftStiffness
+
+SAME = 1e-9
+"""Distance of two places that are one node, m."""
+_COLOUR = "#525252"
+
+
+def require_rotor(scene: Any) -> None:
+    """**Raises:** `ValueError` for a shaft that is no rotor of ROSS."""
+    if not scene.shaft.sections:
+        raise ValueError("found a rigid shaft, expected one with shaft.sections: ROSS has no rigid rotors")
+    if scene.housing is not None:
+        raise ValueError("found a housing, which couples the outer rings; expected supports")
+
+
+def ross_rotor(
+    table: ShaftStiffness, scene: ShaftSystem, *, load_direction: float = WEIGHT_DIRECTION
+) -> dict[str, dict[str, Any]]:
+    """Elements of the rotor by their class and tag, each with the arguments of its class.
+
+    **Raises:** as `require_rotor`; `ValueError` as `report.ross.ross_bearing`.
+    """
+    nodes = rotor_nodes(scene)
+    masses = [one for one in scene.forces if isinstance(one, Mass)]
+    found: dict[str, dict[str, Any]] = {}
+    for number, (left, right) in enumerate(pairwise(nodes)):
+        found[f"ShaftElement_shaft{number}"] = _element(scene, left, right, number)
+    for one in masses:
+        tag = one.name
+        disk = {"n": _node(nodes, float(one.position)), "m": float(one.mass), "Id": 0.0, "Ip": 0.0, "tag": tag}
+        found[f"DiskElement_{tag}"] = disk
+    for name, values in table.bearings.items():
+        tag = name.replace(".", "_")
+        node = _node(nodes, table.position[name])
+        found[f"BearingElement_{tag}"] = element_of(table.speed, values, load_direction, node, tag)
+    return found
+
+
+def rotor_nodes(scene: Any) -> np.ndarray:
+    """Places of the nodes: ends of sections, bearings and masses, m. **Raises:** as `require_rotor`."""
+    require_rotor(scene)
+    ends = _ends(scene)
+    masses = [float(one.position) for one in scene.forces if one.kind == "mass"]
+    return _apart(np.clip([*ends, *(float(place.position) for place in scene.places), *masses], 0.0, ends[-1]))
+
+
+def section_between(scene: Any, left: float, right: float) -> tuple[Any, Any]:
+    """The section, and its material, to which the part of the shaft between two nodes belongs."""
+    ends = _ends(scene)
+    place = min(int(np.searchsorted(ends, 0.5 * (left + right))) - 1, len(scene.shaft.sections) - 1)
+    section = scene.shaft.sections[place]
+    return section, scene.shaft.material if section.material is None else section.material
+
+
+def _ends(scene: Any) -> np.ndarray:
+    return np.concatenate([[0.0], np.cumsum([float(one.length) for one in scene.shaft.sections])])
+
+
+def _apart(places: np.ndarray) -> np.ndarray:
+    """Places of nodes in their order, each once."""
+    ordered = np.sort(places)
+    return ordered[np.concatenate([[True], np.diff(ordered) > SAME])]
+
+
+def _node(nodes: np.ndarray, position: float) -> int:
+    return int(np.argmin(np.abs(nodes - position)))
+
+
+def _element(scene: ShaftSystem, left: float, right: float, number: int) -> dict[str, Any]:
+    section, material = section_between(scene, left, right)
+    young, poisson = float(material.youngs_modulus), float(material.poisson_ratio)
+    inner, outer = float(section.inner_diameter), float(section.outer_diameter)
+    return {
+        "L": float(right - left),
+        "idl": inner,
+        "odl": outer,
+        "idr": inner,
+        "odr": outer,
+        "n": number,
+        "axial_force": 0.0,
+        "torque": 0.0,
+        "shear_effects": True,
+        "rotary_inertia": True,
+        "gyroscopic": True,
+        "shear_method_calc": "cowper",
+        "tag": f"shaft{number}",
+        "material": {
+            "name": f"shaft{number}",
+            "rho": float(material.density),
+            "E": young,
+            "G_s": young / (2.0 * (1.0 + poisson)),
+            "color": _COLOUR,
+        },
+    }
+
+
+def write_ross_rotor(
+    table: ShaftStiffness,
+    scene: Any,
+    file: str | os.PathLike[str],
+    scene_label: str = "",
+    *,
+    load_direction: float = WEIGHT_DIRECTION,
+) -> None:
+    """Write the rotor, whole or not at all; a file that is there is replaced.
+
+    **Raises:** `ValueError` for a name that does not end in .toml, and as `ross_rotor`; `OSError` where it cannot be
+    written.
+    """
+    if not os.fspath(file).lower().endswith(".toml"):
+        raise ValueError(f"the file must end in .toml, got {os.fspath(file)!r}")
+    elements = ross_rotor(table, scene, load_direction=load_direction)
+    said = [
+        f"A shaft on bearings for ROSS: rs.Rotor.load(file). Written by jaxbearing {__version__}.",
+        *([f"Scene: {one_line(scene_label)}"] if scene_label else []),
+        "k..: N/m, tangent stiffness of the bearings in the shaft's equilibrium, tilts held; c.. = 0: no damping.",
+        "Disks have no moments of inertia (Id, Ip): put in what you know.",
+        f"Y of the shaft: {math.degrees(load_direction):.6g} deg from x towards y; z along the shaft.",
+    ]
+    comments = "".join(f"# {line}\n" for line in said)
+    write_whole(file, f"{comments}\n{tomli_w.dumps({'parameters': {}, **elements})}")

@@ -1,0 +1,193 @@
+"""Stiffness of the bearings and sets of a shaft over its speed."""
+
+from collections.abc import Callable
+from typing import Any, NamedTuple
+
+import jax.numpy as jnp
+import numpy as np
+from rich.console import Console
+
+from ..._scene import AbstractScene
+from ...bearings.ring import shift_matrix
+from ...bearings.solution import RING_FREEDOMS, stiffness_units
+from ...numerics.status import SolveError
+from ...shafts.mounting import Support
+from ...shafts.scene import ShaftSystem
+from ...shafts.solution import ShaftSolution
+from ...solve import jit_solver
+from ..backends.json import plain
+from ..backends.screen import column, counted, headline, pieces, print_line, print_rule, print_table, print_warnings
+from ..display import digits, display_unit, with_unit
+from .facts import shaft_warnings
+
+MODES = 4
+"""Natural frequencies that a table has."""
+
+
+class ShaftStiffness(NamedTuple):
+    """Tangent stiffness at the equilibria of a shaft at several speeds, in the frame of the shaft.
+
+    - `speed`: of the shaft, rad/s.
+    - `bearings`: name -> d (load on the inner ring) / d (its displacement) at the row, with the elastic support of the
+      outer ring in series; N/m, N/rad, N m/m and N m/rad; axes: speed, row, column.
+    - `sets`: name -> the same of a set at its middle, on a rigid piece of shaft.
+    - `position`: name -> of the row, or of the middle of a set, m.
+    - `freedom`: names of rows and columns.
+    - `natural_frequencies`: of the bending of a shaft with sections, rad/s, the first ones; axes: speed, mode. Without
+      damping and gyroscopic effect (`modes`).
+    - `warnings`: of all speeds.
+    """
+
+    speed: np.ndarray
+    bearings: dict[str, np.ndarray]
+    sets: dict[str, np.ndarray]
+    position: dict[str, float]
+    freedom: tuple[str, ...]
+    warnings: tuple[str, ...]
+    natural_frequencies: np.ndarray | None = None
+
+
+def shaft_at_speeds(scene: AbstractScene, speeds: Any) -> list[ShaftSystem]:
+    """The shaft at each speed, rad/s.
+
+    **Raises:** `TypeError` for something else than a shaft; `ValueError` for speeds that are not finite and increasing.
+    """
+    if not isinstance(scene, ShaftSystem):
+        raise TypeError(f"a {type(scene).__name__} is no shaft")
+    values = np.asarray(speeds, dtype=np.float64)
+    if values.ndim != 1 or values.size == 0 or not np.all(np.isfinite(values)) or np.any(np.diff(values) <= 0.0):
+        raise ValueError("speeds must be a list of finite numbers, each larger than the one before")
+    return [scene.replace({"shaft.speed": float(value)}) for value in values]
+
+
+def shaft_stiffness_over_speed(
+    scene: AbstractScene, speeds: Any, *, solver: Callable[[Any], ShaftSolution] | None = None
+) -> ShaftStiffness:
+    """Solves at each speed; forces are the scene's at all of them.
+
+    **Arguments:** `speeds`: rad/s, increasing; `solver`: from a scene to a solution, without raising; that of
+    `jit_solver` if not given.
+
+    **Raises:** as `shaft_at_speeds`; `SolveError` for the first speed that fails.
+    """
+    scenes = shaft_at_speeds(scene, speeds)
+    solve = jit_solver(scenes[0]) if solver is None else solver
+    solutions = []
+    for one in scenes:
+        solution = solve(one)
+        if not bool(solution.converged):
+            speed = float(one.shaft.speed)
+            raise SolveError(f"at {speed:.6g} rad/s ({with_unit(speed, 'rad/s', 5)}): {solution.failure()}")
+        solutions.append(solution)
+    system = scenes[0]
+    own = [tangents(system, solution) for solution in solutions]
+    sets = [{one.name: set_tangent(system, solution, one.name) for one in system.sets} for solution in solutions]
+    names = {place.name: float(place.position) for place in system.places}
+    table = ShaftStiffness(
+        speed=np.asarray(speeds, dtype=np.float64),
+        bearings={name: np.stack([one[name] for one in own]) for name in own[0]},
+        sets={name: np.stack([one[name] for one in sets]) for name in sets[0]},
+        position=names | {one.name: float(one.position) for one in system.sets},
+        freedom=RING_FREEDOMS,
+        warnings=tuple(dict.fromkeys(text for solution in solutions for text in shaft_warnings(solution))),
+    )
+    if not system.shaft.sections:
+        return table
+    from .modes import natural_frequencies
+
+    modes = [natural_frequencies(table, system, place)[:MODES] for place in range(len(scenes))]
+    return table._replace(natural_frequencies=np.stack(modes))
+
+
+def tangents(system: ShaftSystem, solution: ShaftSolution) -> dict[str, np.ndarray]:
+    """Stiffness of each bearing with the support of its outer ring, in the frame of the shaft.
+
+    **Raises:** `ValueError` for a housing that holds all outer rings together: its bearings are no separate springs.
+    """
+    if system.housing is not None:
+        raise ValueError("a housing couples the outer rings: the bearings have no stiffness of their own")
+    found = {}
+    for place in system.places:
+        one = solution.bearings[place.name]
+        mirror = np.array([one.sense, 1.0, 1.0, one.sense, one.sense])
+        bearing = mirror[:, None] * np.asarray(one.stiffness, dtype=float) * mirror
+        found[place.name] = _in_series(bearing, place.support)
+    return found
+
+
+def _in_series(bearing: np.ndarray, support: Support | None) -> np.ndarray:
+    """A bearing whose outer ring is on an elastic support; freedoms of the support that are rigid hold the ring."""
+    if support is None:
+        return bearing
+    if support.matrix is not None:
+        outer, free = np.asarray(support.matrix, dtype=float), np.ones(5, dtype=bool)
+    else:
+        given = (support.axial, support.radial, support.radial, support.tilt, support.tilt)
+        free = np.array([one is not None for one in given])
+        outer = np.diag([0.0 if one is None else float(one) for one in given])
+    if not np.any(free):
+        return bearing
+    inner = bearing[:, free]
+    return bearing - inner @ np.linalg.solve(bearing[np.ix_(free, free)] + outer[np.ix_(free, free)], bearing[free])
+
+
+def set_tangent(system: ShaftSystem, solution: ShaftSolution, name: str) -> np.ndarray:
+    """Stiffness of a set at its middle; outer rings on springs move along the axis."""
+    number = [one.name for one in system.sets].index(name)
+    one = system.sets[number]
+    own, names = tangents(system, solution), one.names
+    total, across, along = np.zeros((5, 5)), np.zeros((5, 0)), np.zeros((0, 5))
+    pressed = _pressed(one)
+    spring = np.zeros((0, 0))
+    if pressed:
+        stiffness = 0.0 if one.preload is None or one.preload.spring_stiffness is None else one.preload.spring_stiffness
+        spring, across, along = np.array([[float(stiffness)]]), np.zeros((5, 1)), np.zeros((1, 5))
+    for bearing in names:
+        distance = solution.bearings[bearing].position - one.position
+        shift = np.asarray(shift_matrix(jnp.asarray(distance)))
+        matrix = own[bearing]
+        total += shift.T @ matrix @ shift
+        if bearing in pressed:
+            # the rings that springs press move along the axis of their bearings
+            axis = np.array([[solution.bearings[bearing].sense, 0.0, 0.0, 0.0, 0.0]]).T
+            across += shift.T @ matrix @ axis
+            along += axis.T @ matrix @ shift
+            spring += axis.T @ matrix @ axis
+    return total - across @ np.linalg.solve(spring, along) if pressed else total
+
+
+def _pressed(one: Any) -> tuple[str, ...]:
+    """Names of the bearings whose outer rings springs press: those of the last group of the picture."""
+    if one.preload is None or one.preload.spring_force is None:
+        return ()
+    return tuple(name for name, sign in zip(one.names, one.picture, strict=True) if sign == one.picture[-1])
+
+
+def shaft_stiffness_to_dict(table: ShaftStiffness) -> dict[str, Any]:
+    """The table as JSON has it: SI units and radians."""
+    return {name: plain(value) for name, value in table._asdict().items()}
+
+
+def print_shaft_stiffness(table: ShaftStiffness, label: str, console: Console) -> None:
+    """The diagonal of the stiffness of each set and bearing against speed."""
+    state = f"{counted(len(table.speed), 'speed')} solved; entries off the diagonal: --json"
+    headline(label, "CONVERGED", "bold green", state, console)
+    units = stiffness_units()
+    first = {f"speed\n{display_unit('rad/s')}": column(table.speed, "rad/s")}
+    for kind, found in (("Set", table.sets), ("Bearing", table.bearings)):
+        for name, values in found.items():
+            print_rule(f"{kind} {name}, at {1e3 * table.position[name]:.6g} mm", console)
+            columns = {
+                f"{freedom}\n{display_unit(units[i][i])}": column(values[:, i, i], units[i][i])
+                for i, freedom in enumerate(table.freedom)
+            }
+            for piece in pieces(first, columns, console.width):
+                print_table(piece, [0.0] * len(table.speed), 0, "", console)
+    if table.natural_frequencies is not None:
+        print_rule("Natural frequencies of bending, without damping and gyroscopic effect", console)
+        modes = table.natural_frequencies.T / (2.0 * np.pi)
+        columns = {f"mode {place + 1}\nHz": [digits(float(one), 5) for one in mode] for place, mode in enumerate(modes)}
+        print_table(first | columns, [0.0] * len(table.speed), 0, "", console)
+    print_line("Stiffness", "d load / d displacement of the inner ring, its other freedoms held", console)
+    print_line("Axes", "axial X, radial Y, lateral Z of the shaft; tilts move azimuth 0 and 90 deg along X", console)
+    print_warnings(table.warnings, console)

@@ -1,0 +1,69 @@
+"""The summary of a shaft on the screen: a row a bearing, then sets, life, the shaft, warnings."""
+
+from rich.console import Console
+
+from ...numerics.status import Status
+from ...shafts.solution import DutyResult, ShaftSolution
+from ..backends.screen import (
+    counted,
+    headline,
+    pieces,
+    print_failure,
+    print_line,
+    print_rule,
+    print_table,
+    print_warnings,
+)
+from ..display import digits
+from .facts import NAMES, bearing_columns, life_fact, set_facts, shaft_facts, shaft_warnings
+
+
+def print_summary(solution: ShaftSolution, scene_label: str, console: Console, full: bool = False) -> None:
+    """See `report.summary.print_summary`. **Arguments:** `full`: with the summary of every bearing below."""
+    if not bool(solution.converged):
+        print_failure(scene_label, Status(int(solution.status)).text, solution.failure(), console)
+        print_warnings(solution.warnings, console)
+        return
+    steps = f"{int(solution.start_steps)} + {int(solution.newton_steps)} Newton steps"
+    counts = f"{counted(solution.unknowns, 'unknown')} of the shaft, {counted(len(solution.bearings), 'bearing')}"
+    state = f"{steps}, {counts}, largest scaled residual {float(solution.residual_norm):.1e}"
+    headline(scene_label, "CONVERGED", "bold green", state, console)
+    _print_bearings(solution, console)
+    print_rule("Shaft", console)
+    for name, text in shaft_facts(solution):
+        print_line(name, text, console)
+    if solution.duty is not None:
+        _print_duty(solution.duty, console)
+    print_warnings(shaft_warnings(solution), console)
+    if full:
+        from ..bearing.summary import print_summary as print_bearing
+
+        for name, one in solution.bearings.items():
+            if one.solution is not None:
+                print_bearing(one.solution, name, console, full)
+
+
+def _print_bearings(solution: ShaftSolution, console: Console) -> None:
+    print_rule("Bearings", console)
+    columns = bearing_columns(solution)
+    first = {NAMES: columns.pop(NAMES)}
+    for piece in pieces(first, columns, console.width):
+        print_table(piece, [0.0] * len(solution.bearings), 0, "", console, named=NAMES)
+    print_line("", "Forces of the bearings on the shaft; azimuths from Y in the sense of rotation.", console, 0)
+    for name, text in set_facts(solution):
+        print_line(name, text, console)
+    life = life_fact(solution)
+    if life:
+        print_line("System life", life, console)
+
+
+def _print_duty(duty: DutyResult, console: Console) -> None:
+    print_rule("Duty cycle", console)
+    shares = ", ".join(
+        f"{name} {100.0 * float(share):.4g} %" for name, share in zip(duty.names, duty.shares, strict=True)
+    )
+    print_line("States", shares, console)
+    hours = ", ".join(f"{name} {digits(float(value))} h" for name, value in duty.bearing_hours.items())
+    print_line("Life", hours, console)
+    if duty.system_hours is not None:
+        print_line("System life", f"{digits(float(duty.system_hours))} h", console)

@@ -1,0 +1,1 @@
+"""Scene files of shafts on bearings: names of their tables, schema, builder, writer."""

@@ -1,0 +1,264 @@
+"""The lists of tables of a shaft's file, by name, and the scenes of bearings that it names.
+
+A file writes bearings, sets and forces as lists of tables, each with a `name`, and the sections of the shaft as a list.
+Here they become tables by name, so that a dotted path such as `bearing.rear.position` finds them. The scene of a
+bearing, a file or a built-in one, becomes the tables of its entry.
+"""
+
+import re
+from collections.abc import Callable, Iterator, Mapping
+from pathlib import Path
+from typing import Any
+
+from pydantic import BaseModel
+
+from ..data_files import builtin_names
+from ..errors import SceneError, nearest, one_of
+from ..fields import plain_table_at
+from ..kinds import kind_named
+from ..table import Table
+from ..units import describe
+
+LISTS = {"bearing": "rear", "set": "front", "force": "pinion"}
+"""Tables of a shaft's file that are lists by name -> an example of a name."""
+NAME, SCENE, SECTIONS = "name", "scene", "sections"
+BEARINGS = ("ball_bearing", "cylindrical_roller_bearing", "tapered_roller_bearing")
+"""Kinds of bearing scenes that a shaft may have."""
+LINEAR = "linear"
+"""Kind of a bearing that is known by its stiffness only."""
+OF_SHAFT = ("oil_temperature", "oil_flow", "outer_speed")
+"""Fields of a bearing's operating point that it keeps on a shaft; its loads and inner speed follow from the shaft."""
+OF_MOUNT = (
+    *("position", "thrust", "closure", "expansion", "support"),
+    *("picture", "distance", "preload", "mismatch"),
+)
+"""Fields of an entry that say where the bearing is and how it is mounted."""
+_NAME = re.compile(r"[A-Za-z][A-Za-z0-9_-]*")
+_MEANT = "a name of letters, digits, _ and -, beginning with a letter, e.g. {example!r}"
+_TAKEN = "another name: this one means something to the program"
+
+Read = Callable[[str], dict[str, Any]]
+"""Reads the tables of the scene of a bearing, of a file or built-in."""
+
+
+def named(mapping: Mapping[str, Any], label: str) -> dict[str, Any]:
+    """The tables of a shaft with its lists as tables by name; tables by name stay as they are.
+
+    **Arguments:** `label`: name of the file, for messages.
+
+    **Raises:** `SceneError` with all that is wrong with names.
+    """
+    problems: list[SceneError] = []
+    found = dict(mapping)
+    for table, example in LISTS.items():
+        if table in found:
+            try:
+                found[table] = _by_name(found[table], table, example, label)
+            except SceneError as error:
+                problems += error.problems
+    shaft = found.get("shaft")
+    if isinstance(shaft, Mapping) and isinstance(shaft.get(SECTIONS), list):
+        found["shaft"] = {**shaft, SECTIONS: {str(i + 1): one for i, one in enumerate(shaft[SECTIONS])}}
+    problems += _twice(found, label)
+    if problems:
+        raise SceneError.of_all(problems)
+    return found
+
+
+def _by_name(given: Any, table: str, example: str, label: str) -> dict[str, Any]:
+    """**Raises:** `SceneError` for what is no list of tables, and for names that are wrong or there twice."""
+    if isinstance(given, Mapping) and all(isinstance(one, Mapping) for one in given.values()):
+        for name in given:
+            if not _NAME.fullmatch(str(name)):
+                raise SceneError(label, table, describe(name), _MEANT.format(example=example))
+            if _is_taken(str(name)):
+                raise SceneError(label, f"{table}.{name}", f"the name '{name}'", _TAKEN)
+        return {str(name): dict(one) for name, one in given.items()}
+    if not isinstance(given, list) or not all(isinstance(one, Mapping) for one in given):
+        found = "one table" if isinstance(given, Mapping) else describe(given)
+        raise SceneError(label, table, found, f'[[{table}]] tables in double brackets, each with name = "{example}"')
+    found: dict[str, Any] = {}
+    problems = []
+    for place, one in enumerate(given):
+        name = one.get(NAME, _default_name(one, table, found))
+        at = f"{table}[{place}].{NAME}"
+        if not isinstance(name, str) or not _NAME.fullmatch(name):
+            problems.append(SceneError(label, at, describe(name), _MEANT.format(example=example)))
+        elif _is_taken(name):
+            problems.append(SceneError(label, at, f"the name '{name}'", _TAKEN))
+        elif name in found:
+            problems.append(SceneError(label, at, f"'{name}' twice", "a name of its own for each"))
+        else:
+            found[name] = {key: value for key, value in one.items() if key != NAME}
+    if problems:
+        raise SceneError.of_all(problems)
+    return found
+
+
+def _is_taken(name: str) -> bool:
+    """True for a name that a table has for something else, such as `checks`."""
+    return hasattr(Table, name) or name.startswith("model_")
+
+
+def _default_name(one: Mapping[str, Any], table: str, taken: Mapping[str, Any]) -> str:
+    """The name of a table that has none: its kind, or what it is, with a number where that is taken."""
+    kind = one.get("kind")
+    base = kind if table == "force" and isinstance(kind, str) and _NAME.fullmatch(kind) else table
+    return next(name for i in range(1, len(taken) + 2) if (name := base if i == 1 else f"{base}_{i}") not in taken)
+
+
+def _twice(found: Mapping[str, Any], label: str) -> Iterator[SceneError]:
+    """Problems with names that a bearing and a set share: results are told apart by them."""
+    bearings, sets = (found.get(table) for table in ("bearing", "set"))
+    if isinstance(bearings, Mapping) and isinstance(sets, Mapping):
+        for name in sets:
+            if name in bearings:
+                yield SceneError(label, f"set.{name}", f"the name '{name}' of a bearing", "a name of its own")
+
+
+def beside(mapping: dict[str, Any], folder: Path) -> dict[str, Any]:
+    """The tables of a shaft's file in this folder, by name, with the paths of bearing scenes as seen from here."""
+    found = dict(mapping)
+    for table in ("bearing", "set"):
+        entries = found.get(table)
+        if isinstance(entries, Mapping):
+            found[table] = {name: _moved(one, folder) for name, one in entries.items()}
+    return found
+
+
+def _moved(entry: Mapping[str, Any], folder: Path) -> dict[str, Any]:
+    found = dict(entry)
+    scene, oil = entry.get(SCENE), entry.get("oil")
+    if isinstance(scene, str) and scene not in builtin_names():
+        found[SCENE] = str(folder / scene)
+    if isinstance(oil, Mapping) and isinstance(oil.get("file"), str):
+        found["oil"] = {**oil, "file": str(folder / oil["file"])}
+    return found
+
+
+def read_scenes(mapping: Mapping[str, Any], label: str, read: Read) -> dict[str, Any]:
+    """The tables of a shaft, by name, with the tables of each bearing's scene in the place of its file's name.
+
+    **Raises:** `SceneError` for a file that cannot be read, and for one that is no bearing.
+    """
+    found, problems = dict(mapping), []
+    for table in ("bearing", "set"):
+        entries = found.get(table)
+        if not isinstance(entries, Mapping):
+            continue
+        found[table] = dict(entries)
+        for name, entry in entries.items():
+            if isinstance(entry, Mapping) and isinstance(entry.get(SCENE), str):
+                try:
+                    scene = bearing_scene(entry[SCENE], f"{table}.{name}.{SCENE}", label, read)
+                except SceneError as error:
+                    problems += error.problems
+                else:
+                    found[table][name] = {**entry, SCENE: scene}
+    if problems:
+        raise SceneError.of_all(problems)
+    return found
+
+
+def bearing_scene(source: str, path: str, label: str, read: Read) -> dict[str, Any]:
+    """The tables of a bearing's scene without its loads and speeds.
+
+    **Arguments:** `path`: of the field that names it; `label`: name of the shaft's file.
+
+    **Raises:** `SceneError` for a file that cannot be read, and for one that is no bearing.
+    """
+    tables = read(source)
+    kind = kind_named(tables.get("kind"))
+    if kind not in BEARINGS:
+        found = f"'{source}', whose kind is {describe(tables.get('kind'))}"
+        raise SceneError(label, path, found, f"the scene of a bearing: kind {one_of(BEARINGS)}")
+    return without_loads({**tables, "kind": kind})
+
+
+def with_scenes(
+    mapping: Mapping[str, Any], overrides: Mapping[str, str], label: str
+) -> tuple[dict[str, Any], dict[str, str]]:
+    """The tables of a shaft, by name, with the tables of scenes in the place of their names, also of those that an
+    override names; and the other overrides.
+
+    **Raises:** `SceneError` as `named` and `read_scenes`.
+    """
+    from ..overrides import parse_value
+    from ..reader import tables_of_file
+
+    found, left = named(mapping, label), {}
+    for path, text in overrides.items():
+        if path == f"shaft.{SECTIONS}" and isinstance(found.get("shaft"), Mapping) and text != REMOVE:
+            found = named({**found, "shaft": {**found["shaft"], SECTIONS: parse_value(text)}}, label)
+            continue
+        word, _, rest = path.partition(".")
+        name = rest.removesuffix(f".{SCENE}")
+        entries = found.get(word) if word in ("bearing", "set") and name != rest else None
+        if isinstance(entries, Mapping) and isinstance(entries.get(name), Mapping) and text != REMOVE:
+            entry = entries[name]
+            # another bearing takes the place of one whose tables stand in the entry itself
+            kept = entry if SCENE in entry else {key: value for key, value in entry.items() if key in OF_MOUNT}
+            found[word] = {**entries, name: {**kept, SCENE: text}}
+        else:
+            left[path] = text
+    return read_scenes(found, label, tables_of_file), left
+
+
+REMOVE = "none"
+"""The value that takes an optional table or field of a bearing's scene out."""
+_WHOLE_OIL = ("name", "grade", "base", "file")
+"""Fields with which the oil of an entry stands for another one than that of its scene."""
+
+
+def merged(scene: Mapping[str, Any], own: Mapping[str, Any], table: type[BaseModel] | None) -> dict[str, Any]:
+    """The tables of a bearing's scene with what its entry in the shaft's file says beside it.
+
+    **Arguments:** `table`: schema of both, where it is one.
+    """
+    found = dict(scene)
+    instead = getattr(table, "instead", {})
+    for name in own:
+        for other in instead.get(name, ()):
+            found.pop(other, None)
+    for name, value in own.items():
+        there = found.get(name)
+        if value == REMOVE and name != NAME:
+            found.pop(name, None)
+        elif not (isinstance(there, Mapping) and isinstance(value, Mapping)):
+            found[name] = value
+        elif name == "oil" and any(key in value for key in _WHOLE_OIL):
+            found[name] = dict(value)
+        else:
+            inner = None if table is None else plain_table_at(table, name)
+            found[name] = merged(there, value, inner)
+    return found
+
+
+def without_loads(tables: Mapping[str, Any]) -> dict[str, Any]:
+    """The tables of a bearing without loads and speeds, which a shaft gives it, and without what only a bearing that
+    stands alone has: runs in time and a load spectrum."""
+    found = {name: value for name, value in tables.items() if name not in ("simulation", "state")}
+    operation = found.get("operation")
+    if isinstance(operation, Mapping):
+        found["operation"] = {name: value for name, value in operation.items() if name in OF_SHAFT}
+    return found
+
+
+def kind_of(entry: Mapping[str, Any], path: str, label: str) -> str:
+    """The kind of the bearing of an entry: its own, or that of its scene.
+
+    **Raises:** `SceneError` for an entry without a kind, and for an unknown one.
+    """
+    known = (*BEARINGS, LINEAR)
+    scene = entry.get(SCENE)
+    given = entry.get("kind", scene.get("kind") if isinstance(scene, Mapping) else None)
+    kind = kind_named(given)
+    if kind in known:
+        return str(kind)
+    if given is None:
+        expected = "the scene of a bearing, a file or a built-in one; or a kind with its tables, such as geometry"
+        near = next((key for key in entry if key != SCENE and nearest(str(key), (SCENE, "kind"))), "")
+        found = f"the unknown name {near!r}" if near else "nothing"
+        raise SceneError(label, f"{path}.{SCENE}", found, expected, nearest(near, (SCENE, "kind")) if near else "")
+    near = nearest(kind, known) if isinstance(kind, str) else ""
+    raise SceneError(label, f"{path}.kind", describe(given), one_of(known), near)

@@ -1,0 +1,179 @@
+"""The schema of the scene file of a shaft.
+
+The table of a file has a field for each of its bearings, sets, forces and sections, with the schema of its own kind:
+`shaft_model` makes it. `ShaftTable` is that of no file in particular.
+"""
+
+import functools
+import operator
+from collections.abc import Mapping
+from typing import Annotated, Any, Literal
+
+from pydantic import create_model
+
+from ...shafts.forces import FORCES
+from .. import units
+from ..drafts import Unreadable
+from ..errors import SceneError, nearest, one_of
+from ..kinds import KIND, kind_named
+from ..table import Table
+from .files import (
+    BEARINGS,
+    LINEAR,
+    REMOVE,
+    SCENE,
+    SECTIONS,
+    kind_of,
+    merged,
+    with_scenes,
+    without_loads,
+)
+from .tables import (
+    FAMILIES,
+    FORCE_TABLES,
+    BearingEntry,
+    LifeTable,
+    SectionTable,
+    SetEntry,
+    ShaftPart,
+    StateTable,
+    mounted_table,
+)
+
+
+def _kind_of_force(entry: Mapping[str, Any], path: str, file: str) -> str:
+    """**Raises:** `SceneError` for an entry without a known kind."""
+    kind = entry.get("kind")
+    if isinstance(kind, str) and kind in FORCES:
+        return kind
+    near = nearest(kind, FORCES) if isinstance(kind, str) else ""
+    raise SceneError(file, f"{path}.kind", "nothing" if kind is None else units.describe(kind), one_of(FORCES), near)
+
+
+def with_kind(entry: Any, kind: str | None) -> dict[str, Any]:
+    """An entry with the kind of an override."""
+    own = dict(entry) if isinstance(entry, Mapping) else {}
+    return own if kind is None else {**own, "kind": kind}
+
+
+def _with_scene(entry: Any, word: str, name: str, file: str) -> Any:
+    """An entry with the tables of its scene. **Raises:** `SceneError` for a kind beside the scene."""
+    if not isinstance(entry, Mapping) or not isinstance(entry.get(SCENE), Mapping):
+        return entry
+    scene, own = entry[SCENE], {key: value for key, value in entry.items() if key != SCENE}
+    kind = kind_named(scene.get("kind"))
+    if "kind" in own and kind_named(own["kind"]) != kind:
+        expected = f"none beside the scene, whose kind is '{kind}'"
+        raise SceneError(file, f"{word}.{name}.kind", units.describe(own["kind"]), expected)
+    scene = without_loads({**scene, "kind": kind})
+    return merged(scene, own, mounted_table(kind, word == "set") if kind in FAMILIES else None)
+
+
+ANY_NAME, NUMBER = "NAME", "NUMBER"
+"""What stands for a name, and for the number of a section, in lists of fields."""
+_ANY_FORCE: Any = functools.reduce(operator.or_, FORCE_TABLES.values())
+
+
+class ShaftTable(Table):
+    """The whole file, but for the names of its bearings, sets and forces."""
+
+    kind: Annotated[Literal["shaft"], KIND]
+    shaft: ShaftPart
+    life: LifeTable | None = None
+
+    @classmethod
+    def example(cls) -> type[Table]:
+        fields: dict[str, Any] = {
+            "shaft": (_with_sections((NUMBER,)), ...),
+            "bearing": (_by_name("bearing", {ANY_NAME: BearingEntry}) | None, None),
+            "set": (_by_name("set", {ANY_NAME: SetEntry}) | None, None),
+            "force": (_by_name("force", {ANY_NAME: _ANY_FORCE}) | None, None),
+            "state": (StateTable | None, None),
+        }
+        made: Any = create_model("AnyShaftTable", __base__=ShaftTable, __module__=__name__, **fields)
+        return made
+
+    @classmethod
+    def of_file(cls, tables: Mapping[str, Any], overrides: Mapping[str, str], file: str) -> type[Table]:
+        known, left = with_scenes(tables, overrides, file)
+        kinds: dict[str, tuple[tuple[str, str], ...]] = {}
+        for word, kind_in in (("bearing", kind_of), ("set", kind_of), ("force", _kind_of_force)):
+            entries = known.get(word)
+            there = {
+                name: with_kind(entry, left.get(f"{word}.{name}.kind"))
+                for name, entry in (entries.items() if isinstance(entries, Mapping) else ())
+                if left.get(f"{word}.{name}") != REMOVE
+            }
+            kinds[word] = tuple((name, kind_in(entry, f"{word}.{name}", file)) for name, entry in there.items())
+        for name, kind in kinds["set"]:
+            if kind == LINEAR:
+                raise SceneError(file, f"set.{name}.kind", f"'{LINEAR}'", one_of(BEARINGS))
+        sections = known["shaft"].get(SECTIONS) if isinstance(known.get("shaft"), Mapping) else None
+        removed = left.get(f"shaft.{SECTIONS}") == REMOVE
+        numbers = tuple(sections) if isinstance(sections, Mapping) and not removed else ()
+        left_in = tuple(name for name in numbers if left.get(f"shaft.{SECTIONS}.{name}") != REMOVE)
+        return shaft_model(kinds["bearing"], kinds["set"], kinds["force"], left_in)
+
+    @classmethod
+    def completed(
+        cls, tables: dict[str, Any], overrides: Mapping[str, str], file: str
+    ) -> tuple[dict[str, Any], Mapping[str, str]]:
+        found, left = with_scenes(tables, overrides, file)
+        for word in ("bearing", "set"):
+            entries = found.get(word)
+            if isinstance(entries, Mapping):
+                found[word] = {name: _with_scene(entry, word, name, file) for name, entry in entries.items()}
+        return found, left
+
+    def entries(self, table: str) -> dict[str, Any]:
+        """The tables of the bearings, sets or forces, or the sections, by name."""
+        owner = self.shaft if table == SECTIONS else self
+        found = getattr(owner, table, None)
+        if not isinstance(found, Table | None):
+            raise Unreadable(table)
+        return {} if found is None else {name: getattr(found, name) for name in type(found).model_fields}
+
+
+def _by_name(word: str, tables: Mapping[str, Any]) -> Any:
+    """A table with a table for each name. **Arguments:** `word`: of the list in files."""
+    doc = f"""Tables by name.
+
+    - `{ANY_NAME}`: one for each, under its name; in a file each is a table [[{word}]] with a `name`
+    - `{NUMBER}`: one for each, numbered from 1
+    """
+    fields: Any = {name: (table, ...) for name, table in tables.items()}
+    return create_model(f"{word.capitalize()}Tables", __base__=Table, __module__=__name__, __doc__=doc, **fields)
+
+
+def _with_sections(names: tuple[str, ...]) -> Any:
+    parts = _by_name(SECTIONS, dict.fromkeys(names, SectionTable))
+    fields: Any = {SECTIONS: (parts | None, None)}
+    return create_model("ShaftPart", __base__=ShaftPart, __module__=__name__, __doc__=ShaftPart.__doc__, **fields)
+
+
+@functools.lru_cache(64)
+def shaft_model(
+    bearings: tuple[tuple[str, str], ...],
+    sets: tuple[tuple[str, str], ...],
+    forces: tuple[tuple[str, str], ...],
+    sections: tuple[str, ...],
+) -> type[ShaftTable]:
+    """The schema of a file with these names of bearings, sets and forces, each with its kind, and these sections."""
+    tables: dict[str, dict[str, type[Table]]] = {
+        "bearing": {name: mounted_table(kind, False) for name, kind in bearings},
+        "set": {name: mounted_table(kind, True) for name, kind in sets},
+        "force": {name: FORCE_TABLES[kind] for name, kind in forces},
+    }
+    fields: dict[str, Any] = {word: (_by_name(word, named) | None, None) for word, named in tables.items()}
+    if sections:
+        fields["shaft"] = (_with_sections(sections), ...)
+    made: Any = create_model("ShaftFileTable", __base__=ShaftTable, __module__=__name__, **fields)
+    return made
+
+
+def model_of_scene(scene: Any) -> type[ShaftTable]:
+    """The schema of the file of a shaft."""
+    bearings = tuple((one.name, one.scene.kind) for one in scene.bearings)
+    sets = tuple((one.name, one.scenes[0].kind) for one in scene.sets)
+    forces = tuple((one.name, one.kind) for one in scene.forces)
+    return shaft_model(bearings, sets, forces, tuple(str(i + 1) for i in range(len(scene.shaft.sections))))

@@ -1,0 +1,62 @@
+"""The states of a shaft's duty cycle: tables [[state]], each with a share of the time and what differs in it."""
+
+import dataclasses
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+
+from ...shafts.paths import part_at
+from ...shafts.scene import ShaftState, ShaftSystem
+from ..errors import SceneError
+from ..states import EXAMPLE, NAME, require_names_and_shares, state_of
+from ..units import describe
+
+SET = "set"
+"""Field of a state with its changes, by dotted paths in quotes."""
+
+
+def with_states(scene: ShaftSystem, given: Any, raw: Mapping[str, Any], file: str) -> ShaftSystem:
+    """The scene of a shaft with the states of its duty cycle.
+
+    **Arguments:** `given`: the tables [[state]]; `raw`: tables of the scene without them.
+
+    **Raises:** `SceneError` for states that are wrong, and for scenes that cannot be built.
+    """
+    if not isinstance(given, list) or not given or not all(isinstance(one, Mapping) for one in given):
+        raise SceneError(file, "state", describe(given), EXAMPLE)
+    tables = [_plain(one, str(place + 1)) for place, one in enumerate(given)]
+    require_names_and_shares(tables, file)
+    states, problems = [], []
+    for one in tables:
+        try:
+            found = state_of(one, raw, {}, file)
+        except SceneError as error:
+            problems += error.problems
+            continue
+        changes = {
+            path: _number(part_at(found.scene, path), path, f"{file}, state '{found.name}'") for path in found.changes
+        }
+        states.append(ShaftState(share=found.share, changes=changes, name=found.name))
+    if problems:
+        raise SceneError.of_all(problems)
+    return dataclasses.replace(scene, states=tuple(states))
+
+
+def _plain(one: Mapping[str, Any], number: str) -> dict[str, Any]:
+    """A state whose changes are beside its share, with its number where it has no name."""
+    found = {NAME: number, **one}
+    changes = found.get(SET)
+    if isinstance(changes, Mapping):
+        by_path = {path: value for path, value in changes.items() if "." in path}
+        rest = {name: value for name, value in changes.items() if name not in by_path}
+        found = {name: value for name, value in found.items() if name != SET} | by_path | ({SET: rest} if rest else {})
+    return found
+
+
+def _number(value: Any, path: str, where: str) -> float:
+    """**Raises:** `SceneError` for something else than a number of the scene."""
+    if value is None or isinstance(value, str | bool) or np.ndim(value) or dataclasses.is_dataclass(value):
+        expected = "a number of the scene: the states of a shaft differ in numbers alone"
+        raise SceneError(where, path, "a field that shapes the equations", expected)
+    return float(np.asarray(value))

@@ -1,0 +1,290 @@
+"""Tables of a shaft's file: sections, bearings and sets on it, forces, states. Names are the attribute names of the
+classes that they build."""
+
+import functools
+from collections.abc import Mapping
+from typing import Annotated, Any, ClassVar, Literal
+
+from pydantic import BeforeValidator, Field, create_model
+from pydantic_core import PydanticCustomError
+
+from ...bearings.ball.scene import BallOperation
+from ...bearings.operation import Operation
+from ...bearings.solution import RING_FREEDOMS, stiffness_units
+from ...bearings.tapered.scene import TaperedOperation
+from ...shafts.forces import FORCES
+from ...shafts.mounting import LinearBearing, MatchedSet, MountedBearing, Preload, Support
+from ...shafts.scene import ShaftState, SystemLife
+from ...shafts.shaft import Gravity, Section, Shaft
+from .. import units
+from ..ball.schema import BallBearingTable
+from ..cylindrical.schema import CylindricalRollerTable
+from ..materials import MaterialField
+from ..table import Table
+from ..table_of import fields_of_class, table_of
+from ..tapered.schema import TaperedRollerTable
+from .files import LINEAR, OF_SHAFT
+
+FOLLOWS = "nothing: loads and speeds of a bearing on a shaft follow from [shaft] and [[force]]"
+_PICTURE = "a text of two or more signs '<' and '>', from -x to +x, e.g. '<>' for an O arrangement"
+_ISO = "iso"
+_WAYS = ("force", "class_force", "offset", "spring_force")
+
+
+def _matrix(value: Any) -> tuple[tuple[float, ...], ...]:
+    """Five rows of five stiffnesses, each with its unit; zeros need none."""
+    wanted = f"5 rows of 5 stiffnesses with units, of {', '.join(RING_FREEDOMS)}; a 0 needs no unit"
+    if (
+        not isinstance(value, list)
+        or len(value) != 5
+        or any(not isinstance(row, list) or len(row) != 5 for row in value)
+    ):
+        raise units.refusal(wanted, units.describe(value))
+    return tuple(
+        tuple(_entry(one, row, column) for column, one in enumerate(values)) for row, values in enumerate(value)
+    )
+
+
+def _entry(value: Any, row: int, column: int) -> float:
+    if isinstance(value, int | float) and not isinstance(value, bool) and value == 0:
+        return 0.0
+    unit = MATRIX_UNITS[row][column]
+    try:
+        return units.quantity(value, units.dimension_of_unit(unit))
+    except PydanticCustomError as error:
+        context = error.context or {}
+        place = f"{RING_FREEDOMS[row]}, {RING_FREEDOMS[column]}"
+        raise units.refusal(context["expected"], f"{context['found']} ({place})") from None
+
+
+def _units_of_matrix() -> tuple[tuple[str, ...], ...]:
+    """Units of a stiffness, as dimensions know them: a force over an angle, and a moment over a length, are forces."""
+    plain = {"N/m": "N/m", "N/rad": "N", "N m/m": "N", "N m/rad": "N m/rad"}
+    return tuple(tuple(plain[unit] for unit in row) for row in stiffness_units())
+
+
+MATRIX_UNITS = _units_of_matrix()
+"""Units of the entries of a stiffness matrix in files: N/m, N and N m/rad."""
+Matrix = Annotated[tuple[tuple[float, ...], ...], BeforeValidator(_matrix)]
+
+
+def _picture(value: Any) -> str:
+    if not isinstance(value, str) or len(value) < 2 or set(value) - {"<", ">"}:
+        raise units.refusal(_PICTURE, units.describe(value))
+    return value
+
+
+def _weibull(value: Any) -> float | None:
+    """A slope, or the word for those of the standards."""
+    if value == _ISO:
+        return None
+    try:
+        return units.number(value, "> 0")
+    except PydanticCustomError as error:
+        expected = f"'{_ISO}' or a number > 0 without a unit, e.g. 1.5"
+        raise units.refusal(expected, (error.context or {})["found"]) from None
+
+
+class SectionTable(table_of(Section)):
+    """A cylindrical part of the shaft.
+
+    - `material`: if it is not that of the shaft
+    """
+
+    material: MaterialField | None = None
+
+
+class GravityTable(table_of(Gravity)):
+    """The weight of the shaft and of the masses on it."""
+
+
+class ShaftPart(table_of(Shaft)):
+    """The shaft itself: see `shafts.shaft.Shaft`.
+
+    - `material`: of the sections that name none; not given: steel
+    - `gravity`: weight of shaft and masses; not given: weightless
+    - `sections`: cylindrical parts from x = 0, a list of tables; paths number them from 1. Not given: a rigid shaft
+    """
+
+    material: MaterialField | None = None
+    gravity: GravityTable | None = None
+
+
+class SupportTable(table_of(Support)):
+    """Elastic support of an outer ring.
+
+    - `matrix`: all of the stiffness in the frame of the shaft, in the place of the three numbers
+    """
+
+    instead: ClassVar[Mapping[str, tuple[str, ...]]] = {"matrix": ("axial", "radial", "tilt")}
+    matrix: Matrix | None = None
+
+
+class PreloadTable(table_of(Preload)):
+    """Preload of a set: one of force, class_force, offset, spring_force."""
+
+    instead: ClassVar[Mapping[str, tuple[str, ...]]] = {
+        way: tuple(other for other in (*_WAYS, "spring_stiffness") if other != way) for way in _WAYS
+    }
+
+
+class MountTable(table_of(MountedBearing)):
+    """A bearing on the shaft: where it is, and how its outer ring is held.
+
+    - `support`: elastic support of the outer ring; not given: rigid
+    """
+
+    support: SupportTable | None = None
+
+
+class SetMountTable(table_of(MatchedSet)):
+    """A matched set.
+
+    - `picture`: one sign a bearing from -x to +x, the cone of its contact lines: '<>' is an O arrangement, '><' an X
+      arrangement, '<<' a tandem
+    - `distance`: of neighbouring rows, one length or one for each gap
+    - `preload`: not given: all bearings touch and carry nothing
+    - `mismatch`: additional closure of each bearing; not given: 0
+    - `support`: elastic support of each outer ring; not given: rigid
+    """
+
+    picture: Annotated[str, BeforeValidator(_picture)]
+    distance: Annotated[tuple[float, ...], units.several_note("> 0", "m")]
+    preload: PreloadTable | None = None
+    mismatch: Annotated[tuple[float, ...], units.several_note("finite", "m")] | None = None
+    support: SupportTable | None = None
+
+
+class LifeTable(Table):
+    """Life of all bearings together. Given, bearings without a rating are rated as one with an empty [rating] is.
+
+    - `weibull`: slope of the distribution of every bearing's life, 1.5 in API 610; 'iso': those of the standards, 10/9
+      of ball and 9/8 of roller bearings
+    """
+
+    builds: ClassVar[type | None] = SystemLife
+    weibull: Annotated[float | None, BeforeValidator(_weibull)] = None
+
+
+class StateTable(table_of(ShaftState)):
+    """A state of a duty cycle, in a table [[state]].
+
+    - `name`: of the state; not given: its number
+    - `set`: what differs in it, values by dotted paths in quotes; the paths may also stand in the state itself
+    """
+
+    name: units.Text | None = None
+    set: dict[str, Any] | None = None
+
+
+def _loads_elsewhere(operation: type) -> dict[str, str]:
+    names = (*fields_of_class(operation), "displacement")
+    return {name: FOLLOWS for name in names if name not in OF_SHAFT}
+
+
+def _operation_of(operation: type, **load: float) -> Any:
+    """The operating point of a bearing on a shaft: oil, and speed of the outer ring."""
+
+    class MountedOperation(
+        table_of(
+            operation,
+            leave_out=tuple(name for name in fields_of_class(operation) if name not in OF_SHAFT),
+            optional=("oil_temperature", "oil_flow"),
+        )
+    ):
+        """Oil and outer ring of a bearing on a shaft, whose loads and inner speed follow from the shaft."""
+
+        elsewhere: ClassVar[Mapping[str, str]] = _loads_elsewhere(operation)
+
+        def model_dump(self, **given: Any) -> dict[str, Any]:
+            """The fields, with a load and a speed that make the bearing valid and have no effect."""
+            return super().model_dump(**given) | load | {"inner_speed": self.outer_speed + 1.0}
+
+    return MountedOperation
+
+
+class _OnShaft(Table):
+    """What a bearing has that stands on a shaft, in the place of what it has alone."""
+
+    simulation: Literal[None] = None
+
+
+def _mounted(name: str, bearing: type[Table], mount: type[Table], operation: type[Table], doc: str) -> type[Table]:
+    given: Any = {"operation": (operation, Field(default_factory=operation))}
+    made: Any = create_model(name, __base__=(mount, _OnShaft, bearing), __module__=__name__, __doc__=doc, **given)
+    return made
+
+
+OPERATIONS: dict[str, Any] = {
+    "ball_bearing": _operation_of(BallOperation, axial_load=1.0),
+    "cylindrical_roller_bearing": _operation_of(Operation, radial_load=1.0),
+    "tapered_roller_bearing": _operation_of(TaperedOperation, axial_load=1.0),
+}
+"""Kind of a bearing -> table of its operating point on a shaft."""
+FAMILIES: dict[str, type[Table]] = {
+    "ball_bearing": BallBearingTable,
+    "cylindrical_roller_bearing": CylindricalRollerTable,
+    "tapered_roller_bearing": TaperedRollerTable,
+}
+"""Kind of a bearing -> table of its own file."""
+
+
+class LinearTable(MountTable):
+    """A bearing on a shaft that is known by its stiffness alone.
+
+    - `stiffness`: in the bearing's own frame, 5 rows of 5 entries, N/m, N and N m/rad
+    """
+
+    builds: ClassVar[type | None] = LinearBearing
+    kind: Literal["linear"]
+    stiffness: Matrix
+
+
+@functools.cache
+def mounted_table(kind: str, of_set: bool) -> type[Table]:
+    """The table of a bearing of this kind on a shaft, or of a set of such bearings."""
+    if kind == LINEAR:
+        return LinearTable
+    mount = SetMountTable if of_set else MountTable
+    doc = "A set of such bearings." if of_set else "Such a bearing on a shaft."
+    name = f"{'SetOf' if of_set else 'Mounted'}{FAMILIES[kind].__name__}"
+    return _mounted(name, FAMILIES[kind], mount, OPERATIONS[kind], doc)
+
+
+def _force_table(kind: str) -> type[Table]:
+    owner, doc = FORCES[kind], f"A force of the kind {kind}."
+    fields: Any = {"kind": (Literal[kind], ...)}
+    base = table_of(owner)
+    made: Any = create_model(f"{owner.__name__}Table", __base__=base, __module__=__name__, __doc__=doc, **fields)
+    made.tag = f"<{kind}>"
+    return made
+
+
+FORCE_TABLES = {kind: _force_table(kind) for kind in FORCES}
+"""Kind of a force -> its table."""
+
+
+class BearingEntry(MountTable):
+    """A bearing on the shaft, in a table [[bearing]].
+
+    - `scene`: of the bearing, a file or a built-in scene, whose loads and speeds do not count
+    - `kind`: of the bearing, in the place of a scene: then the tables of its own scene file, such as geometry, are
+      here; beside a scene they change it
+    - `stiffness`: of the kind linear, in the bearing's own frame, 5 rows of 5 entries, N/m, N and N m/rad
+    """
+
+    scene: units.Text | None = None
+    kind: Literal["ball_bearing", "cylindrical_roller_bearing", "tapered_roller_bearing", "linear"] | None = None
+    stiffness: Matrix | None = None
+
+
+class SetEntry(SetMountTable):
+    """A matched set, in a table [[set]]; its bearings are called `name.1`, `name.2` ...
+
+    - `scene`: of the bearing, a file or a built-in scene, whose loads and speeds do not count
+    - `kind`: of the bearing, in the place of a scene: then the tables of its own scene file, such as geometry, are
+      here; beside a scene they change it
+    """
+
+    scene: units.Text | None = None
+    kind: Literal["ball_bearing", "cylindrical_roller_bearing", "tapered_roller_bearing"] | None = None

@@ -1,0 +1,19 @@
+"""Several bearings together: matched sets, and shafts on bearings."""
+
+from .forces import Belt as Belt
+from .forces import Gear as Gear
+from .forces import Mass as Mass
+from .forces import PointLoad as PointLoad
+from .mounting import LinearBearing as LinearBearing
+from .mounting import MatchedSet as MatchedSet
+from .mounting import MountedBearing as MountedBearing
+from .mounting import Preload as Preload
+from .mounting import Support as Support
+from .scene import ShaftState as ShaftState
+from .scene import ShaftSystem as ShaftSystem
+from .scene import SystemLife as SystemLife
+from .shaft import Gravity as Gravity
+from .shaft import Section as Section
+from .shaft import Shaft as Shaft
+from .solution import BearingOnShaft as BearingOnShaft
+from .solution import ShaftSolution as ShaftSolution

@@ -1,0 +1,263 @@
+r"""The balance of a shaft, its outer rings and its springs, as linear algebra.
+
+Unknowns z: the displacement $u_0$ of the shaft's point x = 0, the forces s of the bearings on the shaft, where supports
+are elastic the displacements o of the outer rings, and of springs the displacements y of the rings that they press. The
+shaft is at $w = Tu_0 + Cs + w_e$, with its `compliance` C, and the ring of a bearing at $q = Az + a$ in its own frame,
+with the mirror R: $q_b = R_b(w_b - o_b) + (c_b + y)e_x$. The force f of the bearings balances
+
+$$\sum T^TRf = F_0,\quad s + Rf = 0,\quad Ho - Rf = 0,\quad ky + \sum f_x = F_s.$$
+
+With C before the second row this is the gradient of $\Pi = \frac12s^TCs + \frac12o^THo + \frac12ky^2 - F_sy - F_0u_0 +
+\sum W_b(q_b)$, convex where every bearing has a convex energy W. Shafts that are rigid, bearings at one place and
+bearings at x = 0 are no special cases, because C need not be regular.
+"""
+
+from typing import NamedTuple
+
+import equinox as eqx
+import jax.numpy as jnp
+import numpy as np
+from jax.scipy.linalg import block_diag
+from jaxtyping import Array, Float
+
+from .beam import Beam, beam_of, gravity_along, shifts
+from .forces import AbstractForce, ActingForce
+from .mounting import Support
+from .scene import Place, ShaftSystem
+
+SOFTENING = 1e8
+"""Stiffness in whose units the forces are unknowns, N/m: a scale of the linear algebra and nothing else."""
+
+
+class Balance(eqx.Module):
+    """See the module. Rows and columns of `linear` and `left` count loads in N and N m, `attach` displacements in m and
+    rad."""
+
+    attach: Float[Array, "port unknown"]
+    offset: Float[Array, " port"]
+    left: Float[Array, "unknown port"]
+    linear: Float[Array, "unknown unknown"]
+    load: Float[Array, " unknown"]
+    energy: Float[Array, "unknown unknown"]
+    """Before residuals these make gradients: C in the rows of s, else 1."""
+    span: Float[Array, ""]
+    """Length by which tilts are multiplied, m."""
+    force_scale: Float[Array, ""]
+    """Size of the given loads, N."""
+    springs: int = eqx.field(static=True)
+    supported: bool = eqx.field(static=True)
+
+    @property
+    def count(self) -> int:
+        """Number of bearings."""
+        return self.offset.shape[0] // 5
+
+    def displacements(self, unknowns: Float[Array, " unknown"]) -> Float[Array, "bearing 5"]:
+        """Of every inner ring against its outer ring at the port, closure included, m and rad."""
+        return (self.attach @ unknowns + self.offset).reshape(self.count, 5)
+
+    def residual(self, unknowns: Float[Array, " unknown"], force: Float[Array, "bearing 5"]) -> Array:
+        """What the loads do not balance, N and N m."""
+        return self.linear @ unknowns - self.load + self.left @ force.ravel()
+
+    def potential(self, unknowns: Float[Array, " unknown"], energies: Float[Array, " bearing"]) -> Array:
+        """J. **Arguments:** energies of the bearings."""
+        own = self.energy @ (0.5 * self.linear @ unknowns - self.load)
+        return unknowns @ own + jnp.sum(energies)
+
+    def slope(self, step: Float[Array, " unknown"], residual: Float[Array, " unknown"]) -> Array:
+        """Derivative of the potential along a step."""
+        return step @ (self.energy @ residual)
+
+    def inverse(self, stiffness: Float[Array, "bearing 5 5"]) -> Float[Array, "unknown unknown"]:
+        """Inverse of the derivatives of the residual. **Arguments:** `stiffness`: of the bearings in their frames."""
+        rows, columns = self.row_units(), self.column_units()
+        coupled = jnp.einsum("bij,bjz->biz", stiffness, self.attach.reshape(self.count, 5, -1))
+        matrix = self.linear + self.left @ coupled.reshape(5 * self.count, -1)
+        scaled = jnp.linalg.inv(matrix * rows[:, None] * columns[None, :])
+        return columns[:, None] * scaled * rows[None, :]
+
+    def lengths(self) -> Float[Array, "5"]:
+        """Factors that make lengths of the five freedoms."""
+        return jnp.stack([jnp.ones(()), jnp.ones(()), jnp.ones(()), self.span, self.span])
+
+    def row_units(self) -> Float[Array, " unknown"]:
+        """Factors that make forces of the residuals."""
+        sets = (len(self.load) - self.springs) // 5
+        return jnp.concatenate([jnp.tile(1.0 / self.lengths(), sets), jnp.ones(self.springs)])
+
+    def column_units(self) -> Float[Array, " unknown"]:
+        """Unknowns for a unit of the scaled ones, lengths."""
+        length, more = self.lengths(), self.count if self.supported else 0
+        parts = [1.0 / length, jnp.tile(SOFTENING * length, self.count), jnp.tile(1.0 / length, more)]
+        return jnp.concatenate([*parts, jnp.ones(self.springs)])
+
+    def parts(self, unknowns: Float[Array, " unknown"]) -> "Parts":
+        """The unknowns by their meaning."""
+        n = self.count
+        outer = unknowns[5 + 5 * n : 5 + 10 * n].reshape(n, 5) if self.supported else jnp.zeros((n, 5))
+        end = len(unknowns) - self.springs
+        return Parts(unknowns[:5], unknowns[5 : 5 + 5 * n].reshape(n, 5), outer, unknowns[end:])
+
+
+class Parts(NamedTuple):
+    """Displacement of the shaft's point x = 0, forces of the bearings on the shaft, displacements of the outer rings,
+    all in the frame of the shaft, and those of the springs."""
+
+    origin: Float[Array, "5"]
+    forces: Float[Array, "bearing 5"]
+    outer: Float[Array, "bearing 5"]
+    springs: Float[Array, " spring"]
+
+
+class Spring(NamedTuple):
+    """Springs that press outer rings. **Arguments:** stiffness, N/m, force without displacement, N, and the numbers of
+    the bearings whose rings are pressed."""
+
+    stiffness: Array
+    force: Array
+    places: tuple[int, ...]
+
+
+class Given(NamedTuple):
+    """What acts on a shaft: the forces, their positions, m, loads, N and N m, and torques, N m."""
+
+    position: Float[Array, " force"]
+    load: Float[Array, "force 5"]
+    torque: Float[Array, " force"]
+
+
+def given_forces(system: ShaftSystem) -> Given:
+    """The forces on the shaft; one that balances takes the torque that the others leave."""
+    forces: tuple[AbstractForce, ...] = system.forces
+    if not forces:
+        return Given(jnp.zeros(0), jnp.zeros((0, 5)), jnp.zeros(0))
+    torques = [force.torque_given for force in forces]
+    others = sum((t for force, t in zip(forces, torques, strict=True) if not force.balances), jnp.zeros(()))
+    torques = [-others if force.balances else t for force, t in zip(forces, torques, strict=True)]
+    gravity = gravity_along(system.shaft.gravity)
+    acting: list[ActingForce] = [force.acting(t, gravity) for force, t in zip(forces, torques, strict=True)]
+    position = jnp.stack([jnp.asarray(force.position, dtype=float) for force in forces])
+    return Given(position, jnp.stack([one.load for one in acting]), jnp.stack([one.torque for one in acting]))
+
+
+class Axis(NamedTuple):
+    """The shaft with all that acts on it, but its bearings."""
+
+    beam: Beam | None
+    given: Given
+
+    def moved(
+        self,
+        at: Float[Array, " place"],
+        origin: Float[Array, "5"],
+        position: Float[Array, " bearing"],
+        forces: Float[Array, "bearing 5"],
+    ) -> Float[Array, "place 5"]:
+        """Displacements of the shaft at places. **Arguments:** see `Parts`; `position`: of the bearings, m."""
+        found = jnp.einsum("pij,j->pi", shifts(at), origin) + self.bent_by_loads(at)
+        if self.beam is None:
+            return found
+        return found + jnp.einsum("pbij,bj->pi", self.beam.compliance(at, position), forces)
+
+    def bent_by_loads(self, at: Float[Array, " place"]) -> Float[Array, "place 5"]:
+        """Displacements of the shaft that is clamped at x = 0 under given forces and its weight."""
+        if self.beam is None:
+            return jnp.zeros((at.shape[0], 5))
+        bent = self.beam.sagging(at)
+        if not self.given.position.size:
+            return bent
+        return bent + jnp.einsum("pkij,kj->pi", self.beam.compliance(at, self.given.position), self.given.load)
+
+    def total(self) -> Float[Array, "5"]:
+        """Load on the point x = 0 of forces and weight, N and N m."""
+        total = jnp.einsum("kij,ki->j", shifts(self.given.position), self.given.load) if len(self.given.load) else 0.0
+        weight = jnp.zeros(5) if self.beam is None else self.beam.weight_at(jnp.zeros(()))
+        return total + weight
+
+
+def axis_of(system: ShaftSystem) -> Axis:
+    return Axis(beam_of(system.shaft), given_forces(system))
+
+
+def support_matrix(support: Support | None) -> tuple[Float[Array, "5 5"], np.ndarray]:
+    """Stiffness of the support of an outer ring, and which of its freedoms are elastic; the others have 1 on the
+    diagonal."""
+    if support is None:
+        return jnp.eye(5), np.zeros(5, bool)
+    if support.matrix is not None:
+        return jnp.asarray(support.matrix), np.ones(5, bool)
+    each = (support.axial, support.radial, support.radial, support.tilt, support.tilt)
+    elastic = np.asarray([one is not None for one in each])
+    return jnp.diag(jnp.stack([jnp.asarray(1.0 if one is None else one) for one in each])), elastic
+
+
+def build_balance(
+    system: ShaftSystem,
+    places: tuple[Place, ...],
+    axis: Axis,
+    position: Float[Array, " bearing"],
+    closure: Float[Array, " bearing"],
+    springs: tuple[Spring, ...],
+) -> Balance:
+    """The balance of a system. **Arguments:** `position`, `closure`: of all bearings, m."""
+    n = len(places)
+    mirror = np.asarray([[place.sense, 1.0, 1.0, place.sense, place.sense] for place in places]).ravel()
+    compliance = jnp.zeros((5 * n, 5 * n))
+    if axis.beam is not None:
+        compliance = jnp.moveaxis(axis.beam.compliance(position, position), 2, 1).reshape(5 * n, 5 * n)
+    columns = [shifts(position).reshape(5 * n, 5), compliance]
+    lines = [columns[0], jnp.eye(5 * n)]
+    blocks = [jnp.zeros((5, 5)), jnp.eye(5 * n)]
+    energies, loads = [jnp.eye(5), compliance], [axis.total(), jnp.zeros(5 * n)]
+    supported = system.housing is not None or any(place.support is not None for place in places)
+    if supported:
+        if system.housing is not None:
+            stiffness, elastic = jnp.asarray(system.housing), np.ones(5 * n, bool)
+        else:
+            each = [support_matrix(place.support) for place in places]
+            stiffness = block_diag(*(matrix for matrix, _ in each))
+            elastic = np.concatenate([free for _, free in each])
+        columns.append(-jnp.diag(elastic.astype(float)))
+        lines.append(columns[-1])
+        blocks.append(stiffness)
+        energies.append(jnp.eye(5 * n))
+        loads.append(jnp.zeros(5 * n))
+    attach, left = mirror[:, None] * jnp.concatenate(columns, axis=1), mirror[:, None] * jnp.concatenate(lines, axis=1)
+    pressed = np.zeros((5 * n, len(springs)))
+    for number, spring in enumerate(springs):
+        pressed[[5 * place for place in spring.places], number] = 1.0
+        blocks.append(jnp.reshape(spring.stiffness, (1, 1)))
+        energies.append(jnp.eye(1))
+        loads.append(jnp.reshape(spring.force, (1,)))
+    offset = mirror * axis.bent_by_loads(position).ravel()
+    along = np.zeros(5)
+    along[0] = 1.0
+    span = span_of(system, places, position)
+    unit = 1.0 / jnp.stack([jnp.ones(()), jnp.ones(()), jnp.ones(()), span, span])
+    sizes = [jnp.ones(1), jnp.abs(axis.given.load * unit[None]).ravel()]
+    if axis.beam is not None:
+        sizes.append(jnp.abs(axis.beam.weight_at(jnp.zeros(())) * unit))
+    sizes += [jnp.reshape(jnp.abs(spring.force), (1,)) for spring in springs]
+    return Balance(
+        attach=jnp.concatenate([attach, pressed], axis=1),
+        offset=offset + (closure[:, None] * along[None]).ravel(),
+        left=jnp.concatenate([left, pressed], axis=1).T,
+        linear=block_diag(*blocks),
+        load=jnp.concatenate(loads),
+        energy=block_diag(*energies),
+        span=span,
+        force_scale=jnp.sqrt(jnp.sum(jnp.square(jnp.concatenate(sizes)))),
+        springs=len(springs),
+        supported=supported,
+    )
+
+
+def span_of(system: ShaftSystem, places: tuple[Place, ...], position: Float[Array, " bearing"]) -> Array:
+    """Length by which tilts are multiplied, m: the shaft's; of a rigid one the largest distance of its bearings from
+    each other, or the pitch radius of the first."""
+    if system.shaft.sections:
+        return jnp.asarray(system.shaft.length)
+    geometry = getattr(places[0].scene, "geometry", None)
+    radius = jnp.asarray(0.05 if geometry is None else 0.5 * geometry.pitch_diameter)
+    return jnp.maximum(jnp.max(position) - jnp.min(position), radius)

@@ -1,0 +1,200 @@
+"""The bearings of a system in batches: those of one family and structure are one stack of scenes, and one program.
+
+A linear bearing is a batch of its own kind. Speeds and loads of the scenes' operating points are replaced: the inner
+rings turn with the shaft, and every ring is held where the shaft holds it.
+"""
+
+import abc
+import dataclasses
+from collections.abc import Sequence
+from typing import Any
+
+import equinox as eqx
+import jax
+import jax.numpy as jnp
+import numpy as np
+from jaxtyping import Array, Float
+
+from ..bearings.bearing import AbstractBearing
+from ..bearings.mounted import running_scene
+from ..bearings.operation import HeldDisplacement
+from ..bearings.ring import held_ring
+from ..bearings.row import HeldRow
+from ..bearings.solution import RING_FREEDOMS, Solution
+from ..numerics.newton import NewtonOptions
+from ..numerics.once import once
+from .mounting import LinearBearing
+from .scene import Place
+
+_LOADS = ("axial_load", "radial_load", "radial_load_lateral", "moment", "moment_lateral")
+_TILTS = ("misalignment", "misalignment_lateral")
+
+
+def on_shaft(scene: AbstractBearing, speed: Array) -> AbstractBearing:
+    """The scene with the speed of the shaft and without loads: its ring is held.
+
+    The loads that its life is computed from are of a ring that tilts to first order, as `rating.tilt` = "iso" asks for,
+    which therefore has no effect. A run in time is no concern of a shaft.
+    """
+    axial = "axial" in scene.modelled_freedoms
+    held = HeldDisplacement(axial=0.0 if axial else None, radial=0.0, lateral=0.0)
+    changes: dict[str, Any] = {f"operation.{name}": None for name in (*_LOADS, *_TILTS)}
+    changes |= {"operation.displacement": held, "operation.inner_speed": speed, "simulation": None}
+    if scene.rating is not None and scene.rating.tilt == "iso":
+        changes["rating.tilt"] = "exact"
+    return scene.replace(changes)
+
+
+class AbstractBatch(eqx.Module):
+    """Some bearings of a system. **Arguments:** `places`: their numbers in the system."""
+
+    places: eqx.AbstractVar[tuple[int, ...]]
+
+    @property
+    def index(self) -> np.ndarray:
+        return np.asarray(self.places)
+
+    @abc.abstractmethod
+    def rows(self, expansion: Float[Array, " bearing"], at_rest: bool = False) -> Any:
+        """What `initial`, `hold` and `force_at` take: the bearings without friction, for the search.
+
+        **Arguments:** `expansion`: of all bearings of the system; `at_rest`: whether nothing turns.
+        """
+
+    @abc.abstractmethod
+    def initial(self, rows: Any, displacement: Float[Array, "own 5"]) -> Any:
+        """First guess of the elements."""
+
+    @abc.abstractmethod
+    def hold(self, rows: Any, displacement: Float[Array, "own 5"], elements: Any) -> HeldRow:
+        """Energy, force and stiffness of each bearing."""
+
+    @abc.abstractmethod
+    def force_at(self, rows: Any, displacement: Float[Array, "own 5"], elements: Any) -> Float[Array, "own 5"]:
+        """The forces of `hold`, with first derivatives."""
+
+
+class RollingBatch(AbstractBatch):
+    """Bearings with rolling elements: `scene` is a stack of scenes.
+
+    `dry` are the scenes whose forces act on the shaft, of rollers that slide: these may tilt. It is `None` of all others,
+    whose forces are those of `scene`.
+    """
+
+    scene: AbstractBearing
+    dry: AbstractBearing | None
+    places: tuple[int, ...] = eqx.field(static=True)
+
+    @property
+    def ports(self) -> AbstractBearing:
+        """The scenes whose forces act on the shaft."""
+        return self.scene if self.dry is None else self.dry
+
+    def rows(self, expansion, at_rest=False):
+        scene = self.ports
+        if at_rest:
+            speeds = lambda one: (one.operation.inner_speed, one.operation.outer_speed)
+            scene = eqx.tree_at(speeds, scene, tuple(0.0 * jnp.asarray(speed) for speed in speeds(scene)))
+
+        def row(scene: AbstractBearing, expansion: Array) -> Any:
+            running = running_scene(scene)[0] if scene.thermal is None else dataclasses.replace(scene, thermal=None)
+            return running.row(expansion)
+
+        return jax.vmap(row)(scene, expansion[self.index])
+
+    def initial(self, rows, displacement):
+        return jax.vmap(lambda row, q: row.initial(q))(rows, displacement)
+
+    def hold(self, rows, displacement, elements):
+        return jax.vmap(lambda row, q, own: row.hold(q, own))(rows, displacement, elements)
+
+    def force_at(self, rows, displacement, elements):
+        return jax.vmap(lambda row, q, own: row.force_at(q, own))(rows, displacement, elements)
+
+
+class LinearBatch(AbstractBatch):
+    """Bearings that are known by their stiffness."""
+
+    stiffness: Float[Array, "own 5 5"]
+    places: tuple[int, ...] = eqx.field(static=True)
+
+    def rows(self, expansion, at_rest=False):
+        return None
+
+    def initial(self, rows, displacement):
+        return jnp.zeros((len(self.places), 0, 0))
+
+    def hold(self, rows, displacement, elements):
+        """The symmetric part alone has an energy."""
+        even = 0.5 * (self.stiffness + jnp.swapaxes(self.stiffness, 1, 2))
+        force = jnp.einsum("bij,bj->bi", even, displacement)
+        return HeldRow(0.5 * jnp.sum(force * displacement, axis=1), force, even, elements)
+
+    def force_at(self, rows, displacement, elements):
+        return jnp.einsum("bij,bj->bi", self.stiffness, displacement)
+
+
+@once
+def solutions(
+    scene: AbstractBearing,
+    displacement: Float[Array, "own 5"],
+    expansion: Float[Array, " own"],
+    options: NewtonOptions,
+) -> Solution:
+    """Solutions of a stack of bearings whose rings are held at displacements of their ports.
+
+    Grooves move to first order with a tilt.
+    """
+
+    def one(scene: AbstractBearing, displacement: Array, expansion: Array) -> Solution:
+        if not scene.may_tilt:
+            displacement = displacement.at[3:].set(0.0)
+
+        def of_running(running: AbstractBearing) -> Solution:
+            zero = jnp.zeros(())
+            ring = held_ring(displacement, running.ring_lever, scene.port_distance, zero, expansion)
+            return running.solve_ring(options, ring, False)
+
+        return scene.solved_running(of_running)
+
+    return jax.vmap(one)(scene, displacement, expansion)
+
+
+def _dry(scene: Any) -> AbstractBearing:
+    """A bearing whose rollers slide, without what makes them: its rollers may tilt."""
+    names = [name for name in ("contact", "cage", "drag", "flange", "oil") if getattr(scene, name, None) is not None]
+    return dataclasses.replace(scene, **dict.fromkeys(names))
+
+
+def batches_of(places: Sequence[Place], speed: Array) -> tuple[AbstractBatch, ...]:
+    """All bearings of a system, those of one structure together."""
+    groups: dict[Any, list[tuple[int, Any]]] = {}
+    for index, place in enumerate(places):
+        scene = place.scene
+        scene = scene if isinstance(scene, LinearBearing) else on_shaft(scene, speed)
+        shapes = tuple(np.shape(leaf) for leaf in jax.tree.leaves(scene))
+        groups.setdefault((jax.tree.structure(scene), shapes), []).append((index, scene))
+    found: list[AbstractBatch] = []
+    for members in groups.values():
+        numbers = tuple(index for index, _ in members)
+        stacked = jax.tree.map(lambda *leaves: jnp.stack([jnp.asarray(one) for one in leaves]), *(s for _, s in members))
+        if isinstance(stacked, LinearBearing):
+            found.append(LinearBatch(stacked.stiffness, numbers))
+        else:
+            found.append(RollingBatch(stacked, None if stacked.may_tilt else _dry(stacked), numbers))
+    return tuple(found)
+
+
+def pressure_centre(scene: AbstractBearing) -> Float[Array, ""]:
+    r"""Where the contact normals of the unloaded bearing meet the axis, from the port along $e_x$, m: $-\frac{d_m}2
+    \tan\alpha$, with the angle of the drawing, which of tapered bearings is that of the cup."""
+    return -0.5 * jnp.asarray(scene.geometry.pitch_diameter) * jnp.tan(scene.drawing_angle)
+
+
+def largest_load(solution: Solution) -> Float[Array, ""]:
+    """Largest load on the inner raceway, N."""
+    return jnp.max(solution.elements.load_inner)
+
+
+FREEDOM_WORDS = dict(zip(RING_FREEDOMS, ("X", "Y", "Z", "the tilt", "the lateral tilt"), strict=True))
+"""Freedom -> words for it in the frame of the shaft."""

@@ -1,0 +1,211 @@
+"""Bearings on a shaft: one of them, matched sets of several, their preload and the support of their outer rings.
+
+A bearing's own axis $e_x$ points along +X (`thrust` "+x", `<` in the picture of a set) or along -X ("-x", `>`): it is
+the direction in which an axial force on the inner ring presses the bearing together. The bearing is mirrored and not
+rotated, so that azimuths and the sense of rotation stay.
+"""
+
+from typing import Any, ClassVar, Literal
+
+import equinox as eqx
+import jax
+import jax.numpy as jnp
+import numpy as np
+from jaxtyping import Array, Float
+
+from .._scene import label, number, optional_number
+from .._types import Scalar
+from ..bearings.bearing import AbstractBearing
+from ..numerics.checks import Checked
+from ..numerics.precision import as_float
+from ..numerics.structure import choice
+
+SENSES = {"+x": 1.0, "-x": -1.0, "<": 1.0, ">": -1.0}
+"""Word or sign of an orientation -> sense of the bearing's axis along that of the shaft."""
+
+
+def _numbers(value: Any) -> Any:
+    """A float64 array of a sequence or array of numbers; `None` stays."""
+    if isinstance(value, list | tuple):
+        traced = any(isinstance(one, jax.Array) for one in jax.tree.leaves(value))
+        value = jnp.asarray(value) if traced else np.asarray(value, dtype=np.float64)
+    return as_float(value)
+
+
+class LinearBearing(eqx.Module):
+    """A bearing that is known by its stiffness alone: f = K q.
+
+    **Arguments:** `stiffness`: K in the bearing's own frame, shape (5, 5), rows and columns axial, radial, lateral, tilt
+    and lateral tilt, N/m, N/rad, N m/m and N m/rad. It need not be symmetric.
+    """
+
+    kind: ClassVar[str] = "linear"
+
+    stiffness: Float[Array | np.ndarray, "5 5"] = eqx.field(
+        converter=_numbers, metadata=label("mixed", "stiffness of a linear bearing")
+    )
+
+
+class Support(Checked):
+    """Elastic support of an outer ring against the ground, in the frame of the shaft.
+
+    **Arguments:**
+    - `axial`, `radial`, `tilt`: stiffness along X, across X in all directions, and about all axes across X: N/m, N/m,
+      N m/rad. One that is left out is rigid.
+    - `matrix`: all of it, shape (5, 5), as in `LinearBearing`, in place of the three.
+    """
+
+    part: ClassVar[str] = "support"
+
+    axial: Scalar | None = optional_number(bound="> 0", metadata=label("N/m", "axial stiffness of the support"))
+    radial: Scalar | None = optional_number(bound="> 0", metadata=label("N/m", "radial stiffness of the support"))
+    tilt: Scalar | None = optional_number(bound="> 0", metadata=label("N m/rad", "tilt stiffness of the support"))
+    matrix: Float[Array | np.ndarray, "5 5"] | None = eqx.field(
+        default=None, converter=_numbers, metadata=label("mixed", "stiffness of the support")
+    )
+
+    def __check_init__(self):
+        super().__check_init__()
+        if self.matrix is not None and any(one is not None for one in (self.axial, self.radial, self.tilt)):
+            raise ValueError("support.matrix: expected none beside axial, radial and tilt")
+
+
+class Preload(Checked):
+    """Preload of a set: one of the following.
+
+    - `force`: the force between the two opposed groups in the mounted set at rest, without load, N. One closure is found
+      that is common to all bearings, and stays.
+    - `class_force`: the force at which ONE bearing of the set reaches the closure that all get, N, as makers define the
+      preload classes of universally ground bearings.
+    - `offset`: the closure of every bearing, m; a negative one is play.
+    - `spring_force`: the force of springs that press the outer rings of the last group of the set, mounted and at rest,
+      N; `spring_stiffness`: of these springs together, N/m: 0 for a constant force.
+    """
+
+    part: ClassVar[str] = "preload"
+
+    force: Scalar | None = optional_number(bound=">= 0", metadata=label("N", "preload force"))
+    class_force: Scalar | None = optional_number(bound=">= 0", metadata=label("N", "preload class force"))
+    offset: Scalar | None = optional_number(metadata=label("m", "closure of each bearing"))
+    spring_force: Scalar | None = optional_number(bound=">= 0", metadata=label("N", "spring force, mounted"))
+    spring_stiffness: Scalar | None = optional_number(bound=">= 0", metadata=label("N/m", "stiffness of the springs"))
+
+    def __check_init__(self):
+        super().__check_init__()
+        ways = ("force", "class_force", "offset", "spring_force")
+        given = [name for name in ways if getattr(self, name) is not None]
+        if len(given) != 1:
+            raise ValueError(f"preload must have one of {', '.join(ways)}, got {' and '.join(given) or 'none'}")
+        if self.spring_stiffness is not None and self.spring_force is None:
+            raise ValueError("preload.spring_stiffness: expected none without spring_force")
+
+    @property
+    def way(self) -> str:
+        """Name of the field that is given."""
+        ways = ("force", "class_force", "offset", "spring_force")
+        return next(name for name in ways if getattr(self, name) is not None)
+
+
+class MountedBearing(Checked):
+    """One bearing on a shaft.
+
+    **Arguments:**
+    - `name`: its name.
+    - `scene`: the bearing. Speeds and loads of its operating point have no effect, but that of the outer ring.
+    - `position`: of its row (middle of the rollers, plane of the unloaded balls), m.
+    - `thrust`: where an axial force on the inner ring presses it together, "+x" or "-x".
+    - `closure`: added to the axial displacement in the bearing's own frame, m: of a bearing that is adjusted.
+    - `expansion`: growth of the inner raceway's radius less that of the outer one, m.
+    - `support`: of the outer ring; `None` for a rigid one.
+    """
+
+    part: ClassVar[str] = "bearing"
+
+    name: str = eqx.field(static=True)
+    scene: AbstractBearing | LinearBearing
+    position: Scalar = number(metadata=label("m", "position along the shaft"))
+    thrust: Literal["+x", "-x"] = choice("bearing.thrust", ("+x", "-x"), "+x")
+    closure: Scalar = number(0.0, metadata=label("m", "closure"))
+    expansion: Scalar = number(0.0, metadata=label("m", "expansion of the inner raceway"))
+    support: Support | None = None
+
+    @property
+    def sense(self) -> float:
+        """1 if the bearing's axis points along +X, else -1."""
+        return SENSES[self.thrust]
+
+
+class MatchedSet(Checked):
+    """Several bearings that are ground to each other and mounted side by side.
+
+    **Arguments:**
+    - `name`: of the set; its bearings are called `name.1`, `name.2` ...
+    - `picture`: one sign a bearing from -X to +X, the sign is the cone of its contact lines: `<` has its axis along +X
+      and `>` along -X. `<>` is an O arrangement, `><` an X arrangement, `<<` a tandem.
+    - `scene`: the bearing, or a tuple with one for each sign.
+    - `position`: middle between the first and the last row, m.
+    - `distance`: of neighbouring rows, m; or one for each gap, shape (n - 1,).
+    - `preload`: `None` if there is none: all bearings then touch and carry nothing.
+    - `mismatch`: additional closure of each bearing, m, shape (n,); `None` for 0.
+    - `expansion`: growth of the inner raceways' radius less that of the outer ones, m.
+    - `support`: of each outer ring; `None` for rigid ones.
+    """
+
+    part: ClassVar[str] = "set"
+
+    name: str = eqx.field(static=True)
+    picture: str = eqx.field(static=True)
+    scene: AbstractBearing | tuple[AbstractBearing, ...]
+    position: Scalar = number(metadata=label("m", "position of the middle of the set"))
+    distance: Float[Array | np.ndarray, "..."] = eqx.field(
+        converter=_numbers, metadata=label("m", "distance of neighbouring rows")
+    )
+    preload: Preload | None = None
+    mismatch: Float[Array | np.ndarray, " bearing"] | None = eqx.field(
+        default=None, converter=_numbers, metadata=label("m", "additional closure of each bearing")
+    )
+    expansion: Scalar = number(0.0, metadata=label("m", "expansion of the inner raceways"))
+    support: Support | None = None
+
+    def __check_init__(self):
+        super().__check_init__()
+        if len(self.picture) < 2 or set(self.picture) - {"<", ">"}:
+            raise ValueError(f"set.picture must be two or more signs, each '<' or '>', got {self.picture!r}")
+        if isinstance(self.scene, tuple) and len(self.scene) != len(self.picture):
+            raise ValueError(
+                f"set.scene must be one bearing or one for each sign of the picture {self.picture!r}, got "
+                f"{len(self.scene)}"
+            )
+        if self.preload is not None and len(set(self.picture)) == 1:
+            raise ValueError(f"set.preload: expected none of a tandem {self.picture!r}, which nothing opposes")
+        for name, count in (("distance", len(self.picture) - 1), ("mismatch", len(self.picture))):
+            value = getattr(self, name)
+            shape = () if value is None else np.shape(value)
+            if shape and shape != (count,):
+                raise ValueError(f"set.{name} must have {count} numbers for the picture {self.picture!r}, got {shape}")
+
+    @property
+    def count(self) -> int:
+        """Number of bearings."""
+        return len(self.picture)
+
+    @property
+    def scenes(self) -> tuple[AbstractBearing, ...]:
+        """The bearings, one for each sign."""
+        return self.scene if isinstance(self.scene, tuple) else (self.scene,) * self.count
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """Names of the bearings."""
+        return tuple(f"{self.name}.{one + 1}" for one in range(self.count))
+
+    @property
+    def senses(self) -> tuple[float, ...]:
+        """1 for each bearing whose axis points along +X, else -1."""
+        return tuple(SENSES[sign] for sign in self.picture)
+
+    def positions(self) -> Float[Array, " bearing"]:
+        """Positions of the rows, m."""
+        gaps = jnp.broadcast_to(jnp.asarray(self.distance), (self.count - 1,))
+        from_first = jnp.concatenate([jnp.zeros(1), jnp.cumsum(gaps)])
+        return self.position + from_first - 0.5 * from_first[-1]

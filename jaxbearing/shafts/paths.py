@@ -1,0 +1,143 @@
+"""Dotted paths of the numbers of a shaft, as scene files have them: `bearing.rear.position`,
+`bearing.rear.geometry.diametral_clearance`, `set.front.preload.force`, `force.pinion.torque`,
+`shaft.sections.2.outer_diameter`. Bearings, sets and forces are found by their names, sections by their numbers from 1.
+"""
+
+import dataclasses
+import re
+from collections.abc import Iterator, Mapping
+from typing import Any
+
+import equinox as eqx
+
+from .._scene import AbstractScene, _replaced
+
+LISTS = {"bearing": "bearings", "set": "sets", "force": "forces"}
+"""First word of a path -> field of `ShaftSystem` that holds what it is about."""
+_BEARING = "scene"
+"""Field of a mounted bearing, or of a set, that holds the bearing; paths leave it out."""
+_Changes = dict[tuple[str, ...], Any]
+
+
+def replaced(system: Any, changes: Mapping[str, Any]) -> Any:
+    """A copy of a `ShaftSystem` with other values.
+
+    **Arguments:** `changes`: dotted path -> value in SI, or a part.
+
+    **Raises:** `AttributeError` for a path that the system does not have; `TypeError` for what is no mapping.
+    """
+    if not isinstance(changes, Mapping) or not all(isinstance(path, str) for path in changes):
+        raise TypeError(f"replace takes a mapping from dotted paths to values, got {changes!r}")
+    plain: _Changes = {}
+    named: dict[tuple[str, str], _Changes] = {}
+    for path, value in changes.items():
+        keys = tuple(path.split("."))
+        if keys[0] in LISTS and len(keys) > 2:
+            named.setdefault((keys[0], keys[1]), {})[keys[2:]] = value
+        elif keys[:2] == ("shaft", "sections") and len(keys) > 3:
+            named.setdefault(("section", keys[2]), {})[keys[3:]] = value
+        else:
+            plain[keys] = value
+    found: dict[str, Any] = {}
+    for (word, name), inner in named.items():
+        field = LISTS.get(word, "sections")
+        entries = list(found.get(field) or entries_of(system, word))
+        place = _place(system, word, name)
+        entries[place] = _changed(entries[place], inner, f"{word}.{name}")
+        found[field] = tuple(entries)
+    if "sections" in found:
+        plain["shaft", "sections"] = found.pop("sections")
+    return _replaced(system, {**plain, **{(field,): value for field, value in found.items()}})
+
+
+def entries_of(system: Any, word: str) -> tuple[Any, ...]:
+    """The bearings, sets or forces that a path may name, or the sections."""
+    return system.shaft.sections if word == "section" else getattr(system, LISTS[word])
+
+
+def names_of(system: Any, word: str) -> tuple[str, ...]:
+    """Names of the entries, in their order."""
+    entries = entries_of(system, word)
+    if word == "section":
+        return tuple(str(place + 1) for place in range(len(entries)))
+    return tuple(one.name for one in entries)
+
+
+def _place(system: Any, word: str, name: str) -> int:
+    """**Raises:** `AttributeError` for a name that is not there."""
+    names = names_of(system, word)
+    if name not in names:
+        whole = f"shaft.sections.{name}" if word == "section" else f"{word}.{name}"
+        raise AttributeError(f"the scene has no {whole!r}; there is {', '.join(names) or 'none'}")
+    return names.index(name)
+
+
+def _changed(entry: Any, changes: _Changes, above: str) -> Any:
+    """An entry with other values: its own fields, and those of its bearing."""
+    own = {field.name for field in dataclasses.fields(entry)}
+    mine = {path: value for path, value in changes.items() if path[0] in own}
+    bearings = {".".join(path): value for path, value in changes.items() if path[0] not in own}
+    if bearings:
+        if _BEARING not in own:
+            wrong = next(iter(bearings))
+            raise AttributeError(f"the scene has no '{above}.{wrong}': {type(entry).__name__} has {', '.join(own)}")
+        scene = entry.scene
+        if isinstance(scene, tuple):
+            scene = tuple(_of_bearing(one, bearings) for one in scene)
+        else:
+            scene = _of_bearing(scene, bearings)
+        mine[(_BEARING,)] = scene
+    return _replaced(entry, mine, f"{above}.")
+
+
+def _of_bearing(scene: Any, changes: dict[str, Any]) -> Any:
+    if isinstance(scene, AbstractScene):
+        return scene.replace(changes)
+    return _replaced(scene, {tuple(path.split(".")): value for path, value in changes.items()})
+
+
+_NUMBERED = re.compile(r"(bearings|sets|forces)\.(\d+)\.(.*)")
+
+
+def path_in_file(system: Any, path: str) -> str:
+    """The path of scene files of a number that a tree of numbers has at `bearings.0.scene.geometry.conformity_inner`:
+    `bearing.rear.geometry.conformity_inner`."""
+    found = _NUMBERED.fullmatch(path)
+    if found is None:
+        place = re.fullmatch(r"shaft\.sections\.(\d+)\.(.*)", path)
+        return path if place is None else f"shaft.sections.{int(place[1]) + 1}.{place[2]}"
+    word = next(word for word, field in LISTS.items() if field == found[1])
+    name = names_of(system, word)[int(found[2])]
+    return f"{word}.{name}.{found[3].removeprefix(f'{_BEARING}.')}"
+
+
+def part_at(system: Any, path: str) -> Any:
+    """The number or part at a path; `None` where there is none."""
+    keys = path.split(".")
+    if keys[0] in LISTS and len(keys) > 1:
+        word, name, rest = keys[0], keys[1], keys[2:]
+    elif keys[:2] == ["shaft", "sections"] and len(keys) > 2:
+        word, name, rest = "section", keys[2], keys[3:]
+    else:
+        return _inside(system, keys)
+    names = names_of(system, word)
+    if name not in names:
+        return None
+    return _inside(entries_of(system, word)[names.index(name)], rest)
+
+
+def _inside(part: Any, keys: list[str]) -> Any:
+    for place, key in enumerate(keys):
+        own = [field.name for field in dataclasses.fields(part)] if isinstance(part, eqx.Module) else []
+        if key not in own and _BEARING in own:
+            scene: Any = getattr(part, _BEARING)
+            return _inside(scene[0] if isinstance(scene, tuple) else scene, keys[place:])
+        part = getattr(part, key, None)
+    return part
+
+
+def all_names(system: Any) -> Iterator[tuple[str, str, Any]]:
+    """Word, name and entry of every bearing, set and force."""
+    for word in LISTS:
+        for name, entry in zip(names_of(system, word), entries_of(system, word), strict=True):
+            yield word, name, entry

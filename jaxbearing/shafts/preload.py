@@ -1,0 +1,244 @@
+"""Preload of matched sets: closures and springs from the mounted set, which is at rest and carries no load.
+
+Along its axis the mounted set has one unknown for each of its two groups, the axial displacement of its bearings: the
+forces of the bearings of a group add up to the preload. Half of both displacements together is the closure.
+"""
+
+from typing import Any, NamedTuple
+
+import jax
+import jax.numpy as jnp
+import numpy as np
+from jaxtyping import Array, Bool, Float, Int
+
+from ..numerics.once import once
+from .balance import Spring
+from .batches import AbstractBatch
+from .mounting import Preload
+from .scene import Place, ShaftSystem
+from .search import _spread
+
+FIRST_TRIAL = 5e-5
+"""First axial displacement that is tried, m."""
+TRIALS = 100
+"""Most trials of the search for a closure."""
+BALANCED = 1e-16
+"""Last step of the search for the mounted set's place, m."""
+TOLERANCE = 1e-13
+"""Relative error of the preload, and of the displacement, at which the search ends."""
+EXPONENT = 2.0 / 3.0
+"""The force to this power grows nearly in proportion to the displacement of balls."""
+
+
+class Rest(NamedTuple):
+    """All bearings of a system at rest, without expansion by growth, displaced along their axes alone."""
+
+    batches: tuple[AbstractBatch, ...]
+    rows: list[Any]
+
+
+def at_rest(batches: tuple[AbstractBatch, ...], count: int) -> Rest:
+    return Rest(batches, [batch.rows(jnp.zeros(count), at_rest=True) for batch in batches])
+
+
+def _displacements(axial: Float[Array, " bearing"]) -> Float[Array, "bearing 5"]:
+    return axial[:, None] * jnp.asarray([[1.0, 0.0, 0.0, 0.0, 0.0]])
+
+
+class _Held(NamedTuple):
+    """Axial forces, N, axial stiffness, N/m, and elements by batch."""
+
+    force: Float[Array, " bearing"]
+    slope: Float[Array, " bearing"]
+    elements: list[Any]
+
+
+@once
+def _held(rest: Rest, axial: Float[Array, " bearing"]) -> _Held:
+    """All bearings held; not differentiated."""
+    displacement = _displacements(axial)
+    found = []
+    for batch, rows in zip(rest.batches, rest.rows, strict=True):
+        own = displacement[batch.index]
+        found.append(batch.hold(rows, own, batch.initial(rows, own)))
+    of = lambda get: _spread(rest.batches, [get(one) for one in found])
+    elements = [one.elements for one in found]
+    return _Held(of(lambda one: one.force[:, 0]), of(lambda one: one.stiffness[:, 0, 0]), elements)
+
+
+@once
+def axial_forces(rest: Rest, axial: Float[Array, " bearing"], elements: list[Any]) -> Float[Array, " bearing"]:
+    """Axial forces, N, with first derivatives. **Arguments:** displacements, closures included, m; elements there."""
+    displacement = _displacements(axial)
+    parts = [
+        batch.force_at(rows, displacement[batch.index], own)[:, 0]
+        for batch, rows, own in zip(rest.batches, rest.rows, elements, strict=True)
+    ]
+    return _spread(rest.batches, parts)
+
+
+class _Search(NamedTuple):
+    place: Float[Array, " group"]
+    low: Float[Array, " group"]
+    high: Float[Array, " group"]
+    trials: Int[Array, ""]
+    done: Bool[Array, " group"]
+    held: _Held
+
+
+class Group(NamedTuple):
+    """Bearings that carry a force together: which ones, of all, and the force, N."""
+
+    members: np.ndarray
+    force: Array
+
+
+def displaced(rest: Rest, groups: list[Group], additional: Float[Array, " bearing"]) -> Float[Array, " group"]:
+    """Axial displacement of each group at which it carries its force, m, with first derivatives.
+
+    **Arguments:** `additional`: closure of each bearing beyond that of its group, m.
+    """
+    members = np.stack([group.members for group in groups]).astype(float)
+    target = jnp.stack([jnp.asarray(group.force, dtype=float) for group in groups])
+    fixed: Any = jax.lax.stop_gradient((rest, target, additional))
+
+    def look(state: _Search) -> _Search:
+        held = _held(fixed[0], members.T @ state.place + fixed[2])
+        force, slope = members @ held.force, members @ held.slope
+        wanted = fixed[1]
+        above = force >= wanted
+        low, high = jnp.where(above, state.low, state.place), jnp.where(above, state.place, state.high)
+        loaded = (force > 0) & (slope > 0)
+        safe = jnp.where(loaded, force, 1.0)
+        step = (safe - wanted**EXPONENT * safe ** (1.0 - EXPONENT)) / (EXPONENT * jnp.where(loaded, slope, 1.0))
+        newton = state.place - step
+        middle = jnp.where(jnp.isfinite(high), 0.5 * (low + high), 2.0 * state.place)
+        inside = loaded & (newton > low) & (newton < high)
+        small = (jnp.abs(force - wanted) <= TOLERANCE * wanted) | (high - low <= TOLERANCE * jnp.abs(high))
+        following = jnp.where(small | state.done, state.place, jnp.where(inside, newton, middle))
+        return _Search(following, low, high, state.trials + 1, state.done | small, held)
+
+    none = jnp.zeros(len(groups))
+    first = _Search(none + FIRST_TRIAL, none - FIRST_TRIAL, none + jnp.inf, jnp.asarray(0), none > 0, _nothing(fixed[0]))
+    going = lambda state: (state.trials < TRIALS) & ~jnp.all(state.done)
+    end = jax.lax.while_loop(going, look, first)
+    place, held = end.place, end.held
+    slope = jnp.maximum(members @ held.slope, 1.0)
+    force = members @ axial_forces(rest, members.T @ place + additional, held.elements)
+    # one step of Newton's has the derivatives of the root
+    return place - (force - target) / slope
+
+
+class Mounted(NamedTuple):
+    """What mounting has made of the sets: closures of all bearings, m, the springs, and by the names of the sets the
+    closure of each bearing by the preload, m, the force between the groups, N, the load that unloads one, N, and the
+    number of the spring."""
+
+    closure: Float[Array, " bearing"]
+    springs: tuple[Spring, ...]
+    closures: dict[str, Array]
+    forces: dict[str, Array]
+    losses: dict[str, Array]
+    spring_numbers: dict[str, int]
+
+
+def groups_of(places: tuple[Place, ...], number: int) -> tuple[np.ndarray, np.ndarray]:
+    """Members of both groups of a set among all bearings, that of its last bearing second."""
+    own = np.asarray([place.set_index == number for place in places])
+    last = next(place.sense for place in reversed(places) if place.set_index == number)
+    second = own & np.asarray([place.sense == last for place in places])
+    return own & ~second, second
+
+
+def mount(system: ShaftSystem, places: tuple[Place, ...], batches: tuple[AbstractBatch, ...]) -> Mounted:
+    """Finds the preload of all sets of a system."""
+    closure = jnp.stack([jnp.asarray(place.closure, dtype=float) for place in places])
+    sets = [(number, one.name, one.preload) for number, one in enumerate(system.sets) if one.preload is not None]
+    if not sets:
+        return Mounted(closure, (), {}, {}, {}, {})
+    rest = at_rest(batches, len(places))
+    travel = _travels(rest, places, sets, closure)
+    springs: list[Spring] = []
+    closures: dict[str, Array] = {}
+    forces: dict[str, Array] = {}
+    numbers: dict[str, int] = {}
+    for number, name, preload in sets:
+        if preload.spring_force is not None:
+            force = jnp.asarray(preload.spring_force)
+            stiffness = jnp.asarray(0.0 if preload.spring_stiffness is None else preload.spring_stiffness)
+            pressed = np.flatnonzero(groups_of(places, number)[1]).tolist()
+            numbers[name], forces[name] = len(springs), force
+            springs.append(Spring(stiffness, force + stiffness * travel[name], tuple(pressed)))
+            continue
+        if preload.offset is not None:
+            closures[name] = jnp.asarray(preload.offset)
+        else:
+            closures[name] = travel[name] if preload.class_force is not None else 0.5 * travel[name]
+        mine = np.asarray([float(place.set_index == number) for place in places])
+        closure = closure + closures[name] * mine
+    rigid = {name: groups_of(places, number) for number, name, _ in sets if name in closures}
+    mounted, losses = _mounted(rest, rigid, closure)
+    return Mounted(closure, tuple(springs), closures, forces | mounted, losses, numbers)
+
+
+def _travels(
+    rest: Rest, places: tuple[Place, ...], sets: list[tuple[int, str, Preload]], closure: Float[Array, " bearing"]
+) -> dict[str, Array]:
+    """Sum of the axial displacements of both groups of each set under its preload, m; of a class force the displacement
+    of its first bearing alone."""
+    groups: list[Group] = []
+    owner: list[str] = []
+    additional = closure
+    for number, name, preload in sets:
+        force = preload.force if preload.force is not None else preload.spring_force
+        if force is not None:
+            groups += [Group(members, jnp.asarray(force)) for members in groups_of(places, number)]
+            owner += [name, name]
+        elif preload.class_force is not None:
+            first = np.arange(len(places)) == next(i for i, place in enumerate(places) if place.set_index == number)
+            groups.append(Group(first, jnp.asarray(preload.class_force)))
+            owner.append(name)
+            additional = jnp.where(first, 0.0, additional)
+    if not groups:
+        return {}
+    found = displaced(rest, groups, additional)
+    return {name: sum(found[i] for i, own in enumerate(owner) if own == name) for name in owner}
+
+
+def _mounted(
+    rest: Rest, sets: dict[str, tuple[np.ndarray, np.ndarray]], closure: Float[Array, " bearing"]
+) -> tuple[dict[str, Array], dict[str, Array]]:
+    """Force between the groups of each set at rest without load, and the axial load on the group with more bearings that
+    unloads the other one, N. **Arguments:** groups by the names of the sets."""
+    if not sets:
+        return {}, {}
+    first = np.stack([max(both, key=np.sum) for both in sets.values()]).astype(float)
+    second = np.stack([sum(both).astype(float) for both in sets.values()]) - first
+    signs = first - second
+    fixed: Any = jax.lax.stop_gradient((rest, closure))
+
+    def look(state: tuple[Array, Array, Array, _Held]) -> tuple[Array, Array, Array, _Held]:
+        place, _, trials, _ = state
+        held = _held(fixed[0], fixed[1] + signs.T @ place)
+        step = (signs @ held.force) / jnp.maximum((first + second) @ held.slope, 1.0)
+        return place - step, jnp.max(jnp.abs(step)), trials + 1, held
+
+    going = lambda state: (state[1] > BALANCED) & (state[2] < TRIALS)
+    none = jnp.zeros(len(sets))
+    begin = (none, jnp.asarray(jnp.inf), jnp.asarray(0), _nothing(fixed[0]))
+    place, _, _, held = jax.lax.while_loop(going, look, begin)
+    slope = jnp.maximum((first + second) @ held.slope, 1.0)
+    place = place - signs @ axial_forces(rest, closure + signs.T @ place, held.elements) / slope
+    mounted = first @ axial_forces(rest, closure + signs.T @ place, held.elements)
+    # the last bearing of the other group that carries is lost where its closure is used up
+    largest = jnp.max(jnp.where(second > 0, closure[None], -jnp.inf), axis=1)
+    lost = closure + signs.T @ largest
+    held = _held(fixed[0], jax.lax.stop_gradient(lost), when=jnp.all(jnp.isfinite(lost)))
+    loss = first @ axial_forces(rest, lost, held.elements)
+    return dict(zip(sets, mounted, strict=True)), dict(zip(sets, loss, strict=True))
+
+
+def _nothing(rest: Rest) -> _Held:
+    """Zeros, to begin a loop with."""
+    count = sum(len(batch.places) for batch in rest.batches)
+    return _held(rest, jnp.zeros(count), when=jnp.asarray(False))

@@ -1,0 +1,182 @@
+"""The shaft on its bearings as a scene."""
+
+from collections.abc import Iterator
+from typing import Any, ClassVar, NamedTuple
+
+import equinox as eqx
+import numpy as np
+from jaxtyping import Array, Float
+
+from .._scene import AbstractScene, label, number, optional_number
+from .._types import Scalar
+from ..bearings.bearing import AbstractBearing
+from ..life.duty import SUM_TOLERANCE
+from ..numerics.checks import Checked, known
+from ..numerics.newton import NewtonOptions
+from ..numerics.refusals import refuse_all
+from .forces import AbstractForce
+from .mounting import LinearBearing, MatchedSet, MountedBearing, Support, _numbers
+from .paths import part_at, path_in_file, replaced
+from .shaft import Shaft
+
+
+class SystemLife(Checked):
+    """Inputs of the life of all bearings together.
+
+    **Arguments:** `weibull`: slope of the distribution of every bearing's life, 1.5 in API 610; `None` for that of the
+    standards, 10/9 of ball and 9/8 of roller bearings.
+    """
+
+    part: ClassVar[str] = "life"
+
+    weibull: Scalar | None = optional_number(bound="> 0", metadata=label("1", "Weibull slope"))
+
+
+class ShaftState(Checked):
+    """A state of a duty cycle.
+
+    **Arguments:**
+    - `share`: its share of the time, above 0 and at most 1; the shares of all states add up to 1.
+    - `changes`: what differs from the scene: dotted path -> SI value, such as `{"force.pinion.torque": 50.0,
+      "shaft.speed": 300.0}`; bearings, sets and forces are found by their names.
+    - `name`: its name; left out: its number.
+    """
+
+    part: ClassVar[str] = "state"
+
+    share: Scalar = number(bound="above 0 and at most 1", metadata=label("1", "share of the time"))
+    changes: dict[str, Any] = eqx.field(default_factory=dict)
+    name: str = eqx.field(static=True, default="")
+
+
+class Place(NamedTuple):
+    """One bearing of a system, from a set or alone. `closure` and `expansion` are those that it is given by itself,
+    m; `set_index` is the number of its set, or `None`."""
+
+    name: str
+    scene: AbstractBearing | LinearBearing
+    position: Any
+    sense: float
+    closure: Any
+    expansion: Any
+    support: Support | None
+    set_index: int | None
+
+
+class ShaftSystem(AbstractScene):
+    """A shaft on bearings, with all that acts on it. `jaxbearing.solve` finds its equilibrium.
+
+    **Arguments:**
+    - `shaft`: dimensions, speed, weight.
+    - `sets`, `bearings`: on the shaft. `places` has all bearings, those of the sets first.
+    - `forces`: that act on the shaft.
+    - `housing`: stiffness of a housing that holds all outer rings, shape (5 n, 5 n) in the frame of the shaft, five
+      freedoms for each of the bearings in the order of `places`; `None`: each outer ring has its own support.
+    - `states`: of a duty cycle; without any there is one state, that of the scene.
+    - `life`: inputs of the life of the system.
+
+    **Raises:** `ValueError` for names that are given twice, for no bearing, for positions beyond the ends of the shaft,
+    and for shares that do not add up to 1.
+    """
+
+    kind: ClassVar[str] = "shaft"
+    operating_point: ClassVar[str] = "shaft"
+
+    shaft: Shaft
+    bearings: tuple[MountedBearing, ...] = eqx.field(default=(), converter=tuple)
+    sets: tuple[MatchedSet, ...] = eqx.field(default=(), converter=tuple)
+    forces: tuple[AbstractForce, ...] = eqx.field(default=(), converter=tuple)
+    housing: Float[Array | np.ndarray, "m m"] | None = eqx.field(
+        default=None, converter=_numbers, metadata=label("mixed", "stiffness of the housing")
+    )
+    states: tuple[ShaftState, ...] = eqx.field(default=(), converter=tuple)
+    life: SystemLife = SystemLife()
+
+    def __check_init__(self):
+        refuse_all(self._problems())
+
+    def _problems(self) -> Iterator[str]:
+        places = self.places
+        if not places:
+            yield "bearing: found none, expected at least one bearing or set"
+        for part, names in (
+            ("bearing", [place.name for place in places]),
+            ("set", [one.name for one in self.sets]),
+            ("force", [force.name for force in self.forces]),
+        ):
+            for name in sorted({name for name in names if names.count(name) > 1}):
+                yield f"{part}.{name}: this name is given {names.count(name)} times, expected once"
+        if sum(force.balances for force in self.forces) > 1:
+            yield "force: more than one has balance = true, expected at most one"
+        yield from self._beyond()
+        if self.housing is not None:
+            count = 5 * len(places)
+            if np.shape(self.housing) != (count, count):
+                yield f"housing must have the shape ({count}, {count}), got {np.shape(self.housing)}"
+            if any(place.support is not None for place in places):
+                yield "support: expected none beside housing, which holds all outer rings"
+        shares = known(*(state.share for state in self.states))
+        if self.states and shares is not None and abs(sum(shares) - 1.0) > SUM_TOLERANCE:
+            yield f"state.share must add up to 1 over the states, got {sum(shares):.7g}"
+
+    def _beyond(self) -> Iterator[str]:
+        """Problems of positions that lie beyond the ends of a shaft with sections."""
+        length = known(*(section.length for section in self.shaft.sections))
+        if not length:
+            return
+        end = sum(length)
+        held = [(self._path_of(place), place.position) for place in self.places]
+        held += [(f"force.{force.name}.position: ", force.position) for force in self.forces]
+        for said, position in held:
+            at = known(position)
+            if at is not None and not -1e-9 <= at[0] <= end + 1e-9:
+                yield f"{said}{at[0] * 1e3:g} mm lies beyond the shaft ({end * 1e3:g} mm)"
+
+    def _path_of(self, place: Place) -> str:
+        """Beginning of a message about the position of a bearing."""
+        if place.set_index is None:
+            return f"bearing.{place.name}.position: "
+        return f"set.{self.sets[place.set_index].name}.position: {place.name} at "
+
+    @property
+    def places(self) -> tuple[Place, ...]:
+        """All bearings: those of the sets in their order, then those that stand alone."""
+        found = []
+        for index, one in enumerate(self.sets):
+            mismatch = np.zeros(one.count) if one.mismatch is None else one.mismatch
+            for name, scene, position, sense, closure in zip(
+                one.names, one.scenes, one.positions(), one.senses, mismatch, strict=True
+            ):
+                found.append(Place(name, scene, position, sense, closure, one.expansion, one.support, index))
+        for alone in self.bearings:
+            found.append(
+                Place(
+                    alone.name,
+                    alone.scene,
+                    alone.position,
+                    alone.sense,
+                    alone.closure,
+                    alone.expansion,
+                    alone.support,
+                    None,
+                )
+            )
+        return tuple(found)
+
+    def replace(self, changes: Any) -> "ShaftSystem":
+        """A copy with other values; keys are the dotted paths of scene files (`paths`), values SI numbers or parts.
+
+        **Raises:** as `AbstractScene.replace`.
+        """
+        return replaced(self, changes)
+
+    def part_at(self, path: str) -> Any:
+        return part_at(self, path)
+
+    def path_in_file(self, path: str) -> str:
+        return path_in_file(self, path)
+
+    def steady_solution(self, options: NewtonOptions) -> Any:
+        from .steady import solve_shaft
+
+        return solve_shaft(self, options)

@@ -1,0 +1,316 @@
+"""The equilibrium of a shaft: first the minimum of a convex potential, then Newton's iteration on the bearings' own
+solutions.
+
+Without friction, with the centrifugal forces of the unloaded contact angles, a shaft on bearings has one convex
+potential (`balance`): clearances, bearings that carry nothing, more than two bearings, flanges and springs are all in
+it. Newton's steps are accepted where the potential falls (Armijo), with a factor on the diagonal that grows where a step
+is shortened (Levenberg). At the minimum begins Newton's iteration with each bearing's own solution under a held ring:
+with the centrifugal force of every ball, films, friction, cage, seats and temperatures as its scene has them, and the
+exact stiffness. Derivatives follow from the implicit function theorem at that root.
+"""
+
+from typing import Any, NamedTuple
+
+import equinox as eqx
+import jax
+import jax.numpy as jnp
+from jaxtyping import Array, Bool, Float, Int
+
+from ..numerics.newton import NewtonOptions
+from ..numerics.once import once
+from ..numerics.status import Status
+from .balance import Balance
+from .batches import AbstractBatch, LinearBatch, RollingBatch, solutions
+
+START_TOLERANCE = 1e-5
+"""Residual of the first stage, over the size of the loads."""
+TRIALS = 400
+"""Most trials of the first stage. Supports of 1e3 N/m, 10 mm away, need 60."""
+LONGEST_STEP = 2e-4
+"""Largest displacement in one step of the first stage, m; tilts are multiplied by the span."""
+FARTHEST, MOST_TILT = 1e-2, 0.1
+"""Displacement, m, and tilt, rad, of an inner ring against its outer ring beyond which there is no equilibrium."""
+SOFTEST, LEAST_STIFFNESS = 1e2, 1e5
+"""Stiffness, N/m, that is added to every freedom of a bearing in the first stage, and the least one that the factor of
+Levenberg multiplies."""
+FACTOR, LEAST_FACTOR, TENFOLD = 1e-9, 1e-12, 10.0
+"""First and least factor of Levenberg, and by how much it grows where a step is shortened and falls elsewhere."""
+ARMIJO, SHORTER, SHORTEST = 1e-4, 0.3, 1e-6
+"""Part of the promised fall that a step must bring; factor of one that does not; fraction at which a step is taken as
+it is, because the fall is lost in rounding."""
+ANCHOR = 0.1
+"""Stiffness, N/m, that is added to every freedom of a bearing in the steps of the second stage and in derivatives: a
+shaft that floats in clearance without load has a place of its own. It exerts no force, and is 1e-9 of the stiffness of a
+loaded bearing."""
+NEWTON_TRIALS = 60
+"""Most trials of the second stage."""
+ROUNDED_STEP = 1e-16
+"""Displacement, m, below which a Newton step is rounding."""
+MOST_ROUNDED = 1e-7
+"""Largest scaled residual that may be left where the step is rounding."""
+
+
+class Problem(eqx.Module):
+    """Everything that the equilibrium depends on. **Arguments:** `expansion`: of all bearings, m."""
+
+    balance: Balance
+    batches: tuple[AbstractBatch, ...]
+    expansion: Float[Array, " bearing"]
+
+
+def _spread(batches: tuple[AbstractBatch, ...], parts: list[Array]) -> Array:
+    """One array for all bearings, from those of the batches."""
+    together = jnp.concatenate(parts)
+    order = [place for batch in batches for place in batch.places]
+    return together[jnp.asarray([order.index(place) for place in range(len(order))])]
+
+
+class _Ports(NamedTuple):
+    """All bearings under held rings, in their own frames."""
+
+    energy: Float[Array, " bearing"]
+    force: Float[Array, "bearing 5"]
+    stiffness: Float[Array, "bearing 5 5"]
+    elements: Any
+
+
+@once
+def _held(problem: Problem, rows: list[Any], displacement: Float[Array, "bearing 5"], elements: list[Any]) -> _Ports:
+    found = [
+        batch.hold(row, displacement[batch.index], own)
+        for batch, row, own in zip(problem.batches, rows, elements, strict=True)
+    ]
+    of = lambda name: _spread(problem.batches, [getattr(one, name) for one in found])
+    return _Ports(of("energy"), of("force"), of("stiffness"), [one.elements for one in found])
+
+
+def ports(
+    problem: Problem, displacement: Float[Array, "bearing 5"], options: NewtonOptions
+) -> tuple[Float[Array, "bearing 5"], Float[Array, "bearing 5 5"], Bool[Array, ""]]:
+    """Forces and stiffness of all bearings by their own solutions, and whether all have one."""
+    forces, stiffness, good = [], [], jnp.asarray(True)
+    for batch in problem.batches:
+        own = displacement[batch.index]
+        if isinstance(batch, RollingBatch):
+            found = solutions(batch.ports, own, problem.expansion[batch.index], options)
+            forces.append(found.force)
+            stiffness.append(found.stiffness)
+            good &= jnp.all(found.converged)
+        else:
+            assert isinstance(batch, LinearBatch)
+            forces.append(batch.force_at(None, own, None))
+            stiffness.append(batch.stiffness)
+    return _spread(problem.batches, forces), _spread(problem.batches, stiffness), good
+
+
+class Start(NamedTuple):
+    """End of the first stage: the unknowns, the scaled residual, steps, whether a ring ran away, and the freedom that
+    moved farthest (5 times the bearing's number + freedom)."""
+
+    unknowns: Float[Array, " unknown"]
+    residual: Float[Array, ""]
+    steps: Int[Array, ""]
+    lost: Bool[Array, ""]
+    softest: Int[Array, ""]
+    scale: Float[Array, ""]
+
+
+class _Descent(NamedTuple):
+    unknowns: Array
+    elements: Any
+    step: Array
+    energy: Array
+    slope: Array
+    fraction: Array
+    factor: Array
+    residual: Array
+    scale: Array
+    far: Array
+    done: Bool[Array, ""]
+    trials: Int[Array, ""]
+    steps: Int[Array, ""]
+
+
+def minimise(problem: Problem) -> Start:
+    """The minimum of the potential to `START_TOLERANCE`."""
+    problem = jax.lax.stop_gradient(problem)
+    balance = problem.balance
+    rows = [batch.rows(problem.expansion) for batch in problem.batches]
+    zero = jnp.zeros_like(balance.load)
+    at_zero = balance.displacements(zero)
+    elements = [batch.initial(row, at_zero[batch.index]) for batch, row in zip(problem.batches, rows, strict=True)]
+    units, lengths = balance.row_units(), balance.lengths()
+    most = jnp.where(jnp.arange(5) < 3, FARTHEST, MOST_TILT)
+    def look(state: _Descent) -> _Descent:
+        trial = state.unknowns + state.fraction * state.step
+        displacement = balance.displacements(trial)
+        held = _held(problem, rows, displacement, state.elements)
+        residual = balance.residual(trial, held.force)
+        energy = balance.potential(trial, held.energy)
+        enough = energy <= state.energy + ARMIJO * state.fraction * state.slope
+        near = jnp.abs(state.slope) <= 1e-12 * jnp.abs(energy) + 1e-18
+        accept = enough | near | (state.fraction < SHORTEST)
+        shortened = state.fraction < 1.0
+        factor = jnp.where(shortened, state.factor * TENFOLD, state.factor / TENFOLD)
+        factor = jnp.where(state.trials > 0, jnp.clip(factor, LEAST_FACTOR, 1.0), state.factor)
+        diagonal = jnp.abs(jnp.diagonal(held.stiffness, axis1=1, axis2=2))
+        least = jnp.square(lengths)
+        more = factor * jnp.maximum(diagonal, LEAST_STIFFNESS * least[None]) + SOFTEST * least[None]
+        step = -balance.inverse(held.stiffness + more[:, :, None] * jnp.eye(5)[None]) @ residual
+        moved = jnp.max(jnp.abs((balance.attach @ step).reshape(-1, 5) * lengths[None]))
+        step = step * jnp.minimum(1.0, LONGEST_STEP / jnp.maximum(moved, 1e-30))
+        # closures load the bearings without an outer load: the first trial is the start
+        loaded = balance.force_scale + jnp.sum(jnp.abs(held.force / lengths[None]))
+        scale = jnp.where(state.trials == 0, loaded, state.scale)
+        size = jnp.max(jnp.abs(residual * units)) / scale
+        pick = lambda new, old: jax.tree.map(lambda a, b: jnp.where(accept, a, b), new, old)
+        hopeless = (state.trials == 0) & ~jnp.isfinite(energy)
+        far = jnp.abs(displacement) / most[None]
+        done = (accept & ((size <= START_TOLERANCE) | (jnp.max(far) > 1.0))) | hopeless
+        return _Descent(
+            unknowns=pick(trial, state.unknowns),
+            elements=pick(held.elements, state.elements),
+            step=pick(step, state.step),
+            energy=pick(energy, state.energy),
+            slope=pick(balance.slope(step, residual), state.slope),
+            fraction=jnp.where(accept, 1.0, SHORTER * state.fraction),
+            factor=pick(factor, state.factor),
+            residual=pick(size, state.residual),
+            scale=scale,
+            far=pick(far, state.far),
+            done=done,
+            trials=state.trials + 1,
+            steps=state.steps + (accept & ~done).astype(int),
+        )
+
+    one, none = jnp.ones(()), jnp.asarray(0)
+    begin = _Descent(
+        unknowns=zero,
+        elements=elements,
+        step=zero,
+        energy=jnp.inf * one,
+        slope=0.0 * one,
+        fraction=one,
+        factor=FACTOR * one,
+        residual=jnp.inf * one,
+        scale=one,
+        far=jnp.zeros_like(at_zero),
+        done=none > 0,
+        trials=none,
+        steps=none,
+    )
+    end = jax.lax.while_loop(lambda state: ~state.done & (state.trials < TRIALS), look, begin)
+    lost = jnp.max(end.far) > 1.0
+    return Start(end.unknowns, end.residual, end.steps, lost, jnp.argmax(end.far), end.scale)
+
+
+class Root(NamedTuple):
+    """The equilibrium.
+
+    - `unknowns`: see `balance`.
+    - `inverse`: of the derivatives of the residual by the unknowns.
+    - `solved`: True if the search converged.
+    """
+
+    unknowns: Float[Array, " unknown"]
+    inverse: Float[Array, "unknown unknown"]
+    solved: Bool[Array, ""]
+    status: Int[Array, ""]
+    start_steps: Int[Array, ""]
+    newton_steps: Int[Array, ""]
+    residual: Float[Array, ""]
+    softest: Int[Array, ""]
+
+
+def anchored(balance: Balance, stiffness: Float[Array, "bearing 5 5"]) -> Float[Array, "bearing 5 5"]:
+    """The stiffness with `ANCHOR`."""
+    return stiffness + ANCHOR * jnp.diag(jnp.square(balance.lengths()))[None]
+
+
+class _Newton(NamedTuple):
+    unknowns: Array
+    step: Array
+    inverse: Array
+    size: Array
+    fraction: Array
+    done: Bool[Array, ""]
+    failed: Bool[Array, ""]
+    trials: Int[Array, ""]
+    steps: Int[Array, ""]
+
+
+def _search(problem: Problem, options: NewtonOptions) -> Root:
+    problem = jax.lax.stop_gradient(problem)
+    balance, start = problem.balance, minimise(problem)
+    units, lengths = balance.row_units(), balance.lengths()
+
+    def look(state: _Newton) -> _Newton:
+        trial = state.unknowns + state.fraction * state.step
+        force, stiffness, good = ports(problem, balance.displacements(trial), options)
+        residual = balance.residual(trial, force)
+        size = jnp.max(jnp.abs(residual * units)) / start.scale
+        good &= jnp.isfinite(size)
+        inverse = balance.inverse(anchored(balance, stiffness))
+        step = -inverse @ residual
+        moved = jnp.max(jnp.abs((balance.attach @ step).reshape(-1, 5) * lengths[None]))
+        fine = (size <= options.residual_tolerance) | ((moved <= ROUNDED_STEP) & (size <= MOST_ROUNDED))
+        accept = good & ((size < state.size) | (state.fraction < 0.02))
+        pick = lambda new, old: jnp.where(accept, new, old)
+        return _Newton(
+            unknowns=pick(trial, state.unknowns),
+            step=pick(step, state.step),
+            inverse=pick(inverse, state.inverse),
+            size=pick(size, state.size),
+            fraction=jnp.where(accept, 1.0, SHORTER * state.fraction),
+            done=accept & fine,
+            failed=~accept & ((state.fraction < SHORTEST) | (state.trials == 0)),
+            trials=state.trials + 1,
+            steps=state.steps + (accept & ~fine).astype(int),
+        )
+
+    none, one = jnp.asarray(0), jnp.ones(())
+    reached = ~start.lost & (start.residual <= START_TOLERANCE)
+    begin = _Newton(
+        unknowns=start.unknowns,
+        step=jnp.zeros_like(start.unknowns),
+        inverse=jnp.zeros_like(balance.linear),
+        size=jnp.inf * one,
+        fraction=one,
+        done=none > 0,
+        failed=~reached,
+        trials=none,
+        steps=none,
+    )
+    going = lambda state: ~(state.done | state.failed) & (state.trials < NEWTON_TRIALS)
+    end = jax.lax.while_loop(going, look, begin)
+    # the step that the test of convergence computed is taken as well
+    unknowns = jnp.where(end.done, end.unknowns + end.step, end.unknowns)
+    failure = jnp.where(start.lost, int(Status.NO_EQUILIBRIUM), int(Status.NOT_CONVERGED))
+    status = jnp.where(end.done, int(Status.CONVERGED), failure)
+    unknowns = jnp.where(jnp.isfinite(unknowns), unknowns, 0.0)
+    size = jnp.where(reached, end.size, start.residual)
+    return Root(unknowns, end.inverse, end.done, status, start.steps, end.steps, size, start.softest)
+
+
+@eqx.filter_custom_jvp
+def equilibrium(problem: Problem, *, options: NewtonOptions) -> Root:
+    """The equilibrium of a shaft, with first derivatives; it never raises for a failed search."""
+    return _search(problem, options)
+
+
+@equilibrium.def_jvp
+def _equilibrium_jvp(primals, tangents, *, options: NewtonOptions):
+    (problem,), (problem_dot,) = primals, tangents
+    root = equilibrium(problem, options=options)
+    # NaN times 0 would reach numbers that lanes share
+    select = lambda t: None if t is None else jnp.where(root.solved, t, 0.0)
+    problem_dot = jax.tree.map(select, problem_dot)
+
+    def residual(problem: Problem) -> Array:
+        force, _, _ = ports(problem, problem.balance.displacements(root.unknowns), options)
+        return problem.balance.residual(root.unknowns, force)
+
+    _, residual_dot = eqx.filter_jvp(residual, (problem,), (problem_dot,))
+    dot = select(-root.inverse @ residual_dot)
+    nothing = jax.tree.map(lambda _: None, root)
+    return root, nothing._replace(unknowns=dot)

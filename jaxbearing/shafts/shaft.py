@@ -1,0 +1,95 @@
+"""The shaft: a row of cylinders, its speed and its weight.
+
+Frame of a shaft: X along it, Y at azimuth 0, Z at azimuth 90 degrees. The speed is positive from Y to Z. A point of the
+shaft has the five freedoms of a bearing's ring (`bearings.ring`) in this frame: axial, radial (Y), lateral (Z), and two
+tilts, with which azimuth 0 and azimuth 90 degrees move along +X.
+"""
+
+from typing import ClassVar
+
+import equinox as eqx
+import numpy as np
+from jaxtyping import Array, Float
+
+from .._scene import label, number, optional_number
+from .._types import Scalar
+from ..materials import Material
+from ..numerics.checks import Checked, demand, numbers_or_none
+
+STEEL = Material(np.float64(206e9), np.float64(0.3), np.float64(7850.0))
+"""Material of a shaft that names none."""
+
+
+class Section(Checked):
+    """A cylindrical part of a shaft, solid or hollow. A cone is several of them.
+
+    **Arguments:**
+    - `length`: m, > 0.
+    - `outer_diameter`: m, > 0.
+    - `inner_diameter`: of the bore, m, below the outer one; 0 for a solid section.
+    - `material`: if it is not that of the shaft.
+    """
+
+    part: ClassVar[str] = "shaft.sections"
+
+    length: Scalar = number(bound="> 0", metadata=label("m", "length of a section"))
+    outer_diameter: Scalar = number(bound="> 0", metadata=label("m", "outer diameter of a section"))
+    inner_diameter: Scalar = number(0.0, bound=">= 0", metadata=label("m", "bore of a section"))
+    material: Material | None = None
+
+    def __check_init__(self):
+        super().__check_init__()
+        if numbers_or_none(self.inner_diameter, self.outer_diameter) is not None:
+            demand(
+                "{path}.inner_diameter must be smaller than outer_diameter",
+                self.inner_diameter < self.outer_diameter,
+                lambda: (
+                    f"shaft.sections: inner_diameter {float(self.inner_diameter):g} m must be smaller than "
+                    f"outer_diameter {float(self.outer_diameter):g} m"
+                ),
+            )
+
+
+class Gravity(Checked):
+    """The weight of the shaft and of the masses on it acts across the shaft.
+
+    **Arguments:**
+    - `acceleration`: m/s^2, >= 0.
+    - `azimuth`: direction in which it acts, rad, from Y in the sense of rotation; pi is downwards where Y points up.
+    """
+
+    part: ClassVar[str] = "shaft.gravity"
+
+    acceleration: Scalar = number(9.81, bound=">= 0", metadata=label("m/s^2", "acceleration of gravity"))
+    azimuth: Scalar = number(np.pi, metadata=label("rad", "azimuth in which the weight acts"))
+
+
+class Shaft(Checked):
+    """A stepped shaft, or without sections a rigid one.
+
+    **Arguments:**
+    - `speed`: rad/s, positive from Y to Z. It is the speed of every inner ring.
+    - `sections`: from x = 0 in the direction of +X. Without any the shaft is rigid, has no weight and no ends.
+    - `material`: of the sections that name none.
+    - `gravity`: `None` for a weightless shaft.
+    - `thermal_strain`: thermal strain of the shaft less that of the housing,
+      $\\alpha_s\\Delta T_s - \\alpha_h\\Delta T_h$: bearings whose rings are located rigidly on both are closed or
+      opened by it in proportion to their distance from `strain_reference`.
+    - `strain_reference`: point of the shaft that does not move against the housing, m.
+    """
+
+    part: ClassVar[str] = "shaft"
+
+    speed: Scalar = number(metadata=label("rad/s", "speed of the shaft"))
+    sections: tuple[Section, ...] = eqx.field(default=(), converter=tuple)
+    material: Material = STEEL
+    gravity: Gravity | None = None
+    thermal_strain: Scalar | None = optional_number(
+        metadata=label("1", "thermal strain of the shaft less that of the housing")
+    )
+    strain_reference: Scalar = number(0.0, metadata=label("m", "point of the shaft that the strain does not move"))
+
+    @property
+    def length(self) -> Float[Array, ""] | float:
+        """Sum of the lengths of the sections, m."""
+        return sum(section.length for section in self.sections)

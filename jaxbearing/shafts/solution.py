@@ -1,0 +1,188 @@
+"""Results of a shaft on bearings. Every quantity carries its unit and description where it is defined.
+
+Vectors of five have the order of `RING_FREEDOMS`. In the frame of the shaft they are along X, Y, Z and about both tilts;
+in the frame of a bearing its own axis points along +X or -X (`BearingOnShaft.sense`).
+"""
+
+from collections.abc import Mapping
+from typing import Any
+
+import equinox as eqx
+import jax.numpy as jnp
+from jaxtyping import Array, Bool, Float, Int
+
+from .._scene import AbstractSolution, label
+from ..bearings.solution import FailureCause, RingDisplacement
+from ..life.result import Life
+from ..numerics.status import Status
+
+_Number = Float[Array, ""]
+
+
+class BearingOnShaft(eqx.Module):
+    """One bearing of a solved shaft.
+
+    **Arguments:** the labels of the fields describe them; others are
+    - `ring`: displacement of the inner ring against the outer one at the port (on the axis, in the plane of the unloaded
+      balls or in the middle of the rollers), in the bearing's frame, without closure.
+    - `solution`: results of the bearing's own family with its ring held where the shaft holds it; `None` of a linear
+      bearing.
+    - `life`: `None` without a rating in the bearing's scene.
+    - `name`, `sense`: its name; 1 if its axis points along +X, else -1.
+    """
+
+    position: _Number = eqx.field(metadata=label("m", "position along the shaft"))
+    ring: RingDisplacement
+    force: Float[Array, "5"] = eqx.field(
+        metadata=label("mixed", "load that holds the inner ring, frame of the bearing, N and N m")
+    )
+    stiffness: Float[Array, "5 5"] = eqx.field(
+        metadata=label("mixed", "d force / d displacement of the inner ring, frame of the bearing")
+    )
+    on_shaft: Float[Array, "5"] = eqx.field(
+        metadata=label("mixed", "force of the bearing on the shaft at its position, frame of the shaft, N and N m")
+    )
+    outer: Float[Array, "5"] = eqx.field(
+        metadata=label("mixed", "displacement of the outer ring, frame of the shaft, m and rad")
+    )
+    closure: _Number = eqx.field(metadata=label("m", "closure: axial displacement that mounting has given the ring"))
+    expansion: _Number = eqx.field(metadata=label("m", "growth of the inner raceway's radius less that of the outer one"))
+    largest_load: _Number = eqx.field(metadata=label("N", "largest load of a rolling element on the inner raceway"))
+    pressure_centre: _Number = eqx.field(
+        metadata=label("m", "position where the contact normals of the unloaded bearing meet the axis of the shaft")
+    )
+    solution: Any
+    life: Life | None
+    name: str = eqx.field(static=True)
+    sense: float = eqx.field(static=True)
+
+    @property
+    def radial_force(self) -> Float[Array, "*batch"]:
+        """Size of the force on the shaft across its axis, N."""
+        return jnp.hypot(self.on_shaft[..., 1], self.on_shaft[..., 2])
+
+    @property
+    def azimuth(self) -> Float[Array, "*batch"]:
+        """Azimuth of the force on the shaft across its axis, rad."""
+        return jnp.arctan2(self.on_shaft[..., 2], self.on_shaft[..., 1])
+
+    @property
+    def moment(self) -> Float[Array, "*batch"]:
+        """Size of the moment on the shaft, N m."""
+        return jnp.hypot(self.on_shaft[..., 3], self.on_shaft[..., 4])
+
+
+class ShaftNodes(eqx.Module):
+    """The shaft at its nodes: ends of sections, bearings and forces, in ascending order of `position`."""
+
+    position: Float[Array, " node"] = eqx.field(metadata=label("m", "position along the shaft"))
+    displacement: Float[Array, "node freedom"] = eqx.field(
+        metadata=label("mixed", "displacement of the shaft, axial, radial, lateral, m, and tilts, rad")
+    )
+    load: Float[Array, "node freedom"] = eqx.field(
+        metadata=label("mixed", "loads on the shaft at its nodes without those of bearings, N and N m")
+    )
+
+
+class SetResult(eqx.Module):
+    """A matched set. What it has no preload for is `None`.
+
+    **Arguments:** the labels of the fields describe them.
+    """
+
+    preload: _Number | None = eqx.field(
+        metadata=label("N", "axial force between the opposed groups, mounted, at rest and without load")
+    )
+    closure: _Number | None = eqx.field(metadata=label("m", "closure of each bearing that the preload asks for"))
+    loss_force: _Number | None = eqx.field(
+        metadata=label("N", "axial load on the group with more bearings that unloads the other one, at rest")
+    )
+    travel: _Number | None = eqx.field(
+        metadata=label("m", "displacement of the outer rings that springs press, closing is positive")
+    )
+    spring_force: _Number | None = eqx.field(metadata=label("N", "force of the springs"))
+    support_distance: _Number = eqx.field(
+        metadata=label("m", "distance of the pressure centres of the outermost opposed bearings")
+    )
+
+
+class TorqueBalance(eqx.Module):
+    """Torques about the shaft's axis, N m, positive in the sense of positive speed: `forces` + `drive` = `bearings`.
+
+    **Arguments:** `forces`: of gears, belts and tangential loads; `bearings`: sum of the torques that turn the inner
+    rings against friction; `drive`: what is left for the drive to give; `power`: of the shaft, N m rad/s.
+    """
+
+    forces: _Number = eqx.field(metadata=label("N m", "sum of the torques of the forces"))
+    bearings: _Number = eqx.field(metadata=label("N m", "sum of the friction torques of the bearings"))
+    drive: _Number = eqx.field(metadata=label("N m", "torque of the drive"))
+    power_loss: _Number = eqx.field(metadata=label("W", "sum of the losses of all bearings"))
+
+
+class SystemLifeResult(eqx.Module):
+    """Life of all bearings together: the time that 90 % of such shafts survive with all bearings."""
+
+    L10r: _Number = eqx.field(metadata=label("1", "life of the system, million revolutions of the shaft"))
+    L10r_hours: _Number = eqx.field(metadata=label("h", "life of the system"))
+
+
+class DutyResult(eqx.Module):
+    """A duty cycle: first the damage of all states adds up for each bearing, then the bearings make the system.
+
+    **Arguments:** `names`: of the states; `bearing_hours`: life of each rated bearing by its name; `system_hours`:
+    `None` if a bearing has no rating; `states`: the solutions of all states, stacked along a first axis of every array.
+    """
+
+    bearing_hours: dict[str, _Number]
+    system_hours: _Number | None = eqx.field(metadata=label("h", "life of the system under the duty cycle"))
+    shares: Float[Array, " state"] = eqx.field(metadata=label("1", "shares of the time"))
+    states: Any
+    names: tuple[str, ...] = eqx.field(static=True)
+
+
+class ShaftSolution(AbstractSolution):
+    """Result of a solve of a shaft on bearings. A solve that did not converge returns NaN for every result.
+
+    With a duty cycle it is the solution of the first state, and `duty` has all of them.
+
+    **Arguments:** the labels of the fields describe them; others are
+    - `bearings`: by name, those of sets first.
+    - `sets`: by name.
+    - `life`: of the system; `None` if a bearing has no rating.
+    - `checks`: text of a warning or rule -> True if it applies.
+    - `softest`: the freedom, of the node or bearing that it names, along which the iterate ran away where there is no
+      equilibrium: index into `freedom_names`.
+    """
+
+    status: Int[Array, ""] = eqx.field(metadata=label("1", "how the solve ended"))
+    iterations: Int[Array, ""] = eqx.field(metadata=label("1", "Newton steps of both stages"))
+    start_steps: Int[Array, ""] = eqx.field(metadata=label("1", "steps of the convex minimisation"))
+    newton_steps: Int[Array, ""] = eqx.field(metadata=label("1", "steps with exact centrifugal forces"))
+    residual_norm: Float[Array, ""] = eqx.field(metadata=label("1", "largest scaled residual"))
+    bearings: dict[str, BearingOnShaft]
+    shaft: ShaftNodes
+    sets: dict[str, SetResult]
+    torque: TorqueBalance
+    life: SystemLifeResult | None
+    checks: Mapping[str, Bool[Array, ""]]
+    softest: Int[Array, ""]
+    operation: Any = None
+    duty: DutyResult | None = None
+    failure_causes: dict[str, FailureCause] = eqx.field(default_factory=dict)
+    unknowns: int = eqx.field(static=True, default=0, metadata=label("1", "unknowns of the shaft"))
+    freedom_names: tuple[str, ...] = eqx.field(static=True, default=())
+    notes: tuple[str, ...] = eqx.field(static=True, default=())
+
+    @property
+    def converged(self) -> Bool[Array, "*batch"]:
+        return self.status == Status.CONVERGED
+
+    def solver_failure(self) -> str:
+        """One sentence on a failed solve."""
+        status, steps = Status(int(self.status)), int(self.iterations)
+        if status == Status.NO_EQUILIBRIUM:
+            return (
+                f"{status.text}: nothing holds the shaft along {self.freedom_names[int(self.softest)]} (after "
+                f"{steps} steps)"
+            )
+        return f"{status.text} after {steps} steps: scaled residual {float(self.residual_norm):.3g}"

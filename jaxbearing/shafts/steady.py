@@ -1,0 +1,301 @@
+"""Steady state of a shaft on bearings: from the scene to the equations, and from their root to the results."""
+
+import dataclasses
+from typing import Any
+
+import jax
+import jax.numpy as jnp
+import numpy as np
+from jaxtyping import Array, Bool, Float
+
+from ..bearings.solution import RING_FREEDOMS, RingDisplacement, Solution
+from ..life.bearing_life import with_life
+from ..numerics.known_roots import own_roots
+from ..numerics.newton import NewtonOptions
+from ..numerics.precision import as_float
+from ..numerics.status import Status
+from .balance import Axis, Parts, axis_of, build_balance
+from .batches import FREEDOM_WORDS, LinearBatch, RollingBatch, batches_of, largest_load, pressure_centre, solutions
+from .lives import hourly_rates, life_of, slopes_of, system_rate
+from .mounting import LinearBearing
+from .preload import Mounted, groups_of, mount
+from .scene import Place, ShaftSystem
+from .search import Problem, Root, equilibrium
+from .solution import (
+    BearingOnShaft,
+    DutyResult,
+    SetResult,
+    ShaftNodes,
+    ShaftSolution,
+    SystemLifeResult,
+    TorqueBalance,
+)
+
+SLIDING_APART = (
+    "forces of rollers that slide come from dry rollers that may tilt; films, cage and losses are those of the same "
+    "displacement without tilt, whose force differs by the films"
+)
+"""Note on a bearing whose losses come from another model than its forces."""
+EMPTY = 0.01
+"""Part of the preload below which a bearing of a set counts as unloaded."""
+STEEP_TILT = 1e-3
+"""Tilt of an inner ring against its outer ring, rad, beyond which makers warn."""
+
+
+def solve_shaft(system: ShaftSystem, options: NewtonOptions) -> ShaftSolution:
+    """Steady state: pure, jit-able, vmap-able, with first derivatives; never raises for a failed solve."""
+    with own_roots():
+        return _duty(system, options) if system.states else _solve(system, options)
+
+
+def _duty(system: ShaftSystem, options: NewtonOptions) -> ShaftSolution:
+    """All states of a duty cycle, one after the other by one program."""
+    base = dataclasses.replace(system, states=())
+    states = [jax.tree.map(as_float, base.replace(state.changes)) for state in system.states]
+    structures = {jax.tree.structure(state) for state in states}
+    if len(structures) > 1:
+        raise ValueError("state.changes must be numbers: all states of a shaft have one structure")
+    (structure,) = structures
+    stacked = jax.tree.map(lambda *leaves: jnp.stack([jnp.asarray(leaf) for leaf in leaves]), *states)
+    leaves = jax.tree.leaves(stacked)
+    found = jax.lax.map(lambda own: _solve(jax.tree.unflatten(structure, own), options), leaves)
+    shares = jnp.stack([jnp.asarray(state.share, dtype=float) for state in system.states])
+    names = tuple(state.name or str(number + 1) for number, state in enumerate(system.states))
+    first = jax.tree.map(lambda leaf: leaf[0], found)
+    duty = DutyResult(*_duty_lives(system, found, shares, stacked.shaft.speed), shares, found, names)
+    status = jnp.max(found.status)
+    return dataclasses.replace(first, status=status, duty=duty, checks=_any_state(found.checks))
+
+
+def _any_state(checks: Any) -> dict[str, Bool[Array, ""]]:
+    """Checks that apply in a state."""
+    return {text: jnp.any(flag) for text, flag in checks.items()}
+
+
+def _duty_lives(
+    system: ShaftSystem, found: ShaftSolution, shares: Array, speeds: Array
+) -> tuple[dict[str, Array], Array | None]:
+    """Lives of all bearings under the duty cycle, h, by name, and that of the system; none without ratings."""
+    lives = {name: one.life for name, one in found.bearings.items() if one.life is not None}
+    rates = {name: jnp.sum(shares * hourly_rates(life.damage_rate, speeds)) for name, life in lives.items()}
+    hours = {name: life_of(rate) for name, rate in rates.items()}
+    if len(lives) < len(found.bearings):
+        return hours, None
+    slopes = slopes_of([life.family for life in lives.values()], system.life.weibull)
+    return hours, life_of(system_rate(jnp.stack(list(rates.values())), slopes))
+
+
+def _solve(system: ShaftSystem, options: NewtonOptions) -> ShaftSolution:
+    places = system.places
+    speed = jnp.asarray(system.shaft.speed)
+    position = jnp.stack([jnp.asarray(place.position, dtype=float) for place in places])
+    batches = batches_of(places, speed)
+    mounted = mount(system, places, batches)
+    closure = mounted.closure
+    if system.shaft.thermal_strain is not None:
+        sense = np.asarray([place.sense for place in places])
+        closure = closure + sense * system.shaft.thermal_strain * (position - system.shaft.strain_reference)
+    axis = axis_of(system)
+    expansion = jnp.stack([jnp.asarray(place.expansion, dtype=float) for place in places])
+    balance = build_balance(system, places, axis, position, closure, mounted.springs)
+    problem = Problem(balance, batches, expansion)
+    root = equilibrium(problem, options=options)
+    problem = jax.tree.map(lambda x: jnp.where(root.solved, x, jax.lax.stop_gradient(x)), problem)
+    return _results(system, places, axis, problem, root, mounted, (position, closure), options)
+
+
+def _results(
+    system: ShaftSystem,
+    places: tuple[Place, ...],
+    axis: Axis,
+    problem: Problem,
+    root: Root,
+    mounted: Mounted,
+    given: tuple[Array, Array],
+    options: NewtonOptions,
+) -> ShaftSolution:
+    balance, (position, closure) = problem.balance, given
+    parts = balance.parts(root.unknowns)
+    displacement = balance.displacements(root.unknowns)
+    found, checks, notes, good = _bearings(places, problem, displacement, parts, (position, closure), root.solved, options)
+    good &= root.solved
+    sets = {
+        one.name: _set_result(system, places, found, number, mounted, parts) for number, one in enumerate(system.sets)
+    }
+    if mounted.springs or mounted.closures:
+        checks |= _preload_checks(system, places, found, mounted)
+    torque = _torques(system, axis, found)
+    life = _system_life(system, found)
+    nodes = _nodes(system, axis, parts, position)
+    # counts and states stay whole numbers
+    unless_failed = lambda leaf: jnp.where(good, leaf, jnp.nan) if jnp.issubdtype(leaf.dtype, jnp.inexact) else leaf
+    shown = jax.tree.map(unless_failed, (found, nodes, sets, torque, life))
+    failed = jnp.where(root.solved, int(Status.NOT_CONVERGED), root.status)
+    return ShaftSolution(
+        status=jnp.where(good, int(Status.CONVERGED), failed),
+        iterations=root.start_steps + root.newton_steps,
+        start_steps=root.start_steps,
+        newton_steps=root.newton_steps,
+        residual_norm=root.residual,
+        bearings=shown[0],
+        shaft=shown[1],
+        sets=shown[2],
+        torque=shown[3],
+        life=shown[4],
+        checks={text: good & flag for text, flag in checks.items()},
+        softest=root.softest,
+        unknowns=len(balance.load),
+        freedom_names=tuple(f"{FREEDOM_WORDS[name]} at {place.name}" for place in places for name in RING_FREEDOMS),
+        notes=tuple(notes),
+    )
+
+
+def _bearings(
+    places: tuple[Place, ...],
+    problem: Problem,
+    displacement: Float[Array, "bearing 5"],
+    parts: Parts,
+    given: tuple[Array, Array],
+    solved: Bool[Array, ""],
+    options: NewtonOptions,
+) -> tuple[dict[str, BearingOnShaft], dict[str, Bool[Array, ""]], list[str], Bool[Array, ""]]:
+    """Results of all bearings, their checks and notes, and whether all have a solution."""
+    found: dict[int, BearingOnShaft] = {}
+    checks: dict[str, Bool[Array, ""]] = {}
+    notes: list[str] = []
+    good = jnp.asarray(True)
+    position, closure = given
+    for batch in problem.batches:
+        own = displacement[batch.index]
+        stack: Any = None
+        apart = None
+        if isinstance(batch, RollingBatch):
+            expansion = problem.expansion[batch.index]
+            stack = solutions(batch.ports, own, expansion, options, when=solved)
+            good &= jnp.all(stack.converged)
+            force, stiffness = stack.force, stack.stiffness
+            if batch.dry is not None:
+                apart = solutions(batch.scene, own, expansion, options, when=solved)
+                good &= jnp.all(apart.converged)
+            stack = jax.vmap(with_life)(batch.ports, stack)
+        else:
+            assert isinstance(batch, LinearBatch)
+            force, stiffness = batch.force_at(None, own, None), batch.stiffness
+        for number, index in enumerate(batch.places):
+            place = places[index]
+            pick = lambda tree, number=number: jax.tree.map(lambda leaf: leaf[number], tree)
+            one: Solution | None = None if stack is None else pick(stack)
+            losses = one if apart is None else pick(apart)
+            mirror = jnp.asarray([place.sense, 1.0, 1.0, place.sense, place.sense])
+            ring = own[number].at[0].add(-closure[index])
+            centre = jnp.zeros(()) if isinstance(place.scene, LinearBearing) else pressure_centre(place.scene)
+            found[index] = BearingOnShaft(
+                position=position[index],
+                ring=RingDisplacement(**dict(zip(RING_FREEDOMS, ring, strict=True))),
+                force=force[number],
+                stiffness=stiffness[number],
+                on_shaft=-mirror * force[number],
+                outer=parts.outer[index],
+                closure=closure[index],
+                expansion=problem.expansion[index],
+                largest_load=jnp.asarray(jnp.nan) if one is None else largest_load(one),
+                pressure_centre=position[index] + place.sense * centre,
+                solution=losses,
+                life=None if one is None else one.life,
+                name=place.name,
+                sense=place.sense,
+            )
+            if one is not None:
+                assert losses is not None
+                checks |= {f"{place.name}: {text}": flag for text, flag in losses.checks.items()}
+                notes += [f"{place.name}: {note}" for note in losses.notes]
+            if apart is not None:
+                notes.append(f"{place.name}: {SLIDING_APART}")
+            steep = jnp.max(jnp.abs(own[number, 3:])) > STEEP_TILT
+            checks[f"{place.name}: the inner ring is tilted by more than 1 mrad against the outer ring"] = steep
+    in_order = {places[index].name: found[index] for index in range(len(places))}
+    return in_order, checks, notes, good
+
+
+def _set_result(
+    system: ShaftSystem,
+    places: tuple[Place, ...],
+    found: dict[str, BearingOnShaft],
+    number: int,
+    mounted: Mounted,
+    parts: Parts,
+) -> SetResult:
+    one = system.sets[number]
+    centres = [found[name].pressure_centre for name in one.names]
+    spring = mounted.spring_numbers.get(one.name)
+    travel = None if spring is None else parts.springs[spring]
+    force = None
+    if spring is not None:
+        pressed = mounted.springs[spring]
+        force = pressed.force - pressed.stiffness * travel
+    return SetResult(
+        preload=mounted.forces.get(one.name),
+        closure=mounted.closures.get(one.name),
+        loss_force=mounted.losses.get(one.name),
+        travel=travel,
+        spring_force=force,
+        support_distance=jnp.abs(centres[-1] - centres[0]),
+    )
+
+
+def _preload_checks(
+    system: ShaftSystem, places: tuple[Place, ...], found: dict[str, BearingOnShaft], mounted: Mounted
+) -> dict[str, Bool[Array, ""]]:
+    """Warnings on sets: a bearing that has lost its preload, pressure centres that are near each other."""
+    checks = {}
+    for number, one in enumerate(system.sets):
+        preload = mounted.forces.get(one.name)
+        if preload is None:
+            continue
+        share = preload / jnp.stack([jnp.asarray(float(group.sum())) for group in groups_of(places, number)])
+        for name, sense in zip(one.names, one.senses, strict=True):
+            group = 1 if sense == one.senses[-1] else 0
+            text = f"{name}: its axial force is less than 1 % of the preload"
+            checks[text] = found[name].force[0] < EMPTY * share[group]
+        rows = one.positions()
+        centres = [found[name].pressure_centre for name in one.names]
+        near = jnp.abs(centres[-1] - centres[0]) < 0.5 * (rows[-1] - rows[0])
+        text = f"{one.name}: the pressure centres are nearer than half of the rows: it hardly carries moments"
+        checks[text] = near
+    return checks
+
+
+def _torques(system: ShaftSystem, axis: Axis, found: dict[str, BearingOnShaft]) -> TorqueBalance:
+    zero = jnp.zeros(())
+    forces = jnp.sum(axis.given.torque) + zero
+    bearings, losses = zero, zero
+    for one in found.values():
+        solution = one.solution
+        if solution is not None and solution.inner_torque is not None:
+            bearings = bearings + solution.inner_torque
+        if solution is not None and solution.power_loss.total is not None:
+            losses = losses + solution.power_loss.total
+    return TorqueBalance(forces=forces, bearings=bearings, drive=bearings - forces, power_loss=losses)
+
+
+def _system_life(system: ShaftSystem, found: dict[str, BearingOnShaft]) -> SystemLifeResult | None:
+    lives = [one.life for one in found.values()]
+    rated = [life for life in lives if life is not None]
+    if len(rated) < len(lives):
+        return None
+    rates = jnp.stack([life.damage_rate for life in rated])
+    slopes = slopes_of([life.family for life in rated], system.life.weibull)
+    rate = system_rate(rates, slopes)
+    return SystemLifeResult(L10r=life_of(rate), L10r_hours=life_of(hourly_rates(rate, system.shaft.speed)))
+
+
+def _nodes(system: ShaftSystem, axis: Axis, parts: Parts, position: Float[Array, " bearing"]) -> ShaftNodes:
+    """The shaft at all ends of sections, bearings and forces, in ascending order of their positions."""
+    ends = jnp.zeros(0)
+    if axis.beam is not None:
+        ends = jnp.concatenate([jnp.zeros(1), axis.beam.end])
+    at = jnp.concatenate([ends, position, axis.given.position])
+    load = jnp.concatenate([jnp.zeros((len(ends) + len(position), 5)), axis.given.load])
+    order = jnp.argsort(jax.lax.stop_gradient(at))
+    displacement = axis.moved(at, parts.origin, position, parts.forces)
+    return ShaftNodes(at[order], displacement[order], load[order])

@@ -1,0 +1,211 @@
+"""Outputs of shafts: screen, JSON, data set, page, pictures, stiffness over speed, rotors for ROSS."""
+
+import io
+import json
+from datetime import UTC, datetime
+
+import numpy as np
+import pytest
+import xarray as xr
+from filled_results import solution_of
+from rich.console import Console
+
+import jaxbearing as jb
+from jaxbearing.report.dataset import solution_to_dataset, write_netcdf
+from jaxbearing.report.html_report import html_report
+from jaxbearing.report.json_report import solution_to_dict
+from jaxbearing.report.plots import plot_solution, save_plot
+from jaxbearing.report.shaft.bending import bending_line, cut_loads
+from jaxbearing.report.shaft.drawn import svg
+from jaxbearing.report.shaft.modes import natural_frequencies
+from jaxbearing.report.shaft.picture import Area, Pointer, pictures
+from jaxbearing.report.shaft.ross import ross_rotor, write_ross_rotor
+from jaxbearing.report.shaft.stiffness import (
+    ShaftStiffness,
+    print_shaft_stiffness,
+    shaft_stiffness_over_speed,
+    shaft_stiffness_to_dict,
+)
+from jaxbearing.report.summary import print_summary
+from jaxbearing.scenes.inputs import scene_inputs
+from jaxbearing.solve import solve_once
+
+RPM = np.pi / 30.0
+FREEDOMS = ("axial", "radial", "lateral", "tilt", "tilt_lateral")
+
+
+@pytest.fixture(scope="module")
+def scene():
+    return jb.load_scene("spindle_pair", {"shaft.sections": "[{length='60 mm', outer_diameter='50 mm'}]", **MOVED})
+
+
+MOVED = {"set.pair.position": "30 mm", "force.cutting.position": "55 mm", "force.cutting.radial": "80 N"}
+
+
+@pytest.fixture(scope="module")
+def filled(scene):
+    """A solution with made up numbers."""
+    return solution_of(scene)
+
+
+def screen(print_it, *given):
+    out = io.StringIO()
+    print_it(*given, Console(file=out, width=100))
+    return out.getvalue()
+
+
+def test_screen(filled):
+    text = screen(print_summary, filled, "a shaft")
+    assert "CONVERGED" in text
+    assert [line.split()[0] for line in text.splitlines() if line.strip().startswith("pair.")][:2] == [
+        "pair.1",
+        "pair.2",
+    ]
+    for name in ("axial", "radial", "moment", "Q max", "L10r", "System life", "Deflection", "Torques"):
+        assert name in text
+
+
+def test_json_has_the_names_of_the_interface(filled):
+    told = json.loads(json.dumps(solution_to_dict(filled), allow_nan=False))
+    assert list(told["bearings"]) == ["pair.1", "pair.2"]
+    one, solution = told["bearings"]["pair.1"], filled.bearings["pair.1"]
+    assert set(one["ring"]) == set(FREEDOMS)
+    np.testing.assert_array_equal(one["force"], solution.force)
+    np.testing.assert_array_equal(one["stiffness"], solution.stiffness)
+    np.testing.assert_array_equal(one["elements"]["load_inner"], solution.solution.elements.load_inner)
+    assert {"life", "power_loss", "on_shaft", "largest_load"} <= set(one)
+    np.testing.assert_array_equal(told["shaft"]["nodes"]["position"], filled.shaft.position)
+    assert {"preload", "loss_force", "closure"} <= set(told["sets"]["pair"])
+    assert told["system_life"]["L10r"] == float(filled.life.L10r)
+
+
+def test_data_set(filled, tmp_path):
+    write_netcdf(solution_to_dataset(filled), tmp_path / "a.nc")
+    with xr.open_dataset(tmp_path / "a.nc") as opened:
+        back = opened.load()
+    np.testing.assert_array_equal(back["bearing_force"].sel(bearing="pair.2"), filled.bearings["pair.2"].force)
+    np.testing.assert_array_equal(back["pair_1_load_inner"], filled.bearings["pair.1"].solution.elements.load_inner)
+    np.testing.assert_array_equal(back["node_displacement"], filled.shaft.displacement)
+    assert float(back["set_preload"].sel(set="pair")) == float(filled.sets["pair"].preload)
+    for name, variable in back.variables.items():
+        assert variable.attrs["units"], name
+        assert variable.attrs["long_name"], name
+
+
+def test_page_and_plot(scene, filled, tmp_path):
+    inputs = scene_inputs("spindle_pair", {}, scene)
+    page = html_report(scene, filled, "a shaft", inputs, datetime(2026, 1, 1, tzinfo=UTC))
+    assert "Plane X-Y" in page
+    assert "Bearing pair.1: stiffness" in page
+    save_plot(plot_solution(filled, "a shaft", scene), tmp_path / "a.png")
+    save_plot(plot_solution(filled, "a shaft"), tmp_path / "b.png")
+    assert (tmp_path / "a.png").stat().st_size > (tmp_path / "b.png").stat().st_size > 10_000
+
+
+def test_picture_is_to_scale(scene, filled):
+    """The shaft, and both halves of both bearings with their balls at the pitch circle."""
+    picture = pictures(scene, filled)[0]
+    areas = [item for item in picture.items if isinstance(item, Area)]
+    x, y = (np.array(values) for values in zip(*areas[0].points, strict=True))
+    assert (x.min(), x.max(), y.min(), y.max()) == (0.0, 60.0, -25.0, 25.0)
+    balls = [np.array(area.points) for area in areas if len(area.points) == 36]
+    centres = sorted({(round(float(ball[:, 0].mean()), 6), round(float(ball[:, 1].mean()), 6)) for ball in balls})
+    assert centres == [(22.0, -32.5), (22.0, 32.5), (38.0, -32.5), (38.0, 32.5)]
+    assert [item for item in picture.items if isinstance(item, Pointer)]
+    assert svg(picture).startswith("<svg")
+
+
+class Made:
+    """What the bending line asks of a solution: a beam that is clamped at the left, with a load at its right end."""
+
+    def __init__(self, scene, length, load, tip, slope):
+        self.operation = scene.shaft
+        self.bearings = {}
+        u = np.zeros((2, 5))
+        u[1, 1], u[1, 3] = tip, -slope
+        loads = np.zeros((2, 5))
+        loads[0, 1], loads[0, 3], loads[1, 1] = -load, load * length, load
+        self.shaft = type("Nodes", (), {"position": np.array([0.0, length]), "displacement": u, "load": loads})
+
+
+def test_bending_line_and_cut_loads_of_a_cantilever(scene):
+    """Deflections of Timoshenko's beam between the nodes, and its bending moment F (L - x)."""
+    length, load, young, poisson = 0.06, 700.0, 206e9, 0.3
+    inertia, area = np.pi * 0.05**4 / 64.0, np.pi * 0.05**2 / 4.0
+    shear = 6.0 * (1.0 + poisson) / (7.0 + 6.0 * poisson) * area * young / (2.0 * (1.0 + poisson))
+    deflection = lambda x: load * (x**2 * (3.0 * length - x) / (6.0 * young * inertia) + x / shear)
+    made = Made(scene, length, load, deflection(length), load * length**2 / (2.0 * young * inertia))
+    line = bending_line(made)
+    np.testing.assert_allclose(line.across[0], deflection(line.position), rtol=1e-12, atol=1e-20)
+    cut = cut_loads(made)
+    np.testing.assert_allclose(cut.moment[0], load * (length - cut.position), rtol=1e-12, atol=1e-9)
+    np.testing.assert_allclose(cut.shear[0], -load, rtol=1e-12)
+
+
+def table_of(scene, radial=2e8):
+    matrix = np.diag([1e8, radial, 1.5 * radial, 1e5, 1e5])
+    values = {place.name: np.stack([matrix, 1.1 * matrix]) for place in scene.places}
+    at = {place.name: float(place.position) for place in scene.places} | {"pair": 0.03}
+    return ShaftStiffness(np.array([0.0, 100.0]), values, {"pair": np.stack([matrix, matrix])}, at, FREEDOMS, ())
+
+
+def test_rotor_for_ross(scene, tmp_path):
+    rotor = ross_rotor(table_of(scene), scene, load_direction=0.0)
+    shaft = [one for name, one in rotor.items() if name.startswith("ShaftElement")]
+    np.testing.assert_allclose(np.cumsum([one["L"] for one in shaft]), [0.022, 0.038, 0.06], rtol=1e-12)
+    first = rotor["BearingElement_pair_1"]
+    assert (first["n"], first["kyy"][0], first["kzz"][0]) == (1, 3e8, 1e8)
+    np.testing.assert_allclose(first["kxx"], [2e8, 2.2e8], rtol=1e-15)
+    write_ross_rotor(table_of(scene), scene, tmp_path / "rotor.toml", "a shaft")
+    with pytest.raises(ValueError, match="rigid shaft"):
+        ross_rotor(table_of(scene), scene.replace({"shaft.sections": ()}))
+
+
+def test_natural_frequencies_of_a_stiff_shaft(scene):
+    """On soft bearings the shaft moves as a rigid body, up and down and tilting."""
+    radial, density = 1e4, 7850.0
+    found = natural_frequencies(table_of(scene, radial), scene)
+    mass = density * np.pi * 0.025**2 * 0.06
+    inertia = mass * (0.025**2 / 4.0 + 0.06**2 / 12.0)
+    tilt = 2.0 * 0.008**2
+    expected = sorted(
+        [np.sqrt(2.0 * k / mass) for k in (radial, 1.5 * radial)]
+        + [np.sqrt(tilt * k / inertia) for k in (radial, 1.5 * radial)]
+    )
+    np.testing.assert_allclose(found[:4], expected, rtol=2e-5)
+
+
+def test_stiffness_in_words_and_json(scene):
+    table = table_of(scene)
+    text = screen(print_shaft_stiffness, table, "a shaft")
+    assert "Set pair, at 30 mm" in text
+    assert "Bearing pair.2, at 38 mm" in text
+    told = json.loads(json.dumps(shaft_stiffness_to_dict(table), allow_nan=False))
+    assert told["bearings"]["pair.1"][1][1][1] == 1.1 * 2e8
+
+
+@pytest.mark.slow
+def test_stiffness_of_a_pair_over_speed():
+    """A rigid preload of 180 N, and one by springs: section 9 of the sheet, B1, B3, B4."""
+    speeds = np.array([0.0, 10000.0, 20000.0, 24500.0]) * RPM
+    rigid = jb.load_scene("spindle_pair", {"force.cutting": "none"})
+    table = shaft_stiffness_over_speed(rigid, speeds, solver=solve_once)
+    pair = table.sets["pair"]
+    np.testing.assert_allclose(pair[:, 0, 0], [6.4604209e7, 5.412297e7, 4.577374e7, 4.709663e7], rtol=1e-5)
+    np.testing.assert_allclose(pair[:, 1, 1], [2.9663395e8, 2.391855e8, 1.734533e8, 1.655977e8], rtol=1e-5)
+    np.testing.assert_allclose(pair[0, 3, 3], 103035.33, rtol=1e-5)
+    springs = {"set.pair.preload.spring_force": "180 N", "set.pair.preload.spring_stiffness": "0 N/m"}
+    soft = shaft_stiffness_over_speed(jb.load_scene("spindle_pair", {"force.cutting": "none", **springs}), speeds[1:])
+    np.testing.assert_allclose(soft.sets["pair"][:, 0, 0], [2.327814e7, 9.842043e6, 9.266583e6], rtol=1e-5)
+    np.testing.assert_allclose(soft.sets["pair"][:, 1, 1], [2.071476e8, 6.805458e7, 5.59674e7], rtol=1e-5)
+
+
+@pytest.mark.slow
+def test_printed_table_of_the_gear_shaft():
+    """Section 8 of the sheet, C4: forces on the shaft, azimuths, moments, loads."""
+    solution = jb.solve(jb.load_scene("gear_shaft"))
+    rows = [line.split() for line in screen(print_summary, solution, "gear_shaft").splitlines()]
+    table = {row[0]: row[1:7] for row in rows if row and row[0] in ("front.1", "front.2", "rear")}
+    assert table["front.1"] == ["20.0", "-1259.8", "535.9", "-51.6", "11.70", "261.7"]
+    assert table["front.2"] == ["37.0", "+723.9", "575.4", "-40.4", "12.55", "282.6"]
+    assert table["rear"] == ["180.0", "0", "1095.0", "-30.9", "0.20", "581.7"]

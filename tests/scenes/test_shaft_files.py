@@ -1,0 +1,265 @@
+"""Files of shafts: lists of tables by name, scenes of bearings, overrides by dotted paths, states, saving."""
+
+import dataclasses
+import re
+import tomllib
+
+import jax
+import numpy as np
+import pytest
+from jax.test_util import check_grads
+
+import jaxbearing as jb
+from jaxbearing.scenes.data_files import builtin_text
+from jaxbearing.scenes.overrides import split_assignments
+from jaxbearing.shafts.paths import part_at, path_in_file
+from jaxbearing.shafts.scene import ShaftState
+
+PAIR = """
+kind = "shaft"
+[shaft]
+speed = "1000 rpm"
+sections = [{length = "100 mm", outer_diameter = "30 mm"}]
+[[bearing]]
+name = "left"
+scene = "deep_groove_6205"
+position = "10 mm"
+[[bearing]]
+name = "right"
+scene = "SCENE"
+position = "90 mm"
+thrust = "-x"
+[bearing.geometry]
+diametral_clearance = "5 um"
+"""
+
+
+@pytest.fixture
+def pair(tmp_path):
+    """A shaft whose right bearing is a file beside it."""
+    text = builtin_text("deep_groove_6205").replace('"7.938 mm"', '"7.9 mm"')
+    (tmp_path / "own.toml").write_text(text, encoding="utf-8")
+    path = tmp_path / "shaft.toml"
+    path.write_text(PAIR.replace("SCENE", "own.toml"), encoding="utf-8")
+    return path
+
+
+def refused(name, *changes):
+    with pytest.raises(jb.SceneError) as caught:
+        jb.load_scene(name, split_assignments(changes))
+    return str(caught.value)
+
+
+def test_scenes_of_bearings(pair):
+    """A built-in one, and a file beside that of the shaft, changed by tables of the entry."""
+    scene = jb.load_scene(pair)
+    left, right = scene.bearings
+    assert (left.name, right.name, right.sense) == ("left", "right", -1.0)
+    alone = jb.load_scene("deep_groove_6205")
+    assert jax.tree.structure(left.scene.geometry) == jax.tree.structure(alone.geometry)
+    assert left.scene.geometry.ball_diameter == alone.geometry.ball_diameter
+    assert right.scene.geometry.ball_diameter == 7.9e-3
+    np.testing.assert_allclose(right.scene.geometry.diametral_clearance, 5e-6, rtol=1e-15)
+
+
+def test_gear_shaft_is_the_one_of_the_docs():
+    scene = jb.load_scene("gear_shaft")
+    assert [place.name for place in scene.places] == ["front.1", "front.2", "rear"]
+    np.testing.assert_allclose([float(place.position) for place in scene.places], [0.02, 0.037, 0.18], rtol=1e-14)
+    assert [place.sense for place in scene.places] == [1.0, -1.0, 1.0]
+    assert scene.forces[0].torque == 100.0
+    assert scene.life.weibull is None
+    assert all(place.scene.rating is not None for place in scene.places)
+
+
+@pytest.mark.parametrize(
+    ("change", "path", "value"),
+    [
+        ("bearing.rear.geometry.diametral_clearance=40 um", "", 40e-6),
+        ("bearing.rear.position=150 mm", "", 0.15),
+        ("force.pinion.torque=50 N*m", "", 50.0),
+        ("force.wheel.mass=0.5 kg", "", 0.5),
+        ("set.front.geometry.contact_angle=25 deg", "", np.radians(25.0)),
+        ("set.front.preload.offset=2.6 um", "", 2.6e-6),
+        ("set.front.support.tilt=200 kN*m/rad", "", 2e5),
+        ("set.front.support.axial=200 N/um", "", 2e8),
+        ("shaft.sections.2.outer_diameter=50 mm", "", 0.05),
+        ("shaft.gravity.acceleration=1.62 m/s^2", "", 1.62),
+        ("life.weibull=1.5", "", 1.5),
+    ],
+)
+def test_overrides(change, path, value):
+    scene = jb.load_scene("gear_shaft", split_assignments([change]))
+    np.testing.assert_allclose(float(part_at(scene, change.partition("=")[0])), value, rtol=1e-14)
+
+
+def test_another_preload_takes_the_place_of_the_one_of_the_file():
+    scene = jb.load_scene("gear_shaft", {"set.front.preload.spring_force": "150 N"})
+    assert (scene.sets[0].preload.force, scene.sets[0].preload.spring_force) == (None, 150.0)
+
+
+def test_another_bearing_by_its_scene():
+    scene = jb.load_scene("gear_shaft", {"bearing.rear.scene": "deep_groove_6205"})
+    assert scene.bearings[0].scene.kind == "ball_bearing"
+    np.testing.assert_allclose(scene.bearings[0].position, 0.18, rtol=1e-15)
+
+
+def test_what_is_taken_out():
+    scene = jb.load_scene("gear_shaft", {"bearing.rear": "none", "force.wheel": "none", "shaft.gravity": "none"})
+    assert scene.bearings == ()
+    assert [one.name for one in scene.forces] == ["pinion"]
+    assert scene.shaft.gravity is None
+
+
+@pytest.mark.parametrize(
+    ("changes", "said"),
+    [
+        (("bearing.rear.position=250 mm",), "bearing.rear.position: found the text '250 mm'"),
+        (("bearing.rear.position=250 mm",), r"250 mm lies beyond the shaft \(200 mm\)"),
+        (("set.front.position=199 mm",), "set.front.position: .*front.2 at 207.5 mm lies beyond the shaft"),
+        (("bearing.raer.position=1 mm",), "bearing.raer: .* Did you mean 'rear'?"),
+        (("bearing.rear.positon=1 mm",), "bearing.rear.positon: .* Did you mean 'position'?"),
+        (("bearing.rear.geometry.n_balls=9",), "bearing.rear.geometry.n_balls: found the unknown name"),
+        (("bearing.rear.operation.radial_load=1 N",), "loads and speeds of a bearing on a shaft follow from"),
+        (("bearing.rear.scene=two_disk_etm",), "expected the scene of a bearing"),
+        (("force.pinion.kind=gaer",), "force.pinion.kind: .* Did you mean 'gear'?"),
+        (("force.pinion.pitch_radius=0 mm",), "force.pinion.pitch_radius: .* expected a length > 0"),
+        (("force.pinion.torque=100",), "force.pinion.torque: found the bare number 100; expected a moment"),
+        (("set.front.geometry.pitch_diameter=5 mm",), "set.front.geometry.n_balls: .*do not fit on a pitch circle"),
+        (("set.front.picture=<<",), "set.front.preload: .*tandem"),
+        (("set.front.picture=OX",), "set.front.picture: found the text 'OX'"),
+        (("set.front.preload.forse=1 N",), "Did you mean 'force'?"),
+        (("set.front.support.tilt=200 N*m",), "expected a stiffness against tilting"),
+        (("shaft.sections.2.inner_diameter=60 mm",), "inner_diameter 0.06 m must be smaller"),
+        (("life.weibull=isso",), "life.weibull: found the text 'isso'; expected 'iso' or a number > 0"),
+    ],
+)
+def test_errors_name_the_table(changes, said):
+    found = refused("gear_shaft", *changes)
+    assert re.search(said, found), found
+
+
+def test_all_that_is_wrong_is_said_at_once():
+    found = refused("gear_shaft", "force.pinion.torque=100", "bearing.rear.position=1", "set.front.distance=2")
+    assert all(path in found for path in ("force.pinion.torque", "bearing.rear.position", "set.front.distance"))
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        ('kind = "shaft"\n[shaft]\nspeed = "1 rpm"\n', "bearing: found none"),
+        (PAIR.replace('"right"', '"left"'), "'left' twice"),
+        (PAIR.replace('name = "left"', 'name = "a.b"'), "bearing[0].name: found the text 'a.b'"),
+        (PAIR.replace('name = "left"', 'name = "checks"'), "means something to the program"),
+        (PAIR.replace("[[bearing]]", "[bearing]", 1).split("[[bearing]]")[0], "[[bearing]] tables in double brackets"),
+        (PAIR.replace('scene = "deep_groove_6205"', ""), "bearing.left.scene: found nothing"),
+        (PAIR.replace('scene = "deep_groove_6205"', 'sceen = "deep_groove_6205"'), "Did you mean 'scene'?"),
+        (PAIR.replace('scene = "deep_groove_6205"', 'kind = "plain_bearing"'), "bearing.left.kind"),
+    ],
+)
+def test_wrong_files(tmp_path, text, said):
+    path = tmp_path / "shaft.toml"
+    path.write_text(text.replace("SCENE", "deep_groove_6205"), encoding="utf-8")
+    assert said in refused(path)
+
+
+STATES = """
+[[state]]
+share = 0.7
+[[state]]
+share = 0.3
+set = {"force.pinion.torque" = "50 N*m", "shaft.speed" = "3000 rpm"}
+bearing.rear.geometry.diametral_clearance = "9 um"
+"""
+
+
+def test_states_of_a_duty_cycle(tmp_path):
+    path = tmp_path / "duty.toml"
+    path.write_text(builtin_text("gear_shaft") + STATES, encoding="utf-8")
+    first, second = jb.load_scene(path).states
+    assert (first.share, first.changes, first.name) == (0.7, {}, "1")
+    assert second.changes == {
+        "force.pinion.torque": 50.0,
+        "shaft.speed": 3000.0 * np.pi / 30.0,
+        "bearing.rear.geometry.diametral_clearance": 9e-6,
+    }
+    path.write_text(builtin_text("gear_shaft") + STATES.replace("0.7", "0.6"), encoding="utf-8")
+    assert "shares that add up to 0.9" in refused(path)
+    path.write_text(builtin_text("gear_shaft") + STATES.replace("pinion.torque", "pinion.torqe"), encoding="utf-8")
+    assert "state '2': force.pinion.torqe" in refused(path)
+
+
+def assert_same(one, other):
+    assert jax.tree.structure(one) == jax.tree.structure(other)
+    for a, b in zip(jax.tree.leaves(one), jax.tree.leaves(other), strict=True):
+        assert np.asarray(a, dtype=float).tobytes() == np.asarray(b, dtype=float).tobytes()
+
+
+def test_round_trip(pair, tmp_path):
+    scene = jb.load_scene(
+        "gear_shaft", {"set.front.mismatch": "['0 um', '1.3 um']", "set.front.support.radial": "1 N/m"}
+    )
+    matrix = np.diag([1e8, 2e8, 2.5e8, 3e4, 0.1])
+    linear = jb.scene_from_mapping(
+        {
+            "kind": "shaft",
+            "shaft": {"speed": 100.0},
+            "bearing": [
+                {"name": "a", "kind": "linear", "position": 0.0, "stiffness": matrix.tolist(), "support": {"tilt": 3e5}}
+            ],
+            "force": [{"kind": "point", "position": 0.1, "radial": 100.0, "azimuth": 0.3}],
+        }
+    )
+    np.testing.assert_array_equal(linear.bearings[0].scene.stiffness, matrix)
+    state = ShaftState(share=1.0, changes={"force.pinion.torque": 51.0}, name="half")
+    with_states = dataclasses.replace(scene, states=(state,))
+    for one in (scene, linear, with_states, jb.load_scene(pair)):
+        jb.save_scene(one, tmp_path / "back.toml")
+        assert_same(jb.load_scene(tmp_path / "back.toml"), one)
+    written = tomllib.loads((tmp_path / "back.toml").read_text(encoding="utf-8"))
+    assert [one["name"] for one in written["bearing"]] == ["left", "right"]
+
+
+def test_what_a_file_cannot_hold():
+    scene = jb.load_scene("gear_shaft")
+    housing = dataclasses.replace(scene, housing=np.eye(15) * 1e9)
+    with pytest.raises(jb.SceneError, match="housing"):
+        jb.save_scene(housing, "never.toml")
+    with pytest.raises(jb.SceneError, match="traced"):
+        jax.jit(lambda torque: jb.save_scene(scene.replace({"force.pinion.torque": torque}), "never.toml"))(1.0)
+
+
+def test_replace_takes_the_paths_of_files():
+    scene = jb.load_scene("gear_shaft")
+    changes = {
+        "bearing.rear.geometry.diametral_clearance": 9e-6,
+        "set.front.geometry.conformity_inner": 0.52,
+        "set.front.preload.force": 300.0,
+        "force.pinion.torque": 7.0,
+        "shaft.sections.1.length": 0.061,
+        "shaft.speed": 5.0,
+    }
+    changed = scene.replace(changes)
+    for path, value in changes.items():
+        assert float(part_at(changed, path)) == value, path
+    with pytest.raises(AttributeError, match=r"no 'force\.pinoin'; there is pinion, wheel"):
+        scene.replace({"force.pinoin.torque": 1.0})
+    with pytest.raises(AttributeError, match=r"no 'force\.pinion\.tork'"):
+        scene.replace({"force.pinion.tork": 1.0})
+
+
+def test_every_number_has_a_path_of_files():
+    scene = jb.load_scene("gear_shaft")
+    leaves, _ = jax.tree_util.tree_flatten_with_path(scene)
+    for keys, value in leaves:
+        path = path_in_file(scene, jax.tree_util.keystr(keys, simple=True, separator="."))
+        assert part_at(scene, path) is value, path
+
+
+def test_numbers_of_a_shaft_can_be_differentiated():
+    scene = jb.load_scene("gear_shaft")
+
+    def last(torque):
+        return scene.replace({"force.pinion.torque": torque}).forces[0].torque_given
+
+    check_grads(last, (3.0,), order=1)

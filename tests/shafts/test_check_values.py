@@ -1,0 +1,267 @@
+"""Check values of matched sets and shafts: the sheet "several bearings together", section 9, rows B1 to C5."""
+
+import dataclasses
+
+import numpy as np
+import pytest
+from shaft_cases import (
+    P,
+    axial_forces,
+    balls,
+    gear_shaft,
+    pair,
+    pair_stiffness,
+    rollers,
+    steel,
+    two_deep_grooves,
+)
+from tapered_cases import tapered
+
+import jaxbearing as jb
+from jaxbearing.shafts import MountedBearing, PointLoad, Preload, Section, Shaft, ShaftState, ShaftSystem, Support
+
+RPM = np.pi / 30.0
+PRELOAD = Preload(force=180.0)
+close = lambda found, value, rtol=1e-6, atol=0.0: np.testing.assert_allclose(found, value, rtol=rtol, atol=atol)
+
+
+def test_a_pair_at_rest_and_loaded():
+    """B1, B2."""
+    solved = jb.solve(pair(preload=PRELOAD))
+    close(solved.sets["set"].closure, 8.87786930e-6, 1e-8)
+    close(pair_stiffness(solved)[[0, 1, 3]], [6.4604209e7, 2.9663395e8, 103035.33], 1e-7)
+    close(solved.sets["set"].loss_force, 557.4404761, 1e-7)
+    close(solved.sets["set"].preload, 180.0, 1e-12)
+    for load, place, forces, stiffness in (
+        (100.0, 1.54863347e-6, [232.832201, 132.832201], None),
+        (300.0, 4.66627794e-6, [355.961737, 55.961737], 6.3588655e7),
+        (1000.0, 1.61320158e-5, None, 6.949749e7),
+    ):
+        solved = jb.solve(pair(preload=PRELOAD, axial=load))
+        close(solved.shaft.displacement[0, 0], place, 1e-8)
+        if forces is not None:
+            close(axial_forces(solved), forces, 2e-9)
+        if stiffness is not None:
+            close(pair_stiffness(solved)[0], stiffness, 1e-7)
+
+
+def test_the_tilt_stiffness_of_a_wider_pair():
+    """B1, 56 mm."""
+    close(pair_stiffness(jb.solve(pair(preload=PRELOAD, distance=56e-3)))[3], 441326.5, 1e-6)
+
+
+def test_a_rigid_pair_at_speed():
+    """B3."""
+    for rpm, force, axial, radial in (
+        (10000, 209.405261, 5.412297e7, 2.391855e8),
+        (20000, 347.537609, 4.577374e7, 1.734533e8),
+        (24500, 425.806714, 4.709663e7, 1.655977e8),
+    ):
+        solved = jb.solve(pair(rpm=rpm, preload=PRELOAD))
+        close(axial_forces(solved), [force, force], 2e-9)
+        close(pair_stiffness(solved)[:2], [axial, radial], 3e-7)
+        if rpm == 20000:
+            elements = solved.bearings["set.1"].solution.elements
+            close(elements.contact_angle_inner, 0.394738, 2e-6)
+            close(elements.contact_angle_outer, 0.233171, 3e-6)
+            close(elements.load_inner, 45.1857, 2e-6)
+            close(elements.load_outer, 75.2038, 2e-6)
+
+
+def test_a_pair_with_springs():
+    """B4, B5; the sheet's 180 N of B5 at rest are the force at no displacement, 148.535 N mounted."""
+    spring = Preload(spring_force=180.0, spring_stiffness=0.0)
+    for rpm, axial, radial in (
+        (10000, 2.327814e7, 2.071476e8),
+        (20000, 9.842043e6, 6.805458e7),
+        (24500, 9.266583e6, 5.59674e7),
+    ):
+        solved = jb.solve(pair(rpm=rpm, preload=spring))
+        close(axial_forces(solved), [180.0, 180.0], 1e-9)
+        stiffness = pair_stiffness(solved)
+        close(np.asarray(solved.bearings["set.1"].stiffness)[0, 0], axial, 3e-7)
+        close(stiffness[1], radial, 3e-7)
+    for load, first, axial in ((200.0, 380.0, 4.16763e7), (-150.0, 30.0, 1.822622e6)):
+        solved = jb.solve(pair(rpm=10000, preload=spring, axial=load))
+        close(axial_forces(solved), [first, 180.0], 1e-9)
+        close(np.asarray(solved.bearings["set.1"].stiffness)[0, 0], axial, 1e-6)
+    stiff = dataclasses.replace(spring, spring_force=148.535, spring_stiffness=2e6)
+    solved = jb.solve(pair(preload=stiff, axial=200.0))
+    close(axial_forces(solved), [338.661387, 138.661387], 3e-6)
+
+
+def test_a_pair_under_a_combined_load():
+    """B6."""
+    load = {"axial": 100.0, "radial": 300.0, "moment": 5.0}
+    solved = jb.solve(pair(rpm=10000, preload=PRELOAD, **load))
+    middle = list(solved.shaft.position).index(0.0)
+    place = [1.348760e-6, 1.146700e-6, 0.0, 5.177686e-5, 0.0]
+    close(solved.shaft.displacement[middle], place, 1e-6, 1e-15)
+    close(solved.bearings["set.1"].force, [276.177246, 281.351680, 0.0, 3.05964171, 0.0], 1e-8, 1e-9)
+    close(solved.bearings["set.2"].force, [176.177246, 18.6483199, 0.0, 0.161268590, 0.0], 1e-8, 1e-9)
+
+
+def test_a_pair_in_x_arrangement():
+    """B1 and B6, X."""
+    close(pair_stiffness(jb.solve(pair("><", preload=PRELOAD)))[3], 3263.5534, 1e-7)
+    load = {"axial": 100.0, "radial": 300.0, "moment": 5.0}
+    solved = jb.solve(pair("><", rpm=10000, preload=PRELOAD, **load))
+    middle = list(solved.shaft.position).index(0.0)
+    place = [4.370623e-7, 9.759524e-7, 0.0, 1.055338e-3, 0.0]
+    close(solved.shaft.displacement[middle], place, 1e-6, 1e-15)
+    # axial forces are those on the shaft's axis, in the frames of the bearings
+    close(solved.bearings["set.1"].force, [289.026277, -254.176254, 0.0, -3.93499424, 0.0], 1e-8, 1e-9)
+    close(solved.bearings["set.2"].force, [389.026277, 554.176254, 0.0, 7.53182583, 0.0], 1e-8, 1e-9)
+    assert any("hardly carries moments" in text for text in solved.warnings)
+
+
+@pytest.mark.slow
+def test_two_against_one():
+    """B7: the closure is that of the pair."""
+    three = pair("<<>", preload=Preload(offset=8.87786930e-6))
+    close(axial_forces(jb.solve(three)), [122.852750, 122.852750, 245.705499], 1e-8)
+    close(pair_stiffness(jb.solve(three))[0], 9.2186068e7, 1e-7)
+    loaded = pair("<<>", preload=Preload(offset=8.87786930e-6), axial=500.0)
+    close(axial_forces(jb.solve(loaded)), [294.681546, 294.681546, 89.3630924], 1e-8)
+
+
+@pytest.mark.slow
+def test_tapered_pairs():
+    """B8, B9."""
+    scene = tapered(1e3, rpm=3000)
+    at_rest = jb.solve(pair(scene=scene, distance=40e-3, preload=Preload(force=1e3)))
+    close(at_rest.sets["set"].closure, 7.3395665e-6, 1e-7)
+    close(np.asarray(at_rest.bearings["set.1"].stiffness)[0, 0], 1.5181212e8, 1e-7)
+    close(at_rest.sets["set"].loss_force, 2164.40689, 1e-7)
+    load = {"axial": 500.0, "radial": 3000.0, "moment": 20.0}
+    for picture, axial, radial in (
+        ("<>", [1271.00401, 771.004012], [1884.67838, 1115.32162]),
+        ("><", [835.679156, 1335.67916], [2170.22661, 829.773395]),
+    ):
+        solved = jb.solve(pair(picture, 3000, 40e-3, Preload(force=1e3), scene, **load))
+        close(axial_forces(solved), axial, 1e-6)
+        close([one.force[1] for one in solved.bearings.values()], radial, 1e-6)
+
+
+def test_loss_of_preload():
+    """B10; the sheet's numbers are without the 1e-3 N on each ball."""
+    for degrees, values in ((15.0, (3.067027, 3.693427)), (25.0, (2.888598, 3.081934)), (40.0, (2.842706, 2.891881))):
+        scene = balls(12, 45e-3, 8e-3, 0.52, 0.53, np.radians(degrees))
+        for force, value in zip((50.0, 500.0), values, strict=True):
+            solved = jb.solve(pair(scene=scene, preload=Preload(force=force)))
+            close(solved.sets["set"].loss_force / force, value, 2e-5)
+
+
+def on_shaft(solution, name):
+    return np.asarray(solution.bearings[name].on_shaft)
+
+
+def test_a_shaft_on_two_deep_groove_bearings():
+    """C4a."""
+    solved = jb.solve(two_deep_grooves())
+    close(on_shaft(solved, "A")[[0, 1, 3]], [41.1055, -1250.3144, 0.742616], 1e-5)
+    close(on_shaft(solved, "B")[[0, 1, 3]], [-41.1055, -749.6856, -0.692310], 1e-5)
+    at_load = list(np.round(solved.shaft.position, 6)).index(0.08)
+    close(solved.shaft.displacement[at_load, 1], 60.8195e-6, 1e-5)
+    tilts = [one.ring.tilt for one in solved.bearings.values()]
+    close(tilts, [-0.777190e-3, 0.712736e-3], 1e-5)
+    close(max(one.largest_load for one in solved.bearings.values()), 672.1565, 1e-5)
+    solved = jb.solve(two_deep_grooves(axial=100.0))
+    close(on_shaft(solved, "A")[:2], [-20.0412, -1239.7143], 1e-5)
+    close(on_shaft(solved, "B")[:2], [-79.9588, -760.2857], 1e-5)
+    solved = jb.solve(two_deep_grooves(axial=100.0, clearance=30e-6))
+    close(on_shaft(solved, "A")[1], -1239.6482, 1e-5)
+
+
+def test_a_stiff_shaft_is_the_rigid_set():
+    """C4a, and a set on a shaft with E x 1e6 equals the same set alone (test 10 of section 12)."""
+    stiff = jb.solve(two_deep_grooves(axial=100.0, modulus=206e15))
+    rigid = jb.solve(two_deep_grooves(axial=100.0, rigid=True))
+    for solved in (stiff, rigid):
+        at_load = list(np.round(solved.shaft.position, 6)).index(0.08)
+        close(solved.shaft.displacement[at_load, :2], [13.92877e-6, 21.10690e-6], 1e-5)
+    for name in ("A", "B"):
+        close(on_shaft(stiff, name), on_shaft(rigid, name), 1e-5, 1e-6)
+
+
+def test_a_third_bearing_that_is_lifted():
+    """C4b."""
+    grooves = [MountedBearing(name, balls(9, 38.5e-3, 7.938e-3, 0.515, 0.525, diametral_clearance=12e-6), at)
+               for name, at in (("A", 20e-3), ("B", 280e-3))]  # fmt: skip
+    for clearance, middle, last in (
+        (0.0, -2537.691, 226.439),
+        (20e-6, -2321.664, 117.927),
+        (60e-6, -2055.040, -15.652),
+        (120e-6, -1475.522, -305.177),
+    ):
+        one = MountedBearing("M", rollers(13, 46e-3, 7.5e-3, 7.5e-3, clearance), 150e-3)
+        system = ShaftSystem(
+            Shaft(3000 * RPM, [Section(300e-3, 30e-3)], steel(206e9)),
+            bearings=[*grooves, one],
+            forces=[PointLoad("load", 110e-3, axial=50.0, radial=3000.0)],
+        )
+        solved = jb.solve(system)
+        close(on_shaft(solved, "M")[1], middle, 1e-5)
+        close(on_shaft(solved, "B")[1], last, 1e-5, 1e-3)
+
+
+def test_a_gear_shaft():
+    """C4 of section 8: forces, lives, and what strain and expansion do."""
+    solved = jb.solve(gear_shaft())
+    close(solved.sets["front"].closure, 2.58120936e-6, 1e-7)
+    close(on_shaft(solved, "front.1"), [-1259.7992, 332.7613, -420.0330, 7.179772, -9.243949], 1e-5)
+    close(on_shaft(solved, "front.2")[:3], [723.9008, 438.0098, -373.1699], 1e-5)
+    close(on_shaft(solved, "rear")[:3], [0.0, 939.8115, -562.0381], 1e-5, 1e-9)
+    close([one.life.L10r for one in solved.bearings.values()], [52678.26, 80269.05, 373631.8], 1e-5)
+    close([one.largest_load for one in solved.bearings.values()], [261.7, 282.6, 581.7], 2e-4)
+    close(solved.life.L10r, 32067.5, 1e-5)
+    close(solved.sets["front"].loss_force, 571.0, 1e-3)
+    close(solved.sets["front"].support_distance, 61.9e-3, 1e-3)
+    capacities = [solved.bearings[name].life.dynamic_capacity for name in ("front.1", "rear")]
+    close(capacities, [27101.40, 47564.61], 1e-6)
+    for changes, axial, life in (
+        ({"strain": 2e-4}, [-1149.647, 613.749], 37317.7),
+        ({"expansion": 5e-6}, [-1851.570, 1315.672], 12040.4),
+    ):
+        solved = jb.solve(gear_shaft(**changes))
+        close([on_shaft(solved, name)[0] for name in ("front.1", "front.2")], axial, 1e-5)
+        close(solved.life.L10r, life, 1e-5)
+
+
+@pytest.mark.slow
+def test_a_gear_shaft_in_x_arrangement_and_on_supports():
+    """C4."""
+    support = Support(200e6, 100e6, 200e3)
+    for changes, axial, life in (
+        ({"picture": "><"}, [604.846, -1140.745], 36761.1),
+        ({"support": support}, [-1088.858, 552.960], 39359.6),
+    ):
+        solved = jb.solve(gear_shaft(**changes))
+        close([on_shaft(solved, name)[0] for name in ("front.1", "front.2")], axial, 1e-5)
+        close(solved.life.L10r, life, 1e-5)
+
+
+@pytest.mark.slow
+def test_a_duty_cycle():
+    """C5: half of the torque with the other hand, and 150 N m at 3000 rpm."""
+    states = (
+        ShaftState(0.6),
+        ShaftState(0.3, {"force.pinion.torque": 50.0, "force.pinion.helix_angle": -np.radians(15.0)}),
+        ShaftState(0.1, {"force.pinion.torque": 150.0, "shaft.speed": 3000 * RPM}),
+    )
+    solved = jb.solve(gear_shaft(states=states))
+    close(list(solved.duty.bearing_hours.values()), [195679.1, 230218.1, 1265016.0], 1e-5)
+    close(solved.duty.system_hours, 106970.9, 1e-5)
+
+
+def test_mirrored():
+    """Test 4 of section 12: a set mirrored about its middle, with its load, has the mirrored answer."""
+    both = [jb.solve(pair(rpm=10000, preload=PRELOAD, axial=sign * 100.0, radial=300.0)) for sign in (1.0, -1.0)]
+    for name, other in (("set.1", "set.2"), ("set.2", "set.1")):
+        close(both[0].bearings[name].force, both[1].bearings[other].force, 1e-9, 1e-9)
+
+
+def test_class_force_of_a_pair_is_its_preload():
+    solved = jb.solve(pair(scene=P, preload=Preload(class_force=180.0)))
+    close(solved.sets["set"].closure, 8.87786930e-6, 1e-8)
+    close(solved.sets["set"].preload, 180.0, 1e-9)
