@@ -74,9 +74,7 @@ def gear_shaft(picture="<>", strain=0.0, expansion=0.0, support=None, states=())
     """Section 8 of the sheet."""
     sections = [Section(60e-3, 35e-3), Section(80e-3, 45e-3), Section(60e-3, 35e-3)]
     pinion = Gear("pinion", 100e-3, 50e-3, 100.0, np.radians(30.0), np.radians(20.0), np.radians(15.0))
-    front = MatchedSet(
-        "front", picture, AC, 28.5e-3, 17e-3, Preload(force=200.0), expansion=expansion, support=support
-    )
+    front = MatchedSet("front", picture, AC, 28.5e-3, 17e-3, Preload(force=200.0), expansion=expansion, support=support)
     return ShaftSystem(
         Shaft(6000 * RPM, sections, gravity=Gravity(9.81), thermal_strain=strain),
         sets=[front],
