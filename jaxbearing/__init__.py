@@ -202,7 +202,8 @@ _MODULES = (
     "sweeps",
     "thermal",
 )
-"""Modules that are public as such: calibration, standard bearings, the laws, the fit of an oil, shafts, sweeps, figures."""
+"""Modules that are public as such: calibration, standard bearings, the laws, the fit of an oil, shafts, sweeps,
+figures."""
 _AT_ONCE = ("jit_solver", "simulate", "simulate_batch", "solve", "sweep")
 
 __all__ = [*_AT_ONCE, *_LAZY, *_MODULES]  # pyright: ignore[reportUnsupportedDunderAll]
