@@ -9,10 +9,12 @@ from .numerics.garbage import rare_garbage_collection
 from .numerics.precision import require_x64
 
 if TYPE_CHECKING:
+    from .bearings.ball.scene import BallBearing
     from .bearings.bearing import AbstractBearing
     from .bearings.motion.family import AbstractMovingBearing
     from .bearings.motion.history import History, LastState
     from .bearings.motion.settings import Simulation
+    from .bearings.tapered.scene import TaperedRollerBearing
     from .bearings.warming.history import WarmState, WarmUpHistory
     from .bearings.warming.settings import WarmUpSimulation
     from .ehl import EHLLineContact, FilmSimulation, FilmState, LineContactHistory
@@ -67,7 +69,7 @@ def simulate(
 ) -> "History": ...
 @overload
 def simulate(
-    scene: "AbstractMovingBearing",
+    scene: "BallBearing | TaperedRollerBearing",
     duration: float | None = None,
     *,
     simulation: "Simulation | None" = None,
@@ -75,7 +77,7 @@ def simulate(
     throw: bool = True,
     progress: Progress | None = None,
     restart: None = None,
-) -> "History | WarmUpHistory": ...
+) -> "WarmUpHistory": ...
 @overload
 def simulate(
     scene: "AbstractBearing",
@@ -86,7 +88,7 @@ def simulate(
     throw: bool = True,
     progress: Progress | None = None,
     restart: None = None,
-) -> "WarmUpHistory": ...
+) -> "History | WarmUpHistory": ...
 @overload
 def simulate(
     scene: AbstractScene,

@@ -53,6 +53,7 @@ class AbstractBearing(AbstractScene):
     """Name of the part without which the `unused_parts` of a scene have no effect, for messages."""
 
     geometry: eqx.AbstractVar[Any]
+    materials: eqx.AbstractVar[Any]
     operation: eqx.AbstractVar[Any]
     oil: eqx.AbstractVar[Any]
     contact: eqx.AbstractVar[Any]

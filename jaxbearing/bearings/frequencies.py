@@ -4,7 +4,7 @@ A damage on one part is heard at these frequencies: on a ring each time that a r
 each time that it meets a ring, twice in a turn.
 """
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import equinox as eqx
 import jax.numpy as jnp
@@ -14,6 +14,11 @@ from jaxtyping import Array, Float
 from .._derived import known_numbers
 from .._types import Values
 from ..numerics.checks import label
+
+if TYPE_CHECKING:
+    from .bearing import AbstractBearing
+else:
+    AbstractBearing = Any
 
 TURN = 2.0 * np.pi
 NO_LOAD = 1e-30
@@ -54,7 +59,7 @@ def frequencies_of_motion(operation: Any, elements: Any, cage: Any) -> Kinematic
     return _frequencies(rings, load.shape[-1], turning, mean(spin))
 
 
-def textbook_frequencies(scene: Any) -> KinematicFrequencies:
+def textbook_frequencies(scene: AbstractBearing) -> KinematicFrequencies:
     r"""Frequencies of elements that roll without slip at the contact angle of the drawing.
 
     With $\gamma = D\cos\alpha/d_m$: $\omega_c = [\omega_i(1 - \gamma) + \omega_o(1 + \gamma)]/2$,

@@ -5,7 +5,7 @@ Boundary dimensions are those of the drawing: what temperatures and fits change 
 
 import math
 from collections.abc import Mapping
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import jax.numpy as jnp
 from jaxtyping import Array, Float
@@ -34,6 +34,11 @@ from ..thermal.settings import Thermal
 from ..thermal.shares import loss_shares, node_heat
 from .solution import Solution
 
+if TYPE_CHECKING:
+    from .bearing import AbstractBearing
+else:
+    AbstractBearing = Any
+
 OUTSIDE = {1: ("bearing",), 4: ("inner_ring", "outer_ring"), 6: ("shaft", "housing")}
 """Nodes from which heat flows to the ambient, by the number of nodes."""
 GUIDED = {"inner": "inner_ring", "outer": "outer_ring", "both": "both"}
@@ -45,7 +50,7 @@ def inlet_temperature(scene: Any) -> Any:
     return scene.operation.oil_temperature if own is None else own
 
 
-def rings_of(scene: Any) -> dict[str, str]:
+def rings_of(scene: AbstractBearing) -> dict[str, str]:
     """The ring that guides the cage, and the one with the flanges, as `loss_shares` takes them."""
     cage, flange = getattr(scene, "cage", None), getattr(scene, "flange", None)
     return {
@@ -54,7 +59,7 @@ def rings_of(scene: Any) -> dict[str, str]:
     }
 
 
-def has_flow(scene: Any) -> bool:
+def has_flow(scene: AbstractBearing) -> bool:
     """True if oil flows through the bearing, as far as the scene says it."""
     return scene.oil.heat_capacity is not None and scene.oil.density is not None
 
@@ -76,7 +81,9 @@ def bearing_network(scene: Any) -> Network:
     return network_of(thermal.node_names, {}, ways, thermal.ambient, oil)
 
 
-def bearing_heat(scene: Any, thermal: Thermal, solution: Solution, temperatures: Float[Array, " node"]) -> NodeHeat:
+def bearing_heat(
+    scene: AbstractBearing, thermal: Thermal, solution: Solution, temperatures: Float[Array, " node"]
+) -> NodeHeat:
     """Heat into the nodes and conductances of a bearing that was solved at node temperatures.
 
     **Arguments:** `scene`: with the temperatures of its oil, without the network; `temperatures`: K.
@@ -115,7 +122,7 @@ def bearing_heat(scene: Any, thermal: Thermal, solution: Solution, temperatures:
     )
 
 
-def _given_shares(scene: Any, thermal: Thermal) -> dict[str, dict[str, Any]]:
+def _given_shares(scene: AbstractBearing, thermal: Thermal) -> dict[str, dict[str, Any]]:
     """Shares of the scene as `loss_shares` takes them."""
     rings, found = rings_of(scene), {}
     second = {
@@ -138,7 +145,7 @@ def _given_shares(scene: Any, thermal: Thermal) -> dict[str, dict[str, Any]]:
     return found
 
 
-def _elements_of(scene: Any) -> Material:
+def _elements_of(scene: AbstractBearing) -> Material:
     return getattr(scene.materials, f"{scene.element}s")
 
 
@@ -180,7 +187,7 @@ def _contacts(scene: Any, solution: Solution) -> ContactHeat:
 
 
 def _between(
-    scene: Any, thermal: Thermal, solution: Solution, contacts: ContactHeat, temperatures: Mapping[str, Any]
+    scene: AbstractBearing, thermal: Thermal, solution: Solution, contacts: ContactHeat, temperatures: Mapping[str, Any]
 ) -> dict[tuple[str, str], Any]:
     """Conductances between the nodes, W/K."""
     geometry, given = scene.geometry, thermal.conductance
@@ -213,12 +220,12 @@ def _between(
     return found
 
 
-def _surface(scene: Any) -> Array:
+def _surface(scene: AbstractBearing) -> Array:
     length = None if not scene.line_contacts else scene.geometry.roller_length
     return elements_surface(scene.mean_diameter, scene.n_elements, length)
 
 
-def _oil_transfer(scene: Any, solution: Solution, temperature: Array) -> Any:
+def _oil_transfer(scene: AbstractBearing, solution: Solution, temperature: Array) -> Any:
     """Function to the heat transfer from the oil to rings and elements, W/(m^2 K); asked only where it is needed."""
 
     def transfer() -> Array:
@@ -232,7 +239,7 @@ def _oil_transfer(scene: Any, solution: Solution, temperature: Array) -> Any:
     return transfer
 
 
-def _to_ambient(scene: Any, thermal: Thermal) -> dict[str, Any]:
+def _to_ambient(scene: AbstractBearing, thermal: Thermal) -> dict[str, Any]:
     """Conductances to the ambient beside that of a housing in air, W/K."""
     found = {}
     for node in OUTSIDE[thermal.nodes]:
@@ -241,7 +248,7 @@ def _to_ambient(scene: Any, thermal: Thermal) -> dict[str, Any]:
     return found
 
 
-def _seat_to_ambient(scene: Any, thermal: Thermal, node: str) -> Any:
+def _seat_to_ambient(scene: AbstractBearing, thermal: Thermal, node: str) -> Any:
     """By the reference heat flow of ISO 15312 through the seats, each seat by its area; a housing in air has a law of
     its own."""
     geometry = scene.geometry
@@ -254,7 +261,7 @@ def _seat_to_ambient(scene: Any, thermal: Thermal, node: str) -> Any:
     return inside if node in ("inner_ring", "shaft") else outside
 
 
-def heat_capacities(scene: Any) -> Float[Array, " node"] | None:
+def heat_capacities(scene: AbstractBearing) -> Float[Array, " node"] | None:
     """Heat capacities of the nodes, J/K; `None` where one is not known."""
     found = [value for _, value in _capacities(scene)]
     if any(one is None for one in found):
@@ -262,7 +269,7 @@ def heat_capacities(scene: Any) -> Float[Array, " node"] | None:
     return jnp.stack([jnp.asarray(one, dtype=float) for one in found])
 
 
-def unknown_capacities(scene: Any) -> tuple[str, ...]:
+def unknown_capacities(scene: AbstractBearing) -> tuple[str, ...]:
     """Names of the nodes whose heat capacity is not known."""
     return tuple(name for name, value in _capacities(scene) if value is None)
 
@@ -278,7 +285,7 @@ def _capacities(scene: Any) -> list[tuple[str, Any]]:
     return [(name, parts.get(name)) for name in thermal.node_names]
 
 
-def _own_capacities(scene: Any) -> dict[str, Any]:
+def _own_capacities(scene: AbstractBearing) -> dict[str, Any]:
     """Heat capacities of rings, elements and oil as far as they follow from the scene."""
     geometry, rings, balls, oil = scene.geometry, scene.materials.rings, _elements_of(scene), scene.oil
     sizes = (geometry.bore, geometry.outside_diameter, geometry.width)

@@ -2,7 +2,7 @@
 interaction with a temperature of its own, which a thermal network knows."""
 
 import dataclasses
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import equinox as eqx
 import jax.numpy as jnp
@@ -10,6 +10,11 @@ from jaxtyping import Array, Float
 
 from .._types import Scalar
 from ..lubricants import InletOil
+
+if TYPE_CHECKING:
+    from .bearing import AbstractBearing
+else:
+    AbstractBearing = Any
 
 
 class OilElsewhere(NamedTuple):
@@ -21,7 +26,7 @@ class OilElsewhere(NamedTuple):
     drag: InletOil
 
 
-def oil_of_races(scene: Any) -> InletOil:
+def oil_of_races(scene: AbstractBearing) -> InletOil:
     """The oil that enters the raceway contacts: one for both, or with fields of shape (2, 1), races first."""
     oil, contact = scene.oil.at(race_temperatures(scene)), scene.contact
     if contact is None or contact.supply is None or contact.supply.from_flow is None:
@@ -29,7 +34,7 @@ def oil_of_races(scene: Any) -> InletOil:
     return dataclasses.replace(oil, flow=jnp.asarray(scene.operation.oil_flow))
 
 
-def oil_elsewhere(scene: Any) -> OilElsewhere | None:
+def oil_elsewhere(scene: AbstractBearing) -> OilElsewhere | None:
     """The oil that enters the other interactions; `None` where it is that of the raceways."""
     own = scene.oil_temperatures
     if own is None:
@@ -59,13 +64,13 @@ class AbstractOils(eqx.Module):
         return oil_of(self.inlet, self.elsewhere, place)
 
 
-def oil_temperature(scene: Any, place: str) -> Scalar:
+def oil_temperature(scene: AbstractBearing, place: str) -> Scalar:
     """Temperature of the oil of an interaction, K. **Arguments:** `place`: field of `OilTemperatures`."""
     own = scene.oil_temperatures
     return scene.operation.oil_temperature if own is None else getattr(own, place)
 
 
-def race_temperatures(scene: Any) -> Scalar | Float[Array, "2 1"]:
+def race_temperatures(scene: AbstractBearing) -> Scalar | Float[Array, "2 1"]:
     """Temperature of the oil that enters the raceway contacts, K: one for both, or of shape (2, 1), races first."""
     own = scene.oil_temperatures
     if own is None:

@@ -8,7 +8,7 @@ interference under load. Shoulders and the longer shaft are worth 5 % of what a 
 
 import dataclasses
 from collections.abc import Iterator
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import equinox as eqx
 import jax
@@ -23,6 +23,11 @@ from ..numerics.refusals import refusals_of, refuse_all
 from .facts import Excess
 from .growth import FitResult, Growth, Play
 from .solution import FailureCause
+
+if TYPE_CHECKING:
+    from .bearing import AbstractBearing
+else:
+    AbstractBearing = Any
 
 HIGHEST_STRESS = 127e6
 """Stress around the bore of the inner ring beyond which makers warn of bursting rings of through-hardened steel, Pa."""
@@ -44,7 +49,7 @@ class _Rings(NamedTuple):
         return None if name not in names else jax.tree.map(lambda leaf: leaf[-1, names.index(name)], self.seats)
 
 
-def mounting_problems(scene: Any) -> Iterator[str | ValueError]:
+def mounting_problems(scene: AbstractBearing) -> Iterator[str | ValueError]:
     """Yields a sentence for everything that a scene with seats lacks."""
     fits: Fits | None = scene.fits
     temperatures: PartTemperatures | None = scene.temperatures
@@ -74,7 +79,7 @@ def mounting_problems(scene: Any) -> Iterator[str | ValueError]:
             yield f"{name}.thermal_expansion: found nothing, {needed}"
 
 
-def check_walls(scene: Any) -> None:
+def check_walls(scene: AbstractBearing) -> None:
     """**Raises:** `ValueError` where a ring has no wall between its seat and its raceway."""
     geometry = scene.geometry
     sizes = numbers_or_none(*(leaf for leaf in jax.tree.leaves(geometry)), geometry.bore, geometry.outside_diameter)
@@ -94,7 +99,7 @@ def check_walls(scene: Any) -> None:
     refuse_all(problems)
 
 
-def running_scene(scene: Any) -> tuple[Any, FitResult | None, dict[str, FailureCause]]:
+def running_scene(scene: AbstractBearing) -> tuple[Any, FitResult | None, dict[str, FailureCause]]:
     """The bearing that runs: a scene of the same family without seats, whose dimensions are those of the mounted, warm
     and turning bearing.
 
@@ -135,7 +140,7 @@ def _impossible(play: Play) -> dict[str, FailureCause]:
     return {"fits and temperatures leave the rolling elements no contact": FailureCause(~play.possible, jnp.zeros(0))}
 
 
-def running_play(scene: Any) -> Play:
+def running_play(scene: AbstractBearing) -> Play:
     """The play of a scene with seats, mounted, warm and turning at its speeds."""
     return scene.play(_rings(scene, *_RUNNING).growth)
 
@@ -210,7 +215,7 @@ def _seats(fits: Fits, rings: Annulus, others: Annulus, interference: Array, sid
     return Fit(inner, outer, interference, fits.smoothed(interference)).state()
 
 
-def fit_excess(scene: Any, fit: FitResult) -> Excess:
+def fit_excess(scene: AbstractBearing, fit: FitResult) -> Excess:
     """Maps each warning about the seats to a number that is positive where the warning applies."""
     operation, found = scene.operation, {}
     if fit.interference_inner is not None:

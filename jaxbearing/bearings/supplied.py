@@ -1,7 +1,7 @@
 """Factors of the oil supply on the raceways of a solved bearing, and a check of what a scene lacks for its supply."""
 
 from collections.abc import Iterator
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import equinox as eqx
 import jax.numpy as jnp
@@ -10,6 +10,11 @@ from jaxtyping import Array, Float
 from .._scene import label
 from ..contacts.oil_supply import Starvation, given_by
 from ..numerics.checks import known
+
+if TYPE_CHECKING:
+    from .bearing import AbstractBearing
+else:
+    AbstractBearing = Any
 
 FLOODED = "fully flooded (assumed)"
 """Supply of a scene with films and without a table [contact.supply]."""
@@ -41,7 +46,9 @@ class SupplyResult(eqx.Module):
         return self.stated == given_by("from_flow")
 
 
-def supply_result(scene: Any, load: Float[Array, "2 element"], starved: Starvation | None) -> SupplyResult | None:
+def supply_result(
+    scene: AbstractBearing, load: Float[Array, "2 element"], starved: Starvation | None
+) -> SupplyResult | None:
     """The supply of a scene; `None` for one without films. **Arguments:** `load`, N, and `starved`, of the raceways."""
     if scene.contact is None or scene.oil is None:
         return None
@@ -58,14 +65,14 @@ def supply_result(scene: Any, load: Float[Array, "2 element"], starved: Starvati
     return SupplyResult(supply.stated, **numbers)
 
 
-def supply_problems(scene: Any) -> Iterator[str]:
+def supply_problems(scene: AbstractBearing) -> Iterator[str]:
     """Yields a sentence for everything that a scene lacks for its supply."""
     supply = None if scene.contact is None else scene.contact.supply
     if supply is not None and supply.from_flow is not None and known(scene.operation.oil_flow) == (0.0,):
         yield "operation.oil_flow: contact.supply.from_flow needs a volume flow > 0"
 
 
-def supply_notes(scene: Any) -> tuple[str, ...]:
+def supply_notes(scene: AbstractBearing) -> tuple[str, ...]:
     """The supply in words, for the notes of a run in time."""
     if scene.contact is None:
         return ()

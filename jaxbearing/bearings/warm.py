@@ -10,7 +10,7 @@ temperatures: a load that changes quickly meets a bearing whose temperatures hav
 
 import dataclasses
 from collections.abc import Callable, Iterator
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import jax.numpy as jnp
 from jaxtyping import Array, Float
@@ -29,12 +29,17 @@ from .heat import OUTSIDE, bearing_heat, bearing_network, heat_capacities, rings
 from .mounted import check_walls
 from .solution import Solution
 
+if TYPE_CHECKING:
+    from .bearing import AbstractBearing
+else:
+    AbstractBearing = Any
+
 MOST_BROYDEN = {"when_needed": 15, "never": 60}
 """Largest number of solves of Broyden's iteration before Newton's, or, without an exact Jacobian (`never`), before
 steps in time."""
 
 
-def thermal_problems(scene: Any) -> Iterator[str | ValueError]:
+def thermal_problems(scene: AbstractBearing) -> Iterator[str | ValueError]:
     """Yields a sentence for each missing or conflicting input of a scene with a thermal network."""
     thermal: Thermal | None = scene.thermal
     if thermal is None:
@@ -65,7 +70,7 @@ def _of_oil(thermal: Thermal) -> bool:
     return thermal.nodes > 1 and _computed(thermal, "inner_ring_oil", "outer_ring_oil", "elements_oil")
 
 
-def _lacking_of_oil(scene: Any, thermal: Thermal) -> Iterator[str]:
+def _lacking_of_oil(scene: AbstractBearing, thermal: Thermal) -> Iterator[str]:
     flow = known(scene.operation.oil_flow)
     flows = flow is None or flow[0] > 0.0
     needs = {
@@ -78,7 +83,7 @@ def _lacking_of_oil(scene: Any, thermal: Thermal) -> Iterator[str]:
             yield f"oil.{name}: found nothing, expected a number or a law, which [thermal] needs, e.g. '{example}'"
 
 
-def _lacking_sizes(scene: Any, thermal: Thermal) -> Iterator[str]:
+def _lacking_sizes(scene: AbstractBearing, thermal: Thermal) -> Iterator[str]:
     outside = [f"{node}_ambient" for node in OUTSIDE[thermal.nodes]]
     needed = {"width"} if _of_oil(thermal) and _computed(thermal, "inner_ring_oil", "outer_ring_oil") else set()
     if _computed(thermal, *outside):
@@ -93,7 +98,7 @@ def _lacking_sizes(scene: Any, thermal: Thermal) -> Iterator[str]:
             )
 
 
-def _lacking_of_materials(scene: Any, thermal: Thermal) -> Iterator[str]:
+def _lacking_of_materials(scene: AbstractBearing, thermal: Thermal) -> Iterator[str]:
     if thermal.nodes == 1:
         return
     names = ("rings", f"{scene.element}s")
@@ -154,7 +159,7 @@ def solve_warm(scene: Any, solve: Callable[[Any], Solution]) -> Solution:
     return _answer(scene, network, state)
 
 
-def _answer(scene: Any, network: Network, state: ThermalState) -> Solution:
+def _answer(scene: AbstractBearing, network: Network, state: ThermalState) -> Solution:
     """The solution of the bearing at the temperatures found, with these; of a lane that failed, NaN."""
     solution: Solution = state.losses.other
     ended: Solution = state.ended.other
@@ -178,7 +183,7 @@ def _answer(scene: Any, network: Network, state: ThermalState) -> Solution:
     )
 
 
-def _result(scene: Any, network: Network, state: ThermalState) -> ThermalResult:
+def _result(scene: AbstractBearing, network: Network, state: ThermalState) -> ThermalResult:
     nodes = network.nodes
     by_name = dict(zip(nodes, state.temperatures, strict=True))
     masked = lambda value: nan_unless(value, state.status == Status.CONVERGED)
@@ -216,7 +221,7 @@ def heat_paths(network: Network, temperatures: Float[Array, " node"], losses: No
     return named(HeatPaths, {name: flow for name, flow in flows.items() if name not in closed})
 
 
-def thermal_notes(scene: Any) -> tuple[str, ...]:
+def thermal_notes(scene: AbstractBearing) -> tuple[str, ...]:
     """Notes for the user: what the network assumes, and what a steady state does not say."""
     return f"thermal: {START_NOTE}", *network_notes(scene)
 
@@ -236,7 +241,7 @@ def network_notes(scene: Any) -> tuple[str, ...]:
     return tuple(said)
 
 
-def settled(scene: Any, solution: Solution) -> Any:
+def settled(scene: AbstractBearing, solution: Solution) -> Any:
     """The scene at the temperatures that its solution has found; itself without a network. Of a solution that failed,
     at finite temperatures without meaning."""
     if scene.thermal is None or solution.thermal is None:

@@ -105,8 +105,8 @@ def new(
                 raise
             refuse(f"new {name}: {error}")
         text = found.text()
-        if balls is not None or given:
-            # a geometry that cannot be built is said before anything is written; that of a designation alone can
+        if balls is not None or oil is not None or given:
+            # a scene that cannot be built is said before anything is written; that of a designation alone can
             found.scene()
     _write(target, text)
     if as_json:

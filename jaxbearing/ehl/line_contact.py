@@ -51,7 +51,7 @@ class FilmModel(Checked):
     - `nodes`: number of nodes of the mesh; error of the film about 0.9 % at 201 and M < 50, a quarter of that for each
       doubling, and more under heavier loads (`resolution.mesh_error`).
     - `inlet`: length of the domain upstream of the centre, half widths; light loads need more than 4
-      (`resolution.cut_error`).
+      (`resolution.cut_error`); below 2 the contact is starved, with its meniscus there.
     - `film_limit`: a run in time ends where the film is thinner, m: below about 0.5 nm a continuum means nothing.
     - `accuracy`: relative error of the steady films that was asked for, > 0: where mesh or inlet leave more, a warning
       says so. `None`: it warns from 5 % by the mesh, and from 0.5 % by the inlet.
@@ -61,7 +61,7 @@ class FilmModel(Checked):
 
     compressible: bool = switch("contact.compressible", True)
     nodes: int = count("contact.nodes", 501, least=FEWEST_NODES, most=MOST_NODES)
-    inlet: float = constant("contact.inlet", INLET, bound="between 2 and 64")
+    inlet: float = constant("contact.inlet", INLET, bound="between 1.05 and 64")
     film_limit: Scalar = number(0.5e-9, bound=">= 0", unit="m")
     accuracy: float | None = constant("contact.accuracy", None, bound="> 0")
 

@@ -11,7 +11,7 @@ from ..contacts import AbstractLineFilm, HamrockDowsonMinimum, PointContact, Rig
 from ..contacts.minimum_film import line_share, minimum_share
 
 
-def minimum_films(scene: Any, elements: Any) -> tuple[Float[Array, " element"], Float[Array, " element"]]:
+def minimum_films(scene: AbstractBearing, elements: Any) -> tuple[Float[Array, " element"], Float[Array, " element"]]:
     """Minimum films of the inner and the outer raceway, m, from the films of a solution.
 
     Line contacts: `LINE_SHARE` of the central film, all of it where the scene's law is one of the minimum film; of

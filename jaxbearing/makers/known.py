@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from ..bearings.bearing import AbstractBearing
 from ..bearings.solution import RING_FREEDOMS, TILTS, Solution
 from .catalogue import Catalogue
 from .designation import FAMILIES, Said, read_designation
@@ -65,7 +66,7 @@ class Reader:
         return self.known.values.get(name)
 
 
-def known_of(scene: Any, solution: Solution, catalogue: Catalogue) -> Known:
+def known_of(scene: AbstractBearing, solution: Solution, catalogue: Catalogue) -> Known:
     """Everything that the formulas may ask."""
     known, said = Known(), read_designation(catalogue.designation or "")
     _names(known, scene, catalogue, said)
@@ -95,7 +96,7 @@ def contradictions(known: Known, catalogue: Catalogue, kind: str) -> Iterator[st
         )
 
 
-def _names(known: Known, scene: Any, catalogue: Catalogue, said: Said) -> None:
+def _names(known: Known, scene: AbstractBearing, catalogue: Catalogue, said: Said) -> None:
     own = FAMILIES[scene.kind]
     family = catalogue.family or said.family or (own[0] if len(own) == 1 else "")
     expected = "catalogue.designation, or catalogue.family"
@@ -113,7 +114,7 @@ def _series(text: str) -> str:
     return re.sub(r"^(NUP|NU|NJ|N)(?=[0-9])", "", re.sub(r"\s", "", text.upper()))
 
 
-def _sizes(known: Known, scene: Any, catalogue: Catalogue, said: Said) -> None:
+def _sizes(known: Known, scene: AbstractBearing, catalogue: Catalogue, said: Said) -> None:
     geometry = scene.geometry
     for name in ("bore", "outside_diameter", "width"):
         given = getattr(catalogue, name)
@@ -135,7 +136,7 @@ def _sizes(known: Known, scene: Any, catalogue: Catalogue, said: Said) -> None:
         known.assume("axial_factor", 0.4 / math.tan(known.values["contact_angle"]), "Y = 0.4 cot(contact angle)")
 
 
-def _oil(known: Known, scene: Any, catalogue: Catalogue) -> None:
+def _oil(known: Known, scene: AbstractBearing, catalogue: Catalogue) -> None:
     known.put("viscosity", catalogue.kinematic_viscosity, "catalogue.kinematic_viscosity, or an oil with a density")
     known.missing["dynamic_viscosity"] = "an oil of the scene"
     known.missing["viscosity_vg"] = "an oil with a density"
@@ -157,7 +158,7 @@ def _oil(known: Known, scene: Any, catalogue: Catalogue) -> None:
         known.assume("oil_level", 0.5 * known.values["element_diameter"], words)
 
 
-def _ratings(known: Known, scene: Any, solution: Solution, catalogue: Catalogue) -> None:
+def _ratings(known: Known, scene: AbstractBearing, solution: Solution, catalogue: Catalogue) -> None:
     life, rating = solution.life, scene.rating
     of_rating = lambda name: getattr(rating, name, None)
     static = of_rating("static_capacity") if catalogue.static_capacity is None else catalogue.static_capacity

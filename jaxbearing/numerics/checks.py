@@ -58,6 +58,7 @@ RANGES = {
     ">= 0 and below 90 degrees": Interval(0.0, 0.5 * np.pi, low_allowed=True),
     "above 0 and below 90 degrees": Interval(0.0, 0.5 * np.pi),
     "between 0.5 and 8": Interval(0.5, 8.0, True, True),
+    "between 1.05 and 64": Interval(1.05, 64.0, True, True),
     "between 2 and 64": Interval(2.0, 64.0, True, True),
     "> 0.0632 mPa s (Roelands' smallest viscosity)": Interval(6.32e-5, np.inf),
     "> 138 K (the pole of Roelands' law)": Interval(138.0, np.inf),

@@ -20,6 +20,8 @@ _HEAD, _FOOT, _GROUP, _ROW = 0.85, 0.45, 0.4, 2.75
 """Heights of head and foot of the page, of the heading of a group of panels, and of a row of panels, inches."""
 _LEFT, _TOP, _BELOW, _TITLE = 0.75, 0.75, 1.05, 0.4
 """Margins of a group, and the gap below its panels with the part of the titles in it, inches."""
+_STRIP = 0.35
+"""Height of a legend below the panels, inches."""
 _BESIDE = {1: (0.7, 0.2), 2: (1.85, 1.2)}
 """Gap between panels, and the right margin, inches: those of two fields have a legend each."""
 _LETTERS = 13.0
@@ -29,14 +31,15 @@ _GROUPS = {1: "Power loss by location", 2: "Total power loss"}
 
 
 def study_page(study: PowerLossStudy, title: str) -> "matplotlib.figure.Figure":
-    """Page with the panels of a study; cases that failed are gaps. No cell of it is empty: where the last row of a
-    group has room for one more panel, the legend stands there."""
+    """Page with the panels of a study; cases that failed are gaps. No cell of it is empty: the legend stands in the one
+    that the panels leave, or below them."""
     from ..report.backends.matplotlib.page import WIDTH, Page
 
     groups = {count: _of_fields(study, count) for count in sorted(_GROUPS, reverse=True)}
     groups = {count: panels for count, panels in groups.items() if panels}
     shapes = {count: _shape(len(panels), legend=count == 1) for count, panels in groups.items()}
-    heights = [_GROUP + _ROW * rows for rows, _ in shapes.values()]
+    strips = {count: _strip(len(panels), shapes[count], count == 1) for count, panels in groups.items()}
+    heights = [_GROUP + _ROW * rows + strips[count] for count, (rows, _) in shapes.items()]
     page = Page(WIDTH, _HEAD + sum(heights) + _FOOT)
     cells = page.subfigures(len(heights) + 2, 1, squeeze=False, height_ratios=[_HEAD, *heights, _FOOT])
     upper, *parts, lower = cells[:, 0]
@@ -44,7 +47,7 @@ def study_page(study: PowerLossStudy, title: str) -> "matplotlib.figure.Figure":
     head(upper, f"Power loss: {title}", f"{study.cases} cases{gaps}")
     for part, (count, panels) in zip(parts, groups.items(), strict=True):
         part.suptitle(_GROUPS[count], x=0.03, ha="left", fontsize=11.5, fontweight="bold", color=INK)
-        _draw(part, panels, shapes[count], study)
+        _draw(part, panels, shapes[count], strips[count], study)
     text = f"The panels in their order have the fields of the source's Figures {', '.join(study.panels)}."
     lower.text(0.03, 0.4, text, fontsize=8, color=INK, va="center")
     return page
@@ -60,20 +63,31 @@ def _fields(panel: "xr.Dataset") -> list[str]:
 
 
 def _shape(panels: int, legend: bool) -> tuple[int, int]:
-    """Rows and columns of the cells of panels, and of a `legend` in a cell of its own."""
+    """Rows and columns of the cells: with one more cell for a `legend` if that fills the grid, otherwise without."""
+    for cells in (panels + legend, panels):
+        rows = math.ceil(cells / _MOST_COLUMNS)
+        if cells % rows == 0:
+            return rows, cells // rows
     cells = panels + legend
-    rows = math.ceil(cells / _MOST_COLUMNS)
-    return rows, math.ceil(cells / rows)
+    return math.ceil(cells / _MOST_COLUMNS), _MOST_COLUMNS
 
 
-def _draw(part: Any, panels: "dict[str, xr.Dataset]", shape: tuple[int, int], study: PowerLossStudy) -> None:
-    """Draws the panels of a group; the cells that they leave hold the legend of what is stacked in all of them."""
+def _strip(panels: int, shape: tuple[int, int], legend: bool) -> float:
+    """Height below the panels, inches, for a legend that no cell is left for."""
+    return _STRIP if legend and panels == math.prod(shape) else 0.0
+
+
+def _draw(
+    part: Any, panels: "dict[str, xr.Dataset]", shape: tuple[int, int], strip: float, study: PowerLossStudy
+) -> None:
+    """Draws the panels of a group; the cell that they leave, or the strip below them, holds the legend of what is
+    stacked in all of them. **Arguments:** `strip`: its height, inches."""
     rows, columns = shape
     width, height = part.bbox.width / part.figure.dpi, part.bbox.height / part.figure.dpi
     gap, right = _BESIDE[len(_fields(next(iter(panels.values()))))]
     places = {"left": _LEFT / width, "right": 1.0 - right / width, "top": 1.0 - _TOP / height}
     across, along = (width - _LEFT - right - (columns - 1) * gap) / columns, _ROW - _BELOW
-    space = {"bottom": (_BELOW - _TITLE) / height, "wspace": gap / across, "hspace": _BELOW / along}
+    space = {"bottom": (_BELOW - _TITLE + strip) / height, "wspace": gap / across, "hspace": _BELOW / along}
     grid = part.add_gridspec(rows, columns, **places, **space)
     stacked: dict[str, Any] = {}
     for number, panel in enumerate(panels.values()):
@@ -93,11 +107,11 @@ def _draw(part: Any, panels: "dict[str, xr.Dataset]", shape: tuple[int, int], st
             name = str(panel[fields[1].replace(".", "_")].attrs["long_name"])
             beside(axes, list(entries.values()), list(entries), title=name)
     if stacked:
-        cells = grid[rows - 1, len(panels) - columns * (rows - 1) :].get_position(part)
-        middle = 0.5 * (cells.x0 + cells.x1), 0.5 * (cells.y0 + cells.y1)
         names = _from_above(stacked, panels)
+        cells = grid[rows - 1, len(panels) - columns * (rows - 1) :].get_position(part) if not strip else None
+        middle = (0.5, 0.5 * strip / height) if cells is None else (cells.p0 + cells.p1) / 2.0
         style = {"loc": "center", "bbox_to_anchor": middle, "fontsize": 9, "frameon": False}
-        part.legend([stacked[name] for name in names], names, **style)
+        part.legend([stacked[name] for name in names], names, ncols=len(names) if strip else 1, **style)
 
 
 def _title(panel: "xr.Dataset") -> str:

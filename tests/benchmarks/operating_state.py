@@ -1,6 +1,6 @@
 """Cost AND error of the operating state: what seats and temperatures add to a solve.
 
-    python tests/benchmarks/operating_state.py [--quick] [--only seats,temperatures,derivative]
+    python tests/benchmarks/operating_state.py [--quick] [--only seats,temperatures,derivative] [--scenes TEXT]
 
 `seats`: a bearing on its seats, cold, beside the bearing that runs, whose dimensions are given (`running_scene`): the
 same equations with the same numbers. The error is the largest relative difference of ring displacement and contact
@@ -9,8 +9,8 @@ error is the balance of heat that the state leaves open. `derivative`: the first
 outside of `jax.jit`, with nothing kept from earlier processes; the error is that against central differences.
 
 Times are processor times of warm calls of `jit_solver` but for `derivative`. Both programs run in turn, in blocks of
-calls, and the least of each counts: the ratio holds on a busy machine. "in a batch" is the time a lane of
-`jit(lax.map(solve))` of many equal lanes, in which calls and results cost nothing.
+calls, and the least of each counts: the ratio holds on a busy machine. A lane is one of many equal ones in
+`jit(lax.map(solve))`, where arguments and results cost little; of a call each result costs about 1 us.
 """
 
 import argparse
@@ -136,7 +136,7 @@ def apart(first: Any, second: Any) -> float:
 
 
 def seats(name: str, lanes: int = LANES) -> Seats:
-    scene = jb.load_scene(name.split(",")[0].removesuffix("_seated"), SEATED[name])
+    scene = jb.load_scene(name.split(",")[0], SEATED[name])
     running = jax.tree.map(np.asarray, running_scene(scene)[0])
     both = [jb.jit_solver(one) for one in (scene, running)]
     solved = [solver() for solver in both]
@@ -200,6 +200,7 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--quick", action="store_true", help="one dry bearing on its seats")
     parser.add_argument("--only", default="seats,temperatures,derivative", help="parts, with commas")
+    parser.add_argument("--scenes", default="", help="only scenes whose name has this text")
     arguments = parser.parse_args()
     parts = ["seats"] if arguments.quick else arguments.only.split(",")
     print(f"jax {jax.__version__}, {os.cpu_count()} cores, float64, {time.strftime('%Y-%m-%d')}")
@@ -207,11 +208,13 @@ def main() -> None:
         columns = f"{'ms a call, running -> seated':30s} | {'ms a lane of a batch':30s} | {'lines':14s} | error"
         print(f"{'seats':33s} | {columns}")
         for name in QUICK if arguments.quick else SEATED:
-            print_seats(name, seats(name))
+            if arguments.scenes in name:
+                print_seats(name, seats(name))
     if "temperatures" in parts:
         print(f"{'temperatures':63s} | cold, ms | warm, ms | ratio | solves | balance")
         for name in WARM:
-            print_temperatures(name, temperatures(name))
+            if arguments.scenes in name:
+                print_temperatures(name, temperatures(name))
     if "derivative" in parts:
         first, then, slope, error = derivative()
         said = f"first solve {first:.1f} s, first derivative {then:.1f} s of processor time"

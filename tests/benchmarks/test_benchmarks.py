@@ -144,6 +144,16 @@ def test_line_contact():
     assert all(row["failed"] == 0 for row in figures["batch"].values())
 
 
+@pytest.mark.usefixtures("optimized")
+@pytest.mark.report
+def test_operating_state():
+    """A bearing on its seats is the one that runs."""
+    module = script("operating_state")
+    one = module.seats(module.QUICK[0], lanes=8)
+    module.print_seats(module.QUICK[0], one)
+    assert one.error < 1e-12
+
+
 @pytest.mark.report
 def test_misaligned_roller():
     module = script("misaligned_roller")

@@ -48,7 +48,7 @@ class Drawn(NamedTuple):
 
 SKIDDING = 20
 """A third of the sliding roller bearings are so light and fast that they skid by up to 15 %. Their losses then change
-steeply with the temperatures, Broyden's iteration fails, and steps in time find the state in 50 to 500 solves."""
+steeply with the temperatures, and Broyden's iteration takes up to 60 solves."""
 STRUCTURES = (
     Drawn(
         "ball, thrust, four nodes",

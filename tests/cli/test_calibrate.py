@@ -2,6 +2,8 @@
 
 import json
 import os
+import re
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -79,6 +81,21 @@ def test_screen_files_and_pictures(jaxbearing_command, folder, monkeypatch):
     np.testing.assert_allclose(float(again.geometry.diametral_clearance), 14e-6, rtol=0.03)
     np.testing.assert_allclose(float(again.materials.rings.youngs_modulus), 190e9, rtol=0.03)
     assert {"a.png", "b.png"} <= set(os.listdir(folder))
+
+
+def test_the_page_prints_what_the_command_does(jaxbearing_command, folder):
+    """Both tables of docs/calibration.md, row by row."""
+    page = (Path(__file__).parents[2] / "docs" / "calibration.md").read_text(encoding="utf-8")
+    (data,) = re.findall(r"```csv\n(.*?)```", page, flags=re.DOTALL)
+    (folder / "displacements.csv").write_text(data, encoding="utf-8")
+    (folder / "candidates.csv").write_text("operation.radial_load [kN]\n0.1\n1\n8\n", encoding="utf-8")
+    result = jaxbearing_command("calibrate", SCENE, "displacements.csv", *FREE, "--next", "candidates.csv")
+    assert result.code == 0, result.err
+    printed = [" ".join(line.split()) for line in result.out.splitlines()]
+    tables = re.findall(r"```text\n(.*?)```", page, flags=re.DOTALL)
+    rows = [" ".join(line.split()) for table in tables for line in table.splitlines()]
+    assert len(rows) == 7
+    assert [row for row in rows if row not in printed] == []
 
 
 def test_nothing_told_is_not_converged(jaxbearing_command, folder):

@@ -22,6 +22,7 @@ from jaxbearing.contacts import (
     NoThermalReduction,
     RollingInlet,
     aihara_factor,
+    supply,
 )
 from jaxbearing.contacts.laws import ContactLaws
 from jaxbearing.contacts.rolling import LIGHT_LOAD_CONSTANT
@@ -167,3 +168,27 @@ def test_the_field_solver(row):
         tail = 12.0 / (8.94 * np.sqrt(8.0 * 24.0 / np.pi))
         fit = 1.0 / (LIGHT_LOAD_CONSTANT**-3.778 * 24.0**-1.889 + (4.1156 * 24.0**-0.02816 * 94.25**-0.04105) ** -3.778)
         np.testing.assert_allclose(fit ** (1.0 / 3.778), force / scale + tail, rtol=0.04)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("row", PUBLISHED["starved"], ids=lambda row: f"{row['inlet']:g}")
+def test_the_field_solver_with_a_short_inlet(row):
+    """Film, gap at the meniscus and moment of a starved full solution beside the flooded one, whose tail counts."""
+    flooded_scene, unit = by_moes(row["load"], 9.5, 401, 8.94)
+    flooded, starved = jb.solve(flooded_scene), jb.solve(by_moes(row["load"], 9.5, 401, row["inlet"])[0])
+    found = starved.film.central / flooded.film.central
+    np.testing.assert_allclose(found, row["film"], rtol=row["rtol"])
+    gap = float(starved.profile.film[0] / flooded.film.minimum)
+    np.testing.assert_allclose(gap, row["gap_over_minimum"], rtol=row["rtol"])
+
+    def moment(solution):
+        p, h = (np.asarray(getattr(solution.profile, name)) for name in ("pressure", "film"))
+        return np.sum(0.5 * (h[1:] + h[:-1]) * np.diff(p))
+
+    tail = 12.0 / (8.94 * np.sqrt(8.0 * row["load"] / np.pi))
+    scale = STEEL.youngs_modulus / 0.91 * 0.01 * (unit / 0.01) ** 1.5
+    whole = moment(flooded) / scale + tail
+    np.testing.assert_allclose(moment(starved) / scale / whole, row["constant"], rtol=row["rtol"])
+    # the laws that were fitted to such solutions
+    fitted = supply.starved_rolling_factor(jnp.log(gap))
+    np.testing.assert_allclose(fitted, row["constant"], atol=0.046)

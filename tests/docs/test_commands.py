@@ -81,13 +81,15 @@ def test_commands_are_found():
 @pytest.fixture
 def folder(tmp_path, monkeypatch):
     """Where a reader works, with the files that the pages show or describe."""
-    names = ("fitting", "life", "spectrum", "calibration")
-    fitting, life, spectrum, calibration = (ROOT / "docs" / f"{name}.md" for name in names)
+    names = ("fitting", "life", "spectrum", "calibration", "worked_examples")
+    fitting, life, spectrum, calibration, worked = (ROOT / "docs" / f"{name}.md" for name in names)
     (displacements,) = re.findall(r"```csv\n(.*?)```", calibration.read_text(encoding="utf-8"), flags=re.DOTALL)
     (curves,) = re.findall(r"```csv\n(.*?)```", fitting.read_text(encoding="utf-8"), flags=re.DOTALL)
     (scene,) = re.findall(r"```toml\n(.*?)```", life.read_text(encoding="utf-8"), flags=re.DOTALL)
     (duty,) = re.findall(r"```toml\n(.*?)```", spectrum.read_text(encoding="utf-8"), flags=re.DOTALL)
+    (pair,) = re.findall(r"```toml\n(.*?)```", worked.read_text(encoding="utf-8"), flags=re.DOTALL)
     files = {
+        "pair.toml": pair,
         "duty.toml": duty,
         "curves.csv": curves,
         "displacements.csv": displacements,

@@ -59,6 +59,7 @@ EXAMPLES = {
         acbb["life"]["L10h"],
         acbb["life"]["viscosity_ratio"],
     ],
+    "The pair 7312-B itself": lambda pair: [pair["system_life"]["L10r_hours"]],
     "6207 with a turning outer ring": lambda found: [found["life"]["L10h"]],
     "Load distribution: Stribeck's numbers": lambda balls, rollers, angular, tapered: [
         16 * largest(balls) / 1e3,
@@ -66,10 +67,12 @@ EXAMPLES = {
         angular["force"][0] / (50.0 * math.tan(math.radians(40.0))),
         tapered["force"][0] / (50.0 * math.tan(math.radians(14.036))),
     ],
-    "Spindle bearings: ratings and the rigidity of pairs": lambda rated, *pairs: [
+    "Spindle bearings: ratings and the rigidity of pairs": lambda rated, *found: [
         1e-3 * rated["life"]["dynamic_capacity"],
         1e-3 * rated["life"]["static_capacity"],
-        *(2e-6 * one["stiffness"][0][0] for one in pairs),
+        *(2e-6 * one["stiffness"][0][0] for one in found[:-1]),
+        1e-6 * sum(one["stiffness"][0][0] for one in found[-1]["bearings"].values()),
+        found[-1]["sets"]["pair"]["loss_force"] / found[-1]["sets"]["pair"]["preload"],
     ],
     "A program of 1973": lambda found: [
         *(angle_of(found, race) for race in ("outer", "inner")),
@@ -83,6 +86,8 @@ EXAMPLES = {
 def solved(tmp_path, monkeypatch, capfd):
     """Runs the commands of a section in one folder; gives the objects of those that solve."""
     shutil.copytree(ROOT / "docs" / "examples", tmp_path / "docs" / "examples")
+    (pair,) = re.findall(r"^```toml\n(.*?)^```", PAGE, flags=re.MULTILINE | re.DOTALL)
+    (tmp_path / "pair.toml").write_text(pair, encoding="utf-8")
     monkeypatch.chdir(tmp_path)
     monkeypatch.setenv("JAXBEARING_CACHE", "off")
 

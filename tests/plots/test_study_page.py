@@ -36,7 +36,7 @@ def made_up(scene, kept):
     return PowerLossStudy(scene, panels, [], 200, 0, {}, {}, ())
 
 
-@pytest.mark.parametrize("kept", [10, 8, 5, 3])
+@pytest.mark.parametrize("kept", [10, 9, 8, 5, 3])
 def test_page(kept):
     study = made_up(jb.load_scene("reference_roller"), kept)
     page = study_page(study, "reference_roller")
@@ -49,13 +49,14 @@ def test_page(kept):
     assert any("39" in text.get_text() for text in page.subfigs[-1].texts) == (kept > 3)
 
 
-def test_cells_of_the_page_are_all_used():
-    """Panels and the legend fill the grid: the legend takes what the panels leave."""
-    page = study_page(made_up(jb.load_scene("reference_roller"), 10), "x")
+@pytest.mark.parametrize(("kept", "left"), [(10, 1), (9, 0), (8, 1), (6, 1)])
+def test_cells_of_the_page_are_all_used(kept, left):
+    """Panels and the legend fill the grid; where no cell is left for it the legend stands below."""
+    page = study_page(made_up(jb.load_scene("reference_roller"), kept), "x")
     stacks = [axes for axes in page.axes if len(axes.collections) >= len(LOCATIONS)]
     rows = {round(axes.get_position().y0, 3) for axes in stacks}
     columns = {round(axes.get_position().x0, 3) for axes in stacks}
-    assert len(rows) * len(columns) - len(stacks) == 1
+    assert len(rows) * len(columns) - len(stacks) == (left if len(rows) > 1 else 0)
     (legend,) = page.subfigs[-2].legends
     assert [text.get_text() for text in legend.get_texts()][-1] == "inner raceway"
 

@@ -13,6 +13,7 @@ from ...programs import KeptProgram
 from ...thermal.network import Network, NodeHeat
 from ...thermal.result import NodeTemperatures, named
 from ...thermal.warm_up import Balance, Reached, integrate
+from ..bearing import AbstractBearing
 from ..heat import bearing_network, heat_capacities, inlet_temperature
 from ..solution import Solution
 from ..warm import heat_at, heat_paths
@@ -34,18 +35,18 @@ class Seen(NamedTuple):
     checks: dict[str, Bool[Array, ""]]
 
 
-def _heat(scene: Any, temperatures: Array) -> NodeHeat:
+def _heat(scene: AbstractBearing, temperatures: Array) -> NodeHeat:
     options = NewtonOptions()
     return heat_at(scene, temperatures, lambda running: running.solve_ring(options))
 
 
-def _capacity(scene: Any) -> Array:
+def _capacity(scene: AbstractBearing) -> Array:
     capacity = heat_capacities(scene)
     assert capacity is not None
     return capacity
 
 
-def _balance(scene: Any, settings: WarmUpSimulation, begin: Scalar) -> Balance:
+def _balance(scene: AbstractBearing, settings: WarmUpSimulation, begin: Scalar) -> Balance:
     """The equations of a run whose time counts from `begin`, s."""
 
     def network(time: Array) -> Network:
@@ -82,7 +83,10 @@ def _advance(
 
 
 def instants_at(
-    scene: Any, settings: WarmUpSimulation, times: Float[Array, " time"], temperatures: Float[Array, "time node"]
+    scene: AbstractBearing,
+    settings: WarmUpSimulation,
+    times: Float[Array, " time"],
+    temperatures: Float[Array, "time node"],
 ) -> Seen:
     """The bearing at each of the times, s, with these node temperatures, K."""
     capacity = _capacity(scene)

@@ -17,6 +17,7 @@ from ...numerics.precision import as_float
 from ...numerics.status import SolveError, Status
 from ...numerics.structure import static_number
 from ...thermal.warm_up import AHEAD, ENERGY, run_status
+from ..bearing import AbstractBearing
 from ..checks import input_excess
 from ..heat import heat_capacities, unknown_capacities
 from ..motion.checks import AT_SOME_TIME
@@ -44,7 +45,7 @@ SLOWLY = "the bearing is in its steady state at each instant; its own motion is 
 Progress = Callable[[float, float], None]
 
 
-def settings_of(scene: Any, given: Any) -> WarmUpSimulation:
+def settings_of(scene: AbstractBearing, given: Any) -> WarmUpSimulation:
     """The settings of a run: given, or those of the scene, whose `[simulation]` may be one of rollers.
 
     **Raises:** `TypeError` for another class; `ValueError` for a load that turns with the shaft.
@@ -63,7 +64,7 @@ def settings_of(scene: Any, given: Any) -> WarmUpSimulation:
     return chosen
 
 
-def require_capacities(scene: Any) -> None:
+def require_capacities(scene: AbstractBearing) -> None:
     """**Raises:** `ValueError` that names each heat capacity that is not known."""
     unknown = unknown_capacities(scene)
     if unknown:
@@ -71,7 +72,7 @@ def require_capacities(scene: Any) -> None:
         raise ValueError(f"{names}: found nothing, expected a number, which a run in time needs, e.g. '500 J/K'")
 
 
-def identity(scene: Any) -> Identity:
+def identity(scene: AbstractBearing) -> Identity:
     """The identity of the bearing: geometry, materials, cage, flanges, profile, seats."""
     return identity_of(scene, MAY_CHANGE)
 
@@ -137,7 +138,7 @@ class _Done(NamedTuple):
 
 
 def simulate_warm_up(
-    scene: Any,
+    scene: AbstractBearing,
     duration: float | None,
     *,
     simulation: Any,
@@ -353,5 +354,5 @@ class _Run:
         return found
 
 
-def _of_seats(scene: Any) -> tuple[str, ...]:
+def _of_seats(scene: AbstractBearing) -> tuple[str, ...]:
     return () if scene.fits is None else scene.fits.assumptions()

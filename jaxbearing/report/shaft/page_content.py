@@ -8,9 +8,11 @@ import numpy as np
 from ...numerics.status import Status
 from ...shafts.solution import BearingOnShaft, ShaftSolution
 from ..bearing.facts import facts as bearing_facts
-from ..display import digits, with_unit
+from ..colours import LOSS
+from ..display import axis_unit, digits, with_unit
 from ..labels import labelled
 from ..page_content import Content, Listing, Sketch
+from ..panels import Bars
 from ..tables import Row, row_of
 from .bending import bending_line
 from .drawn import svg
@@ -32,7 +34,7 @@ def page_content(scene: Any, solution: ShaftSolution) -> Content:
         sketches=[Sketch(one.title, svg(one), one.caption) for one in pictures(scene, solution)],
         facts=[*shaft_facts(solution), *((f"set {name}", text) for name, text in set_facts(solution))],
         facts_title="Shaft and sets",
-        charts=shaft_panels(solution),
+        charts=[*([_losses(losses)] if losses else []), *shaft_panels(solution)],
         listings=[_table(solution), *(_of_bearing(one) for one in bearings.values())],
         convergence=[
             ("status", Status(int(solution.status)).text.replace("_", " ")),
@@ -44,6 +46,24 @@ def page_content(scene: Any, solution: ShaftSolution) -> Content:
         checks=[(text, bool(broken)) for text, broken in solution.range_checks.items()],
         notes=[text for text in shaft_warnings(solution) if text not in solution.range_checks],
         results=list(_results(solution)),
+    )
+
+
+def _losses(losses: dict[str, float]) -> Bars:
+    """Power loss by bearing."""
+    total = sum(losses.values())
+    unit, factor = axis_unit("W", max(abs(watts) for watts in losses.values()))
+    return Bars(
+        name="power",
+        title="Power loss by bearing",
+        caption="Dissipated in each bearing; the shares are those of the total.",
+        quantity="power loss",
+        unit=unit,
+        names=list(losses),
+        values=[factor * watts for watts in losses.values()],
+        shares=[f"{100.0 * watts / total:.1f} %" if total else "-" for watts in losses.values()],
+        total=factor * total,
+        colour=LOSS,
     )
 
 
