@@ -105,7 +105,7 @@ def new(
                 raise
             refuse(f"new {name}: {error}")
         text = found.text()
-        if balls is not None or oil is not None or given:
+        if given or any(one is not None for one in (balls, oil, base)):
             # a scene that cannot be built is said before anything is written; that of a designation alone can
             found.scene()
     _write(target, text)

@@ -27,8 +27,9 @@ def print_scene(scene: AbstractScene, console: Console) -> bool:
     """Prints the fields of a scene, its parts below each other; `False` for a class that no scene file describes, and
     for a batch of scenes."""
     model = model_of(scene)
-    of_scene = _rows_of_shaft if isinstance(scene, ShaftSystem) else _rows
-    rows = [] if model is None else list(of_scene(scene, (), model))
+    rows: list[tuple[tuple[str, ...], str | None]] = []
+    if model is not None:
+        rows = list(_rows_of_shaft(scene, model) if isinstance(scene, ShaftSystem) else _rows(scene, (), model))
     texts = [(path, text) for path, text in rows if text is not None]
     if not rows or len(texts) < len(rows):
         return False
@@ -43,7 +44,7 @@ def print_scene(scene: AbstractScene, console: Console) -> bool:
 
 
 def _rows_of_shaft(
-    scene: ShaftSystem, inside: tuple[str, ...], model: type[BaseModel]
+    scene: ShaftSystem, model: type[BaseModel]
 ) -> Iterator[tuple[tuple[str, ...], str | None]]:
     """As `_rows`, with the sections by their numbers, and bearings, sets and forces by their names."""
     yield from _rows(dataclasses.replace(scene.shaft, sections=()), ("shaft",), model)
