@@ -154,16 +154,14 @@ def _rings(scene: Any, warm: Any, turning: Any) -> _Rings:
     """Growth of the rings; cold or at rest where asked for. Rings and seats are arrays: of many single numbers the
     compiler makes a small program each."""
     fits, operation, geometry = scene.fits, scene.operation, scene.geometry
-    raceways, bore, outside = jnp.stack(scene.raceway_diameters), geometry.bore, geometry.outside_diameter
-    speeds = jnp.where(
-        turning, jnp.stack([jnp.asarray(operation.inner_speed), jnp.asarray(operation.outer_speed)]), 0.0
-    )
+    raceways, bore, outside = _together(scene.raceway_diameters), geometry.bore, geometry.outside_diameter
+    speeds = jnp.where(turning, _together([operation.inner_speed, operation.outer_speed]), 0.0)
     cold = scene.temperatures is None
 
     def warming(*parts: str) -> Array:
         if cold:
             return jnp.zeros(len(parts))
-        found = jnp.stack([jnp.asarray(getattr(scene.temperatures, part)) for part in parts])
+        found = _together([getattr(scene.temperatures, part) for part in parts])
         return jnp.where(warm, found - REFERENCE_TEMPERATURE, 0.0)
 
     names, sizes = _seats_of(fits), [(bore, raceways[0]), (raceways[1], outside)]
@@ -176,7 +174,7 @@ def _rings(scene: Any, warm: Any, turning: Any) -> _Rings:
         their_warming = warming(*(f"of_{name}" for name in names))
         others = _bodies(materials, [around[name] for name in names], speeds[sides], their_warming, cold)
         asked = [fits.interference(name, {"shaft": bore, "housing": outside}[name]) for name in names]
-        seats = _seats(fits, bodies, others, jnp.stack(asked), sides)
+        seats = _seats(fits, bodies, others, _together(asked), sides)
         free = [jnp.zeros(1)] * 2
         free[sides] = jnp.split(seats.pressure, len(names))
         pressures, inside = jnp.concatenate(free), np.asarray([True, False])
@@ -187,13 +185,19 @@ def _rings(scene: Any, warm: Any, turning: Any) -> _Rings:
     return _Rings(Growth(*growth, *strains[0], *strains[1]), bodies.hoop_stress_at_bore(pressures)[0], seats)
 
 
+def _together(numbers: Any) -> Array:
+    """Numbers as an array. Not by `jnp.stack`, which fails where only some of the numbers are batched and
+    differentiated."""
+    return jnp.concatenate([jnp.reshape(jnp.asarray(one), (1,)) for one in numbers])
+
+
 def _bodies(materials: list[Any], sizes: list[tuple[Any, Any]], speeds: Array, warming: Array, cold: bool) -> Annulus:
     """Several bodies as one, whose sizes and material are arrays.
 
     **Arguments:** `sizes`: bore and outside diameter of each, m; `speeds`, rad/s, and `warming`, K: of each;
     `cold`: materials need no expansion.
     """
-    stacked = lambda values: jnp.stack([jnp.asarray(one) for one in values])
+    stacked = _together
     names = ("youngs_modulus", "poisson_ratio", "density", *(() if cold else ("thermal_expansion",)))
     # a material of arrays, which is no material that a user can make
     material = jax.tree.map(lambda _: None, materials[0])
