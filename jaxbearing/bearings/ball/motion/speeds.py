@@ -123,7 +123,7 @@ class Levers(eqx.Module):
         along = self.pitch_radius * (places.azimuth - places.pockets) + y * sine - z * cosine
         axial = places.offset - x - self.pitch_radius * (t1 * cosine + t2 * sine)
         size = safe_norm(along, axial, OFFSET_FLOOR)
-        return PocketPlace(size, jnp.stack([along, axial]) / size)
+        return PocketPlace(size, jnp.stack([along / size, axial / size]))
 
     def land_offsets(self, places: Places) -> Float[Array, "2 land"]:
         """Offsets of the journals from the bushes, m."""
@@ -170,7 +170,7 @@ class Levers(eqx.Module):
             ]
         )
         race = jnp.stack([slow * (places.radius - ball * cos_i), fast * (places.radius + ball * cos_o)])
-        surface = ball * (w_x * meridian.cosine + w_r * meridian.sine)
+        surface = ball * (w_x[None] * meridian.cosine + w_r[None] * meridian.sine)
         transverse = jnp.stack(
             [
                 -ball * w_t - (x - groove_x) * cos_i + (r - groove_r) * sin_i - grooves.groove_arm * tilting,
