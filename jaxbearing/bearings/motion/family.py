@@ -132,6 +132,8 @@ class AbstractMovingBearing(AbstractBearing):
     """Base of the bearings that `jaxbearing.simulate` takes."""
 
     runs_in_programs: ClassVar[bool] = True
+    loads_over_time: ClassVar[tuple[str, ...]] = ("radial_load", "radial_load_lateral")
+    """Fields of the operating point that `Simulation.load` multiplies."""
 
     cage: eqx.AbstractVar[Any]
     simulation: eqx.AbstractVar[Any]

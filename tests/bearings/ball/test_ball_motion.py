@@ -198,3 +198,20 @@ def test_cage_alone():
     found = cage.acceleration(jnp.asarray([1.0, 2.0, 3.0, 0.01, 0.02, 0.03]), rates, jnp.asarray(0.8))
     expected = [2.02810525, 6.31981059, 8.41500567, 786.263630, 1683.88607, 10.3681945]
     np.testing.assert_allclose(found, expected, rtol=1e-8)
+
+
+def test_energy_balances_at_any_state():
+    """The rate of the kinetic energy is what the works say, to round-off."""
+    damped = eqx.tree_at(lambda d: d.ring.damping, dynamics(), jnp.asarray(1e3))
+    of = eqx.tree_at(lambda d: d.cage.imbalance, damped, jnp.asarray(1e-5))
+
+    def rates(state):
+        now, found = of.at(0.0, state), of.rates(0.0, state)
+        stored = lambda given: energy.kinetic_energy(of, of.at(0.0, given))
+        return jax.jvp(stored, (state,), (found,))[1], energy.powers(of, 0.0, now)
+
+    kinetic, powers = map(np.asarray, jax.jit(rates)(state_fa(of)))
+    drive, dissipation, damping, films, raceways, load = powers
+    assert dissipation > 0
+    assert damping > 0
+    np.testing.assert_allclose(kinetic, drive + load - dissipation - damping - films - raceways, rtol=1e-12)

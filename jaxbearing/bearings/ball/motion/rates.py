@@ -30,7 +30,7 @@ from ...motion.family import AbstractDynamics
 from ...motion.frame import turning_frame
 from ...motion.history import Energy, Instant, PocketPeaks
 from ..core import FORCE_FLOOR
-from ..kinematics import BallKinematics
+from ..kinematics import BallKinematics, BallMotion
 from ..state import BallDrag
 from .bodies import Lands, MovingCage, MovingRing, moving_lands
 from .energy import WORKS, energy_of, powers
@@ -209,6 +209,21 @@ class BallDynamics(AbstractDynamics):
             forces=forces,
             generalised=transpose(forces)[0],
         )
+
+    def at_pockets(self, time: Scalar, state: ArrowPoint) -> tuple[PocketPlace, BallWall]:
+        """The part of `at` that the pockets need."""
+        assert self.cage is not None
+        places, rates = self.moving(time, state)
+        pocket = self.levers.pocket_place(places)
+        return pocket, self.cage.walls(pocket, self.levers.pocket_speeds(places, rates))
+
+    def centrifugal(self, orbital_speed: Array) -> Array:
+        """N, of balls on the pitch circle."""
+        return self.mass * self.levers.pitch_radius * jnp.square(orbital_speed)
+
+    def couple(self, motion: BallMotion) -> Array:
+        """The gyroscopic couple about the tangent of the orbit, N m."""
+        return self.inertia * motion.orbital_speed * motion.radial_spin
 
     def drag_force(self, speed: Array) -> Array:
         """On the orbiting balls, N, of the sign of their speed, m/s."""

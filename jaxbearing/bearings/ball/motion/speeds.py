@@ -149,7 +149,7 @@ class Levers(eqx.Module):
             apart=apart,
             races=races,
             drag=self.pitch_radius * rates.orbit,
-            pocket=None if self.land_places is None else self._pocket_speeds(places, rates),
+            pocket=None if self.land_places is None else self.pocket_speeds(places, rates),
             lands=lands,
         )
 
@@ -192,7 +192,8 @@ class Levers(eqx.Module):
         rolling = jnp.stack([surface[0] - race[0] - groove_t, race[1] - surface[1]])
         return apart, RaceMotion(race, surface, rolling, transverse, spin, roll)
 
-    def _pocket_speeds(self, places: Places, rates: Rates) -> PocketSpeeds:
+    def pocket_speeds(self, places: Places, rates: Rates) -> PocketSpeeds:
+        """Part of `speeds`."""
         cosine, sine = cosine_and_sine(places.pockets)
         n_t, n_x = self.pocket_place(places).direction
         _, y, z, t1, t2 = places.cage
