@@ -10,11 +10,13 @@ import jax.numpy as jnp
 import numpy as np
 import pytest
 from jaxtyping import Array, Float
+from scipy.integrate import solve_ivp
 
 from jaxbearing.bearings.ball.geometry import BallGeometry
 from jaxbearing.bearings.ball.kinematics import BallKinematics
 from jaxbearing.bearings.ball.motion import energy, speeds
 from jaxbearing.bearings.ball.motion.bodies import MovingCage, MovingRing, TurningBody
+from jaxbearing.bearings.ball.motion.layout import BALL_UNITS, Rates
 from jaxbearing.bearings.ball.motion.races import AbstractRaceLaw, Pressed, RaceFriction
 from jaxbearing.bearings.ball.motion.rates import BallDynamics
 from jaxbearing.bearings.ball.motion.speeds import Levers
@@ -215,3 +217,58 @@ def test_energy_balances_at_any_state():
     assert dissipation > 0
     assert damping > 0
     np.testing.assert_allclose(kinetic, drive + load - dissipation - damping - films - raceways, rtol=1e-12)
+
+
+@pytest.mark.parametrize("axis", [1, 2])
+def test_turning_all_together_slides_nowhere(axis):
+    """Balls, cage and inner ring that turn together about a line across the axis, through the centre of the ring, do
+    not move against each other but for the displacements of the state over the radii: what is left of the moments about
+    that line are forces times these displacements."""
+    of = dynamics()
+    places, _ = of.moving(0.0, state_fa(of))
+    meridian = of.levers.meridian(places)
+    turn = jnp.eye(3)[axis]
+    cosine, sine = jnp.cos(places.azimuth), jnp.sin(places.azimuth)
+    radial, along = turn[1] * cosine + turn[2] * sine, turn[2] * cosine - turn[1] * sine
+    behind = -meridian.sine[0] * meridian.distance[0]
+    cage_behind = of.free_offset + places.cage[0] - (of.levers.grooves.rest[0, 0] + places.ring[0])
+    zero = jnp.zeros(COUNT)
+    orbit = -behind * radial / places.radius
+    rates = Rates(
+        orbit=orbit,
+        spin=jnp.stack([orbit, radial, along]),
+        centre=jnp.stack([-along * places.radius, along * behind]),
+        cage=jnp.asarray([0.0, turn[2] * cage_behind, -turn[1] * cage_behind, -turn[2], turn[1], 0.0]),
+        ring=jnp.asarray([0.0, 0.0, 0.0, -turn[2], turn[1]]),
+        races=jnp.zeros(2),
+    )
+    found = of.levers.speeds(places, meridian, rates)
+    assert found.pocket is not None
+    assert found.lands is not None
+    inner = [leaf[0] for leaf in (found.apart, found.races.rolling, found.races.transverse)]
+    for length in (*inner, found.pocket.opening, found.pocket.surface, found.lands.offset):
+        np.testing.assert_allclose(length, 0.0, atol=4e-4)  # m, at 1 rad/s: displacements of up to 0.1 mm
+    np.testing.assert_allclose(found.races.spin[0], zero, atol=5e-3)
+
+
+def test_free_flight():
+    """Balls that touch nothing fly straight, at a constant angular velocity in space."""
+    free = eqx.tree_at(lambda law: law.stiffness, dynamics().races, jnp.zeros((2, 1)))
+    held = MovingRing(None, jnp.zeros(5), jnp.zeros(5), jnp.zeros(()), jnp.asarray(LEVER))
+    of = dynamics(50.0, races=free, cage=None, drag=None, drag_viscosity=None, ring=held)
+    orbit, ball = 5.0 / PITCH, 0.5 * BALL
+    one = [0.0, 5.0 - 50.0 * PITCH, ball * (orbit - 10.0), ball * 200.0, -ball * 30.0, 0.0, 0.0, 0.3, 2.0]
+    state = of.scaled(jnp.tile(jnp.asarray(one)[:, None], (1, COUNT)), jnp.zeros(22))
+    field = lambda time, y: np.asarray(rates(time, of.scaled(*split(y))).elements * jnp.asarray(BALL_UNITS)[:, None])
+    split = lambda y: (jnp.asarray(y).reshape(9, COUNT), jnp.zeros(22))
+    rates = jax.jit(lambda time, given: of.rates(time, given))
+    start = np.asarray(of.unscaled(state)[0]).ravel()
+    run = solve_ivp(lambda t, y: field(t, y).ravel(), (0.0, 2e-3), start, "DOP853", rtol=1e-10, atol=1e-12)
+    places, speed = of.moving(2e-3, of.scaled(*split(run.y[:, -1])))
+    # the force of 1 mN that keeps an unloaded ball in its place moves it by 6e-8 m
+    np.testing.assert_allclose(places.offset, 0.6e-3, rtol=1e-9)
+    np.testing.assert_allclose(places.radius, 81.1187401e-3, rtol=1e-6)
+    np.testing.assert_allclose(places.azimuth - of.azimuth, 0.123590469, rtol=2e-6)
+    np.testing.assert_allclose(speed.orbit, 58.1284906, rtol=2e-6)
+    expected = np.asarray([48.1284906, 194.776201, -54.4263877])[:, None]
+    np.testing.assert_allclose(speed.spin, np.broadcast_to(expected, (3, COUNT)), rtol=2e-6)
