@@ -9,6 +9,7 @@ from jaxtyping import Array, Float, Int
 from ....contacts import PointContact
 from ....gaps.ball_wall import CompliantBallPocket
 from ....materials import CATALOGUE, reduced_modulus
+from ....numerics.arrow import ArrowPoint
 from ....numerics.newton import NewtonOptions, newton_solve
 from ...inlet import oil_of
 from ...motion.family import Resumed, Start
@@ -23,6 +24,7 @@ from ..core import BallCore
 from ..equations import LubricatedBallSystem
 from ..gyroscopic import ResolvedCouple
 from ..scene import BallAttitude, BallBearing
+from ..state import BallGuess, BallsState
 from .bodies import MovingCage, MovingRing, TurningBody
 from .layout import tilt_levers
 from .races import LubricatedRaces
@@ -35,6 +37,10 @@ CONTACT_DAMPING = 0.05
 """Contact damping where the settings give none, s/m."""
 IMMOBILE = (
     "contact.traction: nothing drives the balls of a bearing without traction on its raceways; simulate needs it"
+)
+NO_CAGE = (
+    "cage: a run in time of a ball bearing needs one; balls that meet each other are not modelled, and without a cage they "
+    "would pass through each other"
 )
 NO_NETWORK = (
     "thermal: a run in time of the balls has no thermal network (simulate runs the temperatures of such a scene); "
@@ -71,9 +77,11 @@ class QuasiStatic(NamedTuple):
 
 
 def require_moving(scene: BallBearing) -> None:
-    """**Raises:** `ValueError` for a scene whose balls nothing drives, or with a thermal network."""
+    """**Raises:** `ValueError` for a scene whose balls nothing drives, without a cage, or with a thermal network."""
     if not scene.slips:
         raise ValueError(IMMOBILE)
+    if scene.cage is None:
+        raise ValueError(NO_CAGE)
     if scene.thermal is not None:
         raise ValueError(NO_NETWORK)
 
@@ -102,7 +110,9 @@ def build_dynamics(scene: BallBearing, simulation: Simulation, reference_speed: 
     # the motion obeys Euler's equations, whatever carries the gyroscopic couple in the steady bearing
     resolved = dataclasses.replace(running, kinematics=BallAttitude("equilibrium", ResolvedCouple()))
     core = build_core(resolved, exact=False)
-    system = build_lubricated(resolved, core)
+    zero = jnp.zeros_like(core.azimuth)
+    # its equations are not solved, so that it needs no place to start from
+    system = build_lubricated(resolved, core, BallGuess(zero, zero, zero, jnp.zeros(len(core.freedoms))))
     geometry, grooves = running.geometry, core.grooves
     share = grooves.offset[1] / grooves.centre_distance
     drag = system.drag
@@ -217,9 +227,13 @@ def quasi_static(scene: BallBearing, options: NewtonOptions | None = None) -> Qu
     )
 
 
-def _cage_centre(solved, point, found, ring, orbit) -> Float[Array, "2"]:
+def _cage_centre(
+    solved: LubricatedBallSystem, point: ArrowPoint, found: BallsState, ring: Float[Array, "5"], orbit: Array
+) -> Float[Array, "2"]:
     """Centre of the cage whose lands carry the pull of the pockets, m."""
     parts, motion, land = solved.cage, solved.kinematics, solved.land_at(point, found)
+    assert parts is not None
+    assert found.cage_force is not None
     inner, pull = parts.guidance == "inner_ring", jnp.sum(found.cage_force, axis=1)
     # the film of the lands passes the pull on to the ring
     toward = pull if inner else -pull
