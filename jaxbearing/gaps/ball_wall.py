@@ -19,7 +19,6 @@ LOAD_STEP = 1e-8
 """Last step of ln(load), whose square is left as its error."""
 
 
-
 class BallWall(NamedTuple):
     """One wall: load, N, film, m, friction over the sliding speed, N s/m, residual of the gap equation relative to the
     film."""

@@ -120,9 +120,7 @@ def _held_load(grooves: Grooves, row: Row) -> Float[Array, ""]:
     return row.multiplicity * jnp.sum(load)
 
 
-def build_lubricated(
-    scene: BallBearing, core: BallCore, guess: BallGuess | None = None
-) -> LubricatedBallSystem:
+def build_lubricated(scene: BallBearing, core: BallCore, guess: BallGuess | None = None) -> LubricatedBallSystem:
     """The lubricated bearing of the same balls as `core`, to start from the first guess of that, or from a given one."""
     assert scene.contact is not None
     assert scene.oil is not None

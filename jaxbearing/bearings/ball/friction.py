@@ -90,9 +90,7 @@ def race_friction(
     return shear, rolling, curvature
 
 
-def _sliding(
-    system: AbstractLubricatedBallSystem, state: BallsState | RaceState, bend: Array | None = None
-) -> Sliding:
+def _sliding(system: AbstractLubricatedBallSystem, state: BallsState | RaceState, bend: Array | None = None) -> Sliding:
     """Speed of the ball over both races, in the axes of the traction law. **Arguments:** `bend`: half the curvature of
     the surface in which they meet, 1/m, where it counts."""
     races, slide = state.races, system.slide_share * SIDES

@@ -10,7 +10,10 @@ from .simulation import SimulationTable, WarmUpTable
 def simulation(
     part: Simulation | WarmUpSimulation | None, table: type[SimulationTable] = SimulationTable
 ) -> Rows | None:
-    """The table of a run; `None` if the scene has none. **Arguments:** `table`: that of a run of the family. **Raises:** `SceneError` for what a file cannot hold."""
+    """The table of a run; `None` if the scene has none.
+
+    **Arguments:** `table`: that of a run of the family. **Raises:** `SceneError` for what a file cannot hold.
+    """
     if part is None:
         return None
     if isinstance(part, Simulation):

@@ -96,9 +96,7 @@ def moving_lands(cage: MovingCage, offset: Float[Array, "2 land"], speeds: LandS
     film = land.force_on_journal(*offset, *speeds.offset, journal, bush, viscosity, k_z)
     found = land.line_of_centres(*offset)
     along, across = found.direction
-    torques = land.torques(
-        found.eccentricity_ratio, film[1] * along - film[0] * across, journal, bush, viscosity, c_f
-    )
+    torques = land.torques(found.eccentricity_ratio, film[1] * along - film[0] * across, journal, bush, viscosity, c_f)
     return Lands(LandSpeeds(jnp.stack(film), jnp.sum(jnp.stack(torques), axis=1)), found.eccentricity_ratio)
 
 

@@ -151,6 +151,7 @@ def pocket_peaks(dynamics: BallDynamics, times: Float[Array, "interval part"], s
 
     **Arguments:** `states`, with `interval * part` in front.
     """
+
     def at_once(time: Array, state: ArrowPoint) -> Array:
         place, walls = dynamics.at_pockets(time, state)
         return front_and_rear(place, *walls.load)

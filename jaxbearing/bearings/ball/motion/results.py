@@ -42,7 +42,9 @@ class BallInstant(Instant):
         metadata=label("W", "loss by the damping of the raceway contacts and of the ring")
     )
     state_elements: Float[Array, "element_state element"] = eqx.field(
-        metadata=label("1", "state of the balls: orbit, spin and place in the plane of the groove, in the frame of the run")
+        metadata=label(
+            "1", "state of the balls: orbit, spin and place in the plane of the groove, in the frame of the run"
+        )
     )
     state_cage: Float[Array, " cage_state"] = eqx.field(
         metadata=label("1", "state of cage and inner ring: places, tilts and angle as lengths, and their rates")

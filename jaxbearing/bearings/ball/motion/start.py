@@ -35,9 +35,7 @@ ASSUMED_CAGE = "bronze"
 """Material of a cage for which the scene gives none."""
 CONTACT_DAMPING = 0.05
 """Contact damping where the settings give none, s/m."""
-IMMOBILE = (
-    "contact.traction: nothing drives the balls of a bearing without traction on its raceways; simulate needs it"
-)
+IMMOBILE = "contact.traction: nothing drives the balls of a bearing without traction on its raceways; simulate needs it"
 NO_CAGE = (
     "cage: a run in time of a ball bearing needs one; balls that meet each other are not modelled, and without a cage they "
     "would pass through each other"
