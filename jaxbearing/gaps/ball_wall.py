@@ -75,8 +75,8 @@ class CompliantBallPocket(Checked):
     def wall(self, gap: Values, gap_rate: Values, along: Values, across: Values, viscosity: Values) -> BallWall:
         """Load, film and friction at a rigid gap.
 
-        **Arguments:** `gap`, H, m, any sign; `gap_rate`, dH/dt, m/s; `along`, `across`: speed of the ball's surface over
-        the wall, along the pocket's axis and across it, m/s; `viscosity`, Pa s.
+        **Arguments:** `gap`, H, m, any sign; `gap_rate`, dH/dt, m/s; `along`, `across`: speed of the ball's surface
+        over the wall, along the pocket's axis and across it, m/s; `viscosity`, Pa s.
         """
         gap = jnp.asarray(gap)
         axial, transverse = jnp.asarray(self.ball_radius), self.conforming_radius

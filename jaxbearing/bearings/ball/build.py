@@ -121,7 +121,7 @@ def _held_load(grooves: Grooves, row: Row) -> Float[Array, ""]:
 
 
 def build_lubricated(scene: BallBearing, core: BallCore, guess: BallGuess | None = None) -> LubricatedBallSystem:
-    """The lubricated bearing of the same balls as `core`, to start from the first guess of that, or from a given one."""
+    """The lubricated bearing of the same balls as `core`, to start from the first guess of that or from a given one."""
     assert scene.contact is not None
     assert scene.oil is not None
     motion, angle = core.kinematics, core.grooves.free_angle

@@ -202,8 +202,8 @@ class BallSimulationTable(table_of(Simulation, leave_out=_SHARED, base=Simulatio
 
 
 def simulation(table: SimulationTable, inner_speed: float, load: float) -> Simulation:
-    """The run of the rolling elements that a table describes. **Arguments:** speed, rad/s, and load, N, of the operating
-    point; a load of 0 where a file can only give factors.
+    """The run of the rolling elements that a table describes. **Arguments:** speed, rad/s, and load, N, of the
+    operating point; a load of 0 where a file can only give factors.
 
     **Raises:** `SceneError` for a file that cannot be read or makes no sense.
     """

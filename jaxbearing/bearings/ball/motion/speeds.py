@@ -11,9 +11,11 @@ Races (ball and race at contact angle $\alpha$; $r$ distance of the ball from th
 speed of the inner groove centre, $\tau = \dot t_2\cos\psi - \dot t_1\sin\psi$ the rotation of the ring about $e_r$):
 
 - along the orbit $u_{to} = (\dot\psi - \omega_o)(r + r_b\cos\alpha_o) - r_b(w_x\cos\alpha_o + w_r\sin\alpha_o)$,
-  $u_{ti} = r_b(w_x\cos\alpha_i + w_r\sin\alpha_i) - (\omega_i - \dot\psi)(r - r_b\cos\alpha_i) - g_t - f_iD\sin\alpha_i\,\tau$;
+  $u_{ti} = r_b(w_x\cos\alpha_i + w_r\sin\alpha_i) - (\omega_i - \dot\psi)(r - r_b\cos\alpha_i) - g_t
+  - f_iD\sin\alpha_i\,\tau$;
 - across $u_{bo} = -r_bw_t + \dot x\cos\alpha_o - \dot r\sin\alpha_o$,
-  $u_{bi} = -r_bw_t - (\dot x - g_x)\cos\alpha_i + (\dot r - g_r)\sin\alpha_i - f_iD(\dot t_1\cos\psi + \dot t_2\sin\psi)$;
+  $u_{bi} = -r_bw_t - (\dot x - g_x)\cos\alpha_i + (\dot r - g_r)\sin\alpha_i
+  - f_iD(\dot t_1\cos\psi + \dot t_2\sin\psi)$;
 - spin $(\dot\psi - \omega_o)\sin\alpha_o - (w_x\sin\alpha_o - w_r\cos\alpha_o)$ and
   $(\omega_i - \dot\psi)\sin\alpha_i + (w_x\sin\alpha_i - w_r\cos\alpha_i) + \tau\cos\alpha_i$.
 
@@ -39,8 +41,8 @@ OFFSET_FLOOR = 1e-9
 
 
 class Meridian(NamedTuple):
-    """Contacts of every ball in its half-plane, the inner race first: sine and cosine of the contact angles, distance of
-    the centres of ball and groove, m, and the derivative of the inner distance over the azimuth, m."""
+    """Contacts of every ball in its half-plane, the inner race first: sine and cosine of the contact angles, distance
+    of the centres of ball and groove, m, and the derivative of the inner distance over the azimuth, m."""
 
     sine: Float[Array, "2 ball"]
     cosine: Float[Array, "2 ball"]

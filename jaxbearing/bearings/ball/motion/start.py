@@ -37,8 +37,8 @@ CONTACT_DAMPING = 0.05
 """Contact damping where the settings give none, s/m."""
 IMMOBILE = "contact.traction: nothing drives the balls of a bearing without traction on its raceways; simulate needs it"
 NO_CAGE = (
-    "cage: a run in time of a ball bearing needs one; balls that meet each other are not modelled, and without a cage they "
-    "would pass through each other"
+    "cage: a run in time of a ball bearing needs one; balls that meet each other are not modelled, and without a cage "
+    "they would pass through each other"
 )
 NO_NETWORK = (
     "thermal: a run in time of the balls has no thermal network (simulate runs the temperatures of such a scene); "
@@ -85,8 +85,8 @@ def require_moving(scene: BallBearing) -> None:
 
 
 def free_freedoms(scene: BallBearing, simulation: Simulation) -> tuple[bool, ...]:
-    """Whether the ring moves along each of its freedoms: those that are unknown in the steady state, and the lateral one
-    with the radial one, as balls on their way are not symmetric about the load line."""
+    """Whether the ring moves along each of its freedoms: those that are unknown in the steady state, and the lateral
+    one with the radial one, as balls on their way are not symmetric about the load line."""
     free = set(scene.unknown_freedoms)
     if simulation.rotating_load is not None:
         free |= {name for name in ("radial", "lateral") if scene.operation.held_at(name) is None}
