@@ -28,6 +28,8 @@ class Simulation(Checked):
       film is left where a roller's surface passes through rest.
     - `ring_mass`: of the inner ring with the shaft's share, kg, of a ball bearing whose ring moves under loads.
     - `ring_damping`: of that ring, from outside, N s/m; of ball bearings 0 where not given.
+    - `meridian`: whether balls and inner ring move in the planes through the axis by their inertia, or are in balance
+      there at every instant ("quasi_static": no mass and no damping count).
     - `contact_damping`: normal loads of ball bearings are the elastic ones times 1 + that times the rate of approach,
       s/m; 0.05 s/m where not given.
     """
@@ -44,6 +46,7 @@ class Simulation(Checked):
     ring_mass: Scalar | None = optional_number(bound="> 0", unit="kg")
     ring_damping: Scalar | None = optional_number(bound=">= 0", unit="N s/m")
     contact_damping: Scalar | None = optional_number(bound=">= 0", unit="s/m")
+    meridian: str = choice("simulation.meridian", ("dynamic", "quasi_static"), "dynamic")
 
     def require_no_mass(self) -> None:
         """**Raises:** `ValueError` where settings of ball bearings are given, which other bearings do not have."""

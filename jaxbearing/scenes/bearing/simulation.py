@@ -22,7 +22,8 @@ from ..time_tables import check_lists, read_time_table
 _LAWS = ("perturbation", "ramp", "table")
 _ALWAYS = ("speed", "load")
 _OF_OIL = ("oil_inlet", "oil_flow")
-_OF_BALLS = ("ring_mass", "ring_damping", "contact_damping")
+_NUMBERS_OF_BALLS = ("ring_mass", "ring_damping", "contact_damping")
+_OF_BALLS = (*_NUMBERS_OF_BALLS, "meridian")
 
 
 class PerturbationTable(table_of(Sinusoidal)):
@@ -195,7 +196,7 @@ class BallSimulationTable(table_of(Simulation, leave_out=_SHARED, base=Simulatio
 
     def of_other_run(self, warm: bool) -> Problems:
         yield from super().of_other_run(warm)
-        for name in _OF_BALLS if warm else ():
+        for name in _NUMBERS_OF_BALLS if warm else ():
             if getattr(self, name) is not None:
                 expected = "none beside [thermal]: it belongs to a run of the balls"
                 yield refusal_at(f"simulation.{name}", expected, "one")

@@ -16,7 +16,8 @@ from jaxbearing.bearings.ball.geometry import BallGeometry
 from jaxbearing.bearings.ball.kinematics import BallKinematics
 from jaxbearing.bearings.ball.motion import energy, speeds
 from jaxbearing.bearings.ball.motion.bodies import MovingCage, MovingRing, TurningBody
-from jaxbearing.bearings.ball.motion.layout import BALL_UNITS, Rates
+from jaxbearing.bearings.ball.motion.layout import BALL_UNITS, PLACE, Rates
+from jaxbearing.bearings.ball.motion.quasi_static import quasi_static_dynamics
 from jaxbearing.bearings.ball.motion.races import AbstractRaceLaw, Pressed, RaceFriction
 from jaxbearing.bearings.ball.motion.rates import BallDynamics
 from jaxbearing.bearings.ball.motion.speeds import Levers
@@ -272,3 +273,45 @@ def test_free_flight():
     np.testing.assert_allclose(speed.orbit, 58.1284906, rtol=2e-6)
     expected = np.asarray([48.1284906, 194.776201, -54.4263877])[:, None]
     np.testing.assert_allclose(speed.spin, np.broadcast_to(expected, (3, COUNT)), rtol=2e-6)
+
+
+BALLS_A = {
+    0: ([7.79669751e-05, 3.62458084e-05], [3894.85188, 3007.44321], [1.30281711, 0.665666612]),
+    7: ([9.16719279e-05, 2.43175663e-05], [1958.45045, 1145.85094], [1.05878943, 0.814543614]),
+    13: ([0.000110814885, 1.65973428e-05], [2209.98122, 1450.51444], [0.334525711, 0.265923749]),
+}
+RATES_A = {
+    0: [-7407.04069, -2093.93011, -3031.10986, -8215.93752],
+    7: [-251.640001, 4611.88399, 2230.11775, -9840.07127],
+    13: [1649.22066, 3271.24449, 2694.33565, -7815.80644],
+}
+CAGE_A = [-8.64429622, -1.37337153, 5.4827515, -5.28257624, 4.87218682, 5.04691157]
+RING_A = [2.66392539e-05, 7.40221806e-05, 2.29188253e-05, -0.00129428234, -0.000412518518]
+POWERS_A = [-35554.1722, 6617.06341 + 2485.74691 + 358.366725 + 205.716239, 0.0, 0.142788868, -0.110852417, 0.0]
+
+
+def test_check_values_of_the_quasi_static_model(monkeypatch):
+    """State A of the check values; friction and film of the pockets are those with the tilt rates of the cage."""
+    truncated(monkeypatch)
+    full = dynamics()
+    of, state = quasi_static_dynamics(full, state_fa(full))
+
+    def everything(given):
+        solved, _ = of.solved(0.0, given)
+        whole = of.whole(given, solved)
+        return solved, of.full.at(0.0, whole), of.rates(0.0, given)
+
+    solved, now, found = jax.jit(everything)(state)
+    for ball, (place, loads, walls) in BALLS_A.items():
+        offset = now.places.offset[ball] + of.full.free_offset
+        np.testing.assert_allclose([offset, solved.elements[1, ball] * PLACE], place, rtol=1e-8)
+        np.testing.assert_allclose(np.asarray(now.load)[::-1, ball], loads, rtol=1e-8)
+        np.testing.assert_allclose(np.asarray(now.walls.load)[:, ball], walls, rtol=1e-7)
+    np.testing.assert_allclose(now.places.ring, RING_A, rtol=1e-8)
+    rates = np.asarray(found.elements) * np.asarray(BALL_UNITS)[:5, None]
+    for ball, row in RATES_A.items():
+        np.testing.assert_allclose(rates[1:, ball], row, rtol=1e-6, atol=1e-3)
+    np.testing.assert_allclose(np.asarray(found.globals)[6:12] * 0.1, CAGE_A, rtol=1e-6)
+    powers = np.asarray(found.globals[12:] * of.full.work_unit)
+    np.testing.assert_allclose(powers, POWERS_A, rtol=1e-8, atol=1e-6)
+    np.testing.assert_allclose(energy.kinetic_energy(of.full, now), 1519.15819, rtol=1e-8)

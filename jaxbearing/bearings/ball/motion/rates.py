@@ -18,6 +18,7 @@ energy that follows from these equations.
 
 from typing import ClassVar, NamedTuple
 
+import equinox as eqx
 import jax
 import jax.numpy as jnp
 from jaxtyping import Array, Float
@@ -82,6 +83,7 @@ class BallDynamics(AbstractDynamics):
     - `reference_speed`: speed of the frame in which positions are counted, at the operating point, rad/s.
     - `speed`, `load`: speed of the inner ring, and all loads on it, over those of the operating point.
     - `rotating_load`: a further, turning load.
+    - `on_pitch_circle`: whether the distance of a ball from the axis counts as the pitch radius (`quasi_static`).
     """
 
     works: ClassVar[tuple[str, ...]] = WORKS
@@ -103,6 +105,7 @@ class BallDynamics(AbstractDynamics):
     speed: AbstractTimeFactor = Steady()
     load: AbstractTimeFactor = Steady()
     rotating_load: RotatingLoad | None = None
+    on_pitch_circle: bool = eqx.field(static=True, default=False)
 
     # -- operating point ------------------------------------------------------------------------------------------
 
@@ -156,7 +159,7 @@ class BallDynamics(AbstractDynamics):
             pockets=self.azimuth + turned + cage[5] / pitch,
             centre=jnp.stack([self.free_offset + x, self.free_radius + r]),
             offset=x,
-            radius=pitch + r,
+            radius=pitch + (jnp.zeros_like(r) if self.on_pitch_circle else r),
             cage=cage[:5] * of_cage,
             ring=self.ring.held + shared[12:17] * of_ring,
         )

@@ -146,7 +146,7 @@ class Levers(eqx.Module):
             cage, inner, outer = rates.cage[5], rates.races[0], rates.races[1]
             turning = jnp.stack([cage, outer] if self.on_outer else [inner, cage])
             lands = LandSpeeds(self._across_lands(rates.ring, rates.cage[:5]), turning)
-        apart, races = self._race_speeds(places, meridian, rates)
+        apart, races = self.race_speeds(places, meridian, rates)
         return Speeds(
             apart=apart,
             races=races,
@@ -155,7 +155,8 @@ class Levers(eqx.Module):
             lands=lands,
         )
 
-    def _race_speeds(self, places: Places, meridian: Meridian, rates: Rates) -> tuple[Array, RaceMotion]:
+    def race_speeds(self, places: Places, meridian: Meridian, rates: Rates) -> tuple[Array, RaceMotion]:
+        """The parts `apart` and `races` of `speeds`. Ring and its rates may have an axis of the balls behind."""
         cosine, sine = cosine_and_sine(places.azimuth)
         (sin_i, sin_o), (cos_i, cos_o) = meridian.sine, meridian.cosine
         (w_x, w_r, w_t), (x, r) = rates.spin, rates.centre

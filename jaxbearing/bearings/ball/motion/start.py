@@ -12,7 +12,7 @@ from ....materials import CATALOGUE, reduced_modulus
 from ....numerics.arrow import ArrowPoint
 from ....numerics.newton import NewtonOptions, newton_solve
 from ...inlet import oil_of
-from ...motion.family import Resumed, Start
+from ...motion.family import AbstractDynamics, Resumed, Start
 from ...motion.history import LastState
 from ...motion.settings import Simulation
 from ...mounted import running_scene
@@ -27,6 +27,7 @@ from ..scene import BallAttitude, BallBearing
 from ..state import BallGuess, BallsState
 from .bodies import MovingCage, MovingRing, TurningBody
 from .layout import tilt_levers
+from .quasi_static import quasi_static_dynamics
 from .races import LubricatedRaces
 from .rates import BallDynamics
 from .speeds import Levers
@@ -47,7 +48,7 @@ NO_NETWORK = (
 )
 NO_MASS = (
     "simulation.ring_mass: a run in time of a ball bearing under loads needs the mass of the inner ring with the "
-    "shaft's share, e.g. '5 kg'; or give operation.displacement, which holds the ring"
+    "shaft's share, e.g. '5 kg'; or meridian = 'quasi_static', or operation.displacement, which holds the ring"
 )
 
 
@@ -173,10 +174,11 @@ def _moving_ring(scene: BallBearing, simulation: Simulation) -> MovingRing:
     free, lever = free_freedoms(scene, simulation), jnp.asarray(scene.ring_lever)
     ring = inner_ring(scene, lever, tuple(name for name, moves in zip(RING_FREEDOMS, free, strict=True) if moves))
     levers, body = tilt_levers(lever), None
-    if any(free):
-        if simulation.ring_mass is None:
+    if any(free) and simulation.meridian == "dynamic":
+        mass = simulation.ring_mass
+        if mass is None:
             raise ValueError(NO_MASS)
-        mass = jnp.asarray(simulation.ring_mass)
+        mass = jnp.asarray(mass)
         polar = 0.5 * mass * jnp.square(lever)
         body = TurningBody(mass, polar, 0.5 * polar)
     damping = 0.0 if simulation.ring_damping is None else simulation.ring_damping
@@ -261,7 +263,14 @@ def begin(scene: BallBearing, simulation: Simulation, found: QuasiStatic) -> Sta
     if dynamics.cage is not None:
         cage = cage.at[0].set(jnp.mean(offset)).at[1:3].set(found.cage)
     state = dynamics.scaled(balls, jnp.concatenate([cage, shift, jnp.zeros(5)]))
-    return Start(dynamics, state, found.status, found.residual)
+    return Start(*_by(simulation, dynamics, state), found.status, found.residual)
+
+
+def _by(simulation: Simulation, dynamics: BallDynamics, state: ArrowPoint) -> tuple[AbstractDynamics, ArrowPoint]:
+    """The equations that the settings ask for, and their state."""
+    if simulation.meridian == "quasi_static":
+        return quasi_static_dynamics(dynamics, state)
+    return dynamics, state
 
 
 def resume(scene: BallBearing, simulation: Simulation, last: LastState) -> Resumed:
@@ -276,4 +285,4 @@ def resume(scene: BallBearing, simulation: Simulation, last: LastState) -> Resum
     balls = balls.at[0].add(ahead).at[1].add(faster)
     if last.has_cage:
         shared = shared.at[5].add(ahead).at[11].add(faster)
-    return Resumed(dynamics, dynamics.scaled(balls, shared))
+    return Resumed(*_by(simulation, dynamics, dynamics.scaled(balls, shared)))
