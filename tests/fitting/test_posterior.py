@@ -83,7 +83,10 @@ needs_library = pytest.mark.skipif(not available(), reason="NumPyro is not insta
 
 
 @needs_library
-@pytest.mark.parametrize("known", [False, True], ids=["errors estimated", "errors known"])
+@pytest.mark.parametrize(
+    "known",
+    [pytest.param(False, id="errors estimated", marks=pytest.mark.slow), pytest.param(True, id="errors known")],
+)
 def test_sampler_and_least_squares_agree(known):
     """Of a linear problem the marginals are exact: Student's with n - k degrees, or normal. Asked: R-hat < 1.01."""
     target = line(known)
