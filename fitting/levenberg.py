@@ -32,8 +32,8 @@ GOOD, BAD = 0.75, 0.25
 """Parts of the expected decrease above which the region grows, and below which it shrinks."""
 GROWTH, SHRINKAGE = 3.0, 0.25
 FURTHEST = 1.0
-"""Largest change of an unknown in a step: a parameter that is searched by its logarithm changes at most by a factor e.
-A longer step from a point with large residuals could end where the data no longer show a parameter."""
+"""Largest change of an unknown in the first region: a parameter that is searched by its logarithm changes at most by a
+factor e. A longer step from a point with large residuals could end where the data no longer show a parameter."""
 SECULAR_STEPS = 8
 """Newton steps for lambda; the radius is met to 1 % after two or three."""
 
@@ -71,9 +71,10 @@ def begun(
 ) -> State:
     """The state at the first unknowns. The first region holds the Gauss-Newton step of a linear model."""
     columns = jnp.linalg.norm(jacobian, axis=0)
-    size = jnp.where((columns > 0) & jnp.isfinite(columns), columns, 1.0)
     loss = 0.5 * jnp.sum(jnp.square(residual))
     radius = jnp.maximum(jnp.sqrt(2.0 * loss), 1.0)
+    least = jnp.where(jnp.isfinite(radius), radius, 1.0) / FURTHEST
+    size = jnp.maximum(jnp.where(jnp.isfinite(columns), columns, 1.0), least)
     state = State(
         u,
         loss,
@@ -120,9 +121,6 @@ def trial(state: State) -> Step:
     length = jnp.linalg.norm(inner)
     shorter = jnp.where(limited, state.radius / jnp.where(length > 0, length, 1.0), 1.0)
     inner = inner * shorter
-    furthest = jnp.max(jnp.abs((vectors @ inner) / state.size), initial=0.0)
-    inner = inner * jnp.minimum(1.0, FURTHEST / jnp.where(furthest > 0, furthest, 1.0))
-    limited = limited | (furthest > FURTHEST)
     decrease = -(jnp.sum(inner * along) + 0.5 * jnp.sum(jnp.where(seen, eigenvalues, 0.0) * jnp.square(inner)))
     return Step(state.u + (vectors @ inner) / state.size, decrease, jnp.linalg.norm(inner), limited)
 

@@ -79,6 +79,7 @@ def test_without_the_library_it_says_so(monkeypatch):
         sampled(line(), Sampling(), 0.95)
 
 
+# NumPyro is an extra of the package; `.[test]`, which README and CI install, has it, so these tests run there
 needs_library = pytest.mark.skipif(not available(), reason="NumPyro is not installed")
 
 
@@ -113,6 +114,7 @@ def test_a_prior_narrows_the_posterior():
     precision = np.linalg.inv(target.covariance) + np.diag([100.0, 0.0])
     deviation = np.sqrt(np.diag(np.linalg.inv(precision)))
     for i, one in enumerate(found.parameters.values()):
+        # four standard errors of a deviation from so many independent samples
         np.testing.assert_allclose(one.deviation, deviation[i], rtol=4.0 / np.sqrt(2.0 * one.effective))
 
 
