@@ -1,4 +1,4 @@
-"""Ball near one wall of its round cage pocket: rolling and squeeze together, and a wall that gives way."""
+"""Ball near one wall of its round cage pocket, or near another ball: rolling and squeeze together, and flattening."""
 
 from typing import NamedTuple
 
@@ -78,33 +78,88 @@ class CompliantBallPocket(Checked):
         **Arguments:** `gap`, H, m, any sign; `gap_rate`, dH/dt, m/s; `along`, `across`: speed of the ball's surface
         over the wall, along the pocket's axis and across it, m/s; `viscosity`, Pa s.
         """
-        gap = jnp.asarray(gap)
         axial, transverse = jnp.asarray(self.ball_radius), self.conforming_radius
-        mean = jnp.sqrt(axial * transverse)
-        entrained = lambda speed, own, other: jnp.sqrt(2.0 * own) * 6.0 * viscosity * speed / (3.0 + 2.0 * own / other)
-        rolling = safe_norm(
-            entrained(safe_norm(along, self.minimum_speed), axial, transverse), entrained(across, transverse, axial)
-        )
-        squeezed = self._smooth_gap(gap)
-        squeeze = -6.0 * viscosity * gap_rate / (1.0 / axial + 1.0 / transverse)
-        number = jnp.clip(squeeze / (rolling * jnp.sqrt(squeezed)), -STEEPEST_SQUEEZE, STEEPEST_SQUEEZE)
-        log_film = jnp.log(jnp.pi * mean * rolling) + jnp.arcsinh(number)
-        log_stiffness = jnp.log(jnp.asarray(self.stiffness))
-        args = tuple(jnp.broadcast_arrays(gap, log_film, log_stiffness))
-        pressed = 1.5 * jnp.log(jnp.maximum(self.minimum_film, -gap)) + log_stiffness
-        guess = jnp.where(gap < self.minimum_film, pressed, log_film - 0.5 * jnp.log(squeezed))
-        root = monotone_root(_wall_balance, args, *LOG_LOAD_RANGE, guess + jnp.zeros_like(args[0]), tolerance=LOAD_STEP)
-        film = jnp.exp(2.0 * (args[1] - root.value))
-        area = 2.0 * jnp.pi * mean * jnp.log(jnp.maximum(CUT_FILMS, self.clearance / film))
-        return BallWall(jnp.exp(root.value), film, viscosity * area, root.residual / film)
+        speeds = (safe_norm(along, self.minimum_speed), across)
+        motion = (gap_rate, *speeds, viscosity)
+        load, film, residual = squeezed_film((axial, transverse), self.stiffness, self.minimum_film, gap, motion)
+        area = 2.0 * jnp.pi * jnp.sqrt(axial * transverse) * jnp.log(jnp.maximum(CUT_FILMS, self.clearance / film))
+        return BallWall(load, film, viscosity * area, residual)
 
-    def _smooth_gap(self, gap: Array) -> Array:
-        """h_s: near the gap where that is wide, small and positive where the wall is pressed in, m."""
-        root = jnp.sqrt(jnp.square(gap) + 4.0 * jnp.square(self.minimum_film))
-        positive = gap >= 0
-        # below contact the difference cancels: use the conjugate
-        closed = 2.0 * jnp.square(self.minimum_film) / (root - jnp.where(positive, 0.0, gap))
-        return jnp.where(positive, 0.5 * (gap + root), closed)
+
+class MeetingBalls(Checked):
+    r"""Film between two like balls that meet, or contact between them: any rigid gap, also negative.
+
+    The load is that of `CompliantBallPocket` with $R_1 = R_2 = R_b/2$. Balls that turn alike have surfaces that move
+    against each other where they meet: they slide by twice that speed and carry no oil in, so that only squeeze and
+    elastic contact keep them apart. The friction is $\mu uA$, $A = \pi R_b\cdot\tfrac12\ln(1 + (R_b/h)^2)$.
+
+    **Limits:** in deep overlap Hertz; far apart the friction falls with the square of the gap.
+    **Validity:** isoviscous, half Sommerfeld.
+    **Reference:** as `CompliantBallPocket`; the friction is that of a parabolic gap, cut where it is as wide as R_b.
+
+    **Arguments:**
+    - `ball_radius`: R_b, m, > 0.
+    - `stiffness`: of the Hertz contact of two balls, N/m^(3/2), > 0.
+    - `minimum_speed`: added to the entraining speed in squares, m/s, > 0.
+    - `minimum_film`: of the squeeze term, m, > 0.
+    """
+
+    ball_radius: Scalar = bounded("> 0")
+    stiffness: Scalar = bounded("> 0")
+    minimum_speed: Scalar = bounded("> 0", default=0.5)
+    minimum_film: Scalar = bounded("> 0", default=0.3e-6)
+
+    def flattening_energy(self, load: Values) -> Batch:
+        """Elastic energy of one contact, J. **Arguments:** `load`, N."""
+        return 0.4 * jnp.cbrt(jnp.asarray(load)) ** 5 / jnp.cbrt(self.stiffness) ** 2
+
+    def contact(self, gap: Values, gap_rate: Values, entraining: Values, viscosity: Values) -> BallWall:
+        """Load, film and friction at a rigid gap.
+
+        **Arguments:** `gap`, m, any sign; `gap_rate`, m/s; `entraining`: sum of both surface speeds, m/s, >= 0;
+        `viscosity`, Pa s.
+        """
+        ball = jnp.asarray(self.ball_radius)
+        motion = (gap_rate, safe_norm(entraining, self.minimum_speed), jnp.zeros_like(entraining), viscosity)
+        radii = (0.5 * ball, 0.5 * ball)
+        load, film, residual = squeezed_film(radii, self.stiffness, self.minimum_film, gap, motion)
+        area = 0.5 * jnp.pi * ball * jnp.log1p(jnp.square(ball / film))
+        return BallWall(load, film, viscosity * area, residual)
+
+
+def squeezed_film(
+    radii: tuple[Array, Array], stiffness: Scalar, minimum_film: Scalar, gap: Values, motion: tuple[Values, ...]
+) -> tuple[Array, Array, Array]:
+    """Load, N, film, m, and residual of the gap equation relative to the film, by the law of `CompliantBallPocket`.
+
+    **Arguments:** `radii` of the gap along two directions, m; `gap`, m; `motion`: its rate, m/s, both entraining
+    speeds, m/s, and the viscosity, Pa s.
+    """
+    gap, (axial, transverse) = jnp.asarray(gap), radii
+    gap_rate, along, across, viscosity = motion
+    mean = jnp.sqrt(axial * transverse)
+    entrained = lambda speed, own, other: jnp.sqrt(2.0 * own) * 6.0 * viscosity * speed / (3.0 + 2.0 * own / other)
+    rolling = safe_norm(entrained(along, axial, transverse), entrained(across, transverse, axial))
+    squeezed = _smooth_gap(gap, minimum_film)
+    squeeze = -6.0 * viscosity * gap_rate / (1.0 / axial + 1.0 / transverse)
+    number = jnp.clip(squeeze / (rolling * jnp.sqrt(squeezed)), -STEEPEST_SQUEEZE, STEEPEST_SQUEEZE)
+    log_film = jnp.log(jnp.pi * mean * rolling) + jnp.arcsinh(number)
+    log_stiffness = jnp.log(jnp.asarray(stiffness))
+    args = tuple(jnp.broadcast_arrays(gap, log_film, log_stiffness))
+    pressed = 1.5 * jnp.log(jnp.maximum(minimum_film, -gap)) + log_stiffness
+    guess = jnp.where(gap < minimum_film, pressed, log_film - 0.5 * jnp.log(squeezed))
+    root = monotone_root(_wall_balance, args, *LOG_LOAD_RANGE, guess + jnp.zeros_like(args[0]), tolerance=LOAD_STEP)
+    film = jnp.exp(2.0 * (args[1] - root.value))
+    return jnp.exp(root.value), film, root.residual / film
+
+
+def _smooth_gap(gap: Array, minimum_film: Scalar) -> Array:
+    """h_s: near the gap where that is wide, small and positive where the wall is pressed in, m."""
+    root = jnp.sqrt(jnp.square(gap) + 4.0 * jnp.square(minimum_film))
+    positive = gap >= 0
+    # below contact the difference cancels: use the conjugate
+    closed = 2.0 * jnp.square(minimum_film) / (root - jnp.where(positive, 0.0, gap))
+    return jnp.where(positive, 0.5 * (gap + root), closed)
 
 
 def _wall_balance(log_load: Array, args: tuple[Array, Array, Array]) -> Array:

@@ -12,7 +12,7 @@ $E_{kin}$ that of balls, cage and ring (without the given rotation of the ring),
 - D: friction of races, pockets, lands and drag, each force times its own sliding speed; $P_{damping}$: of the contacts,
   $\sum(N - Q)\dot\delta$, and of the ring from outside;
 - $\Pi_{pocket} = \sum(W_1 - W_2)\dot\sigma$: work that closes the pocket films. A part is stored by the walls,
-  $\sum\frac25W^{5/3}/K_p^{2/3}$, the rest squeezes oil out;
+  $\sum\frac25W^{5/3}/K_p^{2/3}$, the rest squeezes oil out. Films between balls count here where there is no cage;
 - $\Pi_{race} = \sum Q\,\dot l$: work that brings the centres of balls and grooves apart. It is stored,
   $\sum\frac25Q^{5/3}/K^{2/3}$, but for what changing films take.
 """
@@ -26,7 +26,7 @@ from ...._types import Scalar
 from ....numerics.arrow import ArrowPoint
 from ..core import FORCE_FLOOR
 from ..solution import BallPowerLoss
-from .results import BallEnergy, BallInstant
+from .results import BallEnergy, BallInstant, LooseBallPowerLoss
 
 if TYPE_CHECKING:
     from .rates import BallDynamics, MovingBalls
@@ -55,15 +55,19 @@ def power_by_location(dynamics: "BallDynamics", now: "MovingBalls") -> BallPower
     if dynamics.drag is not None:
         drag = -jnp.sum(forces.drag * speeds.drag)
     parts = [part for part in (inner, outer, resistance, pocket, lands, drag) if part is not None]
-    return BallPowerLoss(
-        total=sum(parts[1:], parts[0]),
-        inner_raceway=inner,
-        outer_raceway=outer,
-        rolling_resistance=resistance,
-        pocket=pocket,
-        cage_pilot=lands,
-        drag=drag,
-    )
+    names: dict[str, Array | None] = {
+        "inner_raceway": inner,
+        "outer_raceway": outer,
+        "rolling_resistance": resistance,
+        "pocket": pocket,
+        "cage_pilot": lands,
+        "drag": drag,
+    }
+    total = sum(parts[1:], parts[0])
+    if forces.neighbours is None or speeds.neighbours is None:
+        return BallPowerLoss(total=total, **names)
+    rubbed = -jnp.sum(forces.neighbours.sliding * speeds.neighbours.sliding)
+    return LooseBallPowerLoss(total=total + rubbed, **names, between_balls=rubbed)
 
 
 def drive_power(now: "MovingBalls") -> Float[Array, ""]:
@@ -85,6 +89,8 @@ def powers(dynamics: "BallDynamics", time: Scalar, now: "MovingBalls") -> Float[
     load = jnp.sum(dynamics.ring_load(time) * now.rates.ring) + FORCE_FLOOR * jnp.sum(now.rates.centre[1])
     if now.forces.pocket is not None and now.speeds.pocket is not None:
         films = -jnp.sum(now.forces.pocket.opening * now.speeds.pocket.opening)
+    if now.forces.neighbours is not None and now.speeds.neighbours is not None:
+        films = films - jnp.sum(now.forces.neighbours.apart * now.speeds.neighbours.apart)
     if dynamics.cage is not None:
         angle = now.places.pockets[0] - dynamics.azimuth[0]
         turning = dynamics.cage.imbalance_force(now.rates.cage[5], angle)
@@ -104,7 +110,9 @@ def kinetic_energy(dynamics: "BallDynamics", now: "MovingBalls") -> Float[Array,
 
 
 def pocket_energy(dynamics: "BallDynamics", now: "MovingBalls") -> Float[Array, ""]:
-    """Elastic energy of the pocket walls, J."""
+    """Elastic energy of the pocket walls, or of balls that meet, J."""
+    if dynamics.neighbours is not None and now.met is not None:
+        return jnp.sum(dynamics.neighbours.law.flattening_energy(now.met.load))
     if dynamics.cage is None or now.walls is None:
         return jnp.zeros(())
     return jnp.sum(dynamics.cage.pocket.flattening_energy(now.walls.load))

@@ -24,6 +24,7 @@ from .energy import (
     power_by_location,
     raceway_energy,
 )
+from .neighbours import neighbour_place
 from .rates import BallDynamics, MovingBalls
 from .results import BallInstant
 from .speeds import PocketPlace
@@ -68,11 +69,20 @@ def observe(dynamics: BallDynamics, time: Scalar, state: ArrowPoint) -> BallInst
         axial_place=now.places.offset,
         outward_place=now.places.radius - dynamics.levers.pitch_radius,
         pocket_offset=None if now.pocket is None else now.pocket.size,
+        gap_ahead=_gaps(dynamics, now),
+        load_ahead=None if now.met is None else now.met.load,
         cage_axial=cage[0] if turned else None,
         cage_tilt=cage[3] if turned else None,
         cage_tilt_lateral=cage[4] if turned else None,
         damping_power=damping_power(dynamics, now),
     )
+
+
+def _gaps(dynamics: BallDynamics, now: MovingBalls) -> Float[Array, " ball"] | None:
+    """Gap between each ball and the next one, m; `None` with a cage."""
+    if dynamics.neighbours is None:
+        return None
+    return neighbour_place(now.places).distance - 2.0 * dynamics.levers.ball_radius
 
 
 def front_and_rear(pocket: PocketPlace, ahead: Array, behind: Array) -> Float[Array, "2 ball"]:

@@ -36,6 +36,7 @@ from ..state import BallDrag
 from .bodies import Lands, MovingCage, MovingRing, moving_lands
 from .energy import WORKS, energy_of, powers
 from .layout import BALL_UNITS, GLOBAL_UNITS, Places, Rates, tilt_levers
+from .neighbours import Neighbours, NeighbourSpeeds, neighbour_place
 from .races import AbstractRaceLaw, Pressed, RaceFriction
 from .speeds import Levers, Meridian, PocketPlace, PocketSpeeds, Speeds
 
@@ -52,6 +53,7 @@ class MovingBalls(NamedTuple):
 
     - `load`: normal loads with contact damping, N; `pressed.load` without.
     - `forces`: on the side of the balls, conjugate to `speeds`; `generalised`: conjugate to `rates`.
+    - `met`: film between each ball and the next one; `None` with a cage.
     - The other fields have classes that say what they hold; `walls` and `lands` are `None` without a cage.
     """
 
@@ -67,6 +69,7 @@ class MovingBalls(NamedTuple):
     lands: Lands | None
     forces: Speeds
     generalised: Rates
+    met: BallWall | None = None
 
 
 class BallDynamics(AbstractDynamics):
@@ -79,7 +82,7 @@ class BallDynamics(AbstractDynamics):
     - `races`: law of the raceway contacts; `contact_damping`: chi, s/m.
     - `free_offset`: axial place of a free ball from the plane of the outer groove's centres, m, and `free_radius`: its
       distance outward from the circle of these centres, m.
-    - `ring`, `cage`: the bodies; `drag`: on the orbiting balls, in oil of the viscosity `drag_viscosity`, Pa s.
+    - `ring`, `cage`: the bodies; `neighbours`: contacts of balls with each other; `drag`: on the orbiting balls, in oil of the viscosity `drag_viscosity`, Pa s.
     - `reference_speed`: speed of the frame in which positions are counted, at the operating point, rad/s.
     - `speed`, `load`: speed of the inner ring, and all loads on it, over those of the operating point.
     - `rotating_load`: a further, turning load.
@@ -100,6 +103,7 @@ class BallDynamics(AbstractDynamics):
     ring: MovingRing
     reference_speed: Float[Array, ""]
     cage: MovingCage | None = None
+    neighbours: Neighbours | None = None
     drag: BallDrag | None = None
     drag_viscosity: Float[Array, ""] | None = None
     speed: AbstractTimeFactor = Steady()
@@ -182,7 +186,7 @@ class BallDynamics(AbstractDynamics):
         pressed = self.races.pressed(approach, meridian, speeds.races)
         load = pressed.load * jnp.maximum(1.0 + self.contact_damping * speeds.apart, 0.0)
         friction = self.races.friction(pressed, load, speeds.races)
-        pocket = walls = lands = on_pocket = None
+        pocket = walls = lands = on_pocket = met = on_neighbours = None
         if self.cage is not None:
             assert speeds.pocket is not None
             assert speeds.lands is not None
@@ -191,12 +195,17 @@ class BallDynamics(AbstractDynamics):
             rubbing = -walls.friction[:, None] * speeds.pocket.surface
             on_pocket = PocketSpeeds(walls.load[1] - walls.load[0], rubbing)
             lands = moving_lands(self.cage, self.levers.land_offsets(places), speeds.lands)
+        if self.neighbours is not None:
+            assert speeds.neighbours is not None
+            met = self.neighbours.contacts(neighbour_place(places), places, rates)
+            on_neighbours = NeighbourSpeeds(met.load, -met.friction[None] * speeds.neighbours.sliding)
         forces = Speeds(
             apart=-load,
             races=friction.on(speeds.races),
             drag=-self.drag_force(speeds.drag),
             pocket=on_pocket,
             lands=None if lands is None else lands.forces,
+            neighbours=on_neighbours,
         )
         return MovingBalls(
             places=places,
@@ -211,6 +220,7 @@ class BallDynamics(AbstractDynamics):
             lands=lands,
             forces=forces,
             generalised=transpose(forces)[0],
+            met=met,
         )
 
     def at_pockets(self, time: Scalar, state: ArrowPoint) -> tuple[PocketPlace, BallWall]:

@@ -11,6 +11,14 @@ from ..solution import BallPowerLoss, BallResults
 from .layout import BALL_STATE, GLOBAL_STATE
 
 
+class LooseBallPowerLoss(BallPowerLoss):
+    """Dissipated power by location, W, of balls that no cage keeps apart."""
+
+    between_balls: Float[Array, ""] | None = eqx.field(
+        default=None, metadata=label("W", "balls sliding on each other")
+    )
+
+
 class BallInstant(Instant):
     """State and results of balls, cage and ring at one time."""
 
@@ -30,6 +38,12 @@ class BallInstant(Instant):
     )
     pocket_offset: Float[Array, " element"] | None = eqx.field(
         metadata=label("m", "distance of the ball from the axis of its pocket")
+    )
+    gap_ahead: Float[Array, " element"] | None = eqx.field(
+        metadata=label("m", "gap between the ball and the next one; negative in contact")
+    )
+    load_ahead: Float[Array, " element"] | None = eqx.field(
+        metadata=label("N", "load between the ball and the next one")
     )
     cage_axial: Float[Array, ""] | None = eqx.field(metadata=label("m", "cage centre along the axis"))
     cage_tilt: Float[Array, ""] | None = eqx.field(

@@ -35,6 +35,7 @@ from ....numerics.series import cosine_and_sine
 from ..kinematics import RaceMotion
 from ..system import Grooves
 from .layout import Places, Rates
+from .neighbours import NeighbourSpeeds, neighbour_place, neighbour_speeds
 
 OFFSET_FLOOR = 1e-9
 """Length of the offset of a ball in the middle of its pocket, m, where no direction is defined."""
@@ -79,7 +80,7 @@ class Speeds(NamedTuple):
 
     - `apart`: rates of the distances of the centres, m/s: positive in compression.
     - `races`: relative motion on the races; `drag`: orbital speed, m/s.
-    - `pocket`, `lands`: `None` without a cage.
+    - `pocket`, `lands`: `None` without a cage; `neighbours`: `None` where balls do not meet.
     """
 
     apart: Float[Array, "2 ball"]
@@ -87,6 +88,7 @@ class Speeds(NamedTuple):
     drag: Float[Array, " ball"]
     pocket: PocketSpeeds | None
     lands: LandSpeeds | None
+    neighbours: NeighbourSpeeds | None = None
 
 
 class Levers(eqx.Module):
@@ -96,6 +98,7 @@ class Levers(eqx.Module):
     - `grooves`: of the races; `ball_radius`, `pitch_radius`: m.
     - `land_places`: axial places of the cage's lands, m; `None` without a cage.
     - `on_outer`: True if the outer ring guides the cage, whose lands are the journals then.
+    - `balls_meet`: True if nothing keeps the balls apart.
     """
 
     grooves: Grooves
@@ -103,6 +106,7 @@ class Levers(eqx.Module):
     pitch_radius: Float[Array, ""]
     land_places: Float[Array, " land"] | None = None
     on_outer: bool = eqx.field(static=True, default=False)
+    balls_meet: bool = eqx.field(static=True, default=False)
 
     def meridian(self, places: Places) -> Meridian:
         cosine, sine = cosine_and_sine(places.azimuth)
@@ -153,6 +157,7 @@ class Levers(eqx.Module):
             drag=self.pitch_radius * rates.orbit,
             pocket=None if self.land_places is None else self.pocket_speeds(places, rates),
             lands=lands,
+            neighbours=neighbour_speeds(places, neighbour_place(places), rates) if self.balls_meet else None,
         )
 
     def race_speeds(self, places: Places, meridian: Meridian, rates: Rates) -> tuple[Array, RaceMotion]:

@@ -7,7 +7,7 @@ import jax.numpy as jnp
 from jaxtyping import Array, Float, Int
 
 from ....contacts import PointContact
-from ....gaps.ball_wall import CompliantBallPocket
+from ....gaps.ball_wall import CompliantBallPocket, MeetingBalls
 from ....materials import CATALOGUE, reduced_modulus
 from ....numerics.arrow import ArrowPoint
 from ....numerics.newton import NewtonOptions, newton_solve
@@ -27,6 +27,7 @@ from ..scene import BallAttitude, BallBearing
 from ..state import BallGuess, BallsState
 from .bodies import MovingCage, MovingRing, TurningBody
 from .layout import tilt_levers
+from .neighbours import Neighbours
 from .quasi_static import quasi_static_dynamics
 from .races import LubricatedRaces
 from .rates import BallDynamics
@@ -37,10 +38,6 @@ ASSUMED_CAGE = "bronze"
 CONTACT_DAMPING = 0.05
 """Contact damping where the settings give none, s/m."""
 IMMOBILE = "contact.traction: nothing drives the balls of a bearing without traction on its raceways; simulate needs it"
-NO_CAGE = (
-    "cage: a run in time of a ball bearing needs one; balls that meet each other are not modelled, and without a cage "
-    "they would pass through each other"
-)
 NO_NETWORK = (
     "thermal: a run in time of the balls has no thermal network (simulate runs the temperatures of such a scene); "
     "leave [thermal] out, and give the temperatures that a solve has found as operation.oil_temperature and "
@@ -76,11 +73,9 @@ class QuasiStatic(NamedTuple):
 
 
 def require_moving(scene: BallBearing) -> None:
-    """**Raises:** `ValueError` for a scene whose balls nothing drives, without a cage, or with a thermal network."""
+    """**Raises:** `ValueError` for a scene whose balls nothing drives, or with a thermal network."""
     if not scene.slips:
         raise ValueError(IMMOBILE)
-    if scene.cage is None:
-        raise ValueError(NO_CAGE)
     if scene.thermal is not None:
         raise ValueError(NO_NETWORK)
 
@@ -130,6 +125,7 @@ def build_dynamics(scene: BallBearing, simulation: Simulation, reference_speed: 
         ring=_moving_ring(running, simulation),
         reference_speed=jnp.asarray(reference_speed),
         cage=None if running.cage is None else _moving_cage(running, system),
+        neighbours=_neighbours(running, system) if running.cage is None else None,
         drag=drag,
         drag_viscosity=None if drag is None else jnp.asarray(oil_of(system.inlet, system.elsewhere, "drag").viscosity),
         speed=simulation.speed,
@@ -148,7 +144,16 @@ def _levers(scene: BallBearing, core: BallCore) -> Levers:
         pitch_radius=0.5 * jnp.asarray(geometry.pitch_diameter),
         land_places=places,
         on_outer=scene.cage is not None and scene.cage.guidance == "outer_ring",
+        balls_meet=scene.cage is None,
     )
+
+
+def _neighbours(scene: BallBearing, system: LubricatedBallSystem) -> Neighbours:
+    """Balls that meet in oil at the temperature of the bearing's inlet."""
+    radius, balls = 0.5 * jnp.asarray(scene.geometry.ball_diameter), scene.materials.balls
+    contact = PointContact(0.5 * radius, 0.5 * radius, reduced_modulus(balls, balls))
+    viscosity = jnp.asarray(oil_of(system.inlet, system.elsewhere, "pocket").viscosity)
+    return Neighbours(MeetingBalls(radius, contact.stiffness_constant()), viscosity)
 
 
 def _moving_cage(scene: BallBearing, system: LubricatedBallSystem) -> MovingCage:
