@@ -14,8 +14,7 @@ from jaxbearing.bearings.ball.motion.speeds import Levers
 from jaxbearing.bearings.ball.state import BallDrag
 from jaxbearing.bearings.ball.system import Grooves
 from jaxbearing.contacts import PointContact
-from jaxbearing.gaps import Laminar, RollerDrag, ShortJournal
-from jaxbearing.gaps.ball_wall import CompliantBallPocket
+from jaxbearing.gaps import CompliantBallPocketFace, Laminar, RollerDrag, ShortJournal
 from jaxbearing.lubricants import InletOil
 from jaxbearing.numerics.safe import positive_power
 
@@ -23,7 +22,7 @@ COUNT, BALL, PITCH = 20, 20.638e-3, 0.5 * 153e-3
 MASS, INERTIA = 0.0361302614, 1.53888554e-6
 STIFFNESS = (3.99516324e10, 5.26635887e10)
 VISCOSITY = 4.7e-3
-POCKET = CompliantBallPocket(0.5 * BALL, 300e-6, 4.30944084e10)
+POCKET = CompliantBallPocketFace(300e-6, 0.5 * BALL, 4.30944084e10)
 CAGE = (0.493071058, 2.893464239e-3, 1.481045526e-3)
 GEOMETRY = BallGeometry(COUNT, 2 * PITCH, BALL, 0.5225, 0.51125, contact_angle=np.radians(30.0))
 LEVER = float(GEOMETRY.groove_circle_radius)

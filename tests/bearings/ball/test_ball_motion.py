@@ -9,7 +9,7 @@ import jax
 import jax.numpy as jnp
 import numpy as np
 import pytest
-from moving_balls import BALL, COUNT, LEVER, PITCH, POCKET, VISCOSITY, accelerations, dynamics, moving_cage, state_fa
+from moving_balls import BALL, COUNT, LEVER, PITCH, accelerations, dynamics, moving_cage, state_fa
 from scipy.integrate import solve_ivp
 
 from jaxbearing.bearings.ball.motion import energy, speeds
@@ -53,21 +53,6 @@ def test_check_values_of_the_full_model(monkeypatch):
     np.testing.assert_allclose(energy.kinetic_energy(of, now), 1519.54265, rtol=1e-8)
     np.testing.assert_allclose(energy.raceway_energy(of, now), 1.04108667, rtol=1e-7)
     np.testing.assert_allclose(-now.generalised.races[0], 0.373015951, rtol=1e-7)
-
-
-@pytest.mark.parametrize(
-    ("gap", "rate", "along", "across", "load", "film"),
-    [
-        (1e-4, 0.0, 45.0, 22.0, 1.6354965, 0.000100112933),
-        (1e-6, -0.2, 45.0, 22.0, 28.0274841, 1.75065802e-06),
-        (-2e-6, 0.0, 40.0, 10.0, 123.159784, 1.38726224e-08),
-        (1e-5, 0.3, 45.0, 0.0, 3.29801847, 1.01802553e-05),
-    ],
-)
-def test_pocket_wall(gap, rate, along, across, load, film):
-    found = POCKET.wall(gap, rate, along, across, VISCOSITY)
-    np.testing.assert_allclose(found.load, load, rtol=1e-8)
-    np.testing.assert_allclose(found.film, film, rtol=1e-8)
 
 
 def test_cage_alone():

@@ -16,7 +16,7 @@ from jaxbearing.bearings.ball.motion.neighbours import Neighbours, neighbour_pla
 from jaxbearing.bearings.ball.motion.quasi_static import quasi_static_dynamics
 from jaxbearing.bearings.motion.run import FIELD
 from jaxbearing.contacts import PointContact
-from jaxbearing.gaps.ball_wall import MeetingBalls
+from jaxbearing.gaps.meeting_balls import MeetingBalls
 from jaxbearing.numerics.integrate import integrate_segment
 from jaxbearing.numerics.integrator import IntegratorOptions
 from jaxbearing.numerics.status import Status
@@ -84,12 +84,12 @@ def test_energy_of_a_run(cage):
     assert abs(left) < 1e-5
     assert works["dissipation"] > 0
     if cage:
-        assert abs(works["pocket_films"]) > 1e-4
+        assert abs(works["pocket_films"]) > 1e-5
 
 
 @pytest.mark.parametrize("case", STEADY)
 def test_steady_state_stays(case):
-    """In the printed steady state nothing accelerates, with the ball on the pitch circle as the steady solver has it."""
+    """In the printed steady state, with the balls on the pitch circle as a steady solver has them, all is at rest."""
     of = some_balls(3, *case, orbit=STEADY[case][1], on_pitch_circle=True)
     now, balls, shared, _ = accelerations(of, steady_state(of, case))
     np.testing.assert_allclose(now.load, np.asarray(STEADY[case][5:])[:, None] * np.ones((1, 3)), rtol=2e-7)
@@ -107,7 +107,8 @@ def test_ends_in_the_steady_state(meridian):
     away = state._replace(elements=state.elements.at[2:5].add(jnp.asarray([[0.2], [-0.1], [0.1]])).at[1].add(0.3))
     if meridian == "quasi_static":
         of, away = quasi_static_dynamics(of, away)
-    found = run(of, away, jnp.asarray([12e-3 if meridian == "dynamic" else 3e-3]), 1e-7)
+    # the slowest mode, of the attitude of the spin, decays at 290 1/s
+    found = run(of, away, jnp.asarray([26e-3]), 1e-7)
     assert int(found.status) == Status.CONVERGED
     full = getattr(of, "full", of)
     last = of.whole(found.last, of.solved(0.0, found.last)[0]) if meridian == "quasi_static" else found.last
@@ -121,31 +122,24 @@ def test_ends_in_the_steady_state(meridian):
 
 
 def test_sliding_ball_ends_rolling():
-    """A ball that starts to slide ends at 5/7 of its speed for any law of friction (angular momentum about the line of
-    contact): here balls on the outer race alone, which is flat over the radius of a large pitch circle."""
-    large, load = 1e3 * PITCH, 10.0
-    of = some_balls(3)
-    levers = dataclasses.replace(of.levers, pitch_radius=jnp.asarray(large))
+    """Balls on the outer race alone, pressed by their centrifugal force, start to slide without any rotation in space.
+    They end rolling at 5/7 of their speed, for any law of friction: m v + J W/r_b is constant, W the rotation in space.
+    """
+    of, speed = some_balls(3), 45.0
     free = eqx.tree_at(lambda law: law.stiffness, of.races, of.races.stiffness.at[0].set(0.0))
     held = MovingRing(None, jnp.zeros(5), jnp.zeros(5), jnp.zeros(()), jnp.asarray(LEVER))
-    speed = np.sqrt(load * large / MASS)  # with which the centrifugal force is the load
-    of = dataclasses.replace(of, levers=levers, races=free, ring=held, reference_speed=jnp.zeros(()))
-    arm = of.levers.grooves.offset[1] + (load / of.levers.grooves.stiffness[1]) ** (2.0 / 3.0)
-    angle = 0.0
-    one = jnp.zeros(9).at[1].set(speed).at[5].set(arm * np.sin(angle) - of.free_offset)
-    one = one.at[6].set(arm * np.cos(angle) - of.free_radius)
-    state = of.scaled(jnp.tile(one[:, None], (1, 3)), jnp.zeros(22))
-    radius = large + float(one[6])
-    # the moment of momentum about the contact with the outer race, at radius + arm of the ball
-    found = run(of, state, jnp.asarray([0.15]), 1e-8)
+    of = dataclasses.replace(of, races=free, ring=held, reference_speed=jnp.zeros(()), on_pitch_circle=True)
+    load, grooves = MASS * speed**2 / PITCH, of.levers.grooves
+    one = jnp.zeros(9).at[1].set(speed).at[2].set(0.5 * BALL * speed / PITCH).at[5].set(-of.free_offset)
+    one = one.at[6].set(grooves.offset[1] + (load / grooves.stiffness[1]) ** (2.0 / 3.0) - of.free_radius)
+    found = run(of, of.scaled(jnp.tile(one[:, None], (1, 3)), jnp.zeros(22)), jnp.asarray([25e-3]), 1e-7)
     assert int(found.status) == Status.CONVERGED
-    _, rates = of.moving(0.15, found.last)
-    contact = radius + 0.5 * BALL
-    inertia = INERTIA / (MASS * (0.5 * BALL) ** 2)
-    ratio = contact / radius
-    expected = 1.0 / (1.0 + inertia * ratio * ratio)
-    np.testing.assert_allclose(rates.orbit * large / speed, expected, rtol=2e-4)
-    np.testing.assert_allclose(expected, 5.0 / 7.0, rtol=1e-3)
+    _, rates = of.moving(25e-3, found.last)
+    # the ball moves inward by 5 um as its centrifugal force falls, against 76.5 mm
+    rolling = 1.0 / (1.0 + INERTIA / (MASS * (0.5 * BALL) ** 2))
+    np.testing.assert_allclose(rolling, 5.0 / 7.0, rtol=1e-6)
+    np.testing.assert_allclose(rates.orbit * PITCH / speed, rolling, rtol=3e-4)
+    np.testing.assert_allclose(0.5 * BALL * (rates.spin[0] - rates.orbit), rates.orbit * PITCH, rtol=1e-6)
 
 
 def meeting(count=3):

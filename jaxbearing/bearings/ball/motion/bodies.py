@@ -6,8 +6,8 @@ import equinox as eqx
 import jax.numpy as jnp
 from jaxtyping import Array, Float
 
-from ....gaps import ShortJournal
-from ....gaps.ball_wall import BallWall, CompliantBallPocket
+from ....gaps import CompliantBallPocketFace, ShortJournal
+from ....gaps.ball_pocket_face import BallPocketFace
 from ....lubricants import InletOil
 from .layout import tilt_levers
 from .speeds import LandSpeeds, PocketPlace, PocketSpeeds
@@ -49,19 +49,19 @@ class MovingCage(eqx.Module):
     """
 
     body: TurningBody
-    pocket: CompliantBallPocket
+    pocket: CompliantBallPocketFace
     viscosity: Float[Array, ""]
     land: ShortJournal
     oil: InletOil
     imbalance: Float[Array, ""]
 
-    def walls(self, place: PocketPlace, speeds: PocketSpeeds) -> BallWall:
+    def walls(self, place: PocketPlace, speeds: PocketSpeeds) -> BallPocketFace:
         """Both walls of every pocket, that ahead of the offset first."""
         half = 0.5 * self.pocket.clearance
         gap = jnp.stack([half - place.size, half + place.size])
         rate = jnp.stack([-speeds.opening, speeds.opening])
         along, across = speeds.surface[:, 0], speeds.surface[:, 1]
-        return self.pocket.wall(gap, rate, along, across, self.viscosity)
+        return self.pocket.face(gap, rate, along, across, self.viscosity)
 
     def acceleration(
         self, force: Float[Array, "6"], rates: Float[Array, "6"], angle: Float[Array, ""]

@@ -112,10 +112,10 @@ def kinetic_energy(dynamics: "BallDynamics", now: "MovingBalls") -> Float[Array,
 def pocket_energy(dynamics: "BallDynamics", now: "MovingBalls") -> Float[Array, ""]:
     """Elastic energy of the pocket walls, or of balls that meet, J."""
     if dynamics.neighbours is not None and now.met is not None:
-        return jnp.sum(dynamics.neighbours.law.flattening_energy(now.met.load))
+        return jnp.sum(dynamics.neighbours.law.elastic_energy(now.met.load))
     if dynamics.cage is None or now.walls is None:
         return jnp.zeros(())
-    return jnp.sum(dynamics.cage.pocket.flattening_energy(now.walls.load))
+    return jnp.sum(dynamics.cage.pocket.elastic_energy(now.walls.load))
 
 
 def raceway_energy(dynamics: "BallDynamics", now: "MovingBalls") -> Float[Array, ""]:

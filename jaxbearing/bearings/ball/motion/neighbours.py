@@ -12,8 +12,7 @@ import equinox as eqx
 import jax.numpy as jnp
 from jaxtyping import Array, Float
 
-from ....gaps.ball_wall import BallWall, MeetingBalls
-from ....numerics.safe import safe_norm
+from ....gaps.meeting_balls import MeetingBalls, MetBalls
 from ....numerics.series import cosine_and_sine
 from .layout import Places, Rates
 
@@ -45,13 +44,13 @@ class Neighbours(eqx.Module):
     law: MeetingBalls
     viscosity: Float[Array, ""]
 
-    def contacts(self, place: NeighbourPlace, places: Places, rates: Rates) -> BallWall:
+    def contacts(self, place: NeighbourPlace, places: Places, rates: Rates) -> MetBalls:
         """Load, film and friction between each ball and the next one."""
         _, turning = _in_space(places, rates)
         entraining = 0.5 * place.distance[None] * jnp.cross(turning - _next(turning), place.normal, axis=0)
         gap = place.distance - 2.0 * self.law.ball_radius
         apart = neighbour_speeds(places, place, rates).apart
-        speed = safe_norm(*entraining, STILL)
+        speed = jnp.sqrt(jnp.sum(jnp.square(entraining), axis=0) + STILL**2)
         return self.law.contact(gap, apart, speed, self.viscosity)
 
 
@@ -59,7 +58,7 @@ def neighbour_place(places: Places) -> NeighbourPlace:
     cosine, sine = cosine_and_sine(places.azimuth)
     centre = jnp.stack([places.centre[0], places.radius * cosine, places.radius * sine])
     ahead = _next(centre) - centre
-    distance = safe_norm(*ahead)
+    distance = jnp.sqrt(jnp.sum(jnp.square(ahead), axis=0))
     return NeighbourPlace(distance, ahead / distance[None])
 
 

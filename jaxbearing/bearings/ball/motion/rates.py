@@ -24,7 +24,8 @@ import jax.numpy as jnp
 from jaxtyping import Array, Float
 
 from ...._types import Scalar
-from ....gaps.ball_wall import BallWall
+from ....gaps.ball_pocket_face import BallPocketFace
+from ....gaps.meeting_balls import MetBalls
 from ....numerics.arrow import ArrowPoint
 from ....time_laws import AbstractTimeFactor, RotatingLoad, Steady
 from ...motion.family import AbstractDynamics
@@ -65,11 +66,11 @@ class MovingBalls(NamedTuple):
     load: Float[Array, "2 ball"]
     friction: RaceFriction
     pocket: PocketPlace | None
-    walls: BallWall | None
+    walls: BallPocketFace | None
     lands: Lands | None
     forces: Speeds
     generalised: Rates
-    met: BallWall | None = None
+    met: MetBalls | None = None
 
 
 class BallDynamics(AbstractDynamics):
@@ -82,7 +83,8 @@ class BallDynamics(AbstractDynamics):
     - `races`: law of the raceway contacts; `contact_damping`: chi, s/m.
     - `free_offset`: axial place of a free ball from the plane of the outer groove's centres, m, and `free_radius`: its
       distance outward from the circle of these centres, m.
-    - `ring`, `cage`: the bodies; `neighbours`: contacts of balls with each other; `drag`: on the orbiting balls, in oil of the viscosity `drag_viscosity`, Pa s.
+    - `ring`, `cage`: the bodies; `neighbours`: contacts of balls with each other.
+    - `drag`: on the orbiting balls, in oil of the viscosity `drag_viscosity`, Pa s.
     - `reference_speed`: speed of the frame in which positions are counted, at the operating point, rad/s.
     - `speed`, `load`: speed of the inner ring, and all loads on it, over those of the operating point.
     - `rotating_load`: a further, turning load.
@@ -192,7 +194,7 @@ class BallDynamics(AbstractDynamics):
             assert speeds.lands is not None
             pocket = self.levers.pocket_place(places)
             walls = self.cage.walls(pocket, speeds.pocket)
-            rubbing = -walls.friction[:, None] * speeds.pocket.surface
+            rubbing = -jnp.stack([walls.friction_along, walls.friction_across], axis=1)
             on_pocket = PocketSpeeds(walls.load[1] - walls.load[0], rubbing)
             lands = moving_lands(self.cage, self.levers.land_offsets(places), speeds.lands)
         if self.neighbours is not None:
@@ -223,7 +225,7 @@ class BallDynamics(AbstractDynamics):
             met=met,
         )
 
-    def at_pockets(self, time: Scalar, state: ArrowPoint) -> tuple[PocketPlace, BallWall]:
+    def at_pockets(self, time: Scalar, state: ArrowPoint) -> tuple[PocketPlace, BallPocketFace]:
         """The part of `at` that the pockets need."""
         assert self.cage is not None
         places, rates = self.moving(time, state)

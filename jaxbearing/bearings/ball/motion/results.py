@@ -14,9 +14,7 @@ from .layout import BALL_STATE, GLOBAL_STATE
 class LooseBallPowerLoss(BallPowerLoss):
     """Dissipated power by location, W, of balls that no cage keeps apart."""
 
-    between_balls: Float[Array, ""] | None = eqx.field(
-        default=None, metadata=label("W", "balls sliding on each other")
-    )
+    between_balls: Float[Array, ""] | None = eqx.field(default=None, metadata=label("W", "balls sliding on each other"))
 
 
 class BallInstant(Instant):

@@ -7,7 +7,8 @@ import jax.numpy as jnp
 from jaxtyping import Array, Float, Int
 
 from ....contacts import PointContact
-from ....gaps.ball_wall import CompliantBallPocket, MeetingBalls
+from ....gaps import CompliantBallPocketFace
+from ....gaps.meeting_balls import MeetingBalls
 from ....materials import CATALOGUE, reduced_modulus
 from ....numerics.arrow import ArrowPoint
 from ....numerics.newton import NewtonOptions, newton_solve
@@ -165,7 +166,7 @@ def _moving_cage(scene: BallBearing, system: LubricatedBallSystem) -> MovingCage
     wall = PointContact(radius, conforming, reduced_modulus(materials.balls, solid))
     return MovingCage(
         body=TurningBody(*map(jnp.asarray, cage.mass_and_inertias(geometry, solid.density))),
-        pocket=CompliantBallPocket(radius, clearance, wall.stiffness_constant()),
+        pocket=CompliantBallPocketFace(clearance, radius, wall.stiffness_constant()),
         viscosity=jnp.asarray(oil_of(system.inlet, system.elsewhere, "pocket").viscosity),
         land=cage.land(geometry),
         oil=oil_of(system.inlet, system.elsewhere, "cage_pilot"),
