@@ -169,6 +169,30 @@ def test_hard_cases_of_the_sheet():
     assert bool(jb.solve(pair(preload=PRELOAD, axial=5e3)).converged)
 
 
+@pytest.mark.slow
+def test_the_drive_gives_what_the_bearings_lose():
+    """Two lubricated roller bearings with sliding, cage and drag, a gear and a drive: torques times speed are the sum
+    of all losses, as exactly as each bearing closes its own balance. The forces come from dry rollers that may tilt:
+    those of the sliding ones differ by the films."""
+    scene = jb.load_scene("reference_roller")
+    speed = float(scene.operation.inner_speed)
+    system = ShaftSystem(
+        Shaft(speed, [Section(0.2, 0.06)], steel(206e9)),
+        bearings=[MountedBearing("A", scene, 0.02), MountedBearing("B", scene, 0.18)],
+        forces=[PointLoad("load", 0.08, radial=8e3, tangential=1e3, radius=0.05)],
+    )
+    solved = jb.solve(system)
+    torque = solved.torque
+    np.testing.assert_allclose(float(torque.forces), 50.0, rtol=1e-14)
+    np.testing.assert_allclose((torque.forces + torque.drive) * speed, torque.power_loss, rtol=1e-9)
+    for one in solved.bearings.values():
+        closed = one.solution.inner_torque * speed
+        np.testing.assert_allclose(closed, one.solution.power_loss.total, rtol=1e-9)
+        apart = np.asarray(one.sliding_difference)
+        assert 0.0 < np.linalg.norm(apart[:3]) < 0.2 * float(one.radial_force)
+        print("sliding less tilting model, N:", apart[:3], "of", float(one.radial_force))
+
+
 def test_changes_by_names():
     system = gear_shaft()
     changed = system.replace({"force.pinion.torque": 50.0, "bearing.rear.geometry.diametral_clearance": 4e-5})
