@@ -2,7 +2,7 @@
 
     python docs/examples/gmn_rigidity.py
 
-GMN prints of 257 spindle bearings the number and size of the balls, the pitch diameter, the contact angle, and the axial
+Of 257 spindle bearings GMN prints the number and size of the balls, the pitch diameter, the contact angle and the axial
 rigidity of a pair at three preloads, but no conformity. One conformity of both grooves is fitted to each series, by
 Gauss and Newton's method with the exact derivative of every rigidity. Young's modulus is 208 GPa.
 

@@ -201,9 +201,7 @@ def filling(tables: Mapping[str, Any], removed: tuple[str, ...], model: type[Bas
     return Filling(filled, added, estimated, tuple(left_out))
 
 
-def _on_shaft(
-    tables: Mapping[str, Any], removed: tuple[str, ...], model: type[BaseModel], file: str
-) -> Filling:
+def _on_shaft(tables: Mapping[str, Any], removed: tuple[str, ...], model: type[BaseModel], file: str) -> Filling:
     """The tables of a shaft with what the presets of its bearings add; arguments as of `filling`."""
     found = Filling(dict(tables), {})
     for keys in each_bearing(tables):

@@ -85,11 +85,8 @@ def _changed(entry: Any, changes: _Changes, above: str) -> Any:
             wrong = next(iter(bearings))
             raise AttributeError(f"the scene has no '{above}.{wrong}': {type(entry).__name__} has {', '.join(own)}")
         scene = entry.scene
-        if isinstance(scene, tuple):
-            scene = _of_bearings(scene, bearings, above)
-        else:
-            scene = _of_bearing(scene, bearings)
-        mine[(_BEARING,)] = scene
+        one = not isinstance(scene, tuple)
+        mine[(_BEARING,)] = _of_bearing(scene, bearings) if one else _of_bearings(scene, bearings, above)
     return _replaced(entry, mine, f"{above}.")
 
 

@@ -1,5 +1,5 @@
-"""Random shafts on two to five dry bearings of all families: clearances and interferences, preload by force, closure and
-spring, soft supports, a housing that couples all outer rings, loads over five decades.
+"""Random shafts on two to five dry bearings of all families: clearances and interferences, preload by force, closure
+and spring, soft supports, a housing that couples all outer rings, loads over five decades.
 
 Every structure holds its shaft along X in both directions and against tilt, so that every scene has an equilibrium:
 the potential is convex, and it grows in all directions.
@@ -235,9 +235,7 @@ STRUCTURES = [
         supports("bearing.b", "set.pair"),
     ),
     structure("three in line", three_in_line, clearances("a", "b", "m"), closures("a", "b")),
-    structure(
-        "pair, rollers, one housing", in_a_housing, clearances("b"), preloads(offset=CLOSURE), housing(3)
-    ),
+    structure("pair, rollers, one housing", in_a_housing, clearances("b"), preloads(offset=CLOSURE), housing(3)),
     structure("four of three families", four_of_three_families, clearances("m", "c"), closures("a", "b")),
     structure("five", five, clearances("m", "c"), preloads(offset=CLOSURE)),
 ]

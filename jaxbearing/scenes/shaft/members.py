@@ -30,10 +30,16 @@ def numbered(entry: Any, path: str, label: str) -> Any:
         if wrong is not None or not scenes:
             found = describe(wrong) if scenes else "an empty list"
             raise SceneError(label, f"{path}.{_SCENE}", found, "a scene, or a list of scenes, one for each sign")
-        if given is not None:
-            raise SceneError(label, f"{path}.{MEMBERS}", "tables beside a list of scenes", "one of the two")
-        given = [{_SCENE: one} for one in scenes]
+        if not isinstance(given, Mapping | None):
+            raise SceneError(
+                label, f"{path}.{MEMBERS}", "a list beside a list of scenes", "tables by number: [set.bearing.2]"
+            )
         entry = {name: value for name, value in entry.items() if name != _SCENE}
+        by_number = {str(place + 1): {_SCENE: one} for place, one in enumerate(scenes)}
+        own = {number: one for number, one in (given or {}).items() if isinstance(one, Mapping)}
+        members = {number: {**own.get(number, {}), **one} for number, one in by_number.items()}
+        given = members | {number: one for number, one in (given or {}).items() if number not in members}
+        entry = {**entry, MEMBERS: given}
     if isinstance(given, list):
         if not given or not all(isinstance(one, Mapping) for one in given):
             raise SceneError(label, f"{path}.{MEMBERS}", describe(given), _LIST)

@@ -178,9 +178,7 @@ def scipy_rows(system, own, points):
                 ("our Jacobian", {"jac": lambda x, call=call: call(x, 1)}),
             ):
                 begin = time.perf_counter()
-                found = scipy.optimize.root(
-                    lambda x, call=call: call(x, 0), first, method="hybr", tol=1e-11, **more
-                )
+                found = scipy.optimize.root(lambda x, call=call: call(x, 0), first, method="hybr", tol=1e-11, **more)
                 seconds = time.perf_counter() - begin
                 solved = bool(np.max(np.abs(found.fun)) < SOLVED)
                 error = error_of(call(found.x, 2), exact(factor)) if solved else np.nan
