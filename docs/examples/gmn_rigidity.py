@@ -6,9 +6,9 @@ Of 257 spindle bearings GMN prints the number and size of the balls, the pitch d
 rigidity of a pair at three preloads, but no conformity. One conformity of both grooves is fitted to each series, by
 Gauss and Newton's method with the exact derivative of every rigidity. Young's modulus is 208 GPa.
 
-Every pair is a scene of the kind shaft at rest, preloaded as universally ground bearings are (`class_force`). All balls
-of a bearing carry the same, so that Z balls at the preload F are as three balls at 3F/Z: with three balls in each
-bearing all pairs are one program, and one batched call solves them.
+Two equal bearings that press each other with the force F have twice the axial stiffness of one under the axial load F.
+All balls of a bearing carry the same, so that Z balls under F are as three under 3F/Z: with three balls in each bearing
+all of them are one program, and one batched call solves them.
 """
 
 import csv
@@ -28,31 +28,21 @@ BALLS = 3
 FIRST, STEPS = 0.53, 6
 """First conformity, and steps of the fit."""
 STEEL = {"youngs_modulus": 208e9, "poisson_ratio": 0.3, "density": 7850.0}
-PAIR = {
-    "kind": "shaft",
-    "shaft": {"speed": 0.0},
-    "set": [
-        {
-            "name": "pair",
-            "picture": "<>",
-            "position": 0.0,
-            "distance": 0.016,
-            "preload": {"class_force": 180.0},
-            "kind": "ball_bearing",
-            "geometry": {
-                "n_balls": BALLS,
-                "ball_diameter": 6.35e-3,
-                "pitch_diameter": 65e-3,
-                "contact_angle": 0.3,
-                "conformity_inner": FIRST,
-                "conformity_outer": FIRST,
-            },
-            "materials": {"rings": STEEL, "balls": STEEL},
-            "kinematics": {"attitude": "outer"},
-        }
-    ],
+BEARING = {
+    "kind": "ball_bearing",
+    "geometry": {
+        "n_balls": BALLS,
+        "ball_diameter": 6.35e-3,
+        "pitch_diameter": 65e-3,
+        "contact_angle": 0.3,
+        "conformity_inner": FIRST,
+        "conformity_outer": FIRST,
+    },
+    "materials": {"rings": STEEL, "balls": STEEL},
+    "kinematics": {"attitude": "outer"},
+    "operation": {"inner_speed": 0.0, "axial_load": 180.0},
 }
-"""A pair; the distance of its rows has no effect on its axial rigidity."""
+"""A bearing at rest; its sizes and load are those of the catalogue."""
 
 
 class Printed(NamedTuple):
@@ -91,7 +81,7 @@ def printed() -> Printed:
     )
 
 
-SCENE = jb.scene_from_mapping(PAIR)
+SCENE = jb.scene_from_mapping(BEARING)
 
 
 def rigidity(conformity, ball, pitch, angle, balls, preload):
@@ -103,9 +93,9 @@ def rigidity(conformity, ball, pitch, angle, balls, preload):
         "conformity_inner": conformity,
         "conformity_outer": conformity,
     }
-    changes = {f"set.pair.geometry.{name}": value for name, value in geometry.items()}
-    pair = jb.solve(SCENE.replace(changes | {"set.pair.preload.class_force": preload * BALLS / balls}), throw=False)
-    return balls / BALLS * sum(one.stiffness[0, 0] for one in pair.bearings.values())
+    changes = {f"geometry.{name}": value for name, value in geometry.items()}
+    one = jb.solve(SCENE.replace(changes | {"operation.axial_load": preload * BALLS / balls}), throw=False)
+    return 2.0 * balls / BALLS * one.stiffness[0, 0]
 
 
 @jax.jit
