@@ -14,6 +14,7 @@ from typing import Any, NamedTuple
 import equinox as eqx
 import jax
 import jax.numpy as jnp
+import numpy as np
 from jaxtyping import Array, Bool, Float, Int
 
 from ..numerics.newton import NewtonOptions
@@ -143,9 +144,9 @@ def _first_place(balance: Balance, most: Array) -> Array:
     **Arguments:** `most`: bounds of the displacements, m and rad.
     """
     zero = jnp.zeros_like(balance.load)
-    displacement = balance.displacements(zero)
-    nominal = NOMINAL * jnp.diag(jnp.asarray([1.0, 1.0, 1.0, ARM**2, ARM**2]))
-    residual = balance.residual(zero, displacement @ nominal)
+    displacement = balance.offset.reshape(balance.count, 5)
+    nominal = jnp.asarray(NOMINAL * np.diag([1.0, 1.0, 1.0, ARM**2, ARM**2]))
+    residual = balance.left @ (displacement @ nominal).ravel() - balance.load
     on_springs = -balance.inverse(jnp.broadcast_to(nominal, (balance.count, 5, 5))) @ residual
     return jnp.where(jnp.max(jnp.abs(displacement) / most[None]) > FAR_START, on_springs, zero)
 

@@ -214,7 +214,7 @@ def test_a_cylindrical_bearing_with_interference_between_two_ball_bearings():
 def test_the_drive_gives_what_the_bearings_lose():
     """Two lubricated roller bearings with sliding, cage and drag, a gear and a drive: torques times speed are the sum
     of all losses, as exactly as each bearing closes its own balance. The forces come from dry rollers that may tilt:
-    those of the sliding ones differ by the films."""
+    those of the sliding ones differ by what their films, 0.4 um on each raceway, take of the play."""
     scene = jb.load_scene("reference_roller")
     speed = float(scene.operation.inner_speed)
     system = ShaftSystem(
@@ -229,9 +229,10 @@ def test_the_drive_gives_what_the_bearings_lose():
     for one in solved.bearings.values():
         closed = one.solution.inner_torque * speed
         np.testing.assert_allclose(closed, one.solution.power_loss.total, rtol=1e-9)
-        apart = np.asarray(one.sliding_difference)
-        assert 0.0 < np.linalg.norm(apart[:3]) < 0.2 * float(one.radial_force)
-        print("sliding less tilting model, N:", apart[:3], "of", float(one.radial_force))
+        # the films take as much of the play as they are thick
+        closed = np.linalg.solve(one.stiffness[1:3, 1:3], one.sliding_difference[1:3])
+        films = 2.0 * float(np.min(one.solution.elements.film_inner))
+        assert 0.5 * films < np.linalg.norm(closed) < 2.0 * films
 
 
 def test_changes_by_names():

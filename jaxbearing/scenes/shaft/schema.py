@@ -76,7 +76,8 @@ def _with_scene(entry: Any, keys: tuple[str, ...], file: str) -> Any:
     scene = without_loads({**scene, "kind": kind})
     if kind not in FAMILIES:
         return merged(scene, own, None)
-    return merged(scene, own, member_table(kind) if len(keys) > 2 else mounted_table(kind, keys[0] == "set"))
+    of_set = keys[0] == "set"
+    return merged(scene, own, member_table(kind) if len(keys) > 2 else mounted_table(kind, of_set))
 
 
 def _kinds_of_set(entry: Any, path: str, file: str) -> Kind:
