@@ -20,7 +20,9 @@ from .kinds import kind_named
 from .oil.catalogue import with_catalogue
 from .oil.files import Origin, origins, prior_ranges
 from .overrides import REMOVE, Overrides, applied, apply, as_texts, parse_value, preset
+from .presets import names_a_preset
 from .presets import said_of as said_of_preset
+from .shaft.members import at, each_bearing, put
 from .table import Table
 from .toml_files import parse_toml, read_text
 from .units import describe, shortened
@@ -158,7 +160,7 @@ def warn_of_preset(mapping: Mapping[str, Any], origin: str, overrides: Overrides
 def preset_note(mapping: Mapping[str, Any], origin: str, overrides: Overrides | None = None) -> str:
     """What the preset of a scene stands for, law by law; "" without a preset. Arguments as of `warn_of_preset`."""
     texts = as_texts(overrides)
-    if "laws" not in mapping and "laws" not in texts:
+    if not names_a_preset(mapping) and not any(path.rpartition(".")[2] in ("laws", "scene") for path in texts):
         return ""
     return said_of_preset(preset(mapping, texts, scene_model(mapping, texts, origin), origin)[0])
 
@@ -256,14 +258,13 @@ def _with_oils(raw: Mapping[str, Any]) -> tuple[dict[str, Any], list[str], list[
             complete["oil"] = with_catalogue(raw["oil"])
         except SceneError as error:
             refused, problems = ["oil"], [error]
-    for word in ("bearing", "set") if is_shaft(raw) else ():
-        entries = raw.get(word)
-        for name, entry in entries.items() if isinstance(entries, Mapping) else ():
-            if isinstance(entry, Mapping):
-                inner, wrong, found = _with_oils(entry)
-                complete[word] = {**complete[word], name: inner}
-                refused += [word] if wrong else []
-                problems += [one.inside(f"{word}.{name}") for one in found]
+    for keys in each_bearing(raw) if is_shaft(raw) else ():
+        entry = at(raw, keys)
+        if isinstance(entry, Mapping):
+            inner, wrong, found = _with_oils(entry)
+            complete = put(complete, keys, inner)
+            refused += [keys[0]] if wrong else []
+            problems += [one.inside(".".join(keys)) for one in found]
     return complete, refused, problems
 
 

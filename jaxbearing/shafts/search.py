@@ -14,6 +14,7 @@ from typing import Any, NamedTuple
 import equinox as eqx
 import jax
 import jax.numpy as jnp
+import numpy as np
 from jaxtyping import Array, Bool, Float, Int
 
 from ..numerics.newton import NewtonOptions
@@ -30,6 +31,11 @@ LONGEST_STEP = 2e-4
 """Largest displacement in one step of the first stage, m; tilts are multiplied by the span."""
 FARTHEST, MOST_TILT = 1e-2, 0.1
 """Displacement, m, and tilt, rad, of an inner ring against its outer ring beyond which there is no equilibrium."""
+FAR_START = 0.1
+"""Part of these bounds beyond which the search does not begin at the shaft that is clamped at x = 0: a load that bends
+a slender cantilever by more than `FARTHEST` is harmless between bearings."""
+NOMINAL, ARM = 1e8, 5e-3
+"""Stiffness of each bearing, N/m, with which the search begins there, and its lever against tilt, m."""
 SOFTEST, LEAST_STIFFNESS = 1e2, 1e5
 """Stiffness, N/m, that is added to every freedom of a bearing in the first stage, and the least one that the factor of
 Levenberg multiplies."""
@@ -131,16 +137,30 @@ class _Descent(NamedTuple):
     steps: Int[Array, ""]
 
 
+def _first_place(balance: Balance, most: Array) -> Array:
+    """Where the search begins: at no displacement and no force of the bearings, or, where that is far from contact, at
+    the equilibrium on linear bearings.
+
+    **Arguments:** `most`: bounds of the displacements, m and rad.
+    """
+    zero = jnp.zeros_like(balance.load)
+    displacement = balance.offset.reshape(balance.count, 5)
+    nominal = jnp.asarray(NOMINAL * np.diag([1.0, 1.0, 1.0, ARM**2, ARM**2]))
+    residual = balance.left @ (displacement @ nominal).ravel() - balance.load
+    on_springs = -balance.inverse(jnp.broadcast_to(nominal, (balance.count, 5, 5))) @ residual
+    return jnp.where(jnp.max(jnp.abs(displacement) / most[None]) > FAR_START, on_springs, zero)
+
+
 def minimise(problem: Problem) -> Start:
     """The minimum of the potential to `START_TOLERANCE`."""
     problem = jax.lax.stop_gradient(problem)
     balance = problem.balance
     rows = [batch.rows(problem.expansion) for batch in problem.batches]
-    zero = jnp.zeros_like(balance.load)
-    at_zero = balance.displacements(zero)
-    elements = [batch.initial(row, at_zero[batch.index]) for batch, row in zip(problem.batches, rows, strict=True)]
-    units, lengths = balance.row_units(), balance.lengths()
     most = jnp.where(jnp.arange(5) < 3, FARTHEST, MOST_TILT)
+    first = _first_place(balance, most)
+    at_first = balance.displacements(first)
+    elements = [batch.initial(row, at_first[batch.index]) for batch, row in zip(problem.batches, rows, strict=True)]
+    units, lengths = balance.row_units(), balance.lengths()
 
     def look(state: _Descent) -> _Descent:
         trial = state.unknowns + state.fraction * state.step
@@ -186,16 +206,16 @@ def minimise(problem: Problem) -> Start:
 
     one, none = jnp.ones(()), jnp.asarray(0)
     begin = _Descent(
-        unknowns=zero,
+        unknowns=first,
         elements=elements,
-        step=zero,
+        step=jnp.zeros_like(first),
         energy=jnp.inf * one,
         slope=0.0 * one,
         fraction=one,
         factor=FACTOR * one,
         residual=jnp.inf * one,
         scale=one,
-        far=jnp.zeros_like(at_zero),
+        far=jnp.zeros_like(at_first),
         done=none > 0,
         trials=none,
         steps=none,
