@@ -93,8 +93,9 @@ def moving_lands(cage: MovingCage, offset: Float[Array, "2 land"], speeds: LandS
     land, viscosity = cage.land, cage.oil.viscosity
     journal, bush = speeds.turning
     k_z, c_f = land.film_factors(cage.oil.density, viscosity, journal - bush)
-    film = land.force_on_journal(*offset, *speeds.offset, journal, bush, viscosity, k_z)
-    found = land.line_of_centres(*offset)
+    (y, z), (v_y, v_z) = offset, speeds.offset
+    film = land.force_on_journal(y, z, v_y, v_z, journal, bush, viscosity, k_z)
+    found = land.line_of_centres(y, z)
     along, across = found.direction
     torques = land.torques(found.eccentricity_ratio, film[1] * along - film[0] * across, journal, bush, viscosity, c_f)
     return Lands(LandSpeeds(jnp.stack(film), jnp.sum(jnp.stack(torques), axis=1)), found.eccentricity_ratio)

@@ -108,7 +108,8 @@ def _ball_results(dynamics: BallDynamics, now: MovingBalls) -> BallResults:
         loads, films = (front_and_rear(now.pocket, *both) for both in (now.walls.load, now.walls.film))
         more |= dict(zip(("pocket_load_front", "pocket_load_rear"), loads, strict=True))
         more |= dict(zip(("pocket_film_front", "pocket_film_rear"), films, strict=True))
-    more |= computed_results(BallResults, SolvedBalls(dynamics, _Seen(angle, motion)))
+    seen: Any = (dynamics, _Seen(angle, motion))
+    more |= computed_results(BallResults, SolvedBalls(*seen))
     return BallResults(
         azimuth=now.places.azimuth,
         load_inner=now.load[0],

@@ -129,12 +129,9 @@ class QuasiStaticBallDynamics(AbstractDynamics):
 
     works: ClassVar[tuple[str, ...]] = WORKS
 
+    reference_speed: Float[Array, ""]
     full: BallDynamics
     guess: ArrowPoint
-
-    @property
-    def reference_speed(self) -> Float[Array, ""]:
-        return self.full.reference_speed
 
     # -- state ----------------------------------------------------------------------------------------------------
 
@@ -203,5 +200,5 @@ def quasi_static_dynamics(full: BallDynamics, state: ArrowPoint) -> tuple[QuasiS
     parts = dataclasses.replace(full, ring=ring, contact_damping=jnp.zeros(()), on_pitch_circle=True)
     free = np.flatnonzero(full.ring.free)
     guess = ArrowPoint(state.elements[5:7], state.globals[CAGE : CAGE + 5][free])
-    found = QuasiStaticBallDynamics(parts, guess)
+    found = QuasiStaticBallDynamics(full.reference_speed, parts, guess)
     return found, found.of_whole(state)

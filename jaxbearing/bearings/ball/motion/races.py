@@ -80,7 +80,8 @@ class LubricatedRaces(AbstractRaceLaw):
 
     def pressed(self, approach: Float[Array, "2 ball"], meridian: Meridian, races: RaceMotion) -> Pressed:
         system = self.system
-        contact = system.geometry.contacts(*meridian.cosine, system.reduced_modulus).shaped()
+        inner, outer = meridian.cosine
+        contact = system.geometry.contacts(inner, outer, system.reduced_modulus).shaped()
         log_stiffness = jnp.log(system.grooves.stiffness)[:, None]
         args = (system, contact, races, log_stiffness, approach)
         guess = 1.5 * jnp.log(jnp.maximum(approach, THIN)) + log_stiffness
@@ -93,10 +94,10 @@ class LubricatedRaces(AbstractRaceLaw):
         held = safe_norm(load, LOAD_FLOOR)
         found = race_friction(self.system, RaceState(held, pressed.contact, races, pressed.film))
         shear, rolling, curvature = found
-        moments = [-SIDES * moment for moment in (rolling, curvature) if moment is not None]
+        moments = [jnp.asarray(-SIDES * moment) for moment in (rolling, curvature) if moment is not None]
         return RaceFriction(
-            rolling=-SIDES * shear.rolling,
-            transverse=-SIDES * shear.transverse,
+            rolling=jnp.asarray(-SIDES * shear.rolling),
+            transverse=jnp.asarray(-SIDES * shear.transverse),
             spin=-shear.moment,
             roll=sum(moments[1:], moments[0]) if moments else None,
             resistance=None if rolling is None else moments[0],
