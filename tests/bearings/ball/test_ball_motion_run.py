@@ -32,6 +32,10 @@ def small(balls=5, **operation):
     return dataclasses.replace(scene, kinematics=attitude, simulation=MOVING)
 
 
+def without_cage(scene, **settings):
+    return dataclasses.replace(scene, cage=None, simulation=dataclasses.replace(MOVING, **settings))
+
+
 def test_scene_of_a_file():
     scene: Any = jb.load_scene("turbine_ball_dynamic")
     assert isinstance(scene.simulation, Simulation)
@@ -53,6 +57,7 @@ def test_scene_is_written_and_read_again(tmp_path):
     ("change", "message"),
     [
         (lambda scene: dataclasses.replace(scene, simulation=Simulation()), "simulation.ring_mass"),
+        (lambda scene: without_cage(scene, solver="kvaerno5"), r"simulation\.solver: an implicit solver"),
         (lambda scene: scene.replace({"contact.traction": None, "kinematics": BallAttitude("outer")}), "contact.trac"),
     ],
 )

@@ -22,6 +22,10 @@ class BallBearingMotion(AbstractMotion):
     def require_moving(self, scene: BallBearing) -> None:
         start.require_moving(scene)
 
+    def require_settings(self, scene: BallBearing, simulation: Simulation) -> None:
+        start.require_mass(scene, simulation)
+        start.require_explicit(scene, simulation)
+
     def quasi_static(self, scene: BallBearing, options: NewtonOptions | None = None) -> QuasiStatic:
         return start.quasi_static(scene, options)
 

@@ -137,8 +137,9 @@ class Levers(eqx.Module):
 
     def _across_lands(self, ring: Array, cage: Array) -> Array:
         """Difference of the displacements of journal and bush in the planes of the lands."""
-        assert self.land_places is not None
-        at_lands = lambda body: body[1:3, None] - body[3:5, None] * self.land_places[None, :]
+        places = self.land_places
+        assert places is not None
+        at_lands = lambda body: body[1:3, None] - body[3:5, None] * places[None, :]
         return at_lands(cage) if self.on_outer else at_lands(ring) - at_lands(cage)
 
     # -- speeds ---------------------------------------------------------------------------------------------------

@@ -11,6 +11,7 @@ from ....gaps import CompliantBallPocketFace
 from ....gaps.meeting_balls import MeetingBalls
 from ....materials import CATALOGUE, reduced_modulus
 from ....numerics.arrow import ArrowPoint
+from ....numerics.integrator import IMPLICIT
 from ....numerics.newton import NewtonOptions, newton_solve
 from ...inlet import oil_of
 from ...motion.family import AbstractDynamics, Resumed, Start
@@ -47,6 +48,11 @@ NO_NETWORK = (
 NO_MASS = (
     "simulation.ring_mass: a run in time of a ball bearing under loads needs the mass of the inner ring with the "
     "shaft's share, e.g. '5 kg'; or meridian = 'quasi_static', or operation.displacement, which holds the ring"
+)
+
+COUPLED = (
+    "simulation.solver: an implicit solver eliminates ball by ball, and balls without a cage meet each other; choose "
+    "'tsit5' or 'dopri8'"
 )
 
 
@@ -90,6 +96,19 @@ def free_freedoms(scene: BallBearing, simulation: Simulation) -> tuple[bool, ...
     if "radial" in free and scene.operation.held_at("lateral") is None:
         free.add("lateral")
     return tuple(name in free for name in RING_FREEDOMS)
+
+
+def require_mass(scene: BallBearing, simulation: Simulation) -> None:
+    """**Raises:** `ValueError` for a ring that moves by its inertia and has no mass."""
+    moves = any(free_freedoms(scene, simulation)) and simulation.meridian == "dynamic"
+    if moves and simulation.ring_mass is None:
+        raise ValueError(NO_MASS)
+
+
+def require_explicit(scene: BallBearing, simulation: Simulation) -> None:
+    """**Raises:** `ValueError` for balls that meet with a solver that takes each ball as coupled to the cage alone."""
+    if scene.cage is None and simulation.solver in IMPLICIT:
+        raise ValueError(COUPLED)
 
 
 def build_dynamics(scene: BallBearing, simulation: Simulation, reference_speed: Array) -> BallDynamics:
@@ -181,10 +200,8 @@ def _moving_ring(scene: BallBearing, simulation: Simulation) -> MovingRing:
     ring = inner_ring(scene, lever, tuple(name for name, moves in zip(RING_FREEDOMS, free, strict=True) if moves))
     levers, body = tilt_levers(lever), None
     if any(free) and simulation.meridian == "dynamic":
-        mass = simulation.ring_mass
-        if mass is None:
-            raise ValueError(NO_MASS)
-        mass = jnp.asarray(mass)
+        require_mass(scene, simulation)
+        mass = jnp.asarray(simulation.ring_mass)
         polar = 0.5 * mass * jnp.square(lever)
         body = TurningBody(mass, polar, 0.5 * polar)
     damping = 0.0 if simulation.ring_damping is None else simulation.ring_damping
