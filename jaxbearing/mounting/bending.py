@@ -135,7 +135,7 @@ class Foundation(eqx.Module):
         """$k_f + k_t/n^2$, N/m^2; $k_f$ for n = 0."""
         square = np.square(orders).astype(float)
         along = np.where(orders > 0, 1.0 / np.maximum(square, 1.0), 0.0)
-        return self.stiffness + self.shear * along
+        return jnp.asarray(self.stiffness + self.shear * along)
 
 
 def aliased_compliance(

@@ -124,7 +124,10 @@ class BentRing(eqx.Module):
 
     def stiffness(self) -> Float[Array, " mode"]:
         """Generalised load over amplitude, of ring and foundation, N/m."""
-        return stiffness_of_orders(self.section, self.foundation, self._of_modes)
+        orders = np.asarray(self.orders, dtype=int)
+        place = np.arange(orders.size)
+        of_order = stiffness_of_orders(self.section, self.foundation, orders)
+        return of_order[np.concatenate([place, place[orders > 0]])]
 
     def given_loads(self) -> Float[Array, " mode"]:
         """Generalised loads of `loads`, N."""
