@@ -155,7 +155,7 @@ class FlexibleRing(_Lists):
         return safe_norm(rest[0], rest[1]) / safe_norm(load[0], load[1])
 
 
-class Roundness(_Lists):
+class AbstractRoundness(_Lists):
     """Deviation of a raceway's radius from that of a round ring, which stands still relative to the load.
 
     $p(\\psi) = \\sum_n p_n\\cos n(\\psi - \\varphi_n)$ plus a table, linear between its angles. A lobe of order 0 changes
@@ -167,7 +167,6 @@ class Roundness(_Lists):
     - `table_angle`, `table_deviation`: measured deviations at angles, rad and m.
     """
 
-    part: ClassVar[str] = "roundness"
     groups: ClassVar[tuple[tuple[str, ...], ...]] = (
         ("lobe_order", "lobe_height", "lobe_angle"),
         ("table_angle", "table_deviation"),
@@ -204,7 +203,7 @@ class Roundness(_Lists):
 
 
 def out_of_round(
-    inner: Roundness | None, outer: Roundness | None, azimuth: Float[Array, " element"]
+    inner: InnerRoundness | None, outer: OuterRoundness | None, azimuth: Float[Array, " element"]
 ) -> Float[Array, " element"] | None:
     """By how much races that are not round come towards each rolling element, m; `None` if both are round."""
     if inner is None and outer is None:
@@ -212,6 +211,18 @@ def out_of_round(
     nothing = jnp.zeros_like(azimuth)
     closing = nothing if inner is None else inner.deviation(azimuth)
     return closing if outer is None else closing - outer.deviation(azimuth)
+
+
+class InnerRoundness(AbstractRoundness):
+    """Roundness of the inner raceway; see `AbstractRoundness`."""
+
+    part: ClassVar[str] = "inner_roundness"
+
+
+class OuterRoundness(AbstractRoundness):
+    """Roundness of the outer raceway; see `AbstractRoundness`."""
+
+    part: ClassVar[str] = "outer_roundness"
 
 
 class RingDeflection(eqx.Module):

@@ -37,7 +37,7 @@ from ..profile import RollerProfile
 from ..rated import RatedContacts
 from ..rating import Rating
 from ..ring import InnerRing
-from ..ring_shape import UNBALANCED, FlexibleRing, Roundness
+from ..ring_shape import UNBALANCED, FlexibleRing, InnerRoundness, OuterRoundness
 from ..row import AbstractRow
 from ..solution import RING_FREEDOMS, Solution
 from ..supplied import supply_problems
@@ -97,8 +97,8 @@ class CylindricalRollerBearing(AbstractMovingBearing):
     thermal: Thermal | None = None
     oil_temperatures: OilTemperatures | None = None
     outer_ring: FlexibleRing | None = None
-    inner_roundness: Roundness | None = None
-    outer_roundness: Roundness | None = None
+    inner_roundness: InnerRoundness | None = None
+    outer_roundness: OuterRoundness | None = None
 
     def __check_init__(self):
         refuse_all(self._problems())
@@ -163,8 +163,9 @@ class CylindricalRollerBearing(AbstractMovingBearing):
                 "an operation.radial_load that balance each other"
             )
             return
-        lateral = jnp.asarray(self.operation.load("lateral") or 0.0)
-        unbalanced = ring.unbalanced(jnp.stack([jnp.asarray(load), lateral]))
+        lateral = self.operation.load("lateral")
+        across = jnp.zeros(()) if lateral is None else jnp.asarray(lateral)
+        unbalanced = ring.unbalanced(jnp.stack([jnp.asarray(load), across]))
         yield from refusals_of(
             demand,
             "outer_ring: the loads on a ring without housing and supports must balance operation.radial_load",
