@@ -1,4 +1,4 @@
-"""Parts of a scene for rings that are not rigid or not round: a flexible outer ring, and measured or assumed roundness."""
+"""Parts of a scene for rings that are not rigid or not round: a flexible outer ring, and the roundness of raceways."""
 
 from collections.abc import Iterator
 from typing import Any, ClassVar
@@ -158,8 +158,8 @@ class FlexibleRing(_Lists):
 class AbstractRoundness(_Lists):
     """Deviation of a raceway's radius from that of a round ring, which stands still relative to the load.
 
-    $p(\\psi) = \\sum_n p_n\\cos n(\\psi - \\varphi_n)$ plus a table, linear between its angles. A lobe of order 0 changes
-    the clearance, one of order 1 is a displacement of the raceway.
+    $p(\\psi) = \\sum_n p_n\\cos n(\\psi - \\varphi_n)$ plus a table, linear between its angles. A lobe of order 0
+    changes the clearance, one of order 1 is a displacement of the raceway.
 
     **Arguments:**
     - `lobe_order`, `lobe_height`, `lobe_angle`: n, whole numbers >= 0; $p_n$, m; $\\varphi_n$, rad, where the lobe is
@@ -202,17 +202,6 @@ class AbstractRoundness(_Lists):
         return found
 
 
-def out_of_round(
-    inner: InnerRoundness | None, outer: OuterRoundness | None, azimuth: Float[Array, " element"]
-) -> Float[Array, " element"] | None:
-    """By how much races that are not round come towards each rolling element, m; `None` if both are round."""
-    if inner is None and outer is None:
-        return None
-    nothing = jnp.zeros_like(azimuth)
-    closing = nothing if inner is None else inner.deviation(azimuth)
-    return closing if outer is None else closing - outer.deviation(azimuth)
-
-
 class InnerRoundness(AbstractRoundness):
     """Roundness of the inner raceway; see `AbstractRoundness`."""
 
@@ -223,6 +212,17 @@ class OuterRoundness(AbstractRoundness):
     """Roundness of the outer raceway; see `AbstractRoundness`."""
 
     part: ClassVar[str] = "outer_roundness"
+
+
+def out_of_round(
+    inner: InnerRoundness | None, outer: OuterRoundness | None, azimuth: Float[Array, " element"]
+) -> Float[Array, " element"] | None:
+    """By how much races that are not round come towards each rolling element, m; `None` if both are round."""
+    if inner is None and outer is None:
+        return None
+    nothing = jnp.zeros_like(azimuth)
+    closing = nothing if inner is None else inner.deviation(azimuth)
+    return closing if outer is None else closing - outer.deviation(azimuth)
 
 
 class RingDeflection(eqx.Module):

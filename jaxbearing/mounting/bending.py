@@ -12,9 +12,9 @@ circumference, and $k_t$ along it, adds $k_f + k_t/n^2$ to $1/c_n$.
 
 **Validity:** thin rings; the curvature of the neutral fibre changes the stiffness by about $(h/R)^2$, 4 % at h/R = 0.2.
 Deflections are small; bending out of the plane and twist of the section are not modelled.
-**Reference:** derived from the harmonic solution of Timoshenko's ring; without shear and axial strain it is the classical
-solution (Timoshenko, Strength of Materials, part II), and two opposite loads P on a free ring shorten the diameter along
-them by $(\pi/4 - 2/\pi)PR^3/EI$ = 0.149 PR^3/EI.
+**Reference:** derived from the harmonic solution of Timoshenko's ring; without shear and axial strain it is the
+classical solution (Timoshenko, Strength of Materials, part II): two opposite loads P on a free ring change the diameter
+along them by $(\pi/4 - 2/\pi)PR^3/EI$ = 0.149 PR^3/EI.
 """
 
 import equinox as eqx
@@ -118,8 +118,8 @@ def rectangular_section(
 class Foundation(eqx.Module):
     """Springs around the whole ring, which push and pull: a housing in which the ring is pressed.
 
-    A massive housing has about $k_f = Ebn/(2(1-\\nu^2)R)$ (half-plane, plane strain; uncertain by a factor of 2 for small
-    n): 5e10 N/m^2 for steel, b = 20 mm, R = 85 mm, n = 2. Thin or light housings have 1e9 to 1e10 N/m^2.
+    A massive housing has about $k_f = Ebn/(2(1-\\nu^2)R)$ (half-plane, plane strain; uncertain by a factor of 2 for
+    small n): 5e10 N/m^2 for steel, b = 20 mm, R = 85 mm, n = 2. Thin or light housings have 1e9 to 1e10 N/m^2.
 
     **Arguments:**
     - `stiffness`: $k_f$, radial force per length of circumference and deflection, N/m^2, >= 0: one number, or one for

@@ -228,8 +228,10 @@ def assembled(
 def _assembled_through_inputs(
     system: AbstractArrowSystem, point: ArrowPoint, values: Array, tangents: Array, inner: Array
 ) -> tuple[Equations, ArrowJacobian]:
-    """`assembled` for tangents by the local inputs, which are chained with the derivatives of the inputs by the globals.
-    The contributions of the elements are then those to the global residuals, and `chain` is the unit matrix."""
+    """`assembled` for tangents by the local inputs, chained with the derivatives of the inputs by the globals.
+
+    The contributions of the elements are then those to the global residuals, and `chain` is the unit matrix.
+    """
     m, g = point.elements.shape[0], point.globals.shape[0]
     moved = jax.jacfwd(system.local_inputs)(point.globals)
     closed = lambda globals_, acting: system.global_residual(globals_, system.gathered(globals_, acting))

@@ -10,7 +10,14 @@ import pytest
 from jaxtyping import Array, Float
 from springs import flat
 
-from jaxbearing.numerics.arrow import AbstractArrowSystem, ArrowPoint, evaluate, linearize, schur_complement, solve_arrow
+from jaxbearing.numerics.arrow import (
+    AbstractArrowSystem,
+    ArrowPoint,
+    evaluate,
+    linearize,
+    schur_complement,
+    solve_arrow,
+)
 from jaxbearing.numerics.newton import newton_solve
 from jaxbearing.numerics.small_linear import MOST_PIVOTS_UNROLLED, with_positive_pivots
 from jaxbearing.numerics.status import Status
@@ -49,7 +56,9 @@ class Rim(AbstractArrowSystem):
     def gathered(self, globals_, acting):
         if not self.local:
             return jnp.sum(acting, axis=1)
-        return jnp.concatenate([jnp.sum(self.forces(globals_[:, None], acting[0]), axis=1), jnp.sum(acting[1:], axis=1)])
+        return jnp.concatenate(
+            [jnp.sum(self.forces(globals_[:, None], acting[0]), axis=1), jnp.sum(acting[1:], axis=1)]
+        )
 
     @property
     def extra_totals(self):
@@ -66,7 +75,9 @@ class Rim(AbstractArrowSystem):
     def global_residual(self, globals_, totals):
         stiffness = 1.0 + jnp.arange(self.g, dtype=float) ** 2
         loads = jnp.zeros(self.g).at[1].set(self.load)
-        return stiffness * globals_ + totals[: self.g] / self.azimuth.size - loads + 1e-3 * totals[self.g], jnp.zeros(())
+        return stiffness * globals_ + totals[: self.g] / self.azimuth.size - loads + 1e-3 * totals[self.g], jnp.zeros(
+            ()
+        )
 
     def step_caps(self):
         return ArrowPoint(jnp.full((self.m, 1), 1.0), jnp.full(self.g, 1.0))

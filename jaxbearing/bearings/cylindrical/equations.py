@@ -54,7 +54,6 @@ EASED_PRESSURE = 1.5e9
 """Hertz pressure of the most loaded roller, Pa, at which traction surely drives the rollers: given first after that."""
 
 
-
 class RollerState(NamedTuple):
     """Everything that happens at every roller, for given unknowns; arrays over rollers, races first where two."""
 

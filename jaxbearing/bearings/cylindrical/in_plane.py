@@ -1,5 +1,5 @@
-"""Base of the equations of cylindrical rollers that carry evenly along their length: the displacements of the inner ring
-and, if it bends, the amplitudes of the outer one."""
+"""Base of the equations of cylindrical rollers that carry evenly along their length: displacements of the
+inner ring and, if it bends, amplitudes of the outer one."""
 
 import dataclasses
 from typing import TypeVar
@@ -27,8 +27,8 @@ class AbstractInPlane(AbstractArrowSystem):
 
     `directions`: outward unit vectors along the unknown freedoms of the `ring`; `held`: by what displacements that are
     given bring it towards each roller, m, `None`: none is given; `out_of_round`: by what races that are not round come
-    towards each roller, m, `None`: they are round; `outer`: the outer ring if it bends. Its amplitudes are globals, after
-    those of the inner ring, which a roller feels as a part of the displacement towards it (`local_inputs`).
+    towards each roller, m, `None`: they are round; `outer`: the outer ring if it bends. Its amplitudes are globals,
+    after those of the inner ring; a roller feels them as a part of the displacement towards it (`local_inputs`).
     """
 
     directions: eqx.AbstractVar[Float[Array, "freedom roller"]]

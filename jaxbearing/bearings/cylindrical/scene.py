@@ -330,8 +330,8 @@ class CylindricalRollerBearing(AbstractMovingBearing):
             said += self.cage.assumptions()
         if self.outer_ring is not None and self.outer_ring.harmonics:
             said.append(
-                "outer_ring: a thin ring that bends in its plane; the stiffness of a housing is uncertain by a factor of "
-                "2 to 10, which moves the largest load by up to some 20 %"
+                "outer_ring: a thin ring that bends in its plane; the stiffness of a housing is uncertain by a factor "
+                "of 2 to 10, which moves the largest load by up to some 20 %"
             )
         if self.slips and self.flange is not None and self.flange.height is None:
             said.append(f"flange.height is not given: assumed {ASSUMED_FLANGE_HEIGHT:.3f} of the roller diameter")
