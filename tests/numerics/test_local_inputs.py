@@ -48,7 +48,7 @@ class Rim(AbstractArrowSystem):
     def forces(self, amplitudes, force):
         """Contributions to the globals, conjugate to `closing`."""
         shift = jnp.sum(amplitudes * self.shapes(), axis=0)
-        return (1.0 + 2.0 * self.curved * shift) * force * self.shapes()
+        return ((1.0 + 2.0 * self.curved * shift) * force)[None] * self.shapes()
 
     def local_inputs(self, globals_):
         return self.closing(globals_[:, None])[None] if self.local else None
