@@ -150,7 +150,7 @@ def test_turned_load_turns_the_loads():
     """A load along azimuth 12 degrees, one pitch: the same loads, one roller further."""
     flexible = static(outer_ring=ring(housing_stiffness=1e10), ring_freedom=("radial", "lateral"))
     pitch = 2.0 * np.pi / 30.0
-    turned = flexible.at_operation(radial_load=25e3 * np.cos(pitch), lateral_load=25e3 * np.sin(pitch))
+    turned = flexible.at_operation(radial_load=25e3 * np.cos(pitch), radial_load_lateral=25e3 * np.sin(pitch))
     one, other = (jb.solve(scene).elements.load_inner for scene in (flexible, turned))
     np.testing.assert_allclose(np.roll(one, 1), other, atol=1e-6)
 
