@@ -66,6 +66,6 @@ class ElasticRing(eqx.Module):
         azimuth = jnp.linspace(0.0, 2.0 * jnp.pi, PLACES)
         count = len(ring.orders)
         sines = scaled[count:] if ring.orders[0] > 0 else jnp.concatenate([jnp.zeros(1), scaled[count:]])
-        return RingDeflection(
-            azimuth, ring.deflection(scaled, azimuth), scaled[:count], sines, ring.reactions(scaled), ring.orders
-        )
+        orders = jnp.asarray(ring.orders, dtype=float)
+        forces = None if ring.supports is None else ring.reactions(scaled)
+        return RingDeflection(azimuth, ring.deflection(scaled, azimuth), scaled[:count], sines, orders, forces)
