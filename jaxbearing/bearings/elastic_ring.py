@@ -68,4 +68,5 @@ class ElasticRing(eqx.Module):
         sines = scaled[count:] if ring.orders[0] > 0 else jnp.concatenate([jnp.zeros(1), scaled[count:]])
         orders = jnp.asarray(ring.orders, dtype=float)
         forces = None if ring.supports is None else ring.reactions(scaled)
-        return RingDeflection(azimuth, ring.deflection(scaled, azimuth), scaled[:count], sines, orders, forces)
+        radius = jnp.asarray(ring.section.radius)
+        return RingDeflection(azimuth, ring.deflection(scaled, azimuth), scaled[:count], sines, radius, orders, forces)

@@ -60,6 +60,7 @@ SCENES = {
 }
 """Every kind of scene, with all of its optional parts (several where parts exclude each other) and with none."""
 
+
 def flexible_roller():
     """Dry rollers in a ring on a housing and a support."""
     ring = FlexibleRing(
