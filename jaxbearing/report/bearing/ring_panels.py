@@ -27,8 +27,8 @@ def ring_panels(solution: Solution) -> list[Polar | Curves]:
     shape = Polar(
         name="outer_ring_shape",
         title="Deformed outer ring",
-        caption=f"Centroid circle of the outer ring with deflections {digits(factor)} times as large as they are, and the "
-        "round one; azimuth 0 is below.",
+        caption=f"Centroid circle of the outer ring with deflections {digits(factor)} times as large as they are, and "
+        "the round one; azimuth 0 is below.",
         series=[
             Series("round", azimuth, np.full_like(azimuth, scale * radius), OUTER, dash="dot", faint=True),
             Series("deformed", azimuth, scale * (radius + factor * deflection), OUTER),

@@ -6,6 +6,7 @@ import jax
 import jax.numpy as jnp
 import numpy as np
 import pytest
+from carried_rollers import CarriedRollers
 from roller_cases import REFERENCE_STEEL, dry_roller, reference_roller
 
 import jaxbearing as jb
@@ -15,6 +16,7 @@ from jaxbearing.bearings.elastic_ring import ElasticRing
 from jaxbearing.bearings.operation import Operation
 from jaxbearing.bearings.parts import Materials
 from jaxbearing.bearings.ring_shape import FlexibleRing, InnerRoundness, OuterRoundness
+from jaxbearing.numerics.arrow import linearize
 from jaxbearing.numerics.newton import newton_solve
 from jaxbearing.numerics.status import Status
 
@@ -215,3 +217,51 @@ def test_refusals():
         OuterRoundness(lobe_order=[2.5], lobe_height=[1e-6], lobe_angle=[0.0])
     with pytest.raises(ValueError, match="found nothing"):
         OuterRoundness()
+
+
+def test_scene_files(tmp_path):
+    """What is written is read again as the same scene."""
+    supports = {"support_angle": [0.1, -0.5], "support_stiffness": [1e8, 2e8], "support_gap": [0.0, 1e-6]}
+    teeth = {"load_angle": [1.0], "load_radial": [-10.0], "load_tangential": [20.0], "load_radius": [0.09]}
+    scene = static(
+        outer_ring=ring(harmonics=3, housing_stiffness=1.5e10, shear=True, **supports, **teeth),
+        inner_roundness=InnerRoundness(lobe_order=[2.0, 3.0], lobe_height=[1e-6, 2e-6], lobe_angle=[0.0, 0.2]),
+        outer_roundness=OuterRoundness(table_angle=[0.0, 2.0, 4.0], table_deviation=[1e-6, -1e-6, 0.0]),
+    )
+    path = tmp_path / "ring.toml"
+    jb.save_scene(scene, path)
+    read = jb.load_scene(path)
+    for name in ("outer_ring", "inner_roundness", "outer_roundness"):
+        one, other = getattr(scene, name), getattr(read, name)
+        assert jax.tree.structure(one) == jax.tree.structure(other)
+        for here, there in zip(jax.tree.leaves(one), jax.tree.leaves(other), strict=True):
+            np.testing.assert_allclose(here, there, rtol=1e-15)
+
+
+@pytest.mark.parametrize("cage", [False, pytest.param(True, marks=pytest.mark.slow)])
+def test_amplitudes_are_not_carried(cage):
+    """The Jacobian through the approach of the rings at a roller is that with all globals at every roller."""
+    scene = dataclasses.replace(reference_roller(), outer_ring=ring(harmonics=12, housing_stiffness=1e10))
+    if not cage:
+        scene = scene.replace({"contact.traction": None})
+    system = build_system(scene)
+    point = system.initial()
+    (one, through), (other, carried) = (
+        jax.jit(lambda system, point: linearize(system, point))(form, point)
+        for form in (system, CarriedRollers(system))
+    )
+    # two tangents with a cage besides those of the unknowns, one without; 27 and 26 where they are carried
+    inputs = system.local_inputs(point.globals)
+    assert len(inputs) == (2 if cage else 1)
+    assert point.globals.size == (27 if cage else 26)
+    contributions = jnp.einsum("gk,kmn->gmn", carried.chain, carried.contributions)
+    pairs = [
+        (one.residual.elements, other.residual.elements),
+        (one.residual.globals, other.residual.globals),
+        (through.local, carried.local),
+        (through.right_border, carried.right_border),
+        (through.contributions, contributions),
+        (through.corner, carried.corner),
+    ]
+    for here, there in pairs:
+        np.testing.assert_allclose(here, there, atol=1e-13 * float(jnp.max(jnp.abs(there))))
