@@ -265,3 +265,13 @@ def test_amplitudes_are_not_carried(cage):
     ]
     for here, there in pairs:
         np.testing.assert_allclose(here, there, atol=1e-13 * float(jnp.max(jnp.abs(there))))
+
+
+@pytest.mark.slow
+def test_built_in_planet():
+    solution = jb.solve(jb.load_scene("planet_roller"))
+    assert bool(solution.converged)
+    found, azimuth = np.asarray(solution.elements.load_inner), np.asarray(solution.elements.azimuth)
+    np.testing.assert_allclose(np.sum(found * np.cos(azimuth)), 10e3, rtol=1e-8)
+    # the rim bends under the teeth: the load spreads over half of the rollers
+    assert np.sum(found > 0.1 * np.max(found)) >= 9
