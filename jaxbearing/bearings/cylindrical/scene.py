@@ -197,6 +197,9 @@ class CylindricalRollerBearing(AbstractMovingBearing):
             evenly = self.slips
         elif self.contact is None and not self.unknown_freedoms:
             evenly = False
+        if self._shaped:
+            # rings that bend or are not round are modelled for rollers that carry evenly only
+            evenly = True
         if evenly:
             from .steady import solve_steady
 
@@ -265,8 +268,8 @@ class CylindricalRollerBearing(AbstractMovingBearing):
 
     @property
     def may_tilt(self) -> bool:
-        """False where rollers slide, which carry evenly along their length."""
-        return not self.slips
+        """False where rollers slide or a ring is not rigid or round: they carry evenly along their length."""
+        return not (self.slips or self._shaped)
 
     @property
     def skewed(self) -> bool:

@@ -275,3 +275,26 @@ def test_built_in_planet():
     np.testing.assert_allclose(np.sum(found * np.cos(azimuth)), 10e3, rtol=1e-8)
     # the rim bends under the teeth: the load spreads over half of the rollers
     assert np.sum(found > 0.1 * np.max(found)) >= 9
+
+
+def test_reaction_is_the_load():
+    """The ring that is held where a solve puts it needs the load of that solve, and has its stiffness."""
+    oval = OuterRoundness(lobe_order=[2.0], lobe_height=[5e-6], lobe_angle=[0.3])
+    scene = static(
+        outer_ring=ring(harmonics=4, housing_stiffness=1e10), outer_roundness=oval, ring_freedom=("radial", "lateral")
+    )
+    solution = jb.solve(scene)
+    place = [0.0, float(solution.ring.radial), float(solution.ring.lateral), 0.0, 0.0]
+    held = jb.reaction(scene, place)
+    np.testing.assert_allclose(held.force[1:3], [25e3, 0.0], atol=1e-4)
+    np.testing.assert_allclose(held.stiffness[1:3, 1:3], solution.stiffness[1:3, 1:3], rtol=1e-6)
+    np.testing.assert_allclose(held.outer_ring.deflection, solution.outer_ring.deflection, atol=1e-14)
+
+
+def test_held_bearing_with_an_oval_race_only():
+    """No unknown is left: displacements give all loads at once."""
+    oval = OuterRoundness(lobe_order=[2.0], lobe_height=[20e-6], lobe_angle=[0.0])
+    scene = static(outer_roundness=oval, ring_freedom=("radial", "lateral"))
+    solution = jb.solve(scene)
+    held = jb.reaction(scene, [0.0, float(solution.ring.radial), 0.0, 0.0, 0.0])
+    np.testing.assert_allclose(held.elements.load_inner, solution.elements.load_inner, atol=1e-4)
