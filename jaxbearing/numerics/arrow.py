@@ -233,10 +233,12 @@ def _assembled_through_inputs(
     The contributions of the elements are then those to the global residuals, and `chain` is the unit matrix.
     """
     m, g = point.elements.shape[0], point.globals.shape[0]
-    moved = jax.jacfwd(system.local_inputs)(point.globals)
+    p, n = tangents.shape[1] - m, values.shape[1]
+    moved = jax.jacfwd(system.local_inputs)(point.globals) if g else jnp.zeros((p, n, 0))
     closed = lambda globals_, acting: system.global_residual(globals_, system.gathered(globals_, acting))
     global_part, pullback, global_inner = jax.vjp(closed, point.globals, values[m:], has_aux=True)
-    direct, chain = jax.vmap(pullback)(jnp.eye(g))
+    nothing = jnp.zeros((0, 0)), jnp.zeros((0, *values[m:].shape))
+    direct, chain = jax.vmap(pullback)(jnp.eye(g)) if g else nothing
     acting = jnp.einsum("qpn,png->qng", tangents[m:, m:], moved)
     jacobian = ArrowJacobian(
         local=tangents[:m, :m],
