@@ -28,7 +28,8 @@ MOST_HARMONICS = 60
 UNBALANCED = 1e-6
 """Part of the loads on a free ring that need not balance each other, for rounded input."""
 
-Several = Float[Array | np.ndarray, " place"]
+Several = Float[Array | np.ndarray, "_"]
+"""Lists of one part may have different lengths; `_Lists` compares those that belong together."""
 
 
 def _values(given: Any) -> Any:
