@@ -1,12 +1,17 @@
-"""Charts of a flexible outer ring: its deformed shape, exaggerated, and its deflection over the azimuth."""
+"""Charts of a flexible outer ring: its deformed shape, exaggerated, its deflection over the azimuth, and the loads
+beside those in a rigid ring."""
 
+import dataclasses
 import math
+from typing import Any
 
 import numpy as np
 
+from ...bearings.ring_shape import RingDeflection
 from ...bearings.solution import Solution
+from ...solve import solve
 from ..colours import OUTER
-from ..display import axis_unit, digits
+from ..display import axis_unit, digits, with_unit
 from ..panels import Axis, Curves, Polar, Series
 from .azimuth import signed_degrees
 from .operation import load_angle
@@ -15,11 +20,47 @@ DRAWN = 0.2
 """Largest deflection in the drawing over the radius of the ring."""
 
 
-def ring_panels(solution: Solution) -> list[Polar | Curves]:
-    """The charts; none of a rigid ring."""
+def ring_panels(solution: Solution, rigid: Solution | None = None) -> list[Polar | Curves]:
+    """The charts; none of a rigid ring.
+
+    **Arguments:** `rigid`: `rigid_counterpart`; `None`: the loads are not compared.
+    """
     ring = solution.outer_ring
     if ring is None:
         return []
+    shapes = _shape_panels(solution, ring)
+    return shapes if rigid is None else [load_polygon(solution, rigid), *shapes]
+
+
+def rigid_counterpart(scene: Any, solution: Solution) -> Solution | None:
+    """Solution of the same scene with a rigid outer ring; `None` where the ring is rigid or that solve fails."""
+    if solution.outer_ring is None:
+        return None
+    found = solve(dataclasses.replace(scene, outer_ring=None), throw=False)
+    return found if bool(found.converged) else None
+
+
+def load_polygon(solution: Solution, rigid: Solution) -> Polar:
+    """Loads on the outer race in the flexible and in the rigid ring."""
+    bent, stiff = (np.asarray(one.elements.load_outer) for one in (solution, rigid))
+    unit, factor = axis_unit("N", float(max(np.max(bent), np.max(stiff))))
+    azimuth, name = np.asarray(solution.elements.azimuth), solution.element_name
+    largest = f"{with_unit(float(np.max(bent)), 'N')} and {with_unit(float(np.max(stiff)), 'N')}"
+    return Polar(
+        name="outer_ring_load",
+        title="Loads in a flexible and in a rigid ring",
+        caption=f"Load of each {name} on the outer race, and that of the same scene with a rigid outer ring; the "
+        f"largest are {largest}. Azimuth 0 is below.",
+        series=[
+            Series("rigid", azimuth, factor * stiff, OUTER, dash="dot", faint=True),
+            Series("flexible", azimuth, factor * bent, OUTER, "square"),
+        ],
+        unit=unit,
+        arrow=load_angle(solution.operation),
+    )
+
+
+def _shape_panels(solution: Solution, ring: RingDeflection) -> list[Polar | Curves]:
     azimuth, deflection = np.asarray(ring.azimuth), np.asarray(ring.deflection)
     largest, radius = float(np.max(np.abs(deflection))), float(ring.radius)
     factor = exaggeration(largest, radius)
