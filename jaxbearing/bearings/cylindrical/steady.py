@@ -31,6 +31,9 @@ from .ring import roller_ring
 from .scene import CylindricalRollerBearing
 from .solution import PowerLoss, RollerResults, SolvedRollers
 
+NOTHING_UNKNOWN = ("no unknown: given displacements are the whole state",)
+"""In place of the names of equations."""
+
 
 def build_system(
     scene: CylindricalRollerBearing, ring: InnerRing | None = None
@@ -184,7 +187,7 @@ def solve_steady(scene: CylindricalRollerBearing, options: NewtonOptions, ring: 
         _port(system, result, results.elements.load_inner),
         ring_freedom=scene.shown_freedoms if ring is None else IN_PLANE,
         stiffness_freedom=IN_PLANE if system.ring.asks else None,
-        equation_names=system.equation_names(),
+        equation_names=system.equation_names() or NOTHING_UNKNOWN,
     )
 
 
