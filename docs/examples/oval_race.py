@@ -19,7 +19,7 @@ RINGS = {"rigid": {}, "8 mm on 1e10 N/m2": BENT}
 
 def oval(height: float, ring: str = "rigid") -> jb.bearings.solution.Solution:
     """The solution with lobes of a height, micrometres, in one of `RINGS`."""
-    lobe = {"lobe_order": [2], "lobe_height": [f"{height} um"], "lobe_angle": ["0 deg"]}
+    lobe = {"lobe_order": "2", "lobe_height": f"{height} um", "lobe_angle": "0 deg"}
     race = {f"outer_roundness.{name}": value for name, value in lobe.items()}
     return jb.solve(jb.load_scene("turbine_roller", {**LIGHT, **RINGS[ring], **race}))
 

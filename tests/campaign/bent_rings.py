@@ -27,7 +27,7 @@ LENGTHS = (
     "outer_ring.support_stiffness",
 )
 ELASTIC = (MIRROR, HEAVIER, CRAWL, scaled(LENGTHS))
-TABLES: dict[str, Any] = {"outer_ring.thickness": "8 mm", "outer_ring.width": "20 mm", "outer_ring.harmonics": 6}
+TABLES: dict[str, Any] = {"outer_ring.thickness": "8 mm", "outer_ring.width": "20 mm", "outer_ring.harmonics": "6"}
 
 
 def ring_numbers(v: Numbers, scene: Any) -> Numbers:
@@ -106,9 +106,9 @@ def bent(name: str, count: int, changes: dict[str, Any], ranges: dict[str, Range
 
 
 LOBE = {
-    "outer_roundness.lobe_order": [2],
-    "outer_roundness.lobe_height": ["1 um"],
-    "outer_roundness.lobe_angle": ["0 deg"],
+    "outer_roundness.lobe_order": "2",
+    "outer_roundness.lobe_height": "1 um",
+    "outer_roundness.lobe_angle": "0 deg",
 }
 STRUCTURES = [
     bent(
@@ -124,9 +124,9 @@ STRUCTURES = [
         "flexible outer ring, two supports",
         14,
         {
-            "outer_ring.support_angle": ["-30 deg", "30 deg"],
-            "outer_ring.support_stiffness": ["100 N/um", "100 N/um"],
-            "outer_ring.support_gap": ["0 um", "0 um"],
+            "outer_ring.support_angle": '["-30 deg", "30 deg"]',
+            "outer_ring.support_stiffness": '["100 N/um", "100 N/um"]',
+            "outer_ring.support_gap": '["0 um", "0 um"]',
         },
         SUPPORTS,
         without=DRY,

@@ -10,8 +10,8 @@ import numpy as np
 from ...bearings.ring_shape import RingDeflection
 from ...bearings.solution import Solution
 from ...solve import solve
-from ..colours import OUTER
-from ..display import axis_unit, digits, with_unit
+from ..colours import FAINT, OUTER
+from ..display import axis_unit, with_unit
 from ..panels import Axis, Curves, Polar, Series
 from .azimuth import signed_degrees
 from .operation import load_angle
@@ -52,7 +52,7 @@ def load_polygon(solution: Solution, rigid: Solution) -> Polar:
         caption=f"Load of each {name} on the outer race, and that of the same scene with a rigid outer ring; the "
         f"largest are {largest}. Azimuth 0 is below.",
         series=[
-            Series("rigid", azimuth, factor * stiff, OUTER, dash="dot", faint=True),
+            Series("rigid", azimuth, factor * stiff, FAINT, dash="dash", faint=True),
             Series("flexible", azimuth, factor * bent, OUTER, "square"),
         ],
         unit=unit,
@@ -68,10 +68,10 @@ def _shape_panels(solution: Solution, ring: RingDeflection) -> list[Polar | Curv
     shape = Polar(
         name="outer_ring_shape",
         title="Deformed outer ring",
-        caption=f"Centroid circle of the outer ring with deflections {digits(factor)} times as large as they are, and "
-        "the round one; azimuth 0 is below.",
+        caption=f"Centroid circle of the outer ring with deflections {factor:g} times as large as they are, and the "
+        "round one; azimuth 0 is below.",
         series=[
-            Series("round", azimuth, np.full_like(azimuth, scale * radius), OUTER, dash="dot", faint=True),
+            Series("round", azimuth, np.full_like(azimuth, scale * radius), FAINT, dash="dash", faint=True),
             Series("deformed", azimuth, scale * (radius + factor * deflection), OUTER),
         ],
         unit=unit,
