@@ -9,8 +9,9 @@ import jax.numpy as jnp
 from jaxtyping import Array, Float
 
 from ...numerics.arrow import AbstractArrowSystem
+from ...numerics.convex import anchored
 from ..elastic_ring import ElasticRing
-from ..ring import LENGTH_UNIT, InnerRing
+from ..ring import ANCHOR, LENGTH_UNIT, InnerRing
 
 System = TypeVar("System", bound="AbstractInPlane")
 IN_PLANE = ("radial", "lateral")
@@ -80,8 +81,12 @@ class AbstractInPlane(AbstractArrowSystem):
         rows = (totals[:d] - self.ring.load) / self.load_scale()
         if self.outer is None:
             return rows
-        bent = self.outer.balance(self.amplitudes(globals_), totals[d : d + self.modes]) / self.load_scale()
-        return jnp.concatenate([rows, bent])
+        amplitudes = self.amplitudes(globals_)
+        bent = self.outer.balance(amplitudes, totals[d : d + self.modes])
+        if self.ring.asks:
+            # nothing touches an outer ring that floats between held rollers and its supports
+            bent = bent + anchored(amplitudes, ANCHOR * LENGTH_UNIT)
+        return jnp.concatenate([rows, bent / self.load_scale()])
 
     def ring_names(self) -> tuple[str, ...]:
         """Names of the equations of both rings."""

@@ -298,3 +298,45 @@ def test_held_bearing_with_an_oval_race_only():
     solution = jb.solve(scene)
     held = jb.reaction(scene, [0.0, float(solution.ring.radial), 0.0, 0.0, 0.0])
     np.testing.assert_allclose(held.elements.load_inner, solution.elements.load_inner, atol=1e-4)
+
+
+@pytest.mark.parametrize("bends", [True, False], ids=["bends", "oval"])
+def test_row_has_one_energy(bends):
+    """What a shaft sees: the force is the slope of the energy and has the stiffness of the reaction."""
+    oval = OuterRoundness(lobe_order=[2.0], lobe_height=[8e-6], lobe_angle=[0.3])
+    part = ring(harmonics=4, housing_stiffness=1e10) if bends else None
+    scene = dry_roller().replace({"outer_ring": part, "outer_roundness": oval})
+    row = scene.row(jnp.zeros(()))
+    place = jnp.asarray([0.0, 4e-5, 1e-5, 1e-4, 0.0])
+
+    @jax.jit
+    def held(row, place):
+        found = row.hold(place, row.initial(place))
+        step = 1e-9
+        moved = jnp.stack([place.at[i].add(sign * step) for i in (1, 2) for sign in (1.0, -1.0)])
+        energies = jax.lax.map(lambda q: row.hold(q, found.elements).energy, moved)
+        slope = (energies[0::2] - energies[1::2]) / (2.0 * step)
+        stiffness = jax.jacfwd(lambda q: row.force_at(q, jax.lax.stop_gradient(found.elements)))(place)
+        return found, slope, stiffness
+
+    found, slope, stiffness = held(row, place)
+    np.testing.assert_allclose(found.force[1:3], slope, rtol=1e-6)
+    np.testing.assert_allclose(stiffness, found.stiffness, atol=1e-7 * np.max(found.stiffness))
+    assert np.all(np.asarray(found.force)[[0, 3, 4]] == 0.0)
+    across = jb.reaction(scene, [0.0, 4e-5, 1e-5, 0.0, 0.0])
+    np.testing.assert_allclose(found.force, across.force, atol=1e-8 * np.max(found.force))
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("thickness", "housing", "errors"),
+    [(0.008, 1e10, {2: 7.2e-2, 6: 1.8e-2, 12: 2.3e-3}), (0.016, 1e10, {2: 6.5e-2, 6: 4.9e-3, 12: 4.2e-4})],
+    ids=["8 mm", "16 mm"],
+)
+def test_harmonics_converge_as_the_sheet_says(thickness, housing, errors):
+    """Largest error of a load over the largest load, against 150 orders; the sheet prints two digits."""
+    scene = static(outer_ring=ring(thickness, housing_stiffness=housing))
+    whole = with_orders(scene, tuple(range(151)))
+    for most, expected in errors.items():
+        found = with_orders(scene, tuple(range(most + 1)))
+        np.testing.assert_allclose(np.max(np.abs(found - whole)) / np.max(whole), expected, rtol=0.03)
