@@ -14,7 +14,7 @@ from .facts import Facts
 from .frequencies import textbook_frequencies
 from .interactions import Costs
 from .ring import Port
-from .ring_shape import RingDeflection
+from .ring_deflection import RingDeflection
 from .solution import (
     RING_FREEDOMS,
     BoundaryPower,

@@ -8,7 +8,7 @@ from jaxtyping import Array, Float
 
 from ..mounting.bent_ring import BentRing
 from .ring import LENGTH_UNIT
-from .ring_shape import RingDeflection
+from .ring_deflection import RingDeflection
 
 PLACES = 361
 """Azimuths at which results have the deflection of the ring."""
@@ -17,7 +17,10 @@ LEANS = 0.1
 
 
 class ElasticRing(eqx.Module):
-    """A ring and its deflection `shapes` at the rolling elements. Unknowns are amplitudes in units of `LENGTH_UNIT`."""
+    """A ring in the equations; unknowns are its amplitudes in units of `LENGTH_UNIT`.
+
+    **Arguments:** `ring`; `shapes`: outward deflections at the rolling elements over the amplitudes, dimensionless.
+    """
 
     ring: BentRing
     shapes: Float[Array, "mode element"]

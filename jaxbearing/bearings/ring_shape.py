@@ -224,17 +224,3 @@ def out_of_round(
     nothing = jnp.zeros_like(azimuth)
     closing = nothing if inner is None else inner.deviation(azimuth)
     return closing if outer is None else closing - outer.deviation(azimuth)
-
-
-class RingDeflection(eqx.Module):
-    """Deformed shape of a flexible outer ring: deflection of its centroid circle, outwards."""
-
-    azimuth: Float[Array, " ring_place"] = eqx.field(metadata=label("rad", "azimuth from the load line"))
-    deflection: Float[Array, " ring_place"] = eqx.field(metadata=label("m", "outward deflection of the outer ring"))
-    cosines: Float[Array, " ring_order"] = eqx.field(metadata=label("m", "amplitude of the cosine of each order"))
-    sines: Float[Array, " ring_order"] = eqx.field(metadata=label("m", "amplitude of the sine of each order"))
-    radius: Float[Array, ""] = eqx.field(metadata=label("m", "radius of the centroid circle of the outer ring"))
-    order: Float[Array, " ring_order"] = eqx.field(metadata=label("1", "order of the harmonic of the outer ring"))
-    support_forces: Float[Array, " support"] | None = eqx.field(
-        default=None, metadata=label("N", "forces of the supports on the outer ring, inwards")
-    )

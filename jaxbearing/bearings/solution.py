@@ -18,7 +18,7 @@ from ..numerics.status import Status
 from ..thermal.result import ThermalResult
 from .frequencies import KinematicFrequencies, frequencies_of_motion
 from .growth import FitResult
-from .ring_shape import RingDeflection
+from .ring_deflection import RingDeflection
 from .supplied import SupplyResult
 
 INNER_TOLERANCE = 1e-8

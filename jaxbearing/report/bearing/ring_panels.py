@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from ...bearings.ring_shape import RingDeflection
+from ...bearings.ring_deflection import RingDeflection
 from ...bearings.solution import Solution
 from ...solve import solve
 from ..colours import FAINT, OUTER
