@@ -3,12 +3,12 @@ are not round: rollers carry evenly along their length, so that the ring feels f
 
 import dataclasses
 
+import jax
 import jax.numpy as jnp
 from jaxtyping import Array, Float
 
-from ...numerics.arrow import ArrowPoint
+from ...numerics.arrow import ArrowPoint, linearize, solve_arrow
 from ...numerics.newton import newton_solve
-from ...numerics.plain_newton import plain_newton
 from ..ring import LENGTH_UNIT, held_ring
 from ..row import AbstractRow, HeldRow
 from .equations import DryRollerSystem
@@ -39,10 +39,11 @@ class InPlaneRow(AbstractRow):
 
     def force_at(self, displacement: Float[Array, "5"], elements: Float[Array, "m element"]) -> Float[Array, "5"]:
         system = self._held(displacement)
-        point = ArrowPoint(jnp.zeros((0, system.azimuth.shape[0])), elements[:, 0])
-        if elements.shape[0]:
-            # one step from the root, which carries the derivative
-            point = plain_newton(system, point, tolerance=jnp.inf, max_steps=0).point
+        point = ArrowPoint(jnp.zeros((0, system.azimuth.shape[0])), jax.lax.stop_gradient(elements[:, 0]))
+        # one step from the root, which does not move it and carries the derivative
+        equations, jacobian = linearize(system, point)
+        step = solve_arrow(jax.lax.stop_gradient(jacobian), equations.residual)
+        point = jax.tree.map(lambda here, moved: here - moved, point, step)
         load = system.loads(system.inward_shift(point))[0]
         return jnp.zeros(5).at[1:3].set(outward(system.azimuth) @ load[0])
 
