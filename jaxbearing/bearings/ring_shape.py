@@ -7,6 +7,7 @@ import equinox as eqx
 import jax
 import jax.numpy as jnp
 import numpy as np
+from jax.core import Tracer
 from jaxtyping import Array, Float
 
 from .._scene import label, number, optional_number
@@ -186,7 +187,7 @@ class AbstractRoundness(_Lists):
     def __check_init__(self):
         if self.lobe_order is None and self.table_angle is None:
             raise ValueError(f"{self.part}: expected lobes or a table, found nothing")
-        if self.lobe_order is not None and not isinstance(self.lobe_order, jax.core.Tracer):
+        if self.lobe_order is not None and not isinstance(self.lobe_order, Tracer):
             orders = np.asarray(self.lobe_order)
             if np.any(orders != np.round(orders)):
                 raise ValueError(f"{self.part}.lobe_order must be whole numbers, got {orders.tolist()}")

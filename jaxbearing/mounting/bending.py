@@ -64,7 +64,7 @@ class RingSection(eqx.Module):
     def of_tangential_load(self, orders: Int[np.ndarray, " order"]) -> Float[Array, " order"]:
         """Factor by which axial strain and shear change the effect of a tangential load on w_n, beside c_n."""
         square = np.square(orders).astype(float)
-        return (1.0 + square * (self.axial_share + self.shear_share)) / self._softness(square)
+        return jnp.asarray(1.0 + square * (self.axial_share + self.shear_share)) / self._softness(square)
 
     def of_moment(self, orders: Int[np.ndarray, " order"]) -> Float[Array, " order"]:
         """Factor by which axial strain and shear change the effect of a couple on w_n, beside c_n."""

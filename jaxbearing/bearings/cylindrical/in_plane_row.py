@@ -63,4 +63,7 @@ def _energy(system: DryRollerSystem, load: Float[Array, "2 roller"], point: Arro
     contacts = PALMGREN_ENERGY * jnp.sum(load * approach) - system.centrifugal() * jnp.sum(approach[1])
     if system.outer is None:
         return contacts
-    return contacts + system.outer.ring.energy(LENGTH_UNIT * system.amplitudes(point.globals))
+    amplitudes = system.amplitudes(point.globals)
+    # rollers follow the ring outwards
+    thrown = system.centrifugal() * jnp.sum(system.outer.deflection(amplitudes))
+    return contacts - thrown + system.outer.ring.energy(LENGTH_UNIT * amplitudes)
