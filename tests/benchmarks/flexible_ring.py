@@ -21,8 +21,8 @@ from roller_cases import dry_roller, reference_roller
 import jaxbearing as jb
 from jaxbearing.bearings.ring_shape import FlexibleRing
 
-HARMONICS = (2, 4, 8, 12)
-MOST = 60
+HARMONICS = (4, 12)
+MOST = 30
 """Harmonics of the reference."""
 TWELVE = 3.0
 """Most time that a solve with 12 harmonics may take over one with a rigid ring."""
