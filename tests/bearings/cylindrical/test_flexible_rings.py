@@ -340,3 +340,24 @@ def test_harmonics_converge_as_the_sheet_says(thickness, housing, errors):
     for most, expected in errors.items():
         found = with_orders(scene, tuple(range(most + 1)))
         np.testing.assert_allclose(np.max(np.abs(found - whole)) / np.max(whole), expected, rtol=0.03)
+
+
+@pytest.mark.slow
+def test_oval_inner_ring_of_a_planet_gear():
+    """Lobes along the tangential tooth load lengthen the life, as Harris and Broschard reported, up to a best height;
+    lobes across it shorten it. The sheet found 17 % at 25 um with orders 2 to 12; orders 0 and 1 are in here too."""
+    base = planet(0.010).replace_geometry(diametral_clearance=40e-6)
+
+    def life(height):
+        lobes = InnerRoundness(lobe_order=[2.0], lobe_height=jnp.stack([height]), lobe_angle=[0.0])
+        load = jb.solve(dataclasses.replace(base, inner_roundness=lobes), throw=False).elements.load_inner
+        # the inner ring stands under the load, the other one turns; e = 9/8 of line contacts
+        rings = jnp.stack([jnp.mean(load**4.5) ** (4.0 / 4.5), jnp.mean(load**4)])
+        return jnp.sum(rings ** (9.0 / 8.0)) ** (-8.0 / 9.0)
+
+    heights = jnp.asarray([-25e-6, 0.0, 25e-6, 30e-6, 60e-6])
+    lives = np.asarray(jax.jit(lambda all_heights: jax.lax.map(life, all_heights))(heights))
+    found = lives / lives[1]
+    assert found[0] < 0.6
+    np.testing.assert_allclose(found[2], 1.17, atol=0.02)
+    assert found[4] < 1.0 < found[2] < found[3]
