@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from carried_rollers import CarriedRollers
 from roller_cases import REFERENCE_STEEL, dry_roller, reference_roller
+from warm_cases import warm
 
 import jaxbearing as jb
 from jaxbearing.bearings.cylindrical.scene import CylindricalRollerBearing, RollerGeometry
@@ -345,7 +346,7 @@ def test_harmonics_converge_as_the_sheet_says(thickness, housing, errors):
 @pytest.mark.slow
 def test_oval_inner_ring_of_a_planet_gear():
     """Lobes along the tangential tooth load lengthen the life, as Harris and Broschard reported, up to a best height;
-    lobes across it shorten it. The sheet found 17 % at 25 um with orders 2 to 12; orders 0 and 1 are in here too."""
+    lobes across it shorten it. The sheet found 17 % at 25 um with orders 2 to 12; order 0 is in here too."""
     base = planet(0.010).replace_geometry(diametral_clearance=40e-6)
 
     def life(height):
@@ -361,3 +362,17 @@ def test_oval_inner_ring_of_a_planet_gear():
     assert found[0] < 0.6
     np.testing.assert_allclose(found[2], 1.17, atol=0.02)
     assert found[4] < 1.0 < found[2] < found[3]
+
+
+@pytest.mark.slow
+def test_flexible_ring_with_a_thermal_network():
+    """The temperatures are those at which losses and heat flows balance, and the ring bends there."""
+    scene = warm("roller", 1)
+    flexible = dataclasses.replace(scene, outer_ring=ring(harmonics=4, housing_stiffness=1e10))
+    rigid, found = (jb.solve(one) for one in (scene, flexible))
+    assert bool(found.converged)
+    assert found.outer_ring.cosines[2] > 0.0
+    assert np.max(found.elements.load_inner) < 0.95 * np.max(rigid.elements.load_inner)
+    # more rollers carry: other losses, other temperatures
+    assert float(found.power_loss.total) != float(rigid.power_loss.total)
+    assert found.thermal is not None
