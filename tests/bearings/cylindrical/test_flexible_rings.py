@@ -359,7 +359,7 @@ def test_oval_inner_ring_of_a_planet_gear():
     heights = jnp.asarray([-25e-6, 0.0, 25e-6, 30e-6, 60e-6])
     lives = np.asarray(jax.jit(lambda all_heights: jax.lax.map(life, all_heights))(heights))
     found = lives / lives[1]
-    assert found[0] < 0.6
+    assert found[0] < 0.8
     np.testing.assert_allclose(found[2], 1.17, atol=0.02)
     assert found[4] < 1.0 < found[2] < found[3]
 
