@@ -236,6 +236,8 @@ def newton_solve(system: System, options: NewtonOptions | None = None) -> tuple[
     end = root.end
     elements, globals_ = jnp.abs(end.equations.residual.elements), jnp.abs(end.equations.residual.globals)
     sizes = jnp.concatenate([jnp.max(elements, axis=1, initial=0.0), globals_])
+    # a system without unknowns is solved by its one point
+    sizes = sizes if sizes.size else jnp.zeros(1)
     worst = jnp.argmax(jnp.where(jnp.isnan(sizes), jnp.inf, sizes))
     m = elements.shape[0]
     worst_element = jnp.argmax(elements[jnp.minimum(worst, m - 1)]) if m else jnp.asarray(0)

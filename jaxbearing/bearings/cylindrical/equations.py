@@ -26,8 +26,7 @@ The sign of $F_{C2} - F_{C1}$ in the cage's x balance differs from the source's 
 eq. (32) and action = reaction. Each interaction gives its force and its dissipation from one and the same speed.
 """
 
-import dataclasses
-from typing import NamedTuple, TypeVar
+from typing import NamedTuple
 
 import equinox as eqx
 import jax
@@ -38,12 +37,14 @@ from ...contacts import LineContact
 from ...contacts.laws import ContactLaws, ContactState
 from ...gaps import EndForces, PocketFilm
 from ...lubricants import InletOil, Lubricant
-from ...numerics.arrow import AbstractArrowSystem, ArrowPoint
+from ...numerics.arrow import ArrowPoint, seen_by_elements
 from ...numerics.roots import monotone_root
+from ..elastic_ring import ElasticRing
 from ..inlet import AbstractOils, OilElsewhere
 from ..land import LandState, guided_land
 from ..ring import LENGTH_UNIT, InnerRing
 from .forces import CageParts, forces_without_pocket, on_cage
+from .in_plane import AbstractInPlane
 from .kinematics import RollerKinematics
 from .loads import LOG_LOAD_RANGE, approach_error, guessed_loads, per_race
 
@@ -51,16 +52,6 @@ EASED_ENTRAINMENT = 0.3
 """Entrainment speed that a solve which failed at once is given first, over that of rolling without slip."""
 EASED_PRESSURE = 1.5e9
 """Hertz pressure of the most loaded roller, Pa, at which traction surely drives the rollers: given first after that."""
-
-
-System = TypeVar("System", bound="_InPlane")
-IN_PLANE = ("radial", "lateral")
-"""Freedoms of the inner ring in the model of rollers that carry evenly along their length."""
-
-
-def outward(azimuth: Float[Array, " roller"]) -> Float[Array, "2 roller"]:
-    """Outward unit vector at each roller, along the load line and along azimuth 90 degrees."""
-    return jnp.stack([jnp.cos(azimuth), jnp.sin(azimuth)])
 
 
 class RollerState(NamedTuple):
@@ -84,39 +75,7 @@ class RollerState(NamedTuple):
     cage_force: Float[Array, "2 roller"] | None
 
 
-class _InPlane(AbstractArrowSystem):
-    """Base of the equations of rollers that carry evenly along their length. `directions`: outward unit vectors along
-    the unknown freedoms of the `ring`; `held`: by what displacements that are given bring it towards each roller, m,
-    `None`: none is given."""
-
-    directions: eqx.AbstractVar[Float[Array, "freedom roller"]]
-    azimuth: eqx.AbstractVar[Float[Array, " roller"]]
-    ring: eqx.AbstractVar[InnerRing]
-    held: eqx.AbstractVar[Float[Array, " roller"] | None]
-
-    @property
-    def freedoms(self) -> tuple[str, ...]:
-        """Freedoms of the ring that are unknown."""
-        return self.ring.freedoms
-
-    def load_scale(self) -> Array:
-        """Scale of the ring's balances, N."""
-        return self.ring.size()
-
-    def inward(self, shared: Float[Array, "freedom ..."]) -> Float[Array, " roller"]:
-        """Displacement of the inner ring towards each roller, m, from its unknowns."""
-        shift = jnp.sum(shared * self.directions, axis=0) * LENGTH_UNIT
-        return shift if self.held is None else shift + self.held
-
-    def in_plane(self: System) -> System:
-        """The equations with both freedoms of the ring unknown."""
-        ring, both = self.ring, outward(self.azimuth)
-        free = InnerRing(jnp.full(2, ring.size() / jnp.sqrt(2.0)), jnp.zeros(5), ring.lever, IN_PLANE)
-        held = None if ring.expansion is None else jnp.broadcast_to(ring.expansion, self.azimuth.shape)
-        return dataclasses.replace(self, directions=both, ring=free, held=held)
-
-
-class LubricatedRollerSystem(AbstractOils, _InPlane):
+class LubricatedRollerSystem(AbstractOils, AbstractInPlane):
     """Lubricated bearing. With `cage`: unknowns (ln Qi, speed at the outer race) per roller, (ring, cage speed).
     Without (frictionless raceways): ln Qi per roller and the ring, kinematics of rolling without slip."""
 
@@ -131,6 +90,8 @@ class LubricatedRollerSystem(AbstractOils, _InPlane):
     radial_clearance: Float[Array, ""]
     roller_mass: Float[Array, ""]
     held: Float[Array, " roller"] | None = None
+    out_of_round: Float[Array, " roller"] | None = None
+    outer: ElasticRing | None = None
     cage: CageParts | None = None
     elsewhere: OilElsewhere | None = None
     """Oil of the other interactions where it is not that of the raceways, `inlet`."""
@@ -147,20 +108,20 @@ class LubricatedRollerSystem(AbstractOils, _InPlane):
     # -- solver contract ------------------------------------------------------------------------------------------
 
     def equation_names(self) -> tuple[str, ...]:
-        ring = self.ring.equation_names()
+        ring = self.ring_names()
         if self.cage is None:
             return ("approach of the rings at a roller", *ring)
         return ("approach of the rings at a roller", "moment balance of a roller", *ring, "moment balance of the cage")
 
     def step_caps(self) -> ArrowPoint:
-        ring = [5.0] * self.directions.shape[0]
+        ring = [5.0] * (self.directions.shape[0] + self.modes)
         if self.cage is None:
             return ArrowPoint(jnp.asarray([[3.0]]), jnp.asarray(ring))
         return ArrowPoint(jnp.asarray([[3.0], [0.2]]), jnp.asarray([*ring, 0.2]))
 
     def bounds(self) -> tuple[ArrowPoint, ArrowPoint]:
         low, high = LOG_LOAD_RANGE
-        ring = [1e4] * self.directions.shape[0]
+        ring = [1e4] * (self.directions.shape[0] + self.modes)
         if self.cage is None:
             return (
                 ArrowPoint(jnp.asarray([[low]]), -jnp.asarray(ring)),
@@ -177,7 +138,9 @@ class LubricatedRollerSystem(AbstractOils, _InPlane):
         motion, n = self.kinematics, self.azimuth.shape[0]
         mean_speed, _ = motion.surface_speeds(jnp.zeros(()), jnp.zeros(()))
         along = self.ring.across()
-        opening = self.radial_clearance if self.held is None else self.radial_clearance - self.held
+        opening = self.radial_clearance
+        for given in (self.held, self.out_of_round):
+            opening = opening if given is None else opening - given
         shift, log_load = guessed_loads(
             self.contact,
             self.laws,
@@ -188,7 +151,7 @@ class LubricatedRollerSystem(AbstractOils, _InPlane):
             self.centrifugal(motion.free_orbit),
             opening,
         )
-        ring = along * shift / LENGTH_UNIT
+        ring = self.begun(along * shift / LENGTH_UNIT)
         if self.cage is None:
             return ArrowPoint(log_load[None, :], ring)
         return ArrowPoint(jnp.stack([log_load, jnp.zeros(n)]), jnp.concatenate([ring, jnp.zeros(1)]))
@@ -207,17 +170,30 @@ class LubricatedRollerSystem(AbstractOils, _InPlane):
         per_roller = 2.0 * jnp.pi * EASED_PRESSURE**2 * contact.reduced_radius * contact.length
         heavy = per_roller / contact.reduced_modulus * self.azimuth.shape[0] / 4.0
         factor = jnp.where(path == 1, jnp.maximum(heavy / self.load_scale(), 1.0) ** parameter, 1.0)
-        where = lambda system: (system.ring.load, system.laws.entrainment_offset)
-        return eqx.tree_at(where, self, (self.ring.load * factor, offset))
+        loads = lambda system: [system.ring.load, *_outer_loads(system)]
+        where = lambda system: (*loads(system), system.laws.entrainment_offset)
+        return eqx.tree_at(where, self, (*(load * factor for load in loads(self)), offset))
 
     @property
     def extra_totals(self) -> int:
         # moment on the cage, and two components of the force for one global
         return 0 if self.cage is None else 2
 
+    def local_inputs(self, globals_):
+        """With an outer ring that bends: the displacement of the rings towards each roller, and the cage speed."""
+        if self.outer is None:
+            return None
+        shift = self.approaching(globals_, self.outer)
+        return shift[None] if self.cage is None else jnp.stack([shift, jnp.broadcast_to(globals_[-1], shift.shape)])
+
+    def gathered(self, globals_, acting):
+        if self.outer is None:
+            return jnp.sum(acting, axis=1)
+        return jnp.concatenate([self.on_rings(acting[:2], self.outer), jnp.sum(acting[2:], axis=1)])
+
     def element(self, unknowns, shared):
         state = self.rollers(unknowns, shared)
-        balance = state.load[0][None, :] * self.directions
+        balance = state.load[0][None, :] * self.directions if self.outer is None else state.load
         if state.moment_error is None or state.cage_moment is None or state.cage_force is None:
             return state.approach_error[None, :], balance, state.contact.inner_residual
         local = jnp.stack([state.approach_error, state.moment_error])
@@ -225,8 +201,8 @@ class LubricatedRollerSystem(AbstractOils, _InPlane):
         return local, contributions, state.contact.inner_residual
 
     def global_residual(self, globals_, totals):
-        d = self.directions.shape[0]
-        ring = (totals[:d] - self.ring.load) / self.load_scale()
+        d = self.directions.shape[0] + self.modes
+        ring = self.ring_rows(globals_, totals)
         if self.cage is None:
             return ring, jnp.zeros(())
         land = self.land(self.orbit(globals_[d]), totals[d + 1], totals[d + 2])
@@ -241,13 +217,13 @@ class LubricatedRollerSystem(AbstractOils, _InPlane):
         return self.kinematics.free_orbit + self.kinematics.orbit_unit * scaled
 
     def at(self, point: ArrowPoint) -> RollerState:
-        shape = (point.globals.shape[0], point.elements.shape[1])
-        return self.rollers(point.elements, jnp.broadcast_to(point.globals[:, None], shape))
+        return self.rollers(point.elements, seen_by_elements(self, point))
 
-    def rollers(self, unknowns: Float[Array, "m roller"], shared: Float[Array, "g roller"]) -> RollerState:
-        motion, d = self.kinematics, self.directions.shape[0]
+    def rollers(self, unknowns: Float[Array, "m roller"], shared: Float[Array, "p roller"]) -> RollerState:
+        """**Arguments:** `shared`: the globals, or with an outer ring that bends the `local_inputs`."""
+        motion, d = self.kinematics, self.directions.shape[0] if self.outer is None else 1
         log_load = unknowns[0]
-        shift = self.inward(shared[:d])
+        shift = self.inward(shared[:d]) if self.outer is None else shared[0]
         if self.cage is None:
             orbit_change = spin_change = jnp.zeros_like(log_load)
         else:
@@ -328,7 +304,14 @@ class LubricatedRollerSystem(AbstractOils, _InPlane):
         return self.land(self.orbit(point.globals[-1]), force[0], force[1])
 
 
-class DryRollerSystem(_InPlane):
+def _outer_loads(system: LubricatedRollerSystem) -> list[Array]:
+    """Given forces on the outer ring, which balance those on the inner one if nothing else holds it."""
+    if system.outer is None or system.outer.ring.loads is None:
+        return []
+    return [system.outer.ring.loads.radial, system.outer.ring.loads.tangential]
+
+
+class DryRollerSystem(AbstractInPlane):
     """Dry frictionless bearing: the loads follow from the ring displacement in closed form but for one well
     conditioned scalar root per roller, so only the ring displacement is an unknown."""
 
@@ -340,16 +323,18 @@ class DryRollerSystem(_InPlane):
     radial_clearance: Float[Array, ""]
     roller_mass: Float[Array, ""]
     held: Float[Array, " roller"] | None = None
+    out_of_round: Float[Array, " roller"] | None = None
+    outer: ElasticRing | None = None
 
     def equation_names(self) -> tuple[str, ...]:
-        return self.ring.equation_names()
+        return self.ring_names()
 
     def step_caps(self) -> ArrowPoint:
         # a dry distribution is convex in the displacement: no cap is needed
-        return ArrowPoint(jnp.zeros((0, 1)), jnp.full(self.directions.shape[0], 1e4))
+        return ArrowPoint(jnp.zeros((0, 1)), jnp.full(self.directions.shape[0] + self.modes, 1e4))
 
     def bounds(self) -> tuple[ArrowPoint, ArrowPoint]:
-        edge = jnp.full(self.directions.shape[0], 1e5)
+        edge = jnp.full(self.directions.shape[0] + self.modes, 1e5)
         return ArrowPoint(jnp.zeros((0, 1)), -edge), ArrowPoint(jnp.zeros((0, 1)), edge)
 
     def centrifugal(self) -> Array:
@@ -360,7 +345,9 @@ class DryRollerSystem(_InPlane):
         stiff = jnp.sum(self.contact.palmgren_compliance)
         shift = self.radial_clearance + stiff * (self.load_scale() + self.centrifugal()) ** 0.9
         shift = jnp.maximum(shift, 0.1 * LENGTH_UNIT)
-        ring = self.ring.across() * shift / LENGTH_UNIT
+        if self.out_of_round is not None:
+            shift = shift + jnp.max(jnp.abs(self.out_of_round))
+        ring = self.begun(self.ring.across() * shift / LENGTH_UNIT)
         return ArrowPoint(jnp.zeros((0, self.azimuth.shape[0])), ring)
 
     def loads(self, shift: Array) -> tuple[Float[Array, "2 roller"], Array]:
@@ -388,12 +375,23 @@ class DryRollerSystem(_InPlane):
         return jnp.stack([inner, inner + fc]), jnp.max(root.residual / x)
 
     def inward_shift(self, point: ArrowPoint) -> Array:
-        """Displacement of the inner ring towards each roller, m."""
-        return self.inward(point.globals[:, None])
+        """Displacement of the rings towards each other at each roller, m."""
+        outer = self.outer
+        return self.inward(point.globals[:, None]) if outer is None else self.approaching(point.globals, outer)
+
+    def local_inputs(self, globals_):
+        """With an outer ring that bends: the displacement of the rings towards each roller."""
+        return None if self.outer is None else self.approaching(globals_, self.outer)[None]
+
+    def gathered(self, globals_, acting):
+        return jnp.sum(acting, axis=1) if self.outer is None else self.on_rings(acting, self.outer)
 
     def element(self, unknowns, shared):
+        if self.outer is not None:
+            load, inner = self.loads(shared[0])
+            return unknowns, load, inner
         load, inner = self.loads(self.inward(shared))
         return unknowns, load[0][None, :] * self.directions, inner
 
     def global_residual(self, globals_, totals):
-        return (totals - self.ring.load) / self.load_scale(), jnp.zeros(())
+        return self.ring_rows(globals_, totals), jnp.zeros(())
