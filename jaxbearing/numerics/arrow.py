@@ -190,8 +190,8 @@ def element_tangents(
     unknowns: Float[Array, "m element"],
     shared: Float[Array, "g element"],
 ) -> tuple[Float[Array, "row element"], Float[Array, "row m+g element"], Seen]:
-    """Local residuals and contributions to totals of `element`, their derivatives by the element's unknowns and the
-    globals, and its third result, a pytree of arrays, which is not differentiated."""
+    """Local residuals and contributions of `element`, their derivatives with respect to the element's unknowns and the
+    globals, and the third result of `element`. The third result is a pytree of arrays and is not differentiated."""
     m, n = unknowns.shape
     width = m + shared.shape[0]
 
@@ -290,8 +290,8 @@ def uphill_step(
 
     Each equation is expected to grow with its own unknown while the unknowns before it are in equilibrium. Where it
     falls, the Newton step points away from a root that lies beyond a maximum of the residual; with the sign of the
-    pivot changed, it points towards that root. Elements of more than 4 unknowns, which LAPACK eliminates, keep their
-    pivots.
+    pivot changed, it points towards that root. Elements with more than 4 unknowns are eliminated by LAPACK, and their
+    pivots are not changed.
 
     **Returns:** the step x; True for each element that has a negative pivot; True if one of the globals has one.
     """
@@ -307,7 +307,8 @@ def uphill_step(
 def solve_arrow(jacobian: ArrowJacobian, right: ArrowPoint) -> ArrowPoint:
     """J x = right, by elimination of the elements and the Schur complement of the globals.
 
-    Matrix and right side are eliminated apart: in one array, autodiff could not see that x is linear in `right`.
+    The matrix and the right-hand side are eliminated separately. If they shared one array, autodiff could not see that
+    x is linear in `right`.
     """
     coupled, schur = eliminated(jacobian)
     return _solved(jacobian, coupled, schur, right)

@@ -12,18 +12,20 @@ Every roller orbits at the cage speed W; per roller (source eqs. (27)-(29), (38)
 - tangential: $Q_{C1} - Q_{C2} = F_i - F_o + F_E + F_{Ec} - F_{OL} + F_P$, eliminated: the two pocket films follow from
   it in closed form (`gaps.Pocket`);
 
-and globally: ring, $\sum Q_i n = F_r$ (source eq. (37)), unknown the ring displacement d; cage moment (source
-eq. (33)), unknown W. The cage offset is eliminated too: the land must carry the sum of the pocket forces, and its
-eccentricity is the root of a monotone scalar equation (`gaps.ShortJournal.static_equilibrium`).
+The global equations are the balance of the ring, $\sum Q_i n = F_r$ (source eq. (37)), with the ring displacement d as
+unknown, and the moment balance of the cage (source eq. (33)), with W as unknown. The cage offset is eliminated too: the
+land must carry the sum of the pocket forces, and its eccentricity is the root of a monotone scalar equation
+(`gaps.ShortJournal.static_equilibrium`).
 
-Rolling resistance, where the scene models it (the source omits it): in each contact the film's pressure leans against
-the motion by $P = \ell\int h\,dp/dx\,dx$. Its shear, -P/2, brakes both surfaces; its pressure passes through both
-centres and pushes the roller on by $P R/R_R$, R the reduced radius, and the ring by what is left. So
-$F_P = P_i (R_i'/R_R - 1/2) - P_o (R_o'/R_R - 1/2)$, with $R_i', R_o'$ the reduced radii, each ring is braked by P/2 at
-its raceway, and the dissipation is P times the mean speed.
+Rolling resistance, if the scene models it (the source omits it): in each contact the film pressure opposes the motion
+with the force $P = \ell\int h\,dp/dx\,dx$. The shear of the film, -P/2, brakes both surfaces. The line of action of the
+pressure passes through both centres. The pressure pushes the roller forward by $P R/R_R$, with R the reduced radius,
+and it pushes the ring by the rest of P. The force on the roller is $F_P = P_i (R_i'/R_R - 1/2) - P_o (R_o'/R_R - 1/2)$,
+with $R_i', R_o'$ the reduced radii. Each ring is braked by P/2 at its raceway. The dissipation is P times the mean
+speed.
 
-The sign of $F_{C2} - F_{C1}$ in the cage's x balance differs from the source's eq. (31), which contradicts its own
-eq. (32) and action = reaction. Each interaction gives its force and its dissipation from one and the same speed.
+The sign of $F_{C2} - F_{C1}$ in the x balance of the cage differs from the source's eq. (31). That equation contradicts
+the source's eq. (32) and action = reaction. The force and the dissipation of an interaction use the same speed.
 """
 
 from typing import NamedTuple
@@ -49,13 +51,15 @@ from .kinematics import RollerKinematics
 from .loads import LOG_LOAD_RANGE, approach_error, guessed_loads, per_race
 
 EASED_ENTRAINMENT = 0.3
-"""Entrainment speed that a solve which failed at once is given first, over that of rolling without slip."""
+"""Entrainment speed that the easiest system of path 0 adds, divided by that of rolling without slip."""
 EASED_PRESSURE = 1.5e9
-"""Hertz pressure of the most loaded roller, Pa, at which traction surely drives the rollers: given first after that."""
+"""Hertz pressure of the most loaded roller in the easiest system of path 1, Pa. Traction surely drives the rollers
+there."""
 
 
 class RollerState(NamedTuple):
-    """Everything that happens at every roller, for given unknowns; arrays over rollers, races first where two."""
+    """State of every roller for given unknowns. The last axis runs over the rollers. A first axis of length 2 runs over
+    the races (inner, outer), and in `cage_force` over the components."""
 
     load: Float[Array, "2 roller"]
     approach: Float[Array, "2 roller"]
@@ -76,8 +80,9 @@ class RollerState(NamedTuple):
 
 
 class LubricatedRollerSystem(AbstractOils, AbstractInPlane):
-    """Lubricated bearing. With `cage`: unknowns (ln Qi, speed at the outer race) per roller, (ring, cage speed).
-    Without (frictionless raceways): ln Qi per roller and the ring, kinematics of rolling without slip."""
+    """Lubricated bearing. With `cage` the unknowns are ln Qi and the speed at the outer race for each roller, the ring
+    displacement and the cage speed. Without a cage the raceways are frictionless and the rollers roll without slip; the
+    unknowns are ln Qi for each roller and the ring displacement."""
 
     kinematics: RollerKinematics
     contact: LineContact
@@ -94,7 +99,7 @@ class LubricatedRollerSystem(AbstractOils, AbstractInPlane):
     outer: ElasticRing | None = None
     cage: CageParts | None = None
     elsewhere: OilElsewhere | None = None
-    """Oil of the other interactions where it is not that of the raceways, `inlet`."""
+    """Oil of the other interactions, if it differs from `inlet`, the oil of the raceways."""
 
     # -- scales ---------------------------------------------------------------------------------------------------
 
@@ -133,8 +138,9 @@ class LubricatedRollerSystem(AbstractOils, AbstractInPlane):
         )
 
     def initial(self) -> ArrowPoint:
-        """Rolling without slip; loads from a dry elastic distribution on rings swollen by the films, plus Martin's
-        film force on the rollers outside the loaded zone, at the ring displacement that carries the load."""
+        """Starts from rolling without slip. The loads are those of a dry elastic bearing whose clearance is reduced by
+        the films, plus Martin's film force on the rollers outside the loaded zone. The ring displacement is the one
+        that carries the load."""
         motion, n = self.kinematics, self.azimuth.shape[0]
         mean_speed, _ = motion.surface_speeds(jnp.zeros(()), jnp.zeros(()))
         along = self.ring.across()
@@ -161,9 +167,9 @@ class LubricatedRollerSystem(AbstractOils, AbstractInPlane):
         return 0 if self.cage is None else 2
 
     def homotopy(self, parameter, path):
-        """Path 0, more entrainment in every contact: where a ring and the cage nearly turn together a film collapses,
-        and the friction of a roller falls with its slip; entrainment from outside makes it grow again. Path 1, more
-        load: it pins the rollers to rolling without slip."""
+        """Path 0 adds entrainment in every contact. Where a ring and the cage turn at nearly the same speed, a film
+        collapses, and the friction on a roller falls with its slip; added entrainment makes the friction grow with the
+        slip again. Path 1 adds load, which forces the rollers to roll without slip."""
         extra = EASED_ENTRAINMENT * jnp.abs(self.kinematics.orbit_scale) * self.kinematics.outer_radius
         offset = self.laws.entrainment_offset + jnp.where(path == 0, parameter**3 * extra, 0.0)
         contact = jax.tree.map(lambda values: per_race(values)[0], self.contact)
@@ -176,7 +182,7 @@ class LubricatedRollerSystem(AbstractOils, AbstractInPlane):
 
     @property
     def extra_totals(self) -> int:
-        # moment on the cage, and two components of the force for one global
+        # the one global of the cage needs three totals: the moment on the cage and two components of its force
         return 0 if self.cage is None else 2
 
     def local_inputs(self, globals_):
@@ -207,7 +213,7 @@ class LubricatedRollerSystem(AbstractOils, AbstractInPlane):
             return ring, jnp.zeros(())
         land = self.land(self.orbit(globals_[d]), totals[d + 1], totals[d + 2])
         scale = self.friction_scale() * self.kinematics.pitch_radius * self.azimuth.shape[0]
-        # the moment falls with the cage speed: minus it has the positive diagonal of a stiffness
+        # the moment falls with the cage speed: with its sign changed the diagonal is positive, as for a stiffness
         return jnp.concatenate([ring, -(totals[d] + land.cage_torque)[None] / scale]), land.residual
 
     # -- physics --------------------------------------------------------------------------------------------------
@@ -257,11 +263,11 @@ class LubricatedRollerSystem(AbstractOils, AbstractInPlane):
         return state if self.cage is None else self._with_cage(state, self.cage)
 
     def _with_cage(self, state: RollerState, cage: CageParts) -> RollerState:
-        """Tangential and moment balance of the rollers, and what they do to the cage."""
+        """Tangential and moment balance of the rollers, and their forces on the cage."""
         motion, spin = self.kinematics, state.spin_speed
         assert cage.pocket is not None
         forces = forces_without_pocket(motion, self.contact, state.contact, cage, state.orbital_speed, spin)
-        # tangential balance: the pocket films carry what is left; front minus rear load
+        # tangential balance: the front minus the rear load of the pocket films carries the remaining force
         pocket = cage.pocket.balance(forces.tangential, spin, self.oil_of("pocket").viscosity)
         moment = forces.moment + motion.roller_radius * (pocket.friction_front + pocket.friction_rear)
         cage_moment, cage_force = on_cage(
@@ -312,8 +318,8 @@ def _outer_loads(system: LubricatedRollerSystem) -> list[Array]:
 
 
 class DryRollerSystem(AbstractInPlane):
-    """Dry frictionless bearing: the loads follow from the ring displacement in closed form but for one well
-    conditioned scalar root per roller, so only the ring displacement is an unknown."""
+    """Dry frictionless bearing. Only the ring displacement is an unknown: the loads follow from it, with one well
+    conditioned scalar root for each roller."""
 
     kinematics: RollerKinematics
     contact: LineContact
@@ -341,7 +347,8 @@ class DryRollerSystem(AbstractInPlane):
         return self.roller_mass * self.kinematics.pitch_radius * jnp.square(self.kinematics.free_orbit)
 
     def initial(self) -> ArrowPoint:
-        """The whole load on one roller: never outside contact, and the root is approached from above."""
+        """Starts with the whole load on one roller. The bearing is then in contact, and the root is approached from
+        above."""
         stiff = jnp.sum(self.contact.palmgren_compliance)
         shift = self.radial_clearance + stiff * (self.load_scale() + self.centrifugal()) ** 0.9
         shift = jnp.maximum(shift, 0.1 * LENGTH_UNIT)
@@ -353,8 +360,9 @@ class DryRollerSystem(AbstractInPlane):
     def loads(self, shift: Array) -> tuple[Float[Array, "2 roller"], Array]:
         r"""Loads on both races from the inward displacement of the inner ring at each roller, and the root's residual.
 
-        $k_i Q^{0.9} + k_o (Q + F_c)^{0.9} = d\cdot n - J_d/2$ with Q = 0 until the outer approach of the centrifugal
-        force is taken up; solved in $t = Q^{0.9}$, where it is nearly linear: Q is C1 at take-off, with slope 0.
+        $k_i Q^{0.9} + k_o (Q + F_c)^{0.9} = d\cdot n - J_d/2$. Q is 0 until the displacement exceeds the approach that
+        the centrifugal force causes at the outer race. The equation is solved for $t = Q^{0.9}$, in which it is nearly
+        linear. Where contact begins, Q is continuously differentiable with slope 0.
         """
         kappa = per_race(self.contact.palmgren_compliance)
         fc = self.centrifugal()
