@@ -27,6 +27,8 @@ def statistics(history: History) -> dict[str, Any]:
         values = by_side(elements, name).values()
         if values:
             found[f"{name}_max"] = float(max(np.abs(one).max() for one in values))
+    if "axial" in found["ring"]:
+        found["excursion"] = _excursion(instants)
     if instants.cage is not None:
         found["cage"] = {
             "speed": _spread(instants.cage.speed),
@@ -48,6 +50,12 @@ def statistics(history: History) -> dict[str, Any]:
 def _moved(instants: Any) -> tuple[str, ...]:
     """Displacements of the ring that the statistics show: the axial one where loads along the axis move it."""
     return ("axial", "radial") if hasattr(instants, "axial_load") else ("radial",)
+
+
+def _excursion(instants: Any) -> float:
+    """Largest distance of an element along the pitch circle from the mean of all, beside equal spacing, m."""
+    along = np.asarray(instants.state_elements)[:, 0]
+    return float(np.abs(along - along.mean(axis=1, keepdims=True)).max())
 
 
 def by_side(elements: Any, name: str) -> dict[str, np.ndarray]:

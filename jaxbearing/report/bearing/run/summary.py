@@ -39,6 +39,9 @@ def print_summary(history: History, label: str, console: "Console") -> None:
     for name, spread, unit in rows:
         table.add_row(name, *(with_unit(spread[key], unit) for key in ("mean", "min", "max", "end")))
     console.print(table)
+    if "excursion" in found:
+        away = with_unit(found["excursion"], "m")
+        console.print(f"Largest excursion of a {history.element_name} along the orbit from equal spacing: {away}")
     if "pocket_load" in found:
         element = history.element_name
         said = f"Largest pocket load of a {element} in a turn of the cage, N (mean over the {element}s, largest)"
