@@ -70,7 +70,8 @@ def test_over_a_field(jaxbearing_command, duty):
     over = ("--over", "geometry.diametral_clearance=5 um:20 um:4")
     shown = jaxbearing_command("spectrum", duty, *over)
     assert (shown.code, shown.err) == (0, "")
-    for word in ("4 values of geometry.diametral_clearance", "3 states each", "clearance", "Lnmr", "governed by", "15.00"):
+    words = "4 values of geometry.diametral_clearance", "3 states each", "clearance", "Lnmr", "governed by", "15.00"
+    for word in words:
         assert word in shown.out, word
     assert max(map(len, shown.out.splitlines())) <= 100
     told = jaxbearing_command("spectrum", duty, *over, "--json")
