@@ -1,0 +1,159 @@
+"""Numbers that makers print: reference speeds and the rigidity of spindle bearings."""
+
+import math
+import warnings
+
+import numpy as np
+
+import jaxbearing as jb
+from jaxbearing.catalogue import find
+from jaxbearing.makers.designation import read_designation
+from jaxbearing.makers.palmgren_constants import INA
+from jaxbearing.thermal import reference_speed as iso
+
+from .common import MEASURED, Comparison, Found, rows_of, table_of_page
+
+RPM = math.pi / 30.0
+WITH_MODEL = ("6205", "6210", "6310", "NU 210 ECP")
+"""Bearings whose reference speed is also searched with the losses of the model."""
+HOT = 343.15
+"""Temperature of the bearing in the reference conditions, K."""
+STEPS, CLOSE = 12, 1e-4
+"""Steps of that search, and the relative difference of loss and heat at which it ends."""
+WIDTHS = (0.1, 0.9)
+
+
+def constants_of(designation: str) -> tuple[float, float] | None:
+    """f0 of an oil bath and f1 at the reference load by INA; `None` where the series has none."""
+    said = read_designation(designation)
+    for series, one in INA.get(said.family, {}).items():
+        if said.series in series:
+            return one.bath, one.size * iso.RADIAL_LOAD**one.exponent
+    return None
+
+
+def heat_of(row: dict[str, str]) -> float:
+    """Heat that leaves the bearing in the reference conditions, W."""
+    area = iso.radial_seat_area(*(1e-3 * float(row[name]) for name in ("d", "D", "B")))
+    return float(iso.reference_heat_flow(area) * area)
+
+
+def by_formula(row: dict[str, str]) -> float | None:
+    """Reference speed by ISO 15312 with INA's factors, rpm."""
+    factors = constants_of(row["designation"])
+    if factors is None:
+        return None
+    load = iso.RADIAL_LOAD * 1e3 * float(row["C0_kN"])
+    mean = 0.5e-3 * (float(row["d"]) + float(row["D"]))
+    return float(iso.reference_speed(heat_of(row), iso.RADIAL_VISCOSITY, load, mean, *factors)) / RPM
+
+
+def reference_speeds() -> Found:
+    """The formula beside all printed speeds, by series."""
+    groups: dict[str, list[float]] = {}
+    for row in rows_of(MEASURED / "skf_reference_speeds.csv"):
+        found = by_formula(row)
+        if found is not None:
+            said = read_designation(row["designation"])
+            series = f"NU {said.series}" if said.family == "cylindrical" else said.series
+            groups.setdefault(series, []).append(found / float(row["n_ref"]))
+    rows, deviations = [], {}
+    for series, ratios in groups.items():
+        middle, low, high = (float(np.quantile(ratios, share)) for share in (0.5, *WIDTHS))
+        rows.append([series, f"{len(ratios)}", f"{middle:.2f}", f"{low:.2f} to {high:.2f}"])
+        deviations[series] = middle - 1.0
+    return Found(["series", "bearings", "formula over print, median", "80 % of the bearings"], rows, deviations)
+
+
+def losses_at(designation: str, capacity: float, level: str | None):
+    """The total loss of a catalogue bearing at a speed, rad/s, in the reference conditions; ISO VG 32 has 12 mm²/s."""
+    load = iso.RADIAL_LOAD * capacity
+    given = {"static_capacity": capacity, "radial_load": load, "oil": "ISO VG 32", "oil_temperature": HOT}
+    tables = find(designation, **given).tables()
+    if level is not None:
+        tables["contact"] = {**tables.get("contact", {}), "supply": {"level": level}}
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", jb.PresetUsedWarning)
+        scene = jb.scene_from_mapping(tables)
+    return lambda speed: float(jb.solve(scene.replace({"operation.inner_speed": speed})).power_loss.total)
+
+
+def by_model(row: dict[str, str], level: str | None) -> float:
+    """Speed at which the losses of the model are the heat that leaves, rpm: secants of the logarithms."""
+    heat = heat_of(row)
+    losses = losses_at(row["designation"], 1e3 * float(row["C0_kN"]), level)
+    excess = lambda place: math.log(losses(math.exp(place)) / heat)
+    ends = [math.log(RPM * float(row["n_ref"]) * factor) for factor in (0.5, 0.8)]
+    values = [excess(place) for place in ends]
+    for _ in range(STEPS):
+        if abs(values[-1]) < CLOSE:
+            return math.exp(ends[-1]) / RPM
+        slope = (values[-1] - values[-2]) / (ends[-1] - ends[-2])
+        ends.append(ends[-1] - values[-1] / slope)
+        values.append(excess(ends[-1]))
+    raise RuntimeError(f"{row['designation']}: found no reference speed in {STEPS} steps")
+
+
+def model_speeds() -> Found:
+    """Reference speeds by the losses of the model: flooded, and with the supply of an oil bath."""
+    printed = {row["designation"]: row for row in rows_of(MEASURED / "skf_reference_speeds.csv")}
+    rows, deviations = [], {}
+    for name in WITH_MODEL:
+        row = printed[name]
+        own, formula = float(row["n_ref"]), by_formula(row)
+        cells = [name, f"{own:.0f}", f"{formula:.0f} ({formula / own:.2f})"]
+        for level in (None, "bath"):
+            found = by_model(row, level)
+            cells.append(f"{found:.0f} ({found / own:.2f})")
+            if level is not None:
+                deviations[name] = found / own - 1.0
+        rows.append(cells)
+    headings = ["bearing", "printed, rpm", "formula (over print)", "model, flooded", "model, oil bath"]
+    return Found(headings, rows, deviations)
+
+
+def rigidity() -> Found:
+    """The rigidities of one pair, from the page of worked examples, where tests solve for them."""
+    rows = table_of_page("worked_examples.md", "quantity", "rigidity of the pair")
+    deviations = {row[0]: float(row[2]) / float(row[1]) - 1.0 for row in rows}
+    return Found(["quantity", "printed", "here", "deviation"], rows, deviations)
+
+
+COMPARISONS = (
+    Comparison(
+        name="reference_formula",
+        quantity="thermal reference speed, formula of ISO 15312",
+        data="270 deep groove and NU bearings of a catalogue (SKF)",
+        free="nothing",
+        assumed="factors f0 and f1 of another maker (INA)",
+        believe=50.0,
+        data_error=10.0,
+        verdict="Believe the standard's formula to about {believe} per cent, on the low side for ball bearings: the "
+        "printed speeds come from the maker's own law of friction, so this checks a formula and no truth.",
+        compute=reference_speeds,
+        dear=False,
+    ),
+    Comparison(
+        name="reference_model",
+        quantity="thermal reference speed, losses of the model",
+        data="four bearings of the same catalogue",
+        free="nothing",
+        assumed="internal geometry estimated from C0; oil ISO VG 32; no drag, since no oil level is known",
+        believe=50.0,
+        data_error=10.0,
+        verdict="Believe a reference speed that the model's losses give to about {believe} per cent.",
+        compute=model_speeds,
+    ),
+    Comparison(
+        name="rigidity",
+        quantity="axial rigidity of pairs of spindle bearings",
+        data="KH 6010 C, three preloads (GMN)",
+        free="the conformity, one number for 30 bearings",
+        assumed="steel of the rings",
+        believe=5.0,
+        data_error=1.0,
+        verdict="Believe a stiffness and a preload to about {believe} per cent where the conformity is known.",
+        compute=rigidity,
+        dear=False,
+    ),
+)
