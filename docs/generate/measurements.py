@@ -1,0 +1,100 @@
+"""Tables, deviations and verdicts of the page "Beside measurements", from the data.
+
+    python docs/generate/measurements.py             # all: some minutes
+    python docs/generate/measurements.py hertz films # these
+
+Text between the marks `<!-- NAME -->` and `<!-- end NAME -->` of docs/measurements.md is written here, the rest by
+hand. The summary is made of the texts of all comparisons, also of those that are not computed again. A test computes
+each and compares it with the page.
+"""
+
+import re
+import sys
+import time
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).parent))
+
+from beside import catalogues, contacts, heat, prediction, source, torque  # noqa: E402
+from beside.common import DOCS, Comparison, Found  # noqa: E402
+
+PAGE = DOCS / "measurements.md"
+COMPARISONS: dict[str, Comparison] = {
+    one.name: one
+    for module in (heat, torque, catalogues, contacts, source, prediction)
+    for one in module.COMPARISONS
+}
+SUMMARY = "summary"
+DEVIATION = "**Deviation:** "
+
+
+def block(one: Comparison, found: Found) -> str:
+    """What stands between the marks of a comparison."""
+    said = (
+        f"{DEVIATION}{found.deviation}.",
+        f"**Free:** {one.free}.",
+        f"**Not known and assumed:** {one.assumed}.",
+        f"**Verdict:** {one.sentence}",
+    )
+    return "\n\n".join((found.table, "\\\n".join(said)))
+
+
+def place(name: str) -> re.Pattern[str]:
+    """Finds the marks of a name and what stands between them."""
+    return re.compile(rf"(<!-- {name} -->\n)(.*?)(<!-- end {name} -->)", flags=re.DOTALL)
+
+
+def shown(page: str, name: str) -> str:
+    """What a page has between the marks of a name."""
+    found = place(name).search(page)
+    if found is None:
+        raise ValueError(f"{PAGE.name}: found no marks of {name}")
+    return found[2].strip()
+
+
+def written(page: str, name: str, text: str) -> str:
+    """The page with another text there."""
+    shown(page, name)
+    return place(name).sub(lambda found: f"{found[1]}\n{text}\n\n{found[3]}", page)
+
+
+def deviation_of(page: str, name: str) -> str:
+    """The deviation that the page states; "-" where the comparison was never computed."""
+    found = re.search(rf"^{re.escape(DEVIATION)}(.*)\.\\?$", shown(page, name), flags=re.MULTILINE)
+    return "-" if found is None else found[1]
+
+
+def summary(page: str, comparisons: Mapping[str, Comparison]) -> str:
+    """The table at the top."""
+    lines = ["| quantity | data | deviation | verdict |", "|---|---|---|---|"]
+    lines += [
+        f"| [{one.quantity}](#{anchor(page, name)}) | {one.data} | {deviation_of(page, name)} | {one.sentence} |"
+        for name, one in comparisons.items()
+    ]
+    return "\n".join(lines)
+
+
+def anchor(page: str, name: str) -> str:
+    """Anchor of the heading that stands above the marks of a name."""
+    before = page.partition(f"<!-- {name} -->")[0]
+    heading = re.findall(r"^## (.+)$", before, flags=re.MULTILINE)[-1]
+    return re.sub(r"[\s-]+", "-", re.sub(r"[^\w\s-]", "", heading).strip().lower())
+
+
+def main(names: Sequence[str]) -> None:
+    """Computes the comparisons of these names, of all if there is none, and writes the page after each."""
+    unknown = [name for name in names if name not in COMPARISONS]
+    if unknown:
+        raise SystemExit(f"found {', '.join(unknown)}; expected names among {', '.join(COMPARISONS)}")
+    for name in names or COMPARISONS:
+        begin = time.monotonic()
+        text = block(COMPARISONS[name], COMPARISONS[name].compute())
+        page = written(PAGE.read_text(encoding="utf-8"), name, text)
+        page = written(page, SUMMARY, summary(page, COMPARISONS))
+        PAGE.write_text(page, encoding="utf-8")
+        print(f"{name}: {time.monotonic() - begin:.1f} s", flush=True)
+
+
+if __name__ == "__main__":
+    main(sys.argv[1:])

@@ -1,0 +1,117 @@
+"""The page "Beside measurements": each comparison is computed again and is what the page shows, and each verdict is
+borne out by its deviations."""
+
+import re
+import sys
+from pathlib import Path
+
+import pytest
+
+TOP = Path(__file__).parents[2]
+sys.path.insert(0, str(TOP / "docs" / "generate"))
+
+import measurements  # noqa: E402
+from beside import common, heat  # noqa: E402
+
+PAGE = measurements.PAGE.read_text(encoding="utf-8")
+COMPARISONS = measurements.COMPARISONS
+each = pytest.mark.parametrize(
+    "name",
+    [pytest.param(name, marks=pytest.mark.slow) if one.dear else name for name, one in COMPARISONS.items()],
+)
+MOST_GENEROUS = 4.0
+"""A verdict names at most so many times the largest deviation, or the error of the data where this is larger."""
+
+
+@each
+def test_the_page_shows_what_is_computed(name):
+    """The last digit of a number may differ between machines; no other."""
+    one = COMPARISONS[name]
+    found = one.compute()
+    expected, here = measurements.block(one, found), measurements.shown(PAGE, name)
+    number = r"[-+]?\d+(?:\.\d+)?"
+    assert re.split(number, expected) == re.split(number, here)
+    for ours, printed in zip(re.findall(number, expected), re.findall(number, here), strict=True):
+        unit = 10.0 ** -len(printed.partition(".")[2])
+        assert float(ours) == pytest.approx(float(printed), rel=2e-4, abs=1.001 * unit), (ours, printed)
+    if one.believe is None:
+        assert not found.deviations
+        return
+    largest = 100.0 * max(map(abs, found.deviations.values()))
+    assert largest <= one.believe
+    assert one.believe <= MOST_GENEROUS * max(largest, one.data_error)
+    assert one.believe >= one.data_error
+
+
+@pytest.mark.parametrize("name", COMPARISONS)
+def test_every_comparison_is_complete_on_the_page(name):
+    one, text = COMPARISONS[name], measurements.shown(PAGE, name)
+    assert text.startswith("| ")
+    assert one.sentence in text
+    assert "{" not in one.sentence
+    assert measurements.deviation_of(PAGE, name) != "-"
+
+
+def test_summary_is_made_of_the_page():
+    assert measurements.shown(PAGE, measurements.SUMMARY) == measurements.summary(PAGE, COMPARISONS)
+    anchors = set(re.findall(r"\]\(#([\w-]+)\)", PAGE))
+    headings = re.findall(r"^## (.+)$", PAGE, flags=re.MULTILINE)
+    assert anchors <= {re.sub(r"[\s-]+", "-", re.sub(r"[^\w\s-]", "", one).strip().lower()) for one in headings}
+
+
+def test_marks_stand_in_pairs_and_each_once():
+    begins = re.findall(r"<!-- (\w+) -->", PAGE)
+    assert begins == re.findall(r"<!-- end (\w+) -->", PAGE)
+    assert begins == [measurements.SUMMARY, *COMPARISONS]
+
+
+def test_text_is_written_between_its_marks_only():
+    page = "a\n<!-- x -->\nold\n<!-- end x -->\nb\n<!-- y -->\n<!-- end y -->\n"
+    new = measurements.written(page, "x", "| t |")
+    assert new == "a\n<!-- x -->\n\n| t |\n\n<!-- end x -->\nb\n<!-- y -->\n<!-- end y -->\n"
+    assert measurements.shown(new, "x") == "| t |"
+    assert measurements.written(new, "x", "| t |") == new
+    with pytest.raises(ValueError, match="no marks of z"):
+        measurements.shown(page, "z")
+    with pytest.raises(SystemExit, match="found z; expected names among nasa_35"):
+        measurements.main(["z"])
+
+
+@pytest.mark.parametrize(
+    ("values", "text"),
+    [
+        ([-0.22, 0.03, 0.0], "-22 to +3 %"),
+        ([0.0123, -0.004], "-0.4 to +1.2 %"),
+        ([2.1e-4, -1e-4], "-0.010 to +0.021 %"),
+        ([0.2, 0.2], "+20 %"),
+    ],
+)
+def test_deviations_in_words(values, text):
+    assert common.ends(values) == text
+
+
+def test_data_are_those_of_the_scripts():
+    """The script of the 35-mm bearing repeats the file, which the page reads."""
+    example = common.script("nasa_35mm")
+    rows = [row for row in common.rows_of(common.MEASURED / "nasa_tp2275.csv") if row["bearing"] == "35mm"]
+    read = {
+        int(row["n_rpm"]): tuple(float(row[name]) for name in ("heat_W", "T_inner_K", "T_outer_K")) for row in rows
+    }
+    assert read == example.MEASURED
+
+
+def test_the_rows_of_the_120_mm_bearing_contradict_themselves():
+    """Heat over the capacity rate of the oil: the rise that the thermal page names too."""
+    found = heat.heat_120()
+    assert [row[2] for row in found.rows][-1] == "117"
+    assert "117 K" in (TOP / "docs" / "thermal.md").read_text(encoding="utf-8")
+    assert not found.deviations
+
+
+@pytest.mark.parametrize("file", sorted(common.MEASURED.glob("*.csv")), ids=lambda path: path.stem)
+def test_every_file_names_its_source_and_is_read(file):
+    text = file.read_text(encoding="utf-8")
+    assert text.startswith("# ")
+    assert len(common.rows_of(file)) > 2
+    code = "".join(path.read_text(encoding="utf-8") for path in (TOP / "docs").rglob("*.py"))
+    assert f'"{file.name}"' in code
