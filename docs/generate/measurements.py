@@ -21,9 +21,7 @@ from beside.common import DOCS, Comparison, Found  # noqa: E402
 
 PAGE = DOCS / "measurements.md"
 COMPARISONS: dict[str, Comparison] = {
-    one.name: one
-    for module in (heat, torque, catalogues, contacts, source, prediction)
-    for one in module.COMPARISONS
+    one.name: one for module in (heat, torque, catalogues, contacts, source, prediction) for one in module.COMPARISONS
 }
 SUMMARY = "summary"
 DEVIATION = "**Deviation:** "

@@ -6,8 +6,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from fitting.posterior import Posterior
+
 from .._scene import AbstractScene
 from ..distribution import Distribution
+from ..joint import JointDistribution
 from ..numerics.newton import NewtonOptions
 from .evaluation import Evaluator
 from .labels import labels_in
@@ -98,7 +101,7 @@ def _at(
 
 def distributions_of(found: Calibration) -> Mapping[str, Distribution]:
     """The told fields as distributions, for `jaxbearing.tolerances`: lognormal ones of positive fields, normal ones of
-    others. They are independent there, while `predict` counts what the fields share."""
+    others. They are independent there, while `predict` and `joint_of` count what the fields share."""
     coordinates = np.asarray(found.settled.problem.natural(found.settled.u))
     made = {}
     for i, field in enumerate(found.fields):
@@ -111,3 +114,29 @@ def distributions_of(found: Calibration) -> Mapping[str, Distribution]:
         else:
             made[field.path] = Distribution(value, deviation * field.scale)
     return made
+
+
+def joint_of(found: Calibration, posterior: Posterior | None = None) -> JointDistribution:
+    """The told fields as one distribution, with what they share, for `jaxbearing.tolerances`.
+
+    **Arguments:** `found`: a calibration that converged; `posterior`: of it, whose samples are taken; `None`: normal in
+    coordinates, with the covariance of least squares.
+
+    **Raises:** `ValueError` for a calibration without a result, and where no field was told.
+    """
+    if not found.converged:
+        raise ValueError(found.failure())
+    if not found.fitted:
+        raise ValueError("the measurements tell none of the fields")
+    place = [i for i, field in enumerate(found.fields) if field.path in found.fitted]
+    fields = [found.fields[i] for i in place]
+    positive = np.array([field.positive for field in fields])
+    if posterior is not None:
+        order = [list(posterior.parameters).index(field.path) for field in fields]
+        values = posterior.values.reshape(-1, posterior.values.shape[-1])[:, order]
+        return JointDistribution.of_samples([field.path for field in fields], values, positive)
+    coordinates = np.asarray(found.settled.problem.natural(found.settled.u))
+    centre = np.array([float(field.value(coordinates[i])) for i, field in zip(place, fields, strict=True)])
+    scale = np.array([1.0 if field.positive else field.scale for field in fields])
+    covariance = found.covariance[np.ix_(place, place)] * np.outer(scale, scale)
+    return JointDistribution(tuple(field.path for field in fields), centre, positive, covariance)

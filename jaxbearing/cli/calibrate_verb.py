@@ -88,13 +88,19 @@ PredictOption = Annotated[
     ),
 ]
 OutOption = Annotated[
-    Path | None,
-    typer.Option("--out", metavar="FILE.toml", help="Write the first scene with the calibrated values."),
+    list[Path] | None,
+    typer.Option(
+        "--out",
+        metavar="FILE",
+        help="FILE.toml: the first scene with the calibrated values; FILE.nc: the fields with what they share, and the "
+        "samples of --posterior, for jaxbearing tolerances --posterior. Repeatable.",
+    ),
 ]
 PlotOption = Annotated[
     Path | None,
     typer.Option("--plot", metavar="FILE", help="Draw measured and calculated values; .png, .svg or .pdf."),
 ]
+OUT = ".toml", ".nc"
 
 
 def calibrate(
@@ -145,7 +151,7 @@ def calibrate(
         others = [_prediction(text) for text in predictions or []]
         sampling = sampling_of(posterior, samples, plot_posterior)
         pictures = ("--plot", plot, PICTURES), ("--plot-posterior", plot_posterior, PICTURES)
-        check_files((*pictures, ("--out", out, (".toml",))))
+        check_files((*pictures, *(("--out", file, OUT) for file in out or [])))
 
     from .cache import enable_compilation_cache
     from .quiet import without_false_alarms
@@ -155,9 +161,8 @@ def calibrate(
     with without_false_alarms():
         found, ranked = _calibrated(given, options, folds, wanted, label, as_json)
         drawn, predicted = _sampled(found, sampling), _predicted(found, others)
-        wrote = "" if as_json else f"wrote {out}: the scene with the calibrated values"
         outputs = (
-            Output(out, lambda path: _write_scene(found, path), wrote),
+            *(_output(found, drawn, label, file, as_json) for file in out or []),
             Output(plot, lambda path: _write_plot(found, label, path), long=True),
             Output(plot_posterior, lambda path: _write_posterior(found, drawn, label, path), long=True),
         )
@@ -252,6 +257,23 @@ def _predicted(found: "Calibration", others: list[tuple[str, Any, str]]) -> "dic
 
 def _write_posterior(found: "Calibration", drawn: Any, label: str, path: Path) -> None:
     write_posterior(drawn, {field.path: field.unit for field in found.fields}, label, path)
+
+
+def _output(found: "Calibration", drawn: Any, label: str, file: Path, as_json: bool) -> Output:
+    """A file of `--out`: by its suffix the scene, or the fields with what they share."""
+    if file.suffix.lower() == OUT[0]:
+        said = "" if as_json else f"wrote {file}: the scene with the calibrated values"
+        return Output(file, lambda path: _write_scene(found, path), said)
+    said = "" if as_json else f"wrote {file}: the fields with what they share; jaxbearing tolerances --posterior {file}"
+    return Output(file, lambda path: _write_joint(found, drawn, label, path), said)
+
+
+def _write_joint(found: "Calibration", drawn: Any, label: str, out: Path) -> None:
+    from ..calibration.prediction import joint_of
+    from ..report.joint_file import write_joint
+
+    units = {field.path: field.unit for field in found.fields}
+    write_joint(joint_of(found, drawn), units, out, f"Calibration of {label}")
 
 
 def _write_scene(found: "Calibration", out: Path) -> None:

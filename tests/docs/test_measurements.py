@@ -94,9 +94,7 @@ def test_data_are_those_of_the_scripts():
     """The script of the 35-mm bearing repeats the file, which the page reads."""
     example = common.script("nasa_35mm")
     rows = [row for row in common.rows_of(common.MEASURED / "nasa_tp2275.csv") if row["bearing"] == "35mm"]
-    read = {
-        int(row["n_rpm"]): tuple(float(row[name]) for name in ("heat_W", "T_inner_K", "T_outer_K")) for row in rows
-    }
+    read = {int(row["n_rpm"]): tuple(float(row[name]) for name in ("heat_W", "T_inner_K", "T_outer_K")) for row in rows}
     assert read == example.MEASURED
 
 

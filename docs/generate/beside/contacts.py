@@ -57,7 +57,9 @@ def load_distribution() -> Found:
         rows.append([f"{zone:g}", *(f"{one:.4f}" for one in theirs), *pairs])
         deviations[f"{zone:g}"] = max(off, key=abs)
     names = ["Fr tan alpha/Fa", "Jr", "Ja"]
-    return Found(["epsilon", *(f"{name}, printed" for name in names), *(f"{name}, here" for name in names)], rows, deviations)
+    return Found(
+        ["epsilon", *(f"{name}, printed" for name in names), *(f"{name}, here" for name in names)], rows, deviations
+    )
 
 
 def films() -> Found:

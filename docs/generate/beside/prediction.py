@@ -114,7 +114,9 @@ def turbine_roller() -> Found:
         assert interval is not None
         low, high = interval.low, interval.high
         drag, supply = (given.get(path) for path in priors)
-        rows.append([model, known, _judged(drag), _judged(supply), *(f"{one:.0f}" for one in (interval.value, low, high))])
+        rows.append(
+            [model, known, _judged(drag), _judged(supply), *(f"{one:.0f}" for one in (interval.value, low, high))]
+        )
         widths.append((low, high))
     (low, high), (after_low, after_high) = widths[1], widths[-1]
     said = (
