@@ -16,8 +16,8 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).parent))
 
-from beside import catalogues, contacts, heat, prediction, source, torque  # noqa: E402
-from beside.common import DOCS, Comparison, Found  # noqa: E402
+from beside import catalogues, contacts, heat, prediction, source, torque
+from beside.common import DOCS, Comparison, Found
 
 PAGE = DOCS / "measurements.md"
 COMPARISONS: dict[str, Comparison] = {

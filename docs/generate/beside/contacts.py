@@ -138,8 +138,8 @@ COMPARISONS = (
         assumed="free contact angle, modulus and density of the balls follow from the printed outputs",
         believe=0.2,
         data_error=0.01,
-        verdict="Believe the balance of forces at high speed to {believe} per cent; cage speed and slip are not checked "
-        "by it.",
+        verdict="Believe the balance of forces at high speed to {believe} per cent; it does not check cage speed "
+        "and slip.",
         compute=harris_mindel,
         dear=False,
     ),

@@ -120,8 +120,8 @@ def turbine_roller() -> Found:
         widths.append((low, high))
     (low, high), (after_low, after_high) = widths[1], widths[-1]
     said = (
-        f"{low:.0f} to {high:.0f} W before, {after_low:.0f} to {after_high:.0f} W after both; the balls' drag coefficient "
-        f"is {balls.median:.2f} within a factor of {math.exp(balls.deviation):.2f}, the bath's gap {bath.median:.1f} "
+        f"{low:.0f} to {high:.0f} W before, {after_low:.0f} to {after_high:.0f} W after both; the balls' drag "
+        f"coefficient is {balls.median:.2f} within a factor of {math.exp(balls.deviation):.2f}, the bath's gap {bath.median:.1f} "
         f"central films within {math.exp(bath.deviation):.2f}"
     )
     headings = ["model", "known", "drag coefficient", "gap over film", "total, W", "5 % below", "95 % below"]
@@ -153,8 +153,8 @@ COMPARISONS = (
         assumed="the errors of the judged medians are common to balls and rollers, bath and jet",
         believe=None,
         data_error=100.0,
-        verdict="Believe the total within the interval of the priors, and within that after both sets if you accept that "
-        "a ball's drag and a bath's supply are misjudged as those of rollers and jets are.",
+        verdict="Believe the total within the interval of the priors, and within that after both sets if you accept "
+        "that a ball's drag and a bath's supply are misjudged as those of rollers and jets are.",
         compute=turbine_roller,
     ),
 )

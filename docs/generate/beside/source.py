@@ -60,8 +60,8 @@ COMPARISONS = (
         assumed="drag coefficient 1.2 and 0.3",
         believe=None,
         data_error=100.0,
-        verdict="Believe the trends with speed, oil flow, temperature and clearance; what hangs on the drag coefficient "
-        "(slip, share of the lands) can come out either way.",
+        verdict="Believe the trends with speed, oil flow, temperature and clearance; what hangs on the drag "
+        "coefficient (slip, share of the lands) can come out either way.",
         compute=claims,
         dear=False,
     ),

@@ -13,7 +13,7 @@ FAST = 2200
 
 
 def trb_32216() -> Found:
-    """The script of the 32216: flooded, with the supply of a bath as the package assumes it, and with the fitted one."""
+    """The script of the 32216: flooded, with the supply that the package assumes of a bath, and with the fitted one."""
     example = script("trb_32216")
     supplies = {"flooded": None, "bath": {"gap_over_central": BATH}, "fitted": example.STARVED}
     rows, deviations = [], {}
