@@ -32,31 +32,39 @@ def constants_of(designation: str) -> tuple[float, float] | None:
     return None
 
 
-def heat_of(row: dict[str, str]) -> float:
-    """Heat that leaves the bearing in the reference conditions, W."""
-    area = iso.radial_seat_area(*(1e-3 * float(row[name]) for name in ("d", "D", "B")))
-    return float(iso.reference_heat_flow(area) * area)
+def printed_rows() -> list[dict[str, str]]:
+    """Bearings of the catalogue whose series has factors."""
+    return [row for row in rows_of(MEASURED / "skf_reference_speeds.csv") if constants_of(row["designation"])]
 
 
-def by_formula(row: dict[str, str]) -> float | None:
-    """Reference speed by ISO 15312 with INA's factors, rpm."""
-    factors = constants_of(row["designation"])
-    if factors is None:
-        return None
-    load = iso.RADIAL_LOAD * 1e3 * float(row["C0_kN"])
-    mean = 0.5e-3 * (float(row["d"]) + float(row["D"]))
-    return float(iso.reference_speed(heat_of(row), iso.RADIAL_VISCOSITY, load, mean, *factors)) / RPM
+def heat_of(rows: list[dict[str, str]]) -> np.ndarray:
+    """Heat that leaves each bearing in the reference conditions, W."""
+    area = iso.radial_seat_area(*(1e-3 * column(rows, name) for name in ("d", "D", "B")))
+    return np.asarray(iso.reference_heat_flow(area) * area)
+
+
+def column(rows: list[dict[str, str]], name: str) -> np.ndarray:
+    """Numbers of a column."""
+    return np.array([float(row[name]) for row in rows])
+
+
+def by_formula(rows: list[dict[str, str]]) -> np.ndarray:
+    """Reference speeds by ISO 15312 with INA's factors, rpm."""
+    factors = np.array([constants_of(row["designation"]) for row in rows], dtype=float)
+    load = iso.RADIAL_LOAD * 1e3 * column(rows, "C0_kN")
+    mean = 0.5e-3 * (column(rows, "d") + column(rows, "D"))
+    viscosity = np.full(len(rows), iso.RADIAL_VISCOSITY)
+    return np.asarray(iso.reference_speed(heat_of(rows), viscosity, load, mean, *factors.T)) / RPM
 
 
 def reference_speeds() -> Found:
     """The formula beside all printed speeds, by series."""
     groups: dict[str, list[float]] = {}
-    for row in rows_of(MEASURED / "skf_reference_speeds.csv"):
-        found = by_formula(row)
-        if found is not None:
-            said = read_designation(row["designation"])
-            series = f"NU {said.series}" if said.family == "cylindrical" else said.series
-            groups.setdefault(series, []).append(found / float(row["n_ref"]))
+    bearings = printed_rows()
+    for row, ratio in zip(bearings, by_formula(bearings) / column(bearings, "n_ref"), strict=True):
+        said = read_designation(row["designation"])
+        series = f"NU {said.series}" if said.family == "cylindrical" else said.series
+        groups.setdefault(series, []).append(float(ratio))
     rows, deviations = [], {}
     for series, ratios in groups.items():
         middle, low, high = (float(np.quantile(ratios, share)) for share in (0.5, *WIDTHS))
@@ -80,7 +88,7 @@ def losses_at(designation: str, capacity: float, level: str | None):
 
 def by_model(row: dict[str, str], level: str | None) -> float:
     """Speed at which the losses of the model are the heat that leaves, rpm: secants of the logarithms."""
-    heat = heat_of(row)
+    (heat,) = heat_of([row])
     losses = losses_at(row["designation"], 1e3 * float(row["C0_kN"]), level)
     excess = lambda place: math.log(losses(math.exp(place)) / heat)
     ends = [math.log(RPM * float(row["n_ref"]) * factor) for factor in (0.5, 0.8)]
@@ -100,7 +108,7 @@ def model_speeds() -> Found:
     rows, deviations = [], {}
     for name in WITH_MODEL:
         row = printed[name]
-        own, formula = float(row["n_ref"]), by_formula(row)
+        own, formula = float(row["n_ref"]), float(by_formula([row])[0])
         cells = [name, f"{own:.0f}", f"{formula:.0f} ({formula / own:.2f})"]
         for level in (None, "bath"):
             found = by_model(row, level)

@@ -121,8 +121,8 @@ def turbine_roller() -> Found:
     (low, high), (after_low, after_high) = widths[1], widths[-1]
     said = (
         f"{low:.0f} to {high:.0f} W before, {after_low:.0f} to {after_high:.0f} W after both; the balls' drag "
-        f"coefficient is {balls.median:.2f} within a factor of {math.exp(balls.deviation):.2f}, the bath's gap {bath.median:.1f} "
-        f"central films within {math.exp(bath.deviation):.2f}"
+        f"coefficient is {balls.median:.2f} within a factor of {math.exp(balls.deviation):.2f}, the bath's "
+        f"gap {bath.median:.1f} central films within {math.exp(bath.deviation):.2f}"
     )
     headings = ["model", "known", "drag coefficient", "gap over film", "total, W", "5 % below", "95 % below"]
     return Found(headings, rows, {}, said)
