@@ -102,11 +102,12 @@ def _interval(
     from ..loss_interval import numbers_among, power_interval
     from ..scenes.errors import SceneError
     from ..scenes.reader import load_distributions
+    from ..solve import solve_once
 
     given: dict[str, Any] = {}
     with suppress(SceneError):  # a pipe cannot be read twice
         given |= load_distributions(source, changes)
-    return power_interval(model, solution, given=numbers_among(model, given), drag_prior=drag_prior)
+    return power_interval(model, solution, solve_once, numbers_among(model, given), drag_prior)
 
 
 def _show(solution: "AbstractSolution", label: str, as_json: bool) -> None:

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import jaxbearing as jb
-from jaxbearing.calibration import Options, distributions_of, predict
+from jaxbearing.calibration import Options, distributions_of, joint_of, predict
 
 CLEARANCE, MODULUS = "geometry.diametral_clearance", "materials.rings.youngs_modulus"
 LOADS = np.linspace(500.0, 4000.0, 8)
@@ -55,6 +55,29 @@ def test_the_fields_as_distributions(found):
     assert made[MODULUS].shape == "lognormal"
     np.testing.assert_allclose(made[MODULUS].nominal, found[MODULUS].value, rtol=1e-12)
     np.testing.assert_allclose(made[CLEARANCE].deviation, found[CLEARANCE].standard_error, rtol=1e-12)
+
+
+def test_the_fields_together(found):
+    """The covariance in SI units; its marginals are the distributions of the fields alone."""
+    joint = joint_of(found)
+    assert joint.fields == (CLEARANCE, MODULUS)
+    marginals, alone = joint.marginals, distributions_of(found)
+    for path in joint.fields:
+        np.testing.assert_allclose(marginals[path].nominal, alone[path].nominal, rtol=1e-12)
+        np.testing.assert_allclose(marginals[path].deviation, alone[path].deviation, rtol=1e-9)
+    size = np.sqrt(np.diag(joint.covariance))
+    np.testing.assert_allclose(joint.covariance / np.outer(size, size), found.correlation, rtol=1e-9)
+
+
+def test_tolerances_count_what_the_fields_share(bearing, found):
+    """The scatter of the displacement is the deviation of its prediction; of independent fields it is far wider."""
+    scene = bearing.at_operation(radial_load=3000.0)
+    expected = predict(found, scene, ["ring.radial"])["ring.radial"].deviation
+    together = jb.tolerances(scene, results=["ring.radial"], posterior=joint_of(found))["ring.radial"]
+    np.testing.assert_allclose(together.deviation, expected, rtol=2e-3)
+    apart = jb.tolerances(scene, distributions_of(found), results=["ring.radial"])["ring.radial"]
+    assert apart.deviation > 1.5 * together.deviation
+    np.testing.assert_allclose(sum(together.contributions.values()), 1.0, rtol=1e-12)
 
 
 def test_another_scene_must_have_a_field(found):

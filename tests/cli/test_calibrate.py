@@ -10,6 +10,7 @@ import pytest
 
 import jaxbearing as jb
 from fitting.posterior import Marginal, Posterior, Sampling
+from jaxbearing.report.joint_file import read_joint
 
 CLEARANCE, MODULUS = "geometry.diametral_clearance", "materials.rings.youngs_modulus"
 SCENE = "deep_groove_6205"
@@ -63,7 +64,7 @@ def test_json_has_the_keys(jaxbearing_command, folder):
 def test_screen_files_and_pictures(jaxbearing_command, folder, monkeypatch):
     monkeypatch.setattr("fitting.posterior.available", lambda: True)
     monkeypatch.setattr("jaxbearing.calibration.posterior.posterior_of", made_up_posterior)
-    files = ("--out", "new.toml", "--plot", "a.png", "--plot-posterior", "b.png")
+    files = ("--out", "new.toml", "--out", "joint.nc", "--plot", "a.png", "--plot-posterior", "b.png")
     given = ("--next", "next.csv", "--folds", "4", "--posterior", "--predict", f"{SCENE}=ring.radial", *files)
     result = jaxbearing_command("calibrate", SCENE, "data.csv", *FREE, *given)
     assert result.code == 0, result.err
@@ -75,12 +76,17 @@ def test_screen_files_and_pictures(jaxbearing_command, folder, monkeypatch):
         "Predictions with",
         "Next operating point",
         "wrote new.toml",
+        "wrote joint.nc: the fields with what they share; jaxbearing tolerances --posterior joint.nc",
     ):
         assert said in result.out
     again = jb.load_scene("new.toml")
     np.testing.assert_allclose(float(again.geometry.diametral_clearance), 14e-6, rtol=0.03)
     np.testing.assert_allclose(float(again.materials.rings.youngs_modulus), 190e9, rtol=0.03)
     assert {"a.png", "b.png"} <= set(os.listdir(folder))
+    joint = read_joint("joint.nc")
+    assert joint.fields == (CLEARANCE, MODULUS)
+    assert joint.samples.shape == (120, 2)
+    assert list(joint.positive) == [False, True]
 
 
 def test_the_page_prints_what_the_command_does(jaxbearing_command, folder):
