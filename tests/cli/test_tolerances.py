@@ -10,7 +10,9 @@ import xarray as xr
 from filled_results import MadeUpProgram, slopes_of, solution_of
 
 import jaxbearing as jb
+from jaxbearing.joint import JointDistribution
 from jaxbearing.numerics.status import SolveError, Status
+from jaxbearing.report.joint_file import write_joint
 
 SCENE = "deep_groove_6205_fitted"
 CLEARANCE = 'geometry.diametral_clearance={low="13 um", high="28 um"}'
