@@ -12,6 +12,7 @@ from jaxbearing.report.joint_file import read_joint, write_joint
 from jaxbearing.tolerance.delta import spreads_of
 from jaxbearing.tolerance.derivatives import Slopes
 from jaxbearing.tolerance.monte_carlo import cases_of
+from jaxbearing.tolerance.outcome import Tolerances
 from jaxbearing.tolerance.scatter import scatter_of, scatter_of_source
 from jaxbearing.tolerance.verb import posterior_of
 
@@ -191,3 +192,18 @@ def test_other_files_are_refused(tmp_path):
     (tmp_path / "text.nc").write_text("no file of NetCDF", encoding="utf-8")
     with pytest.raises(ValueError, match=r"text.nc: "):
         read_joint(tmp_path / "text.nc")
+
+
+def test_picture_of_negative_shares(tmp_path):
+    """Two factors whose product alone is told: one of them takes more than all of the variance."""
+    covariance = np.diag([0.81, 1.0, 0.01])
+    covariance[0, 2] = covariance[2, 0] = -0.085
+    law = lambda drag, load, flow: 700.0 * drag * flow / (0.3 * 4e-5) + 0.0 * load
+    slopes = {DRAG: 700.0 / 0.3, LOAD: 0.0, FLOW: 700.0 / 4e-5}
+    scatter, spread = spread_of(law, slopes, covariance=covariance)
+    assert min(spread.contributions.values()) < 0.0
+    np.testing.assert_allclose(sum(spread.contributions.values()), 1.0, rtol=1e-12)
+    solution = solution_of(jb.load_scene("reference_roller"))
+    units = {DRAG: "1", LOAD: "N", FLOW: "m^3/s"}
+    found = Tolerances(scatter.fields, units, scatter.origins, {POWER: spread}, None, (), solution)
+    jb.plots.tolerances(found).savefig(tmp_path / "a.png")
