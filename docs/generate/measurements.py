@@ -67,7 +67,8 @@ def summary(page: str, comparisons: Mapping[str, Comparison]) -> str:
     """The table at the top."""
     lines = ["| quantity | data | deviation | verdict |", "|---|---|---|---|"]
     lines += [
-        f"| [{one.quantity}](#{anchor(page, name)}) | {one.data} | {deviation_of(page, name)} | {one.sentence} |"
+        f"| [{one.quantity}](#{anchor(page, name)}) | {one.data} | {deviation_of(page, name)} | "
+        f"{one.sentence if deviation_of(page, name) != '-' else 'not computed yet'} |"
         for name, one in comparisons.items()
     ]
     return "\n".join(lines)
