@@ -11,7 +11,7 @@ TOP = Path(__file__).parents[2]
 sys.path.insert(0, str(TOP / "docs" / "generate"))
 
 import measurements  # noqa: E402
-from beside import common, heat  # noqa: E402
+from beside import common, heat, torque  # noqa: E402
 
 PAGE = measurements.PAGE.read_text(encoding="utf-8")
 COMPARISONS = measurements.COMPARISONS
@@ -96,6 +96,10 @@ def test_data_are_those_of_the_scripts():
     rows = [row for row in common.rows_of(common.MEASURED / "nasa_tp2275.csv") if row["bearing"] == "35mm"]
     read = {int(row["n_rpm"]): tuple(float(row[name]) for name in ("heat_W", "T_inner_K", "T_outer_K")) for row in rows}
     assert read == example.MEASURED
+    # the script of the 32216 has ten of the twelve points of Figures 5 and 6
+    points = [tuple(point) for point in torque.points_32216()]
+    assert len(points) == 12
+    assert set(common.script("trb_32216").MEASURED) < set(points)
 
 
 def test_the_rows_of_the_120_mm_bearing_contradict_themselves():

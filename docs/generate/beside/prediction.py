@@ -19,6 +19,7 @@ from jaxbearing.contacts.oil_supply import LEVELS
 from jaxbearing.loss_interval import power_interval
 
 from .common import MEASURED, Comparison, Found, rows_of, script
+from .torque import points_32216
 
 SOLVED = "turbine_roller"
 WHOLE = {"contact.rolling_resistance": "true", "contact.supply.level": "jet"}
@@ -79,8 +80,7 @@ def drag_of_balls() -> Told:
 def supply_of_bath() -> Told:
     """The gap at the inlets over the central film of the 32216 in its bath, from its torque."""
     example = script("trb_32216")
-    points = [(*point[1:5], point[5]) for point in example.MEASURED]
-    axial, radial, rpm, celsius, torque = (np.array(column, dtype=float) for column in zip(*points, strict=True))
+    _, axial, radial, rpm, celsius, torque = (np.array(part, dtype=float) for part in zip(*points_32216(), strict=True))
     scene = example.scene_at(axial[0], ALMOST_NONE / 1e3, rpm[0], celsius[0], {"gap_over_central": LEVELS["bath"]})
     data = {
         "conditions": {

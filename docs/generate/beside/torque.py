@@ -1,34 +1,52 @@
 """Torque of tapered roller bearings."""
 
 import math
+from typing import NamedTuple
 
 import jaxbearing as jb
+from jaxbearing.contacts.oil_supply import LEVELS
 
 from .common import MEASURED, Comparison, Found, rows_of, script
 
-BATH = 10.0
-"""Gap at the inlets over the central film that the level "bath" stands for."""
+KINDS, UNDERSTOOD = (int, float, float, int, int, float), (5, 6)
+"""Types of the columns of the 32216's file, and its figures that are compared."""
 FAST = 2200
 """Speed, rpm, at which both readings of the 32008's torque agree."""
+
+
+class Point(NamedTuple):
+    """An operating point of the 32216: figure; axial and radial load, kN; speed, rpm; outer ring, degC; torque, N mm."""
+
+    figure: int
+    axial: float
+    radial: float
+    rpm: int
+    celsius: int
+    torque: float
+
+
+def points_32216() -> list[Point]:
+    """The points of the figures whose set-up is understood."""
+    rows = rows_of(MEASURED / "trb_32216_torque.csv")
+    points = [Point(*(kind(one) for kind, one in zip(KINDS, row.values(), strict=True))) for row in rows]
+    return [one for one in points if one.figure in UNDERSTOOD]
 
 
 def trb_32216() -> Found:
     """The script of the 32216: flooded, with the supply that the package assumes of a bath, and with the fitted one."""
     example = script("trb_32216")
-    supplies = {"flooded": None, "bath": {"gap_over_central": BATH}, "fitted": example.STARVED}
+    supplies = {"flooded": None, "bath": {"gap_over_central": LEVELS["bath"]}, "fitted": example.STARVED}
     rows, deviations = [], {}
-    for figure, axial, radial, rpm, celsius, measured in example.MEASURED:
-        cells = [f"{figure}", f"{axial:g}, {radial:g}", f"{rpm}", f"{celsius}", f"{measured}"]
-        for name, supply in supplies.items():
-            found = example.torque(example.solved(axial, radial, rpm, celsius, supply), rpm)
+    for point in points_32216():
+        *place, measured = point[1:]
+        cells = [f"{point.figure}", f"{point.axial:g}, {point.radial:g}", *(f"{one:g}" for one in point[3:])]
+        solved = {name: example.solved(*place, supply) for name, supply in supplies.items()}
+        for solution in solved.values():
+            found = example.torque(solution, point.rpm)
             cells.append(f"{found:.0f} ({found / measured:.2f})")
-            if name == "bath":
-                deviations[f"{axial:g}, {radial:g} kN, {rpm} rpm, {celsius} degC"] = found / measured - 1.0
-        makers = jb.compare(
-            example.scene_at(axial, radial, rpm, celsius, None),
-            example.solved(axial, radial, rpm, celsius, None),
-            catalogue=example.CATALOGUE,
-        )
+        said = f"{point.axial:g}, {point.radial:g} kN, {point.rpm} rpm, {point.celsius} degC"
+        deviations[said] = example.torque(solved["bath"], point.rpm) / measured - 1.0
+        makers = jb.compare(example.scene_at(*place, None), solved["flooded"], catalogue=example.CATALOGUE)
         cells += [f"{1e3 * makers[law].total:.0f} ({1e3 * makers[law].total / measured:.2f})" for law in LAWS]
         rows.append(cells)
     headings = ["figure", "Fa, Fr, kN", "rpm", "degC", "measured, N mm", "flooded", "supply of a bath", "fitted supply"]
