@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 
 import jaxbearing as jb
-from jaxbearing.calibration import Options, distributions_of, joint_of, predict
+from fitting.posterior import Marginal, Posterior, Sampling
+from jaxbearing.calibration import Options, distributions_of, joint_of, predict, predictive
 
 CLEARANCE, MODULUS = "geometry.diametral_clearance", "materials.rings.youngs_modulus"
 LOADS = np.linspace(500.0, 4000.0, 8)
@@ -48,6 +49,46 @@ def test_the_interval_is_that_of_the_covariance(bearing, found):
     np.testing.assert_allclose(result.before.deviation, prior, rtol=1e-5)
     assert result.deviation < 0.1 * result.before.deviation
     assert result.lower < at(14e-6, 190e9) < result.upper
+
+
+@pytest.fixture(scope="module")
+def normal_posterior(found):
+    """Samples from the normal distribution of least squares in coordinates, instead of those of the sampler."""
+    rng = np.random.default_rng(2)
+    centre = np.array([field.coordinate(found[field.path].value) for field in found.fields])
+    drawn = rng.multivariate_normal(centre, found.covariance, size=(2, 500))
+    values = np.stack([field.value(drawn[..., i]) for i, field in enumerate(found.fields)], axis=-1)
+    marginal = Marginal(0.0, 0.0, 1.0, -2.0, 2.0, 1.0, 1000.0)
+    scale = np.full((2, 500), found.scale)
+    return Posterior(dict.fromkeys(found.fitted, marginal), drawn, values, scale, 0, 3.0, 0.95, Sampling())
+
+
+def test_samples_predict_as_least_squares_does(bearing, found, normal_posterior):
+    """The displacement is nearly linear in the fields: 200 normal samples have the deviation of the delta method."""
+    scene = bearing.at_operation(radial_load=3000.0)
+    plain = predict(found, scene, ["ring.radial"])["ring.radial"]
+    drawn = predict(found, scene, ["ring.radial"], posterior=normal_posterior)["ring.radial"]
+    assert drawn.samples == 200
+    assert plain.samples == 0
+    # four standard errors of a deviation and of a median of 200 samples
+    np.testing.assert_allclose(drawn.deviation, plain.deviation, rtol=4.0 / np.sqrt(400.0))
+    assert abs(drawn.value - plain.value) < 4.0 * 1.2533 * plain.deviation / np.sqrt(200.0)
+    assert drawn.lower < drawn.value < drawn.upper
+    np.testing.assert_allclose(drawn.before.deviation, plain.before.deviation, rtol=1e-12)
+
+
+def test_the_measured_values_are_predicted_again(found, normal_posterior):
+    """Errors and fields scatter: the half-width is 1.96 deviations of both, as the slopes of the search have it."""
+    again = predictive(found, normal_posterior)
+    assert again.names == ("ring.radial",) * len(LOADS)
+    assert again.samples == 200
+    _, slopes = found.search.at(found.settled.problem, found.settled.u)
+    fields = np.sqrt(np.einsum("vf,fg,vg->v", slopes, found.covariance, slopes)) * found.deviation
+    half = 1.96 * np.hypot(fields, found.scale * found.deviation)
+    # two quantiles of 200 samples each: four standard errors of their difference are 0.6 of the half-width
+    np.testing.assert_allclose(0.5 * (again.upper - again.lower), half, rtol=0.4)
+    assert 0.75 <= again.inside <= 1.0
+    np.testing.assert_allclose(again.measured, found.measured, rtol=0.0)
 
 
 def test_the_fields_as_distributions(found):

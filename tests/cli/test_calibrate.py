@@ -41,7 +41,9 @@ def made_up_posterior(found, sampling):
     marginals = {path: one(parameter.value) for path, parameter in found.parameters.items()}
     values = np.array([one.value for one in found.parameters.values()])
     drawn = values * (1.0 + 1e-3 * np.random.default_rng(0).normal(size=(2, 60, len(values))))
-    return Posterior(marginals, np.log(drawn), drawn, np.ones((2, 60)), 0, 3.0, 0.95, sampling)
+    coordinate = [np.vectorize(field.coordinate) for field in found.fields]
+    coordinates = np.stack([one(drawn[..., i]) for i, one in enumerate(coordinate)], axis=-1)
+    return Posterior(marginals, coordinates, drawn, np.full((2, 60), found.scale), 0, 3.0, 0.95, sampling)
 
 
 def test_json_has_the_keys(jaxbearing_command, folder):
@@ -73,6 +75,7 @@ def test_screen_files_and_pictures(jaxbearing_command, folder, monkeypatch):
         "95 % intervals",
         "held back",
         "Posterior",
+        "8 of 8 measured values lie within the 95 % intervals in which 120 samples predict a new measurement",
         "Predictions with",
         "Next operating point",
         "wrote new.toml",
