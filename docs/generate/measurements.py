@@ -3,11 +3,13 @@
     python docs/generate/measurements.py             # all: some minutes
     python docs/generate/measurements.py hertz films # these
 
-Text between the marks `<!-- NAME -->` and `<!-- end NAME -->` of docs/measurements.md is written here, the rest by
-hand. The summary is made of the texts of all comparisons, also of those that are not computed again. A test computes
-each and compares it with the page.
+What is computed is kept in `beside/computed.json`, and text between the marks `<!-- NAME -->` and `<!-- end NAME -->`
+of docs/measurements.md is made of that; the rest is written by hand. The summary is made of the texts of all
+comparisons, also of those that are not computed again. One test compares the page with the kept numbers, and another
+computes them again.
 """
 
+import json
 import re
 import sys
 import time
@@ -16,15 +18,29 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).parent))
 
-from beside import catalogues, contacts, heat, prediction, source, torque
+from beside import catalogues, contacts, heat, pictures, prediction, source, torque
 from beside.common import DOCS, Comparison, Found
 
 PAGE = DOCS / "measurements.md"
+KEPT = Path(__file__).parent / "beside" / "computed.json"
 COMPARISONS: dict[str, Comparison] = {
     one.name: one for module in (heat, torque, catalogues, contacts, source, prediction) for one in module.COMPARISONS
 }
 SUMMARY = "summary"
 DEVIATION = "**Deviation:** "
+
+
+def kept() -> dict[str, Found]:
+    """What was computed last, by the names of the comparisons."""
+    whole = json.loads(KEPT.read_text(encoding="utf-8")) if KEPT.exists() else {}
+    return {name: Found(**one) for name, one in whole.items()}
+
+
+def keep(name: str, found: Found) -> None:
+    """Replaces one of the kept comparisons."""
+    whole = kept() | {name: found}
+    ordered = {one: whole[one]._asdict() for one in COMPARISONS if one in whole}
+    KEPT.write_text(json.dumps(ordered, indent=1, ensure_ascii=False) + "\n", encoding="utf-8")
 
 
 def block(one: Comparison, found: Found) -> str:
@@ -88,11 +104,14 @@ def main(names: Sequence[str]) -> None:
         raise SystemExit(f"found {', '.join(unknown)}; expected names among {', '.join(COMPARISONS)}")
     for name in names or COMPARISONS:
         begin = time.monotonic()
-        text = block(COMPARISONS[name], COMPARISONS[name].compute())
+        found = COMPARISONS[name].compute()
+        keep(name, found)
+        text = block(COMPARISONS[name], found)
         page = written(PAGE.read_text(encoding="utf-8"), name, text)
         page = written(page, SUMMARY, summary(page, COMPARISONS))
         PAGE.write_text(page, encoding="utf-8")
         print(f"{name}: {time.monotonic() - begin:.1f} s", flush=True)
+    pictures.draw(COMPARISONS, kept())
 
 
 if __name__ == "__main__":
