@@ -1,8 +1,6 @@
 """The posterior of a calibrated bearing: the sampler runs through the solves and agrees with least squares where the
 results are nearly linear in the fields."""
 
-import json
-
 import numpy as np
 import pytest
 
@@ -60,22 +58,3 @@ def test_predictions_of_samples_and_of_least_squares_agree(found, drawn):
     np.testing.assert_allclose(samples.deviation, np.sqrt(8.0 / 6.0) * plain.deviation, rtol=0.25)
     again = predictive(found, drawn)
     assert again.inside >= 0.8
-
-
-def test_the_command_samples_predicts_and_draws(jaxbearing_command, found, tmp_path, monkeypatch):
-    monkeypatch.chdir(tmp_path)
-    lines = ["operation.radial_load [kN],ring.radial [um]"]
-    lines += [f"{1e-3 * load:.9f},{1e6 * one:.12f}" for load, one in zip(LOADS, found.measured, strict=True)]
-    (tmp_path / "data.csv").write_text("\n".join(lines), encoding="utf-8")
-    given = ("--free", CLEARANCE, "--free", MODULUS, "--posterior", "--samples", "500")
-    more = ("--predict", f"{SCENE}=ring.radial", "--plot-posterior", "posterior.png", "--json")
-    result = jaxbearing_command("calibrate", SCENE, "data.csv", *given, *more)
-    assert result.code == 0, result.err
-    said = json.loads(result.out)
-    assert all(one["r_hat"] < 1.01 for one in said["posterior"]["parameters"].values())
-    assert all(one["effective"] > 400 for one in said["posterior"]["parameters"].values())
-    assert len(said["predictive"]["median"]) == len(LOADS)
-    (prediction,) = said["predictions"].values()
-    assert prediction["samples"] == 200
-    assert prediction["lower"] < prediction["value"] < prediction["upper"]
-    assert (tmp_path / "posterior.png").read_bytes().startswith(b"\x89PNG")

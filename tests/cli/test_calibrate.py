@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import jaxbearing as jb
-from fitting.posterior import Marginal, Posterior, Sampling
+from fitting.posterior import Marginal, Posterior, Sampling, available
 from jaxbearing.report.joint_file import read_joint
 
 CLEARANCE, MODULUS = "geometry.diametral_clearance", "materials.rings.youngs_modulus"
@@ -75,13 +75,13 @@ def test_screen_files_and_pictures(jaxbearing_command, folder, monkeypatch):
         "95 % intervals",
         "held back",
         "Posterior",
-        "8 of 8 measured values lie within the 95 % intervals in which 120 samples predict a new measurement",
         "Predictions with",
         "Next operating point",
         "wrote new.toml",
         "wrote joint.nc: the fields with what they share; jaxbearing tolerances --posterior joint.nc",
     ):
         assert said in result.out
+    assert "8 of 8 measured values lie within" in " ".join(result.out.split())
     again = jb.load_scene("new.toml")
     np.testing.assert_allclose(float(again.geometry.diametral_clearance), 14e-6, rtol=0.03)
     np.testing.assert_allclose(float(again.materials.rings.youngs_modulus), 190e9, rtol=0.03)
@@ -192,3 +192,22 @@ def test_weights_and_empty_cells(folder):
 def test_the_sampling_is_checked():
     with pytest.raises(ValueError, match="samples: found 3"):
         Sampling(samples=3).check()
+
+
+@pytest.mark.slow
+@pytest.mark.skipif(not available(), reason="NumPyro, an extra of the package, is not installed")
+def test_the_command_samples_predicts_and_draws(jaxbearing_command, folder):
+    """Asked: R-hat < 1.01. The prediction of another point is made of the samples."""
+    given = ("--posterior", "--samples", "400", "--predict", f"{SCENE}=ring.radial")
+    result = jaxbearing_command("calibrate", SCENE, "data.csv", *FREE, *given, "--plot-posterior", "b.png", "--json")
+    assert result.code == 0, result.err
+    said = json.loads(result.out)
+    for one in said["posterior"]["parameters"].values():
+        assert one["r_hat"] < 1.01
+        assert one["effective"] > 400
+    assert len(said["predictive"]["median"]) == 8
+    assert said["predictive"]["inside"] >= 0.75
+    (prediction,) = said["predictions"].values()
+    assert prediction["samples"] == 200
+    assert prediction["lower"] < prediction["value"] < prediction["upper"]
+    assert (folder / "b.png").read_bytes().startswith(b"\x89PNG")

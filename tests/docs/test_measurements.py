@@ -99,6 +99,21 @@ def test_numbers_of_the_text_on_heat():
     assert "half too high at the highest speeds" in PAGE
 
 
+def test_numbers_of_the_text_on_the_predicted_loss():
+    rows = KEPT["turbine_roller"].rows
+    assert f"the total is {float(rows[1][4]) / float(rows[0][4]):.1f} times as large" in PAGE
+    low, high = re.findall(r"\d+", KEPT["trb_32008"].deviation)
+    assert f"there it comes out {low} to {high} % too high at 2200 rpm" in PAGE
+
+
+def test_numbers_of_the_text_on_rigidity():
+    example = common.script("gmn_rigidity")
+    data = example.printed()
+    assert f"Of all {data.bearing.max() + 1} spindle bearings" in PAGE
+    largest = 100.0 * float(np.max(0.5e6 / data.rigidity))
+    assert f"half a unit is up to {largest:.0f} %" in PAGE
+
+
 def test_summary_is_made_of_the_page():
     assert measurements.shown(PAGE, measurements.SUMMARY) == measurements.summary(PAGE, COMPARISONS)
     anchors = set(re.findall(r"\]\(#([\w-]+)\)", PAGE))

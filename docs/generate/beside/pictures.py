@@ -19,7 +19,9 @@ TICKS = (0.5, 0.7, 0.8, 0.9, 1.0, 1.1, 1.25, 1.5, 1.75)
 
 def draw(comparisons: Mapping[str, Comparison], kept: Mapping[str, Found]) -> None:
     """Writes both pictures."""
-    save_plot(overview({one.quantity: (one, kept[name]) for name, one in comparisons.items() if name in kept}), OVERVIEW)
+    save_plot(
+        overview({one.quantity: (one, kept[name]) for name, one in comparisons.items() if name in kept}), OVERVIEW
+    )
     if "turbine_roller" in kept:
         save_plot(prediction(kept["turbine_roller"]), PREDICTION)
 
@@ -56,7 +58,9 @@ def prediction(found: Found) -> Page:
     place = np.arange(len(labels))
     axes.errorbar(value, place, xerr=[value - low, high - value], fmt="o", color=CURVES[0], capsize=4, lw=1.6)
     for row, (middle, end) in enumerate(zip(value, high, strict=True)):
-        axes.annotate(f"{middle:.0f} W", (end, row), xytext=(6, 0), textcoords="offset points", va="center", fontsize=8.5)
+        axes.annotate(
+            f"{middle:.0f} W", (end, row), xytext=(6, 0), textcoords="offset points", va="center", fontsize=8.5
+        )
     axes.set_yticks(place, labels, fontsize=9)
     axes.set_ylim(len(labels) - 0.5, -0.5)
     axes.set_xlim(0.0, 1.15 * float(np.max(high)))
