@@ -2,6 +2,7 @@
 
     python docs/generate/measurements.py             # all: some minutes
     python docs/generate/measurements.py hertz films # these
+    python docs/generate/measurements.py --kept      # none: the page from the kept numbers
 
 What is computed is kept in `beside/computed.json`, and text between the marks `<!-- NAME -->` and `<!-- end NAME -->`
 of docs/measurements.md is made of that; the rest is written by hand. The summary is made of the texts of all
@@ -97,19 +98,23 @@ def anchor(page: str, name: str) -> str:
     return re.sub(r"[\s-]+", "-", re.sub(r"[^\w\s-]", "", heading).strip().lower())
 
 
+def show(page: str, name: str, found: Found) -> str:
+    """The page with this comparison, and with the summary of all."""
+    page = written(page, name, block(COMPARISONS[name], found))
+    return written(page, SUMMARY, summary(page, COMPARISONS))
+
+
 def main(names: Sequence[str]) -> None:
     """Computes the comparisons of these names, of all if there is none, and writes the page after each."""
-    unknown = [name for name in names if name not in COMPARISONS]
+    anew = list(names) != ["--kept"]
+    unknown = [name for name in names if anew and name not in COMPARISONS]
     if unknown:
         raise SystemExit(f"found {', '.join(unknown)}; expected names among {', '.join(COMPARISONS)}")
-    for name in names or COMPARISONS:
+    for name in names if anew and names else COMPARISONS:
         begin = time.monotonic()
-        found = COMPARISONS[name].compute()
-        keep(name, found)
-        text = block(COMPARISONS[name], found)
-        page = written(PAGE.read_text(encoding="utf-8"), name, text)
-        page = written(page, SUMMARY, summary(page, COMPARISONS))
-        PAGE.write_text(page, encoding="utf-8")
+        if anew:
+            keep(name, COMPARISONS[name].compute())
+        PAGE.write_text(show(PAGE.read_text(encoding="utf-8"), name, kept()[name]), encoding="utf-8")
         print(f"{name}: {time.monotonic() - begin:.1f} s", flush=True)
     pictures.draw(COMPARISONS, kept())
 

@@ -102,6 +102,14 @@ def test_numbers_of_the_text_on_heat():
 def test_numbers_of_the_text_on_the_predicted_loss():
     rows = KEPT["turbine_roller"].rows
     assert f"the total is {float(rows[1][4]) / float(rows[0][4]):.1f} times as large" in PAGE
+    # the verdict adds the interval of the priors and the error of the law, as independent parts
+    value, *ends = (float(cell) for cell in rows[1][4:7])
+    largest, law = 100.0 * max(abs(end / value - 1.0) for end in ends), COMPARISONS["trb_32008"].believe
+    sentence = COMPARISONS["turbine_roller"].sentence
+    assert f"the priors leave up to {largest:.0f}, and" in sentence
+    assert f"is {law:.0f} per cent uncertain" in sentence
+    assert 40.0 < np.hypot(largest, law) <= 50.0
+    assert "to about 50 per cent" in sentence
     low, high = re.findall(r"\d+", KEPT["trb_32008"].deviation)
     assert f"there it comes out {low} to {high} % too high at 2200 rpm" in PAGE
 

@@ -179,8 +179,8 @@ COMPARISONS = (
         assumed="internal geometry estimated from C0; oil ISO VG 32; no drag, since no oil level is known",
         believe=50.0,
         data_error=10.0,
-        verdict="Believe a reference speed that the model's losses give to about {believe} per cent, on the low side: as "
-        "with the formula, the printed speeds come from the maker's own law of friction.",
+        verdict="Believe a reference speed that the model's losses give to about {believe} per cent, on the low side: "
+        "as with the formula, the printed speeds come from the maker's own law of friction.",
         compute=model_speeds,
     ),
     Comparison(
@@ -191,8 +191,8 @@ COMPARISONS = (
         assumed="Young's modulus 208 GPa; equal conformity of both grooves",
         believe=5.0,
         data_error=2.0,
-        verdict="Believe a stiffness and a preload to about {believe} per cent where the bearing's conformity is known, "
-        "and to about 15 per cent where one stands for a whole series.",
+        verdict="Believe a stiffness and a preload to about {believe} per cent where the bearing's conformity is "
+        "known, and to about 15 per cent where one stands for a whole series.",
         compute=rigidity,
     ),
 )

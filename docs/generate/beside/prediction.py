@@ -120,8 +120,8 @@ def turbine_roller() -> Found:
         intervals.append(interval)
     before, both = (_in_words(intervals[place]) for place in (1, -1))
     said = (
-        f"{before} before, {both} after both sets; the balls' drag coefficient is {balls.median:.2f} within a factor of "
-        f"{math.exp(balls.deviation):.2f}, the bath's gap {bath.median:.1f} central films within "
+        f"{before} before, {both} after both sets; the balls' drag coefficient is {balls.median:.2f} within a factor "
+        f"of {math.exp(balls.deviation):.2f}, the bath's gap {bath.median:.1f} central films within "
         f"{math.exp(bath.deviation):.2f}"
     )
     headings = ["model", "known", "drag coefficient", "gap over film", "total, W", "5 % below", "95 % below"]
@@ -159,9 +159,9 @@ COMPARISONS = (
         assumed="the errors of the judged medians are common to balls and rollers, bath and jet",
         believe=None,
         data_error=100.0,
-        verdict="Believe the total within the interval of the priors, or within that after both sets if you accept that "
-        "a ball's drag and a bath's supply are misjudged as those of rollers and jets are; add the 35 per cent of the "
-        "torque in forced oil, since no interval counts the error of a law.",
+        verdict="Believe the total to about 50 per cent: the priors leave up to 28, and the law of the rolling "
+        "resistance is 35 per cent uncertain; both data sets narrow the first part only if a ball's drag and "
+        "a bath's supply are misjudged as those of rollers and jets are.",
         compute=turbine_roller,
     ),
 )

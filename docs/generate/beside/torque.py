@@ -15,7 +15,7 @@ FAST = 2200
 
 
 class Point(NamedTuple):
-    """An operating point of the 32216: figure; axial and radial load, kN; speed, rpm; outer ring, degC; torque, N mm."""
+    """An operating point of the 32216: figure; axial, radial load, kN; speed, rpm; outer ring, degC; torque, N mm."""
 
     figure: int
     axial: float
