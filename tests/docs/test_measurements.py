@@ -12,7 +12,7 @@ TOP = Path(__file__).parents[2]
 sys.path.insert(0, str(TOP / "docs" / "generate"))
 
 import measurements  # noqa: E402
-from beside import common, heat, torque  # noqa: E402
+from beside import common, heat, pictures, torque  # noqa: E402
 
 PAGE = measurements.PAGE.read_text(encoding="utf-8")
 COMPARISONS = measurements.COMPARISONS
@@ -114,12 +114,28 @@ def test_numbers_of_the_text_on_the_predicted_loss():
     assert f"there it comes out {low} to {high} % too high at 2200 rpm" in PAGE
 
 
+def test_numbers_of_bearings_that_are_named():
+    """The catalogue has one more, whose series has no factors."""
+    count = sum(int(row[1]) for row in KEPT["reference_formula"].rows)
+    assert COMPARISONS["reference_formula"].data.startswith(f"{count} ")
+    assert count == len(common.rows_of(common.MEASURED / "skf_reference_speeds.csv")) - 1
+
+
 def test_numbers_of_the_text_on_rigidity():
     example = common.script("gmn_rigidity")
     data = example.printed()
     assert f"Of all {data.bearing.max() + 1} spindle bearings" in PAGE
     largest = 100.0 * float(np.max(0.5e6 / data.rigidity))
     assert f"half a unit is up to {largest:.0f} %" in PAGE
+
+
+def test_pictures_are_drawn_of_the_kept_numbers(monkeypatch, tmp_path):
+    for name in ("OVERVIEW", "PREDICTION"):
+        assert f"](pictures/{getattr(pictures, name).name})" in PAGE
+        assert getattr(pictures, name).exists()
+        monkeypatch.setattr(pictures, name, tmp_path / f"{name}.png")
+    pictures.draw(COMPARISONS, KEPT)
+    assert all((tmp_path / f"{name}.png").read_bytes().startswith(b"\x89PNG") for name in ("OVERVIEW", "PREDICTION"))
 
 
 def test_summary_is_made_of_the_page():
