@@ -159,8 +159,8 @@ COMPARISONS = (
         assumed="the errors of the judged medians are common to balls and rollers, bath and jet",
         believe=None,
         data_error=100.0,
-        verdict="Believe the total to about 50 per cent: the priors leave up to 28, and the law of the rolling "
-        "resistance is 35 per cent uncertain; both data sets narrow the first part only if a ball's drag and "
+        verdict="Believe the total of all losses to about 50 per cent: the priors leave up to 28, and the law of the "
+        "rolling resistance is 35 per cent uncertain; both data sets narrow the first part only if a ball's drag and "
         "a bath's supply are misjudged as those of rollers and jets are.",
         compute=turbine_roller,
     ),
