@@ -34,7 +34,9 @@ def overview(found: Mapping[str, tuple[Comparison, Found]]) -> Page:
     for row, (one, result) in enumerate(shown.values()):
         values = 1.0 + np.array(list(result.deviations.values()))
         band = 0.01 * (one.believe or 0.0)
-        axes.barh(row, 2.0 * band, left=1.0 - band, height=0.62, color=CURVES[0], alpha=0.18, linewidth=0.0)
+        # a verdict on the high or low side has half a band
+        low, high = (0.0 if np.all(sign * (values - 1.0) < 0.0) else band for sign in (-1.0, 1.0))
+        axes.barh(row, low + high, left=1.0 - low, height=0.62, color=CURVES[0], alpha=0.18, linewidth=0.0)
         axes.plot(values, np.full(len(values), row), "o", color=CURVES[0], ms=4.0, alpha=0.75)
     axes.axvline(1.0, color=INK, linewidth=0.9)
     axes.set_xscale("log")
@@ -44,7 +46,7 @@ def overview(found: Mapping[str, tuple[Comparison, Found]]) -> Page:
     axes.set_yticks(range(len(shown)), list(shown), fontsize=9)
     axes.set_ylim(len(shown) - 0.4, -0.6)
     axes.tick_params(axis="y", length=0)
-    axes.set_xlabel("model over measurement or print; band: what the verdict says", fontsize=9)
+    axes.set_xlabel("model over measurement or print; band: within the per cent of the verdict", fontsize=9)
     grid_lines(axes)
     return figure
 
