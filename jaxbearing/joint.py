@@ -68,7 +68,9 @@ class JointDistribution:
             raise ValueError("samples: found a number that is not finite, or <= 0 where the logarithm scatters")
 
     @staticmethod
-    def of_samples(fields: Sequence[str], samples: np.ndarray, positive: Sequence[bool]) -> "JointDistribution":
+    def of_samples(
+        fields: Sequence[str], samples: np.ndarray, positive: Sequence[bool] | np.ndarray
+    ) -> "JointDistribution":
         """The distribution of samples: mean and covariance of their coordinates.
 
         **Arguments:** `samples`: shape (count, n), SI; others as those of the class.

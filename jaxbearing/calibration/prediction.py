@@ -127,7 +127,14 @@ def _by_samples(
     lower, median, upper = np.quantile(results, (tail, 0.5, 1.0 - tail), axis=0)
     deviation = np.std(results, axis=0)
     return {
-        name: Predicted(*(float(part[i]) for part in (median, deviation, lower, upper)), label.unit, None, len(place))
+        name: Predicted(
+            value=float(median[i]),
+            deviation=float(deviation[i]),
+            lower=float(lower[i]),
+            upper=float(upper[i]),
+            unit=label.unit,
+            samples=len(place),
+        )
         for i, (name, label) in enumerate(evaluator.labels.items())
     }
 

@@ -256,7 +256,7 @@ def _likely(
         total = sum((order.permutation(one) for one in steps.values()), total)
         low, high = np.quantile(total, ends)
         return float(low), float(high)
-    around = mean + (np.sort(*steps.values()) if steps else np.zeros(1))
+    around = mean + (np.sort(next(iter(steps.values()))) if steps else np.zeros(1))
     low, high = (_mixed_quantile(around, normal, end) for end in ends)
     return low, high
 
