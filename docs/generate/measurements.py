@@ -82,9 +82,9 @@ def deviation_of(page: str, name: str) -> str:
 
 def summary(page: str, comparisons: Mapping[str, Comparison]) -> str:
     """The table at the top."""
-    lines = ["| quantity | data | deviation | verdict |", "|---|---|---|---|"]
+    lines = ["| quantity | data | deviation | believe to | verdict |", "|---|---|---|---|---|"]
     lines += [
-        f"| [{one.quantity}](#{anchor(page, name)}) | {one.data} | {deviation_of(page, name)} | "
+        f"| [{one.quantity}](#{anchor(page, name)}) | {one.data} | {deviation_of(page, name)} | {one.believed} | "
         f"{one.sentence if deviation_of(page, name) != '-' else 'not computed yet'} |"
         for name, one in comparisons.items()
     ]

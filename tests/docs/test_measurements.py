@@ -98,7 +98,7 @@ def test_numbers_of_the_text_on_heat():
     assert f"that of the model with {min(solved):.1f} to {max(solved):.1f}" in PAGE
     cold = [float(row[2].split()[0]) / float(row[1]) for row in rows]
     assert cold[-1] == pytest.approx(1.5, abs=0.05)
-    assert "half too high at the highest speeds" in PAGE
+    assert "50 per cent too high at the highest speeds" in PAGE
 
 
 def test_numbers_of_the_text_on_the_predicted_loss():

@@ -66,6 +66,11 @@ class Comparison:
     dear: bool = True
 
     @property
+    def believed(self) -> str:
+        """The number of the verdict in the summary."""
+        return "-" if self.believe is None else f"{self.believe:g} %"
+
+    @property
     def sentence(self) -> str:
         """The verdict with its number."""
         return self.verdict if self.believe is None else self.verdict.format(believe=f"{self.believe:g}")

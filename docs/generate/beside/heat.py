@@ -52,8 +52,8 @@ COMPARISONS = (
         believe=25.0,
         data_error=3.0,
         verdict="Believe the heat of a fast ball bearing with oil through it to about {believe} per cent where "
-        "`[thermal]` finds the temperatures; with all oil at its inlet temperature it is half too high at the highest "
-        "speeds.",
+        "`[thermal]` finds the temperatures; with all oil at its inlet temperature it is 50 per cent too high at "
+        "the highest speeds.",
         compute=heat_35,
     ),
     Comparison(

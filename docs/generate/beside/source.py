@@ -22,7 +22,7 @@ def shocks() -> Found:
     least, largest = (end(factor for _, factor in factors) for end in (min, max))
     middle = [factor for drag, factor in factors if drag == "0.6"]
     said = (
-        f"a factor of {least:.2f} to {largest:.1f}; at the drag coefficient 0.6 {min(middle):.2f} to {max(middle):.1f}"
+        f"a factor of {least:.2f} to {largest:.1f}; at the drag coefficient 0.6: {min(middle):.2f} to {max(middle):.1f}"
     )
     headings = ["load, speed", "Table 17, N", *(f"drag {drag}: front / rear, N (mean over print)" for drag in DRAGS)]
     return Found(headings, rows, {}, said)

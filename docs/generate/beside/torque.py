@@ -105,7 +105,7 @@ COMPARISONS = (
         believe=75.0,
         data_error=5.0,
         verdict="In an oil bath believe the torque to about {believe} per cent with `contact.supply.level = "
-        '"bath"`, on the high side; without a supply it is twice too high.',
+        '"bath"`, on the high side; without a supply it is twice the measured one.',
         compute=trb_32216,
     ),
     Comparison(
