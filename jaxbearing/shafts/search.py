@@ -7,6 +7,10 @@ it. Newton's steps are accepted where the potential falls (Armijo), with a facto
 step is shortened (Levenberg). At the minimum begins Newton's iteration with each bearing's own solution under a held
 ring: with the centrifugal force of every ball, films, friction, cage, seats and temperatures as its scene has them, and
 the exact stiffness. Derivatives follow from the implicit function theorem at that root.
+
+`Balance` holds the linear part of the problem: the shaft, its supports and its loads. Its matrix `attach` gives the
+displacement of each bearing from the unknowns. Some sets of bearings are preloaded by a force, an offset or a spring,
+which adds an unknown and its equation.
 """
 
 from typing import Any, NamedTuple
