@@ -25,7 +25,7 @@ from ..thermal.result import NodeTemperatures, ThermalResult, named
 from ..thermal.shares import oil_temperatures
 from ..thermal.solve import START_NOTE, ThermalState, solve_network
 from .batches import batches_of, on_shaft
-from .heat import NODES, ShaftThermalResult, between_neighbours, flows_along, growth_along
+from .heat import HOUSING_NODE, NODES, SHAFT_NODE, ShaftThermalResult, between_neighbours, flows_along, growth_along
 from .preload import Mounted, mount
 from .scene import Place, ShaftSystem
 from .solution import ShaftSolution
@@ -61,6 +61,9 @@ class _Warm:
         coldest = [jnp.asarray(one.ambient, dtype=float) for one in self.networks]
         self.coldest = jnp.min(jnp.stack([*coldest, *(jnp.asarray(one, dtype=float) for one in inlets)]))
         """Every temperature outside is reckoned from the coldest one: all heat that comes in is positive."""
+        assert system.thermal is not None
+        self.joined = between_neighbours(system.thermal, system.shaft, self.position)
+        """Conductances between the nodes of neighbours, W/K."""
 
     def network(self) -> Network:
         """All nodes; conductances between them come with the losses."""
@@ -76,6 +79,11 @@ class _Warm:
 
     def each(self, temperatures: Float[Array, " node"]) -> Float[Array, "bearing 6"]:
         return temperatures.reshape(len(self.index), NODES)
+
+    def to_neighbours(self, temperatures: Float[Array, " node"]) -> Float[Array, "bearing 6"]:
+        """Heat that flows from each node to those of neighbouring bearings, W."""
+        flows = self.joined * (temperatures[:, None] - temperatures[None, :])
+        return self.each(jnp.sum(flows, axis=1))
 
     def start(self) -> Float[Array, " node"]:
         """Where the search begins: at the start that a bearing gives, or cold."""
@@ -109,7 +117,6 @@ def solve_warm_shaft(system: ShaftSystem, solve: SolveAt) -> ShaftSolution:
     cold = tuple(place._replace(scene=_without_network(place.scene)) for place in places)
     mounted = mount(system, cold, batches_of(cold, jnp.asarray(shaft.speed)))
     position = jnp.stack([jnp.asarray(place.position, dtype=float) for place in places])
-    joined = between_neighbours(thermal, shaft, warm.position)
 
     def losses(temperatures: Array) -> NodeHeat:
         each = warm.each(temperatures)
@@ -125,7 +132,7 @@ def solve_warm_shaft(system: ShaftSystem, solve: SolveAt) -> ShaftSolution:
         ]
         brought = [warm.from_outside(i, heat, own) for i, (heat, own) in enumerate(zip(heats, each, strict=True))]
         outside: list[Any] = [heat.to_ambient for heat in heats]
-        between = jax.scipy.linalg.block_diag(*(heat.between for heat in heats)) + joined
+        between = jax.scipy.linalg.block_diag(*(heat.between for heat in heats)) + warm.joined
         made = jnp.concatenate([heat.heat for heat in heats])
         other = (solution, tuple(heats))
         return NodeHeat(made + jnp.concatenate(brought), solution.status, between, jnp.concatenate(outside), other)
@@ -190,17 +197,19 @@ def _of_bearing(warm: _Warm, number: int, state: ThermalState, heat: NodeHeat) -
     scene, network = warm.scenes[number], warm.networks[number]
     temperatures = warm.each(state.temperatures)[number]
     flows: HeatFlows = network.flows(temperatures, heat)
+    away = warm.to_neighbours(state.temperatures)[number]
+    paths = {"shaft_neighbours": away[SHAFT_NODE], "housing_neighbours": away[HOUSING_NODE]}
     masked = lambda value: nan_unless(value, state.status == Status.CONVERGED)
     return ThermalResult(
         temperatures=named(NodeTemperatures, dict(zip(network.nodes, temperatures, strict=True))),
         oil=oil_temperatures(network.nodes, temperatures, **rings_of(scene)),
-        flows=heat_paths(network, temperatures, heat),
+        flows=dataclasses.replace(heat_paths(network, temperatures, heat), **paths),
         ambient=masked(network.ambient),
         oil_in=None if network.oil is None else masked(network.oil.inlet),
         oil_out=network.oil_out(temperatures),
         heat_to_oil=flows.to_oil,
         heat_to_ambient=flows.to_ambient,
-        balance_error=masked(jnp.sum(flows.into_nodes + heat.heat) / jnp.sum(heat.heat)),
+        balance_error=masked(jnp.sum(flows.into_nodes + heat.heat - away) / jnp.sum(heat.heat)),
         margin=None,
         rate=None,
         solves=state.solves,
