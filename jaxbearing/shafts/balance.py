@@ -20,6 +20,7 @@ import numpy as np
 from jax.scipy.linalg import block_diag
 from jaxtyping import Array, Float
 
+from ..numerics import lapack
 from ..numerics.once import once
 from .beam import Beam, beam_of, gravity_along, shifts
 from .forces import AbstractForce, ActingForce
@@ -102,7 +103,7 @@ def _inverse(balance: Balance, stiffness: Array) -> Array:
     rows, columns = balance.row_units(), balance.column_units()
     coupled = jnp.einsum("bij,bjz->biz", stiffness, balance.attach.reshape(balance.count, 5, -1))
     matrix = balance.linear + balance.left @ coupled.reshape(5 * balance.count, -1)
-    scaled = jnp.linalg.inv(matrix * rows[:, None] * columns[None, :])
+    scaled = lapack.inverse(matrix * rows[:, None] * columns[None, :])
     return columns[:, None] * scaled * rows[None, :]
 
 
