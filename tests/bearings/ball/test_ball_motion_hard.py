@@ -1,5 +1,7 @@
 """Hard cases of moving balls with a closed traction law: each ends, and balances its energy."""
 
+import dataclasses
+
 import equinox as eqx
 import jax.numpy as jnp
 import numpy as np
@@ -31,14 +33,9 @@ def bearing(
     load_of_ring = jnp.asarray([*loads, 0.0, 0.0])
     ring = MovingRing(body, load_of_ring, jnp.zeros(5), jnp.asarray(1e4), jnp.asarray(LEVER), (True,) * 5)
     ramp = lambda ends: Ramp(*map(jnp.asarray, (ends[0], ends[1], time)))
-    return dynamics(
-        FULL[1],
-        cage=cage,
-        ring=ring,
-        load=ramp(load),
-        speed=ramp(speed),
-        rotating_load=RotatingLoad(jnp.asarray(turning), jnp.asarray(12500 * RPM)),
-    )
+    rotating = RotatingLoad(jnp.asarray(turning), jnp.asarray(12500 * RPM))
+    of = dynamics(FULL[1], cage=cage, ring=ring, load=ramp(load), rotating_load=rotating)
+    return dataclasses.replace(of, speed=ramp(speed))
 
 
 def begun(of, share=1.0, tilt=0.0, radius=0.5 * 20.638e-3):
