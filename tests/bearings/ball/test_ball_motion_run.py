@@ -84,8 +84,10 @@ def test_begins_at_rest_in_its_frame(run):
     scene, history = run
     steady = jb.solve(scene)
     first = jax.tree.map(lambda leaf: np.asarray(leaf)[0], history.instants)
-    np.testing.assert_allclose(first.elements.load_inner, steady.elements.load_inner, rtol=1e-6)
-    np.testing.assert_allclose(first.elements.load_outer, steady.elements.load_outer, rtol=1e-6)
+    # in a run the lever of the surface speeds is the ball's distance from the axis and not the pitch radius: films and
+    # with them loads differ by some 1e-6 at the same places
+    np.testing.assert_allclose(first.elements.load_inner, steady.elements.load_inner, rtol=1e-5)
+    np.testing.assert_allclose(first.elements.load_outer, steady.elements.load_outer, rtol=1e-5)
     np.testing.assert_allclose(first.elements.orbital_speed, steady.elements.orbital_speed, rtol=1e-9)
     np.testing.assert_allclose(first.elements.attitude_angle, steady.elements.attitude_angle, rtol=1e-9)
     last = jax.tree.map(lambda leaf: np.asarray(leaf)[-1], history.instants)
