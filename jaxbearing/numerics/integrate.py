@@ -23,6 +23,7 @@ from jaxtyping import Array, Bool, Float, Int
 
 from .arrow import ArrowPoint
 from .integrator import IMPLICIT, Field, IntegratorOptions, NestedField, Segment
+from .kept_jacobian import KeptJacobian
 from .lineax_solver import BlockArrow
 from .remembering import Memory, Remembering
 from .status import Status
@@ -36,6 +37,8 @@ _CLASSES: dict[str, Any] = {
     "implicit_euler": dfx.ImplicitEuler,
 }
 
+KEPT = ("kvaerno3", "kvaerno4", "kvaerno5")
+"""Solvers that keep one Jacobian over stages and steps, `kept_jacobian`."""
 
 STAGE_ERROR = 1.0
 """Error of the stage equations, in units of the tolerance."""
@@ -96,6 +99,8 @@ def _problem(
     options: IntegratorOptions,
     idle: int,
 ) -> _Problem:
+    if options.solver in KEPT:
+        return _kept_problem(field, state, args, options, idle)
     solver, same = diffrax_solver(options, idle), lambda y: y
     if not isinstance(field, NestedField):
         return _Problem(field, solver, state, args, optx.rms_norm, same)
@@ -124,6 +129,32 @@ def _problem(
         lambda error: optx.rms_norm(error[:size]),
         lambda y: unravel(y[:size]),
     )
+
+
+def _kept_problem(
+    field: Field | NestedField, state: ArrowPoint, args: Any, options: IntegratorOptions, idle: int
+) -> _Problem:
+    """Problem for `KeptJacobian`, whose iterations begin a solve inside with what the last one found."""
+    tolerance = jnp.asarray(options.tolerance)
+    if isinstance(field, NestedField):
+        # the field is called in several places: so it is traced once
+        nested, first = eqx.filter_jit(field.rates), eqx.filter_jit(field.guess)
+        rates = lambda t, y, a, found: nested(t, y, a[0], found, a[1])
+        guess = lambda t, y, a: first(t, y, a[0])
+    else:
+        plain = eqx.filter_jit(field)
+        rates = lambda t, y, a, found: (plain(t, y, a[0]), found)
+        guess = lambda t, y, a: ()
+    solver = KeptJacobian(
+        method=_CLASSES[options.solver](),
+        rates=rates,
+        guess=guess,
+        tolerance=tolerance,
+        idle=idle,
+        dense=options.elimination == "dense",
+    )
+    alone = lambda t, y, a: rates(t, y, a, guess(t, y, a))[0]
+    return _Problem(alone, solver, state, (args, tolerance), optx.rms_norm, lambda y: y)
 
 
 def integrate_segment(
