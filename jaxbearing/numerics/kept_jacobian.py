@@ -19,20 +19,20 @@ from typing import Any, ClassVar, NamedTuple
 import diffrax as dfx
 import jax
 import jax.numpy as jnp
-import lineax as lx
 import numpy as np
 from jax.flatten_util import ravel_pytree
 from jaxtyping import Array, Bool, Float, Int
 
 from .._types import Scalar
 from .arrow import ArrowJacobian, ArrowPoint, eliminated
-from .lineax_solver import BlockArrow
 from .small_linear import solve_blocks
 
 STAGE_ERROR = 0.1
 """Error of the stage equations, in units of the tolerance."""
 SMALL = 1e-2
 """Correction, over `STAGE_ERROR`, below which an iteration ends whatever its ratio: it may be noise of the rates."""
+LEAST_RATIO = 0.05
+"""Ratio of two corrections that a single iteration counts with at least."""
 MOST_ITERATIONS = 8
 """Iterations of one stage."""
 SLOW = 0.3
@@ -128,8 +128,9 @@ class KeptJacobian(dfx.AbstractAdaptiveSolver):
     - `rates(t, y, args, guess)`: rates, and what is found inside them, the next guess.
     - `guess(t, y, args)`: first guess.
     - `tolerance`: of the integration, relative and absolute.
-    - `idle`: see `lineax_solver.BlockArrow`; these components do not count in the test of convergence.
+    - `idle`: number of globals at the end that nothing depends on; they do not count in the test of convergence.
     - `dense`: whether the Jacobian is a full matrix, and no arrow.
+    - `stage_error`: error of the stage equations, in units of the tolerance.
     """
 
     term_structure: ClassVar[Any] = dfx.AbstractTerm
@@ -140,6 +141,7 @@ class KeptJacobian(dfx.AbstractAdaptiveSolver):
     tolerance: Scalar
     idle: int = 0
     dense: bool = False
+    stage_error: Scalar = STAGE_ERROR
 
     @property
     def interpolation_cls(self):  # pyright: ignore[reportIncompatibleVariableOverride]
@@ -253,11 +255,11 @@ class KeptJacobian(dfx.AbstractAdaptiveSolver):
             size = jnp.sqrt(jnp.sum(jnp.square(scale * step * weight)))
             later = now.iteration > 0
             theta = jnp.where(later, size / jnp.maximum(now.size, 1e-300), 0.0)
-            left = jnp.where(later, theta / jnp.maximum(1.0 - theta, 1e-300), now.ratio)
-            good = ((left * size < STAGE_ERROR) & (theta < 1.0)) | (size < SMALL * STAGE_ERROR)
+            left = jnp.where(later, theta / jnp.maximum(1.0 - theta, 1e-300), jnp.maximum(now.ratio, LEAST_RATIO))
+            good = ((left * size < self.stage_error) & (theta < 1.0)) | (size < SMALL * self.stage_error)
             more = jnp.asarray(MOST_ITERATIONS - 1 - now.iteration, dtype=float)
             ahead = jnp.power(theta, more) * left * size
-            hopeless = later & ((theta >= 1.0) | (ahead > STAGE_ERROR))
+            hopeless = later & ((theta >= 1.0) | (ahead > self.stage_error))
             bad = ~jnp.isfinite(size) | (~good & (hopeless | (now.iteration + 1 >= MOST_ITERATIONS)))
             good = good & ~bad
             stage = now.stage + _one(good)
@@ -289,8 +291,7 @@ class KeptJacobian(dfx.AbstractAdaptiveSolver):
             flat, unravel = ravel_pytree(state)
             rates = lambda y: ravel_pytree(self.rates(time, unravel(y), *fixed)[0])[0]
             return jax.lax.stop_gradient(jax.jacfwd(rates)(flat))
-        operator = lx.JacobianLinearOperator(lambda y, _: self.rates(time, y, *fixed)[0], state, None)
-        return jax.lax.stop_gradient(BlockArrow(self.idle).init(lx.linearise(operator), {}))
+        return jax.lax.stop_gradient(_arrow(lambda y: self.rates(time, y, *fixed)[0], state, self.idle))
 
     def _inverse(self, jacobian: Any, scale: Array) -> Any:
         scale = jax.lax.stop_gradient(scale)
@@ -355,6 +356,25 @@ class KeptJacobian(dfx.AbstractAdaptiveSolver):
                 row = row.at[count + j if j >= 0 else ~j].set(value)
             rows.append(jnp.where(near, row, jnp.asarray(plain)))
         return jnp.stack(rows)
+
+
+def _arrow(rates: Callable[[ArrowPoint], ArrowPoint], state: ArrowPoint, idle: int) -> ArrowJacobian:
+    """Blocks of the Jacobian, as `lineax_solver.BlockArrow` has them, with the whole rows of the idle globals."""
+    (m, n), (g,) = state.elements.shape, state.globals.shape
+    active = g - idle
+    push = jax.linearize(rates, state)[1]
+    pull = jax.linear_transpose(push, state)
+    identity = jnp.broadcast_to(jnp.eye(m)[:, :, None], (m, m, n))
+    local = jax.vmap(lambda seed: push(ArrowPoint(seed, jnp.zeros(g))).elements)(identity)
+    border = jax.vmap(lambda seed: push(ArrowPoint(jnp.zeros((m, n)), seed)))(jnp.eye(active, g))
+    rows = jax.vmap(lambda seed: pull(ArrowPoint(jnp.zeros((m, n)), seed))[0].elements)(jnp.eye(g))
+    return ArrowJacobian(
+        local=jnp.swapaxes(local, 0, 1),
+        right_border=jnp.zeros((m, g, n)).at[:, :active].set(jnp.swapaxes(border.elements, 0, 1)),
+        contributions=rows,
+        corner=jnp.zeros((g, g)).at[:, :active].set(border.globals.T),
+        chain=jnp.eye(g),
+    )
 
 
 def _one(flag: Array) -> Array:

@@ -52,9 +52,9 @@ def quadrature(film, film_rate, along, across, n=1500):
 
 @pytest.mark.parametrize("rate", [-0.05, 0.0, 0.02, 1.0])
 def test_rigid_load_is_the_integral_of_the_pressure(rate):
-    """The midpoint rule is good to 1e-5; a separating film of 1 m/s carries little, all of it at the rim."""
+    """The midpoint rule is good to 1e-5, and to 1e-4 where the film separates at 1 m/s and is loaded far out alone."""
     found = FACE.rigid_load(20e-6, rate, 40.0, 20.0, MU)
-    np.testing.assert_allclose(found, quadrature(20e-6, rate, 40.0, 20.0), rtol=1e-2 if rate == 1.0 else 1e-5)
+    np.testing.assert_allclose(found, quadrature(20e-6, rate, 40.0, 20.0), rtol=1e-4 if rate == 1.0 else 1e-5)
 
 
 def test_check_values_of_the_wall():
@@ -84,7 +84,7 @@ def test_limits_of_the_rigid_film():
     # no entrainment
     closing = 12.0 * np.pi * MU * 0.1 * np.sqrt(RADII.prod()) / (film * (1.0 / RADII).sum())
     np.testing.assert_allclose(FACE.rigid_load(film, -0.1, 0.0, 0.0, MU), closing, rtol=1e-13)
-    np.testing.assert_array_equal(FACE.rigid_load(film, 0.1, 0.0, 0.0, MU), 0.0)
+    np.testing.assert_allclose(FACE.rigid_load(film, 0.1, 0.0, 0.0, MU), 0.0, atol=1e-290)
     # separation: positive, as 1/speed
     fast = FACE.rigid_load(1e-6, np.array([1e3, 1e4]), 45.0, 22.0, MU)
     assert np.all(np.asarray(fast) > 0.0)

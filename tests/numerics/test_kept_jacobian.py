@@ -98,5 +98,5 @@ def test_nodes_of_the_predictor():
     """Stages at the same place predict each other alone; the others from this step first."""
     places = np.array([0.0, 0.52, 1.23, 0.9, 0.44, 1.0, 1.0])
     assert _nodes(places, 6) == [5]
-    assert _nodes(places, 1) == [0, ~3, ~1]
-    assert _nodes(places, 5)[:4] == [4, 3, 2, 1]
+    assert _nodes(places, 1) == [0, ~3, ~1, ~4]
+    assert _nodes(places, 5) == [4, 3, 2, 1]
