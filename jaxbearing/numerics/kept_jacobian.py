@@ -26,6 +26,7 @@ from jaxtyping import Array, Bool, Float, Int
 from .._types import Scalar
 from .arrow import ArrowJacobian, ArrowPoint, eliminated
 from .small_linear import solve_blocks
+from .stage_predictors import stage_places, stage_predictors
 
 STAGE_ERROR = 0.1
 """Error of the stage equations, in units of the tolerance."""
@@ -39,10 +40,6 @@ SLOW = 0.3
 """Ratio of two corrections above which the next step gets a new Jacobian."""
 STEP_CHANGE = 0.2
 """Relative change of the step above which the inverse is made anew."""
-MOST_NODES = 4
-"""Stages from which the first iterate is extrapolated."""
-MOST_GROWTH = 2.0
-"""Growth of the step above which the stages of the step before are not extrapolated."""
 Rates = Callable[[Scalar, ArrowPoint, Any, Any], tuple[ArrowPoint, Any]]
 
 
@@ -178,7 +175,7 @@ class KeptJacobian(dfx.AbstractAdaptiveSolver):
         state, length = solver_state, t1 - t0
         start, unravel = ravel_pytree(y0)
         scale = length * self._gamma
-        predictors = self._predictors(length, state.length)
+        predictors = stage_predictors(self.method.tableau, length, state.length)
 
         def attempt(last: _Attempt) -> _Attempt:
             jacobian = jax.lax.cond(
@@ -238,7 +235,7 @@ class KeptJacobian(dfx.AbstractAdaptiveSolver):
     def _solve(self, t0, length, start, unravel, args, state, inverse, held, predictors, fresh) -> _Stages:
         """All stages with one inverse, one iteration in each pass of one loop."""
         count, scale = self._stage_count, length * self._gamma
-        lower, places = jnp.asarray(self._lower), jnp.asarray(self._places)
+        lower, places = jnp.asarray(self._lower), jnp.asarray(stage_places(self.method.tableau))
         active = jnp.arange(start.size) < start.size - self.idle
         weight = jnp.where(active, 1.0 / (self.tolerance * (1.0 + jnp.abs(start))), 0.0)
         weight = weight / jnp.sqrt(max(start.size - self.idle, 1))
@@ -325,37 +322,12 @@ class KeptJacobian(dfx.AbstractAdaptiveSolver):
         return float(self.method.tableau.a_diagonal[-1])
 
     @property
-    def _places(self) -> np.ndarray:
-        return np.concatenate([[0.0], self.method.tableau.c])
-
-    @property
     def _lower(self) -> np.ndarray:
         """The strictly lower triangle."""
         lower = np.zeros((self._stage_count, self._stage_count))
         for i, row in enumerate(self.method.tableau.a_lower):
             lower[i + 1, : i + 1] = row
         return lower
-
-    def _predictors(self, length: Array, before: Array) -> Float[Array, "stage both"]:
-        """Weights of the stages of the step before and of this one in the first iterate of each stage."""
-        count, places = self._stage_count, self._places
-        near = (before > 0) & (length < MOST_GROWTH * before)
-        ratio = before / length
-        rows = [jnp.zeros(2 * count)]
-        for i in range(1, count):
-            plain = np.zeros(2 * count)
-            plain[count : count + i] = self.method.tableau.a_predictor[i - 1]
-            chosen = _nodes(places, i)
-            nodes = [places[j] if j >= 0 else (places[~j] - 1.0) * ratio for j in chosen]
-            row = jnp.zeros(2 * count)
-            for a, j in enumerate(chosen):
-                others = [x for b, x in enumerate(nodes) if b != a]
-                value = jnp.ones(())
-                for x in others:
-                    value = value * (places[i] - x) / (nodes[a] - x)
-                row = row.at[count + j if j >= 0 else ~j].set(value)
-            rows.append(jnp.where(near, row, jnp.asarray(plain)))
-        return jnp.stack(rows)
 
 
 def _arrow(rates: Callable[[ArrowPoint], ArrowPoint], state: ArrowPoint, idle: int) -> ArrowJacobian:
@@ -380,21 +352,3 @@ def _arrow(rates: Callable[[ArrowPoint], ArrowPoint], state: ArrowPoint, idle: i
 def _one(flag: Array) -> Array:
     """1 where true."""
     return jnp.where(flag, 1, 0)
-
-
-def _nodes(places: np.ndarray, stage: int) -> list[int]:
-    """Stages that the first iterate of a stage is extrapolated from: j of this step, ~j of the one before."""
-    apart = lambda x, others: all(abs(x - y) > 0.05 for y in others)
-    same = [j for j in range(stage) if places[j] == places[stage]]
-    if same:
-        return same[-1:]
-    chosen: list[int] = []
-    for j in reversed(range(stage)):
-        if apart(places[j], [places[k] for k in chosen]):
-            chosen.append(j)
-    before: list[int] = []
-    inside = [j for j in range(len(places)) if 0.0 < places[j] < 0.95]
-    for j in sorted(inside, key=lambda j: -places[j]):
-        if apart(places[j], [places[k] for k in before]):
-            before.append(j)
-    return (chosen + [~j for j in before])[:MOST_NODES]

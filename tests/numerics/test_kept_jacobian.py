@@ -8,7 +8,8 @@ import optimistix as optx
 import pytest
 
 from jaxbearing.numerics.arrow import ArrowPoint
-from jaxbearing.numerics.kept_jacobian import KeptJacobian, _nodes
+from jaxbearing.numerics.kept_jacobian import KeptJacobian
+from jaxbearing.numerics.stage_predictors import predictor_nodes, stage_predictors
 
 STIFF = jnp.logspace(2.0, 5.0, 6)
 START = ArrowPoint(0.1 * jnp.ones((2, 6)), jnp.zeros(2))
@@ -97,6 +98,22 @@ def test_forward_mode_is_that_of_the_motion():
 def test_nodes_of_the_predictor():
     """Stages at the same place predict each other alone; the others from this step first."""
     places = np.array([0.0, 0.52, 1.23, 0.9, 0.44, 1.0, 1.0])
-    assert _nodes(places, 6) == [5]
-    assert _nodes(places, 1) == [0, ~3, ~1, ~4]
-    assert _nodes(places, 5) == [4, 3, 2, 1]
+    assert predictor_nodes(places, 6) == [5]
+    assert predictor_nodes(places, 1) == [0, ~3, ~1, ~4]
+    assert predictor_nodes(places, 5) == [4, 3, 2, 1]
+
+
+@pytest.mark.parametrize("name", METHODS)
+def test_predictor_is_exact_for_polynomials_of_its_nodes(name):
+    """Rates linear in time are predicted, from step to step of other lengths and within the first one."""
+    tableau = METHODS[name].tableau
+    places = np.concatenate([[0.0], tableau.c])
+    for length, before in ((1.0, 0.7), (1.0, 1.3)):
+        rates = np.concatenate([(places - 1.0) * before, places * length])
+        weights = stage_predictors(tableau, jnp.asarray(length), jnp.asarray(before))[1:]
+        np.testing.assert_allclose(weights @ rates, places[1:] * length, atol=1e-12)
+        np.testing.assert_allclose(jnp.sum(weights, axis=1), 1.0, rtol=1e-12)
+    for before in (0.0, 0.3):
+        plain = stage_predictors(tableau, jnp.ones(()), jnp.asarray(before))
+        assert np.all(np.isfinite(plain))
+        np.testing.assert_array_equal(plain[:, : len(places)], 0.0)
