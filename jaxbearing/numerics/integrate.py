@@ -27,6 +27,7 @@ from .kept_jacobian import KeptJacobian
 from .lineax_solver import BlockArrow
 from .remembering import Memory, Remembering
 from .status import Status
+from .switching import Switching
 
 _CLASSES: dict[str, Any] = {
     "tsit5": dfx.Tsit5,
@@ -35,9 +36,10 @@ _CLASSES: dict[str, Any] = {
     "kvaerno4": dfx.Kvaerno4,
     "kvaerno5": dfx.Kvaerno5,
     "implicit_euler": dfx.ImplicitEuler,
+    "auto": dfx.Kvaerno5,
 }
 
-KEPT = ("kvaerno3", "kvaerno4", "kvaerno5")
+KEPT = ("kvaerno3", "kvaerno4", "kvaerno5", "auto")
 """Solvers that keep one Jacobian over stages and steps, `kept_jacobian`."""
 
 STAGE_ERROR = 1.0
@@ -145,7 +147,7 @@ def _kept_problem(
         plain = eqx.filter_jit(field)
         rates = lambda t, y, a, found: (plain(t, y, a[0]), found)
         guess = lambda t, y, a: ()
-    solver = KeptJacobian(
+    solver: Any = KeptJacobian(
         method=_CLASSES[options.solver](),
         rates=rates,
         guess=guess,
@@ -153,6 +155,8 @@ def _kept_problem(
         idle=idle,
         dense=options.elimination == "dense",
     )
+    if options.solver == "auto":
+        solver = Switching(solver)
     alone = lambda t, y, a: rates(t, y, a, guess(t, y, a))[0]
     return _Problem(alone, solver, state, (args, tolerance), optx.rms_norm, lambda y: y)
 

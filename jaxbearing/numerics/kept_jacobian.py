@@ -236,9 +236,7 @@ class KeptJacobian(dfx.AbstractAdaptiveSolver):
         """All stages with one inverse, one iteration in each pass of one loop."""
         count, scale = self._stage_count, length * self._gamma
         lower, places = jnp.asarray(self._lower), jnp.asarray(stage_places(self.method.tableau))
-        active = jnp.arange(start.size) < start.size - self.idle
-        weight = jnp.where(active, 1.0 / (self.tolerance * (1.0 + jnp.abs(start))), 0.0)
-        weight = weight / jnp.sqrt(max(start.size - self.idle, 1))
+        weight = self.weights(start)
         # an inverse that belongs to another step
         correction = 2.0 / (1.0 + scale / held)
 
@@ -280,6 +278,22 @@ class KeptJacobian(dfx.AbstractAdaptiveSolver):
         return jax.lax.while_loop(lambda now: (now.stage < count) & ~now.failed, advance, first)
 
     # -- linear algebra -------------------------------------------------------------------------------------------
+
+    def weights(self, start: Float[Array, " n"]) -> Float[Array, " n"]:
+        """Weights of an error in the root of the sum of squares, in units of the tolerance; idle components have 0."""
+        active = jnp.arange(start.size) < start.size - self.idle
+        weight = jnp.where(active, 1.0 / (self.tolerance * (1.0 + jnp.abs(start))), 0.0)
+        return weight / np.sqrt(max(start.size - self.idle, 1))
+
+    def times_jacobian(self, jacobian: Any, vector: Float[Array, " n"], state: ArrowPoint) -> Float[Array, " n"]:
+        """Product of a kept Jacobian with a vector. **Arguments:** `state`: of the shapes of the run."""
+        if self.dense:
+            return jacobian @ vector
+        elements, globals_ = ravel_pytree(state)[1](vector)
+        local = jnp.sum(jacobian.local * elements[None], axis=1)
+        border = jnp.sum(jacobian.right_border * globals_[None, :, None], axis=1)
+        rows = jnp.sum(jacobian.contributions * elements[None], axis=(1, 2)) + jacobian.corner @ globals_
+        return ravel_pytree(ArrowPoint(local + border, rows))[0]
 
     def _jacobian(self, time: Any, state: ArrowPoint, args: Any, found: Any) -> Any:
         fixed = jax.lax.stop_gradient((args, found))

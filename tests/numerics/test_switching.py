@@ -1,0 +1,74 @@
+"""The solver that chooses by stiffness: right motion, the right method, both ways."""
+
+import diffrax as dfx
+import jax
+import jax.numpy as jnp
+import numpy as np
+import optimistix as optx
+import pytest
+
+from jaxbearing.numerics.arrow import ArrowPoint
+from jaxbearing.numerics.kept_jacobian import KeptJacobian
+from jaxbearing.numerics.switching import Switching
+
+START = ArrowPoint(jnp.full((1, 3), 0.5), jnp.zeros(1))
+SPREAD = jnp.asarray([1.0, 3.0, 10.0])
+
+
+def rates(time, state, stiffness, found):
+    """Elements that follow a sine with rates of `stiffness(time)` and 10 times that, and their square's integral."""
+    (x,), target = state.elements, jnp.sin(30.0 * time)
+    pull = -stiffness(time) * SPREAD * (x - target) + 30.0 * jnp.cos(30.0 * time)
+    return ArrowPoint(pull[None], jnp.sum(x * x)[None]), found
+
+
+def run(stiffness, tolerance=1e-6, method=None):
+    if method is None:
+        kept = KeptJacobian(dfx.Kvaerno5(), lambda t, y, a, f: rates(t, y, stiffness, f), lambda t, y, a: (), tolerance, 1)
+        method = Switching(kept)
+    return dfx.diffeqsolve(
+        dfx.ODETerm(lambda t, y, a: rates(t, y, stiffness, ())[0]),
+        method,
+        0.0,
+        1.0,
+        1e-5,
+        START,
+        saveat=dfx.SaveAt(ts=jnp.asarray([0.25, 0.5, 1.0]), solver_state=isinstance(method, Switching)),
+        stepsize_controller=dfx.PIDController(rtol=tolerance, atol=tolerance, pcoeff=0.3, icoeff=0.4, norm=optx.rms_norm),
+        max_steps=200_000,
+    )
+
+
+EASY, STIFF = (lambda t: 5.0 + 0.0 * t), (lambda t: 1e5 + 0.0 * t)
+BOTH_WAYS = lambda t: 5.0 + 1e5 * jnp.exp(-((t - 0.5) ** 2) / 0.01)
+
+
+@pytest.mark.parametrize("name", ["easy", "stiff", "both ways"])
+def test_motion(name):
+    stiffness = {"easy": EASY, "stiff": STIFF, "both ways": BOTH_WAYS}[name]
+    found = jax.jit(lambda: run(stiffness))()
+    exact = jax.jit(lambda: run(stiffness, 1e-9, dfx.Tsit5()))()
+    # between the steps of kvaerno5 Hermite's cubic is less exact than the step
+    for a, b in zip(jax.tree.leaves(found.ys), jax.tree.leaves(exact.ys), strict=True):
+        np.testing.assert_allclose(a, b, atol=1e-4)
+        np.testing.assert_allclose(a[-1], b[-1], atol=2e-5)
+    choice, steps = found.solver_state, int(found.stats["num_accepted_steps"])
+    if name == "easy":
+        assert int(choice.explicit) == steps
+        assert int(choice.switches) == 0
+    else:
+        assert int(choice.switches) >= (1 if name == "stiff" else 2)
+        # stability would hold tsit5 to a step of 3.3e-6 s where it is stiff
+        assert steps < 0.02 * 1.0 / (3.3 / 1e6)
+        assert 0 < int(choice.explicit) < steps
+    if name == "stiff":
+        assert bool(choice.stiff)
+    if name == "both ways":
+        assert not bool(choice.stiff)
+
+
+def test_batch_chooses_lane_by_lane():
+    lanes = jax.jit(jax.vmap(lambda level: run(lambda t: level + 0.0 * t)))(jnp.asarray([5.0, 1e5]))
+    assert [bool(flag) for flag in lanes.solver_state.stiff] == [False, True]
+    alone = jax.jit(lambda: run(STIFF))()
+    np.testing.assert_allclose(lanes.ys.elements[1], alone.ys.elements, atol=2e-5)
