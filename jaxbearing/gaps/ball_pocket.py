@@ -14,7 +14,7 @@ SPIN_FLOOR = 1.0
 CUT_FILMS = 20.0
 """The friction integral reaches to this many central films, or to the clearance where that is more."""
 SUPERPOSITIONS = ("root_of_squares", "sum")
-"""How the films of two entrainments, along and across the axis of a pocket, give one load: exact, or as in the source."""
+"""How entrainments along and across the axis of a pocket give one load: exactly, or as in the source."""
 
 
 class BallPocketFilm(NamedTuple):
@@ -45,11 +45,11 @@ class BallPocketFilm(NamedTuple):
 class BallPocket(Checked):
     r"""A ball floating in a cylindrical pocket whose axis is radial, two elliptical rigid isoviscous films.
 
-    On each side $W = \sqrt{W_1^2 + W_2^2}$ with $W_i(h) = 6\sqrt2\,\pi\mu u_iR_i\sqrt{R_j/h}/(3 + 2R_i/R_j)$: $W_1$ of the
-    entrainment along the pocket's axis ($R_1 = R_b$), $W_2$ of that across it ($R_2 = R_c = R_bR_p/(R_p - R_b)$). The root
-    of the squares is exact: Reynolds' equation is linear, its solution $p = (c_1x + c_2y)/h^2$ turns with the entrainment,
-    and the film breaks across a line of its own. `superposition="sum"` adds the loads of two films, each broken across
-    its own line, up to 41 % more: the superposition of the source. Friction
+    On each side $W = \sqrt{W_1^2 + W_2^2}$ with $W_i(h) = 6\sqrt2\,\pi\mu u_iR_i\sqrt{R_j/h}/(3 + 2R_i/R_j)$. $W_1$ is
+    the load of the entrainment along the pocket's axis ($R_1 = R_b$), $W_2$ that of the one across it ($R_2 = R_c =
+    R_bR_p/(R_p - R_b)$). The root of the squares is exact: the pressures $(c_1x + c_2y)/h^2$ of both add up, and the
+    film breaks along the one line where their sum is zero. With `superposition="sum"`, as in the source, each film
+    breaks along its own line, and the load is up to 41 % larger. Friction
     $\mu uA$ with $A = 2\pi\sqrt{R_bR_c}\ln(h_{cut}/h)$, $h_{cut} = \max(20h, J_p)$; $H_1 + H_2 = J_p$.
 
     **Limits:** a film remains on a ball at rest (`SPIN_FLOOR`); its friction vanishes with the spin.

@@ -196,9 +196,7 @@ class KeptJacobian(dfx.AbstractAdaptiveSolver):
             return _Attempt(again, jnp.asarray(True), jacobian, inverse, held, stages, counts)
 
         idle = self._begin(state, predictors)
-        first = _Attempt(
-            jnp.asarray(True), state.renew, state.jacobian, state.inverse, state.scale, idle, state.counts
-        )
+        first = _Attempt(jnp.asarray(True), state.renew, state.jacobian, state.inverse, state.scale, idle, state.counts)
         last = jax.lax.while_loop(lambda a: a.again, attempt, first)
         stages = last.stages
         lower = jnp.asarray(self._lower)

@@ -79,7 +79,9 @@ def test_limits_of_the_rigid_film():
     # no squeeze: the wall of the balanced pocket; root of squares
     pocket = BallPocket(CLEARANCE, RADIUS)
     balanced = pocket.balance(2.0, 4000.0, 2500.0, MU)
-    alone = FACE.rigid_load(balanced.film_front, 0.0, RADIUS * np.hypot(4000.0, 1.0), RADIUS * np.hypot(2500.0, 1.0), MU)
+    alone = FACE.rigid_load(
+        balanced.film_front, 0.0, RADIUS * np.hypot(4000.0, 1.0), RADIUS * np.hypot(2500.0, 1.0), MU
+    )
     np.testing.assert_allclose(balanced.load_front, alone, rtol=1e-13)
     # no entrainment
     closing = 12.0 * np.pi * MU * 0.1 * np.sqrt(RADII.prod()) / (film * (1.0 / RADII).sum())

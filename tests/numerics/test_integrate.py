@@ -80,7 +80,7 @@ def steps_recorded(guesses):
 
 @pytest.mark.parametrize("solver", SOLVERS)
 def test_a_solve_inside_begins_where_the_last_one_ended(solver):
-    """Same motion; explicit solvers extrapolate what was found, to third order in the step; implicit Euler forgets it."""
+    """Same motion. Explicit solvers extrapolate what was found, to third order in the step."""
     guesses, times = [], jnp.asarray([0.5, 1.0])
     # implicit Euler is of first order
     options = IntegratorOptions(solver=solver, tolerance=1e-3 if solver == "implicit_euler" else 1e-6)

@@ -42,7 +42,9 @@ def run(method, tolerance, drive=1.0, end=0.5):
         START,
         jnp.asarray(drive),
         saveat=dfx.SaveAt(t1=True, solver_state=isinstance(method, KeptJacobian)),
-        stepsize_controller=dfx.PIDController(rtol=tolerance, atol=tolerance, pcoeff=0.3, icoeff=0.4, norm=optx.rms_norm),
+        stepsize_controller=dfx.PIDController(
+            rtol=tolerance, atol=tolerance, pcoeff=0.3, icoeff=0.4, norm=optx.rms_norm
+        ),
         max_steps=100_000,
         adjoint=dfx.ForwardMode(),
     )

@@ -24,7 +24,9 @@ def rates(time, state, stiffness, found):
 
 def run(stiffness, tolerance=1e-6, method=None):
     if method is None:
-        kept = KeptJacobian(dfx.Kvaerno5(), lambda t, y, a, f: rates(t, y, stiffness, f), lambda t, y, a: (), tolerance, 1)
+        kept = KeptJacobian(
+            dfx.Kvaerno5(), lambda t, y, a, f: rates(t, y, stiffness, f), lambda t, y, a: (), tolerance, 1
+        )
         method = Switching(kept)
     return dfx.diffeqsolve(
         dfx.ODETerm(lambda t, y, a: rates(t, y, stiffness, ())[0]),
@@ -34,7 +36,9 @@ def run(stiffness, tolerance=1e-6, method=None):
         1e-5,
         START,
         saveat=dfx.SaveAt(ts=jnp.asarray([0.25, 0.5, 1.0]), solver_state=isinstance(method, Switching)),
-        stepsize_controller=dfx.PIDController(rtol=tolerance, atol=tolerance, pcoeff=0.3, icoeff=0.4, norm=optx.rms_norm),
+        stepsize_controller=dfx.PIDController(
+            rtol=tolerance, atol=tolerance, pcoeff=0.3, icoeff=0.4, norm=optx.rms_norm
+        ),
         max_steps=200_000,
     )
 
