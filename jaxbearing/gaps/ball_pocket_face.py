@@ -39,8 +39,8 @@ class CompliantBallPocketFace(Checked):
     X^2 = h\sum_i 2R_i\left[\frac{6\mu u_i}{3 + 2R_i/R_j}\right]^2,$$
 
     axis 1 along the pocket's axis with $R_1 = R_b$, axis 2 across it with $R_2 = R_c = R_bR_p/(R_p - R_b)$. The wall
-    yields by Hertz' $(W/K)^{2/3}$, and W follows from $h(W) - (W/K)^{2/3} = H$, the rigid gap. The ratio of C to X takes
-    $h_s = (H + \sqrt{H^2 + 4h_{min}^2})/2$ for the film, so that $h = (A/W)^2$ with a known A:
+    yields by Hertz' $(W/K)^{2/3}$, and W follows from $h(W) - (W/K)^{2/3} = H$, the rigid gap. The ratio of C to X
+    takes $h_s = (H + \sqrt{H^2 + 4h_{min}^2})/2$ for the film, so that $h = (A/W)^2$ with a known A:
     $A = \pi\sqrt{R_1R_2}X_0e^{\mathrm{asinh}\,s}$, $X_0 = X/\sqrt h$, $s = C/(X_0\sqrt{h_s})$.
     The entrainment along the axis is $\sqrt{u_1^2 + u_{min}^2}$.
 
