@@ -3,8 +3,8 @@ r"""A solver that chooses between an explicit and an implicit method by the stif
 tsit5 has two stages at the end of its step. The change of the rates over that of the states between them measures the
 largest rate $\rho$ of the system: $h\rho = h|k_7 - k_6|/|y_7 - y_6|$. If $h\rho$ stays near the limit of stability,
 about 3.3, stability and not accuracy decides the step, and kvaerno5 takes over (`kept_jacobian`). There
-$\rho$ is that of a power iteration with the kept Jacobian, one product in each step. tsit5 takes over again where its steps for stability,
-$h\rho/3.3$, would need fewer evaluations than the implicit step took.
+$\rho$ is that of a power iteration with the kept Jacobian, one product in each step. tsit5 takes over again where its
+steps for stability, $h\rho/3.3$, would need fewer evaluations than the implicit step took.
 
 **Reference:** Hairer and Wanner (1996), Solving Ordinary Differential Equations II, section IV.2, for the measure.
 """
