@@ -17,22 +17,24 @@ TIMES = (0.25, 0.5, 1.0)
 SPREAD = jnp.asarray([1.0, 3.0, 10.0])
 
 
-def rates(time, state, stiffness, found):
-    """Elements that follow a sine with rates of `stiffness(time)` and 10 times that, and their square's integral."""
+def rates(time, state, stiffness, level, found):
+    """Elements that follow a sine with rates of `stiffness(time, level)` and 10 times that, and their square's integral."""
     (x,), target = state.elements, jnp.sin(30.0 * time)
-    pull = -stiffness(time) * SPREAD * (x - target) + 30.0 * jnp.cos(30.0 * time)
+    pull = -stiffness(time, level) * SPREAD * (x - target) + 30.0 * jnp.cos(30.0 * time)
     return ArrowPoint(pull[None], jnp.sum(x * x)[None]), found
 
 
-def run(stiffness, tolerance=1e-6):
-    kept = KeptJacobian(dfx.Kvaerno5(), lambda t, y, a, f: rates(t, y, stiffness, f), lambda t, y, a: (), tolerance, 1)
+def run(stiffness, level=1e5, tolerance=1e-6):
+    within = lambda t, y, a, f: rates(t, y, stiffness, a, f)
+    kept = KeptJacobian(dfx.Kvaerno5(), within, lambda t, y, a: (), tolerance, 1)
     return dfx.diffeqsolve(
-        dfx.ODETerm(lambda t, y, a: rates(t, y, stiffness, ())[0]),
+        dfx.ODETerm(lambda t, y, a: within(t, y, a, ())[0]),
         Switching(kept),
         0.0,
         1.0,
         1e-5,
         START,
+        jnp.asarray(level),
         saveat=dfx.SaveAt(ts=jnp.asarray(TIMES), solver_state=True),
         stepsize_controller=dfx.PIDController(
             rtol=tolerance, atol=tolerance, pcoeff=0.3, icoeff=0.4, norm=optx.rms_norm
@@ -41,8 +43,11 @@ def run(stiffness, tolerance=1e-6):
     )
 
 
-EASY, STIFF = (lambda t: 5.0 + 0.0 * t), (lambda t: 1e5 + 0.0 * t)
-BOTH_WAYS = lambda t: 5.0 + 1e5 * jnp.exp(-((t - 0.5) ** 2) / 0.01)
+STIFFNESS = {
+    "easy": lambda t, level: 5.0 + 0.0 * t,
+    "stiff": lambda t, level: level + 0.0 * t,
+    "both ways": lambda t, level: 5.0 + level * jnp.exp(-((t - 0.5) ** 2) / 0.01),
+}
 SUMS = {
     "easy": lambda t: 5.0 * t,
     "stiff": lambda t: 1e5 * t,
@@ -59,8 +64,7 @@ def exact(name, times):
 
 @pytest.mark.parametrize("name", ["easy", "stiff", "both ways"])
 def test_motion(name):
-    stiffness = {"easy": EASY, "stiff": STIFF, "both ways": BOTH_WAYS}[name]
-    found = jax.jit(lambda: run(stiffness))()
+    found = jax.jit(lambda: run(STIFFNESS[name]))()
     elements = np.asarray(found.ys.elements)[:, 0]
     # between the steps of kvaerno5 Hermite's cubic is less exact than the step
     np.testing.assert_allclose(elements[:-1], exact(name, TIMES[:-1]), atol=1e-4)
@@ -84,7 +88,7 @@ def test_motion(name):
 
 
 def test_batch_chooses_lane_by_lane():
-    lanes = jax.jit(jax.vmap(lambda level: run(lambda t: level + 0.0 * t)))(jnp.asarray([5.0, 1e5]))
+    lanes = jax.jit(jax.vmap(lambda level: run(STIFFNESS["stiff"], level)))(jnp.asarray([5.0, 1e5]))
     assert [bool(flag) for flag in lanes.solver_state.stiff] == [False, True]
-    alone = jax.jit(lambda: run(STIFF))()
+    alone = jax.jit(lambda: run(STIFFNESS["stiff"]))()
     np.testing.assert_allclose(lanes.ys.elements[1], alone.ys.elements, atol=2e-5)
