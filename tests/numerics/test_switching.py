@@ -18,7 +18,7 @@ SPREAD = jnp.asarray([1.0, 3.0, 10.0])
 
 
 def rates(time, state, stiffness, level, found):
-    """Elements that follow a sine with rates of `stiffness(time, level)` and 10 times that, and their square's integral."""
+    """Elements follow a sine, with rates of 1 to 10 times the stiffness; beside it the integral of their squares."""
     (x,), target = state.elements, jnp.sin(30.0 * time)
     pull = -stiffness(time, level) * SPREAD * (x - target) + 30.0 * jnp.cos(30.0 * time)
     return ArrowPoint(pull[None], jnp.sum(x * x)[None]), found
