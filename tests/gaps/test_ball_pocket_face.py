@@ -145,8 +145,8 @@ def test_friction_takes_power():
 
 def test_expansion_of_the_balance():
     args = (jnp.asarray(1e-6), jnp.asarray(-6.0), jnp.log(STIFFNESS))
-    for z in (-3.0, 2.0, 6.0):
-        value, slope, curvature = _expansion(jnp.asarray(z), args)
+    for z in jnp.asarray([-3.0, 2.0, 6.0]):
+        value, slope, curvature = _expansion(z, args)
         balance = lambda z: _balance(z, args)
         np.testing.assert_allclose(value, balance(z), rtol=1e-13)
         np.testing.assert_allclose(slope, jax.grad(balance)(z), rtol=1e-13)
