@@ -40,7 +40,8 @@ _CLASSES: dict[str, Any] = {
 }
 
 KEPT = ("kvaerno3", "kvaerno4", "kvaerno5", "auto")
-"""Solvers that keep one Jacobian over stages and steps, `kept_jacobian`."""
+"""Solvers that keep one Jacobian over stages and steps (`kept_jacobian`), with the arrow elimination. With the dense one
+diffrax's own iterations solve the stages; they have a reverse mode."""
 
 STAGE_ERROR = 1.0
 """Error of the stage equations, in units of the tolerance."""
@@ -101,7 +102,7 @@ def _problem(
     options: IntegratorOptions,
     idle: int,
 ) -> _Problem:
-    if options.solver in KEPT:
+    if options.solver in KEPT and (options.elimination == "arrow" or options.solver == "auto"):
         return _kept_problem(field, state, args, options, idle)
     solver, same = diffrax_solver(options, idle), lambda y: y
     if not isinstance(field, NestedField):
