@@ -27,6 +27,7 @@ from .._types import Scalar
 from .arrow import ArrowJacobian, ArrowPoint, eliminated
 from .small_linear import solve_blocks
 from .stage_predictors import stage_places, stage_predictors
+from .two_step_interpolation import TwoStepInterpolation, bend_and_tilt
 
 STAGE_ERROR = 0.1
 """Error of the stage equations, in units of the tolerance."""
@@ -131,6 +132,7 @@ class KeptJacobian(dfx.AbstractAdaptiveSolver):
     """
 
     term_structure: ClassVar[Any] = dfx.AbstractTerm
+    interpolation_cls: ClassVar[Any] = TwoStepInterpolation
 
     method: Any
     rates: Rates
@@ -139,10 +141,6 @@ class KeptJacobian(dfx.AbstractAdaptiveSolver):
     idle: int = 0
     dense: bool = False
     stage_error: Scalar = STAGE_ERROR
-
-    @property
-    def interpolation_cls(self):  # pyright: ignore[reportIncompatibleVariableOverride]
-        return self.method.interpolation_cls
 
     def order(self, terms: Any) -> int | None:
         return self.method.order(terms)
@@ -204,7 +202,11 @@ class KeptJacobian(dfx.AbstractAdaptiveSolver):
         weights = jnp.asarray(np.asarray(self.method.tableau.b_error))
         error = jnp.where(stages.failed, jnp.inf, length * (weights @ stages.ks))
         y1 = unravel(end)
-        dense = {"y0": y0, "y1": y1, "k": jax.vmap(unravel)(length * stages.ks)}
+        whole = lower[-1].at[-1].set(self._gamma)
+        places = stage_places(self.method.tableau)
+        bends = bend_and_tilt(start, end, stages.ks, length, state.past, state.length, places, whole)
+        bend, tilt = (unravel(part) for part in bends)
+        dense = {"y0": y0, "y1": y1, "k": jax.vmap(unravel)(length * stages.ks), "bend": bend, "tilt": tilt}
         following = State(
             rate=stages.ks[-1],
             found=stages.found,

@@ -19,6 +19,7 @@ from jax.flatten_util import ravel_pytree
 from jaxtyping import Array, Bool, Float, Int
 
 from .kept_jacobian import KeptJacobian, State
+from .two_step_interpolation import TwoStepInterpolation
 
 STABLE = 3.3
 """h rho up to which tsit5 is stable on the negative axis."""
@@ -48,21 +49,21 @@ class Choice(NamedTuple):
 
 
 class _Either(dfx.AbstractLocalInterpolation):
-    """Between two steps: Hermite's cubic after kvaerno5, the polynomial of tsit5 after tsit5."""
+    """Within a step: the polynomial of tsit5 where tsit5 took it, that of the implicit method otherwise."""
 
     t0: Any
     t1: Any
-    cubic: Any
+    two_step: Any
     own: Any
     implicit: Any
 
-    def __init__(self, *, t0, t1, y0, y1, k, implicit):
+    def __init__(self, *, t0, t1, y0, y1, k, bend, tilt, implicit):
         self.t0, self.t1, self.implicit = t0, t1, implicit
-        self.cubic = dfx.Kvaerno5.interpolation_cls(t0=t0, t1=t1, y0=y0, y1=y1, k=k)
+        self.two_step = TwoStepInterpolation(t0=t0, t1=t1, y0=y0, y1=y1, k=k, bend=bend, tilt=tilt)
         self.own = dfx.Tsit5.interpolation_cls(t0=t0, t1=t1, y0=y0, y1=y1, k=k)
 
     def evaluate(self, t0: Any, t1: Any | None = None, left: bool = True) -> Any:
-        both = self.cubic.evaluate(t0, t1, left), self.own.evaluate(t0, t1, left)
+        both = self.two_step.evaluate(t0, t1, left), self.own.evaluate(t0, t1, left)
         return jax.tree.map(lambda a, b: jnp.where(self.implicit, a, b), *both)
 
 
@@ -143,7 +144,8 @@ class Switching(dfx.AbstractAdaptiveSolver):
         moved, turned = (jnp.sqrt(jnp.sum(jnp.square(d * weight))) for d in (end - near, ks[-1] - ks[-2]))
         stiff = length * turned > NEAR * STABLE * moved
         error = length * (jnp.asarray(np.asarray(tableau.b_error)) @ ks)
-        dense = {"y0": y0, "y1": unravel(end), "k": jax.vmap(unravel)(length * ks)}
+        none = jax.tree.map(jnp.zeros_like, y0)
+        dense = {"y0": y0, "y1": unravel(end), "k": jax.vmap(unravel)(length * ks), "bend": none, "tilt": none}
         counts = kept.counts._replace(evaluations=kept.counts.evaluations + (count - 1))
         # the first implicit step begins with a new Jacobian, and without stages before
         kept = kept._replace(
