@@ -40,8 +40,8 @@ _CLASSES: dict[str, Any] = {
 }
 
 KEPT = ("kvaerno3", "kvaerno4", "kvaerno5", "auto")
-"""Solvers that keep one Jacobian over stages and steps (`kept_jacobian`), with the arrow elimination. With the dense one
-diffrax's own iterations solve the stages; they have a reverse mode."""
+"""Solvers that keep one Jacobian over stages and steps (`kept_jacobian`), with the arrow elimination. With the dense
+elimination diffrax's own iterations solve the stages; they have a reverse mode."""
 
 STAGE_ERROR = 1.0
 """Error of the stage equations, in units of the tolerance."""

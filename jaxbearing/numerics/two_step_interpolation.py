@@ -1,14 +1,14 @@
 r"""Values between the ends of an implicit step, from that step and the one before.
 
-diffrax interpolates Kvaerno's methods by Hermite's cubic, whose error $h^4y''''/384$ is several hundred tolerances where
+diffrax interpolates Kvaerno's methods by Hermite's cubic. Its error $h^4y''''/384$ is several hundred tolerances where
 an implicit method takes long steps. With the value and the rate at the start of the step before, the polynomial is of
 degree five:
 
 $$p(\theta) = c(\theta) + \theta^2(\theta - 1)^2(a + b\theta),\qquad p(-r) = y_{-1},\quad p'(-r) = hf_{-1},$$
 
-$\theta$ the place in the step, $r$ the ratio of the two steps and $c$ the cubic. A fast transient in the step before would
-make it oscillate. So each component has the cubic, $a = b = 0$, where the slopes of p are further than those of c from the
-rates of the stages.
+$\theta$ the place in the step, $r$ the ratio of the two steps and $c$ the cubic. A fast transient in the step before
+would make it oscillate. So each component has the cubic, $a = b = 0$, where the slopes of p are further than those of c
+from the rates of the stages.
 """
 
 from typing import Any
@@ -24,7 +24,7 @@ from .._types import Scalar
 RATIOS = (0.2, 5.0)
 """Ratios of the step before to this one with which the step before is used."""
 WORSE = 2.0
-"""Ratio of the distances of both slopes from the rates of the stages up to which the polynomial of degree five stands."""
+"""Largest ratio of the distances of both slopes from the rates of the stages with which degree five is used."""
 
 
 class TwoStepInterpolation(dfx.AbstractLocalInterpolation):
