@@ -25,9 +25,9 @@ from jaxtyping import Array, Bool, Float, Int
 
 from .._types import Scalar
 from .arrow import ArrowJacobian, ArrowPoint, eliminated
+from .implicit_interpolation import ImplicitInterpolation, chosen_bends, stage_bends, two_step_bends
 from .small_linear import solve_blocks
 from .stage_predictors import stage_places, stage_predictors
-from .two_step_interpolation import TwoStepInterpolation, bend_and_tilt
 
 STAGE_ERROR = 0.1
 """Error of the stage equations, in units of the tolerance."""
@@ -132,7 +132,7 @@ class KeptJacobian(dfx.AbstractAdaptiveSolver):
     """
 
     term_structure: ClassVar[Any] = dfx.AbstractTerm
-    interpolation_cls: ClassVar[Any] = TwoStepInterpolation
+    interpolation_cls: ClassVar[Any] = ImplicitInterpolation
 
     method: Any
     rates: Rates
@@ -202,11 +202,9 @@ class KeptJacobian(dfx.AbstractAdaptiveSolver):
         weights = jnp.asarray(np.asarray(self.method.tableau.b_error))
         error = jnp.where(stages.failed, jnp.inf, length * (weights @ stages.ks))
         y1 = unravel(end)
-        whole = lower[-1].at[-1].set(self._gamma)
-        places = stage_places(self.method.tableau)
-        bends = bend_and_tilt(start, end, stages.ks, length, state.past, state.length, places, whole)
-        bend, tilt = (unravel(part) for part in bends)
-        dense = {"y0": y0, "y1": y1, "k": jax.vmap(unravel)(length * stages.ks), "bend": bend, "tilt": tilt}
+        bends = self._bends(start, end, stages.ks, length, state, jax.lax.stop_gradient(last.jacobian), y0)
+        whole = jax.vmap(unravel)
+        dense = {"y0": y0, "y1": y1, "k": whole(length * stages.ks), "bends": whole(bends)}
         following = State(
             rate=stages.ks[-1],
             found=stages.found,
@@ -277,6 +275,14 @@ class KeptJacobian(dfx.AbstractAdaptiveSolver):
         first = first._replace(ratio=jnp.where(fresh, 1.0, first.ratio))
         return jax.lax.while_loop(lambda now: (now.stage < count) & ~now.failed, advance, first)
 
+    def _bends(self, start, end, ks, length, state, jacobian, y0) -> Float[Array, "4 n"]:
+        """Polynomials between the ends of the step, see `implicit_interpolation`."""
+        places, matrix = stage_places(self.method.tableau), np.diag([0.0, *self.method.tableau.a_diagonal[1:]])
+        matrix = jnp.asarray(matrix + self._lower)
+        smooth = two_step_bends(start, end, ks, length, state.past, state.length, places, matrix[-1])
+        stiff = stage_bends(start, end, start + length * (matrix @ ks), places)
+        return chosen_bends(smooth, stiff, length * self._diagonal(jacobian, y0))
+
     # -- linear algebra -------------------------------------------------------------------------------------------
 
     def weights(self, start: Float[Array, " n"]) -> Float[Array, " n"]:
@@ -294,6 +300,12 @@ class KeptJacobian(dfx.AbstractAdaptiveSolver):
         border = jnp.sum(jacobian.right_border * globals_[None, :, None], axis=1)
         rows = jnp.sum(jacobian.contributions * elements[None], axis=(1, 2)) + jacobian.corner @ globals_
         return ravel_pytree(ArrowPoint(local + border, rows))[0]
+
+    def _diagonal(self, jacobian: Any, state: ArrowPoint) -> Float[Array, " n"]:
+        if self.dense:
+            return jnp.diag(jacobian)
+        own = jnp.arange(state.elements.shape[0])
+        return ravel_pytree(ArrowPoint(jacobian.local[own, own], jnp.diag(jacobian.corner)))[0]
 
     def _jacobian(self, time: Any, state: ArrowPoint, args: Any, found: Any) -> Any:
         fixed = jax.lax.stop_gradient((args, found))

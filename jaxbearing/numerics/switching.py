@@ -18,8 +18,8 @@ import numpy as np
 from jax.flatten_util import ravel_pytree
 from jaxtyping import Array, Bool, Float, Int
 
+from .implicit_interpolation import ImplicitInterpolation
 from .kept_jacobian import KeptJacobian, State
-from .two_step_interpolation import TwoStepInterpolation
 
 STABLE = 3.3
 """h rho up to which tsit5 is stable on the negative axis."""
@@ -57,13 +57,13 @@ class _Either(dfx.AbstractLocalInterpolation):
     own: Any
     implicit: Any
 
-    def __init__(self, *, t0, t1, y0, y1, k, bend, tilt, implicit):
+    def __init__(self, *, t0, t1, y0, y1, k, bends, implicit):
         self.t0, self.t1, self.implicit = t0, t1, implicit
-        self.two_step = TwoStepInterpolation(t0=t0, t1=t1, y0=y0, y1=y1, k=k, bend=bend, tilt=tilt)
+        self.between = ImplicitInterpolation(t0=t0, t1=t1, y0=y0, y1=y1, k=k, bends=bends)
         self.own = dfx.Tsit5.interpolation_cls(t0=t0, t1=t1, y0=y0, y1=y1, k=k)
 
     def evaluate(self, t0: Any, t1: Any | None = None, left: bool = True) -> Any:
-        both = self.two_step.evaluate(t0, t1, left), self.own.evaluate(t0, t1, left)
+        both = self.between.evaluate(t0, t1, left), self.own.evaluate(t0, t1, left)
         return jax.tree.map(lambda a, b: jnp.where(self.implicit, a, b), *both)
 
 
@@ -144,8 +144,8 @@ class Switching(dfx.AbstractAdaptiveSolver):
         moved, turned = (jnp.sqrt(jnp.sum(jnp.square(d * weight))) for d in (end - near, ks[-1] - ks[-2]))
         stiff = length * turned > NEAR * STABLE * moved
         error = length * (jnp.asarray(np.asarray(tableau.b_error)) @ ks)
-        none = jax.tree.map(jnp.zeros_like, y0)
-        dense = {"y0": y0, "y1": unravel(end), "k": jax.vmap(unravel)(length * ks), "bend": none, "tilt": none}
+        whole = jax.vmap(unravel)
+        dense = {"y0": y0, "y1": unravel(end), "k": whole(length * ks), "bends": whole(jnp.zeros((4, start.size)))}
         counts = kept.counts._replace(evaluations=kept.counts.evaluations + (count - 1))
         # the first implicit step begins with a new Jacobian, and without stages before
         kept = kept._replace(
