@@ -104,7 +104,7 @@ def stage_bends(
     inner = inner_stages(places)
     at = places[inner]
     solve = np.linalg.inv(np.vander(at, increasing=True)) / (at * (1.0 - at))
-    chord = start + at[:, None] * (end - start)
+    chord = start[None] + jnp.asarray(at)[:, None] * (end - start)[None]
     found = jnp.asarray(solve) @ (values[jnp.asarray(inner)] - chord)
     return jnp.concatenate([found, jnp.zeros((4 - len(inner), start.size))])
 
@@ -117,4 +117,4 @@ def inner_stages(places: np.ndarray) -> list[int]:
 def chosen_bends(smooth: Float[Array, "4 n"], stiff: Float[Array, "4 n"], rates: Float[Array, " n"]) -> Array:
     """c_0 to c_3. **Arguments:** `rates`: the step times the diagonal of the Jacobian."""
     is_stiff: Bool[Array, " n"] = jnp.abs(rates) > STIFF
-    return jnp.where(is_stiff, stiff, smooth)
+    return jnp.where(is_stiff[None], stiff, smooth)

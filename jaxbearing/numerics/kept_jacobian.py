@@ -280,7 +280,7 @@ class KeptJacobian(dfx.AbstractAdaptiveSolver):
         places, matrix = stage_places(self.method.tableau), np.diag([0.0, *self.method.tableau.a_diagonal[1:]])
         matrix = jnp.asarray(matrix + self._lower)
         smooth = two_step_bends(start, end, ks, length, state.past, state.length, places, matrix[-1])
-        stiff = stage_bends(start, end, start + length * (matrix @ ks), places)
+        stiff = stage_bends(start, end, start[None] + length * (matrix @ ks), places)
         return chosen_bends(smooth, stiff, length * self._diagonal(jacobian, y0))
 
     # -- linear algebra -------------------------------------------------------------------------------------------

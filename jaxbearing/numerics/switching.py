@@ -53,7 +53,7 @@ class _Either(dfx.AbstractLocalInterpolation):
 
     t0: Any
     t1: Any
-    two_step: Any
+    between: Any
     own: Any
     implicit: Any
 
