@@ -15,6 +15,7 @@ from .._scene import AbstractSolution, label
 from ..bearings.solution import FailureCause, RingDisplacement
 from ..life.result import Life
 from ..numerics.status import Status
+from .heat import ShaftThermalResult
 
 _Number = Float[Array, ""]
 
@@ -29,6 +30,8 @@ class BearingOnShaft(eqx.Module):
       bearing.
     - `life`: `None` without a rating in the bearing's scene.
     - `name`, `sense`: its name; 1 if its axis points along +X, else -1.
+    - `sliding_difference`: of rollers that slide, whose losses come from another model than the forces on the shaft;
+      `None` of all others.
     """
 
     position: _Number = eqx.field(metadata=label("m", "position along the shaft"))
@@ -57,6 +60,10 @@ class BearingOnShaft(eqx.Module):
     life: Life | None
     name: str = eqx.field(static=True)
     sense: float = eqx.field(static=True)
+    sliding_difference: Float[Array, "5"] | None = eqx.field(
+        default=None,
+        metadata=label("mixed", "force of the sliding rollers at the same displacement without tilt, less force"),
+    )
 
     @property
     def radial_force(self) -> Float[Array, "*batch"]:
@@ -151,6 +158,7 @@ class ShaftSolution(AbstractSolution):
     - `bearings`: by name, those of sets first.
     - `sets`: by name.
     - `life`: of the system; `None` if a bearing has no rating.
+    - `thermal`: the network along shaft and housing; `None` where the bearings have no common one.
     - `checks`: text of a warning or rule -> True if it applies.
     - `softest`: the freedom, of the node or bearing that it names, along which the iterate ran away where there is no
       equilibrium: index into `freedom_names`.
@@ -170,6 +178,7 @@ class ShaftSolution(AbstractSolution):
     softest: Int[Array, ""]
     operation: Any = None
     duty: DutyResult | None = None
+    thermal: ShaftThermalResult | None = None
     failure_causes: dict[str, FailureCause] = eqx.field(default_factory=dict)
     unknowns: int = eqx.field(static=True, default=0, metadata=label("1", "unknowns of the shaft"))
     freedom_names: tuple[str, ...] = eqx.field(static=True, default=())

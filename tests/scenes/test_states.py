@@ -57,7 +57,7 @@ def test_states_are_changes_of_the_scene(written):
 
 def test_other_readers_take_the_scene_without_them_and_say_so(written):
     path = written(STATES)
-    with pytest.warns(jb.StatesUnusedWarning, match=r"without its 3 \[\[state\]\] tables; 'jaxbearing spectrum'"):
+    with pytest.warns(jb.StatesUnusedWarning, match=r"leaves out its 3 \[\[state\]\] tables; 'jaxbearing spectrum'"):
         scene = jb.load_scene(path)
     assert scene.operation.radial_load == 1500.0
     with pytest.warns(jb.StatesUnusedWarning):
@@ -89,7 +89,7 @@ REFUSED = {
     "unknown table": (one('operatoin.radial_load = "1 kN"'), r"state 'a': operatoin: found the unknown name"),
     "no unit": (one("operation.radial_load = 1000"), r"state 'a': operation\.radial_load: found"),
     "another kind": (one('kind = "two_disk"'), r"state 'a': kind: found another kind of scene"),
-    "of --set too": (one("geometry.n_balls = 8"), r"state 'a': geometry\.n_balls: found a field that --set gives too"),
+    "of --set too": (one("geometry.n_balls = 8"), r"geometry\.n_balls: found a field that --set or --over gives too"),
 }
 
 

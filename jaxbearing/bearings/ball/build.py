@@ -120,8 +120,8 @@ def _held_load(grooves: Grooves, row: Row) -> Float[Array, ""]:
     return row.multiplicity * jnp.sum(load)
 
 
-def build_lubricated(scene: BallBearing, core: BallCore) -> LubricatedBallSystem:
-    """The lubricated bearing of the same balls as `core`, to start from the first guess of that."""
+def build_lubricated(scene: BallBearing, core: BallCore, guess: BallGuess | None = None) -> LubricatedBallSystem:
+    """The lubricated bearing of the same balls as `core`, to start from the first guess of that or from a given one."""
     assert scene.contact is not None
     assert scene.oil is not None
     motion, angle = core.kinematics, core.grooves.free_angle
@@ -134,7 +134,7 @@ def build_lubricated(scene: BallBearing, core: BallCore) -> LubricatedBallSystem
         oil=scene.oil,
         inlet=oil_of_races(scene),
         elsewhere=oil_elsewhere(scene),
-        **_guesses(core, scene.slips),
+        **(_guesses(core, scene.slips) if guess is None else {"guess": guess}),
         reference=reference,
         orbit_unit=motion.orbit_scale(reference.orbital_speed),
         resolved=isinstance(scene.kinematics.gyroscopic, ResolvedCouple),

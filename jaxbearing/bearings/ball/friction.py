@@ -36,7 +36,7 @@ from ...contacts.shear import Sliding
 from ...gaps.ball_pocket import BallPocketFilm
 from ...numerics.roots import monotone_root
 from .frictionless import AbstractLubricatedBallSystem
-from .state import BallsState
+from .state import BallsState, RaceState
 
 SIDES = np.array([[1.0], [-1.0]])
 """Inner, outer: the sense of the contact's x axis along the orbit."""
@@ -47,7 +47,7 @@ PART_TOLERANCE = 1e-12
 def with_traction(system: AbstractLubricatedBallSystem, state: BallsState) -> BallsState:
     """The state with all friction on the balls, and the equations of their motion."""
     motion = state.motion
-    shear, rolling, curvature = _friction(system, state)
+    shear, rolling, curvature = race_friction(system, state)
     forward, about = jnp.asarray(-SIDES * shear.rolling), -shear.moment
     axis, radius = _moments(system, state.angle, forward, about, (rolling, curvature))
     tangential, drag_force, pocket = forward[0] + forward[1], None, None
@@ -75,7 +75,9 @@ def with_traction(system: AbstractLubricatedBallSystem, state: BallsState) -> Ba
     return state._replace(rows=_rows(system, state, axis, radius, tangential))
 
 
-def _friction(system: AbstractLubricatedBallSystem, state: BallsState) -> tuple[Traction, Array | None, Array | None]:
+def race_friction(
+    system: AbstractLubricatedBallSystem, state: BallsState | RaceState
+) -> tuple[Traction, Array | None, Array | None]:
     """Traction of both contacts; moments against the roll by the film's pressure and by Heathcote slip, N m;
     `None`: not modelled."""
     races = state.races
@@ -88,7 +90,7 @@ def _friction(system: AbstractLubricatedBallSystem, state: BallsState) -> tuple[
     return shear, rolling, curvature
 
 
-def _sliding(system: AbstractLubricatedBallSystem, state: BallsState, bend: Array | None = None) -> Sliding:
+def _sliding(system: AbstractLubricatedBallSystem, state: BallsState | RaceState, bend: Array | None = None) -> Sliding:
     """Speed of the ball over both races, in the axes of the traction law. **Arguments:** `bend`: half the curvature of
     the surface in which they meet, 1/m, where it counts."""
     races, slide = state.races, system.slide_share * SIDES

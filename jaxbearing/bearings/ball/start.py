@@ -3,7 +3,7 @@ r"""First guess of a ball bearing's equilibrium: without friction, at frozen cen
 $\Pi = \sum_j[\frac25K_o\delta_{o+}^{5/2} + \frac25K_i\delta_{i+}^{5/2} - F_CW] - F\cdot q$: each $\delta$ is the norm
 of an affine map minus a constant, and the power is convex and increasing. Two nested damped Newton iterations, on each
 ball for a given ring and on the ring with every ball in equilibrium, both accepting a step only where the potential
-falls. Nothing here is differentiated: it is the start of an iteration.
+falls. Only `force_at` is differentiated: the rest is the start of an iteration.
 """
 
 from typing import NamedTuple
@@ -28,6 +28,8 @@ ARMIJO = 1e-4
 """Part of the promised decrease that a step must bring."""
 SHORTEST = 1e-6
 """Fraction of a step at which it is taken as it is: the decrease is lost in round-off."""
+NO_APPROACH = 1e-300
+"""Approach of bodies that do not touch, m: their force is 0, and the root of it has a derivative."""
 
 
 class CentrifugalProblem(eqx.Module):
@@ -78,7 +80,7 @@ class _Forces(NamedTuple):
 def _spring(arm: Float[Array, "2 ball"], offset: Array, constant: Array) -> tuple[Array, Array, Array]:
     """Energy, force and stiffness of one contact, whose centres are `arm` apart."""
     length = safe_norm(arm[0], arm[1], 1e-30)
-    approach = jnp.maximum(length - offset, 0.0)
+    approach = jnp.maximum(length - offset, NO_APPROACH)
     root = jnp.sqrt(approach)
     load = constant * approach * root
     normal = arm / length[None]

@@ -8,7 +8,7 @@ import numpy as np
 from ...bearings.solution import RING_FREEDOMS
 from ...shafts.solution import BearingOnShaft, SetResult, ShaftSolution
 from ..backends.json import finite
-from ..display import digits, with_unit
+from ..display import ZERO_CELSIUS, digits, with_unit
 from .bending import bending_line
 
 NAMES = "bearing\n"
@@ -45,12 +45,18 @@ def bearing_columns(solution: ShaftSolution) -> dict[str, list[str]]:
         "x\nmm": _column([1e3 * float(one.position) for one in bearings], 1),
         "axial\nN": [f"{value:+{_width(force)}}" if value else "0" for value in axial],
         "radial\nN": [f"{value:{_width(force)}}" for value in radial],
-        "at\ndeg": [f"{np.degrees(float(one.azimuth)):.1f}" if radial[i] else "-" for i, one in enumerate(bearings)],
+        "at\ndeg": [_azimuth(one) if radial[i] else "-" for i, one in enumerate(bearings)],
         "moment\nN m": [f"{_above(float(one.moment), moment):{_width(moment, 2)}}" for one in bearings],
         "Q max\nN": [text(one.largest_load) for one in bearings],
         "L10r\n10^6 rev": [_life(one) for one in bearings],
         "loss\nW": [text(loss_of(one)) for one in bearings],
     }
+
+
+def _azimuth(one: BearingOnShaft) -> str:
+    """Azimuth of the radial force in degrees; round-off makes -180 of 180."""
+    degrees = f"{np.degrees(float(one.azimuth)):.1f}"
+    return "180.0" if degrees == "-180.0" else degrees
 
 
 def _above(value: float, largest: float) -> float:
@@ -126,6 +132,11 @@ def shaft_facts(solution: ShaftSolution) -> Iterator[tuple[str, str]]:
     yield "Tilt of rings", ", ".join(f"{name} {1e3 * tilt:.3g} mrad" for name, tilt in named)
     axial = ", ".join(f"{name} {with_unit(float(one.ring.axial), 'm', 3)}" for name, one in solution.bearings.items())
     yield "Axial", f"inner ring against outer ring: {axial}"
+    apart = {name: one.sliding_difference for name, one in solution.bearings.items()}
+    sizes = {name: float(np.linalg.norm(np.asarray(one)[:3])) for name, one in apart.items() if one is not None}
+    if sizes:
+        said = ", ".join(f"{name} {with_unit(size, 'N', 3)}" for name, size in sizes.items())
+        yield "Rollers that slide", f"force of their own model at the same displacement differs by: {said}"
     torque = solution.torque
     parts = [f"forces {with_unit(float(torque.forces), 'N m')}", f"drive {with_unit(float(torque.drive), 'N m')}"]
     if number(torque.bearings):
@@ -133,6 +144,22 @@ def shaft_facts(solution: ShaftSolution) -> Iterator[tuple[str, str]]:
     yield "Torques", ", ".join(parts)
     if number(torque.power_loss):
         yield "Power loss", with_unit(float(torque.power_loss), "W")
+    if solution.thermal is not None:
+        yield from _thermal_facts(solution)
+
+
+def _thermal_facts(solution: ShaftSolution) -> Iterator[tuple[str, str]]:
+    """Temperatures along shaft and housing, and the heat that flows there."""
+    found = solution.thermal
+    assert found is not None
+    for part in ("shaft", "housing"):
+        networks = {name: one.solution.thermal for name, one in solution.bearings.items() if one.solution is not None}
+        own = {name: getattr(one.temperatures, part) for name, one in networks.items() if one is not None}
+        degrees = ", ".join(f"{name} {float(value) - ZERO_CELSIUS:.1f}" for name, value in own.items())
+        flows = ", ".join(digits(float(flow)) for flow in np.asarray(getattr(found, f"{part}_flow")))
+        yield f"{part.capitalize()}, degC", f"{degrees}; heat towards +X between neighbours {flows} W"
+    away = f"{with_unit(float(found.heat_to_oil), 'W')} to the oil, {with_unit(float(found.heat_to_ambient), 'W')}"
+    yield "Heat", f"{away} to the ambient; balanced in {int(found.solves)} solves of the shaft"
 
 
 def shaft_warnings(solution: ShaftSolution) -> list[str]:

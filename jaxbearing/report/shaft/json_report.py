@@ -34,6 +34,7 @@ def to_dict(solution: ShaftSolution) -> dict[str, Any]:
         "shaft": {"nodes": nodes},
         "sets": {name: plain(one) for name, one in solution.sets.items()},
         "torque": plain(solution.torque),
+        "thermal": None if solution.thermal is None else plain(solution.thermal),
         "system_life": None if solution.life is None else plain(solution.life),
         "duty": None if solution.duty is None else _duty(solution.duty),
     }
@@ -55,6 +56,7 @@ def _bearing(one: BearingOnShaft, converged: bool) -> dict[str, Any]:
         "closure": plain(one.closure),
         "expansion": plain(one.expansion),
         "largest_load": plain(one.largest_load),
+        "sliding_difference": None if one.sliding_difference is None else plain_array(one.sliding_difference),
         "pressure_centre": plain(one.pressure_centre),
         "life": None if one.life is None else plain(one.life),
     }

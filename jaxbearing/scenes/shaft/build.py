@@ -11,6 +11,7 @@ import numpy as np
 from ...bearings.rating import Rating
 from ...numerics.refusals import Refusals, refuse_all
 from ...shafts.forces import FORCES
+from ...shafts.heat import ShaftThermal
 from ...shafts.mounting import LinearBearing, MatchedSet, MountedBearing, Preload, Support
 from ...shafts.scene import ShaftState, ShaftSystem, SystemLife
 from ...shafts.shaft import STEEL, Gravity, Section, Shaft
@@ -21,6 +22,7 @@ from ..errors import SceneError
 from ..materials import material
 from ..tapered.build import tapered_roller_bearing
 from .files import LINEAR
+from .members import MEMBERS
 from .schema import ShaftTable
 from .tables import SupportTable
 
@@ -37,6 +39,7 @@ def shaft(table: ShaftTable, states: tuple[ShaftState, ...] = ()) -> ShaftSystem
 
     **Raises:** `ValueError` for combinations that the classes refuse.
     """
+    housing = None if table.housing is None else np.asarray(table.housing.matrix)
     made: dict[str, Any] = {}
     problems: list[ValueError] = []
     rated = table.life is not None
@@ -45,6 +48,7 @@ def shaft(table: ShaftTable, states: tuple[ShaftState, ...] = ()) -> ShaftSystem
         "bearings": lambda: _each(table, "bearing", lambda name, one: _mounted(name, one, rated)),
         "sets": lambda: _each(table, "set", lambda name, one: _set(name, one, rated)),
         "forces": lambda: _each(table, "force", _force),
+        "thermal": lambda: part(ShaftThermal, table.thermal),
         "life": lambda: SystemLife() if table.life is None else SystemLife(weibull=table.life.weibull),
     }
     for name, make in parts.items():
@@ -53,7 +57,7 @@ def shaft(table: ShaftTable, states: tuple[ShaftState, ...] = ()) -> ShaftSystem
         except ValueError as error:
             problems.append(error)
     refuse_all(problems)
-    return ShaftSystem(**made, states=states)
+    return ShaftSystem(**made, housing=housing, states=states)
 
 
 def _each(table: ShaftTable, word: str, make: Callable[[str, Any], Any]) -> tuple[Any, ...]:
@@ -83,16 +87,15 @@ def _within(error: ValueError, word: str, name: str) -> list[ValueError]:
 def _shaft(table: ShaftTable) -> Shaft:
     given = table.shaft
     found: dict[str, Any] = given.model_dump(exclude={"sections", "material", "gravity"})
+    made = lambda one, default: default if one is None else material(one, thermal=table.thermal is not None)
     sections = [
-        Section(
-            **one.model_dump(exclude={"material"}), material=None if one.material is None else material(one.material)
-        )
+        Section(**one.model_dump(exclude={"material"}), material=made(one.material, None))
         for one in table.entries("sections").values()
     ]
     return Shaft(
         **found,
         sections=tuple(sections),
-        material=STEEL if given.material is None else material(given.material),
+        material=made(given.material, STEEL),
         gravity=part(Gravity, given.gravity),
     )
 
@@ -111,6 +114,21 @@ def _bearing(table: Any, rated: bool) -> Any:
     return dataclasses.replace(scene, rating=Rating()) if rated and scene.rating is None else scene
 
 
+def _bearings_of_set(table: Any, rated: bool) -> Any:
+    """The bearing of a set, or one for each sign of its picture. **Raises:** `ValueError` of all of them."""
+    if MEMBERS not in type(table).model_fields:
+        return _bearing(table, rated)
+    each = getattr(table, MEMBERS)
+    made, problems = [], []
+    for number in type(each).model_fields:
+        try:
+            made.append(_bearing(getattr(each, number), rated))
+        except ValueError as error:
+            problems += _within(error, MEMBERS, number)
+    refuse_all(problems)
+    return tuple(made)
+
+
 def _set(name: str, table: Any, rated: bool) -> MatchedSet:
     distance = table.distance[0] if len(table.distance) == 1 else table.distance
     mismatch = table.mismatch
@@ -119,7 +137,7 @@ def _set(name: str, table: Any, rated: bool) -> MatchedSet:
     return MatchedSet(
         name=name,
         picture=table.picture,
-        scene=_bearing(table, rated),
+        scene=_bearings_of_set(table, rated),
         position=table.position,
         distance=distance,
         preload=None if table.preload is None else Preload(**table.preload.model_dump()),
