@@ -136,7 +136,7 @@ def test_driven_runs(name):
 @pytest.mark.parametrize("solver", ["kvaerno5", "auto"])
 def test_run_up_from_one_percent_of_the_speed(solver):
     """tsit5 is held to steps of 0.3 us there: more than 3000 in the first millisecond."""
-    history = simulate(table_16(0.6), SHORT, simulation=Simulation(speed=Ramp(0.01, 1.0, 15e-3), solver=solver))
+    history = simulate(table_16(0.6), 4 * SHORT, simulation=Simulation(speed=Ramp(0.01, 1.0, 15e-3), solver=solver))
     assert history.completed
     assert abs(history.energy.error) < 1e-5
     assert int(history.accepted) < 1000
