@@ -90,7 +90,11 @@ def test_error_falls_with_the_order():
 
 
 def test_forward_mode_is_that_of_the_motion():
-    last = lambda drive: run(solver("kvaerno5", 1e-8), 1e-8, drive).ys.globals[-1, 0]
+    def last(drive):
+        states = run(solver("kvaerno5", 1e-8), 1e-8, drive).ys
+        assert states is not None
+        return states.globals[-1, 0]
+
     value, slope = jax.jit(lambda d: jax.jvp(last, (d,), (jnp.ones(()),)))(jnp.asarray(1.0))
     values = jax.jit(jax.vmap(last))(jnp.asarray([0.99, 1.01]))
     np.testing.assert_allclose(slope, (values[1] - values[0]) / 0.02, rtol=1e-4)
