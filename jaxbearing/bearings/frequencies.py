@@ -48,6 +48,7 @@ def frequencies_of_motion(operation: Any, elements: Any, cage: Any) -> Kinematic
     **Arguments:** `operation`, `elements`, `cage`: those of a solution, or of a batch of them; `cage` is `None` where
     the scene has none.
     """
+    second = [getattr(elements, f"load_{race}_second", None) for race in ("inner", "outer")]
     given = (elements.load_inner, elements.load_outer, elements.orbital_speed, elements.spin_speed)
     speeds = (operation.inner_speed, operation.outer_speed)
     (inner_load, outer_load, orbit, spin), rings, cage_speed = known_numbers(

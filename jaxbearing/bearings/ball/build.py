@@ -24,6 +24,8 @@ from .start import together
 from .state import BallCageParts, BallDrag, BallGuess
 from .system import Grooves
 
+SPREAD_LOAD = 1e6
+"""Load, N, for which the size of a patch is taken: Hertz's formula is smoothed near load 0."""
 SMALLEST_GUESS = 1e-3
 """Load of an inner contact that the frictionless bearing has lost, over a ball's load scale, where the films start."""
 CONTROL_AT_EQUAL_LOADS, CONTROL_BY_LOAD = -1.6, 8.0
@@ -32,24 +34,26 @@ CONTROL_AT_EQUAL_LOADS, CONTROL_BY_LOAD = -1.6, 8.0
 
 
 class Row(NamedTuple):
-    """The balls that are solved for, how the inner ring may move, and how that moves their inner groove centres,
-    (axial, radial), m: `directions` for a unit of its unknowns, `held_shift` by what it is held at."""
+    """The balls that are solved for, how the inner ring may move, and how that moves the coordinates of their inner
+    grooves (`arcs`), m: `directions` for a unit of its unknowns, `held_shift` by what it is held at."""
 
     azimuth: Float[Array, " ball"]
     ring: InnerRing
-    directions: Float[Array, "freedom 2 ball"]
-    held_shift: Float[Array, "2 ball"]
+    directions: Float[Array, "freedom p ball"]
+    held_shift: Float[Array, "p ball"]
     multiplicity: int
 
 
-def ring_directions(azimuth: Float[Array, " ball"]) -> Float[Array, "5 2 ball"]:
-    """Change of the inner groove centre, (axial, radial), for a unit of each of `RING_FREEDOMS`; a unit of tilt is
-    R_i."""
+def ring_directions(azimuth: Float[Array, " ball"], turning: Array | None = None) -> Float[Array, "5 p ball"]:
+    """Change of the coordinates of the inner groove (`arcs`) for a unit of each of `RING_FREEDOMS`; a unit of tilt is
+    R_i. **Arguments:** `turning`: e_i/R_i of an inner ring with two arcs."""
     zero, one = jnp.zeros_like(azimuth), jnp.ones_like(azimuth)
     cosine, sine = jnp.cos(azimuth), jnp.sin(azimuth)
-    return jnp.stack(
-        [jnp.stack(pair) for pair in ((one, zero), (zero, cosine), (zero, sine), (cosine, zero), (sine, zero))]
-    )
+    changes = [(one, zero), (zero, cosine), (zero, sine), (cosine, zero), (sine, zero)]
+    if turning is None:
+        return jnp.stack([jnp.stack(pair) for pair in changes])
+    last = (zero, zero, zero, turning * cosine, turning * sine)
+    return jnp.stack([jnp.stack([*pair, third]) for pair, third in zip(changes, last, strict=True)])
 
 
 def ball_row(scene: BallBearing, ring: InnerRing | None = None) -> Row:
@@ -58,7 +62,8 @@ def ball_row(scene: BallBearing, ring: InnerRing | None = None) -> Row:
     azimuth = azimuths(geometry, geometry.n_balls, operation.symmetric and ring is None)
     if ring is None:
         ring = inner_ring(scene, geometry.groove_circle_radius)
-    every = ring_directions(azimuth)
+    apart = geometry.arcs.inner
+    every = ring_directions(azimuth, None if apart is None else apart / geometry.groove_circle_radius)
     held_shift = jnp.einsum("f,fcn->cn", ring.held, every)
     return Row(azimuth, ring, ring.of_unknown(every), held_shift, geometry.n_balls // azimuth.size)
 
@@ -76,6 +81,7 @@ def ball_grooves(scene: BallBearing, expansion: Float[Array, ""] | None = None) 
         lever=jnp.asarray(geometry.groove_circle_radius),
         groove_arm=jnp.asarray(geometry.conformity_inner * geometry.ball_diameter),
         expansion=expansion,
+        arcs=geometry.arcs,
     )
 
 
@@ -106,15 +112,23 @@ def build_core(scene: BallBearing, exact: bool | None = None, ring: InnerRing | 
         gyroscopic=gyroscopic if isinstance(gyroscopic, AbstractGyroscopic) else None,
         couple_share=jnp.ones(()),
         multiplicity=row.multiplicity,
-        attitude="inner" if attitude == "inner" else "outer",
+        attitude=attitude if attitude in ("inner", "linear_slip") else "outer",
         exact=operation.tilts if exact is None else exact,
         common_orbit=scene.kinematics.orbit == "common",
+        spread=_spread(scene) if attitude == "linear_slip" else None,
     )
+
+
+def _spread(scene: BallBearing) -> Float[Array, "2"]:
+    """$(a^2 + c^2)/Q^{2/3}$ of the contacts on both races at the contact angle of the unloaded bearing, m^2/N^(2/3)."""
+    contacts = scene.geometry.free_contacts(reduced_modulus(scene.materials.rings, scene.materials.balls))
+    ellipse = contacts.ellipse(SPREAD_LOAD)
+    return (jnp.square(ellipse.rolling) + jnp.square(ellipse.transverse)) / SPREAD_LOAD ** (2.0 / 3.0)
 
 
 def _held_load(grooves: Grooves, row: Row) -> Float[Array, ""]:
     """Estimates the load that the given displacements of the ring ask for, N."""
-    rest = grooves.rest + row.held_shift
+    rest, _ = grooves.arcs.facing(grooves.of_ring + row.held_shift)
     approach = jnp.maximum(safe_norm(rest[0], rest[1]) - jnp.sum(grooves.offset), 0.0)
     load = together(grooves.stiffness) * approach**1.5 + FORCE_FLOOR
     return row.multiplicity * jnp.sum(load)

@@ -134,7 +134,7 @@ class AbstractLubricatedBallSystem(AbstractOils, AbstractBallSystem):
             forward = arm.in_plane[0] * jnp.sin(inner) + arm.in_plane[1] * jnp.cos(inner) > 0
             within = arm.length * arm.share
             sideways = (load[0] * arm.along / jnp.where(forward, within, -within),)
-        on_ring = on_ring(jnp.stack([axial[0], radial[0], *sideways]), moment)
+        on_ring = on_ring((jnp.stack([axial[0], radial[0], *sideways]),), moment)
         if pocket is not None and self.cage is not None and self.cage.guidance == "inner_ring":
             on_ring = on_ring + self._through_land(pocket)
         return BallsState(
@@ -271,7 +271,7 @@ class AbstractLubricatedBallSystem(AbstractOils, AbstractBallSystem):
         compression = jnp.cbrt(jnp.square(load / grooves.stiffness[:, None]))
         reach = grooves.offset[1] + compression[1] - film[1]
         centre = reach[None] * jnp.stack([jnp.sin(angle[1]), jnp.cos(angle[1])])
-        arm, on_ring = self.reach(shift, centre)
+        (arm,), on_ring = self.reach(shift, centre)
         # the arm laid into the half-plane
         groove = centre + (arm.in_plane / arm.share[None] if self.exact else arm.in_plane)
         turned = angle[1] - angle[0]

@@ -22,7 +22,7 @@ class BallRow(AbstractRow):
     distance: Float[Array, ""]
 
     def initial(self, displacement: Float[Array, "5"]) -> Float[Array, "m element"]:
-        return jnp.zeros_like(self.problem.groove)
+        return jnp.zeros((2, self.problem.groove.shape[1]))
 
     def hold(self, displacement: Float[Array, "5"], elements: Float[Array, "m element"]) -> HeldRow:
         arm, shift = levers(self.lever), shift_matrix(self.distance)
