@@ -22,7 +22,7 @@ import numpy as np
 from jaxtyping import Array, Float
 
 
-def total(values: Iterable[Array]) -> Array:
+def added(values: Iterable[Array]) -> Array:
     """Sum of one value or more. A single one stays as it is."""
     return functools.reduce(operator.add, values)
 
@@ -82,11 +82,11 @@ class Arcs(NamedTuple):
 
     def on_inner(self, values: Float[Array, "contact ball"]) -> Float[Array, " ball"]:
         """Sum over the contacts on the inner ring."""
-        return total([values[k] for k in range(self.first_outer)])
+        return added([values[k] for k in range(self.first_outer)])
 
     def on_outer(self, values: Float[Array, "contact ball"]) -> Float[Array, " ball"]:
         """Sum over the contacts on the outer ring."""
-        return total([values[k] for k in range(self.first_outer, len(self.races))])
+        return added([values[k] for k in range(self.first_outer, len(self.races))])
 
     def inner_centres(self, groove: Float[Array, "p ball"]) -> list[Float[Array, "2 ball"]]:
         """Centres of the inner arcs (axial, outward), m, from the coordinates of the groove."""
@@ -126,7 +126,7 @@ class Arcs(NamedTuple):
     def lift(self, offset: Float[Array, "2"]) -> Array:
         r"""$\sum_k(g_k - \sqrt{g_k^2 - e_k^2})$: by how much two arcs bring the circles of groove centres of inner and
         outer ring nearer to each other than one arc each, m. **Arguments:** `offset`: g of (inner, outer), m."""
-        return total(
+        return added(
             [
                 jnp.square(e) / (offset[k] + jnp.sqrt(jnp.square(offset[k]) - jnp.square(e)))
                 for k, e in enumerate(self)

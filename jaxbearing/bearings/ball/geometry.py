@@ -14,7 +14,7 @@ from ...numerics.checks import Checked, demand, numbers_or_none
 from ...numerics.refusals import refusals_of, refuse_all
 from ...numerics.structure import count
 from ..parts import FIRST_ELEMENT, check_row_fits
-from .arcs import Arcs, total
+from .arcs import Arcs, added
 
 LEAST_SHIM = 1.0
 """Least shim angle of a ring with two arcs, degrees. With less, both contacts of a ring are one, and would count twice."""
@@ -121,7 +121,7 @@ class BallGeometry(Checked):
         r"""See `Arcs.lift`, $\sum 2g\sin^2(a/2)$, m; `None` if each ring has one arc."""
         shims = ((self.inner_offset, self.shim_inner), (self.outer_offset, self.shim_outer))
         parts = [2.0 * g * jnp.square(jnp.sin(0.5 * a)) for g, a in shims if a is not None]
-        return total(parts) if parts else None
+        return added(parts) if parts else None
 
     @property
     def free_clearance(self) -> Scalar | None:

@@ -15,7 +15,7 @@ from jaxtyping import Array, Float
 from ..._scene import number
 from ..._types import Scalar
 from ..growth import Growth, Play
-from .arcs import total
+from .arcs import added
 from .geometry import BallGeometry
 
 
@@ -71,7 +71,7 @@ class _Grooves(NamedTuple):
         pairs = [(r - 0.5 * self.ball, a) for r, a in zip(self.radii, self.shims, strict=True) if a is not None]
         if not pairs:
             return self.clearance
-        return self.clearance - total([4.0 * g * jnp.square(jnp.sin(0.5 * a)) for g, a in pairs])
+        return self.clearance - added([4.0 * g * jnp.square(jnp.sin(0.5 * a)) for g, a in pairs])
 
 
 def groove_bottoms(geometry: BallGeometry) -> tuple[Float[Array, ""], Float[Array, ""]]:

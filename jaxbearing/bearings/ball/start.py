@@ -17,7 +17,7 @@ from jaxtyping import Array, Bool, Float, Int
 
 from ...numerics.safe import safe_norm
 from ...numerics.small_linear import solve_blocks, solve_dense
-from .arcs import Arcs, coordinate_map, total
+from .arcs import Arcs, added, coordinate_map
 
 RING_TOLERANCE = 2e-2
 """Tolerance of the ring's balance, relative to the load: sufficient for a start of the full equations."""
@@ -111,19 +111,19 @@ def _inner(problem: CentrifugalProblem, centre: Array, groove: Array) -> tuple[_
     springs = [_spring(place - centre, problem.offset[0], problem.stiffness[0]) for place in places]
     if problem.arcs.inner is None:
         return springs[0], springs[0], springs[0].stiffness
-    energy = total([one.energy for one in springs])
-    ball = _Spring(energy, total([one.force for one in springs]), total([one.stiffness for one in springs]))
+    energy = added([one.energy for one in springs])
+    ball = _Spring(energy, added([one.force for one in springs]), added([one.stiffness for one in springs]))
     pairs = [(one, coordinate_map(side)) for one, side in zip(springs, problem.arcs.inner_sides, strict=True)]
-    coupling = total([jnp.einsum("abn,bp->apn", one.stiffness, of) for one, of in pairs])
-    force = total([jnp.einsum("ap,an->pn", of, one.force) for one, of in pairs])
-    stiffness = total([jnp.einsum("ap,abn,bq->pqn", of, one.stiffness, of) for one, of in pairs])
+    coupling = added([jnp.einsum("abn,bp->apn", one.stiffness, of) for one, of in pairs])
+    force = added([jnp.einsum("ap,an->pn", of, one.force) for one, of in pairs])
+    stiffness = added([jnp.einsum("ap,abn,bq->pqn", of, one.stiffness, of) for one, of in pairs])
     return ball, _Spring(energy, force, stiffness), coupling
 
 
 def _outer(problem: CentrifugalProblem, centre: Array) -> _Spring:
     """The contacts with the outer ring."""
     springs = [_spring(arm, problem.offset[1], problem.stiffness[1]) for arm in problem.arcs.from_outer(centre)]
-    return _Spring(*(total(parts) for parts in zip(*springs, strict=True)))
+    return _Spring(*(added(parts) for parts in zip(*springs, strict=True)))
 
 
 def _forces(problem: CentrifugalProblem, centre: Array, groove: Array) -> _Forces:
@@ -394,7 +394,7 @@ def ring_estimate(problem: CentrifugalProblem) -> Float[Array, " freedom"]:
     first, play = distance * sine, distance * (1.0 - cosine)
     if not problem.arcs.single:
         # the arcs are nearer to contact along the axis and across it
-        first = first - total([offset for offset in problem.arcs if offset is not None])
+        first = first - added([offset for offset in problem.arcs if offset is not None])
         play = play - problem.arcs.lift(problem.offset)
     mixed = 1.0 - 0.6 * jnp.minimum(1.0, radial * tangent / jnp.maximum(jnp.abs(axial), 1e-3))
     alone = (jnp.abs(axial) + tilting) <= 1e-9 * total

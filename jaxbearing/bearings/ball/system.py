@@ -12,7 +12,7 @@ from ...numerics.arrow import AbstractArrowSystem
 from ...numerics.convex import anchored
 from ...numerics.safe import safe_norm
 from ..ring import ANCHOR, LENGTH_UNIT, TILTS, InnerRing
-from .arcs import Arcs, total
+from .arcs import Arcs, added
 from .groove_motion import RingFrame, inner_arm, length_of, ring_frame
 from .gyroscopic import NO_LOAD, AbstractGyroscopic
 from .kinematics import BallKinematics, BallMotion
@@ -247,8 +247,8 @@ class AbstractBallSystem(AbstractArrowSystem):
         """Forces on the coordinates of the inner groove, N, from those on its arcs, axial and outward."""
         if self.arcs.inner is None:
             return forces[0]
-        turning = total([-side * force[1] for side, force in zip(self.arcs.inner_sides, forces, strict=True)])
-        return jnp.concatenate([total(forces), turning[None]])
+        turning = added([-side * force[1] for side, force in zip(self.arcs.inner_sides, forces, strict=True)])
+        return jnp.concatenate([added(forces), turning[None]])
 
     def shared_fields(self) -> dict[str, Any]:
         """Arguments of another system of the same balls."""
