@@ -97,8 +97,8 @@ def ball_damage_rate(
     r"""$1/L_{10r} = [(Q_{ei}/Q_{ci})^{10/3} + (Q_{ee}/Q_{ce})^{10/3}]^{9/10}$, per 10^6 revolutions.
 
     **Evidence:** [C], see `ball_contact_capacities`. **Arguments:** loads of all contacts, N, zeros included; whether
-    each ring turns against the load; `second`: loads on the second flanks of the inner and the outer raceway, N, of rings
-    with two groove arcs. Each flank is a raceway of its own, whose term is added (product of survivals).
+    each ring turns against the load; `second`: loads on the second flanks of inner and outer raceway, N, of rings with
+    two groove arcs. Each flank is a raceway of its own, whose term is added (product of survivals).
     """
     _require_loads(inner, outer, capacities)
     rings = [(inner, capacities.inner, inner_turns), (outer, capacities.outer, outer_turns)]

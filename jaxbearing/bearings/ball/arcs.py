@@ -92,9 +92,7 @@ class Arcs(NamedTuple):
         """Centres of the inner arcs (axial, outward), m, from the coordinates of the groove."""
         if self.inner is None:
             return [groove]
-        return [
-            jnp.stack([groove[0] + side * self.inner, groove[1] - side * groove[2]]) for side in self.inner_sides
-        ]
+        return [jnp.stack([groove[0] + side * self.inner, groove[1] - side * groove[2]]) for side in self.inner_sides]
 
     def from_outer(self, centre: Float[Array, "2 ball"]) -> list[Float[Array, "2 ball"]]:
         """Ball centres from the centres of the outer arcs, m; `centre`: from the middle of these."""
@@ -115,9 +113,7 @@ class Arcs(NamedTuple):
             axial = axial + side * self.outer
         return jnp.stack([axial, outward]), side
 
-    def moved_out(
-        self, centre: Float[Array, "2 ball"], side: Float[Array, " ball"] | None
-    ) -> Float[Array, "2 ball"]:
+    def moved_out(self, centre: Float[Array, "2 ball"], side: Float[Array, " ball"] | None) -> Float[Array, "2 ball"]:
         """Ball centres from the middle of the outer arcs, m; `centre`: from the outer arc of the `side` of `facing`."""
         if self.outer is None or side is None:
             return centre

@@ -20,7 +20,7 @@ from .equations import LubricatedBallSystem
 from .gyroscopic import AbstractGyroscopic, ResolvedCouple
 from .kinematics import BallKinematics
 from .scene import BallBearing
-from .start import together
+from .springs import together
 from .state import BallCageParts, BallDrag, BallGuess
 from .system import Grooves
 

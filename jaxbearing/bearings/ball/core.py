@@ -30,7 +30,8 @@ from ...numerics.safe import safe_norm
 from ..ring import LENGTH_UNIT
 from .kinematics import BallMotion
 from .linear_slip import linear_slip, slip_weights
-from .start import CentrifugalProblem, free_centres, ring_estimate, start
+from .springs import CentrifugalProblem
+from .start import free_centres, ring_estimate, start
 from .system import AbstractBallSystem
 
 FORCE_FLOOR = 1e-3
@@ -203,14 +204,16 @@ class BallCore(AbstractBallSystem):
                 angle = jnp.stack([jnp.arctan2(inner[0], inner[1]), jnp.arctan2(outer[0], outer[1])])
                 return centre, jnp.where(placed, last[1], core.outward_force(core.motion(angle)))
 
-            return *jax.lax.fori_loop(0, ESTIMATES + 1, better, (jnp.zeros((2, groove.shape[1])), problem.centrifugal)), ring
+            return *jax.lax.fori_loop(
+                0, ESTIMATES + 1, better, (jnp.zeros((2, groove.shape[1])), problem.centrifugal)
+            ), ring
 
         centres, forces, rings = jax.vmap(under)(jnp.stack([core.ring.load, core.heavier * core.ring.load]))
         return dataclasses.replace(first, centrifugal=forces[0]), centres, rings
 
     def _loaded_side(self, groove: Array, centre: Array) -> tuple[Array, Array]:
-        """Arms of the contacts on the side towards which the inner ring has moved, from the ball centre to the inner arc
-        and from the outer arc to the ball centre, m."""
+        """Arms of the contacts on the side towards which the inner ring has moved: from the ball centre to the inner
+        arc, and from the outer arc to the ball centre, m."""
         pair, side = self.arcs.facing(groove)
         if self.arcs.outer is not None and side is not None:
             centre = centre.at[0].add(side * self.arcs.outer)
@@ -366,8 +369,8 @@ class BallCore(AbstractBallSystem):
         return linear_slip(self.kinematics, angle, weight, self.spread, self.arcs.races)
 
     def motion(self, angle: Float[Array, "2 ball"], touching: Bool[Array, " ball"] | None = None) -> BallMotion:
-        """Rolling of two contacts without sliding, with the attitude of the controlling race. Of `linear_slip`, where it
-        only serves estimates, that is the outer one.
+        """Rolling of two contacts without sliding, with the attitude of the controlling race. Of `linear_slip`, for
+        which it only makes estimates, that is the outer one.
 
         Of a ball that does not touch the inner race (not `touching`) the direction of the inner groove's centre stands
         for the contact angle, up to `STEEPEST`.

@@ -30,7 +30,8 @@ from .kinematics import BallKinematics, BallMotion
 
 def slip_weights(load: Float[Array, "contact ball"], arcs: Arcs, floor: float) -> Float[Array, "contact ball"]:
     r"""Loads that weigh the sliding of each contact, N: $Q_k + \varepsilon^2/(\varepsilon + \sum Q)$ with the sum over
-    the contacts of its ring. A ring without load weighs $\varepsilon$, and a ring with load by 1e-9 N more than its load.
+    the contacts of its ring. A ring without load weighs $\varepsilon$; at 1 kN the
+    addition is 1e-9 N.
 
     **Arguments:** `floor`: $\varepsilon$, N.
     """
@@ -47,7 +48,7 @@ def linear_slip(
 ) -> BallMotion:
     """The motion that minimises the sum above.
 
-    **Arguments:** `angle`: contact angles, rad; `weight`: of the sliding, N, > 0; `spread`: $(a^2 + c^2)/Q^{2/3}$ of the
+    **Arguments:** `angle`: contact angles, rad; `weight`: of the sliding, N, > 0; `spread`: $(a^2 + c^2)/Q^{2/3}$ of
     contacts on the inner and on the outer race, m^2/N^(2/3); `races`: of each contact, 0 inner.
     """
     race = np.asarray(races)

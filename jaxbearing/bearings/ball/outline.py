@@ -77,7 +77,9 @@ def _two_arcs(diameter: float, conformity: float, direction: Point, sign: float,
     reach = math.sqrt(max(radius * radius - (shoulder - cy) ** 2, 0.0))
     middle, other = cx + sign * apart, cx + 2.0 * sign * apart
     arc = []
-    for x in np.linspace(min(cx + sign * reach, other - sign * reach), max(cx + sign * reach, other - sign * reach), 61):
+    for x in np.linspace(
+        min(cx + sign * reach, other - sign * reach), max(cx + sign * reach, other - sign * reach), 61
+    ):
         centre = cx if sign * (x - middle) >= 0.0 else other
         arc.append((float(x), cy + sign * math.sqrt(max(radius * radius - (x - centre) ** 2, 0.0))))
     end, back = (0.5 + RING_SIDE) * diameter, sign * (0.5 + RING_THICKNESS) * diameter

@@ -13,8 +13,8 @@ from .scene import BallBearing
 
 
 def linear_tilt_loads(scene: BallBearing, options: NewtonOptions | None = None) -> Float[Array, "contact ball"]:
-    r"""Loads on the contacts (`arcs`; of rings with one arc each: on the inner and outer race), N, where a tilt moves the
-    inner grooves to first order, along the axis by $R_i\theta\cos\psi$.
+    r"""Loads on the contacts (`arcs`; first those on the inner race), N, where a tilt moves the inner grooves to first
+    order, along the axis by $R_i\theta\cos\psi$.
 
     This is what ISO 16281 and software built on it compute with; the motion $R_i(1 - \cos\theta)\cos^2\psi$ towards
     the axis is left out. Films and friction are left out too; centrifugal forces are those of the scene. NaN where the

@@ -7,7 +7,8 @@ from ..ring import levers, shift_matrix
 from ..row import AbstractRow, HeldRow, free_ring
 from .build import build_core
 from .scene import BallBearing
-from .start import CentrifugalProblem, force_at, hold
+from .springs import CentrifugalProblem
+from .start import force_at, hold
 
 
 class BallRow(AbstractRow):

@@ -176,7 +176,7 @@ class BallBearing(AbstractBearing):
             )
         if self.contact is not None and self.kinematics.attitude == "linear_slip":
             yield (
-                "kinematics.attitude: 'linear_slip' is for bearings without films and friction; leave out [contact], or "
+                "kinematics.attitude: 'linear_slip' is for bearings without films and friction; leave out [contact] or "
                 "choose another attitude"
             )
         if self.slips and self.kinematics.orbit == "common":
@@ -205,8 +205,8 @@ class BallBearing(AbstractBearing):
         name = "shim_outer" if self.geometry.shim_inner is None else "shim_inner"
         if self.contact is not None:
             yield (
-                f"geometry.{name}: found beside [contact], expected one of the two: films and friction of rings with two "
-                "groove arcs are not modelled"
+                f"geometry.{name}: found beside [contact], expected one of the two: films and friction of rings with "
+                "two groove arcs are not modelled"
             )
         elif self.kinematics.attitude != "linear_slip":
             yield (
@@ -329,8 +329,8 @@ class BallBearing(AbstractBearing):
             )
         if self.kinematics.attitude == "linear_slip":
             said.append(
-                "kinematics.attitude = 'linear_slip': speeds of the balls are those of tractions proportional to pressure "
-                "and sliding; no loss is computed from them"
+                "kinematics.attitude = 'linear_slip': speeds of the balls are those of tractions proportional to "
+                "pressure and sliding; no loss is computed from them"
             )
         if self.rating is not None:
             said += self.rating.groove_assumptions()

@@ -1,23 +1,24 @@
 r"""First guess of a ball bearing's equilibrium: without friction, at frozen centrifugal forces, it is a convex problem.
 
-$\Pi = \sum_j[\sum\frac25K_o\delta_{o+}^{5/2} + \sum\frac25K_i\delta_{i+}^{5/2} - F_CW] - F\cdot q$ with sums over the arcs
-of each ring (`arcs`): each $\delta$ is the norm of an affine map minus a constant, and the power is convex and
+$\Pi = \sum_j[\sum\frac25K_o\delta_{o+}^{5/2} + \sum\frac25K_i\delta_{i+}^{5/2} - F_CW] - F\cdot q$, with sums over the
+arcs of each ring (`arcs`): each $\delta$ is the norm of an affine map minus a constant, and the power is convex and
 increasing. Two nested damped Newton iterations, on each ball for a given ring and on the ring with every ball in
-equilibrium, both accepting a step only where the potential falls. Nothing here is differentiated: it is the start of an iteration.
+equilibrium, both accepting a step only where the potential falls. Nothing here is differentiated: it is the start of an
+iteration.
 """
 
 import functools
 import operator
 from typing import NamedTuple
 
-import equinox as eqx
 import jax
 import jax.numpy as jnp
 from jaxtyping import Array, Bool, Float, Int
 
 from ...numerics.safe import safe_norm
 from ...numerics.small_linear import solve_blocks, solve_dense
-from .arcs import Arcs, added, coordinate_map
+from .arcs import added
+from .springs import CentrifugalProblem, Forces, forces_at, inner_springs, together
 
 RING_TOLERANCE = 2e-2
 """Tolerance of the ring's balance, relative to the load: sufficient for a start of the full equations."""
@@ -33,106 +34,12 @@ SHORTEST = 1e-6
 """Fraction of a step at which it is taken as it is: the decrease is lost in round-off."""
 
 
-class CentrifugalProblem(eqx.Module):
-    """Balls between two grooves under given forces. Units m, N; (inner, outer) or (axial, radial) first.
-
-    `groove`: coordinates of the inner groove at every ball with the ring at rest (`arcs`; of one arc its centre);
-    `directions`: their change for a unit of every ring freedom (a length each); `ring_load`: on them; `held_load`: of
-    `InnerRing`; `aligned`: axial
-    displacement at which the planes of the grooves coincide; `multiplicity`: balls that each ball stands for.
-    """
-
-    offset: Float[Array, "2"]
-    stiffness: Float[Array, "2"]
-    groove: Float[Array, "p ball"]
-    directions: Float[Array, "freedom p ball"]
-    ring_load: Float[Array, " freedom"]
-    held_load: Float[Array, ""] | None
-    centrifugal: Float[Array, " ball"]
-    centre_distance: Float[Array, ""]
-    free_cosine: Float[Array, ""]
-    aligned: Float[Array, ""]
-    multiplicity: int = eqx.field(static=True)
-    freedoms: tuple[str, ...] = eqx.field(static=True)
-    arcs: Arcs = Arcs()
-
-    def groove_at(self, ring: Float[Array, " freedom"]) -> Float[Array, "p ball"]:
-        return self.groove + jnp.einsum("f,fcn->cn", ring, self.directions)
-
-
 class Start(NamedTuple):
     """Ball centres from the outer groove centre and ring displacements, m; outer Newton steps."""
 
     centre: Float[Array, "2 ball"]
     ring: Float[Array, " freedom"]
     steps: Int[Array, ""]
-
-
-class _Forces(NamedTuple):
-    """Energy, forces and stiffness of the springs at a ball, for given ball centre and coordinates of the inner groove."""
-
-    energy: Float[Array, " ball"]
-    balance: Float[Array, "2 ball"]
-    """d energy / d centre."""
-    inner: Float[Array, "p ball"]
-    """d energy / d groove: forces on the coordinates of the inner groove."""
-    stiffness: Float[Array, "2 2 ball"]
-    """d balance / d centre."""
-    coupling: Float[Array, "2 p ball"]
-    """- d balance / d groove."""
-    of_groove: Float[Array, "p p ball"]
-    """d inner / d groove."""
-
-
-class _Spring(NamedTuple):
-    """The contacts of a ball on one ring: energy, J, force that the ball exerts on the ring, N, and stiffness, N/m."""
-
-    energy: Array
-    force: Array
-    stiffness: Array
-
-
-def _spring(arm: Float[Array, "2 ball"], offset: Array, constant: Array) -> _Spring:
-    """Energy, force and stiffness of one contact, whose centres are `arm` apart."""
-    length = safe_norm(arm[0], arm[1], 1e-30)
-    approach = jnp.maximum(length - offset, 0.0)
-    root = jnp.sqrt(approach)
-    load = constant * approach * root
-    normal = arm / length[None]
-    along = normal[:, None] * normal[None, :]
-    across = jnp.eye(2)[:, :, None] - along
-    stiffness = (1.5 * constant * root)[None, None] * along + (load / length)[None, None] * across
-    return _Spring(0.4 * load * approach, load[None] * normal, stiffness)
-
-
-def _inner(problem: CentrifugalProblem, centre: Array, groove: Array) -> tuple[_Spring, _Spring, Array]:
-    """The contacts with the inner ring: with respect to ball centre, to the coordinates of the groove, and to both."""
-    places = problem.arcs.inner_centres(groove)
-    springs = [_spring(place - centre, problem.offset[0], problem.stiffness[0]) for place in places]
-    if problem.arcs.inner is None:
-        return springs[0], springs[0], springs[0].stiffness
-    energy = added([one.energy for one in springs])
-    ball = _Spring(energy, added([one.force for one in springs]), added([one.stiffness for one in springs]))
-    pairs = [(one, coordinate_map(side)) for one, side in zip(springs, problem.arcs.inner_sides, strict=True)]
-    coupling = added([jnp.einsum("abn,bp->apn", one.stiffness, of) for one, of in pairs])
-    force = added([jnp.einsum("ap,an->pn", of, one.force) for one, of in pairs])
-    stiffness = added([jnp.einsum("ap,abn,bq->pqn", of, one.stiffness, of) for one, of in pairs])
-    return ball, _Spring(energy, force, stiffness), coupling
-
-
-def _outer(problem: CentrifugalProblem, centre: Array) -> _Spring:
-    """The contacts with the outer ring."""
-    springs = [_spring(arm, problem.offset[1], problem.stiffness[1]) for arm in problem.arcs.from_outer(centre)]
-    return _Spring(*(added(parts) for parts in zip(*springs, strict=True)))
-
-
-def _forces(problem: CentrifugalProblem, centre: Array, groove: Array) -> _Forces:
-    ball, ring, coupling = _inner(problem, centre, groove)
-    outer = _outer(problem, centre)
-    push = jnp.stack([jnp.zeros_like(problem.centrifugal), problem.centrifugal])
-    energy = ball.energy + outer.energy - problem.centrifugal * centre[1]
-    balance, stiffness = outer.force - ball.force - push, outer.stiffness + ball.stiffness
-    return _Forces(energy, balance, ring.force, stiffness, coupling, ring.stiffness)
 
 
 def free_centres(
@@ -196,7 +103,7 @@ def _equilibrium(problem: CentrifugalProblem, groove: Array, scale: Array, cap: 
     """Ball centres that minimise each ball's potential for given inner grooves."""
     first, lost = free_centres(problem, groove)
 
-    def propose(centre: Array, forces: _Forces):
+    def propose(centre: Array, forces: Forces):
         matrix = forces.stiffness + SOFTEST * jnp.eye(2)[:, :, None]
         step = -solve_blocks(matrix, forces.balance[:, None, :])[:, 0]
         step = step * jnp.minimum(1.0, cap / safe_norm(step[0], step[1], 1e-30))[None]
@@ -205,7 +112,7 @@ def _equilibrium(problem: CentrifugalProblem, groove: Array, scale: Array, cap: 
 
     def advance(state: _Balls) -> _Balls:
         trial = state.centre + state.fraction[None] * state.step
-        forces = _forces(problem, trial, groove)
+        forces = forces_at(problem, trial, groove)
         enough = forces.energy <= state.energy + ARMIJO * state.fraction * state.slope
         # near the minimum the decrease is lost in the round-off of the energy
         near = jnp.abs(state.slope) <= 1e-12 * jnp.abs(forces.energy) + 1e-18
@@ -232,7 +139,7 @@ def _equilibrium(problem: CentrifugalProblem, groove: Array, scale: Array, cap: 
     return jax.lax.while_loop(going, advance, begin).centre
 
 
-def _on_ring(problem: CentrifugalProblem, forces: _Forces) -> tuple[Float[Array, " freedom"], Array]:
+def _on_ring(problem: CentrifugalProblem, forces: Forces) -> tuple[Float[Array, " freedom"], Array]:
     """Forces that hold the ring, and their derivatives with every ball in equilibrium."""
     # stiffness of a ball in equilibrium: springs in series
     series = forces.stiffness + 1e-3 * SOFTEST * jnp.eye(2)[:, :, None]
@@ -260,7 +167,7 @@ def hold(problem: CentrifugalProblem, ring: Float[Array, " freedom"]) -> HeldBal
     depth = jnp.maximum(safe_norm(pair[0], pair[1], 1e-30) - jnp.sum(problem.offset), 0.0)
     scale = together(problem.stiffness) * jnp.max(depth) ** 1.5 + problem.centrifugal
     centre = _equilibrium(problem, groove, scale, 0.5 * problem.centre_distance)
-    forces = _forces(problem, centre, groove)
+    forces = forces_at(problem, centre, groove)
     force, matrix = _on_ring(problem, forces)
     return HeldBalls(problem.multiplicity * jnp.sum(forces.energy), force, matrix, centre)
 
@@ -273,10 +180,10 @@ def force_at(
     **Arguments:** `centre`: that `hold` found.
     """
     centre, groove = jax.lax.stop_gradient(centre), problem.groove_at(ring)
-    forces = _forces(problem, centre, groove)
+    forces = forces_at(problem, centre, groove)
     matrix = jax.lax.stop_gradient(forces.stiffness) + 1e-3 * SOFTEST * jnp.eye(2)[:, :, None]
     step = solve_blocks(matrix, forces.balance[:, None, :])[:, 0]
-    inner = _inner(problem, centre - step, groove)[1]
+    inner = inner_springs(problem, centre - step, groove)[1]
     return problem.multiplicity * jnp.einsum("fcn,cn->f", problem.directions, inner.force)
 
 
@@ -304,7 +211,7 @@ def start(problem: CentrifugalProblem, ring: Float[Array, " freedom"]) -> Start:
     def evaluate(ring: Array):
         groove = problem.groove_at(ring)
         centre = _equilibrium(problem, groove, scale, cap)
-        forces = _forces(problem, centre, groove)
+        forces = forces_at(problem, centre, groove)
         force, matrix = _on_ring(problem, forces)
         balance = force - problem.ring_load
         step = -solve_dense(matrix + SOFTEST * jnp.eye(matrix.shape[0]), balance)
@@ -335,7 +242,15 @@ def start(problem: CentrifugalProblem, ring: Float[Array, " freedom"]) -> Start:
 
     none, one = jnp.asarray(0), jnp.ones(())
     begin = _Ring(
-        ring, jnp.zeros((2, problem.groove.shape[1])), jnp.zeros_like(ring), one * jnp.inf, 0.0 * one, one, none > 0, none, none
+        ring,
+        jnp.zeros((2, problem.groove.shape[1])),
+        jnp.zeros_like(ring),
+        one * jnp.inf,
+        0.0 * one,
+        one,
+        none > 0,
+        none,
+        none,
     )
     going = lambda state: (state.trials < RING_STEPS) & ~state.done
     end = jax.lax.while_loop(going, advance, begin)
@@ -349,11 +264,6 @@ def _scale(problem: CentrifugalProblem) -> tuple[Array, int]:
     if problem.held_load is not None:
         size = size + problem.held_load
     return size + 1e-3 * count, count
-
-
-def together(stiffness: Float[Array, "2"]) -> Float[Array, ""]:
-    """Constant of both contacts of a ball, one behind the other, N/m^(3/2)."""
-    return jnp.sum(stiffness ** (-2.0 / 3.0)) ** -1.5
 
 
 def ring_estimate(problem: CentrifugalProblem) -> Float[Array, " freedom"]:

@@ -90,15 +90,17 @@ OnRing: TypeAlias = Callable[
     [tuple[Float[Array, "component ball"], ...], Float[Array, " ball"]], Float[Array, "freedom ball"]
 ]
 """Contributions of every ball to the forces on the ring's freedoms, N (moments in units of R_i), from its forces on the
-arcs of the ring, axial, outward and, of an `exact` system, along the orbit, N, and its moment in the half-plane, N m."""
+arcs of the ring, axial, outward and, of an `exact` system, along the orbit, N, and its moment in the half-plane, N m.
+"""
 
 
 class AbstractBallSystem(AbstractArrowSystem):
     """Balls between two grooved rings; globals: first the displacements of the inner ring.
 
     `directions[f]` are the changes of the coordinates of the inner groove (`arcs`; of one arc its centre, axial and
-    radial) at every ball for a unit of freedom f, to first order; the lever of the `ring` is R_i. `held_shift`: their changes by what the ring is held at, m. `exact`:
-    whether the grooves move with the exact rotation of the ring (`groove_motion`).
+    radial) at every ball for a unit of freedom f, to first order; the lever of the `ring` is R_i. `held_shift`: their
+    changes by what the ring is held at, m. `exact`: whether the grooves move with the exact rotation of the ring
+    (`groove_motion`).
     """
 
     kinematics: BallKinematics
@@ -204,7 +206,7 @@ class AbstractBallSystem(AbstractArrowSystem):
     def reach(
         self, shift: Float[Array, "freedom ball"], centre: Float[Array, "2 ball"]
     ) -> tuple[tuple[InnerArm, ...], OnRing]:
-        r"""From ball centres, counted from the outer groove centre (axial, radial), m, to the centres of each inner arc;
+        r"""From ball centres, counted from the outer groove centre (axial, radial), m, to the inner arcs' centres;
         and what forces there contribute to those on the ring's freedoms.
 
         The contributions are conjugate to the displacements: force times the motion of the nearest groove centre,

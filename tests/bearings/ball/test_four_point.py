@@ -98,7 +98,7 @@ def test_exact_distances():
         np.testing.assert_allclose(length_of(arm)[0], length, rtol=1e-11)
 
 
-# case: geometry, loads, centrifugal force, displacements, {ball: (Q_i, Q_o, alpha_i, alpha_o)} with both sides of a ring
+# geometry, loads, centrifugal force, displacements, {ball: (Q_i, Q_o, alpha_i, alpha_o)} with both sides of a ring
 CASES = {
     "axial": (
         G4,
@@ -191,7 +191,8 @@ CASES = {
 
 
 @pytest.mark.parametrize(
-    "name", [name if name in ("axial", "turning", "fast") else pytest.param(name, marks=pytest.mark.slow) for name in CASES]
+    "name",
+    [name if name in ("axial", "turning", "fast") else pytest.param(name, marks=pytest.mark.slow) for name in CASES],
 )
 def test_check_values(name):
     geometry, loads, force, displacements, balls = CASES[name]
@@ -296,7 +297,7 @@ def test_hard_cases_converge_and_have_gradients(name):
 
 
 def test_refusals():
-    with pytest.raises(ValueError, match="geometry.shim_inner"):
+    with pytest.raises(ValueError, match=r"geometry\.shim_inner"):
         BallGeometry(*SIZES, diametral_clearance=30e-6, shim_inner=np.radians(0.5))
     with pytest.raises(ValueError, match="linear_slip"):
         BallBearing(
