@@ -30,8 +30,8 @@ class BallGeometry(Checked):
     - `contact_angle`: of the unloaded bearing, rad, at least 0 and below pi/2.
     - `diametral_clearance`: DIAMETRAL internal clearance of the unloaded bearing, m; negative: radial preload.
     - `shim_inner`, `shim_outer`: shim angle of a ring with two groove arcs, rad, at least 1 degree: the contact angle
-      of a ball that touches both arcs of the ring; not given: one arc. `contact_angle` is that of two contacts then, and
-      `diametral_clearance` that between all contacts.
+      of a ball that touches both arcs of the ring; not given: one arc. `contact_angle` is then that of two contacts,
+      and `diametral_clearance` that between all contacts.
     - `shoulder_angle_inner`, `shoulder_angle_outer`: angle at which the groove ends, rad; not given: no check.
     - `first_element_angle`: azimuth of the first ball, rad; not given: 0, and the load line is a line of symmetry.
     - `bore`, `outside_diameter`, `width`: boundary dimensions of the bearing, m, for what knows its seats.
