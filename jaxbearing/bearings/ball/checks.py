@@ -17,7 +17,7 @@ def _angles(result: SolvedBearing) -> Excess:
         # each arc of the model is a full circle
         text = "a loaded ball touches the groove of {place} beyond 90°, where no groove is: it cannot run so"
         found = contacts.said(text, contacts.most(jnp.abs(contacts.angle)) - 0.5 * np.pi)
-        if not scene.geometry.arcs.single:
+        if scene.geometry.has_arcs:
             return found | _cusps(scene, contacts)
         if scene.geometry.contact_angle is not None:
             text = "a loaded ball leans on the other shoulder of {place}: an angular-contact bearing has none there"
@@ -55,7 +55,7 @@ def missing_thrust(scene: BallBearing) -> Float[Array, ""]:
 def _thrust(scene: BallBearing) -> Excess:
     operation = scene.operation
     across = operation.radial_load is not None or operation.radial_load_lateral is not None
-    no_side = scene.geometry.contact_angle is None or not scene.geometry.arcs.single
+    no_side = scene.geometry.contact_angle is None or scene.geometry.has_arcs
     if no_side or operation.displaced or not across:
         return {}
     text = (

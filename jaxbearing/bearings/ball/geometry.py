@@ -110,6 +110,11 @@ class BallGeometry(Checked):
         return (self.conformity_outer - 0.5) * jnp.asarray(self.ball_diameter)
 
     @property
+    def has_arcs(self) -> bool:
+        """True if a ring has two groove arcs."""
+        return self.shim_inner is not None or self.shim_outer is not None
+
+    @property
     def arcs(self) -> Arcs:
         r"""Distances $e = g\sin a$ of the circles of groove centres from the middle planes of their rings."""
         inner = None if self.shim_inner is None else self.inner_offset * jnp.sin(self.shim_inner)
@@ -158,7 +163,7 @@ class BallGeometry(Checked):
         on a ring. Another one that is given by its contact angle has its zero at first contact of balls and races, with
         the inner ring pushed along $+e_x$.
         """
-        if self.contact_angle is None or not self.arcs.single:
+        if self.contact_angle is None or self.has_arcs:
             return jnp.zeros(())
         return -self.centre_distance * self.free_sine
 

@@ -167,7 +167,7 @@ class BallBearing(AbstractBearing):
         yield from mounting_problems(self)
         yield from thermal_problems(self)
         yield from supply_problems(self)
-        if not self.geometry.arcs.single:
+        if self.geometry.has_arcs:
             yield from self._arc_problems()
         elif not self.slips and self.kinematics.attitude not in ("outer", "inner", "linear_slip"):
             yield (
@@ -284,7 +284,7 @@ class BallBearing(AbstractBearing):
         r"""Distance of the plane of the inner groove centres, where `ring` counts, from that of the unloaded balls,
         m: $(f_i - \frac12)D\sin\alpha$ at the contact angle of the unloaded bearing. Of rings with two
         groove arcs both planes are the middle one."""
-        if not self.geometry.arcs.single:
+        if self.geometry.has_arcs:
             return jnp.zeros(())
         return self.geometry.inner_offset * self.geometry.free_sine
 

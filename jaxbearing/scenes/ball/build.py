@@ -36,7 +36,9 @@ def ball_bearing(table: BallBearingTable) -> BallBearing:
         geometry=lambda: BallGeometry(**table.geometry.model_dump()),
         materials=lambda: BallMaterials(**solids(table, "rings", "balls")),
         operation=lambda: BallOperation(**table.operation.model_dump(exclude_none=True)),
-        kinematics=lambda: _kinematics(table.kinematics, slips(), _has_arcs(table)),
+        kinematics=lambda: _kinematics(
+            table.kinematics, slips(), table.geometry.shim_inner is not None or table.geometry.shim_outer is not None
+        ),
         oil=oil,
         contact=lambda: None if table.contact is None else _laws(table.contact, oil()),
         cage=lambda: cage(BallCage, table.cage),
@@ -45,10 +47,6 @@ def ball_bearing(table: BallBearingTable) -> BallBearing:
         **seats(table),
         simulation=lambda: warm_up(table),
     )
-
-
-def _has_arcs(table: BallBearingTable) -> bool:
-    return table.geometry.shim_inner is not None or table.geometry.shim_outer is not None
 
 
 def _kinematics(table: KinematicsTable | None, slips: bool, arcs: bool) -> BallAttitude:
