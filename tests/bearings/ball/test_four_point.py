@@ -246,6 +246,7 @@ def test_check_value_at_speed():
     assert any("more than two contacts" in text for text in solution.warnings)
 
 
+@pytest.mark.slow
 def test_open_second_contacts_change_nothing():
     """While one side carries, loads are those of the bearing with one arc on each ring and the same contact angle."""
     loads = {"axial_load": 5e3, "radial_load": 2e3}
@@ -262,6 +263,7 @@ def test_open_second_contacts_change_nothing():
     np.testing.assert_allclose(four.stiffness[:3, :3], two.stiffness[:3, :3], rtol=1e-7, atol=1.0)
 
 
+@pytest.mark.slow
 def test_reversed_thrust_mirrors_the_sides():
     forth, back = (jb.solve(bearing(G4, 1000.0, axial_load=sign * 4e3, radial_load=3e3)) for sign in (1.0, -1.0))
     for name in ("load_inner", "load_outer"):
