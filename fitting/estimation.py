@@ -51,7 +51,7 @@ class AbstractProblem(eqx.Module):
 
     @abc.abstractmethod
     def predicted(self, u: Float[Array, " parameter"]) -> Float[Array, " point"]:
-        """What the model gives in the place of each measured value."""
+        """Values of the model at the points that were measured."""
 
     def natural(self, u: Float[Array, " parameter"]) -> Float[Array, " parameter"]:
         """Natural coordinates of scaled unknowns."""

@@ -37,7 +37,7 @@ class Held(NamedTuple):
 
 
 class AbstractSearch(abc.ABC):
-    """What the loop asks of an estimation. A `problem` is what its own methods take; `u` are its unknowns."""
+    """Methods of an estimation that the loop calls. A `problem` is what its own methods take; `u` are its unknowns."""
 
     limits: tuple[np.ndarray, np.ndarray]
     """Bounds in natural coordinates, infinite where there is none."""

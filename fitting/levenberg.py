@@ -31,6 +31,9 @@ SMALLEST_RADIUS = 1e-12
 GOOD, BAD = 0.75, 0.25
 """Parts of the expected decrease above which the region grows, and below which it shrinks."""
 GROWTH, SHRINKAGE = 3.0, 0.25
+FURTHEST = 1.0
+"""Largest change of an unknown in the first region: a parameter that is searched by its logarithm changes at most by a
+factor e. A longer step from a point with large residuals could end where the data no longer show a parameter."""
 SECULAR_STEPS = 8
 """Newton steps for lambda; the radius is met to 1 % after two or three."""
 
@@ -68,9 +71,10 @@ def begun(
 ) -> State:
     """The state at the first unknowns. The first region holds the Gauss-Newton step of a linear model."""
     columns = jnp.linalg.norm(jacobian, axis=0)
-    size = jnp.where((columns > 0) & jnp.isfinite(columns), columns, 1.0)
     loss = 0.5 * jnp.sum(jnp.square(residual))
     radius = jnp.maximum(jnp.sqrt(2.0 * loss), 1.0)
+    least = jnp.where(jnp.isfinite(radius), radius, 1.0) / FURTHEST
+    size = jnp.maximum(jnp.where(jnp.isfinite(columns), columns, 1.0), least)
     state = State(
         u,
         loss,

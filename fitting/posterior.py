@@ -34,7 +34,7 @@ class PosteriorUnavailableError(ImportError):
 
 @dataclass(frozen=True)
 class Sampling:
-    """How many samples are drawn.
+    """Numbers of samples, and the seed.
 
     **Arguments:** `chains`; `warmup`, `samples`: of each chain; `seed`: the same seed gives the same samples.
     """
@@ -53,7 +53,7 @@ class Sampling:
 
 @dataclass(frozen=True)
 class Target:
-    """What is sampled.
+    """The density that is sampled.
 
     **Arguments:**
     - `names`: of the parameters.
@@ -135,7 +135,7 @@ class Posterior:
         return tuple(said)
 
     def in_words(self) -> str:
-        """How the samples were drawn."""
+        """A sentence that says how the samples were drawn."""
         one = self.sampling
         return (
             f"No-U-Turn, {one.chains} chains of {one.samples} samples after {one.warmup} of adaptation "

@@ -28,7 +28,14 @@ def test_python_blocks_run(capsys):
     assert "1389" in capsys.readouterr().out
 
 
-@pytest.mark.parametrize("block", blocks(USING, "python"), ids=range(len(blocks(USING, "python"))))
+@pytest.mark.parametrize(
+    "block",
+    [
+        # the first compiles solves, derivatives and batches of a lubricated bearing
+        pytest.param(block, id=str(number), marks=() if number else pytest.mark.slow)
+        for number, block in enumerate(blocks(USING, "python"))
+    ],
+)
 def test_python_blocks_of_using_it_run(block, capsys, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)  # one writes a file
     exec(compile(block, "using.md", "exec"), {})

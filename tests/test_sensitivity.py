@@ -57,14 +57,14 @@ CALLERS = {
     "solve_line_contact": ("line_contact.py",),
     "steady_solution": ("solve.py",),
     "with_life": ("solve.py",),
-    # of a warm-up the losses are asked for alone
-    "solve_ring": ("bearing.py", "port.py", "programs.py"),
+    # of a warm-up the losses are asked for alone; a shaft rates its bearings itself
+    "solve_ring": ("bearing.py", "port.py", "programs.py", "batches.py"),
 }
 """Function that gives a solution without life or checked inputs -> the files that may call it."""
 
 
 def test_one_function_from_scene_to_solution():
-    """The families' own solves give no life: nothing but `solve`, and `reaction`, may call them."""
+    """The families' own solves give no life: nothing but `solve`, `reaction` and shafts may call them."""
     package = Path(jb.__file__).parent
     found = set()
     for folder in (package, package.parent / "fitting"):

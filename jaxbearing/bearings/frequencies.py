@@ -13,7 +13,7 @@ from jaxtyping import Array, Float
 
 from .._derived import known_numbers
 from .._types import Values
-from ..numerics.checks import label
+from ..numerics.checks import array_module, label
 
 if TYPE_CHECKING:
     from .bearing import AbstractBearing
@@ -23,7 +23,8 @@ else:
 TURN = 2.0 * np.pi
 NO_LOAD = 1e-30
 """Added to every load, N, so that elements without load count alike where none is loaded."""
-_Frequency = Float[Array, "*batch"]
+_Frequency = Float[Array | np.ndarray, "*batch"]
+"""A numpy array of a solution that is looked at, whose numbers are known."""
 
 
 class KinematicFrequencies(eqx.Module):
@@ -57,8 +58,9 @@ def frequencies_of_motion(operation: Any, elements: Any, cage: Any) -> Kinematic
     )
     load = sum(second, inner_load + outer_load) + NO_LOAD
     mean = lambda speed: (load * speed).sum(axis=-1) / load.sum(axis=-1)
-    turning = mean(orbit) if cage_speed is None else cage_speed
-    return _frequencies(rings, load.shape[-1], turning, mean(spin))
+    with np.errstate(all="ignore"):  # those of a solve that failed need not be numbers
+        turning = mean(orbit) if cage_speed is None else cage_speed
+        return _frequencies(rings, load.shape[-1], turning, mean(spin))
 
 
 def textbook_frequencies(scene: AbstractBearing) -> KinematicFrequencies:
@@ -85,11 +87,12 @@ def textbook_frequencies(scene: AbstractBearing) -> KinematicFrequencies:
 def _frequencies(rings: tuple[Values, Values], count: int, turning: Values, spin: Values) -> KinematicFrequencies:
     """**Arguments:** speeds, rad/s: of the `rings`, of the cage (`turning`), and of the elements relative to it
     (`spin`)."""
-    often = lambda speed: abs(speed) / TURN
     inner, outer = rings
+    module = array_module(inner, outer, turning, spin)
+    often = lambda speed, times: module.asarray(times * abs(speed) / TURN)
     return KinematicFrequencies(
-        cage=jnp.asarray(often(turning)),
-        outer_pass=jnp.asarray(count * often(turning - outer)),
-        inner_pass=jnp.asarray(count * often(inner - turning)),
-        element_spin=jnp.asarray(often(spin)),
+        cage=often(turning, 1),
+        outer_pass=often(turning - outer, count),
+        inner_pass=often(inner - turning, count),
+        element_spin=often(spin, 1),
     )

@@ -89,7 +89,7 @@ def _deviations(found: Calibration, rig: int, results: np.ndarray) -> np.ndarray
 
 
 def _updated(covariance: np.ndarray, rows: np.ndarray) -> tuple[float, np.ndarray]:
-    """What values with these slopes add, nats, and the covariance with them."""
+    """The information, nats, that values with these slopes add, and the covariance with them."""
     if not np.all(np.isfinite(rows)):
         return float("nan"), np.full_like(covariance, np.nan)
     seen = np.eye(len(rows)) + rows @ covariance @ rows.T

@@ -93,7 +93,7 @@ def _evaluate(found: Calibration):
 
 
 def predictive(found: Calibration, posterior: Posterior, count: int = PREDICTED, seed: int = 0) -> Predictive:
-    """What the posterior predicts to be measured at the operating points of the data, with new errors.
+    """Predicts by the posterior what would be measured at the operating points of the data, with new errors.
 
     **Arguments:** `count`: samples whose predictions are computed.
     """

@@ -1,4 +1,4 @@
-"""What a calibrated scene predicts: results of another operating point, or of another bearing with the same fields,
+"""Predictions of a calibrated scene: results of another operating point, or of another bearing with the same fields,
 with the interval that the calibration leaves."""
 
 from collections.abc import Mapping, Sequence

@@ -18,8 +18,8 @@ from .parameters import FreeField
 from .words import why_undetermined
 
 OFFSET = 1e-5
-"""Where a minimum is reached, see `fitting.levenberg.OFFSET`: the next step would lower the sum of squares by 1e-10,
-and move no parameter by more than 1e-5 of its standard error times the square root of the number of points."""
+"""The search ends at this offset (see `fitting.levenberg.OFFSET`): the next step would lower the sum of squares by
+1e-10, and move no parameter by more than 1e-5 of its standard error times the square root of the number of points."""
 MOST_EVALUATIONS = 100
 ROUNDS, SAME_SCALE = 12, 1e-4
 """Times that the size of the errors is renewed, and the relative change at which it counts as the same."""

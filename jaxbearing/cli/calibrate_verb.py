@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from .messages import NOT_CONVERGED, bad_input, refuse
-from .options import JsonOption, SceneArgument, SetOption, labelled
+from .options import JsonOption, LossOption, SceneArgument, SetOption, labelled
 from .output_files import PICTURES, Output, check_files, deliver
 from .posterior_options import (
     PlotPosteriorOption,
@@ -53,9 +53,6 @@ BoundOption = Annotated[
 RigOption = Annotated[
     list[str] | None,
     typer.Option("--rig", metavar="SCENE:DATA.csv", help="A further scene with its measurements. Repeatable."),
-]
-LossOption = Annotated[
-    str, typer.Option("--loss", help="linear (least squares), or soft_l1 or cauchy: outliers count less.")
 ]
 ErrorOption = Annotated[
     str,

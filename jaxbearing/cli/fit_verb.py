@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from .messages import BAD_INPUT, NOT_CONVERGED, bad_input, refuse, say
-from .options import SCENE_HELP, JsonOption, SetOption, labelled
+from .options import SCENE_HELP, JsonOption, LossOption, SetOption, labelled
 from .output_files import PICTURES, Output, check_files, deliver
 from .posterior_options import (
     PlotPosteriorOption,
@@ -65,7 +65,6 @@ Bounds = Annotated[
         "--bound", metavar="NAME=LOW:HIGH", help="Bounds, e.g. --bound stress='1 MPa:20 MPa'. May be repeated."
     ),
 ]
-Loss = Annotated[str, typer.Option("--loss", help="linear (least squares), or soft_l1 or cauchy: outliers count less.")]
 Method = Annotated[str, typer.Option("--method", help="levenberg_marquardt, bfgs or gradient_descent.")]
 Starts = Annotated[int, typer.Option("--starts", help="Number of starting points.")]
 RelativeError = Annotated[
@@ -104,7 +103,7 @@ def fit(
     fixed: Fixed = None,
     free: Free = None,
     bounds: Bounds = None,
-    loss: Loss = "linear",
+    loss: LossOption = "linear",
     method: Method = "levenberg_marquardt",
     starts: Starts = 3,
     relative_error: RelativeError = "0.02",

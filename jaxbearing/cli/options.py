@@ -18,6 +18,9 @@ SetOption = Annotated[
         "optional table or field out. May be repeated.",
     ),
 ]
+LossOption = Annotated[
+    str, typer.Option("--loss", help="linear (least squares), or soft_l1 or cauchy: outliers count less.")
+]
 JsonOption = Annotated[bool, typer.Option("--json", help="Print one JSON object in SI units, and nothing else.")]
 
 DragPriorOption = Annotated[

@@ -55,6 +55,21 @@ class AbstractForce(Checked):
         return False
 
 
+class AbstractDrive(AbstractForce):
+    """A part that turns the shaft or is turned by it. Its torque is given, or is what the other forces leave."""
+
+    torque: eqx.AbstractVar[Scalar]
+    balance: eqx.AbstractVar[bool]
+
+    @property
+    def torque_given(self) -> Array:
+        return jnp.asarray(self.torque)
+
+    @property
+    def balances(self) -> bool:
+        return self.balance
+
+
 def resolved(axial: Scalar, radial: Scalar, tangential: Scalar, azimuth: Scalar, radius: Scalar) -> Float[Array, "5"]:
     """Loads on the axis of a force at an azimuth, rad, and a radius, m; see the module."""
     cosine, sine = jnp.cos(azimuth), jnp.sin(azimuth)
@@ -103,7 +118,7 @@ class PointLoad(AbstractForce):
         return ActingForce(load.at[3:].add(jnp.stack([jnp.asarray(self.moment), self.moment_lateral])), torque)
 
 
-class Gear(AbstractForce):
+class Gear(AbstractDrive):
     r"""A spur or helical gear in mesh at one azimuth.
 
     $F_t = T/r$, separating force $|F_t|\tan\alpha_n/\cos\beta$ towards the axis, axial force $F_t\tan\beta$.
@@ -132,14 +147,6 @@ class Gear(AbstractForce):
     helix_angle: Scalar = number(0.0, metadata=label("rad", "helix angle"))
     balance: bool = switch("force.balance", False)
 
-    @property
-    def torque_given(self) -> Array:
-        return jnp.asarray(self.torque)
-
-    @property
-    def balances(self) -> bool:
-        return self.balance
-
     def acting(self, torque: Array, gravity: Float[Array, "2"]) -> ActingForce:
         del gravity
         tangential = torque / self.pitch_radius
@@ -148,7 +155,7 @@ class Gear(AbstractForce):
         return ActingForce(resolved(axial, radial, tangential, self.azimuth, self.pitch_radius), torque)
 
 
-class Belt(AbstractForce):
+class Belt(AbstractDrive):
     """The pull of a belt.
 
     **Arguments:**
@@ -168,14 +175,6 @@ class Belt(AbstractForce):
     azimuth: Scalar = number(0.0, metadata=label("rad", "azimuth of the pull"))
     torque: Scalar = number(0.0, metadata=label("N m", "torque"))
     balance: bool = switch("force.balance", False)
-
-    @property
-    def torque_given(self) -> Array:
-        return jnp.asarray(self.torque)
-
-    @property
-    def balances(self) -> bool:
-        return self.balance
 
     def acting(self, torque: Array, gravity: Float[Array, "2"]) -> ActingForce:
         del gravity

@@ -90,6 +90,7 @@ def test_layers_from_none_to_plenty(family):
     assert some.supply.stated == "given by contact.supply.layer"
 
 
+@pytest.mark.slow
 def test_a_wide_gap_is_flooded_but_for_the_far_inlet():
     full, wide = flooded("ball"), jb.solve(scene_of(CHEAP["ball"], meniscus_gap="1 m"))
     np.testing.assert_allclose(wide.elements.film_inner, full.elements.film_inner, rtol=1e-7)

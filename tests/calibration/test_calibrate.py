@@ -92,6 +92,7 @@ def test_intervals_are_those_of_linear_theory(bearing, calibrated, noisy):
         np.testing.assert_allclose(ends, [low[path], high[path]], rtol=1e-5)
 
 
+@pytest.mark.slow
 def test_intervals_hold_the_truth(calibrated, displacements):
     """200 repetitions at once; asked: 91 to 99 % of the 95 % intervals."""
     errors = np.random.default_rng(20261127).normal(size=(200, len(LOADS)))
@@ -119,6 +120,7 @@ def test_what_is_told_together_only_is_said(bearing, calibrated, noisy):
         np.testing.assert_allclose(found[path][:4], calibrated[path][:4], rtol=1e-6)
 
 
+@pytest.mark.slow
 def test_what_no_value_shows_is_said(bearing, noisy):
     found = jb.calibrate(bearing, measured(noisy), [MODULUS, "materials.rings.density"])
     assert found.fitted == (MODULUS,)

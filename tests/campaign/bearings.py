@@ -100,7 +100,8 @@ def rubbed(scene: Any, n: Numbers, r: Results) -> dict[str, tuple[np.ndarray, fl
     layer, and factors of supply at most 1."""
     found: dict[str, tuple[np.ndarray, float]] = {}
     whole = np.maximum(np.abs(r.get("power_loss.total", np.zeros(1))), TINY)
-    # where nothing touches there is no film: NaN is no excess here, and `judge` finds it where a number must be
+    # where nothing touches there is no film: NaN, which is no excess. Not lost: `judge` counts it as a breach where a
+    # number must be
     beyond = lambda values, most: largest(np.maximum(np.nan_to_num(values) - most, 0.0))
     for path, values in r.items():
         if path.startswith("boundary_power."):

@@ -2,6 +2,7 @@
 
 import json
 import os
+import re
 import subprocess
 import sys
 import tomllib
@@ -22,7 +23,8 @@ DRY = ("reference_roller", "--set", "contact=none")
 def test_help_and_version(jaxbearing_command):
     help_ = jaxbearing_command("--help")
     assert help_.code == 0
-    assert all(word in help_.out for word in ("solve", "scenes", "Exit codes", "JAXBEARING_CACHE", "--version  Print"))
+    assert all(word in help_.out for word in ("solve", "scenes", "Exit codes", "JAXBEARING_CACHE"))
+    assert re.search("--version +Print", help_.out)
     version = jaxbearing_command("--version")
     assert version.code == 0
     assert version.out.startswith("jaxbearing")

@@ -28,6 +28,8 @@ from jaxbearing.sweeps.cases import Cases
 
 ROOT = Path(__file__).parents[2]
 PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md"))]
+MANY = ("docs/sweeps.md", "docs/using.md", "docs/worked_examples.md")
+"""Pages with so many commands that they take several seconds even without the solvers."""
 FEW = 12
 """Cases of a sweep that are solved here, at most; of a grid so many along each axis that it has not more."""
 SHORT = 2e-5
@@ -185,7 +187,9 @@ def run_one(page, arguments, folder, monkeypatch, capfd):
 
 
 @pytest.mark.usefixtures("made_up")
-@pytest.mark.parametrize("page", ONCE)
+@pytest.mark.parametrize(
+    "page", [pytest.param(page, marks=pytest.mark.slow) if page in MANY else page for page in ONCE]
+)
 def test_commands_run(page, folder, monkeypatch, capfd):
     """In the order of the page, in one folder."""
     monkeypatch.chdir(folder)

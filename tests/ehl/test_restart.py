@@ -129,6 +129,7 @@ print(refused)
 """
 
 
+@pytest.mark.slow
 def test_damaged_files_are_refused(file, tmp_path):
     """Cut short, or with other bytes: refused, unless the damage is in what a run does not go on from. In a process of
     its own, since a library that reads such files may end it."""

@@ -168,7 +168,11 @@ def test_refusals():
 
 
 @pytest.mark.parametrize(
-    ("name", "low", "high"), [("deep_groove_6205", 14.0e3, 14.0e3), ("angular_contact_218", 106e3, 108e3)]
+    ("name", "low", "high"),
+    [
+        pytest.param("deep_groove_6205", 14.0e3, 14.0e3, marks=pytest.mark.slow),
+        ("angular_contact_218", 106e3, 108e3),
+    ],
 )
 def test_built_in_balls_have_the_rating_of_catalogues(name, low, high):
     """Catalogues rate grooves of 0.52, whatever the bearing's; the solution says which were taken."""

@@ -25,7 +25,7 @@ from jaxbearing.life.minimum_film import minimum_films
 )
 def test_line_contacts(law, share):
     films = SimpleNamespace(film_inner=jnp.asarray([1e-7, jnp.nan]), film_outer=jnp.asarray([2e-7, 3e-7]))
-    scene = SimpleNamespace(contact=SimpleNamespace(film=law), point_contacts=lambda elements: None)
+    scene = eqx.tree_at(lambda scene: scene.contact.film, jb.load_scene("reference_roller"), law)
     inner, outer = minimum_films(scene, films)
     np.testing.assert_allclose(inner, [share * 1e-7, np.nan], rtol=1e-15)
     np.testing.assert_allclose(outer, [share * 2e-7, share * 3e-7], rtol=1e-15)

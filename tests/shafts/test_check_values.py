@@ -72,6 +72,7 @@ def test_a_rigid_pair_at_speed():
             close(elements.load_outer, 75.2038, 2e-6)
 
 
+@pytest.mark.slow
 def test_a_pair_with_springs():
     """B4, B5; the sheet's 180 N of B5 at rest are the force at no displacement, 148.535 N mounted."""
     spring = Preload(spring_force=180.0, spring_stiffness=0.0)

@@ -86,7 +86,7 @@ def filled(structure, lanes=()):
             return jnp.zeros(shape, leaf.dtype)
         values = np.full(shape, 1.0 + 0.25 / next(count)) * np.linspace(1.0, 1.01, int(np.prod(shape))).reshape(shape)
         last = name.rpartition(".")[2]
-        if last == "azimuth":
+        if last == "azimuth" and shape:
             values = np.broadcast_to(2.0 * np.pi * np.arange(shape[-1]) / shape[-1], shape)
         elif last in ("x", "time"):
             values = np.broadcast_to(np.linspace(-2.0 if last == "x" else 0.0, 2.0, shape[-1]), shape) if shape else 2.0

@@ -270,6 +270,7 @@ jb.sweep(dry_roller(), OVER, out={out!r}, chunk=4, progress=lambda cases: time.s
 """
 
 
+@pytest.mark.slow
 def test_kill_9_at_any_moment(scene, tmp_path):
     """The process is killed while it works, twice; the file is that of a run that was left alone."""
     out = tmp_path / "sweep.nc"

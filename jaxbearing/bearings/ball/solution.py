@@ -19,7 +19,7 @@ _Values = Float[Array, " element"]
 
 
 class SolvedBalls(NamedTuple):
-    """What a solve found at the balls. **Arguments:** `films`: the `state` of balls with films, `None` of others."""
+    """Converged state of the balls. **Arguments:** `films`: the `state` of balls with films, `None` of others."""
 
     system: "BallCore | LubricatedBallSystem"
     state: "BallState | BallsState"

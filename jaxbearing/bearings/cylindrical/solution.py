@@ -17,7 +17,7 @@ _Values = Float[Array, " element"]
 
 
 class SolvedRollers(NamedTuple):
-    """What a solve of rollers with films found that all carry evenly along their length."""
+    """Converged state of rollers with films that carry evenly along their length."""
 
     system: "LubricatedRollerSystem"
     state: "RollerState"

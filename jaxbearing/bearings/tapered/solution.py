@@ -18,7 +18,7 @@ _Values = Float[Array, " element"]
 
 
 class SolvedTapered(NamedTuple):
-    """What a solve found at the rollers. **Arguments:** `place`: displacements of the rollers along and across their
+    """Converged state of the rollers. **Arguments:** `place`: displacements of the rollers along and across their
     axis, m, and their tilts, rad; `friction`: `None` of dry rollers."""
 
     system: "TaperedSystem"

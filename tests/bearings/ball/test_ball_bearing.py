@@ -41,7 +41,7 @@ ENERGY = {
     "resolved": {"kinematics.gyroscopic": ResolvedCouple(), "cage": None, "drag": None},
     "resolved with cage": {"kinematics.gyroscopic": ResolvedCouple()},
 }
-QUICK = ("turbine", "no cage")
+QUICK = ("no cage",)
 
 
 @pytest.mark.parametrize("name", [pytest.param(n, marks=() if n in QUICK else pytest.mark.slow) for n in ENERGY])

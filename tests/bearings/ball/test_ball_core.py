@@ -173,7 +173,8 @@ HARD = {
         BallGeometry(20, 167.54e-3, 22.225e-3, 0.52, 0.515, contact_angle=np.radians(27.0)), 20000, 200.0
     ),
 }
-LONG = ("steep, radial", "steep, radial, nearly no thrust", "hundred balls", "radial with clearance", "one ball loaded")
+LONG = ("steep, radial", "steep, radial, nearly no thrust", "radial with clearance", "one ball loaded")
+LONG += ("three balls", "hundred balls")
 
 
 @pytest.mark.parametrize("name", [pytest.param(name, marks=pytest.mark.slow if name in LONG else ()) for name in HARD])
