@@ -76,6 +76,24 @@ class Arcs(NamedTuple):
         """Side of each contact, 0 on a ring with one arc."""
         return self.inner_sides + self.outer_sides
 
+    @property
+    def senses(self) -> Float[np.ndarray, "contact 1"]:
+        """1 of contacts on the inner ring, -1 of those on the outer one: the sense of the contact's x axis along the
+        orbit."""
+        return np.where(np.asarray(self.races) == 0, 1.0, -1.0)[:, None]
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """Names of the contacts in results: the race, and `_second` for the flank that carries thrust along -e_x."""
+        names = ("inner", "outer")
+        return tuple(
+            names[race] + ("_second" if side == -1 else "") for race, side in zip(self.races, self.sides, strict=True)
+        )
+
+    def named(self, found: dict[str, Float[Array, "contact ball"]]) -> dict[str, Float[Array, " ball"]]:
+        """Results of each contact by the names of the fields that hold them."""
+        return {f"{name}_{place}": values[k] for name, values in found.items() for k, place in enumerate(self.names)}
+
     def of_contacts(self, values: Float[Array, "2"]) -> Float[Array, " contact"]:
         """Values of each contact from those of the races."""
         return values if self.single else values[np.asarray(self.races)]
@@ -87,6 +105,10 @@ class Arcs(NamedTuple):
     def on_outer(self, values: Float[Array, "contact ball"]) -> Float[Array, " ball"]:
         """Sum over the contacts on the outer ring."""
         return added([values[k] for k in range(self.first_outer, len(self.races))])
+
+    def by_race(self, values: Float[Array, "contact ball"]) -> tuple[Array, Array]:
+        """Sums over the contacts on the inner and on the outer ring."""
+        return self.on_inner(values), self.on_outer(values)
 
     def inner_centres(self, groove: Float[Array, "p ball"]) -> list[Float[Array, "2 ball"]]:
         """Centres of the inner arcs (axial, outward), m, from the coordinates of the groove."""

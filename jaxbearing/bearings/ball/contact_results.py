@@ -12,7 +12,7 @@ from ..facts import LOADED, MEAN_OF_POINT, RACEWAYS, Contacts
 from ..parts import azimuths
 from .arcs import Arcs
 from .core import BallCore, BallState
-from .equations import LubricatedBallSystem
+from .equations import AbstractBallEquations
 from .scene import BallBearing
 from .solution import BallResults, SolvedBalls
 from .state import BallsState
@@ -25,7 +25,7 @@ def _every(scene: BallBearing, values: Array) -> Float[Array, " ball"]:
 
 def ball_results(
     scene: BallBearing,
-    system: BallCore | LubricatedBallSystem,
+    system: BallCore | AbstractBallEquations,
     state: BallState | BallsState,
     contact: PointContact,
     films: BallsState | None = None,
@@ -72,13 +72,9 @@ def _second(arcs: Arcs, load: Array, angle: Array, pressure: Array) -> dict[str,
     """Results of the contacts on the flanks for thrust along -e_x, of rings that have them."""
     if arcs.single:
         return {}
-    found: dict[str, Array | None] = {"loaded_contacts": jnp.sum(load > LOADED * jnp.max(load), axis=0, dtype=float)}
-    for race, place, offset in (("inner", 1, arcs.inner), ("outer", len(arcs.races) - 1, arcs.outer)):
-        if offset is not None:
-            found[f"load_{race}_second"] = load[place]
-            found[f"contact_angle_{race}_second"] = angle[place]
-            found[f"pressure_{race}_second"] = pressure[place]
-    return found
+    named = arcs.named({"load": load, "contact_angle": angle, "pressure": pressure})
+    carrying = jnp.sum(load > LOADED * jnp.max(load), axis=0, dtype=float)
+    return {"loaded_contacts": carrying, **{name: one for name, one in named.items() if name.endswith("_second")}}
 
 
 def _at_shoulders(scene: BallBearing, contacts: Contacts, arcs: Arcs, transverse: Array) -> Contacts:

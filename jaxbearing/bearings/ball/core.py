@@ -26,7 +26,6 @@ import jax.numpy as jnp
 from jaxtyping import Array, Bool, Float, Int
 
 from ...numerics.arrow import ArrowPoint
-from ...numerics.safe import safe_norm
 from ..ring import LENGTH_UNIT
 from .kinematics import BallMotion
 from .linear_slip import linear_slip, slip_weights
@@ -306,10 +305,6 @@ class BallCore(AbstractBallSystem):
 
     # -- physics --------------------------------------------------------------------------------------------------
 
-    def free_centre(self) -> Float[Array, "2 1"]:
-        """Centre of an unloaded ball at the free contact angle, m."""
-        return self.grooves.offset[1] * self.grooves.free_normal
-
     def outward_force(self, motion: BallMotion) -> Array:
         """Centrifugal force with `FORCE_FLOOR`, N."""
         return self.centrifugal(motion.orbital_speed) + FORCE_FLOOR
@@ -320,38 +315,22 @@ class BallCore(AbstractBallSystem):
 
     def balls(self, unknowns: Float[Array, "2 ball"], shared: Float[Array, "g ball"]) -> BallState:
         centre = self.free_centre() + LENGTH_UNIT * unknowns[:2]
-        shift = shared[: len(self.freedoms)]
-        arms, on_ring = self.reach(shift, centre)
-        rests = self.arcs.from_outer(centre)
-        apart = jnp.stack([*(arm.length for arm in arms), *(safe_norm(rest[0], rest[1]) for rest in rests)])
-        leaning = [*(arm.in_plane for arm in arms), *rests]
-        direction = angle = jnp.stack([jnp.arctan2(one[0], one[1]) for one in leaning])
-        load = self.loads(apart)
-        pressing = load
-        for k, arm in enumerate(arms):
-            if arm.turned is not None:
-                angle = angle.at[k].add(-arm.turned)
-                pressing = pressing.at[k].multiply(arm.share)
-        motion = self.rolling(angle, load)
+        touch = self.touch(shared[: len(self.freedoms)], centre)
+        load = self.loads(touch.apart)
+        motion = self.rolling(touch.angle, load)
         own_orbit = motion.orbital_speed
         if self.common_orbit:
             motion = motion._replace(orbital_speed=self.free_orbit() + self.orbit_unit * shared[len(self.freedoms)])
-        friction = self.couple_friction(motion, load)
-        axial, radial, moment = self.with_friction(pressing, direction, friction)
-        forces = []
-        for k, arm in enumerate(arms):
-            sideways = () if arm.along is None else (load[k] * arm.along / arm.length,)
-            forces.append(jnp.stack([axial[k], radial[k], *sideways]))
-        (pushed, raised), (held, lowered) = ((of(axial), of(radial)) for of in (self.arcs.on_inner, self.arcs.on_outer))
+        push = self.push(touch, load, self.couple_friction(motion, load))
         return BallState(
             load=load,
-            angle=angle,
-            direction=direction,
+            angle=touch.angle,
+            direction=touch.direction,
             centre=centre,
             motion=motion,
             own_orbit=own_orbit,
-            balance=jnp.stack([held - pushed, lowered - raised - self.outward_force(motion)]),
-            on_ring=on_ring(tuple(forces), moment),
+            balance=jnp.stack([push.axial, push.outward - self.outward_force(motion)]),
+            on_ring=push.on_ring,
         )
 
     def loads(self, apart: Float[Array, "contact ball"]) -> Float[Array, "contact ball"]:

@@ -91,9 +91,9 @@ class BallAttitude(eqx.Module):
 
     **Arguments:**
     - `attitude`: closure for the direction of a ball's spin: "outer" or "inner" race control (no spin there),
-      "linear_slip" (moment balance under tractions proportional to pressure and sliding; of dry bearings, and the one
-      for rings with two groove arcs), "min_power" (least spin power), "equilibrium" (moment balance of the ball under
-      its traction).
+      "linear_slip" (moment balance under tractions proportional to pressure and sliding: of dry bearings, and of
+      rings with two groove arcs without traction), "min_power" (least spin power), "equilibrium" (moment balance of
+      the ball under its traction).
     - `gyroscopic`: what carries the gyroscopic couple: `None` (off), an `AbstractGyroscopic`, or `ResolvedCouple()`.
     - `orbit`: speed about the bearing axis of balls that roll without sliding: "own", of each ball from its contact
       angles, or "common", the mean of these weighted by the inner loads.
@@ -167,18 +167,7 @@ class BallBearing(AbstractBearing):
         yield from mounting_problems(self)
         yield from thermal_problems(self)
         yield from supply_problems(self)
-        if self.geometry.has_arcs:
-            yield from self._arc_problems()
-        elif not self.slips and self.kinematics.attitude not in ("outer", "inner", "linear_slip"):
-            yield (
-                f"kinematics.attitude: '{self.kinematics.attitude}' needs traction (contact.traction); without "
-                "friction the attitude is that of 'outer' or 'inner' race control"
-            )
-        if self.contact is not None and self.kinematics.attitude == "linear_slip":
-            yield (
-                "kinematics.attitude: 'linear_slip' is for bearings without films and friction; leave out [contact] or "
-                "choose another attitude"
-            )
+        yield from self._attitude_problems()
         if self.slips and self.kinematics.orbit == "common":
             yield (
                 "kinematics.orbit: 'common' is for balls that roll without sliding; with contact.traction they orbit "
@@ -200,18 +189,40 @@ class BallBearing(AbstractBearing):
                 "not for an isoviscous one"
             )
 
-    def _arc_problems(self) -> Iterator[str | ValueError]:
+    def _attitude_problems(self) -> Iterator[str]:
+        found = self.kinematics.attitude
+        if self.geometry.has_arcs:
+            yield from self._arc_problems()
+            return
+        if not self.slips and found not in ("outer", "inner", "linear_slip"):
+            yield (
+                f"kinematics.attitude: '{found}' needs traction (contact.traction); without "
+                "friction the attitude is that of 'outer' or 'inner' race control"
+            )
+        if self.contact is not None and found == "linear_slip":
+            yield (
+                "kinematics.attitude: 'linear_slip' is for bearings without films and friction; leave out [contact] or "
+                "choose another attitude"
+            )
+
+    def _arc_problems(self) -> Iterator[str]:
         """Problems of rings with two groove arcs."""
         name = "shim_outer" if self.geometry.shim_inner is None else "shim_inner"
-        if self.contact is not None:
+        expected, traction = ("equilibrium", "with") if self.slips else ("linear_slip", "without")
+        if self.kinematics.attitude != expected:
             yield (
-                f"geometry.{name}: found beside [contact], expected one of the two: films and friction of rings with "
-                "two groove arcs are not modelled"
+                f"kinematics.attitude: found '{self.kinematics.attitude}', expected '{expected}' with geometry.{name} "
+                f"and {traction} traction (contact.traction): race control is for balls with two contacts"
             )
-        elif self.kinematics.attitude != "linear_slip":
+        if isinstance(self.kinematics.gyroscopic, ResolvedCouple):
             yield (
-                f"kinematics.attitude: found '{self.kinematics.attitude}', expected 'linear_slip' with "
-                f"geometry.{name}: race control is for balls with two contacts"
+                f"kinematics.gyroscopic: found 'resolved' beside geometry.{name}, expected another law or none: the "
+                "transverse traction of balls with more than two contacts is not modelled"
+            )
+        if self.contact is not None and self.kinematics.orbit == "common":
+            yield (
+                f"kinematics.orbit: found 'common' beside geometry.{name} and [contact], expected 'own': such balls "
+                "orbit each at its own speed"
             )
 
     def solve_ring(
@@ -330,7 +341,7 @@ class BallBearing(AbstractBearing):
         if self.kinematics.attitude == "linear_slip":
             said.append(
                 "kinematics.attitude = 'linear_slip': speeds of the balls are those of tractions proportional to "
-                "pressure and sliding; no loss is computed from them"
+                "pressure and sliding; no loss of sliding is computed from them"
             )
         if self.rating is not None:
             said += self.rating.groove_assumptions()

@@ -12,7 +12,7 @@ from .scene import BallOperation
 
 if TYPE_CHECKING:
     from .core import BallCore, BallState
-    from .equations import LubricatedBallSystem
+    from .equations import AbstractBallEquations
     from .state import BallsState
 
 _Values = Float[Array, " element"]
@@ -21,7 +21,7 @@ _Values = Float[Array, " element"]
 class SolvedBalls(NamedTuple):
     """Converged state of the balls. **Arguments:** `films`: the `state` of balls with films, `None` of others."""
 
-    system: "BallCore | LubricatedBallSystem"
+    system: "BallCore | AbstractBallEquations"
     state: "BallState | BallsState"
     films: "BallsState | None" = None
 
@@ -114,6 +114,44 @@ class BallResults(eqx.Module):
     contact_angle_outer_second: _Values | None = _optional("rad", "contact angle on the second flank, outer")
     pressure_inner_second: _Values | None = _optional("Pa", "Hertz (peak) pressure on the second flank, inner raceway")
     pressure_outer_second: _Values | None = _optional("Pa", "Hertz (peak) pressure on the second flank, outer raceway")
+    film_inner_second: _Values | None = _optional("m", "central film on the second flank of the inner raceway")
+    film_outer_second: _Values | None = _optional("m", "central film on the second flank of the outer raceway")
+    temperature_rise_inner_second: _Values | None = _optional("K", "inlet heating on the second flank, inner")
+    temperature_rise_outer_second: _Values | None = _optional("K", "inlet heating on the second flank, outer")
+    sliding_inner_second: _Values | None = _optional("m/s", "sliding along rolling on the second flank, inner")
+    sliding_outer_second: _Values | None = _optional("m/s", "sliding along rolling on the second flank, outer")
+    traction_inner_second: _Values | None = _optional(
+        "N", "force of the second flank of the inner race on the ball along the orbit"
+    )
+    traction_outer_second: _Values | None = _optional(
+        "N", "force of the second flank of the outer race on the ball along the orbit"
+    )
+    spin_moment_inner_second: _Values | None = _optional(
+        "N m", "moment that brakes the spin on the second flank, inner"
+    )
+    spin_moment_outer_second: _Values | None = _optional(
+        "N m", "moment that brakes the spin on the second flank, outer"
+    )
+    film_ratio_inner_second: _Values | None = _optional(
+        "1", "film over roughness (lambda), second flank of the inner raceway"
+    )
+    film_ratio_outer_second: _Values | None = _optional(
+        "1", "film over roughness (lambda), second flank of the outer raceway"
+    )
+    load_share_inner_second: _Values | None = _optional(
+        "1", "part of the load that asperities carry, second flank of the inner raceway"
+    )
+    load_share_outer_second: _Values | None = _optional(
+        "1", "part of the load that asperities carry, second flank of the outer raceway"
+    )
+    boundary_inner_second: _Values | None = _optional(
+        "N", "boundary friction along rolling, second flank of the inner raceway"
+    )
+    boundary_outer_second: _Values | None = _optional(
+        "N", "boundary friction along rolling, second flank of the outer raceway"
+    )
+    flash_inner_second: _Values | None = _optional("K", "flash temperature, second flank of the inner raceway")
+    flash_outer_second: _Values | None = _optional("K", "flash temperature, second flank of the outer raceway")
     loaded_contacts: _Values | None = _optional("1", "contacts of the ball that carry load")
 
 

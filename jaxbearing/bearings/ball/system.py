@@ -94,6 +94,31 @@ arcs of the ring, axial, outward and, of an `exact` system, along the orbit, N, 
 """
 
 
+class Touch(NamedTuple):
+    """Contacts of the balls for given places of their centres, before any load is known.
+
+    - `apart`: distances of the groove centres from the ball centre, m.
+    - `direction`: of the normal forces on the ball, from the radius towards the axis, in the fixed frame, rad; `angle`:
+      contact angles, on the inner race against the tilted ring.
+    - `arms`: from the ball centres to the inner groove centres; `on_ring`: of `AbstractBallSystem.reach`.
+    """
+
+    apart: Float[Array, "contact ball"]
+    direction: Float[Array, "contact ball"]
+    angle: Float[Array, "contact ball"]
+    arms: tuple[InnerArm, ...]
+    on_ring: OnRing
+
+
+class Push(NamedTuple):
+    """Forces of the contacts: on the outer ring less those on the inner one, axial and outward, N, and what they
+    contribute to the forces on the ring's freedoms, N."""
+
+    axial: Float[Array, " ball"]
+    outward: Float[Array, " ball"]
+    on_ring: Float[Array, "freedom ball"]
+
+
 class AbstractBallSystem(AbstractArrowSystem):
     """Balls between two grooved rings; globals: first the displacements of the inner ring.
 
@@ -139,6 +164,10 @@ class AbstractBallSystem(AbstractArrowSystem):
     @property
     def arcs(self) -> Arcs:
         return self.grooves.arcs
+
+    def free_centre(self) -> Float[Array, "2 1"]:
+        """Centre of an unloaded ball at the free contact angle, m."""
+        return self.grooves.offset[1] * self.grooves.free_normal
 
     def groove_centres(self, shift: Float[Array, "freedom ball"]) -> Float[Array, "p ball"]:
         """Coordinates of the inner groove at every ball (`arcs`; axial and radial from the centre of the outer one), m,
@@ -231,6 +260,34 @@ class AbstractBallSystem(AbstractArrowSystem):
             return (self.multiplicity / LENGTH_UNIT) * pull(jnp.concatenate([*forces, moment[None]]))[0]
 
         return arms, on_ring
+
+    def touch(self, shift: Float[Array, "freedom ball"], centre: Float[Array, "2 ball"]) -> Touch:
+        """The contacts of balls whose centres are known, m from the middle of the outer arcs (axial, radial)."""
+        arms, on_ring = self.reach(shift, centre)
+        rests = self.arcs.from_outer(centre)
+        apart = jnp.stack([*(arm.length for arm in arms), *(safe_norm(rest[0], rest[1]) for rest in rests)])
+        leaning = [*(arm.in_plane for arm in arms), *rests]
+        direction = angle = jnp.stack([jnp.arctan2(one[0], one[1]) for one in leaning])
+        for k, arm in enumerate(arms):
+            if arm.turned is not None:
+                angle = angle.at[k].add(-arm.turned)
+        return Touch(apart, direction, angle, arms, on_ring)
+
+    def push(
+        self, touch: Touch, load: Float[Array, "contact ball"], friction: Float[Array, "contact ball"] | None
+    ) -> Push:
+        """The forces of all contacts. **Arguments:** `load`, N; `friction`: of `couple_friction`, N."""
+        pressing = load
+        for k, arm in enumerate(touch.arms):
+            if arm.turned is not None:
+                pressing = pressing.at[k].multiply(arm.share)
+        axial, radial, moment = self.with_friction(pressing, touch.direction, friction)
+        forces = []
+        for k, arm in enumerate(touch.arms):
+            sideways = () if arm.along is None else (load[k] * arm.along / arm.length,)
+            forces.append(jnp.stack([axial[k], radial[k], *sideways]))
+        (pushed, held), (raised, lowered) = self.arcs.by_race(axial), self.arcs.by_race(radial)
+        return Push(held - pushed, lowered - raised, touch.on_ring(tuple(forces), moment))
 
     def _to_first_order(self, forces: tuple[Array, ...], moment: Array) -> Array:
         if not self.freedoms:
