@@ -37,20 +37,20 @@ if TYPE_CHECKING:
 
 
 def require_solvable(scene: Any) -> None:
-    """**Raises:** `TypeError` for what is no scene, or for a kind without a steady state."""
+    """**Raises:** `TypeError` if `scene` is not a scene, or if its kind has no steady state."""
     if not isinstance(scene, AbstractScene) or type(scene).steady_solution is AbstractScene.steady_solution:
         kinds = "a ball, cylindrical or tapered roller bearing, a shaft, a two-disk machine or a line contact"
         raise TypeError(f"cannot solve a {type(scene).__name__}; solve takes: {kinds}")
 
 
-@rare_garbage_collection()  # its body runs where it is traced
+@rare_garbage_collection()  # the function body runs only while it is traced
 def _solve_any(scene: AbstractScene, options: NewtonOptions) -> Any:
-    """The whole way from a scene to its solution."""
+    """All computations from a scene to its solution."""
     return with_checked_inputs(scene, lambda lane: with_life(lane, lane.steady_solution(options)))
 
 
 def with_checked_inputs(scene: AbstractScene, compute: Callable[[Any], Any]) -> Any:
-    """Result of `compute` for a scene, with the checks of its inputs. Where one is invalid it ends at once, in NaN."""
+    """Result of `compute` for a scene, with checks of its inputs. An invalid input ends `compute` at once with NaN."""
     inputs = check_inputs(scene)
     given: Any = gate(scene, inputs.valid)
     point = getattr(given, scene.operating_point)
@@ -72,7 +72,7 @@ def _solve_quickly(scene: AbstractScene, options: NewtonOptions) -> Any:
 
 
 def _solve_differentiated(scene: AbstractScene, options: NewtonOptions) -> Any:
-    """A solve that is called outside of `jax.jit` with numbers of the scene that are differentiated or batched."""
+    """A solve outside of `jax.jit`, for a scene with numbers that are differentiated or batched."""
     return differentiable(_solve_any, _solve, scene, options)
 
 
@@ -85,8 +85,8 @@ def solve_with_roots(scene: AbstractScene, options: NewtonOptions) -> tuple[Any,
 def solution_at(
     roots: tuple[Any, ...], scene: AbstractScene, options: NewtonOptions, *, stiffness: bool = False
 ) -> Any:
-    """The solution from its roots, computed without iterating, to be differentiated. The derivatives of its stiffness
-    are NaN, unless `stiffness` asks for them with a larger program."""
+    """The solution, computed from its roots without iteration, for differentiation. The derivatives of its stiffness
+    are NaN unless `stiffness` is True, which needs a larger program."""
     return at_roots(_solve_any, roots, scene, options, stiffness=stiffness)
 
 
@@ -128,15 +128,15 @@ def solve(
     """The steady state of a scene: the equilibrium of a bearing or of a shaft on bearings, the traction curves of a
     two-disk machine, or the film of a line contact.
 
-    Compiled once per structure (kind, parts, number of rolling elements); new numbers never recompile. May be called
-    inside `jax.jit`, `jax.vmap`, `jax.grad` and `jax.lax.map`; derivatives with respect to every
-    number of the scene, in forward and reverse mode, follow from the implicit function theorem.
+    The program is compiled once for each structure (kind, parts, number of rolling elements); new numbers never
+    recompile it. `solve` may be called inside `jax.jit`, `jax.vmap`, `jax.grad` and `jax.lax.map`. Derivatives with
+    respect to every number of the scene, in forward and reverse mode, follow from the implicit function theorem.
 
-    On a CPU the program is compiled in about a fifth of the usual time and runs 2 to 5 times slower, by milliseconds,
-    which is best for a single solve. For thousands of solves use `optimised` or `jit_solver`. First derivatives outside
-    of `jax.jit` come from a second program, which is compiled quickly too and makes one pass for each number that is
-    differentiated. Inside `jax.jit`, in a batch and for second derivatives JAX's own compiler options hold;
-    `quick_compile_options` are those of a quick compilation.
+    On a CPU the program is compiled in about a fifth of the usual time and runs 2 to 5 times slower, a difference of
+    milliseconds. This is best for a single solve. For thousands of solves use `optimised` or `jit_solver`. First
+    derivatives outside of `jax.jit` come from a second program, which is compiled quickly too and makes one pass for
+    each number that is differentiated. JAX's own compiler options apply inside `jax.jit`, in a batch and for second
+    derivatives; `quick_compile_options` gives those of a quick compilation.
 
     **Arguments:**
     - `scene`: from `load_scene`, or built from parts.
@@ -155,7 +155,7 @@ def solve(
         function = _solve if optimised or is_tracing() else _solve_differentiated
     else:
         function = _solve_optimised if optimised else _solve_quickly
-    # auxiliary programs are compiled too, and their messages are no concern of the user
+    # auxiliary programs are compiled too; their messages are not shown to the user
     quiet = nullcontext() if inside else quiet_first_time((solve, optimised, jax.tree.structure(scene)))
     with rare_garbage_collection(), quiet:  # derivatives are traced here too
         solution = function(jax.tree.map(as_float, scene), chosen_options(options))
@@ -199,8 +199,8 @@ def jit_solver(scene: AbstractScene, *, options: NewtonOptions | None = None) ->
     shapes, kept = [np.shape(number) for number in numbers], []
 
     def answer(numbers: list[Any]) -> Any:
-        """Calls the kept program; or the `jax.jit` function if a number is traced or batched, or if programs are not
-        kept."""
+        """Calls the cached program. Calls the `jax.jit` function instead if a number is traced or batched, or if
+        programs are not cached."""
         if any(isinstance(number, Tracer) for number in numbers) or [np.shape(one) for one in numbers] != shapes:
             return compiled(numbers)
         if kept:
@@ -209,7 +209,7 @@ def jit_solver(scene: AbstractScene, *, options: NewtonOptions | None = None) ->
             kept.append(_solve_optimised.ready(arguments, numbers) or compiled)
             return kept[0](numbers)
 
-    # a changed copy shares leaves with this scene, by which the unchanged numbers are recognised
+    # a changed copy shares its unchanged leaves with this scene: `is` recognises them
     own = jax.tree.unflatten(structure, given)
 
     def fast(other: AbstractScene | None = None, /, **operation: Any) -> Any:

@@ -27,6 +27,7 @@ from jaxbearing.contacts import (
 from jaxbearing.contacts.viscous import viscous_function
 from jaxbearing.gaps import (
     BallPocket,
+    CompliantBallPocketFace,
     CompliantPocketFace,
     Flange,
     LongJournal,
@@ -237,6 +238,17 @@ PARTS = {
         5,
     ),
     "BallPocket": (BallPocket, {"clearance": 3e-4, "ball_radius": 5e-3}, 2),
+    "CompliantBallPocketFace": (
+        CompliantBallPocketFace,
+        {
+            "clearance": 3e-4,
+            "ball_radius": 5e-3,
+            "stiffness": 4e10,
+            "minimum_speed": 0.5,
+            "minimum_film": 1e-7,
+        },
+        5,
+    ),
     "Flange": (
         Flange,
         {

@@ -18,11 +18,11 @@ class Interaction(NamedTuple):
     """Friction at one place of a bearing.
 
     **Arguments:**
-    - `location`: field of the family's losses that holds its power; "" of constraint forces, which do no work.
+    - `location`: field of the family's losses that holds its power; "" for constraint forces, which do no work.
     - `power`: dissipation, W.
-    - `inner_torque`, `outer_torque`: N m, by which the ring must be driven against it; `None`: it does not act on that
-      ring.
-    - `by_race`: its power on the inner and the outer raceway, W, where it has such parts.
+    - `inner_torque`, `outer_torque`: torque that drives the ring against this friction, N m; `None` if it does not act
+      on that ring.
+    - `by_race`: its power at the inner and at the outer raceway, W; `None` if it is not split.
     """
 
     location: str
@@ -33,8 +33,9 @@ class Interaction(NamedTuple):
 
 
 class Costs(NamedTuple, Generic[Losses]):
-    """Costs of all interactions together: losses and drive power, W, torques on the rings, N m; `None`: no loss is
-    modelled. `rolling_by_race`: the rolling resistance of the inner and the outer raceway, W."""
+    """Sums over all interactions: losses and drive power, W, and torques on the rings, N m. Power and torques are
+    `None` if no loss is modelled. `rolling_by_race`: power of rolling resistance at the inner and the outer raceway,
+    W."""
 
     power_loss: Losses
     drive_power: Float[Array, ""] | None = None
@@ -46,8 +47,8 @@ class Costs(NamedTuple, Generic[Losses]):
 def costs(losses: Callable[..., Losses], interactions: Sequence[Interaction], motion: Any) -> Costs[Losses]:
     """The costs of a bearing.
 
-    **Arguments:** `losses`: class of the family's losses, with a field for each location and `total`; `motion`: with
-    the speeds of the rings, `inner_speed` and `outer_speed`, rad/s.
+    **Arguments:** `losses`: class of the family's losses, with a field for each location and `total`; `motion`: object
+    with the speeds of the rings, `inner_speed` and `outer_speed`, rad/s.
     """
     if not interactions:
         return Costs(losses())
@@ -69,6 +70,7 @@ def _sum(values: Sequence[Array]) -> Float[Array, ""]:
 
 
 def of_land(power: Array, ring_torque: Array, guidance: str) -> Interaction:
-    """The cage's lands: dissipation, W, and torque on the ring that guides it, N m; `guidance` of the cage."""
+    """Friction of the cage's lands. **Arguments:** `power`: dissipation, W; `ring_torque`: torque on the ring that
+    guides the cage, N m; `guidance`: field of the cage."""
     ring = "inner_torque" if guidance == "inner_ring" else "outer_torque"
     return Interaction("cage_pilot", power, **{ring: -ring_torque})

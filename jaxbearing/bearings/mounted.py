@@ -30,7 +30,7 @@ else:
     AbstractBearing = Any
 
 HIGHEST_STRESS = 127e6
-"""Stress around the bore of the inner ring beyond which makers warn of bursting rings of through-hardened steel, Pa."""
+"""Hoop stress at the inner ring's bore beyond which makers warn of bursting rings of through-hardened steel, Pa."""
 
 
 _COLD, _WARM, _RUNNING = (False, False), (True, False), (True, True)
@@ -38,7 +38,7 @@ _COLD, _WARM, _RUNNING = (False, False), (True, False), (True, True)
 
 
 class _Rings(NamedTuple):
-    """Both rings, inner first, and the seats that there are, that of the shaft first, by their names: as arrays."""
+    """Both rings (inner first) and the existing seats (shaft first), as arrays."""
 
     growth: Growth
     hoop_stress: Float[Array, ""]
@@ -55,9 +55,9 @@ def mounting_problems(scene: AbstractBearing) -> Iterator[str | ValueError]:
     temperatures: PartTemperatures | None = scene.temperatures
     if fits is None:
         if temperatures is not None:
-            yield "temperatures: they are those of a mounted bearing: the scene needs a [fits] table"
+            yield "temperatures: they apply to a mounted bearing only; the scene needs a [fits] table"
         return
-    # the stand-in of fits that could not be read has no such attribute: nothing is required for them
+    # fits that could not be read are a placeholder without this attribute; nothing is checked for them
     geometry, check_room = scene.geometry, fits.check_room
     for name in ("bore", "outside_diameter"):
         if getattr(geometry, name) is None:
@@ -103,7 +103,7 @@ def running_scene(scene: AbstractBearing) -> tuple[Any, FitResult | None, dict[s
     """The bearing that runs: a scene of the same family without seats, whose dimensions are those of the mounted, warm
     and turning bearing.
 
-    **Returns:** the scene, the state of its seats (`None` without them), and what of its dimensions may be impossible.
+    **Returns:** the scene, the state of its fits (`None` without them), and possible causes of impossible dimensions.
     """
     if scene.fits is None:
         return scene, None, {}
@@ -136,7 +136,7 @@ def running_scene(scene: AbstractBearing) -> tuple[Any, FitResult | None, dict[s
 
 
 def _impossible(play: Play) -> dict[str, FailureCause]:
-    """Maps a sentence to whether it applies: causes that leave the running bearing without contacts."""
+    """Causes that leave the running bearing without contacts: maps a message to whether it applies."""
     return {"fits and temperatures leave the rolling elements no contact": FailureCause(~play.possible, jnp.zeros(0))}
 
 
@@ -151,8 +151,8 @@ def _seats_of(fits: Fits) -> tuple[str, ...]:
 
 
 def _rings(scene: Any, warm: Any, turning: Any) -> _Rings:
-    """Growth of the rings; cold or at rest where asked for. Rings and seats are arrays: of many single numbers the
-    compiler makes a small program each."""
+    """Growth of the rings. **Arguments:** `warm`, `turning`: False for the cold bearing or the bearing at rest. Rings
+    and seats are arrays, because for many single numbers the compiler would make one small program each."""
     fits, operation, geometry = scene.fits, scene.operation, scene.geometry
     raceways, bore, outside = _together(scene.raceway_diameters), geometry.bore, geometry.outside_diameter
     speeds = jnp.where(turning, _together([operation.inner_speed, operation.outer_speed]), 0.0)
@@ -199,7 +199,7 @@ def _bodies(materials: list[Any], sizes: list[tuple[Any, Any]], speeds: Array, w
     """
     stacked = _together
     names = ("youngs_modulus", "poisson_ratio", "density", *(() if cold else ("thermal_expansion",)))
-    # a material of arrays, which is no material that a user can make
+    # a material whose fields are arrays; a user cannot create one
     material = jax.tree.map(lambda _: None, materials[0])
     values = [stacked([getattr(one, name) for one in materials]) for name in names]
     fields = lambda one: [getattr(one, name) for name in names]
@@ -211,7 +211,7 @@ def _bodies(materials: list[Any], sizes: list[tuple[Any, Any]], speeds: Array, w
 def _seats(fits: Fits, rings: Annulus, others: Annulus, interference: Array, sides: slice) -> FitState:
     """The seats on these sides of the bearing: the shaft lies inside of its ring, the housing around its own.
 
-    **Arguments:** `others`: shaft and housing, as far as they are there; `interference`: of their seats, m.
+    **Arguments:** `others`: shaft and housing, if present; `interference`: interference of each seat, m.
     """
     on_shaft, seated = np.arange(2)[sides] == 0, jax.tree.map(lambda leaf: leaf[sides], rings)
     choose = lambda first, second: jax.tree.map(lambda x, y: jnp.where(on_shaft, x, y), first, second)
@@ -228,7 +228,7 @@ def fit_excess(scene: AbstractBearing, fit: FitResult) -> Excess:
         found[text] = jnp.where(turning, -fit.interference_inner, -1.0)
     if fit.interference_outer is not None:
         turning = jnp.abs(jnp.asarray(operation.outer_speed)) > 0.0
-        text = "the outer ring is loose in the housing that turns: a tighter fits.housing_interference is needed"
+        text = "the outer ring is loose in the rotating housing: a tighter fits.housing_interference is needed"
         found[text] = jnp.where(turning, -fit.interference_outer, -1.0)
     found["stress around the bore of the inner ring beyond 127 MPa, where makers warn of bursting rings"] = (
         fit.hoop_stress - HIGHEST_STRESS

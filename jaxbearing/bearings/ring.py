@@ -42,9 +42,9 @@ It is 1e-12 of the stiffness of a loaded contact; 100 times as much would change
 class Port(NamedTuple):
     """The load that holds the inner ring at a displacement.
 
-    - `force`: loads on its five freedoms, N and N m: those that balance the rolling elements.
-    - `stiffness`: their derivatives with respect to the displacements, with all else in equilibrium, N/m, N/rad,
-      N m/m and N m/rad. It is not symmetric with centrifugal forces, gyroscopic couples or friction.
+    - `force`: loads on its five freedoms that balance the forces of the rolling elements, N and N m.
+    - `stiffness`: derivatives of `force` with respect to the displacements, with all else in equilibrium, N/m, N/rad,
+      N m/m and N m/rad. Centrifugal forces, gyroscopic couples and friction make it unsymmetric.
     """
 
     force: Float[Array, "5"]
@@ -64,7 +64,7 @@ class InnerRing(eqx.Module):
     - `expansion`: growth of the inner raceway's radius less that of the outer one, m; `None` if there is none.
     - `distance`: axial position of the point that these displacements belong to, relative to the point that results
       refer to, m; `None` if they are the same point.
-    - `closure`: part of the axial displacement that results do not show, m; `None` if there is none.
+    - `closure`: axial displacement that is subtracted in the results, m; `None` if there is none.
     - `held_load`: estimate of the load that the given displacements cause, N, as a scale; `None` if it is not needed.
     - `asks`: True if the given displacements cause loads whose size does not follow from the given loads, so that
       `held_load` is needed.
@@ -105,7 +105,7 @@ class InnerRing(eqx.Module):
         return jnp.stack(numbers) if numbers else jnp.zeros(0)
 
     def across(self) -> Float[Array, " freedom"]:
-        """Direction of the load across the axis, in the unknown freedoms; 0 if there is no such load."""
+        """Unit vector of the radial load, in the unknown freedoms; 0 if there is no radial load."""
         load = jnp.where(np.asarray([name in ("radial", "lateral") for name in self.freedoms], bool), self.load, 0.0)
         square = jnp.sum(jnp.square(load))
         return load / jnp.sqrt(jnp.where(square > 0, square, 1.0))
@@ -127,7 +127,7 @@ class InnerRing(eqx.Module):
         return dataclasses.replace(self, load=load)
 
     def asking(self, load: Float[Array, ""]) -> "InnerRing":
-        """The same ring with the approximate load that its given displacements need, N."""
+        """The same ring with an estimate of the load that its given displacements cause, N."""
         return dataclasses.replace(self, held_load=jax.lax.stop_gradient(load))
 
     def size(self) -> Float[Array, ""]:
@@ -179,8 +179,9 @@ def levers(lever: Float[Array, ""]) -> Float[Array, "5"]:
 
 
 def shift_matrix(distance: Array) -> Float[Array, "5 5"]:
-    r"""T(s) with $q(s) = T(s)q(0)$: the displacements of the point of the ring that lies `distance` s further along
-    $+e_x$, m. The axis has the slopes -tilt and -tilt_lateral. Loads transform with the transpose, $f(0) = T^Tf(s)$."""
+    r"""Matrix T(s) in $q(s) = T(s)q(0)$, with s = `distance`, m. q(s) are the displacements of the point of the ring at
+    the distance s along $+e_x$. The axis has the slopes -tilt and -tilt_lateral. Loads transform with the transpose,
+    $f(0) = T^Tf(s)$."""
     return jnp.eye(5).at[jnp.asarray([1, 2]), jnp.asarray([3, 4])].set(-distance)
 
 

@@ -35,8 +35,8 @@ else:
     AbstractBearing = Any
 
 MOST_BROYDEN = {"when_needed": 15, "never": 60}
-"""Largest number of solves of Broyden's iteration before Newton's, or, without an exact Jacobian (`never`), before
-steps in time."""
+"""Largest number of solves in Broyden's iteration. After them Newton's iteration begins; without an exact Jacobian
+(`never`), time steps begin instead."""
 
 
 def thermal_problems(scene: AbstractBearing) -> Iterator[str | ValueError]:
@@ -93,8 +93,8 @@ def _lacking_sizes(scene: AbstractBearing, thermal: Thermal) -> Iterator[str]:
     for name in ("bore", "outside_diameter", "width"):
         if name in needed and getattr(scene.geometry, name) is None:
             yield (
-                f"geometry.{name}: found nothing, expected a length, which conductances of [thermal] need that are not "
-                "given, e.g. '25 mm'"
+                f"geometry.{name}: found nothing, expected a length, needed for conductances that [thermal] does not "
+                "give, e.g. '25 mm'"
             )
 
 
@@ -110,7 +110,7 @@ def _lacking_of_materials(scene: AbstractBearing, thermal: Thermal) -> Iterator[
 
 
 def at_temperatures(scene: Any, temperatures: Float[Array, " node"]) -> Any:
-    """The scene without its network, whose oil and parts have the temperatures of the nodes, K."""
+    """The scene without its thermal network, with oil and parts at the node temperatures, K."""
     nodes = scene.thermal.node_names
     oil = oil_temperatures(nodes, temperatures, **rings_of(scene))
     parts = None
@@ -124,18 +124,18 @@ def at_temperatures(scene: Any, temperatures: Float[Array, " node"]) -> Any:
 
 
 def heat_at(scene: Any, temperatures: Float[Array, " node"], solve: Callable[[Any], Solution]) -> NodeHeat:
-    """Heat into the nodes of the bearing that is solved at node temperatures, K; `other` of it is the solution.
+    """Heat into the nodes, for the bearing solved at these node temperatures, K. Its field `other` is the solution.
 
-    **Arguments:** `solve`: from a scene without network and seats to its solution.
+    **Arguments:** `solve`: function that solves a scene without network and seats.
     """
     lane = at_temperatures(scene, temperatures)
     return bearing_heat(lane, scene.thermal, lane.solved_running(solve), temperatures)
 
 
 def solve_warm(scene: Any, solve: Callable[[Any], Solution]) -> Solution:
-    """The solution at the temperatures where all heat that is made leaves.
+    """The solution at the temperatures at which the heat balance of every node closes.
 
-    **Arguments:** `solve`: from a scene without network and seats to its solution.
+    **Arguments:** `solve`: function that solves a scene without network and seats.
     """
     thermal: Thermal = scene.thermal
     network, nodes = bearing_network(scene), len(thermal.node_names)
@@ -160,7 +160,7 @@ def solve_warm(scene: Any, solve: Callable[[Any], Solution]) -> Solution:
 
 
 def _answer(scene: AbstractBearing, network: Network, state: ThermalState) -> Solution:
-    """The solution of the bearing at the temperatures found, with these; of a lane that failed, NaN."""
+    """The solution of the bearing at the temperatures found, with the thermal result. It is NaN for a failed lane."""
     solution: Solution = state.losses.other
     ended: Solution = state.ended.other
     good = state.status == Status.CONVERGED
@@ -206,7 +206,7 @@ def _result(scene: AbstractBearing, network: Network, state: ThermalState) -> Th
 
 
 def heat_paths(network: Network, temperatures: Float[Array, " node"], losses: NodeHeat) -> HeatPaths:
-    """Heat along each conductance, W. **Arguments:** `temperatures`: K; `losses`: of the bearing at these."""
+    """Heat along each conductance, W. **Arguments:** `losses`: losses of the bearing at these temperatures, K."""
     nodes, between, outside = network.nodes, losses.between, losses.to_ambient
     assert between is not None
     assert outside is not None
@@ -233,17 +233,17 @@ def network_notes(scene: Any) -> tuple[str, ...]:
     outside = [f"{node}_ambient" for node in OUTSIDE[thermal.nodes]]
     if thermal.housing_diameter is None and _computed(thermal, *outside):
         said.append(
-            "thermal: conductances to the ambient that are not given are those of the reference heat flow of ISO "
-            "15312, within a factor of 2"
+            "thermal: conductances to the ambient that are not given follow from the reference heat flow of ISO "
+            "15312; they are uncertain by a factor of 2"
         )
     if _of_oil(thermal):
-        said.append("thermal: the heat transfer from the oil is that of a flat plate, within a factor of 3")
+        said.append("thermal: the heat transfer from the oil is that of a flat plate; it is uncertain by a factor of 3")
     return tuple(said)
 
 
 def settled(scene: AbstractBearing, solution: Solution) -> Any:
-    """The scene at the temperatures that its solution has found; itself without a network. Of a solution that failed,
-    at finite temperatures without meaning."""
+    """The scene at the temperatures of its solution; unchanged without a network. If the solution failed, the
+    temperatures are finite but meaningless."""
     if scene.thermal is None or solution.thermal is None:
         return scene
     found = solution.thermal.node_temperatures()

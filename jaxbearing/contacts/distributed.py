@@ -30,18 +30,19 @@ SPEED_FLOOR = 1e-6
 """Smoothing of the mean speed's modulus, m/s: at rest the oil has all the time it needs and flows as a viscous
 fluid."""
 UNCERTAIN_SHARE = 0.1
-"""Share of an estimated error that may have the other sign."""
+"""Fraction of each part of an estimated error that is added without regard to its sign."""
 RISE_TOLERANCE = 1e-10
-"""Newton step at which the search for a temperature ends, relative to the rise or 1 K."""
+"""Newton step at which the search for a temperature ends, relative to the rise or to 1 K, whichever is larger."""
 
 
 class Traction(NamedTuple):
     """Traction of a sheared film. Forces are those of body 1 on body 2, along the sliding of body 1 over body 2.
 
-    `rolling`, `transverse`, N; `moment`, N m, about the normal through the centre; `power`, W, dissipated;
-    `curvature`, N m^2: integral of the stress along rolling times y^2 (None: no sliding of that kind).
-    `film_rise`, `surface_rise`, K: peaks of the rise of the mean film and surface temperature above the base, at 40
-    steps at most 0.2 and 0.4 % low (None: isothermal); `inner_residual`, K, of the nested solves for it.
+    - `rolling`, `transverse`: forces, N; `moment`: about the normal through the centre, N m; `power`: dissipation, W.
+    - `film_rise`, `surface_rise`: largest rise of the mean film temperature and of the surface temperature above the
+      base, K; with 40 steps they are too low by at most 0.2 and 0.4 %. `None` if isothermal.
+    - `inner_residual`: residual of the nested solves for the temperature, K.
+    - `curvature`: integral of the rolling stress times y^2, N m^2; `None` without sliding of that kind.
     """
 
     rolling: Float[Array, "*batch"]
@@ -63,15 +64,15 @@ class DistributedTraction(AbstractTraction):
 
     $\frac{u}{G'}\frac{\partial\tau}{\partial x} + \frac{\tau_r}{\mu}F(|\tau|/\tau_r)\frac{\tau}{|\tau|} = \gamma$,
     $\tau(-a) = 0$, $\gamma_x = (\Delta U - \Delta\Omega\,y - c\,y^2)/h$, $\gamma_y = (\Delta V + \Delta\Omega\,x)/h$
-    with c of a curved contact (`Sliding.curvature`); G', $\mu$, $\tau_r$ at the local pressure and temperature,
-    $h/G' = h/G + L_1$. With $x = -a\cos\theta$ the pressure is smooth in $\theta$, and the implicit midpoint rule is of
-    second order; each step is one scalar root.
+    with c for a curved contact (`Sliding.curvature`). G', $\mu$ and $\tau_r$ are those at the local pressure and
+    temperature, and $h/G' = h/G + L_1$. With $x = -a\cos\theta$ the pressure is smooth in $\theta$, and the implicit
+    midpoint rule is of second order. Each step solves one scalar equation.
 
-    **Limits:** viscous flow at every point where the Deborah number $\mu u/(Ga)$ is small (`elastic=False` is that
-    limit, without a march); for a large one and small sliding the slope of `elastic_slope`; odd in the
-    sliding; 0 at no sliding with a finite slope.
+    **Limits:** Where the Deborah number $\mu u/(Ga)$ is small, the flow is viscous at every point (`elastic=False` is
+    that limit, without a march). Where it is large and the sliding is small, the slope is that of `elastic_slope`. The
+    traction is odd in the sliding, and it is 0 without sliding, with a finite slope.
     **Validity:** film of one thickness, Hertz pressure; rheology fits hold for 0.6 to 1.8 GPa. The discretization error
-    is that of `resolution` (see its table); `error_estimate` tells it for a case.
+    is that of `resolution` (see its table); `error_estimate` estimates it for a given case.
     **Reference:** Johnson and Tevaarwerk (1977), Proc. R. Soc. A 356, 215; Houpert (1985), ASME J. Tribology 107, 241;
     source eqs. (66)-(72). The source's stress is on body 2, as here; its eq. (69) has another transverse axis.
 
@@ -124,8 +125,8 @@ class DistributedTraction(AbstractTraction):
     ) -> Traction:
         """Forces, moment, power and temperatures of one film (the inlet's shear is not in it).
 
-        **Arguments:** `film`, m, > 0; `entrainment_speed`, m/s, of either sign; `temperature`: base, of the oil that
-        enters and of the surfaces, K. All broadcast against each other and the fields of `patch`.
+        **Arguments:** `film`, m, > 0; `entrainment_speed`, m/s, of either sign; `temperature`: base temperature of the
+        entering oil and of the surfaces, K. All broadcast against each other and the fields of `patch`.
 
         **Raises:** `ValueError` where the lubricant lacks a law that is needed.
         """
@@ -143,11 +144,12 @@ class DistributedTraction(AbstractTraction):
     ) -> Traction:
         """Discretization error of each field of `traction` at the same arguments, >= 0, in the unit of the field.
 
-        Of the steps: the change with twice as many, times 4/3 (16/15 where `extrapolate`) for what an error of order 2
-        (4) leaves in it. Of the strips: the change with twice as many. Their sum with its sign, plus a tenth of their
-        sizes since neither is exact: within a factor of about 3 of the true error, but where that is small by chance.
-        It costs four more tractions (two for a line contact without spin) and says nothing of the model.
-        `inner_residual` is the largest one of the runs.
+        The error of the steps is the change with twice as many steps, times 4/3 (16/15 with `extrapolate`), the factor
+        for an error of order 2 (4). The error of the strips is the change with twice as many strips. The estimate is
+        the absolute value of their sum, plus a tenth of their absolute values, because neither is exact. It is within a
+        factor of about 3 of the true error, unless the true error is small by chance. It costs four more tractions (two
+        for a line contact without spin) and does not include errors of the model. `inner_residual` is the largest one
+        of all runs.
         """
         arguments = (patch, film, entrainment_speed, sliding, temperature, lubricant)
         steps, strips, extrapolate = dataclasses.astuple(self.resolution)
@@ -176,20 +178,20 @@ class _Problem(eqx.Module):
     film: Array
     temperature: Array
     pressure: Array
-    """Highest of the strip."""
+    """Highest pressure on each strip, Pa."""
     half_width: Array
     speed: Array
     strips: Strips
     compliance: Array | None
     """L1/h, 1/Pa."""
     direction: Array
-    """Sign of the mean speed; the problem is turned until it is 1."""
+    """Sign of the mean speed; the problem is turned so that the mean speed becomes positive."""
     rate: Array
     """Shear rate where x = 0, 1/s; the first axis holds the components."""
     rate_slope: Array | None
-    """Its change over one half-width, of spin."""
+    """Change of the shear rate over one half-width that spin causes, 1/s."""
     half: bool = eqx.field(static=True)
-    """True if the strips cover one half of the contact, the other half being alike."""
+    """True if the strips cover one half of the contact; the other half is its mirror image."""
     curved: bool = eqx.field(static=True)
     """True if the sliding changes with the square of the distance from the middle."""
 
@@ -211,7 +213,7 @@ class _Problem(eqx.Module):
         )
 
     def oil(self, sine: Array, rise: Values) -> Oil:
-        """At the relative pressure `sine` of each strip, `rise` K above the base."""
+        """Oil properties at the relative pressure `sine` of each strip, at a temperature `rise` K above the base."""
         pressure = sine * self.pressure
         temperature = self.temperature + rise
         rheology = self.lubricant.rheology
@@ -224,7 +226,7 @@ class _Problem(eqx.Module):
         return Oil(*(jnp.broadcast_to(field, self.half_width.shape) for field in fields))
 
     def half_step(self, step: Values) -> Array:
-        """Half a step of time per sin(theta), s."""
+        """Half of the time step, divided by sin(theta), s."""
         return 0.5 * step * self.half_width / self.speed
 
     def middle(self, half_step: Array, stress: Array, rate: Array, oil: Oil) -> Array:
@@ -300,9 +302,9 @@ class _Problem(eqx.Module):
         )
 
     def highest(self, field: Float[Array, "step ... strip"]) -> Array:
-        """Peak over the contact of what is known in the middle of each step of each strip."""
+        """Peak over the contact of a field that is given at the middle of each step on each strip."""
         offset, strips = self.strips.offset, peak(np.arange(float(len(field))), jnp.moveaxis(field, 0, -1))
-        if self.half:  # the first strip is in the middle, the second one has a twin beyond
+        if self.half:  # the first strip is at the centre; the second has a mirror image on the other side
             offset, strips = (jnp.append(s * v[..., 1:2], v, axis=-1) for s, v in ((-1.0, offset), (1.0, strips)))
         return peak(offset, strips)
 
@@ -367,7 +369,7 @@ def _problem(
         raise ValueError("The traction law needs the lubricant's rheology (shear modulus and stress): none is given.")
     # a line contact has one strip only where all of them are alike
     symmetric = sliding.alike if patch.line else sliding.spin is None
-    # the hottest place is mostly in the middle, where an even number of strips has none
+    # the hottest point is usually at the centre, where no strip lies if their number is even
     strips = patch.strips(law.resolution.strips, symmetric, middle=law.heating is not None)
     film, speed = column(film), column(entrainment_speed)
     half_width = column(patch.half_width) * strips.scale

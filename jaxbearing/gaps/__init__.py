@@ -2,6 +2,8 @@
 
 from .ball_pocket import BallPocket as BallPocket
 from .ball_pocket import BallPocketFilm as BallPocketFilm
+from .ball_pocket_face import BallPocketFace as BallPocketFace
+from .ball_pocket_face import CompliantBallPocketFace as CompliantBallPocketFace
 from .couette import EndForces as EndForces
 from .couette import Flange as Flange
 from .couette import FlangeCoefficients as FlangeCoefficients

@@ -6,12 +6,15 @@ import jax.numpy as jnp
 
 from .._types import Batch, Scalar, Values
 from ..numerics.checks import Checked, bounded
-from ..numerics.safe import smooth_abs
+from ..numerics.safe import safe_norm, smooth_abs
+from ..numerics.structure import choice
 
 SPIN_FLOOR = 1.0
 """Spin that keeps a film on a ball at rest, rad/s: raises the load by 1.4e-8 at 6000 rad/s."""
 CUT_FILMS = 20.0
 """The friction integral reaches to this many central films, or to the clearance where that is more."""
+SUPERPOSITIONS = ("root_of_squares", "sum")
+"""How entrainments along and across the axis of a pocket give one load: exactly, or as in the source."""
 
 
 class BallPocketFilm(NamedTuple):
@@ -42,22 +45,27 @@ class BallPocketFilm(NamedTuple):
 class BallPocket(Checked):
     r"""A ball floating in a cylindrical pocket whose axis is radial, two elliptical rigid isoviscous films.
 
-    On each side $W(h) = 6\sqrt2\,\pi\mu uR_1\sqrt{R_2/h}/(3 + 2R_1/R_2)$ for the entrainment along the pocket's axis
-    ($R_1 = R_b$, $R_2 = R_c$) plus the same across it ($R_1 = R_c$, $R_2 = R_b$), $R_c = R_bR_p/(R_p - R_b)$; friction
+    On each side $W = \sqrt{W_1^2 + W_2^2}$ with $W_i(h) = 6\sqrt2\,\pi\mu u_iR_i\sqrt{R_j/h}/(3 + 2R_i/R_j)$. $W_1$ is
+    the load of the entrainment along the pocket's axis ($R_1 = R_b$), $W_2$ that of the one across it ($R_2 = R_c =
+    R_bR_p/(R_p - R_b)$). The root of the squares is exact: the pressures $(c_1x + c_2y)/h^2$ of both add up, and the
+    film breaks along the one line where their sum is zero. With `superposition="sum"`, as in the source, each film
+    breaks along its own line, and the load is up to 41 % larger. Friction
     $\mu uA$ with $A = 2\pi\sqrt{R_bR_c}\ln(h_{cut}/h)$, $h_{cut} = \max(20h, J_p)$; $H_1 + H_2 = J_p$.
 
     **Limits:** a film remains on a ball at rest (`SPIN_FLOOR`); its friction vanishes with the spin.
     **Validity:** rigid, isoviscous, half Sommerfeld films; light loads. The source superposes a long and a short
     bearing of lengths it does not give; these are the classical forms in their place.
-    **Reference:** Kapitza (1955), Zh. Tekh. Fiz. 25, 747; source, Table 1.
+    **Reference:** Kapitza (1955), Zh. Tekh. Fiz. 25, 747; source, Table 1. `CompliantBallPocketFace` has squeeze too.
 
     **Arguments:**
     - `clearance`: J_p, DIAMETRAL: pocket diameter minus ball diameter, m, > 0.
     - `ball_radius`: m, > 0.
+    - `superposition`: one of `SUPERPOSITIONS`; structure.
     """
 
     clearance: Scalar = bounded("> 0")
     ball_radius: Scalar = bounded("> 0")
+    superposition: str = choice("superposition", SUPERPOSITIONS, "root_of_squares")
 
     def balance(self, net_load: Values, axial_spin: Values, radial_spin: Values, viscosity: Values) -> BallPocketFilm:
         r"""Films that carry a given net load, in closed form: both loads go as $h^{-1/2}$.
@@ -77,8 +85,9 @@ class BallPocket(Checked):
         across = self.ball_radius * smooth_abs(radial_spin, SPIN_FLOOR)
         ratio = self.ball_radius / conforming
         factor = 6.0 * jnp.sqrt(2.0) * jnp.pi * viscosity
-        strength = along * self.ball_radius * jnp.sqrt(conforming) / (3.0 + 2.0 * ratio)
-        strength = factor * (strength + across * conforming * jnp.sqrt(self.ball_radius) / (3.0 + 2.0 / ratio))
+        first = along * self.ball_radius * jnp.sqrt(conforming) / (3.0 + 2.0 * ratio)
+        second = across * conforming * jnp.sqrt(self.ball_radius) / (3.0 + 2.0 / ratio)
+        strength = factor * (first + second if self.superposition == "sum" else safe_norm(first, second))
         k = net_load * jnp.sqrt(self.clearance) / strength
         root = jnp.sqrt(1.0 + jnp.square(k))
         d = k / (1.0 + root)

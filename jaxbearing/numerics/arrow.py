@@ -20,6 +20,7 @@ import jax
 import jax.numpy as jnp
 from jaxtyping import Array, Bool, Float, Int
 
+from . import lapack
 from .small_linear import UNROLLED_LIMIT, solve_blocks, solve_dense, with_positive_pivots
 
 System = TypeVar("System", bound="AbstractArrowSystem")
@@ -231,7 +232,7 @@ def condensed(matrix: Float[Array, "g g"], count: int) -> Float[Array, "k k"]:
     if not others.size:
         return matrix
     follow = matrix[count:, :count]
-    follow = follow / others[0, 0] if len(others) == 1 else jnp.linalg.solve(others, follow)
+    follow = follow / others[0, 0] if len(others) == 1 else lapack.solve(others, follow)
     return matrix[:count, :count] - matrix[:count, count:] @ follow
 
 

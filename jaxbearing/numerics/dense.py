@@ -10,6 +10,8 @@ import jax
 import jax.numpy as jnp
 from jaxtyping import Array, Float
 
+from .batching import in_turn
+
 UNBLOCKED = 190
 """Unknowns up to which LAPACK's LU stays with one thread (OpenBLAS: fewer than 40 000 entries)."""
 COLUMNS = 7
@@ -25,8 +27,8 @@ def solve_dense(matrix: Float[Array, "n n"], right_side: Float[Array, " n"]) -> 
     return jax.lax.custom_linear_solve(
         lambda x: matrix @ x,
         right_side,
-        lambda _, b: _eliminate(jax.lax.stop_gradient(matrix), b),
-        lambda _, b: _eliminate(jax.lax.stop_gradient(matrix).T, b),
+        lambda _, b: in_turn(_eliminated, (jax.lax.stop_gradient(matrix), b)),
+        lambda _, b: in_turn(_eliminated, (jax.lax.stop_gradient(matrix).T, b)),
     )
 
 
@@ -36,7 +38,9 @@ def _width(n: int) -> int:
     return -(-n // -(-n // target))
 
 
-def _eliminate(matrix: Array, right_side: Array) -> Array:
+def _eliminated(given: tuple[Array, Array]) -> Array:
+    """Lanes of a batch in turn: many at once would block LAPACK (`lapack`)."""
+    matrix, right_side = given
     n = right_side.size
     if n <= UNBLOCKED:
         return jnp.linalg.solve(matrix, right_side)

@@ -28,14 +28,14 @@ residual: with 1.5, three times as many solves of random roller bearings with bo
 steps. The stages of a continuation start nearer to their root and require a decrease, because a residual that saturates
 never grows by this factor."""
 LEAST_FALL = 0.1
-"""Fraction of the decrease that the linearisation predicts which a step of a continuation must achieve (Armijo's
-condition)."""
+"""A step of a continuation must achieve at least this fraction of the decrease that the linearisation predicts
+(Armijo's condition)."""
 TURNING_BACK = 0.5
-"""Largest ratio of the length of a step that reverses the one before it to the length of that one. As in bisection, two
-opposed steps halve the interval between them; without this, Newton's iteration at a kink would oscillate for ever."""
+"""A step that reverses the previous one may have at most this fraction of its length. As in bisection, two opposed
+steps halve the interval between them. Without this limit, Newton's iteration would oscillate for ever at a kink."""
 ROUNDED_STEP = 1e-12
 """Scaled Newton step below which a root counts as found although round-off keeps the residual above its tolerance. The
-residual may then be as large as the system's `rounding` allows, or as the last bits of the unknowns explain."""
+residual must then be within the factor `rounding` of the system, or within the round-off of the unknowns."""
 LAST_BITS = 10.0 * 2.0**-52
 """Relative change of the unknowns (ten units in the last place) from which the round-off of the residual is
 estimated."""
@@ -48,16 +48,16 @@ class NewtonOptions(eqx.Module):
 
     **Arguments:**
     - `residual_tolerance`: largest scaled residual of a converged solve. If the Newton step is below 1e-12, the
-      residual may be larger by the system's `rounding`, or as large as the last bits of the unknowns explain (at most
-      1e-5).
+      residual may exceed it by the factor `rounding` of the system, or reach what round-off of the unknowns causes (at
+      most 1e-5).
     - `step_tolerance`: largest scaled Newton step of a converged solve. Convergence asks for both: a small
       residual alone says nothing where the Jacobian is nearly singular.
     - `inner_tolerance`: largest scaled residual of solves nested in the equations.
-    - `max_steps`: Newton steps of the first try, rejected trials counted; continuations together may take four times as
-      many for each homotopy of the system.
+    - `max_steps`: largest number of Newton steps in the first try, with rejected trials. All continuations together may
+      take four times as many for each homotopy of the system.
     - `continuation`: True if a solve whose first try fails is tried again by continuation along the system's
       homotopies. If all lanes of a batch are solved at once (on a GPU, or with `lanes_together`), a batch waits for its
-      slowest lane; without continuation that is at most `max_steps`.
+      slowest lane; without continuation no lane takes more than `max_steps`.
     """
 
     residual_tolerance: float = constant("residual_tolerance", 1e-10, bound="> 0")
@@ -99,8 +99,8 @@ class Search(NamedTuple):
 class Proposal(NamedTuple):
     """Equations at a trial, and Newton's step from there.
 
-    - `falling`: True for elements with a negative pivot: an equation falls with its own unknown. `uphill_step` has
-      changed its sign.
+    - `falling`: True for elements with a negative pivot, where an equation decreases as its own unknown grows.
+      `uphill_step` has changed the sign of that pivot.
     - `turned`: True if the sign of any pivot was changed.
     """
 
@@ -179,7 +179,7 @@ def moved_on(system: AbstractArrowSystem, search: Search, proposal: Proposal, ve
     step = choose(accepted, paced, search.step)
     whole = norm_of(proposal.step)
     share = jnp.minimum(norm_of(paced) / jnp.where(whole > 0, whole, 1.0), 1.0)
-    # after a change of sign the residual may grow across a maximum: the next trial is accepted at any norm
+    # after a pivot changed its sign, the residual may grow across a maximum: the next trial is accepted at any norm
     base_norm = jnp.where(proposal.turned, jnp.inf, verdict.norm)
     return Search(
         trial=_move(system, base, step, jnp.asarray(BACKTRACK)[attempt]),
@@ -228,10 +228,10 @@ def _paced(
 ) -> ArrowPoint:
     """Limits the step of each element, and that of the globals, by the last step taken.
 
-    A part that reverses the last one is shortened (`TURNING_BACK`). Each element has its own factor, because elements
-    reach their kinks one by one. The step of an element with a negative pivot (`falling`) that keeps its direction is
-    made at least as long as the last one: towards a cusp its slope grows without bound, and Newton's steps would vanish
-    before they cross it.
+    A step that reverses the last one is shortened (`TURNING_BACK`). Each element has its own factor, because elements
+    reach their kinks one by one. If an element with a negative pivot (`falling`) keeps its direction, its step is made
+    at least as long as the last one: near a cusp the slope of the equation grows without bound, and Newton's steps
+    would vanish before they cross it.
     """
     caps = system.step_caps()
     size = lambda part, cap: jnp.max(jnp.abs(part) / cap, axis=0, keepdims=True, initial=0.0)

@@ -3,6 +3,8 @@
 import jax.numpy as jnp
 from jaxtyping import Array, Bool, Float
 
+from . import lapack
+
 UNROLLED_LIMIT = 4
 """Largest block eliminated by unrolled scalar arithmetic; above it LAPACK is faster (measured)."""
 
@@ -24,7 +26,7 @@ def solve_blocks(
     if m == 0:
         return right
     if m > UNROLLED_LIMIT:
-        return jnp.moveaxis(jnp.linalg.solve(jnp.moveaxis(matrix, -1, 0), jnp.moveaxis(right, -1, 0)), 0, -1)
+        return jnp.moveaxis(lapack.solve(jnp.moveaxis(matrix, -1, 0), jnp.moveaxis(right, -1, 0)), 0, -1)
     rows = [[matrix[i, j] for j in range(m)] for i in range(m)]
     rhs = [right[i] for i in range(m)]
     for k in range(m):
@@ -49,7 +51,7 @@ def solve_dense(matrix: Float[Array, "g g"], right: Float[Array, " g"]) -> Float
         return right
     if matrix.shape[0] == 1:
         return right / matrix[0]
-    return jnp.linalg.solve(matrix, right)
+    return lapack.solve_vector(matrix, right)
 
 
 def with_positive_pivots(

@@ -40,12 +40,12 @@ from .folder import VARIABLE, cache_folder
 _LIBRARIES = ("jaxbearing", "jax", "jaxlib", "equinox", "optimistix", "lineax", "diffrax", "numpy")
 _SETTINGS = ("jax_enable_x64", "jax_default_matmul_precision", "jax_disable_most_optimizations")
 _FOR_DEBUGGING = ("jax_disable_jit", "jax_debug_nans", "jax_debug_infs")
-"""Settings with which nothing is kept."""
+"""No program is cached while one of these settings is on."""
 _ENVIRONMENT = ("XLA_FLAGS", "EQX_ON_ERROR", "JAX_DISABLE_MOST_OPTIMIZATIONS")
 
 
 class _Slot(NamedTuple):
-    """Stands for an array of the result."""
+    """Placeholder for an array of the result."""
 
     place: int
 
@@ -54,8 +54,8 @@ class _Slot(NamedTuple):
 class _Ready:
     """A program and the structure of its result.
 
-    `others`: leaves of the result that are no arrays, `_Slot`s where one is; `instead`: makes the program anew, of one
-    that was loaded and has not run yet.
+    - `others`: leaves of the result that are not arrays, with a `_Slot` in place of each array.
+    - `instead`: function that compiles the program again; only for a loaded program that has not run yet.
     """
 
     compiled: Compiled
@@ -79,7 +79,7 @@ class _Ready:
         return self.compiled(arrays)
 
     def _first_run(self, arrays: list[Any]) -> list[Any]:
-        """A file may be whole and of no use all the same: its program is then compiled."""
+        """Runs a loaded program for the first time. If it fails although its file was intact, it is compiled again."""
         instead = self.instead
         try:
             found = jax.block_until_ready(self._run(arrays))
@@ -103,11 +103,11 @@ def _arrays(leaves: list[Any]) -> list[Any]:
 class KeptProgram:
     """`equinox.filter_jit(function)`, whose programs are kept between processes.
 
-    Not to be called where `numerics.compiling.inside_a_program`. Kept are programs of one CPU whose arguments are
-    arrays and objects of this package, and that do not call back to the host; others are compiled in each process, as
-    `filter_jit` does.
+    It must not be called where `numerics.compiling.inside_a_program` is true. A program is cached if it runs on one
+    CPU, if its arguments are arrays and objects of this package, and if it does not call back to the host. Other
+    programs are compiled in each process, as `filter_jit` does.
 
-    **Arguments:** `function`: of a module, pure; `quick`: compile quickly (see `numerics.compiling`).
+    **Arguments:** `function`: pure function of a module; `quick`: True to compile quickly (see `numerics.compiling`).
     """
 
     def __init__(self, function: Callable[..., Any], quick: bool):
@@ -125,12 +125,13 @@ class KeptProgram:
             return self._plain(*args)
 
     def ready(self, structure: Structure, leaves: list[Any]) -> Callable[[list[Any]], Any] | None:
-        """The program for arguments of this structure: a function of their leaves, arrays of the same shapes and equal
-        others; loaded, or made and kept. `None` where programs like it are not kept."""
+        """The program for arguments of this structure, as a function of their leaves. Arrays among the leaves must have
+        the same shapes, and other leaves must be equal. The program is loaded, or compiled and stored. `None` if such
+        programs are not cached."""
         return self._found(structure, leaves, make=True)
 
     def result(self, structure: Structure, leaves: list[Any]) -> Any:
-        """Describes what the program for such arguments gives, with shapes for arrays; `None` without a program yet."""
+        """Result of the program for such arguments, with shapes instead of arrays; `None` if there is none yet."""
         found = self._found(structure, leaves, make=False)
         return None if found is None else found.result
 
@@ -151,7 +152,7 @@ class KeptProgram:
 
     @rare_garbage_collection()
     def _prepared(self, structure: Structure, leaves: list[Any], folder: Path, make: bool) -> _Ready | None:
-        """The program, loaded, or made and kept where it may be made. **Raises:** `NotKept`."""
+        """Loads the program. If there is no file and `make` is True, compiles and stores it. **Raises:** `NotKept`."""
         path = folder / self._name(structure, leaves)
         with compiling_quietly():
             ready = _loaded(path)
@@ -205,11 +206,11 @@ _COMPILING = threading.Lock()
 
 @contextmanager
 def _compiled_for_keeps() -> Iterator[None]:
-    """Settings of JAX while a program that will be kept is lowered and compiled, as they were afterwards.
+    """Changes settings of JAX while a program for the cache is lowered and compiled, and restores them afterwards.
 
-    Its own cache is neither read nor written: a program that was loaded from there cannot be serialised again (its
-    functions are then not found), and would be kept twice. Nor is it written where in the source each operation
-    stands, which takes a quarter of the time of lowering.
+    JAX's own cache is neither read nor written. A program that was loaded from it cannot be serialised again, because
+    its functions are then not found, and a program that is written to it would be stored twice. The source locations of
+    the operations are not recorded either, because that takes a quarter of the lowering time.
     """
     others = {"jax_traceback_in_locations_limit": 0}
     if _setting("jax_compilation_cache_dir"):
@@ -270,9 +271,9 @@ def _times() -> str | None:
 
 @functools.cache
 def _files() -> str:
-    """The content of the files of the packages: whoever changes one gets new programs.
+    """Hash of the contents of all package files: a changed file leads to new programs.
 
-    **Raises:** `NotKept` where they are not those that were imported.
+    **Raises:** `NotKept` if the files cannot be read or have changed since they were imported.
     """
     found = hashlib.sha256()
     try:
@@ -286,7 +287,7 @@ def _files() -> str:
 
 
 def _paths() -> list[Path]:
-    """All files of the packages but compiled ones and hidden ones, which editors make."""
+    """All files of the packages except compiled and hidden ones. Editors create hidden files."""
     found: list[Path] = []
     for package in OWN:
         for root, folders, names in os.walk(ROOT / package):
@@ -296,7 +297,7 @@ def _paths() -> list[Path]:
 
 
 _TIMES = _times()
-"""When this package was imported: what is on the disk later may be other code than what runs."""
+"""State of the files when this package was imported. Files that change later may differ from the running code."""
 
 
 def _told() -> tuple[str | None, ...]:
@@ -317,7 +318,7 @@ def _versions() -> list[str | None]:
 
 
 def _keep(path: Path, ready: _Ready) -> None:
-    """Writes a program. Where that fails, as on a full disk, nothing is said: keeping programs is a convenience."""
+    """Writes a program. A failure, as on a full disk, is ignored: the cache only saves time."""
     from jax.experimental.serialize_executable import serialize
 
     if _times() != _TIMES:
@@ -342,7 +343,7 @@ def _loaded(path: Path) -> _Ready | None:
         others, structure = jax.tree.flatten(skeleton, is_leaf=lambda leaf: isinstance(leaf, _Slot))
         arrays = sum(isinstance(leaf, _Slot) for leaf in others)
         given, result = jax.tree.structure((([0] * count,), {})), jax.tree.structure([0] * arrays)
-        with ThreadPoolExecutor(1) as beside:  # neither holds Python's lock for long
+        with ThreadPoolExecutor(1) as beside:  # neither of the two tasks holds the GIL for long
             lapack = beside.submit(_initialise_lapack) if calls_lapack else None
             loaded = deserialize_and_load(program, given, result)
             if lapack is not None:
@@ -353,6 +354,6 @@ def _loaded(path: Path) -> _Ready | None:
 
 @functools.cache
 def _initialise_lapack() -> None:
-    """JAX finds the functions of LAPACK when it lowers a program that calls one; a program that was loaded calls what
-    was not found, and ends the process."""
+    """Makes JAX look up the functions of LAPACK. JAX does this only when it lowers a program that calls one of them.
+    Without the look-up, a loaded program that calls LAPACK would crash the process."""
     jax.jit(jax.lax.linalg.cholesky).lower(jax.ShapeDtypeStruct((2, 2), np.float64))

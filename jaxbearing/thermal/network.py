@@ -19,6 +19,7 @@ import numpy as np
 from jaxtyping import Array, Float, Int
 
 from .._types import Scalar
+from ..numerics import lapack
 from ..numerics.checks import Checked, array_module, bounded, demand, known, numbers_or_none
 from ..numerics.precision import as_float
 from ..numerics.status import Status
@@ -278,7 +279,7 @@ def thermal_margin(slopes: Slopes) -> Float[Array, ""]:
     does not say that the state is reached after a cold start at speed (`warm_up` does), nor that it does not oscillate
     (`thermal_rate` does).
     """
-    return 1.0 - jnp.max(jnp.linalg.eigvals(jnp.linalg.solve(slopes.conduction, slopes.losses)).real)
+    return 1.0 - jnp.max(jnp.linalg.eigvals(lapack.solve(slopes.conduction, slopes.losses)).real)
 
 
 def thermal_rate(slopes: Slopes, capacity: Float[Array, " node"]) -> Float[Array, ""]:

@@ -13,6 +13,7 @@ import jax
 import jax.numpy as jnp
 from jaxtyping import Array, Bool, Float, Int
 
+from ..numerics import lapack
 from ..numerics.status import Status
 from .network import Slopes
 from .point import (
@@ -101,7 +102,7 @@ def _quasi_newton(problem: Problem, options: ThermalOptions) -> _QuasiNewton:
         accepted = line.accepts(point, state.point.norm, first, RISE)
         updated = rank_one(state.matrix, line.trial - line.base, point.residual - state.point.residual)
         matrix = jnp.where(first, -conduction, jnp.where(accepted, updated, state.matrix))
-        following = line.goes_on(accepted, -jnp.linalg.solve(matrix, point.residual))
+        following = line.goes_on(accepted, -lapack.solve_vector(matrix, point.residual))
         found = accepted & point.balanced(options.tolerance)
         spent = following.stuck | (state.passes + 1 >= options.quasi_newton_solves)
         # without losses at the start there is nothing to search from
@@ -192,7 +193,7 @@ def _second_loop(problem: Problem, options: ThermalOptions, quasi: _QuasiNewton,
 def _newton_pass(state: _Second, point: Point, matrix: Array, options: ThermalOptions) -> _Second:
     """One step of Newton's iteration, judged as Broyden's are; one that has failed is told by its count."""
     accepted = state.line.accepts(point, state.point.norm, state.newton == 0)
-    following = state.line.goes_on(accepted, -jnp.linalg.solve(matrix, point.residual))
+    following = state.line.goes_on(accepted, -lapack.solve_vector(matrix, point.residual))
     found = accepted & point.balanced(options.tolerance)
     stuck = following.stuck | (point.broken & (state.newton == 0))
     # the root is where the point is, not one step further
@@ -223,7 +224,7 @@ def _time_pass(
         moved = (state.passes > 0) & ~point.broken & ~state.point.broken & (jnp.max(jnp.abs(step)) > SHORT_STEP)
         matrix = jnp.where(moved, rank_one(matrix, step, change), matrix)
     storing = capacity / state.time_step
-    step = -jnp.linalg.solve(matrix - jnp.diag(storing), point.residual - storing * (trial - level))
+    step = -lapack.solve_vector(matrix - jnp.diag(storing), point.residual - storing * (trial - level))
     size = jnp.max(jnp.abs(step))
     steady = (state.inner == 0) & ~point.broken & point.balanced(options.tolerance)
     fails = point.broken | ~(size < jnp.inf) | (state.inner + 1 >= INNER_STEPS)

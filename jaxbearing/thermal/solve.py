@@ -16,6 +16,7 @@ import numpy as np
 from jaxtyping import Array, Bool, Float, Int
 
 from .._types import Scalar
+from ..numerics import lapack
 from ..numerics.batching import in_turn
 from ..numerics.checks import label
 from ..numerics.known_roots import at_known_root, known_roots, own_roots, recorded_roots, recording
@@ -220,7 +221,7 @@ def _root_jvp(primals: Any, tangents: Any, *, options: ThermalOptions) -> tuple[
     rest = jnp.zeros_like(root.temperatures)
     jacobian = jax.vmap(lambda seed: push(still, seed)[0], out_axes=-1)(jnp.eye(rest.size))
     jacobian = jnp.where(solved, jacobian, jnp.eye(rest.size))
-    temperatures_dot = select(-jnp.linalg.solve(jacobian, select(push(problem_dot, rest)[0])))
+    temperatures_dot = select(-lapack.solve_vector(jacobian, select(push(problem_dot, rest)[0])))
     losses_dot = jax.tree.map(select, push(problem_dot, temperatures_dot)[1])
     nothing = jax.tree.map(lambda _: None, root)
     return root, nothing._replace(temperatures=temperatures_dot, losses=losses_dot)
@@ -285,6 +286,6 @@ def _known_place_jvp(primals: Any, tangents: Any, *, place: _Place) -> Any:
     first = jax.tree.map(lambda dot: jnp.zeros((1 + size, *dot.shape)).at[0].set(dot), balances_dot)
     residuals, slopes = jax.vmap(along)(first, jnp.eye(1 + size, size, -1))
     jacobian = jnp.where(place.solved, residuals[1:].T, jnp.eye(size))
-    step = -jnp.linalg.solve(jacobian, select(residuals[0]))
+    step = -lapack.solve_vector(jacobian, select(residuals[0]))
     found_dot = jax.tree.map(lambda slope: select(slope[0] + jnp.tensordot(step, slope[1:], 1)), slopes)
     return (place.temperatures, place.found), (select(step), found_dot)

@@ -194,10 +194,13 @@ def test_derivatives_through_the_temperatures():
 
 
 @SLOW
-def test_derivatives_with_sliding():
-    """Reverse mode against central differences where traction depends on the temperatures too."""
-    scene = warm("sliding roller", 4)
+@pytest.mark.parametrize("kind", ["sliding roller", "sliding ball"])
+def test_derivatives_with_sliding(kind):
+    """Both modes against central differences where traction depends on the temperatures too; the balls are on their
+    seats."""
+    scene = warm(kind, 4)
     names = ("operation.inner_speed", "operation.oil_flow", "operation.oil_temperature", "thermal.factor.ambient")
+    names += ("fits.shaft_interference",) if scene.fits is not None else ()
     numbers = jnp.asarray([at_path(scene, path) for path in names])
 
     def outputs(scales):
@@ -206,6 +209,9 @@ def test_derivatives_with_sliding():
 
     solved, unit = jax.jit(outputs), np.ones(len(names))
     slopes = jax.jit(jax.jacrev(outputs))(unit)
+    direction = np.linspace(0.5, 1.0, len(names))
+    along = jax.jit(lambda scales: jax.jvp(outputs, (scales,), (jnp.asarray(direction),))[1])(unit)
+    np.testing.assert_allclose(along, slopes @ direction, rtol=1e-9, atol=1e-9 * np.max(np.abs(slopes)))
     step = 1e-3
     weights = {-2: 1.0 / 12.0, -1: -2.0 / 3.0, 1: 2.0 / 3.0, 2: -1.0 / 12.0}
     for i in range(len(names)):

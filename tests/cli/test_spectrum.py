@@ -96,7 +96,7 @@ def test_page(jaxbearing_command, duty, folder):
 
 @pytest.mark.usefixtures("made_up")
 def test_other_verbs_take_the_scene_without_states_and_say_so(jaxbearing_command, duty):
-    said = "the scene is that without its 3 [[state]] tables; 'jaxbearing spectrum' solves them"
+    said = "the scene leaves out its 3 [[state]] tables; 'jaxbearing spectrum' solves them"
     solved = jaxbearing_command("solve", duty, "--json")
     assert (solved.code, solved.err) == (0, "")
     assert any(said in text for text in json.loads(solved.out)["warnings"])

@@ -225,7 +225,9 @@ def _cage_parts(scene: BallBearing) -> BallCageParts:
     cage, geometry = scene.cage, scene.geometry
     assert cage is not None
     pocket = BallPocket(
-        clearance=jnp.asarray(cage.pocket_clearance), ball_radius=0.5 * jnp.asarray(geometry.ball_diameter)
+        clearance=jnp.asarray(cage.pocket_clearance),
+        ball_radius=0.5 * jnp.asarray(geometry.ball_diameter),
+        superposition=cage.pocket_superposition,
     )
     return BallCageParts(pocket=pocket, land=cage.land(geometry), guidance=cage.guidance)
 

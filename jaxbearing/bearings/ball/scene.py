@@ -19,6 +19,7 @@ from jaxtyping import Array
 from ..._types import Scalar
 from ...contacts import PointContact
 from ...contacts.point_laws import PointLaws
+from ...gaps.ball_pocket import SUPERPOSITIONS
 from ...lubricants import Lubricant, NoPressureViscosity
 from ...materials import BALL_PRESSURE, Material, reduced_modulus
 from ...mounting import Fits, PartTemperatures
@@ -115,11 +116,17 @@ class BallCage(AbstractCage):
 
     **Arguments:** those of `AbstractCage`, and
     - `pocket_clearance`: DIAMETRAL: pocket diameter minus ball diameter, m, > 0.
+    - `pocket_superposition`: how the entrainments along and across the axis of a pocket add up: "root_of_squares" (the
+      exact film) or "sum" (loads of two films, as in the source: up to 41 % more).
     """
 
     element: ClassVar[str] = "ball"
     assumed_inner: ClassVar[float] = ASSUMED_CAGE_THICKNESS
     assumed_outer: ClassVar[float] = ASSUMED_CAGE_THICKNESS
+
+    pocket_superposition: Literal["root_of_squares", "sum"] = choice(
+        "cage.pocket_superposition", SUPERPOSITIONS, "root_of_squares"
+    )
 
     def row(self, geometry: BallGeometry) -> tuple[int, Scalar]:
         return geometry.n_balls, geometry.ball_diameter

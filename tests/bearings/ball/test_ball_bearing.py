@@ -232,7 +232,7 @@ def test_pocket():
     assert float(slope(0.0)) < 0.0
     # along the pocket only, against W = 2.5752365 N at h = 20 um, u = 47 m/s, R1 = 10.3 mm, R2 = 0.3 m
     radius, across = 0.0103, 0.3
-    wide = BallPocket(clearance=2.0 * radius**2 / (across - radius), ball_radius=radius)
+    wide = BallPocket(clearance=2.0 * radius**2 / (across - radius), ball_radius=radius, superposition="sum")
     film = wide.balance(0.0, 47.0 / radius, 0.0, 5e-3)
     speed = np.hypot(47.0, radius * 1.0)
     expected = 2.5752365 * np.sqrt(20e-6 / film.film_front) * speed / 47.0
@@ -247,6 +247,8 @@ def test_pocket():
         / (3.0 + 2.0 * across / radius)
     )
     np.testing.assert_allclose(film.load_front, expected + other, rtol=1e-6)
+    exact = BallPocket(clearance=wide.clearance, ball_radius=radius).balance(0.0, 47.0 / radius, 0.0, 5e-3)
+    np.testing.assert_allclose(exact.load_front, np.hypot(expected, other), rtol=1e-6)
 
 
 @pytest.mark.slow
