@@ -161,9 +161,7 @@ def arched_balances(scene: Any, n: Numbers, r: Results) -> dict[str, tuple[np.nd
     error = lambda value, scale: (np.maximum(np.abs(value) - FLOOR, 0.0) / scale, 1e-8)
     found["ring carries the axial load"] = error(np.sum(force[0], axis=1) - axial, total)
     outer = [one for one in flanks_of(scene) if one.race == "outer"]
-    part = lambda of: sum(
-        r[f"elements.load_{one.name}"] * of(r[f"elements.contact_angle_{one.name}"]) for one in outer
-    )
+    part = lambda of: sum(r[f"elements.load_{one.name}"] * of(r[f"elements.contact_angle_{one.name}"]) for one in outer)
     inward = force[1] * cosine + force[2] * sine
     across = part(np.cos) - inward - outward
     found["a ball is in axial balance"] = error(largest_of(part(np.sin) - force[0]), total + heaviest)

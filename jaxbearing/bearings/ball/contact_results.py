@@ -59,6 +59,9 @@ def ball_results(
         **others,
     )
     contacts = Contacts(_places(arcs), load, pressure, MEAN_OF_POINT, angle=angle)
+    if not arcs.single:
+        most = jnp.stack([jnp.max(load[: arcs.first_outer]), jnp.max(load[arcs.first_outer :])])
+        contacts = contacts._replace(largest=arcs.of_contacts(most)[:, None])
     return elements, _at_shoulders(scene, contacts, arcs, ellipse.transverse)
 
 
