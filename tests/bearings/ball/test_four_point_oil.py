@@ -1,16 +1,22 @@
 """Lubricated ball bearings with up to four contacts: against the bearing with two, balances, energy, gradients."""
 
 import functools
+from types import SimpleNamespace
 
 import jax
 import jax.numpy as jnp
 import numpy as np
 import pytest
+import scipy.optimize
 
 import jaxbearing as jb
+from jaxbearing.bearings.ball.friction import _moments
+from jaxbearing.bearings.ball.kinematics import BallKinematics, BallMotion
+from jaxbearing.materials import Material, reduced_modulus
 from jaxbearing.numerics.newton import NewtonOptions
 
 DRY = "four_point_qj"
+STEEL = Material(207e9, 0.3, 7850.0)
 OIL = {
     "oil.name": "mobil_jet_ii",
     "operation.oil_temperature": "60 degC",
@@ -143,6 +149,49 @@ def test_four_contacts_lose_more():
     assert np.max(four.elements.loaded_contacts) == 4.0
     slid = lambda found: float(found.power_loss.inner_raceway + found.power_loss.outer_raceway)
     assert slid(four) > 2.0 * slid(two)
+
+
+def test_balance_of_a_ball_with_four_contacts():
+    """The sheet's ball between four contacts under Coulomb friction: its speeds and its power, from the moments and
+    forces of `friction` and tractions that are integrated here."""
+    scene = jb.load_scene(DRY)
+    load, angle = np.asarray([1750.0, 700.0, 1800.0, 760.0]), np.asarray([0.555, -0.53, 0.55, -0.535])
+    arcs = scene.geometry.arcs
+    # the sheet's ellipses are those at the contact angle of the unloaded bearing
+    free = np.full(4, float(scene.geometry.free_cosine))
+    contact = scene.geometry.contacts_on(free, arcs.races, reduced_modulus(STEEL, STEEL))
+    ellipse = jax.tree.map(np.asarray, contact.ellipse(load))
+    kinematics = BallKinematics(*(jnp.asarray(value) for value in (100.0 * np.pi, 0.0, 72.5e-3, 17.4625e-3)))
+    nodes, weights = np.polynomial.legendre.leggauss(96)
+    radius, turn = 0.5 * (nodes + 1.0), np.linspace(0.0, 2.0 * np.pi, 192, endpoint=False)
+    # p dA over the load on the unit disk, and the places there
+    share = 1.5 * np.sqrt(1.0 - radius**2) * radius * 0.5 * weights * (2.0 * np.pi / 192) / np.pi
+    x = np.outer(radius, np.cos(turn))[None] * ellipse.rolling[:, None, None]
+    y = np.outer(radius, np.sin(turn))[None] * ellipse.transverse[:, None, None]
+
+    def balance(speeds):
+        orbit, axial, radial = speeds
+        motion = BallMotion(orbit, np.hypot(axial, radial), np.arctan2(radial, axial), 0.0)
+        over = (kinematics.inner_race, kinematics.outer_race)
+        races = [over[race](motion, angle[k]) for k, race in enumerate(arcs.races)]
+        along = arcs.senses[:, 0] * np.asarray([float(one.rolling) for one in races])
+        spin = np.asarray([float(one.spin) for one in races])
+        slide = along[:, None, None] - spin[:, None, None] * y, spin[:, None, None] * x
+        size = np.sqrt(slide[0] ** 2 + slide[1] ** 2 + 0.02**2)
+        pull = 0.05 * load[:, None, None] * share[None, :, None] / size
+        force = np.sum(pull * slide[0], axis=(1, 2))
+        moment = np.sum(pull * (x * slide[1] - y * slide[0]), axis=(1, 2))
+        forward, about = -arcs.senses * force[:, None], -moment[:, None]
+        system = SimpleNamespace(kinematics=kinematics, arcs=arcs)
+        rows = _moments(system, angle[:, None], jnp.asarray(forward), jnp.asarray(about), ())
+        power = float(np.sum(force * along + moment * spin))
+        return np.asarray([float(rows[0][0]), float(rows[1][0]), float(np.sum(forward))]), power
+
+    found = scipy.optimize.root(lambda speeds: balance(speeds)[0], [124.8, 724.6, 17.3], tol=1e-12)
+    assert found.success
+    np.testing.assert_allclose(found.x[:2], [124.67855, 724.7495], rtol=1e-5)
+    np.testing.assert_allclose(found.x[2], 15.8030, rtol=1e-4)
+    np.testing.assert_allclose(balance(found.x)[1], 64.7467, rtol=1e-5)
 
 
 def test_refusals():
